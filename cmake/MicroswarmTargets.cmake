@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+# Compiler settings shared by every target, and the functions that make one.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+find_program(MICROSWARM_CCACHE ccache)
+if(MICROSWARM_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${MICROSWARM_CCACHE})
+endif()
+
+add_library(microswarm_options INTERFACE)
+# The same bits in every build: no contraction to fused multiply-add, no fast math.
+target_compile_options(microswarm_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                       -Wno-sign-conversion -ffp-contract=off)
+if(MICROSWARM_SANITIZE)
+  target_compile_options(microswarm_options INTERFACE -fsanitize=${MICROSWARM_SANITIZE}
+                         -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(microswarm_options INTERFACE -fsanitize=${MICROSWARM_SANITIZE})
+endif()
+if(MICROSWARM_FUZZ)
+  target_compile_options(microswarm_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+
+# microswarm_floor(NAME SOURCES ... FLOORS ... PUBLIC ... PRIVATE ...): the library of one floor.
+function(microswarm_floor name)
+  cmake_parse_arguments(arg "" "" "SOURCES;FLOORS;PUBLIC;PRIVATE" ${ARGN})
+  set(target microswarm_${name})
+  add_library(${target} STATIC ${arg_SOURCES})
+  add_library(microswarm::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
+                             $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
+                             $<INSTALL_INTERFACE:include>)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  list(TRANSFORM arg_FLOORS PREPEND microswarm::)
+  target_link_libraries(${target} PUBLIC ${arg_FLOORS} ${arg_PUBLIC}
+                        PRIVATE $<BUILD_INTERFACE:microswarm_options> ${arg_PRIVATE})
+  set_property(GLOBAL APPEND PROPERTY MICROSWARM_FLOORS ${target})
+endfunction()

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+namespace microswarm {
+
+inline constexpr double pi = std::numbers::pi;
+
+/// Angle `a` [rad] wrapped to [-π, π]. Every difference of two headings goes through here.
+inline double wrap(double a) { return std::remainder(a, 2 * pi); }
+
+/// Absolute difference of two headings [rad], in [0, π].
+inline double turn_between(double a, double b) { return std::abs(wrap(a - b)); }
+
+/// Degrees are for people: files, the command line and pictures. Everything else is rad.
+constexpr double radians(double degrees) { return degrees * (pi / 180); }
+constexpr double degrees(double radians) { return radians * (180 / pi); }
+
+}  // namespace microswarm

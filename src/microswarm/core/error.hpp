@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace microswarm {
+
+/// Bad input from outside: a file, a key, a value. Thrown once, with one line that names the file,
+/// the place, the value and the limit; the command-line tool prints it and exits with 2.
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(const std::string& what) : std::runtime_error(what) {}
+  /// "file:line:column: what"; line and column count from 1, 0 leaves them out.
+  InputError(const std::string& file, int line, int column, const std::string& what);
+};
+
+}  // namespace microswarm

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <limits>
+#include <string_view>
+
+#include "microswarm/core/units.hpp"
+
+namespace microswarm {
+
+/// Range of a parameter in the unit in which it is shown; both ends are allowed.
+struct Range {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+};
+
+/// What one field of a parameter struct is called and allows. Its key in files and on the command
+/// line is the name with the unit's suffix: name "step" in µm is the key `step_um`.
+struct FieldInfo {
+  std::string_view name;
+  Unit unit = Unit::none;
+  Range range{};
+  std::string_view doc;
+  bool required = false;  ///< must be given: there is no sensible default
+};
+
+/// A parameter struct lists its fields once, in one static member template,
+///
+///     template <class Self, class Visitor>
+///     static void fields(Self& self, Visitor&& visit) {
+///       visit(self.step, {"step", Unit::um, {1, 1e5}, "Length of one extension."});
+///     }
+///
+/// and everything else comes from it: YAML, JSON Schema, `--set`, help text, record headers.
+/// Allowed types: bool, int, std::uint64_t, double, std::string, Vec2, enums with `enum_names`,
+/// structs with `fields`, std::optional and std::vector of these, and std::variant of structs that
+/// each have a `static constexpr std::string_view type_name` (chosen by the key `type`).
+struct NullVisitor {
+  template <class T>
+  void operator()(T&, const FieldInfo&) {}
+};
+
+template <class T>
+concept HasFields = requires(T& t, NullVisitor& v) { T::fields(t, v); };
+
+}  // namespace microswarm

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace microswarm {
+
+/// FNV-1a, 64 bits: fingerprints of inputs and records, not a defence against forgery. Values are
+/// taken by their bits, so two doubles hash alike only if they are the same bits.
+class Hash {
+ public:
+  void bytes(std::span<const std::byte> data) {
+    for (std::byte b : data) state_ = (state_ ^ static_cast<std::uint64_t>(b)) * 0x100000001b3ULL;
+  }
+  void text(std::string_view s) { bytes(std::as_bytes(std::span(s.data(), s.size()))); }
+  template <class T>
+    requires(std::is_arithmetic_v<T> || std::is_enum_v<T>)
+  void value(T v) {
+    std::byte raw[sizeof(T)];
+    std::memcpy(raw, &v, sizeof(T));
+    bytes(raw);
+  }
+  std::uint64_t digest() const { return state_; }
+  /// 16 lower-case hexadecimal digits.
+  std::string hex() const;
+
+ private:
+  std::uint64_t state_ = 0xcbf29ce484222325ULL;
+};
+
+}  // namespace microswarm

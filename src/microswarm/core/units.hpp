@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+namespace microswarm {
+
+/// Unit of a parameter or a recorded quantity. Lengths are µm, times s, angles rad, flux densities
+/// mT and currents A everywhere inside; `deg` marks an angle held in rad and shown in degrees.
+enum class Unit { none, um, s, hz, rad, deg, um_per_s, deg_per_s, per_s, um2, px, um_per_px, ms };
+
+/// Suffix of a key or a column that holds this unit: "um" in `step_um`; empty for `none`.
+std::string_view unit_suffix(Unit unit);
+
+/// Unit as people read it: "µm", "µm/s", "°"; empty for `none`.
+std::string_view unit_symbol(Unit unit);
+
+/// Factor from the stored value to the shown one: 180/π for `deg` and `deg_per_s`, else 1.
+double unit_shown_per_stored(Unit unit);
+
+}  // namespace microswarm
