@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "microswarm/geometry/shapes.hpp"
+
+namespace microswarm {
+
+/// Distances [µm] between closed sets; 0 when they share a point.
+double squared_distance(Vec2 p, Segment s);
+double squared_distance(Segment s, Segment t);
+inline double distance(Vec2 p, Segment s) { return std::sqrt(squared_distance(p, s)); }
+inline double distance(Segment s, Segment t) { return std::sqrt(squared_distance(s, t)); }
+double distance(Vec2 p, const Polygon& polygon);
+double distance(Segment s, const Polygon& polygon);
+inline double distance(Vec2 p, Disc d) {
+  return std::max(0.0, distance(p, d.centre) - d.radius);
+}
+inline double distance(Segment s, Disc d) {
+  return std::max(0.0, distance(d.centre, s) - d.radius);
+}
+/// Distance to the boundary, negative inside.
+double signed_distance(Vec2 p, const Polygon& polygon);
+
+/// Point of the segment nearest to `p`.
+Vec2 nearest_point(Vec2 p, Segment s);
+
+/// First contact of a disc of radius `r` whose centre runs from s.a to s.b, as the fraction of the
+/// way in [0, 1]; 0 when they touch at the start, 2 ("never") when there is none.
+inline constexpr double no_contact = 2;
+double first_contact(Segment s, double r, Segment wall);
+double first_contact(Segment s, double r, Disc disc);
+double first_contact(Segment s, double r, const Polygon& polygon);
+
+}  // namespace microswarm
