@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <limits>
+#include <optional>
 #include <string_view>
+#include <type_traits>
 
 #include "microswarm/core/units.hpp"
 
@@ -32,9 +35,11 @@ struct FieldInfo {
 ///     }
 ///
 /// and everything else comes from it: YAML, JSON Schema, `--set`, help text, record headers.
-/// Allowed types: bool, int, std::uint64_t, double, std::string, Vec2, enums with `enum_names`,
-/// structs with `fields`, std::optional and std::vector of these, and std::variant of structs that
-/// each have a `static constexpr std::string_view type_name` (chosen by the key `type`).
+/// Allowed types: bool, int, std::uint64_t, double, std::string, Vec2, Pose2, enums with
+/// `enum_names`, structs with `fields`, std::optional and std::vector of these, and std::variant of
+/// structs that each have a `static constexpr std::string_view type_name` (chosen by the key
+/// `type`). Unit and range hold for every number in the field: both coordinates of a Vec2, each
+/// entry of a vector.
 struct NullVisitor {
   template <class T>
   void operator()(T&, const FieldInfo&) {}
@@ -42,5 +47,37 @@ struct NullVisitor {
 
 template <class T>
 concept HasFields = requires(T& t, NullVisitor& v) { T::fields(t, v); };
+
+/// One enumerator and its word in files.
+template <class E>
+struct EnumName {
+  E value;
+  std::string_view name;
+};
+
+/// An enum that may be a field lists its words beside it, found by argument-dependent lookup:
+///
+///     enum class Walls { slide, stop };
+///     constexpr auto enum_names(Walls) {
+///       return std::to_array<EnumName<Walls>>({{Walls::slide, "slide"}, {Walls::stop, "stop"}});
+///     }
+template <class E>
+concept NamedEnum = std::is_enum_v<E> && requires { enum_names(E{}); };
+
+/// The word of an enumerator; empty for a value that has none.
+template <NamedEnum E>
+constexpr std::string_view enum_name(E value) {
+  for (const EnumName<E>& entry : enum_names(value))
+    if (entry.value == value) return entry.name;
+  return {};
+}
+
+/// The enumerator that a word stands for, or nothing.
+template <NamedEnum E>
+constexpr std::optional<E> enum_value(std::string_view name) {
+  for (const EnumName<E>& entry : enum_names(E{}))
+    if (entry.name == name) return entry.value;
+  return std::nullopt;
+}
 
 }  // namespace microswarm

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -17,9 +18,13 @@ class Hash {
   void bytes(std::span<const std::byte> data) {
     for (std::byte b : data) state_ = (state_ ^ static_cast<std::uint64_t>(b)) * 0x100000001b3ULL;
   }
-  void text(std::string_view s) { bytes(std::as_bytes(std::span(s.data(), s.size()))); }
+  /// The length goes in too, so that "ab", "c" and "a", "bc" differ.
+  void text(std::string_view s) {
+    value(static_cast<std::uint64_t>(s.size()));
+    bytes(std::as_bytes(std::span(s.data(), s.size())));
+  }
   template <class T>
-    requires(std::is_arithmetic_v<T> || std::is_enum_v<T>)
+    requires((std::is_arithmetic_v<T> && sizeof(T) <= 8) || std::is_enum_v<T>)
   void value(T v) {
     std::byte raw[sizeof(T)];
     std::memcpy(raw, &v, sizeof(T));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace microswarm {
@@ -25,7 +26,8 @@ class Rng {
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
   /// Uniform in [lo, hi).
   double uniform(double lo, double hi) { return lo + (hi - lo) * uniform(); }
-  /// Uniform integer in [0, n); n must not be 0.
+  /// Uniform integer in [0, n), from 64 bits always; a value's probability is off by less than
+  /// 2^-64. n must not be 0.
   std::uint64_t below(std::uint64_t n);
   /// Standard normal (Box–Muller, two uniforms a call, so that the stream position is predictable).
   double normal();

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/core/file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "microswarm/core/error.hpp"
+
+namespace microswarm {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& path, std::string_view doing, std::string_view reason) {
+  throw InputError(fmt::format("{}: cannot {}: {}", path.string(), doing, reason));
+}
+
+[[noreturn]] void fail_errno(const fs::path& path, std::string_view doing, int error) {
+  fail(path, doing, std::generic_category().message(error));
+}
+
+/// An open file, closed at the end of its scope.
+class Descriptor {
+ public:
+  Descriptor(const fs::path& path, int flags)
+      : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)), error_(fd_ < 0 ? errno : 0) {}
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  int get() const { return fd_; }
+  int error() const { return error_; }
+  /// Closes now; false (and errno) when a delayed write failed.
+  bool close() { return ::close(std::exchange(fd_, -1)) == 0; }
+
+ private:
+  int fd_;
+  int error_;
+};
+
+void write_all(Descriptor& file, std::string_view bytes, const fs::path& named) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(file.get(), bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail_errno(named, "write", errno);
+    bytes.remove_prefix(static_cast<std::size_t>(n));
+  }
+}
+
+bool is_special(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  return fs::exists(status) && !fs::is_regular_file(status);
+}
+
+}  // namespace
+
+std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
+  Descriptor file(path, O_RDONLY);
+  if (file.error()) fail_errno(path, "read", file.error());
+  struct stat status {};
+  if (::fstat(file.get(), &status) != 0) fail_errno(path, "read", errno);
+  if (S_ISDIR(status.st_mode)) fail_errno(path, "read", EISDIR);
+
+  std::string bytes;
+  std::size_t used = 0;
+  bytes.resize(static_cast<std::size_t>(status.st_size) <= max_bytes ? status.st_size + 1 : 1);
+  for (;;) {  // ends: each turn reads something, up to the limit
+    const ssize_t n = ::read(file.get(), bytes.data() + used, bytes.size() - used);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail_errno(path, "read", errno);
+    if (n == 0) break;
+    used += static_cast<std::size_t>(n);
+    if (used > max_bytes)
+      fail(path, "read", fmt::format("larger than the allowed {} bytes", max_bytes));
+    if (used == bytes.size()) bytes.resize(2 * bytes.size());
+  }
+  bytes.resize(used);
+  return bytes;
+}
+
+StagedFile::StagedFile(fs::path target) : target_(std::move(target)), direct_(is_special(target_)) {
+  if (direct_) {
+    staged_ = target_;
+    return;
+  }
+  for (int i = 0; i < 1000; ++i) {
+    staged_ = target_;
+    staged_.replace_filename(fmt::format("{}.tmp-{}-{}{}", target_.stem().string(), ::getpid(), i,
+                                         target_.extension().string()));
+    const Descriptor file(staged_, O_WRONLY | O_CREAT | O_EXCL);
+    if (!file.error()) return;
+    if (file.error() != EEXIST) fail_errno(target_, "write", file.error());
+  }
+  fail_errno(target_, "write", EEXIST);
+}
+
+StagedFile::~StagedFile() {
+  if (!direct_ && !committed_) ::unlink(staged_.c_str());
+}
+
+void StagedFile::commit() {
+  if (direct_) return;
+  Descriptor file(staged_, O_WRONLY);
+  if (file.error()) fail_errno(target_, "write", file.error());
+  if (::fsync(file.get()) != 0 || !file.close()) fail_errno(target_, "write", errno);
+  if (::rename(staged_.c_str(), target_.c_str()) != 0) fail_errno(target_, "write", errno);
+  committed_ = true;
+}
+
+void write_file_atomically(const fs::path& path, std::string_view bytes) {
+  StagedFile staged(path);
+  Descriptor file(staged.path(), O_WRONLY);
+  if (file.error()) fail_errno(path, "write", file.error());
+  write_all(file, bytes, path);
+  if (!file.close()) fail_errno(path, "write", errno);
+  staged.commit();
+}
+
+}  // namespace microswarm

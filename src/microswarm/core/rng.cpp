@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/core/rng.hpp"
+
+#include <Random123/philox.h>
+
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+namespace microswarm {
+
+// The seed is Philox's key; purpose and trial are the upper half of its counter, blocks the lower.
+// Philox is a permutation of counters under each key, so streams of one seed cannot overlap.
+Rng::Rng(std::uint64_t seed, Purpose purpose, std::uint32_t trial)
+    : key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)},
+      counter_{0, 0, trial, static_cast<std::uint32_t>(purpose)} {}
+
+void Rng::refill() {
+  const philox4x32_key_t key{{key_[0], key_[1]}};
+  for (std::size_t i = 0; i < block_.size(); i += 2) {
+    const philox4x32_ctr_t counter{{counter_[0], counter_[1], counter_[2], counter_[3]}};
+    const philox4x32_ctr_t r = philox4x32(counter, key);
+    block_[i] = r.v[0] | static_cast<std::uint64_t>(r.v[1]) << 32;
+    block_[i + 1] = r.v[2] | static_cast<std::uint64_t>(r.v[3]) << 32;
+    if (++counter_[0] == 0) ++counter_[1];
+  }
+  next_ = 0;
+}
+
+std::uint64_t Rng::below(std::uint64_t n) {
+  assert(n > 0);
+  __extension__ using Wide = unsigned __int128;
+  return static_cast<std::uint64_t>(static_cast<Wide>(bits()) * n >> 64);
+}
+
+double Rng::normal() {
+  const double u = 1 - uniform();  // in (0, 1]: its logarithm is finite
+  const double v = uniform();
+  return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
+}
+
+}  // namespace microswarm

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/core/text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <vector>
+
+namespace microswarm {
+
+std::string number_text(double value) {
+  std::array<char, 32> buffer;
+  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  std::string text(buffer.data(), end);
+  const std::size_t e = text.find('e');
+  if (e == std::string::npos) return text;
+  const std::size_t sign = e + 1;  // to_chars writes e+05: the zero, and the plus, say nothing
+  const std::size_t digits = text.find_first_not_of('0', sign + 1);
+  return text.substr(0, sign) + (text[sign] == '-' ? "-" : "") + text.substr(digits);
+}
+
+std::optional<double> parse_number(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const std::size_t first = text.starts_with('-') ? 1 : 0;
+  if (first >= text.size() || !(text[first] == '.' || (text[first] >= '0' && text[first] <= '9')))
+    return std::nullopt;  // from_chars would take "nan" and "inf"
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
+    return std::nullopt;
+  return value;
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    before.swap(last);
+    last.swap(row);
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] != b[j - 1])});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+  }
+  return row[b.size()];
+}
+
+std::string_view nearest_word(std::string_view word, std::span<const std::string_view> candidates) {
+  std::string_view nearest;
+  std::size_t least = word.size() + 1;
+  for (std::string_view candidate : candidates) {
+    const std::size_t longer = std::max(word.size(), candidate.size());
+    const std::size_t allowed = std::max<std::size_t>(1, longer / 3);
+    const std::size_t apart = longer - std::min(word.size(), candidate.size());
+    if (apart > allowed || longer > 200) continue;
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance > allowed || distance >= least) continue;
+    nearest = candidate;
+    least = distance;
+  }
+  return nearest;
+}
+
+}  // namespace microswarm

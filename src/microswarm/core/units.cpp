@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/core/units.hpp"
+
+#include <cassert>
+#include <numbers>
+
+namespace microswarm {
+namespace {
+
+constexpr double shown_degrees = 180 / std::numbers::pi;
+
+struct UnitText {
+  std::string_view suffix;
+  std::string_view symbol;
+  double shown_per_stored = 1;
+};
+
+UnitText text_of(Unit unit) {
+  switch (unit) {
+    case Unit::none:
+      return {"", ""};
+    case Unit::um:
+      return {"um", "µm"};
+    case Unit::s:
+      return {"s", "s"};
+    case Unit::hz:
+      return {"hz", "Hz"};
+    case Unit::rad:
+      return {"rad", "rad"};
+    case Unit::deg:
+      return {"deg", "°", shown_degrees};
+    case Unit::um_per_s:
+      return {"um_per_s", "µm/s"};
+    case Unit::deg_per_s:
+      return {"deg_per_s", "°/s", shown_degrees};
+    case Unit::per_s:
+      return {"per_s", "1/s"};
+    case Unit::um2:
+      return {"um2", "µm²"};
+    case Unit::px:
+      return {"px", "px"};
+    case Unit::um_per_px:
+      return {"um_per_px", "µm/px"};
+    case Unit::ms:
+      return {"ms", "ms"};
+  }
+  assert(false);
+  return {};
+}
+
+}  // namespace
+
+std::string_view unit_suffix(Unit unit) { return text_of(unit).suffix; }
+std::string_view unit_symbol(Unit unit) { return text_of(unit).symbol; }
+double unit_shown_per_stored(Unit unit) { return text_of(unit).shown_per_stored; }
+
+}  // namespace microswarm
