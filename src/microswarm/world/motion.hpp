@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/geometry/vec2.hpp"
+
+namespace microswarm {
+
+/// Does not move.
+struct Still {
+  static constexpr std::string_view type_name = "still";
+  Vec2 position{};
+  double heading = 0;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.position, {"position", Unit::um, {}, "Where it stands.", true});
+    visit(self.heading, {"heading", Unit::deg, {-360, 360}, "How it is turned."});
+  }
+};
+
+/// Straight on at one velocity.
+struct Straight {
+  static constexpr std::string_view type_name = "straight";
+  Vec2 start{};
+  Vec2 velocity{};
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.start, {"start", Unit::um, {}, "Where it is at t = 0.", true});
+    visit(self.velocity, {"velocity", Unit::um_per_s, {-1e5, 1e5}, "Its velocity.", true});
+  }
+};
+
+/// Back and forth on a line: centre + amplitude · sin(2π(t / period + phase)).
+struct HarmonicLine {
+  static constexpr std::string_view type_name = "harmonic_line";
+  Vec2 centre{};
+  Vec2 amplitude{};
+  double period = 20;
+  double phase = 0;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.centre, {"centre", Unit::um, {}, "Middle of the way.", true});
+    visit(self.amplitude, {"amplitude", Unit::um, {}, "From the middle to the end.", true});
+    visit(self.period, {"period", Unit::s, {1e-2, 1e6}, "Time for forth and back."});
+    visit(self.phase, {"phase", Unit::none, {-1, 1}, "Share of the period at t = 0."});
+  }
+};
+
+/// Back and forth on an arc around a pivot: angle = middle + half_angle · sin(2π(t / period +
+/// phase)).
+struct HarmonicArc {
+  static constexpr std::string_view type_name = "harmonic_arc";
+  Vec2 pivot{};
+  double radius = 100;
+  double middle = 0;
+  double half_angle = 0.5;
+  double period = 20;
+  double phase = 0;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.pivot, {"pivot", Unit::um, {}, "Centre of the arc.", true});
+    visit(self.radius, {"radius", Unit::um, {0, 1e6}, "Radius of the arc.", true});
+    visit(self.middle, {"middle", Unit::deg, {-360, 360}, "Direction of the middle of the arc."});
+    visit(self.half_angle, {"half_angle", Unit::deg, {0, 180}, "From the middle to the end."});
+    visit(self.period, {"period", Unit::s, {1e-2, 1e6}, "Time for forth and back."});
+    visit(self.phase, {"phase", Unit::none, {-1, 1}, "Share of the period at t = 0."});
+  }
+};
+
+/// What a mover does after its last waypoint.
+enum class AtEnd { stay, back, loop };
+constexpr auto enum_names(AtEnd) {
+  return std::array<std::pair<AtEnd, std::string_view>, 3>{
+      {{AtEnd::stay, "stay"}, {AtEnd::back, "back"}, {AtEnd::loop, "loop"}}};
+}
+
+/// From waypoint to waypoint at one speed.
+struct Waypoints {
+  static constexpr std::string_view type_name = "waypoints";
+  std::vector<Vec2> points;
+  double speed = 20;
+  AtEnd at_end = AtEnd::back;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.points, {"points", Unit::um, {}, "Where it passes, in order.", true});
+    visit(self.speed, {"speed", Unit::um_per_s, {0, 1e5}, "Its speed."});
+    visit(self.at_end, {"at_end", Unit::none, {}, "At the last point: stay, back or loop."});
+  }
+};
+
+/// Positions seen at times, straight between them; absent before the first and after the last.
+struct Samples {
+  std::vector<double> times;  ///< [s], ascending
+  std::vector<Vec2> points;   ///< [µm], one a time
+};
+
+/// One body of a recorded track file (CSV with columns id, t_s, x_um, y_um). The samples are filled
+/// by the reader of the scenario; until then the mover is absent.
+struct Track {
+  static constexpr std::string_view type_name = "track";
+  std::string file;
+  std::string id;
+  std::shared_ptr<const Samples> samples;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.file, {"file", Unit::none, {}, "CSV with columns id, t_s, x_um, y_um.", true});
+    visit(self.id, {"id", Unit::none, {}, "Which id of the file.", true});
+  }
+};
+
+using Motion = std::variant<Still, Straight, HarmonicLine, HarmonicArc, Waypoints, Track>;
+
+/// Where a mover is at a moment; `present` is false outside a track's times.
+struct Placement {
+  bool present = true;
+  Pose2 pose;
+  Vec2 velocity{};  ///< [µm/s]
+};
+
+/// Placement at time t [s]. Pure: the same t gives the same bits.
+Placement placement(const Motion& motion, double t);
+/// Upper bound of the speed [µm/s].
+double top_speed(const Motion& motion);
+
+}  // namespace microswarm
