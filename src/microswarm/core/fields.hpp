@@ -46,7 +46,9 @@ struct NullVisitor {
 };
 
 template <class T>
-concept HasFields = requires(T& t, NullVisitor& v) { T::fields(t, v); };
+concept HasFields = requires(T& t, NullVisitor& v) {
+  T::fields(t, v);
+};
 
 /// One enumerator and its word in files.
 template <class E>
@@ -62,7 +64,9 @@ struct EnumName {
 ///       return std::to_array<EnumName<Walls>>({{Walls::slide, "slide"}, {Walls::stop, "stop"}});
 ///     }
 template <class E>
-concept NamedEnum = std::is_enum_v<E> && requires { enum_names(E{}); };
+concept NamedEnum = std::is_enum_v<E> && requires {
+  enum_names(E{});
+};
 
 /// The word of an enumerator; empty for a value that has none.
 template <NamedEnum E>

@@ -24,8 +24,7 @@ class Hash {
     bytes(std::as_bytes(std::span(s.data(), s.size())));
   }
   template <class T>
-    requires((std::is_arithmetic_v<T> && sizeof(T) <= 8) || std::is_enum_v<T>)
-  void value(T v) {
+  requires((std::is_arithmetic_v<T> && sizeof(T) <= 8) || std::is_enum_v<T>) void value(T v) {
     std::byte raw[sizeof(T)];
     std::memcpy(raw, &v, sizeof(T));
     bytes(raw);

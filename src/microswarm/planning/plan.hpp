@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "microswarm/core/rng.hpp"
+#include "microswarm/core/status.hpp"
+#include "microswarm/core/stop.hpp"
+#include "microswarm/world/snapshot.hpp"
+
+namespace microswarm {
+
+/// What a detection circle told about a place: Eq 1–3 [drrt].
+struct Detection {
+  Disc circle;
+  double w1 = 0;   ///< density: covered share of the circle, Eq 1
+  double w2 = 0;   ///< distribution: how near the obstacles are to its centre, Eq 2
+  double rho = 1;  ///< dynamic adjust factor, Eq 3, floored
+};
+
+/// Node of a search tree. The root is node 0 and its own parent.
+struct TreeNode {
+  Vec2 position;
+  double heading = 0;  ///< [rad] of the edge from its parent; the root's is the start's
+  double cost = 0;     ///< from the root, in the planner's own measure
+  std::uint32_t parent = 0;
+};
+
+/// What the planner did.
+struct PlanCounts {
+  std::uint64_t iterations = 0;
+  std::uint64_t samples = 0;
+  std::uint64_t edge_checks = 0;
+};
+
+/// What a planner returns. When the status is `solved`, the path runs from the start to a point
+/// within the goal tolerance and every edge keeps the clearance; otherwise it is the best partial
+/// path: to the node nearest to the goal, and just the start when there is none.
+struct Plan {
+  Status status = Status::no_path;
+  std::vector<Vec2> path;             ///< [µm]
+  std::vector<TreeNode> tree;         ///< empty for A*
+  std::vector<Detection> detections;  ///< one a tree node; D-RRT* only
+  PlanCounts counts;
+};
+
+/// Length of a path [µm].
+double path_length(std::span<const Vec2> path);
+/// Total turning angle [rad]: Σ|Δheading| over its vertices, the turn from `start_heading` into the
+/// first edge included.
+double path_turning(std::span<const Vec2> path, double start_heading);
+/// The same without the turn out of the start.
+double path_turning(std::span<const Vec2> path);
+/// Path from the root to `node`.
+std::vector<Vec2> path_to(std::span<const TreeNode> tree, std::uint32_t node);
+
+}  // namespace microswarm
