@@ -21,10 +21,10 @@ std::string number_text(double value) {
 }
 
 std::optional<double> parse_number(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  const std::size_t first = text.starts_with('-') ? 1 : 0;
+  const std::size_t first = text.starts_with('-') || text.starts_with('+') ? 1 : 0;
   if (first >= text.size() || !(text[first] == '.' || (text[first] >= '0' && text[first] <= '9')))
-    return std::nullopt;  // from_chars would take "nan" and "inf"
+    return std::nullopt;  // from_chars would take "nan" and "inf", and no '+'
+  if (text.front() == '+') text.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/core/file.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "microswarm/core/error.hpp"
+
+namespace microswarm {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FileTest : public testing::Test {
+ protected:
+  FileTest()
+      : folder_(fs::path(testing::TempDir()) /
+                ("microswarm_file_" + std::to_string(::getpid()) + "_" +
+                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    fs::create_directories(folder_);
+  }
+  ~FileTest() override { fs::remove_all(folder_); }
+
+  std::ptrdiff_t files() const {
+    return std::distance(fs::directory_iterator(folder_), fs::directory_iterator());
+  }
+
+  fs::path folder_;
+};
+
+template <class F>
+std::string message_of(F&& f) {
+  try {
+    f();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+TEST_F(FileTest, ReadsWhatWasWritten) {
+  std::string bytes(100'000, '\0');
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * i >> 3);
+  for (const std::string& content : {std::string(), std::string("a\n"), bytes}) {
+    write_file_atomically(folder_ / "a.bin", content);
+    EXPECT_EQ(read_file(folder_ / "a.bin"), content);
+    EXPECT_EQ(files(), 1);
+  }
+}
+
+TEST_F(FileTest, ReadingNamesTheFileAndTheReason) {
+  const std::string missing = (folder_ / "no.yaml").string();
+  EXPECT_EQ(message_of([&] { read_file(missing); }),
+            missing + ": cannot read: No such file or directory");
+  EXPECT_EQ(message_of([&] { read_file(folder_); }),
+            folder_.string() + ": cannot read: Is a directory");
+}
+
+TEST_F(FileTest, ReadingHoldsTheLimit) {
+  const fs::path path = folder_ / "a";
+  write_file_atomically(path, "12345");
+  EXPECT_EQ(read_file(path, 5), "12345");
+  EXPECT_EQ(message_of([&] { read_file(path, 4); }),
+            path.string() + ": cannot read: larger than the allowed 4 bytes");
+  EXPECT_EQ(message_of([&] { read_file("/dev/zero", 1000); }),
+            "/dev/zero: cannot read: larger than the allowed 1000 bytes");
+}
+
+TEST_F(FileTest, WritingNamesTheFileAndTheReason) {
+  EXPECT_EQ(message_of([] { write_file_atomically("/dev/full", "x"); }),
+            "/dev/full: cannot write: No space left on device");
+  const fs::path nowhere = folder_ / "no" / "a.csv";
+  EXPECT_EQ(message_of([&] { write_file_atomically(nowhere, "x"); }),
+            nowhere.string() + ": cannot write: No such file or directory");
+  EXPECT_EQ(message_of([&] { write_file_atomically(folder_, "x"); }),
+            folder_.string() + ": cannot write: Is a directory");
+  EXPECT_EQ(files(), 0);
+}
+
+TEST_F(FileTest, AnUncommittedFileLeavesTheOldOne) {
+  const fs::path path = folder_ / "picture.png";
+  write_file_atomically(path, "old");
+  {
+    StagedFile staged(path);
+    EXPECT_EQ(staged.path().extension(), ".png");
+    EXPECT_EQ(staged.path().parent_path(), folder_);
+    std::ofstream(staged.path()) << "half";
+    EXPECT_EQ(read_file(path), "old");
+  }
+  EXPECT_EQ(read_file(path), "old");
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(FileTest, TwoWritersDoNotShareTheirStage) {
+  const fs::path path = folder_ / "a.csv";
+  StagedFile first(path), second(path);
+  EXPECT_NE(first.path(), second.path());
+  std::ofstream(first.path()) << "first";
+  std::ofstream(second.path()) << "second";
+  second.commit();
+  first.commit();
+  EXPECT_EQ(read_file(path), "first");
+  EXPECT_EQ(files(), 1);
+}
+
+}  // namespace
+}  // namespace microswarm

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/core/text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "microswarm/core/rng.hpp"
+
+namespace microswarm {
+namespace {
+
+TEST(Text, NumbersAreShort) {
+  EXPECT_EQ(number_text(0), "0");
+  EXPECT_EQ(number_text(-0.0), "-0");
+  EXPECT_EQ(number_text(60), "60");
+  EXPECT_EQ(number_text(0.1), "0.1");
+  EXPECT_EQ(number_text(1e5), "1e5");
+  EXPECT_EQ(number_text(1e-7), "1e-7");
+  EXPECT_EQ(number_text(-2.5e-10), "-2.5e-10");
+  EXPECT_EQ(number_text(123456789), "123456789");
+  EXPECT_EQ(number_text(std::numeric_limits<double>::infinity()), "inf");
+}
+
+TEST(Text, NumbersReadBackToTheSameBits) {
+  Rng rng(1, Purpose::test);
+  for (int i = 0; i < 100'000; ++i) {
+    const double value = std::bit_cast<double>(rng.bits());
+    if (!std::isfinite(value)) continue;
+    const auto back = parse_number(number_text(value));
+    ASSERT_TRUE(back) << number_text(value);
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(*back), std::bit_cast<std::uint64_t>(value));
+  }
+}
+
+TEST(Text, OnlyFiniteDecimalsAreNumbers) {
+  for (std::string_view good : {"0", "-1", "+1", "1.", ".5", "1e3", "1E-3", "007"})
+    EXPECT_TRUE(parse_number(good)) << good;
+  for (std::string_view bad : {"", "-", "+", "nan", "inf", "-inf", ".nan", "1e999", "0x10", " 1",
+                               "1 ", "1,5", "1 µm", "--1", "+-1", "e5", ".", "1e"})
+    EXPECT_FALSE(parse_number(bad)) << bad;
+}
+
+// The recursive definition, beside the rows of the real one.
+std::size_t slow_distance(std::string_view a, std::string_view b) {
+  if (a.empty() || b.empty()) return a.size() + b.size();
+  const auto cut = [](std::string_view s, std::size_t n) { return s.substr(0, s.size() - n); };
+  std::size_t best =
+      std::min({slow_distance(cut(a, 1), b) + 1, slow_distance(a, cut(b, 1)) + 1,
+                slow_distance(cut(a, 1), cut(b, 1)) + (a.back() != b.back() ? 1 : 0)});
+  if (a.size() > 1 && b.size() > 1 && a.back() == b[b.size() - 2] && b.back() == a[a.size() - 2])
+    best = std::min(best, slow_distance(cut(a, 2), cut(b, 2)) + 1);
+  return best;
+}
+
+TEST(Text, EditDistanceMatchesItsDefinition) {
+  EXPECT_EQ(edit_distance("stpe", "step"), 1u);
+  EXPECT_EQ(edit_distance("", "abc"), 3u);
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
+  Rng rng(2, Purpose::test);
+  for (int i = 0; i < 300; ++i) {
+    std::string a, b;
+    for (std::uint64_t n = rng.below(6); n > 0; --n) a += static_cast<char>('a' + rng.below(3));
+    for (std::uint64_t n = rng.below(6); n > 0; --n) b += static_cast<char>('a' + rng.below(3));
+    EXPECT_EQ(edit_distance(a, b), slow_distance(a, b)) << a << " " << b;
+  }
+}
+
+TEST(Text, NearestWordIsNearOrNone) {
+  const std::string_view keys[] = {"step_um", "stop_um", "max_nodes"};
+  EXPECT_EQ(nearest_word("stpe_um", keys), "step_um");
+  EXPECT_EQ(nearest_word("max_node", keys), "max_nodes");
+  EXPECT_EQ(nearest_word("clearance_um", keys), "");
+  EXPECT_EQ(nearest_word("", keys), "");
+  EXPECT_EQ(nearest_word(std::string(1'000'000, 'a'), keys), "");
+}
+
+}  // namespace
+}  // namespace microswarm
