@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace microswarm {
+
+/// A picture of 8 bits a sample: row by row, y down, `channels` 1 (grey) or 3 (red, green, blue).
+struct Image {
+  int width = 0;
+  int height = 0;
+  int channels = 1;
+  std::vector<std::uint8_t> pixels;  ///< width · height · channels samples
+
+  std::size_t index(int column, int row) const {
+    return (static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+            static_cast<std::size_t>(column)) *
+           static_cast<std::size_t>(channels);
+  }
+};
+
+/// The largest picture that is read: neither side longer, and not more pixels in all.
+inline constexpr int max_image_side = 16384;
+inline constexpr std::int64_t max_image_pixels = 64'000'000;
+
+/// Reads PNG, JPEG, BMP, PGM, PPM or PBM: 16-bit samples are scaled to 8 bits, palettes and 1-bit
+/// pictures expanded, transparency dropped. The structure is checked before anything is decoded;
+/// throws InputError "x.png: WHY" for no file, an empty one, no image, a truncated or damaged one,
+/// 0 pixels, or more than max_image_side or max_image_pixels.
+Image read_image(const std::filesystem::path& path);
+
+/// The same from memory; `name` stands for the file in messages.
+Image decode_image(std::span<const std::byte> bytes, std::string_view name);
+
+/// The picture as one grey channel, of colours the luma 0.299 R + 0.587 G + 0.114 B, rounded.
+Image to_grey(const Image& image);
+
+/// Writes an 8-bit PNG by way of a temporary file. Throws InputError "PATH: cannot write: REASON".
+void write_png(const std::filesystem::path& path, const Image& image);
+
+}  // namespace microswarm
