@@ -2,9 +2,10 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "microswarm/geometry/vec2.hpp"
-#include "microswarm/world/snapshot.hpp"
+#include "microswarm/world/world.hpp"
 
 namespace microswarm {
 
@@ -14,9 +15,15 @@ struct SwarmPose {
   double radius = 0;
 };
 
-/// What is seen: the newest frame, which is `age()` old when the navigator gets it. `swarm` is empty
-/// when no swarm was found in the frame. `world` holds the map and the obstacles as seen then; it
-/// lives at least until the next observation.
+/// A pose and when it was taken [s].
+struct TimedPose {
+  double t = 0;
+  Pose2 pose;
+};
+
+/// What is seen: the newest frame, which is `age()` old when the navigator gets it. `swarm` is
+/// empty when no swarm was found in the frame. `world` holds the map and the obstacles as seen
+/// then; it lives at least until the next observation.
 struct Observation {
   double now = 0;   ///< time at which the navigator is asked [s]
   double seen = 0;  ///< time at which the frame was taken [s]
@@ -32,6 +39,15 @@ struct Command {
   double speed = 0;
 };
 
+/// What really is, where a plant can tell: simulations and recordings know it, rigs do not.
+struct Truth {
+  double now = 0;  ///< [s]
+  SwarmPose swarm;
+  double speed = 0;                  ///< [µm/s]
+  std::span<const TimedPose> swept;  ///< the way of the last apply(), straight between its poses
+  const World* world = nullptr;
+};
+
 /// Something that is navigated: a simulated swarm, a simulated or real rig, a recording.
 class Plant {
  public:
@@ -40,6 +56,8 @@ class Plant {
   virtual Observation observe() = 0;
   /// Applies the command for `dt` seconds and lets them pass.
   virtual void apply(const Command& command, double dt) = 0;
+  /// Valid until the next apply(); empty when nobody knows.
+  virtual std::optional<Truth> truth() const { return std::nullopt; }
 };
 
 }  // namespace microswarm

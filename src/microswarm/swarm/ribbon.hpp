@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deque>
+#include <span>
+#include <vector>
+
 #include "microswarm/core/fields.hpp"
 #include "microswarm/core/rng.hpp"
 #include "microswarm/swarm/contracts.hpp"
 
 namespace microswarm {
 
-/// Ribbon-like swarm under an oscillating field, as a unicycle [drrt]: it turns towards the commanded
-/// heading at a limited rate and moves along its own heading.
+/// Ribbon-like swarm under an oscillating field, as a unicycle [drrt]: it turns towards the
+/// commanded heading at a limited rate and moves along its own heading.
 struct RibbonParams {
   double radius = 40;
   double max_speed = 80;
@@ -30,20 +34,37 @@ struct RibbonParams {
   }
 };
 
-/// The moving part of the swarm model: pose and the commands that have not reached it yet.
+/// Longest piece of time over which the ribbon is integrated at once [s].
+inline constexpr double ribbon_substep = 0.01;
+
+/// The moving part of the swarm model: pose and the commands that have not reached it yet. Before
+/// the first command takes effect it holds.
 class Ribbon {
  public:
   Ribbon(const RibbonParams& params, Pose2 start);
 
   const Pose2& pose() const { return pose_; }
-  double speed() const { return speed_; }
-  /// Lets `dt` seconds pass under `command`; noise is drawn from `rng`.
+  double speed() const { return active_.speed; }
+  /// Lets `dt` seconds pass under `command`, which takes effect exactly `response_lag` later; noise
+  /// is drawn from `rng`.
   void step(const Command& command, double dt, Rng& rng);
+  /// The way of the last step, its first and last pose included: straight between them, times [s]
+  /// counted from the step's start. Empty before the first step.
+  std::span<const TimedPose> swept() const { return swept_; }
 
  private:
+  struct Pending {
+    Command command;
+    double due;  // [s] from now
+  };
+
+  void advance(double dt, Rng& rng);
+
   RibbonParams params_;
   Pose2 pose_;
-  double speed_ = 0;
+  Command active_;
+  std::deque<Pending> pending_;
+  std::vector<TimedPose> swept_;
 };
 
 }  // namespace microswarm

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "microswarm/experiment/scenario.hpp"
+#include "microswarm/swarm/contracts.hpp"
+
+namespace microswarm {
+
+/// Simulation without physics: a ribbon in a world, seen by a camera that shows both as they were
+/// `observation_delay` ago (at the very beginning: as they were at t = 0). The ribbon neither
+/// slides nor stops at walls; whoever runs it watches for contact.
+class KinematicPlant : public Plant {
+ public:
+  /// Keeps its own copy of the world. `trial` chooses the streams for drift and for sensor noise.
+  KinematicPlant(const Scenario& scenario, World world, std::uint32_t trial = 0);
+
+  Observation observe() override;
+  void apply(const Command& command, double dt) override;
+  std::optional<Truth> truth() const override;
+
+ private:
+  Pose2 pose_at(double t) const;
+
+  World world_;
+  SensingParams sensing_;
+  double radius_;
+  Ribbon ribbon_;
+  Rng drift_;
+  Rng noise_;
+  double now_ = 0;
+  std::deque<TimedPose> history_;  // covers the observation delay
+  std::optional<Snapshot> seen_;
+};
+
+}  // namespace microswarm

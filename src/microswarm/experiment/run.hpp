@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "microswarm/experiment/frame.hpp"
+#include "microswarm/experiment/metrics.hpp"
+#include "microswarm/experiment/scenario.hpp"
+#include "microswarm/navigation/navigator.hpp"
+
+namespace microswarm {
+
+/// What a run came to.
+struct RunResult {
+  Status status = Status::time_limit;
+  Metrics metrics;
+  Timing timing;
+};
+
+/// Hears what happens in a run: recorder, live view, progress bar. References hold during the call.
+class RunListener {
+ public:
+  virtual ~RunListener() = default;
+  /// After the command was chosen and before it is applied. `view` tells what the navigator did,
+  /// `world` is the world at the frame's time.
+  virtual void on_frame(const Frame& frame, const NavigatorView& view, const Snapshot& world) {
+    (void)frame, (void)view, (void)world;
+  }
+  virtual void on_event(const RunEvent& event) { (void)event; }
+  virtual void on_end(const RunResult& result) { (void)result; }
+};
+
+/// The only loop: at every tick it observes, asks the navigator, applies the command, and watches,
+/// in continuous time, for contact and for the goal. Ends with `solved`, `collided`, `held`
+/// (nothing was safe for the scenario's hold limit, or up to its time limit), `time_limit` or
+/// `stopped`. Without the plant's truth, clearances and contacts are those of what was seen.
+RunResult run(const Scenario& scenario, Plant& plant, Navigator& navigator,
+              std::span<RunListener* const> listeners = {}, const Stop& stop = {});
+
+/// Builds plant and navigator for one trial of a scenario and runs it.
+RunResult simulate(const Scenario& scenario, const World& world, std::uint32_t trial = 0,
+                   std::span<RunListener* const> listeners = {}, const Stop& stop = {});
+
+}  // namespace microswarm

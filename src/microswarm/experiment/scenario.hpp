@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/formats/map_file.hpp"
+#include "microswarm/navigation/make.hpp"
+#include "microswarm/swarm/ribbon.hpp"
+#include "microswarm/world/world.hpp"
+
+namespace microswarm {
+
+/// What the camera and the image processing give of the world, and when.
+struct SensingParams {
+  double observation_delay = 0.05;
+  double position_noise = 0;
+  double heading_noise = 0;
+  double missed_share = 0;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.observation_delay,
+          {"observation_delay", Unit::s, {0, 10}, "Age of a frame when the navigator gets it."});
+    visit(self.position_noise,
+          {"position_noise", Unit::um, {0, 1e4}, "Standard deviation of the swarm's position."});
+    visit(self.heading_noise,
+          {"heading_noise", Unit::deg, {0, 360}, "Standard deviation of the swarm's heading."});
+    visit(self.missed_share,
+          {"missed_share", Unit::none, {0, 1}, "Share of frames in which no swarm is found."});
+  }
+};
+
+/// One experiment as data: the world, the swarm, where from, where to, and who steers.
+struct Scenario {
+  std::string name;
+  std::string description;
+  MapSpec map;
+  std::vector<Obstacle> obstacles;
+  RibbonParams swarm;
+  SensingParams sensing;
+  Pose2 start;
+  Vec2 goal;
+  double goal_tolerance = 50;
+  NavigatorParams navigator;
+  double tick = 0.1;
+  double time_limit = 300;
+  double hold_limit = 60;
+  bool stop_at_contact = true;
+  std::uint64_t seed = 1;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.name, {"name", Unit::none, {}, "What the run is called."});
+    visit(self.description, {"description", Unit::none, {}, "What it shows, for people."});
+    visit(self.map, {"map", Unit::none, {}, "The walls.", true});
+    visit(self.obstacles, {"obstacles", Unit::none, {}, "What moves or changes."});
+    visit(self.swarm, {"swarm", Unit::none, {}, "The swarm's body and motion."});
+    visit(self.sensing, {"sensing", Unit::none, {}, "What the camera sees, and when."});
+    visit(self.start, {"start", Unit::none, {}, "Where the swarm stands at t = 0.", true});
+    visit(self.goal, {"goal", Unit::um, {}, "Where it has to go.", true});
+    visit(self.goal_tolerance,
+          {"goal_tolerance", Unit::um, {1e-3, 1e6}, "How near to the goal counts as there."});
+    visit(self.navigator, {"navigator", Unit::none, {}, "Who steers."});
+    visit(self.tick, {"tick", Unit::s, {1e-3, 10}, "Time between two commands."});
+    visit(self.time_limit,
+          {"time_limit", Unit::s, {0, 1e5}, "Simulated time after which it ends."});
+    visit(self.hold_limit,
+          {"hold_limit", Unit::s, {0, 1e5}, "Ends after holding this long without a break."});
+    visit(self.stop_at_contact,
+          {"stop_at_contact", Unit::none, {}, "End at the first touch, or count it and go on."});
+    visit(self.seed, {"seed", Unit::none, {}, "Seed of every random stream."});
+  }
+};
+
+/// A scenario as it was read: the fields, and the folder that its map and track files are relative
+/// to.
+struct ScenarioFile {
+  Scenario scenario;
+  std::filesystem::path base;
+};
+
+/// Reads a scenario; `settings` are `key.path=value` texts, as from --set, applied after the file.
+/// Throws InputError, naming file, line and column.
+ScenarioFile read_scenario(const std::filesystem::path& file,
+                           const std::vector<std::string>& settings = {});
+
+/// The scenario as YAML with every key written out; read_scenario gives the same fields back.
+std::string scenario_text(const Scenario& scenario);
+
+/// The files that the scenario needs beside itself, in order of first use.
+std::vector<std::filesystem::path> input_files(const Scenario& scenario,
+                                               const std::filesystem::path& base);
+
+/// Reads map and tracks and builds the world. Throws InputError for a file or an obstacle that
+/// makes no sense.
+World build_world(const Scenario& scenario, const std::filesystem::path& base);
+
+/// Throws InputError, one line, when the run cannot be meant so: the start or the goal in a wall
+/// ("start is 12 µm inside wall 3"), the swarm wider than every passage, the goal cut off from the
+/// start. `where` begins the line: the scenario's file or name.
+void check(const Scenario& scenario, const World& world, const std::string& where);
+
+}  // namespace microswarm
