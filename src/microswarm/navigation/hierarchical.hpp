@@ -1,33 +1,115 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
 #include "microswarm/core/fields.hpp"
+#include "microswarm/navigation/follower.hpp"
+#include "microswarm/navigation/local_target.hpp"
 #include "microswarm/navigation/navigator.hpp"
+#include "microswarm/navigation/route.hpp"
 #include "microswarm/planning/planners.hpp"
+#include "microswarm/swarm/ribbon.hpp"
 
 namespace microswarm {
 
-/// Hierarchical D-RRT*: Algorithms 1 and 4 [drrt] with local targets, Eq 4, over the local planner.
+/// Which way the goal is taken to lie.
+enum class Guide {
+  straight,  ///< the straight direction, as Eq 4e [drrt] has it
+  route,     ///< along the free space of the static map
+};
+constexpr auto enum_names(Guide) {
+  return std::array<std::pair<Guide, std::string_view>, 2>{
+      {{Guide::straight, "straight"}, {Guide::route, "route"}}};
+}
+
+/// Hierarchical D-RRT* planning framework: Algorithm 4 [drrt] over local target selection
+/// (Algorithm 1) and the local planner (Algorithms 2–3). Ours besides: the guide along the map, and
+/// the look-ahead that screens every command against where the obstacles are going.
 struct HierarchicalParams {
   static constexpr std::string_view type_name = "hierarchical_drrt_star";
-  double margin = 90;              // r_s
-  double swarm_width = 80;
-  double base_distance = 320;      // D_base: four times the swarm's width
-  double detection_diameter = 300; // D_dec
-  double rho_min = 0.2;
-  double search_half_angle = 1.5707963267948966;  // α_search
-  double search_step = 0.17453292519943295;       // δα
-  double obstacle_weight = 1;      // α_1
-  double border_weight = 1;        // α_2
-  double goal_weight = 4;          // α_3
-  double direction_weight = 1;     // α_4
-  double influence_range = 8100;   // R of Eq 4c, 4d
+  double margin = 90;  // r_s
+  double extra_margin = 10;
+  double speed = 60;
   double lookahead = 60;
-  DrrtStarParams local;
+  double horizon = 3;
+  Guide guide = Guide::route;
+  double route_cell = 20;
+  double frame_timeout = 0.5;
+  LocalTargetParams target;
+  DrrtStarParams planner;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.margin, {"margin", Unit::um, {0, 1e5}, "Least distance from the centre (r_s)."});
+    visit(
+        self.extra_margin,
+        {"extra_margin", Unit::um, {0, 1e5}, "Added to the margin while planning, where it fits."});
+    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Speed asked for."});
+    visit(self.lookahead,
+          {"lookahead", Unit::um, {1e-3, 1e5}, "How far ahead the path is pursued."});
+    visit(self.horizon,
+          {"horizon", Unit::s, {0, 60}, "How far commands are looked ahead; 0: not."});
+    visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight, or route."});
+    visit(self.route_cell, {"route_cell", Unit::um, {1e-2, 1e5}, "Grid spacing of the route."});
+    visit(self.frame_timeout,
+          {"frame_timeout", Unit::s, {0, 60}, "Hold when the newest frame is older than this."});
+    visit(self.target, {"target", Unit::none, {}, "Local target selection."});
+    visit(self.planner, {"planner", Unit::none, {}, "Local planner."});
   }
+};
+
+/// See HierarchicalParams. States: follow, hold, escape, arrived, blind.
+class HierarchicalNavigator : public Navigator {
+ public:
+  /// `swarm` is what is known of the swarm: radius, turning limit and dead time.
+  HierarchicalNavigator(const HierarchicalParams& params, const RibbonParams& swarm, Vec2 goal,
+                        double goal_tolerance, Rng rng);
+
+  void prepare(const Snapshot& world) override;
+  Command step(const Observation& observation, const Stop& stop) override;
+  NavigatorView view() const override { return view_; }
+
+ private:
+  struct Issued {
+    double time;
+    Command command;
+  };
+  struct Outlook {
+    bool safe = false;
+    double least = 0;  ///< least clearance on the way [µm]
+    double last = 0;   ///< clearance at its end [µm]
+  };
+
+  Command decide(const Observation& seen, const Stop& stop);
+  Command issue(double now, Command command, std::string_view state);
+  Pose2 pose_at_effect(const Observation& seen) const;
+  bool path_holds(const Snapshot& world) const;
+  void replan(const Snapshot& seen, const Snapshot& ahead, const Stop& stop);
+  bool replan_with(const Snapshot& world, double clearance, const Stop& stop);
+  Outlook look_ahead(const Observation& seen, double speed, double heading, bool follow) const;
+  Command escape(const Observation& seen);
+
+  HierarchicalParams params_;
+  RibbonParams swarm_;
+  Vec2 goal_;
+  double goal_tolerance_;
+  Rng rng_;
+  Route route_;
+
+  std::deque<Issued> issued_;
+  Pose2 pose_;  ///< where the swarm will be when the command of this step takes effect
+  std::vector<Vec2> path_;
+  PathPlace place_;
+  double path_clearance_ = 0;
+  std::optional<Vec2> target_;
+  std::optional<Plan> plan_;
+  NavigatorView view_;
 };
 
 }  // namespace microswarm

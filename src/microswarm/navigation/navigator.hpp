@@ -13,11 +13,11 @@ namespace microswarm {
 
 /// What a navigator did in its last step, for records and pictures.
 struct NavigatorView {
-  bool planned = false;                ///< it called a planner in this step: a planning event
-  std::string_view state;              ///< one word: "follow", "escape", "hold", …
-  std::optional<Vec2> local_target;    ///< where it heads for now
-  std::span<const Vec2> path;          ///< the path it follows
-  const Plan* plan = nullptr;          ///< the newest plan with its tree; null before the first
+  bool planned = false;              ///< it called a planner in this step: a planning event
+  std::string_view state;            ///< one word: "follow", "escape", "hold", …
+  std::optional<Vec2> local_target;  ///< where it heads for now
+  std::span<const Vec2> path;        ///< the path it follows
+  const Plan* plan = nullptr;        ///< the newest plan with its tree; null before the first
 };
 
 /// Turns one observation into one command and keeps what it needs in between. It knows no clock:
@@ -26,6 +26,8 @@ struct NavigatorView {
 class Navigator {
  public:
   virtual ~Navigator() = default;
+  /// Called once before the first step with the world as it is then; what takes long belongs here.
+  virtual void prepare(const Snapshot&) {}
   virtual Command step(const Observation& observation, const Stop& stop) = 0;
   /// Valid until the next step.
   virtual NavigatorView view() const = 0;

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/hierarchical.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/navigation/forecast.hpp"
+#include "microswarm/swarm/unicycle.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double tick = 0.1;  // of the look-ahead [s]
+constexpr std::array<double, 3> eases{1.0, 0.5, 0.25};
+
+}  // namespace
+
+HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params,
+                                             const RibbonParams& swarm, Vec2 goal,
+                                             double goal_tolerance, Rng rng)
+    : params_(params), swarm_(swarm), goal_(goal), goal_tolerance_(goal_tolerance), rng_(rng) {
+  params_.speed = std::min(params.speed, swarm.max_speed);
+}
+
+void HierarchicalNavigator::prepare(const Snapshot& world) {
+  if (params_.guide == Guide::route)
+    route_ = Route(world.map(), goal_, params_.margin, params_.route_cell);
+}
+
+Command HierarchicalNavigator::step(const Observation& seen, const Stop& stop) {
+  view_ = {};
+  Command command = decide(seen, stop);
+  view_.local_target = target_;
+  view_.path = path_;
+  view_.plan = plan_ ? &*plan_ : nullptr;
+  return command;
+}
+
+Command HierarchicalNavigator::issue(double now, Command command, std::string_view state) {
+  view_.state = state;
+  issued_.push_back({now, command});
+  return command;
+}
+
+// Algorithm 4 [drrt], one pass of its loop
+Command HierarchicalNavigator::decide(const Observation& seen, const Stop& stop) {
+  if (!seen.swarm || !seen.world || !is_finite(seen.swarm->pose.position) ||
+      !std::isfinite(seen.swarm->pose.heading) || seen.age() > params_.frame_timeout)
+    return issue(seen.now, {}, "blind");
+  while (issued_.size() > 1 && issued_[1].time + swarm_.response_lag <= seen.seen)
+    issued_.pop_front();
+  pose_ = pose_at_effect(seen);
+  const Command hold{pose_.heading, 0};
+  if (distance(pose_.position, goal_) <= goal_tolerance_) {  // line 2
+    path_.clear();
+    return issue(seen.now, hold, "arrived");
+  }
+
+  const Snapshot& now = *seen.world;
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    const bool near_end = path_.size() > 1 && target_ && !(*target_ == goal_) &&
+                          way_left(path_, place_) < std::max(params_.lookahead, 2 * swarm_.radius);
+    if (attempt > 0 || near_end || !path_holds(now)) {  // line 4
+      const Snapshot ahead = drawn_out(now, std::min(params_.horizon, 1.5));
+      replan(now, ahead, stop);  // lines 5–11
+    }
+    if (path_.size() < 2) break;
+    for (const double ease : eases)
+      if (look_ahead(seen, ease * params_.speed, 0, true).safe) {
+        const double lookahead = params_.lookahead * std::max(ease, 0.5);
+        return issue(seen.now, pursue(path_, place_, pose_, lookahead, ease * params_.speed),
+                     "follow");
+      }
+  }
+  if (look_ahead(seen, 0, pose_.heading, false).safe) return issue(seen.now, hold, "hold");
+  return escape(seen);
+}
+
+Pose2 HierarchicalNavigator::pose_at_effect(const Observation& seen) const {
+  Pose2 pose = seen.swarm->pose;
+  double t = seen.seen;
+  const double effect = seen.now + swarm_.response_lag;
+  for (std::size_t i = 0; i < issued_.size() && t < effect; ++i) {
+    const double until = i + 1 < issued_.size()
+                             ? std::min(effect, issued_[i + 1].time + swarm_.response_lag)
+                             : effect;
+    if (until <= t || issued_[i].time + swarm_.response_lag > t + 1e-9) continue;
+    pose = unicycle_step(pose, issued_[i].command, swarm_.max_turn_rate, until - t);
+    t = until;
+  }
+  return pose;
+}
+
+// Path Safety, P_clt Unsafe: the rest of the path against what is seen now.
+bool HierarchicalNavigator::path_holds(const Snapshot& world) const {
+  if (path_.size() < 2) return false;
+  std::vector<Vec2> rest{point_ahead(path_, place_, 0)};
+  rest.insert(rest.end(), path_.begin() + static_cast<std::ptrdiff_t>(place_.piece) + 1,
+              path_.end());
+  return world.is_free(rest, std::min(params_.margin, path_clearance_));
+}
+
+void HierarchicalNavigator::replan(const Snapshot& seen, const Snapshot& ahead, const Stop& stop) {
+  view_.planned = true;
+  path_.clear();
+  place_ = {};
+  const double here = seen.clearance(pose_.position);
+  const double wanted = params_.margin + params_.extra_margin;
+  if (here < params_.margin) {
+    target_.reset();
+    return;
+  }
+  for (const double clearance : {wanted, params_.margin}) {
+    if (clearance > here) continue;
+    if (replan_with(ahead, clearance, stop) || replan_with(seen, clearance, stop)) return;
+  }
+  target_.reset();
+}
+
+bool HierarchicalNavigator::replan_with(const Snapshot& world, double clearance, const Stop& stop) {
+  const Vec2 from = pose_.position;
+  if (!world.is_free(from, clearance)) return false;
+  Vec2 towards = goal_;
+  if (params_.guide == Guide::route) {
+    const Vec2 via =
+        route_.ahead(world.map(), from, 1.5 * params_.target.base_distance, params_.margin);
+    if (!(via == from)) towards = via;
+  }
+  const double goal_distance = distance(from, goal_);
+  std::optional<Vec2> target;
+  if (goal_distance <= params_.target.base_distance &&
+      world.is_free(Segment{from, goal_}, clearance)) {
+    target = goal_;                                    // line 9
+  } else if (const auto chosen = select_local_target(  // line 7
+                 world,
+                 {.swarm = pose_,
+                  .goal_heading = heading_of(towards - from),
+                  .goal_distance = goal_distance,
+                  .previous_target = target_,
+                  .clearance = clearance,
+                  .least_distance = swarm_.radius},
+                 params_.target)) {
+    target = chosen->position;
+  }
+  if (!target) return false;
+  DrrtStarParams local = params_.planner;
+  local.clearance = clearance;
+  local.goal_tolerance =
+      std::min({local.goal_tolerance, goal_tolerance_, 0.25 * distance(from, *target)});
+  Plan plan_made = plan(world, pose_, *target, local, rng_, stop);  // line 11
+  if (plan_made.status != Status::solved) return false;
+  path_ = plan_made.path;
+  path_clearance_ = clearance;
+  target_ = target;
+  plan_ = std::move(plan_made);
+  return true;
+}
+
+// Where the swarm goes once the command takes effect, against where the obstacles go.
+HierarchicalNavigator::Outlook HierarchicalNavigator::look_ahead(const Observation& seen,
+                                                                 double speed, double heading,
+                                                                 bool follow) const {
+  const double enough = 2 * params_.margin + params_.extra_margin;
+  const double lookahead = params_.lookahead * std::max(0.5, speed / params_.speed);
+  const double delay = params_.horizon > 0 ? seen.age() + swarm_.response_lag : 0;
+  const int ticks = std::max(1, static_cast<int>(std::lround(params_.horizon / tick)));
+  const Map& map = seen.world->map();
+  Pose2 pose = pose_;
+  PathPlace place = place_;
+  Outlook out{.safe = true, .least = enough, .last = enough};
+  for (int k = 0; k < ticks; ++k) {
+    const Command command =
+        follow ? pursue(path_, place, pose, lookahead, speed) : Command{heading, speed};
+    const Pose2 next = unicycle_step(pose, command, swarm_.max_turn_rate, tick);
+    const Segment move{pose.position, next.position};
+    const double from = delay + k * tick;
+    const double moving = forecast_clearance(*seen.world, move, from, from + tick, enough);
+    out.safe = out.safe && moving >= params_.margin && map.is_free(move, params_.margin);
+    out.last = std::min(moving, map.clearance(next.position));
+    out.least = std::min(out.least, out.last);
+    pose = next;
+    if (follow && way_left(path_, place) < 1) break;
+  }
+  return out;
+}
+
+Command HierarchicalNavigator::escape(const Observation& seen) {
+  constexpr int directions = 24;
+  const double now = seen.world->clearance(pose_.position);
+  const double goal_heading = heading_of(goal_ - pose_.position);
+  Command best{pose_.heading, 0};
+  const Outlook stay = look_ahead(seen, 0, pose_.heading, false);
+  double best_score = std::min(stay.least, now) + 0.1 * stay.last;
+  for (int k = 0; k < directions; ++k) {
+    const double heading = wrap(goal_heading + 2 * pi * k / directions);
+    const Outlook o = look_ahead(seen, params_.speed, heading, false);
+    const double score = std::min(o.least, now) + 0.1 * o.last;
+    if (score > best_score + 1e-9) {
+      best_score = score;
+      best = {heading, params_.speed};
+    }
+  }
+  path_.clear();
+  return issue(seen.now, best, best.speed > 0 ? "escape" : "hold");
+}
+
+}  // namespace microswarm

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <variant>
+
+#include "microswarm/navigation/hierarchical.hpp"
+
+namespace microswarm {
+
+/// Any navigator, chosen at run time by its `type`.
+using NavigatorParams = std::variant<HierarchicalParams>;
+
+/// The navigator with these parameters for a swarm of which `swarm` is known.
+std::unique_ptr<Navigator> make_navigator(const NavigatorParams& params, const RibbonParams& swarm,
+                                          Vec2 goal, double goal_tolerance, Rng rng);
+
+}  // namespace microswarm
