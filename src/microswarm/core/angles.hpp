@@ -14,8 +14,13 @@ inline double wrap(double a) { return std::remainder(a, 2 * pi); }
 /// Absolute difference of two headings [rad], in [0, π].
 inline double turn_between(double a, double b) { return std::abs(wrap(a - b)); }
 
-/// Degrees are for people: files, the command line and pictures. Everything else is rad.
-constexpr double radians(double degrees) { return degrees * (pi / 180); }
-constexpr double degrees(double radians) { return radians * (180 / pi); }
+/// Degrees are for people: files, the command line and pictures. Everything else is rad. Both turn
+/// over in long double and round once, so that 30° in code and in a file are the same bits.
+constexpr double radians(long double degrees) {
+  return static_cast<double>(degrees * (std::numbers::pi_v<long double> / 180));
+}
+constexpr double degrees(double radians) {
+  return static_cast<double>(radians * (180 / std::numbers::pi_v<long double>));
+}
 
 }  // namespace microswarm
