@@ -15,6 +15,7 @@ namespace microswarm {
 struct Body {
   std::variant<Disc, Polygon> shape;
   Vec2 velocity{};                 ///< of its centre [µm/s]; zero for walls
+  double deformation_speed = 0;    ///< bound on how fast its outline moves besides [µm/s]
   std::uint32_t obstacle = 0;      ///< which wall piece or obstacle it is (two leaves share one)
 };
 
