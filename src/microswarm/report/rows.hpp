@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace microswarm {
+
+/// One figure of a paper beside ours. `paper` is empty where the paper gives none, `aim` where we
+/// set none; `at_most` says on which side of the aim ours has to be.
+struct ReproduceRow {
+  std::string figure;
+  std::string quantity;
+  std::string unit;
+  std::optional<double> paper;
+  double ours = 0;
+  std::optional<double> aim;
+  bool at_most = true;
+  std::string note;
+
+  bool ok() const { return !aim || (at_most ? ours <= *aim : ours >= *aim); }
+};
+
+/// One measured speed beside its peer's in the same run. `ratio` is peer ÷ ours for times and ours
+/// ÷ peer for rates: above 1 we are faster.
+struct BenchRow {
+  std::string name;
+  std::string quantity;
+  std::string unit;
+  double ours = 0;
+  std::optional<double> peer;
+  std::string peer_name;
+  std::optional<double> aim;
+  bool at_most = true;
+
+  bool ok() const { return !aim || (at_most ? ours <= *aim : ours >= *aim); }
+  std::optional<double> ratio() const;
+};
+
+/// {"rows": [...]} for machines.
+std::string rows_json(const std::vector<ReproduceRow>& rows);
+std::string rows_json(const std::vector<BenchRow>& rows);
+/// The same rows as an aligned table for people; the last column says "ok" or "falls short".
+std::string rows_table(const std::vector<ReproduceRow>& rows);
+std::string rows_table(const std::vector<BenchRow>& rows);
+/// The same rows as CSV with a header line.
+std::string rows_csv(const std::vector<ReproduceRow>& rows);
+std::string rows_csv(const std::vector<BenchRow>& rows);
+
+template <class Row>
+bool all_ok(const std::vector<Row>& rows) {
+  for (const Row& row : rows)
+    if (!row.ok()) return false;
+  return true;
+}
+
+}  // namespace microswarm
