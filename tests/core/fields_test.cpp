@@ -11,7 +11,8 @@ namespace {
 
 enum class Walls { slide, stop };
 constexpr auto enum_names(Walls) {
-  return std::to_array<EnumName<Walls>>({{Walls::slide, "slide"}, {Walls::stop, "stop"}});
+  return std::array<std::pair<Walls, std::string_view>, 2>{
+      {{Walls::slide, "slide"}, {Walls::stop, "stop"}}};
 }
 
 struct Params {

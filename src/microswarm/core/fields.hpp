@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include "microswarm/core/units.hpp"
 
@@ -50,18 +51,12 @@ concept HasFields = requires(T& t, NullVisitor& v) {
   T::fields(t, v);
 };
 
-/// One enumerator and its word in files.
-template <class E>
-struct EnumName {
-  E value;
-  std::string_view name;
-};
-
 /// An enum that may be a field lists its words beside it, found by argument-dependent lookup:
 ///
 ///     enum class Walls { slide, stop };
 ///     constexpr auto enum_names(Walls) {
-///       return std::to_array<EnumName<Walls>>({{Walls::slide, "slide"}, {Walls::stop, "stop"}});
+///       return std::array<std::pair<Walls, std::string_view>, 2>{
+///           {{Walls::slide, "slide"}, {Walls::stop, "stop"}}};
 ///     }
 template <class E>
 concept NamedEnum = std::is_enum_v<E> && requires {
@@ -71,16 +66,16 @@ concept NamedEnum = std::is_enum_v<E> && requires {
 /// The word of an enumerator; empty for a value that has none.
 template <NamedEnum E>
 constexpr std::string_view enum_name(E value) {
-  for (const EnumName<E>& entry : enum_names(value))
-    if (entry.value == value) return entry.name;
+  for (const auto& [entry, name] : enum_names(value))
+    if (entry == value) return name;
   return {};
 }
 
 /// The enumerator that a word stands for, or nothing.
 template <NamedEnum E>
 constexpr std::optional<E> enum_value(std::string_view name) {
-  for (const EnumName<E>& entry : enum_names(E{}))
-    if (entry.name == name) return entry.value;
+  for (const auto& [entry, word] : enum_names(E{}))
+    if (word == name) return entry;
   return std::nullopt;
 }
 
