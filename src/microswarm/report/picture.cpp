@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/report/picture.hpp"
+
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+#include <cairo.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/file.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double margin = 24;
+constexpr double title_height = 34;
+constexpr double foot_height = 52;
+
+struct Entry {
+  std::string label;
+  Colour colour;
+  bool round;
+};
+
+cairo_status_t append(void* out, const unsigned char* data, unsigned int length) {
+  static_cast<std::string*>(out)->append(reinterpret_cast<const char*>(data), length);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+/// 1, 2 or 5 times a power of ten, at most `most`.
+double round_length(double most) {
+  const double power = std::pow(10, std::floor(std::log10(most)));
+  for (const double factor : {5.0, 2.0})
+    if (factor * power <= most) return factor * power;
+  return power;
+}
+
+}  // namespace
+
+struct Picture::Impl {
+  Box view;
+  std::string title;
+  double scale;
+  double width;
+  double height;
+  cairo_surface_t* recording;
+  cairo_t* cr;
+  std::vector<Entry> entries;
+
+  Impl(const Box& v, std::string_view t, double pixels)
+      : view(v), title(t), scale(pixels / std::max(v.width(), v.height())) {
+    width = v.width() * scale + 2 * margin;
+    height = v.height() * scale + margin + top() + foot_height;
+    recording = cairo_recording_surface_create(CAIRO_CONTENT_COLOR_ALPHA, nullptr);
+    cr = cairo_create(recording);
+    cairo_rectangle(cr, margin, top(), v.width() * scale, v.height() * scale);
+    cairo_clip(cr);
+    cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+    cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+  }
+  ~Impl() {
+    cairo_destroy(cr);
+    cairo_surface_destroy(recording);
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  double top() const { return title.empty() ? margin : margin + title_height; }
+  Vec2 at(Vec2 p) const {
+    return {margin + (p.x - view.lo.x) * scale, top() + (view.hi.y - p.y) * scale};
+  }
+  void colour(Colour c) const { cairo_set_source_rgba(cr, c.red, c.green, c.blue, c.alpha); }
+  void trace(std::span<const Vec2> points) const {
+    for (const Vec2 p : points) {
+      const Vec2 q = at(p);
+      cairo_line_to(cr, q.x, q.y);
+    }
+  }
+  void trace(const Disc& d) const {
+    const Vec2 c = at(d.centre);
+    cairo_new_sub_path(cr);
+    cairo_arc(cr, c.x, c.y, d.radius * scale, 0, 2 * pi);
+  }
+  void trace(const Polygon& polygon) const {
+    trace(polygon.outer);
+    cairo_close_path(cr);
+    for (const auto& hole : polygon.holes) {
+      cairo_new_sub_path(cr);
+      trace(hole);
+      cairo_close_path(cr);
+    }
+  }
+  void fill(const Body& body, Colour c) const {
+    cairo_new_path(cr);
+    std::visit([&](const auto& shape) { trace(shape); }, body.shape);
+    cairo_set_fill_rule(cr, CAIRO_FILL_RULE_EVEN_ODD);
+    colour(c);
+    cairo_fill_preserve(cr);
+  }
+  void stroke(Colour c, double width_px) const {
+    colour(c);
+    cairo_set_line_width(cr, width_px);
+    cairo_stroke(cr);
+  }
+
+  void finish(cairo_surface_t* target) const;
+  void frame(cairo_t* out) const;
+  void scale_bar(cairo_t* out) const;
+  void key(cairo_t* out, double from_x) const;
+};
+
+void Picture::Impl::scale_bar(cairo_t* out) const {
+  const double length = round_length(0.25 * view.width());
+  const double y = height - foot_height + 22;
+  cairo_set_source_rgba(out, colours::ink.red, colours::ink.green, colours::ink.blue, 1);
+  cairo_rectangle(out, margin, y - 3, length * scale, 5);
+  cairo_fill(out);
+  cairo_set_font_size(out, 15);
+  cairo_move_to(out, margin, y + 20);
+  cairo_show_text(out, fmt::format("{:g} µm", length).c_str());
+}
+
+void Picture::Impl::key(cairo_t* out, double from_x) const {
+  double x = from_x;
+  const double y = height - foot_height + 26;
+  cairo_set_font_size(out, 15);
+  for (const Entry& e : entries) {
+    cairo_set_source_rgba(out, e.colour.red, e.colour.green, e.colour.blue, e.colour.alpha);
+    if (e.round)
+      cairo_arc(out, x + 7, y - 5, 7, 0, 2 * pi);
+    else
+      cairo_rectangle(out, x, y - 9, 18, 8);
+    cairo_fill(out);
+    cairo_set_source_rgba(out, colours::ink.red, colours::ink.green, colours::ink.blue, 1);
+    x += e.round ? 20 : 24;
+    cairo_move_to(out, x, y);
+    cairo_show_text(out, e.label.c_str());
+    cairo_text_extents_t extents;
+    cairo_text_extents(out, e.label.c_str(), &extents);
+    x += extents.x_advance + 22;
+  }
+}
+
+void Picture::Impl::frame(cairo_t* out) const {
+  cairo_select_font_face(out, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_source_rgba(out, colours::ink.red, colours::ink.green, colours::ink.blue, 1);
+  cairo_set_line_width(out, 1);
+  cairo_rectangle(out, margin, top(), view.width() * scale, view.height() * scale);
+  cairo_stroke(out);
+  if (!title.empty()) {
+    cairo_set_font_size(out, 20);
+    cairo_move_to(out, margin, margin + 18);
+    cairo_show_text(out, title.c_str());
+  }
+  scale_bar(out);
+  key(out, margin + std::max(120.0, round_length(0.25 * view.width()) * scale + 40));
+}
+
+void Picture::Impl::finish(cairo_surface_t* target) const {
+  cairo_t* out = cairo_create(target);
+  cairo_set_source_rgba(out, 1, 1, 1, 1);
+  cairo_paint(out);
+  cairo_set_source_surface(out, recording, 0, 0);
+  cairo_paint(out);
+  frame(out);
+  cairo_destroy(out);
+}
+
+Picture::Picture(const Box& view, std::string_view title, double pixels)
+    : impl_(std::make_unique<Impl>(view, title, pixels)) {}
+Picture::~Picture() = default;
+
+void Picture::photo(const Image& image, double um_per_px, double fade) {
+  cairo_surface_t* surface =
+      cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width, image.height);
+  unsigned char* data = cairo_image_surface_get_data(surface);
+  const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface));
+  for (int row = 0; row < image.height; ++row)
+    for (int column = 0; column < image.width; ++column) {
+      const std::uint8_t* p = &image.pixels[image.index(column, row)];
+      const auto faded = [&](std::uint8_t v) {
+        return static_cast<std::uint32_t>(std::lround(v + fade * (255 - v)));
+      };
+      const std::uint32_t rgb = image.channels == 3
+                                    ? faded(p[0]) << 16 | faded(p[1]) << 8 | faded(p[2])
+                                    : faded(p[0]) * 0x010101U;
+      reinterpret_cast<std::uint32_t*>(data + static_cast<std::size_t>(row) * stride)[column] = rgb;
+    }
+  cairo_surface_mark_dirty(surface);
+  const Vec2 corner = impl_->at({0, image.height * um_per_px});
+  cairo_save(impl_->cr);
+  cairo_translate(impl_->cr, corner.x, corner.y);
+  cairo_scale(impl_->cr, um_per_px * impl_->scale, um_per_px * impl_->scale);
+  cairo_set_source_surface(impl_->cr, surface, 0, 0);
+  cairo_paint(impl_->cr);
+  cairo_restore(impl_->cr);
+  cairo_surface_destroy(surface);
+}
+
+void Picture::walls(const Map& map, Colour fill, Colour edge) {
+  for (const Body& body : map.walls().bodies()) {
+    impl_->fill(body, fill);
+    impl_->stroke(edge, 1);
+  }
+}
+
+void Picture::bodies(std::span<const Body> bodies, Colour fill) {
+  for (const Body& body : bodies) {
+    impl_->fill(body, fill);
+    impl_->stroke({0.6 * fill.red, 0.6 * fill.green, 0.6 * fill.blue, fill.alpha}, 1);
+  }
+}
+
+void Picture::tree(std::span<const TreeNode> tree, Colour colour) {
+  cairo_new_path(impl_->cr);
+  for (const TreeNode& node : tree) {
+    const Vec2 from = impl_->at(tree[node.parent].position);
+    const Vec2 to = impl_->at(node.position);
+    cairo_move_to(impl_->cr, from.x, from.y);
+    cairo_line_to(impl_->cr, to.x, to.y);
+  }
+  impl_->stroke(colour, 1);
+}
+
+void Picture::line(std::span<const Vec2> points, Colour colour, double width_px, bool dashed) {
+  constexpr double dash[] = {8, 6};
+  cairo_new_path(impl_->cr);
+  impl_->trace(points);
+  if (dashed) cairo_set_dash(impl_->cr, dash, 2, 0);
+  impl_->stroke(colour, width_px);
+  cairo_set_dash(impl_->cr, nullptr, 0, 0);
+}
+
+void Picture::disc(Disc disc, Colour fill) {
+  cairo_new_path(impl_->cr);
+  impl_->trace(disc);
+  impl_->colour(fill);
+  cairo_fill(impl_->cr);
+}
+
+void Picture::circle(Disc disc, Colour colour, double width_px, bool dashed) {
+  constexpr double dash[] = {6, 4};
+  cairo_new_path(impl_->cr);
+  impl_->trace(disc);
+  if (dashed) cairo_set_dash(impl_->cr, dash, 2, 0);
+  impl_->stroke(colour, width_px);
+  cairo_set_dash(impl_->cr, nullptr, 0, 0);
+}
+
+void Picture::swarm(const Pose2& pose, double radius, Colour colour) {
+  disc({pose.position, radius}, colour);
+  const Vec2 nose = pose.position + radius * unit_vector(pose.heading);
+  const Vec2 tick[] = {pose.position, nose};
+  line(tick, colours::paper, 2);
+}
+
+void Picture::mark(Vec2 at, std::string_view label, Colour colour) {
+  const Vec2 p = impl_->at(at);
+  cairo_new_path(impl_->cr);
+  cairo_arc(impl_->cr, p.x, p.y, 9, 0, 2 * pi);
+  impl_->stroke(colours::paper, 6);
+  cairo_arc(impl_->cr, p.x, p.y, 9, 0, 2 * pi);
+  impl_->stroke(colour, 3);
+  const double up = 14 / impl_->scale;
+  text(at + Vec2{up, up}, label, colour, 17);
+}
+
+void Picture::text(Vec2 at, std::string_view text, Colour colour, double size_px) {
+  const Vec2 p = impl_->at(at);
+  cairo_t* cr = impl_->cr;
+  cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cr, size_px);
+  cairo_text_extents_t extents;
+  cairo_text_extents(cr, std::string(text).c_str(), &extents);
+  const double right = margin + impl_->view.width() * impl_->scale - extents.x_advance - 6;
+  cairo_move_to(cr, std::min(p.x, right), std::max(p.y, impl_->top() + size_px + 2));
+  cairo_text_path(cr, std::string(text).c_str());
+  impl_->colour({1, 1, 1, 0.85});
+  cairo_set_line_width(cr, 4);
+  cairo_stroke_preserve(cr);
+  impl_->colour(colour);
+  cairo_fill(cr);
+}
+
+void Picture::legend(std::string_view label, Colour colour, bool round) {
+  impl_->entries.push_back({std::string(label), colour, round});
+}
+
+void Picture::write(const std::filesystem::path& path) const {
+  const auto width = std::ceil(impl_->width);
+  const auto height = std::ceil(impl_->height);
+  const std::string kind = path.extension().string();
+  std::string bytes;
+  cairo_surface_t* surface = nullptr;
+  if (kind == ".png")
+    surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width),
+                                         static_cast<int>(height));
+  else if (kind == ".svg")
+    surface = cairo_svg_surface_create_for_stream(append, &bytes, width, height);
+  else if (kind == ".pdf")
+    surface = cairo_pdf_surface_create_for_stream(append, &bytes, width, height);
+  else
+    throw InputError(path.string() + ": a picture is .png, .svg or .pdf");
+  impl_->finish(surface);
+  if (kind == ".png") cairo_surface_write_to_png_stream(surface, append, &bytes);
+  cairo_surface_finish(surface);
+  cairo_surface_destroy(surface);
+  write_file_atomically(path, bytes);
+}
+
+}  // namespace microswarm

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "microswarm/formats/image.hpp"
+#include "microswarm/planning/plan.hpp"
+#include "microswarm/world/snapshot.hpp"
+
+namespace microswarm {
+
+/// Colour, each part in [0, 1].
+struct Colour {
+  double red = 0;
+  double green = 0;
+  double blue = 0;
+  double alpha = 1;
+};
+
+/// The colours of every picture: one meaning each, readable by the colour-blind (after Okabe &
+/// Ito).
+namespace colours {
+inline constexpr Colour paper{1, 1, 1, 1};
+inline constexpr Colour ink{0.13, 0.15, 0.18, 1};
+inline constexpr Colour wall{0.80, 0.82, 0.85, 1};
+inline constexpr Colour wall_edge{0.45, 0.48, 0.53, 1};
+inline constexpr Colour obstacle{0.84, 0.37, 0.0, 0.85};
+inline constexpr Colour path{0.0, 0.45, 0.70, 1};
+inline constexpr Colour tree{0.55, 0.70, 0.85, 0.9};
+inline constexpr Colour circle{0.80, 0.47, 0.65, 0.9};
+inline constexpr Colour swarm{0.0, 0.62, 0.45, 1};
+inline constexpr Colour goal{0.90, 0.62, 0.0, 1};
+}  // namespace colours
+
+/// A drawing of a world in its own coordinates [µm, y up], written as PNG, SVG or PDF by the file's
+/// extension. What is drawn later lies on top. Line widths and text are in pixels of the finished
+/// picture.
+class Picture {
+ public:
+  /// Shows `view`; the longer side of the drawing gets `pixels`, and a margin around it holds the
+  /// title, the scale bar and the legend.
+  explicit Picture(const Box& view, std::string_view title = {}, double pixels = 1200);
+  ~Picture();
+  Picture(const Picture&) = delete;
+  Picture& operator=(const Picture&) = delete;
+
+  /// A photograph under everything, `um_per_px` µm per pixel, its lower left corner at the origin;
+  /// `fade` in [0, 1] whitens it.
+  void photo(const Image& image, double um_per_px, double fade = 0);
+  void walls(const Map& map, Colour fill = colours::wall, Colour edge = colours::wall_edge);
+  void bodies(std::span<const Body> bodies, Colour fill = colours::obstacle);
+  void tree(std::span<const TreeNode> tree, Colour colour = colours::tree);
+  void line(std::span<const Vec2> points, Colour colour = colours::path, double width_px = 2.5,
+            bool dashed = false);
+  void disc(Disc disc, Colour fill);
+  void circle(Disc disc, Colour colour, double width_px = 1.5, bool dashed = true);
+  /// The swarm's body with a tick that shows its heading.
+  void swarm(const Pose2& pose, double radius, Colour colour = colours::swarm);
+  /// A labelled point: a ring of constant size.
+  void mark(Vec2 at, std::string_view label, Colour colour = colours::ink);
+  void text(Vec2 at, std::string_view text, Colour colour = colours::ink, double size_px = 15);
+  /// One line of the legend, in order.
+  void legend(std::string_view label, Colour colour, bool round = false);
+
+  /// Writes the finished picture; extension .png, .svg or .pdf, else InputError. The picture can be
+  /// written several times.
+  void write(const std::filesystem::path& path) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace microswarm
