@@ -24,10 +24,9 @@ struct Frame {
   std::optional<Vec2> target;     ///< the navigator's local target
   std::string state;              ///< the navigator's word for what it does
   bool planned = false;           ///< a planning event
-  std::uint32_t paths = 0;        ///< count of `PathChange`s so far: paths - 1 is the one followed
 };
 
-/// A path that the navigator began to follow.
+/// A path that the navigator began to follow; it follows it until the next one.
 struct PathChange {
   double t = 0;  ///< [s]
   std::vector<Vec2> path;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <deque>
 #include <optional>
+#include <vector>
 
 #include "microswarm/experiment/scenario.hpp"
 #include "microswarm/swarm/contracts.hpp"
@@ -22,8 +22,6 @@ class KinematicPlant : public Plant {
   std::optional<Truth> truth() const override;
 
  private:
-  Pose2 pose_at(double t) const;
-
   World world_;
   SensingParams sensing_;
   double radius_;
@@ -31,7 +29,7 @@ class KinematicPlant : public Plant {
   Rng drift_;
   Rng noise_;
   double now_ = 0;
-  std::deque<TimedPose> history_;  // covers the observation delay
+  std::vector<TimedPose> history_;  // covers the observation delay
   std::optional<Snapshot> seen_;
 };
 

@@ -12,24 +12,15 @@ namespace microswarm {
 
 /// Everything worth keeping of a run: enough to repeat it, to measure it again and to draw it.
 struct Record {
-  std::string version;        ///< of the library that ran it
-  std::string scenario_text;  ///< YAML with every key written out
-  std::string base;           ///< folder that its map and track files are relative to
-  std::string input_hash;     ///< of scenario text and input files
+  std::string version;  ///< of the library that ran it
+  Scene scene;          ///< world included: a record needs no other file
   std::uint32_t trial = 0;
   RunResult result;
-  std::vector<Frame> frames;
+  std::vector<Frame> frames;  ///< one a tick, and one for the end, whose state is "end"
   std::vector<PathChange> paths;
   std::vector<PlanEvent> plans;
   std::vector<RunEvent> events;
-  Box bounds;                       ///< of the map
-  std::vector<Polygon> walls;       ///< of the map, for pictures
-  std::vector<Disc> wall_discs;     ///< of the map, for pictures
-  std::vector<Obstacle> obstacles;  ///< with the samples of their tracks
 
-  Scenario scenario() const;
-  /// Map and obstacles, for pictures; a replay reads the input files instead.
-  World world() const;
   /// Fingerprint of all that is physical: frames, paths, plans, events, status and metrics.
   std::string hash() const;
 };
@@ -37,8 +28,7 @@ struct Record {
 /// Keeps a run in memory. Give it to run(), then take the record.
 class Recorder : public RunListener {
  public:
-  Recorder(const Scenario& scenario, const std::filesystem::path& base, const World& world,
-           std::uint32_t trial = 0);
+  explicit Recorder(Scene scene, std::uint32_t trial = 0);
   void on_frame(const Frame& frame, const NavigatorView& view, const Snapshot& world) override;
   void on_event(const RunEvent& event) override { record_.events.push_back(event); }
   void on_end(const RunResult& result) override { record_.result = result; }
@@ -63,9 +53,7 @@ struct ReplayResult {
   std::string difference;  ///< where they parted, for people; empty when identical
 };
 
-/// Runs the stored scenario again and compares. `base` replaces the folder that its inputs are read
-/// from when not empty. Throws InputError when an input is missing or is not the one of the record.
-ReplayResult replay(const Record& record, const std::filesystem::path& base = {},
-                    const Stop& stop = {});
+/// Runs the stored scene again and compares, up to the frame at which the record ends.
+ReplayResult replay(const Record& record, const Stop& stop = {});
 
 }  // namespace microswarm

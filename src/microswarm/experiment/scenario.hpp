@@ -3,12 +3,12 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "microswarm/core/fields.hpp"
 #include "microswarm/formats/map_file.hpp"
+#include "microswarm/formats/map_parts.hpp"
 #include "microswarm/navigation/make.hpp"
 #include "microswarm/swarm/ribbon.hpp"
 #include "microswarm/world/world.hpp"
@@ -75,28 +75,29 @@ struct Scenario {
   }
 };
 
-/// A scenario as it was read: the fields, and the folder that its map and track files are relative
-/// to.
-struct ScenarioFile {
-  Scenario scenario;
-  std::filesystem::path base;
-};
-
 /// Reads a scenario; `settings` are `key.path=value` texts, as from --set, applied after the file.
 /// Throws InputError, naming file, line and column.
-ScenarioFile read_scenario(const std::filesystem::path& file,
-                           const std::vector<std::string>& settings = {});
+Scenario read_scenario(const std::filesystem::path& file,
+                       const std::vector<std::string>& settings = {});
 
-/// The scenario as YAML with every key written out; read_scenario gives the same fields back.
+/// The scenario as YAML with every key written out; reading it gives the same fields back.
 std::string scenario_text(const Scenario& scenario);
 
-/// The files that the scenario needs beside itself, in order of first use.
-std::vector<std::filesystem::path> input_files(const Scenario& scenario,
-                                               const std::filesystem::path& base);
+/// A scenario and what the files that it names held: all that a run depends on.
+struct Scene {
+  Scenario scenario;  ///< the tracks of its obstacles have their samples
+  MapParts map;
 
-/// Reads map and tracks and builds the world. Throws InputError for a file or an obstacle that
-/// makes no sense.
-World build_world(const Scenario& scenario, const std::filesystem::path& base);
+  /// Fingerprint of all of it.
+  std::string hash() const;
+};
+
+/// Reads the scenario's map and tracks, relative to the folder `base`. Throws InputError for a file
+/// or an obstacle that makes no sense.
+Scene load_scene(Scenario scenario, const std::filesystem::path& base);
+
+/// Builds the world of a scene. Throws InputError as Map does.
+World build_world(const Scene& scene);
 
 /// Throws InputError, one line, when the run cannot be meant so: the start or the goal in a wall
 /// ("start is 12 µm inside wall 3"), the swarm wider than every passage, the goal cut off from the

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/plant.hpp"
+
+#include <algorithm>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/experiment/watch.hpp"
+
+namespace microswarm {
+
+KinematicPlant::KinematicPlant(const Scenario& scenario, World world, std::uint32_t trial)
+    : world_(std::move(world)),
+      sensing_(scenario.sensing),
+      radius_(scenario.swarm.radius),
+      ribbon_(scenario.swarm, scenario.start),
+      drift_(scenario.seed, Purpose::plant, trial),
+      noise_(scenario.seed, Purpose::sensor, trial),
+      history_{{0, scenario.start}} {}
+
+Observation KinematicPlant::observe() {
+  const double seen = std::max(0.0, now_ - sensing_.observation_delay);
+  seen_.emplace(world_.at(seen));
+  Observation observation{.now = now_, .seen = seen, .swarm = {}, .world = &*seen_};
+  // Always the same count of draws, so that one missed frame does not change the noise of the next.
+  const bool missed = noise_.uniform() < sensing_.missed_share;
+  const double dx = noise_.normal(), dy = noise_.normal(), turn = noise_.normal();
+  if (missed) return observation;
+  Pose2 pose = pose_on(history_, seen);
+  pose.position += sensing_.position_noise * Vec2{dx, dy};
+  if (sensing_.heading_noise > 0) pose.heading = wrap(pose.heading + sensing_.heading_noise * turn);
+  observation.swarm = SwarmPose{pose, radius_};
+  return observation;
+}
+
+void KinematicPlant::apply(const Command& command, double dt) {
+  ribbon_.step(command, dt, drift_);
+  for (const TimedPose& pose : ribbon_.swept().subspan(1))
+    history_.push_back({now_ + pose.t, pose.pose});
+  now_ += dt;
+  const double oldest = now_ - sensing_.observation_delay;
+  const auto still_seen = std::find_if(history_.begin(), history_.end() - 1,
+                                       [&](const TimedPose& p) { return p.t > oldest; });
+  if (still_seen - history_.begin() > 1) history_.erase(history_.begin(), still_seen - 1);
+}
+
+std::optional<Truth> KinematicPlant::truth() const {
+  return Truth{.now = now_,
+               .swarm = {ribbon_.pose(), radius_},
+               .speed = ribbon_.speed(),
+               .swept = ribbon_.swept(),
+               .world = &world_};
+}
+
+}  // namespace microswarm

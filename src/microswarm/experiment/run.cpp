@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/experiment/plant.hpp"
+#include "microswarm/experiment/watch.hpp"
+
+namespace microswarm {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// The swarm at the present: as it is when the plant knows, else as it was last seen.
+struct Present {
+  double t = 0;
+  Pose2 pose;
+  double speed = 0;
+};
+
+/// One run between its first and last tick.
+class Run {
+ public:
+  Run(const Scenario& scenario, Plant& plant, Navigator& navigator,
+      std::span<RunListener* const> listeners)
+      : scenario_(scenario), plant_(plant), navigator_(navigator), listeners_(listeners) {
+    present_.pose = scenario.start;
+    if (const auto truth = plant.truth()) watch_.emplace(*truth->world, scenario.swarm.radius);
+  }
+
+  RunResult to_the_end(const Stop& stop) {
+    const double ticks = std::ceil(scenario_.time_limit / scenario_.tick - 1e-9);
+    std::optional<Status> status;
+    for (double i = 0; i < ticks && !status; ++i) status = stop() ? Status::stopped : tick(stop);
+    if (!status) status = hold_time_ > 0 ? Status::held : Status::time_limit;
+    return finish(*status);
+  }
+
+ private:
+  std::optional<Status> tick(const Stop& stop) {
+    const Observation seen = plant_.observe();
+    move_to(present(seen));
+    if (!watch_ && distance(present_.pose.position, scenario_.goal) <= scenario_.goal_tolerance)
+      return arrived();
+    if (result_.timing.steps.empty()) navigator_.prepare(*seen.world);
+
+    const Clock::time_point begin = Clock::now();
+    const Command command = navigator_.step(seen, stop);
+    const double took = std::chrono::duration<double>(Clock::now() - begin).count();
+    // A step that was told to stop half-way is none: the record must repeat without the telling.
+    if (stop()) return Status::stopped;
+
+    note_step(seen, command, took);
+    if (note_hold(command) >= scenario_.hold_limit - 1e-9) return Status::held;
+    plant_.apply(command, scenario_.tick);
+    return watch_ ? follow(*plant_.truth()) : std::nullopt;
+  }
+
+  Present present(const Observation& seen) const {
+    if (const auto truth = plant_.truth()) return {truth->now, truth->swarm.pose, truth->speed};
+    if (!seen.swarm) return {seen.now, present_.pose, present_.speed};
+    const double passed = seen.now - present_.t;
+    const double way = distance(present_.pose.position, seen.swarm->pose.position);
+    return {seen.now, seen.swarm->pose, passed > 0 ? way / passed : 0};
+  }
+
+  void move_to(const Present& next) {
+    result_.metrics.length += distance(present_.pose.position, next.pose.position);
+    result_.metrics.turning += turn_between(present_.pose.heading, next.pose.heading);
+    present_ = next;
+  }
+
+  void note_step(const Observation& seen, const Command& command, double took) {
+    const NavigatorView view = navigator_.view();
+    result_.timing.steps.push_back(took);
+    if (view.planned) result_.timing.planning.push_back(took);
+    result_.metrics.planning_events += view.planned;
+    Frame frame{.seen = seen.seen,
+                .observed = {},
+                .command = command,
+                .target = view.local_target,
+                .state = std::string(view.state),
+                .planned = view.planned};
+    if (seen.swarm) frame.observed = seen.swarm->pose;
+    tell(frame, view, seen);
+  }
+
+  /// How long the swarm has been told to hold by now.
+  double note_hold(const Command& command) {
+    const bool holds = command.speed <= 0;
+    if (holds != hold_time_ > 0) tell(holds ? EventKind::hold_begins : EventKind::hold_ends);
+    hold_time_ = holds ? hold_time_ + scenario_.tick : 0;
+    if (holds) result_.metrics.hold_time += scenario_.tick;
+    return hold_time_;
+  }
+
+  /// Contact and arrival on the way just made, in the order in which they came.
+  std::optional<Status> follow(const Truth& truth) {
+    const double t0 = present_.t;
+    std::vector<TimedPose> way(truth.swept.begin(), truth.swept.end());
+    const auto arrival = first_arrival(way, scenario_.goal, scenario_.goal_tolerance);
+    if (arrival) cut(way, *arrival);
+    for (const RunEvent& touch : watch_->follow(t0, way)) {
+      ++result_.metrics.contacts;
+      result_.metrics.avoidable_contacts += touch.speed > 0;
+      for (RunListener* listener : listeners_) listener->on_event(touch);
+      if (!scenario_.stop_at_contact) continue;
+      move_to({touch.t, pose_on(way, touch.t - t0), touch.speed});
+      return Status::collided;
+    }
+    if (!arrival) return std::nullopt;
+    move_to({t0 + *arrival, way.back().pose, truth.speed});
+    return arrived();
+  }
+
+  Status arrived() {
+    tell(EventKind::goal_reached);
+    return Status::solved;
+  }
+
+  static void cut(std::vector<TimedPose>& way, double t) {
+    const TimedPose end{t, pose_on(way, t)};
+    std::erase_if(way, [t](const TimedPose& pose) { return pose.t >= t && pose.t > 0; });
+    if (t > 0) way.push_back(end);
+  }
+
+  RunResult finish(Status status) {
+    const Observation seen = plant_.observe();
+    if (status == Status::stopped || status == Status::time_limit || status == Status::held)
+      move_to(present(seen));
+    const NavigatorView view = navigator_.view();
+    Frame frame{.seen = seen.seen, .observed = {}, .command = {}, .target = {}, .state = "end"};
+    tell(frame, view, seen);
+    result_.status = status;
+    Metrics& metrics = result_.metrics;
+    metrics.time = present_.t;
+    metrics.goal_distance = distance(present_.pose.position, scenario_.goal);
+    if (watch_) {
+      metrics.walls = watch_->walls();
+      metrics.obstacles = watch_->obstacles();
+    }
+    for (RunListener* listener : listeners_) listener->on_end(result_);
+    return std::move(result_);
+  }
+
+  /// Fills in what the world is like at the present, and tells everybody.
+  void tell(Frame& frame, const NavigatorView& view, const Observation& seen) {
+    const auto truth = plant_.truth();
+    const Snapshot world = truth ? truth->world->at(present_.t) : *seen.world;
+    frame.t = present_.t;
+    frame.pose = present_.pose;
+    frame.speed = present_.speed;
+    frame.wall_clearance = world.map().clearance(frame.pose.position);
+    frame.obstacle_clearance =
+        world.moving().clearance(frame.pose.position, std::numeric_limits<double>::infinity());
+    if (!watch_) {
+      Metrics& metrics = result_.metrics;
+      if (frame.wall_clearance < metrics.walls.clearance)
+        metrics.walls = {frame.wall_clearance, frame.t};
+      if (frame.obstacle_clearance < metrics.obstacles.clearance)
+        metrics.obstacles = {frame.obstacle_clearance, frame.t};
+    }
+    for (RunListener* listener : listeners_) listener->on_frame(frame, view, world);
+  }
+
+  void tell(EventKind kind) {
+    const RunEvent event{
+        .t = present_.t, .kind = kind, .position = present_.pose.position, .speed = present_.speed};
+    for (RunListener* listener : listeners_) listener->on_event(event);
+  }
+
+  const Scenario& scenario_;
+  Plant& plant_;
+  Navigator& navigator_;
+  std::span<RunListener* const> listeners_;
+  std::optional<Watch> watch_;
+  Present present_;
+  double hold_time_ = 0;
+  RunResult result_;
+};
+
+}  // namespace
+
+RunResult run(const Scenario& scenario, Plant& plant, Navigator& navigator,
+              std::span<RunListener* const> listeners, const Stop& stop) {
+  return Run(scenario, plant, navigator, listeners).to_the_end(stop);
+}
+
+RunResult simulate(const Scenario& scenario, const World& world, std::uint32_t trial,
+                   std::span<RunListener* const> listeners, const Stop& stop) {
+  KinematicPlant plant(scenario, world, trial);
+  const auto navigator =
+      make_navigator(scenario.navigator, scenario.swarm, scenario.goal, scenario.goal_tolerance,
+                     Rng(scenario.seed, Purpose::planner, trial));
+  return run(scenario, plant, *navigator, listeners, stop);
+}
+
+}  // namespace microswarm
