@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/report/plot.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/file.hpp"
+
+extern char** environ;
+
+namespace microswarm {
+namespace {
+
+constexpr std::array<const char*, 6> palette{"#0072B2", "#D55E00", "#009E73",
+                                             "#CC79A7", "#E69F00", "#56B4E9"};
+
+std::string quoted(std::string_view s) {
+  std::string out = "\"";
+  for (char c : s) {
+    if (c == '\n') continue;
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + "\"";
+}
+
+std::string data_block(std::size_t plot, std::size_t series, const Series& s) {
+  std::string out = fmt::format("$d{}_{} << EOD\n", plot, series);
+  for (std::size_t i = 0; i < std::min(s.x.size(), s.y.size()); ++i)
+    out += fmt::format("{:.9g} {:.9g}\n", s.x[i], s.y[i]);
+  return out + "EOD\n";
+}
+
+std::string drawn(std::size_t plot, std::size_t series, const Series& s) {
+  const std::string data = fmt::format("$d{}_{}", plot, series);
+  const std::string colour = palette[series % palette.size()];
+  const std::string title = s.label.empty() ? "notitle" : "title " + quoted(s.label);
+  switch (s.style) {
+    case PlotStyle::line:
+      return fmt::format("{} using 1:2 with lines lw 2 lc rgb '{}' {}", data, colour, title);
+    case PlotStyle::points:
+      return fmt::format("{} using 1:2 with points pt 7 ps 0.6 lc rgb '{}' {}", data, colour,
+                         title);
+    case PlotStyle::bars:
+      return fmt::format("{} using 1:2 with boxes fs solid 0.7 lc rgb '{}' {}", data, colour,
+                         title);
+    case PlotStyle::box:
+      return fmt::format("{} using ({}):2:(0.5) with boxplot fs solid 0.3 lc rgb '{}' notitle",
+                         data, s.x.empty() ? 0.0 : s.x[0], colour);
+  }
+  return {};
+}
+
+std::string panel(const Plot& plot, std::size_t index) {
+  std::string out = fmt::format("set title {}\nset xlabel {}\nset ylabel {}\n", quoted(plot.title),
+                                quoted(plot.x_label), quoted(plot.y_label));
+  out += plot.log_y ? "set logscale y\n" : "unset logscale\n";
+  out += plot.y_min ? fmt::format("set yrange [{:g}:*]\n", *plot.y_min) : "set yrange [*:*]\n";
+  std::vector<std::string> tics;
+  std::vector<std::string> items;
+  for (std::size_t i = 0; i < plot.series.size(); ++i) {
+    const Series& s = plot.series[i];
+    if (s.x.empty()) continue;
+    if (s.style == PlotStyle::box) tics.push_back(fmt::format("{} {:g}", quoted(s.label), s.x[0]));
+    items.push_back(drawn(index, i, s));
+  }
+  for (std::size_t i = 0; i < plot.levels.size(); ++i)
+    items.push_back(fmt::format("{:.9g} with lines dt 2 lw 1.5 lc rgb '{}' title {}",
+                                plot.levels[i].y, i == 0 ? "#444444" : "#888888",
+                                quoted(plot.levels[i].label)));
+  out += tics.empty() ? "set xtics auto\n"
+                      : fmt::format("set xtics ({}) rotate by -20\n", fmt::join(tics, ", "));
+  if (items.empty()) items.push_back("0 notitle");
+  return out + fmt::format("plot {}\n", fmt::join(items, ", \\\n  "));
+}
+
+std::string terminal(const std::string& kind, std::size_t panels) {
+  const std::size_t width = 640 * panels;
+  if (kind == ".png") return fmt::format("pngcairo size {},460 font 'sans,11'", width);
+  if (kind == ".svg")
+    return fmt::format("svg size {},460 font 'sans,13' background 'white'", width);
+  return fmt::format("pdfcairo size {:g}in,4.2in font 'sans,11'",
+                     5.8 * static_cast<double>(panels));
+}
+
+int run_gnuplot(const std::filesystem::path& script) {
+  std::string program = "gnuplot";
+  std::string argument = script.string();
+  char* const arguments[] = {program.data(), argument.data(), nullptr};
+  pid_t child = 0;
+  if (posix_spawnp(&child, "gnuplot", nullptr, nullptr, arguments, environ) != 0) return -1;
+  int status = 0;
+  if (waitpid(child, &status, 0) != child) return -1;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+}  // namespace
+
+void write_plots(const std::vector<Plot>& plots, const std::filesystem::path& path) {
+  const std::string kind = path.extension().string();
+  if (kind != ".png" && kind != ".svg" && kind != ".pdf")
+    throw InputError(path.string() + ": a plot is .png, .svg or .pdf");
+  StagedFile picture(path);
+  std::string script = fmt::format("set terminal {}\nset output {}\n", terminal(kind, plots.size()),
+                                   quoted(picture.path().string()));
+  script +=
+      "set grid lc rgb '#dddddd'\nset key top right\nset style boxplot outliers pointtype 7\n"
+      "set boxwidth 0.8 relative\n";
+  for (std::size_t i = 0; i < plots.size(); ++i)
+    for (std::size_t j = 0; j < plots[i].series.size(); ++j)
+      script += data_block(i, j, plots[i].series[j]);
+  script += fmt::format("set multiplot layout 1,{}\n", plots.size());
+  for (std::size_t i = 0; i < plots.size(); ++i) script += panel(plots[i], i);
+  script += "unset multiplot\nset output\n";
+
+  std::filesystem::path script_file = path;
+  script_file.replace_extension(".gnuplot");
+  write_file_atomically(script_file, script);
+  const int exit_code = run_gnuplot(script_file);
+  std::filesystem::remove(script_file);
+  if (exit_code != 0)
+    throw InputError(
+        fmt::format("{}: cannot plot: gnuplot {}", path.string(),
+                    exit_code < 0 || exit_code == 127 ? "is not installed" : "failed"));
+  picture.commit();
+}
+
+}  // namespace microswarm
