@@ -20,7 +20,7 @@ namespace {
 constexpr std::array<const char*, 6> palette{"#0072B2", "#D55E00", "#009E73",
                                              "#CC79A7", "#E69F00", "#56B4E9"};
 
-std::string quoted(std::string_view s) {
+std::string in_quotes(std::string_view s) {
   std::string out = "\"";
   for (char c : s) {
     if (c == '\n') continue;
@@ -40,7 +40,7 @@ std::string data_block(std::size_t plot, std::size_t series, const Series& s) {
 std::string drawn(std::size_t plot, std::size_t series, const Series& s) {
   const std::string data = fmt::format("$d{}_{}", plot, series);
   const std::string colour = palette[series % palette.size()];
-  const std::string title = s.label.empty() ? "notitle" : "title " + quoted(s.label);
+  const std::string title = s.label.empty() ? "notitle" : "title " + in_quotes(s.label);
   switch (s.style) {
     case PlotStyle::line:
       return fmt::format("{} using 1:2 with lines lw 2 lc rgb '{}' {}", data, colour, title);
@@ -58,8 +58,8 @@ std::string drawn(std::size_t plot, std::size_t series, const Series& s) {
 }
 
 std::string panel(const Plot& plot, std::size_t index) {
-  std::string out = fmt::format("set title {}\nset xlabel {}\nset ylabel {}\n", quoted(plot.title),
-                                quoted(plot.x_label), quoted(plot.y_label));
+  std::string out = fmt::format("set title {}\nset xlabel {}\nset ylabel {}\n", in_quotes(plot.title),
+                                in_quotes(plot.x_label), in_quotes(plot.y_label));
   out += plot.log_y ? "set logscale y\n" : "unset logscale\n";
   out += plot.y_min ? fmt::format("set yrange [{:g}:*]\n", *plot.y_min) : "set yrange [*:*]\n";
   std::vector<std::string> tics;
@@ -67,13 +67,13 @@ std::string panel(const Plot& plot, std::size_t index) {
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     const Series& s = plot.series[i];
     if (s.x.empty()) continue;
-    if (s.style == PlotStyle::box) tics.push_back(fmt::format("{} {:g}", quoted(s.label), s.x[0]));
+    if (s.style == PlotStyle::box) tics.push_back(fmt::format("{} {:g}", in_quotes(s.label), s.x[0]));
     items.push_back(drawn(index, i, s));
   }
   for (std::size_t i = 0; i < plot.levels.size(); ++i)
     items.push_back(fmt::format("{:.9g} with lines dt 2 lw 1.5 lc rgb '{}' title {}",
                                 plot.levels[i].y, i == 0 ? "#444444" : "#888888",
-                                quoted(plot.levels[i].label)));
+                                in_quotes(plot.levels[i].label)));
   out += tics.empty() ? "set xtics auto\n"
                       : fmt::format("set xtics ({}) rotate by -20\n", fmt::join(tics, ", "));
   if (items.empty()) items.push_back("0 notitle");
@@ -108,7 +108,7 @@ void write_plots(const std::vector<Plot>& plots, const std::filesystem::path& pa
     throw InputError(path.string() + ": a plot is .png, .svg or .pdf");
   StagedFile picture(path);
   std::string script = fmt::format("set terminal {}\nset output {}\n", terminal(kind, plots.size()),
-                                   quoted(picture.path().string()));
+                                   in_quotes(picture.path().string()));
   script +=
       "set grid lc rgb '#dddddd'\nset key top right\nset style boxplot outliers pointtype 7\n"
       "set boxwidth 0.8 relative\n";
