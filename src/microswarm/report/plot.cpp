@@ -58,8 +58,9 @@ std::string drawn(std::size_t plot, std::size_t series, const Series& s) {
 }
 
 std::string panel(const Plot& plot, std::size_t index) {
-  std::string out = fmt::format("set title {}\nset xlabel {}\nset ylabel {}\n", in_quotes(plot.title),
-                                in_quotes(plot.x_label), in_quotes(plot.y_label));
+  std::string out =
+      fmt::format("set title {}\nset xlabel {}\nset ylabel {}\n", in_quotes(plot.title),
+                  in_quotes(plot.x_label), in_quotes(plot.y_label));
   out += plot.log_y ? "set logscale y\n" : "unset logscale\n";
   out += plot.y_min ? fmt::format("set yrange [{:g}:*]\n", *plot.y_min) : "set yrange [*:*]\n";
   std::vector<std::string> tics;
@@ -67,7 +68,8 @@ std::string panel(const Plot& plot, std::size_t index) {
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     const Series& s = plot.series[i];
     if (s.x.empty()) continue;
-    if (s.style == PlotStyle::box) tics.push_back(fmt::format("{} {:g}", in_quotes(s.label), s.x[0]));
+    if (s.style == PlotStyle::box)
+      tics.push_back(fmt::format("{} {:g}", in_quotes(s.label), s.x[0]));
     items.push_back(drawn(index, i, s));
   }
   for (std::size_t i = 0; i < plot.levels.size(); ++i)

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/report/run_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/report/page.hpp"
+#include "microswarm/report/picture.hpp"
+#include "microswarm/report/plot.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr int ghosts = 6;   // earlier places of the obstacles that an overview shows
+constexpr int moments = 3;  // planning events that get a picture
+constexpr double faint = 0.18;
+
+struct Subject {
+  const Record& record;
+  const ReportOptions& options;
+  World world;
+  const Scenario& scenario() const { return record.scene.scenario; }
+  std::string title() const {
+    return scenario().name.empty() ? std::string("run") : scenario().name;
+  }
+};
+
+void draw_ground(Picture& picture, const Subject& s) {
+  if (s.options.photo) {
+    picture.photo(*s.options.photo, s.options.um_per_px, 0.25);
+    picture.walls(*s.world.map, {1, 1, 1, 0.55}, colours::wall_edge);
+  } else {
+    picture.walls(*s.world.map);
+  }
+}
+
+void draw_ends(Picture& picture, const Subject& s) {
+  picture.mark(s.scenario().start.position, "start");
+  picture.circle({s.scenario().goal, s.scenario().goal_tolerance}, colours::goal, 2);
+  picture.mark(s.scenario().goal, "goal", colours::goal);
+}
+
+std::vector<Vec2> trail(const Record& record, double until) {
+  std::vector<Vec2> points;
+  for (const Frame& f : record.frames)
+    if (f.t <= until) points.push_back(f.pose.position);
+  return points;
+}
+
+void overview(const Subject& s, const std::filesystem::path& folder) {
+  const Record& record = s.record;
+  const double end = record.frames.back().t;
+  Picture picture(
+      s.world.map->bounds(),
+      fmt::format("{}: {} after {:.1f} s, {:.0f} µm", s.title(), to_string(record.result.status),
+                  record.result.metrics.time, record.result.metrics.length));
+  draw_ground(picture, s);
+  for (int k = 0; k < ghosts; ++k) {
+    Colour c = colours::obstacle;
+    c.alpha = faint;
+    picture.bodies(s.world.at(end * k / ghosts).moving().bodies(), c);
+  }
+  picture.bodies(s.world.at(end).moving().bodies());
+  picture.line(trail(record, end), colours::path, 3);
+  picture.swarm(record.frames.back().pose, s.scenario().swarm.radius);
+  draw_ends(picture, s);
+  picture.legend("swarm", colours::swarm, true);
+  picture.legend("its way", colours::path);
+  if (!s.world.obstacles.empty())
+    picture.legend("moving obstacles, earlier places faint", colours::obstacle, true);
+  for (const char* kind : {".png", ".svg", ".pdf"})
+    picture.write(folder / (std::string("overview") + kind));
+}
+
+const Frame& frame_at(const Record& record, double t) {
+  const auto after = std::upper_bound(record.frames.begin(), record.frames.end(), t,
+                                      [](double time, const Frame& f) { return time < f.t; });
+  return after == record.frames.begin() ? *after : *(after - 1);
+}
+
+void moment(const Subject& s, const PlanEvent& event, const std::filesystem::path& file) {
+  const Frame& frame = frame_at(s.record, event.t);
+  Box view = s.world.map->bounds();
+  Picture picture(view,
+                  fmt::format("{} at {:.1f} s: local target, tree and path", s.title(), event.t));
+  draw_ground(picture, s);
+  picture.bodies(s.world.at(event.t).moving().bodies());
+  for (const Detection& d : event.plan.detections) picture.circle(d.circle, colours::circle, 1);
+  picture.tree(event.plan.tree);
+  picture.line(trail(s.record, event.t), {0.0, 0.45, 0.70, 0.35}, 2.5);
+  picture.line(event.plan.path, colours::path, 3);
+  picture.swarm(frame.pose, s.scenario().swarm.radius);
+  if (frame.target) picture.mark(*frame.target, "local target", colours::circle);
+  draw_ends(picture, s);
+  picture.legend("swarm", colours::swarm, true);
+  picture.legend("planned path", colours::path);
+  picture.legend("tree", colours::tree);
+  picture.legend("detection circles", colours::circle);
+  if (!s.world.obstacles.empty()) picture.legend("obstacles", colours::obstacle, true);
+  picture.write(file);
+}
+
+std::vector<Plot> plots(const Subject& s) {
+  const Record& record = s.record;
+  std::vector<Plot> out;
+  const std::vector<double>& planning = record.result.timing.planning;
+  if (!planning.empty()) {
+    const TimeSummary sum = summarise(planning);
+    Plot times{.title = "Planning events", .x_label = "event", .y_label = "planning time (ms)"};
+    Series each{.label = "each event", .style = PlotStyle::points};
+    for (std::size_t i = 0; i < planning.size(); ++i) {
+      each.x.push_back(static_cast<double>(i + 1));
+      each.y.push_back(1e3 * planning[i]);
+    }
+    times.series = {each};
+    times.levels = {
+        {fmt::format("mean {:.3f} ms", 1e3 * sum.mean), 1e3 * sum.mean},
+        {fmt::format("mean + sd {:.3f} ms", 1e3 * (sum.mean + sum.sd)), 1e3 * (sum.mean + sum.sd)}};
+    times.y_min = 0;
+    out.push_back(times);
+  }
+  Plot clearance{.title = "Clearance of the swarm's centre",
+                 .x_label = "time (s)",
+                 .y_label = "distance (µm)"};
+  Series walls{.label = "walls and border"};
+  Series bodies{.label = "moving obstacles"};
+  for (const Frame& f : record.frames) {
+    walls.x.push_back(f.t);
+    walls.y.push_back(f.wall_clearance);
+    if (!std::isfinite(f.obstacle_clearance)) continue;
+    bodies.x.push_back(f.t);
+    bodies.y.push_back(f.obstacle_clearance);
+  }
+  clearance.series = {walls, bodies};
+  clearance.levels = {{"swarm's radius", s.scenario().swarm.radius}};
+  clearance.y_min = 0;
+  out.push_back(clearance);
+  return out;
+}
+
+std::vector<std::vector<std::string>> numbers(const Record& record) {
+  const Metrics& m = record.result.metrics;
+  const TimeSummary p = summarise(record.result.timing.planning);
+  const auto um = [](double v) { return std::isfinite(v) ? fmt::format("{:.1f} µm", v) : "–"; };
+  return {{"quantity", "value"},
+          {"ended", std::string(to_string(record.result.status))},
+          {"time", fmt::format("{:.1f} s", m.time)},
+          {"length of the way", um(m.length)},
+          {"total turning", fmt::format("{:.0f}°", degrees(m.turning))},
+          {"least distance of the centre to walls", um(m.walls.clearance)},
+          {"least distance of the centre to obstacles", um(m.obstacles.clearance)},
+          {"time held", fmt::format("{:.1f} s", m.hold_time)},
+          {"planning events", fmt::format("{}", m.planning_events)},
+          {"planning time, mean ± sd", fmt::format("{:.3f} ± {:.3f} ms", 1e3 * p.mean, 1e3 * p.sd)},
+          {"planning time, longest", fmt::format("{:.3f} ms", 1e3 * p.max)},
+          {"seed, trial", fmt::format("{}, {}", record.scene.scenario.seed, record.trial)},
+          {"version", record.version},
+          {"inputs", record.scene.hash()},
+          {"record", record.hash()}};
+}
+
+}  // namespace
+
+void write_run_report(const Record& record, const std::filesystem::path& folder,
+                      const ReportOptions& options) {
+  if (record.frames.empty()) return;
+  const Subject s{record, options, build_world(record.scene)};
+  overview(s, folder);
+  PageSection stills{.heading = "Moments", .text = "The world at planning events on the way."};
+  const std::size_t events = record.plans.size();
+  for (std::size_t k = 0; k < moments && k < events; ++k) {
+    const std::string name = fmt::format("moment-{}.png", k + 1);
+    const PlanEvent& event = record.plans[(2 * k + 1) * events / (2 * moments)];
+    moment(s, event, folder / name);
+    stills.pictures.emplace_back(name, fmt::format("{:.1f} s", event.t));
+  }
+  write_plots(plots(s), folder / "plots.png");
+  write_page(
+      folder / "index.html", s.title(),
+      {{.text = s.scenario().description,
+        .pictures = {{"overview.png", "The whole run. Also as overview.svg and overview.pdf."}}},
+       {.heading = "Numbers", .table = numbers(record)},
+       stills,
+       {.heading = "Over time",
+        .pictures = {{"plots.png", "Planning times are wall-clock times of this machine."}}}});
+}
+
+}  // namespace microswarm
