@@ -55,6 +55,13 @@ std::size_t slow_distance(std::string_view a, std::string_view b) {
   return best;
 }
 
+TEST(Text, QuotesAreShortAndOfOneLine) {
+  EXPECT_EQ(quote("fast"), "'fast'");
+  EXPECT_EQ(quote("a\nb\x7f"), "'a?b?'");
+  EXPECT_EQ(quote(std::string(41, 'a')), "'" + std::string(40, 'a') + "…'");
+  EXPECT_EQ(quote(std::string(39, 'a') + "µµ"), "'" + std::string(39, 'a') + "…'");
+}
+
 TEST(Text, EditDistanceMatchesItsDefinition) {
   EXPECT_EQ(edit_distance("stpe", "step"), 1u);
   EXPECT_EQ(edit_distance("", "abc"), 3u);

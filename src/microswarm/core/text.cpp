@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/core/text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -12,13 +14,30 @@ namespace microswarm {
 std::string number_text(double value) {
   std::array<char, 32> buffer;
   const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  std::string text(buffer.data(), end);
+  return tidy_exponent(std::string(buffer.data(), end));
+}
+
+std::string tidy_exponent(std::string text) {
   const std::size_t e = text.find('e');
   if (e == std::string::npos) return text;
-  const std::size_t sign = e + 1;  // to_chars writes e+05: the zero, and the plus, say nothing
+  const std::size_t sign = e + 1;
   const std::size_t digits = text.find_first_not_of('0', sign + 1);
-  return text.substr(0, sign) + (text[sign] == '-' ? "-" : "") + text.substr(digits);
+  const bool negative = text[sign] == '-';
+  return text.erase(sign + negative, digits - sign - negative);
 }
+
+std::string one_line(std::string_view text, std::size_t most) {
+  std::size_t end = std::min(text.size(), most);
+  if (end < text.size())  // not within a character of UTF-8
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
+  std::string line(text.substr(0, end));
+  for (char& c : line)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  if (end < text.size()) line += "…";
+  return line;
+}
+
+std::string quote(std::string_view text) { return fmt::format("'{}'", one_line(text, 40)); }
 
 std::optional<double> parse_number(std::string_view text) {
   const std::size_t first = text.starts_with('-') || text.starts_with('+') ? 1 : 0;

@@ -13,6 +13,15 @@ namespace microswarm {
 /// "nan", "inf", "-inf". It does not depend on the locale.
 std::string number_text(double value);
 
+/// What std::to_chars wrote, without the plus and the zeros of its exponent: "1e+05" is "1e5".
+std::string tidy_exponent(std::string text);
+
+/// The text fit for a message of one line: control characters as '?', and "…" after `most` bytes.
+std::string one_line(std::string_view text, std::size_t most = 200);
+
+/// One line of no more than 40 bytes, in single quotes.
+std::string quote(std::string_view text);
+
 /// The finite number that all of `text` spells in decimal, or nothing. It does not depend on the
 /// locale and takes no spaces, no hexadecimal, no "nan" and no "inf"; a leading '+' is allowed.
 std::optional<double> parse_number(std::string_view text);

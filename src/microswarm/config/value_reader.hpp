@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "microswarm/config/type.hpp"
+#include "microswarm/config/yaml_node.hpp"
+
+namespace microswarm {
+
+/// Reads parsed YAML into described values, and words every complaint.
+class ValueReader {
+ public:
+  /// `name` stands before every message; with `places`, the node's line and column follow it.
+  ValueReader(std::string_view name, bool places) : name_(name), places_(places) {}
+
+  /// Reads the node into the value of that type; `info` gives unit and range to the numbers in it,
+  /// `label` names it in messages and is empty for a whole document.
+  void read(const Type& type, const FieldInfo& info, std::string_view label, void* value,
+            const YamlNode& node) const;
+
+  /// Brings a variant (or the variant in an optional) to the alternative that the node names.
+  void choose(const Type& type, std::string_view label, void* value, const YamlNode& node) const;
+
+  [[noreturn]] void fail(const YamlNode& node, const std::string& what) const;
+  [[noreturn]] void fail_unknown_key(const Type& record, const YamlNode& key) const;
+
+ private:
+  void read_number(const FieldInfo& info, std::string_view label, double& value,
+                   const YamlNode& node) const;
+  template <class Int>
+  void read_whole(const FieldInfo& info, std::string_view label, Int& value,
+                  const YamlNode& node) const;
+  /// The node's number as it stands, finite and within the range.
+  long double checked_number(const Type& type, const FieldInfo& info, const Range& range,
+                             std::string_view label, const YamlNode& node) const;
+  void read_list(const Type& type, const FieldInfo& info, std::string_view label, void* value,
+                 const YamlNode& node) const;
+  void read_record(const Type& type, std::string_view label, void* value, const YamlNode& node,
+                   bool has_type_key) const;
+  void read_variant(const Type& type, std::string_view label, void* value,
+                    const YamlNode& node) const;
+  [[noreturn]] void fail_kind(const Type& type, std::string_view label, const YamlNode& node) const;
+
+  std::string_view name_;
+  bool places_;
+};
+
+}  // namespace microswarm

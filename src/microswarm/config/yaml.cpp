@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/config/yaml.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "microswarm/config/value_reader.hpp"
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/text.hpp"
+
+namespace microswarm {
+namespace {
+
+/// Where an assignment's path has come to.
+struct Place {
+  const Type* type;
+  FieldInfo info;
+  std::string label;
+  void* value;
+};
+
+YamlNode word_node(std::string_view word) {
+  YamlNode node;
+  node.kind = YamlNode::Kind::scalar;
+  node.text = word;
+  return node;
+}
+
+void enter_content(Place& place) {
+  while (place.type->kind == TypeKind::optional) {
+    if (place.type->count(place.value) == 0) place.type->set_count(place.value, 1);
+    place = {place.type->parts[0], place.info, place.label, place.type->part(place.value, 0)};
+  }
+}
+
+void enter_entry(Place& place, const YamlNode& word, const ValueReader& reader) {
+  const std::size_t size = place.type->count(place.value);
+  std::size_t i = size;
+  const char* end = word.text.data() + word.text.size();
+  if (std::from_chars(word.text.data(), end, i).ptr != end || i >= size)
+    reader.fail(word, fmt::format("{} has {} entries, counted from 0, and none is {}", place.label,
+                                  size, quote(word.text)));
+  place = {place.type->parts[0], place.info, place.label, place.type->part(place.value, i)};
+}
+
+void enter_key(Place& place, const YamlNode& word, const ValueReader& reader) {
+  const Field* field = place.type->field(word.text);
+  if (!field) reader.fail_unknown_key(*place.type, word);
+  place = {field->type, field->info, field->key, field->in(place.value)};
+}
+
+void enter(Place& place, std::string_view word, const ValueReader& reader) {
+  const YamlNode node = word_node(word);
+  enter_content(place);
+  switch (place.type->kind) {
+    case TypeKind::variant:
+      place = {place.type->parts[place.type->count(place.value)], place.info, place.label,
+               place.type->part(place.value, 0)};
+      [[fallthrough]];
+    case TypeKind::record:
+      return enter_key(place, node, reader);
+    case TypeKind::list:
+      return enter_entry(place, node, reader);
+    default:
+      reader.fail(node, fmt::format("{} has no parts, so no {}", place.label, quote(word)));
+  }
+}
+
+bool holds_text(const Type& type) {
+  return type.kind == TypeKind::text ||
+         (type.kind == TypeKind::optional && holds_text(*type.parts[0]));
+}
+
+YamlNode value_node(const Type& type, std::string_view text, std::string_view name) {
+  const bool none = type.kind == TypeKind::optional && text == "null";
+  if (!holds_text(type) || none) return parse_yaml(text, name);
+  check_characters(text, name);
+  return word_node(text);
+}
+
+}  // namespace
+
+void read_yaml(const Type& type, void* value, std::string_view text, std::string_view name) {
+  YamlNode node = parse_yaml(text, name);
+  if (node.line == 0) node.line = node.column = 1;  // an empty document
+  ValueReader(name, true).read(type, {}, "", value, node);
+}
+
+void set_value(const Type& type, void* value, std::string_view assignment) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string_view::npos || equals == 0)
+    throw InputError(fmt::format("--set {}: must be KEY=VALUE", quote(assignment)));
+  std::string_view path = assignment.substr(0, equals);
+  const std::string_view text = assignment.substr(equals + 1);
+  const std::string name = fmt::format("--set {}", one_line(path));
+  const ValueReader reader(name, false);
+
+  Place place{&type, {}, "", value};
+  for (bool more = true; more;) {
+    const std::size_t dot = path.find('.');
+    const std::string_view word = path.substr(0, dot);
+    more = dot != std::string_view::npos;
+    if (more) path.remove_prefix(dot + 1);
+    if (!more && word == "type") {
+      enter_content(place);
+      if (place.type->kind == TypeKind::variant)
+        return reader.choose(*place.type, fmt::format("type of {}", place.label), place.value,
+                             parse_yaml(text, name));
+    }
+    enter(place, word, reader);
+  }
+  reader.read(*place.type, place.info, place.label, place.value,
+              value_node(*place.type, text, name));
+}
+
+}  // namespace microswarm

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "microswarm/config/type.hpp"
+#include "microswarm/core/file.hpp"
+
+namespace microswarm {
+
+inline constexpr std::size_t max_yaml_bytes = 16 << 20;
+
+/// Reads the YAML text into the value, which keeps what the text does not give. On an error the
+/// value may be half read.
+void read_yaml(const Type& type, void* value, std::string_view text, std::string_view name);
+
+/// What `set_value` does, on a described value.
+void set_value(const Type& type, void* value, std::string_view assignment);
+
+/// A parameter struct from YAML text; `name` stands for the file in messages. Strict: an unknown or
+/// missing key, a wrong type, a number out of its range or not finite, an unknown word is an
+/// InputError in one line, "NAME:LINE:COLUMN: unknown key 'stpe_um', did you mean 'step_um'?".
+template <HasFields T>
+T read_yaml_text(std::string_view text, std::string_view name) {
+  T value{};
+  read_yaml(type_of<T>(), &value, text, name);
+  return value;
+}
+
+/// A parameter struct from a YAML file; messages name the path as given.
+template <HasFields T>
+T read_yaml_file(const std::filesystem::path& path) {
+  return read_yaml_text<T>(read_file(path, max_yaml_bytes), path.string());
+}
+
+/// Applies one `--set` assignment, "planner.step_um=60": keys joined by dots, a list's entries by
+/// index, then a value as it would stand in a file (a text may go without quotes). A variant's
+/// `type` brings that alternative with its defaults; its other keys need the alternative to be
+/// there already. Errors are as in a file, behind "--set planner.stpe_um: "; then `value` is as it
+/// was before.
+template <HasFields T>
+void set_value(T& value, std::string_view assignment) {
+  T changed = value;
+  set_value(type_of<T>(), &changed, assignment);
+  value = std::move(changed);
+}
+
+}  // namespace microswarm

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/config/yaml_node.hpp"
+
+#include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/parser.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "microswarm/config/yaml.hpp"
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/text.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr std::size_t max_depth = 64;
+constexpr std::size_t max_values = 2'000'000;
+
+/// Builds the tree from the parser's events. `open_` may point into `items`: while a node is open,
+/// only its own items grow.
+class TreeBuilder : public YAML::EventHandler {
+ public:
+  explicit TreeBuilder(std::string_view name) : name_(name) {}
+
+  YamlNode take_root() { return std::move(root_); }
+
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    if (++documents_ > 1) fail(mark, "a second document begins, only one is allowed");
+  }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    add(YamlNode::Kind::null, mark, "", anchor);
+  }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
+    fail(mark, "aliases (*name) are not supported");
+  }
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& value) override {
+    YamlNode& node = add(YamlNode::Kind::scalar, mark, tag, anchor);
+    node.text = value;
+    node.quoted = tag == "!";
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    open(add(YamlNode::Kind::list, mark, tag, anchor), mark);
+  }
+  void OnSequenceEnd() override { open_.pop_back(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    open(add(YamlNode::Kind::map, mark, tag, anchor), mark);
+  }
+  void OnMapEnd() override {
+    check_keys_differ(*open_.back());
+    open_.pop_back();
+  }
+
+ private:
+  [[noreturn]] void fail(int line, int column, const std::string& what) const {
+    throw InputError(std::string(name_), line, column, what);
+  }
+  [[noreturn]] void fail(const YAML::Mark& mark, const std::string& what) const {
+    fail(mark.line + 1, mark.column + 1, what);
+  }
+
+  YamlNode& add(YamlNode::Kind kind, const YAML::Mark& mark, const std::string& tag,
+                YAML::anchor_t anchor) {
+    if (anchor != YAML::NullAnchor) fail(mark, "anchors (&name) are not supported");
+    if (!tag.empty() && tag != "?" && tag != "!") fail(mark, "tags (!name) are not supported");
+    if (++values_ > max_values) fail(mark, fmt::format("more than {} values", max_values));
+    YamlNode* node = &root_;
+    if (!open_.empty()) {
+      YamlNode& parent = *open_.back();
+      const bool is_key = parent.kind == YamlNode::Kind::map && parent.items.size() % 2 == 0;
+      if (is_key && kind != YamlNode::Kind::scalar) fail(mark, "a key must be a word");
+      node = &parent.items.emplace_back();
+    }
+    node->kind = kind;
+    node->line = mark.line + 1;
+    node->column = mark.column + 1;
+    return *node;
+  }
+
+  void open(YamlNode& node, const YAML::Mark& mark) {
+    if (open_.size() == max_depth) fail(mark, fmt::format("nested deeper than {}", max_depth));
+    open_.push_back(&node);
+  }
+
+  void check_keys_differ(const YamlNode& map) const {
+    std::vector<const YamlNode*> keys;
+    for (std::size_t i = 0; i < map.items.size(); i += 2) keys.push_back(&map.items[i]);
+    std::stable_sort(keys.begin(), keys.end(),
+                     [](const YamlNode* a, const YamlNode* b) { return a->text < b->text; });
+    const auto twin =
+        std::adjacent_find(keys.begin(), keys.end(),
+                           [](const YamlNode* a, const YamlNode* b) { return a->text == b->text; });
+    if (twin == keys.end()) return;
+    const YamlNode &first = **twin, &second = **(twin + 1);
+    fail(second.line, second.column,
+         fmt::format("key {} given twice, first in line {}", quote(second.text), first.line));
+  }
+
+  std::string_view name_;
+  YamlNode root_;
+  std::vector<YamlNode*> open_;
+  std::size_t values_ = 0;
+  int documents_ = 0;
+};
+
+/// Length of the UTF-8 character that `text` begins with; 0 when it begins with none, or with a
+/// control character that has no place in a text file.
+std::size_t character_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned lead = byte(0);
+  if (lead < 0x80) return lead == '\t' || lead == '\n' || lead == '\r' || lead >= 0x20 ? 1 : 0;
+  const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
+  if (lead < 0xc2 || lead > 0xf4 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  const unsigned second = byte(1);
+  const bool overlong = (lead == 0xe0 && second < 0xa0) || (lead == 0xf0 && second < 0x90);
+  const bool surrogate = lead == 0xed && second > 0x9f;
+  const bool beyond = lead == 0xf4 && second > 0x8f;
+  return overlong || surrogate || beyond ? 0 : length;
+}
+
+}  // namespace
+
+void check_characters(std::string_view text, std::string_view name) {
+  int line = 1, column = 1;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = character_length(text.substr(i));
+    if (length == 0)
+      throw InputError(
+          std::string(name), line, column,
+          fmt::format("byte 0x{:02x} is not text in UTF-8", static_cast<unsigned char>(text[i])));
+    ++column;
+    if (text[i] == '\n') ++line, column = 1;
+    i += length;
+  }
+}
+
+YamlNode parse_yaml(std::string_view text, std::string_view name) {
+  if (text.size() > max_yaml_bytes)
+    throw InputError(fmt::format("{}: larger than the allowed {} bytes", name, max_yaml_bytes));
+  check_characters(text, name);
+  TreeBuilder builder(name);
+  try {
+    std::istringstream stream{std::string(text)};
+    YAML::Parser parser(stream);
+    while (parser.HandleNextDocument(builder)) {
+    }
+  } catch (const YAML::Exception& error) {
+    throw InputError(std::string(name), error.mark.line + 1, error.mark.column + 1,
+                     "YAML: " + error.msg);
+  }
+  return builder.take_root();
+}
+
+}  // namespace microswarm

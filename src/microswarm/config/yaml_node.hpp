@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace microswarm {
+
+/// A YAML document as a plain tree: all that strict reading needs, with places.
+struct YamlNode {
+  enum class Kind { null, scalar, list, map };
+  Kind kind = Kind::null;
+  bool quoted = false;          ///< scalar in quotes or as a block: a text whatever it looks like
+  int line = 0;                 ///< from 1
+  int column = 0;               ///< from 1
+  std::string text;             ///< scalar
+  std::vector<YamlNode> items;  ///< list: entries; map: key, value, key, value, …
+
+  bool is_plain() const { return kind == Kind::scalar && !quoted; }
+};
+
+/// Throws InputError with file:line:column where the text is not UTF-8, or holds a control
+/// character other than a tab or a line's end.
+void check_characters(std::string_view text, std::string_view name);
+
+/// Parses one document; an empty one is null. Throws InputError with file:line:column for what is
+/// not YAML in UTF-8, and for what has no place in a parameter file: anchors, aliases, tags, keys
+/// that are no words, keys given twice, more than one document, nesting deeper than 64, more than
+/// 16 MB or two million values.
+YamlNode parse_yaml(std::string_view text, std::string_view name);
+
+}  // namespace microswarm
