@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "microswarm/core/fields.hpp"
 #include "microswarm/planning/plan.hpp"
 #include "microswarm/swarm/contracts.hpp"
 
@@ -41,11 +45,12 @@ struct PlanEvent {
 /// What can happen to a swarm.
 enum class EventKind { contact_wall, contact_obstacle, goal_reached, hold_begins, hold_ends };
 constexpr auto enum_names(EventKind) {
-  return std::to_array<EnumName<EventKind>>({{EventKind::contact_wall, "contact_wall"},
-                                             {EventKind::contact_obstacle, "contact_obstacle"},
-                                             {EventKind::goal_reached, "goal_reached"},
-                                             {EventKind::hold_begins, "hold_begins"},
-                                             {EventKind::hold_ends, "hold_ends"}});
+  return std::array<std::pair<EventKind, std::string_view>, 5>{
+      {{EventKind::contact_wall, "contact_wall"},
+       {EventKind::contact_obstacle, "contact_obstacle"},
+       {EventKind::goal_reached, "goal_reached"},
+       {EventKind::hold_begins, "hold_begins"},
+       {EventKind::hold_ends, "hold_ends"}}};
 }
 
 /// Something that happened, at its own time between the ticks.

@@ -50,6 +50,7 @@ Record read_record(const std::filesystem::path& file);
 /// What a replay found.
 struct ReplayResult {
   bool identical = false;
+  bool stopped = false;    ///< by the caller, before it came to an end
   std::string difference;  ///< where they parted, for people; empty when identical
 };
 

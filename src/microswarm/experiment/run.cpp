@@ -79,20 +79,18 @@ class Run {
     result_.timing.steps.push_back(took);
     if (view.planned) result_.timing.planning.push_back(took);
     result_.metrics.planning_events += view.planned;
-    Frame frame{.seen = seen.seen,
-                .observed = {},
-                .command = command,
-                .target = view.local_target,
-                .state = std::string(view.state),
-                .planned = view.planned};
-    if (seen.swarm) frame.observed = seen.swarm->pose;
+    Frame frame;
+    frame.command = command;
+    frame.target = view.local_target;
+    frame.state = view.state;
+    frame.planned = view.planned;
     tell(frame, view, seen);
   }
 
   /// How long the swarm has been told to hold by now.
   double note_hold(const Command& command) {
     const bool holds = command.speed <= 0;
-    if (holds != hold_time_ > 0) tell(holds ? EventKind::hold_begins : EventKind::hold_ends);
+    if (holds != (hold_time_ > 0)) tell(holds ? EventKind::hold_begins : EventKind::hold_ends);
     hold_time_ = holds ? hold_time_ + scenario_.tick : 0;
     if (holds) result_.metrics.hold_time += scenario_.tick;
     return hold_time_;
@@ -132,9 +130,9 @@ class Run {
     const Observation seen = plant_.observe();
     if (status == Status::stopped || status == Status::time_limit || status == Status::held)
       move_to(present(seen));
-    const NavigatorView view = navigator_.view();
-    Frame frame{.seen = seen.seen, .observed = {}, .command = {}, .target = {}, .state = "end"};
-    tell(frame, view, seen);
+    Frame frame;
+    frame.state = "end";
+    tell(frame, navigator_.view(), seen);
     result_.status = status;
     Metrics& metrics = result_.metrics;
     metrics.time = present_.t;
@@ -154,6 +152,8 @@ class Run {
     frame.t = present_.t;
     frame.pose = present_.pose;
     frame.speed = present_.speed;
+    frame.seen = seen.seen;
+    if (seen.swarm) frame.observed = seen.swarm->pose;
     frame.wall_clearance = world.map().clearance(frame.pose.position);
     frame.obstacle_clearance =
         world.moving().clearance(frame.pose.position, std::numeric_limits<double>::infinity());

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace microswarm {
+
+/// An HDF5 file in the making, in memory: plain datasets of one dimension, which every HDF5 reader
+/// takes. The same calls give the same bytes. Groups come into being with what is put in them. HDF5
+/// is not safe for use by several threads at a time.
+class Hdf5Writer {
+ public:
+  Hdf5Writer();
+  ~Hdf5Writer();
+  Hdf5Writer(const Hdf5Writer&) = delete;
+  Hdf5Writer& operator=(const Hdf5Writer&) = delete;
+
+  void dataset(const std::string& path, std::span<const double> values);
+  void dataset(const std::string& path, std::span<const std::int64_t> values);
+  /// One text of fixed length, UTF-8.
+  void text(const std::string& path, std::string_view value);
+
+  /// Attribute of a dataset or group that is there already; "/" is the root.
+  void attribute(const std::string& path, const char* name, std::string_view value);
+  void attribute(const std::string& path, const char* name, double value);
+  void attribute(const std::string& path, const char* name, std::int64_t value);
+  void attribute(const std::string& path, const char* name, std::uint64_t value);
+  void group(const std::string& path);
+
+  /// The file's bytes; the writer is closed then.
+  std::string finish();
+
+ private:
+  std::int64_t file_;
+};
+
+/// Reads what Hdf5Writer wrote, from bytes of any origin. Throws InputError "NAME: WHY" when
+/// something is missing, of another shape or too large.
+class Hdf5Reader {
+ public:
+  Hdf5Reader(std::string bytes, std::string name);
+  ~Hdf5Reader();
+  Hdf5Reader(const Hdf5Reader&) = delete;
+  Hdf5Reader& operator=(const Hdf5Reader&) = delete;
+
+  std::vector<double> numbers(const std::string& path) const;
+  std::vector<std::int64_t> integers(const std::string& path) const;
+  std::string text(const std::string& path) const;
+
+  std::string text_attribute(const std::string& path, const char* name) const;
+  double number_attribute(const std::string& path, const char* name) const;
+  std::int64_t integer_attribute(const std::string& path, const char* name) const;
+
+  const std::string& name() const { return name_; }
+  /// Throws InputError "NAME: WHY".
+  [[noreturn]] void fail(const std::string& why) const;
+
+ private:
+  std::string bytes_;
+  std::string name_;
+  std::int64_t file_;
+};
+
+}  // namespace microswarm

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/scenario.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+
+#include "microswarm/config/write.hpp"
+#include "microswarm/config/yaml.hpp"
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/hash.hpp"
+#include "microswarm/formats/tracks.hpp"
+
+namespace microswarm {
+
+namespace {
+
+/// Fills in the samples of all tracks; a file is read once.
+void load_tracks(std::vector<Obstacle>& obstacles, const std::filesystem::path& base) {
+  std::map<std::filesystem::path, Tracks> files;
+  for (Obstacle& obstacle : obstacles) {
+    auto* track = std::get_if<Track>(&obstacle.motion);
+    if (!track) continue;
+    const std::filesystem::path path = base / track->file;
+    auto file = files.find(path);
+    if (file == files.end()) file = files.emplace(path, read_tracks(path)).first;
+    const auto samples = file->second.find(track->id);
+    if (samples == file->second.end())
+      throw InputError(fmt::format("{}: has no id '{}'", path.string(), track->id));
+    track->samples = std::make_shared<const Samples>(samples->second);
+  }
+}
+
+void hash_points(Hash& hash, const std::vector<Vec2>& points) {
+  hash.value(static_cast<std::uint64_t>(points.size()));
+  for (const Vec2 p : points) hash.value(p.x), hash.value(p.y);
+}
+
+void hash_map(Hash& hash, const MapParts& map) {
+  hash_points(hash, {map.bounds.lo, map.bounds.hi});
+  hash.value(static_cast<std::uint64_t>(map.walls.size()));
+  for (const Polygon& wall : map.walls) {
+    hash_points(hash, wall.outer);
+    hash.value(static_cast<std::uint64_t>(wall.holes.size()));
+    for (const auto& hole : wall.holes) hash_points(hash, hole);
+  }
+  for (const Disc& disc : map.discs) {
+    hash_points(hash, {disc.centre});
+    hash.value(disc.radius);
+  }
+}
+
+}  // namespace
+
+Scenario read_scenario(const std::filesystem::path& file,
+                       const std::vector<std::string>& settings) {
+  Scenario scenario = read_yaml_file<Scenario>(file);
+  for (const std::string& setting : settings) set_value(scenario, setting);
+  return scenario;
+}
+
+std::string scenario_text(const Scenario& scenario) { return to_yaml(scenario); }
+
+std::string Scene::hash() const {
+  Hash hash;
+  hash.text(scenario_text(scenario));
+  hash_map(hash, map);
+  for (const Obstacle& obstacle : scenario.obstacles) {
+    const auto* track = std::get_if<Track>(&obstacle.motion);
+    if (!track || !track->samples) continue;
+    for (const double t : track->samples->times) hash.value(t);
+    hash_points(hash, track->samples->points);
+  }
+  return hash.hex();
+}
+
+Scene load_scene(Scenario scenario, const std::filesystem::path& base) {
+  for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)
+    check(scenario.obstacles[i], fmt::format("obstacles[{}]", i));
+  load_tracks(scenario.obstacles, base);
+  MapParts map = read_map_parts(scenario.map, base);
+  return {std::move(scenario), std::move(map)};
+}
+
+World build_world(const Scene& scene) {
+  const MapParts& parts = scene.map;
+  return {std::make_shared<const Map>(parts.bounds, parts.walls, parts.discs),
+          scene.scenario.obstacles};
+}
+
+void check(const Scenario& scenario, const World& world, const std::string& where) {
+  const double radius = scenario.swarm.radius;
+  const Vec2 start = scenario.start.position;
+  if (const std::string why = world.at(0).why_blocked(start, radius); !why.empty())
+    throw InputError(fmt::format("{}: start {}", where, why));
+  // The swarm's centre may stop anywhere within the tolerance, but it has to get there.
+  const double needed = std::max(0.0, radius - scenario.goal_tolerance);
+  const Snapshot walls(world.map);
+  if (const std::string why = walls.why_blocked(scenario.goal, needed); !why.empty())
+    throw InputError(fmt::format("{}: goal {}", where, why));
+}
+
+}  // namespace microswarm

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/trials.hpp"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <mutex>
+
+#include "microswarm/experiment/record.hpp"
+
+namespace microswarm {
+
+namespace {
+
+TrialResult run_trial(const Scene& scene, const World& world, std::uint32_t trial,
+                      const TrialOptions& options, const Stop& stop) {
+  Recorder recorder(scene, trial);
+  Scenario scenario = scene.scenario;
+  if (options.vary) options.vary(scenario, trial);
+  RunListener* const listeners[] = {&recorder};
+  RunResult result = simulate(scenario, world, trial, listeners, stop);
+  TrialResult outcome{.ran = true, .hash = recorder.record().hash(), .result = std::move(result)};
+  return outcome;
+}
+
+}  // namespace
+
+std::vector<TrialResult> run_trials(const Scenario& scenario, const World& world,
+                                    const TrialOptions& options, const Stop& stop) {
+  std::vector<TrialResult> results(static_cast<std::size_t>(options.trials));
+  const Scene scene{scenario, {}};
+  std::mutex mutex;
+  int done = 0;
+  const auto run_one = [&](std::size_t i) {
+    if (stop()) return;
+    results[i] = run_trial(scene, world, static_cast<std::uint32_t>(i), options, stop);
+    const std::lock_guard lock(mutex);
+    ++done;
+    if (options.progress) options.progress(done, options.trials);
+  };
+  tbb::task_arena arena(options.jobs > 0 ? options.jobs : tbb::task_arena::automatic);
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, results.size(), run_one, tbb::simple_partitioner{});
+  });
+  return results;
+}
+
+}  // namespace microswarm
