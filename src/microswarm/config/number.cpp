@@ -38,7 +38,8 @@ std::string shown_angle(double stored) {
     text = tidy_exponent(std::string(buffer.data(), end));
     if (stored_number(text, Unit::deg) == stored) break;
   }
-  const std::string plain = plain_text(*parse_number(text));
+  const std::optional<double> rounded = parse_number(text);
+  const std::string plain = rounded ? plain_text(*rounded) : text;
   return stored_number(plain, Unit::deg) == stored ? plain : text;
 }
 

@@ -32,7 +32,13 @@ class TreeBuilder : public YAML::EventHandler {
   }
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    add(YamlNode::Kind::null, mark, "", anchor);
+    YamlNode& node = add(YamlNode::Kind::null, mark, "", anchor);
+    if (open_.empty() || open_.back()->kind != YamlNode::Kind::map) return;
+    const std::vector<YamlNode>& items = open_.back()->items;
+    if (items.size() % 2 != 0) return;
+    const YamlNode& key = items[items.size() - 2];  // what is not there stands where its key does
+    node.line = key.line;
+    node.column = key.column;
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
     fail(mark, "aliases (*name) are not supported");
@@ -53,7 +59,7 @@ class TreeBuilder : public YAML::EventHandler {
     open(add(YamlNode::Kind::map, mark, tag, anchor), mark);
   }
   void OnMapEnd() override {
-    check_keys_differ(*open_.back());
+    check_keys(*open_.back());
     open_.pop_back();
   }
 
@@ -70,17 +76,11 @@ class TreeBuilder : public YAML::EventHandler {
     if (anchor != YAML::NullAnchor) fail(mark, "anchors (&name) are not supported");
     if (!tag.empty() && tag != "?" && tag != "!") fail(mark, "tags (!name) are not supported");
     if (++values_ > max_values) fail(mark, fmt::format("more than {} values", max_values));
-    YamlNode* node = &root_;
-    if (!open_.empty()) {
-      YamlNode& parent = *open_.back();
-      const bool is_key = parent.kind == YamlNode::Kind::map && parent.items.size() % 2 == 0;
-      if (is_key && kind != YamlNode::Kind::scalar) fail(mark, "a key must be a word");
-      node = &parent.items.emplace_back();
-    }
-    node->kind = kind;
-    node->line = mark.line + 1;
-    node->column = mark.column + 1;
-    return *node;
+    YamlNode& node = open_.empty() ? root_ : open_.back()->items.emplace_back();
+    node.kind = kind;
+    node.line = mark.line + 1;
+    node.column = mark.column + 1;
+    return node;
   }
 
   void open(YamlNode& node, const YAML::Mark& mark) {
@@ -88,9 +88,13 @@ class TreeBuilder : public YAML::EventHandler {
     open_.push_back(&node);
   }
 
-  void check_keys_differ(const YamlNode& map) const {
+  void check_keys(const YamlNode& map) const {
     std::vector<const YamlNode*> keys;
-    for (std::size_t i = 0; i < map.items.size(); i += 2) keys.push_back(&map.items[i]);
+    for (std::size_t i = 0; i < map.items.size(); i += 2) {
+      const YamlNode& key = map.items[i];
+      if (key.kind != YamlNode::Kind::scalar) fail(key.line, key.column, "a key must be a word");
+      keys.push_back(&key);
+    }
     std::stable_sort(keys.begin(), keys.end(),
                      [](const YamlNode* a, const YamlNode* b) { return a->text < b->text; });
     const auto twin =
