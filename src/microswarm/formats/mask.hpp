@@ -41,12 +41,13 @@ Vec2 cell_centre(const Mask& mask, int column, int row, double cell, Vec2 lo = {
 
 /// Outlines of the set cells along the cells' edges, exactly: one polygon for each piece of cells
 /// that touch by an edge or a corner, with its holes; what stands in a hole is a piece of its own.
-/// Vertices in a straight line are left out. The order is that of the pieces' topmost, then leftmost
-/// cells. Throws InputError when `cell` is not above 0 or a coordinate is not finite.
+/// Vertices in a straight line are left out. The order is that of the pieces' topmost, then
+/// leftmost cells. Throws InputError when `cell` is not above 0 or a coordinate is not finite.
 std::vector<Polygon> mask_walls(const Mask& set, double cell, Vec2 lo = {});
 
-/// Outlines with fewer vertices, of which every vertex left out is at most `tolerance` [µm] from the
-/// new outline (Douglas–Peucker on each ring). A ring never vanishes; rings may come to overlap.
+/// Outlines with fewer vertices, of which every vertex left out is at most `tolerance` [µm] from
+/// the new outline (Douglas–Peucker on each ring). A ring never vanishes; rings may come to
+/// overlap.
 void simplify(std::vector<Polygon>& polygons, double tolerance);
 
 }  // namespace microswarm

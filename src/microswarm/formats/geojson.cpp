@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/formats/geojson.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/file.hpp"
+#include "microswarm/core/text.hpp"
+#include "microswarm/formats/json_place.hpp"
+#include "microswarm/formats/lines.hpp"
+
+namespace microswarm {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::uint64_t max_bytes = 64ULL << 20;
+constexpr int max_depth = 32;
+
+/// What the library says, without its own prefix "[json.exception.…] ".
+std::string complaint(const Json::exception& error) {
+  const std::string_view what = error.what();
+  const std::size_t end = what.find("] ");
+  return one_line(end == std::string_view::npos ? what : what.substr(end + 2));
+}
+
+Json parse(std::string_view text, std::string_view name) {
+  const auto shallow = [&](int depth, Json::parse_event_t, Json&) {
+    if (depth > max_depth)
+      throw InputError(std::string(name) + ": nested deeper than " + std::to_string(max_depth));
+    return true;
+  };
+  try {
+    return Json::parse(text, shallow);
+  } catch (const Json::parse_error& error) {
+    const std::string_view before = text.substr(0, std::min(error.byte, text.size()));
+    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    throw InputError(std::string(name), static_cast<int>(line), 0, "not JSON: " + complaint(error));
+  } catch (const Json::exception& error) {
+    throw InputError(std::string(name) + ": not JSON: " + complaint(error));
+  }
+}
+
+/// Walks through the document and collects walls and discs.
+class Reader {
+ public:
+  Reader(std::string_view text, std::string_view name, double um_per_unit)
+      : text_(text), name_(name), um_per_unit_(um_per_unit) {}
+
+  MapParts read(const Json& root) {
+    const JsonPlace document;
+    object(root, document, {nullptr, nullptr});
+    if (!bounds_) bounds_ = bbox(root, document);
+    parts_.bounds = bounds_.value_or(box_of(parts_));
+    if (!bounds_ && parts_.walls.empty() && parts_.discs.empty())
+      fail(document, "no walls, no discs and no bounds");
+    return std::move(parts_);
+  }
+
+ private:
+  /// The properties of the feature around a geometry; null outside features.
+  struct Properties {
+    const Json* value;
+    const JsonPlace* place;
+  };
+
+  [[noreturn]] void fail(const JsonPlace& place, const std::string& why) const {
+    const std::string way = place.text();
+    throw InputError(name_, line_of(text_, place), 0, way.empty() ? why : way + ": " + why);
+  }
+
+  const Json& member(const Json& parent, const JsonPlace& place, const char* key) const {
+    const auto found = parent.find(key);
+    if (found == parent.end()) fail(place, "'" + std::string(key) + "' is missing");
+    return *found;
+  }
+
+  const Json& array(const Json& value, const JsonPlace& place) const {
+    if (!value.is_array()) fail(place, "an array expected, not " + std::string(value.type_name()));
+    return value;
+  }
+
+  /// Calls visit(entry, its place) for each entry of the array `key`.
+  template <class Visit>
+  void each(const Json& parent, const JsonPlace& place, const char* key, Visit&& visit) const {
+    const JsonPlace here = place.member(key);
+    each_entry(member(parent, place, key), here, visit);
+  }
+  template <class Visit>
+  void each_entry(const Json& list, const JsonPlace& place, Visit&& visit) const {
+    for (std::size_t i = 0; i < array(list, place).size(); ++i) visit(list[i], place.entry(i));
+  }
+
+  /// A collection, a feature or a geometry.
+  void object(const Json& value, const JsonPlace& place, const Properties& properties) {
+    if (!value.is_object())
+      fail(place, "an object expected, not " + std::string(value.type_name()));
+    const Json& type = member(value, place, "type");
+    if (!type.is_string()) fail(place.member("type"), "a word expected");
+    const auto& word = type.get_ref<const std::string&>();
+    const auto inner = [&](const Json& v, const JsonPlace& p) { object(v, p, properties); };
+    if (word == "FeatureCollection")
+      each(value, place, "features", inner);
+    else if (word == "Feature")
+      feature(value, place);
+    else if (word == "GeometryCollection")
+      each(value, place, "geometries", inner);
+    else
+      geometry(word, value, place, properties);
+  }
+
+  void feature(const Json& value, const JsonPlace& place) {
+    const Json& shape = member(value, place, "geometry");
+    const JsonPlace shape_place = place.member("geometry");
+    if (shape.is_null()) return;
+    const JsonPlace properties_place = place.member("properties");
+    const auto found = value.find("properties");
+    const Json* properties = found != value.end() && found->is_object() ? &found.value() : nullptr;
+    if (properties && properties->contains("bounds") && (*properties)["bounds"] == true)
+      bounds_ = rectangle(shape, shape_place);
+    else
+      object(shape, shape_place, {properties, &properties_place});
+  }
+
+  void geometry(const std::string& type, const Json& value, const JsonPlace& place,
+                const Properties& properties) {
+    const Json& coordinates = member(value, place, "coordinates");
+    const JsonPlace here = place.member("coordinates");
+    const auto wall = [&](const Json& v, const JsonPlace& p) {
+      parts_.walls.push_back(polygon(v, p));
+    };
+    const auto disc = [&](const Json& v, const JsonPlace& p) {
+      parts_.discs.push_back({position(v, p), radius(properties, place)});
+    };
+    if (type == "Polygon")
+      wall(coordinates, here);
+    else if (type == "MultiPolygon")
+      each_entry(coordinates, here, wall);
+    else if (type == "Point")
+      disc(coordinates, here);
+    else if (type == "MultiPoint")
+      each_entry(coordinates, here, disc);
+    else
+      fail(place.member("type"), quote(type) +
+                                     " is no wall: Polygon, MultiPolygon, and Point or MultiPoint "
+                                     "with a radius are read");
+  }
+
+  double number(const Json& value, const JsonPlace& place) const {
+    if (!value.is_number()) fail(place, "a number expected, not " + std::string(value.type_name()));
+    const double um = value.get<double>() * um_per_unit_;
+    if (!(std::abs(um) <= max_coordinate))
+      fail(place, number_text(um) + " µm, at most " + number_text(max_coordinate));
+    return um;
+  }
+
+  Vec2 position(const Json& value, const JsonPlace& place) const {
+    if (array(value, place).size() < 2)
+      fail(place, "a position of " + std::to_string(value.size()) + " numbers, at least 2");
+    return {number(value[0], place.entry(0)), number(value[1], place.entry(1))};
+  }
+
+  double radius(const Properties& properties, const JsonPlace& point) const {
+    if (!properties.value || !properties.value->contains("radius"))
+      fail(point, "a point needs the property 'radius' of its feature to be a disc");
+    const JsonPlace place = properties.place->member("radius");
+    const double r = number((*properties.value)["radius"], place);
+    if (!(r > 0)) fail(place, number_text(r) + " µm, must be above 0");
+    return r;
+  }
+
+  Polygon polygon(const Json& rings, const JsonPlace& place) const {
+    Polygon polygon;
+    each_entry(rings, place, [&](const Json& v, const JsonPlace& p) {
+      if (p.index == 0)
+        polygon.outer = ring(v, p);
+      else
+        polygon.holes.push_back(ring(v, p));
+    });
+    if (polygon.outer.empty()) fail(place, "a polygon without a ring");
+    return normalised(std::move(polygon));
+  }
+
+  std::vector<Vec2> ring(const Json& positions, const JsonPlace& place) const {
+    std::vector<Vec2> points;
+    each_entry(positions, place,
+               [&](const Json& v, const JsonPlace& p) { points.push_back(position(v, p)); });
+    if (points.size() < 4)
+      fail(place, "a ring of " + std::to_string(points.size()) +
+                      " positions, at least 4 (the last repeats the first)");
+    if (points.front() != points.back()) fail(place, "a ring that does not end where it begins");
+    if (signed_area(points) == 0) fail(place, "a ring without area");
+    return points;
+  }
+
+  Box rectangle(const Json& value, const JsonPlace& place) const {
+    if (!value.is_object() || value.value("type", Json()) != "Polygon")
+      fail(place, "the bounds must be a Polygon");
+    const Polygon shape = polygon(member(value, place, "coordinates"), place.member("coordinates"));
+    const Box box = bounding_box(shape);
+    const bool right_angles = std::all_of(shape.outer.begin(), shape.outer.end(), [&](Vec2 p) {
+      return (p.x == box.lo.x || p.x == box.hi.x) && (p.y == box.lo.y || p.y == box.hi.y);
+    });
+    if (shape.outer.size() != 4 || !shape.holes.empty() || !right_angles)
+      fail(place, "the bounds must be a rectangle along the axes");
+    return box;
+  }
+
+  std::optional<Box> bbox(const Json& root, const JsonPlace& document) const {
+    if (!root.contains("bbox")) return std::nullopt;
+    std::vector<double> sides;
+    each(root, document, "bbox",
+         [&](const Json& v, const JsonPlace& p) { sides.push_back(number(v, p)); });
+    const std::size_t half = sides.size() / 2;
+    if (sides.size() != 4 && sides.size() != 6)
+      fail(document.member("bbox"), std::to_string(sides.size()) + " numbers, 4 or 6 expected");
+    return Box{{sides[0], sides[1]}, {sides[half], sides[half + 1]}};
+  }
+
+  std::string_view text_;
+  std::string name_;
+  double um_per_unit_;
+  MapParts parts_;
+  std::optional<Box> bounds_;
+};
+
+std::string position_text(Vec2 p) { return "[" + number_text(p.x) + "," + number_text(p.y) + "]"; }
+
+std::string ring_text(const std::vector<Vec2>& ring) {
+  std::string text = "[";
+  for (const Vec2 p : ring) text += position_text(p) + ",";
+  return text + position_text(ring.front()) + "]";
+}
+
+std::string polygon_text(const Polygon& polygon) {
+  std::string text = R"({"type":"Polygon","coordinates":[)" + ring_text(polygon.outer);
+  for (const auto& hole : polygon.holes) text += "," + ring_text(hole);
+  return text + "]}";
+}
+
+std::string feature_text(const std::string& properties, const std::string& geometry) {
+  return R"({"type":"Feature","properties":{)" + properties + R"(},"geometry":)" + geometry + "}";
+}
+
+}  // namespace
+
+MapParts parse_geojson(std::string_view text, std::string_view name, double um_per_unit) {
+  const Json root = parse(text, name);
+  return Reader(text, name, um_per_unit).read(root);
+}
+
+MapParts read_geojson(const std::filesystem::path& path, double um_per_unit) {
+  return parse_geojson(read_file(path, max_bytes), path.string(), um_per_unit);
+}
+
+std::string geojson_text(const MapParts& parts) {
+  const auto [lo, hi] = parts.bounds;
+  std::string text =
+      "{\"type\":\"FeatureCollection\",\"features\":[\n" +
+      feature_text("\"bounds\":true", polygon_text({{lo, {hi.x, lo.y}, hi, {lo.x, hi.y}}, {}}));
+  for (const Polygon& wall : parts.walls) text += ",\n" + feature_text("", polygon_text(wall));
+  for (const Disc& disc : parts.discs)
+    text += ",\n" +
+            feature_text("\"radius\":" + number_text(disc.radius),
+                         R"({"type":"Point","coordinates":)" + position_text(disc.centre) + "}");
+  return text + "\n]}\n";
+}
+
+}  // namespace microswarm

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace microswarm {
+
+enum class ImageKind : std::uint8_t { png, jpeg, bmp, pnm };
+
+/// What the first bytes of a picture promise.
+struct ImageHeader {
+  ImageKind kind = ImageKind::png;
+  std::int64_t width = 0;
+  std::int64_t height = 0;
+  bool grey = false;  ///< one channel is enough: no palette, no colours
+};
+
+/// Throws InputError "NAME: 20000 × 20000 pixels, at most …" when a side is 0 or above the limits
+/// of image.hpp.
+void check_image_size(std::int64_t width, std::int64_t height, std::string_view name);
+
+/// Reads the header and checks that the file's own structure is whole: chunks and their checksums
+/// up to IEND in PNG, segments up to EOI in JPEG, the declared rows in BMP. Netpbm files are only
+/// recognised. Throws InputError "NAME: WHY".
+ImageHeader check_image(std::span<const std::byte> bytes, std::string_view name);
+
+/// A whole PNG without the chunks that do not bear on its pixels (texts, colour profiles, times),
+/// over which decoders complain on stderr.
+std::vector<std::uint8_t> pixel_chunks(std::span<const std::byte> png);
+
+}  // namespace microswarm

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/formats/rectangles.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/file.hpp"
+#include "microswarm/core/text.hpp"
+#include "microswarm/formats/lines.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr std::uint64_t max_bytes = 64ULL << 20;
+
+bool has_number(const std::vector<std::string_view>& fields) {
+  return std::any_of(fields.begin(), fields.end(),
+                     [](std::string_view f) { return parse_number(f).has_value(); });
+}
+
+}  // namespace
+
+Polygon rectangle(std::span<const double> numbers, const std::string& where) {
+  if (numbers.size() != 4)
+    throw InputError(where + ": " + std::to_string(numbers.size()) +
+                     " numbers, 4 expected: x, y, width, height");
+  const double x = numbers[0], y = numbers[1], width = numbers[2], height = numbers[3];
+  if (!(x + width > x && y + height > y))
+    throw InputError(where + ": width " + number_text(width) + " and height " +
+                     number_text(height) + " µm must be above 0");
+  return {{{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}}, {}};
+}
+
+std::vector<Polygon> parse_rectangles(std::string_view text, std::string_view name) {
+  Lines lines(text, name);
+  std::vector<Polygon> rectangles;
+  bool first = true;
+  while (const std::optional<std::string_view> raw = lines.next()) {
+    const std::string_view line = trimmed(*raw);
+    if (line.empty() || line.front() == '#') continue;
+    const auto fields = line.find(',') == std::string_view::npos ? words(line) : split(line, ',');
+    if (std::exchange(first, false) && !has_number(fields)) continue;
+    std::vector<double> numbers;
+    for (const std::string_view field : fields) {
+      const std::optional<double> number = parse_number(field);
+      if (!number) lines.fail(quote(field) + " is no number");
+      numbers.push_back(*number);
+    }
+    rectangles.push_back(
+        rectangle(numbers, std::string(name) + ":" + std::to_string(lines.number())));
+  }
+  if (rectangles.empty())
+    throw InputError(std::string(name) + ": no rectangles: lines of x,y,width,height expected");
+  return rectangles;
+}
+
+std::vector<Polygon> read_rectangles(const std::filesystem::path& path) {
+  return parse_rectangles(read_file(path, max_bytes), path.string());
+}
+
+}  // namespace microswarm

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "microswarm/geometry/shapes.hpp"
+
+namespace microswarm {
+
+/// Reads rectangles, one a line: lower left x, y, width, height [µm] with commas or blanks between
+/// them. A first line without numbers is a header; blank lines and lines that start with '#' are
+/// passed over. Throws InputError "NAME:LINE: WHY".
+std::vector<Polygon> read_rectangles(const std::filesystem::path& path);
+std::vector<Polygon> parse_rectangles(std::string_view text, std::string_view name);
+
+/// The polygon of x, y, width, height [µm]. Throws InputError "WHERE: WHY" unless there are four
+/// numbers, the last two above 0.
+Polygon rectangle(std::span<const double> numbers, const std::string& where);
+
+}  // namespace microswarm

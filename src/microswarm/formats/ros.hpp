@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/formats/mask.hpp"
+
+namespace microswarm {
+
+/// How the pixels of a ROS map say how likely a cell is occupied.
+enum class RosMode {
+  trinary,  ///< dark is occupied, bright is free, between the thresholds is unknown
+  scale,    ///< the same here: what is between the thresholds is neither free nor surely occupied
+  raw       ///< the value is the percentage; above 100 is unknown
+};
+constexpr auto enum_names(RosMode) {
+  return std::array<std::pair<RosMode, std::string_view>, 3>{
+      {{RosMode::trinary, "trinary"}, {RosMode::scale, "scale"}, {RosMode::raw, "raw"}}};
+}
+
+/// The YAML half of a map of ROS' map_server.
+struct RosHeader {
+  std::string image;
+  double resolution = 0;
+  std::vector<double> origin{0, 0, 0};
+  int negate = 0;
+  double occupied_thresh = 0.65;
+  double free_thresh = 0.196;
+  RosMode mode = RosMode::trinary;
+
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.image, {"image", Unit::none, {}, "Picture, beside the YAML file.", true});
+    visit(self.resolution, {"resolution", Unit::none, {1e-9, 1e6}, "Side of a pixel [m].", true});
+    visit(self.origin,
+          {"origin", Unit::none, {-1e6, 1e6}, "Lower left corner: x, y [m], yaw [rad].", true});
+    visit(self.negate, {"negate", Unit::none, {0, 1}, "1: bright is occupied."});
+    visit(self.occupied_thresh,
+          {"occupied_thresh", Unit::none, {0, 1}, "Above this probability: occupied."});
+    visit(self.free_thresh, {"free_thresh", Unit::none, {0, 1}, "Below this probability: free."});
+    visit(self.mode, {"mode", Unit::none, {}, "trinary, scale or raw."});
+  }
+};
+
+/// Reads the YAML half. Throws InputError "NAME:LINE:COLUMN: WHY", also for a yaw that is not 0.
+RosHeader read_ros_header(const std::filesystem::path& path);
+RosHeader parse_ros_header(std::string_view text, std::string_view name);
+
+/// The cells that are walls: the occupied ones, and the unknown unless `unknown_free`.
+Mask ros_walls(const Image& image, const RosHeader& header, bool unknown_free = false);
+
+/// The YAML half as text, for a map whose pixels are 0 (occupied) and 254 (free).
+std::string ros_header_text(const RosHeader& header);
+
+}  // namespace microswarm
