@@ -6,15 +6,22 @@
 namespace microswarm {
 
 /// Distances [µm] between closed sets; 0 when they share a point.
-double squared_distance(Vec2 p, Segment s);
+inline double squared_distance(Vec2 p, Segment s) {
+  const Vec2 along = s.b - s.a;
+  const Vec2 to_p = p - s.a;
+  const double t = dot(to_p, along);
+  const double length2 = squared_norm(along);
+  if (t <= 0) return squared_norm(to_p);
+  if (t >= length2) return squared_norm(p - s.b);
+  const double area = cross(along, to_p);
+  return area * area / length2;
+}
 double squared_distance(Segment s, Segment t);
 inline double distance(Vec2 p, Segment s) { return std::sqrt(squared_distance(p, s)); }
 inline double distance(Segment s, Segment t) { return std::sqrt(squared_distance(s, t)); }
 double distance(Vec2 p, const Polygon& polygon);
 double distance(Segment s, const Polygon& polygon);
-inline double distance(Vec2 p, Disc d) {
-  return std::max(0.0, distance(p, d.centre) - d.radius);
-}
+inline double distance(Vec2 p, Disc d) { return std::max(0.0, distance(p, d.centre) - d.radius); }
 inline double distance(Segment s, Disc d) {
   return std::max(0.0, distance(d.centre, s) - d.radius);
 }
@@ -24,8 +31,8 @@ double signed_distance(Vec2 p, const Polygon& polygon);
 /// Point of the segment nearest to `p`.
 Vec2 nearest_point(Vec2 p, Segment s);
 
-/// First contact of a disc of radius `r` whose centre runs from s.a to s.b, as the fraction of the
-/// way in [0, 1]; 0 when they touch at the start, 2 ("never") when there is none.
+/// First contact (distance <= r) of a disc of radius `r` whose centre runs from s.a to s.b, as the
+/// fraction of the way in [0, 1]; 0 when they touch at the start, 2 ("never") when there is none.
 inline constexpr double no_contact = 2;
 double first_contact(Segment s, double r, Segment wall);
 double first_contact(Segment s, double r, Disc disc);

@@ -10,23 +10,33 @@
 namespace microswarm {
 
 /// Static bucket grid over the directed edges of closed rings (solid on the left). Answers exact
-/// distance, containment and nearness; flat arrays, no allocation in a query. Queries are exact
-/// everywhere, also outside the box it covers.
+/// distance, containment and nearness; flat arrays, no allocation in a query, safe to share between
+/// threads. Queries are exact everywhere, also outside the box it covers. Bodies may touch or
+/// overlap: the solid is their union (and every edge still counts as an edge).
 class EdgeGrid {
  public:
   EdgeGrid() = default;
-  /// `ring_of[i]` names the body that edge i belongs to. The cell size is chosen from the count of
+  /// `body_of[i]` names the body that edge i belongs to. The cell size [µm] is chosen from the
   /// edges when `cell` is 0.
-  EdgeGrid(std::span<const Segment> edges, std::span<const std::uint32_t> body_of, double cell = 0);
+  EdgeGrid(std::span<const Segment> edges, std::span<const std::uint32_t> body_of,
+           double cell = 0) {
+    assign(edges, body_of, cell);
+  }
+  /// The same as constructing anew, but keeps the memory.
+  void assign(std::span<const Segment> edges, std::span<const std::uint32_t> body_of,
+              double cell = 0);
 
   std::size_t size() const { return edges_.size(); }
+  bool empty() const { return edges_.empty(); }
   const Segment& edge(std::size_t i) const { return edges_[i]; }
   std::uint32_t body_of(std::size_t i) const { return bodies_[i]; }
   const Box& box() const { return box_; }
+  /// Side of a cell [µm].
+  double cell() const { return cell_; }
 
   /// Distance from `p` to the nearest edge, or `limit` when none is nearer.
   double distance(Vec2 p, double limit) const;
-  /// Index of the nearest edge within `limit`; size() when there is none.
+  /// Index of the nearest edge within `limit` (the lowest of equals); size() when there is none.
   std::size_t nearest(Vec2 p, double limit) const;
   /// Is `p` in the solid (or exactly on an edge)? Exact.
   bool in_solid(Vec2 p) const;
@@ -40,9 +50,74 @@ class EdgeGrid {
   void for_each_in(const Box& box, Visit&& visit) const;
 
  private:
+  /// Cell number (row · columns_ + column) and what is known of it; its edges are
+  /// ids_[first .. first of the next cell).
+  struct Cell {
+    std::uint32_t first = 0;
+    /// Winding number of the rings around the cell's centre.
+    std::int32_t winding = 0;
+  };
+  /// A run of columns or rows; empty when first > last.
+  struct Run {
+    int first;
+    int last;
+  };
+  /// The cells that points within some reach of a segment can lie in, row by row.
+  class Sweep;
+  struct Found {
+    double squared;
+    std::size_t edge;
+  };
+
+  int column_of(double x) const { return index(x - box_.lo.x, columns_); }
+  int row_of(double y) const { return index(y - box_.lo.y, rows_); }
+  int index(double offset, int count) const {
+    const double i = offset * per_cell_;
+    const double last = count - 1;
+    return static_cast<int>(i > 0 ? (i < last ? i : last) : 0);
+  }
+  Vec2 centre_of(int column, int row) const {
+    return {box_.lo.x + (column + 0.5) * cell_, box_.lo.y + (row + 0.5) * cell_};
+  }
+  void choose_cells(double cell);
+  void fill_cells();
+  void find_windings();
+  Found search(Vec2 p, double squared_limit) const;
+  void scan(Vec2 p, int row, Run columns, Found& best) const;
+  double squared_distance_beyond(Vec2 p, Run columns, Run rows) const;
+  std::span<const std::uint32_t> edges_in(int row, Run columns) const {
+    const Cell* cells = cells_.data() + static_cast<std::size_t>(row) * columns_;
+    return {ids_.data() + cells[columns.first].first, ids_.data() + cells[columns.last + 1].first};
+  }
+  bool first_seen_in(std::uint32_t edge, int column, int row, Run wanted, int first_row) const;
+  Run columns_of_edge(std::uint32_t edge, int row) const;
+
   Box box_;
+  double cell_ = 1;
+  double per_cell_ = 1;
+  /// More than any rounding error of a cell border.
+  double slack_ = 0;
+  int columns_ = 0;
+  int rows_ = 0;
   std::vector<Segment> edges_;
   std::vector<std::uint32_t> bodies_;
+  std::vector<Cell> cells_;
+  std::vector<std::uint32_t> ids_;
 };
+
+template <class Visit>
+void EdgeGrid::for_each_in(const Box& box, Visit&& visit) const {
+  if (empty() || !box.overlaps(box_)) return;
+  const Run wanted{column_of(box.lo.x), column_of(box.hi.x)};
+  const int first_row = row_of(box.lo.y);
+  const int last_row = row_of(box.hi.y);
+  for (int row = first_row; row <= last_row; ++row) {
+    for (int column = wanted.first; column <= wanted.last; ++column) {
+      for (const std::uint32_t id : edges_in(row, {column, column})) {
+        if (first_seen_in(id, column, row, wanted, first_row)) visit(std::size_t{id});
+      }
+    }
+  }
+}
 
 }  // namespace microswarm

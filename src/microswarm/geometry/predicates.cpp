@@ -56,8 +56,8 @@ int compare_products(double a, double b, double c, double d) {
 
 /// Scales by a power of two (exact) so that no product of coordinates underflows.
 void scale_up(Vec2& a, Vec2& b, Vec2& c) {
-  const double largest = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y),
-                                   std::abs(c.x), std::abs(c.y)});
+  const double largest = std::max(
+      {std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y), std::abs(c.x), std::abs(c.y)});
   if (largest == 0) return;
   const double scale = std::ldexp(1.0, std::min(480 - std::ilogb(largest), 1000));
   a = scale * a;

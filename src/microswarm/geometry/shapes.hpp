@@ -30,9 +30,7 @@ struct Box {
   double width() const { return hi.x - lo.x; }
   double height() const { return hi.y - lo.y; }
   Vec2 centre() const { return 0.5 * (lo + hi); }
-  bool contains(Vec2 p) const {
-    return p.x >= lo.x && p.x <= hi.x && p.y >= lo.y && p.y <= hi.y;
-  }
+  bool contains(Vec2 p) const { return p.x >= lo.x && p.x <= hi.x && p.y >= lo.y && p.y <= hi.y; }
   void include(Vec2 p) {
     lo = {std::min(lo.x, p.x), std::min(lo.y, p.y)};
     hi = {std::max(hi.x, p.x), std::max(hi.y, p.y)};

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/geometry/edge_grid.hpp"
+
+#include <cassert>
+
+#include "microswarm/geometry/distance.hpp"
+#include "microswarm/geometry/predicates.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Share of a coordinate that no rounding error here exceeds.
+constexpr double rounding = 1e-12;
+/// Cells never get so many that memory, or so small that rounding, is a matter.
+constexpr double most_cells = 1 << 22;
+constexpr double least_cell_in_slacks = 1e3;
+
+double magnitude(Vec2 p) { return std::abs(p.x) + std::abs(p.y); }
+
+/// `orientation` of p moved by (δ, ε), 0 < ε ≪ δ infinitesimal; never 0 unless a = b.
+int perturbed_orientation(Segment e, Vec2 p) {
+  const int side = orientation(e.a, e.b, p);
+  if (side != 0) return side;
+  if (e.a.y != e.b.y) return e.a.y > e.b.y ? 1 : -1;
+  return e.b.x > e.a.x ? 1 : -1;
+}
+
+/// Change of the winding number from q to p by edge e, when the path between them crosses it.
+int winding_step(Segment e, Vec2 p, Vec2 q) {
+  return (perturbed_orientation(e, p) > 0) - (perturbed_orientation(e, q) > 0);
+}
+
+bool is_clear(Segment s, Segment edge, double squared_radius) {
+  if (intersects(s, edge)) return false;
+  return squared_distance(edge.a, s) >= squared_radius &&
+         squared_distance(edge.b, s) >= squared_radius &&
+         squared_distance(s.a, edge) >= squared_radius &&
+         squared_distance(s.b, edge) >= squared_radius;
+}
+
+}  // namespace
+
+class EdgeGrid::Sweep {
+ public:
+  /// Edges (reach 0) and queries (reach > 0) name their rows by the same monotone rounding, so a
+  /// shared point is never missed; only columns clipped to a row need the slack.
+  Sweep(const EdgeGrid& grid, Segment s, double reach)
+      : grid_(grid), low_(s.a), high_(s.b), reach_(reach), margin_(reach + grid.slack_) {
+    if (low_.y > high_.y) std::swap(low_, high_);
+    left_ = std::min(low_.x, high_.x) - reach;
+    right_ = std::max(low_.x, high_.x) + reach;
+    slope_ = high_.y > low_.y ? (high_.x - low_.x) / (high_.y - low_.y) : 0;
+    if (bounds().overlaps(grid.box_)) {
+      rows_ = {grid.row_of(low_.y - reach), grid.row_of(high_.y + reach)};
+    }
+  }
+
+  Run rows() const { return rows_; }
+  Box bounds() const { return {{left_, low_.y - reach_}, {right_, high_.y + reach_}}; }
+  Run columns(int row) const {
+    double left = left_;
+    double right = right_;
+    if (rows_.first != rows_.last && low_.y != high_.y) {
+      const double bottom = grid_.box_.lo.y + row * grid_.cell_ - margin_;
+      const double enter = x_at(bottom);
+      const double leave = x_at(bottom + grid_.cell_ + 2 * margin_);
+      left = std::max(left, std::min(enter, leave) - margin_);
+      right = std::min(right, std::max(enter, leave) + margin_);
+    }
+    return {grid_.column_of(left), grid_.column_of(right)};
+  }
+
+ private:
+  double x_at(double y) const {
+    if (y <= low_.y) return low_.x;
+    if (y >= high_.y) return high_.x;
+    return low_.x + (y - low_.y) * slope_;
+  }
+
+  const EdgeGrid& grid_;
+  Vec2 low_;
+  Vec2 high_;
+  double reach_;
+  double margin_;
+  double left_;
+  double right_;
+  double slope_;
+  Run rows_{0, -1};
+};
+
+void EdgeGrid::assign(std::span<const Segment> edges, std::span<const std::uint32_t> body_of,
+                      double cell) {
+  assert(edges.size() == body_of.size() && edges.size() < (1u << 31));
+  edges_.assign(edges.begin(), edges.end());
+  bodies_.assign(body_of.begin(), body_of.end());
+  box_ = {};
+  for (const Segment& e : edges_) {
+    box_.include(e.a);
+    box_.include(e.b);
+  }
+  if (empty()) {
+    columns_ = rows_ = 0;
+    return;
+  }
+  choose_cells(cell);
+  fill_cells();
+  find_windings();
+}
+
+void EdgeGrid::choose_cells(double cell) {
+  const double count = static_cast<double>(size());
+  slack_ = rounding * std::max(magnitude(box_.lo), magnitude(box_.hi));
+  if (cell <= 0) {
+    double length = 0;
+    for (const Segment& e : edges_) length += magnitude(e.b - e.a);
+    const double wide = std::max(box_.width(), box_.height());
+    const double area =
+        std::max(box_.width(), wide / count) * std::max(box_.height(), wide / count);
+    cell = std::max(std::sqrt(area / (2 * count)), length / (4 * count));
+  }
+  const double budget = std::max(most_cells, 4 * count);
+  cell = std::max({cell, std::sqrt(box_.width() * box_.height() / budget),
+                   (box_.width() + box_.height()) / budget, least_cell_in_slacks * slack_,
+                   std::numeric_limits<double>::min()});
+  cell_ = cell;
+  per_cell_ = 1 / cell;
+  columns_ = static_cast<int>(box_.width() * per_cell_) + 1;
+  rows_ = static_cast<int>(box_.height() * per_cell_) + 1;
+}
+
+void EdgeGrid::fill_cells() {
+  cells_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, {});
+  auto for_each_cell = [&](const Segment& e, auto&& visit) {
+    const Sweep sweep(*this, e, 0);
+    for (int row = sweep.rows().first; row <= sweep.rows().last; ++row) {
+      const Run columns = sweep.columns(row);
+      Cell* cells = cells_.data() + static_cast<std::size_t>(row) * columns_;
+      for (int column = columns.first; column <= columns.last; ++column) visit(cells[column]);
+    }
+  };
+  for (const Segment& e : edges_) for_each_cell(e, [](Cell& c) { ++c.first; });
+  std::uint32_t total = 0;
+  for (Cell& c : cells_) c.first = total += c.first;
+  ids_.resize(total);
+  for (std::size_t i = size(); i-- > 0;) {
+    for_each_cell(edges_[i], [&](Cell& c) { ids_[--c.first] = static_cast<std::uint32_t>(i); });
+  }
+}
+
+// Every edge that crosses the height of a row's centres winds once around all centres left of it.
+void EdgeGrid::find_windings() {
+  for (const Segment& e : edges_) {
+    if (e.a.y == e.b.y) continue;
+    const int turn = e.b.y > e.a.y ? 1 : -1;
+    auto is_left = [&](Vec2 p) { return perturbed_orientation(e, p) == turn; };
+    const int last_row = row_of(std::max(e.a.y, e.b.y));
+    for (int row = row_of(std::min(e.a.y, e.b.y)); row <= last_row; ++row) {
+      const double y = centre_of(0, row).y;
+      if ((e.a.y <= y) == (e.b.y <= y)) continue;
+      const double x = e.a.x + (y - e.a.y) / (e.b.y - e.a.y) * (e.b.x - e.a.x);
+      int left = column_of(x);
+      while (left < columns_ && is_left(centre_of(left, row))) ++left;
+      while (left > 0 && !is_left(centre_of(left - 1, row))) --left;
+      if (left > 0) cells_[static_cast<std::size_t>(row) * columns_ + left - 1].winding += turn;
+    }
+  }
+  for (int row = 0; row < rows_; ++row) {
+    Cell* cells = cells_.data() + static_cast<std::size_t>(row) * columns_;
+    for (int column = columns_ - 1; column > 0; --column) {
+      cells[column - 1].winding += cells[column].winding;
+    }
+  }
+}
+
+// The winding number at the centre of p's cell, less the edges crossed on the way p → q → centre,
+// first level, then upright. All points are moved by the same infinitesimal (δ, ε), so that the way
+// meets no vertex and runs along no edge.
+bool EdgeGrid::in_solid(Vec2 p) const {
+  if (!box_.contains(p)) return false;
+  const int column = column_of(p.x);
+  const int row = row_of(p.y);
+  const Vec2 centre = centre_of(column, row);
+  const Vec2 q{centre.x, p.y};
+  const Box way{{std::min(p.x, q.x), std::min(p.y, centre.y)},
+                {std::max(p.x, q.x), std::max(p.y, centre.y)}};
+  int winding = cells_[static_cast<std::size_t>(row) * columns_ + column].winding;
+  for (const std::uint32_t id : edges_in(row, {column, column})) {
+    const Segment& e = edges_[id];
+    if (contains(e, p)) return true;
+    const double left = std::min(e.a.x, e.b.x);
+    const double right = std::max(e.a.x, e.b.x);
+    if (left > way.hi.x || right < way.lo.x) continue;
+    if ((e.a.y <= p.y) != (e.b.y <= p.y)) winding += winding_step(e, p, q);
+    if ((e.a.x <= q.x) != (e.b.x <= q.x)) winding += winding_step(e, q, centre);
+  }
+  return winding != 0;
+}
+
+void EdgeGrid::scan(Vec2 p, int row, Run columns, Found& best) const {
+  for (const std::uint32_t id : edges_in(row, columns)) {
+    const double d = squared_distance(p, edges_[id]);
+    if (d < best.squared || (d == best.squared && id < best.edge)) best = {d, id};
+  }
+}
+
+double EdgeGrid::squared_distance_beyond(Vec2 p, Run columns, Run rows) const {
+  const double slack = slack_ + rounding * magnitude(p);
+  auto squared = [&](double gap) {
+    gap = std::max(gap - slack, 0.0);
+    return gap * gap;
+  };
+  const double outside_x = squared(std::max(box_.lo.x - p.x, p.x - box_.hi.x));
+  const double outside_y = squared(std::max(box_.lo.y - p.y, p.y - box_.hi.y));
+  double least = infinity;
+  auto beside = [&](double gap, double outside) {
+    least = std::min(least, squared(gap) + outside);
+  };
+  const Vec2 o = p - box_.lo;
+  if (columns.first > 0) beside(o.x - columns.first * cell_, outside_y);
+  if (columns.last < columns_ - 1) beside((columns.last + 1) * cell_ - o.x, outside_y);
+  if (rows.first > 0) beside(o.y - rows.first * cell_, outside_x);
+  if (rows.last < rows_ - 1) beside((rows.last + 1) * cell_ - o.y, outside_x);
+  return least;
+}
+
+// Square rings of cells around p's own, until nothing beyond them can be nearer.
+EdgeGrid::Found EdgeGrid::search(Vec2 p, double squared_limit) const {
+  Found best{squared_limit, size()};
+  if (empty()) return best;
+  const int column = column_of(p.x);
+  const int row = row_of(p.y);
+  for (int k = 0;; ++k) {
+    const Run columns{std::max(column - k, 0), std::min(column + k, columns_ - 1)};
+    const Run rows{std::max(row - k, 0), std::min(row + k, rows_ - 1)};
+    for (int r = rows.first; r <= rows.last; ++r) {
+      if (r == row - k || r == row + k) {
+        scan(p, r, columns, best);
+        continue;
+      }
+      if (columns.first == column - k) scan(p, r, {columns.first, columns.first}, best);
+      if (columns.last == column + k) scan(p, r, {columns.last, columns.last}, best);
+    }
+    const double beyond = squared_distance_beyond(p, columns, rows);
+    if (beyond > best.squared || beyond == infinity) return best;
+  }
+}
+
+double EdgeGrid::distance(Vec2 p, double limit) const {
+  const Found found = search(p, limit * limit);
+  return found.edge == size() ? limit : std::min(limit, std::sqrt(found.squared));
+}
+
+std::size_t EdgeGrid::nearest(Vec2 p, double limit) const { return search(p, limit * limit).edge; }
+
+bool EdgeGrid::capsule_free(Segment s, double r) const {
+  if (empty()) return true;
+  const double reach = r + slack_ + rounding * (r + magnitude(s.a) + magnitude(s.b));
+  const Sweep sweep(*this, s, reach);
+  const Box bounds = sweep.bounds();
+  const double squared_radius = r * r;
+  for (int row = sweep.rows().first; row <= sweep.rows().last; ++row) {
+    for (const std::uint32_t id : edges_in(row, sweep.columns(row))) {
+      const Segment& e = edges_[id];
+      if (std::min(e.a.x, e.b.x) > bounds.hi.x || std::max(e.a.x, e.b.x) < bounds.lo.x ||
+          std::min(e.a.y, e.b.y) > bounds.hi.y || std::max(e.a.y, e.b.y) < bounds.lo.y) {
+        continue;
+      }
+      if (!is_clear(s, e, squared_radius)) return false;
+    }
+  }
+  return true;
+}
+
+double EdgeGrid::distance(Segment s, double limit) const {
+  if (empty()) return limit;
+  double best = limit * limit;
+  for (const Vec2 end : {s.a, s.b}) best = std::min(best, search(end, best).squared);
+  const double r = std::sqrt(best);
+  const Sweep sweep(*this, s, r + slack_ + rounding * (r + magnitude(s.a) + magnitude(s.b)));
+  for (int row = sweep.rows().first; row <= sweep.rows().last; ++row) {
+    for (const std::uint32_t id : edges_in(row, sweep.columns(row))) {
+      best = std::min(best, squared_distance(s, edges_[id]));
+    }
+  }
+  return best < limit * limit ? std::sqrt(best) : limit;
+}
+
+EdgeGrid::Run EdgeGrid::columns_of_edge(std::uint32_t edge, int row) const {
+  const Sweep sweep(*this, edges_[edge], 0);
+  if (row < sweep.rows().first) return {0, -1};
+  return sweep.columns(row);
+}
+
+bool EdgeGrid::first_seen_in(std::uint32_t edge, int column, int row, Run wanted,
+                             int first_row) const {
+  if (column != std::max(wanted.first, columns_of_edge(edge, row).first)) return false;
+  if (row == first_row) return true;
+  const Run before = columns_of_edge(edge, row - 1);
+  return before.first > before.last || before.last < wanted.first || before.first > wanted.last;
+}
+
+}  // namespace microswarm
