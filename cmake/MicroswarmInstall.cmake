@@ -7,15 +7,16 @@ get_property(floors GLOBAL PROPERTY MICROSWARM_FLOORS)
 list(TRANSFORM floors REPLACE "^microswarm_" "" OUTPUT_VARIABLE floor_names)
 
 # package_of(LINK RESULT): what find_package must be asked for so that the target LINK exists;
-# empty for a target of ours or a path. A target's namespace is its package's name, as a rule.
+# empty for a target of ours or a path. A target's namespace is its package's name, as a rule; what
+# pkg-config found is asked for by its target.
 function(package_of link result)
   set(package)
   if(link MATCHES "^opencv_(.+)")
     set(package "OpenCV COMPONENTS ${CMAKE_MATCH_1}")
   elseif(link MATCHES "^hdf5::")
     set(package "HDF5 COMPONENTS C")
-  elseif(link STREQUAL yaml-cpp)
-    set(package yaml-cpp)
+  elseif(link MATCHES "^(PkgConfig::.+|yaml-cpp)$")
+    set(package ${link})
   elseif(link MATCHES "^([^:]+)::" AND NOT CMAKE_MATCH_1 STREQUAL microswarm)
     set(package ${CMAKE_MATCH_1})
   endif()
@@ -53,9 +54,6 @@ foreach(name IN LISTS floor_names)
 endforeach()
 install(FILES ${PROJECT_BINARY_DIR}/generated/microswarm/core/version.hpp
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/microswarm/core)
-if(TARGET microswarm)
-  install(TARGETS microswarm RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-endif()
 
 configure_package_config_file(cmake/microswarmConfig.cmake.in
                               ${PROJECT_BINARY_DIR}/microswarmConfig.cmake
