@@ -71,7 +71,7 @@ TEST(Set, ComplaintsNameTheKeyAndLeaveTheValue) {
       {"", "--set '': must be KEY=VALUE"}};
   Scene scene;
   for (const auto& [assignment, message] : cases) {
-    EXPECT_EQ(message_of([&] { set_value(scene, assignment); }), message);
+    EXPECT_EQ(message_of([&, text = assignment] { set_value(scene, text); }), message);
     EXPECT_EQ(scene, Scene{});
   }
 }
