@@ -21,6 +21,7 @@ FLOORS = [
     "src/microswarm/vision",
     "src/microswarm/experiment",
     "src/microswarm/report",
+    "tests/scenes",
     "bench",
     "apps",
     "tests",
