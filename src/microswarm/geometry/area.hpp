@@ -3,9 +3,12 @@
 
 #include <span>
 
+#include "microswarm/geometry/edge_grid.hpp"
 #include "microswarm/geometry/shapes.hpp"
 
 namespace microswarm {
+
+inline double area(Disc disc) { return 3.14159265358979323846 * disc.radius * disc.radius; }
 
 /// Exact area of disc ∩ polygon [µm²] (Green's theorem over the clipped boundary).
 double intersection_area(Disc disc, const Polygon& polygon);
@@ -14,8 +17,18 @@ double intersection_area(Disc disc, const Polygon& polygon);
 double intersection_area(Disc a, Disc b);
 
 /// Exact area of `disc` ∩ (union of polygons and discs) [µm²]: where obstacles overlap, they count
-/// once. Closed form per slab between all vertices and crossings inside the disc.
+/// once. Obstacles that overlap no other are summed; the others are cut into slabs between all
+/// vertices and crossings inside the disc, each integrated in closed form.
 double covered_area(Disc disc, std::span<const Polygon* const> polygons,
                     std::span<const Disc> discs);
+
+/// Exact area of `disc` ∩ solid [µm²] from the edges near the disc alone. Bodies may touch; where
+/// they overlap, each counts.
+double covered_area(Disc disc, const EdgeGrid& grid);
+
+/// What the edge adds to the area of disc ∩ solid, beyond the whole disc when its centre (moved as
+/// in `winding_of_edge`) is in the solid: with t the part of the edge in the disc, the triangle
+/// less the sector over t. Summed over all edges of the solid.
+double area_of_edge(Disc disc, Segment edge);
 
 }  // namespace microswarm

@@ -18,19 +18,6 @@ constexpr double least_cell_in_slacks = 1e3;
 
 double magnitude(Vec2 p) { return std::abs(p.x) + std::abs(p.y); }
 
-/// `orientation` of p moved by (δ, ε), 0 < ε ≪ δ infinitesimal; never 0 unless a = b.
-int perturbed_orientation(Segment e, Vec2 p) {
-  const int side = orientation(e.a, e.b, p);
-  if (side != 0) return side;
-  if (e.a.y != e.b.y) return e.a.y > e.b.y ? 1 : -1;
-  return e.b.x > e.a.x ? 1 : -1;
-}
-
-/// Change of the winding number from q to p by edge e, when the path between them crosses it.
-int winding_step(Segment e, Vec2 p, Vec2 q) {
-  return (perturbed_orientation(e, p) > 0) - (perturbed_orientation(e, q) > 0);
-}
-
 bool is_clear(Segment s, Segment edge, double squared_radius) {
   if (intersects(s, edge)) return false;
   return squared_distance(edge.a, s) >= squared_radius &&
@@ -153,7 +140,7 @@ void EdgeGrid::find_windings() {
   for (const Segment& e : edges_) {
     if (e.a.y == e.b.y) continue;
     const int turn = e.b.y > e.a.y ? 1 : -1;
-    auto is_left = [&](Vec2 p) { return perturbed_orientation(e, p) == turn; };
+    auto is_left = [&](Vec2 p) { return orientation_beside(e.a, e.b, p) == turn; };
     const int last_row = row_of(std::max(e.a.y, e.b.y));
     for (int row = row_of(std::min(e.a.y, e.b.y)); row <= last_row; ++row) {
       const double y = centre_of(0, row).y;
@@ -173,28 +160,25 @@ void EdgeGrid::find_windings() {
   }
 }
 
-// The winding number at the centre of p's cell, less the edges crossed on the way p → q → centre,
-// first level, then upright. All points are moved by the same infinitesimal (δ, ε), so that the way
-// meets no vertex and runs along no edge.
-bool EdgeGrid::in_solid(Vec2 p) const {
-  if (!box_.contains(p)) return false;
+int EdgeGrid::winding(Vec2 p) const {
+  if (!box_.contains(p)) return 0;
   const int column = column_of(p.x);
   const int row = row_of(p.y);
   const Vec2 centre = centre_of(column, row);
-  const Vec2 q{centre.x, p.y};
-  const Box way{{std::min(p.x, q.x), std::min(p.y, centre.y)},
-                {std::max(p.x, q.x), std::max(p.y, centre.y)}};
-  int winding = cells_[static_cast<std::size_t>(row) * columns_ + column].winding;
+  int sum = cells_[static_cast<std::size_t>(row) * columns_ + column].winding;
   for (const std::uint32_t id : edges_in(row, {column, column})) {
-    const Segment& e = edges_[id];
-    if (contains(e, p)) return true;
-    const double left = std::min(e.a.x, e.b.x);
-    const double right = std::max(e.a.x, e.b.x);
-    if (left > way.hi.x || right < way.lo.x) continue;
-    if ((e.a.y <= p.y) != (e.b.y <= p.y)) winding += winding_step(e, p, q);
-    if ((e.a.x <= q.x) != (e.b.x <= q.x)) winding += winding_step(e, q, centre);
+    sum -= winding_along(edges_[id].a, edges_[id].b, p, centre);
   }
-  return winding != 0;
+  return sum;
+}
+
+bool EdgeGrid::in_solid(Vec2 p) const {
+  if (!box_.contains(p)) return false;
+  const int column = column_of(p.x);
+  for (const std::uint32_t id : edges_in(row_of(p.y), {column, column})) {
+    if (contains(edges_[id], p)) return true;
+  }
+  return winding(p) != 0;
 }
 
 void EdgeGrid::scan(Vec2 p, int row, Run columns, Found& best) const {

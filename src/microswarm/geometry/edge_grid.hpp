@@ -40,6 +40,9 @@ class EdgeGrid {
   std::size_t nearest(Vec2 p, double limit) const;
   /// Is `p` in the solid (or exactly on an edge)? Exact.
   bool in_solid(Vec2 p) const;
+  /// How often the rings wind around p (moved by an infinitesimal, so that it is on no edge): the
+  /// number of bodies that hold it.
+  int winding(Vec2 p) const;
   /// Does the capsule of radius r around s keep clear of every edge (distance >= r; for r = 0: not
   /// touching)? Exact.
   bool capsule_free(Segment s, double r) const;

@@ -21,6 +21,37 @@ inline int orientation(Vec2 a, Vec2 b, Vec2 c) {
   return exact_orientation(a, b, c);
 }
 
+/// `orientation` of p moved by (δ, ε), infinitesimal with 0 < ε ≪ δ, so that it lies on no line:
+/// never 0 unless a = b.
+inline int orientation_beside(Vec2 a, Vec2 b, Vec2 p) {
+  const int side = orientation(a, b, p);
+  if (side != 0) return side;
+  if (a.y != b.y) return a.y > b.y ? 1 : -1;
+  return a.x < b.x ? 1 : a.x > b.x ? -1 : 0;
+}
+
+/// What the edge a → b adds to the winding number around p moved by (δ, ε): ±1 when it passes on
+/// the right (going up counts +1), else 0. Summed over closed rings it is exact.
+inline int winding_of_edge(Vec2 a, Vec2 b, Vec2 p) {
+  if ((a.y <= p.y) == (b.y <= p.y) || p.x > std::max(a.x, b.x)) return 0;
+  const int turn = b.y > a.y ? 1 : -1;
+  return p.x < std::min(a.x, b.x) || orientation_beside(a, b, p) == turn ? turn : 0;
+}
+
+/// What the edge a → b adds to the winding number on the way from `from` level to (to.x, from.y),
+/// then upright to `to`, all moved by the same (δ, ε). Only edges that meet the way count.
+inline int winding_along(Vec2 a, Vec2 b, Vec2 from, Vec2 to) {
+  if (std::min(a.x, b.x) > std::max(from.x, to.x) || std::max(a.x, b.x) < std::min(from.x, to.x)) {
+    return 0;
+  }
+  const Vec2 turn{to.x, from.y};
+  auto is_left = [&](Vec2 p) { return orientation_beside(a, b, p) > 0; };
+  int sum = 0;
+  if ((a.y <= from.y) != (b.y <= from.y)) sum += is_left(turn) - is_left(from);
+  if ((a.x <= to.x) != (b.x <= to.x)) sum += is_left(to) - is_left(turn);
+  return sum;
+}
+
 /// Do two closed segments share a point? Exact, for touching, collinear and degenerate ones too.
 bool intersects(Segment s, Segment t);
 

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/geometry/shapes.hpp"
+
+#include <gtest/gtest.h>
+
+namespace microswarm {
+namespace {
+
+const Polygon frame{{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {{{2, 2}, {2, 8}, {8, 8}, {8, 2}}}};
+
+TEST(Vec2, TurnsAndAngles) {
+  const double pi = 3.141592653589793;
+  EXPECT_EQ(perpendicular({1, 0}), (Vec2{0, 1}));
+  EXPECT_EQ(heading_of({0, 0}), 0);
+  EXPECT_NEAR(heading_of(rotated({2, 0}, 1.25)), 1.25, 1e-15);
+  EXPECT_NEAR(norm(rotated({3, 4}, pi / 3)), 5, 1e-15);
+  EXPECT_GT(cross({1, 0}, {0, 1}), 0);
+}
+
+TEST(Box, EmptyContainsNothing) {
+  const Box box;
+  EXPECT_FALSE(box.contains({0, 0}));
+  EXPECT_FALSE(box.overlaps({{-1, -1}, {1, 1}}));
+}
+
+TEST(Box, TouchingBoxesOverlap) {
+  const Box box{{0, 0}, {1, 2}};
+  EXPECT_TRUE(box.contains({1, 2}));
+  EXPECT_TRUE(box.overlaps({{1, 2}, {3, 3}}));
+  EXPECT_FALSE(box.overlaps({{1.5, 0}, {3, 3}}));
+  EXPECT_EQ(box.grown(1).width(), 3);
+  EXPECT_EQ(box.centre(), (Vec2{0.5, 1}));
+}
+
+TEST(Polygon, AreaLessHoles) {
+  EXPECT_EQ(area(frame), 64);
+  EXPECT_EQ(signed_area(frame.outer), 100);
+  EXPECT_EQ(signed_area(frame.holes[0]), -36);
+  EXPECT_EQ(bounding_box(frame).width(), 10);
+}
+
+TEST(Polygon, SmallAreasFarOutKeepTheirDigits) {
+  const std::vector<Vec2> ring{{1e9, 1e9}, {1e9 + 1, 1e9}, {1e9 + 1, 1e9 + 1}, {1e9, 1e9 + 1}};
+  EXPECT_EQ(signed_area(ring), 1);
+}
+
+TEST(Polygon, EveryEdgeOnce) {
+  int count = 0;
+  Vec2 sum;
+  for_each_edge(frame, [&](Vec2 a, Vec2 b) {
+    ++count;
+    sum += b - a;
+  });
+  EXPECT_EQ(count, 8);
+  EXPECT_EQ(sum, Vec2{});
+  for_each_edge(Polygon{}, [](Vec2, Vec2) { FAIL(); });
+}
+
+TEST(Polygon, NormalisedTurnsRingsAndDropsRepeats) {
+  const Polygon untidy{{{0, 0}, {0, 10}, {0, 10}, {10, 10}, {10, 0}, {0, 0}},
+                       {{{2, 2}, {8, 2}, {8, 8}, {2, 8}, {2, 2}}, {{5, 5}, {5, 5}, {6, 5}}}};
+  const Polygon tidy = normalised(untidy);
+  EXPECT_EQ(tidy.outer.size(), 4u);
+  EXPECT_GT(signed_area(tidy.outer), 0);
+  ASSERT_EQ(tidy.holes.size(), 1u);
+  EXPECT_EQ(tidy.holes[0].size(), 4u);
+  EXPECT_LT(signed_area(tidy.holes[0]), 0);
+  EXPECT_TRUE(normalised({{{0, 0}, {1, 1}, {0, 0}}, {}}).outer.empty());
+}
+
+}  // namespace
+}  // namespace microswarm
