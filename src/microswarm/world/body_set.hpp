@@ -1,37 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <span>
-#include <variant>
 #include <vector>
 
-#include "microswarm/geometry/edge_grid.hpp"
-#include "microswarm/geometry/shapes.hpp"
+#include "microswarm/world/disc_set.hpp"
+#include "microswarm/world/polygon_set.hpp"
 
 namespace microswarm {
 
-/// One solid piece at one moment: a connected wall piece or a moving obstacle.
-struct Body {
-  std::variant<Disc, Polygon> shape;
-  Vec2 velocity{};                 ///< of its centre [µm/s]; zero for walls
-  double deformation_speed = 0;    ///< bound on how fast its outline moves besides [µm/s]
-  std::uint32_t obstacle = 0;      ///< which wall piece or obstacle it is (two leaves share one)
-};
-
 /// What a detection circle sees, for Eq 1–2 [drrt].
 struct Survey {
-  double covered_area = 0;   ///< circle ∩ obstacles [µm²], overlaps counted once
-  int obstacles = 0;         ///< N: obstacles that meet the circle
-  double distance_sum = 0;   ///< Σ d_min,i [µm]; 0 for one that holds the centre
+  double covered_area = 0;  ///< circle ∩ obstacles [µm²], overlaps counted once
+  int obstacles = 0;        ///< N: obstacles that meet the circle
+  double distance_sum = 0;  ///< Σ d_min,i [µm]; 0 for one that holds the centre
 };
 
 /// A set of solid discs and polygons with exact queries. "Free with clearance r" means: no point of
-/// the set is nearer than r, and for r = 0 not touching. Queries neither allocate nor change it.
+/// the set is nearer than r, and for r = 0 not touching. Bodies may touch and overlap. Queries
+/// neither allocate (a survey of more than a hundred obstacles does) nor change the set.
 class BodySet {
  public:
   BodySet() = default;
-  explicit BodySet(std::vector<Body> bodies);
+  /// `apart` promises that no two polygons overlap, as those of a map: surveys are quicker then.
+  explicit BodySet(std::vector<Body> bodies, bool apart = false);
   /// Takes new bodies and keeps the buffers: moving obstacles do this at every tick.
   void assign(std::span<const Body> bodies);
 
@@ -42,17 +34,36 @@ class BodySet {
   double clearance(Vec2 p, double limit) const;
   /// Distance [µm] from the segment to the nearest body, 0 when they meet, at most `limit`.
   double clearance(Segment s, double limit) const;
+  /// Is `p` in a body or on its boundary?
+  bool holds(Vec2 p) const;
   bool is_free(Vec2 p, double r) const;
   /// The whole capsule of radius r around s: exact, so that no thin wall is stepped over.
   bool is_free(Segment s, double r) const;
+  /// Is the capsule free, when it is known that s.a is in no body? Saves asking for it.
+  bool is_free_from_outside(Segment s, double r) const;
   /// Body that holds or is nearest to `p` within `limit`; bodies().size() when there is none.
   std::size_t nearest(Vec2 p, double limit) const;
+
   /// Adds what the circle sees of this set to `survey` (bodies of one obstacle count once).
   void survey(Disc circle, Survey& survey) const;
 
+  const DiscSet& discs() const { return discs_; }
+  const PolygonSet& polygons() const { return polygons_; }
+  bool polygons_apart() const { return apart_; }
+
  private:
+  void index();
+
   std::vector<Body> bodies_;
-  EdgeGrid edges_;
+  DiscSet discs_;
+  PolygonSet polygons_;
+  bool apart_ = false;
 };
+
+/// Depth [µm] of `p` in the body, negative outside: distance to its boundary.
+double depth_in(const Body& body, Vec2 p);
+
+/// What the circle sees of two sets together: obstacles of both, the area that both cover once.
+Survey survey(Disc circle, const BodySet& walls, const BodySet& moving);
 
 }  // namespace microswarm

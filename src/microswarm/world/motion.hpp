@@ -26,7 +26,7 @@ struct Still {
   }
 };
 
-/// Straight on at one velocity.
+/// Straight on at one velocity; its heading is the velocity's.
 struct Straight {
   static constexpr std::string_view type_name = "straight";
   Vec2 start{};
@@ -38,7 +38,8 @@ struct Straight {
   }
 };
 
-/// Back and forth on a line: centre + amplitude · sin(2π(t / period + phase)).
+/// Back and forth on a line: centre + amplitude · sin(2π(t / period + phase)). Its heading is that
+/// of the amplitude, there and back.
 struct HarmonicLine {
   static constexpr std::string_view type_name = "harmonic_line";
   Vec2 centre{};
@@ -55,7 +56,7 @@ struct HarmonicLine {
 };
 
 /// Back and forth on an arc around a pivot: angle = middle + half_angle · sin(2π(t / period +
-/// phase)).
+/// phase)). It turns with the arc: its heading is a quarter turn left of the spoke.
 struct HarmonicArc {
   static constexpr std::string_view type_name = "harmonic_arc";
   Vec2 pivot{};
@@ -82,7 +83,8 @@ constexpr auto enum_names(AtEnd) {
       {{AtEnd::stay, "stay"}, {AtEnd::back, "back"}, {AtEnd::loop, "loop"}}};
 }
 
-/// From waypoint to waypoint at one speed.
+/// From waypoint to waypoint at one speed, beginning at t = 0. It keeps the heading of its first
+/// leg, so that no corner of a body leaps when a leg ends.
 struct Waypoints {
   static constexpr std::string_view type_name = "waypoints";
   std::vector<Vec2> points;
@@ -97,6 +99,7 @@ struct Waypoints {
 };
 
 /// Positions seen at times, straight between them; absent before the first and after the last.
+/// Heading 0.
 struct Samples {
   std::vector<double> times;  ///< [s], ascending
   std::vector<Vec2> points;   ///< [µm], one a time
@@ -127,7 +130,9 @@ struct Placement {
 
 /// Placement at time t [s]. Pure: the same t gives the same bits.
 Placement placement(const Motion& motion, double t);
-/// Upper bound of the speed [µm/s].
+/// Upper bound of the speed [µm/s]; infinite for a track that leaps.
 double top_speed(const Motion& motion);
+/// Upper bound of the rate at which it turns [rad/s].
+double top_turning(const Motion& motion);
 
 }  // namespace microswarm

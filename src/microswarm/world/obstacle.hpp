@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
-#include "microswarm/world/body_set.hpp"
+#include "microswarm/world/body.hpp"
 #include "microswarm/world/motion.hpp"
 
 namespace microswarm {
@@ -58,7 +61,8 @@ struct PolygonShape {
 };
 
 /// Two leaves that close a passage from both sides: they lie across the mover's heading and leave a
-/// gap that goes between its bounds as a sine of time.
+/// gap that goes between its bounds as a sine of time. A leaf is what stands in the passage, from
+/// half a span beside the position to the gap: its inner end moves, its outer end rests.
 struct Valve {
   static constexpr std::string_view type_name = "valve";
   double span = 400;
@@ -80,7 +84,8 @@ struct Valve {
 
 /// A channel cut into a solid block, whose walls deform over time: a wave of the half width,
 /// w(s, t) = half width + amplitude · sin(2π(s / wavelength − t / period)), runs along the centre
-/// line. Both ends are round and may be wider. The block's outline is a box around the position.
+/// line, a smooth curve (Catmull–Rom) through the points. Both ends are round and may be wider. The
+/// block's outline is a box. Centre line and block are given in the mover's frame.
 struct DeformingChannel {
   static constexpr std::string_view type_name = "deforming_channel";
   std::vector<Vec2> centre_line;
@@ -90,23 +95,27 @@ struct DeformingChannel {
   double amplitude = 30;
   double wavelength = 600;
   double period = 20;
+  Vec2 block_centre{};
   double block_width = 2200;
   double block_height = 1600;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.centre_line, {"centre_line", Unit::um, {}, "Middle of the channel; smoothed.", true});
+    visit(self.centre_line,
+          {"centre_line", Unit::um, {}, "Middle of the channel; smoothed.", true});
     visit(self.half_width, {"half_width", Unit::um, {1, 1e6}, "Half width at rest."});
     visit(self.end_half_width, {"end_half_width", Unit::um, {1, 1e6}, "Half width at the ends."});
     visit(self.end_length, {"end_length", Unit::um, {0, 1e6}, "Over which an end widens."});
     visit(self.amplitude, {"amplitude", Unit::um, {0, 1e6}, "Amplitude of the wave."});
     visit(self.wavelength, {"wavelength", Unit::um, {1, 1e7}, "Wavelength along the channel."});
     visit(self.period, {"period", Unit::s, {1e-2, 1e6}, "Period of the wave."});
+    visit(self.block_centre, {"block_centre", Unit::um, {}, "Centre of the solid block."});
     visit(self.block_width, {"block_width", Unit::um, {1, 1e6}, "Width of the solid block."});
     visit(self.block_height, {"block_height", Unit::um, {1, 1e6}, "Height of the solid block."});
   }
 };
 
-using Shape = std::variant<DiscShape, BreathingDisc, BoxShape, PolygonShape, Valve, DeformingChannel>;
+using Shape =
+    std::variant<DiscShape, BreathingDisc, BoxShape, PolygonShape, Valve, DeformingChannel>;
 
 /// Something in the world that moves or changes.
 struct Obstacle {
@@ -119,15 +128,15 @@ struct Obstacle {
   }
 };
 
-/// Appends the bodies of obstacle number `index` at time t [s] to `out`: none when it is absent, two
-/// for a valve. Pure in t.
+/// Appends the bodies of obstacle number `index` at time t [s] to `out`: none when it is absent,
+/// two for a valve. Pure in t.
 void append_bodies(const Obstacle& obstacle, std::uint32_t index, double t, std::vector<Body>& out);
 
 /// Upper bound of the speed of any of its points [µm/s].
 double top_speed(const Obstacle& obstacle);
 
 /// Throws InputError when a field makes no sense with another (fewer than three vertices, least
-/// above greatest radius, …); `where` names the obstacle.
+/// above greatest radius, a channel that runs into itself, …); `where` names the obstacle.
 void check(const Obstacle& obstacle, const std::string& where);
 
 }  // namespace microswarm

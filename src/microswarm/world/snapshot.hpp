@@ -14,8 +14,7 @@ namespace microswarm {
 /// see worlds only as snapshots. Cheap to make (the map is shared), queries are thread-safe.
 class Snapshot {
  public:
-  explicit Snapshot(std::shared_ptr<const Map> map, double time = 0,
-                    std::vector<Body> moving = {});
+  explicit Snapshot(std::shared_ptr<const Map> map, double time = 0, std::vector<Body> moving = {});
 
   double time() const { return time_; }
   const Map& map() const { return *map_; }
@@ -38,8 +37,9 @@ class Snapshot {
   bool is_free(std::span<const Vec2> polyline, double r) const;
   /// What a detection circle sees: Eq 1–2 [drrt].
   Survey survey(Disc circle) const;
-  /// One line for people on why `p` is not free with clearance r: "is 12 µm inside wall 3", "is 7 µm
-  /// from obstacle 1, needs 40 µm", "is outside the map (0..2000 × 0..1000 µm)"; empty when free.
+  /// One line for people on why `p` is not free with clearance r: "is 12 µm inside wall 3", "is 7
+  /// µm from obstacle 1, needs 40 µm", "is outside the map (0..2000 × 0..1000 µm)"; empty when
+  /// free.
   std::string why_blocked(Vec2 p, double r) const;
 
  private:

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/world/clearance_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "microswarm/world/field_painter.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double cells_by_default = 260e3;
+constexpr double most_cells = 16 * 1024 * 1024;
+
+/// The same bits as `squared_distance`; the three cases come at random, so all are computed.
+double squared_distance_unbranched(Vec2 p, const Segment& s) {
+  const Vec2 along = s.b - s.a;
+  const Vec2 to_p = p - s.a;
+  const double t = dot(to_p, along);
+  const double length2 = squared_norm(along);
+  const double area = cross(along, to_p);
+  const double cases[] = {area * area / length2, squared_norm(p - s.b), squared_norm(to_p)};
+  return cases[t <= 0 ? 2 : t >= length2 ? 1 : 0];
+}
+
+}  // namespace
+
+ClearanceField::ClearanceField(const Box& bounds, const BodySet& bodies, double cell) {
+  const double area = bounds.width() * bounds.height();
+  const double longest = std::max(bounds.width(), bounds.height());
+  if (cell <= 0) cell = std::max(std::sqrt(area / cells_by_default), longest / cells_by_default);
+  cell_ = std::max({cell, std::sqrt(area / most_cells), longest / most_cells});
+  per_cell_ = 1 / cell_;
+  origin_ = bounds.lo - Vec2{cell_, cell_};
+  columns_ = static_cast<int>((bounds.hi.x - origin_.x) * per_cell_);
+  rows_ = static_cast<int>((bounds.hi.y - origin_.y) * per_cell_);
+  last_column_ = columns_ + 1;
+  last_row_ = rows_ + 1;
+  stride_ = static_cast<std::size_t>(columns_) + 2;
+  lower_.assign(stride_ * (static_cast<std::size_t>(rows_) + 2), lower_[0]);
+  list_of_.resize(lower_.size());
+  FieldPainter painter(bounds, bodies, *this);
+  painter.paint();
+  double largest = 0;
+  for (const float l : lower_) {
+    if (std::isfinite(l)) largest = std::max(largest, std::abs(static_cast<double>(l)));
+  }
+  const double of_floats = 4 * static_cast<double>(std::numeric_limits<float>::epsilon());
+  spread_ = std::sqrt(2.0) * cell_ * (1 + 1e-6) + 4 * painter.rounding() + of_floats * largest;
+}
+
+double ClearanceField::wall_distance(Vec2 p) const {
+  if (nearest_.empty()) return infinity;
+  double squared = infinity;
+  double to_disc = infinity;
+  for (const std::uint32_t* entry = &nearest_[list_of_[cell_at(p)]];; ++entry) {
+    const std::uint32_t wall = *entry / 2;
+    if (wall < edges_.size()) {
+      squared = std::min(squared, squared_distance_unbranched(p, edges_[wall]));
+    } else {
+      to_disc = std::min(to_disc, distance(p, discs_[wall - edges_.size()]));
+    }
+    if (*entry % 2 == 1) return std::min(to_disc, std::sqrt(squared));
+  }
+}
+
+}  // namespace microswarm

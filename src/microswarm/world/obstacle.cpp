@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/world/obstacle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/text.hpp"
+#include "microswarm/world/channel.hpp"
+
+namespace microswarm {
+namespace {
+
+/// A quantity that goes between two bounds as a sine of time.
+struct Swing {
+  double value;
+  double rate;
+};
+Swing swing(double least, double greatest, double period, double phase, double t) {
+  const double turns = t / period + phase;
+  const double angle = 2 * pi * (turns - std::floor(turns));
+  const double half = 0.5 * (greatest - least);
+  return {least + half * (1 + std::sin(angle)), half * 2 * pi / period * std::cos(angle)};
+}
+double top_rate(double least, double greatest, double period) {
+  return std::abs(greatest - least) * pi / period;
+}
+
+void place(std::vector<Vec2>& ring, const Pose2& pose) {
+  const Vec2 u = unit_vector(pose.heading);
+  for (Vec2& v : ring) {
+    v = pose.position + Vec2{u.x * v.x - u.y * v.y, u.y * v.x + u.x * v.y};
+  }
+}
+
+void place(Polygon& polygon, const Pose2& pose) {
+  place(polygon.outer, pose);
+  for (auto& hole : polygon.holes) place(hole, pose);
+}
+
+std::vector<Vec2> box_ring(const Box& b) {
+  return {b.lo, {b.hi.x, b.lo.y}, b.hi, {b.lo.x, b.hi.y}};
+}
+
+/// Puts the bodies of one kind of shape at a placement; `turning` is the bound on the motion's.
+class Builder {
+ public:
+  Builder(const Placement& at, double turning, std::uint32_t obstacle, double t,
+          std::vector<Body>& out)
+      : at_(at), turning_(turning), obstacle_(obstacle), t_(t), out_(out) {}
+
+  void operator()(const DiscShape& shape) {
+    out_.push_back({Disc{at_.pose.position, shape.radius}, at_.velocity, 0, obstacle_});
+  }
+  void operator()(const BreathingDisc& shape) {
+    const Swing radius =
+        swing(shape.least_radius, shape.greatest_radius, shape.period, shape.phase, t_);
+    out_.push_back({Disc{at_.pose.position, radius.value}, at_.velocity,
+                    top_rate(shape.least_radius, shape.greatest_radius, shape.period), obstacle_});
+  }
+  void operator()(const BoxShape& shape) {
+    const Vec2 half{0.5 * shape.width, 0.5 * shape.height};
+    add({box_ring({-half, half}), {}}, {}, 0);
+  }
+  void operator()(const PolygonShape& shape) { add(normalised({shape.vertices, {}}), {}, 0); }
+  void operator()(const Valve& shape) {
+    const Swing gap = swing(shape.least_gap, shape.greatest_gap, shape.period, shape.phase, t_);
+    const double outer = 0.5 * shape.span;
+    const double inner = 0.5 * gap.value;
+    if (inner >= outer) return;
+    const double half = 0.5 * shape.thickness;
+    const Vec2 inwards{0, -0.25 * gap.rate};
+    const double deforming = 0.25 * top_rate(shape.least_gap, shape.greatest_gap, shape.period);
+    add({box_ring({{-half, inner}, {half, outer}}), {}}, -inwards, deforming);
+    add({box_ring({{-half, -outer}, {half, -inner}}), {}}, inwards, deforming);
+  }
+  void operator()(const DeformingChannel& shape) {
+    add(channel_block(shape, t_), {}, shape.amplitude * 2 * pi / shape.period);
+  }
+
+ private:
+  void add(Polygon polygon, Vec2 own_velocity, double deforming) {
+    if (polygon.outer.size() < 3) return;
+    double reach = 0;
+    if (turning_ > 0) {
+      for (const Vec2 v : polygon.outer) reach = std::max(reach, norm(v));
+    }
+    place(polygon, at_.pose);
+    out_.push_back({std::move(polygon), at_.velocity + rotated(own_velocity, at_.pose.heading),
+                    deforming + turning_ * reach, obstacle_});
+  }
+
+  const Placement& at_;
+  double turning_;
+  std::uint32_t obstacle_;
+  double t_;
+  std::vector<Body>& out_;
+};
+
+struct Extent {
+  double operator()(const DiscShape& s) const { return s.radius; }
+  double operator()(const BreathingDisc& s) const { return s.greatest_radius; }
+  double operator()(const BoxShape& s) const { return 0.5 * std::hypot(s.width, s.height); }
+  double operator()(const PolygonShape& s) const {
+    double extent = 0;
+    for (const Vec2 v : s.vertices) extent = std::max(extent, norm(v));
+    return extent;
+  }
+  double operator()(const Valve& s) const { return 0.5 * std::hypot(s.span, s.thickness); }
+  double operator()(const DeformingChannel& s) const {
+    return norm(s.block_centre) + 0.5 * std::hypot(s.block_width, s.block_height);
+  }
+};
+
+struct OwnSpeed {
+  double operator()(const BreathingDisc& s) const {
+    return top_rate(s.least_radius, s.greatest_radius, s.period);
+  }
+  double operator()(const Valve& s) const {
+    return 0.5 * top_rate(s.least_gap, s.greatest_gap, s.period);
+  }
+  double operator()(const DeformingChannel& s) const { return s.amplitude * 2 * pi / s.period; }
+  template <class Rigid>
+  double operator()(const Rigid&) const {
+    return 0;
+  }
+};
+
+void check_order(double least, double greatest, const std::string& what, const std::string& where) {
+  if (least <= greatest) return;
+  throw InputError(where + ": least_" + what + " " + number_text(least) + " µm exceeds greatest_" +
+                   what + " " + number_text(greatest) + " µm");
+}
+
+struct Checker {
+  const std::string& where;
+
+  void operator()(const BreathingDisc& s) const {
+    check_order(s.least_radius, s.greatest_radius, "radius", where);
+  }
+  void operator()(const Valve& s) const {
+    check_order(s.least_gap, s.greatest_gap, "gap", where);
+    if (s.least_gap < s.span) return;
+    throw InputError(where + ": least_gap " + number_text(s.least_gap) +
+                     " µm leaves no leaf in a span of " + number_text(s.span) + " µm");
+  }
+  void operator()(const PolygonShape& s) const {
+    const Polygon ring = normalised({s.vertices, {}});
+    if (ring.outer.size() < 3) {
+      throw InputError(where + ": a polygon needs three different vertices at least");
+    }
+    if (signed_area(ring.outer) == 0) throw InputError(where + ": the polygon has no area");
+  }
+  void operator()(const DeformingChannel& s) const { check(s, where); }
+  void operator()(const Waypoints& m) const {
+    if (m.points.empty()) throw InputError(where + ": waypoints without a point");
+  }
+  void operator()(const Track& m) const {
+    if (!m.samples || m.samples->times.empty()) {
+      throw InputError(where + ": no samples of id '" + m.id + "' in " + m.file);
+    }
+    const auto& times = m.samples->times;
+    for (std::size_t i = 1; i < times.size(); ++i) {
+      if (times[i] > times[i - 1]) continue;
+      throw InputError(where + ": " + m.file + ": times of id '" + m.id + "' do not ascend at " +
+                       number_text(times[i]) + " s");
+    }
+  }
+  template <class Other>
+  void operator()(const Other&) const {}
+};
+
+}  // namespace
+
+void append_bodies(const Obstacle& obstacle, std::uint32_t index, double t,
+                   std::vector<Body>& out) {
+  const Placement at = placement(obstacle.motion, t);
+  if (!at.present) return;
+  std::visit(Builder(at, top_turning(obstacle.motion), index, t, out), obstacle.shape);
+}
+
+double top_speed(const Obstacle& obstacle) {
+  const double turning = top_turning(obstacle.motion);
+  return top_speed(obstacle.motion) + std::visit(OwnSpeed{}, obstacle.shape) +
+         (turning > 0 ? turning * std::visit(Extent{}, obstacle.shape) : 0);
+}
+
+void check(const Obstacle& obstacle, const std::string& where) {
+  std::visit(Checker{where}, obstacle.shape);
+  std::visit(Checker{where}, obstacle.motion);
+}
+
+}  // namespace microswarm

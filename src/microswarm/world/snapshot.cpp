@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/world/snapshot.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "microswarm/core/text.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// With as many digits as tell it from `r`.
+std::string length_text(double d, double r) {
+  for (const double unit : {1.0, 0.1, 0.001}) {
+    const double rounded = std::round(d / unit) * unit;
+    if (rounded > 0 && (d < r) == (rounded < r) && (unit < 1 || d >= 9.5 || rounded == d)) {
+      return number_text(std::round(rounded * 1000) / 1000) + " µm";
+    }
+  }
+  return number_text(d) + " µm";
+}
+
+std::string name_of(const BodySet& set, std::size_t body, const char* kind) {
+  return kind + std::string(" ") + std::to_string(set.bodies()[body].obstacle + 1);
+}
+
+/// "is 12 µm inside wall 3", when it is.
+std::optional<std::string> inside_text(const BodySet& set, Vec2 p, const char* kind) {
+  if (!set.holds(p)) return std::nullopt;
+  const std::size_t body = set.nearest(p, infinity);
+  if (body == set.bodies().size()) return std::nullopt;
+  const double depth = depth_in(set.bodies()[body], p);
+  if (!(depth > 0)) return "touches " + name_of(set, body, kind);
+  return "is " + length_text(depth, infinity) + " inside " + name_of(set, body, kind);
+}
+
+}  // namespace
+
+Snapshot::Snapshot(std::shared_ptr<const Map> map, double time, std::vector<Body> moving)
+    : map_(std::move(map)), time_(time), moving_(std::move(moving)) {
+  assert(map_);
+}
+
+double Snapshot::clearance(Vec2 p) const {
+  const double to_wall = map_->clearance(p);
+  return moving_.empty() ? to_wall : moving_.clearance(p, to_wall);
+}
+
+double Snapshot::obstacle_clearance(Vec2 p) const {
+  const double to_wall = map_->walls().clearance(p, infinity);
+  return moving_.empty() ? to_wall : moving_.clearance(p, to_wall);
+}
+
+bool Snapshot::is_free(std::span<const Vec2> polyline, double r) const {
+  if (polyline.empty()) return true;
+  if (polyline.size() == 1) return is_free(polyline[0], r);
+  const Vec2 centre = bounding_box(polyline).centre();
+  double squared = 0;
+  for (const Vec2 p : polyline) squared = std::max(squared, squared_norm(p - centre));
+  const double reach = r + std::sqrt(squared) * (1 + 1e-12);
+  auto pieces_free = [&](const auto& solid) {
+    for (std::size_t i = 1; i < polyline.size(); ++i) {
+      if (!solid.is_free(Segment{polyline[i - 1], polyline[i]}, r)) return false;
+    }
+    return true;
+  };
+  return (map_->field().lower(centre) >= reach || pieces_free(*map_)) &&
+         (moving_.empty() || moving_.is_free(centre, reach) || pieces_free(moving_));
+}
+
+Survey Snapshot::survey(Disc circle) const {
+  const bool sees_walls = map_->field().lower(circle.centre) <= circle.radius;
+  if (sees_walls && !moving_.empty()) return microswarm::survey(circle, map_->walls(), moving_);
+  Survey survey;
+  if (sees_walls) map_->walls().survey(circle, survey);
+  if (!moving_.empty()) moving_.survey(circle, survey);
+  return survey;
+}
+
+std::string Snapshot::why_blocked(Vec2 p, double r) const {
+  if (is_free(p, r)) return {};
+  const Box& box = bounds();
+  if (!box.contains(p)) {
+    return "is outside the map (" + number_text(box.lo.x) + ".." + number_text(box.hi.x) + " × " +
+           number_text(box.lo.y) + ".." + number_text(box.hi.y) + " µm)";
+  }
+  if (const auto inside = inside_text(map_->walls(), p, "wall")) return *inside;
+  if (const auto inside = inside_text(moving_, p, "obstacle")) return *inside;
+  const double to_border = map_->border_clearance(p);
+  const double to_wall = map_->walls().clearance(p, to_border);
+  const double to_obstacle = moving_.clearance(p, to_wall);
+  const double least = to_obstacle;
+  if (!(least > 0)) return "touches the border";
+  std::string from = "the border";
+  if (to_obstacle < to_wall) {
+    from = name_of(moving_, moving_.nearest(p, to_wall), "obstacle");
+  } else if (to_wall < to_border) {
+    from = name_of(map_->walls(), map_->walls().nearest(p, to_border), "wall");
+  }
+  return "is " + length_text(least, r) + " from " + from + ", needs " + number_text(r) + " µm";
+}
+
+}  // namespace microswarm
