@@ -10,15 +10,15 @@ namespace {
 
 TEST(Help, IsATable) {
   EXPECT_EQ(help_text<Obstacle>(),
-            R"(key                    unit  default   allowed               meaning
-shape                        required  disc | fan | nothing  What it is.
+            R"(key                    unit  default   allowed       meaning
+shape                        required  a type below  What it is.
   type: disc
-    radius_um          µm    required  0.001..1e6            Radius.
+    radius_um          µm    required  0.001..1e6    Radius.
   type: fan
-    opening_deg        °     30        0..360                Angle at its tip.
-    turning_deg_per_s  °/s   0                               How fast it turns.
+    opening_deg        °     30        0..360        Angle at its tip.
+    turning_deg_per_s  °/s   0                       How fast it turns.
   type: nothing
-way_um                 µm    []        -1e6..1e6             Where it goes.
+way_um                 µm    []        -1e6..1e6     Where it goes.
 )");
 }
 

@@ -40,7 +40,8 @@ std::string default_text(const Field& field, const void* value) {
 
 std::string allowed_text(const Field& field) {
   const Type& type = content_of(*field.type);
-  if (!type.words.empty()) return fmt::format("{}", fmt::join(type.words, " | "));
+  if (type.kind == TypeKind::variant) return "a type below";
+  if (type.kind == TypeKind::choice) return fmt::format("{}", fmt::join(type.words, " | "));
   if (type.kind == TypeKind::boolean) return "true | false";
   return range_text(field.info.range, Unit::none);
 }

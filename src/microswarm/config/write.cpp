@@ -58,7 +58,7 @@ std::string number_value(double value, Unit unit, Syntax syntax) {
   if (!std::isfinite(value) && syntax == Syntax::json) return "null";
   if (std::isnan(value)) return ".nan";
   if (std::isinf(value)) return value > 0 ? ".inf" : "-.inf";
-  const std::string text = shown_number(value, unit);
+  std::string text = shown_number(value, unit);
   const std::size_t e = text.find('e');
   if (syntax == Syntax::json || e == std::string::npos) return text;
   const std::string_view digits = std::string_view(text).substr(0, e);

@@ -28,6 +28,12 @@ struct FieldInfo {
   bool required = false;  ///< must be given: there is no sensible default
 };
 
+/// Visits fields and does nothing: what the concept below is asked with.
+struct NullVisitor {
+  template <class T>
+  void operator()(T&, const FieldInfo&) {}
+};
+
 /// A parameter struct lists its fields once, in one static member template,
 ///
 ///     template <class Self, class Visitor>
@@ -41,11 +47,6 @@ struct FieldInfo {
 /// structs that each have a `static constexpr std::string_view type_name` (chosen by the key
 /// `type`). Unit and range hold for every number in the field: both coordinates of a Vec2, each
 /// entry of a vector.
-struct NullVisitor {
-  template <class T>
-  void operator()(T&, const FieldInfo&) {}
-};
-
 template <class T>
 concept HasFields = requires(T& t, NullVisitor& v) {
   T::fields(t, v);
