@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "microswarm/core/stop.hpp"
+
+namespace microswarm::cli {
+
+/// Exit codes of the program. Bad command lines and bad input are 2.
+inline constexpr int ok = 0;
+inline constexpr int failed = 1;
+inline constexpr int bad_input = 2;
+inline constexpr int not_reached = 3;
+
+/// What every command is given: the stop that Ctrl-C sets.
+struct Context {
+  Stop stop;
+};
+
+/// A command registers its options on the app and sets `action`, which main() calls once the whole
+/// command line is known to be right; it returns the exit code.
+using Action = std::function<int(const Context&)>;
+
+void add_run(CLI::App& app, Action& action);
+void add_plan(CLI::App& app, Action& action);
+void add_replay(CLI::App& app, Action& action);
+void add_report(CLI::App& app, Action& action);
+void add_schema(CLI::App& app, Action& action);
+void add_map(CLI::App& app, Action& action);
+void add_reproduce(CLI::App& app, Action& action);
+void add_bench(CLI::App& app, Action& action);
+
+/// Progress on stderr, only where that is a terminal: "label [#####.....] 50 % 3 s left".
+class ProgressBar {
+ public:
+  explicit ProgressBar(std::string label);
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+  /// `share` of the work is done, in [0, 1].
+  void update(double share);
+
+ private:
+  std::string label_;
+  bool shown_;
+  Stop::Clock::time_point began_;
+  int last_ = -1;
+};
+
+/// Makes the folder, with its parents. Throws InputError "FOLDER: cannot make the folder: REASON".
+void make_folder(const std::string& folder);
+
+}  // namespace microswarm::cli

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "cli.hpp"
+#include "microswarm/core/error.hpp"
+
+namespace microswarm::cli {
+
+ProgressBar::ProgressBar(std::string label)
+    : label_(std::move(label)), shown_(isatty(STDERR_FILENO) == 1), began_(Stop::Clock::now()) {}
+
+ProgressBar::~ProgressBar() {
+  if (shown_ && last_ >= 0) fmt::print(stderr, "\r\033[K");
+}
+
+void ProgressBar::update(double share) {
+  const int percent = static_cast<int>(100 * std::clamp(share, 0.0, 1.0));
+  if (!shown_ || percent == last_) return;
+  last_ = percent;
+  const double spent = std::chrono::duration<double>(Stop::Clock::now() - began_).count();
+  const double left = share > 0 ? spent * (1 - share) / share : 0;
+  const auto done = static_cast<std::size_t>(percent / 4);
+  fmt::print(stderr, "\r\033[K{} [{}{}] {:3} % {:.0f} s left", label_, std::string(done, '#'),
+             std::string(25 - done, '.'), percent, left);
+  std::fflush(stderr);
+}
+
+void make_folder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw InputError(fmt::format("{}: cannot make the folder: {}", folder, error.message()));
+}
+
+}  // namespace microswarm::cli

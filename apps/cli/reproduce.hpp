@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli.hpp"
+#include "microswarm/report/rows.hpp"
+
+namespace microswarm::cli {
+
+inline constexpr int full_seeds = 100;
+inline constexpr int quick_seeds = 10;
+
+/// How to reproduce: where the scenarios stand, where plots go (nowhere when empty), how many seeds.
+struct ReproduceOptions {
+  std::string out;
+  std::string scenarios;
+  bool quick = false;
+
+  int seed_count() const { return quick ? quick_seeds : full_seeds; }
+};
+
+/// [drrt]: fig3 (S-channel), fig5a (deforming channel), fig5b (moving obstacles), or all when empty.
+std::vector<ReproduceRow> reproduce_drrt(const std::string& figure, const ReproduceOptions& options,
+                                         const Stop& stop);
+
+}  // namespace microswarm::cli
