@@ -27,10 +27,32 @@ std::vector<Vec2> without_repeats(std::vector<Vec2> points) {
   return points;
 }
 
-/// Catmull–Rom with centripetal knots, which neither loops nor cusps within a piece: tangent at p,
-/// per unit of knot, with its neighbours u and v at knot distances a and b.
-Vec2 tangent(Vec2 u, Vec2 p, Vec2 v, double a, double b) {
-  return (p - u) / a - (v - u) / (a + b) + (v - p) / b;
+/// Derivatives at the points of the natural cubic spline over chord length: of all curves through
+/// the points about the one that bends least.
+std::vector<Vec2> spline_tangents(const std::vector<Vec2>& p) {
+  const std::size_t n = p.size();
+  std::vector<Vec2> m(n);
+  std::vector<double> diagonal(n, 0);
+  auto chord = [&](std::size_t i) { return distance(p[i], p[i + 1]); };
+  auto slope = [&](std::size_t i) { return 3 / (chord(i) * chord(i)) * (p[i + 1] - p[i]); };
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i > 0) {
+      diagonal[i] += 2 / chord(i - 1);
+      m[i] += slope(i - 1);
+    }
+    if (i + 1 < n) {
+      diagonal[i] += 2 / chord(i);
+      m[i] += slope(i);
+    }
+  }
+  for (std::size_t i = 1; i < n; ++i) {  // elimination, then substitution
+    const double share = 1 / (chord(i - 1) * diagonal[i - 1]);
+    diagonal[i] -= share / chord(i - 1);
+    m[i] -= share * m[i - 1];
+  }
+  m[n - 1] = m[n - 1] / diagonal[n - 1];
+  for (std::size_t i = n - 1; i-- > 0;) m[i] = (m[i] - m[i + 1] / chord(i)) / diagonal[i];
+  return m;
 }
 
 std::vector<Station> stations(const DeformingChannel& channel) {
@@ -40,22 +62,17 @@ std::vector<Station> stations(const DeformingChannel& channel) {
   double total = 0;
   for (std::size_t i = 1; i < p.size(); ++i) total += distance(p[i - 1], p[i]);
   const double spacing = std::max(sample_spacing, total / most_samples);
-  auto knot = [&](std::size_t i) { return std::sqrt(distance(p[i], p[i + 1])); };
-  auto tangent_at = [&](std::size_t i) {
-    if (i == 0) return (p[1] - p[0]) / knot(0);
-    if (i + 1 == p.size()) return (p[i] - p[i - 1]) / knot(i - 1);
-    return tangent(p[i - 1], p[i], p[i + 1], knot(i - 1), knot(i));
-  };
+  const std::vector<Vec2> tangents = spline_tangents(p);
   Vec2 forwards{1, 0};
   auto add = [&](Vec2 position, Vec2 direction) {
     const double s = out.empty() ? 0 : out.back().s + distance(out.back().position, position);
     if (const double speed = norm(direction); speed > 0) forwards = direction / speed;
     out.push_back({position, forwards, s});
   };
-  add(p[0], tangent_at(0));
+  add(p[0], tangents[0]);
   for (std::size_t i = 0; i + 1 < p.size(); ++i) {
-    const Vec2 m0 = knot(i) * tangent_at(i);
-    const Vec2 m1 = knot(i) * tangent_at(i + 1);
+    const Vec2 m0 = distance(p[i], p[i + 1]) * tangents[i];
+    const Vec2 m1 = distance(p[i], p[i + 1]) * tangents[i + 1];
     const int steps = std::max(1, static_cast<int>(std::ceil(distance(p[i], p[i + 1]) / spacing)));
     for (int k = 1; k <= steps; ++k) {
       const double u = static_cast<double>(k) / steps;

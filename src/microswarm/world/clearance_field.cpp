@@ -11,7 +11,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double cells_by_default = 260e3;
-constexpr double most_cells = 16 * 1024 * 1024;
+constexpr double most_cells = 4 * 1024 * 1024;
 
 /// The same bits as `squared_distance`; the three cases come at random, so all are computed.
 double squared_distance_unbranched(Vec2 p, const Segment& s) {

@@ -19,7 +19,7 @@ class ClearanceField {
  public:
   ClearanceField() = default;
   /// Clearance to the bodies and to the border of `bounds`. `cell` [µm]; 0 chooses one so that
-  /// there are about 260,000 cells; a finer one than 16 million cells is made coarser.
+  /// there are about 260,000 cells; one that makes more than 4 million is made coarser.
   ClearanceField(const Box& bounds, const BodySet& bodies, double cell = 0);
 
   double cell() const { return cell_; }

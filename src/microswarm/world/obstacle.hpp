@@ -84,8 +84,8 @@ struct Valve {
 
 /// A channel cut into a solid block, whose walls deform over time: a wave of the half width,
 /// w(s, t) = half width + amplitude · sin(2π(s / wavelength − t / period)), runs along the centre
-/// line, a smooth curve (Catmull–Rom) through the points. Both ends are round and may be wider. The
-/// block's outline is a box. Centre line and block are given in the mover's frame.
+/// line, a smooth curve (cubic spline) through the points. Both ends are round and may be wider.
+/// The block's outline is a box. Centre line and block are given in the mover's frame.
 struct DeformingChannel {
   static constexpr std::string_view type_name = "deforming_channel";
   std::vector<Vec2> centre_line;

@@ -38,10 +38,17 @@ std::vector<Body> connected_pieces(std::vector<Polygon> polygons, const std::vec
   Groups touching(solids);
   Groups merging(polygons.size());
   std::vector<bool> must_clip(polygons.size(), false);
-  auto has_area = [&](std::size_t i) { return signed_area(polygons[i].outer) > 0; };
-  for (const Contact& c : find_contacts(polygons, discs)) {
+  const std::vector<Contact> contacts = find_contacts(polygons, discs);
+  for (const Contact& c : contacts) {
+    if (c.first == c.second) must_clip[c.first] = true;
+  }
+  std::vector<bool> has_area = must_clip;
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    has_area[i] = has_area[i] || signed_area(polygons[i].outer) > 0;
+  }
+  for (const Contact& c : contacts) {
     touching.join(c.first, c.second);
-    if (!c.overlap || !has_area(c.first) || !has_area(c.second)) continue;
+    if (!c.overlap || !has_area[c.first] || !has_area[c.second]) continue;
     must_clip[c.first] = must_clip[c.second] = true;
     merging.join(c.first, c.second);
   }

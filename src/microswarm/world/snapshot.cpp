@@ -14,13 +14,12 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// With as many digits as tell it from `r`.
+/// As few digits as tell it from `r`.
 std::string length_text(double d, double r) {
-  for (const double unit : {1.0, 0.1, 0.001}) {
-    const double rounded = std::round(d / unit) * unit;
-    if (rounded > 0 && (d < r) == (rounded < r) && (unit < 1 || d >= 9.5 || rounded == d)) {
-      return number_text(std::round(rounded * 1000) / 1000) + " µm";
-    }
+  for (const double per_unit : {1.0, 10.0, 1e3, 1e6}) {
+    const double rounded = std::round(d * per_unit) / per_unit;
+    const bool is_near = per_unit > 1 || d >= 9.5 || rounded == d;
+    if (is_near && rounded > 0 && (d < r) == (rounded < r)) return number_text(rounded) + " µm";
   }
   return number_text(d) + " µm";
 }

@@ -117,6 +117,7 @@ WidestPath widest_path(const Map& map, Vec2 a, Vec2 b, double enough, double cel
     out.clearance = clearance;
     out.tightest = s.b;
   }
+  out.clearance *= 1 - 1e-12;  // so that no rounding makes it more than is_free grants
   return out;
 }
 

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/world/obstacle.hpp"
+
+#include <gtest/gtest.h>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/rng.hpp"
+#include "microswarm/geometry/distance.hpp"
+#include "microswarm/world/world.hpp"
+
+namespace microswarm {
+namespace {
+
+std::vector<Body> at(const Obstacle& obstacle, double t) {
+  std::vector<Body> out;
+  append_bodies(obstacle, 4, t, out);
+  return out;
+}
+
+double distance_to(const std::vector<Body>& bodies, Vec2 p) {
+  double least = 1e9;
+  for (const Body& b : bodies) {
+    least =
+        std::min(least, std::visit([&](const auto& shape) { return distance(p, shape); }, b.shape));
+  }
+  return least;
+}
+
+const DeformingChannel channel{.centre_line = {{-800, 200}, {-300, -200}, {300, 200}, {800, -200}},
+                               .half_width = 150,
+                               .end_half_width = 200,
+                               .end_length = 200,
+                               .amplitude = 30,
+                               .wavelength = 500,
+                               .period = 12};
+
+std::vector<Obstacle> all_obstacles() {
+  const HarmonicArc arc{{0, 0}, 150, 0.3, 0.9, 7, 0};
+  return {{DiscShape{30}, Straight{{0, 0}, {12, 5}}},
+          {BreathingDisc{20, 90, 6, 0.1}, HarmonicLine{{0, 0}, {100, 50}, 11, 0}},
+          {BoxShape{120, 30}, arc},
+          {PolygonShape{{{0, 0}, {80, 10}, {20, 60}}}, arc},
+          {Valve{300, 40, 20, 200, 8, 0}, Still{{50, 0}, 0.7}},
+          {channel, Still{}}};
+}
+
+TEST(Obstacle, no_point_of_it_is_faster_than_its_top_speed) {
+  Rng rng(1, Purpose::test);
+  for (const Obstacle& obstacle : all_obstacles()) {
+    const double top = top_speed(obstacle);
+    for (int i = 0; i < 400; ++i) {
+      const double t = rng.uniform(-5, 30);
+      const double dt = std::pow(10.0, rng.uniform(-3, 0));
+      const auto before = at(obstacle, t);
+      const auto after = at(obstacle, t + dt);
+      for (int k = 0; k < 5; ++k) {
+        const Vec2 p{rng.uniform(-600, 600), rng.uniform(-400, 400)};
+        EXPECT_LE(distance_to(before, p) - distance_to(after, p), top * dt + 1e-6);
+      }
+    }
+  }
+}
+
+TEST(Obstacle, bodies_tell_velocity_and_deformation_that_bound_their_near_future) {
+  Rng rng(2, Purpose::test);
+  for (const Obstacle& obstacle : all_obstacles()) {
+    for (int i = 0; i < 300; ++i) {
+      const double t = rng.uniform(0, 30);
+      const double dt = 1e-3;
+      const auto before = at(obstacle, t);
+      const auto after = at(obstacle, t + dt);
+      if (before.size() != after.size()) continue;
+      for (std::size_t k = 0; k < before.size(); ++k) {
+        const Body& body = before[k];
+        EXPECT_EQ(body.obstacle, 4u);
+        const Vec2 p{rng.uniform(-300, 300), rng.uniform(-300, 300)};
+        // In the frame of the body only its deformation brings it nearer.
+        const double was = distance_to({body}, p);
+        const double is = distance_to({after[k]}, p + dt * body.velocity);
+        EXPECT_LE(was - is, body.deformation_speed * dt + 0.1 * dt);
+      }
+    }
+  }
+}
+
+TEST(Obstacle, boxes_turn_with_their_heading) {
+  const auto box = at({BoxShape{100, 20}, Still{{10, 20}, pi / 2}}, 0);
+  ASSERT_EQ(box.size(), 1u);
+  const Box bounds = bounding_box(std::get<Polygon>(box[0].shape));
+  EXPECT_NEAR(bounds.width(), 20, 1e-12);
+  EXPECT_NEAR(bounds.height(), 100, 1e-12);
+  EXPECT_GT(signed_area(std::get<Polygon>(box[0].shape).outer), 0);
+}
+
+TEST(Obstacle, a_polygon_drawn_clockwise_is_solid_too) {
+  const auto body = at({PolygonShape{{{0, 0}, {0, 50}, {50, 0}}}, Still{}}, 0);
+  EXPECT_EQ(distance_to(body, {10, 10}), 0);
+}
+
+TEST(Obstacle, disc_breathes_between_its_radii) {
+  const Obstacle disc{BreathingDisc{50, 100, 8, 0}, Still{}};
+  auto radius = [&](double t) { return std::get<Disc>(at(disc, t)[0].shape).radius; };
+  EXPECT_NEAR(radius(0), 75, 1e-12);
+  EXPECT_NEAR(radius(2), 100, 1e-12);
+  EXPECT_NEAR(radius(6), 50, 1e-12);
+  EXPECT_NEAR(radius(6 + 8000), 50, 1e-9);
+}
+
+TEST(Obstacle, valve_leaves_leave_the_gap_and_fill_the_rest) {
+  const Obstacle valve{Valve{400, 40, 0, 300, 20, 0}, Still{}};
+  const auto open = at(valve, 5);  // widest: gap 300 across the heading
+  ASSERT_EQ(open.size(), 2u);
+  EXPECT_EQ(open[0].obstacle, open[1].obstacle);
+  EXPECT_NEAR(distance_to(open, {0, 0}), 150, 1e-9);
+  EXPECT_EQ(distance_to(open, {0, 199}), 0);
+  EXPECT_NEAR(distance_to(open, {0, 201}), 1, 1e-9);
+  EXPECT_EQ(distance_to(open, {20, -199}), 0);
+  EXPECT_LT(distance_to(at(valve, 15), {0, 0}), 1e-9);
+  EXPECT_TRUE(at({Valve{400, 40, 0, 500, 20, 0}, Still{}}, 5).empty());
+}
+
+TEST(Obstacle, is_absent_when_its_mover_is) { EXPECT_TRUE(at({DiscShape{5}, Track{}}, 0).empty()); }
+
+TEST(Obstacle, what_makes_no_sense_is_named) {
+  auto message = [](const Obstacle& o) -> std::string {
+    try {
+      check(o, "obstacle 2");
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  for (const Obstacle& o : all_obstacles()) EXPECT_EQ(message(o), "");
+  EXPECT_EQ(message({BreathingDisc{90, 20}, Still{}}),
+            "obstacle 2: least_radius 90 µm exceeds greatest_radius 20 µm");
+  EXPECT_EQ(message({Valve{.span = 400, .least_gap = 300, .greatest_gap = 200}, Still{}}),
+            "obstacle 2: least_gap 300 µm exceeds greatest_gap 200 µm");
+  EXPECT_NE(message({Valve{.span = 400, .least_gap = 500, .greatest_gap = 600}, Still{}}), "");
+  EXPECT_EQ(message({PolygonShape{{{0, 0}, {1, 1}}}, Still{}}),
+            "obstacle 2: a polygon needs three different vertices at least");
+  EXPECT_EQ(message({PolygonShape{{{0, 0}, {1, 1}, {2, 2}}}, Still{}}),
+            "obstacle 2: the polygon has no area");
+  EXPECT_EQ(message({DiscShape{5}, Waypoints{}}), "obstacle 2: waypoints without a point");
+  EXPECT_EQ(message({DiscShape{5}, Track{"t.csv", "9", nullptr}}),
+            "obstacle 2: no samples of id '9' in t.csv");
+  const auto leap = std::make_shared<Samples>(Samples{{0, 2, 2}, {{0, 0}, {1, 1}, {2, 2}}});
+  EXPECT_EQ(message({DiscShape{5}, Track{"t.csv", "9", leap}}),
+            "obstacle 2: t.csv: times of id '9' do not ascend at 2 s");
+}
+
+TEST(World, snapshots_hold_the_bodies_of_their_time) {
+  World world{std::make_shared<Map>(Box{{-500, -500}, {500, 500}}, std::vector<Polygon>{}),
+              {{DiscShape{30}, Straight{{0, 0}, {10, 0}}},
+               {DiscShape{30}, Track{}},
+               {Valve{.span = 100, .least_gap = 0, .greatest_gap = 50}, Still{}}}};
+  const Snapshot now = world.at(7);
+  EXPECT_EQ(now.time(), 7);
+  ASSERT_EQ(now.moving().bodies().size(), 3u);
+  EXPECT_EQ(std::get<Disc>(now.moving().bodies()[0].shape).centre, (Vec2{70, 0}));
+  EXPECT_EQ(now.moving().bodies()[0].velocity, (Vec2{10, 0}));
+  EXPECT_EQ(now.moving().bodies()[1].obstacle, 2u);
+  EXPECT_EQ(&now.map(), world.map.get());
+}
+
+}  // namespace
+}  // namespace microswarm
