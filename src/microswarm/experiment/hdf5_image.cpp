@@ -36,10 +36,13 @@ class Id {
   herr_t (*close_)(hid_t);
 };
 
-/// HDF5 prints its errors by itself; as long as one of these lives it does not.
+/// HDF5 prints its errors by itself; as long as one of these lives it does not. Nor does it tidy up
+/// at the program's end, when it complains about files that were damaged: everything here is
+/// closed.
 class Quiet {
  public:
   Quiet() {
+    H5dont_atexit();
     H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }
@@ -175,6 +178,7 @@ Hdf5Reader::Hdf5Reader(std::string bytes, std::string name)
   const Quiet quiet;
   const Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fapl_core(access, growth, false);
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
   if (!bytes_.empty()) H5Pset_file_image(access, bytes_.data(), bytes_.size());
   file_ = bytes_.empty() ? -1 : H5Fopen("record", H5F_ACC_RDONLY, access);
   if (file_ < 0) fail("no HDF5 file, or a damaged one");

@@ -12,6 +12,8 @@
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/hash.hpp"
 #include "microswarm/formats/tracks.hpp"
+#include "microswarm/planning/free_goal.hpp"
+#include "microswarm/world/passage.hpp"
 
 namespace microswarm {
 
@@ -77,9 +79,9 @@ std::string Scene::hash() const {
 }
 
 Scene load_scene(Scenario scenario, const std::filesystem::path& base) {
-  for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)
-    check(scenario.obstacles[i], fmt::format("obstacles[{}]", i));
   load_tracks(scenario.obstacles, base);
+  for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)
+    check(scenario.obstacles[i], fmt::format("obstacle {}", i + 1));
   MapParts map = read_map_parts(scenario.map, base);
   return {std::move(scenario), std::move(map)};
 }
@@ -90,16 +92,33 @@ World build_world(const Scene& scene) {
           scene.scenario.obstacles};
 }
 
+namespace {
+
+void check_way(const Scenario& scenario, const Map& map, Vec2 target, const std::string& where) {
+  const double radius = scenario.swarm.radius;
+  const WidestPath way = widest_path(map, scenario.start.position, target, radius);
+  // A way that the search may have missed for its resolution is not denied.
+  if (way.clearance + 1.5 * way.resolution >= radius) return;
+  if (!way.found)
+    throw InputError(fmt::format("{}: goal is cut off from the start by walls", where));
+  throw InputError(fmt::format(
+      "{}: swarm is {:.4g} µm wide, wider than every passage to the goal: the widest is about "
+      "{:.3g} µm, at ({:.4g}, {:.4g}) µm",
+      where, 2 * radius, 2 * way.clearance, way.tightest.x, way.tightest.y));
+}
+
+}  // namespace
+
 void check(const Scenario& scenario, const World& world, const std::string& where) {
   const double radius = scenario.swarm.radius;
-  const Vec2 start = scenario.start.position;
-  if (const std::string why = world.at(0).why_blocked(start, radius); !why.empty())
+  if (const auto why = world.at(0).why_blocked(scenario.start.position, radius); !why.empty())
     throw InputError(fmt::format("{}: start {}", where, why));
-  // The swarm's centre may stop anywhere within the tolerance, but it has to get there.
-  const double needed = std::max(0.0, radius - scenario.goal_tolerance);
+  // The swarm's centre may stop anywhere within the tolerance.
   const Snapshot walls(world.map);
-  if (const std::string why = walls.why_blocked(scenario.goal, needed); !why.empty())
-    throw InputError(fmt::format("{}: goal {}", where, why));
+  const auto target = free_goal(walls, scenario.goal, scenario.goal_tolerance, radius);
+  if (!target)
+    throw InputError(fmt::format("{}: goal {}", where, walls.why_blocked(scenario.goal, radius)));
+  check_way(scenario, *world.map, *target, where);
 }
 
 }  // namespace microswarm

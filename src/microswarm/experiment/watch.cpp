@@ -100,7 +100,9 @@ std::optional<Watch::Sample> Watch::first_touch(const Way& way, std::uint32_t ob
       open.push_back({middle, b});
       open.push_back({a, middle});
     } else if (!touch && b.clearance < radius_) {
-      touch = b;
+      // Here the clearance falls as fast as it can, hence evenly.
+      const double share = (a.clearance - radius_) / (a.clearance - b.clearance);
+      touch = sample(way, obstacle, a.t + share * (b.t - a.t));
     }
   }
   return touch;

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/plant.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/experiment/scenes.hpp"
+
+namespace microswarm {
+namespace {
+
+Scenario delayed(double delay) {
+  Scenario scenario = open_room();
+  scenario.sensing.observation_delay = delay;
+  scenario.swarm.response_lag = 0;
+  scenario.obstacles = {disc(50, Straight{.start = {500, 700}, .velocity = {30, 0}})};
+  return scenario;
+}
+
+TEST(KinematicPlant, ShowsSwarmAndObstaclesAsTheyWereOneDelayAgo) {
+  for (const double delay : {0.0, 0.05, 0.1, 0.23}) {
+    const Scenario scenario = delayed(delay);
+    KinematicPlant plant(scenario, world_of(scenario));
+    for (int i = 0; i < 20; ++i) plant.apply({0, 40}, 0.1);
+    const Observation seen = plant.observe();
+    EXPECT_NEAR(seen.now, 2, 1e-9);
+    EXPECT_NEAR(seen.age(), delay, 1e-9);
+    ASSERT_TRUE(seen.swarm);
+    EXPECT_NEAR(seen.swarm->pose.position.x, 200 + 40 * (2 - delay), 1e-6);
+    EXPECT_EQ(seen.swarm->radius, 40);
+    const Body& body = seen.world->moving().bodies()[0];
+    EXPECT_NEAR(std::get<Disc>(body.shape).centre.x, 500 + 30 * (2 - delay), 1e-6);
+    EXPECT_NEAR(plant.truth()->swarm.pose.position.x, 280, 1e-6);
+  }
+}
+
+TEST(KinematicPlant, AtTheBeginningItShowsTheStart) {
+  const Scenario scenario = delayed(0.05);
+  KinematicPlant plant(scenario, world_of(scenario));
+  const Observation seen = plant.observe();
+  EXPECT_EQ(seen.seen, 0);
+  EXPECT_EQ(seen.swarm->pose, scenario.start);
+}
+
+TEST(KinematicPlant, DelaysLongerThanATickKeepTheirHistory) {
+  Scenario scenario = delayed(1.05);
+  scenario.swarm.max_turn_rate = 1;
+  KinematicPlant plant(scenario, world_of(scenario));
+  std::vector<Pose2> truth{scenario.start};
+  for (int i = 0; i < 40; ++i) {
+    plant.apply({0.1 * i, 40}, 0.1);
+    truth.push_back(plant.truth()->swarm.pose);
+    if (i < 12) continue;
+    // 1.05 s ago lies half-way between two ticks, on a way that hardly bends.
+    const Vec2 middle = 0.5 * (truth[i + 1 - 10].position + truth[i + 1 - 11].position);
+    EXPECT_LT(distance(plant.observe().swarm->pose.position, middle), 0.1);
+  }
+}
+
+TEST(KinematicPlant, NoiseAndMissedFramesAreThoseAskedFor) {
+  Scenario scenario = delayed(0);
+  scenario.sensing.position_noise = 5;
+  scenario.sensing.missed_share = 0.25;
+  KinematicPlant plant(scenario, world_of(scenario));
+  double squares = 0;
+  int found = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Observation seen = plant.observe();
+    if (!seen.swarm) continue;
+    ++found;
+    squares += squared_norm(seen.swarm->pose.position - scenario.start.position);
+  }
+  EXPECT_NEAR(found / 4000.0, 0.75, 0.03);
+  EXPECT_NEAR(std::sqrt(squares / found / 2), 5, 0.2);
+}
+
+TEST(KinematicPlant, TrialsDifferAndRepeat) {
+  Scenario scenario = delayed(0);
+  scenario.swarm.position_noise = 5;
+  const auto end_of = [&](std::uint32_t trial) {
+    KinematicPlant plant(scenario, world_of(scenario), trial);
+    for (int i = 0; i < 10; ++i) plant.apply({0, 40}, 0.1);
+    return plant.truth()->swarm.pose;
+  };
+  EXPECT_EQ(end_of(3), end_of(3));
+  EXPECT_NE(end_of(3), end_of(4));
+}
+
+}  // namespace
+}  // namespace microswarm

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/run.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/experiment/scenes.hpp"
+
+namespace microswarm {
+namespace {
+
+/// A run by a given navigator, with what it told.
+struct Told : RunListener {
+  std::vector<Frame> frames;
+  std::vector<RunEvent> events;
+  RunResult result;
+
+  void on_frame(const Frame& frame, const NavigatorView&, const Snapshot&) override {
+    frames.push_back(frame);
+  }
+  void on_event(const RunEvent& event) override { events.push_back(event); }
+};
+
+Told run_with(const Scenario& scenario, Navigator& navigator, const Stop& stop = {}) {
+  Told told;
+  KinematicPlant plant(scenario, world_of(scenario));
+  RunListener* const listeners[] = {&told};
+  told.result = run(scenario, plant, navigator, listeners, stop);
+  return told;
+}
+
+TEST(Run, StraightToTheGoal) {
+  const Scenario scenario = open_room();
+  GoStraight navigator(scenario.goal, 60);
+  const Told told = run_with(scenario, navigator);
+  const Metrics& m = told.result.metrics;
+  EXPECT_EQ(told.result.status, Status::solved);
+  // 1600 µm less the tolerance of 50, at 60 µm/s after a lag of 0.1 s.
+  EXPECT_NEAR(m.length, 1550, 1e-6);
+  EXPECT_NEAR(m.time, 0.1 + 1550 / 60.0, 1e-6);
+  EXPECT_NEAR(m.turning, 0, 1e-9);
+  EXPECT_NEAR(m.goal_distance, 50, 1e-6);
+  EXPECT_NEAR(m.walls.clearance, 200, 1e-9);
+  EXPECT_EQ(m.obstacles.clearance, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(m.contacts, 0);
+  EXPECT_EQ(told.frames.back().state, "end");
+  EXPECT_EQ(told.frames.back().t, m.time);
+  EXPECT_EQ(told.frames.size(), told.result.timing.steps.size() + 1);
+  ASSERT_EQ(told.events.size(), 1u);
+  EXPECT_EQ(told.events[0].kind, EventKind::goal_reached);
+}
+
+TEST(Run, AlreadyThere) {
+  Scenario scenario = open_room();
+  scenario.goal = {210, 500};
+  GoStraight navigator(scenario.goal, 60);
+  const Told told = run_with(scenario, navigator);
+  EXPECT_EQ(told.result.status, Status::solved);
+  EXPECT_EQ(told.result.metrics.time, 0);
+}
+
+TEST(Run, EndsAtTheTouchOfAWall) {
+  Scenario scenario = open_room();
+  std::get<PolygonsMap>(scenario.map).walls = {{{1000, 0}, {1001, 0}, {1001, 1000}, {1000, 1000}}};
+  GoStraight navigator(scenario.goal, 60);
+  const Told told = run_with(scenario, navigator);
+  EXPECT_EQ(told.result.status, Status::collided);
+  EXPECT_NEAR(told.frames.back().pose.position.x, 960, 60 * ribbon_substep + 1e-9);
+  EXPECT_EQ(told.result.metrics.contacts, 1);
+  EXPECT_EQ(told.result.metrics.avoidable_contacts, 1);
+}
+
+TEST(Run, CountsTouchesAndGoesOnWhenToldTo) {
+  Scenario scenario = open_room();
+  scenario.stop_at_contact = false;
+  scenario.obstacles = {disc(30, Still{{1000, 500}, 0}), disc(30, Still{{1400, 500}, 0})};
+  GoStraight navigator(scenario.goal, 60);
+  const Told told = run_with(scenario, navigator);
+  EXPECT_EQ(told.result.status, Status::solved);
+  EXPECT_EQ(told.result.metrics.contacts, 2);
+  EXPECT_EQ(told.result.metrics.obstacles.clearance, 0);
+}
+
+TEST(Run, ATouchWhileHoldingIsNotTheSwarmsFault) {
+  Scenario scenario = open_room();
+  scenario.obstacles = {disc(30, Straight{.start = {600, 500}, .velocity = {-50, 0}})};
+  Steady navigator({0, 0});
+  const Told told = run_with(scenario, navigator);
+  EXPECT_EQ(told.result.status, Status::collided);
+  EXPECT_EQ(told.result.metrics.contacts, 1);
+  EXPECT_EQ(told.result.metrics.avoidable_contacts, 0);
+  EXPECT_NEAR(told.result.metrics.time, (400 - 70) / 50.0, 1e-3);
+}
+
+TEST(Run, HoldingTooLongEndsIt) {
+  Scenario scenario = open_room();
+  scenario.hold_limit = 5;
+  Steady hold({0, 0});
+  Told told = run_with(scenario, hold);
+  EXPECT_EQ(told.result.status, Status::held);
+  EXPECT_NEAR(told.result.metrics.time, 4.9, 1e-9);
+  EXPECT_EQ(told.events[0].kind, EventKind::hold_begins);
+
+  scenario.hold_limit = 1000;
+  told = run_with(scenario, hold);
+  EXPECT_EQ(told.result.status, Status::held);
+  EXPECT_NEAR(told.result.metrics.time, scenario.time_limit, 1e-6);
+  EXPECT_NEAR(told.result.metrics.hold_time, scenario.time_limit, 1e-6);
+}
+
+TEST(Run, TheTimeLimitEndsIt) {
+  Scenario scenario = open_room();
+  scenario.time_limit = 3;
+  GoStraight navigator(scenario.goal, 60);
+  const Told told = run_with(scenario, navigator);
+  EXPECT_EQ(told.result.status, Status::time_limit);
+  EXPECT_EQ(told.frames.size(), 31u);
+  EXPECT_NEAR(told.frames.back().t, 3, 1e-9);
+}
+
+TEST(Run, StopsWhenToldAndKeepsWhatWas) {
+  const Scenario scenario = open_room();
+  struct StopAt : GoStraight {
+    using GoStraight::GoStraight;
+    std::atomic<bool> flag{false};
+    int steps = 0;
+    Command step(const Observation& seen, const Stop& stop) override {
+      if (++steps == 8) flag = true;
+      return GoStraight::step(seen, stop);
+    }
+  } navigator(scenario.goal, 60);
+  const Told told = run_with(scenario, navigator, Stop(&navigator.flag));
+  EXPECT_EQ(told.result.status, Status::stopped);
+  EXPECT_EQ(told.frames.size(), 8u);  // seven whole ticks and the end
+  EXPECT_NEAR(told.result.metrics.time, 0.7, 1e-9);
+}
+
+TEST(Run, WithoutTheTruthWhatIsSeenCounts) {
+  struct Blind : KinematicPlant {
+    using KinematicPlant::KinematicPlant;
+    std::optional<Truth> truth() const override { return std::nullopt; }
+  };
+  const Scenario scenario = open_room();
+  Blind plant(scenario, world_of(scenario));
+  GoStraight navigator(scenario.goal, 60);
+  const RunResult result = run(scenario, plant, navigator);
+  EXPECT_EQ(result.status, Status::solved);
+  EXPECT_NEAR(result.metrics.length, 1550, 6);
+  EXPECT_NEAR(result.metrics.walls.clearance, 200, 1e-9);
+}
+
+TEST(TimeSummary, OfKnownNumbers) {
+  const std::vector<double> times{4, 1, 3, 2, 5};
+  const TimeSummary s = summarise(times);
+  EXPECT_EQ(s.count, 5);
+  EXPECT_EQ(s.mean, 3);
+  EXPECT_NEAR(s.sd, std::sqrt(2.5), 1e-12);
+  EXPECT_EQ(s.p50, 3);
+  EXPECT_EQ(s.p99, 5);
+  EXPECT_EQ(s.max, 5);
+  EXPECT_EQ(summarise({}).count, 0);
+}
+
+}  // namespace
+}  // namespace microswarm

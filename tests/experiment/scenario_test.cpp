@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/scenario.hpp"
+
+#include <gtest/gtest.h>
+
+#include "microswarm/core/file.hpp"
+#include "tests/experiment/scenes.hpp"
+
+namespace microswarm {
+namespace {
+
+std::string check_error(const Scenario& scenario) {
+  return error_of([&] { check(scenario, world_of(scenario), "s.yaml"); });
+}
+
+Polygon bar(double x, double y, double width, double height) {
+  return {{{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}}, {}};
+}
+
+TEST(Scenario, TextReadsBackToTheSameFields) {
+  const auto folder = empty_folder("scenario");
+  const std::string text = scenario_text(small_flight());
+  write_file_atomically(folder / "s.yaml", text);
+  EXPECT_EQ(scenario_text(read_scenario(folder / "s.yaml")), text);
+}
+
+TEST(Scenario, TheFirstFlightIsFlown) {
+  const std::filesystem::path folder = std::string(MICROSWARM_SOURCE_DIR) + "/scenarios";
+  const Scenario scenario = read_scenario(folder / "first_flight.yaml");
+  check(scenario, world_of(scenario), "first_flight.yaml");
+  const Record record = record_of(scenario);
+  EXPECT_EQ(record.result.status, Status::solved);
+  EXPECT_GE(record.result.metrics.obstacles.clearance, 90);
+  EXPECT_TRUE(replay(record).identical);
+}
+
+TEST(Scenario, SettingsComeAfterTheFile) {
+  const auto folder = empty_folder("scenario_set");
+  write_file_atomically(folder / "s.yaml", scenario_text(open_room()));
+  const Scenario scenario =
+      read_scenario(folder / "s.yaml", {"seed=9", "swarm.radius_um=25", "goal_um=[7, 8]"});
+  EXPECT_EQ(scenario.seed, 9u);
+  EXPECT_EQ(scenario.swarm.radius, 25);
+  EXPECT_EQ(scenario.goal, (Vec2{7, 8}));
+}
+
+TEST(Scenario, MistakesNameFileLineAndColumn) {
+  const auto folder = empty_folder("scenario_mistakes");
+  const auto message = [&](const std::string& text) {
+    write_file_atomically(folder / "s.yaml", text);
+    const std::string what = error_of([&] { read_scenario(folder / "s.yaml"); });
+    return what.substr(std::min(what.size(), what.find("s.yaml")));
+  };
+  EXPECT_EQ(
+      message("tik_s: 0.1\n").rfind("s.yaml:1:1: unknown key 'tik_s', did you mean 'tick_s'", 0),
+      0u);
+  EXPECT_EQ(message("tick_s: fast\n").rfind("s.yaml:1:9: ", 0), 0u);
+  EXPECT_EQ(message("tick_s: 11\n").rfind("s.yaml:1:9: ", 0), 0u);
+}
+
+TEST(Scenario, AnUnknownTrackIsOneLine) {
+  const auto folder = empty_folder("scenario_tracks");
+  write_file_atomically(folder / "people.csv", "id,t_s,x_um,y_um\n7,0,1,2\n7,1,3,4\n");
+  Scenario scenario = open_room();
+  scenario.obstacles = {disc(10, Track{"people.csv", "7", nullptr})};
+  const Scene scene = load_scene(scenario, folder);
+  EXPECT_EQ(std::get<Track>(scene.scenario.obstacles[0].motion).samples->points[1], (Vec2{3, 4}));
+
+  scenario.obstacles = {disc(10, Track{"people.csv", "8", nullptr})};
+  EXPECT_EQ(error_of([&] { load_scene(scenario, folder); }),
+            (folder / "people.csv").string() + ": has no id '8'");
+  scenario.obstacles = {disc(10, Track{"nobody.csv", "8", nullptr})};
+  EXPECT_NE(error_of([&] { load_scene(scenario, folder); }).find("nobody.csv: cannot read"),
+            std::string::npos);
+}
+
+TEST(Scenario, AnObstacleThatMakesNoSenseIsNamed) {
+  Scenario scenario = open_room();
+  scenario.obstacles = {{PolygonShape{{{0, 0}, {1, 1}}}, Still{}}};
+  EXPECT_NE(error_of([&] { load_scene(scenario, {}); }).find("obstacle 1"), std::string::npos);
+}
+
+TEST(Scenario, SceneHashKnowsTheWorld) {
+  const Scene scene = load_scene(small_flight(), {});
+  Scene other = scene;
+  other.map.walls[0].outer[0].x += 1e-9;
+  EXPECT_NE(scene.hash(), other.hash());
+}
+
+TEST(ScenarioCheck, WhatCanBeFlownPasses) {
+  EXPECT_EQ(check_error(open_room()), "");
+  EXPECT_EQ(check_error(small_flight()), "");
+}
+
+TEST(ScenarioCheck, StartInAWall) {
+  Scenario scenario = open_room();
+  std::get<PolygonsMap>(scenario.map).walls = {bar(0, 0, 212, 1000).outer};
+  EXPECT_EQ(check_error(scenario), "s.yaml: start is 12 µm inside wall 1");
+}
+
+TEST(ScenarioCheck, StartTooNearToAnObstacleOrOutside) {
+  Scenario scenario = open_room();
+  scenario.obstacles = {disc(50, Still{{283, 500}, 0})};
+  EXPECT_EQ(check_error(scenario), "s.yaml: start is 33 µm from obstacle 1, needs 40 µm");
+  scenario = open_room();
+  scenario.start.position = {-10, 500};
+  EXPECT_EQ(check_error(scenario).rfind("s.yaml: start is outside the map", 0), 0u);
+}
+
+TEST(ScenarioCheck, GoalInAWall) {
+  Scenario scenario = open_room();
+  std::get<PolygonsMap>(scenario.map).walls = {bar(1700, 400, 200, 200).outer};
+  EXPECT_EQ(check_error(scenario), "s.yaml: goal is 100 µm inside wall 1");
+}
+
+TEST(ScenarioCheck, GoalCutOff) {
+  Scenario scenario = open_room();
+  std::get<PolygonsMap>(scenario.map).walls = {bar(1000, 0, 20, 1000).outer};
+  EXPECT_EQ(check_error(scenario), "s.yaml: goal is cut off from the start by walls");
+}
+
+TEST(ScenarioCheck, SwarmWiderThanEveryPassage) {
+  Scenario scenario = open_room();
+  std::get<PolygonsMap>(scenario.map).walls = {bar(1000, 0, 20, 500).outer,
+                                               bar(1000, 560, 20, 440).outer};
+  const std::string expected =
+      "s.yaml: swarm is 80 µm wide, wider than every passage to the goal: the widest is about ";
+  EXPECT_EQ(check_error(scenario).substr(0, expected.size()), expected);
+  scenario.swarm.radius = 29;
+  EXPECT_EQ(check_error(scenario), "");
+}
+
+}  // namespace
+}  // namespace microswarm
