@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -53,5 +54,9 @@ class ProgressBar {
 
 /// Makes the folder, with its parents. Throws InputError "FOLDER: cannot make the folder: REASON".
 void make_folder(const std::string& folder);
+
+/// Folder of the scenarios that come with the program: of the source tree it was built in, or of
+/// the installation. Throws InputError when there is none.
+std::filesystem::path scenario_folder();
 
 }  // namespace microswarm::cli

@@ -33,7 +33,17 @@ void ProgressBar::update(double share) {
 void make_folder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw InputError(fmt::format("{}: cannot make the folder: {}", folder, error.message()));
+  if (error)
+    throw InputError(fmt::format("{}: cannot make the folder: {}", folder, error.message()));
+}
+
+std::filesystem::path scenario_folder() {
+  std::error_code error;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+  const auto bin = program.parent_path();
+  for (const auto& folder : {bin / "../../../scenarios", bin / "../share/microswarm/scenarios"})
+    if (std::filesystem::is_directory(folder, error)) return folder.lexically_normal();
+  throw InputError(bin.string() + ": the scenarios that belong to the program are not found");
 }
 
 }  // namespace microswarm::cli

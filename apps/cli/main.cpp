@@ -57,7 +57,8 @@ int main(int argc, char** argv) {
   }
   try {
     const int code = action({Stop(&interrupted)});
-    if (std::fflush(stdout) != 0) return complain("cannot write the results to stdout", cli::failed);
+    if (std::fflush(stdout) != 0)
+      return complain("cannot write the results to stdout", cli::failed);
     return code;
   } catch (const InputError& e) {
     return complain(e.what(), cli::bad_input);

@@ -39,7 +39,8 @@ struct Choice {
   }
 };
 
-void draw(const Options& o, const Snapshot& world, const Pose2& start, Vec2 goal, const Plan& plan) {
+void draw(const Options& o, const Snapshot& world, const Pose2& start, Vec2 goal,
+          const Plan& plan) {
   Picture picture(world.bounds(), fmt::format("{}: {}", o.map, to_string(plan.status)));
   picture.walls(world.map());
   picture.tree(plan.tree);
@@ -60,11 +61,9 @@ int plan_command(const Options& o, const Context& context) {
   Rng rng(o.seed, Purpose::planner);
   const auto began = Stop::Clock::now();
   const Plan made = plan(world, start, goal, choice.planner, rng, context.stop);
-  const double ms =
-      std::chrono::duration<double, std::milli>(Stop::Clock::now() - began).count();
+  const double ms = std::chrono::duration<double, std::milli>(Stop::Clock::now() - began).count();
 
-  const double clearance =
-      std::visit([](const auto& p) { return p.clearance; }, choice.planner);
+  const double clearance = std::visit([](const auto& p) { return p.clearance; }, choice.planner);
   std::string why;
   if (made.status == Status::start_blocked)
     why = "start " + world.why_blocked(start.position, clearance);
@@ -111,9 +110,8 @@ void add_plan(CLI::App& app, Action& action) {
   cmd->add_option("--seed", o->seed, "Seed of the random stream");
   cmd->add_option("--picture", o->picture, "Draw map, tree and path: .png, .svg or .pdf");
   cmd->add_flag("--json", o->json, "Result for machines");
-  cmd->callback([o, &action] {
-    action = [o](const Context& context) { return plan_command(*o, context); };
-  });
+  cmd->callback(
+      [o, &action] { action = [o](const Context& context) { return plan_command(*o, context); }; });
 }
 
 }  // namespace microswarm::cli

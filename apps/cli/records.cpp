@@ -40,7 +40,8 @@ int report_command(const std::string& file, const std::string& out, const std::s
 void add_replay(CLI::App& app, Action& action) {
   auto file = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
-  CLI::App* cmd = app.add_subcommand("replay", "Run a record again and say whether it is identical");
+  CLI::App* cmd =
+      app.add_subcommand("replay", "Run a record again and say whether it is identical");
   cmd->add_option("record", *file, "Record (run.h5)")->required();
   cmd->add_flag("--json", *json, "Result for machines");
   cmd->callback([=, &action] {

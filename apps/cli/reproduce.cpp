@@ -10,8 +10,9 @@
 namespace microswarm::cli {
 namespace {
 
-int reproduce_command(const std::string& key, const ReproduceOptions& options, bool json,
+int reproduce_command(const std::string& key, ReproduceOptions options, bool json,
                       const Context& context) {
+  options.scenarios = scenario_folder();
   const std::string paper = key.substr(0, key.find('/'));
   const std::string figure = key.size() > paper.size() ? key.substr(paper.size() + 1) : "";
   if (paper != "drrt")
@@ -32,9 +33,9 @@ void add_reproduce(CLI::App& app, Action& action) {
   auto o = std::make_shared<ReproduceOptions>();
   auto json = std::make_shared<bool>(false);
   CLI::App* cmd = app.add_subcommand("reproduce", "A paper's figures beside ours");
-  cmd->add_option("key", *key, "Paper and figure: drrt, drrt/fig3, drrt/fig5a, drrt/fig5b")->required();
+  cmd->add_option("key", *key, "Paper and figure: drrt, drrt/fig3, drrt/fig5a, drrt/fig5b")
+      ->required();
   cmd->add_option("--out", o->out, "Folder for plots, pictures and the table as CSV");
-  cmd->add_option("--scenarios", o->scenarios, "Folder of the papers' scenarios");
   cmd->add_flag("--quick", o->quick, "Fewer seeds: ends within 50 s");
   cmd->add_flag("--json", *json, "Rows for machines");
   cmd->callback([=, &action] {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -12,16 +13,18 @@ namespace microswarm::cli {
 inline constexpr int full_seeds = 100;
 inline constexpr int quick_seeds = 10;
 
-/// How to reproduce: where the scenarios stand, where plots go (nowhere when empty), how many seeds.
+/// How to reproduce: where the scenarios stand, where plots go (nowhere when empty), how many
+/// seeds.
 struct ReproduceOptions {
   std::string out;
-  std::string scenarios;
+  std::filesystem::path scenarios;
   bool quick = false;
 
   int seed_count() const { return quick ? quick_seeds : full_seeds; }
 };
 
-/// [drrt]: fig3 (S-channel), fig5a (deforming channel), fig5b (moving obstacles), or all when empty.
+/// [drrt]: fig3 (S-channel), fig5a (deforming channel), fig5b (moving obstacles), or all when
+/// empty.
 std::vector<ReproduceRow> reproduce_drrt(const std::string& figure, const ReproduceOptions& options,
                                          const Stop& stop);
 

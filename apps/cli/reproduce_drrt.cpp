@@ -8,6 +8,7 @@
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
+#include "microswarm/core/statistics.hpp"
 #include "microswarm/experiment/record.hpp"
 #include "microswarm/experiment/trials.hpp"
 #include "microswarm/report/picture.hpp"
@@ -20,13 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-double quantile(std::vector<double> v, double q) {
-  if (v.empty()) return 0;
-  std::sort(v.begin(), v.end());
-  const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(v.size())));
-  return v[std::clamp<std::size_t>(rank, 1, v.size()) - 1];
-}
-double median(const std::vector<double>& v) { return quantile(v, 0.5); }
 double percent_less(double ours, double theirs) {
   return theirs == 0 ? 0 : 100 * (1 - ours / theirs);
 }
@@ -37,20 +31,21 @@ struct Setting {
 };
 
 Setting load(const ReproduceOptions& options, const char* name) {
-  const fs::path file = fs::path(options.scenarios) / "papers" / "drrt" / name;
+  const fs::path file = options.scenarios / "papers" / "drrt" / name;
   Scene scene = load_scene(read_scenario(file), file.parent_path());
   World world = build_world(scene);
   return {std::move(scene), std::move(world)};
 }
 
-// ---- Fig 3: one channel, four planners, one clearance, one stopping rule ---------------------------
+// ---- Fig 3: one channel, four planners, one clearance, one stopping rule
+// ---------------------------
 
 struct Outcome {
   std::string name;
-  std::vector<double> length;            // [µm]
-  std::vector<double> turning;           // [°], without the turn out of the start's heading
-  std::vector<double> turning_in_full;   // [°], with it
-  std::vector<double> time;              // [ms]
+  std::vector<double> length;           // [µm]
+  std::vector<double> turning;          // [°], without the turn out of the start's heading
+  std::vector<double> turning_in_full;  // [°], with it
+  std::vector<double> time;             // [ms]
   int solved = 0;
   Plan first;
 };
@@ -105,32 +100,48 @@ std::vector<ReproduceRow> fig3_rows(const std::vector<Outcome>& o) {
   for (std::size_t i = 0; i < o.size(); ++i) {
     const auto row = [&](const char* what, const char* unit, std::optional<double> theirs,
                          double ours) {
-      rows.push_back({.figure = f, .quantity = o[i].name + ": " + what, .unit = unit,
-                      .paper = theirs, .ours = ours});
+      rows.push_back({.figure = f,
+                      .quantity = o[i].name + ": " + what,
+                      .unit = unit,
+                      .paper = theirs,
+                      .ours = ours});
     };
     row("path length, median", "µm", paper[i].length, median(o[i].length));
     row("turning, median", "°", paper[i].turning, median(o[i].turning));
     row("turning with the start's, median", "°", {}, median(o[i].turning_in_full));
     row("planning time, median", "ms", paper[i].time, median(o[i].time));
-    rows.push_back({.figure = f, .quantity = o[i].name + ": paths found", .unit = "%", .ours =
-                    100.0 * o[i].solved / std::max<double>(1, static_cast<double>(o[i].time.size())),
-                    .aim = 100, .at_most = false});
+    rows.push_back(
+        {.figure = f,
+         .quantity = o[i].name + ": paths found",
+         .unit = "%",
+         .ours = 100.0 * o[i].solved / std::max<double>(1, static_cast<double>(o[i].time.size())),
+         .aim = 100,
+         .at_most = false});
   }
   const Outcome& ours = o[0];
   const Outcome& rrt = o[2];
   const Outcome& a_star = o[4];
   const auto less = [&](const char* what, double v, double theirs, double aim) {
-    rows.push_back({.figure = f, .quantity = what, .unit = "%", .paper = theirs, .ours = v,
-                    .aim = aim, .at_most = false});
+    rows.push_back({.figure = f,
+                    .quantity = what,
+                    .unit = "%",
+                    .paper = theirs,
+                    .ours = v,
+                    .aim = aim,
+                    .at_most = false});
   };
   less("shorter than RRT*", percent_less(median(ours.length), median(rrt.length)), 5.5, 5.5);
   less("less turning than RRT*", percent_less(median(ours.turning), median(rrt.turning)), 55.1, 55);
   less("shorter than A*", percent_less(median(ours.length), median(a_star.length)), 2.6, 0);
-  less("less turning than A*", percent_less(median(ours.turning), median(a_star.turning)), 75.4, 75);
+  less("less turning than A*", percent_less(median(ours.turning), median(a_star.turning)), 75.4,
+       75);
   less("less turning than RRT*, start's included",
        percent_less(median(ours.turning_in_full), median(rrt.turning_in_full)), 55.1, 55);
-  rows.push_back({.figure = f, .quantity = "D-RRT*: planning time, p99", .unit = "ms", .ours =
-                  quantile(ours.time, 0.99), .aim = 5});
+  rows.push_back({.figure = f,
+                  .quantity = "D-RRT*: planning time, p99",
+                  .unit = "ms",
+                  .ours = quantile(ours.time, 0.99),
+                  .aim = 5});
   return rows;
 }
 
@@ -148,7 +159,8 @@ void fig3_pictures(const Setting& s, const std::vector<Outcome>& o, const fs::pa
   draw("D-RRT*: tree, detection circles along the path, path", "fig3a1", [&](Picture& picture) {
     picture.tree(o[1].first.tree);
     std::size_t n = o[1].first.tree.size() - 1;
-    for (std::size_t k = 0; n != 0 && k < o[1].first.tree.size(); n = o[1].first.tree[n].parent, ++k)
+    for (std::size_t k = 0; n != 0 && k < o[1].first.tree.size();
+         n = o[1].first.tree[n].parent, ++k)
       picture.circle(o[1].first.detections[n].circle, colours::circle, 1);
     picture.line(o[1].first.path, {0.0, 0.45, 0.70, 0.45}, 2.5);
     picture.line(o[0].first.path, colours::path, 3.5);
@@ -157,8 +169,8 @@ void fig3_pictures(const Setting& s, const std::vector<Outcome>& o, const fs::pa
     picture.legend("pulled straight", colours::path);
   });
   draw("RRT*, uniform RRT* and A* beside D-RRT*", "fig3a2", [&](Picture& picture) {
-    const std::array<Colour, 5> colour{colours::path, {0, 0.45, 0.7, 0.4}, colours::obstacle,
-                                       colours::circle, colours::swarm};
+    const std::array<Colour, 5> colour{
+        colours::path, {0, 0.45, 0.7, 0.4}, colours::obstacle, colours::circle, colours::swarm};
     for (std::size_t i : {0UL, 2UL, 3UL, 4UL}) {
       picture.line(o[i].first.path, colour[i], 3);
       picture.legend(o[i].name, colour[i]);
@@ -182,11 +194,17 @@ void fig3_plots(const std::vector<Outcome>& o, const fs::path& folder) {
     w2.y.push_back(d.w2);
     step.y.push_back(d.rho * base);
   }
-  const std::vector<Plot> b{
-      {.title = "Fig 3(b1): factors along the path", .x_label = "node of the path", .y_label = "factor",
-       .series = {w1, w2}, .y_min = 0},
-      {.title = "Fig 3(b2): step", .x_label = "node of the path", .y_label = "step (µm)",
-       .series = {step}, .levels = {{"base step", base}}, .y_min = 0}};
+  const std::vector<Plot> b{{.title = "Fig 3(b1): factors along the path",
+                             .x_label = "node of the path",
+                             .y_label = "factor",
+                             .series = {w1, w2},
+                             .y_min = 0},
+                            {.title = "Fig 3(b2): step",
+                             .x_label = "node of the path",
+                             .y_label = "step (µm)",
+                             .series = {step},
+                             .levels = {{"base step", base}},
+                             .y_min = 0}};
   std::vector<Plot> c{{.title = "Path length", .y_label = "µm"},
                       {.title = "Turning", .y_label = "°"},
                       {.title = "Planning time", .y_label = "ms", .log_y = true}};
@@ -217,7 +235,8 @@ std::vector<ReproduceRow> fig3(const ReproduceOptions& options, const Stop& stop
   return fig3_rows(outcomes);
 }
 
-// ---- Fig 5, 6: a deforming channel and moving obstacles, the whole loop ----------------------------
+// ---- Fig 5, 6: a deforming channel and moving obstacles, the whole loop
+// ----------------------------
 
 struct LoopFigure {
   const char* figure;
@@ -256,21 +275,47 @@ std::vector<ReproduceRow> loop_rows(const LoopFigure& f, const std::vector<Trial
   }
   const TimeSummary sum = summarise(planning);  // of milliseconds
   const double n = std::max(1, ran);
-  return {{.figure = f.figure, .quantity = "goal reached", .unit = "%", .paper = 100,
-           .ours = 100 * reached / n, .aim = 100, .at_most = false},
-          {.figure = f.figure, .quantity = "least distance, centre to obstacles", .unit = "µm",
-           .paper = 90, .ours = least, .aim = 90, .at_most = false},
-          {.figure = f.figure, .quantity = "least distance, centre to border", .unit = "µm",
+  return {{.figure = f.figure,
+           .quantity = "goal reached",
+           .unit = "%",
+           .paper = 100,
+           .ours = 100 * reached / n,
+           .aim = 100,
+           .at_most = false},
+          {.figure = f.figure,
+           .quantity = "least distance, centre to obstacles",
+           .unit = "µm",
+           .paper = 90,
+           .ours = least,
+           .aim = 90,
+           .at_most = false},
+          {.figure = f.figure,
+           .quantity = "least distance, centre to border",
+           .unit = "µm",
            .ours = least_wall},
-          {.figure = f.figure, .quantity = "planning events per run, mean", .unit = "1",
-           .paper = f.events, .ours = events / n},
-          {.figure = f.figure, .quantity = "planning time, mean", .unit = "ms", .paper = f.mean,
-           .ours = sum.mean, .aim = 0.5},
-          {.figure = f.figure, .quantity = "planning time, sd", .unit = "ms", .paper = f.sd,
+          {.figure = f.figure,
+           .quantity = "planning events per run, mean",
+           .unit = "1",
+           .paper = f.events,
+           .ours = events / n},
+          {.figure = f.figure,
+           .quantity = "planning time, mean",
+           .unit = "ms",
+           .paper = f.mean,
+           .ours = sum.mean,
+           .aim = 0.5},
+          {.figure = f.figure,
+           .quantity = "planning time, sd",
+           .unit = "ms",
+           .paper = f.sd,
            .ours = sum.sd},
           {.figure = f.figure, .quantity = "planning time, p99", .unit = "ms", .ours = sum.p99},
-          {.figure = f.figure, .quantity = "planning time, max", .unit = "ms", .paper = f.max,
-           .ours = sum.max, .aim = 2}};
+          {.figure = f.figure,
+           .quantity = "planning time, max",
+           .unit = "ms",
+           .paper = f.max,
+           .ours = sum.max,
+           .aim = 2}};
 }
 
 void loop_pictures(const LoopFigure& f, const Setting& s, const fs::path& out, const Stop& stop) {
@@ -289,14 +334,13 @@ std::vector<ReproduceRow> loop_figure(const LoopFigure& f, const ReproduceOption
   const Setting s = load(options, f.scenario);
   ProgressBar bar(std::string("Fig ") + f.figure);
   // One thread: planning times are measured.
-  const auto trials = run_trials(s.scene.scenario, s.world,
-                                 {.trials = options.seed_count(),
-                                  .jobs = 1,
-                                  .progress = [&](int done, int all) {
-                                    bar.update(static_cast<double>(done) / all);
-                                  },
-                                  .vary = vary_phases},
-                                 stop);
+  const auto trials = run_trials(
+      s.scene.scenario, s.world,
+      {.trials = options.seed_count(),
+       .jobs = 1,
+       .progress = [&](int done, int all) { bar.update(static_cast<double>(done) / all); },
+       .vary = vary_phases},
+      stop);
   if (!options.out.empty() && !stop()) loop_pictures(f, s, options.out, stop);
   return loop_rows(f, trials);
 }
@@ -306,7 +350,8 @@ std::vector<ReproduceRow> loop_figure(const LoopFigure& f, const ReproduceOption
 std::vector<ReproduceRow> reproduce_drrt(const std::string& figure, const ReproduceOptions& options,
                                          const Stop& stop) {
   if (!figure.empty() && figure != "fig3" && figure != "fig5a" && figure != "fig5b")
-    throw InputError("reproduce drrt: unknown figure '" + figure + "', there are: fig3, fig5a, fig5b");
+    throw InputError("reproduce drrt: unknown figure '" + figure +
+                     "', there are: fig3, fig5a, fig5b");
   std::vector<ReproduceRow> rows;
   const auto add = [&](const char* name, auto&& make) {
     if (!figure.empty() && figure != name) return;
@@ -316,7 +361,8 @@ std::vector<ReproduceRow> reproduce_drrt(const std::string& figure, const Reprod
   add("fig3", [&] { return fig3(options, stop); });
   add("fig5a", [&] { return loop_figure(deforming, options, stop); });
   add("fig5b", [&] { return loop_figure(moving, options, stop); });
-  if (!options.out.empty()) write_file_atomically(fs::path(options.out) / "drrt.csv", rows_csv(rows));
+  if (!options.out.empty())
+    write_file_atomically(fs::path(options.out) / "drrt.csv", rows_csv(rows));
   return rows;
 }
 

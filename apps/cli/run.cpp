@@ -46,7 +46,8 @@ std::string summary(const RunResult& result) {
   const Metrics& m = result.metrics;
   const TimeSummary p = summarise(result.timing.planning);
   return fmt::format(
-      "{} after {:.1f} s: {:.0f} µm, turned {:.0f}°, nearest wall {:.1f} µm, nearest obstacle {:.1f} µm,\n"
+      "{} after {:.1f} s: {:.0f} µm, turned {:.0f}°, nearest wall {:.1f} µm, nearest obstacle "
+      "{:.1f} µm,\n"
       "{} planning events of {:.3f} ms on average (longest {:.3f} ms), {:.1f} s held\n",
       to_string(result.status), m.time, m.length, degrees(m.turning), m.walls.clearance,
       m.obstacles.clearance, m.planning_events, 1e3 * p.mean, 1e3 * p.max, m.hold_time);
@@ -83,13 +84,12 @@ int one_run(const Options& o, const Scene& scene, const World& world, const Stop
 
 int many_runs(const Options& o, const Scene& scene, const World& world, const Stop& stop) {
   ProgressBar bar("trials");
-  const auto results = run_trials(scene.scenario, world,
-                                  {.trials = o.trials,
-                                   .jobs = o.jobs,
-                                   .progress = [&](int done, int all) {
-                                     bar.update(static_cast<double>(done) / all);
-                                   }},
-                                  stop);
+  const auto results = run_trials(
+      scene.scenario, world,
+      {.trials = o.trials,
+       .jobs = o.jobs,
+       .progress = [&](int done, int all) { bar.update(static_cast<double>(done) / all); }},
+      stop);
   Json list = Json::array();
   int solved = 0;
   int ran = 0;
@@ -135,15 +135,15 @@ void add_run(CLI::App& app, Action& action) {
   cmd->add_option("--seed", o->seed, "Seed of all random streams");
   cmd->add_option("--trials", o->trials, "Repeat with this many random streams")
       ->check(CLI::Range(1, 1000000));
-  cmd->add_option("--jobs", o->jobs, "Threads for trials; 0: one a core")->check(CLI::Range(0, 1024));
+  cmd->add_option("--jobs", o->jobs, "Threads for trials; 0: one a core")
+      ->check(CLI::Range(0, 1024));
   cmd->add_option("--photo", o->photo, "Photograph to lay under the pictures");
   cmd->add_option("--um-per-px", o->um_per_px, "µm per pixel of the photograph")
       ->check(CLI::Range(1e-6, 1e6));
   cmd->add_flag("--no-report", o->no_report, "Write the record only");
   cmd->add_flag("--json", o->json, "Results for machines");
-  cmd->callback([o, &action] {
-    action = [o](const Context& context) { return run_command(*o, context); };
-  });
+  cmd->callback(
+      [o, &action] { action = [o](const Context& context) { return run_command(*o, context); }; });
 }
 
 }  // namespace microswarm::cli

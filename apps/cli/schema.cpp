@@ -16,7 +16,8 @@ void add_schema(CLI::App& app, Action& action) {
   cmd->add_flag("--keys", *keys, "A table of every key with unit, default and range instead");
   cmd->callback([=, &action] {
     action = [=](const Context&) {
-      fmt::print("{}", *keys ? help_text<Scenario>() : json_schema<Scenario>("microswarm scenario"));
+      fmt::print("{}",
+                 *keys ? help_text<Scenario>() : json_schema<Scenario>("microswarm scenario"));
       return ok;
     };
   });

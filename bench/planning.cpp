@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/planning.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+
+#include "bench/ompl_peer.hpp"
+#include "microswarm/core/statistics.hpp"
+#include "microswarm/experiment/scenario.hpp"
+#include "microswarm/geometry/distance.hpp"
+#include "microswarm/planning/planners.hpp"
+#include "tests/scenes/worlds.hpp"
+
+namespace microswarm::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point began) {
+  return std::chrono::duration<double>(Clock::now() - began).count();
+}
+
+constexpr std::array all_peers{OmplPlanner::rrt_star, OmplPlanner::informed_rrt_star,
+                               OmplPlanner::bit_star, OmplPlanner::rrt_connect};
+
+std::vector<double> our_times(const Snapshot& world, const Pose2& start, Vec2 goal,
+                              const PlannerParams& params, int seeds, const Stop& stop) {
+  std::vector<double> ms;
+  for (int seed = 0; seed < seeds && !stop(); ++seed) {
+    Rng rng(1, Purpose::planner, static_cast<std::uint32_t>(seed));
+    const auto began = Clock::now();
+    const Plan made = plan(world, start, goal, params, rng);
+    ms.push_back(1e3 * seconds_since(began));
+  }
+  return ms;
+}
+
+std::vector<double> peer_times(OmplPlanner planner, const OmplQuery& query, int runs,
+                               const Stop& stop) {
+  std::vector<double> ms;
+  for (int run = 0; run < runs && !stop(); ++run)
+    ms.push_back(1e3 * run_ompl(planner, query).seconds);
+  return ms;
+}
+
+/// The S-channel of Fig 3 [drrt]: time to the first path.
+std::vector<BenchRow> s_channel(const std::filesystem::path& scenarios, bool quick,
+                                const Stop& stop) {
+  const auto file = scenarios / "papers" / "drrt" / "s_channel.yaml";
+  const Scene scene = load_scene(read_scenario(file), file.parent_path());
+  const Snapshot world = build_world(scene).at(0);
+  const Scenario& s = scene.scenario;
+  const int seeds = quick ? 100 : 1000;
+  const DrrtStarParams ours;
+  const auto ms = our_times(world, s.start, s.goal, ours, seeds, stop);
+  std::vector<BenchRow> rows;
+  for (const OmplPlanner peer : all_peers) {
+    const auto theirs = peer_times(peer,
+                                   {.world = world,
+                                    .start = s.start.position,
+                                    .goal = s.goal,
+                                    .clearance = ours.clearance,
+                                    .goal_tolerance = ours.goal_tolerance,
+                                    .range = ours.step},
+                                   quick ? 20 : 100, stop);
+    for (const auto& [name, q, aim] :
+         {std::tuple{"median", 0.5, 1.0}, std::tuple{"p99", 0.99, 5.0}})
+      rows.push_back({.name = "D-RRT*, S-channel, first path",
+                      .quantity = fmt::format("time, {}", name),
+                      .unit = "ms",
+                      .ours = quantile(ms, q),
+                      .peer = quantile(theirs, q),
+                      .peer_name = std::string(name_of(peer)),
+                      .aim = aim});
+  }
+  return rows;
+}
+
+/// A 2000 × 1000 µm map with 140 discs and 70 polygons: time to the first path, and tree growth.
+std::vector<BenchRow> clutter(bool quick, const Stop& stop) {
+  Rng rng(1, Purpose::scene);
+  const Snapshot world = scenes::cluttered(rng).snapshot();
+  const Pose2 start{{60, 60}, 0};
+  const Vec2 goal{1940, 940};
+  std::vector<BenchRow> rows;
+  RrtParams first;
+  first.clearance = 10;
+  DrrtStarParams drrt;
+  drrt.clearance = 10;
+  const OmplQuery query{.world = world,
+                        .start = start.position,
+                        .goal = goal,
+                        .clearance = 10,
+                        .goal_tolerance = first.goal_tolerance,
+                        .range = first.step};
+  const auto theirs = peer_times(OmplPlanner::rrt_connect, query, quick ? 50 : 300, stop);
+  const int seeds = quick ? 100 : 1000;
+  rows.push_back({.name = "RRT, 140 discs and 70 polygons, first path",
+                  .quantity = "time, median",
+                  .unit = "ms",
+                  .ours = quantile(our_times(world, start, goal, first, seeds, stop), 0.5),
+                  .peer = quantile(theirs, 0.5),
+                  .peer_name = "OMPL RRTConnect",
+                  .aim = 0.5});
+  rows.push_back({.name = "D-RRT*, 140 discs and 70 polygons, first path",
+                  .quantity = "time, median",
+                  .unit = "ms",
+                  .ours = quantile(our_times(world, start, goal, drrt, seeds, stop), 0.5),
+                  .peer = quantile(theirs, 0.5),
+                  .peer_name = "OMPL RRTConnect"});
+
+  RrtStarParams grow;
+  grow.clearance = 10;
+  grow.stop_at_first = false;
+  grow.max_nodes = 20'000;
+  grow.max_iterations = 1'000'000;
+  std::vector<double> rate;
+  for (int k = 0; k < (quick ? 3 : 9) && !stop(); ++k) {
+    Rng stream(1, Purpose::planner, static_cast<std::uint32_t>(k));
+    const auto began = Clock::now();
+    const Plan made = plan(world, start, goal, grow, stream);
+    rate.push_back(static_cast<double>(made.tree.size()) / seconds_since(began));
+  }
+  OmplQuery long_query = query;
+  long_query.first_solution = false;
+  long_query.most_seconds = quick ? 2 : 4;
+  const OmplResult star = run_ompl(OmplPlanner::rrt_star, long_query);
+  rows.push_back(
+      {.name = "RRT*, growing to 20,000 vertices",
+       .quantity = "vertices per second",
+       .unit = "1/s",
+       .ours = quantile(rate, 0.5),
+       .peer = static_cast<double>(star.vertices) / star.seconds,
+       .peer_name = fmt::format("OMPL RRT* ({} in {:g} s)", star.vertices, long_query.most_seconds),
+       .aim = 200'000,
+       .at_most = false});
+  return rows;
+}
+
+template <class Ask>
+double rate_of(std::size_t count, int repeats, Ask&& ask) {
+  std::vector<double> rate;
+  std::size_t sum = 0;
+  for (int k = 0; k < repeats; ++k) {
+    const auto began = Clock::now();
+    for (std::size_t i = 0; i < count; ++i) sum += ask(i);
+    rate.push_back(static_cast<double>(count) / seconds_since(began));
+  }
+  return sum > count * static_cast<std::size_t>(repeats) ? 0 : quantile(rate, 0.5);
+}
+
+/// Clearance queries and 40 µm edges, at random places of the same map.
+std::vector<BenchRow> queries(bool quick) {
+  Rng rng(1, Purpose::scene);
+  const scenes::RawWorld raw = scenes::cluttered(rng);
+  const Snapshot world = raw.snapshot();
+  constexpr double clearance = 40;
+  const std::size_t n = quick ? 200'000 : 1'000'000;
+  std::vector<Segment> edges(n);
+  for (Segment& e : edges) {
+    e.a = {rng.uniform(world.bounds().lo.x, world.bounds().hi.x),
+           rng.uniform(world.bounds().lo.y, world.bounds().hi.y)};
+    e.b = e.a + 40 * unit_vector(rng.uniform(0, 2 * pi));
+  }
+  const int repeats = quick ? 5 : 11;
+  const std::size_t few = n / 200;
+  return {{.name = "is the place free, clearance 40 µm",
+           .quantity = "queries per second",
+           .unit = "1/s",
+           .ours = rate_of(n, repeats,
+                           [&](std::size_t i) { return world.is_free(edges[i].a, clearance); }),
+           .peer = rate_of(few, repeats,
+                           [&](std::size_t i) { return raw.clearance(edges[i].a) >= clearance; }),
+           .peer_name = "every shape in turn",
+           .aim = 1e8,
+           .at_most = false},
+          {.name = "is the 40 µm edge free, clearance 40 µm, exact",
+           .quantity = "checks per second",
+           .unit = "1/s",
+           .ours = rate_of(n, repeats,
+                           [&](std::size_t i) { return world.is_free(edges[i], clearance); }),
+           .peer = ompl_motion_rate(world, clearance,
+                                    {edges.begin(), edges.begin() + static_cast<long>(n / 4)}),
+           .peer_name = "OMPL discrete, 1 %, our points",
+           .aim = 1e7,
+           .at_most = false}};
+}
+
+}  // namespace
+
+std::vector<BenchRow> planning(const std::filesystem::path& scenarios, bool quick,
+                               const Stop& stop) {
+  std::vector<BenchRow> rows = queries(quick);
+  for (auto&& more : {clutter(quick, stop), s_channel(scenarios, quick, stop),
+                      replanning(scenarios, quick, stop)})
+    rows.insert(rows.end(), more.begin(), more.end());
+  return rows;
+}
+
+}  // namespace microswarm::bench

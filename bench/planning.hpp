@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "microswarm/core/stop.hpp"
+#include "microswarm/report/rows.hpp"
+
+namespace microswarm::bench {
+
+/// "CPU, compiler, microswarm version, OMPL version": what a figure belongs to.
+std::string machine_line();
+
+/// Planners, replanning and clearance queries, each beside its peer in the same run on the same
+/// world. `scenarios` is the folder of the scenario files; `quick` repeats less.
+std::vector<BenchRow> planning(const std::filesystem::path& scenarios, bool quick,
+                               const Stop& stop);
+
+/// Replanning in the two dynamic worlds of [drrt], part of planning().
+std::vector<BenchRow> replanning(const std::filesystem::path& scenarios, bool quick,
+                                 const Stop& stop);
+
+}  // namespace microswarm::bench
