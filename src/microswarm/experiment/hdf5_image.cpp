@@ -75,7 +75,8 @@ Id dataset_properties(hsize_t count) {
   Id list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(list, false);
   if (count >= compressed_from) {
-    H5Pset_chunk(list, 1, &chunk);
+    const hsize_t whole = std::min(chunk, count);  // a chunk may not be larger than its dataset
+    H5Pset_chunk(list, 1, &whole);
     H5Pset_shuffle(list);
     H5Pset_deflate(list, 4);
   }
