@@ -133,14 +133,29 @@ std::size_t find_marker(Bytes bytes, std::size_t at) {
   return bytes.size();
 }
 
+bool is_huffman_frame(std::uint32_t marker) { return marker <= 0xc2; }
+
+/// Refuses what cannot be whole, or would take a decoder ages.
+void check_jpeg_data(const ImageHeader& header, std::int64_t scans, std::uint32_t frame,
+                     std::int64_t bytes, std::string_view name) {
+  const std::int64_t pixels = header.width * header.height;
+  if (scans == 0) fail(name, "damaged JPEG: no picture in it");
+  // A block of 8 × 8 pixels takes a bit at least.
+  if (is_huffman_frame(frame) && bytes * 8 * 64 < pixels)
+    fail(name, "truncated JPEG: too little data for its size");
+  if (scans * pixels > 16 * max_image_pixels)
+    fail(name, std::to_string(scans) + " scans, too many for a JPEG of its size");
+}
+
 ImageHeader check_jpeg(Bytes bytes, std::string_view name) {
   ImageHeader header{ImageKind::jpeg};
-  bool scanned = false;
+  std::int64_t scans = 0;
+  std::uint32_t frame = 0;
   std::size_t at = find_marker(bytes, 2);
   while (at + 1 < bytes.size()) {
     const auto marker = std::to_integer<std::uint32_t>(bytes[at + 1]);
     if (marker == 0xd9) {
-      if (!scanned) fail(name, "damaged JPEG: no picture in it");
+      check_jpeg_data(header, scans, frame, static_cast<std::int64_t>(at), name);
       return header;
     }
     if (bytes.size() - at < 4) break;
@@ -148,12 +163,14 @@ ImageHeader check_jpeg(Bytes bytes, std::string_view name) {
     if (length < 2) fail(name, "damaged JPEG: a segment of " + std::to_string(length) + " bytes");
     if (length > bytes.size() - at - 2) break;
     if (is_frame_header(marker) && length >= 8) {
+      if (frame) fail(name, "damaged JPEG: two frames");
+      frame = marker;
       header.height = big_endian(bytes, at + 5, 2);
       header.width = big_endian(bytes, at + 7, 2);
       header.grey = big_endian(bytes, at + 9, 1) == 1;
       check_image_size(header.width, header.height, name);
     }
-    scanned |= marker == 0xda && header.width > 0;
+    if (marker == 0xda && frame) ++scans;
     at = find_marker(bytes, at + 2 + length);
   }
   fail(name, "truncated JPEG: it ends before its end-of-image marker");
@@ -187,8 +204,10 @@ ImageHeader check_bmp(Bytes bytes, std::string_view name) {
 
 }  // namespace
 
-void check_image_size(std::int64_t width, std::int64_t height, std::string_view name) {
-  const std::string size = std::to_string(width) + " × " + std::to_string(height) + " pixels";
+void check_image_size(std::int64_t width, std::int64_t height, std::string_view name,
+                      std::string_view unit) {
+  const std::string size =
+      std::to_string(width) + " × " + std::to_string(height) + " " + std::string(unit);
   if (width < 1 || height < 1) fail(name, size + ", at least 1 × 1");
   if (width > max_image_side || height > max_image_side)
     fail(name, size + ", at most " + std::to_string(max_image_side) + " a side");

@@ -20,8 +20,9 @@ struct ImageHeader {
 };
 
 /// Throws InputError "NAME: 20000 × 20000 pixels, at most …" when a side is 0 or above the limits
-/// of image.hpp.
-void check_image_size(std::int64_t width, std::int64_t height, std::string_view name);
+/// of image.hpp; maps in cells keep them too.
+void check_image_size(std::int64_t width, std::int64_t height, std::string_view name,
+                      std::string_view unit = "pixels");
 
 /// Reads the header and checks that the file's own structure is whole: chunks and their checksums
 /// up to IEND in PNG, segments up to EOI in JPEG, the declared rows in BMP. Netpbm files are only

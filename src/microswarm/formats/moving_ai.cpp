@@ -62,7 +62,7 @@ Mask parse_moving_ai(std::string_view text, std::string_view name) {
   constexpr int far_too_many = 1'000'000'000;
   const int height = whole_number(lines, header_value(lines, "height"), far_too_many, "height");
   const int width = whole_number(lines, header_value(lines, "width"), far_too_many, "width");
-  check_image_size(width, height, name);
+  check_image_size(width, height, name, "cells");
   if (trimmed(lines.next().value_or("")) != "map") lines.fail("'map' expected");
   const auto cells = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   if (text.size() < cells)

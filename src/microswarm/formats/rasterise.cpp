@@ -24,7 +24,7 @@ Mask rasterise(const Map& map, double cell) {
     throw InputError("cell of " + number_text(cell) + " µm: must be above 0");
   const std::int64_t width = cells_along(map.bounds().width(), cell);
   const std::int64_t height = cells_along(map.bounds().height(), cell);
-  check_image_size(width, height, "map in cells of " + number_text(cell) + " µm");
+  check_image_size(width, height, "map in cells of " + number_text(cell) + " µm", "cells");
   Mask mask(static_cast<int>(width), static_cast<int>(height));
   for (int row = 0; row < mask.height; ++row) {
     for (int column = 0; column < mask.width; ++column) {

@@ -56,7 +56,7 @@ void write_map(const std::filesystem::path& path, const Map& map, double cell) {
     throw InputError(path.string() +
                      ": maps are written as .geojson, .png, .map (MovingAI) or .yaml (ROS)");
   if (cell == 0)
-    throw InputError(path.string() + ": the size of a cell is missing: give --um-per-px");
+    throw InputError(path.string() + ": the size of a cell is missing: give --cell");
   const Mask walls = rasterise(map, cell);
   if (extension == ".png")
     write_png(path, picture(walls, 255));

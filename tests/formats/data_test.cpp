@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// Real files that nobody on this project made; skipped where they are not.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "microswarm/formats/map_file.hpp"
+#include "microswarm/formats/moving_ai.hpp"
+#include "microswarm/formats/ros.hpp"
+#include "microswarm/formats/tracks.hpp"
+#include "tests/formats/files.hpp"
+
+namespace microswarm {
+namespace {
+
+class Data : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (folder_.empty()) GTEST_SKIP() << "no folder MICROSWARM_DATA";
+  }
+  std::filesystem::path folder_ = test::data_folder();
+};
+
+double share_set(const Mask& mask) {
+  return static_cast<double>(std::count(mask.cells.begin(), mask.cells.end(), 1)) /
+         static_cast<double>(mask.cells.size());
+}
+
+TEST_F(Data, MovingAiMapsAndQueries) {
+  const struct {
+    const char* name;
+    int width;
+    int height;
+    double last_optimum;
+  } maps[] = {{"32room_000", 512, 512, 760.938},   {"Berlin_0_256", 256, 256, 369.44574280},
+              {"arena", 49, 49, 62.1543},          {"den312d", 65, 81, 125.971},
+              {"maze512-32-0", 512, 512, 2306.94}, {"random512-10-0", 512, 512, 668.188}};
+  for (const auto& known : maps) {
+    const std::string file = (folder_ / "grid_maps" / known.name).string() + ".map";
+    const Mask blocked = read_moving_ai(file);
+    EXPECT_EQ(blocked.width, known.width) << known.name;
+    EXPECT_EQ(blocked.height, known.height) << known.name;
+    const std::vector<GridQuery> queries = read_scenarios(file + ".scen");
+    EXPECT_DOUBLE_EQ(queries.back().optimal_length, known.last_optimum) << known.name;
+    for (const GridQuery& query : queries) {
+      ASSERT_EQ(query.width, known.width);
+      ASSERT_EQ(blocked.at(query.start.column, query.start.row), 0);
+      ASSERT_EQ(blocked.at(query.goal.column, query.goal.row), 0);
+    }
+  }
+}
+
+/// A ROS pair of the data under the name that its YAML file has for the picture.
+LoadedMap load_pair(const std::filesystem::path& source, const std::string& name, double um_per_m) {
+  const test::Folder folder;
+  std::filesystem::copy(source / ("nav2_" + name + ".pgm"), folder / (name + ".pgm"));
+  std::filesystem::copy(source / ("nav2_" + name + ".yaml"), folder / "map.yaml");
+  return load_map(RosMap{.file = "map.yaml", .um_per_m = um_per_m}, folder / "");
+}
+
+TEST_F(Data, RosMaps) {
+  const LoadedMap depot = load_pair(folder_ / "planning2d", "depot", 1e6);
+  EXPECT_NEAR(depot.map->bounds().width(), 604 * 0.05e6, 1e-3);
+  EXPECT_NEAR(depot.map->bounds().height(), 307 * 0.05e6, 1e-3);
+  EXPECT_FALSE(depot.map->walls().empty());
+  const LoadedMap sandbox = load_pair(folder_ / "planning2d", "tb3_sandbox", 1000);
+  EXPECT_EQ(sandbox.map->bounds().lo, (Vec2{-10000, -10000}));
+  EXPECT_NEAR(sandbox.map->bounds().hi.x, 9200, 1e-9);
+}
+
+TEST_F(Data, VesselMasksOfOneBit) {
+  for (const char* eye : {"01L", "05R", "09L", "12R"}) {
+    for (const char* observer : {"obs1", "obs2"}) {
+      const std::string name = std::string("CHASE_") + eye + "_mask_" + observer + ".png";
+      const Image image = read_image(folder_ / "vessels" / name);
+      EXPECT_EQ(image.width, 999);
+      EXPECT_EQ(image.height, 960);
+      EXPECT_EQ(image.channels, 1);
+      const Mask vessels = threshold(image, 128, false);
+      EXPECT_GT(share_set(vessels), 0.05) << name;
+      EXPECT_LT(share_set(vessels), 0.09) << name;
+      const std::size_t pieces = mask_walls(vessels, 1).size();
+      EXPECT_GE(pieces, 1u);
+      EXPECT_LE(pieces, 9u) << name;
+    }
+  }
+}
+
+TEST_F(Data, OtherPictures) {
+  const Image bmp = read_image(folder_ / "vessels" / "muVES_Test2D.bmp");
+  EXPECT_EQ(bmp.width, 800);
+  EXPECT_EQ(bmp.height, 800);
+  EXPECT_NEAR(share_set(threshold(bmp, 255, false)), 312890.0 / 640000, 1e-9) << "white";
+  const Image maze = read_image(folder_ / "planning2d" / "ompl_maze_normal.ppm");
+  EXPECT_EQ(maze.width, 450);
+  EXPECT_EQ(maze.height, 450);
+  EXPECT_EQ(maze.channels, 3);
+  const Image retina = read_image(folder_ / "vessels" / "HRF_09_h.jpg");
+  EXPECT_EQ(retina.width, 3504);
+  EXPECT_EQ(retina.height, 2336);
+  const Image frame = read_image(folder_ / "video" / "bulk_water" / "bulk_water_000.png");
+  EXPECT_EQ(frame.width, 640);
+  EXPECT_EQ(frame.channels, 3) << "alpha is dropped";
+}
+
+TEST_F(Data, WalkersComeAtTheirSpeed) {
+  const Tracks walkers = read_ucy_obsmat(folder_ / "moving_obstacles" / "ucy_zara01_obsmat.txt", 1);
+  EXPECT_EQ(walkers.size(), 148u);
+  std::vector<double> speeds;
+  for (const auto& [id, samples] : walkers)
+    for (std::size_t i = 1; i < samples.times.size(); ++i)
+      speeds.push_back(distance(samples.points[i], samples.points[i - 1]) /
+                       (samples.times[i] - samples.times[i - 1]));
+  std::nth_element(speeds.begin(), speeds.begin() + speeds.size() / 2, speeds.end());
+  EXPECT_NEAR(speeds[speeds.size() / 2], 1.19, 0.03);
+}
+
+}  // namespace
+}  // namespace microswarm

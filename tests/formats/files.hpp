@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Folders, broken files and messages for the tests of this floor.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/file.hpp"
+
+namespace microswarm::test {
+
+/// An empty folder for the running test, gone with this object.
+class Folder {
+ public:
+  Folder() {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    std::string name = std::string("formats_") + info->test_suite_name() + "_" + info->name();
+    for (char& c : name)
+      if (c == '/') c = '_';
+    path_ = std::filesystem::path(testing::TempDir()) / name;
+    std::filesystem::remove_all(path_);
+    std::filesystem::create_directories(path_);
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
+  /// Writes a file; its path.
+  std::filesystem::path with(std::string_view name, std::string_view bytes) const {
+    write_file_atomically(path_ / name, bytes);
+    return path_ / name;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::span<const std::byte> bytes_of(std::string_view text) {
+  return std::as_bytes(std::span(text.data(), text.size()));
+}
+
+/// What the InputError says that `action` throws; it must be one line.
+template <class Action>
+std::string error_of(Action&& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+    return what;
+  }
+  return "nothing was thrown";
+}
+
+/// Real input outside the repository; empty when it is not there.
+inline std::filesystem::path data_folder() {
+  const char* given = std::getenv("MICROSWARM_DATA");
+  const std::filesystem::path folder = given ? given : MICROSWARM_DEFAULT_DATA;
+  return std::filesystem::is_directory(folder) ? folder : std::filesystem::path();
+}
+
+}  // namespace microswarm::test

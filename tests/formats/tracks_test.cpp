@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/formats/tracks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/formats/files.hpp"
+
+namespace microswarm {
+namespace {
+
+using test::error_of;
+
+Tracks parse(std::string_view text) { return parse_tracks(text, "x.csv"); }
+std::string complaint(std::string_view text) {
+  return error_of([&] { parse(text); });
+}
+
+TEST(Tracks, AnyOrderOfColumnsAndRows) {
+  const Tracks tracks = parse(
+      "# by hand\r\n x_um, id ,y_um,note,t_s\r\n1,a,2,-,0\r\n\r\n5,b,6,-,0\r\n3,a,4,-,0.5\r\n");
+  ASSERT_EQ(tracks.size(), 2u);
+  EXPECT_EQ(tracks.at("a").times, (std::vector<double>{0, 0.5}));
+  EXPECT_EQ(tracks.at("a").points, (std::vector<Vec2>{{1, 2}, {3, 4}}));
+  EXPECT_EQ(tracks.at("b").points, (std::vector<Vec2>{{5, 6}}));
+}
+
+TEST(TracksErrors, NameTheLine) {
+  const std::string head = "id,t_s,x_um,y_um\n";
+  EXPECT_EQ(complaint(""), "x.csv: no tracks: columns id,t_s,x_um,y_um and rows expected");
+  EXPECT_EQ(complaint(head), "x.csv: no tracks: columns id,t_s,x_um,y_um and rows expected");
+  EXPECT_EQ(complaint("id,t,x_um,y_um\n"),
+            "x.csv:1: column 't_s' is missing: id,t_s,x_um,y_um expected");
+  EXPECT_EQ(complaint("id,id,t_s,x_um,y_um\n"), "x.csv:1: column 'id' stands twice");
+  EXPECT_EQ(complaint(head + "a,0,1\n"), "x.csv:2: 3 fields, the header has 4");
+  EXPECT_EQ(complaint(head + "a,0,1,x\n"), "x.csv:2: y_um 'x' is no number");
+  EXPECT_EQ(complaint(head + "a,0,nan,1\n"), "x.csv:2: x_um 'nan' is no number");
+  EXPECT_EQ(complaint(head + "a,0,inf,1\n"), "x.csv:2: x_um 'inf' is no number");
+  EXPECT_EQ(complaint(head + "a,0,-2e9,1\n"), "x.csv:2: x_um -2e9, at most 1e9");
+  EXPECT_EQ(complaint(head + ",0,1,1\n"), "x.csv:2: id is empty");
+  EXPECT_EQ(complaint(head + "a,1,1,1\nb,0,1,1\na,1,2,2\n"),
+            "x.csv:4: time 1 s of id 'a' is not after 1 s");
+}
+
+TEST(Tracks, Pedestrians) {
+  const test::Folder folder;
+  const auto file = folder.with("obsmat.txt",
+                                " 1.0e+00  1.0e+00  -2.5e+00  0  1.9e+01  0 0 -1.3\n"
+                                " 11 1 -2.5 0 18.5 0 0 -1.3\n 11 2 0 0 0 0 0 0\n");
+  const Tracks tracks = read_ucy_obsmat(file, 20, 2);
+  ASSERT_EQ(tracks.size(), 2u);
+  EXPECT_EQ(tracks.at("1").points, (std::vector<Vec2>{{-50, 380}, {-50, 370}}));
+  EXPECT_DOUBLE_EQ(tracks.at("1").times[0], 0.08);
+  EXPECT_DOUBLE_EQ(tracks.at("1").times[1] - tracks.at("1").times[0], 0.8);
+  const auto wrong = folder.with("wrong.txt", "1 2 3\n");
+  EXPECT_EQ(error_of([&] { read_ucy_obsmat(wrong, 1); }),
+            wrong.string() + ":1: 8 columns expected, 3 there");
+}
+
+}  // namespace
+}  // namespace microswarm

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of every kind, Netpbm above all: what is read has all its pixels and can be traced.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+#include <string_view>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/formats/image.hpp"
+#include "microswarm/formats/mask.hpp"
+#include "microswarm/formats/pnm.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace microswarm;
+  try {
+    const Image image = decode_image(std::as_bytes(std::span(data, size)), "fuzz.pgm");
+    if (image.width < 1 || image.height < 1 || image.pixels.size() != image.index(0, image.height))
+      std::abort();
+    const std::string text = encode_pnm(image);
+    if (decode_image(std::as_bytes(std::span(text)), "again.pgm").pixels != image.pixels)
+      std::abort();
+    mask_walls(threshold(image, 128, true), 1);
+  } catch (const InputError& error) {
+    if (std::string_view(error.what()).find('\n') != std::string_view::npos) std::abort();
+  }
+  return 0;
+}
