@@ -16,9 +16,13 @@ TrialResult run_trial(const Scene& scene, const World& world, std::uint32_t tria
                       const TrialOptions& options, const Stop& stop) {
   Recorder recorder(scene, trial);
   Scenario scenario = scene.scenario;
-  if (options.vary) options.vary(scenario, trial);
+  World varied = world;
+  if (options.vary) {
+    options.vary(scenario, trial);
+    varied.obstacles = scenario.obstacles;
+  }
   RunListener* const listeners[] = {&recorder};
-  RunResult result = simulate(scenario, world, trial, listeners, stop);
+  RunResult result = simulate(scenario, varied, trial, listeners, stop);
   TrialResult outcome{.ran = true, .hash = recorder.record().hash(), .result = std::move(result)};
   return outcome;
 }

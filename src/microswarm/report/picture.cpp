@@ -19,6 +19,7 @@ namespace {
 constexpr double margin = 24;
 constexpr double title_height = 34;
 constexpr double foot_height = 52;
+constexpr double least_radius = 4;  // of a disc that would else be lost
 
 struct Entry {
   std::string label;
@@ -83,7 +84,7 @@ struct Picture::Impl {
   void trace(const Disc& d) const {
     const Vec2 c = at(d.centre);
     cairo_new_sub_path(cr);
-    cairo_arc(cr, c.x, c.y, d.radius * scale, 0, 2 * pi);
+    cairo_arc(cr, c.x, c.y, std::max(d.radius * scale, least_radius), 0, 2 * pi);
   }
   void trace(const Polygon& polygon) const {
     trace(polygon.outer);

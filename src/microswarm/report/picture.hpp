@@ -39,7 +39,7 @@ inline constexpr Colour goal{0.90, 0.62, 0.0, 1};
 
 /// A drawing of a world in its own coordinates [µm, y up], written as PNG, SVG or PDF by the file's
 /// extension. What is drawn later lies on top. Line widths and text are in pixels of the finished
-/// picture.
+/// picture. A disc smaller than 4 pixels in radius is drawn with 4, so that it is seen.
 class Picture {
  public:
   /// Shows `view`; the longer side of the drawing gets `pixels`, and a margin around it holds the

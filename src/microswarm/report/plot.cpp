@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/report/plot.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
@@ -91,15 +94,40 @@ std::string terminal(const std::string& kind, std::size_t panels) {
                      5.8 * static_cast<double>(panels));
 }
 
-int run_gnuplot(const std::filesystem::path& script) {
+/// What gnuplot draws, as it writes it to its stdout; nothing when it cannot be started or fails.
+std::optional<std::string> drawn_by_gnuplot(const std::filesystem::path& script) {
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) return std::nullopt;
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawnattr_t attributes;  // in a group of its own, Ctrl-C does not reach it
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   std::string program = "gnuplot";
   std::string argument = script.string();
   char* const arguments[] = {program.data(), argument.data(), nullptr};
   pid_t child = 0;
-  if (posix_spawnp(&child, "gnuplot", nullptr, nullptr, arguments, environ) != 0) return -1;
+  const int error = posix_spawnp(&child, "gnuplot", &actions, &attributes, arguments, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  posix_spawnattr_destroy(&attributes);
+  ::close(ends[1]);
+  std::string bytes;
+  std::array<char, 1 << 16> buffer;
+  for (;;) {  // ends when gnuplot does
+    const ssize_t n = ::read(ends[0], buffer.data(), buffer.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) break;
+    bytes.append(buffer.data(), static_cast<std::size_t>(n));
+  }
+  ::close(ends[0]);
   int status = 0;
-  if (waitpid(child, &status, 0) != child) return -1;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  if (error != 0) return std::nullopt;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || bytes.empty()) return std::nullopt;
+  return bytes;
 }
 
 }  // namespace
@@ -108,9 +136,7 @@ void write_plots(const std::vector<Plot>& plots, const std::filesystem::path& pa
   const std::string kind = path.extension().string();
   if (kind != ".png" && kind != ".svg" && kind != ".pdf")
     throw InputError(path.string() + ": a plot is .png, .svg or .pdf");
-  StagedFile picture(path);
-  std::string script = fmt::format("set terminal {}\nset output {}\n", terminal(kind, plots.size()),
-                                   in_quotes(picture.path().string()));
+  std::string script = fmt::format("set terminal {}\n", terminal(kind, plots.size()));
   script +=
       "set grid lc rgb '#dddddd'\nset key top right\nset style boxplot outliers pointtype 7\n"
       "set boxwidth 0.8 relative\n";
@@ -121,16 +147,12 @@ void write_plots(const std::vector<Plot>& plots, const std::filesystem::path& pa
   for (std::size_t i = 0; i < plots.size(); ++i) script += panel(plots[i], i);
   script += "unset multiplot\nset output\n";
 
-  std::filesystem::path script_file = path;
-  script_file.replace_extension(".gnuplot");
-  write_file_atomically(script_file, script);
-  const int exit_code = run_gnuplot(script_file);
-  std::filesystem::remove(script_file);
-  if (exit_code != 0)
-    throw InputError(
-        fmt::format("{}: cannot plot: gnuplot {}", path.string(),
-                    exit_code < 0 || exit_code == 127 ? "is not installed" : "failed"));
-  picture.commit();
+  std::filesystem::path beside = path;
+  const StagedFile script_file(beside.replace_extension(".gnuplot"));  // never committed
+  write_file_atomically(script_file.path(), script);
+  const std::optional<std::string> picture = drawn_by_gnuplot(script_file.path());
+  if (!picture) throw InputError(path.string() + ": cannot plot: gnuplot is missing or failed");
+  write_file_atomically(path, *picture);
 }
 
 }  // namespace microswarm

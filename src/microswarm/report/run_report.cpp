@@ -81,10 +81,20 @@ const Frame& frame_at(const Record& record, double t) {
   return after == record.frames.begin() ? *after : *(after - 1);
 }
 
+/// The whole map, or what is near the swarm where the map is much larger.
+Box around(const Subject& s, const Frame& frame, const PlanEvent& event) {
+  const Box map = s.world.map->bounds();
+  double reach = 25 * s.scenario().swarm.radius;
+  for (const Vec2 p : event.plan.path)
+    reach = std::max(reach, 2 * distance(p, frame.pose.position));
+  if (4 * reach > std::max(map.width(), map.height())) return map;
+  const Vec2 half{reach, 0.65 * reach};
+  return {frame.pose.position - half, frame.pose.position + half};
+}
+
 void moment(const Subject& s, const PlanEvent& event, const std::filesystem::path& file) {
   const Frame& frame = frame_at(s.record, event.t);
-  Box view = s.world.map->bounds();
-  Picture picture(view,
+  Picture picture(around(s, frame, event),
                   fmt::format("{} at {:.1f} s: local target, tree and path", s.title(), event.t));
   draw_ground(picture, s);
   picture.bodies(s.world.at(event.t).moving().bodies());

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/follower.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/swarm/unicycle.hpp"
+
+namespace microswarm {
+namespace {
+
+const std::vector<Vec2> corner{{0, 0}, {100, 0}, {100, 100}};
+
+TEST(Follower, PlacesGoForwardOnly) {
+  PathPlace place = nearest_place(corner, {60, 5}, {});
+  EXPECT_EQ(place.piece, 0U);
+  EXPECT_NEAR(place.share, 0.6, 1e-12);
+  place = nearest_place(corner, {20, 0}, place);
+  EXPECT_NEAR(place.share, 0.6, 1e-12);
+}
+
+TEST(Follower, PointAheadRunsAroundTheCornerAndEndsAtTheEnd) {
+  EXPECT_EQ(point_ahead(corner, {0, 0.5}, 75), (Vec2{100, 25}));
+  EXPECT_EQ(point_ahead(corner, {0, 0}, 1e9), (Vec2{100, 100}));
+  EXPECT_NEAR(way_left(corner, {0, 0.5}), 150, 1e-12);
+}
+
+TEST(Follower, APathOfOnePointIsHeldOn) {
+  const std::vector<Vec2> point{{3, 4}};
+  PathPlace place;
+  EXPECT_EQ(point_ahead(point, place, 10), (Vec2{3, 4}));
+  EXPECT_EQ(way_left(point, place), 0);
+}
+
+TEST(Follower, ReachesTheEndFromAnyHeading) {
+  for (int k = 0; k < 16; ++k) {
+    Pose2 pose{{0, 10}, wrap(k * pi / 8)};
+    PathPlace place;
+    double worst = 0;
+    for (int i = 0; i < 400 && distance(pose.position, corner.back()) > 5; ++i) {
+      pose = unicycle_step(pose, pursue(corner, place, pose, 20, 30), 3, 0.05);
+      double off = 1e9;
+      for (std::size_t j = 0; j + 1 < corner.size(); ++j) {
+        const PathPlace p =
+            nearest_place(std::vector<Vec2>{corner[j], corner[j + 1]}, pose.position, {});
+        off = std::min(off,
+                       distance(pose.position, corner[j] + p.share * (corner[j + 1] - corner[j])));
+      }
+      worst = std::max(worst, off);
+    }
+    EXPECT_LE(distance(pose.position, corner.back()), 5) << "heading " << k * 22.5;
+    EXPECT_LT(worst, 25) << "heading " << k * 22.5;
+  }
+}
+
+}  // namespace
+}  // namespace microswarm

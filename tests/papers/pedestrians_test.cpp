@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Recorded pedestrians as moving obstacles, scaled so that all are slower than the swarm.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "microswarm/experiment/trials.hpp"
+#include "microswarm/formats/tracks.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double um_per_m = 150;
+constexpr double slower = 8;  // median 22 µm/s, fastest 50 µm/s, the swarm 60 µm/s
+constexpr double pedestrian_radius = 45;
+constexpr double recording = 2800;  // [s]
+constexpr int trials = 50;
+
+std::filesystem::path recorded_file() {
+  const char* data = std::getenv("MICROSWARM_DATA");
+  const std::filesystem::path folder =
+      data ? data : std::filesystem::path(MICROSWARM_SOURCE_DIR) / ".." / "shared" / "data";
+  return folder / "moving_obstacles" / "ucy_zara01_obsmat.txt";
+}
+
+Scenario street(const Tracks& tracks) {
+  Scenario s;
+  s.map = PolygonsMap{.lo = {-1300, 550}, .hi = {1150, 3300}, .walls = {}, .discs = {}};
+  for (const auto& [id, samples] : tracks) {
+    Track track;
+    track.samples = std::make_shared<const Samples>(samples);
+    s.obstacles.push_back({DiscShape{pedestrian_radius}, track});
+  }
+  s.swarm.radius = 40;
+  s.swarm.max_speed = 60;
+  HierarchicalParams navigator;
+  navigator.margin = 60;
+  navigator.speed = 60;
+  s.navigator = navigator;
+  s.goal_tolerance = 30;
+  s.time_limit = 240;
+  s.hold_limit = 120;
+  s.stop_at_contact = false;
+  return s;
+}
+
+Samples begun_at(const Samples& samples, double t) {
+  Samples out = samples;
+  for (double& time : out.times) time -= t;
+  return out;
+}
+
+// Another moment of the recording, and a start and a goal that are free then and far apart.
+void vary(Scenario& s, std::uint32_t trial) {
+  Rng rng(s.seed, Purpose::start_goal, trial);
+  const double begin = rng.uniform(0, recording - s.time_limit);
+  for (Obstacle& o : s.obstacles) {
+    auto& track = std::get<Track>(o.motion);
+    track.samples = std::make_shared<const Samples>(begun_at(*track.samples, begin));
+  }
+  const World world{
+      std::make_shared<const Map>(Box{{-1300, 550}, {1150, 3300}}, std::vector<Polygon>{}),
+      s.obstacles};
+  const Snapshot first = world.at(0);
+  for (int i = 0; i < 1000; ++i) {
+    s.start = {{rng.uniform(-1000, 850), rng.uniform(850, 3000)}, rng.uniform(-3, 3)};
+    s.goal = {rng.uniform(-1000, 850), rng.uniform(850, 3000)};
+    if (first.is_free(s.start.position, 120) && distance(s.start.position, s.goal) > 900) return;
+  }
+}
+
+TEST(Pedestrians, NoContactThatHoldingWouldHaveAvoided) {
+  const auto file = recorded_file();
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is absent";
+  const Scenario scenario = street(read_ucy_obsmat(file, um_per_m, slower));
+  const World world{
+      std::make_shared<const Map>(Box{{-1300, 550}, {1150, 3300}}, std::vector<Polygon>{}),
+      scenario.obstacles};
+  const auto results = run_trials(scenario, world, {.trials = trials, .jobs = 2, .vary = vary});
+  int arrived = 0;
+  int contacts = 0;
+  int avoidable = 0;
+  for (const TrialResult& r : results) {
+    arrived += r.result.status == Status::solved;
+    contacts += r.result.metrics.contacts;
+    avoidable += r.result.metrics.avoidable_contacts;
+  }
+  std::printf("pedestrians: %d of %d arrived, %d contacts, %d of them while driving\n", arrived,
+              trials, contacts, avoidable);
+  EXPECT_EQ(avoidable, 0);
+  EXPECT_GE(arrived, 45);
+}
+
+}  // namespace
+}  // namespace microswarm

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/file.hpp"
+#include "microswarm/report/page.hpp"
+#include "microswarm/report/picture.hpp"
+#include "microswarm/report/plot.hpp"
+#include "microswarm/report/rows.hpp"
+
+namespace microswarm {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Report : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) /
+              testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  fs::path folder_;
+};
+
+TEST_F(Report, PicturesAreWrittenInThreeForms) {
+  Picture picture({{0, 0}, {400, 200}}, "title");
+  picture.disc({{100, 100}, 30}, colours::obstacle);
+  picture.mark({10, 10}, "start");
+  for (const auto& [name, head] :
+       {std::pair{"a.png", "\x89PNG"}, std::pair{"a.pdf", "%PDF"}, std::pair{"a.svg", "<?xml"}}) {
+    picture.write(folder_ / name);
+    EXPECT_EQ(read_file(folder_ / name).substr(0, std::string(head).size()), head);
+  }
+  EXPECT_THROW(picture.write(folder_ / "a.gif"), InputError);
+}
+
+TEST_F(Report, ThePixelOfADiscHasItsColour) {
+  Picture picture({{0, 0}, {100, 100}}, "", 100);
+  picture.disc({{25, 75}, 10}, {1, 0, 0, 1});  // y up: in the picture's upper left
+  picture.write(folder_ / "a.png");
+  const Image image = read_image(folder_ / "a.png");
+  const std::size_t i = image.index(24 + 25, 24 + 25);
+  EXPECT_EQ(image.pixels[i], 255);
+  EXPECT_EQ(image.pixels[i + 1], 0);
+}
+
+TEST_F(Report, PlotsAreWrittenAndNothingElseIsLeft) {
+  write_plots({{.title = "a \"quoted\" title",
+                .x_label = "x",
+                .y_label = "y",
+                .series = {{.label = "s", .x = {1, 2, 3}, .y = {1, 4, 9}}},
+                .levels = {{"level", 5}}}},
+              folder_ / "p.png");
+  EXPECT_EQ(read_file(folder_ / "p.png").substr(1, 3), "PNG");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
+  EXPECT_THROW(write_plots({}, folder_ / "missing" / "p.png"), InputError);
+}
+
+TEST_F(Report, PagesEscapeText) {
+  write_page(folder_ / "i.html", "a < b", {{.heading = "x & y"}});
+  const std::string html = read_file(folder_ / "i.html");
+  EXPECT_NE(html.find("a &lt; b"), std::string::npos);
+  EXPECT_NE(html.find("x &amp; y"), std::string::npos);
+}
+
+TEST(Rows, SayWhetherTheAimIsMet) {
+  EXPECT_TRUE((ReproduceRow{.ours = 1, .aim = 1}.ok()));
+  EXPECT_FALSE((ReproduceRow{.ours = 2, .aim = 1}.ok()));
+  EXPECT_TRUE((ReproduceRow{.ours = 2, .aim = 1, .at_most = false}.ok()));
+  EXPECT_TRUE((ReproduceRow{.ours = 2}.ok()));
+  EXPECT_FALSE(all_ok(std::vector<BenchRow>{{.ours = 3, .aim = 2}}));
+}
+
+TEST(Rows, RatiosAreAboveOneWhereWeAreFaster) {
+  EXPECT_EQ((BenchRow{.ours = 2, .peer = 10}.ratio()), 5);
+  EXPECT_EQ((BenchRow{.ours = 10, .peer = 2, .at_most = false}.ratio()), 5);
+  EXPECT_FALSE((BenchRow{.ours = 10}.ratio()));
+}
+
+TEST(Rows, JsonHasThePromisedKeys) {
+  const std::string json = rows_json({ReproduceRow{.figure = "3c", .quantity = "q", .unit = "µm"}});
+  for (const char* key : {"rows", "figure", "quantity", "unit", "paper", "ours", "aim", "ok"})
+    EXPECT_NE(json.find('"' + std::string(key) + '"'), std::string::npos) << key;
+}
+
+}  // namespace
+}  // namespace microswarm
