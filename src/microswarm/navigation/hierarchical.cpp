@@ -11,7 +11,9 @@
 namespace microswarm {
 namespace {
 
-constexpr double tick = 0.1;  // of the look-ahead [s]
+constexpr double tick = 0.1;       // of the look-ahead [s]
+constexpr double slack = 1;        // kept besides the margin, for what happens within a tick [µm]
+constexpr double first_leg = 1.0;  // of an escape [s]
 constexpr std::array<double, 3> eases{1.0, 0.5, 0.25};
 
 }  // namespace
@@ -67,13 +69,11 @@ Command HierarchicalNavigator::decide(const Observation& seen, const Stop& stop)
     }
     if (path_.size() < 2) break;
     for (const double ease : eases)
-      if (look_ahead(seen, ease * params_.speed, 0, true).safe) {
-        const double lookahead = params_.lookahead * std::max(ease, 0.5);
-        return issue(seen.now, pursue(path_, place_, pose_, lookahead, ease * params_.speed),
-                     "follow");
-      }
+      if (const double speed = ease * params_.speed; look_along_path(seen, speed).safe)
+        return issue(seen.now, pursue(path_, place_, pose_, lookahead_at(speed), speed), "follow");
   }
-  if (look_ahead(seen, 0, pose_.heading, false).safe) return issue(seen.now, hold, "hold");
+  if (look_ahead(seen, [&](const Pose2&, double) { return hold; }).safe)
+    return issue(seen.now, hold, "hold");
   return escape(seen);
 }
 
@@ -157,49 +157,55 @@ bool HierarchicalNavigator::replan_with(const Snapshot& world, double clearance,
 }
 
 // Where the swarm goes once the command takes effect, against where the obstacles go.
+template <class Steer>
 HierarchicalNavigator::Outlook HierarchicalNavigator::look_ahead(const Observation& seen,
-                                                                 double speed, double heading,
-                                                                 bool follow) const {
+                                                                 Steer&& steer) const {
   const double enough = 2 * params_.margin + params_.extra_margin;
-  const double lookahead = params_.lookahead * std::max(0.5, speed / params_.speed);
   const double delay = params_.horizon > 0 ? seen.age() + swarm_.response_lag : 0;
   const int ticks = std::max(1, static_cast<int>(std::lround(params_.horizon / tick)));
   const Map& map = seen.world->map();
   Pose2 pose = pose_;
-  PathPlace place = place_;
   Outlook out{.safe = true, .least = enough, .last = enough};
   for (int k = 0; k < ticks; ++k) {
-    const Command command =
-        follow ? pursue(path_, place, pose, lookahead, speed) : Command{heading, speed};
-    const Pose2 next = unicycle_step(pose, command, swarm_.max_turn_rate, tick);
+    const Pose2 next = unicycle_step(pose, steer(pose, k * tick), swarm_.max_turn_rate, tick);
     const Segment move{pose.position, next.position};
     const double from = delay + k * tick;
     const double moving = forecast_clearance(*seen.world, move, from, from + tick, enough);
-    out.safe = out.safe && moving >= params_.margin && map.is_free(move, params_.margin);
+    out.safe = out.safe && moving >= params_.margin + slack && map.is_free(move, params_.margin);
     out.last = std::min(moving, map.clearance(next.position));
     out.least = std::min(out.least, out.last);
     pose = next;
-    if (follow && way_left(path_, place) < 1) break;
   }
   return out;
 }
 
+HierarchicalNavigator::Outlook HierarchicalNavigator::look_along_path(const Observation& seen,
+                                                                      double speed) const {
+  PathPlace place = place_;
+  const double lookahead = lookahead_at(speed);
+  return look_ahead(seen, [&](const Pose2& pose, double) {
+    const Command command = pursue(path_, place, pose, lookahead, speed);
+    return way_left(path_, place) < 1 ? Command{pose.heading, 0} : command;
+  });
+}
+
+// Of the hold and all ways of two legs, the one that keeps the most distance.
 Command HierarchicalNavigator::escape(const Observation& seen) {
-  constexpr int directions = 24;
-  const double now = seen.world->clearance(pose_.position);
+  constexpr int directions = 16;
   const double goal_heading = heading_of(goal_ - pose_.position);
+  const auto score = [](const Outlook& o) { return o.least + 0.1 * o.last; };
   Command best{pose_.heading, 0};
-  const Outlook stay = look_ahead(seen, 0, pose_.heading, false);
-  double best_score = std::min(stay.least, now) + 0.1 * stay.last;
-  for (int k = 0; k < directions; ++k) {
-    const double heading = wrap(goal_heading + 2 * pi * k / directions);
-    const Outlook o = look_ahead(seen, params_.speed, heading, false);
-    const double score = std::min(o.least, now) + 0.1 * o.last;
-    if (score > best_score + 1e-9) {
-      best_score = score;
-      best = {heading, params_.speed};
+  double best_score = score(look_ahead(seen, [&](const Pose2&, double) { return best; }));
+  for (int i = 0; i < directions; ++i)
+    for (int j = 0; j < directions; ++j) {
+      const Command first{wrap(goal_heading + 2 * pi * i / directions), params_.speed};
+      const Command second{wrap(goal_heading + 2 * pi * j / directions), params_.speed};
+      const double s = score(
+          look_ahead(seen, [&](const Pose2&, double t) { return t < first_leg ? first : second; }));
+      if (s <= best_score + 1e-9) continue;
+      best_score = s;
+      best = first;
     }
-  }
   path_.clear();
   return issue(seen.now, best, best.speed > 0 ? "escape" : "hold");
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <deque>
 #include <memory>
@@ -101,7 +102,13 @@ class HierarchicalNavigator : public Navigator {
   bool path_holds(const Snapshot& world) const;
   void replan(const Snapshot& seen, const Snapshot& ahead, const Stop& stop);
   bool replan_with(const Snapshot& world, double clearance, const Stop& stop);
-  Outlook look_ahead(const Observation& seen, double speed, double heading, bool follow) const;
+  /// Plays `steer(pose, seconds) → command` through for the horizon.
+  template <class Steer>
+  Outlook look_ahead(const Observation& seen, Steer&& steer) const;
+  Outlook look_along_path(const Observation& seen, double speed) const;
+  double lookahead_at(double speed) const {
+    return params_.lookahead * std::max(0.5, speed / params_.speed);
+  }
   Command escape(const Observation& seen);
 
   HierarchicalParams params_;
