@@ -11,10 +11,10 @@ inline double squared_distance(Vec2 p, Segment s) {
   const Vec2 to_p = p - s.a;
   const double t = dot(to_p, along);
   const double length2 = squared_norm(along);
-  if (t <= 0) return squared_norm(to_p);
-  if (t >= length2) return squared_norm(p - s.b);
   const double area = cross(along, to_p);
-  return area * area / length2;
+  const double to_line = area * area / length2;
+  const double to_end = squared_norm(t <= 0 ? to_p : p - s.b);
+  return t > 0 && t < length2 ? to_line : to_end;
 }
 double squared_distance(Segment s, Segment t);
 inline double distance(Vec2 p, Segment s) { return std::sqrt(squared_distance(p, s)); }

@@ -13,18 +13,47 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Share of a coordinate that no rounding error here exceeds.
 constexpr double rounding = 1e-12;
 /// Cells never get so many that memory, or so small that rounding, is a matter.
-constexpr double most_cells = 1 << 22;
+constexpr int most_cells = 1 << 22;
 constexpr double least_cell_in_slacks = 1e3;
 
 double magnitude(Vec2 p) { return std::abs(p.x) + std::abs(p.y); }
 
-bool is_clear(Segment s, Segment edge, double squared_radius) {
-  if (intersects(s, edge)) return false;
-  return squared_distance(edge.a, s) >= squared_radius &&
-         squared_distance(edge.b, s) >= squared_radius &&
-         squared_distance(s.a, edge) >= squared_radius &&
-         squared_distance(s.b, edge) >= squared_radius;
-}
+/// A capsule to be held against many edges, most of which pass beside it.
+class Capsule {
+ public:
+  /// `reach` is the radius and more than any rounding error here.
+  Capsule(Segment s, double radius, double reach)
+      : spine_(s), squared_radius_(radius * radius), along_(s.b - s.a) {
+    const double length2 = squared_norm(along_);
+    beside_ = reach * std::sqrt(length2);
+    beyond_ = length2 + beside_;
+  }
+
+  bool is_clear_of(const Segment& e) const {
+    const Vec2 a = e.a - spine_.a;
+    const Vec2 b = e.b - spine_.a;
+    const double height_a = cross(along_, a);
+    const double height_b = cross(along_, b);
+    const double way_a = dot(along_, a);
+    const double way_b = dot(along_, b);
+    // One branch for all four sides: nearly always taken, whichever side it is.
+    const bool is_beside = (std::min(height_a, height_b) > beside_) |
+                           (std::max(height_a, height_b) < -beside_) |
+                           (std::min(way_a, way_b) > beyond_) | (std::max(way_a, way_b) < -beside_);
+    if (is_beside) return true;
+    return !intersects(spine_, e) && squared_distance(e.a, spine_) >= squared_radius_ &&
+           squared_distance(e.b, spine_) >= squared_radius_ &&
+           squared_distance(spine_.a, e) >= squared_radius_ &&
+           squared_distance(spine_.b, e) >= squared_radius_;
+  }
+
+ private:
+  Segment spine_;
+  double squared_radius_;
+  Vec2 along_;
+  double beside_;
+  double beyond_;
+};
 
 }  // namespace
 
@@ -37,10 +66,11 @@ class EdgeGrid::Sweep {
     if (low_.y > high_.y) std::swap(low_, high_);
     left_ = std::min(low_.x, high_.x) - reach;
     right_ = std::max(low_.x, high_.x) + reach;
-    slope_ = high_.y > low_.y ? (high_.x - low_.x) / (high_.y - low_.y) : 0;
     if (bounds().overlaps(grid.box_)) {
       rows_ = {grid.row_of(low_.y - reach), grid.row_of(high_.y + reach)};
     }
+    is_slanted_ = rows_.first != rows_.last && high_.y - low_.y > grid.slack_;
+    if (is_slanted_) slope_ = (high_.x - low_.x) / (high_.y - low_.y);
   }
 
   Run rows() const { return rows_; }
@@ -48,7 +78,7 @@ class EdgeGrid::Sweep {
   Run columns(int row) const {
     double left = left_;
     double right = right_;
-    if (rows_.first != rows_.last && low_.y != high_.y) {
+    if (is_slanted_) {
       const double bottom = grid_.box_.lo.y + row * grid_.cell_ - margin_;
       const double enter = x_at(bottom);
       const double leave = x_at(bottom + grid_.cell_ + 2 * margin_);
@@ -60,9 +90,7 @@ class EdgeGrid::Sweep {
 
  private:
   double x_at(double y) const {
-    if (y <= low_.y) return low_.x;
-    if (y >= high_.y) return high_.x;
-    return low_.x + (y - low_.y) * slope_;
+    return low_.x + (std::clamp(y, low_.y, high_.y) - low_.y) * slope_;
   }
 
   const EdgeGrid& grid_;
@@ -72,7 +100,8 @@ class EdgeGrid::Sweep {
   double margin_;
   double left_;
   double right_;
-  double slope_;
+  double slope_ = 0;
+  bool is_slanted_;
   Run rows_{0, -1};
 };
 
@@ -106,7 +135,7 @@ void EdgeGrid::choose_cells(double cell) {
         std::max(box_.width(), wide / count) * std::max(box_.height(), wide / count);
     cell = std::max(std::sqrt(area / (2 * count)), length / (4 * count));
   }
-  const double budget = std::max(most_cells, 4 * count);
+  const double budget = std::max<double>(most_cells, 4 * count);
   cell = std::max({cell, std::sqrt(box_.width() * box_.height() / budget),
                    (box_.width() + box_.height()) / budget, least_cell_in_slacks * slack_,
                    std::numeric_limits<double>::min()});
@@ -183,50 +212,44 @@ bool EdgeGrid::in_solid(Vec2 p) const {
 
 void EdgeGrid::scan(Vec2 p, int row, Run columns, Found& best) const {
   for (const std::uint32_t id : edges_in(row, columns)) {
-    const double d = squared_distance(p, edges_[id]);
+    const double d = microswarm::squared_distance(p, edges_[id]);
     if (d < best.squared || (d == best.squared && id < best.edge)) best = {d, id};
   }
 }
 
-double EdgeGrid::squared_distance_beyond(Vec2 p, Run columns, Run rows) const {
+// A block of cells around p's own grows by a row or column on its nearest side, until that side is
+// farther than the best edge.
+EdgeGrid::Found EdgeGrid::search(Vec2 p, double squared_limit) const {
+  Found best{squared_limit, size()};
+  if (empty()) return best;
   const double slack = slack_ + rounding * magnitude(p);
   auto squared = [&](double gap) {
     gap = std::max(gap - slack, 0.0);
     return gap * gap;
   };
-  const double outside_x = squared(std::max(box_.lo.x - p.x, p.x - box_.hi.x));
-  const double outside_y = squared(std::max(box_.lo.y - p.y, p.y - box_.hi.y));
-  double least = infinity;
-  auto beside = [&](double gap, double outside) {
-    least = std::min(least, squared(gap) + outside);
-  };
   const Vec2 o = p - box_.lo;
-  if (columns.first > 0) beside(o.x - columns.first * cell_, outside_y);
-  if (columns.last < columns_ - 1) beside((columns.last + 1) * cell_ - o.x, outside_y);
-  if (rows.first > 0) beside(o.y - rows.first * cell_, outside_x);
-  if (rows.last < rows_ - 1) beside((rows.last + 1) * cell_ - o.y, outside_x);
-  return least;
-}
-
-// Square rings of cells around p's own, until nothing beyond them can be nearer.
-EdgeGrid::Found EdgeGrid::search(Vec2 p, double squared_limit) const {
-  Found best{squared_limit, size()};
-  if (empty()) return best;
-  const int column = column_of(p.x);
-  const int row = row_of(p.y);
-  for (int k = 0;; ++k) {
-    const Run columns{std::max(column - k, 0), std::min(column + k, columns_ - 1)};
-    const Run rows{std::max(row - k, 0), std::min(row + k, rows_ - 1)};
-    for (int r = rows.first; r <= rows.last; ++r) {
-      if (r == row - k || r == row + k) {
-        scan(p, r, columns, best);
-        continue;
-      }
-      if (columns.first == column - k) scan(p, r, {columns.first, columns.first}, best);
-      if (columns.last == column + k) scan(p, r, {columns.last, columns.last}, best);
+  const double outside_x = squared(std::max(-o.x, p.x - box_.hi.x));
+  const double outside_y = squared(std::max(-o.y, p.y - box_.hi.y));
+  Run columns{column_of(p.x), column_of(p.x)};
+  Run rows{row_of(p.y), row_of(p.y)};
+  scan(p, rows.first, columns, best);
+  for (;;) {
+    const double left =
+        columns.first > 0 ? squared(o.x - columns.first * cell_) + outside_y : infinity;
+    const double right = columns.last < columns_ - 1
+                             ? squared((columns.last + 1) * cell_ - o.x) + outside_y
+                             : infinity;
+    const double bottom = rows.first > 0 ? squared(o.y - rows.first * cell_) + outside_x : infinity;
+    const double top =
+        rows.last < rows_ - 1 ? squared((rows.last + 1) * cell_ - o.y) + outside_x : infinity;
+    const double nearest = std::min(std::min(left, right), std::min(bottom, top));
+    if (nearest > best.squared || nearest == infinity) return best;
+    if (nearest == bottom || nearest == top) {
+      scan(p, nearest == bottom ? --rows.first : ++rows.last, columns, best);
+    } else {
+      const int column = nearest == left ? --columns.first : ++columns.last;
+      for (int row = rows.first; row <= rows.last; ++row) scan(p, row, {column, column}, best);
     }
-    const double beyond = squared_distance_beyond(p, columns, rows);
-    if (beyond > best.squared || beyond == infinity) return best;
   }
 }
 
@@ -237,20 +260,19 @@ double EdgeGrid::distance(Vec2 p, double limit) const {
 
 std::size_t EdgeGrid::nearest(Vec2 p, double limit) const { return search(p, limit * limit).edge; }
 
+/// r and more than any rounding error in the coordinates.
+double EdgeGrid::reach_of(Segment s, double r) const {
+  return r + slack_ + rounding * (r + magnitude(s.a) + magnitude(s.b));
+}
+
 bool EdgeGrid::capsule_free(Segment s, double r) const {
   if (empty()) return true;
-  const double reach = r + slack_ + rounding * (r + magnitude(s.a) + magnitude(s.b));
+  const double reach = reach_of(s, r);
   const Sweep sweep(*this, s, reach);
-  const Box bounds = sweep.bounds();
-  const double squared_radius = r * r;
+  const Capsule capsule(s, r, reach);
   for (int row = sweep.rows().first; row <= sweep.rows().last; ++row) {
     for (const std::uint32_t id : edges_in(row, sweep.columns(row))) {
-      const Segment& e = edges_[id];
-      if (std::min(e.a.x, e.b.x) > bounds.hi.x || std::max(e.a.x, e.b.x) < bounds.lo.x ||
-          std::min(e.a.y, e.b.y) > bounds.hi.y || std::max(e.a.y, e.b.y) < bounds.lo.y) {
-        continue;
-      }
-      if (!is_clear(s, e, squared_radius)) return false;
+      if (!capsule.is_clear_of(edges_[id])) return false;
     }
   }
   return true;
@@ -260,8 +282,7 @@ double EdgeGrid::distance(Segment s, double limit) const {
   if (empty()) return limit;
   double best = limit * limit;
   for (const Vec2 end : {s.a, s.b}) best = std::min(best, search(end, best).squared);
-  const double r = std::sqrt(best);
-  const Sweep sweep(*this, s, r + slack_ + rounding * (r + magnitude(s.a) + magnitude(s.b)));
+  const Sweep sweep(*this, s, reach_of(s, std::sqrt(best)));
   for (int row = sweep.rows().first; row <= sweep.rows().last; ++row) {
     for (const std::uint32_t id : edges_in(row, sweep.columns(row))) {
       best = std::min(best, squared_distance(s, edges_[id]));

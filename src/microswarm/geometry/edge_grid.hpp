@@ -82,6 +82,7 @@ class EdgeGrid {
   Vec2 centre_of(int column, int row) const {
     return {box_.lo.x + (column + 0.5) * cell_, box_.lo.y + (row + 0.5) * cell_};
   }
+  double reach_of(Segment s, double r) const;
   void choose_cells(double cell);
   void fill_cells();
   void find_windings();

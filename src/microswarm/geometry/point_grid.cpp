@@ -7,178 +7,180 @@ namespace microswarm {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t first_points = 32;
-constexpr double cells_per_point = 2;
-constexpr std::uint32_t crowded = 16;
-constexpr double cells_of_split = 64;
-/// Share of a coordinate that no rounding error here exceeds.
-constexpr double rounding = 1e-12;
+/// Cells of this depth are not halved any more.
+constexpr int deepest = 60;
+
+double squared(double x) { return x * x; }
 
 }  // namespace
 
-PointGrid::PointGrid(const Box& box) : box_(box) { clear(); }
+PointGrid::PointGrid(const Box& box) : box_(box) { start(box_); }
 
 void PointGrid::clear() {
   points_.clear();
-  next_.clear();
-  rebuild();
+  start(box_);
 }
 
-std::uint32_t PointGrid::add_grid(const Box& box, double cells) {
-  const double width = std::max(0.0, box.width());
-  const double height = std::max(0.0, box.height());
-  const double magnitude = std::abs(box.lo.x) + std::abs(box.lo.y) + width + height;
-  Grid grid;
-  grid.origin = width + height >= 0 && is_finite(box.lo) ? box.lo : Vec2{};
-  grid.slack = std::isfinite(magnitude) ? rounding * magnitude : 0;
-  grid.cell = std::max({std::sqrt(width * height / cells), (width + height) / cells,
-                        1e3 * grid.slack, std::numeric_limits<double>::min()});
-  if (!std::isfinite(grid.cell)) grid.cell = 1;
-  grid.per_cell = 1 / grid.cell;
-  grid.columns = static_cast<int>(std::min(width * grid.per_cell, cells)) + 1;
-  grid.rows = static_cast<int>(std::min(height * grid.per_cell, cells)) + 1;
-  grid.cells = static_cast<std::uint32_t>(cells_.size());
-  cells_.resize(cells_.size() + static_cast<std::size_t>(grid.columns) * grid.rows);
-  grids_.push_back(grid);
-  return static_cast<std::uint32_t>(grids_.size() - 1);
+/// An empty tree over the square around `box`.
+void PointGrid::start(const Box& box) {
+  nodes_.clear();
+  buckets_.clear();
+  root_ = nothing;
+  const double side = std::max(box.width(), box.height());
+  const bool is_usable = std::isfinite(side) && side > 0;
+  half_ = is_usable ? side / 2 : 1;
+  centre_ = is_usable ? box.centre() : Vec2{};
 }
 
 void PointGrid::add(Vec2 p) {
-  assert(is_finite(p) && size() < none);
+  assert(is_finite(p) && size() < (1u << 30));
   points_.push_back(p);
-  next_.push_back(none);
-  if (size() > rebuild_at_) {
-    rebuild();
-  } else {
+  if (std::max(std::abs(p.x - centre_.x), std::abs(p.y - centre_.y)) <= half_) {
     insert(static_cast<std::uint32_t>(size() - 1));
+    return;
   }
+  // A wider square, so much wider that this stays rare.
+  const Box all = bounding_box(points_);
+  start(all.grown(0.5 * std::max(all.width(), all.height())));
+  for (std::uint32_t i = 0; i < size(); ++i) insert(i);
 }
 
-void PointGrid::rebuild() {
-  grids_.clear();
-  cells_.clear();
-  const double cells = cells_per_point * static_cast<double>(std::max(first_points, 2 * size()));
-  rebuild_at_ = static_cast<std::size_t>(cells / cells_per_point);
-  Box box = box_;
-  if (!empty()) box = bounding_box(points_);
-  add_grid(box, cells);
-  for (std::uint32_t i = 0; i < size(); ++i) insert(i);
+PointGrid::Child PointGrid::new_bucket() {
+  buckets_.emplace_back();
+  return static_cast<Child>(2 * (buckets_.size() - 1));
+}
+
+void PointGrid::append(Child child, std::uint32_t point) {
+  if (buckets_[child / 2].count == bucket_size) {
+    const Child more = new_bucket();
+    std::swap(buckets_[more / 2], buckets_[child / 2]);
+    buckets_[child / 2].overflow = more;
+    buckets_[child / 2].box = buckets_[more / 2].box;
+  }
+  Bucket& bucket = buckets_[child / 2];
+  bucket.box.include(points_[point]);
+  bucket.x[bucket.count] = points_[point].x;
+  bucket.y[bucket.count] = points_[point].y;
+  bucket.points[bucket.count++] = point;
 }
 
 void PointGrid::insert(std::uint32_t point) {
   const Vec2 p = points_[point];
-  std::uint32_t g = 0;
-  for (;;) {
-    const Grid& grid = grids_[g];
-    const std::size_t c = grid.cells + static_cast<std::size_t>(grid.row_of(p.y)) * grid.columns +
-                          grid.column_of(p.x);
-    Cell& cell = cells_[c];
-    if (cell.grid != none) {
-      g = cell.grid;
-      continue;
+  Child parent = nothing;
+  int quarter = 0;
+  Child child = root_;
+  Vec2 centre = centre_;
+  double half = half_;
+  auto link = [&](Child c) {
+    child = c;
+    (parent == nothing ? root_ : nodes_[parent / 2].quarters[quarter]) = c;
+  };
+  for (int depth = 0;; ++depth) {
+    if (child == nothing) link(new_bucket());
+    if (!is_node(child)) {
+      if (buckets_[child / 2].count < bucket_size || depth >= deepest) return append(child, point);
+      link(split(child, centre));
     }
-    next_[point] = cell.first;
-    cell.first = point;
-    if (++cell.count >= crowded && (cell.count & (cell.count - 1)) == 0) split(cell);
-    return;
+    parent = child;
+    quarter = nodes_[child / 2].quarter_of(p);
+    child = nodes_[child / 2].quarters[quarter];
+    half *= 0.5;
+    centre += Vec2{quarter % 2 == 0 ? -half : half, quarter / 2 == 0 ? -half : half};
   }
 }
 
-// Points that are all but equal cannot be parted; they stay a chain until it has doubled.
-void PointGrid::split(Cell& crowd) {
-  const Cell old = crowd;
-  Box box;
-  for (std::uint32_t i = old.first; i != none; i = next_[i]) box.include(points_[i]);
-  const std::size_t position = static_cast<std::size_t>(&crowd - cells_.data());
-  const std::uint32_t g = add_grid(box, cells_of_split);
-  const Grid grid = grids_[g];
-  if (grid.columns * grid.rows == 1) {
-    cells_.resize(grid.cells);
-    grids_.pop_back();
-    return;
-  }
-  cells_[position] = {none, 0, g};
-  for (std::uint32_t i = old.first; i != none;) {
-    const Vec2 p = points_[i];
-    Cell& cell = cells_[grid.cells + static_cast<std::size_t>(grid.row_of(p.y)) * grid.columns +
-                        grid.column_of(p.x)];
-    const std::uint32_t following = next_[i];
-    next_[i] = cell.first;
-    cell.first = i;
-    ++cell.count;
-    i = following;
-  }
-}
-
-void PointGrid::scan(const Cell& cell, Vec2 p, Found& best) const {
-  if (cell.grid != none) return search(grids_[cell.grid], p, best);
-  for (std::uint32_t i = cell.first; i != none; i = next_[i]) {
-    const double d = squared_norm(points_[i] - p);
-    if (d < best.squared || (d == best.squared && i < best.point)) best = {d, i};
-  }
-}
-
-// Square rings of cells around p's own, until nothing beyond them can be nearer.
-void PointGrid::search(const Grid& grid, Vec2 p, Found& best) const {
-  const int column = grid.column_of(p.x);
-  const int row = grid.row_of(p.y);
-  const double slack = grid.slack + rounding * (std::abs(p.x) + std::abs(p.y));
-  const Vec2 o = p - grid.origin;
-  for (int k = 0;; ++k) {
-    const int left = std::max(column - k, 0);
-    const int right = std::min(column + k, grid.columns - 1);
-    const int bottom = std::max(row - k, 0);
-    const int top = std::min(row + k, grid.rows - 1);
-    for (int r = bottom; r <= top; ++r) {
-      const Cell* cells = cells_.data() + grid.cells + static_cast<std::size_t>(r) * grid.columns;
-      if (r == row - k || r == row + k) {
-        for (int c = left; c <= right; ++c) scan(cells[c], p, best);
-      } else {
-        if (left == column - k) scan(cells[left], p, best);
-        if (right == column + k) scan(cells[right], p, best);
-      }
+/// Puts the points of a full bucket into the quarters around `centre`; the bucket is used again.
+PointGrid::Child PointGrid::split(Child child, Vec2 centre) {
+  Node node{centre};
+  const Bucket old = buckets_[child / 2];
+  buckets_[child / 2].count = 0;
+  buckets_[child / 2].box = {};
+  Child spare = child;
+  for (const std::uint32_t point : old.points) {
+    Child& quarter = node.quarters[node.quarter_of(points_[point])];
+    if (quarter == nothing) {
+      quarter = spare == nothing ? new_bucket() : spare;
+      spare = nothing;
     }
-    double gap = infinity;
-    if (left > 0) gap = std::min(gap, o.x - left * grid.cell);
-    if (right < grid.columns - 1) gap = std::min(gap, (right + 1) * grid.cell - o.x);
-    if (bottom > 0) gap = std::min(gap, o.y - bottom * grid.cell);
-    if (top < grid.rows - 1) gap = std::min(gap, (top + 1) * grid.cell - o.y);
-    if (gap == infinity) return;
-    gap = std::max(gap - slack, 0.0);
-    if (gap * gap > best.squared) return;
+    append(quarter, point);
   }
+  nodes_.push_back(node);
+  return static_cast<Child>(2 * (nodes_.size() - 1) + 1);
+}
+
+void PointGrid::scan(const Bucket& bucket, Vec2 p, Found& best) const {
+  const Vec2 beside{std::max({bucket.box.lo.x - p.x, p.x - bucket.box.hi.x, 0.0}),
+                    std::max({bucket.box.lo.y - p.y, p.y - bucket.box.hi.y, 0.0})};
+  if (squared_norm(beside) > best.squared) return;
+  std::array<double, bucket_size> squares;
+  for (std::uint32_t i = 0; i < bucket_size; ++i) {
+    squares[i] = squared(bucket.x[i] - p.x) + squared(bucket.y[i] - p.y);
+  }
+  for (std::uint32_t i = 0; i < bucket.count; ++i) {
+    if (squares[i] > best.squared) continue;
+    if (squares[i] < best.squared || bucket.points[i] < best.point) {
+      best = {squares[i], bucket.points[i]};
+    }
+  }
+  if (bucket.overflow != nothing) scan(buckets_[bucket.overflow / 2], p, best);
+}
+
+// `offset` is how far p lies beside the cell; rounding is monotone, so no point in it can come out
+// nearer than that.
+void PointGrid::search(const Node& node, Vec2 p, Vec2 offset, Found& best) const {
+  auto visit = [&](int quarter, Vec2 beside) {
+    const Child child = node.quarters[quarter];
+    if (child == nothing || squared_norm(beside) > best.squared) return;
+    if (is_node(child)) {
+      search(nodes_[child / 2], p, beside, best);
+    } else {
+      scan(buckets_[child / 2], p, best);
+    }
+  };
+  const Vec2 to_p = p - node.centre;
+  const int own = node.quarter_of(p);
+  const Vec2 across{std::max(offset.x, std::abs(to_p.x)), std::max(offset.y, std::abs(to_p.y))};
+  const bool level_first = std::abs(to_p.x) < std::abs(to_p.y);
+  visit(own, offset);
+  if (level_first) visit(own ^ 1, {across.x, offset.y});
+  visit(own ^ 2, {offset.x, across.y});
+  if (!level_first) visit(own ^ 1, {across.x, offset.y});
+  visit(own ^ 3, across);
 }
 
 std::uint32_t PointGrid::nearest(Vec2 p) const {
   assert(!empty());
-  Found best{infinity, none};
-  search(grids_[0], p, best);
+  Found best{infinity, ~0u};
+  if (is_node(root_)) {
+    search(nodes_[root_ / 2], p, {}, best);
+  } else {
+    scan(buckets_[root_ / 2], p, best);
+  }
   return best.point;
 }
 
-void PointGrid::collect(const Grid& grid, Vec2 p, double radius,
-                        std::vector<std::uint32_t>& out) const {
-  const double reach = radius + grid.slack + rounding * (radius + std::abs(p.x) + std::abs(p.y));
-  const int right = grid.column_of(p.x + reach);
-  const int top = grid.row_of(p.y + reach);
-  for (int row = grid.row_of(p.y - reach); row <= top; ++row) {
-    const Cell* cells = cells_.data() + grid.cells + static_cast<std::size_t>(row) * grid.columns;
-    for (int column = grid.column_of(p.x - reach); column <= right; ++column) {
-      const Cell& cell = cells[column];
-      if (cell.grid != none) {
-        collect(grids_[cell.grid], p, radius, out);
-        continue;
-      }
-      for (std::uint32_t i = cell.first; i != none; i = next_[i]) {
-        if (squared_norm(points_[i] - p) <= radius * radius) out.push_back(i);
-      }
+void PointGrid::collect(Child child, Vec2 p, double radius, std::vector<std::uint32_t>& out) const {
+  if (child == nothing) return;
+  if (!is_node(child)) {
+    const Bucket& bucket = buckets_[child / 2];
+    for (std::uint32_t i = 0; i < bucket.count; ++i) {
+      const double d = squared(bucket.x[i] - p.x) + squared(bucket.y[i] - p.y);
+      if (d <= radius * radius) out.push_back(bucket.points[i]);
     }
+    return collect(bucket.overflow, p, radius, out);
+  }
+  const Node& node = nodes_[child / 2];
+  const Vec2 to_p = p - node.centre;
+  const bool in[2][2] = {{to_p.x <= radius, to_p.x >= -radius},
+                         {to_p.y <= radius, to_p.y >= -radius}};
+  for (int q = 0; q < 4; ++q) {
+    if (in[0][q & 1] && in[1][q >> 1]) collect(node.quarters[q], p, radius, out);
   }
 }
 
 void PointGrid::within(Vec2 p, double radius, std::vector<std::uint32_t>& out) const {
   const auto start = static_cast<std::ptrdiff_t>(out.size());
-  collect(grids_[0], p, radius, out);
+  collect(root_, p, radius, out);
   std::sort(out.begin() + start, out.end());
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -8,10 +9,11 @@
 
 namespace microswarm {
 
-/// Growing set of points in the plane with exact nearest-neighbour and radius queries: a bucket
-/// grid that is built anew, finer, as points arrive, and splits a crowded cell into a grid of its
-/// own. Points keep the index in which they were added; ties go to the lower index, so that answers
-/// do not depend on the grid. Queries are safe to run in several threads.
+/// Growing set of points in the plane with exact nearest-neighbour and radius queries: a grid of
+/// buckets that halves its cells where points crowd (a bucket quadtree, so that empty regions and
+/// clusters cost little, whatever the order of insertion). Points keep the index in which they were
+/// added; ties go to the lower index, so that answers do not depend on the grid. Queries are safe
+/// to run in several threads.
 class PointGrid {
  public:
   /// Points are expected, but not required, to lie in `box`.
@@ -30,49 +32,50 @@ class PointGrid {
   void within(Vec2 p, double radius, std::vector<std::uint32_t>& out) const;
 
  private:
-  static constexpr std::uint32_t none = ~std::uint32_t{0};
-  /// A cell holds a chain of points, or (from the moment it is crowded) a grid of its own.
-  struct Cell {
-    std::uint32_t first = none;
-    std::uint32_t count = 0;
-    std::uint32_t grid = none;
-  };
-  /// Points beyond the box are kept in its outermost cells.
-  struct Grid {
-    Vec2 origin;
-    double cell;
-    double per_cell;
-    double slack;
-    int columns;
-    int rows;
-    std::uint32_t cells;
+  /// A cell: nothing, a bucket, or an inner node.
+  using Child = std::int32_t;
+  static constexpr Child nothing = -1;
+  static constexpr std::uint32_t bucket_size = 32;
 
-    int column_of(double x) const { return index((x - origin.x) * per_cell, columns); }
-    int row_of(double y) const { return index((y - origin.y) * per_cell, rows); }
-    static int index(double i, int count) {
-      const double last = count - 1;
-      return static_cast<int>(i > 0 ? (i < last ? i : last) : 0);
-    }
+  /// Four quarters around the centre: bit 0 is right of it, bit 1 above.
+  struct Node {
+    Vec2 centre;
+    std::array<Child, 4> quarters{nothing, nothing, nothing, nothing};
+
+    int quarter_of(Vec2 p) const { return (p.x >= centre.x) + 2 * (p.y >= centre.y); }
+  };
+  struct Bucket {
+    Box box;
+    std::array<double, bucket_size> x;
+    std::array<double, bucket_size> y;
+    std::array<std::uint32_t, bucket_size> points;
+    std::uint32_t count = 0;
+    /// More points in the same place, which no halving can part.
+    Child overflow = nothing;
   };
   struct Found {
     double squared;
     std::uint32_t point;
   };
 
-  std::uint32_t add_grid(const Box& box, double cells);
+  void start(const Box& box);
   void insert(std::uint32_t point);
-  void split(Cell& cell);
-  void rebuild();
-  void search(const Grid& grid, Vec2 p, Found& best) const;
-  void scan(const Cell& cell, Vec2 p, Found& best) const;
-  void collect(const Grid& grid, Vec2 p, double radius, std::vector<std::uint32_t>& out) const;
+  Child split(Child bucket, Vec2 centre);
+  Child new_bucket();
+  void append(Child bucket, std::uint32_t point);
+  void search(const Node& node, Vec2 p, Vec2 offset, Found& best) const;
+  void scan(const Bucket& bucket, Vec2 p, Found& best) const;
+  void collect(Child child, Vec2 p, double radius, std::vector<std::uint32_t>& out) const;
+
+  static bool is_node(Child c) { return (c & 1) != 0; }
 
   Box box_;
+  Vec2 centre_;
+  double half_ = 1;
+  Child root_ = nothing;
   std::vector<Vec2> points_;
-  std::vector<std::uint32_t> next_;
-  std::vector<Grid> grids_;
-  std::vector<Cell> cells_;
-  std::size_t rebuild_at_ = 0;
+  std::vector<Node> nodes_;
+  std::vector<Bucket> buckets_;
 };
 
 }  // namespace microswarm
