@@ -9,7 +9,10 @@ namespace microswarm {
 inline constexpr double pi = std::numbers::pi;
 
 /// Angle `a` [rad] wrapped to [-π, π]. Every difference of two headings goes through here.
-inline double wrap(double a) { return std::remainder(a, 2 * pi); }
+inline double wrap(double a) {
+  if (std::abs(a) <= pi) return a;  // the remainder's own answer, without the call
+  return std::remainder(a, 2 * pi);
+}
 
 /// Absolute difference of two headings [rad], in [0, π].
 inline double turn_between(double a, double b) { return std::abs(wrap(a - b)); }

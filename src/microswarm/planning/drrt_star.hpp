@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "microswarm/planning/rrt_star.hpp"
+
+namespace microswarm {
+
+/// The local planner of D-RRT*: Algorithms 2–3, Eq 1–3 and 5–10 [drrt]. Costs are
+/// λ_s · turning + λ_l · length, the turn out of the start's heading included. `straighten` goes
+/// beyond the paper: the path found is pulled straight under the same cost and the same exact
+/// checks (docs/drrt-star.md); without it the path is the tree's.
+struct DrrtStarParams : RrtStarParams {
+  static constexpr std::string_view type_name = "drrt_star";
+  double detection_diameter = 300;  // D_dec
+  double rho_min = 0.2;
+  int candidates = 5;              // M
+  int max_attempts = 15;           // N_attempts
+  double speed = 40;               // v; step = T_base · v with T_base = 2 s
+  double time_step = 0.1;          // dt
+  double heading_gain = 4;         // k_p
+  double smoothness_weight = 100;  // λ_s
+  double length_weight = 1;        // λ_l
+  bool straighten = true;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    RrtStarParams::fields(self, visit);
+    visit(self.detection_diameter,
+          {"detection_diameter", Unit::um, {1e-3, 1e6}, "Diameter of the detection circle."});
+    visit(self.rho_min, {"rho_min", Unit::none, {1e-3, 1}, "Floor of the adjust factor."});
+    visit(self.candidates, {"candidates", Unit::none, {1, 1000}, "Candidates per extension (M)."});
+    visit(self.max_attempts, {"max_attempts", Unit::none, {1, 1000}, "Samples per extension."});
+    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e6}, "Forward speed while steering."});
+    visit(self.time_step, {"time_step", Unit::s, {1e-4, 10}, "Step of the unicycle (dt)."});
+    visit(self.heading_gain, {"heading_gain", Unit::per_s, {0, 1e3}, "Gain of Eq 7 (k_p)."});
+    visit(self.smoothness_weight,
+          {"smoothness_weight", Unit::none, {0, 1e6}, "Cost of turning, µm per rad (λ_s)."});
+    visit(self.length_weight, {"length_weight", Unit::none, {0, 1e6}, "Cost per µm (λ_l)."});
+    visit(self.straighten,
+          {"straighten", Unit::none, {}, "Pull the path found straight (beyond the paper)."});
+  }
+};
+
+Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const DrrtStarParams& params, Rng& rng,
+          const Stop& stop = {});
+
+}  // namespace microswarm

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "microswarm/core/status.hpp"
+#include "microswarm/world/snapshot.hpp"
+
+namespace microswarm {
+
+/// The goal when it is free with the clearance, else about the nearest free point within
+/// `tolerance` [µm] of it. Nothing when no free point is found in
+/// a search of squares that ends at tolerance / 64, so a free spot smaller than that may be missed.
+std::optional<Vec2> free_goal(const Snapshot& world, Vec2 goal, double tolerance, double clearance);
+
+/// What is wrong with the query before any planning: start_blocked, goal_blocked or nothing.
+std::optional<Status> query_fault(const Snapshot& world, Vec2 start, Vec2 goal, double tolerance,
+                                  double clearance);
+
+}  // namespace microswarm

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/planning/search_tree.hpp"
+
+#include <cassert>
+
+#include "microswarm/core/angles.hpp"
+
+namespace microswarm {
+
+double PathCost::turn(const TreeNode& node, Vec2 p) {
+  return turn_between(node.heading, heading_of(p - node.position));
+}
+
+SearchTree::SearchTree(const Box& bounds, Pose2 root, PathCost cost)
+    : cost_(cost), nodes_{{root.position, root.heading, 0, 0}}, links_(1), points_(bounds) {
+  points_.add(root.position);
+}
+
+void SearchTree::near(Vec2 p, double radius, std::vector<std::uint32_t>& out) const {
+  out.clear();
+  points_.within(p, radius, out);
+}
+
+std::uint32_t SearchTree::add(std::uint32_t parent, Vec2 p) {
+  assert(p != nodes_[parent].position);
+  const std::uint32_t node = size();
+  nodes_.push_back({p, heading_of(p - nodes_[parent].position), cost_via(parent, p), parent});
+  links_.emplace_back();
+  link(node, parent);
+  points_.add(p);
+  return node;
+}
+
+void SearchTree::reparent(std::uint32_t node, std::uint32_t parent) {
+  assert(node != 0 && !is_below(parent, node));
+  unlink(node);
+  link(node, parent);
+  TreeNode& moved = nodes_[node];
+  moved.parent = parent;
+  moved.heading = heading_of(moved.position - nodes_[parent].position);
+  moved.cost = cost_via(parent, moved.position);
+  recost_below(node);
+}
+
+void SearchTree::link(std::uint32_t node, std::uint32_t parent) {
+  const std::uint32_t next = links_[parent].first_child;
+  links_[node].next = next;
+  links_[node].previous = 0;
+  if (next != 0) links_[next].previous = node;
+  links_[parent].first_child = node;
+}
+
+void SearchTree::unlink(std::uint32_t node) {
+  const auto [_, next, previous] = links_[node];
+  if (next != 0) links_[next].previous = previous;
+  if (previous != 0) {
+    links_[previous].next = next;
+  } else {
+    links_[nodes_[node].parent].first_child = next;
+  }
+}
+
+void SearchTree::recost_below(std::uint32_t node) {
+  std::uint32_t at = links_[node].first_child;
+  while (at != 0) {
+    nodes_[at].cost = cost_via(nodes_[at].parent, nodes_[at].position);
+    if (links_[at].first_child != 0) {
+      at = links_[at].first_child;
+      continue;
+    }
+    while (at != node && links_[at].next == 0) at = nodes_[at].parent;
+    if (at == node) return;
+    at = links_[at].next;
+  }
+}
+
+bool SearchTree::is_below(std::uint32_t node, std::uint32_t ancestor) const {
+  while (node != 0 && node != ancestor) node = nodes_[node].parent;
+  return node == ancestor;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/planning/a_star.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <queue>
+#include <set>
+
+#include "tests/scenes/worlds.hpp"
+
+namespace microswarm {
+namespace {
+
+Plan ask(const Snapshot& world, Vec2 start, Vec2 goal, const AStarParams& params) {
+  Rng rng(1, Purpose::planner);
+  return plan(world, {start, 0}, goal, params, rng);
+}
+
+AStarParams on_cells() {
+  AStarParams params;
+  params.clearance = 0;
+  params.goal_tolerance = 0.1;
+  params.cell = 1;
+  return params;
+}
+
+scenes::RawWorld ten_by_ten() {
+  scenes::RawWorld world;
+  world.bounds = {{0, 0}, {10, 10}};
+  return world;
+}
+
+TEST(AStar, OctileDistanceInTheOpen) {
+  const Plan found = ask(ten_by_ten().snapshot(), {0.5, 0.5}, {8.5, 3.5}, on_cells());
+  EXPECT_EQ(found.status, Status::solved);
+  EXPECT_NEAR(path_length(found.path), 5 + 3 * std::numbers::sqrt2, 1e-12);
+}
+
+TEST(AStar, CutsNoCorner) {
+  scenes::RawWorld world = ten_by_ten();
+  world.walls = {scenes::rectangle({{4, 4}, {5, 5}})};
+  const Plan found = ask(world.snapshot(), {3.5, 4.5}, {4.5, 5.5}, on_cells());
+  EXPECT_EQ(found.status, Status::solved);
+  EXPECT_NEAR(path_length(found.path), 2, 1e-12);
+}
+
+TEST(AStar, SeesAWallThinnerThanACell) {
+  scenes::RawWorld world = ten_by_ten();
+  world.walls = {scenes::rectangle({{4.999, 0}, {5.001, 9}})};
+  const Plan found = ask(world.snapshot(), {4.5, 0.5}, {5.5, 0.5}, on_cells());
+  EXPECT_EQ(found.status, Status::solved);
+  EXPECT_NEAR(path_length(found.path), 9 + 1 + 9, 1e-12);
+  world.walls = {scenes::rectangle({{4.999, 0}, {5.001, 10}})};
+  EXPECT_EQ(ask(world.snapshot(), {4.5, 0.5}, {5.5, 0.5}, on_cells()).status, Status::no_path);
+}
+
+TEST(AStar, OpensNoMoreCellsThanAllowed) {
+  AStarParams params = on_cells();
+  params.max_nodes = 5;
+  const Plan found = ask(ten_by_ten().snapshot(), {0.5, 0.5}, {8.5, 8.5}, params);
+  EXPECT_EQ(found.status, Status::node_limit);
+  EXPECT_EQ(found.counts.iterations, 5u);
+  EXPECT_GT(found.path.size(), 1u);
+  params = on_cells();
+  params.cell = 1e-9;
+  EXPECT_EQ(ask(ten_by_ten().snapshot(), {0.5, 0.5}, {8.5, 8.5}, params).status,
+            Status::node_limit);
+}
+
+/// Least length to any grid point within the tolerance by Dijkstra over std containers.
+double dijkstra(const scenes::RawWorld& world, Vec2 start, Vec2 goal, const AStarParams& params) {
+  using Place = std::pair<int, int>;
+  const auto at = [&](Place p) {
+    return start + params.cell * Vec2{1.0 * p.first, 1.0 * p.second};
+  };
+  const auto open = [&](Place p) { return world.clearance(at(p)) >= params.clearance; };
+  std::set<Place> closed;
+  std::priority_queue<std::pair<double, Place>, std::vector<std::pair<double, Place>>,
+                      std::greater<>>
+      queue;
+  queue.push({0, {0, 0}});
+  while (!queue.empty()) {
+    const auto [cost, p] = queue.top();
+    queue.pop();
+    if (!closed.insert(p).second) continue;
+    if (distance(at(p), goal) <= params.goal_tolerance) return cost;
+    for (int dx = -1; dx <= 1; ++dx) {
+      for (int dy = -1; dy <= 1; ++dy) {
+        const Place q{p.first + dx, p.second + dy};
+        if (q == p || !open(q) || !open({p.first + dx, p.second}) ||
+            !open({p.first, p.second + dy}) ||
+            world.clearance(Segment{at(p), at(q)}) < params.clearance) {
+          continue;
+        }
+        queue.push({cost + params.cell * std::hypot(dx, dy), q});
+      }
+    }
+  }
+  return -1;
+}
+
+TEST(AStar, IsOptimalOnItsGrid) {
+  int solved = 0;
+  for (std::uint32_t trial = 0; trial < 60; ++trial) {
+    Rng rng(5, Purpose::scene, trial);
+    const scenes::RawWorld world = scenes::random_world(trial % scenes::random_kinds, rng);
+    AStarParams params;
+    params.clearance = rng.uniform(0, 30);
+    params.goal_tolerance = rng.uniform(20, 80);
+    params.cell = rng.uniform(25, 50);
+    const Vec2 start = scenes::random_free_point(world, params.clearance, rng);
+    const Vec2 goal = scenes::random_free_point(world, params.clearance, rng);
+    const Plan found = ask(world.snapshot(), start, goal, params);
+    const double best = dijkstra(world, start, goal, params);
+    ASSERT_EQ(found.status == Status::solved, best >= 0) << trial;
+    if (best < 0) continue;
+    ++solved;
+    EXPECT_NEAR(path_length(found.path), best, 1e-9 * (1 + best)) << trial;
+  }
+  EXPECT_GT(solved, 30);
+}
+
+}  // namespace
+}  // namespace microswarm

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/planning/free_goal.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/scenes/worlds.hpp"
+
+namespace microswarm {
+namespace {
+
+TEST(FreeGoal, IsTheGoalItselfWhenThatIsFree) {
+  scenes::RawWorld world;
+  EXPECT_EQ(free_goal(world.snapshot(), {500, 350}, 50, 40), (Vec2{500, 350}));
+}
+
+TEST(FreeGoal, IsAFreePointWithinTheToleranceAndAboutTheNearest) {
+  Rng rng(3, Purpose::test);
+  int found = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const scenes::RawWorld world = scenes::random_world(trial % scenes::random_kinds, rng);
+    const Snapshot snapshot = world.snapshot();
+    const double x = rng.uniform(0, 1000);
+    const Vec2 goal{x, rng.uniform(0, 700)};
+    const auto aim = free_goal(snapshot, goal, 60, 20);
+    double nearest = 60;  // by a fine net of points
+    for (double dx = -60; dx <= 60; dx += 3) {
+      for (double dy = -60; dy <= 60; dy += 3) {
+        const Vec2 p = goal + Vec2{dx, dy};
+        if (distance(p, goal) < nearest && world.clearance(p) >= 21) nearest = distance(p, goal);
+      }
+    }
+    if (aim) {
+      ++found;
+      EXPECT_LE(distance(*aim, goal), 60);
+      EXPECT_GE(world.clearance(*aim), 20 - 1e-9);
+      EXPECT_LE(distance(*aim, goal), nearest + 4);
+    } else {
+      EXPECT_GE(nearest, 57) << "trial " << trial;
+    }
+  }
+  EXPECT_GT(found, 30);
+}
+
+TEST(FreeGoal, NamesTheFault) {
+  scenes::RawWorld world;
+  world.discs = {{{500, 350}, 200}};
+  const Snapshot snapshot = world.snapshot();
+  EXPECT_EQ(query_fault(snapshot, {500, 350}, {100, 100}, 50, 40), Status::start_blocked);
+  EXPECT_EQ(query_fault(snapshot, {100, 100}, {500, 350}, 50, 40), Status::goal_blocked);
+  EXPECT_EQ(query_fault(snapshot, {100, 100}, {500, 130}, 50, 40), std::nullopt);
+  EXPECT_EQ(query_fault(snapshot, {100, 100}, {500, 90}, 50, 40), std::nullopt);
+}
+
+}  // namespace
+}  // namespace microswarm

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "microswarm/core/rng.hpp"
+#include "microswarm/world/snapshot.hpp"
+
+namespace microswarm::scenes {
+
+/// A world as plain shapes, for tests that must not trust the world's own queries.
+struct RawWorld {
+  std::string name;
+  Box bounds{{0, 0}, {1000, 700}};
+  std::vector<Polygon> walls;
+  std::vector<Disc> discs;
+  std::vector<Disc> movers;
+  double field_cell = 5;  ///< coarse: quick to build, and leaves more to the exact queries
+
+  Snapshot snapshot() const;
+  /// Distance from the segment to the nearest shape or border by asking every one of them.
+  double clearance(Segment s) const;
+  double clearance(Vec2 p) const { return clearance(Segment{p, p}); }
+};
+
+Polygon rectangle(Box box);
+Polygon turned_rectangle(Vec2 centre, double width, double height, double angle);
+
+/// Kinds of random worlds: scattered discs, boxes, walls of 1 µm with gaps, winding channels, and
+/// all of it with moving discs.
+inline constexpr int random_kinds = 5;
+RawWorld random_world(int kind, Rng& rng);
+
+/// Free point of the world by brute force; the bounds' centre when none was found.
+Vec2 random_free_point(const RawWorld& world, double clearance, Rng& rng);
+
+/// 2000 × 1000 µm with 140 discs and 70 polygons, disjoint or not as they fall.
+RawWorld cluttered(Rng& rng);
+
+}  // namespace microswarm::scenes
