@@ -24,8 +24,8 @@ TEST_P(DynamicWorld, ArrivesAndKeepsItsMargin) {
 
 INSTANTIATE_TEST_SUITE_P(Fig5, DynamicWorld,
                          testing::Values("deforming_channel.yaml", "moving_obstacles.yaml"),
-                         [](const auto& info) {
-                           const std::string name = info.param;
+                         [](const auto& scenario) {
+                           const std::string name = scenario.param;
                            return name.substr(0, name.find('.'));
                          });
 
