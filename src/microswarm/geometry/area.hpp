@@ -8,6 +8,7 @@
 
 namespace microswarm {
 
+/// Area of the disc [µm²].
 inline double area(Disc disc) { return 3.14159265358979323846 * disc.radius * disc.radius; }
 
 /// Exact area of disc ∩ polygon [µm²] (Green's theorem over the clipped boundary).

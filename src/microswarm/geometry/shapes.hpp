@@ -48,7 +48,9 @@ struct Polygon {
   std::vector<std::vector<Vec2>> holes;
 };
 
+/// Smallest box that holds the points; empty when there are none.
 Box bounding_box(std::span<const Vec2> points);
+/// Smallest box that holds the polygon.
 Box bounding_box(const Polygon& polygon);
 /// Signed area of a ring [µm²], positive when counter-clockwise.
 double signed_area(std::span<const Vec2> ring);
