@@ -108,7 +108,10 @@ std::string_view name_of(OmplPlanner planner) {
   return {};
 }
 
-std::string ompl_version() { return OMPL_VERSION; }
+std::string ompl_version() {
+  return std::to_string(OMPL_MAJOR_VERSION) + "." + std::to_string(OMPL_MINOR_VERSION) + "." +
+         std::to_string(OMPL_PATCH_VERSION);
+}
 
 OmplResult run_ompl(OmplPlanner kind, const OmplQuery& q) {
   ompl::msg::noOutputHandler();

@@ -78,21 +78,32 @@ std::vector<BenchRow> s_channel(const std::filesystem::path& scenarios, bool qui
   return rows;
 }
 
+/// A free point within 50 µm of `p`, so that the peer, which ends exactly at its goal, finds one
+/// too.
+Vec2 free_near(const Snapshot& world, Vec2 p, double clearance, Rng& rng) {
+  for (int i = 0; i < 1000; ++i) {
+    const Vec2 q = p + Vec2{rng.uniform(-50, 50), rng.uniform(-50, 50)};
+    if (world.is_free(q, 2 * clearance)) return q;
+  }
+  return p;
+}
+
 /// A 2000 × 1000 µm map with 140 discs and 70 polygons: time to the first path, and tree growth.
 std::vector<BenchRow> clutter(bool quick, const Stop& stop) {
   Rng rng(1, Purpose::scene);
   const Snapshot world = scenes::cluttered(rng).snapshot();
-  const Pose2 start{{60, 60}, 0};
-  const Vec2 goal{1940, 940};
+  constexpr double clearance = 10;
+  const Pose2 start{free_near(world, {60, 60}, clearance, rng), 0};
+  const Vec2 goal = free_near(world, {1940, 940}, clearance, rng);
   std::vector<BenchRow> rows;
   RrtParams first;
-  first.clearance = 10;
+  first.clearance = clearance;
   DrrtStarParams drrt;
-  drrt.clearance = 10;
+  drrt.clearance = clearance;
   const OmplQuery query{.world = world,
                         .start = start.position,
                         .goal = goal,
-                        .clearance = 10,
+                        .clearance = clearance,
                         .goal_tolerance = first.goal_tolerance,
                         .range = first.step};
   const auto theirs = peer_times(OmplPlanner::rrt_connect, query, quick ? 50 : 300, stop);
@@ -112,7 +123,7 @@ std::vector<BenchRow> clutter(bool quick, const Stop& stop) {
                   .peer_name = "OMPL RRTConnect"});
 
   RrtStarParams grow;
-  grow.clearance = 10;
+  grow.clearance = clearance;
   grow.stop_at_first = false;
   grow.max_nodes = 20'000;
   grow.max_iterations = 1'000'000;

@@ -14,6 +14,7 @@ namespace {
 constexpr double tick = 0.1;       // of the look-ahead [s]
 constexpr double slack = 1;        // kept besides the margin, for what happens within a tick [µm]
 constexpr double first_leg = 1.0;  // of an escape [s]
+constexpr double last_weight = 0.1;  // of the clearance at an escape's end beside the least one
 constexpr std::array<double, 3> eases{1.0, 0.5, 0.25};
 
 }  // namespace
@@ -72,7 +73,7 @@ Command HierarchicalNavigator::decide(const Observation& seen, const Stop& stop)
       if (const double speed = ease * params_.speed; look_along_path(seen, speed).safe)
         return issue(seen.now, pursue(path_, place_, pose_, lookahead_at(speed), speed), "follow");
   }
-  if (look_ahead(seen, [&](const Pose2&, double) { return hold; }).safe)
+  if (look_ahead(seen, params_.margin, [&](const Pose2&, double) { return hold; }).safe)
     return issue(seen.now, hold, "hold");
   return escape(seen);
 }
@@ -159,8 +160,9 @@ bool HierarchicalNavigator::replan_with(const Snapshot& world, double clearance,
 // Where the swarm goes once the command takes effect, against where the obstacles go.
 template <class Steer>
 HierarchicalNavigator::Outlook HierarchicalNavigator::look_ahead(const Observation& seen,
+                                                                 double floor,
                                                                  Steer&& steer) const {
-  const double enough = 2 * params_.margin + params_.extra_margin;
+  const double enough = far_enough();
   const double delay = params_.horizon > 0 ? seen.age() + swarm_.response_lag : 0;
   const int ticks = std::max(1, static_cast<int>(std::lround(params_.horizon / tick)));
   const Map& map = seen.world->map();
@@ -175,6 +177,7 @@ HierarchicalNavigator::Outlook HierarchicalNavigator::look_ahead(const Observati
     out.last = std::min(moving, map.clearance(next.position));
     out.least = std::min(out.least, out.last);
     pose = next;
+    if (out.least < floor) break;
   }
   return out;
 }
@@ -183,29 +186,39 @@ HierarchicalNavigator::Outlook HierarchicalNavigator::look_along_path(const Obse
                                                                       double speed) const {
   PathPlace place = place_;
   const double lookahead = lookahead_at(speed);
-  return look_ahead(seen, [&](const Pose2& pose, double) {
+  return look_ahead(seen, params_.margin, [&](const Pose2& pose, double) {
     const Command command = pursue(path_, place, pose, lookahead, speed);
     return way_left(path_, place) < 1 ? Command{pose.heading, 0} : command;
   });
 }
 
-// Of the hold and all ways of two legs, the one that keeps the most distance.
+// Of the hold and the ways of one leg, or two where one will not do, the one that keeps the most
+// distance.
 Command HierarchicalNavigator::escape(const Observation& seen) {
   constexpr int directions = 16;
   const double goal_heading = heading_of(goal_ - pose_.position);
-  const auto score = [](const Outlook& o) { return o.least + 0.1 * o.last; };
   Command best{pose_.heading, 0};
-  double best_score = score(look_ahead(seen, [&](const Pose2&, double) { return best; }));
-  for (int i = 0; i < directions; ++i)
-    for (int j = 0; j < directions; ++j) {
-      const Command first{wrap(goal_heading + 2 * pi * i / directions), params_.speed};
-      const Command second{wrap(goal_heading + 2 * pi * j / directions), params_.speed};
-      const double s = score(
-          look_ahead(seen, [&](const Pose2&, double t) { return t < first_leg ? first : second; }));
-      if (s <= best_score + 1e-9) continue;
-      best_score = s;
-      best = first;
-    }
+  double best_score = -1;
+  double best_least = 0;
+  const auto consider = [&](const Command& first, const Command& second) {
+    const Outlook o =
+        look_ahead(seen, best_score - last_weight * far_enough(),
+                   [&](const Pose2&, double t) { return t < first_leg ? first : second; });
+    const double score = o.least + last_weight * o.last;
+    if (score <= best_score + 1e-9) return;
+    best_score = score;
+    best_least = o.least;
+    best = first;
+  };
+  const auto leg = [&](int k) {
+    return Command{wrap(goal_heading + 2 * pi * k / directions), params_.speed};
+  };
+  consider(best, best);
+  for (int i = 0; i < directions; ++i) consider(leg(i), leg(i));
+  if (best_least < params_.margin + slack)
+    for (int i = 0; i < directions; ++i)
+      for (int j = 0; j < directions; ++j)
+        if (i != j) consider(leg(i), leg(j));
   path_.clear();
   return issue(seen.now, best, best.speed > 0 ? "escape" : "hold");
 }

@@ -102,9 +102,11 @@ class HierarchicalNavigator : public Navigator {
   bool path_holds(const Snapshot& world) const;
   void replan(const Snapshot& seen, const Snapshot& ahead, const Stop& stop);
   bool replan_with(const Snapshot& world, double clearance, const Stop& stop);
-  /// Plays `steer(pose, seconds) → command` through for the horizon.
+  /// Plays `steer(pose, seconds) → command` through for the horizon; ends early, unsafe, once the
+  /// clearance falls below `floor`.
   template <class Steer>
-  Outlook look_ahead(const Observation& seen, Steer&& steer) const;
+  Outlook look_ahead(const Observation& seen, double floor, Steer&& steer) const;
+  double far_enough() const { return 2 * params_.margin + params_.extra_margin; }
   Outlook look_along_path(const Observation& seen, double speed) const;
   double lookahead_at(double speed) const {
     return params_.lookahead * std::max(0.5, speed / params_.speed);
