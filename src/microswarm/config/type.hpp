@@ -16,6 +16,7 @@
 
 namespace microswarm {
 
+/// What a field may be; see core/fields.hpp.
 enum class TypeKind {
   boolean,   ///< bool
   integer,   ///< int
@@ -202,6 +203,7 @@ struct Describe<std::variant<Ts...>> {
 
 }  // namespace detail
 
+/// See its declaration above.
 template <class T>
 const Type& type_of() {
   static const Type type = detail::Describe<T>::type();

@@ -107,10 +107,11 @@ long double ValueReader::checked_number(const Type& type, const FieldInfo& info,
     fail(node, fmt::format("{} is {}, must be finite", label, one_line(node.text)));
   if (!number) fail_kind(type, label, node);
   if (type.kind != TypeKind::number && *number != std::floor(*number)) fail_kind(type, label, node);
-  if (*number < range.min || *number > range.max)
-    fail(node,
-         fmt::format("{} is {}{}, allowed {}", label, number_text(static_cast<double>(*number)),
-                     spaced_symbol(info.unit), range_text(range, info.unit)));
+  // As the limits are: 0.001 is not less than the double nearest to 0.001.
+  const double shown = static_cast<double>(*number);
+  if (shown < range.min || shown > range.max)
+    fail(node, fmt::format("{} is {}{}, allowed {}", label, number_text(shown),
+                           spaced_symbol(info.unit), range_text(range, info.unit)));
   return *number;
 }
 

@@ -70,8 +70,9 @@ Route::Route(const Map& map, Vec2 goal, double clearance, double cell, std::size
 }
 
 Vec2 Route::centre(std::size_t cell) const {
+  const std::size_t row = cell / columns_;
   return origin_ +
-         cell_ * Vec2{static_cast<double>(cell % columns_), static_cast<double>(cell / columns_)};
+         cell_ * Vec2{static_cast<double>(cell - row * columns_), static_cast<double>(row)};
 }
 
 std::size_t Route::cell_at(Vec2 p) const {

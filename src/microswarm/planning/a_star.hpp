@@ -26,6 +26,7 @@ struct AStarParams {
   }
 };
 
+/// Plans with A*; see planners.hpp for the form that all planners share.
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const AStarParams& params, Rng& rng,
           const Stop& stop = {});
 

@@ -40,6 +40,7 @@ struct DrrtStarParams : RrtStarParams {
   }
 };
 
+/// Plans with D-RRT*; see planners.hpp for the form that all planners share.
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const DrrtStarParams& params, Rng& rng,
           const Stop& stop = {});
 

@@ -36,6 +36,7 @@ struct RrtParams : TreeParams {
   static constexpr std::string_view type_name = "rrt";
 };
 
+/// Plans with RRT; see planners.hpp for the form that all planners share.
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const RrtParams& params, Rng& rng,
           const Stop& stop = {});
 

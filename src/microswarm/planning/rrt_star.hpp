@@ -36,6 +36,7 @@ struct UniformRrtStarParams : RrtStarParams {
   }
 };
 
+/// Plans with RRT* or uniform RRT*; see planners.hpp for the form that all planners share.
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const RrtStarParams& params, Rng& rng,
           const Stop& stop = {});
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const UniformRrtStarParams& params,

@@ -48,6 +48,7 @@ std::string rows_table(const std::vector<BenchRow>& rows);
 std::string rows_csv(const std::vector<ReproduceRow>& rows);
 std::string rows_csv(const std::vector<BenchRow>& rows);
 
+/// Does no row fall short of its aim?
 template <class Row>
 bool all_ok(const std::vector<Row>& rows) {
   for (const Row& row : rows)
