@@ -113,6 +113,17 @@ void moment(const Subject& s, const PlanEvent& event, const std::filesystem::pat
   picture.write(file);
 }
 
+/// Of some planning events, the one at which an obstacle is nearest.
+const PlanEvent& tightest(const Record& record, std::size_t first, std::size_t end) {
+  const auto clearance = [&](const PlanEvent& e) {
+    return frame_at(record, e.t).obstacle_clearance;
+  };
+  return *std::min_element(
+      record.plans.begin() + static_cast<std::ptrdiff_t>(first),
+      record.plans.begin() + static_cast<std::ptrdiff_t>(end),
+      [&](const PlanEvent& a, const PlanEvent& b) { return clearance(a) < clearance(b); });
+}
+
 std::vector<Plot> plots(const Subject& s) {
   const Record& record = s.record;
   std::vector<Plot> out;
@@ -183,7 +194,7 @@ void write_run_report(const Record& record, const std::filesystem::path& folder,
   const std::size_t events = record.plans.size();
   for (std::size_t k = 0; k < moments && k < events; ++k) {
     const std::string name = fmt::format("moment-{}.png", k + 1);
-    const PlanEvent& event = record.plans[(2 * k + 1) * events / (2 * moments)];
+    const PlanEvent& event = tightest(record, k * events / moments, (k + 1) * events / moments);
     moment(s, event, folder / name);
     stills.pictures.emplace_back(name, fmt::format("{:.1f} s", event.t));
   }
