@@ -192,9 +192,10 @@ void write_run_report(const Record& record, const std::filesystem::path& folder,
   overview(s, folder);
   PageSection stills{.heading = "Moments", .text = "The world at planning events on the way."};
   const std::size_t events = record.plans.size();
-  for (std::size_t k = 0; k < moments && k < events; ++k) {
+  const std::size_t shown = std::min<std::size_t>(moments, events);
+  for (std::size_t k = 0; k < shown; ++k) {
     const std::string name = fmt::format("moment-{}.png", k + 1);
-    const PlanEvent& event = tightest(record, k * events / moments, (k + 1) * events / moments);
+    const PlanEvent& event = tightest(record, k * events / shown, (k + 1) * events / shown);
     moment(s, event, folder / name);
     stills.pictures.emplace_back(name, fmt::format("{:.1f} s", event.t));
   }
