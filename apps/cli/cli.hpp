@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
@@ -35,6 +37,20 @@ void add_map(CLI::App& app, Action& action);
 void add_reproduce(CLI::App& app, Action& action);
 void add_bench(CLI::App& app, Action& action);
 
+/// What is wrong with a command line, in one line that says where help is.
+std::string usage_error(const CLI::App& app, const CLI::ParseError& error);
+
+/// Writes results to stdout. Throws InputError "stdout: cannot write: REASON"; when nobody reads
+/// stdout any more, the program ends as every program in a pipe does, by SIGPIPE.
+void put(std::string_view text);
+/// Brings to stdout what put() may still hold back; errors as there.
+void flush_output();
+
+template <class... Values>
+void print(fmt::format_string<Values...> format, Values&&... values) {
+  put(fmt::format(format, std::forward<Values>(values)...));
+}
+
 /// Progress on stderr, only where that is a terminal: "label [#####.....] 50 % 3 s left".
 class ProgressBar {
  public:
@@ -52,7 +68,8 @@ class ProgressBar {
   int last_ = -1;
 };
 
-/// Makes the folder, with its parents. Throws InputError "FOLDER: cannot make the folder: REASON".
+/// Makes the folder, with its parents, and tries whether files can be written there. Throws
+/// InputError "FOLDER: cannot make the folder: REASON" or "…: cannot write: REASON".
 void make_folder(const std::string& folder);
 
 /// Folder of the scenarios that come with the program: of the source tree it was built in, or of

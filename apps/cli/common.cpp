@@ -1,15 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
-#include <filesystem>
+#include <system_error>
 
 #include "cli.hpp"
 #include "microswarm/core/error.hpp"
 
 namespace microswarm::cli {
+namespace {
+
+[[noreturn]] void output_failed(int error) {
+  if (error == EPIPE) {
+    std::signal(SIGPIPE, SIG_DFL);
+    std::raise(SIGPIPE);
+  }
+  throw InputError("stdout: cannot write: " + std::generic_category().message(error));
+}
+
+}  // namespace
+
+void put(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) output_failed(errno);
+}
+
+void flush_output() {
+  if (std::fflush(stdout) != 0) output_failed(errno);
+}
 
 ProgressBar::ProgressBar(std::string label)
     : label_(std::move(label)), shown_(isatty(STDERR_FILENO) == 1), began_(Stop::Clock::now()) {}
@@ -35,6 +56,11 @@ void make_folder(const std::string& folder) {
   std::filesystem::create_directories(folder, error);
   if (error)
     throw InputError(fmt::format("{}: cannot make the folder: {}", folder, error.message()));
+  const int nameless = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+  if (nameless >= 0)
+    ::close(nameless);
+  else if (errno != EOPNOTSUPP && errno != EISDIR)  // else it shows only when a file is written
+    throw InputError(folder + ": cannot write: " + std::generic_category().message(errno));
 }
 
 std::filesystem::path scenario_folder() {

@@ -3,6 +3,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 
 #include "cli.hpp"
@@ -22,9 +23,33 @@ extern "C" void on_interrupt(int signal) {
   }
 }
 
+constexpr const char* footer =
+    "microswarm COMMAND --help says more about a command.\n"
+    "Exit codes: 0 done; 2 bad input or command line, told in one line; 3 ran, but the goal was "
+    "not\n"
+    "reached, a row falls short or Ctrl-C came (once: ends with what there is; twice: at once);\n"
+    "1 anything else.";
+
 int complain(const char* what, int code) {
   std::fprintf(stderr, "microswarm: %s\n", what);
   return code;
+}
+
+int act(const microswarm::cli::Action& action) {
+  using namespace microswarm;
+  try {
+    const int code = action({Stop(&interrupted)});
+    cli::flush_output();
+    return code;
+  } catch (const InputError& e) {
+    return complain(e.what(), cli::bad_input);
+  } catch (const std::filesystem::filesystem_error& e) {
+    return complain(e.what(), cli::bad_input);
+  } catch (const std::bad_alloc&) {
+    return complain("out of memory", cli::failed);
+  } catch (const std::exception& e) {
+    return complain(e.what(), cli::failed);
+  }
 }
 
 }  // namespace
@@ -36,11 +61,10 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
 
   CLI::App app{"Plans, steers, gathers and measures magnetic microrobot swarms.", "microswarm"};
-  app.set_version_flag("--version", std::string(version));
+  app.set_version_flag("--version", std::string(version), "Print the version and exit");
+  app.set_help_flag("-h,--help", "Print this help and exit");
   app.require_subcommand(1);
-  app.failure_message([](const CLI::App*, const CLI::Error& e) {
-    return std::string("microswarm: ") + e.what() + "\n";
-  });
+  app.footer(footer);
   cli::Action action;
   cli::add_run(app, action);
   cli::add_plan(app, action);
@@ -52,19 +76,10 @@ int main(int argc, char** argv) {
   cli::add_schema(app, action);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::Success& e) {  // --help, --version
+    return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? cli::ok : cli::bad_input;
+    return complain(cli::usage_error(app, e).c_str(), cli::bad_input);
   }
-  try {
-    const int code = action({Stop(&interrupted)});
-    if (std::fflush(stdout) != 0)
-      return complain("cannot write the results to stdout", cli::failed);
-    return code;
-  } catch (const InputError& e) {
-    return complain(e.what(), cli::bad_input);
-  } catch (const std::bad_alloc&) {
-    return complain("out of memory", cli::failed);
-  } catch (const std::exception& e) {
-    return complain(e.what(), cli::failed);
-  }
+  return act(action);
 }

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 
-#include "cli.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/error.hpp"
+#include "microswarm/core/text.hpp"
+#include "microswarm/experiment/scenario.hpp"
 #include "microswarm/formats/map_file.hpp"
+#include "microswarm/planning/free_goal.hpp"
 #include "microswarm/planning/planners.hpp"
 #include "microswarm/report/picture.hpp"
+#include "options.hpp"
 
 namespace microswarm::cli {
 namespace {
@@ -22,8 +24,8 @@ using Json = nlohmann::ordered_json;
 struct Options {
   std::string map;
   std::optional<double> um_per_px;
-  std::vector<double> start;
-  std::vector<double> goal;
+  std::string start;
+  std::string goal;
   std::vector<std::string> settings;
   std::string picture;
   std::uint64_t seed = 1;
@@ -39,6 +41,27 @@ struct Choice {
   }
 };
 
+/// The numbers in "200,500,-90"; empty when it is no such list.
+std::vector<double> numbers(const std::string& text) {
+  std::vector<double> values;
+  std::istringstream words(text + ",");
+  for (std::string word; std::getline(words, word, ',');) {
+    const std::optional<double> value = parse_number(word);
+    if (!value) return {};
+    values.push_back(*value);
+  }
+  return values;
+}
+
+CLI::Validator place(std::size_t most, const char* form) {
+  return {[most, form](std::string& text) -> std::string {
+            const std::size_t count = numbers(text).size();
+            if (count >= 2 && count <= most) return {};
+            return fmt::format("must be {}, not {}", form, quote(text));
+          },
+          ""};
+}
+
 void draw(const Options& o, const Snapshot& world, const Pose2& start, Vec2 goal,
           const Plan& plan) {
   Picture picture(world.bounds(), fmt::format("{}: {}", o.map, to_string(plan.status)));
@@ -48,47 +71,66 @@ void draw(const Options& o, const Snapshot& world, const Pose2& start, Vec2 goal
   picture.mark(start.position, "start");
   picture.mark(goal, "goal", colours::goal);
   picture.legend("path", colours::path);
-  picture.legend("tree", colours::tree);
+  if (plan.tree.size() > 0) picture.legend("tree", colours::tree);
   picture.write(o.picture);
+}
+
+/// Throws InputError when no planner could have found a path: an end that is blocked, a swarm too
+/// wide, a goal cut off.
+void explain(const Options& o, const Snapshot& world, Vec2 start, Vec2 goal,
+             const PlannerParams& planner, Status status) {
+  const auto [clearance, tolerance] =
+      std::visit([](const auto& p) { return std::pair(p.clearance, p.goal_tolerance); }, planner);
+  if (status == Status::start_blocked)
+    throw InputError(fmt::format("{}: start {}", o.map, world.why_blocked(start, clearance)));
+  if (status == Status::goal_blocked)
+    throw InputError(fmt::format("{}: goal {}", o.map, world.why_blocked(goal, clearance)));
+  if (status != Status::no_path && status != Status::node_limit) return;
+  if (const auto target = free_goal(world, goal, tolerance, clearance))
+    check_way(world.map(), start, *target, clearance, o.map);
+}
+
+void show(const Plan& made, double start_heading, double ms, bool json) {
+  const double length = path_length(made.path);
+  const double turning = degrees(path_turning(made.path, start_heading));
+  if (json) {
+    Json path = Json::array();
+    for (const Vec2 p : made.path) path.push_back({p.x, p.y});
+    print("{}\n", Json{{"status", to_string(made.status)},
+                       {"length_um", length},
+                       {"turning_deg", turning},
+                       {"time_ms", ms},
+                       {"iterations", made.counts.iterations},
+                       {"nodes", made.tree.size()},
+                       {"path_um", path}}
+                      .dump(2));
+    return;
+  }
+  print("{} of {:.1f} µm in {} points, turns {:.0f}° in all; {} iterations, {} nodes, {:.2f} ms\n",
+        made.status == Status::solved
+            ? "path"
+            : fmt::format("no path ({}), only the beginning of one,", to_string(made.status)),
+        length, made.path.size(), turning, made.counts.iterations, made.tree.size(), ms);
+  if (!made.path.empty()) print("x_um,y_um\n");
+  for (const Vec2 p : made.path) print("{:.3f},{:.3f}\n", p.x, p.y);
 }
 
 int plan_command(const Options& o, const Context& context) {
   Choice choice;
   for (const std::string& s : o.settings) set_value(choice, s);
-  const Pose2 start{{o.start[0], o.start[1]}, o.start.size() > 2 ? radians(o.start[2]) : 0.0};
-  const Vec2 goal{o.goal[0], o.goal[1]};
+  const std::vector<double> from = numbers(o.start);
+  const std::vector<double> to = numbers(o.goal);
+  const Pose2 start{{from[0], from[1]}, from.size() > 2 ? radians(from[2]) : 0.0};
+  const Vec2 goal{to[0], to[1]};
   const Snapshot world(load_map(guess_map_spec(o.map, o.um_per_px)).map);
   Rng rng(o.seed, Purpose::planner);
   const auto began = Stop::Clock::now();
   const Plan made = plan(world, start, goal, choice.planner, rng, context.stop);
   const double ms = std::chrono::duration<double, std::milli>(Stop::Clock::now() - began).count();
-
-  const double clearance = std::visit([](const auto& p) { return p.clearance; }, choice.planner);
-  std::string why;
-  if (made.status == Status::start_blocked)
-    why = "start " + world.why_blocked(start.position, clearance);
-  if (made.status == Status::goal_blocked) why = "goal " + world.why_blocked(goal, clearance);
-  if (!why.empty()) throw InputError(fmt::format("{}: {}", o.map, why));
-
+  explain(o, world, start.position, goal, choice.planner, made.status);
   if (!o.picture.empty()) draw(o, world, start, goal, made);
-  if (o.json) {
-    Json path = Json::array();
-    for (const Vec2 p : made.path) path.push_back({p.x, p.y});
-    fmt::print("{}\n", Json{{"status", to_string(made.status)},
-                            {"length_um", path_length(made.path)},
-                            {"turning_deg", degrees(path_turning(made.path, start.heading))},
-                            {"time_ms", ms},
-                            {"iterations", made.counts.iterations},
-                            {"nodes", made.tree.size()},
-                            {"path_um", path}}
-                           .dump(2));
-  } else {
-    fmt::print("{}: {:.1f} µm, turns {:.0f}°, {} points, {} nodes, {:.2f} ms\n",
-               to_string(made.status), path_length(made.path),
-               degrees(path_turning(made.path, start.heading)), made.path.size(), made.tree.size(),
-               ms);
-    for (const Vec2 p : made.path) fmt::print("{:.3f},{:.3f}\n", p.x, p.y);
-  }
+  show(made, start.heading, ms, o.json);
+  if (!o.json && !o.picture.empty()) print("wrote {}\n", o.picture);
   return made.status == Status::solved ? ok : not_reached;
 }
 
@@ -96,20 +138,31 @@ int plan_command(const Options& o, const Context& context) {
 
 void add_plan(CLI::App& app, Action& action) {
   auto o = std::make_shared<Options>();
-  CLI::App* cmd = app.add_subcommand("plan", "Plan one path on a map");
-  cmd->add_option("map", o->map, "Map file: picture, ROS YAML, MovingAI, GeoJSON, CSV")->required();
-  cmd->add_option("--um-per-px", o->um_per_px, "µm per pixel or cell");
-  cmd->add_option("--start", o->start, "x,y or x,y,heading in µm and degrees")
+  CLI::App* cmd = add_command(
+      app, "plan", "Plan one path on a map: exit code 3 when there is none",
+      "plan map.png --um-per-px 5 --start 200,700,-90 --goal 1750,300 \\\n"
+      "      --set planner.type=a_star --set planner.clearance_um=40 --picture path.svg");
+  cmd->add_option("map", o->map, "Picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles")
       ->required()
-      ->delimiter(',')
-      ->expected(2, 3);
-  cmd->add_option("--goal", o->goal, "x,y in µm")->required()->delimiter(',')->expected(2);
-  cmd->add_option("--set", o->settings, "planner.type=a_star, planner.clearance_um=40, …")
-      ->take_all()
-      ->allow_extra_args(false);
-  cmd->add_option("--seed", o->seed, "Seed of the random stream");
-  cmd->add_option("--picture", o->picture, "Draw map, tree and path: .png, .svg or .pdf");
-  cmd->add_flag("--json", o->json, "Result for machines");
+      ->type_name("FILE");
+  add_um_per_px(cmd, o->um_per_px, "µm per pixel or cell of the map, 1e-6..1e6");
+  cmd->add_option("--start", o->start, "x,y or x,y,heading in µm and degrees; y points up")
+      ->required()
+      ->type_name("X,Y[,HEADING]")
+      ->check(place(3, "x,y or x,y,heading in µm and degrees"));
+  cmd->add_option("--goal", o->goal, "x,y in µm")
+      ->required()
+      ->type_name("X,Y")
+      ->check(place(2, "x,y in µm"));
+  add_settings(cmd, o->settings,
+               "Choose the planner (drrt_star, rrt_star, uniform_rrt_star, rrt, a_star) and change "
+               "its values (again and again)");
+  cmd->add_option("--seed", o->seed, "Seed of the random stream; 1 when not given")
+      ->type_name("NUMBER")
+      ->check(whole(0, UINT64_MAX));
+  cmd->add_option("--picture", o->picture, "Draw map, tree and path: .png, .svg or .pdf")
+      ->type_name("FILE");
+  add_json(cmd, o->json);
   cmd->callback(
       [o, &action] { action = [o](const Context& context) { return plan_command(*o, context); }; });
 }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reproduce.hpp"
 
-#include <fmt/format.h>
-
 #include <memory>
 
 #include "microswarm/core/error.hpp"
+#include "options.hpp"
 
 namespace microswarm::cli {
 namespace {
@@ -20,8 +19,8 @@ int reproduce_command(const std::string& key, ReproduceOptions options, bool jso
   if (!options.out.empty()) make_folder(options.out);
   const std::vector<ReproduceRow> rows = reproduce_drrt(figure, options, context.stop);
   if (options.quick && !json)
-    fmt::print("quick: {} seeds instead of {}\n", options.seed_count(), full_seeds);
-  fmt::print("{}", json ? rows_json(rows) : rows_table(rows));
+    print("quick: {} seeds instead of {}\n", options.seed_count(), full_seeds);
+  print("{}", json ? rows_json(rows) : rows_table(rows));
   if (context.stop.requested()) return not_reached;
   return all_ok(rows) ? ok : not_reached;
 }
@@ -32,12 +31,17 @@ void add_reproduce(CLI::App& app, Action& action) {
   auto key = std::make_shared<std::string>();
   auto o = std::make_shared<ReproduceOptions>();
   auto json = std::make_shared<bool>(false);
-  CLI::App* cmd = app.add_subcommand("reproduce", "A paper's figures beside ours");
-  cmd->add_option("key", *key, "Paper and figure: drrt, drrt/fig3, drrt/fig5a, drrt/fig5b")
-      ->required();
-  cmd->add_option("--out", o->out, "Folder for plots, pictures and the table as CSV");
+  CLI::App* cmd = add_command(app, "reproduce",
+                              "A paper's figures beside ours: exit code 3 when one falls short",
+                              "reproduce drrt/fig5a --quick --out out/drrt");
+  cmd->add_option("key", *key,
+                  "Paper, or one of its figures: drrt, drrt/fig3, drrt/fig5a, drrt/fig5b")
+      ->required()
+      ->type_name("KEY");
+  cmd->add_option("--out", o->out, "Folder for plots, pictures and the table as CSV")
+      ->type_name("FOLDER");
   cmd->add_flag("--quick", o->quick, "Fewer seeds: ends within 50 s");
-  cmd->add_flag("--json", *json, "Rows for machines");
+  add_json(cmd, *json);
   cmd->callback([=, &action] {
     action = [=](const Context& context) { return reproduce_command(*key, *o, *json, context); };
   });

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
-#include <filesystem>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "cli.hpp"
 #include "microswarm/config/write.hpp"
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/file.hpp"
+#include "microswarm/core/text.hpp"
 #include "microswarm/experiment/progress.hpp"
 #include "microswarm/experiment/record.hpp"
 #include "microswarm/experiment/trials.hpp"
-#include "microswarm/report/run_report.hpp"
+#include "options.hpp"
 
 namespace microswarm::cli {
 namespace {
@@ -28,85 +28,134 @@ struct Options {
   int jobs = 0;
   bool json = false;
   bool no_report = false;
-  std::string photo;
-  double um_per_px = 1;
+  PhotoOptions photo;
 };
 
 int exit_code(Status status) { return status == Status::solved ? ok : not_reached; }
 
 Json to_json(const RunResult& result, const std::string& hash) {
-  Json out{{"status", to_string(result.status)},
-           {"metrics", Json::parse(to_json_text(result.metrics))},
-           {"planning", Json::parse(to_json_text(summarise(result.timing.planning)))},
-           {"record_hash", hash}};
-  return out;
+  return {{"status", to_string(result.status)},
+          {"metrics", Json::parse(to_json_text(result.metrics))},
+          {"planning", Json::parse(to_json_text(summarise(result.timing.planning)))},
+          {"record_hash", hash}};
+}
+
+std::string_view ending(Status status) {
+  switch (status) {
+    case Status::solved:
+      return "goal reached";
+    case Status::time_limit:
+      return "time limit";
+    case Status::held:
+      return "held, as nothing was safe,";
+    case Status::collided:
+      return "touched a wall or an obstacle";
+    default:
+      return to_string(status);
+  }
+}
+
+std::string um(double length) {
+  return std::isfinite(length) ? fmt::format("{:.1f} µm", length) : "–";
 }
 
 std::string summary(const RunResult& result) {
   const Metrics& m = result.metrics;
   const TimeSummary p = summarise(result.timing.planning);
-  return fmt::format(
-      "{} after {:.1f} s: {:.0f} µm, turned {:.0f}°, nearest wall {:.1f} µm, nearest obstacle "
-      "{:.1f} µm,\n"
-      "{} planning events of {:.3f} ms on average (longest {:.3f} ms), {:.1f} s held\n",
-      to_string(result.status), m.time, m.length, degrees(m.turning), m.walls.clearance,
-      m.obstacles.clearance, m.planning_events, 1e3 * p.mean, 1e3 * p.max, m.hold_time);
+  std::string text =
+      fmt::format("{} after {:.1f} s of simulated time", ending(result.status), m.time);
+  if (result.status != Status::solved)
+    text += fmt::format(", {:.0f} µm from the goal", m.goal_distance);
+  text += fmt::format("\n  way       {:.0f} µm long, turned {:.0f}° in all, held for {:.1f} s\n",
+                      m.length, degrees(m.turning), m.hold_time);
+  text += fmt::format("  nearest   wall {}, moving obstacle {} (from the swarm's centre)\n",
+                      um(m.walls.clearance), um(m.obstacles.clearance));
+  return text + fmt::format("  planning  {} times, {:.3f} ms on average, {:.3f} ms the longest\n",
+                            m.planning_events, 1e3 * p.mean, 1e3 * p.max);
 }
 
-int one_run(const Options& o, const Scene& scene, const World& world, const Stop& stop) {
+int one_run(const Options& o, const Scene& scene, const World& world, const ReportOptions& report,
+            const Stop& stop) {
   const std::filesystem::path folder = o.out;
   Recorder recorder(scene);
-  ProgressBar bar(scene.scenario.name.empty() ? "run" : scene.scenario.name);
-  ProgressListener progress(scene.scenario, [&](const RunProgress& p) {
-    bar.update(std::max(p.way_done, p.time_spent));
-  });
-  RunListener* const listeners[] = {&recorder, &progress};
-  const RunResult result = simulate(scene.scenario, world, 0, listeners, stop);
+  RunResult result;
+  {
+    ProgressBar bar(scene.scenario.name.empty() ? "run" : scene.scenario.name);
+    ProgressListener progress(scene.scenario, [&](const RunProgress& p) {
+      bar.update(std::max(p.way_done, p.time_spent));
+    });
+    RunListener* const listeners[] = {&recorder, &progress};
+    result = simulate(scene.scenario, world, 0, listeners, stop);
+  }
   const Record& record = recorder.record();
   const std::string hash = record.hash();
   if (!o.out.empty()) {
     write_record(record, folder / "run.h5");
-    if (!o.no_report) {
-      ReportOptions options;
-      if (!o.photo.empty()) options = {read_image(o.photo), o.um_per_px};
-      write_run_report(record, folder, options);
-    }
+    if (!o.no_report) write_run_report(record, folder, report);
   }
   if (o.json) {
-    fmt::print("{}\n", to_json(result, hash).dump(2));
+    print("{}\n", to_json(result, hash).dump(2));
   } else {
-    fmt::print("{}record {}\n", summary(result), hash);
+    print("{}  record    {}\n", summary(result), hash);
     if (!o.out.empty())
-      fmt::print("wrote {}\n", (folder / (o.no_report ? "run.h5" : "index.html")).string());
+      print("wrote {}\n", (folder / (o.no_report ? "run.h5" : "index.html")).string());
   }
   return exit_code(result.status);
 }
 
+std::string trials_csv(const std::vector<TrialResult>& trials) {
+  std::string text =
+      "trial,status,time_s,length_um,turning_deg,goal_distance_um,hold_time_s,least_wall_um,"
+      "least_obstacle_um,contacts,planning_events,planning_mean_s,planning_max_s,record_hash\n";
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    if (!trials[i].ran) continue;
+    const RunResult& r = trials[i].result;
+    const Metrics& m = r.metrics;
+    const TimeSummary p = summarise(r.timing.planning);
+    text += fmt::format("{},{}", i, to_string(r.status));
+    for (const double v : {m.time, m.length, degrees(m.turning), m.goal_distance, m.hold_time,
+                           m.walls.clearance, m.obstacles.clearance})
+      text += "," + number_text(v);
+    text += fmt::format(",{},{},{:.6g},{:.6g},{}\n", m.contacts, m.planning_events, p.mean, p.max,
+                        trials[i].hash);
+  }
+  return text;
+}
+
 int many_runs(const Options& o, const Scene& scene, const World& world, const Stop& stop) {
-  ProgressBar bar("trials");
-  const auto results = run_trials(
-      scene.scenario, world,
-      {.trials = o.trials,
-       .jobs = o.jobs,
-       .progress = [&](int done, int all) { bar.update(static_cast<double>(done) / all); }},
-      stop);
+  std::vector<TrialResult> results;
+  {
+    ProgressBar bar("trials");
+    results = run_trials(
+        scene.scenario, world,
+        {.trials = o.trials,
+         .jobs = o.jobs,
+         .progress = [&](int done, int all) { bar.update(static_cast<double>(done) / all); }},
+        stop);
+  }
+  const std::filesystem::path csv = std::filesystem::path(o.out) / "trials.csv";
+  if (!o.out.empty()) write_file_atomically(csv, trials_csv(results));
   Json list = Json::array();
   int solved = 0;
   int ran = 0;
   for (std::size_t i = 0; i < results.size(); ++i) {
     if (!results[i].ran) continue;
+    const RunResult& r = results[i].result;
     ++ran;
-    solved += results[i].result.status == Status::solved;
-    Json row = to_json(results[i].result, results[i].hash);
-    row["trial"] = i;
-    list.push_back(row);
+    solved += r.status == Status::solved;
+    Json row{{"trial", i}};
+    row.update(to_json(r, results[i].hash));
+    list.push_back(std::move(row));
     if (!o.json)
-      fmt::print("trial {}: {}record {}\n", i, summary(results[i].result), results[i].hash);
+      print("trial {:3}: {} after {:.1f} s, {:.0f} µm long, record {}\n", i, ending(r.status),
+            r.metrics.time, r.metrics.length, results[i].hash);
   }
   if (o.json)
-    fmt::print("{}\n", Json{{"trials", list}}.dump(2));
+    print("{}\n", Json{{"trials", list}}.dump(2));
   else
-    fmt::print("{} of {} trials reached the goal\n", solved, ran);
+    print("{} of {} trials reached the goal{}\n", solved, ran,
+          ran < o.trials ? fmt::format(", {} were not begun", o.trials - ran) : "");
+  if (!o.json && !o.out.empty()) print("wrote {}\n", csv.string());
   return solved == o.trials ? ok : not_reached;
 }
 
@@ -117,31 +166,38 @@ int run_command(const Options& o, const Context& context) {
   const Scene scene = load_scene(std::move(scenario), file.parent_path());
   const World world = build_world(scene);
   check(scene.scenario, world, file.string());
+  const ReportOptions report = report_options(o.photo);
   if (!o.out.empty()) make_folder(o.out);
   return o.trials > 1 ? many_runs(o, scene, world, context.stop)
-                      : one_run(o, scene, world, context.stop);
+                      : one_run(o, scene, world, report, context.stop);
 }
 
 }  // namespace
 
 void add_run(CLI::App& app, Action& action) {
   auto o = std::make_shared<Options>();
-  CLI::App* cmd = app.add_subcommand("run", "Run a scenario: simulate, record, report");
-  cmd->add_option("scenario", o->scenario, "Scenario file (YAML)")->required();
-  cmd->add_option("--out", o->out, "Folder for record, pictures and page");
-  cmd->add_option("--set", o->settings, "Change a value: key.path=value (again and again)")
-      ->take_all()
-      ->allow_extra_args(false);
-  cmd->add_option("--seed", o->seed, "Seed of all random streams");
-  cmd->add_option("--trials", o->trials, "Repeat with this many random streams")
-      ->check(CLI::Range(1, 1000000));
-  cmd->add_option("--jobs", o->jobs, "Threads for trials; 0: one a core")
-      ->check(CLI::Range(0, 1024));
-  cmd->add_option("--photo", o->photo, "Photograph to lay under the pictures");
-  cmd->add_option("--um-per-px", o->um_per_px, "µm per pixel of the photograph")
-      ->check(CLI::Range(1e-6, 1e6));
-  cmd->add_flag("--no-report", o->no_report, "Write the record only");
-  cmd->add_flag("--json", o->json, "Results for machines");
+  CLI::App* cmd = add_command(app, "run", "Run a scenario: simulate, record, report",
+                              "run scenarios/first_flight.yaml --out out/first --set "
+                              "swarm.radius_um=50");
+  cmd->add_option("scenario", o->scenario, "Scenario file (YAML); `schema --keys` lists its keys")
+      ->required()
+      ->type_name("FILE");
+  cmd->add_option("--out", o->out,
+                  "Folder for run.h5, pictures and index.html; with --trials for trials.csv")
+      ->type_name("FOLDER");
+  add_settings(cmd, o->settings, "Change a value of the scenario (again and again)");
+  cmd->add_option("--seed", o->seed, "Seed of all random streams, in place of the scenario's")
+      ->type_name("NUMBER")
+      ->check(whole(0, UINT64_MAX));
+  cmd->add_option("--trials", o->trials, "Run this often, each time with other random streams")
+      ->type_name("NUMBER")
+      ->check(whole(1, 1'000'000));
+  cmd->add_option("--jobs", o->jobs, "Threads for --trials; 0: one a core")
+      ->type_name("NUMBER")
+      ->check(whole(0, 1024));
+  add_photo(cmd, o->photo);
+  cmd->add_flag("--no-report", o->no_report, "Write run.h5 only");
+  add_json(cmd, o->json);
   cmd->callback(
       [o, &action] { action = [o](const Context& context) { return run_command(*o, context); }; });
 }

@@ -166,6 +166,8 @@ TEST(Read, ValuesOutOfRange) {
   for (const auto& [text, message] : cases) EXPECT_EQ(complaint(text), message);
   EXPECT_EQ(read("planner: {step_um: 1}").planner.step, 1);
   EXPECT_EQ(read("planner: {step_um: 1e5}").planner.step, 1e5);
+  // The double nearest to 0.001 is greater than 0.001.
+  EXPECT_EQ(std::get<Disc>(read("tip: {type: disc, radius_um: 0.001}").tip).radius, 0.001);
 }
 
 TEST(Read, UnknownWords) {

@@ -85,6 +85,14 @@ TEST(WidestPath, takes_the_wider_of_two_gaps_and_is_free_with_its_clearance) {
   EXPECT_NEAR(widest_path(map, {300, 240}, {1700, 240}, 30).clearance, 30, 1e-9);
 }
 
+TEST(WidestPath, is_tightest_within_a_long_edge) {
+  const WidestPath way = widest_path(dumbbell(100).map(), {300, 500}, {1700, 500});
+  EXPECT_NEAR(way.clearance, 50, 1e-9);
+  EXPECT_EQ(way.path.size(), 2u);
+  EXPECT_NEAR(way.tightest.x, 900, 2);  // where the neck begins
+  EXPECT_NEAR(way.tightest.y, 500, 1e-9);
+}
+
 TEST(WidestPath, is_bounded_by_its_ends) {
   const Map map = Drawn{}.map();
   EXPECT_NEAR(widest_path(map, {7, 500}, {1990, 500}).clearance, 7, 1e-9);

@@ -92,11 +92,8 @@ World build_world(const Scene& scene) {
           scene.scenario.obstacles};
 }
 
-namespace {
-
-void check_way(const Scenario& scenario, const Map& map, Vec2 target, const std::string& where) {
-  const double radius = scenario.swarm.radius;
-  const WidestPath way = widest_path(map, scenario.start.position, target, radius);
+void check_way(const Map& map, Vec2 start, Vec2 goal, double radius, const std::string& where) {
+  const WidestPath way = widest_path(map, start, goal, radius);
   // A way that the search may have missed for its resolution is not denied.
   if (way.clearance + 1.5 * way.resolution >= radius) return;
   if (!way.found)
@@ -107,8 +104,6 @@ void check_way(const Scenario& scenario, const Map& map, Vec2 target, const std:
       where, 2 * radius, 2 * way.clearance, way.tightest.x, way.tightest.y));
 }
 
-}  // namespace
-
 void check(const Scenario& scenario, const World& world, const std::string& where) {
   const double radius = scenario.swarm.radius;
   if (const auto why = world.at(0).why_blocked(scenario.start.position, radius); !why.empty())
@@ -118,7 +113,7 @@ void check(const Scenario& scenario, const World& world, const std::string& wher
   const auto target = free_goal(walls, scenario.goal, scenario.goal_tolerance, radius);
   if (!target)
     throw InputError(fmt::format("{}: goal {}", where, walls.why_blocked(scenario.goal, radius)));
-  check_way(scenario, *world.map, *target, where);
+  check_way(*world.map, scenario.start.position, *target, radius, where);
 }
 
 }  // namespace microswarm

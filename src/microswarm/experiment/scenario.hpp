@@ -104,4 +104,8 @@ World build_world(const Scene& scene);
 /// start. `where` begins the line: the scenario's file or name.
 void check(const Scenario& scenario, const World& world, const std::string& where);
 
+/// The last two of these complaints alone: between two free points of a map, for a swarm of
+/// `radius` [µm].
+void check_way(const Map& map, Vec2 start, Vec2 goal, double radius, const std::string& where);
+
 }  // namespace microswarm

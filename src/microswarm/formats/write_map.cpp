@@ -55,8 +55,7 @@ void write_map(const std::filesystem::path& path, const Map& map, double cell) {
   if (extension != ".png" && extension != ".map" && extension != ".yaml")
     throw InputError(path.string() +
                      ": maps are written as .geojson, .png, .map (MovingAI) or .yaml (ROS)");
-  if (cell == 0)
-    throw InputError(path.string() + ": the size of a cell is missing: give --cell");
+  if (cell == 0) throw InputError(path.string() + ": the size of a cell is missing: give --cell");
   const Mask walls = rasterise(map, cell);
   if (extension == ".png")
     write_png(path, picture(walls, 255));

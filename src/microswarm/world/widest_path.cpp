@@ -98,6 +98,18 @@ class Search {
   std::priority_queue<Open> open_;
 };
 
+/// Where on a segment it is nearest to walls or border, to a thousandth of its length.
+Vec2 tightest_on(const Map& map, Segment s) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 10; ++i) {
+    const Vec2 middle = 0.5 * (s.a + s.b);
+    const double first = map.clearance(Segment{s.a, middle}, far);
+    const double second = map.clearance(Segment{middle, s.b}, far);
+    (first <= second ? s.b : s.a) = middle;
+  }
+  return 0.5 * (s.a + s.b);
+}
+
 }  // namespace
 
 WidestPath widest_path(const Map& map, Vec2 a, Vec2 b, double enough, double cell) {
@@ -115,7 +127,7 @@ WidestPath widest_path(const Map& map, Vec2 a, Vec2 b, double enough, double cel
     const double clearance = map.clearance(s, out.clearance);
     if (clearance >= out.clearance) continue;
     out.clearance = clearance;
-    out.tightest = s.b;
+    out.tightest = tightest_on(map, s);
   }
   out.clearance *= 1 - 1e-12;  // so that no rounding makes it more than is_free grants
   return out;

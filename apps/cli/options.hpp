@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli.hpp"
+#include "microswarm/report/run_report.hpp"
+
+namespace microswarm::cli {
+
+/// A command with what it does in one line and an example of a whole command line.
+CLI::App* add_command(CLI::App& parent, const char* name, const char* doc, const char* example);
+
+/// A decimal number within lo..hi: "is -3, allowed 0..100".
+CLI::Validator number(double lo, double hi);
+/// A whole number within lo..hi.
+CLI::Validator whole(std::uint64_t lo, std::uint64_t hi);
+
+/// Options that several commands have.
+void add_um_per_px(CLI::App* command, std::optional<double>& value, const char* doc);
+void add_settings(CLI::App* command, std::vector<std::string>& values, const char* doc);
+void add_json(CLI::App* command, bool& value);
+
+/// `--photo` with its `--um-per-px`, for commands that draw reports.
+struct PhotoOptions {
+  std::string file;
+  std::optional<double> um_per_px;
+};
+void add_photo(CLI::App* command, PhotoOptions& options);
+/// Reads the photograph, if one is named. Throws InputError.
+ReportOptions report_options(const PhotoOptions& options);
+
+}  // namespace microswarm::cli

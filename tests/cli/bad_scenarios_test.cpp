@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every bad scenario, record or command line is one line and exit code 2.
+#include "inputs.hpp"
+#include "program.hpp"
+
+namespace microswarm::test {
+namespace {
+
+class BadScenarios : public CommandLine {};
+
+TEST_F(BadScenarios, NotANumber) {
+  run_refused(with(two_rooms(), "radius_um", "  radius_um: .nan"),
+              "flight.yaml:8:14: radius_um is .nan, must be finite");
+  write("flight.yaml", two_rooms());
+  refused({"run", "flight.yaml", "--set", "swarm.radius_um=nan"},
+          "--set swarm.radius_um: radius_um is nan, must be finite");
+}
+
+TEST_F(BadScenarios, NotANumberInTracks) {
+  write("tracks.csv", "id,t_s,x_um,y_um\n1,0,500,200\n1,1,nan,200\n");
+  run_refused(two_rooms() +
+                  "obstacles:\n"
+                  "  - shape: {type: disc, radius_um: 30}\n"
+                  "    motion: {type: track, file: tracks.csv, id: 1}\n",
+              "tracks.csv:3: x_um 'nan' is no number");
+}
+
+TEST_F(BadScenarios, StartInAWall) {
+  run_refused(with(two_rooms(), "start:", "start: {x_um: 1012, y_um: 100, heading_deg: 0}"),
+              "flight.yaml: start is 12 µm inside wall 3");
+}
+
+TEST_F(BadScenarios, WiderThanEveryPassage) {
+  run_refused(two_rooms(60),
+              "flight.yaml: swarm is 80 µm wide, wider than every passage to the goal: the widest "
+              "is about 60 µm, at (1000, 400) µm");
+}
+
+TEST_F(BadScenarios, GoalCutOff) {
+  run_refused(two_rooms(0), "flight.yaml: goal is cut off from the start by walls");
+}
+
+TEST_F(BadScenarios, UnknownKey) {
+  run_refused(with(two_rooms(), "radius_um", "  radus_um: 40"),
+              "flight.yaml:8:3: unknown key 'radus_um', did you mean 'radius_um'?");
+  write("flight.yaml", two_rooms());
+  refused({"run", "flight.yaml", "--set", "swarn.radius_um=3"},
+          "--set swarn.radius_um: unknown key 'swarn', did you mean 'swarm'?");
+}
+
+TEST_F(BadScenarios, WrongType) {
+  run_refused(with(two_rooms(), "radius_um", "  radius_um: thick"),
+              "flight.yaml:8:14: radius_um must be a number, not 'thick'");
+  run_refused(with(two_rooms(), "goal_um", "goal_um: 5"),
+              "flight.yaml:11:10: goal_um must be [x, y], not '5'");
+}
+
+TEST_F(BadScenarios, OutOfRange) {
+  run_refused(with(two_rooms(), "radius_um", "  radius_um: -3"),
+              "flight.yaml:8:14: radius_um is -3 µm, allowed 0.001..1e5 µm");
+}
+
+TEST_F(BadScenarios, MicrometresPerPixelMissing) {
+  write("room.pgm", pgm(60, 40, [](int, int) { return 255; }));
+  run_refused("map: {type: image, file: room.pgm}\nstart: {x_um: 1, y_um: 1}\ngoal_um: [2, 2]\n",
+              "flight.yaml:1:6: missing key 'um_per_px' in map");
+}
+
+TEST_F(BadScenarios, Settings) {
+  write("flight.yaml", two_rooms());
+  const auto set = [&](const std::string& setting, const std::string& line) {
+    refused({"run", "flight.yaml", "--set", setting}, line);
+  };
+  set("swarm", "--set 'swarm': must be KEY=VALUE");
+  set("swarm.radius_um=", "--set swarm.radius_um: radius_um must be a number, not empty");
+  set("navigator.type=pilot",
+      "--set navigator.type: type of navigator is 'pilot', allowed: hierarchical_drrt_star");
+  set("goal_um=[1]", "--set goal_um: goal_um must be [x, y], not a list of 1");
+}
+
+TEST_F(BadScenarios, Records) {
+  write("text.h5", "no record at all");
+  refused({"replay", "text.h5"}, "text.h5: no HDF5 file, or a damaged one");
+  write("flight.yaml", two_rooms());
+  good({"run", "flight.yaml", "--out", "out", "--no-report"});
+  const std::string whole = read("out/run.h5");
+  for (const std::size_t bytes : {std::size_t{100}, whole.size() / 2, whole.size() - 1}) {
+    write("cut.h5", whole.substr(0, bytes));
+    refused({"replay", "cut.h5"}, "cut.h5: no HDF5 file, or a damaged one");
+    refused({"report", "cut.h5", "--out", "page"}, "cut.h5: no HDF5 file, or a damaged one");
+  }
+}
+
+TEST_F(BadScenarios, CommandLine) {
+  const std::string there = "run, plan, map, replay, report, reproduce, bench, schema";
+  refused({}, "a command is missing, there are: " + there + " (see microswarm --help)");
+  refused({"fly"}, "unknown command 'fly', there are: " + there + " (see microswarm --help)");
+  refused({"rnu"}, "unknown command 'rnu', did you mean 'run'? (see microswarm --help)");
+  refused({"map", "chek"},
+          "unknown command 'chek', did you mean 'check'? (see microswarm map --help)");
+  refused({"run", "a.yaml", "--sead", "1"},
+          "unknown option '--sead', did you mean '--seed'? (see microswarm run --help)");
+  refused({"run"}, "scenario is required (see microswarm run --help)");
+  refused({"run", "a.yaml", "b.yaml"},
+          "nothing is expected where 'b.yaml' stands (see microswarm run --help)");
+  refused({"run", "a.yaml", "--seed", "-1"},
+          "--seed: must be a whole number 0..18446744073709551615, not '-1' (see microswarm run "
+          "--help)");
+  refused({"run", "a.yaml", "--trials", "0"},
+          "--trials: must be a whole number 1..1000000, not '0' (see microswarm run --help)");
+  refused({"plan", "a.png", "--start", "1,x", "--goal", "1,1"},
+          "--start: must be x,y or x,y,heading in µm and degrees, not '1,x' (see microswarm plan "
+          "--help)");
+}
+
+TEST_F(BadScenarios, PaperFigureGroup) {
+  refused({"reproduce", "drtt"}, "reproduce: unknown paper 'drtt', there is: drrt");
+  refused({"reproduce", "drrt/fig9"},
+          "reproduce drrt: unknown figure 'fig9', there are: fig3, fig5a, fig5b");
+  refused({"bench", "speed"}, "bench: unknown group 'speed', there is: planning");
+}
+
+}  // namespace
+}  // namespace microswarm::test

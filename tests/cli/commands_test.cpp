@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the commands print when all is well, and with which exit code they end.
+#include <nlohmann/json.hpp>
+
+#include "inputs.hpp"
+#include "program.hpp"
+
+namespace microswarm::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class Commands : public CommandLine {
+ protected:
+  Commands() { write("flight.yaml", two_rooms()); }
+};
+
+TEST_F(Commands, HelpHasAnExample) {
+  for (const Arguments& command : std::vector<Arguments>{{"run"},
+                                                         {"plan"},
+                                                         {"map", "info"},
+                                                         {"map", "check"},
+                                                         {"map", "convert"},
+                                                         {"map", "segment"},
+                                                         {"replay"},
+                                                         {"report"},
+                                                         {"reproduce"},
+                                                         {"bench"},
+                                                         {"schema"}}) {
+    Arguments words = command;
+    words.push_back("--help");
+    std::string name = "microswarm";
+    for (const std::string& word : command) name += " " + word;
+    const std::string help = good(words);
+    EXPECT_NE(help.find("Example:\n  " + name + " "), std::string::npos) << help;
+  }
+  EXPECT_NE(good({"--help"}).find("Exit codes:"), std::string::npos);
+  EXPECT_NE(good({"--version"}).find('.'), std::string::npos);
+}
+
+TEST_F(Commands, RunReachesTheGoal) {
+  const std::string said = good({"run", "flight.yaml", "--out", "out"});
+  EXPECT_TRUE(said.starts_with("goal reached after ")) << said;
+  for (const char* name :
+       {"run.h5", "index.html", "overview.png", "overview.svg", "overview.pdf", "plots.png"})
+    EXPECT_TRUE(exists(std::string("out/") + name)) << name;
+  EXPECT_EQ(files().size(), 10U);  // and moment-1.png to moment-3.png, flight.yaml
+  EXPECT_TRUE(good({"report", "out/run.h5", "--out", "page"}).ends_with("page/index.html\n"));
+}
+
+TEST_F(Commands, RunThatDoesNotReachTheGoal) {
+  const Outcome outcome = run({"run", "flight.yaml", "--set", "time_limit_s=0.5", "--json"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(Json::parse(outcome.out).at("status"), "time_limit");
+}
+
+TEST_F(Commands, RunAsJson) {
+  const Json run = Json::parse(good({"run", "flight.yaml", "--json", "--seed", "7"}));
+  EXPECT_EQ(run.at("status"), "solved");
+  EXPECT_GT(run.at("metrics").at("length_um"), 1300);
+  EXPECT_GE(run.at("planning").at("count"), 1);
+  EXPECT_EQ(run.at("record_hash").get<std::string>().size(), 16U);
+  const Json again = Json::parse(good({"run", "flight.yaml", "--json", "--set", "seed=7"}));
+  EXPECT_EQ(run.at("record_hash"), again.at("record_hash"));
+  const Json other = Json::parse(good({"run", "flight.yaml", "--json", "--seed", "8"}));
+  EXPECT_NE(run.at("record_hash"), other.at("record_hash"));
+}
+
+TEST_F(Commands, TrialsAreTheSameOnAnyNumberOfThreads) {
+  const auto hashes = [&](const char* jobs) {
+    const Json all = Json::parse(
+        good({"run", "flight.yaml", "--trials", "4", "--jobs", jobs, "--json", "--out", jobs}));
+    Json list = Json::array();
+    for (const Json& trial : all.at("trials")) list.push_back(trial.at("record_hash"));
+    return list;
+  };
+  const Json one = hashes("1");
+  EXPECT_EQ(one.size(), 4U);
+  EXPECT_EQ(one, hashes("2"));
+  const std::string csv = read("1/trials.csv");
+  EXPECT_TRUE(csv.starts_with("trial,status,time_s,length_um,")) << csv;
+  for (const Json& hash : one) EXPECT_NE(csv.find(hash.get<std::string>()), std::string::npos);
+  EXPECT_EQ(Json::parse(good({"run", "flight.yaml", "--json"})).at("record_hash"), one[0]);
+}
+
+TEST_F(Commands, ReplaySaysIdentical) {
+  const Json run = Json::parse(good({"run", "flight.yaml", "--out", "out", "--json"}));
+  const std::string hash = run.at("record_hash");
+  EXPECT_EQ(good({"replay", "out/run.h5"}), "identical: record " + hash + "\n");
+  const Json again = Json::parse(good({"replay", "out/run.h5", "--json"}));
+  EXPECT_EQ(again.at("identical"), true);
+  EXPECT_EQ(again.at("record_hash"), hash);
+}
+
+TEST_F(Commands, ReproduceRows) {
+  const Outcome outcome = run({"reproduce", "drrt/fig5a", "--quick", "--json"});
+  const Json rows = Json::parse(outcome.out).at("rows");
+  bool all_ok = true;
+  ASSERT_FALSE(rows.empty());
+  for (const Json& row : rows) {
+    for (const char* key : {"figure", "quantity", "unit", "paper", "ours", "aim", "ok"})
+      EXPECT_TRUE(row.contains(key)) << key;
+    EXPECT_TRUE(row.at("ok").is_boolean());
+    all_ok = all_ok && row.at("ok");
+  }
+  EXPECT_EQ(outcome.code, all_ok ? 0 : 3);
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST_F(Commands, SchemaIsJson) {
+  const Json schema = Json::parse(good({"schema"}));
+  EXPECT_EQ(schema.at("type"), "object");
+  EXPECT_TRUE(schema.at("properties").contains("navigator"));
+  EXPECT_NE(good({"schema", "--keys"}).find("max_speed_um_per_s"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace microswarm::test

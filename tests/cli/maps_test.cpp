@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// Maps and paths through files: read, checked, converted there and back, drawn.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "inputs.hpp"
+#include "program.hpp"
+
+namespace microswarm::test {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double cell = 10;
+
+class Maps : public CommandLine {
+ protected:
+  /// 600 × 400 µm: a wall at x from 300 to 320 with a gap of 160 µm at the bottom, and a block.
+  Maps() {
+    write("room.pgm", pgm(60, 40, [](int x, int y) {
+            const bool wall = (x == 30 || x == 31) && y < 24;
+            const bool block = x >= 50 && x < 53 && y >= 30 && y < 32;
+            return wall || block ? 0 : 255;
+          }));
+  }
+  Json about(const char* command, const std::string& map, bool scaled) const {
+    Arguments words{"map", command, map, "--json"};
+    if (scaled) words.insert(words.end(), {"--um-per-px", "10"});
+    return Json::parse(good(words));
+  }
+};
+
+TEST_F(Maps, Info) {
+  const Json info = about("info", "room.pgm", true);
+  EXPECT_EQ(info.at("lo_um"), Json({0, 0}));
+  EXPECT_EQ(info.at("hi_um"), Json({600, 400}));
+  EXPECT_EQ(info.at("walls"), 2);
+  EXPECT_EQ(info.at("vertices"), 8);
+  EXPECT_TRUE(
+      good({"map", "info", "room.pgm", "--um-per-px", "10"}).starts_with("room.pgm: 600 × 400 µm"));
+}
+
+TEST_F(Maps, Check) {
+  const Json check = about("check", "room.pgm", true);
+  EXPECT_EQ(check.at("free_pieces"), 1);
+  EXPECT_EQ(check.at("wall_pieces"), 2);
+  EXPECT_EQ(check.at("free_area_um2"), 600 * 400 - 20 * 240 - 30 * 20);
+  EXPECT_NEAR(check.at("narrowest_passage_um"), 160, 1.5 * check.at("resolution_um").get<double>());
+  const std::string text = good({"map", "check", "room.pgm", "--um-per-px", "10"});
+  EXPECT_NE(text.find("narrowest passage"), std::string::npos) << text;
+}
+
+TEST_F(Maps, ThereAndBack) {
+  const Json room = about("info", "room.pgm", true);
+  const auto convert = [&](const std::string& from, const std::string& to, Arguments more) {
+    more.insert(more.begin(), {"map", "convert", from, to});
+    EXPECT_EQ(good(more), "wrote " + to + "\n");
+  };
+  convert("room.pgm", "a.geojson", {"--um-per-px", "10"});
+  convert("a.geojson", "b.png", {"--cell", "10"});
+  convert("b.png", "c.geojson", {"--um-per-px", "10"});
+  convert("c.geojson", "d.map", {"--cell", "10"});
+  convert("d.map", "e.yaml", {"--um-per-px", "10"});
+  EXPECT_EQ(read("a.geojson"), read("c.geojson"));
+  for (const std::string map : {"a.geojson", "b.png", "c.geojson", "d.map"})
+    EXPECT_EQ(about("info", map, !map.ends_with("geojson")).at("hash"), room.at("hash")) << map;
+  const Json ros = about("info", "e.yaml", false);
+  EXPECT_EQ(ros.at("hi_um"), room.at("hi_um"));
+  EXPECT_EQ(ros.at("vertices"), room.at("vertices"));
+  refused({"map", "convert", "a.geojson", "f.png"},
+          "f.png: the size of a cell is missing: give --cell");
+}
+
+TEST_F(Maps, PlanInPictures) {
+  const std::vector<std::pair<std::string, std::string>> kinds{
+      {"path.png", "\x89PNG"}, {"path.svg", "<?xml"}, {"path.pdf", "%PDF"}};
+  for (const auto& [picture, begin] : kinds) {
+    const std::string said = good({"plan", "room.pgm", "--um-per-px", "10", "--start",
+                                   "100,300,-90", "--goal", "500,300", "--picture", picture});
+    EXPECT_TRUE(said.starts_with("path of ")) << said;
+    EXPECT_TRUE(read(picture).starts_with(begin)) << picture;
+  }
+}
+
+TEST_F(Maps, EveryPlanner) {
+  for (const std::string planner : {"drrt_star", "rrt_star", "uniform_rrt_star", "rrt", "a_star"}) {
+    const Json plan = Json::parse(
+        good({"plan", "room.pgm", "--um-per-px", "10", "--start", "100,300", "--goal", "500,300",
+              "--set", "planner.type=" + planner, "--set", "planner.clearance_um=30", "--json"}));
+    EXPECT_EQ(plan.at("status"), "solved") << planner;
+    EXPECT_GT(plan.at("length_um"), 400) << planner;
+    EXPECT_EQ(plan.at("path_um").front(), Json({100.0, 300.0})) << planner;
+  }
+  refused({"plan", "room.pgm", "--um-per-px", "10", "--start", "100,300", "--goal", "500,300",
+           "--set", "planner.type=rrt**"},
+          "--set planner.type: type of planner is 'rrt**', allowed: drrt_star, rrt_star, "
+          "uniform_rrt_star, rrt, a_star");
+}
+
+/// A vessel of 8 px that forks.
+bool in_vessel(int x, int y) {
+  const double trunk = std::abs(y - 150 - 20 * std::sin(x / 60.0));
+  const double fork = 150 + 20 * std::sin(200 / 60.0);
+  return trunk < 4 || (x > 200 && std::abs(y - fork - 0.6 * (x - 200)) < 4);
+}
+
+TEST_F(Maps, Segment) {
+  write("photo.pgm", pgm(400, 300, [](int x, int y) {
+          return (in_vessel(x, y) ? 90 : 150) + (x * 7 + y * 13) % 5;
+        }));
+  write("truth.pgm", pgm(400, 300, [](int x, int y) { return in_vessel(x, y) ? 255 : 0; }));
+  const Json found = Json::parse(good({"map", "segment", "photo.pgm", "--um-per-px", "5", "--out",
+                                       "maps/vessels.geojson", "--truth", "truth.pgm", "--json"}));
+  EXPECT_EQ(found.at("map"), "maps/vessels.geojson");
+  EXPECT_GT(found.at("dice"), 0.8) << found;
+  EXPECT_TRUE(read("maps/vessels-overlay.png").starts_with("\x89PNG"));
+  const Json check = about("check", "maps/vessels.geojson", false);
+  EXPECT_EQ(check.at("free_pieces"), 1);
+  EXPECT_GT(check.at("widest_um"), 30);
+  refused({"map", "segment", "photo.pgm", "--um-per-px", "5", "--set", "min_widt_px=6"},
+          "--set min_widt_px: unknown key 'min_widt_px', did you mean 'min_width_px'?");
+}
+
+}  // namespace
+}  // namespace microswarm::test

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// Results that cannot be written: one line, exit code 2, and no part of a file is left behind.
+#include "inputs.hpp"
+#include "program.hpp"
+
+namespace microswarm::test {
+namespace {
+
+const std::string disk_full = ": cannot write: No space left on device";
+const std::string too_large = ": cannot write: File too large";
+
+class Output : public CommandLine {
+ protected:
+  Output() {
+    write("flight.yaml", two_rooms());
+    write("room.pgm", pgm(60, 40, [](int x, int y) { return x == 30 && y < 20 ? 0 : 255; }));
+  }
+  Arguments plan(const std::string& picture) const {
+    return {"plan",    "room.pgm", "--um-per-px", "10",        "--start",
+            "100,200", "--goal",   "500,200",     "--picture", picture};
+  }
+};
+
+TEST_F(Output, FullDisk) {
+  at.out = "/dev/full";
+  refused({"schema"}, "stdout" + disk_full);
+  refused({"map", "info", "room.pgm", "--um-per-px", "5"}, "stdout" + disk_full);
+  refused({"run", "flight.yaml"}, "stdout" + disk_full);
+  at.out.clear();
+  fs::create_symlink("/dev/full", at.folder / "full.png");
+  fs::create_symlink("/dev/full", at.folder / "full.geojson");
+  refused(plan("full.png"), "full.png" + disk_full);
+  refused({"map", "convert", "room.pgm", "--um-per-px", "5", "full.geojson"},
+          "full.geojson" + disk_full);
+}
+
+TEST_F(Output, DiskFullBeforeARecordIsWhole) {
+  at.largest_file = 4096;
+  fs::create_directory(at.folder / "out");
+  refused({"run", "flight.yaml", "--out", "out"}, "out/run.h5" + too_large);
+}
+
+TEST_F(Output, DiskFullAmongThePictures) {
+  const std::set<std::string> whole{"run.h5",       "overview.png", "overview.svg",
+                                    "overview.pdf", "moment-1.png", "moment-2.png",
+                                    "moment-3.png", "plots.png",    "index.html"};
+  good({"run", "flight.yaml", "--out", "out"});
+  std::set<std::uint64_t> sizes;
+  for (const std::string& name : whole) sizes.insert(fs::file_size(at.folder / "out" / name));
+  for (const std::uint64_t size : sizes) {  // each time another file is the first not to fit
+    fs::remove_all(at.folder / "page");
+    at.largest_file = size - 1;
+    const Outcome outcome = run({"report", "out/run.h5", "--out", "page"});
+    if (outcome.code == 0) continue;  // the record itself was the largest
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_TRUE(outcome.err.ends_with(too_large + "\n")) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    for (const std::string& name : files())
+      EXPECT_TRUE(!name.starts_with("page/") || whole.contains(name.substr(5))) << name;
+  }
+}
+
+TEST_F(Output, FolderThatIsAFile) {
+  write("file", "");
+  const std::string reason = ": cannot make the folder: Not a directory";
+  refused({"run", "flight.yaml", "--out", "file/out"}, "file/out" + reason);
+  refused({"run", "flight.yaml", "--out", "file"}, "file" + reason);
+  refused({"reproduce", "drrt/fig5a", "--out", "file/out"}, "file/out" + reason);
+  refused(plan("file/path.png"), "file/path.png: cannot write: Not a directory");
+  refused({"map", "segment", "room.pgm", "--um-per-px", "5", "--out", "file/a.geojson"},
+          "file" + reason);
+  refused({"map", "convert", "room.pgm", "--um-per-px", "5", "none/a.png"},
+          "none/a.png: cannot write: No such file or directory");
+}
+
+TEST_F(Output, FolderWhereNothingCanBeMade) {
+  refused({"run", "flight.yaml", "--out", "/proc/microswarm"},
+          "/proc/microswarm: cannot make the folder: No such file or directory");
+  refused(plan("/proc/path.png"), "/proc/path.png: cannot write: No such file or directory");
+}
+
+TEST_F(Output, UnknownKindOfFile) {
+  refused(plan("path.gif"), "path.gif: a picture is .png, .svg or .pdf");
+  refused({"map", "convert", "room.pgm", "--um-per-px", "5", "room.bmp"},
+          "room.bmp: maps are written as .geojson, .png, .map (MovingAI) or .yaml (ROS)");
+}
+
+TEST_F(Output, WithoutGnuplot) {
+  at.path = at.folder;
+  const Outcome outcome = run({"run", "flight.yaml", "--out", "out"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.err, "microswarm: out/plots.png: cannot plot: gnuplot is missing or failed\n");
+  EXPECT_FALSE(exists("out/plots.png"));
+}
+
+}  // namespace
+}  // namespace microswarm::test
