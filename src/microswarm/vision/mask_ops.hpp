@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <opencv2/core.hpp>
+
+namespace microswarm {
+
+/// Sets of pixels as 8-bit matrices of 0 and 255. Pieces of the set hold together by edges and
+/// corners, holes by edges only.
+
+/// The piece with the most pixels, the first in reading order among equals.
+cv::Mat largest_piece(const cv::Mat& set);
+
+/// Number of pieces.
+int count_pieces(const cv::Mat& set);
+
+/// The pieces of at least `least_area` pixels.
+cv::Mat without_small_pieces(const cv::Mat& set, double least_area);
+
+/// The pieces that share a pixel with `seeds`.
+cv::Mat pieces_with(const cv::Mat& set, const cv::Mat& seeds);
+
+/// Sets the holes of at most `most_area` pixels that do not touch the border.
+void fill_holes(cv::Mat& set, double most_area);
+
+/// What a disc of `diameter` pixels reaches without leaving the set.
+cv::Mat opened(const cv::Mat& set, double diameter);
+
+/// The set grown by all pixels within `radius`.
+cv::Mat grown(const cv::Mat& set, double radius);
+
+/// Where two pixels hold together by a corner alone, one of the other two is set too, so that what
+/// moves in the set need not squeeze through a point.
+void widen_corners(cv::Mat& set);
+
+/// Radii of the largest inscribed discs: distance [px] of each set pixel to the nearest unset one.
+cv::Mat depth_in(const cv::Mat& set);
+
+}  // namespace microswarm
