@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/vision/vessels.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "microswarm/core/rng.hpp"
+#include "microswarm/vision/agreement.hpp"
+#include "microswarm/vision/outline.hpp"
+#include "microswarm/vision/overlay.hpp"
+
+namespace microswarm {
+namespace {
+
+struct Drawn {
+  Image picture;
+  Mask truth;
+};
+
+// Dark curved lines of known width under uneven light and noise.
+Drawn drawn(int side, std::uint64_t seed) {
+  Drawn out{{side, side, 3, {}}, Mask(side, side)};
+  out.picture.pixels.resize(static_cast<std::size_t>(side) * side * 3);
+  Rng rng(seed, Purpose::test);
+  for (int row = 0; row < side; ++row)
+    for (int column = 0; column < side; ++column) {
+      const double x = static_cast<double>(column) / side;
+      const double y = static_cast<double>(row) / side;
+      const double trunk = std::abs(y - 0.5 - 0.12 * std::sin(5 * x)) * side;
+      const double branch = std::abs(x - 0.45 - 0.15 * std::sin(4 * y)) * side;
+      const bool vessel = trunk < 5 || branch < 3.5;
+      out.truth.at(column, row) = vessel;
+      const double light = 120 + 60 * x - 30 * y;
+      const double grey = light * (vessel ? 0.62 : 1.0) + 4 * rng.normal();
+      const std::size_t i = out.picture.index(column, row);
+      for (std::size_t c = 0; c < 3; ++c)
+        out.picture.pixels[i + c] = static_cast<std::uint8_t>(std::clamp(grey, 0.0, 255.0));
+    }
+  return out;
+}
+
+TEST(Vessels, DrawnOnesAreFound) {
+  const Drawn d = drawn(400, 1);
+  const VesselSegmentation found = segment_vessels(d.picture, {.method = VesselMethod::lines});
+  const Agreement a = compare(d.truth, found.vessels);
+  EXPECT_GT(a.sensitivity().value_or(0), 0.95);
+  EXPECT_GT(a.specificity().value_or(0), 0.9);
+}
+
+TEST(Vessels, TheSamePictureGivesTheSameMaskWithinTheView) {
+  const Drawn d = drawn(300, 2);
+  const VesselSegmentation a = segment_vessels(d.picture);
+  const VesselSegmentation b = segment_vessels(d.picture);
+  EXPECT_EQ(a.vessels, b.vessels);
+  for (std::size_t i = 0; i < a.vessels.cells.size(); ++i)
+    EXPECT_LE(a.vessels.cells[i], a.field_of_view.cells[i]);
+}
+
+TEST(Vessels, BlankAndTinyPicturesHaveNone) {
+  for (int side : {1, 3, 64}) {
+    const Image blank{side, side, 1,
+                      std::vector<std::uint8_t>(static_cast<std::size_t>(side) * side, 128)};
+    const VesselSegmentation found = segment_vessels(blank);
+    EXPECT_EQ(found.vessels.width, side);
+    for (const std::uint8_t cell : found.vessels.cells) EXPECT_EQ(cell, 0);
+  }
+}
+
+TEST(Outline, KeepsAreaAndPieces) {
+  const Drawn d = drawn(300, 3);
+  const auto regions = outline(d.truth, 2, 2);
+  double cells = 0;
+  for (const std::uint8_t cell : d.truth.cells) cells += cell;
+  double sum = 0;
+  for (const Polygon& region : regions) sum += area(region);
+  ASSERT_FALSE(regions.empty());
+  EXPECT_NEAR(sum, 4 * cells, 0.05 * 4 * cells);
+  EXPECT_EQ(regions.size(), 1U);
+}
+
+TEST(Overlay, HasThePicturesSizeAndColour) {
+  const Drawn d = drawn(64, 4);
+  const Image shown = overlay(d.picture, d.truth);
+  EXPECT_EQ(shown.width, 64);
+  EXPECT_EQ(shown.channels, 3);
+  EXPECT_NE(shown.pixels, d.picture.pixels);
+}
+
+TEST(Agreement, OfAMaskWithItselfIsPerfect) {
+  const Drawn d = drawn(64, 5);
+  const Agreement a = compare(d.truth, d.truth);
+  EXPECT_EQ(a.dice(), 1.0);
+  EXPECT_EQ(a.sensitivity(), 1.0);
+  EXPECT_EQ(a.specificity(), 1.0);
+}
+
+std::filesystem::path retinas() {
+  const char* data = std::getenv("MICROSWARM_DATA");
+  return (data ? std::filesystem::path(data)
+               : std::filesystem::path(MICROSWARM_SOURCE_DIR) / ".." / "shared" / "data") /
+         "vessels";
+}
+
+TEST(Vessels, RetinasAgreeWithTheirObservers) {
+  if (!std::filesystem::exists(retinas())) GTEST_SKIP() << retinas() << " is absent";
+  VesselParams params;
+  params.keep = KeepPieces::all;
+  for (const char* name : {"CHASE_01L", "CHASE_05R", "CHASE_09L", "CHASE_12R"}) {
+    const auto read = [&](const char* what) {
+      return threshold(read_image(retinas() / (std::string(name) + what)), 128, false);
+    };
+    const Mask first = read("_mask_obs1.png");
+    const Mask second = read("_mask_obs2.png");
+    const VesselSegmentation found =
+        segment_vessels(read_image(retinas() / (std::string(name) + ".jpg")), params);
+    const Agreement ours = compare(first, found.vessels, &found.field_of_view);
+    const Agreement theirs = compare(first, second, &found.field_of_view);
+    std::printf(
+        "%s: sensitivity %.3f, specificity %.3f, Dice %.3f (second observer %.3f, %.3f, %.3f); "
+        "against the second observer Dice %.3f\n",
+        name, *ours.sensitivity(), *ours.specificity(), *ours.dice(), *theirs.sensitivity(),
+        *theirs.specificity(), *theirs.dice(),
+        *compare(second, found.vessels, &found.field_of_view).dice());
+    EXPECT_GT(*ours.dice(), 0.65) << name;
+    EXPECT_GT(*ours.specificity(), 0.95) << name;
+  }
+}
+
+}  // namespace
+}  // namespace microswarm
