@@ -80,8 +80,8 @@ int check(const Options& o, double resolution) {
                       .dump(2));
     return ok;
   }
-  print("walls: {} pieces\nfree: {:.0f} µm² in {} pieces, the largest has {:.1f} %\n",
-        r.wall_pieces, r.free_area, r.free_pieces, 100 * r.region_areas[0] / r.free_area);
+  print("wall pieces: {}\nfree pieces: {}, {:.0f} µm² in all, the largest has {:.1f} % of it\n",
+        r.wall_pieces, r.free_pieces, r.free_area, 100 * r.region_areas[0] / r.free_area);
   print("narrowest passage of the largest piece: {:.1f} µm, or up to {:.1f} µm more",
         r.narrowest_passage, 1.5 * r.resolution);
   if (r.passages.empty())

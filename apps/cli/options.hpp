@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -32,5 +33,14 @@ struct PhotoOptions {
 void add_photo(CLI::App* command, PhotoOptions& options);
 /// Reads the photograph, if one is named. Throws InputError.
 ReportOptions report_options(const PhotoOptions& options);
+
+/// "11 of 14 aims are met", of rows to reproduce or of a bench.
+template <class Row>
+std::string aims_met(const std::vector<Row>& rows) {
+  const auto aims = std::count_if(rows.begin(), rows.end(), [](const Row& r) { return !!r.aim; });
+  const auto met =
+      std::count_if(rows.begin(), rows.end(), [](const Row& r) { return r.aim && r.ok(); });
+  return fmt::format("{} of {} aims are met\n", met, aims);
+}
 
 }  // namespace microswarm::cli

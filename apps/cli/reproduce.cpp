@@ -20,7 +20,7 @@ int reproduce_command(const std::string& key, ReproduceOptions options, bool jso
   const std::vector<ReproduceRow> rows = reproduce_drrt(figure, options, context.stop);
   if (options.quick && !json)
     print("quick: {} seeds instead of {}\n", options.seed_count(), full_seeds);
-  print("{}", json ? rows_json(rows) : rows_table(rows));
+  put(json ? rows_json(rows) : rows_table(rows) + aims_met(rows));
   if (context.stop.requested()) return not_reached;
   return all_ok(rows) ? ok : not_reached;
 }

@@ -49,7 +49,14 @@ std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error) {
   const Names commands = commands_of(app);
   if (!commands.empty() && app.get_subcommands().empty())
     return fmt::format("a command is missing, there are: {}", fmt::join(commands, ", "));
-  return one_line(error.what());
+  std::string what = one_line(error.what());
+  if (error.get_name() == "ArgumentMismatch" && what.ends_with(" missing")) {
+    what.resize(what.size() - std::string_view(" missing").size());
+    const std::string count = ": 1 required ";  // "--set: 1 required KEY=VALUE missing"
+    if (const auto at = what.find(count); at != what.npos)
+      what.replace(at, count.size(), " needs a ");
+  }
+  return what;
 }
 
 }  // namespace

@@ -192,6 +192,27 @@ TEST(ImageErrors, SizesAreRefusedBeforeAnythingIsDecoded) {
   EXPECT_EQ(complaint(bmp), "x.png: 20000 × 20000 pixels, at most 16384 a side");
 }
 
+/// JPEG that is a frame header of the size and `scans` empty scans, nothing else.
+std::string hollow_jpeg(int width, int height, int scans) {
+  const auto two_bytes = [](int v) {
+    return std::string{static_cast<char>(v >> 8), static_cast<char>(v)};
+  };
+  std::string bytes =
+      "\xff\xd8\xff\xc0\0\x0b\x08"s + two_bytes(height) + two_bytes(width) + "\1\1\x11\0"s;
+  for (int i = 0; i < scans; ++i) bytes += "\xff\xda\0\2"s + std::string(40000, '\0');
+  return bytes + "\xff\xd9";
+}
+
+TEST(ImageErrors, JpegsThatPromiseTooMuch) {
+  EXPECT_EQ(complaint(hollow_jpeg(8000, 8000, 1)),
+            "x.png: truncated JPEG: too little data for its size");
+  EXPECT_EQ(complaint(hollow_jpeg(8000, 8000, 17)),
+            "x.png: 17 scans, too many for a JPEG of its size");
+  EXPECT_EQ(complaint(hollow_jpeg(8, 8, 0)), "x.png: damaged JPEG: no picture in it");
+  const std::string twice = hollow_jpeg(8, 8, 0).substr(2, 13);
+  EXPECT_EQ(complaint("\xff\xd8" + twice + twice), "x.png: damaged JPEG: two frames");
+}
+
 TEST(ImageErrors, DamageIsNamed) {
   std::string flipped = test::png(1, 1, 8, test::grey, "\0\x2a"s);
   flipped[45] = static_cast<char>(flipped[45] ^ 1);

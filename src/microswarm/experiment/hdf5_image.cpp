@@ -27,8 +27,10 @@ class Id {
     if (id_ >= 0) close_(id_);
   }
   Id(Id&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Id(const Id&) = delete;
+  Id& operator=(const Id&) = delete;
   Id& operator=(Id&&) = delete;
-  operator hid_t() const { return id_; }
+  operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): as HDF5 wants it
   bool valid() const { return id_ >= 0; }
 
  private:
@@ -46,6 +48,8 @@ class Quiet {
     H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }
+  Quiet(const Quiet&) = delete;
+  Quiet& operator=(const Quiet&) = delete;
   ~Quiet() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
 
  private:

@@ -35,6 +35,7 @@ struct TableWriter {
   void table(const std::string& group, const Rows& rows) {
     using Row = typename Rows::value_type;
     std::vector<const Row*> all;
+    all.reserve(rows.size());
     for (const Row& row : rows) all.push_back(&row);
     write(group, all);
   }
@@ -70,6 +71,7 @@ struct TableWriter {
   void write_reals(const std::string& path, const Column<Row>& column,
                    const std::vector<const Row*>& rows) {
     std::vector<double> values;
+    values.reserve(rows.size());
     for (const Row* row : rows) values.push_back(column.number(*row));
     file.dataset(path, values);
   }
@@ -77,6 +79,7 @@ struct TableWriter {
   void write_integers(const std::string& path, const Column<Row>& column,
                       const std::vector<const Row*>& rows) {
     std::vector<std::int64_t> values;
+    values.reserve(rows.size());
     std::vector<std::string> words;
     for (const Row* row : rows)
       values.push_back(column.kind == ColumnKind::word

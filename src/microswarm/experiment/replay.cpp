@@ -142,7 +142,8 @@ ReplayResult replay(const Record& record, const Stop& stop) {
     difference = "status is " + std::string(to_string(record.result.status)) + " in the record, " +
                  std::string(to_string(now.result.status)) + " in the replay";
   if (difference.empty()) difference = difference_of(record.result.metrics, now.result.metrics);
-  return {.identical = difference.empty(), .stopped = false, .difference = std::move(difference)};
+  const bool identical = difference.empty();
+  return {.identical = identical, .stopped = false, .difference = std::move(difference)};
 }
 
 }  // namespace microswarm

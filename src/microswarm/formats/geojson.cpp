@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/formats/geojson.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -227,7 +229,9 @@ class Reader {
   std::optional<Box> bounds_;
 };
 
-std::string position_text(Vec2 p) { return "[" + number_text(p.x) + "," + number_text(p.y) + "]"; }
+std::string position_text(Vec2 p) {
+  return fmt::format("[{},{}]", number_text(p.x), number_text(p.y));
+}
 
 std::string ring_text(const std::vector<Vec2>& ring) {
   std::string text = "[";
@@ -236,13 +240,20 @@ std::string ring_text(const std::vector<Vec2>& ring) {
 }
 
 std::string polygon_text(const Polygon& polygon) {
-  std::string text = R"({"type":"Polygon","coordinates":[)" + ring_text(polygon.outer);
-  for (const auto& hole : polygon.holes) text += "," + ring_text(hole);
-  return text + "]}";
+  std::string rings = ring_text(polygon.outer);
+  for (const auto& hole : polygon.holes) rings.append(",").append(ring_text(hole));
+  return fmt::format(R"({{"type":"Polygon","coordinates":[{}]}})", rings);
 }
 
-std::string feature_text(const std::string& properties, const std::string& geometry) {
-  return R"({"type":"Feature","properties":{)" + properties + R"(},"geometry":)" + geometry + "}";
+std::string feature_text(std::string_view properties, std::string_view geometry) {
+  return fmt::format(R"({{"type":"Feature","properties":{{{}}},"geometry":{}}})", properties,
+                     geometry);
+}
+
+std::string disc_text(const Disc& disc) {
+  return feature_text(
+      fmt::format(R"("radius":{})", number_text(disc.radius)),
+      fmt::format(R"({{"type":"Point","coordinates":{}}})", position_text(disc.centre)));
 }
 
 }  // namespace
@@ -258,14 +269,11 @@ MapParts read_geojson(const std::filesystem::path& path, double um_per_unit) {
 
 std::string geojson_text(const MapParts& parts) {
   const auto [lo, hi] = parts.bounds;
-  std::string text =
-      "{\"type\":\"FeatureCollection\",\"features\":[\n" +
-      feature_text("\"bounds\":true", polygon_text({{lo, {hi.x, lo.y}, hi, {lo.x, hi.y}}, {}}));
+  const Polygon frame{{lo, {hi.x, lo.y}, hi, {lo.x, hi.y}}, {}};
+  std::string text = "{\"type\":\"FeatureCollection\",\"features\":[\n";
+  text += feature_text(R"("bounds":true)", polygon_text(frame));
   for (const Polygon& wall : parts.walls) text += ",\n" + feature_text("", polygon_text(wall));
-  for (const Disc& disc : parts.discs)
-    text += ",\n" +
-            feature_text("\"radius\":" + number_text(disc.radius),
-                         R"({"type":"Point","coordinates":)" + position_text(disc.centre) + "}");
+  for (const Disc& disc : parts.discs) text += ",\n" + disc_text(disc);
   return text + "\n]}\n";
 }
 

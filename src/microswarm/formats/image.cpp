@@ -17,12 +17,9 @@ namespace {
 constexpr std::uint64_t max_file_bytes = 512ULL << 20;
 
 /// Pixels as OpenCV decodes them, three channels or one, of 8 or 16 bits; empty when it cannot.
-cv::Mat decoded(std::span<const std::byte> bytes, const ImageHeader& header) {
+cv::Mat decoded(std::string_view bytes) {
+  const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
   try {
-    if (header.kind == ImageKind::png)
-      return cv::imdecode(pixel_chunks(bytes), cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH);
-    const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8UC1,
-                      const_cast<std::byte*>(bytes.data()));
     return cv::imdecode(raw, cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH);
   } catch (const cv::Exception&) {
     return {};
@@ -50,7 +47,9 @@ Image from_mat(cv::Mat mat, bool grey) {
 Image decode_image(std::span<const std::byte> bytes, std::string_view name) {
   const ImageHeader header = check_image(bytes, name);
   if (header.kind == ImageKind::pnm) return decode_pnm(bytes, name);
-  cv::Mat mat = decoded(bytes, header);
+  cv::Mat mat = header.kind == ImageKind::png
+                    ? decoded(pixel_chunks(bytes))
+                    : decoded({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   if (mat.empty() || (mat.depth() != CV_8U && mat.depth() != CV_16U) ||
       (mat.channels() != 1 && mat.channels() != 3))
     throw InputError(std::string(name) + ": damaged image: its pixels cannot be decoded");

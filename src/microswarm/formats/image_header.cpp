@@ -226,17 +226,13 @@ ImageHeader check_image(Bytes bytes, std::string_view name) {
   fail(name, "not an image (PNG, JPEG, BMP, PGM, PPM or PBM)");
 }
 
-std::vector<std::uint8_t> pixel_chunks(Bytes png) {
+std::string pixel_chunks(Bytes png) {
   static constexpr std::array<std::string_view, 5> needed{"IHDR", "PLTE", "tRNS", "IDAT", "IEND"};
-  std::vector<std::uint8_t> out;
-  const auto append = [&](Bytes bytes) {
-    const auto* first = reinterpret_cast<const std::uint8_t*>(bytes.data());
-    out.insert(out.end(), first, first + bytes.size());
-  };
-  append(png.first(png_signature.size()));
+  std::string out(png_signature);
   for_each_chunk(png, [&](const Chunk& chunk) {
     for (const std::string_view type : needed)
-      if (starts_with(chunk.type, type)) append(chunk.all);
+      if (starts_with(chunk.type, type))
+        out.append(reinterpret_cast<const char*>(chunk.all.data()), chunk.all.size());
     return !starts_with(chunk.type, "IEND");
   });
   return out;

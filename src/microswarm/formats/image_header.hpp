@@ -4,11 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
-#include <vector>
 
 namespace microswarm {
 
+/// The forms of pictures that are read.
 enum class ImageKind : std::uint8_t { png, jpeg, bmp, pnm };
 
 /// What the first bytes of a picture promise.
@@ -31,6 +32,6 @@ ImageHeader check_image(std::span<const std::byte> bytes, std::string_view name)
 
 /// A whole PNG without the chunks that do not bear on its pixels (texts, colour profiles, times),
 /// over which decoders complain on stderr.
-std::vector<std::uint8_t> pixel_chunks(std::span<const std::byte> png);
+std::string pixel_chunks(std::span<const std::byte> png);
 
 }  // namespace microswarm

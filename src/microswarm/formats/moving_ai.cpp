@@ -31,7 +31,7 @@ std::string_view header_value(Lines& lines, std::string_view key) {
   const std::optional<std::string_view> line = lines.next();
   const std::vector<std::string_view> found = words(line.value_or(""));
   if (found.size() != 2 || found[0] != key)
-    lines.fail("'" + std::string(key) + " ...' expected, not " + quote(line.value_or("")));
+    lines.fail(quote(std::string(key) + " ...") + " expected, not " + quote(line.value_or("")));
   return found[1];
 }
 

@@ -174,7 +174,8 @@ HierarchicalNavigator::Outlook HierarchicalNavigator::look_ahead(const Observati
     const double from = delay + k * tick;
     const double moving = forecast_clearance(*seen.world, move, from, from + tick, enough);
     out.safe = out.safe && moving >= params_.margin + slack && map.is_free(move, params_.margin);
-    out.last = std::min(moving, map.clearance(next.position));
+    // The whole move counts, so that no way through a wall is ever the best one.
+    out.last = map.is_free(move, 0) ? std::min(moving, map.clearance(next.position)) : 0;
     out.least = std::min(out.least, out.last);
     pose = next;
     if (out.least < floor) break;

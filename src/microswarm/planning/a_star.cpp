@@ -101,7 +101,9 @@ struct Open {
 
 /// Length of the shortest way over a free grid.
 double octile(Vec2 d) {
-  const auto [least, greatest] = std::minmax(std::abs(d.x), std::abs(d.y));
+  const double x = std::abs(d.x);
+  const double y = std::abs(d.y);
+  const auto [least, greatest] = std::minmax(x, y);  // references to both
   return greatest + (std::numbers::sqrt2 - 1) * least;
 }
 

@@ -25,7 +25,7 @@ void require_picture(const Image& image) {
 
 /// The channel in which blood and ground differ most.
 cv::Mat green_of(const Image& image) {
-  const cv::Mat picture = as_mat(image);
+  cv::Mat picture = as_mat(image);
   if (image.channels == 1) return picture;
   cv::Mat green;
   cv::extractChannel(picture, green, 1);

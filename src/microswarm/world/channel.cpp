@@ -119,7 +119,7 @@ std::vector<Vec2> outline(const std::vector<Station>& line, Width&& width) {
   for (const Station& at : line) side(at, -1);
   const Station& last = line.back();
   add_cap(last.position, -perpendicular(last.direction), width(last.s), ring);
-  for (auto at = line.rbegin(); at != line.rend(); ++at) side(*at, 1);
+  std::for_each(line.rbegin(), line.rend(), [&](const Station& at) { side(at, 1); });
   const Station& first = line.front();
   add_cap(first.position, perpendicular(first.direction), width(first.s), ring);
   return ring;

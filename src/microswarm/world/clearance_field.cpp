@@ -13,17 +13,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double cells_by_default = 260e3;
 constexpr double most_cells = 4 * 1024 * 1024;
 
-/// The same bits as `squared_distance`; the three cases come at random, so all are computed.
-double squared_distance_unbranched(Vec2 p, const Segment& s) {
-  const Vec2 along = s.b - s.a;
-  const Vec2 to_p = p - s.a;
-  const double t = dot(to_p, along);
-  const double length2 = squared_norm(along);
-  const double area = cross(along, to_p);
-  const double cases[] = {area * area / length2, squared_norm(p - s.b), squared_norm(to_p)};
-  return cases[t <= 0 ? 2 : t >= length2 ? 1 : 0];
-}
-
 }  // namespace
 
 ClearanceField::ClearanceField(const Box& bounds, const BodySet& bodies, double cell) {
@@ -39,7 +28,7 @@ ClearanceField::ClearanceField(const Box& bounds, const BodySet& bodies, double 
   last_row_ = rows_ + 1;
   stride_ = static_cast<std::size_t>(columns_) + 2;
   lower_.assign(stride_ * (static_cast<std::size_t>(rows_) + 2), lower_[0]);
-  list_of_.resize(lower_.size());
+  nearest_.resize(lower_.size());
   FieldPainter painter(bounds, bodies, *this);
   painter.paint();
   double largest = 0;
@@ -50,18 +39,30 @@ ClearanceField::ClearanceField(const Box& bounds, const BodySet& bodies, double 
   spread_ = std::sqrt(2.0) * cell_ * (1 + 1e-6) + 4 * painter.rounding() + of_floats * largest;
 }
 
+/// The same bits as `distance`; the three cases come at random, so all are computed.
+double ClearanceField::distance_to(Vec2 p, const Wall& wall) {
+  const Segment& s = wall.core;
+  const Vec2 along = s.b - s.a;
+  const Vec2 to_p = p - s.a;
+  const double t = dot(to_p, along);
+  const double length2 = squared_norm(along);
+  const double area = cross(along, to_p);
+  const double cases[] = {area * area / length2, squared_norm(p - s.b), squared_norm(to_p)};
+  return std::sqrt(cases[t <= 0 ? 2 : t >= length2 ? 1 : 0]) - wall.radius;
+}
+
 double ClearanceField::wall_distance(Vec2 p) const {
-  if (nearest_.empty()) return infinity;
-  double squared = infinity;
-  double to_disc = infinity;
-  for (const std::uint32_t* entry = &nearest_[list_of_[cell_at(p)]];; ++entry) {
-    const std::uint32_t wall = *entry / 2;
-    if (wall < edges_.size()) {
-      squared = std::min(squared, squared_distance_unbranched(p, edges_[wall]));
-    } else {
-      to_disc = std::min(to_disc, distance(p, discs_[wall - edges_.size()]));
-    }
-    if (*entry % 2 == 1) return std::min(to_disc, std::sqrt(squared));
+  if (walls_.empty()) return infinity;
+  const Nearest nearest = nearest_[cell_at(p)];
+  if (nearest.first < is_list) {
+    const double first = distance_to(p, walls_[nearest.first]);
+    const double second = distance_to(p, walls_[nearest.second]);
+    return std::max(0.0, std::min(first, second));
+  }
+  double least = infinity;
+  for (const std::uint32_t* entry = &lists_[nearest.second];; ++entry) {
+    least = std::min(least, distance_to(p, walls_[*entry / 2]));
+    if (*entry % 2 == 1) return std::max(0.0, least);
   }
 }
 

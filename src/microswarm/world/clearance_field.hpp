@@ -55,10 +55,24 @@ class ClearanceField {
   int columns_ = 0;
   int rows_ = 0;
   std::vector<float> lower_{-std::numeric_limits<float>::infinity()};
-  std::vector<std::uint32_t> list_of_;  ///< where each cell's list begins in nearest_
-  std::vector<std::uint32_t> nearest_;  ///< index in walls_ · 2, odd for the last of a list
-  std::vector<Segment> edges_;
-  std::vector<Disc> discs_;  ///< counted on after the edges
+  /// The one or two walls that can be nearest to a point of a cell; or, marked so, where the list
+  /// of more begins in lists_.
+  struct Nearest {
+    std::uint32_t first = 0;
+    std::uint32_t second = 0;
+  };
+  /// All points within `radius` of the core: an edge has radius 0, a disc a point as core.
+  struct Wall {
+    Segment core;
+    double radius = 0;
+  };
+  static constexpr std::uint32_t is_list = 1u << 31;
+
+  static double distance_to(Vec2 p, const Wall& wall);
+
+  std::vector<Nearest> nearest_;
+  std::vector<std::uint32_t> lists_;  ///< wall · 2, odd for the last of a list
+  std::vector<Wall> walls_;
 };
 
 }  // namespace microswarm

@@ -28,10 +28,12 @@ void FieldPainter::Candidates::reserve(std::size_t n) {
   wall.resize(2 * n);
 }
 
-void FieldPainter::Candidates::push(Vec2 a, Vec2 along, double disc_radius, std::uint32_t index) {
+void FieldPainter::Candidates::push(Segment core, double disc_radius, std::uint32_t index) {
+  reserve(size + 1);
+  const Vec2 along = core.b - core.a;
   const double length2 = squared_norm(along);
-  x[size] = a.x;
-  y[size] = a.y;
+  x[size] = core.a.x;
+  y[size] = core.a.y;
   u[size] = along.x;
   v[size] = along.y;
   per_length2[size] = length2 > 0 ? 1 / length2 : 0;
@@ -46,23 +48,20 @@ void FieldPainter::Candidates::push_copy(std::size_t i) {
 
 FieldPainter::FieldPainter(const Box& bounds, const BodySet& bodies, ClearanceField& field)
     : bounds_(bounds), bodies_(bodies), field_(field) {
-  for (const Body& body : bodies.bodies()) {
-    if (const auto* polygon = std::get_if<Polygon>(&body.shape)) {
-      for_each_edge(*polygon, [&](Vec2 a, Vec2 b) { field.edges_.push_back({a, b}); });
-    } else {
-      field.discs_.push_back(std::get<Disc>(body.shape));
-    }
-  }
-  candidates_.reserve(field.edges_.size() + field.discs_.size());
   double largest = magnitude(bounds.lo) + magnitude(bounds.hi);
-  std::uint32_t wall = 0;
-  for (const Segment& e : field.edges_) {
-    candidates_.push(e.a, e.b - e.a, no_disc, wall++);
-    largest = std::max(largest, magnitude(e.a));
-  }
-  for (const Disc& d : field.discs_) {
-    candidates_.push(d.centre, {}, d.radius, wall++);
-    largest = std::max(largest, magnitude(d.centre) + d.radius);
+  auto add = [&](Segment core, const double* disc_radius) {
+    const double radius = disc_radius ? *disc_radius : 0;
+    largest = std::max(largest, magnitude(core.a) + radius);
+    candidates_.push(core, disc_radius ? radius : no_disc,
+                     static_cast<std::uint32_t>(field.walls_.size()));
+    field.walls_.push_back({core, radius});
+  };
+  for (const Body& body : bodies.bodies()) {
+    if (const auto* disc = std::get_if<Disc>(&body.shape)) {
+      add({disc->centre, disc->centre}, &disc->radius);
+    } else {
+      for_each_edge(std::get<Polygon>(body.shape), [&](Vec2 a, Vec2 b) { add({a, b}, nullptr); });
+    }
   }
   rounding_ = 1e-14 * largest;
 }
@@ -200,22 +199,27 @@ void FieldPainter::paint_cell(int column, int row, std::size_t first, Solid soli
                 bounds_.hi.x - p.x, p.y - bounds_.lo.y, bounds_.hi.y - p.y});
   const std::size_t cell = (static_cast<std::size_t>(row) + 1) * field_.stride_ + column + 1;
   field_.lower_[cell] = float_below(clearance - half_diagonal({0, 1, 0, 1}));
-  field_.list_of_[cell] = list_;
+  field_.nearest_[cell] = list_;
 }
 
 // Neighbours mostly have the same list, which is kept once.
 void FieldPainter::store_list(std::size_t first) {
-  auto& lists = field_.nearest_;
   const std::size_t n = candidates_.size - first;
   if (n == 0) return;
-  auto entry = [&](std::size_t k) {
-    return 2 * candidates_.wall[first + k] + (k + 1 == n ? 1 : 0);
-  };
-  bool is_same = lists.size() - list_ == n;
-  for (std::size_t k = 0; k < n && is_same; ++k) is_same = lists[list_ + k] == entry(k);
-  if (is_same) return;
-  list_ = static_cast<std::uint32_t>(lists.size());
-  for (std::size_t k = 0; k < n; ++k) lists.push_back(entry(k));
+  const std::uint32_t* wall = candidates_.wall.data() + first;
+  if (n <= 2) {
+    list_ = {wall[0], wall[n - 1]};
+    return;
+  }
+  auto& lists = field_.lists_;
+  auto entry = [&](std::size_t k) { return 2 * wall[k] + (k + 1 == n ? 1 : 0); };
+  bool is_same = lists.size() - last_list_ == n;
+  for (std::size_t k = 0; k < n && is_same; ++k) is_same = lists[last_list_ + k] == entry(k);
+  if (!is_same) {
+    last_list_ = static_cast<std::uint32_t>(lists.size());
+    for (std::size_t k = 0; k < n; ++k) lists.push_back(entry(k));
+  }
+  list_ = {ClearanceField::is_list, last_list_};
 }
 
 }  // namespace microswarm

@@ -39,7 +39,7 @@ class FieldPainter {
 
     bool is_disc(std::size_t i) const { return radius[i] >= 0; }
     void reserve(std::size_t n);
-    void push(Vec2 a, Vec2 along, double disc_radius, std::uint32_t index);
+    void push(Segment core, double disc_radius, std::uint32_t index);
     void push_copy(std::size_t i);
   };
   struct Nearest {
@@ -67,7 +67,8 @@ class FieldPainter {
   const BodySet& bodies_;
   ClearanceField& field_;
   double rounding_ = 0;
-  std::uint32_t list_ = 0;  ///< the last one stored
+  ClearanceField::Nearest list_;  ///< of the cells being painted
+  std::uint32_t last_list_ = 0;   ///< where the last one stored begins
   Candidates candidates_;
   std::vector<double> distances_;
 };

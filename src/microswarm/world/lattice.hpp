@@ -31,8 +31,8 @@ class NodeLattice {
   std::uint32_t size() const { return static_cast<std::uint32_t>(columns_ * rows_); }
   Vec2 operator[](std::uint32_t node) const {
     const int n = static_cast<int>(node);
-    return first_ +
-           spacing_ * Vec2{static_cast<double>(n % columns_), static_cast<double>(n / columns_)};
+    const int row = n / columns_;
+    return first_ + spacing_ * Vec2{static_cast<double>(n % columns_), static_cast<double>(row)};
   }
 
   /// The neighbours to the right and above: each pair of neighbours once.

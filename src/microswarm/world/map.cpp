@@ -47,7 +47,8 @@ void check(const std::vector<Disc>& discs) {
 
 }  // namespace
 
-Map::Map(const Box& bounds, std::vector<Polygon> walls, std::vector<Disc> discs, double field_cell)
+Map::Map(const Box& bounds, std::vector<Polygon> walls, const std::vector<Disc>& discs,
+         double field_cell)
     : bounds_(bounds) {
   check(bounds);
   check(walls);
@@ -75,6 +76,11 @@ double Map::clearance_beyond(Vec2 p, double lower) const {
   if (lower + field_.spread() < 0) return 0;
   const double least = std::min(border_clearance(p), field_.wall_distance(p));
   return lower > 0 || !(least > 0) || !walls_.polygons().holds(p) ? least : 0;
+}
+
+double Map::wall_clearance(Vec2 p) const {
+  if (!bounds_.contains(p)) return walls_.clearance(p, infinity);
+  return field_.lower(p) > 0 || !walls_.polygons().holds(p) ? field_.wall_distance(p) : 0;
 }
 
 double Map::clearance(Segment s, double limit) const {

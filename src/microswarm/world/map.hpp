@@ -19,7 +19,7 @@ class Map {
   /// polygons are united. Walls may reach beyond the bounds. `field_cell` [µm] is the clearance
   /// field's, 0 chooses it. Throws InputError when `bounds` is empty or not finite, a vertex or a
   /// disc is not finite, or a radius is negative.
-  Map(const Box& bounds, std::vector<Polygon> walls, std::vector<Disc> discs = {},
+  Map(const Box& bounds, std::vector<Polygon> walls, const std::vector<Disc>& discs = {},
       double field_cell = 0);
 
   const Box& bounds() const { return bounds_; }
@@ -30,6 +30,8 @@ class Map {
 
   /// Distance [µm] to the nearest wall or border, 0 in a wall or outside the bounds. Exact.
   double clearance(Vec2 p) const;
+  /// The same, the border left out; infinity when there is no wall.
+  double wall_clearance(Vec2 p) const;
   /// Distance [µm] from the segment to the nearest wall or border, 0 when they meet, at most
   /// `limit`. Exact.
   double clearance(Segment s, double limit) const;

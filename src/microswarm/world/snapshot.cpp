@@ -51,7 +51,7 @@ double Snapshot::clearance(Vec2 p) const {
 }
 
 double Snapshot::obstacle_clearance(Vec2 p) const {
-  const double to_wall = map_->walls().clearance(p, infinity);
+  const double to_wall = map_->wall_clearance(p);
   return moving_.empty() ? to_wall : moving_.clearance(p, to_wall);
 }
 
