@@ -71,7 +71,7 @@ void draw(const Options& o, const Snapshot& world, const Pose2& start, Vec2 goal
   picture.mark(start.position, "start");
   picture.mark(goal, "goal", colours::goal);
   picture.legend("path", colours::path);
-  if (plan.tree.size() > 0) picture.legend("tree", colours::tree);
+  if (!plan.tree.empty()) picture.legend("tree", colours::tree);
   picture.write(o.picture);
 }
 
