@@ -300,7 +300,7 @@ TEST_P(PlannerLaws, KeepsItsDeadline) {
 
 std::vector<Case> cases() {
   return {
-      {"AStar", small<AStarParams>(), 0x6b9e9ba9ab294e51},
+      {"AStar", small<AStarParams>(), 0xbbb6ea61a7b7c14d},
       {"Rrt", small<RrtParams>(), 0xf74c8abec189f922},
       {"RrtStar", small<RrtStarParams>(), 0xd25316c5a33d98bc},
       {"RrtStarGrown", grown<RrtStarParams>(), 0xd80bf708bf2299f3},
