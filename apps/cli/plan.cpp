@@ -62,13 +62,23 @@ CLI::Validator place(std::size_t most, const char* form) {
           ""};
 }
 
+struct Ends {
+  double clearance;
+  double tolerance;
+};
+
+Ends ends_of(const PlannerParams& planner) {
+  return std::visit([](const auto& p) { return Ends{p.clearance, p.goal_tolerance}; }, planner);
+}
+
 void draw(const Options& o, const Snapshot& world, const Pose2& start, Vec2 goal,
-          const Plan& plan) {
+          const PlannerParams& planner, const Plan& plan) {
   Picture picture(world.bounds(), fmt::format("{}: {}", o.map, to_string(plan.status)));
   picture.walls(world.map());
   picture.tree(plan.tree);
   picture.line(plan.path, colours::path, 3);
   picture.mark(start.position, "start");
+  picture.circle({goal, ends_of(planner).tolerance}, colours::goal, 2);
   picture.mark(goal, "goal", colours::goal);
   picture.legend("path", colours::path);
   if (!plan.tree.empty()) picture.legend("tree", colours::tree);
@@ -79,8 +89,7 @@ void draw(const Options& o, const Snapshot& world, const Pose2& start, Vec2 goal
 /// wide, a goal cut off.
 void explain(const Options& o, const Snapshot& world, Vec2 start, Vec2 goal,
              const PlannerParams& planner, Status status) {
-  const auto [clearance, tolerance] =
-      std::visit([](const auto& p) { return std::pair(p.clearance, p.goal_tolerance); }, planner);
+  const auto [clearance, tolerance] = ends_of(planner);
   if (status == Status::start_blocked)
     throw InputError(fmt::format("{}: start {}", o.map, world.why_blocked(start, clearance)));
   if (status == Status::goal_blocked)
@@ -128,7 +137,7 @@ int plan_command(const Options& o, const Context& context) {
   const Plan made = plan(world, start, goal, choice.planner, rng, context.stop);
   const double ms = std::chrono::duration<double, std::milli>(Stop::Clock::now() - began).count();
   explain(o, world, start.position, goal, choice.planner, made.status);
-  if (!o.picture.empty()) draw(o, world, start, goal, made);
+  if (!o.picture.empty()) draw(o, world, start, goal, choice.planner, made);
   show(made, start.heading, ms, o.json);
   if (!o.json && !o.picture.empty()) print("wrote {}\n", o.picture);
   return made.status == Status::solved ? ok : not_reached;
@@ -139,7 +148,7 @@ int plan_command(const Options& o, const Context& context) {
 void add_plan(CLI::App& app, Action& action) {
   auto o = std::make_shared<Options>();
   CLI::App* cmd = add_command(
-      app, "plan", "Plan one path on a map: exit code 3 when there is none",
+      app, "plan", "Plan one path on a map by drrt_star, rrt_star, uniform_rrt_star, rrt or a_star",
       "plan map.png --um-per-px 5 --start 200,700,-90 --goal 1750,300 \\\n"
       "      --set planner.type=a_star --set planner.clearance_um=40 --picture path.svg");
   cmd->add_option("map", o->map, "Picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles")
@@ -154,9 +163,7 @@ void add_plan(CLI::App& app, Action& action) {
       ->required()
       ->type_name("X,Y")
       ->check(place(2, "x,y in µm"));
-  add_settings(cmd, o->settings,
-               "Choose the planner (drrt_star, rrt_star, uniform_rrt_star, rrt, a_star) and change "
-               "its values (again and again)");
+  add_settings(cmd, o->settings, "Choose planner.type and change its values (again and again)");
   cmd->add_option("--seed", o->seed, "Seed of the random stream; 1 when not given")
       ->type_name("NUMBER")
       ->check(whole(0, UINT64_MAX));
