@@ -11,7 +11,7 @@
 namespace microswarm::cli {
 
 inline constexpr int full_seeds = 100;
-inline constexpr int quick_seeds = 10;
+inline constexpr int quick_seeds = 50;
 
 /// How to reproduce: where the scenarios stand, where plots go (nowhere when empty), how many
 /// seeds.

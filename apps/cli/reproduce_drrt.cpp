@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +12,7 @@
 #include "microswarm/core/statistics.hpp"
 #include "microswarm/experiment/record.hpp"
 #include "microswarm/experiment/trials.hpp"
+#include "microswarm/planning/straighten.hpp"
 #include "microswarm/report/picture.hpp"
 #include "microswarm/report/plot.hpp"
 #include "microswarm/report/run_report.hpp"
@@ -37,8 +39,7 @@ Setting load(const ReproduceOptions& options, const char* name) {
   return {std::move(scene), std::move(world)};
 }
 
-// ---- Fig 3: one channel, four planners, one clearance, one stopping rule
-// ---------------------------
+// Fig 3: one channel, four planners, one clearance, one stopping rule.
 
 struct Outcome {
   std::string name;
@@ -50,8 +51,19 @@ struct Outcome {
   Plan first;
 };
 
+// What D-RRT* does to its path, done to another planner's: so that what comes of the planner and what
+// comes of the straightening can be told apart.
+void pull_straight(const Snapshot& world, Pose2 start, const PlannerParams& params, Plan& made) {
+  const DrrtStarParams drrt;
+  const double clearance = std::visit([](const auto& p) { return p.clearance; }, params);
+  straighten(world, clearance, start.heading, {drrt.length_weight, drrt.smoothness_weight},
+             straighten_rounds, made.path, made.counts.edge_checks);
+}
+
+enum class Finish { as_planned, straightened };
+
 Outcome try_planner(const Setting& s, std::string name, const PlannerParams& params, int seeds,
-                    const Stop& stop) {
+                    const Stop& stop, Finish finish = Finish::as_planned) {
   Outcome out{.name = std::move(name)};
   const Scenario& scenario = s.scene.scenario;
   const Snapshot world = s.world.at(0);
@@ -59,6 +71,7 @@ Outcome try_planner(const Setting& s, std::string name, const PlannerParams& par
     Rng rng(scenario.seed, Purpose::planner, static_cast<std::uint32_t>(seed));
     const auto began = Stop::Clock::now();
     Plan made = plan(world, scenario.start, scenario.goal, params, rng, stop);
+    if (finish == Finish::straightened) pull_straight(world, scenario.start, params, made);
     out.time.push_back(
         std::chrono::duration<double, std::milli>(Stop::Clock::now() - began).count());
     if (made.status == Status::solved) {
@@ -81,6 +94,10 @@ std::vector<Outcome> try_planners(const Setting& s, int seeds, const Stop& stop)
   out.push_back(try_planner(s, "RRT*", RrtStarParams{}, seeds, stop));
   out.push_back(try_planner(s, "uniform RRT*", UniformRrtStarParams{}, seeds, stop));
   out.push_back(try_planner(s, "A*", AStarParams{}, seeds, stop));
+  out.push_back(
+      try_planner(s, "RRT*, straightened", RrtStarParams{}, seeds, stop, Finish::straightened));
+  out.push_back(
+      try_planner(s, "A*, straightened", AStarParams{}, seeds, stop, Finish::straightened));
   return out;
 }
 
@@ -90,12 +107,14 @@ struct Published {
 
 std::vector<ReproduceRow> fig3_rows(const std::vector<Outcome>& o) {
   // RRT*'s medians are published only as shares of D-RRT*'s.
-  const std::array<Published, 5> paper{{{1679.8, 170.8, 55.0},
+  const std::array<Published, 7> paper{{{1679.8, 170.8, 55.0},
                                         {1679.8, 170.8, 55.0},
                                         {1679.8 / (1 - 0.055), 170.8 / (1 - 0.551), {}},
                                         {},
-                                        {1702.3, 585.0, 10.0}}};
-  const std::string f = "3c";
+                                        {1702.3, 585.0, 10.0},
+                                        {},
+                                        {}}};
+  const std::string f = "fig3";
   std::vector<ReproduceRow> rows;
   for (std::size_t i = 0; i < o.size(); ++i) {
     const auto row = [&](const char* what, const char* unit, std::optional<double> theirs,
@@ -239,8 +258,7 @@ std::vector<ReproduceRow> fig3(const ReproduceOptions& options, const Stop& stop
   return fig3_rows(outcomes);
 }
 
-// ---- Fig 5, 6: a deforming channel and moving obstacles, the whole loop
-// ----------------------------
+// Fig 5, 6: a deforming channel and moving obstacles, the whole loop.
 
 struct LoopFigure {
   const char* figure;
@@ -248,8 +266,8 @@ struct LoopFigure {
   double events, mean, sd, max;  // published [1, ms, ms, ms]
 };
 
-constexpr LoopFigure deforming{"5a", "deforming_channel.yaml", 16, 8, 3, 15};
-constexpr LoopFigure moving{"5b", "moving_obstacles.yaml", 34, 44, 41, 100};
+constexpr LoopFigure deforming{"fig5a", "deforming_channel.yaml", 16, 8, 3, 15};
+constexpr LoopFigure moving{"fig5b", "moving_obstacles.yaml", 34, 44, 41, 100};
 
 /// Every trial meets the obstacles at another phase of their motion.
 void vary_phases(Scenario& scenario, std::uint32_t trial) {
@@ -327,7 +345,7 @@ void loop_pictures(const LoopFigure& f, const Setting& s, const fs::path& out, c
   Recorder recorder(scene);
   RunListener* const listeners[] = {&recorder};
   simulate(scene.scenario, s.world, 0, listeners, stop);
-  const fs::path folder = out / (std::string("fig") + f.figure);
+  const fs::path folder = out / f.figure;
   make_folder(folder.string());
   write_record(recorder.record(), folder / "run.h5");
   write_run_report(recorder.record(), folder);
@@ -336,7 +354,7 @@ void loop_pictures(const LoopFigure& f, const Setting& s, const fs::path& out, c
 std::vector<ReproduceRow> loop_figure(const LoopFigure& f, const ReproduceOptions& options,
                                       const Stop& stop) {
   const Setting s = load(options, f.scenario);
-  ProgressBar bar(std::string("Fig ") + f.figure);
+  ProgressBar bar(f.figure);
   // One thread: planning times are measured.
   const auto trials = run_trials(
       s.scene.scenario, s.world,
@@ -353,9 +371,10 @@ std::vector<ReproduceRow> loop_figure(const LoopFigure& f, const ReproduceOption
 
 std::vector<ReproduceRow> reproduce_drrt(const std::string& figure, const ReproduceOptions& options,
                                          const Stop& stop) {
-  if (!figure.empty() && figure != "fig3" && figure != "fig5a" && figure != "fig5b")
-    throw InputError("reproduce drrt: unknown figure '" + figure +
-                     "', there are: fig3, fig5a, fig5b");
+  const std::array<std::string_view, 3> figures{"fig3", "fig5a", "fig5b"};
+  if (!figure.empty() && std::find(figures.begin(), figures.end(), figure) == figures.end())
+    throw InputError(fmt::format("reproduce drrt: unknown figure '{}', there are: {}", figure,
+                                 fmt::join(figures, ", ")));
   std::vector<ReproduceRow> rows;
   const auto add = [&](const char* name, auto&& make) {
     if (!figure.empty() && figure != name) return;

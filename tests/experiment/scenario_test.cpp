@@ -127,6 +127,28 @@ TEST(ScenarioCheck, SwarmWiderThanEveryPassage) {
       "s.yaml: swarm is 80 µm wide, wider than every passage to the goal: the widest is about ";
   EXPECT_EQ(check_error(scenario).substr(0, expected.size()), expected);
   scenario.swarm.radius = 29;
+  std::get<HierarchicalParams>(scenario.navigator).margin = 29;
+  EXPECT_EQ(check_error(scenario), "");
+}
+
+TEST(ScenarioCheck, MarginWiderThanEveryPassage) {
+  Scenario scenario = open_room();
+  std::get<PolygonsMap>(scenario.map).walls = {bar(1000, 0, 20, 500).outer,
+                                               bar(1000, 600, 20, 400).outer};
+  const std::string expected =
+      "s.yaml: navigator.margin_um is 90, wider than the passages to the goal allow: about ";
+  EXPECT_EQ(check_error(scenario).substr(0, expected.size()), expected);
+  std::get<HierarchicalParams>(scenario.navigator).margin = 49;
+  EXPECT_EQ(check_error(scenario), "");
+}
+
+TEST(ScenarioCheck, GoalNearerToAWallThanTheMargin) {
+  Scenario scenario = open_room();
+  scenario.goal = {1700, 60};
+  scenario.goal_tolerance = 20;
+  EXPECT_EQ(check_error(scenario),
+            "s.yaml: goal is 60 µm from the border, needs 90 µm (navigator.margin_um)");
+  scenario.goal_tolerance = 31;
   EXPECT_EQ(check_error(scenario), "");
 }
 

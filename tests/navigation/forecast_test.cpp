@@ -76,7 +76,7 @@ TEST(Forecast, BodiesAtRestGrowByTheirDeformation) {
 TEST(Forecast, DrawnOutCoversTheWay) {
   const Snapshot world(empty_map(), 0,
                        {{.shape = Disc{{100, 500}, 30}, .velocity = {60, 0}, .obstacle = 0}});
-  const Snapshot drawn = drawn_out(world, 1.5);
+  const Snapshot drawn = drawn_out(world, 1.5, 90);
   for (double t = 0; t <= 1.5; t += 0.05)
     EXPECT_LT(drawn.clearance({100 + 60 * t, 500}), 1e-9) << t;
   EXPECT_GT(drawn.clearance({260, 500}), 20);

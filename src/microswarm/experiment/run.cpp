@@ -44,7 +44,7 @@ class Run {
   std::optional<Status> tick(const Stop& stop) {
     const Observation seen = plant_.observe();
     move_to(present(seen));
-    if (!watch_ && distance(present_.pose.position, scenario_.goal) <= scenario_.goal_tolerance)
+    if (distance(present_.pose.position, scenario_.goal) <= scenario_.goal_tolerance)
       return arrived();
     if (result_.timing.steps.empty()) navigator_.prepare(*seen.world);
 
@@ -133,7 +133,8 @@ class Run {
     Frame frame;
     frame.state = "end";
     tell(frame, navigator_.view(), seen);
-    result_.status = status;
+    const bool touched = status == Status::solved && result_.metrics.contacts > 0;
+    result_.status = touched ? Status::collided : status;
     Metrics& metrics = result_.metrics;
     metrics.time = present_.t;
     metrics.goal_distance = distance(present_.pose.position, scenario_.goal);

@@ -104,6 +104,28 @@ void check_way(const Map& map, Vec2 start, Vec2 goal, double radius, const std::
       where, 2 * radius, 2 * way.clearance, way.tightest.x, way.tightest.y));
 }
 
+namespace {
+
+// What the swarm fits through, its navigator may still refuse.
+void check_margin(const Scenario& scenario, const World& world, const std::string& where) {
+  const double margin = margin_of(scenario.navigator);
+  const Snapshot walls(world.map);
+  const auto target = free_goal(walls, scenario.goal, scenario.goal_tolerance, margin);
+  if (!target)
+    throw InputError(fmt::format("{}: goal {} (navigator.margin_um)", where,
+                                 walls.why_blocked(scenario.goal, margin)));
+  const WidestPath way = widest_path(*world.map, scenario.start.position, *target, margin);
+  // A start that is nearer to a wall is let go: the navigator leads away from there.
+  const double needed = std::min(margin, world.map->clearance(scenario.start.position));
+  if (way.clearance + 1.5 * way.resolution >= needed) return;
+  throw InputError(fmt::format(
+      "{}: navigator.margin_um is {:.4g}, wider than the passages to the goal allow: about {:.3g} "
+      "µm are left at ({:.4g}, {:.4g}) µm",
+      where, margin, way.clearance, way.tightest.x, way.tightest.y));
+}
+
+}  // namespace
+
 void check(const Scenario& scenario, const World& world, const std::string& where) {
   const double radius = scenario.swarm.radius;
   if (const auto why = world.at(0).why_blocked(scenario.start.position, radius); !why.empty())
@@ -114,6 +136,7 @@ void check(const Scenario& scenario, const World& world, const std::string& wher
   if (!target)
     throw InputError(fmt::format("{}: goal {}", where, walls.why_blocked(scenario.goal, radius)));
   check_way(*world.map, scenario.start.position, *target, radius, where);
+  check_margin(scenario, world, where);
 }
 
 }  // namespace microswarm

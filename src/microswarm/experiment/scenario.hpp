@@ -70,7 +70,7 @@ struct Scenario {
     visit(self.hold_limit,
           {"hold_limit", Unit::s, {0, 1e5}, "Ends after holding this long without a break."});
     visit(self.stop_at_contact,
-          {"stop_at_contact", Unit::none, {}, "End at the first touch, or count it and go on."});
+          {"stop_at_contact", Unit::none, {}, "End at the first touch, or count it and go on; it ends collided."});
     visit(self.seed, {"seed", Unit::none, {}, "Seed of every random stream."});
   }
 };
@@ -101,7 +101,8 @@ World build_world(const Scene& scene);
 
 /// Throws InputError, one line, when the run cannot be meant so: the start or the goal in a wall
 /// ("start is 12 µm inside wall 3"), the swarm wider than every passage, the goal cut off from the
-/// start. `where` begins the line: the scenario's file or name.
+/// start, or no way that keeps the navigator's margin. `where` begins the line: the scenario's file
+/// or name.
 void check(const Scenario& scenario, const World& world, const std::string& where);
 
 /// The last two of these complaints alone: between two free points of a map, for a swarm of

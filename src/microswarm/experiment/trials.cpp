@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/experiment/trials.hpp"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <mutex>
 
+#include "microswarm/core/parallel.hpp"
 #include "microswarm/experiment/record.hpp"
 
 namespace microswarm {
@@ -35,16 +33,12 @@ std::vector<TrialResult> run_trials(const Scenario& scenario, const World& world
   const Scene scene{scenario, {}};
   std::mutex mutex;
   int done = 0;
-  const auto run_one = [&](std::size_t i) {
+  for_each_index(results.size(), options.jobs, [&](std::size_t i) {
     if (stop()) return;
     results[i] = run_trial(scene, world, static_cast<std::uint32_t>(i), options, stop);
     const std::lock_guard lock(mutex);
     ++done;
     if (options.progress) options.progress(done, options.trials);
-  };
-  tbb::task_arena arena(options.jobs > 0 ? options.jobs : tbb::task_arena::automatic);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, results.size(), run_one, tbb::simple_partitioner{});
   });
   return results;
 }

@@ -52,13 +52,17 @@ double forecast_clearance(const Snapshot& seen, Segment s, double t0, double t1,
   return least;
 }
 
-Snapshot drawn_out(const Snapshot& seen, double horizon) {
-  constexpr int most_copies = 8;
+Snapshot drawn_out(const Snapshot& seen, double horizon, double r) {
+  constexpr double enough_copies = 8;
+  constexpr double most_copies = 100;
   std::vector<Body> bodies;
   for (const Body& body : seen.moving().bodies()) {
     const double way = norm(body.velocity) * horizon;
+    const double size = std::max(1.0, extent(body));
+    // Copies that close up; of a small and fast body fewer, but no path fits between two of them.
+    const double without_gap = std::max(enough_copies, std::ceil(way / (size + r)));
     const int copies =
-        std::clamp(static_cast<int>(std::ceil(way / std::max(1.0, extent(body)))), 0, most_copies);
+        static_cast<int>(std::min({std::ceil(way / size), without_gap, most_copies}));
     for (int k = 0; k <= copies; ++k)
       bodies.push_back(copies == 0 ? body : moved(body, horizon * k / copies));
   }

@@ -14,7 +14,7 @@ namespace microswarm {
 double forecast_clearance(const Snapshot& seen, Segment s, double t0, double t1, double limit);
 
 /// The snapshot with every moving body drawn out along its way of the next `horizon` seconds, so
-/// that a plan made on it keeps out of the way of what is coming.
-Snapshot drawn_out(const Snapshot& seen, double horizon);
+/// that a plan made on it with the clearance `r` keeps out of the way of what is coming.
+Snapshot drawn_out(const Snapshot& seen, double horizon, double r);
 
 }  // namespace microswarm

@@ -12,7 +12,6 @@ namespace microswarm {
 namespace {
 
 constexpr double tick = 0.1;       // of the look-ahead [s]
-constexpr double slack = 1;        // kept besides the margin, for what happens within a tick [µm]
 constexpr double first_leg = 1.0;  // of an escape [s]
 constexpr double last_weight = 0.1;  // of the clearance at an escape's end beside the least one
 constexpr std::array<double, 3> eases{1.0, 0.5, 0.25};
@@ -24,6 +23,7 @@ HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params,
                                              double goal_tolerance, Rng rng)
     : params_(params), swarm_(swarm), goal_(goal), goal_tolerance_(goal_tolerance), rng_(rng) {
   params_.speed = std::min(params.speed, swarm.max_speed);
+  slack_ = std::max(1.0, params_.speed * swarm.max_turn_rate * tick * tick / 8);
 }
 
 void HierarchicalNavigator::prepare(const Snapshot& world) {
@@ -42,6 +42,7 @@ Command HierarchicalNavigator::step(const Observation& seen, const Stop& stop) {
 
 Command HierarchicalNavigator::issue(double now, Command command, std::string_view state) {
   view_.state = state;
+  if (!issued_.empty()) period_ = std::clamp(now - issued_.back().time, tick, 1.0);
   issued_.push_back({now, command});
   return command;
 }
@@ -65,7 +66,7 @@ Command HierarchicalNavigator::decide(const Observation& seen, const Stop& stop)
     const bool near_end = path_.size() > 1 && target_ && !(*target_ == goal_) &&
                           way_left(path_, place_) < std::max(params_.lookahead, 2 * swarm_.radius);
     if (attempt > 0 || near_end || !path_holds(now)) {  // line 4
-      const Snapshot ahead = drawn_out(now, std::min(params_.horizon, 1.5));
+      const Snapshot ahead = drawn_out(now, std::min(params_.horizon, 1.5), params_.margin);
       replan(now, ahead, stop);  // lines 5–11
     }
     if (path_.size() < 2) break;
@@ -103,7 +104,6 @@ bool HierarchicalNavigator::path_holds(const Snapshot& world) const {
 }
 
 void HierarchicalNavigator::replan(const Snapshot& seen, const Snapshot& ahead, const Stop& stop) {
-  view_.planned = true;
   path_.clear();
   place_ = {};
   const double here = seen.clearance(pose_.position);
@@ -122,6 +122,7 @@ void HierarchicalNavigator::replan(const Snapshot& seen, const Snapshot& ahead, 
 bool HierarchicalNavigator::replan_with(const Snapshot& world, double clearance, const Stop& stop) {
   const Vec2 from = pose_.position;
   if (!world.is_free(from, clearance)) return false;
+  view_.planned = true;
   Vec2 towards = goal_;
   if (params_.guide == Guide::route) {
     const Vec2 via =
@@ -168,12 +169,18 @@ HierarchicalNavigator::Outlook HierarchicalNavigator::look_ahead(const Observati
   const Map& map = seen.world->map();
   Pose2 pose = pose_;
   Outlook out{.safe = true, .least = enough, .last = enough};
+  Command command;
+  double next_command = 0;
   for (int k = 0; k < ticks; ++k) {
-    const Pose2 next = unicycle_step(pose, steer(pose, k * tick), swarm_.max_turn_rate, tick);
+    if (k * tick >= next_command - 1e-9) {
+      command = steer(pose, k * tick);
+      next_command += period_;
+    }
+    const Pose2 next = unicycle_step(pose, command, swarm_.max_turn_rate, tick);
     const Segment move{pose.position, next.position};
     const double from = delay + k * tick;
     const double moving = forecast_clearance(*seen.world, move, from, from + tick, enough);
-    out.safe = out.safe && moving >= params_.margin + slack && map.is_free(move, params_.margin);
+    out.safe = out.safe && moving >= params_.margin + slack_ && map.is_free(move, params_.margin);
     // The whole move counts, so that no way through a wall is ever the best one.
     out.last = map.is_free(move, 0) ? std::min(moving, map.clearance(next.position)) : 0;
     out.least = std::min(out.least, out.last);
@@ -216,7 +223,7 @@ Command HierarchicalNavigator::escape(const Observation& seen) {
   };
   consider(best, best);
   for (int i = 0; i < directions; ++i) consider(leg(i), leg(i));
-  if (best_least < params_.margin + slack)
+  if (best_least < params_.margin + slack_)
     for (int i = 0; i < directions; ++i)
       for (int j = 0; j < directions; ++j)
         if (i != j) consider(leg(i), leg(j));

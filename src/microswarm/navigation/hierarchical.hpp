@@ -119,6 +119,8 @@ class HierarchicalNavigator : public Navigator {
   double goal_tolerance_;
   Rng rng_;
   Route route_;
+  double slack_ = 1;     ///< kept besides the margin, for what happens within a tick [µm]
+  double period_ = 0.1;  ///< between the last two commands [s]
 
   std::deque<Issued> issued_;
   Pose2 pose_;  ///< where the swarm will be when the command of this step takes effect

@@ -3,6 +3,10 @@
 
 namespace microswarm {
 
+double margin_of(const NavigatorParams& params) {
+  return std::visit([](const auto& p) { return p.margin; }, params);
+}
+
 std::unique_ptr<Navigator> make_navigator(const NavigatorParams& params, const RibbonParams& swarm,
                                           Vec2 goal, double goal_tolerance, Rng rng) {
   return std::visit(

@@ -13,7 +13,6 @@ namespace microswarm {
 namespace {
 
 constexpr int most_time_steps = 10'000;
-constexpr int straighten_rounds = 2;
 
 /// X_new and the node it was steered from, as Algorithm 3 returns them.
 struct Extension {
@@ -29,12 +28,13 @@ void steer_arc(const TreeNode& node, double heading_wanted, double length,
   const double count =
       std::clamp(std::ceil(duration / params.time_step), 1.0, 1.0 * most_time_steps);
   const double dt = duration / count;
+  const double gain = std::min(1.0, dt * params.heading_gain);  // no step turns past what is wanted
   Vec2 p = node.position;
   double heading = node.heading;
   arc.assign(1, p);
   for (int j = 0; j < static_cast<int>(count); ++j) {
-    heading += dt * params.heading_gain * wrap(heading_wanted - heading);  // Eq 7 [drrt]
-    p += dt * params.speed * unit_vector(heading);                         // Eq 6 [drrt]
+    heading += gain * wrap(heading_wanted - heading);  // Eq 7 [drrt]
+    p += dt * params.speed * unit_vector(heading);     // Eq 6 [drrt]
     arc.push_back(p);
   }
 }

@@ -7,6 +7,9 @@
 
 namespace microswarm {
 
+/// Rounds that D-RRT* makes.
+inline constexpr int straighten_rounds = 2;
+
 /// Pulls a free path straight, beyond [drrt]: the cheapest chain of free edges through points of
 /// the path is taken, first through its vertices, then `rounds` times through its vertices and
 /// points between them. Start and end stay, the cost never grows, every edge of the result is
