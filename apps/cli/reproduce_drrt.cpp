@@ -51,8 +51,8 @@ struct Outcome {
   Plan first;
 };
 
-// What D-RRT* does to its path, done to another planner's: so that what comes of the planner and what
-// comes of the straightening can be told apart.
+// What D-RRT* does to its path, done to another planner's: so that what comes of the planner and
+// what comes of the straightening can be told apart.
 void pull_straight(const Snapshot& world, Pose2 start, const PlannerParams& params, Plan& made) {
   const DrrtStarParams drrt;
   const double clearance = std::visit([](const auto& p) { return p.clearance; }, params);

@@ -11,8 +11,8 @@
 namespace microswarm {
 
 void for_each_index(std::size_t count, int jobs, const std::function<void(std::size_t)>& body) {
-  const std::size_t asked = jobs > 0 ? static_cast<std::size_t>(jobs)
-                                     : std::max(1U, std::thread::hardware_concurrency());
+  const std::size_t asked =
+      jobs > 0 ? static_cast<std::size_t>(jobs) : std::max(1U, std::thread::hardware_concurrency());
   std::atomic<std::size_t> next{0};
   std::mutex mutex;
   std::exception_ptr thrown;

@@ -70,7 +70,10 @@ struct Scenario {
     visit(self.hold_limit,
           {"hold_limit", Unit::s, {0, 1e5}, "Ends after holding this long without a break."});
     visit(self.stop_at_contact,
-          {"stop_at_contact", Unit::none, {}, "End at the first touch, or count it and go on; it ends collided."});
+          {"stop_at_contact",
+           Unit::none,
+           {},
+           "End at the first touch, or count it and go on; it ends collided."});
     visit(self.seed, {"seed", Unit::none, {}, "Seed of every random stream."});
   }
 };

@@ -11,8 +11,8 @@
 namespace microswarm {
 namespace {
 
-constexpr double tick = 0.1;       // of the look-ahead [s]
-constexpr double first_leg = 1.0;  // of an escape [s]
+constexpr double tick = 0.1;         // of the look-ahead [s]
+constexpr double first_leg = 1.0;    // of an escape [s]
 constexpr double last_weight = 0.1;  // of the clearance at an escape's end beside the least one
 constexpr std::array<double, 3> eases{1.0, 0.5, 0.25};
 

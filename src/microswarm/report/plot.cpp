@@ -65,7 +65,8 @@ std::string panel(const Plot& plot, std::size_t index) {
       fmt::format("set title {}\nset xlabel {}\nset ylabel {}\n", in_quotes(plot.title),
                   in_quotes(plot.x_label), in_quotes(plot.y_label));
   out += plot.log_y ? "set logscale y\n" : "unset logscale\n";
-  out += plot.y_min ? fmt::format("set yrange [{:g}:*]\n", *plot.y_min) : "set yrange [*:*]\n";
+  const auto limit = [](std::optional<double> y) { return y ? fmt::format("{:g}", *y) : "*"; };
+  out += fmt::format("set yrange [{}:{}]\n", limit(plot.y_min), limit(plot.y_max));
   std::vector<std::string> tics;
   std::vector<std::string> items;
   for (std::size_t i = 0; i < plot.series.size(); ++i) {

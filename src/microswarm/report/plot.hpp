@@ -35,6 +35,7 @@ struct Plot {
   std::vector<Level> levels;
   bool log_y = false;
   std::optional<double> y_min;
+  std::optional<double> y_max;
 };
 
 /// Draws the plots side by side with gnuplot into .png, .svg or .pdf by the file's extension.

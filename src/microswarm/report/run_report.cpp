@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/report/page.hpp"
@@ -50,7 +51,14 @@ std::vector<Vec2> trail(const Record& record, double until) {
   return points;
 }
 
-void overview(const Subject& s, const std::filesystem::path& folder) {
+const Frame& frame_at(const Record& record, double t) {
+  const auto after = std::upper_bound(record.frames.begin(), record.frames.end(), t,
+                                      [](double time, const Frame& f) { return time < f.t; });
+  return after == record.frames.begin() ? *after : *(after - 1);
+}
+
+void overview(const Subject& s, std::span<const PlanEvent* const> shown,
+              const std::filesystem::path& folder) {
   const Record& record = s.record;
   const double end = record.frames.back().t;
   Picture picture(
@@ -67,18 +75,16 @@ void overview(const Subject& s, const std::filesystem::path& folder) {
   picture.line(trail(record, end), colours::path, 3);
   picture.swarm(record.frames.back().pose, s.scenario().swarm.radius);
   draw_ends(picture, s);
+  for (std::size_t k = 0; k < shown.size(); ++k)
+    picture.mark(frame_at(record, shown[k]->t).pose.position, fmt::format("{}", k + 1),
+                 colours::path);
   picture.legend("swarm", colours::swarm, true);
   picture.legend("its way", colours::path);
+  if (!shown.empty()) picture.legend("moments of the report", colours::path, true);
   if (!s.world.obstacles.empty())
     picture.legend("moving obstacles, earlier places faint", colours::obstacle, true);
   for (const char* kind : {".png", ".svg", ".pdf"})
     picture.write(folder / (std::string("overview") + kind));
-}
-
-const Frame& frame_at(const Record& record, double t) {
-  const auto after = std::upper_bound(record.frames.begin(), record.frames.end(), t,
-                                      [](double time, const Frame& f) { return time < f.t; });
-  return after == record.frames.begin() ? *after : *(after - 1);
 }
 
 /// The whole map, or what is near the swarm where the map is much larger.
@@ -109,8 +115,16 @@ void moment(const Subject& s, const PlanEvent& event, const std::filesystem::pat
   picture.legend("planned path", colours::path);
   picture.legend("tree", colours::tree);
   picture.legend("detection circles", colours::circle);
-  if (!s.world.obstacles.empty()) picture.legend("obstacles", colours::obstacle, true);
+  if (!s.world.obstacles.empty()) picture.legend("moving obstacles", colours::obstacle, true);
   picture.write(file);
+}
+
+std::string moment_caption(const Subject& s, std::size_t number, const PlanEvent& event) {
+  const Frame& frame = frame_at(s.record, event.t);
+  std::string text = fmt::format("{}: at {:.1f} s", number, event.t);
+  if (std::isfinite(frame.obstacle_clearance))
+    text += fmt::format(", {:.0f} µm from the nearest obstacle", frame.obstacle_clearance);
+  return text + fmt::format(", {:.0f} µm from the nearest wall", frame.wall_clearance);
 }
 
 /// Of some planning events, the one at which an obstacle is nearest.
@@ -156,8 +170,11 @@ std::vector<Plot> plots(const Subject& s) {
     bodies.y.push_back(f.obstacle_clearance);
   }
   clearance.series = {walls, bodies};
-  clearance.levels = {{"swarm's radius", s.scenario().swarm.radius}};
+  const double margin = margin_of(s.scenario().navigator);
+  clearance.levels = {{"swarm's radius", s.scenario().swarm.radius},
+                      {"navigator's margin", margin}};
   clearance.y_min = 0;
+  clearance.y_max = 5 * std::max(margin, s.scenario().swarm.radius);
   out.push_back(clearance);
   return out;
 }
@@ -189,15 +206,20 @@ void write_run_report(const Record& record, const std::filesystem::path& folder,
                       const ReportOptions& options) {
   if (record.frames.empty()) return;
   const Subject s{record, options, build_world(record.scene)};
-  overview(s, folder);
-  PageSection stills{.heading = "Moments", .text = "The world at planning events on the way."};
+  PageSection stills{.heading = "Moments",
+                     .text =
+                         "In each third of the run the planning event at which an obstacle was "
+                         "nearest; numbered in the picture above."};
   const std::size_t events = record.plans.size();
   const std::size_t shown = std::min<std::size_t>(moments, events);
+  std::vector<const PlanEvent*> chosen;
+  for (std::size_t k = 0; k < shown; ++k)
+    chosen.push_back(&tightest(record, k * events / shown, (k + 1) * events / shown));
+  overview(s, chosen, folder);
   for (std::size_t k = 0; k < shown; ++k) {
     const std::string name = fmt::format("moment-{}.png", k + 1);
-    const PlanEvent& event = tightest(record, k * events / shown, (k + 1) * events / shown);
-    moment(s, event, folder / name);
-    stills.pictures.emplace_back(name, fmt::format("{:.1f} s", event.t));
+    moment(s, *chosen[k], folder / name);
+    stills.pictures.emplace_back(name, moment_caption(s, k + 1, *chosen[k]));
   }
   write_plots(plots(s), folder / "plots.png");
   write_page(
