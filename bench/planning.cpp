@@ -5,6 +5,7 @@
 
 #include <array>
 #include <chrono>
+#include <stdexcept>
 
 #include "bench/ompl_peer.hpp"
 #include "microswarm/core/statistics.hpp"
@@ -32,6 +33,7 @@ std::vector<double> our_times(const Snapshot& world, const Pose2& start, Vec2 go
     Rng rng(1, Purpose::planner, static_cast<std::uint32_t>(seed));
     const auto began = Clock::now();
     const Plan made = plan(world, start, goal, params, rng);
+    if (made.status != Status::solved) throw std::runtime_error("bench: a query was not solved");
     ms.push_back(1e3 * seconds_since(began));
   }
   return ms;
@@ -78,50 +80,79 @@ std::vector<BenchRow> s_channel(const std::filesystem::path& scenarios, bool qui
   return rows;
 }
 
-/// A free point within 50 µm of `p`, so that the peer, which ends exactly at its goal, finds one
-/// too.
-Vec2 free_near(const Snapshot& world, Vec2 p, double clearance, Rng& rng) {
-  for (int i = 0; i < 1000; ++i) {
-    const Vec2 q = p + Vec2{rng.uniform(-50, 50), rng.uniform(-50, 50)};
-    if (world.is_free(q, 2 * clearance)) return q;
+struct Query {
+  Pose2 start;
+  Vec2 goal;
+};
+
+/// Pairs of free places at least half the map's width apart. They keep twice the clearance, so that
+/// the peer, which ends exactly at its goal, can get there too.
+std::vector<Query> far_pairs(const Snapshot& world, double clearance, int count, Rng& rng) {
+  const Box& box = world.bounds();
+  const auto place = [&] {
+    const double x = rng.uniform(box.lo.x, box.hi.x);
+    return Vec2{x, rng.uniform(box.lo.y, box.hi.y)};
+  };
+  std::vector<Query> pairs;
+  for (int draw = 0; draw < 1000 * count && std::ssize(pairs) < count; ++draw) {
+    const Query q{{place(), 0}, place()};
+    if (distance(q.start.position, q.goal) >= 0.5 * box.width() &&
+        world.is_free(q.start.position, 2 * clearance) && world.is_free(q.goal, 2 * clearance))
+      pairs.push_back(q);
   }
-  return p;
+  return pairs;
 }
 
-/// A 2000 × 1000 µm map with 140 discs and 70 polygons: time to the first path, and tree growth.
+/// A 2000 × 1000 µm map with 140 discs and 70 polygons: time to the first path between far places.
 std::vector<BenchRow> clutter(bool quick, const Stop& stop) {
   Rng rng(1, Purpose::scene);
   const Snapshot world = scenes::cluttered(rng).snapshot();
   constexpr double clearance = 10;
-  const Pose2 start{free_near(world, {60, 60}, clearance, rng), 0};
-  const Vec2 goal = free_near(world, {1940, 940}, clearance, rng);
-  std::vector<BenchRow> rows;
-  RrtParams first;
-  first.clearance = clearance;
+  const std::vector<Query> pairs = far_pairs(world, clearance, 40, rng);
+  RrtParams rrt;
+  rrt.clearance = clearance;
   DrrtStarParams drrt;
   drrt.clearance = clearance;
-  const OmplQuery query{.world = world,
-                        .start = start.position,
-                        .goal = goal,
-                        .clearance = clearance,
-                        .goal_tolerance = first.goal_tolerance,
-                        .range = first.step};
-  const auto theirs = peer_times(OmplPlanner::rrt_connect, query, quick ? 50 : 300, stop);
-  const int seeds = quick ? 100 : 1000;
-  rows.push_back({.name = "RRT, 140 discs and 70 polygons, first path",
-                  .quantity = "time, median",
-                  .unit = "ms",
-                  .ours = quantile(our_times(world, start, goal, first, seeds, stop), 0.5),
-                  .peer = quantile(theirs, 0.5),
-                  .peer_name = "OMPL RRTConnect",
-                  .aim = 0.5});
-  rows.push_back({.name = "D-RRT*, 140 discs and 70 polygons, first path",
-                  .quantity = "time, median",
-                  .unit = "ms",
-                  .ours = quantile(our_times(world, start, goal, drrt, seeds, stop), 0.5),
-                  .peer = quantile(theirs, 0.5),
-                  .peer_name = "OMPL RRTConnect"});
+  std::vector<double> theirs;
+  for (const Query& q : pairs) {
+    const auto more = peer_times(OmplPlanner::rrt_connect,
+                                 {.world = world,
+                                  .start = q.start.position,
+                                  .goal = q.goal,
+                                  .clearance = clearance,
+                                  .goal_tolerance = rrt.goal_tolerance,
+                                  .range = rrt.step},
+                                 quick ? 2 : 10, stop);
+    theirs.insert(theirs.end(), more.begin(), more.end());
+  }
+  std::vector<BenchRow> rows;
+  const auto row = [&](const char* name, const PlannerParams& params, std::optional<double> aim) {
+    std::vector<double> ours;
+    for (const Query& q : pairs) {
+      const auto more = our_times(world, q.start, q.goal, params, quick ? 3 : 25, stop);
+      ours.insert(ours.end(), more.begin(), more.end());
+    }
+    for (const auto& [what, share] : {std::pair{"time, median", 0.5}, std::pair{"time, p99", 0.99}})
+      rows.push_back({.name = name,
+                      .quantity = what,
+                      .unit = "ms",
+                      .ours = quantile(ours, share),
+                      .peer = quantile(theirs, share),
+                      .peer_name = "OMPL RRTConnect",
+                      .aim = share == 0.5 ? aim : std::nullopt});
+  };
+  row("RRT, 140 discs and 70 polygons, first path", rrt, 0.5);
+  row("D-RRT*, 140 discs and 70 polygons, first path", drrt, std::nullopt);
+  return rows;
+}
 
+/// The same map: how fast a tree grows that goes on after its first path.
+std::vector<BenchRow> tree_growth(bool quick, const Stop& stop) {
+  Rng rng(1, Purpose::scene);
+  const Snapshot world = scenes::cluttered(rng).snapshot();
+  constexpr double clearance = 10;
+  const Query q = far_pairs(world, clearance, 1, rng).at(0);
+  std::vector<BenchRow> rows;
   RrtStarParams grow;
   grow.clearance = clearance;
   grow.stop_at_first = false;
@@ -131,12 +162,17 @@ std::vector<BenchRow> clutter(bool quick, const Stop& stop) {
   for (int k = 0; k < (quick ? 3 : 9) && !stop(); ++k) {
     Rng stream(1, Purpose::planner, static_cast<std::uint32_t>(k));
     const auto began = Clock::now();
-    const Plan made = plan(world, start, goal, grow, stream);
+    const Plan made = plan(world, q.start, q.goal, grow, stream);
     rate.push_back(static_cast<double>(made.tree.size()) / seconds_since(began));
   }
-  OmplQuery long_query = query;
-  long_query.first_solution = false;
-  long_query.most_seconds = quick ? 2 : 4;
+  const OmplQuery long_query{.world = world,
+                             .start = q.start.position,
+                             .goal = q.goal,
+                             .clearance = clearance,
+                             .goal_tolerance = grow.goal_tolerance,
+                             .range = grow.step,
+                             .most_seconds = quick ? 2.0 : 4.0,
+                             .first_solution = false};
   const OmplResult star = run_ompl(OmplPlanner::rrt_star, long_query);
   rows.push_back(
       {.name = "RRT*, growing to 20,000 vertices",
@@ -204,8 +240,8 @@ std::vector<BenchRow> queries(bool quick) {
 std::vector<BenchRow> planning(const std::filesystem::path& scenarios, bool quick,
                                const Stop& stop) {
   std::vector<BenchRow> rows = queries(quick);
-  for (auto&& more : {clutter(quick, stop), s_channel(scenarios, quick, stop),
-                      replanning(scenarios, quick, stop)})
+  for (auto&& more : {clutter(quick, stop), tree_growth(quick, stop),
+                      s_channel(scenarios, quick, stop), replanning(scenarios, quick, stop)})
     rows.insert(rows.end(), more.begin(), more.end());
   return rows;
 }
