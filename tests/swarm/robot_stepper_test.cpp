@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/swarm/robot_stepper.hpp"
+
+#include <gtest/gtest.h>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/core/rng.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr std::array rules{ContactRule::slide, ContactRule::stop, ContactRule::reject};
+
+Polygon box(double x0, double y0, double x1, double y1) {
+  return {{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, {}};
+}
+
+/// Walls of half a µm, needles down to 0.01 µm and discs, crossing each other.
+Map thin_and_sharp() {
+  Rng rng(5, Purpose::scene);
+  std::vector<Polygon> walls;
+  std::vector<Disc> discs;
+  const auto place = [&] {
+    const double x = rng.uniform(0, 1000);
+    return Vec2{x, rng.uniform(0, 1000)};
+  };
+  for (int i = 0; i < 40; ++i) {
+    const Vec2 p = place();
+    const Vec2 along = unit_vector(rng.uniform(0, 2 * pi));
+    const Vec2 across{-along.y, along.x};
+    const Vec2 end = p + rng.uniform(20, 200) * along;
+    walls.push_back({{p, end, end + 0.5 * across, p + 0.5 * across}, {}});
+    const Vec2 q = place();
+    walls.push_back({{q, q + rng.uniform(20, 150) * along, q + rng.uniform(0.01, 5) * across}, {}});
+    if (i % 2 == 0) discs.push_back({place(), rng.uniform(1, 30)});
+  }
+  return {{{0, 0}, {1000, 1000}}, walls, discs};
+}
+
+/// Squares as of pixels: many touch in corners only.
+Map chequered() {
+  Rng rng(6, Purpose::scene);
+  std::vector<Polygon> walls;
+  for (int i = 0; i < 10; ++i)
+    for (int j = 0; j < 10; ++j)
+      if (rng.below(2) == 0) walls.push_back(box(10 * i, 10 * j, 10 * i + 10, 10 * j + 10));
+  return {{{0, 0}, {100, 100}}, walls};
+}
+
+/// The T-junction of [gather].
+Map t_junction() { return {{{0, 50}, {100, 100}}, {box(0, 50, 45, 90), box(55, 50, 100, 90)}}; }
+
+struct Case {
+  const char* name;
+  Map map;
+  double reach;
+};
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  all.push_back({"thin and sharp", thin_and_sharp(), 5});
+  all.push_back({"chequered", chequered(), 1});
+  all.push_back({"T-junction", t_junction(), 1});
+  return all;
+}
+
+std::vector<Vec2> free_places(const Map& map, double clearance, int count, Rng& rng) {
+  std::vector<Vec2> places;
+  const Box& b = map.bounds();
+  for (int draw = 0; draw < 1000 * count && std::ssize(places) < count; ++draw) {
+    const double x = rng.uniform(b.lo.x, b.hi.x);
+    const Vec2 p{x, rng.uniform(b.lo.y, b.hi.y)};
+    if (map.is_free(p, clearance)) places.push_back(p);
+  }
+  return places;
+}
+
+TEST(RobotStepper, NoRobotEverLeavesFreeSpace) {
+  for (const Case& c : cases()) {
+    const RobotStepper stepper(c.map, c.reach);
+    for (const ContactRule rule : rules) {
+      Rng rng(7, Purpose::scene);
+      Robots robots = stepper.place(free_places(c.map, 4 * stepper.guard(), 203, rng));
+      double heading = 0;
+      for (int k = 0; k < 600; ++k) {
+        if (k % 20 == 0) heading = rng.uniform(0, 2 * pi);
+        // Headings along the walls and along diagonals too; pieces and long moves too.
+        if (k % 60 == 0) heading = pi / 4 * rng.below(8);
+        const double length = c.reach * (k % 7 == 0 ? rng.uniform(0, 4) : 1);
+        std::vector<Vec2> before;
+        for (std::size_t i = 0; i < robots.size(); ++i) before.push_back(robots.position(i));
+        stepper.step(robots, length * unit_vector(heading), rule);
+        for (std::size_t i = 0; i < robots.size(); ++i) {
+          const Vec2 p = robots.position(i);
+          ASSERT_TRUE(c.map.is_free(p, 0.5 * stepper.guard()))
+              << c.name << " robot " << i << " step " << k << " at " << p.x << ' ' << p.y;
+          if (rule != ContactRule::slide) {
+            ASSERT_TRUE(c.map.is_free(Segment{before[i], p}, 0));
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(RobotStepper, LanesGiveTheBitsOfThePlainForm) {
+  for (const Case& c : cases()) {
+    const RobotStepper stepper(c.map, c.reach);
+    for (const ContactRule rule : rules) {
+      Rng rng(8, Purpose::scene);
+      Robots robots = stepper.place(free_places(c.map, 4 * stepper.guard(), 61, rng));
+      Robots plain = robots;
+      for (int k = 0; k < 300; ++k) {
+        const Vec2 move = c.reach * rng.uniform(0, 1.5) * unit_vector(rng.uniform(0, 2 * pi));
+        const PointF m{static_cast<float>(move.x), static_cast<float>(move.y)};
+        stepper.step(robots, move, rule);
+        for (std::size_t i = 0; i < plain.size(); ++i) {
+          const PointF p = stepper.moved({plain.x[i], plain.y[i]}, m, rule);
+          plain.x[i] = p.x;
+          plain.y[i] = p.y;
+        }
+        ASSERT_EQ(robots.x, plain.x) << c.name;
+        ASSERT_EQ(robots.y, plain.y) << c.name;
+      }
+    }
+  }
+}
+
+// In double precision: the whole move where it is free, else up to about the first wall.
+TEST(RobotStepper, StopsWhereTheExactMapSaysSo) {
+  for (const Case& c : cases()) {
+    const RobotStepper stepper(c.map, c.reach);
+    const double guard = stepper.guard();
+    Rng rng(9, Purpose::scene);
+    for (const Vec2 p : free_places(c.map, 4 * guard, 3000, rng)) {
+      const Vec2 move = c.reach * unit_vector(rng.uniform(0, 2 * pi));
+      const PointF q = stepper.moved(stepper.relative(p),
+                                     {static_cast<float>(move.x), static_cast<float>(move.y)},
+                                     ContactRule::stop);
+      const Vec2 end = c.map.bounds().centre() + Vec2{q.x, q.y};
+      const double way = distance(p, end);
+      ASSERT_LT(distance(end, p + (way / norm(move)) * move), 0.5 * guard);
+      // Discs are taken a little larger than they are.
+      const double slack = 3 * guard + 0.04;
+      if (c.map.is_free(Segment{p, p + move}, slack)) {
+        EXPECT_NEAR(way, norm(move), 0.5 * guard) << c.name;
+      }
+      if (!c.map.is_free(Segment{p, p + move}, 0)) {
+        EXPECT_LT(way, norm(move));
+        EXPECT_LT(c.map.clearance(Segment{p, p + move}, 1), slack);
+        EXPECT_FALSE(c.map.is_free(Segment{end, p + move}, 0));
+      }
+    }
+  }
+}
+
+Vec2 moved(const RobotStepper& stepper, const Map& map, Vec2 p, Vec2 move, ContactRule rule) {
+  const PointF q = stepper.moved(stepper.relative(p),
+                                 {static_cast<float>(move.x), static_cast<float>(move.y)}, rule);
+  return map.bounds().centre() + Vec2{q.x, q.y};
+}
+
+TEST(RobotStepper, SlidesAlongTheWallAndIsHeldInACorner) {
+  const Map map({{0, 0}, {100, 100}}, {box(40, 0, 60, 50)});
+  const RobotStepper stepper(map, 5);
+  const double near = 3 * stepper.guard();
+  const auto slide = [&](Vec2 p, Vec2 move) {
+    return moved(stepper, map, p, move, ContactRule::slide);
+  };
+  EXPECT_LT(distance(slide({10, 2}, {3, -4}), Vec2{13, 0}), near);
+  EXPECT_LT(distance(slide({39, 1}, {3, -4}), Vec2{40, 0}), near);    // from wall to wall
+  EXPECT_LT(distance(slide({1, 1}, {-3, -3}), Vec2{0, 0}), near);     // into the corner
+  EXPECT_LT(distance(slide({39, 48}, {3, 4}), Vec2{40, 52}), near);   // past the end of the wall
+  EXPECT_LT(distance(slide({10, 2}, {60, -4}), Vec2{40, 0}), near);   // a long move, in pieces
+  EXPECT_LT(distance(slide({50, 51}, {0, -4}), Vec2{50, 50}), near);  // square on
+}
+
+TEST(RobotStepper, StopsOrDoesNotMove) {
+  const Map map({{0, 0}, {100, 100}}, {box(40, 0, 60, 50)});
+  const RobotStepper stepper(map, 5);
+  const double near = 3 * stepper.guard();
+  EXPECT_LT(distance(moved(stepper, map, {10, 2}, {3, -4}, ContactRule::stop), Vec2{11.5, 0}),
+            near);
+  EXPECT_EQ(moved(stepper, map, {10, 2}, {3, -4}, ContactRule::reject), (Vec2{10, 2}));
+  EXPECT_EQ(moved(stepper, map, {10, 20}, {90, 0}, ContactRule::reject), (Vec2{10, 20}));
+  EXPECT_LT(distance(moved(stepper, map, {10, 20}, {90, 0}, ContactRule::stop), Vec2{40, 20}),
+            near);
+  EXPECT_EQ(moved(stepper, map, {10, 20}, {0, 0}, ContactRule::slide), (Vec2{10, 20}));
+}
+
+}  // namespace
+}  // namespace microswarm
