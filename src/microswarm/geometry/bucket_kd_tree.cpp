@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/geometry/bucket_kd_tree.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "microswarm/geometry/bucket_kd_tree.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h.
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace microswarm {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+class NearestSearch {
+ public:
+  NearestSearch(const BucketKdTree::View& tree, const float* point) : tree_(tree), point_(point) {}
+
+  std::uint32_t run() {
+    visit(0, 0);
+    return best_;
+  }
+
+ private:
+  using Tag = hn::CappedTag<float, BucketKdTree::Row::size>;
+  using V = hn::Vec<Tag>;
+
+  // `bound` is about the least square of a distance from the point into the node's cell, `beside_`
+  // how far the point lies beside it in each dimension.
+  void visit(std::uint32_t index, double bound) {
+    const BucketKdTree::Node node = tree_.nodes[index];
+    if (node.axis == tree_.dimension) return look_through(node.child);
+    const float beside = point_[node.axis] - node.split;
+    const std::uint32_t near = beside < 0 ? 0 : 1;
+    visit(node.child + near, bound);
+    const double before = beside_[node.axis];
+    const double after = beside;
+    const double other = bound - before * before + after * after;
+    if (is_too_far(other)) return;
+    beside_[node.axis] = after;
+    visit(node.child + 1 - near, other);
+    beside_[node.axis] = before;
+  }
+
+  /// With room for the rounding of both squares.
+  bool is_too_far(double square) const { return square * (1 - 1e-5) > least_; }
+
+  void look_through(std::uint32_t index) {
+    for (; index != BucketKdTree::none; index = tree_.buckets[index].next) {
+      const BucketKdTree::Bucket& bucket = tree_.buckets[index];
+      if (is_too_far(square_to_box(bucket))) return;
+      scan(bucket, tree_.rows + index * tree_.dimension * rows_a_line);
+    }
+  }
+
+  double square_to_box(const BucketKdTree::Bucket& bucket) const {
+    const hn::CappedTag<float, 4> d;
+    auto sum = hn::Zero(d);
+    for (std::size_t k = 0; k < tree_.dimension; k += hn::Lanes(d)) {
+      const auto p = hn::LoadU(d, point_ + k);
+      const auto below = hn::Sub(hn::LoadU(d, bucket.low.data() + k), p);
+      const auto above = hn::Sub(p, hn::LoadU(d, bucket.high.data() + k));
+      const auto out = hn::Max(hn::Max(below, above), hn::Zero(d));
+      sum = hn::Add(sum, hn::Mul(out, out));
+    }
+    return hn::GetLane(hn::SumOfLanes(d, sum));
+  }
+
+  void scan(const BucketKdTree::Bucket& bucket, const BucketKdTree::Row* rows) {
+    const Tag d;
+    const std::size_t lanes = hn::Lanes(d);
+    HWY_ALIGN float squares[BucketKdTree::bucket_size];
+    V least = hn::Set(d, std::numeric_limits<float>::infinity());
+    const float* x = rows->x.data();
+    for (std::size_t i = 0; i < bucket.count; i += 2 * lanes) {
+      V a = hn::Zero(d), b = hn::Zero(d);
+      for (std::size_t axis = 0; axis < tree_.dimension; ++axis) {
+        const V p = hn::Set(d, point_[axis]);
+        const float* line = x + axis * BucketKdTree::bucket_size + i;
+        const V da = hn::Sub(hn::Load(d, line), p);
+        const V db = hn::Sub(hn::Load(d, line + lanes), p);
+        a = hn::Add(a, hn::Mul(da, da));
+        b = hn::Add(b, hn::Mul(db, db));
+      }
+      hn::Store(a, d, squares + i);
+      hn::Store(b, d, squares + i + lanes);
+      least = hn::Min(least, hn::Min(a, b));
+    }
+    const float least_here = hn::GetLane(hn::MinOfLanes(d, least));
+    if (least_here > least_) return;
+    const auto at = std::find(squares, squares + bucket.count, least_here) - squares;
+    const std::uint32_t point = bucket.points[static_cast<std::size_t>(at)];
+    if (least_here < least_ || point < best_) best_ = point;
+    least_ = least_here;
+  }
+
+  static constexpr std::size_t rows_a_line = BucketKdTree::bucket_size / BucketKdTree::Row::size;
+
+  const BucketKdTree::View& tree_;
+  const float* point_;
+  std::array<double, BucketKdTree::most_dimensions> beside_{};
+  float least_ = std::numeric_limits<float>::infinity();
+  std::uint32_t best_ = BucketKdTree::none;
+};
+
+std::uint32_t Nearest(const BucketKdTree::View& tree, const float* point) {
+  return NearestSearch(tree, point).run();
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace microswarm
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace microswarm {
+
+HWY_EXPORT(Nearest);
+
+namespace {
+
+/// Of unused lanes: farther than any point, and its square is finite.
+constexpr float far_away = 1e18f;
+/// A deeper tree is built anew, unless it was not long ago.
+constexpr int deepest = 48;
+
+}  // namespace
+
+BucketKdTree::BucketKdTree(std::size_t dimension) : dimension_(dimension) {
+  assert(dimension >= 1 && dimension <= most_dimensions);
+  nodes_.push_back({0, static_cast<std::uint32_t>(dimension_), new_bucket()});
+}
+
+std::uint32_t BucketKdTree::nearest(std::span<const float> point) const {
+  assert(size_ > 0 && point.size() == dimension_);
+  std::array<float, most_dimensions> padded{};
+  std::copy(point.begin(), point.end(), padded.begin());
+  return HWY_DYNAMIC_DISPATCH(Nearest)(view(), padded.data());
+}
+
+std::size_t BucketKdTree::bytes() const {
+  return nodes_.capacity() * sizeof(Node) + buckets_.capacity() * sizeof(Bucket) +
+         rows_.capacity() * sizeof(Row);
+}
+
+std::uint32_t BucketKdTree::new_bucket() {
+  buckets_.emplace_back();
+  rows_.resize(rows_.size() + dimension_ * rows_a_line);
+  const auto bucket = static_cast<std::uint32_t>(buckets_.size() - 1);
+  clear(bucket);
+  return bucket;
+}
+
+void BucketKdTree::clear(std::uint32_t index) {
+  Bucket& bucket = buckets_[index];
+  bucket.count = 0;
+  bucket.next = none;
+  bucket.low.fill(0);
+  bucket.high.fill(0);
+  std::fill_n(bucket.low.begin(), dimension_, far_away);
+  std::fill_n(bucket.high.begin(), dimension_, -far_away);
+  std::fill_n(line(index, 0), dimension_ * bucket_size, far_away);
+}
+
+void BucketKdTree::append(std::uint32_t index, const float* point, std::uint32_t number) {
+  Bucket& bucket = buckets_[index];
+  for (std::size_t axis = 0; axis < dimension_; ++axis) {
+    line(index, axis)[bucket.count] = point[axis];
+    bucket.low[axis] = std::min(bucket.low[axis], point[axis]);
+    bucket.high[axis] = std::max(bucket.high[axis], point[axis]);
+  }
+  bucket.points[bucket.count++] = number;
+}
+
+void BucketKdTree::add(std::span<const float> point) {
+  assert(point.size() == dimension_ && size_ < none);
+  assert(std::ranges::all_of(point, [](float x) { return std::abs(x) < 1e17f; }));
+  const auto number = static_cast<std::uint32_t>(size_++);
+  std::uint32_t node = 0;
+  for (int depth = 0;; ++depth) {
+    while (nodes_[node].axis != dimension_) {
+      const Node& n = nodes_[node];
+      node = n.child + (point[n.axis] < n.split ? 0 : 1);
+      ++depth;
+    }
+    const std::uint32_t bucket = nodes_[node].child;
+    if (buckets_[bucket].count < bucket_size) return append(bucket, point.data(), number);
+    if (depth >= deepest && size_ - 1 > size_at_rebuild_ + size_at_rebuild_ / 8) {
+      rebuild();
+      node = 0;
+      depth = 0;
+      continue;
+    }
+    if (!split(node)) spill(bucket);
+  }
+}
+
+/// Puts the points of a full bucket, all in the same place, behind it.
+void BucketKdTree::spill(std::uint32_t index) {
+  const std::uint32_t more = new_bucket();
+  std::copy_n(line(index, 0), dimension_ * bucket_size, line(more, 0));
+  buckets_[more] = buckets_[index];
+  buckets_[index].count = 0;
+  buckets_[index].next = more;
+}
+
+/// Halves a full bucket; not when all its points are in the same place.
+bool BucketKdTree::split(std::uint32_t node) {
+  const std::uint32_t full = nodes_[node].child;
+  const std::size_t axis = widest_axis(full);
+  if (!(buckets_[full].low[axis] < buckets_[full].high[axis])) return false;
+  const std::uint32_t behind = buckets_[full].next;
+  std::vector<float> values(line(full, axis), line(full, axis) + bucket_size);
+  if (behind != none) values.push_back(line(behind, axis)[0]);
+  std::ranges::sort(values);
+  float middle = values[values.size() / 2];
+  if (middle == values[0]) middle = *std::ranges::upper_bound(values, middle);
+
+  const Bucket old = buckets_[full];
+  const std::vector<float> points(line(full, 0), line(full, 0) + dimension_ * bucket_size);
+  const std::array<std::uint32_t, 2> halves{full, new_bucket()};
+  clear(full);
+  const auto child = static_cast<std::uint32_t>(nodes_.size());
+  for (const std::uint32_t half : halves)
+    nodes_.push_back({0, static_cast<std::uint32_t>(dimension_), half});
+  nodes_[node] = {middle, static_cast<std::uint32_t>(axis), child};
+  std::array<float, most_dimensions> point;
+  for (std::size_t i = 0; i < bucket_size; ++i) {
+    for (std::size_t k = 0; k < dimension_; ++k) point[k] = points[k * bucket_size + i];
+    append(halves[point[axis] < middle ? 0 : 1], point.data(), old.points[i]);
+  }
+  if (behind != none) {
+    Bucket& half = buckets_[halves[line(behind, axis)[0] < middle ? 0 : 1]];
+    half.next = behind;
+    include(half, buckets_[behind]);
+  }
+  return true;
+}
+
+void BucketKdTree::include(Bucket& bucket, const Bucket& other) const {
+  for (std::size_t k = 0; k < dimension_; ++k) {
+    bucket.low[k] = std::min(bucket.low[k], other.low[k]);
+    bucket.high[k] = std::max(bucket.high[k], other.high[k]);
+  }
+}
+
+std::size_t BucketKdTree::widest_axis(std::uint32_t index) const {
+  const Bucket& bucket = buckets_[index];
+  std::size_t widest = 0;
+  for (std::size_t k = 1; k < dimension_; ++k)
+    if (bucket.high[k] - bucket.low[k] > bucket.high[widest] - bucket.low[widest]) widest = k;
+  return widest;
+}
+
+void BucketKdTree::rebuild() {
+  std::vector<float> all(dimension_ * size_);
+  for (std::uint32_t b = 0; b < buckets_.size(); ++b)
+    for (std::uint32_t i = 0; i < buckets_[b].count; ++i)
+      for (std::size_t k = 0; k < dimension_; ++k)
+        all[dimension_ * buckets_[b].points[i] + k] = line(b, k)[i];
+  std::vector<std::uint32_t> points(size_ - 1);
+  std::iota(points.begin(), points.end(), 0u);
+  nodes_.clear();
+  buckets_.clear();
+  rows_.clear();
+  nodes_.emplace_back();
+  build(0, points, all);
+  size_at_rebuild_ = size_;
+}
+
+/// A balanced tree of these points below `node`.
+void BucketKdTree::build(std::uint32_t node, std::span<std::uint32_t> points,
+                         const std::vector<float>& all) {
+  const auto at = [&](std::uint32_t point, std::size_t k) { return all[dimension_ * point + k]; };
+  std::size_t axis = 0;
+  float widest = 0;
+  for (std::size_t k = 0; k < dimension_; ++k) {
+    const auto [low, high] =
+        std::ranges::minmax(points, {}, [&](std::uint32_t point) { return at(point, k); });
+    const float width = at(high, k) - at(low, k);
+    if (width > widest) {
+      widest = width;
+      axis = k;
+    }
+  }
+  if (points.size() <= bucket_size - bucket_size / 4 || widest == 0) {
+    std::ranges::sort(points);
+    nodes_[node] = {0, static_cast<std::uint32_t>(dimension_), new_bucket()};
+    for (const std::uint32_t point : points) {
+      if (buckets_[nodes_[node].child].count == bucket_size) spill(nodes_[node].child);
+      append(nodes_[node].child, &all[dimension_ * point], point);
+    }
+    return;
+  }
+  const auto less = [&](std::uint32_t a, std::uint32_t b) { return at(a, axis) < at(b, axis); };
+  const auto half = points.begin() + static_cast<std::ptrdiff_t>(points.size() / 2);
+  std::ranges::nth_element(points, half, less);
+  float middle = at(*half, axis);
+  const auto is_left = [&](std::uint32_t point) { return at(point, axis) < middle; };
+  auto left = std::ranges::partition(points, is_left).begin();
+  if (left == points.begin()) {
+    middle = std::nextafter(middle, far_away);
+    left = std::ranges::partition(points, is_left).begin();
+  }
+  const auto child = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.resize(nodes_.size() + 2);
+  nodes_[node] = {middle, static_cast<std::uint32_t>(axis), child};
+  build(child, {points.begin(), left}, all);
+  build(child + 1, {left, points.end()}, all);
+}
+
+}  // namespace microswarm
+#endif
