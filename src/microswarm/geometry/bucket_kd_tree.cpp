@@ -303,10 +303,10 @@ void BucketKdTree::build(std::uint32_t node, std::span<std::uint32_t> points,
   std::ranges::nth_element(points, half, less);
   float middle = at(*half, axis);
   const auto is_left = [&](std::uint32_t point) { return at(point, axis) < middle; };
-  auto left = std::ranges::partition(points, is_left).begin();
+  auto left = std::partition(points.begin(), points.end(), is_left);
   if (left == points.begin()) {
     middle = std::nextafter(middle, far_away);
-    left = std::ranges::partition(points, is_left).begin();
+    left = std::partition(points.begin(), points.end(), is_left);
   }
   const auto child = static_cast<std::uint32_t>(nodes_.size());
   nodes_.resize(nodes_.size() + 2);
