@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing
 
   CLI::App app{"Plans, steers, gathers and measures magnetic microrobot swarms.", "microswarm"};
   app.set_version_flag("--version", std::string(version), "Print the version and exit");

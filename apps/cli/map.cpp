@@ -88,8 +88,10 @@ int check(const Options& o, double resolution) {
     print(" (it is one room)\n");
   else
     print(", at ({:.0f}, {:.0f}) µm\n", r.passages[0].place.x, r.passages[0].place.y);
-  print("a swarm of up to {:.1f} µm radius passes everywhere, up to {:.1f} µm fits somewhere\n",
-        0.5 * r.narrowest_passage, 0.5 * r.widest);
+  print(
+      "a swarm of up to {:.1f} µm radius gets from room to room there (ends that taper off are no "
+      "rooms), up to {:.1f} µm fits somewhere\n",
+      0.5 * r.narrowest_passage, 0.5 * r.widest);
   return ok;
 }
 
@@ -112,16 +114,27 @@ struct SegmentOptions {
 std::string share(const std::optional<double>& v) { return v ? fmt::format("{:.3f}", *v) : "–"; }
 Json json_share(const std::optional<double>& v) { return v ? Json(*v) : Json(nullptr); }
 
+/// The observer's mask, nothing without a file.
+std::optional<Mask> read_truth(const std::string& file, const Image& photo) {
+  if (file.empty()) return std::nullopt;
+  Mask mask = threshold(read_image(file), 128, false);
+  if (mask.width != photo.width || mask.height != photo.height)
+    throw InputError(fmt::format("{}: {}x{} pixels, the photograph has {}x{}", file, mask.width,
+                                 mask.height, photo.width, photo.height));
+  return mask;
+}
+
 int segment(const SegmentOptions& o) {
   VesselParams params;
   for (const std::string& s : o.settings) set_value(params, s);
   const Image photo = read_image(o.photo);
   if (!o.um_per_px) throw InputError(o.photo + ": µm per px is missing: give --um-per-px");
+  const std::optional<Mask> truth = read_truth(o.truth, photo);
   const double cell = *o.um_per_px;
   const VesselSegmentation found = segment_vessels(photo, params);
   if (found.kept_share == 0) throw InputError(o.photo + ": no vessels found");
   const Map map(cell_bounds(found.vessels, cell),
-                outline(complement(found.vessels), cell, o.smooth * cell));
+                walls_around(found.vessels, cell, o.smooth * cell));
   const std::filesystem::path out = o.out;
   std::filesystem::path picture = out;
   picture.replace_filename(out.stem().string() + "-overlay.png");
@@ -142,9 +155,8 @@ int segment(const SegmentOptions& o) {
       "pieces\n",
       100 * found.view_share, found.wide_width_px * cell, found.bridges, 100 * found.kept_share,
       found.pieces);
-  if (!o.truth.empty()) {
-    const Mask truth = threshold(read_image(o.truth), 128, false);
-    const Agreement a = compare(truth, found.vessels, &found.field_of_view);
+  if (truth) {
+    const Agreement a = compare(*truth, found.vessels, &found.field_of_view);
     json["sensitivity"] = json_share(a.sensitivity());
     json["specificity"] = json_share(a.specificity());
     json["dice"] = json_share(a.dice());

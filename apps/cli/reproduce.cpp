@@ -18,8 +18,8 @@ int reproduce_command(const std::string& key, ReproduceOptions options, bool jso
     throw InputError(fmt::format("reproduce: unknown paper '{}', there is: drrt", paper));
   if (!options.out.empty()) make_folder(options.out);
   const std::vector<ReproduceRow> rows = reproduce_drrt(figure, options, context.stop);
-  if (options.quick && !json)
-    print("quick: {} seeds instead of {}\n", options.seed_count(), full_seeds);
+  if (options.quick)
+    fmt::print(stderr, "quick: {} seeds instead of {}\n", options.seed_count(), full_seeds);
   put(json ? rows_json(rows) : rows_table(rows) + aims_met(rows));
   if (context.stop.requested()) return not_reached;
   return all_ok(rows) ? ok : not_reached;

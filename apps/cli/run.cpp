@@ -47,7 +47,7 @@ std::string_view ending(Status status) {
     case Status::time_limit:
       return "time limit";
     case Status::held:
-      return "held, as nothing was safe,";
+      return "held: nothing was safe, or nothing was seen,";
     case Status::collided:
       return "touched a wall or an obstacle";
     default:

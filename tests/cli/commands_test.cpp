@@ -105,7 +105,7 @@ TEST_F(Commands, ReproduceRows) {
     all_ok = all_ok && row.at("ok");
   }
   EXPECT_EQ(outcome.code, all_ok ? 0 : 3);
-  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(outcome.err, "quick: 50 seeds instead of 100\n");
 }
 
 TEST_F(Commands, SchemaIsJson) {

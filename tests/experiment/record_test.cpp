@@ -32,7 +32,7 @@ TEST(Record, AStraightFlightIsTheSameBitsInEveryBuild) {
   Recorder recorder(scene);
   RunListener* const listeners[] = {&recorder};
   run(scenario, plant, navigator, listeners);
-  EXPECT_EQ(recorder.record().hash(), "89327c8f302a3f57");
+  EXPECT_EQ(recorder.record().hash(), "e2b410055580f721");
 }
 
 TEST(Record, TheSmallFlightArrives) { EXPECT_EQ(flight().result.status, Status::solved); }

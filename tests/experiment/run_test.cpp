@@ -81,6 +81,27 @@ TEST(Run, CountsTouchesAndGoesOnWhenToldTo) {
   EXPECT_EQ(told.result.metrics.obstacles.clearance, 0);
 }
 
+TEST(Run, ATouchIsToldHoweverTheRunEnds) {
+  Scenario scenario = open_room();
+  scenario.stop_at_contact = false;
+  scenario.time_limit = 20;
+  scenario.obstacles = {disc(30, Straight{.start = {600, 500}, .velocity = {-50, 0}})};
+  Steady navigator({0, 0});
+  const Told told = run_with(scenario, navigator);
+  EXPECT_EQ(told.result.status, Status::collided);
+  EXPECT_NEAR(told.result.metrics.time, 20, 1e-9);
+}
+
+TEST(Run, NothingThatComesAfterTheLastTouchCounts) {
+  Scenario scenario = open_room();
+  scenario.tick = 10;  // the touch is in the middle of a tick
+  scenario.obstacles = {disc(30, Straight{.start = {600, 500}, .velocity = {-50, 0}})};
+  Steady navigator({0, 0});
+  const Told told = run_with(scenario, navigator);
+  EXPECT_EQ(told.result.status, Status::collided);
+  EXPECT_NEAR(told.result.metrics.obstacles.clearance, scenario.swarm.radius, 0.1);
+}
+
 TEST(Run, ATouchWhileHoldingIsNotTheSwarmsFault) {
   Scenario scenario = open_room();
   scenario.obstacles = {disc(30, Straight{.start = {600, 500}, .velocity = {-50, 0}})};

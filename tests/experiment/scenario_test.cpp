@@ -117,6 +117,18 @@ TEST(ScenarioCheck, GoalCutOff) {
   Scenario scenario = open_room();
   std::get<PolygonsMap>(scenario.map).walls = {bar(1000, 0, 20, 1000).outer};
   EXPECT_EQ(check_error(scenario), "s.yaml: goal is cut off from the start by walls");
+  // For a swarm thinner than the search for ways can see, too.
+  scenario.swarm.radius = 0.5;
+  std::get<HierarchicalParams>(scenario.navigator).margin = 1;
+  EXPECT_EQ(check_error(scenario), "s.yaml: goal is cut off from the start by walls");
+}
+
+TEST(ScenarioCheck, FramesThatAreAlwaysTooOld) {
+  Scenario scenario = open_room();
+  scenario.sensing.observation_delay = 1;
+  EXPECT_EQ(check_error(scenario),
+            "s.yaml: sensing.observation_delay_s is 1, more than navigator.frame_timeout_s, 0.5: "
+            "every frame would be too old");
 }
 
 TEST(ScenarioCheck, SwarmWiderThanEveryPassage) {

@@ -85,7 +85,7 @@ TEST(RobotStepper, NoRobotEverLeavesFreeSpace) {
       for (int k = 0; k < 600; ++k) {
         if (k % 20 == 0) heading = rng.uniform(0, 2 * pi);
         // Headings along the walls and along diagonals too; pieces and long moves too.
-        if (k % 60 == 0) heading = pi / 4 * rng.below(8);
+        if (k % 60 == 0) heading = pi / 4 * static_cast<double>(rng.below(8));
         const double length = c.reach * (k % 7 == 0 ? rng.uniform(0, 4) : 1);
         std::vector<Vec2> before;
         for (std::size_t i = 0; i < robots.size(); ++i) before.push_back(robots.position(i));

@@ -11,6 +11,7 @@
 #include "microswarm/vision/agreement.hpp"
 #include "microswarm/vision/outline.hpp"
 #include "microswarm/vision/overlay.hpp"
+#include "microswarm/world/passage.hpp"
 
 namespace microswarm {
 namespace {
@@ -127,6 +128,17 @@ TEST(Vessels, RetinasAgreeWithTheirObservers) {
     EXPECT_GT(*ours.dice(), 0.65) << name;
     EXPECT_GT(*ours.specificity(), 0.95) << name;
   }
+}
+
+TEST(Outline, WallsReachTheBorderOfTheMap) {
+  Mask network(40, 30);
+  for (int column = 0; column < 30; ++column)
+    for (int row = 10; row < 16; ++row) network.at(column, row) = 1;
+  const Map map({{0, 0}, {240, 180}}, walls_around(network, 6, 6));
+  const MapReport report = check_map(map);
+  EXPECT_EQ(report.free_pieces, 1);
+  EXPECT_TRUE(map.is_free(Vec2{7, 100}, 0));
+  EXPECT_FALSE(map.is_free(Vec2{1, 1}, 0));
 }
 
 }  // namespace

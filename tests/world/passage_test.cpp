@@ -118,5 +118,15 @@ TEST(WidestPath, of_random_worlds_is_no_wider_than_the_ends_and_truly_free) {
   }
 }
 
+TEST(Connected, TellsRegionsApartWhateverTheResolution) {
+  const Map thin({{0, 0}, {1000, 1000}},
+                 {{{{500, 0}, {500.01, 0}, {500.01, 999.9}, {500, 999.9}}, {}}});
+  EXPECT_TRUE(connected(thin, {100, 100}, {900, 100}));
+  const Map closed({{0, 0}, {1000, 1000}},
+                   {{{{500, 0}, {500.01, 0}, {500.01, 1000}, {500, 1000}}, {}}});
+  EXPECT_FALSE(connected(closed, {100, 100}, {900, 100}));
+  EXPECT_TRUE(connected(closed, {100, 100}, {100, 900}));
+}
+
 }  // namespace
 }  // namespace microswarm

@@ -20,6 +20,7 @@ struct Record {
   std::vector<PathChange> paths;
   std::vector<PlanEvent> plans;
   std::vector<RunEvent> events;
+  std::string stated_hash;  ///< what the file it was read from says it is; empty for a new one
 
   /// Fingerprint of all that is physical: frames, paths, plans, events, status and metrics.
   std::string hash() const;

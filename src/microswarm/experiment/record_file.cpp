@@ -275,6 +275,7 @@ Record read_record(const std::filesystem::path& file) {
   visit_tables(record, TableReader{in});
   record.result.status = status_of(in, in.text_attribute("/", "status"));
   Metrics::fields(record.result.metrics, MetricsReader{in, ""});
+  record.stated_hash = in.text_attribute("/", "record_hash");
   record.result.timing = {in.numbers("/timing/step_s"), in.numbers("/timing/planning_s")};
   return record;
 }

@@ -142,6 +142,9 @@ ReplayResult replay(const Record& record, const Stop& stop) {
     difference = "status is " + std::string(to_string(record.result.status)) + " in the record, " +
                  std::string(to_string(now.result.status)) + " in the replay";
   if (difference.empty()) difference = difference_of(record.result.metrics, now.result.metrics);
+  if (difference.empty() && !record.stated_hash.empty() && record.stated_hash != record.hash())
+    difference = "record_hash is " + record.stated_hash + " in the record, " + record.hash() +
+                 " by what it holds";
   const bool identical = difference.empty();
   return {.identical = identical, .stopped = false, .difference = std::move(difference)};
 }

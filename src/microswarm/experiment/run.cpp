@@ -55,7 +55,8 @@ class Run {
     if (stop()) return Status::stopped;
 
     note_step(seen, command, took);
-    if (note_hold(command) >= scenario_.hold_limit - 1e-9) return Status::held;
+    const double held = note_hold(command);
+    if (held > 0 && held >= scenario_.hold_limit - 1e-9) return Status::held;
     plant_.apply(command, scenario_.tick);
     return watch_ ? follow(*plant_.truth()) : std::nullopt;
   }
@@ -72,6 +73,11 @@ class Run {
     result_.metrics.length += distance(present_.pose.position, next.pose.position);
     result_.metrics.turning += turn_between(present_.pose.heading, next.pose.heading);
     present_ = next;
+  }
+
+  /// The same along all of a way that began at t0.
+  void move_along(std::span<const TimedPose> way, double t0, double speed) {
+    for (const TimedPose& p : way) move_to({t0 + p.t, p.pose, speed});
   }
 
   void note_step(const Observation& seen, const Command& command, double took) {
@@ -102,16 +108,23 @@ class Run {
     std::vector<TimedPose> way(truth.swept.begin(), truth.swept.end());
     const auto arrival = first_arrival(way, scenario_.goal, scenario_.goal_tolerance);
     if (arrival) cut(way, *arrival);
-    for (const RunEvent& touch : watch_->follow(t0, way)) {
+    const Watch before = *watch_;
+    const std::vector<RunEvent> touches = watch_->follow(t0, way);
+    if (!touches.empty() && scenario_.stop_at_contact) {
+      cut(way, touches.front().t - t0);
+      *watch_ = before;  // what would have come after the touch is none of its clearances
+      watch_->follow(t0, way);
+    }
+    for (const RunEvent& touch : touches) {
       ++result_.metrics.contacts;
       result_.metrics.avoidable_contacts += touch.speed > 0;
       for (RunListener* listener : listeners_) listener->on_event(touch);
       if (!scenario_.stop_at_contact) continue;
-      move_to({touch.t, pose_on(way, touch.t - t0), touch.speed});
+      move_along(way, t0, touch.speed);
       return Status::collided;
     }
+    move_along(way, t0, truth.speed);
     if (!arrival) return std::nullopt;
-    move_to({t0 + *arrival, way.back().pose, truth.speed});
     return arrived();
   }
 
@@ -132,8 +145,8 @@ class Run {
       move_to(present(seen));
     Frame frame;
     frame.state = "end";
-    tell(frame, navigator_.view(), seen);
-    const bool touched = status == Status::solved && result_.metrics.contacts > 0;
+    tell(frame, {}, seen);
+    const bool touched = status != Status::stopped && result_.metrics.contacts > 0;
     result_.status = touched ? Status::collided : status;
     Metrics& metrics = result_.metrics;
     metrics.time = present_.t;

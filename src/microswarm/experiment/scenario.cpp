@@ -94,10 +94,10 @@ World build_world(const Scene& scene) {
 
 void check_way(const Map& map, Vec2 start, Vec2 goal, double radius, const std::string& where) {
   const WidestPath way = widest_path(map, start, goal, radius);
+  if (!way.found && !connected(map, start, goal))
+    throw InputError(fmt::format("{}: goal is cut off from the start by walls", where));
   // A way that the search may have missed for its resolution is not denied.
   if (way.clearance + 1.5 * way.resolution >= radius) return;
-  if (!way.found)
-    throw InputError(fmt::format("{}: goal is cut off from the start by walls", where));
   throw InputError(fmt::format(
       "{}: swarm is {:.4g} µm wide, wider than every passage to the goal: the widest is about "
       "{:.3g} µm, at ({:.4g}, {:.4g}) µm",
@@ -105,6 +105,17 @@ void check_way(const Map& map, Vec2 start, Vec2 goal, double radius, const std::
 }
 
 namespace {
+
+// A navigator that takes what it sees for too old holds for ever.
+void check_sensing(const Scenario& scenario, const std::string& where) {
+  const double timeout = frame_timeout_of(scenario.navigator);
+  const double delay = scenario.sensing.observation_delay;
+  if (delay <= timeout) return;
+  throw InputError(
+      fmt::format("{}: sensing.observation_delay_s is {:.4g}, more than navigator.frame_timeout_s, "
+                  "{:.4g}: every frame would be too old",
+                  where, delay, timeout));
+}
 
 // What the swarm fits through, its navigator may still refuse.
 void check_margin(const Scenario& scenario, const World& world, const std::string& where) {
@@ -118,6 +129,10 @@ void check_margin(const Scenario& scenario, const World& world, const std::strin
   // A start that is nearer to a wall is let go: the navigator leads away from there.
   const double needed = std::min(margin, world.map->clearance(scenario.start.position));
   if (way.clearance + 1.5 * way.resolution >= needed) return;
+  if (!way.found)
+    throw InputError(
+        fmt::format("{}: navigator.margin_um is {:.4g}, wider than the passages to the goal allow",
+                    where, margin));
   throw InputError(fmt::format(
       "{}: navigator.margin_um is {:.4g}, wider than the passages to the goal allow: about {:.3g} "
       "µm are left at ({:.4g}, {:.4g}) µm",
@@ -127,6 +142,7 @@ void check_margin(const Scenario& scenario, const World& world, const std::strin
 }  // namespace
 
 void check(const Scenario& scenario, const World& world, const std::string& where) {
+  check_sensing(scenario, where);
   const double radius = scenario.swarm.radius;
   if (const auto why = world.at(0).why_blocked(scenario.start.position, radius); !why.empty())
     throw InputError(fmt::format("{}: start {}", where, why));

@@ -7,6 +7,10 @@ double margin_of(const NavigatorParams& params) {
   return std::visit([](const auto& p) { return p.margin; }, params);
 }
 
+double frame_timeout_of(const NavigatorParams& params) {
+  return std::visit([](const auto& p) { return p.frame_timeout; }, params);
+}
+
 std::unique_ptr<Navigator> make_navigator(const NavigatorParams& params, const RibbonParams& swarm,
                                           Vec2 goal, double goal_tolerance, Rng rng) {
   return std::visit(

@@ -148,9 +148,12 @@ std::vector<Polygon> outline(const Mask& mask, double cell, double tolerance, Ve
   return polygons;
 }
 
-Mask complement(Mask mask) {
-  for (std::uint8_t& c : mask.cells) c = c == 0;
-  return mask;
+std::vector<Polygon> walls_around(const Mask& network, double cell, double tolerance, Vec2 lo) {
+  Mask walls(network.width + 2, network.height + 2);
+  for (int row = 0; row < walls.height; ++row)
+    for (int column = 0; column < walls.width; ++column)
+      walls.cells[walls.index(column, row)] = !is_set(network, {column - 1, row - 1});
+  return outline(walls, cell, tolerance, lo - Vec2{cell, cell});
 }
 
 }  // namespace microswarm

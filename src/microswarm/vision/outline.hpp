@@ -14,12 +14,12 @@ namespace microswarm {
 /// starts as the line through the middles of the cells' edges and ends within `tolerance` [µm] of
 /// it: half is spent on smoothing (at most half a cell), half on leaving out vertices. So a passage
 /// becomes at most twice the tolerance narrower or wider, and no ring ever touches itself or
-/// another, by exact tests of every step. The walls around a vessel network are the outline of
-/// `complement` of its mask. Throws InputError when `cell` is not above 0 or `tolerance` is below 0
+/// another, by exact tests of every step. Throws InputError when `cell` is not above 0 or `tolerance` is below 0
 /// or something is not finite.
 std::vector<Polygon> outline(const Mask& mask, double cell, double tolerance, Vec2 lo = {});
 
-/// The cells that are not set.
-Mask complement(Mask mask);
+/// The walls around a network of set cells: the outline of all other cells and of one more ring of
+/// cells around the mask, so that walls reach beyond its border.
+std::vector<Polygon> walls_around(const Mask& network, double cell, double tolerance, Vec2 lo = {});
 
 }  // namespace microswarm

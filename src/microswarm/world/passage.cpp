@@ -7,6 +7,7 @@
 #include <queue>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/geometry/predicates.hpp"
 #include "microswarm/world/clip.hpp"
 #include "microswarm/world/lattice.hpp"
 #include "microswarm/world/neck.hpp"
@@ -182,6 +183,15 @@ MapReport check_map(const Map& map, double cell) {
   report.narrowest_passage =
       report.passages.empty() ? report.widest : report.passages.front().width;
   return report;
+}
+
+bool connected(const Map& map, Vec2 a, Vec2 b) {
+  for (const Polygon& region : free_regions(map)) {
+    const bool holds_a = locate(region, a) != Side::outside;
+    const bool holds_b = locate(region, b) != Side::outside;
+    if (holds_a || holds_b) return holds_a && holds_b;
+  }
+  return false;
 }
 
 }  // namespace microswarm

@@ -41,6 +41,10 @@ struct MapReport {
 /// `cell` [µm] is the resolution; 0 chooses about 100,000 nodes.
 MapReport check_map(const Map& map, double cell = 0);
 
+/// Are two free points in the same connected region of the free space? Exact for polygons; a disc
+/// counts as above.
+bool connected(const Map& map, Vec2 a, Vec2 b);
+
 /// A way between two points that keeps as far from walls and border as possible.
 struct WidestPath {
   bool found = false;      ///< false: no way with a clearance above 0 at this resolution
