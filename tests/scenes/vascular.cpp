@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/scenes/vascular.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/world/clip.hpp"
+#include "tests/scenes/worlds.hpp"
+
+namespace microswarm::scenes {
+namespace {
+
+/// Nodes per µm² of free space, as in the T-junction.
+constexpr double nodes_per_area = 4000.0 / 1400;
+
+Polygon round(Disc disc) {
+  Polygon polygon;
+  constexpr int corners = 16;
+  for (int i = 0; i < corners; ++i) {
+    polygon.outer.push_back(disc.centre + disc.radius * unit_vector(2 * pi * i / corners));
+  }
+  return polygon;
+}
+
+Polygon channel(Disc a, Disc b) {
+  const Vec2 along = b.centre - a.centre;
+  const Vec2 side = perpendicular(along / norm(along));
+  return {{a.centre - a.radius * side, b.centre - b.radius * side, b.centre + b.radius * side,
+           a.centre + a.radius * side},
+          {}};
+}
+
+double free_area(const Vascular& v) {
+  double sum = v.bounds.width() * v.bounds.height();
+  for (const Polygon& wall : v.walls) sum -= area(wall);
+  return sum;
+}
+
+/// A place of the generator's grid.
+struct Place {
+  int column;
+  int row;
+};
+
+/// Grows the random network; the root, joint 0, keeps one channel only, so that it is a dead end.
+class Generator {
+ public:
+  Generator(const VascularShape& shape, Rng& rng) : shape_(shape), rng_(rng) {
+    columns_ = std::max(2, static_cast<int>(shape.width / shape.spacing));
+    rows_ = std::max(2, static_cast<int>(shape.height / shape.spacing));
+    graph_.bounds = {{0, 0}, {shape.width, shape.height}};
+    joint_at_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), absent);
+  }
+
+  ChannelGraph grow() {
+    const auto column = static_cast<int>(rng_.below(static_cast<std::uint64_t>(columns_)));
+    const auto row = static_cast<int>(rng_.below(static_cast<std::uint64_t>(rows_)));
+    open_joint({column, row}, 0);
+    // Any open channel may be the next, so that the tree spreads evenly.
+    while (!open_.empty()) {
+      const std::size_t pick = rng_.below(open_.size());
+      const auto [from, place] = open_[pick];
+      open_[pick] = open_.back();
+      open_.pop_back();
+      std::uint32_t& joint = at(place);
+      if (joint == absent) {
+        if (joints() > 2 && rng_.uniform() < shape_.missing) {
+          joint = left_out;
+        } else {
+          open_joint(place, from);
+        }
+      } else if (joint != left_out && joint != 0 && from != 0 && !is_joined(from, joint) &&
+                 rng_.uniform() < shape_.loops) {
+        graph_.channels.push_back({from, joint});
+      }
+    }
+    return std::move(graph_);
+  }
+
+ private:
+  static constexpr std::uint32_t absent = ~0u;
+  static constexpr std::uint32_t left_out = ~0u - 1;
+  struct Open {
+    std::uint32_t from;
+    Place to;
+  };
+
+  std::uint32_t joints() const { return static_cast<std::uint32_t>(graph_.joints.size()); }
+  std::uint32_t& at(Place p) {
+    return joint_at_[static_cast<std::size_t>(p.row) * static_cast<std::size_t>(columns_) +
+                     static_cast<std::size_t>(p.column)];
+  }
+  bool is_joined(std::uint32_t a, std::uint32_t b) const {
+    return std::any_of(graph_.channels.begin(), graph_.channels.end(), [&](const auto& c) {
+      return (c.first == a && c.second == b) || (c.first == b && c.second == a);
+    });
+  }
+
+  void open_joint(Place place, std::uint32_t from) {
+    const std::uint32_t joint = joints();
+    at(place) = joint;
+    const Vec2 cell{shape_.width / columns_, shape_.height / rows_};
+    const double dx = rng_.uniform(-shape_.wander, shape_.wander);
+    const double dy = rng_.uniform(-shape_.wander, shape_.wander);
+    const double half = rng_.uniform(shape_.least_half, shape_.most_half);
+    const Vec2 centre{(place.column + 0.5 + dx) * cell.x, (place.row + 0.5 + dy) * cell.y};
+    graph_.joints.push_back({centre, half});
+    if (joint != from) graph_.channels.push_back({from, joint});
+    const Place around[] = {{place.column + 1, place.row},
+                            {place.column - 1, place.row},
+                            {place.column, place.row + 1},
+                            {place.column, place.row - 1}};
+    std::vector<Open> open;
+    for (const Place p : around) {
+      if (p.column < 0 || p.row < 0 || p.column >= columns_ || p.row >= rows_) continue;
+      open.push_back({joint, p});
+    }
+    if (joint == 0) open = {open[rng_.below(open.size())]};
+    open_.insert(open_.end(), open.begin(), open.end());
+  }
+
+  const VascularShape& shape_;
+  Rng& rng_;
+  int columns_;
+  int rows_;
+  ChannelGraph graph_;
+  std::vector<std::uint32_t> joint_at_;
+  std::vector<Open> open_;
+};
+
+}  // namespace
+
+std::vector<Polygon> walls_of(const ChannelGraph& graph) {
+  std::vector<Polygon> channels;
+  for (const Disc& joint : graph.joints) channels.push_back(round(joint));
+  for (const auto& [a, b] : graph.channels) {
+    channels.push_back(channel(graph.joints[a], graph.joints[b]));
+  }
+  return difference(graph.bounds, channels);
+}
+
+Vascular t_junction() {
+  return {"t_junction",
+          {{0, 50}, {100, 100}},
+          {rectangle({{0, 50}, {45, 90}}), rectangle({{55, 50}, {100, 90}})},
+          {50, 53},
+          4000,
+          10};
+}
+
+Vascular vascular_network() {
+  ChannelGraph graph;
+  graph.bounds = {{0, 0}, {100, 90}};
+  constexpr double half = 4.5;
+  for (const Vec2 p : std::initializer_list<Vec2>{{93, 6},
+                                                  {93, 28},
+                                                  {70, 26},
+                                                  {72, 50},
+                                                  {93, 54},
+                                                  {93, 83},
+                                                  {68, 80},
+                                                  {48, 60},
+                                                  {46, 32},
+                                                  {46, 7},
+                                                  {24, 24},
+                                                  {6, 26},
+                                                  {22, 50},
+                                                  {6, 56},
+                                                  {26, 78},
+                                                  {46, 84},
+                                                  {6, 84},
+                                                  {20, 6},
+                                                  {72, 6}}) {
+    graph.joints.push_back({p, half});
+  }
+  graph.channels = {{0, 1},   {1, 2},  {2, 3},   {3, 4},   {4, 5},   {3, 7},   {7, 8},   {8, 2},
+                    {8, 9},   {8, 10}, {10, 11}, {10, 12}, {12, 13}, {12, 14}, {14, 15}, {14, 16},
+                    {10, 17}, {2, 18}, {5, 6},   {6, 3},   {6, 15},  {17, 9},  {9, 18}};
+  return {"vascular_network", graph.bounds, walls_of(graph), {93, 4.5}, 10'000, 9};
+}
+
+Vascular large_vascular_network() {
+  VascularShape shape;
+  shape.width = 400;
+  shape.height = 314;
+  shape.spacing = 44;
+  shape.least_half = 5;
+  shape.most_half = 8;
+  shape.missing = 0.1;
+  shape.loops = 0.25;
+  Rng rng(24, Purpose::scene);
+  Vascular v = random_vascular(shape, rng);
+  v.name = "large_vascular_network";
+  v.nodes = 40'000;
+  return v;
+}
+
+Vascular random_vascular(const VascularShape& shape, Rng& rng) {
+  const ChannelGraph graph = Generator(shape, rng).grow();
+  Vascular v;
+  v.name = "random_vascular";
+  v.bounds = graph.bounds;
+  v.walls = walls_of(graph);
+  v.width = shape.least_half + shape.most_half;
+  // In from the end of the dead end, as in the T-junction: 3 of 10 widths from its wall.
+  const Disc end = graph.joints[0];
+  const Vec2 out = end.centre - graph.joints[graph.channels[0].second].centre;
+  v.goal = end.centre + (0.4 * end.radius / norm(out)) * out;
+  v.nodes = static_cast<int>(nodes_per_area * free_area(v) * std::pow(10 / v.width, 2));
+  return v;
+}
+
+}  // namespace microswarm::scenes

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "microswarm/core/rng.hpp"
+#include "microswarm/geometry/shapes.hpp"
+#include "microswarm/world/map.hpp"
+
+namespace microswarm::scenes {
+
+/// A network of channels as an obstacle map, and a goal in a dead end. One unit of [gather] is 1
+/// µm.
+struct Vascular {
+  std::string name;
+  Box bounds;
+  std::vector<Polygon> walls;
+  Vec2 goal;
+  int nodes = 4000;   ///< of the tree, as published or by the same density
+  double width = 10;  ///< of a usual channel [µm]
+
+  Map map() const { return Map(bounds, walls); }
+};
+
+/// The T-junction map of Fig 8(a) [gather], as published: a bar 0…100 × 90…100 and a stem 45…55 ×
+/// 50…90; 4,000 nodes, 2 regions.
+Vascular t_junction();
+/// Maps of the kind and size of Fig 8(b) and (c), which are published as pictures only: 100 × 90
+/// with 9 junction regions and 10,000 nodes, 400 × 314 with 31 and 40,000.
+Vascular vascular_network();
+Vascular large_vascular_network();
+
+/// Channels as a graph: straight ones between joints, each as wide as its two ends.
+struct ChannelGraph {
+  Box bounds;
+  std::vector<Disc> joints;  ///< the radius is half the width
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> channels;
+};
+/// What is not channel.
+std::vector<Polygon> walls_of(const ChannelGraph& graph);
+
+/// What a generated map is like.
+struct VascularShape {
+  double width = 100;       ///< of the map [µm]
+  double height = 90;       ///< of the map [µm]
+  double spacing = 24;      ///< between joints, about [µm]
+  double least_half = 3.5;  ///< half the width of a channel [µm]
+  double most_half = 5;
+  double wander = 0.25;   ///< how far joints stray, in spacings
+  double loops = 0.25;    ///< share of the channels beyond a tree that are kept
+  double missing = 0.15;  ///< share of the places that have no joint
+};
+
+/// Random channels: a tree over joints that stray from a grid, and some loops. Connected by
+/// construction; the goal is at a dead end, which always exists.
+Vascular random_vascular(const VascularShape& shape, Rng& rng);
+
+}  // namespace microswarm::scenes
