@@ -46,7 +46,7 @@ std::vector<Polygon> walls_of(const ChannelGraph& graph);
 struct VascularShape {
   double width = 100;       ///< of the map [µm]
   double height = 90;       ///< of the map [µm]
-  double spacing = 24;      ///< between joints, about [µm]
+  double spacing = 22;      ///< between joints, about [µm]
   double least_half = 3.5;  ///< half the width of a channel [µm]
   double most_half = 5;
   double wander = 0.25;   ///< how far joints stray, in spacings
