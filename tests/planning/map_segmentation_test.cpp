@@ -158,12 +158,13 @@ TEST(Vascular, GeneratedMapsAreConnectedAndEndAtADeadEnd) {
     ASSERT_TRUE(map.is_free(scene.goal, 1)) << seed;
     EXPECT_EQ(scene.goal, scenes::random_vascular(shape, same).goal);
     // A tree of enough nodes comes near every free place.
-    const ObstacleWeightedRrt tree = grow(scene, map, 1500);
+    const ObstacleWeightedRrt tree = grow(scene, map, 4000);
     for (int i = 0; i < 500; ++i) {
       const double x = rng.uniform(0, shape.width);
       const Vec2 p{x, rng.uniform(0, shape.height)};
       if (map.is_free(p, 1)) {
-        EXPECT_LT(distance(p, tree.nodes[tree.nearest(p)]), 4) << seed;
+        EXPECT_LT(distance(p, tree.nodes[tree.nearest(p)]), 4)
+            << seed << " (" << p.x << ", " << p.y << ")";
       }
     }
   }
