@@ -53,6 +53,8 @@ Status grow(const Map& map, const ObstacleWeightedRrtParams& params, Rng& rng, c
     }
     const double x = rng.uniform(bounds.lo.x, bounds.hi.x);
     const Vec2 sample{x, rng.uniform(bounds.lo.y, bounds.hi.y)};
+    const bool thins_out = params.wall_samples < 1 && !map.is_free(sample, 0);
+    if (thins_out && rng.uniform() >= params.wall_samples) continue;
     const std::uint32_t near = grid.nearest(sample);
     const Vec2 from = tree.nodes[near];
     const double far = distance(from, sample);

@@ -19,6 +19,7 @@ struct ObstacleWeightedRrtParams {
   static constexpr std::string_view type_name = "obstacle_weighted_rrt";
   int nodes = 4000;
   double extension = 1.2;
+  double wall_samples = 1;
   double weight_decay = 1;
   double weight_exponent = 6;
   double weight_cutoff = 4;
@@ -31,6 +32,10 @@ struct ObstacleWeightedRrtParams {
   static void fields(Self& self, V&& visit) {
     visit(self.nodes, {"nodes", Unit::none, {1, 1e7}, "Nodes of the tree."});
     visit(self.extension, {"extension", Unit::um, {1e-6, 1e6}, "Length of an edge of the tree."});
+    visit(self.wall_samples, {"wall_samples",
+                              Unit::none,
+                              {0, 1},
+                              "Share of the samples in walls that are used; less on sparse maps."});
     visit(self.weight_decay,
           {"weight_decay", Unit::none, {0, 1e6}, "a of the weight e^(b - a d), per um."});
     visit(self.weight_exponent,
