@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/core/rng.hpp"
+#include "microswarm/core/stop.hpp"
+#include "microswarm/planning/global_tree.hpp"
+#include "microswarm/planning/plan.hpp"
+
+namespace microswarm {
+
+struct GlobalSearchParams {
+  static constexpr std::string_view type_name = "global_search";
+  double robostep = 5;
+  int directions = 8;
+  ContactRule contact = ContactRule::slide;
+  double goal_tolerance = 20;
+  double cell = 35;
+  double noise = 0.4;
+  double travel_weight = 0.2;
+  int round_nodes = 15'000;
+  int max_nodes = 100'000'000;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.robostep, {"robostep", Unit::um, {1e-3, 1e6}, "Length of one input."});
+    visit(self.directions,
+          {"directions", Unit::none, {3, 256}, "Directions of inputs, from the x axis on."});
+    visit(self.contact, {"contact", Unit::none, {}, "What a robot does that meets a wall."});
+    visit(self.goal_tolerance,
+          {"goal_tolerance", Unit::um, {1e-3, 1e6}, "How near every robot must come to its goal."});
+    visit(self.cell,
+          {"cell", Unit::um, {1e-3, 1e6}, "Configurations in one hypercube of this edge are one."});
+    visit(self.noise, {"noise", Unit::none, {0, 10}, "Random share added to a node's cost."});
+    visit(self.travel_weight, {"travel_weight",
+                               Unit::none,
+                               {0, 1e3},
+                               "Cost of the way the swarm has to go as a whole, "
+                               "against that of a wrong formation."});
+    visit(self.round_nodes,
+          {"round_nodes", Unit::none, {1, 1e8}, "Nodes after which the first round starts anew."});
+    visit(self.max_nodes, {"max_nodes", Unit::none, {1, 2e9}, "Nodes of all rounds at most."});
+  }
+};
+
+/// A plan and what it took.
+struct GlobalSearch {
+  GlobalPlan plan;
+  PlanCounts
+      counts;  ///< iterations: nodes expanded; samples: nodes made; edge_checks: inputs tried
+  int rounds = 0;
+};
+
+/// Best-first search for inputs that bring robots to their goals under one input; beyond [global],
+/// whose tree seldom gets three robots anywhere. An input is held until nothing moves any more, and
+/// every place on the way where a robot comes to a wall or leaves it is a node, so that walls and
+/// corners are used on purpose. A node's cost is how wrong the robots stand to each other, which
+/// walls alone can mend, and a little of the way they have to go together. Of the configurations in
+/// one hypercube only the first is kept. That and a little noise in the costs make it quick and
+/// incomplete: after some nodes it starts anew with other hypercubes, each time a little later.
+/// A pure function of its arguments. The status is start_blocked, goal_blocked, solved, node_limit,
+/// or stopped or time_limit when it was told to stop; the plan then leads to the best configuration
+/// that was seen. Throws InputError as global_rrt does, and when there are no goals.
+GlobalSearch global_search(const Map& map, std::span<const Vec2> starts,
+                           std::span<const Vec2> goals, const GlobalSearchParams& params, Rng& rng,
+                           const Stop& stop = {});
+
+}  // namespace microswarm
