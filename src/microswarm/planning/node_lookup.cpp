@@ -13,7 +13,9 @@ namespace {
 constexpr double cells_per_node = 4;
 constexpr double most_cells = 4e6;
 /// How often the search for a node that can be seen doubles its radius.
-constexpr int most_doublings = 5;
+constexpr int most_doublings = 3;
+/// A cell so many diagonals from all nodes is a place that the tree has not reached.
+constexpr double farthest = 8;
 /// Nor does a robot look for a node it sees farther away than so many cells.
 constexpr int most_rings = 12;
 
@@ -26,8 +28,10 @@ class CellSearch {
   std::span<const std::uint32_t> nodes_around(Vec2 centre) {
     const std::uint32_t nearest = grid_.nearest(centre);
     const double least = distance(centre, grid_[nearest]);
-    if (map_.field().lower(centre) + map_.field().spread() < -diagonal_ / 2) {
-      listed_.assign(1, nearest);  // all wall: nobody will ask
+    const bool is_wall =
+        map_.field().lower(centre) + map_.field().spread() < -diagonal_ / 2;  // nobody will ask
+    if (is_wall || least > farthest * diagonal_) {
+      listed_.assign(1, nearest);
       return listed_;
     }
     list_within(centre, least + diagonal_);
