@@ -7,15 +7,22 @@
 #include "options.hpp"
 #ifdef MICROSWARM_HAS_BENCH
 #include "bench/planning.hpp"
+#include "bench/swarm.hpp"
 #endif
 
 namespace microswarm::cli {
 namespace {
 
 #ifdef MICROSWARM_HAS_BENCH
-int measure(const std::string& csv, bool quick, bool json, const Context& context) {
+std::vector<BenchRow> rows_of(const std::string& group, bool quick, const Stop& stop) {
+  return group == "planning" ? bench::planning(scenario_folder(), quick, stop)
+                             : bench::swarm(quick, stop);
+}
+
+int measure(const std::string& group, const std::string& csv, bool quick, bool json,
+            const Context& context) {
   if (!csv.empty()) const StagedFile can_be_written(csv);
-  const std::vector<BenchRow> rows = bench::planning(scenario_folder(), quick, context.stop);
+  const std::vector<BenchRow> rows = rows_of(group, quick, context.stop);
   if (!csv.empty() && !context.stop.requested())
     write_file_atomically(csv, "# " + bench::machine_line() + "\n" + rows_csv(rows));
   if (quick) fmt::print(stderr, "quick: fewer repetitions\n");
@@ -24,7 +31,7 @@ int measure(const std::string& csv, bool quick, bool json, const Context& contex
   return all_ok(rows) ? ok : not_reached;
 }
 #else
-int measure(const std::string&, bool, bool, const Context&) {
+int measure(const std::string&, const std::string&, bool, bool, const Context&) {
   throw InputError(
       "bench: this program was built without the benches (CMake MICROSWARM_BENCH=OFF)");
 }
@@ -41,15 +48,18 @@ void add_bench(CLI::App& app, Action& action) {
       app, "bench",
       "Measure speeds beside a peer's in the same run: exit code 3 when one falls short",
       "bench planning --quick --csv planning.csv");
-  cmd->add_option("group", *group, "What to measure: planning")->required()->type_name("GROUP");
+  cmd->add_option("group", *group, "What to measure: planning, swarm")
+      ->required()
+      ->type_name("GROUP");
   cmd->add_option("--csv", *csv, "Write the rows to this file too")->type_name("FILE");
   cmd->add_flag("--quick", *quick, "Fewer repetitions: ends within 50 s");
   add_json(cmd, *json);
   cmd->callback([=, &action] {
     action = [=](const Context& context) {
-      if (*group != "planning")
-        throw InputError(fmt::format("bench: unknown group '{}', there is: planning", *group));
-      return measure(*csv, *quick, *json, context);
+      if (*group != "planning" && *group != "swarm")
+        throw InputError(
+            fmt::format("bench: unknown group '{}', there are: planning, swarm", *group));
+      return measure(*group, *csv, *quick, *json, context);
     };
   });
 }

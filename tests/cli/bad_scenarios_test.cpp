@@ -117,7 +117,7 @@ TEST_F(BadScenarios, PaperFigureGroup) {
   refused({"reproduce", "drtt"}, "reproduce: unknown paper 'drtt', there is: drrt");
   refused({"reproduce", "drrt/fig9"},
           "reproduce drrt: unknown figure 'fig9', there are: fig3, fig5a, fig5b");
-  refused({"bench", "speed"}, "bench: unknown group 'speed', there is: planning");
+  refused({"bench", "speed"}, "bench: unknown group 'speed', there are: planning, swarm");
 }
 
 }  // namespace

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/naive_robots.hpp"
+
+#include <cmath>
+
+namespace microswarm::bench {
+namespace {
+
+constexpr double standoff = 1e-3;  // [µm]
+
+/// Share of the move up to the edge, less the stand-off square to it; above 1 when not met.
+double time_to(const Segment& edge, Vec2 p, Vec2 move) {
+  const Vec2 along = edge.b - edge.a;
+  const double turn = cross(move, along);
+  if (turn == 0) return 2;
+  const Vec2 to_edge = edge.a - p;
+  const double t = cross(to_edge, along) / turn;
+  const double place = cross(to_edge, move) / turn;
+  if (t < 0 || place < -1e-6 || place > 1 + 1e-6) return 2;
+  return t - standoff * norm(along) / std::abs(turn);
+}
+
+}  // namespace
+
+NaiveRobots::NaiveRobots(const Map& map, std::vector<Vec2> places) : places_(std::move(places)) {
+  const Box& b = map.bounds();
+  const Vec2 corners[] = {b.lo, {b.hi.x, b.lo.y}, b.hi, {b.lo.x, b.hi.y}};
+  for (int i = 0; i < 4; ++i) edges_.push_back({corners[i], corners[(i + 1) % 4]});
+  for (const Body& body : map.walls().bodies())
+    if (const auto* polygon = std::get_if<Polygon>(&body.shape))
+      for_each_edge(*polygon, [&](Vec2 a, Vec2 c) { edges_.push_back({a, c}); });
+}
+
+void NaiveRobots::step(Vec2 move) {
+  for (Vec2& p : places_) {
+    double first = 2;
+    for (const Segment& edge : edges_) first = std::min(first, time_to(edge, p, move));
+    p += (first <= 1 ? std::max(0.0, first) : 1.0) * move;
+  }
+}
+
+}  // namespace microswarm::bench

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "microswarm/world/map.hpp"
+
+namespace microswarm::bench {
+
+/// Stepping as it is written first: robot after robot in double precision, each against every edge
+/// of the map, stopping a little before the nearest.
+class NaiveRobots {
+ public:
+  NaiveRobots(const Map& map, std::vector<Vec2> places);
+  void step(Vec2 move);
+  const std::vector<Vec2>& places() const { return places_; }
+
+ private:
+  std::vector<Segment> edges_;
+  std::vector<Vec2> places_;
+};
+
+}  // namespace microswarm::bench

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/swarm.hpp"
+
+#include <chrono>
+#include <string>
+
+#include "bench/naive_robots.hpp"
+#include "microswarm/core/angles.hpp"
+#include "microswarm/core/rng.hpp"
+#include "microswarm/core/statistics.hpp"
+#include "microswarm/swarm/robot_stepper.hpp"
+#include "tests/scenes/vascular.hpp"
+
+namespace microswarm::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int robots_stepped = 1024;
+constexpr int moves_a_heading = 25;
+
+std::vector<Vec2> free_places(const Map& map, double clearance, Rng& rng) {
+  std::vector<Vec2> places;
+  const Box& b = map.bounds();
+  for (int draw = 0; draw < 1'000'000 && std::ssize(places) < robots_stepped; ++draw) {
+    const double x = rng.uniform(b.lo.x, b.hi.x);
+    const Vec2 p{x, rng.uniform(b.lo.y, b.hi.y)};
+    if (map.is_free(p, clearance)) places.push_back(p);
+  }
+  return places;
+}
+
+/// Headings drawn anew every few moves.
+std::vector<Vec2> moves(double length, int count, Rng& rng) {
+  std::vector<Vec2> all;
+  Vec2 move;
+  for (int k = 0; k < count; ++k) {
+    if (k % moves_a_heading == 0) move = length * unit_vector(rng.uniform(0, 2 * pi));
+    all.push_back(move);
+  }
+  return all;
+}
+
+/// Robot-steps a second: the median of some repetitions from the same places.
+template <class Start>
+double rate(const std::vector<Vec2>& all, int repeats, const Stop& stop, Start&& start) {
+  std::vector<double> rates;
+  for (int k = 0; k < repeats && !stop(); ++k) {
+    auto step = start();
+    const auto began = Clock::now();
+    for (const Vec2 move : all) step(move);
+    const double took = std::chrono::duration<double>(Clock::now() - began).count();
+    rates.push_back(static_cast<double>(all.size()) * robots_stepped / took);
+  }
+  return rates.empty() ? 0 : quantile(rates, 0.5);
+}
+
+void add_rows(std::vector<BenchRow>& rows, const std::string& name, const Map& map, double step,
+              double aim, bool quick, const Stop& stop) {
+  const RobotStepper stepper(map, step);
+  Rng rng(1, Purpose::scene);
+  const std::vector<Vec2> places = free_places(map, 4 * stepper.guard(), rng);
+  const int repeats = quick ? 3 : 9;
+  const std::vector<Vec2> few = moves(step, quick ? 50 : 200, rng);
+  const double naive = rate(few, quick ? 1 : 3, stop, [&] {
+    return [robots = NaiveRobots(map, places)](Vec2 move) mutable { robots.step(move); };
+  });
+  const std::vector<Vec2> many = moves(step, quick ? 1000 : 8000, rng);
+  for (const ContactRule rule : {ContactRule::stop, ContactRule::slide}) {
+    const double ours = rate(many, repeats, stop, [&] {
+      return [&, robots = stepper.place(places)](Vec2 move) mutable {
+        stepper.step(robots, move, rule);
+      };
+    });
+    const bool stops = rule == ContactRule::stop;
+    rows.push_back({.name = name + (stops ? ", robots stop" : ", robots slide"),
+                    .quantity = "robot-steps per second",
+                    .unit = "1/s",
+                    .ours = ours,
+                    .peer = naive,
+                    .peer_name = "every edge in turn, stop",
+                    .aim = stops ? std::optional(aim) : std::nullopt,
+                    .at_most = false});
+  }
+}
+
+}  // namespace
+
+std::vector<BenchRow> swarm(bool quick, const Stop& stop) {
+  std::vector<BenchRow> rows;
+  add_rows(rows, "T-junction", scenes::t_junction().map(), 1, 200e6, quick, stop);
+  add_rows(rows, "vascular map, 100 × 90", scenes::vascular_network().map(), 1, 65e6, quick, stop);
+  add_rows(rows, "vascular map, 400 × 314", scenes::large_vascular_network().map(), 1, 65e6, quick,
+           stop);
+  return rows;
+}
+
+}  // namespace microswarm::bench
