@@ -153,21 +153,26 @@ void StepLanes(const WallFaces& faces, PointF move, ContactRule rule, float* HWY
   if (in_one_go && faces.all().size() <= few_faces)
     i = StepByRobots(faces, move, rule, x, y, count);
   const ContactMoves moves(faces.reach(), faces.guard(), NearContact(faces));
+  if (!in_one_go) {
+    for (; i < count; ++i) {
+      const PointF end = moves.moved({x[i], y[i]}, move, rule);
+      x[i] = end.x;
+      y[i] = end.y;
+    }
+  }
+  const float share_of_time = rule == ContactRule::stop ? 1.0f : 0.0f;
   for (; i < count; ++i) {
     const PointF p{x[i], y[i]};
-    PointF end{p.x + move.x, p.y + move.y};
-    if (!in_one_go) {
-      end = moves.moved(p, move, rule);
-    } else if (!faces.near(p).empty()) {
-      const float time = NearTime(faces, p, move);
-      if (time <= 1) {
-        const float share = rule == ContactRule::stop ? time : 0.0f;
-        end = rule == ContactRule::slide ? moves.slid(p, move)
-                                         : PointF{p.x + share * move.x, p.y + share * move.y};
-      }
+    const float time = NearTime(faces, p, move);
+    if (rule == ContactRule::slide && time <= 1) {
+      const PointF end = moves.slid(p, move);
+      x[i] = end.x;
+      y[i] = end.y;
+      continue;
     }
-    x[i] = end.x;
-    y[i] = end.y;
+    const float share = time <= 1 ? share_of_time * time : 1.0f;  // no branch: nobody can guess it
+    x[i] = p.x + share * move.x;
+    y[i] = p.y + share * move.y;
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/geometry/distance.hpp"
@@ -80,7 +81,7 @@ void WallFaces::add_border(const Box& bounds) {
 
 void WallFaces::fill_cells(const Box& bounds) {
   const double area = bounds.width() * bounds.height();
-  const double cell = std::max(0.5 * reach_, std::sqrt(area / most_cells));
+  const double cell = std::max(static_cast<double>(reach_), std::sqrt(area / most_cells));
   columns_ = static_cast<std::size_t>(bounds.width() / cell) + 1;
   const std::size_t rows = static_cast<std::size_t>(bounds.height() / cell) + 1;
   low_ = rounded(bounds.lo - origin_);
@@ -119,27 +120,34 @@ void WallFaces::fill_cells(const Box& bounds) {
   pack(entries, columns_ * rows);
 }
 
-// Sorted by cell, in the order of the faces; every cell begins a new pack.
 void WallFaces::pack(const std::vector<CellFace>& entries, std::size_t cells) {
-  std::vector<std::uint32_t> counts(cells, 0);
-  for (const CellFace& entry : entries) ++counts[entry.cell];
-  first_.assign(cells + 1, 0);
-  for (std::size_t i = 0; i < cells; ++i)
-    first_[i + 1] =
-        first_[i] + static_cast<std::uint32_t>((counts[i] + FacePack::size - 1) / FacePack::size);
-  packs_.assign(first_.back(), {});
-  std::fill(counts.begin(), counts.end(), 0);
-  for (const CellFace& entry : entries) {
-    const std::size_t k = counts[entry.cell]++;
-    FacePack& to = packs_[first_[entry.cell] + k / FacePack::size];
+  std::vector<std::vector<std::uint32_t>> faces(cells);
+  for (const CellFace& entry : entries) faces[entry.cell].push_back(entry.face);
+  std::map<std::vector<std::uint32_t>, Packs> known{{{}, {}}};
+  cells_.resize(cells);
+  for (std::size_t i = 0; i < cells; ++i) {
+    const auto [place, is_new] = known.try_emplace(std::move(faces[i]));
+    if (is_new) place->second = add_packs(place->first);
+    cells_[i] = place->second;
+  }
+}
+
+WallFaces::Packs WallFaces::add_packs(const std::vector<std::uint32_t>& faces) {
+  const Packs packs{
+      static_cast<std::uint32_t>(packs_.size()),
+      static_cast<std::uint32_t>((faces.size() + FacePack::size - 1) / FacePack::size)};
+  packs_.resize(packs_.size() + packs.count);
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    FacePack& to = packs_[packs.first + k / FacePack::size];
     const std::size_t lane = k % FacePack::size;
-    const WallFace& face = faces_[entry.face];
+    const WallFace& face = faces_[faces[k]];
     to.middle_x[lane] = face.middle.x;
     to.middle_y[lane] = face.middle.y;
     to.normal_x[lane] = face.normal.x;
     to.normal_y[lane] = face.normal.y;
     to.half_length[lane] = face.half_length;
   }
+  return packs;
 }
 
 FaceContact WallFaces::first_contact(PointF p, PointF move) const {

@@ -64,8 +64,8 @@ class WallFaces {
   std::span<const WallFace> all() const { return faces_; }
   /// The faces that a robot at `p` may meet on a move of `reach`, in the order of all().
   std::span<const FacePack> near(PointF p) const {
-    const std::size_t cell = cell_at(p);
-    return {packs_.data() + first_[cell], packs_.data() + first_[cell + 1]};
+    const Packs packs = cells_[cell_at(p)];
+    return {packs_.data() + packs.first, packs.count};
   }
   /// First contact on a move of at most `reach`.
   FaceContact first_contact(PointF p, PointF move) const;
@@ -80,6 +80,11 @@ class WallFaces {
     std::uint32_t face;
   };
   void pack(const std::vector<CellFace>& entries, std::size_t cells);
+  struct Packs {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+  };
+  Packs add_packs(const std::vector<std::uint32_t>& faces);
   std::size_t cell_at(PointF p) const {
     const float i = (p.x - low_.x) * per_cell_;
     const float j = (p.y - low_.y) * per_cell_;
@@ -97,8 +102,8 @@ class WallFaces {
   float last_column_ = 0;
   float last_row_ = 0;
   std::size_t columns_ = 1;
-  std::vector<std::uint32_t> first_;
-  std::vector<FacePack> packs_;
+  std::vector<Packs> cells_;
+  std::vector<FacePack> packs_;  ///< cells with the same faces share theirs
 };
 
 /// Share of the move `move` up to where a robot at `p` stands off from the face; 2 when the face is
