@@ -49,6 +49,7 @@ void expect_edges_replay(const Map& map, const GlobalTree& tree) {
 
 TEST(GlobalRrt, EveryEdgeReplaysToTheBits) {
   for (int world = 1; world <= scenes::global_worlds; ++world) {
+    const Map map = global_world(world);
     for (const std::size_t n : {1u, 2u, 3u, 8u}) {
       for (const ContactRule rule : {ContactRule::slide, ContactRule::stop, ContactRule::reject}) {
         GlobalRrtParams params;
@@ -59,9 +60,9 @@ TEST(GlobalRrt, EveryEdgeReplaysToTheBits) {
         std::vector<Vec2> from;
         for (std::size_t i = 0; i < n; ++i) from.push_back({60.0 + 5 * double(i), 200});
         Rng rng(3, Purpose::planner);
-        const GlobalRrt grown = global_rrt(global_world(world), from, from, params, rng);
+        const GlobalRrt grown = global_rrt(map, from, from, params, rng);
         EXPECT_EQ(grown.tree.size(), 1500u);
-        expect_edges_replay(global_world(world), grown.tree);
+        expect_edges_replay(map, grown.tree);
       }
     }
   }

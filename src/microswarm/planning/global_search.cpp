@@ -10,12 +10,14 @@
 #include <unordered_set>
 
 #include "microswarm/core/error.hpp"
+#include "microswarm/planning/geodesic_field.hpp"
 #include "microswarm/planning/global_rrt.hpp"
 
 namespace microswarm {
 namespace {
 
 constexpr double round_growth = 1.3;
+constexpr double cell_of_tolerance = 2.25;
 constexpr double finest_of_cell = 0.7;  // a round's hypercubes are this to 1.4 times the cell
 constexpr double finer = 0.8;           // when a round found nothing new any more
 constexpr int most_rounds = 10'000;
@@ -70,8 +72,12 @@ struct Problem {
     }
     return std::sqrt(static_cast<double>(square));
   }
-  /// How wrong the robots stand to each other, and the way they have to go together.
-  double cost(const Configuration& c) const {
+  Vec2 position(PointF p) const {
+    return map.bounds().centre() + Vec2{static_cast<double>(p.x), static_cast<double>(p.y)};
+  }
+  /// How wrong the robots stand to each other, and the way they have to go together: straight, or
+  /// where there are `fields`, the mean of their ways around the walls.
+  double cost(const Configuration& c, std::span<const GeodesicField> fields) const {
     Vec2 sum;
     double squares = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -83,16 +89,23 @@ struct Problem {
     const double count = static_cast<double>(n);
     const Vec2 mean = sum / count;
     const double formation = std::sqrt(std::max(0.0, squares / count - squared_norm(mean)));
-    return formation + params.travel_weight * norm(mean);
+    if (fields.empty()) return formation + params.travel_weight * norm(mean);
+    double way = 0;
+    for (std::size_t i = 0; i < n; ++i) way += fields[i].at(position(c[i]));
+    return formation + params.travel_weight * way / count;
   }
 };
 
 /// One search from the start, with its own hypercubes.
 class Round {
  public:
-  Round(const Problem& problem, const Configuration& start, double cell, Rng& rng,
-        PlanCounts& counts)
-      : problem_(problem), rng_(rng), counts_(counts), per_cell_(static_cast<float>(1 / cell)) {
+  Round(const Problem& problem, std::span<const GeodesicField> fields, const Configuration& start,
+        double cell, Rng& rng, PlanCounts& counts)
+      : problem_(problem),
+        fields_(fields),
+        rng_(rng),
+        counts_(counts),
+        per_cell_(static_cast<float>(1 / cell)) {
     for (PointF& p : offset_)
       p = {static_cast<float>(rng.uniform()), static_cast<float>(rng.uniform())};
     add(start, 0, {});
@@ -132,6 +145,7 @@ class Round {
     const auto still = static_cast<float>(still_of_step * problem_.params.robostep);
     Configuration now = nodes_[from].robots;
     unsigned hindered_before = 0;
+    unsigned at_rest = 0;
     std::uint16_t next = 1;
     const auto node_at = [&](const Configuration& c, std::uint16_t steps) {
       add(c, from, {static_cast<std::uint8_t>(input), steps});
@@ -142,7 +156,8 @@ class Round {
       bool is_moving = false;
       for (std::size_t i = 0; i < problem_.n; ++i) {
         const PointF p = before[i];
-        const PointF q = problem_.moved(p, move);
+        const PointF q = (at_rest >> i & 1u) != 0 ? p : problem_.moved(p, move);
+        if (q.x == p.x && q.y == p.y) at_rest |= 1u << i;
         now[i] = q;
         const float lost = std::abs(q.x - p.x - move.x) + std::abs(q.y - p.y - move.y);
         if (lost > still) hindered |= 1u << i;
@@ -170,7 +185,7 @@ class Round {
     const auto node = static_cast<std::uint32_t>(nodes_.size());
     nodes_.push_back({c, parent, held});
     ++counts_.samples;
-    const double noisy = problem_.cost(c) * (1 + problem_.params.noise * rng_.uniform());
+    const double noisy = problem_.cost(c, fields_) * (1 + problem_.params.noise * rng_.uniform());
     open_.push({static_cast<float>(noisy), node});
     if (!is_best) return;
     best_ = node;
@@ -193,6 +208,7 @@ class Round {
   }
 
   const Problem& problem_;
+  std::span<const GeodesicField> fields_;
   Rng& rng_;
   PlanCounts& counts_;
   float per_cell_;
@@ -211,9 +227,7 @@ GlobalPlan played(const Problem& problem, const Configuration& start,
   Configuration now = start;
   const auto note = [&] {
     std::vector<Vec2> places;
-    for (std::size_t i = 0; i < problem.n; ++i)
-      places.push_back(problem.map.bounds().centre() +
-                       Vec2{static_cast<double>(now[i].x), static_cast<double>(now[i].y)});
+    for (std::size_t i = 0; i < problem.n; ++i) places.push_back(problem.position(now[i]));
     plan.configurations.push_back(places);
   };
   note();
@@ -263,12 +277,18 @@ GlobalSearch global_search(const Map& map, std::span<const Vec2> starts,
   const Configuration start = problem.placed(starts);
   const auto most_nodes = static_cast<std::uint64_t>(params.max_nodes);
   double round_nodes = params.round_nodes;
-  double cell = params.cell;
+  double cell = params.cell > 0 ? params.cell : cell_of_tolerance * params.goal_tolerance;
+  std::vector<GeodesicField> fields;
   Round::End end = Round::End::nodes;
   while (found.rounds < most_rounds && found.counts.samples < most_nodes) {
     ++found.rounds;
     const double round_cell = cell * rng.uniform(finest_of_cell, 2 * finest_of_cell);
-    Round round(problem, start, round_cell, rng, found.counts);
+    const bool goes_around = found.rounds % 2 == 0;
+    if (goes_around && fields.empty())
+      for (const Vec2 goal : goals) fields.emplace_back(map, goal);
+    const auto used =
+        goes_around ? std::span<const GeodesicField>(fields) : std::span<const GeodesicField>();
+    Round round(problem, used, start, round_cell, rng, found.counts);
     const double left = static_cast<double>(most_nodes - found.counts.samples) + 1;
     end = round.run(static_cast<std::size_t>(std::min(round_nodes, left)), stop);
     if (round.worst() < found.plan.worst) found.plan = played(problem, start, round.inputs());

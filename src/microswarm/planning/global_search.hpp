@@ -17,8 +17,8 @@ struct GlobalSearchParams {
   int directions = 8;
   ContactRule contact = ContactRule::slide;
   double goal_tolerance = 20;
-  double cell = 35;
-  double noise = 0.4;
+  double cell = 0;
+  double noise = 0.8;
   double travel_weight = 0.2;
   int round_nodes = 15'000;
   int max_nodes = 100'000'000;
@@ -31,7 +31,7 @@ struct GlobalSearchParams {
     visit(self.goal_tolerance,
           {"goal_tolerance", Unit::um, {1e-3, 1e6}, "How near every robot must come to its goal."});
     visit(self.cell,
-          {"cell", Unit::um, {1e-3, 1e6}, "Configurations in one hypercube of this edge are one."});
+          {"cell", Unit::um, {0, 1e6}, "Edge of the hypercubes; 0 chooses 2.25 goal tolerances."});
     visit(self.noise, {"noise", Unit::none, {0, 10}, "Random share added to a node's cost."});
     visit(self.travel_weight, {"travel_weight",
                                Unit::none,
@@ -58,7 +58,8 @@ struct GlobalSearch {
 /// corners are used on purpose. A node's cost is how wrong the robots stand to each other, which
 /// walls alone can mend, and a little of the way they have to go together. Of the configurations in
 /// one hypercube only the first is kept. That and a little noise in the costs make it quick and
-/// incomplete: after some nodes it starts anew with other hypercubes, each time a little later.
+/// incomplete: after some nodes it starts anew with other hypercubes, each time a little later, and
+/// in every other round it measures the way together around the walls instead of straight.
 /// A pure function of its arguments. The status is start_blocked, goal_blocked, solved, node_limit,
 /// or stopped or time_limit when it was told to stop; the plan then leads to the best configuration
 /// that was seen. Throws InputError as global_rrt does, and when there are no goals.
