@@ -194,8 +194,10 @@ void add_run(CLI::App& app, Action& action) {
       ->check(whole(1, 1'000'000));
   cmd->add_option("--jobs", o->jobs, "Threads for --trials; 0: one a core")
       ->type_name("NUMBER")
+      ->needs("--trials")
       ->check(whole(0, 1024));
   add_photo(cmd, o->photo);
+  cmd->get_option("--photo")->needs("--out");
   cmd->add_flag("--no-report", o->no_report, "Write run.h5 only");
   add_json(cmd, o->json);
   cmd->callback(

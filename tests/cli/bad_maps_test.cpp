@@ -82,7 +82,7 @@ TEST_F(BadMaps, MicrometresPerPixel) {
   refused({"map", "segment", "room.pgm"}, missing);
   refused({"plan", "room.pgm", "--start", "100,100", "--goal", "200,100"}, missing);
   write("flight.yaml", two_rooms());
-  refused({"run", "flight.yaml", "--photo", "room.pgm"}, missing);
+  refused({"run", "flight.yaml", "--photo", "room.pgm", "--out", "out"}, missing);
   refused({"map", "info", "room.pgm", "--um-per-px", "0"},
           "--um-per-px: is 0, allowed 1e-6..1e6 (see microswarm map info --help)");
   refused({"map", "info", "room.pgm", "--um-per-px", "nan"},

@@ -2,6 +2,7 @@
 #include "microswarm/core/file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -104,6 +105,14 @@ TEST_F(FileTest, TwoWritersDoNotShareTheirStage) {
   first.commit();
   EXPECT_EQ(read_file(path), "first");
   EXPECT_EQ(files(), 1);
+}
+
+TEST(ReadFile, APipeIsRefusedAtOnce) {
+  const std::string path = testing::TempDir() + "microswarm_pipe";
+  ::unlink(path.c_str());
+  ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+  EXPECT_THROW(read_file(path), InputError);
+  ::unlink(path.c_str());
 }
 
 }  // namespace

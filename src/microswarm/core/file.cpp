@@ -64,11 +64,12 @@ bool is_special(const fs::path& path) {
 }  // namespace
 
 std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
-  Descriptor file(path, O_RDONLY);
+  Descriptor file(path, O_RDONLY | O_NONBLOCK);  // opening a pipe must not wait for a writer
   if (file.error()) fail_errno(path, "read", file.error());
   struct stat status {};
   if (::fstat(file.get(), &status) != 0) fail_errno(path, "read", errno);
   if (S_ISDIR(status.st_mode)) fail_errno(path, "read", EISDIR);
+  if (S_ISFIFO(status.st_mode)) fail(path, "read", "it is a pipe, not a file");
 
   std::string bytes;
   std::size_t used = 0;

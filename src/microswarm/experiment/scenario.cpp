@@ -25,6 +25,7 @@ void load_tracks(std::vector<Obstacle>& obstacles, const std::filesystem::path& 
   for (Obstacle& obstacle : obstacles) {
     auto* track = std::get_if<Track>(&obstacle.motion);
     if (!track) continue;
+    if (track->file.empty()) throw InputError("missing key 'file' of an obstacle's track");
     const std::filesystem::path path = base / track->file;
     auto file = files.find(path);
     if (file == files.end()) file = files.emplace(path, read_tracks(path)).first;

@@ -24,8 +24,15 @@ MapParts parts_of(const Mask& blocked, double cell, Vec2 lo = {}) {
   return {cell_bounds(blocked, cell, lo), mask_walls(blocked, cell, lo), {}};
 }
 
+/// Where the map's file is; a map type that was chosen by --set may have none.
+template <class Spec>
+fs::path named(const Spec& spec, const fs::path& base) {
+  if (spec.file.empty()) throw InputError("missing key map.file");
+  return base / spec.file;
+}
+
 MapParts read(const ImageMap& spec, const fs::path& base) {
-  const Image image = read_image(base / spec.file);
+  const Image image = read_image(named(spec, base));
   const bool dark_is_wall = spec.free == FreePixels::bright;
   MapParts parts = parts_of(threshold(image, spec.threshold, dark_is_wall), spec.um_per_px);
   simplify(parts.walls, spec.simplify);
@@ -33,7 +40,7 @@ MapParts read(const ImageMap& spec, const fs::path& base) {
 }
 
 MapParts read(const RosMap& spec, const fs::path& base) {
-  const fs::path yaml = base / spec.file;
+  const fs::path yaml = named(spec, base);
   const RosHeader header = read_ros_header(yaml);
   const Image image = read_image(yaml.parent_path() / header.image);
   const Vec2 origin{header.origin[0], header.origin[1]};
@@ -42,11 +49,11 @@ MapParts read(const RosMap& spec, const fs::path& base) {
 }
 
 MapParts read(const MovingAiMap& spec, const fs::path& base) {
-  return parts_of(read_moving_ai(base / spec.file), spec.um_per_cell);
+  return parts_of(read_moving_ai(named(spec, base)), spec.um_per_cell);
 }
 
 MapParts read(const GeoJsonMap& spec, const fs::path& base) {
-  return read_geojson(base / spec.file, spec.um_per_unit);
+  return read_geojson(named(spec, base), spec.um_per_unit);
 }
 
 MapParts read(const RectanglesMap& spec, const fs::path& base) {
