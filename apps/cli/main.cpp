@@ -69,6 +69,7 @@ int main(int argc, char** argv) {
   cli::Action action;
   cli::add_run(app, action);
   cli::add_plan(app, action);
+  cli::add_gather(app, action);
   cli::add_map(app, action);
   cli::add_replay(app, action);
   cli::add_report(app, action);

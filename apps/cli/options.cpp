@@ -2,6 +2,7 @@
 #include "options.hpp"
 
 #include <charconv>
+#include <sstream>
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/text.hpp"
@@ -64,6 +65,26 @@ ReportOptions report_options(const PhotoOptions& options) {
   if (!options.um_per_px)
     throw InputError(options.file + ": µm per px is missing: give --um-per-px");
   return {read_image(options.file), *options.um_per_px};
+}
+
+std::vector<double> numbers(const std::string& text) {
+  std::vector<double> values;
+  std::istringstream words(text + ",");
+  for (std::string word; std::getline(words, word, ',');) {
+    const std::optional<double> value = parse_number(word);
+    if (!value) return {};
+    values.push_back(*value);
+  }
+  return values;
+}
+
+CLI::Validator place(std::size_t most, const char* form) {
+  return {[most, form](std::string& text) -> std::string {
+            const std::size_t count = numbers(text).size();
+            if (count >= 2 && count <= most) return {};
+            return fmt::format("must be {}, not {}", form, quote(text));
+          },
+          ""};
 }
 
 }  // namespace microswarm::cli

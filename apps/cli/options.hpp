@@ -43,4 +43,9 @@ std::string aims_met(const std::vector<Row>& rows) {
   return fmt::format("{} of {} aims are met\n", met, aims);
 }
 
+/// The numbers in "200,500,-90"; empty when it is no such list.
+std::vector<double> numbers(const std::string& text);
+/// Allows 2 … `most` such numbers; `form` says what is meant.
+CLI::Validator place(std::size_t most, const char* form);
+
 }  // namespace microswarm::cli

@@ -3,12 +3,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/error.hpp"
-#include "microswarm/core/text.hpp"
 #include "microswarm/experiment/scenario.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/planning/free_goal.hpp"
@@ -40,27 +38,6 @@ struct Choice {
     visit(self.planner, {"planner", Unit::none, {}, "Planner and its parameters."});
   }
 };
-
-/// The numbers in "200,500,-90"; empty when it is no such list.
-std::vector<double> numbers(const std::string& text) {
-  std::vector<double> values;
-  std::istringstream words(text + ",");
-  for (std::string word; std::getline(words, word, ',');) {
-    const std::optional<double> value = parse_number(word);
-    if (!value) return {};
-    values.push_back(*value);
-  }
-  return values;
-}
-
-CLI::Validator place(std::size_t most, const char* form) {
-  return {[most, form](std::string& text) -> std::string {
-            const std::size_t count = numbers(text).size();
-            if (count >= 2 && count <= most) return {};
-            return fmt::format("must be {}, not {}", form, quote(text));
-          },
-          ""};
-}
 
 struct Ends {
   double clearance;

@@ -18,6 +18,7 @@ class Commands : public CommandLine {
 TEST_F(Commands, HelpHasAnExample) {
   for (const Arguments& command : std::vector<Arguments>{{"run"},
                                                          {"plan"},
+                                                         {"gather"},
                                                          {"map", "info"},
                                                          {"map", "check"},
                                                          {"map", "convert"},
@@ -106,6 +107,24 @@ TEST_F(Commands, ReproduceRows) {
   }
   EXPECT_EQ(outcome.code, all_ok ? 0 : 3);
   EXPECT_EQ(outcome.err, "quick: 50 seeds instead of 100\n");
+}
+
+TEST_F(Commands, GatherBringsRobotsTogether) {
+  write("t.csv", "x_um,y_um,width_um,height_um\n0,0,45,40\n55,0,45,40\n0,50,100,1\n");
+  const Arguments command{"gather", "t.csv", "--goal", "50,3", "--robots", "32"};
+  Arguments with_pictures = command;
+  with_pictures.insert(with_pictures.end(), {"--out", "out"});
+  EXPECT_TRUE(good(with_pictures).starts_with("gathered after "));
+  EXPECT_TRUE(exists("out/before.png"));
+  EXPECT_TRUE(exists("out/after.png"));
+  Arguments few_steps = command;
+  few_steps.insert(few_steps.end(), {"--most-steps", "3", "--json"});
+  const Outcome outcome = run(few_steps);
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_EQ(Json::parse(outcome.out).at("status"), "time_limit");
+  refused({"gather", "t.csv", "--goal", "10,10"}, "t.csv: goal is 10 µm inside wall 1");
+  refused({"gather", "t.csv", "--goal", "50,3", "--robots", "0"},
+          "--robots: must be a whole number 1..1000000, not '0' (see microswarm gather --help)");
 }
 
 TEST_F(Commands, SchemaIsJson) {
