@@ -11,6 +11,7 @@
 
 namespace microswarm {
 
+/// Parameters of the search beyond [global]. One set does for two to four robots.
 struct GlobalSearchParams {
   static constexpr std::string_view type_name = "global_search";
   double robostep = 5;
@@ -47,8 +48,8 @@ struct GlobalSearchParams {
 /// A plan and what it took.
 struct GlobalSearch {
   GlobalPlan plan;
-  PlanCounts
-      counts;  ///< iterations: nodes expanded; samples: nodes made; edge_checks: inputs tried
+  /// iterations: nodes expanded; samples: nodes made; edge_checks: inputs tried
+  PlanCounts counts;
   int rounds = 0;
 };
 

@@ -14,8 +14,8 @@ namespace microswarm {
 /// starts as the line through the middles of the cells' edges and ends within `tolerance` [µm] of
 /// it: half is spent on smoothing (at most half a cell), half on leaving out vertices. So a passage
 /// becomes at most twice the tolerance narrower or wider, and no ring ever touches itself or
-/// another, by exact tests of every step. Throws InputError when `cell` is not above 0 or `tolerance` is below 0
-/// or something is not finite.
+/// another, by exact tests of every step. Throws InputError when `cell` is not above 0 or
+/// `tolerance` is below 0 or something is not finite.
 std::vector<Polygon> outline(const Mask& mask, double cell, double tolerance, Vec2 lo = {});
 
 /// The walls around a network of set cells: the outline of all other cells and of one more ring of
