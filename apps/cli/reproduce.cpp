@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reproduce.hpp"
 
+#include <fmt/ranges.h>
+
+#include <array>
 #include <memory>
 
 #include "microswarm/core/error.hpp"
@@ -9,17 +12,31 @@
 namespace microswarm::cli {
 namespace {
 
+using Reproduce = std::vector<ReproduceRow> (*)(const std::string& figure,
+                                                const ReproduceOptions& options, const Stop& stop);
+
+constexpr std::array<std::pair<std::string_view, Reproduce>, 2> papers{
+    {{"drrt", reproduce_drrt}, {"global", reproduce_global}}};
+
+Reproduce reproduce_of(const std::string& paper) {
+  std::vector<std::string_view> names;
+  for (const auto& [name, reproduce] : papers) {
+    if (name == paper) return reproduce;
+    names.push_back(name);
+  }
+  throw InputError(
+      fmt::format("reproduce: unknown paper '{}', there are: {}", paper, fmt::join(names, ", ")));
+}
+
 int reproduce_command(const std::string& key, ReproduceOptions options, bool json,
                       const Context& context) {
   options.scenarios = scenario_folder();
   const std::string paper = key.substr(0, key.find('/'));
   const std::string figure = key.size() > paper.size() ? key.substr(paper.size() + 1) : "";
-  if (paper != "drrt")
-    throw InputError(fmt::format("reproduce: unknown paper '{}', there is: drrt", paper));
+  const Reproduce reproduce = reproduce_of(paper);
   if (!options.out.empty()) make_folder(options.out);
-  const std::vector<ReproduceRow> rows = reproduce_drrt(figure, options, context.stop);
-  if (options.quick)
-    fmt::print(stderr, "quick: {} seeds instead of {}\n", options.seed_count(), full_seeds);
+  const std::vector<ReproduceRow> rows = reproduce(figure, options, context.stop);
+  if (options.quick) fmt::print(stderr, "quick: fewer seeds\n");
   put(json ? rows_json(rows) : rows_table(rows) + aims_met(rows));
   if (context.stop.requested()) return not_reached;
   return all_ok(rows) ? ok : not_reached;
@@ -35,7 +52,7 @@ void add_reproduce(CLI::App& app, Action& action) {
                               "A paper's figures beside ours: exit code 3 when one falls short",
                               "reproduce drrt/fig5a --quick --out out/drrt");
   cmd->add_option("key", *key,
-                  "Paper, or one of its figures: drrt, drrt/fig3, drrt/fig5a, drrt/fig5b")
+                  "Paper, or one of its figures: drrt, drrt/fig3, global, global/fig7 …")
       ->required()
       ->type_name("KEY");
   cmd->add_option("--out", o->out, "Folder for plots, pictures and the table as CSV")

@@ -110,7 +110,7 @@ class NearestSearch {
   std::uint32_t best_ = BucketKdTree::none;
 };
 
-std::uint32_t Nearest(const BucketKdTree::View& tree, const float* point) {
+std::uint32_t nearest_here(const BucketKdTree::View& tree, const float* point) {
   return NearestSearch(tree, point).run();
 }
 
@@ -121,7 +121,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace microswarm {
 
-HWY_EXPORT(Nearest);
+HWY_EXPORT(nearest_here);
 
 namespace {
 
@@ -141,7 +141,7 @@ std::uint32_t BucketKdTree::nearest(std::span<const float> point) const {
   assert(size_ > 0 && point.size() == dimension_);
   std::array<float, most_dimensions> padded{};
   std::copy(point.begin(), point.end(), padded.begin());
-  return HWY_DYNAMIC_DISPATCH(Nearest)(view(), padded.data());
+  return HWY_DYNAMIC_DISPATCH(nearest_here)(view(), padded.data());
 }
 
 std::size_t BucketKdTree::bytes() const {

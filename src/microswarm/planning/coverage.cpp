@@ -38,8 +38,10 @@ class Cells {
   }
 
   bool is_free(std::uint32_t index) const {
-    const Vec2 low = map_.bounds().lo + cell_ * Vec2{static_cast<double>(index % columns_),
-                                                     static_cast<double>(index / columns_)};
+    const auto column = index % columns_;
+    const auto row = index / columns_;
+    const Vec2 low =
+        map_.bounds().lo + cell_ * Vec2{static_cast<double>(column), static_cast<double>(row)};
     for (int j = 0; j < lattice; ++j)
       for (int i = 0; i < lattice; ++i)
         if (map_.is_free(low + cell_ / lattice * Vec2{i + 0.5, j + 0.5}, 0)) return true;

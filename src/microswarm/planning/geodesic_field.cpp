@@ -46,7 +46,7 @@ GeodesicField::GeodesicField(const Map& map, Vec2 goal, int cells) : goal_(goal)
     const int row = static_cast<int>(next.cell) / columns_;
     for (int j = std::max(0, row - 1); j <= std::min(rows_ - 1, row + 1); ++j) {
       for (int i = std::max(0, column - 1); i <= std::min(columns_ - 1, column + 1); ++i) {
-        const auto cell = static_cast<std::size_t>(j * columns_ + i);
+        const std::size_t cell = cell_of(i, j);
         if (!map.is_free(centre(cell), 0)) continue;
         const double step = i != column && j != row ? std::numbers::sqrt2 : 1.0;
         reach(cell, static_cast<double>(next.distance) + step * cell_);
@@ -59,8 +59,7 @@ std::size_t GeodesicField::index(Vec2 p) const {
   const auto clamp = [&](double v, int count) {
     return static_cast<int>(std::clamp(v / cell_, 0.0, count - 1.0));
   };
-  return static_cast<std::size_t>(clamp(p.y - low_.y, rows_) * columns_ +
-                                  clamp(p.x - low_.x, columns_));
+  return cell_of(clamp(p.x - low_.x, columns_), clamp(p.y - low_.y, rows_));
 }
 
 Vec2 GeodesicField::centre(std::size_t cell) const {

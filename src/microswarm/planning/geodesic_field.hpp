@@ -19,6 +19,10 @@ class GeodesicField {
   double at(Vec2 p) const;
 
  private:
+  std::size_t cell_of(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
+  }
   std::size_t index(Vec2 p) const;
   Vec2 centre(std::size_t cell) const;
 

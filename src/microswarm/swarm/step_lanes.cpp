@@ -24,7 +24,8 @@ struct FaceLanes {
 // time_to_contact, a face or a robot a lane. Products and sums stay apart (no fused multiply-add):
 // the same bits as there.
 template <class D, class V>
-HWY_INLINE V TimeToContact(D d, const FaceLanes<V>& face, V x, V y, V move_x, V move_y, V guard) {
+HWY_INLINE V times_to_contact(D d, const FaceLanes<V>& face, V x, V y, V move_x, V move_y,
+                              V guard) {
   const V never = hn::Set(d, 2.0f);
   const V zero = hn::Zero(d);
   const V v = hn::Add(hn::Mul(move_x, face.normal_x), hn::Mul(move_y, face.normal_y));
@@ -47,7 +48,7 @@ HWY_INLINE V TimeToContact(D d, const FaceLanes<V>& face, V x, V y, V move_x, V 
 /// Calls visit(pack, k, time) for the faces near one robot, a face a lane: `time` belongs to those
 /// from k on in the pack.
 template <class D, class Visit>
-HWY_INLINE void ForEachNear(D d, const WallFaces& faces, PointF p, PointF move, Visit&& visit) {
+HWY_INLINE void for_each_near(D d, const WallFaces& faces, PointF p, PointF move, Visit&& visit) {
   using V = hn::Vec<D>;
   const std::size_t lanes = hn::Lanes(d);
   const V guard = hn::Set(d, faces.guard());
@@ -59,7 +60,7 @@ HWY_INLINE void ForEachNear(D d, const WallFaces& faces, PointF p, PointF move, 
           hn::Load(d, pack.middle_x.data() + k), hn::Load(d, pack.middle_y.data() + k),
           hn::Load(d, pack.normal_x.data() + k), hn::Load(d, pack.normal_y.data() + k),
           hn::Load(d, pack.half_length.data() + k)};
-      visit(pack, k, TimeToContact(d, face, x, y, move_x, move_y, guard));
+      visit(pack, k, times_to_contact(d, face, x, y, move_x, move_y, guard));
     }
   }
 }
@@ -74,7 +75,7 @@ class NearContact {
   FaceContact operator()(PointF p, PointF move) const {
     const PackTag d;
     FaceContact first;
-    ForEachNear(d, *faces_, p, move, [&](const FacePack& pack, std::size_t k, auto time) {
+    for_each_near(d, *faces_, p, move, [&](const FacePack& pack, std::size_t k, auto time) {
       const auto sooner = hn::Lt(time, hn::Set(d, first.time));
       if (hn::AllFalse(d, sooner)) return;
       const auto least = hn::MinOfLanes(d, time);
@@ -89,17 +90,17 @@ class NearContact {
 };
 
 /// Its time alone; more than 1 when the move is free.
-HWY_INLINE float NearTime(const WallFaces& faces, PointF p, PointF move) {
+HWY_INLINE float near_time(const WallFaces& faces, PointF p, PointF move) {
   const PackTag d;
   auto first = hn::Set(d, 2.0f);
-  ForEachNear(d, faces, p, move,
-              [&](const FacePack&, std::size_t, auto time) { first = hn::Min(first, time); });
+  for_each_near(d, faces, p, move,
+                [&](const FacePack&, std::size_t, auto time) { first = hn::Min(first, time); });
   return hn::GetLane(hn::MinOfLanes(d, first));
 }
 
 /// Times to the first contact of `lanes` robots with any of the faces.
 template <class D, class V>
-HWY_INLINE V FirstOfAll(D d, const WallFaces& faces, PointF move, V x, V y) {
+HWY_INLINE V first_of_all(D d, const WallFaces& faces, PointF move, V x, V y) {
   const V guard = hn::Set(d, faces.guard());
   const V move_x = hn::Set(d, move.x), move_y = hn::Set(d, move.y);
   V first = hn::Set(d, 2.0f);
@@ -108,14 +109,14 @@ HWY_INLINE V FirstOfAll(D d, const WallFaces& faces, PointF move, V x, V y) {
     const FaceLanes<V> same{hn::Set(d, face.middle.x), hn::Set(d, face.middle.y),
                             hn::Set(d, face.normal.x), hn::Set(d, face.normal.y),
                             hn::Set(d, face.half_length)};
-    first = hn::Min(first, TimeToContact(d, same, x, y, move_x, move_y, guard));
+    first = hn::Min(first, times_to_contact(d, same, x, y, move_x, move_y, guard));
   }
   return first;
 }
 
 /// Moves the first robots, as many as fill whole vectors; returns how many.
-std::size_t StepByRobots(const WallFaces& faces, PointF move, ContactRule rule,
-                         float* HWY_RESTRICT xs, float* HWY_RESTRICT ys, std::size_t count) {
+std::size_t step_by_robots(const WallFaces& faces, PointF move, ContactRule rule,
+                           float* HWY_RESTRICT xs, float* HWY_RESTRICT ys, std::size_t count) {
   const hn::ScalableTag<float> d;
   using V = hn::Vec<decltype(d)>;
   const std::size_t lanes = hn::Lanes(d);
@@ -125,7 +126,7 @@ std::size_t StepByRobots(const WallFaces& faces, PointF move, ContactRule rule,
   std::size_t i = 0;
   for (; i + lanes <= count; i += lanes) {
     const V x = hn::LoadU(d, xs + i), y = hn::LoadU(d, ys + i);
-    const V time = FirstOfAll(d, faces, move, x, y);
+    const V time = first_of_all(d, faces, move, x, y);
     const auto met = hn::Le(time, one);
     const V share = hn::IfThenElse(met, rule == ContactRule::stop ? time : zero, one);
     const V end_x = hn::Add(x, hn::Mul(share, move_x));
@@ -145,13 +146,13 @@ std::size_t StepByRobots(const WallFaces& faces, PointF move, ContactRule rule,
   return i;
 }
 
-void StepLanes(const WallFaces& faces, PointF move, ContactRule rule, float* HWY_RESTRICT x,
+void step_here(const WallFaces& faces, PointF move, ContactRule rule, float* HWY_RESTRICT x,
                float* HWY_RESTRICT y, std::size_t count) {
   constexpr std::size_t few_faces = 24;
   const bool in_one_go = move.x * move.x + move.y * move.y <= faces.reach() * faces.reach();
   std::size_t i = 0;
   if (in_one_go && faces.all().size() <= few_faces)
-    i = StepByRobots(faces, move, rule, x, y, count);
+    i = step_by_robots(faces, move, rule, x, y, count);
   const ContactMoves moves(faces.reach(), faces.guard(), NearContact(faces));
   if (!in_one_go) {
     for (; i < count; ++i) {
@@ -163,7 +164,7 @@ void StepLanes(const WallFaces& faces, PointF move, ContactRule rule, float* HWY
   const float share_of_time = rule == ContactRule::stop ? 1.0f : 0.0f;
   for (; i < count; ++i) {
     const PointF p{x[i], y[i]};
-    const float time = NearTime(faces, p, move);
+    const float time = near_time(faces, p, move);
     if (rule == ContactRule::slide && time <= 1) {
       const PointF end = moves.slid(p, move);
       x[i] = end.x;
@@ -183,11 +184,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace microswarm {
 
-HWY_EXPORT(StepLanes);
+HWY_EXPORT(step_here);
 
 void step_lanes(const WallFaces& faces, PointF move, ContactRule rule, std::span<float> x,
                 std::span<float> y) {
-  HWY_DYNAMIC_DISPATCH(StepLanes)(faces, move, rule, x.data(), y.data(), x.size());
+  HWY_DYNAMIC_DISPATCH(step_here)(faces, move, rule, x.data(), y.data(), x.size());
 }
 
 }  // namespace microswarm

@@ -25,6 +25,7 @@ Vec2 direction(Vec2 v) {
 std::vector<Vec2> ring_around(const Disc& disc) {
   const double radius = disc.radius / std::cos(pi / disc_corners);
   std::vector<Vec2> ring;
+  ring.reserve(disc_corners);
   for (int k = 0; k < disc_corners; ++k)
     ring.push_back(disc.centre + radius * unit_vector(2 * pi * k / disc_corners));
   return ring;
