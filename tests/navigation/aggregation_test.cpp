@@ -85,6 +85,44 @@ TEST(Aggregation, RegionByRegionIsQuickerThanRobotByRobot) {
   EXPECT_LT(mean_steps(Aggregation::divide_and_conquer), mean_steps(Aggregation::heuristic));
 }
 
+scenes::Vascular generated(std::uint32_t number) {
+  scenes::VascularShape shape;
+  if (number % 2 == 1) shape.width = 160, shape.height = 120;
+  Rng rng(number, Purpose::scene);
+  return scenes::random_vascular(shape, rng);
+}
+
+// Before the map shrank region by region, two regions handed the same robots to and fro for ever.
+TEST(Aggregation, NoLivelock) {
+  std::vector<scenes::Vascular> maps{scenes::t_junction(), scenes::vascular_network()};
+  for (std::uint32_t number = 0; number < 6; ++number) maps.push_back(generated(number));
+  for (const scenes::Vascular& map : maps) {
+    const Gathering g(map);
+    for (const Aggregation method : {Aggregation::heuristic, Aggregation::divide_and_conquer}) {
+      AggregationParams params = g.params;
+      params.method = method;
+      for (const int count : {2, 16, 256}) {
+        for (const std::uint32_t trial : {1u, 2u}) {
+          Robots robots = g.robots(count, trial);
+          Gatherer gatherer(g.ground, params);
+          const GatherResult result = gather(g.stepper, gatherer, robots, 10'000);
+          EXPECT_EQ(result.status, Status::solved) << map.name << " " << count << " " << trial;
+        }
+      }
+    }
+  }
+}
+
+// Robots that no input moves: the guard says so, seldom and more seldom.
+TEST(Aggregation, TheGuardFiresWhenNothingHelps) {
+  const Gathering& t = t_junction();
+  Gatherer gatherer(t.ground, t.params);
+  const Robots robots = t.robots(8, 1);  // which never move
+  for (int i = 0; i < 20'000; ++i) ASSERT_TRUE(gatherer.next(robots));
+  EXPECT_GE(gatherer.guard_count(), 1);
+  EXPECT_LE(gatherer.guard_count(), 10);
+}
+
 TEST(Aggregation, SameRobotsSameBits) {
   const Gathering& t = t_junction();
   Robots one = t.robots(32, 5);

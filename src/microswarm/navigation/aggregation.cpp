@@ -38,7 +38,7 @@ std::optional<Vec2> Gatherer::next(const Robots& robots) {
   if (guard()) {
     leader_ = *driven_;
   } else {
-    leader_ = params_.method == Aggregation::heuristic ? heuristic() : divide_and_conquer();
+    leader_ = by_regions() ? divide_and_conquer() : heuristic();
   }
   const Vec2 p = robots.position(leader_);
   held_ = leader_ == last_leader_ && p == last_place_ ? held_ + 1 : 0;
@@ -49,6 +49,12 @@ std::optional<Vec2> Gatherer::next(const Robots& robots) {
   const double length = norm(way);
   const Vec2 move = length > 0 ? (params_.step / length) * way : Vec2{params_.step, 0};
   return held_ > 1 ? rotated(move, held_ * golden_angle) : move;  // off a corner that holds it
+}
+
+// Not any more when that has been caught in a livelock again and again.
+bool Gatherer::by_regions() const {
+  constexpr int most_livelocks = 3;
+  return params_.method == Aggregation::divide_and_conquer && guard_count_ < most_livelocks;
 }
 
 void Gatherer::look(const Robots& robots) {
@@ -76,27 +82,23 @@ std::size_t Gatherer::heuristic() const {
   return on_its_way ? leader_ : farthest();
 }
 
-// Alg 5: the region and the branch stay until no robot is left in them (lines 3, 5).
+// Alg 5: the branch stays until no robot is left in it (line 5).
 std::size_t Gatherer::divide_and_conquer() {
   const MapSegmentation& map = ground_->segmentation;
-  std::uint32_t farthest_region = 0;
-  bool region_holds = false;
-  bool branch_holds = false;
-  for (const std::uint32_t node : nodes_) {
-    farthest_region = std::max(farthest_region, map.region[node]);
-    const bool in_region = map.region[node] == region_;
-    region_holds = region_holds || in_region;
-    branch_holds = branch_holds || (in_region && map.branch[node] == branch_);
-  }
   if (leads_ && !arrived_in_next()) return leader_;
   leads_ = false;
-  if (!region_holds || region_ == 0) region_ = farthest_region;           // line 2
-  if (region_ == 0) return heuristic();                                   // all are on the last way
-  if (!region_holds || !branch_holds) branch_ = richest_branch(region_);  // line 4
+  const std::uint32_t before = region_;
+  region_ = next_region();               // lines 2, 3
+  if (region_ == 0) return heuristic();  // all are on the last way
+  const auto in_branch = [&](std::uint32_t node) {
+    return map.region[node] == region_ && map.branch[node] == branch_;
+  };
+  if (region_ != before || std::none_of(nodes_.begin(), nodes_.end(), in_branch))
+    branch_ = richest_branch(region_);  // line 4
   std::size_t nearest = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < nodes_.size(); ++i) {  // line 6
-    if (map.region[nodes_[i]] != region_ || map.branch[nodes_[i]] != branch_) continue;
+    if (!in_branch(nodes_[i])) continue;
     const double way = way_to_gate(i);
     if (way < least) {
       least = way;
@@ -108,11 +110,26 @@ std::size_t Gatherer::divide_and_conquer() {
   return nearest;
 }
 
-// q_next of line 8: the next region's junction, but no farther than the channel is wide there, so
-// that the robot is not drawn out again by what the next leader does beside its way.
+// The map shrinks by a region when that is empty (Eq 7): robots that are pushed back behind it wait
+// for the next round, which begins when only the goal's region is left. The same region stays until
+// it is empty.
+std::uint32_t Gatherer::next_region() const {
+  std::uint32_t in_round = 0;
+  std::uint32_t of_all = 0;
+  for (const std::uint32_t node : nodes_) {
+    const std::uint32_t region = ground_->segmentation.region[node];
+    of_all = std::max(of_all, region);
+    if (region <= region_) in_round = std::max(in_round, region);
+  }
+  return in_round > 0 ? in_round : of_all;
+}
+
+// q_next of line 8: the next region's junction. In the goal's region one width of the channel will
+// do, since that is closed: who is in stays in.
 double Gatherer::target_of(std::uint32_t region) const {
   const Region& from = ground_->segmentation.regions[region];
   const Region& next = ground_->segmentation.regions[from.next];
+  if (from.next != 0) return routes_->length[next.node];
   const double width = 2 * ground_->map.clearance(ground_->tree.nodes[from.gate]);
   return std::max(routes_->length[next.node], routes_->length[from.gate] - width);
 }
@@ -136,9 +153,11 @@ double Gatherer::way_to_gate(std::size_t robot) const {
   return std::max(0.0, ways_[robot] - routes_->length[region.node]);
 }
 
-// True while it drives a robot home.
+// True while it drives a robot home. Progress is counted in shares of σ, so that there is only so
+// much of it; each time it waits twice as long.
 bool Gatherer::guard() {
-  if (mean_way_ < best_mean_ - 1e-9) {
+  constexpr double least_progress = 0.01;
+  if (mean_way_ <= best_mean_ - least_progress * params_.sigma) {
     best_mean_ = mean_way_;
     since_best_ = 0;
   }

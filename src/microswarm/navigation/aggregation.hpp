@@ -34,7 +34,7 @@ struct AggregationParams {
   double sigma = 10;
   double discount = 0.3;
   double discount_length = 5;
-  int patience = 2;
+  int patience = 4;
   ObstacleWeightedRrtParams tree;
   MapSegmentationParams segmentation;
   template <class Self, class V>
@@ -68,9 +68,11 @@ struct AggregationMap {
 };
 
 /// Gathers robots at the goal with one input for all: Alg 3 and 5 [gather]. Both may be caught in a
-/// livelock (two regions that hand the same robots to and fro). A guard watches the mean way to the
-/// goal: when it has not become shorter for some of the map's longest ways, the farthest robot is
-/// driven all the way, whatever the others do, and the guard waits twice as long the next time.
+/// livelock (robots that are handed to and fro). A guard watches the mean way to the goal: when it
+/// has not become shorter for some of the map's longest ways, the farthest robot is driven all the
+/// way, whatever the others do, and the guard waits twice as long the next time. After the third
+/// time the farthest robot leads to the end (HRA). That this ends is not proven: `gather` has a
+/// limit of steps.
 class Gatherer {
  public:
   /// The map must outlive it.
@@ -90,9 +92,11 @@ class Gatherer {
 
  private:
   void look(const Robots& robots);
+  bool by_regions() const;
   std::size_t farthest() const;
   std::size_t heuristic() const;
   std::size_t divide_and_conquer();
+  std::uint32_t next_region() const;
   std::uint32_t richest_branch(std::uint32_t region) const;
   double way_to_gate(std::size_t robot) const;
   double target_of(std::uint32_t region) const;
