@@ -15,8 +15,8 @@ namespace {
 using Reproduce = std::vector<ReproduceRow> (*)(const std::string& figure,
                                                 const ReproduceOptions& options, const Stop& stop);
 
-constexpr std::array<std::pair<std::string_view, Reproduce>, 2> papers{
-    {{"drrt", reproduce_drrt}, {"global", reproduce_global}}};
+constexpr std::array<std::pair<std::string_view, Reproduce>, 3> papers{
+    {{"drrt", reproduce_drrt}, {"global", reproduce_global}, {"gather", reproduce_gather}}};
 
 Reproduce reproduce_of(const std::string& paper) {
   std::vector<std::string_view> names;
@@ -52,7 +52,7 @@ void add_reproduce(CLI::App& app, Action& action) {
                               "A paper's figures beside ours: exit code 3 when one falls short",
                               "reproduce drrt/fig5a --quick --out out/drrt");
   cmd->add_option("key", *key,
-                  "Paper, or one of its figures: drrt, drrt/fig3, global, global/fig7 …")
+                  "Paper, or one of its figures: drrt, drrt/fig3, global, global/fig7, gather …")
       ->required()
       ->type_name("KEY");
   cmd->add_option("--out", o->out, "Folder for plots, pictures and the table as CSV")

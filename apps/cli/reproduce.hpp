@@ -33,4 +33,8 @@ std::vector<ReproduceRow> reproduce_drrt(const std::string& figure, const Reprod
 std::vector<ReproduceRow> reproduce_global(const std::string& figure,
                                            const ReproduceOptions& options, const Stop& stop);
 
+/// [gather]: fig9 (steps of three methods on three maps for 2 … 1024 robots).
+std::vector<ReproduceRow> reproduce_gather(const std::string& figure,
+                                           const ReproduceOptions& options, const Stop& stop);
+
 }  // namespace microswarm::cli

@@ -114,7 +114,8 @@ TEST_F(BadScenarios, CommandLine) {
 }
 
 TEST_F(BadScenarios, PaperFigureGroup) {
-  refused({"reproduce", "drtt"}, "reproduce: unknown paper 'drtt', there are: drrt, global");
+  refused({"reproduce", "drtt"},
+          "reproduce: unknown paper 'drtt', there are: drrt, global, gather");
   refused({"reproduce", "drrt/fig9"},
           "reproduce drrt: unknown figure 'fig9', there are: fig3, fig5a, fig5b");
   refused({"bench", "speed"}, "bench: unknown group 'speed', there are: planning, swarm");
