@@ -134,6 +134,30 @@ TEST(Aggregation, SameRobotsSameBits) {
   EXPECT_EQ(one.y, two.y);
 }
 
+// A simulation joins robots that meet, and looks only at those that moved.
+TEST(Aggregation, IsTheSameRobotByRobot) {
+  const Gathering& t = t_junction();
+  for (const Aggregation method : {Aggregation::heuristic, Aggregation::divide_and_conquer}) {
+    AggregationParams params = t.params;
+    params.method = method;
+    Robots joined = t.robots(200, 6);
+    Robots single = joined;
+    Gatherer gatherer(t.ground, params);
+    const GatherResult result = gather(t.stepper, gatherer, joined, 5000);
+    Gatherer naive(t.ground, params);
+    int steps = 0;
+    for (; steps < 5000; ++steps) {
+      const auto move = naive.next(single);
+      if (!move) break;
+      t.stepper.step(single, *move, ContactRule::stop);
+    }
+    EXPECT_EQ(steps, result.steps);
+    EXPECT_EQ(naive.mean_way(), result.mean_way);
+    EXPECT_EQ(joined.x, single.x);
+    EXPECT_EQ(joined.y, single.y);
+  }
+}
+
 TEST(Aggregation, EndsWhenToldAndWhenTheStepsRunOut) {
   const Gathering& t = t_junction();
   Robots robots = t.robots(32, 5);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "microswarm/core/error.hpp"
 
@@ -11,6 +12,12 @@ namespace {
 
 constexpr std::uint32_t nowhere = ~0u;
 constexpr double golden_angle = 2.399963229728653;
+
+/// Rounded to 2^-20: sums are exact, so that they do not depend on the order of the robots.
+double on_lattice(double v) {
+  constexpr double shift = 0x1.8p32;
+  return (v + shift) - shift;
+}
 
 }  // namespace
 
@@ -32,8 +39,8 @@ Gatherer::Gatherer(const AggregationMap& ground, const AggregationParams& params
       best_mean_(std::numeric_limits<double>::infinity()),
       patience_(params.patience * std::max(longest_ / params.step, 1.0)) {}
 
-std::optional<Vec2> Gatherer::next(const Robots& robots) {
-  look(robots);
+std::optional<Vec2> Gatherer::next(const Robots& robots, std::span<const std::uint32_t> counts) {
+  look(robots, counts);
   if (robots.size() == 0 || mean_way_ < params_.sigma) return std::nullopt;
   if (guard()) {
     leader_ = *driven_;
@@ -41,6 +48,7 @@ std::optional<Vec2> Gatherer::next(const Robots& robots) {
     leader_ = by_regions() ? divide_and_conquer() : heuristic();
   }
   const Vec2 p = robots.position(leader_);
+  if (leader_ != last_leader_) heading_for_[leader_] = nowhere;
   held_ = leader_ == last_leader_ && p == last_place_ ? held_ + 1 : 0;
   last_leader_ = leader_;
   last_place_ = p;
@@ -57,19 +65,56 @@ bool Gatherer::by_regions() const {
   return params_.method == Aggregation::divide_and_conquer && guard_count_ < most_livelocks;
 }
 
-void Gatherer::look(const Robots& robots) {
+void Gatherer::look(const Robots& robots, std::span<const std::uint32_t> counts) {
   const std::size_t n = robots.size();
-  nodes_.resize(n);
-  ways_.resize(n);
-  heading_for_.resize(n, nowhere);
-  double sum = 0;
+  counts_.assign(counts.begin(), counts.end());
+  if (seen_x_.size() != n) {
+    sum_ways_ = 0;
+    seen_x_.assign(n, std::numeric_limits<float>::quiet_NaN());
+    seen_y_.resize(n);
+    nodes_.resize(n);
+    ways_.assign(n, 0);
+    heading_for_.resize(n, nowhere);
+    robots_ = counts.empty() ? static_cast<double>(n)
+                             : std::accumulate(counts.begin(), counts.end(), 0.0);
+  }
   for (std::size_t i = 0; i < n; ++i) {
+    if (robots.x[i] == seen_x_[i] && robots.y[i] == seen_y_[i]) continue;
+    seen_x_[i] = robots.x[i];
+    seen_y_[i] = robots.y[i];
     const Vec2 p = robots.position(i);
     nodes_[i] = ground_->tree.nearest(p);
+    const double before = ways_[i];
     ways_[i] = routes_->length[nodes_[i]] + distance(p, ground_->tree.nodes[nodes_[i]]);
-    sum += ways_[i];
+    ways_[i] = on_lattice(ways_[i]);
+    sum_ways_ += count_of(i) * (ways_[i] - before);
   }
-  mean_way_ = n > 0 ? sum / static_cast<double>(n) : 0;
+  mean_way_ = n > 0 ? sum_ways_ / robots_ : 0;
+}
+
+void Gatherer::joined(std::span<const std::uint32_t> new_places) {
+  if (new_places.size() != seen_x_.size()) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < new_places.size(); ++i) {
+    if (new_places[i] != kept) {
+      const std::size_t to = new_places[i];
+      sum_ways_ += count_of(i) * (ways_[to] - ways_[i]);
+      if (i == leader_) heading_for_[to] = heading_for_[i];
+      continue;
+    }
+    seen_x_[kept] = seen_x_[i];
+    seen_y_[kept] = seen_y_[i];
+    nodes_[kept] = nodes_[i];
+    ways_[kept] = ways_[i];
+    heading_for_[kept] = heading_for_[i];
+    ++kept;
+  }
+  for (auto* all : {&seen_x_, &seen_y_}) all->resize(kept);
+  for (auto* all : {&nodes_, &heading_for_}) all->resize(kept);
+  ways_.resize(kept);
+  for (std::size_t* robot : {&leader_, &last_leader_})
+    if (*robot < new_places.size()) *robot = new_places[*robot];
+  if (driven_) driven_ = new_places[*driven_];
 }
 
 std::size_t Gatherer::farthest() const {
@@ -143,7 +188,8 @@ std::uint32_t Gatherer::richest_branch(std::uint32_t region) const {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     if (map.region[nodes_[i]] != region) continue;
     double& v = value[map.branch[nodes_[i]]];
-    v = std::max(0.0, v) + std::pow(params_.discount, way_to_gate(i) / params_.discount_length);
+    const double share = std::pow(params_.discount, way_to_gate(i) / params_.discount_length);
+    v = std::max(0.0, v) + count_of(i) * on_lattice(share);
   }
   return static_cast<std::uint32_t>(std::max_element(value.begin(), value.end()) - value.begin());
 }
@@ -193,19 +239,25 @@ Vec2 Gatherer::waypoint_of(std::size_t robot, Vec2 p) {
 
 GatherResult gather(const RobotStepper& stepper, Gatherer& gatherer, Robots& robots, int most_steps,
                     const Stop& stop) {
+  constexpr int steps_between_joins = 16;
   GatherResult result;
+  Crowd crowd(robots);
   for (;; ++result.steps) {
-    const std::optional<Vec2> move = gatherer.next(robots);
+    if (result.steps % steps_between_joins == 0) {
+      if (const auto new_places = crowd.join(); !new_places.empty()) gatherer.joined(new_places);
+    }
+    const std::optional<Vec2> move = gatherer.next(crowd.places(), crowd.counts());
     if (!move) {
       result.status = Status::solved;
     } else if (stop()) {
       result.status = Status::stopped;
     } else if (result.steps < most_steps) {
-      stepper.step(robots, *move, ContactRule::stop);
+      stepper.step(crowd.places(), *move, ContactRule::stop);
       continue;
     }
     result.mean_way = gatherer.mean_way();
     result.guard_count = gatherer.guard_count();
+    robots = crowd.robots();
     return result;
   }
 }

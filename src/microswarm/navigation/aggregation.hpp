@@ -4,11 +4,13 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "microswarm/core/fields.hpp"
+#include "microswarm/navigation/crowd.hpp"
 #include "microswarm/planning/map_segmentation.hpp"
 #include "microswarm/swarm/robot_stepper.hpp"
 
@@ -25,16 +27,19 @@ constexpr auto enum_names(Aggregation) {
        {Aggregation::divide_and_conquer, "divide_and_conquer"}}};
 }
 
-/// Parameters of an aggregation [gather]. The defaults are for channels that are 10 wide.
+/// Parameters of an aggregation [gather]. The lengths are for channels that are 10 µm wide; `fitted`
+/// makes them as large as a map's channels.
 struct AggregationParams {
   static constexpr std::string_view type_name = "aggregation";
   Aggregation method = Aggregation::divide_and_conquer;
   bool obstacle_weighted = true;
+  double scale = 1;
   double step = 1;
   double sigma = 10;
   double discount = 0.3;
   double discount_length = 5;
   int patience = 4;
+  double frame_timeout = 0.5;
   ObstacleWeightedRrtParams tree;
   MapSegmentationParams segmentation;
   template <class Self, class V>
@@ -42,6 +47,11 @@ struct AggregationParams {
     visit(self.method, {"method", Unit::none, {}, "Who leads: heuristic or divide_and_conquer."});
     visit(self.obstacle_weighted,
           {"obstacle_weighted", Unit::none, {}, "Ways along the middle; false: along the RRT."});
+    visit(self.scale, {"scale",
+                       Unit::none,
+                       {0, 1e6},
+                       "Factor on all lengths here, which are for channels of 10 µm; 0: the usual "
+                       "width of the map's channels / 10 µm."});
     visit(self.step, {"step", Unit::um, {1e-6, 1e6}, "Length of a move."});
     visit(self.sigma, {"sigma", Unit::um, {0, 1e6}, "Done when the mean way is shorter (F)."});
     visit(self.discount, {"discount", Unit::none, {0, 1}, "Discount of far robots in Eq 6."});
@@ -51,6 +61,8 @@ struct AggregationParams {
                           Unit::none,
                           {1, 1000},
                           "Longest ways without progress before the guard breaks a livelock."});
+    visit(self.frame_timeout,
+          {"frame_timeout", Unit::s, {0, 60}, "Hold when the newest frame is older than this."});
     visit(self.tree, {"tree", Unit::none, {}, "Tree and weights."});
     visit(self.segmentation, {"segmentation", Unit::none, {}, "Regions and branches."});
   }
@@ -78,8 +90,11 @@ class Gatherer {
   /// The map must outlive it.
   Gatherer(const AggregationMap& ground, const AggregationParams& params);
 
-  /// The next move [µm] of all robots; nothing when they are gathered: F < σ.
-  std::optional<Vec2> next(const Robots& robots);
+  /// The next move [µm] of all robots; nothing when they are gathered: F < σ. Where `counts` are
+  /// given, so many robots are in each place. Looks only at those that moved since the last call.
+  std::optional<Vec2> next(const Robots& robots, std::span<const std::uint32_t> counts = {});
+  /// Tells that places were joined: the new place of each old one (see Crowd::join).
+  void joined(std::span<const std::uint32_t> new_places);
 
   /// F(n, t): mean way to the goal [µm] of the robots last seen.
   double mean_way() const { return mean_way_; }
@@ -91,7 +106,10 @@ class Gatherer {
   int guard_count() const { return guard_count_; }
 
  private:
-  void look(const Robots& robots);
+  void look(const Robots& robots, std::span<const std::uint32_t> counts);
+  double count_of(std::size_t robot) const {
+    return counts_.empty() ? 1 : static_cast<double>(counts_[robot]);
+  }
   bool by_regions() const;
   std::size_t farthest() const;
   std::size_t heuristic() const;
@@ -108,9 +126,14 @@ class Gatherer {
   AggregationParams params_;
   const Routes* routes_;
   double longest_ = 0;                      ///< way [µm] from any node
+  std::vector<float> seen_x_;               ///< where each robot was seen last
+  std::vector<float> seen_y_;
+  std::vector<std::uint32_t> counts_;       ///< robots in each place; empty: one
   std::vector<std::uint32_t> nodes_;        ///< nearest node of each robot
   std::vector<double> ways_;                ///< way to the goal of each robot [µm]
   std::vector<std::uint32_t> heading_for_;  ///< node that each robot was last led to
+  double sum_ways_ = 0;  ///< over all robots
+  double robots_ = 0;    ///< how many
   double mean_way_ = 0;
   std::size_t leader_ = ~std::size_t{0};
   Vec2 waypoint_;
