@@ -56,13 +56,13 @@ std::vector<BenchRow> s_channel(const std::filesystem::path& scenarios, bool qui
   const Scenario& s = scene.scenario;
   const int seeds = quick ? 100 : 1000;
   const DrrtStarParams ours;
-  const auto ms = our_times(world, s.start, s.goal, ours, seeds, stop);
+  const auto ms = our_times(world, *s.start, *s.goal, ours, seeds, stop);
   std::vector<BenchRow> rows;
   for (const OmplPlanner peer : all_peers) {
     const auto theirs = peer_times(peer,
                                    {.world = world,
-                                    .start = s.start.position,
-                                    .goal = s.goal,
+                                    .start = s.start->position,
+                                    .goal = *s.goal,
                                     .clearance = ours.clearance,
                                     .goal_tolerance = ours.goal_tolerance,
                                     .range = ours.step},

@@ -35,7 +35,7 @@ std::vector<BenchRow> one_world(const char* name, const std::filesystem::path& f
   const Scene scene = load_scene(read_scenario(file), file.parent_path());
   const World world = build_world(scene);
   std::vector<double> ours;
-  PeerListener peer(scene.scenario.goal, 90);
+  PeerListener peer(*scene.scenario.goal, 90);
   for (int trial = 0; trial < trials && !stop(); ++trial) {
     const auto number = static_cast<std::uint32_t>(trial);
     const RunResult r = simulate(scene.scenario, world, number, {}, stop);

@@ -70,15 +70,15 @@ Outcome try_planner(const Setting& s, std::string name, const PlannerParams& par
   for (int seed = 0; seed < seeds && !stop(); ++seed) {
     Rng rng(scenario.seed, Purpose::planner, static_cast<std::uint32_t>(seed));
     const auto began = Stop::Clock::now();
-    Plan made = plan(world, scenario.start, scenario.goal, params, rng, stop);
-    if (finish == Finish::straightened) pull_straight(world, scenario.start, params, made);
+    Plan made = plan(world, *scenario.start, *scenario.goal, params, rng, stop);
+    if (finish == Finish::straightened) pull_straight(world, *scenario.start, params, made);
     out.time.push_back(
         std::chrono::duration<double, std::milli>(Stop::Clock::now() - began).count());
     if (made.status == Status::solved) {
       ++out.solved;
       out.length.push_back(path_length(made.path));
       out.turning.push_back(degrees(path_turning(made.path)));
-      out.turning_in_full.push_back(degrees(path_turning(made.path, scenario.start.heading)));
+      out.turning_in_full.push_back(degrees(path_turning(made.path, scenario.start->heading)));
     }
     if (seed == 0) out.first = std::move(made);
   }
@@ -174,9 +174,9 @@ void fig3_pictures(const Setting& s, const std::vector<Outcome>& o, const fs::pa
     Picture picture(s.world.map->bounds(), title);
     picture.walls(*s.world.map);
     content(picture);
-    picture.mark(scenario.start.position, "start");
-    picture.circle({scenario.goal, DrrtStarParams{}.goal_tolerance}, colours::goal);
-    picture.mark(scenario.goal, "goal", colours::goal);
+    picture.mark(scenario.start->position, "start");
+    picture.circle({*scenario.goal, DrrtStarParams{}.goal_tolerance}, colours::goal);
+    picture.mark(*scenario.goal, "goal", colours::goal);
     for (const char* kind : {".png", ".svg", ".pdf"}) picture.write(folder / (file + kind));
   };
   draw("D-RRT*: tree, detection circles along the path, path", "fig3a1", [&](Picture& picture) {

@@ -59,6 +59,16 @@ std::string um(double length) {
   return std::isfinite(length) ? fmt::format("{:.1f} µm", length) : "–";
 }
 
+std::string robots_summary(const RunResult& result, const RobotSwarmParams& robots) {
+  const Metrics& m = result.metrics;
+  return fmt::format(
+      "{} after {:.1f} s of simulated time and {} commands\n  {} {:.1f} µm\n  planning  {} times\n",
+      ending(result.status), m.time, result.timing.steps.size(),
+      robots.goals.empty() ? "goal      the mean way to it is"
+                           : "goals     the robot farthest from its own is off by",
+      m.goal_distance, m.planning_events);
+}
+
 std::string summary(const RunResult& result) {
   const Metrics& m = result.metrics;
   const TimeSummary p = summarise(result.timing.planning);
@@ -96,7 +106,8 @@ int one_run(const Options& o, const Scene& scene, const World& world, const Repo
   if (o.json) {
     print("{}\n", to_json(result, hash).dump(2));
   } else {
-    print("{}  record    {}\n", summary(result), hash);
+    const auto& robots = scene.scenario.robots;
+    print("{}  record    {}\n", robots ? robots_summary(result, *robots) : summary(result), hash);
     if (!o.out.empty())
       print("wrote {}\n", (folder / (o.no_report ? "run.h5" : "index.html")).string());
   }

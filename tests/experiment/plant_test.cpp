@@ -38,14 +38,14 @@ TEST(KinematicPlant, AtTheBeginningItShowsTheStart) {
   KinematicPlant plant(scenario, world_of(scenario));
   const Observation seen = plant.observe();
   EXPECT_EQ(seen.seen, 0);
-  EXPECT_EQ(seen.swarm->pose, scenario.start);
+  EXPECT_EQ(seen.swarm->pose, *scenario.start);
 }
 
 TEST(KinematicPlant, DelaysLongerThanATickKeepTheirHistory) {
   Scenario scenario = delayed(1.05);
   scenario.swarm.max_turn_rate = 1;
   KinematicPlant plant(scenario, world_of(scenario));
-  std::vector<Pose2> truth{scenario.start};
+  std::vector<Pose2> truth{*scenario.start};
   for (int i = 0; i < 40; ++i) {
     plant.apply({0.1 * i, 40}, 0.1);
     truth.push_back(plant.truth()->swarm.pose);
@@ -67,7 +67,7 @@ TEST(KinematicPlant, NoiseAndMissedFramesAreThoseAskedFor) {
     const Observation seen = plant.observe();
     if (!seen.swarm) continue;
     ++found;
-    squares += squared_norm(seen.swarm->pose.position - scenario.start.position);
+    squares += squared_norm(seen.swarm->pose.position - scenario.start->position);
   }
   EXPECT_NEAR(found / 4000.0, 0.75, 0.03);
   EXPECT_NEAR(std::sqrt(squares / found / 2), 5, 0.2);

@@ -30,7 +30,7 @@ Told run_with(const Scenario& scenario, Navigator& navigator, const Stop& stop =
 
 TEST(Run, StraightToTheGoal) {
   const Scenario scenario = open_room();
-  GoStraight navigator(scenario.goal, 60);
+  GoStraight navigator(*scenario.goal, 60);
   const Told told = run_with(scenario, navigator);
   const Metrics& m = told.result.metrics;
   EXPECT_EQ(told.result.status, Status::solved);
@@ -51,8 +51,8 @@ TEST(Run, StraightToTheGoal) {
 
 TEST(Run, AlreadyThere) {
   Scenario scenario = open_room();
-  scenario.goal = {210, 500};
-  GoStraight navigator(scenario.goal, 60);
+  scenario.goal = Vec2{210, 500};
+  GoStraight navigator(*scenario.goal, 60);
   const Told told = run_with(scenario, navigator);
   EXPECT_EQ(told.result.status, Status::solved);
   EXPECT_EQ(told.result.metrics.time, 0);
@@ -61,7 +61,7 @@ TEST(Run, AlreadyThere) {
 TEST(Run, EndsAtTheTouchOfAWall) {
   Scenario scenario = open_room();
   std::get<PolygonsMap>(scenario.map).walls = {{{1000, 0}, {1001, 0}, {1001, 1000}, {1000, 1000}}};
-  GoStraight navigator(scenario.goal, 60);
+  GoStraight navigator(*scenario.goal, 60);
   const Told told = run_with(scenario, navigator);
   EXPECT_EQ(told.result.status, Status::collided);
   EXPECT_NEAR(told.frames.back().pose.position.x, 960, 60 * ribbon_substep + 1e-9);
@@ -73,7 +73,7 @@ TEST(Run, CountsTouchesAndGoesOnWhenToldTo) {
   Scenario scenario = open_room();
   scenario.stop_at_contact = false;
   scenario.obstacles = {disc(30, Still{{1000, 500}, 0}), disc(30, Still{{1400, 500}, 0})};
-  GoStraight navigator(scenario.goal, 60);
+  GoStraight navigator(*scenario.goal, 60);
   const Told told = run_with(scenario, navigator);
   EXPECT_EQ(told.result.status, Status::collided);  // though it arrived
   EXPECT_LT(told.result.metrics.goal_distance, scenario.goal_tolerance + 1e-6);
@@ -132,7 +132,7 @@ TEST(Run, HoldingTooLongEndsIt) {
 TEST(Run, TheTimeLimitEndsIt) {
   Scenario scenario = open_room();
   scenario.time_limit = 3;
-  GoStraight navigator(scenario.goal, 60);
+  GoStraight navigator(*scenario.goal, 60);
   const Told told = run_with(scenario, navigator);
   EXPECT_EQ(told.result.status, Status::time_limit);
   EXPECT_EQ(told.frames.size(), 31u);
@@ -149,7 +149,7 @@ TEST(Run, StopsWhenToldAndKeepsWhatWas) {
       if (++steps == 8) flag = true;
       return GoStraight::step(seen, stop);
     }
-  } navigator(scenario.goal, 60);
+  } navigator(*scenario.goal, 60);
   const Told told = run_with(scenario, navigator, Stop(&navigator.flag));
   EXPECT_EQ(told.result.status, Status::stopped);
   EXPECT_EQ(told.frames.size(), 8u);  // seven whole ticks and the end
@@ -163,7 +163,7 @@ TEST(Run, WithoutTheTruthWhatIsSeenCounts) {
   };
   const Scenario scenario = open_room();
   Blind plant(scenario, world_of(scenario));
-  GoStraight navigator(scenario.goal, 60);
+  GoStraight navigator(*scenario.goal, 60);
   const RunResult result = run(scenario, plant, navigator);
   EXPECT_EQ(result.status, Status::solved);
   EXPECT_NEAR(result.metrics.length, 1550, 6);

@@ -103,7 +103,7 @@ TEST(ScenarioCheck, StartTooNearToAnObstacleOrOutside) {
   scenario.obstacles = {disc(50, Still{{283, 500}, 0})};
   EXPECT_EQ(check_error(scenario), "s.yaml: start is 33 µm from obstacle 1, needs 40 µm");
   scenario = open_room();
-  scenario.start.position = {-10, 500};
+  scenario.start->position = {-10, 500};
   EXPECT_EQ(check_error(scenario).rfind("s.yaml: start is outside the map", 0), 0u);
 }
 
@@ -156,7 +156,7 @@ TEST(ScenarioCheck, MarginWiderThanEveryPassage) {
 
 TEST(ScenarioCheck, GoalNearerToAWallThanTheMargin) {
   Scenario scenario = open_room();
-  scenario.goal = {1700, 60};
+  scenario.goal = Vec2{1700, 60};
   scenario.goal_tolerance = 20;
   EXPECT_EQ(check_error(scenario),
             "s.yaml: goal is 60 µm from the border, needs 90 µm (navigator.margin_um)");

@@ -54,8 +54,8 @@ inline Scenario open_room() {
   Scenario scenario;
   scenario.name = "open room";
   scenario.map = PolygonsMap{.lo = {0, 0}, .hi = {2000, 1000}, .walls = {}, .discs = {}};
-  scenario.start = {{200, 500}, 0};
-  scenario.goal = {1800, 500};
+  scenario.start = Pose2{{200, 500}, 0};
+  scenario.goal = Vec2{1800, 500};
   scenario.swarm.max_speed = 60;
   scenario.time_limit = 60;
   return scenario;

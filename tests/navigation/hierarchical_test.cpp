@@ -20,8 +20,9 @@ Snapshot room(std::vector<Body> bodies = {}, std::vector<Polygon> walls = {}) {
 }
 
 std::unique_ptr<Navigator> navigator(const Snapshot& world, std::uint64_t seed = 1) {
-  auto made =
-      make_navigator(HierarchicalParams{}, RibbonParams{}, goal, 30, Rng(seed, Purpose::planner));
+  auto made = make_navigator(HierarchicalParams{},
+                             Task{.swarm = {}, .robots = {}, .goal = goal, .goal_tolerance = 30},
+                             Rng(seed, Purpose::planner));
   made->prepare(world);
   return made;
 }

@@ -64,9 +64,9 @@ void vary(Scenario& s, std::uint32_t trial) {
       s.obstacles};
   const Snapshot first = world.at(0);
   for (int i = 0; i < 1000; ++i) {
-    s.start = {{rng.uniform(-1000, 850), rng.uniform(850, 3000)}, rng.uniform(-3, 3)};
-    s.goal = {rng.uniform(-1000, 850), rng.uniform(850, 3000)};
-    if (first.is_free(s.start.position, 120) && distance(s.start.position, s.goal) > 900) return;
+    s.start = Pose2{{rng.uniform(-1000, 850), rng.uniform(850, 3000)}, rng.uniform(-3, 3)};
+    s.goal = Vec2{rng.uniform(-1000, 850), rng.uniform(850, 3000)};
+    if (first.is_free(s.start->position, 120) && distance(s.start->position, *s.goal) > 900) return;
   }
 }
 

@@ -23,7 +23,8 @@ struct Frame {
   double seen = 0;                ///< when the frame that the navigator got was taken [s]
   std::optional<Pose2> observed;  ///< the swarm in that frame
   Command command;                ///< what the navigator answered
-  double wall_clearance = 0;      ///< from the centre at t to walls and border [µm]
+  double goal_distance = 0;       ///< what is left to the goal [µm]; see Metrics::goal_distance
+  double wall_clearance = 0;      ///< from the centre at t to walls and border [µm]; of robots inf
   double obstacle_clearance = 0;  ///< from the centre at t to moving bodies [µm]; inf without any
   std::optional<Vec2> target;     ///< the navigator's local target
   std::string state;              ///< the navigator's word for what it does
@@ -34,6 +35,12 @@ struct Frame {
 struct PathChange {
   double t = 0;  ///< [s]
   std::vector<Vec2> path;
+};
+
+/// Where robots that are told apart are.
+struct RobotMoment {
+  double t = 0;  ///< [s]
+  std::vector<Vec2> places;
 };
 
 /// A planning event: what the local planner returned, its tree and detection circles included.

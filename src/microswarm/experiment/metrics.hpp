@@ -36,7 +36,12 @@ struct Metrics {
     visit(self.time, {"time", Unit::s, {}, "Simulated time at the end."});
     visit(self.length, {"length", Unit::um, {}, "Length of the swarm's way."});
     visit(self.turning, {"turning", Unit::deg, {}, "Total turning of its heading."});
-    visit(self.goal_distance, {"goal_distance", Unit::um, {}, "From the goal at the end."});
+    visit(self.goal_distance,
+          {"goal_distance",
+           Unit::um,
+           {},
+           "From the goal at the end: of the centre; of robots the mean way to it, or the worst "
+           "robot's distance from its own."});
     visit(self.hold_time, {"hold_time", Unit::s, {}, "Time under the command to hold."});
     visit(self.walls, {"walls", Unit::none, {}, "Least clearance to walls and border."});
     visit(self.obstacles, {"obstacles", Unit::none, {}, "Least clearance to moving bodies."});

@@ -12,15 +12,15 @@ KinematicPlant::KinematicPlant(const Scenario& scenario, World world, std::uint3
     : world_(std::move(world)),
       sensing_(scenario.sensing),
       radius_(scenario.swarm.radius),
-      ribbon_(scenario.swarm, scenario.start),
+      ribbon_(scenario.swarm, *scenario.start),
       drift_(scenario.seed, Purpose::plant, trial),
       noise_(scenario.seed, Purpose::sensor, trial),
-      history_{{0, scenario.start}} {}
+      history_{{0, *scenario.start}} {}
 
 Observation KinematicPlant::observe() {
   const double seen = std::max(0.0, now_ - sensing_.observation_delay);
   seen_.emplace(world_.at(seen));
-  Observation observation{.now = now_, .seen = seen, .swarm = {}, .world = &*seen_};
+  Observation observation{.now = now_, .seen = seen, .swarm = {}, .robots = {}, .world = &*seen_};
   // Always the same count of draws, so that one missed frame does not change the noise of the next.
   const bool missed = noise_.uniform() < sensing_.missed_share;
   const double dx = noise_.normal(), dy = noise_.normal(), turn = noise_.normal();
@@ -48,6 +48,7 @@ std::optional<Truth> KinematicPlant::truth() const {
                .swarm = {ribbon_.pose(), radius_},
                .speed = ribbon_.speed(),
                .swept = ribbon_.swept(),
+               .robots = {},
                .world = &world_};
 }
 

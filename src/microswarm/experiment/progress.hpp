@@ -7,7 +7,7 @@
 
 namespace microswarm {
 
-/// How far a run is: the share of the way that is behind it (by distance to the goal), and of its
+/// How far a run is: the share of the way that is behind it (by distance from the goal), and of its
 /// simulated time limit.
 struct RunProgress {
   double t = 0;           ///< [s]
@@ -23,8 +23,7 @@ class ProgressListener : public RunListener {
   void on_frame(const Frame& frame, const NavigatorView& view, const Snapshot& world) override;
 
  private:
-  Vec2 goal_;
-  double start_distance_;
+  double start_distance_ = -1;  // until the first frame
   double time_limit_;
   std::function<void(const RunProgress&)> report_;
   double period_;

@@ -67,4 +67,23 @@ void Recorder::on_frame(const Frame& frame, const NavigatorView& view, const Sna
   if (!same) record_.paths.push_back({frame.t, {view.path.begin(), view.path.end()}});
 }
 
+void Recorder::on_robots(double t, std::span<const Vec2> robots) {
+  constexpr std::size_t most_moments = 128;
+  last_robots_ = {t, {robots.begin(), robots.end()}};
+  if (robot_frames_++ % robot_period_ != 0) return;
+  std::vector<RobotMoment>& kept = record_.robots;
+  if (kept.size() == most_moments) {
+    for (std::size_t i = 1; 2 * i < kept.size(); ++i) kept[i] = std::move(kept[2 * i]);
+    kept.resize(most_moments / 2);
+    robot_period_ *= 2;
+  }
+  kept.push_back(last_robots_);
+}
+
+void Recorder::on_end(const RunResult& result) {
+  record_.result = result;
+  if (!record_.robots.empty() && record_.robots.back().t < last_robots_.t)
+    record_.robots.push_back(std::move(last_robots_));
+}
+
 }  // namespace microswarm

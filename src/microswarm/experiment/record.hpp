@@ -20,25 +20,31 @@ struct Record {
   std::vector<PathChange> paths;
   std::vector<PlanEvent> plans;
   std::vector<RunEvent> events;
+  std::vector<RobotMoment> robots;  ///< of robots that are told apart: a part of the frames
   std::string stated_hash;  ///< what the file it was read from says it is; empty for a new one
 
   /// Fingerprint of all that is physical: frames, paths, plans, events, status and metrics.
   std::string hash() const;
 };
 
-/// Keeps a run in memory. Give it to run(), then take the record.
+/// Keeps a run in memory. Give it to run(), then take the record. Where robots are it keeps at 64
+/// to 128 moments, evenly from the start on, and at the end.
 class Recorder : public RunListener {
  public:
   explicit Recorder(Scene scene, std::uint32_t trial = 0);
   void on_frame(const Frame& frame, const NavigatorView& view, const Snapshot& world) override;
+  void on_robots(double t, std::span<const Vec2> robots) override;
   void on_event(const RunEvent& event) override { record_.events.push_back(event); }
-  void on_end(const RunResult& result) override { record_.result = result; }
+  void on_end(const RunResult& result) override;
 
   const Record& record() const { return record_; }
   Record take() { return std::move(record_); }
 
  private:
   Record record_;
+  std::size_t robot_period_ = 1;  // frames
+  std::size_t robot_frames_ = 0;
+  RobotMoment last_robots_;
 };
 
 /// Writes an HDF5 file, layout in docs/record.md, under a temporary name first. Throws InputError

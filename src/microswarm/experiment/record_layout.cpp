@@ -115,7 +115,10 @@ std::vector<Column<Frame>> columns_of(const Frame*) {
           "command_speed", Unit::um_per_s, "The speed it commanded; 0 is hold.",
           [](auto& f) -> auto& { return f.command.speed; }),
       column<Frame>(
-          "wall_clearance", Unit::um, "From the centre at t to walls and border.",
+          "goal_distance", Unit::um, "What is left to the goal; of robots as in the metrics.",
+          [](auto& f) -> auto& { return f.goal_distance; }),
+      column<Frame>(
+          "wall_clearance", Unit::um, "From the centre at t to walls and border; infinite for robots.",
           [](auto& f) -> auto& { return f.wall_clearance; }),
       column<Frame>(
           "obstacle_clearance", Unit::um,
@@ -141,6 +144,12 @@ std::vector<Column<PathChange>> columns_of(const PathChange*) {
   return {column<PathChange>(
       "t", Unit::s, "When the navigator began to follow it.",
       [](auto& p) -> auto& { return p.t; })};
+}
+
+std::vector<Column<RobotMoment>> columns_of(const RobotMoment*) {
+  return {column<RobotMoment>(
+      "t", Unit::s, "When the robots were there; of a long run only some of the frames.",
+      [](auto& m) -> auto& { return m.t; })};
 }
 
 std::vector<Column<PlanEvent>> columns_of(const PlanEvent*) {

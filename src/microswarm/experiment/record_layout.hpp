@@ -37,6 +37,7 @@ std::vector<Column<Frame>> columns_of(const Frame*);
 std::vector<Column<PathChange>> columns_of(const PathChange*);
 std::vector<Column<PlanEvent>> columns_of(const PlanEvent*);
 std::vector<Column<RunEvent>> columns_of(const RunEvent*);
+std::vector<Column<RobotMoment>> columns_of(const RobotMoment*);
 std::vector<Column<Vec2>> columns_of(const Vec2*);
 std::vector<Column<TreeNode>> columns_of(const TreeNode*);
 std::vector<Column<Detection>> columns_of(const Detection*);
@@ -57,6 +58,9 @@ void visit_tables(SomeRecord& record, Visitor&& visit) {
   visit.parts(
       "/plans/detections", record.plans, [](auto& row) -> auto& { return row.plan.detections; });
   visit.table("/events", record.events);
+  visit.table("/robots", record.robots);
+  visit.parts(
+      "/robots/places", record.robots, [](auto& row) -> auto& { return row.places; });
 }
 
 }  // namespace microswarm

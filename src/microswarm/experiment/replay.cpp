@@ -73,6 +73,9 @@ struct Comparison {
     return now.paths;
   }
   const std::vector<PlanEvent>& table_of(const std::vector<PlanEvent>*) const { return now.plans; }
+  const std::vector<RobotMoment>& table_of(const std::vector<RobotMoment>*) const {
+    return now.robots;
+  }
   const std::vector<RunEvent>& table_of(const std::vector<RunEvent>*) const { return now.events; }
 };
 

@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
+#include <memory>
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/experiment/plant.hpp"
+#include "microswarm/experiment/robot_plant.hpp"
+#include "microswarm/experiment/robot_task.hpp"
 #include "microswarm/experiment/watch.hpp"
 
 namespace microswarm {
@@ -20,6 +24,7 @@ struct Present {
   double t = 0;
   Pose2 pose;
   double speed = 0;
+  double goal_distance = std::numeric_limits<double>::infinity();
 };
 
 /// One run between its first and last tick.
@@ -28,8 +33,9 @@ class Run {
   Run(const Scenario& scenario, Plant& plant, Navigator& navigator,
       std::span<RunListener* const> listeners)
       : scenario_(scenario), plant_(plant), navigator_(navigator), listeners_(listeners) {
-    present_.pose = scenario.start;
-    if (const auto truth = plant.truth()) watch_.emplace(*truth->world, scenario.swarm.radius);
+    if (scenario.start) present_.pose = *scenario.start;
+    const auto truth = plant.truth();
+    if (truth && !scenario.robots) watch_.emplace(*truth->world, scenario.swarm.radius);
   }
 
   RunResult to_the_end(const Stop& stop) {
@@ -43,9 +49,9 @@ class Run {
  private:
   std::optional<Status> tick(const Stop& stop) {
     const Observation seen = plant_.observe();
+    if (scenario_.robots && !task_) begin_with_robots(seen);
     move_to(present(seen));
-    if (distance(present_.pose.position, scenario_.goal) <= scenario_.goal_tolerance)
-      return arrived();
+    if (present_.goal_distance <= scenario_.goal_tolerance) return arrived();
     if (result_.timing.steps.empty()) navigator_.prepare(*seen.world);
 
     const Clock::time_point begin = Clock::now();
@@ -61,12 +67,26 @@ class Run {
     return watch_ ? follow(*plant_.truth()) : std::nullopt;
   }
 
+  void begin_with_robots(const Observation& seen) {
+    task_.emplace(scenario_, seen.world->map());
+    const auto truth = plant_.truth();
+    if (truth || seen.swarm) present_.pose = truth ? truth->swarm.pose : seen.swarm->pose;
+  }
+
   Present present(const Observation& seen) const {
-    if (const auto truth = plant_.truth()) return {truth->now, truth->swarm.pose, truth->speed};
-    if (!seen.swarm) return {seen.now, present_.pose, present_.speed};
+    if (const auto truth = plant_.truth())
+      return {truth->now, truth->swarm.pose, truth->speed,
+              left(truth->swarm.pose.position, truth->robots)};
+    if (!seen.swarm) return {seen.now, present_.pose, present_.speed, present_.goal_distance};
     const double passed = seen.now - present_.t;
     const double way = distance(present_.pose.position, seen.swarm->pose.position);
-    return {seen.now, seen.swarm->pose, passed > 0 ? way / passed : 0};
+    return {seen.now, seen.swarm->pose, passed > 0 ? way / passed : 0,
+            left(seen.swarm->pose.position, seen.robots)};
+  }
+
+  /// How far it is to the end of the task [µm].
+  double left(Vec2 centre, std::span<const Vec2> robots) const {
+    return task_ ? task_->left(robots) : distance(centre, *scenario_.goal);
   }
 
   void move_to(const Present& next) {
@@ -77,7 +97,7 @@ class Run {
 
   /// The same along all of a way that began at t0.
   void move_along(std::span<const TimedPose> way, double t0, double speed) {
-    for (const TimedPose& p : way) move_to({t0 + p.t, p.pose, speed});
+    for (const TimedPose& p : way) move_to({t0 + p.t, p.pose, speed, left(p.pose.position, {})});
   }
 
   void note_step(const Observation& seen, const Command& command, double took) {
@@ -106,7 +126,7 @@ class Run {
   std::optional<Status> follow(const Truth& truth) {
     const double t0 = present_.t;
     std::vector<TimedPose> way(truth.swept.begin(), truth.swept.end());
-    const auto arrival = first_arrival(way, scenario_.goal, scenario_.goal_tolerance);
+    const auto arrival = first_arrival(way, *scenario_.goal, scenario_.goal_tolerance);
     if (arrival) cut(way, *arrival);
     const Watch before = *watch_;
     const std::vector<RunEvent> touches = watch_->follow(t0, way);
@@ -150,7 +170,7 @@ class Run {
     result_.status = touched ? Status::collided : status;
     Metrics& metrics = result_.metrics;
     metrics.time = present_.t;
-    metrics.goal_distance = distance(present_.pose.position, scenario_.goal);
+    metrics.goal_distance = present_.goal_distance;
     if (watch_) {
       metrics.walls = watch_->walls();
       metrics.obstacles = watch_->obstacles();
@@ -168,9 +188,10 @@ class Run {
     frame.speed = present_.speed;
     frame.seen = seen.seen;
     if (seen.swarm) frame.observed = seen.swarm->pose;
-    frame.wall_clearance = world.map().clearance(frame.pose.position);
-    frame.obstacle_clearance =
-        world.moving().clearance(frame.pose.position, std::numeric_limits<double>::infinity());
+    frame.goal_distance = present_.goal_distance;
+    constexpr double none = std::numeric_limits<double>::infinity();
+    frame.wall_clearance = task_ ? none : world.map().clearance(frame.pose.position);
+    frame.obstacle_clearance = task_ ? none : world.moving().clearance(frame.pose.position, none);
     if (!watch_) {
       Metrics& metrics = result_.metrics;
       if (frame.wall_clearance < metrics.walls.clearance)
@@ -178,7 +199,10 @@ class Run {
       if (frame.obstacle_clearance < metrics.obstacles.clearance)
         metrics.obstacles = {frame.obstacle_clearance, frame.t};
     }
-    for (RunListener* listener : listeners_) listener->on_frame(frame, view, world);
+    for (RunListener* listener : listeners_) {
+      listener->on_frame(frame, view, world);
+      if (task_) listener->on_robots(frame.t, truth ? truth->robots : seen.robots);
+    }
   }
 
   void tell(EventKind kind) {
@@ -192,6 +216,7 @@ class Run {
   Navigator& navigator_;
   std::span<RunListener* const> listeners_;
   std::optional<Watch> watch_;
+  std::optional<RobotTask> task_;  // of robots that are told apart
   Present present_;
   double hold_time_ = 0;
   RunResult result_;
@@ -206,11 +231,14 @@ RunResult run(const Scenario& scenario, Plant& plant, Navigator& navigator,
 
 RunResult simulate(const Scenario& scenario, const World& world, std::uint32_t trial,
                    std::span<RunListener* const> listeners, const Stop& stop) {
-  KinematicPlant plant(scenario, world, trial);
-  const auto navigator =
-      make_navigator(scenario.navigator, scenario.swarm, scenario.goal, scenario.goal_tolerance,
-                     Rng(scenario.seed, Purpose::planner, trial));
-  return run(scenario, plant, *navigator, listeners, stop);
+  std::unique_ptr<Plant> plant;
+  if (scenario.robots)
+    plant = std::make_unique<RobotPlant>(scenario, world, trial);
+  else
+    plant = std::make_unique<KinematicPlant>(scenario, world, trial);
+  const auto navigator = make_navigator(scenario.navigator, task_of(scenario),
+                                        Rng(scenario.seed, Purpose::planner, trial));
+  return run(scenario, *plant, *navigator, listeners, stop);
 }
 
 }  // namespace microswarm

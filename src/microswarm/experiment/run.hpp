@@ -24,14 +24,18 @@ class RunListener {
   virtual void on_frame(const Frame& frame, const NavigatorView& view, const Snapshot& world) {
     (void)frame, (void)view, (void)world;
   }
+  /// Besides on_frame, at the same time: where robots are that are told apart.
+  virtual void on_robots(double t, std::span<const Vec2> robots) { (void)t, (void)robots; }
   virtual void on_event(const RunEvent& event) { (void)event; }
   virtual void on_end(const RunResult& result) { (void)result; }
 };
 
 /// The only loop: at every tick it observes, asks the navigator, applies the command, and watches,
-/// in continuous time, for contact and for the goal. Ends with `solved`, `collided`, `held`
-/// (nothing was safe for the scenario's hold limit, or up to its time limit), `time_limit` or
-/// `stopped`. Without the plant's truth, clearances and contacts are those of what was seen.
+/// in continuous time, for contact and for the goal; whether robots that are told apart have done
+/// their task it looks up at every tick, and walls are no danger to them. Ends with `solved`,
+/// `collided`, `held` (nothing was safe for the scenario's hold limit, or up to its time limit),
+/// `time_limit` or `stopped`. Without the plant's truth, clearances and contacts are those of what
+/// was seen.
 RunResult run(const Scenario& scenario, Plant& plant, Navigator& navigator,
               std::span<RunListener* const> listeners = {}, const Stop& stop = {});
 

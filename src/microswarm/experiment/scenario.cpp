@@ -122,13 +122,13 @@ void check_sensing(const Scenario& scenario, const std::string& where) {
 void check_margin(const Scenario& scenario, const World& world, const std::string& where) {
   const double margin = margin_of(scenario.navigator);
   const Snapshot walls(world.map);
-  const auto target = free_goal(walls, scenario.goal, scenario.goal_tolerance, margin);
+  const auto target = free_goal(walls, *scenario.goal, scenario.goal_tolerance, margin);
   if (!target)
     throw InputError(fmt::format("{}: goal {} (navigator.margin_um)", where,
-                                 walls.why_blocked(scenario.goal, margin)));
-  const WidestPath way = widest_path(*world.map, scenario.start.position, *target, margin);
+                                 walls.why_blocked(*scenario.goal, margin)));
+  const WidestPath way = widest_path(*world.map, scenario.start->position, *target, margin);
   // A start that is nearer to a wall is let go: the navigator leads away from there.
-  const double needed = std::min(margin, world.map->clearance(scenario.start.position));
+  const double needed = std::min(margin, world.map->clearance(scenario.start->position));
   if (way.clearance + 1.5 * way.resolution >= needed) return;
   if (!way.found)
     throw InputError(
@@ -140,20 +140,79 @@ void check_margin(const Scenario& scenario, const World& world, const std::strin
       where, margin, way.clearance, way.tightest.x, way.tightest.y));
 }
 
-}  // namespace
-
-void check(const Scenario& scenario, const World& world, const std::string& where) {
-  check_sensing(scenario, where);
+void check_body(const Scenario& scenario, const World& world, const std::string& where) {
+  if (!scenario.start) throw InputError(fmt::format("{}: missing key 'start'", where));
   const double radius = scenario.swarm.radius;
-  if (const auto why = world.at(0).why_blocked(scenario.start.position, radius); !why.empty())
+  if (const auto why = world.at(0).why_blocked(scenario.start->position, radius); !why.empty())
     throw InputError(fmt::format("{}: start {}", where, why));
   // The swarm's centre may stop anywhere within the tolerance.
   const Snapshot walls(world.map);
-  const auto target = free_goal(walls, scenario.goal, scenario.goal_tolerance, radius);
+  const auto target = free_goal(walls, *scenario.goal, scenario.goal_tolerance, radius);
   if (!target)
-    throw InputError(fmt::format("{}: goal {}", where, walls.why_blocked(scenario.goal, radius)));
-  check_way(*world.map, scenario.start.position, *target, radius, where);
+    throw InputError(fmt::format("{}: goal {}", where, walls.why_blocked(*scenario.goal, radius)));
+  check_way(*world.map, scenario.start->position, *target, radius, where);
   check_margin(scenario, world, where);
+}
+
+void check_count(const Scenario& scenario, const std::string& where) {
+  const RobotSwarmParams& robots = *scenario.robots;
+  const auto fail = [&](const std::string& what) { throw InputError(where + ": " + what); };
+  if (scenario.start) fail("start is for a swarm of one body; robots have robots.starts_um");
+  if (!scenario.obstacles.empty()) fail("robots and moving obstacles cannot be in one scenario");
+  if (robots.count > 0 && !robots.starts.empty())
+    fail("robots.count and robots.starts_um are both given");
+  if (robots.count == 0 && robots.starts.empty())
+    fail("no robots: give robots.count or robots.starts_um");
+  if (robots.goals.empty() == !scenario.goal)
+    fail(scenario.goal ? "goal_um and robots.goals_um are both given" : "missing key 'goal_um'");
+  if (robots.goals.empty()) return;
+  if (robots.goals.size() != robots.starts.size())
+    fail(fmt::format("robots.goals_um has {} places, robots.starts_um has {}", robots.goals.size(),
+                     robots.starts.size()));
+  if (robots.starts.size() > most_global_robots)
+    fail(fmt::format("{} robots with goals of their own, at most {} can be planned for",
+                     robots.starts.size(), most_global_robots));
+}
+
+void check_places(const Scenario& scenario, const World& world, const std::string& where) {
+  const RobotSwarmParams& robots = *scenario.robots;
+  const Snapshot walls(world.map);
+  const double guard = 2 * RobotStepper(*world.map, robots.max_speed * scenario.tick).guard();
+  const auto check_free = [&](const std::string& what, Vec2 p, double radius) {
+    if (const auto why = walls.why_blocked(p, radius); !why.empty())
+      throw InputError(fmt::format("{}: {} {}", where, what, why));
+  };
+  const auto goal_of = [&](std::size_t i) {
+    return robots.goals.empty() ? *scenario.goal : robots.goals[i];
+  };
+  if (scenario.goal) check_free("goal", *scenario.goal, 0);
+  for (std::size_t i = 0; i < robots.goals.size(); ++i)
+    check_free(fmt::format("goal {}", i + 1), robots.goals[i], 0);
+  for (std::size_t i = 0; i < robots.starts.size(); ++i) {
+    check_free(fmt::format("start {}", i + 1), robots.starts[i], guard);
+    if (!connected(*world.map, robots.starts[i], goal_of(i)))
+      throw InputError(fmt::format("{}: robot {} is cut off from its goal by walls", where, i + 1));
+  }
+}
+
+}  // namespace
+
+Task task_of(const Scenario& scenario) {
+  return {.swarm = scenario.swarm,
+          .robots = scenario.robots,
+          .goal = scenario.goal,
+          .goal_tolerance = scenario.goal_tolerance,
+          .tick = scenario.tick};
+}
+
+void check(const Scenario& scenario, const World& world, const std::string& where) {
+  check_sensing(scenario, where);
+  if (scenario.robots) check_count(scenario, where);
+  if (!scenario.robots && !scenario.goal)
+    throw InputError(fmt::format("{}: missing key 'goal_um'", where));
+  if (const auto lack = what_it_lacks(scenario.navigator, task_of(scenario)); !lack.empty())
+    throw InputError(fmt::format("{}: this navigator needs {}", where, lack));
+  scenario.robots ? check_places(scenario, world, where) : check_body(scenario, world, where);
 }
 
 }  // namespace microswarm

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "microswarm/formats/map_parts.hpp"
 #include "microswarm/navigation/make.hpp"
 #include "microswarm/swarm/ribbon.hpp"
+#include "microswarm/swarm/robot_swarm.hpp"
 #include "microswarm/world/world.hpp"
 
 namespace microswarm {
@@ -34,16 +36,19 @@ struct SensingParams {
   }
 };
 
-/// One experiment as data: the world, the swarm, where from, where to, and who steers.
+/// One experiment as data: the world, the swarm, where from, where to, and who steers. A swarm seen
+/// as one body has a start and a goal; robots that are told apart have starts and either one goal,
+/// at which they gather, or a goal each. `check` sees to that.
 struct Scenario {
   std::string name;
   std::string description;
   MapSpec map;
   std::vector<Obstacle> obstacles;
   RibbonParams swarm;
+  std::optional<RobotSwarmParams> robots;
   SensingParams sensing;
-  Pose2 start;
-  Vec2 goal;
+  std::optional<Pose2> start;
+  std::optional<Vec2> goal;
   double goal_tolerance = 50;
   NavigatorParams navigator;
   double tick = 0.1;
@@ -57,12 +62,18 @@ struct Scenario {
     visit(self.description, {"description", Unit::none, {}, "What it shows, for people."});
     visit(self.map, {"map", Unit::none, {}, "The walls.", true});
     visit(self.obstacles, {"obstacles", Unit::none, {}, "What moves or changes."});
-    visit(self.swarm, {"swarm", Unit::none, {}, "The swarm's body and motion."});
+    visit(self.swarm, {"swarm", Unit::none, {}, "The swarm's body and motion, seen as one."});
+    visit(self.robots,
+          {"robots", Unit::none, {}, "Robots that are told apart, in place of `swarm`."});
     visit(self.sensing, {"sensing", Unit::none, {}, "What the camera sees, and when."});
-    visit(self.start, {"start", Unit::none, {}, "Where the swarm stands at t = 0.", true});
-    visit(self.goal, {"goal", Unit::um, {}, "Where it has to go.", true});
+    visit(self.start,
+          {"start", Unit::none, {}, "Where the swarm stands at t = 0; not for robots."});
+    visit(self.goal, {"goal", Unit::um, {}, "Where it has to go, or where robots have to gather."});
     visit(self.goal_tolerance,
-          {"goal_tolerance", Unit::um, {1e-3, 1e6}, "How near to the goal counts as there."});
+          {"goal_tolerance",
+           Unit::um,
+           {1e-3, 1e6},
+           "How near to the goal counts as there; of robots that gather their mean way, F."});
     visit(self.navigator, {"navigator", Unit::none, {}, "Who steers."});
     visit(self.tick, {"tick", Unit::s, {1e-3, 10}, "Time between two commands."});
     visit(self.time_limit,
@@ -99,13 +110,16 @@ struct Scene {
 /// or an obstacle that makes no sense.
 Scene load_scene(Scenario scenario, const std::filesystem::path& base);
 
+/// What a scenario tells its navigator.
+Task task_of(const Scenario& scenario);
+
 /// Builds the world of a scene. Throws InputError as Map does.
 World build_world(const Scene& scene);
 
 /// Throws InputError, one line, when the run cannot be meant so: the start or the goal in a wall
 /// ("start is 12 µm inside wall 3"), the swarm wider than every passage, the goal cut off from the
 /// start, or no way that keeps the navigator's margin. `where` begins the line: the scenario's file
-/// or name.
+/// or name. Robots and their goals are looked at one by one.
 void check(const Scenario& scenario, const World& world, const std::string& where);
 
 /// The last two of these complaints alone: between two free points of a map, for a swarm of

@@ -1,23 +1,65 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/navigation/make.hpp"
 
+#include "microswarm/navigation/aggregation_navigator.hpp"
+
 namespace microswarm {
 
+namespace {
+
+using Made = std::unique_ptr<Navigator>;
+
+Made make(const HierarchicalParams& p, const Task& task, Rng rng) {
+  return std::make_unique<HierarchicalNavigator>(p, task.swarm, *task.goal, task.goal_tolerance,
+                                                 rng);
+}
+
+Made make(const PlanPlayerParams& p, const Task& task, Rng rng) {
+  return std::make_unique<PlanPlayer>(p, *task.robots, task.goal_tolerance, task.tick, rng);
+}
+
+Made make(const AggregationParams& p, const Task& task, Rng rng) {
+  return std::make_unique<AggregationNavigator>(p, *task.robots, *task.goal, task.tick, rng);
+}
+
+std::string_view lacks(const HierarchicalParams&, const Task& task) {
+  if (task.robots) return "a swarm that is one body: it cannot steer robots one by one";
+  return task.goal ? "" : "a goal";
+}
+
+std::string_view lacks(const PlanPlayerParams&, const Task& task) {
+  return task.robots && !task.robots->goals.empty() ? "" : "robots with a goal each";
+}
+
+std::string_view lacks(const AggregationParams&, const Task& task) {
+  if (!task.robots) return "robots";
+  if (task.robots->contact != ContactRule::stop) return "robots that stop at walls";
+  return task.goal ? "" : "one goal for all robots";
+}
+
+double margin(const HierarchicalParams& p) { return p.margin; }
+template <class OfRobots>
+double margin(const OfRobots&) {
+  return 0;
+}
+
+}  // namespace
+
+std::string_view what_it_lacks(const NavigatorParams& params, const Task& task) {
+  return std::visit([&](const auto& p) { return lacks(p, task); }, params);
+}
+
 double margin_of(const NavigatorParams& params) {
-  return std::visit([](const auto& p) { return p.margin; }, params);
+  return std::visit([](const auto& p) { return margin(p); }, params);
 }
 
 double frame_timeout_of(const NavigatorParams& params) {
   return std::visit([](const auto& p) { return p.frame_timeout; }, params);
 }
 
-std::unique_ptr<Navigator> make_navigator(const NavigatorParams& params, const RibbonParams& swarm,
-                                          Vec2 goal, double goal_tolerance, Rng rng) {
-  return std::visit(
-      [&](const HierarchicalParams& p) -> std::unique_ptr<Navigator> {
-        return std::make_unique<HierarchicalNavigator>(p, swarm, goal, goal_tolerance, rng);
-      },
-      params);
+std::unique_ptr<Navigator> make_navigator(const NavigatorParams& params, const Task& task,
+                                          Rng rng) {
+  return std::visit([&](const auto& p) { return make(p, task, rng); }, params);
 }
 
 }  // namespace microswarm

@@ -2,23 +2,39 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string_view>
 #include <variant>
 
+#include "microswarm/navigation/aggregation.hpp"
 #include "microswarm/navigation/hierarchical.hpp"
+#include "microswarm/navigation/plan_player.hpp"
+#include "microswarm/swarm/robot_swarm.hpp"
 
 namespace microswarm {
 
 /// Any navigator, chosen at run time by its `type`.
-using NavigatorParams = std::variant<HierarchicalParams>;
+using NavigatorParams = std::variant<HierarchicalParams, PlanPlayerParams, AggregationParams>;
 
-/// Least distance [µm] from its centre that the navigator keeps for the swarm.
+/// What a navigator is told of its task.
+struct Task {
+  RibbonParams swarm;                      ///< of a swarm that is seen as one body
+  std::optional<RobotSwarmParams> robots;  ///< of one whose robots are told apart
+  std::optional<Vec2> goal;                ///< nothing when the robots have goals of their own
+  double goal_tolerance = 0;               ///< [µm]
+  double tick = 0.1;                       ///< between two commands [s]
+};
+
+/// What a navigator can steer: nothing when it can do the task, else what it lacks.
+std::string_view what_it_lacks(const NavigatorParams& params, const Task& task);
+
+/// Least distance [µm] from its centre that the navigator keeps for a swarm seen as one body.
 double margin_of(const NavigatorParams& params);
 
 /// Age [s] from which on the navigator holds a frame for too old.
 double frame_timeout_of(const NavigatorParams& params);
 
-/// The navigator with these parameters for a swarm of which `swarm` is known.
-std::unique_ptr<Navigator> make_navigator(const NavigatorParams& params, const RibbonParams& swarm,
-                                          Vec2 goal, double goal_tolerance, Rng rng);
+/// The navigator with these parameters; it lacks nothing for the task.
+std::unique_ptr<Navigator> make_navigator(const NavigatorParams& params, const Task& task, Rng rng);
 
 }  // namespace microswarm

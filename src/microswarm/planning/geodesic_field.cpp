@@ -47,7 +47,7 @@ GeodesicField::GeodesicField(const Map& map, Vec2 goal, int cells) : goal_(goal)
     for (int j = std::max(0, row - 1); j <= std::min(rows_ - 1, row + 1); ++j) {
       for (int i = std::max(0, column - 1); i <= std::min(columns_ - 1, column + 1); ++i) {
         const std::size_t cell = cell_of(i, j);
-        if (!map.is_free(centre(cell), 0)) continue;
+        if (!map.is_free(Segment{centre(next.cell), centre(cell)}, 0)) continue;
         const double step = i != column && j != row ? std::numbers::sqrt2 : 1.0;
         reach(cell, static_cast<double>(next.distance) + step * cell_);
       }
@@ -71,6 +71,22 @@ Vec2 GeodesicField::centre(std::size_t cell) const {
 double GeodesicField::at(Vec2 p) const {
   const float found = distances_[index(p)];
   return found < unknown ? static_cast<double>(found) : distance(p, goal_) + detour_;
+}
+
+bool GeodesicField::reaches(Vec2 p) const { return distances_[index(p)] < unknown; }
+
+double GeodesicField::seen_from(const Map& map, Vec2 p) const {
+  const int column = static_cast<int>(index(p)) % columns_;
+  const int row = static_cast<int>(index(p)) / columns_;
+  double least = std::numeric_limits<double>::infinity();
+  for (int j = std::max(0, row - 1); j <= std::min(rows_ - 1, row + 1); ++j) {
+    for (int i = std::max(0, column - 1); i <= std::min(columns_ - 1, column + 1); ++i) {
+      const std::size_t cell = cell_of(i, j);
+      const double way = static_cast<double>(distances_[cell]) + distance(p, centre(cell));
+      if (way < least && map.is_free(Segment{p, centre(cell)}, 0)) least = way;
+    }
+  }
+  return std::isfinite(least) ? least : distance(p, goal_) + detour_;
 }
 
 }  // namespace microswarm

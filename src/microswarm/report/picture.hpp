@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -35,6 +36,15 @@ inline constexpr Colour tree{0.55, 0.70, 0.85, 0.9};
 inline constexpr Colour circle{0.80, 0.47, 0.65, 0.9};
 inline constexpr Colour swarm{0.0, 0.62, 0.45, 1};
 inline constexpr Colour goal{0.90, 0.62, 0.0, 1};
+/// Robots that are told apart, one after the other.
+inline constexpr std::array<Colour, 8> robots{{{0.0, 0.45, 0.70, 1},
+                                               {0.84, 0.37, 0.0, 1},
+                                               {0.0, 0.62, 0.45, 1},
+                                               {0.80, 0.47, 0.65, 1},
+                                               {0.90, 0.62, 0.0, 1},
+                                               {0.34, 0.71, 0.91, 1},
+                                               {0.40, 0.30, 0.65, 1},
+                                               {0.35, 0.35, 0.35, 1}}};
 }  // namespace colours
 
 /// A drawing of a world in its own coordinates [µm, y up], written as PNG, SVG or PDF by the file's

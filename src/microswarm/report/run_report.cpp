@@ -11,6 +11,7 @@
 #include "microswarm/report/page.hpp"
 #include "microswarm/report/picture.hpp"
 #include "microswarm/report/plot.hpp"
+#include "microswarm/report/robots_report.hpp"
 
 namespace microswarm {
 namespace {
@@ -39,9 +40,9 @@ void draw_ground(Picture& picture, const Subject& s) {
 }
 
 void draw_ends(Picture& picture, const Subject& s) {
-  picture.mark(s.scenario().start.position, "start");
-  picture.circle({s.scenario().goal, s.scenario().goal_tolerance}, colours::goal, 2);
-  picture.mark(s.scenario().goal, "goal", colours::goal);
+  picture.mark(s.scenario().start->position, "start");
+  picture.circle({*s.scenario().goal, s.scenario().goal_tolerance}, colours::goal, 2);
+  picture.mark(*s.scenario().goal, "goal", colours::goal);
 }
 
 std::vector<Vec2> trail(const Record& record, double until) {
@@ -205,6 +206,7 @@ std::vector<std::vector<std::string>> numbers(const Record& record) {
 void write_run_report(const Record& record, const std::filesystem::path& folder,
                       const ReportOptions& options) {
   if (record.frames.empty()) return;
+  if (record.scene.scenario.robots) return write_robots_report(record, folder, options);
   const Subject s{record, options, build_world(record.scene)};
   PageSection stills{.heading = "Moments",
                      .text =

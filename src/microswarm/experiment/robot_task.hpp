@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "microswarm/experiment/scenario.hpp"
+#include "microswarm/planning/geodesic_field.hpp"
+
+namespace microswarm {
+
+/// What robots have to do, measured on where they are: come to goals of their own [global], or
+/// gather at one goal [gather].
+class RobotTask {
+ public:
+  /// The scenario has robots; the map must outlive it.
+  RobotTask(const Scenario& scenario, const Map& map);
+
+  /// How far it is to the end [µm]: the worst robot's distance from its own goal, or the mean way
+  /// to the common goal through the free space, F(n, t) [gather].
+  double left(std::span<const Vec2> robots) const;
+
+ private:
+  const Map* map_;
+  std::vector<Vec2> goals_;
+  std::optional<GeodesicField> way_;
+};
+
+}  // namespace microswarm

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/aggregation_navigator.hpp"
+
+#include <algorithm>
+
+#include "microswarm/navigation/channel_width.hpp"
+
+namespace microswarm {
+
+AggregationNavigator::AggregationNavigator(const AggregationParams& params,
+                                           const RobotSwarmParams& robots, Vec2 goal, double tick,
+                                           Rng rng)
+    : params_(params), robots_(robots), goal_(goal), tick_(tick), rng_(rng) {}
+
+void AggregationNavigator::prepare(const Snapshot& world) {
+  params_ = fitted(params_, world.map(), rng_);
+  params_.step = std::min(params_.step, robots_.max_speed * tick_);
+  ground_.emplace(world.map(), goal_, params_, rng_);
+  gatherer_.emplace(*ground_, params_);
+  forecast_.emplace(RobotStepper(world.map(), robots_.max_speed * tick_), robots_.contact,
+                    robots_.response_lag);
+}
+
+Command AggregationNavigator::step(const Observation& seen, const Stop&) {
+  view_ = {};
+  if (seen.robots.empty() || seen.age() > params_.frame_timeout)
+    return issue(seen.now, {}, "blind");
+  const std::optional<Vec2> move = gatherer_->next(forecast_->at_effect(seen));
+  if (!move) return issue(seen.now, {}, "arrived");
+  view_.local_target = gatherer_->waypoint();
+  return issue(seen.now, command_for(*move, tick_), "gather");
+}
+
+Command AggregationNavigator::issue(double now, Command command, std::string_view state) {
+  forecast_->issued(now, command);
+  view_.state = state;
+  return command;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "microswarm/core/rng.hpp"
+#include "microswarm/navigation/aggregation.hpp"
+
+namespace microswarm {
+
+/// Usual width [µm] of a map's channels, estimated at random points: in a channel of width w the
+/// mean clearance of a free point is w/4. Throws InputError when no free point is found.
+double channel_width(const Map& map, Rng& rng);
+
+/// The parameters with all lengths multiplied by their `scale`, which is 1 then; a scale of 0 is
+/// measured.
+AggregationParams fitted(AggregationParams params, const Map& map, Rng& rng);
+
+}  // namespace microswarm

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/navigation/navigator.hpp"
+#include "microswarm/navigation/robot_forecast.hpp"
+#include "microswarm/planning/global_search.hpp"
+
+namespace microswarm {
+
+/// Plays the inputs of a plan for several robots under one input, and watches them: errors would
+/// add up, as [global] says of its own. The goal tolerance is that of the planner.
+struct PlanPlayerParams {
+  static constexpr std::string_view type_name = "plan_player";
+  double stray = 3;
+  int rejoin_candidates = 64;
+  double frame_timeout = 0.5;
+  GlobalSearchParams planner;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.stray,
+          {"stray", Unit::um, {0, 1e6}, "Robots off the plan by more make it look again."});
+    visit(self.rejoin_candidates,
+          {"rejoin_candidates",
+           Unit::none,
+           {0, 1e6},
+           "Places of the plan, the nearest ones, at which joining it again is tried."});
+    visit(self.frame_timeout,
+          {"frame_timeout", Unit::s, {0, 60}, "Hold when the newest frame is older than this."});
+    visit(self.planner, {"planner", Unit::none, {}, "How inputs are searched."});
+  }
+};
+
+/// See PlanPlayerParams. When robots stray it tries, by playing the rest of the plan through on its
+/// own model, whether that still brings all to their goals; then whether it does from another place
+/// of the plan; else it plans anew from where they are. States: play, rejoin, replan, arrived,
+/// blind, and stuck when no plan was found.
+class PlanPlayer : public Navigator {
+ public:
+  /// `robots`: what is known of them, with a goal each; `tick` [s] between two commands.
+  PlanPlayer(const PlanPlayerParams& params, const RobotSwarmParams& robots, double goal_tolerance,
+             double tick, Rng rng);
+
+  void prepare(const Snapshot& world) override;
+  Command step(const Observation& observation, const Stop& stop) override;
+  NavigatorView view() const override { return view_; }
+
+  /// Plays this plan in place of one of its own, as long as it leads to the goals.
+  void play(GlobalPlan plan) { plan_ = std::move(plan); }
+
+ private:
+  bool met(const Robots& robots) const;
+  double off(const Robots& robots) const;
+  bool leads_home(Robots robots, std::size_t from) const;
+  std::optional<std::size_t> place_to_join(const Robots& robots) const;
+  void find_way(const Robots& robots, const Stop& stop);
+  Command next_piece();
+  Command issue(double now, Command command, std::string_view state);
+
+  PlanPlayerParams params_;
+  RobotSwarmParams swarm_;
+  double tick_;
+  Rng rng_;
+  std::optional<RobotForecast> forecast_;
+  std::optional<Map> map_;
+  GlobalPlan plan_;
+  std::size_t input_ = 0;  ///< of the plan, being played
+  int piece_ = 0;          ///< of that input, which is more than a tick's way
+  Robots expected_;        ///< when the next command takes effect
+  bool on_plan_ = false;
+  NavigatorView view_;
+};
+
+}  // namespace microswarm

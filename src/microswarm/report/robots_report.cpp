@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/report/robots_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "microswarm/report/page.hpp"
+#include "microswarm/report/picture.hpp"
+#include "microswarm/report/plot.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr std::size_t most_numbered = 8;  // robots that get a colour and a number of their own
+
+struct Subject {
+  const Record& record;
+  const ReportOptions& options;
+  World world;
+  const Scenario& scenario() const { return record.scene.scenario; }
+  std::string title() const {
+    return scenario().name.empty() ? std::string("run") : scenario().name;
+  }
+  bool few() const { return scenario().robots->starts.size() - 1 < most_numbered; }
+};
+
+Colour colour_of(const Subject& s, std::size_t robot) {
+  return s.few() ? colours::robots[robot % colours::robots.size()] : colours::swarm;
+}
+
+/// The way of each of a few robots, as far as its moments tell.
+void draw_ways(Picture& picture, const Subject& s, double until) {
+  if (!s.few()) return;
+  for (std::size_t i = 0; i < s.record.robots.front().places.size(); ++i) {
+    std::vector<Vec2> way;
+    for (const RobotMoment& m : s.record.robots)
+      if (m.t <= until) way.push_back(m.places[i]);
+    picture.line(way, colour_of(s, i), 1.5);
+  }
+}
+
+void draw_goals(Picture& picture, const Subject& s) {
+  const Scenario& scenario = s.scenario();
+  for (std::size_t i = 0; i < scenario.robots->goals.size(); ++i)
+    picture.circle({scenario.robots->goals[i], scenario.goal_tolerance}, colour_of(s, i), 2);
+  if (scenario.goal) picture.mark(*scenario.goal, "goal", colours::goal);
+}
+
+void draw(const Subject& s, const RobotMoment& moment, const std::string& what,
+          const std::filesystem::path& file) {
+  Picture picture(s.world.map->bounds(), fmt::format("{}: {}", s.title(), what));
+  if (s.options.photo) {
+    picture.photo(*s.options.photo, s.options.um_per_px, 0.25);
+    picture.walls(*s.world.map, {1, 1, 1, 0.55}, colours::wall_edge);
+  } else {
+    picture.walls(*s.world.map);
+  }
+  draw_ways(picture, s, moment.t);
+  for (std::size_t i = 0; i < moment.places.size(); ++i)
+    picture.disc({moment.places[i], 0}, colour_of(s, i));
+  draw_goals(picture, s);
+  if (!s.few()) picture.legend("robots", colours::swarm, true);
+  picture.write(file);
+}
+
+Plot left_over_time(const Subject& s) {
+  const bool each = !s.scenario().robots->goals.empty();
+  Plot plot{.title = each ? "The worst robot's distance from its goal" : "Mean way to the goal, F",
+            .x_label = "time (s)",
+            .y_label = "distance (µm)"};
+  Series left{.label = each ? "worst robot" : "F"};
+  for (const Frame& f : s.record.frames) {
+    left.x.push_back(f.t);
+    left.y.push_back(f.goal_distance);
+  }
+  plot.series = {left};
+  plot.levels = {{"goal tolerance", s.scenario().goal_tolerance}};
+  plot.y_min = 0;
+  return plot;
+}
+
+std::vector<std::vector<std::string>> numbers(const Record& record) {
+  const Metrics& m = record.result.metrics;
+  return {{"quantity", "value"},
+          {"ended", std::string(to_string(record.result.status))},
+          {"robots", fmt::format("{}", record.robots.front().places.size())},
+          {"time", fmt::format("{:.1f} s", m.time)},
+          {"commands", fmt::format("{}", record.frames.size() - 1)},
+          {"left to the goal", fmt::format("{:.1f} µm", m.goal_distance)},
+          {"time held", fmt::format("{:.1f} s", m.hold_time)},
+          {"planning events", fmt::format("{}", m.planning_events)},
+          {"seed, trial", fmt::format("{}, {}", record.scene.scenario.seed, record.trial)},
+          {"version", record.version},
+          {"inputs", record.scene.hash()},
+          {"record", record.hash()}};
+}
+
+}  // namespace
+
+void write_robots_report(const Record& record, const std::filesystem::path& folder,
+                         const ReportOptions& options) {
+  if (record.frames.empty() || record.robots.empty()) return;
+  const Subject s{record, options, build_world(record.scene)};
+  const std::vector<RobotMoment>& moments = record.robots;
+  PageSection stills{.heading = "Moments"};
+  const std::array<std::pair<const char*, std::size_t>, 3> shown{
+      {{"before.png", 0},
+       {"half-way.png", (moments.size() - 1) / 2},
+       {"after.png", moments.size() - 1}}};
+  for (const auto& [name, k] : shown) {
+    const std::string what =
+        fmt::format("{} robots at {:.1f} s", moments[k].places.size(), moments[k].t);
+    draw(s, moments[k], what, folder / name);
+    stills.pictures.emplace_back(name, what);
+  }
+  write_plots({left_over_time(s)}, folder / "plots.png");
+  write_page(folder / "index.html", s.title(),
+             {{.text = s.scenario().description},
+              stills,
+              {.heading = "Numbers", .table = numbers(record)},
+              {.heading = "Over time", .pictures = {{"plots.png", ""}}}});
+}
+
+}  // namespace microswarm

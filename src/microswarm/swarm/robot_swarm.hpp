@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/core/rng.hpp"
+#include "microswarm/swarm/contracts.hpp"
+#include "microswarm/swarm/robot_stepper.hpp"
+
+namespace microswarm {
+
+/// Robots that are told apart: points that all get the same input and do not block each other
+/// [global, gather]. On a real rig they are not alike: each has a speed of its own, wavers, and
+/// sticks to the floor now and then.
+struct RobotSwarmParams {
+  int count = 0;
+  std::vector<Vec2> starts;
+  std::vector<Vec2> goals;
+  ContactRule contact = ContactRule::stop;
+  double max_speed = 80;
+  double speed_spread = 0;
+  double heading_noise = 0;
+  double position_noise = 0;
+  double sticking_interval = 0;
+  double sticking_time = 5;
+  double response_lag = 0.1;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.count, {"count",
+                       Unit::none,
+                       {0, 1e6},
+                       "Robots at random places from which the goal is reached; "
+                       "0: those of `starts_um`."});
+    visit(self.starts, {"starts", Unit::um, {}, "Where each robot starts."});
+    visit(self.goals, {"goals", Unit::um, {}, "A goal for each robot, in place of one for all."});
+    visit(self.contact, {"contact", Unit::none, {}, "What a robot does that meets a wall."});
+    visit(self.max_speed,
+          {"max_speed", Unit::um_per_s, {1e-3, 1e5}, "Fastest speed, of an ordinary robot."});
+    visit(self.speed_spread, {"speed_spread",
+                              Unit::none,
+                              {0, 1},
+                              "Spread of the robots' own speeds: standard deviation / mean."});
+    visit(self.heading_noise, {"heading_noise",
+                               Unit::deg,
+                               {0, 360},
+                               "Standard deviation of each robot's direction, drawn anew for "
+                               "every command."});
+    visit(self.position_noise, {"position_noise",
+                                Unit::um,
+                                {0, 1e4},
+                                "Random drift of each robot, standard deviation after 1 s."});
+    visit(self.sticking_interval,
+          {"sticking_interval", Unit::s, {0, 1e6}, "Mean time until a robot sticks; 0: never."});
+    visit(self.sticking_time,
+          {"sticking_time", Unit::s, {0, 1e6}, "Mean time for which it sticks."});
+    visit(self.response_lag,
+          {"response_lag", Unit::s, {0, 10}, "Dead time from a command to its effect."});
+  }
+};
+
+/// Commands on their way to a swarm, each of which takes effect `lag` seconds after it was given.
+/// Before the first one it holds.
+class LaggingCommands {
+ public:
+  explicit LaggingCommands(double lag) : lag_(lag) {}
+
+  /// Gives a command and lets `dt` seconds pass: calls `act(command, seconds)` for what is in
+  /// effect, piece by piece.
+  template <class Act>
+  void pass(const Command& command, double dt, Act&& act) {
+    pending_.push_back({command, lag_});
+    for (double passed = 0; dt - passed > same_moment;) {
+      while (!pending_.empty() && pending_.front().due <= same_moment) {
+        active_ = pending_.front().command;
+        pending_.pop_front();
+      }
+      const double until_next =
+          pending_.empty() ? std::numeric_limits<double>::infinity() : pending_.front().due;
+      double piece = until_next < dt - passed ? until_next : dt - passed;
+      act(active_, piece);
+      for (Pending& p : pending_) p.due -= piece;
+      passed += piece;
+    }
+  }
+
+ private:
+  // Times nearer than this are the same moment: sums of ticks and lags do not come out even.
+  static constexpr double same_moment = 1e-9;
+  struct Pending {
+    Command command;
+    double due;  // [s] from now
+  };
+  double lag_;
+  Command active_;
+  std::deque<Pending> pending_;
+};
+
+/// The moving part of that model.
+class RobotSwarm {
+ public:
+  /// Keeps the stepper, which the swarm's map was made for. The robots' own speeds are drawn from
+  /// `rng`: normal about 1, from 0.1 to 3.
+  RobotSwarm(const RobotSwarmParams& params, RobotStepper stepper, std::span<const Vec2> starts,
+             Rng& rng);
+
+  const Robots& robots() const { return robots_; }
+  /// Lets `dt` seconds pass under `command`, which takes effect `response_lag` later; noise is
+  /// drawn from `rng`. Robots that are all alike move as `RobotStepper::step` moves them.
+  void step(const Command& command, double dt, Rng& rng);
+
+ private:
+  void advance_each(const Command& command, double dt, Rng& rng);
+  bool stuck(std::size_t robot, double dt, Rng& rng);
+
+  RobotSwarmParams params_;
+  RobotStepper stepper_;
+  Robots robots_;
+  std::vector<double> own_speed_;  // share of the commanded one
+  std::vector<double> stuck_for_;  // [s]
+  LaggingCommands commands_;
+};
+
+}  // namespace microswarm

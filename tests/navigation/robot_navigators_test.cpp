@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <deque>
+
+#include "microswarm/navigation/aggregation_navigator.hpp"
+#include "microswarm/navigation/plan_player.hpp"
+#include "tests/scenes/global_worlds.hpp"
+#include "tests/scenes/vascular.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double tick = 0.1;
+
+/// Robots under a navigator, seen as they were some ticks ago.
+struct Rig {
+  Map map;
+  RobotSwarmParams params;
+  std::size_t delay_ticks;
+  Snapshot world;
+  Rng rng{5, Purpose::plant};
+  RobotSwarm swarm;
+  std::deque<std::vector<Vec2>> history;
+  double now = 0;
+
+  Rig(Map m, const RobotSwarmParams& p, const std::vector<Vec2>& starts, std::size_t delay)
+      : map(std::move(m)),
+        params(p),
+        delay_ticks(delay),
+        world(std::make_shared<const Map>(map)),
+        swarm(p, RobotStepper(map, p.max_speed * tick), starts, rng),
+        history{places()} {}
+
+  std::vector<Vec2> places() const {
+    std::vector<Vec2> out;
+    for (std::size_t i = 0; i < swarm.robots().size(); ++i)
+      out.push_back(swarm.robots().position(i));
+    return out;
+  }
+  Observation observe() const {
+    const auto ticks = static_cast<double>(history.size() - 1);
+    return {.now = now,
+            .seen = now - ticks * tick,
+            .swarm = SwarmPose{},
+            .robots = history.front(),
+            .world = &world};
+  }
+  void apply(const Command& command) {
+    swarm.step(command, tick, rng);
+    now += tick;
+    history.push_back(places());
+    if (history.size() > delay_ticks + 1) history.pop_front();
+  }
+  double worst() const {
+    double w = 0;
+    for (std::size_t i = 0; i < params.goals.size(); ++i)
+      w = std::max(w, distance(swarm.robots().position(i), params.goals[i]));
+    return w;
+  }
+};
+
+RobotSwarmParams two_robots() {
+  RobotSwarmParams p;
+  p.starts = {{60, 300}, {60, 250}};
+  p.goals = {{330, 300}, {330, 200}};
+  p.contact = ContactRule::slide;
+  p.max_speed = 30;  // an input of 5 µm takes two ticks
+  return p;
+}
+
+TEST(RobotForecast, IsWhatComesUnderDelayAndLag) {
+  RobotSwarmParams params = two_robots();
+  params.response_lag = tick;
+  Rig rig(scenes::global_world(1), params, params.starts, 3);
+  RobotForecast forecast(RobotStepper(rig.map, params.max_speed * tick), params.contact,
+                         params.response_lag);
+  for (int i = 0; i < 200; ++i) {
+    const Robots foretold = forecast.at_effect(rig.observe());
+    const Command command{0.3 * i, 25};
+    forecast.issued(rig.now, command);
+    rig.apply(command);
+    for (std::size_t k = 0; k < 2; ++k)
+      ASSERT_LE(distance(foretold.position(k), rig.swarm.robots().position(k)), 1e-3) << i;
+  }
+}
+
+TEST(PlanPlayer, WithoutErrorsItPlansOnceAndArrives) {
+  for (const std::size_t delay : {0, 2}) {
+    const RobotSwarmParams params = two_robots();
+    Rig rig(scenes::global_world(1), params, params.starts, delay);
+    PlanPlayer player({}, params, 20, tick, Rng(1, Purpose::planner));
+    player.prepare(rig.world);
+    int planned = 0;
+    for (int i = 0; i < 3000 && rig.worst() > 20; ++i) {
+      rig.apply(player.step(rig.observe(), {}));
+      planned += player.view().planned;
+    }
+    EXPECT_LE(rig.worst(), 20) << delay;
+    EXPECT_EQ(planned, 1) << delay;
+  }
+}
+
+TEST(PlanPlayer, WithErrorsItFindsItsWayAgain) {
+  RobotSwarmParams params = two_robots();
+  params.position_noise = 3;
+  params.heading_noise = 0.05;
+  params.speed_spread = 0.1;
+  Rig rig(scenes::global_world(1), params, params.starts, 1);
+  PlanPlayer player({}, params, 20, tick, Rng(1, Purpose::planner));
+  player.prepare(rig.world);
+  int found_again = 0;
+  for (int i = 0; i < 6000 && rig.worst() > 20; ++i) {
+    rig.apply(player.step(rig.observe(), {}));
+    found_again += player.view().state == "replan" || player.view().state == "rejoin";
+  }
+  EXPECT_LE(rig.worst(), 20);
+  EXPECT_GT(found_again, 1);
+}
+
+TEST(PlanPlayer, RobotsThatWereCarriedAwayJoinThePlanAgain) {
+  const RobotSwarmParams params = two_robots();
+  Rig rig(scenes::global_world(1), params, params.starts, 0);
+  PlanPlayer player({}, params, 20, tick, Rng(1, Purpose::planner));
+  player.prepare(rig.world);
+  std::vector<Observation> seen;
+  for (int i = 0; i < 20; ++i) rig.apply(player.step(rig.observe(), {}));
+  // Back to the start: the first place of the plan is joined, nothing is planned.
+  rig.history = {params.starts};
+  player.step(rig.observe(), {});
+  EXPECT_EQ(player.view().state, "rejoin");
+  EXPECT_FALSE(player.view().planned);
+}
+
+TEST(PlanPlayer, HoldsWhenItSeesTooFewTooOldOrIsThere) {
+  const RobotSwarmParams params = two_robots();
+  Rig rig(scenes::global_world(1), params, params.starts, 0);
+  PlanPlayer player({}, params, 20, tick, Rng(1, Purpose::planner));
+  player.prepare(rig.world);
+  Observation seen = rig.observe();
+  seen.robots = seen.robots.first(1);
+  EXPECT_EQ(player.step(seen, {}).speed, 0);
+  EXPECT_EQ(player.view().state, "blind");
+  seen = rig.observe();
+  seen.now = 10;
+  EXPECT_EQ(player.step(seen, {}).speed, 0);
+  const std::vector<Vec2> there{{325, 310}, {330, 200}};
+  seen = rig.observe();
+  seen.robots = there;
+  EXPECT_EQ(player.step(seen, {}).speed, 0);
+  EXPECT_EQ(player.view().state, "arrived");
+}
+
+TEST(AggregationNavigator, GathersUnderLagAndDelayAndHoldsThen) {
+  const scenes::Vascular t = scenes::t_junction();
+  RobotSwarmParams params;
+  params.max_speed = 10;  // a step of 1 µm a tick
+  std::vector<Vec2> starts;
+  Rng rng(4, Purpose::scene);
+  for (int i = 0; i < 64; ++i) starts.push_back({rng.uniform(2, 98), rng.uniform(92, 98)});
+  Rig rig(t.map(), params, starts, 1);
+  AggregationNavigator navigator({}, params, t.goal, tick, Rng(1, Purpose::planner));
+  navigator.prepare(rig.world);
+  int steps = 0;
+  while (steps < 2000) {
+    const Command command = navigator.step(rig.observe(), {});
+    if (navigator.view().state == "arrived") break;
+    EXPECT_NEAR(command.speed, 10, 1e-9);
+    rig.apply(command);
+    ++steps;
+  }
+  EXPECT_LT(steps, 1000);
+  EXPECT_LT(navigator.gatherer()->mean_way(), 10);
+  Observation nothing = rig.observe();
+  nothing.robots = {};
+  EXPECT_EQ(navigator.step(nothing, {}).speed, 0);
+  EXPECT_EQ(navigator.view().state, "blind");
+}
+
+}  // namespace
+}  // namespace microswarm
