@@ -15,9 +15,11 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// As in the paper: Alg 1 alone grows the tree.
 ObstacleWeightedRrtParams with_nodes(int nodes) {
   ObstacleWeightedRrtParams params;
   params.nodes = nodes;
+  params.complete = false;
   return params;
 }
 
@@ -310,6 +312,32 @@ TEST(ObstacleWeightedRrt, SaysWhyItEnded) {
   EXPECT_EQ(stopped.status, Status::stopped);
   EXPECT_EQ(stopped.nearest({50, 80}), 0u);
   expect_routes_lead_to_goal(map, stopped, stopped.weighted, false);
+}
+
+// A tree far too small for its map; what is reached is told by a grid finer than the cover's.
+TEST(ObstacleWeightedRrt, ACompletedTreeIsSeenFromEverywhere) {
+  for (const Case& c : cases()) {
+    const Map map = c.scene.map();
+    ObstacleWeightedRrtParams params = with_nodes(60);
+    params.complete = true;
+    const ObstacleWeightedRrt tree = grow(map, c.scene.goal, params);
+    EXPECT_EQ(tree.grown, 60u);
+    EXPECT_GT(tree.nodes.size(), 60u);
+    expect_routes_lead_to_goal(map, tree, tree.plain, false);
+    expect_routes_lead_to_goal(map, tree, tree.weighted, true);
+    const Box& box = map.bounds();
+    Rng rng(3, Purpose::test);
+    int unseen = 0;
+    int all = 0;
+    for (int i = 0; i < 3000; ++i) {
+      const double x = rng.uniform(box.lo.x, box.hi.x);
+      const Vec2 p{x, rng.uniform(box.lo.y, box.hi.y)};
+      if (!map.is_free(p, 0.3)) continue;
+      ++all;
+      unseen += !tree.nearest_visible(map, p);
+    }
+    EXPECT_LE(unseen, all / 1000) << "of " << all;
+  }
 }
 
 TEST(ObstacleWeightedRrt, OneNodeAndAGoalThatIsAlone) {

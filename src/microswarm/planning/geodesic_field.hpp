@@ -7,9 +7,9 @@
 
 namespace microswarm {
 
-/// About how far it is to a goal for a point that stays in the free space: Dijkstra over the
-/// centres of a grid's cells, eight neighbours each where they see each other. A guide, not a
-/// measure: up to 8 % too long, and passages narrower than a cell may be missing; never through a
+/// About how far it is to a goal for a point that stays in the free space: Dijkstra over the centres
+/// of a grid's cells, eight neighbours each where they see each other. A guide, not a measure: up to
+/// 8 % and some cells too long, and passages narrower than a cell may be missing; never through a
 /// wall.
 class GeodesicField {
  public:

@@ -7,6 +7,8 @@
 #include <queue>
 #include <utility>
 
+#include "microswarm/planning/tree_cover.hpp"
+
 namespace microswarm {
 namespace {
 
@@ -72,6 +74,19 @@ Status grow(const Map& map, const ObstacleWeightedRrtParams& params, Rng& rng, c
   return Status::solved;
 }
 
+/// Beyond the paper: nodes for what the tree has missed. What V_obs would say of them, the map
+/// does.
+void complete(const Map& map, const ObstacleWeightedRrtParams& params, PointGrid& grid,
+              Tree& tree) {
+  const double radius = std::max(params.neighbour_radius, 2 * params.extension);
+  cover(map, grid, params.extension, radius, [&](Vec2 p, std::uint32_t parent) {
+    tree.plain.next.push_back(parent);
+    tree.plain.cost.push_back(tree.plain.cost[parent] + distance(p, tree.nodes[parent]));
+    grid.add(p);
+    tree.nodes.push_back(p);
+  });
+}
+
 /// Eq 3 [gather], lowered so that it ends at 0 at the cutoff. Every way ends at the goal: its
 /// weight would tell nothing and is left out.
 void weigh(const Map& map, const ObstacleWeightedRrtParams& params, Tree& tree) {
@@ -79,9 +94,10 @@ void weigh(const Map& map, const ObstacleWeightedRrtParams& params, Tree& tree) 
   for (const Vec2 p : tree.boundary) boundary.add(p);
   const double at_cutoff =
       std::exp(params.weight_exponent - params.weight_decay * params.weight_cutoff);
-  for (const Vec2 p : tree.nodes) {
-    const double d =
-        boundary.empty() ? map.clearance(p) : distance(p, boundary[boundary.nearest(p)]);
+  for (std::size_t v = 0; v < tree.nodes.size(); ++v) {
+    const Vec2 p = tree.nodes[v];
+    const bool grown = v < tree.grown && !boundary.empty();
+    const double d = grown ? distance(p, boundary[boundary.nearest(p)]) : map.clearance(p);
     const double w = std::exp(params.weight_exponent - params.weight_decay * d) - at_cutoff;
     tree.clearances.push_back(d);
     tree.weights.push_back(d < params.weight_cutoff ? std::max(w, 0.0) : 0);
@@ -327,6 +343,8 @@ ObstacleWeightedRrt obstacle_weighted_rrt(const Map& map, Vec2 goal,
   tree.nodes.push_back(goal);
   tree.plain = {{0}, {0}, {}};
   tree.status = grow(map, params, rng, stop, grid, tree);
+  tree.grown = tree.nodes.size();
+  if (params.complete && tree.status == Status::solved) complete(map, params, grid, tree);
   tree.plain.length = tree.plain.cost;
   weigh(map, params, tree);
   tree.lookup = NodeLookup(map, grid);

@@ -27,6 +27,7 @@ struct ObstacleWeightedRrtParams {
   double narrow_share = 0.7;
   double neighbour_radius = 2.4;
   double attach_radius = 8;
+  bool complete = true;
   int max_iterations = 10'000'000;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -51,6 +52,8 @@ struct ObstacleWeightedRrtParams {
           {"neighbour_radius", Unit::um, {0, 1e6}, "Nodes nearer than this are adjacent."});
     visit(self.attach_radius,
           {"attach_radius", Unit::um, {0, 1e6}, "How far other nodes look for the middle."});
+    visit(self.complete,
+          {"complete", Unit::none, {}, "Add nodes where the tree has missed a branch."});
     visit(self.max_iterations, {"max_iterations", Unit::none, {1, 1e9}, "Samples at most."});
   }
 };
@@ -71,6 +74,7 @@ struct Routes {
 struct ObstacleWeightedRrt {
   Status status = Status::no_path;   ///< solved: as many nodes as asked for
   std::vector<Vec2> nodes;           ///< V
+  std::size_t grown = 0;             ///< of them by Alg 1, the rest to complete it
   std::vector<Vec2> boundary;        ///< V_obs: where extensions met a wall
   std::vector<double> clearances;    ///< [µm] to the nearest point of V_obs
   std::vector<double> weights;       ///< w, Eq 3; the goal's is 0
