@@ -159,7 +159,7 @@ TEST(AggregationNavigator, GathersUnderLagAndDelayAndHoldsThen) {
   Rng rng(4, Purpose::scene);
   for (int i = 0; i < 64; ++i) starts.push_back({rng.uniform(2, 98), rng.uniform(92, 98)});
   Rig rig(t.map(), params, starts, 1);
-  AggregationNavigator navigator({}, params, t.goal, tick, Rng(1, Purpose::planner));
+  AggregationNavigator navigator({}, params, t.goal, 20, tick, Rng(1, Purpose::planner));
   navigator.prepare(rig.world);
   int steps = 0;
   while (steps < 2000) {

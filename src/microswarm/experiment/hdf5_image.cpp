@@ -134,8 +134,20 @@ void Hdf5Writer::dataset(const std::string& path, std::span<const double> values
   write_column(file_, path, H5T_IEEE_F64LE, values.size(), values.data());
 }
 
+void Hdf5Writer::dataset(const std::string& path, std::span<const float> values) {
+  write_column(file_, path, H5T_IEEE_F32LE, values.size(), values.data());
+}
+
 void Hdf5Writer::dataset(const std::string& path, std::span<const std::int64_t> values) {
   write_column(file_, path, H5T_STD_I64LE, values.size(), values.data());
+}
+
+void Hdf5Writer::dataset(const std::string& path, std::span<const std::string> values) {
+  std::size_t longest = 1;
+  for (const std::string& value : values) longest = std::max(longest, value.size());
+  std::string bytes(longest * values.size(), '\0');
+  for (std::size_t i = 0; i < values.size(); ++i) values[i].copy(&bytes[i * longest], longest);
+  write_column(file_, path, text_type(longest), values.size(), bytes.data());
 }
 
 void Hdf5Writer::text(const std::string& path, std::string_view value) {

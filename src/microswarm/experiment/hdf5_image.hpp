@@ -20,7 +20,10 @@ class Hdf5Writer {
   Hdf5Writer& operator=(const Hdf5Writer&) = delete;
 
   void dataset(const std::string& path, std::span<const double> values);
+  void dataset(const std::string& path, std::span<const float> values);
   void dataset(const std::string& path, std::span<const std::int64_t> values);
+  /// Texts in UTF-8, all kept at the length of the longest.
+  void dataset(const std::string& path, std::span<const std::string> values);
   /// One text of fixed length, UTF-8.
   void text(const std::string& path, std::string_view value);
 

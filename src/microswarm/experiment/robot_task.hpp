@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -19,12 +20,20 @@ class RobotTask {
 
   /// How far it is to the end [µm]: the worst robot's distance from its own goal, or the mean way
   /// to the common goal through the free space, F(n, t) [gather].
-  double left(std::span<const Vec2> robots) const;
+  double left(std::span<const Vec2> robots);
 
  private:
+  struct Known {
+    Vec2 place{std::numeric_limits<double>::quiet_NaN(), 0};
+    double way = 0;
+  };
+
+  double way_from(Vec2 place);
+
   const Map* map_;
   std::vector<Vec2> goals_;
   std::optional<GeodesicField> way_;
+  std::vector<Known> known_;  // robots that rest, or were pushed together, are asked for again
 };
 
 }  // namespace microswarm

@@ -73,7 +73,7 @@ class Run {
     if (truth || seen.swarm) present_.pose = truth ? truth->swarm.pose : seen.swarm->pose;
   }
 
-  Present present(const Observation& seen) const {
+  Present present(const Observation& seen) {
     if (const auto truth = plant_.truth())
       return {truth->now, truth->swarm.pose, truth->speed,
               left(truth->swarm.pose.position, truth->robots)};
@@ -85,7 +85,7 @@ class Run {
   }
 
   /// How far it is to the end of the task [µm].
-  double left(Vec2 centre, std::span<const Vec2> robots) const {
+  double left(Vec2 centre, std::span<const Vec2> robots) {
     return task_ ? task_->left(robots) : distance(centre, *scenario_.goal);
   }
 

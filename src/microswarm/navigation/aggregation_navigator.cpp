@@ -8,12 +8,18 @@
 namespace microswarm {
 
 AggregationNavigator::AggregationNavigator(const AggregationParams& params,
-                                           const RobotSwarmParams& robots, Vec2 goal, double tick,
-                                           Rng rng)
-    : params_(params), robots_(robots), goal_(goal), tick_(tick), rng_(rng) {}
+                                           const RobotSwarmParams& robots, Vec2 goal,
+                                           double goal_tolerance, double tick, Rng rng)
+    : params_(params),
+      robots_(robots),
+      goal_(goal),
+      goal_tolerance_(goal_tolerance),
+      tick_(tick),
+      rng_(rng) {}
 
 void AggregationNavigator::prepare(const Snapshot& world) {
   params_ = fitted(params_, world.map(), rng_);
+  params_.sigma = std::min(params_.sigma, 0.5 * goal_tolerance_);
   params_.step = std::min(params_.step, robots_.max_speed * tick_);
   ground_.emplace(world.map(), goal_, params_, rng_);
   gatherer_.emplace(*ground_, params_);

@@ -14,9 +14,10 @@ namespace microswarm {
 /// gather, arrived, blind.
 class AggregationNavigator : public Navigator {
  public:
-  /// `robots`: what is known of them; `tick` [s] between two commands.
+  /// `robots`: what is known of them; `tick` [s] between two commands. It goes on until the mean
+  /// way is at most half of the task's `goal_tolerance` [µm], however that is measured there.
   AggregationNavigator(const AggregationParams& params, const RobotSwarmParams& robots, Vec2 goal,
-                       double tick, Rng rng);
+                       double goal_tolerance, double tick, Rng rng);
 
   /// Grows the tree. Throws InputError as AggregationMap does.
   void prepare(const Snapshot& world) override;
@@ -31,6 +32,7 @@ class AggregationNavigator : public Navigator {
   AggregationParams params_;
   RobotSwarmParams robots_;
   Vec2 goal_;
+  double goal_tolerance_;
   double tick_;
   Rng rng_;
   std::optional<RobotForecast> forecast_;

@@ -19,7 +19,8 @@ Made make(const PlanPlayerParams& p, const Task& task, Rng rng) {
 }
 
 Made make(const AggregationParams& p, const Task& task, Rng rng) {
-  return std::make_unique<AggregationNavigator>(p, *task.robots, *task.goal, task.tick, rng);
+  return std::make_unique<AggregationNavigator>(p, *task.robots, *task.goal, task.goal_tolerance,
+                                                task.tick, rng);
 }
 
 std::string_view lacks(const HierarchicalParams&, const Task& task) {

@@ -76,6 +76,8 @@ double GeodesicField::at(Vec2 p) const {
 bool GeodesicField::reaches(Vec2 p) const { return distances_[index(p)] < unknown; }
 
 double GeodesicField::seen_from(const Map& map, Vec2 p) const {
+  const Vec2 own = centre(index(p));
+  if (reaches(p) && map.is_free(Segment{p, own}, 0)) return at(p);
   const int column = static_cast<int>(index(p)) % columns_;
   const int row = static_cast<int>(index(p)) / columns_;
   double least = std::numeric_limits<double>::infinity();

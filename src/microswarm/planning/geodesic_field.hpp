@@ -7,10 +7,10 @@
 
 namespace microswarm {
 
-/// About how far it is to a goal for a point that stays in the free space: Dijkstra over the centres
-/// of a grid's cells, eight neighbours each where they see each other. A guide, not a measure: up to
-/// 8 % and some cells too long, and passages narrower than a cell may be missing; never through a
-/// wall.
+/// About how far it is to a goal for a point that stays in the free space: Dijkstra over the
+/// centres of a grid's cells, eight neighbours each where they see each other. A guide, not a
+/// measure: up to 8 % and some cells too long, and passages narrower than a cell may be missing;
+/// never through a wall.
 class GeodesicField {
  public:
   /// A grid of about `cells` × `cells`.
@@ -18,8 +18,8 @@ class GeodesicField {
 
   /// Distance [µm] at `p`; where no way was found, the straight one and a way around the map.
   double at(Vec2 p) const;
-  /// The same by the centres around `p` that it sees, for points beside a wall too. `map` is the
-  /// one the field was made for.
+  /// The same by a centre that `p` sees, its cell's or one around that, for points beside a wall
+  /// too. `map` is the one the field was made for.
   double seen_from(const Map& map, Vec2 p) const;
   /// Was a way to the goal found from the cell of `p`?
   bool reaches(Vec2 p) const;

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <map>
+#include <utility>
 
 #include "microswarm/report/page.hpp"
 #include "microswarm/report/picture.hpp"
@@ -28,6 +31,37 @@ struct Subject {
 
 Colour colour_of(const Subject& s, std::size_t robot) {
   return s.few() ? colours::robots[robot % colours::robots.size()] : colours::swarm;
+}
+
+/// Robots that are drawn as one spot, since they would cover each other.
+struct Pile {
+  Vec2 place;
+  int count = 0;
+};
+
+std::vector<Pile> piles_of(const std::vector<Vec2>& places, double spot) {
+  std::map<std::pair<int, int>, Pile> by_cell;
+  for (const Vec2 p : places) {
+    Pile& pile = by_cell[{static_cast<int>(p.x / spot), static_cast<int>(p.y / spot)}];
+    pile.place += p;
+    ++pile.count;
+  }
+  std::vector<Pile> piles;
+  for (const auto& [cell, pile] : by_cell)
+    piles.push_back({pile.place / static_cast<double>(pile.count), pile.count});
+  return piles;
+}
+
+void draw_robots(Picture& picture, const Subject& s, const std::vector<Vec2>& places) {
+  if (s.few()) {
+    for (std::size_t i = 0; i < places.size(); ++i) picture.disc({places[i], 0}, colour_of(s, i));
+    return;
+  }
+  const Box& box = s.world.map->bounds();
+  const double pixel = std::max(box.width(), box.height()) / 1200;  // [µm] of the picture
+  for (const Pile& pile : piles_of(places, 6 * pixel))
+    picture.disc({pile.place, pixel * (3 + 0.8 * std::sqrt(pile.count))}, colours::swarm);
+  picture.legend("robots; a larger spot is a pile of them", colours::swarm, true);
 }
 
 /// The way of each of a few robots, as far as its moments tell.
@@ -58,10 +92,8 @@ void draw(const Subject& s, const RobotMoment& moment, const std::string& what,
     picture.walls(*s.world.map);
   }
   draw_ways(picture, s, moment.t);
-  for (std::size_t i = 0; i < moment.places.size(); ++i)
-    picture.disc({moment.places[i], 0}, colour_of(s, i));
+  draw_robots(picture, s, moment.places);
   draw_goals(picture, s);
-  if (!s.few()) picture.legend("robots", colours::swarm, true);
   picture.write(file);
 }
 

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run_output.hpp"
+
+#include <cmath>
+
+#include "microswarm/config/write.hpp"
+#include "microswarm/core/angles.hpp"
+#include "microswarm/experiment/progress.hpp"
+#include "microswarm/experiment/record.hpp"
+
+namespace microswarm::cli {
+
+nlohmann::ordered_json to_json(const RunResult& result, const std::string& hash) {
+  return {
+      {"status", to_string(result.status)},
+      {"metrics", nlohmann::ordered_json::parse(to_json_text(result.metrics))},
+      {"planning", nlohmann::ordered_json::parse(to_json_text(summarise(result.timing.planning)))},
+      {"record_hash", hash}};
+}
+
+std::string_view ending(Status status) {
+  switch (status) {
+    case Status::solved:
+      return "goal reached";
+    case Status::time_limit:
+      return "time limit";
+    case Status::held:
+      return "held: nothing was safe, or nothing was seen,";
+    case Status::collided:
+      return "touched a wall or an obstacle";
+    default:
+      return to_string(status);
+  }
+}
+
+namespace {
+
+std::string um(double length) {
+  return std::isfinite(length) ? fmt::format("{:.1f} µm", length) : "–";
+}
+
+std::string robots_summary(const RunResult& result, const RobotSwarmParams& robots) {
+  const Metrics& m = result.metrics;
+  const bool gathered = result.status == Status::solved && robots.goals.empty();
+  return fmt::format(
+      "{} after {:.1f} s of simulated time and {} commands\n  {} {:.1f} µm\n  planning  {} times\n",
+      gathered ? "gathered" : ending(result.status), m.time, result.timing.steps.size(),
+      robots.goals.empty() ? "goal      the mean way to it is"
+                           : "goals     the robot farthest from its own is off by",
+      m.goal_distance, m.planning_events);
+}
+
+std::string summary(const RunResult& result) {
+  const Metrics& m = result.metrics;
+  const TimeSummary p = summarise(result.timing.planning);
+  std::string text =
+      fmt::format("{} after {:.1f} s of simulated time", ending(result.status), m.time);
+  if (result.status != Status::solved)
+    text += fmt::format(", {:.0f} µm from the goal", m.goal_distance);
+  text += fmt::format("\n  way       {:.0f} µm long, turned {:.0f}° in all, held for {:.1f} s\n",
+                      m.length, degrees(m.turning), m.hold_time);
+  text += fmt::format("  nearest   wall {}, moving obstacle {} (from the swarm's centre)\n",
+                      um(m.walls.clearance), um(m.obstacles.clearance));
+  return text + fmt::format("  planning  {} times, {:.3f} ms on average, {:.3f} ms the longest\n",
+                            m.planning_events, 1e3 * p.mean, 1e3 * p.max);
+}
+
+}  // namespace
+
+int run_once(const Scene& scene, const World& world, const RunOutput& o,
+             const ReportOptions& report, const Stop& stop) {
+  const std::filesystem::path folder = o.out;
+  Recorder recorder(scene);
+  RunResult result;
+  {
+    ProgressBar bar(scene.scenario.name.empty() ? "run" : scene.scenario.name);
+    ProgressListener progress(scene.scenario, [&](const RunProgress& p) {
+      bar.update(std::max(p.way_done, p.time_spent));
+    });
+    RunListener* const listeners[] = {&recorder, &progress};
+    result = simulate(scene.scenario, world, 0, listeners, stop);
+  }
+  const Record& record = recorder.record();
+  const std::string hash = record.hash();
+  if (!o.out.empty()) {
+    write_record(record, folder / "run.h5");
+    if (!o.no_report) write_run_report(record, folder, report);
+  }
+  if (o.json) {
+    print("{}\n", to_json(result, hash).dump(2));
+  } else {
+    const auto& robots = scene.scenario.robots;
+    print("{}  record    {}\n", robots ? robots_summary(result, *robots) : summary(result), hash);
+    if (!o.out.empty())
+      print("wrote {}\n", (folder / (o.no_report ? "run.h5" : "index.html")).string());
+  }
+  return result.status == Status::solved ? ok : not_reached;
+}
+
+}  // namespace microswarm::cli

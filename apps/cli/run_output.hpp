@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "microswarm/experiment/run.hpp"
+#include "microswarm/report/run_report.hpp"
+#include "options.hpp"
+
+namespace microswarm::cli {
+
+/// What is kept and said of a run.
+struct RunOutput {
+  std::string out;  ///< folder for run.h5 and the report; empty: nothing is kept
+  bool no_report = false;
+  bool json = false;
+};
+
+/// Runs a scene once, with a progress bar, keeps its record and report, says how it went. The exit
+/// code.
+int run_once(const Scene& scene, const World& world, const RunOutput& output,
+             const ReportOptions& report, const Stop& stop);
+
+nlohmann::ordered_json to_json(const RunResult& result, const std::string& hash);
+
+/// How a run ended, for people.
+std::string_view ending(Status status);
+
+}  // namespace microswarm::cli
