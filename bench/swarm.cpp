@@ -8,6 +8,8 @@
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/rng.hpp"
 #include "microswarm/core/statistics.hpp"
+#include "microswarm/formats/mask.hpp"
+#include "microswarm/formats/rasterise.hpp"
 #include "microswarm/swarm/robot_stepper.hpp"
 #include "tests/scenes/vascular.hpp"
 
@@ -84,6 +86,11 @@ void add_rows(std::vector<BenchRow>& rows, const std::string& name, const Map& m
   }
 }
 
+/// A map as a camera gives it: of square pixels, with stairs for slanting walls.
+Map of_pixels(const Map& map, double pixel) {
+  return {map.bounds(), mask_walls(rasterise(map, pixel), pixel, map.bounds().lo)};
+}
+
 }  // namespace
 
 std::vector<BenchRow> swarm(bool quick, const Stop& stop) {
@@ -92,6 +99,8 @@ std::vector<BenchRow> swarm(bool quick, const Stop& stop) {
   add_rows(rows, "vascular map, 100 × 90", scenes::vascular_network().map(), 1, 65e6, quick, stop);
   add_rows(rows, "vascular map, 400 × 314", scenes::large_vascular_network().map(), 1, 65e6, quick,
            stop);
+  add_rows(rows, "the same of pixels of 0.5 µm",
+           of_pixels(scenes::large_vascular_network().map(), 0.5), 1, 65e6, quick, stop);
   return rows;
 }
 

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/swarm/step_lanes.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
 #include "microswarm/swarm/contact_moves.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "microswarm/swarm/step_lanes.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h.
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -48,13 +53,14 @@ HWY_INLINE V times_to_contact(D d, const FaceLanes<V>& face, V x, V y, V move_x,
 /// Calls visit(pack, k, time) for the faces near one robot, a face a lane: `time` belongs to those
 /// from k on in the pack.
 template <class D, class Visit>
-HWY_INLINE void for_each_near(D d, const WallFaces& faces, PointF p, PointF move, Visit&& visit) {
+HWY_INLINE void for_each_near(D d, const WallFaces& faces, std::span<const FacePack> packs,
+                              PointF p, PointF move, Visit&& visit) {
   using V = hn::Vec<D>;
   const std::size_t lanes = hn::Lanes(d);
   const V guard = hn::Set(d, faces.guard());
   const V x = hn::Set(d, p.x), y = hn::Set(d, p.y);
   const V move_x = hn::Set(d, move.x), move_y = hn::Set(d, move.y);
-  for (const FacePack& pack : faces.near(p)) {
+  for (const FacePack& pack : packs) {
     for (std::size_t k = 0; k < FacePack::size; k += lanes) {
       const FaceLanes<V> face{
           hn::Load(d, pack.middle_x.data() + k), hn::Load(d, pack.middle_y.data() + k),
@@ -75,13 +81,15 @@ class NearContact {
   FaceContact operator()(PointF p, PointF move) const {
     const PackTag d;
     FaceContact first;
-    for_each_near(d, *faces_, p, move, [&](const FacePack& pack, std::size_t k, auto time) {
-      const auto sooner = hn::Lt(time, hn::Set(d, first.time));
-      if (hn::AllFalse(d, sooner)) return;
-      const auto least = hn::MinOfLanes(d, time);
-      const auto lane = static_cast<std::size_t>(hn::FindFirstTrue(d, hn::Eq(time, least)));
-      first = FaceContact{hn::GetLane(least), {pack.normal_x[k + lane], pack.normal_y[k + lane]}};
-    });
+    for_each_near(
+        d, *faces_, faces_->near(p), p, move, [&](const FacePack& pack, std::size_t k, auto time) {
+          const auto sooner = hn::Lt(time, hn::Set(d, first.time));
+          if (hn::AllFalse(d, sooner)) return;
+          const auto least = hn::MinOfLanes(d, time);
+          const auto lane = static_cast<std::size_t>(hn::FindFirstTrue(d, hn::Eq(time, least)));
+          first =
+              FaceContact{hn::GetLane(least), {pack.normal_x[k + lane], pack.normal_y[k + lane]}};
+        });
     return first;
   }
 
@@ -90,10 +98,11 @@ class NearContact {
 };
 
 /// Its time alone; more than 1 when the move is free.
-HWY_INLINE float near_time(const WallFaces& faces, PointF p, PointF move) {
+HWY_INLINE float near_time(const WallFaces& faces, std::span<const FacePack> packs, PointF p,
+                           PointF move) {
   const PackTag d;
   auto first = hn::Set(d, 2.0f);
-  for_each_near(d, faces, p, move,
+  for_each_near(d, faces, packs, p, move,
                 [&](const FacePack&, std::size_t, auto time) { first = hn::Min(first, time); });
   return hn::GetLane(hn::MinOfLanes(d, first));
 }
@@ -149,6 +158,7 @@ std::size_t step_by_robots(const WallFaces& faces, PointF move, ContactRule rule
 void step_here(const WallFaces& faces, PointF move, ContactRule rule, float* HWY_RESTRICT x,
                float* HWY_RESTRICT y, std::size_t count) {
   constexpr std::size_t few_faces = 24;
+  constexpr std::size_t block = 32;
   const bool in_one_go = move.x * move.x + move.y * move.y <= faces.reach() * faces.reach();
   std::size_t i = 0;
   if (in_one_go && faces.all().size() <= few_faces)
@@ -162,18 +172,29 @@ void step_here(const WallFaces& faces, PointF move, ContactRule rule, float* HWY
     }
   }
   const float share_of_time = rule == ContactRule::stop ? 1.0f : 0.0f;
-  for (; i < count; ++i) {
-    const PointF p{x[i], y[i]};
-    const float time = near_time(faces, p, move);
-    if (rule == ContactRule::slide && time <= 1) {
-      const PointF end = moves.slid(p, move);
-      x[i] = end.x;
-      y[i] = end.y;
-      continue;
+  std::array<std::span<const FacePack>, block> near;
+  while (i < count) {
+    const std::size_t many = std::min(block, count - i);
+    for (std::size_t k = 0; k < many; ++k) {
+      near[k] = faces.near({x[i + k], y[i + k]});
+      hwy::Prefetch(near[k].data());
+      hwy::Prefetch(reinterpret_cast<const std::byte*>(near[k].data()) + 64);
+      hwy::Prefetch(reinterpret_cast<const std::byte*>(near[k].data()) + 128);
     }
-    const float share = time <= 1 ? share_of_time * time : 1.0f;  // no branch: nobody can guess it
-    x[i] = p.x + share * move.x;
-    y[i] = p.y + share * move.y;
+    for (std::size_t k = 0; k < many; ++k, ++i) {
+      const PointF p{x[i], y[i]};
+      const float time = near_time(faces, near[k], p, move);
+      if (rule == ContactRule::slide && time <= 1) {
+        const PointF end = moves.slid(p, move);
+        x[i] = end.x;
+        y[i] = end.y;
+        continue;
+      }
+      const float share =
+          time <= 1 ? share_of_time * time : 1.0f;  // no branch: nobody can guess it
+      x[i] = p.x + share * move.x;
+      y[i] = p.y + share * move.y;
+    }
   }
 }
 
