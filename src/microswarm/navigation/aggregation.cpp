@@ -62,7 +62,7 @@ std::optional<Vec2> Gatherer::next(const Robots& robots, std::span<const std::ui
 // Not any more when that has been caught in a livelock again and again.
 bool Gatherer::by_regions() const {
   constexpr int most_livelocks = 3;
-  return params_.method == Aggregation::divide_and_conquer && guard_count_ < most_livelocks;
+  return params_.method != Aggregation::heuristic && guard_count_ < most_livelocks;
 }
 
 void Gatherer::look(const Robots& robots, std::span<const std::uint32_t> counts) {

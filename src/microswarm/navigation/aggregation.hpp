@@ -11,6 +11,7 @@
 
 #include "microswarm/core/fields.hpp"
 #include "microswarm/navigation/crowd.hpp"
+#include "microswarm/navigation/rollout_params.hpp"
 #include "microswarm/planning/map_segmentation.hpp"
 #include "microswarm/swarm/robot_stepper.hpp"
 
@@ -20,15 +21,17 @@ namespace microswarm {
 enum class Aggregation {
   heuristic,           ///< the robot farthest from the goal: Alg 3 [gather], HRA
   divide_and_conquer,  ///< region after region, branch after branch: Alg 5 [gather], DCA
+  rollout,             ///< a plan to the end, made better in simulations of both: RolloutGatherer
 };
 constexpr auto enum_names(Aggregation) {
-  return std::array<std::pair<Aggregation, std::string_view>, 2>{
+  return std::array<std::pair<Aggregation, std::string_view>, 3>{
       {{Aggregation::heuristic, "heuristic"},
-       {Aggregation::divide_and_conquer, "divide_and_conquer"}}};
+       {Aggregation::divide_and_conquer, "divide_and_conquer"},
+       {Aggregation::rollout, "rollout"}}};
 }
 
-/// Parameters of an aggregation [gather]. The lengths are for channels that are 10 µm wide; `fitted`
-/// makes them as large as a map's channels.
+/// Parameters of an aggregation [gather]. The lengths are for channels that are 10 µm wide;
+/// `fitted` makes them as large as a map's channels.
 struct AggregationParams {
   static constexpr std::string_view type_name = "aggregation";
   Aggregation method = Aggregation::divide_and_conquer;
@@ -40,11 +43,13 @@ struct AggregationParams {
   double discount_length = 5;
   int patience = 4;
   double frame_timeout = 0.5;
+  RolloutParams rollout;
   ObstacleWeightedRrtParams tree;
   MapSegmentationParams segmentation;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.method, {"method", Unit::none, {}, "Who leads: heuristic or divide_and_conquer."});
+    visit(self.method,
+          {"method", Unit::none, {}, "Who leads: heuristic, divide_and_conquer or rollout."});
     visit(self.obstacle_weighted,
           {"obstacle_weighted", Unit::none, {}, "Ways along the middle; false: along the RRT."});
     visit(self.scale, {"scale",
@@ -63,6 +68,7 @@ struct AggregationParams {
                           "Longest ways without progress before the guard breaks a livelock."});
     visit(self.frame_timeout,
           {"frame_timeout", Unit::s, {0, 60}, "Hold when the newest frame is older than this."});
+    visit(self.rollout, {"rollout", Unit::none, {}, "How a plan is made better."});
     visit(self.tree, {"tree", Unit::none, {}, "Tree and weights."});
     visit(self.segmentation, {"segmentation", Unit::none, {}, "Regions and branches."});
   }
@@ -87,7 +93,7 @@ struct AggregationMap {
 /// limit of steps.
 class Gatherer {
  public:
-  /// The map must outlive it.
+  /// The map must outlive it. The method `rollout` is taken as divide_and_conquer.
   Gatherer(const AggregationMap& ground, const AggregationParams& params);
 
   /// The next move [µm] of all robots; nothing when they are gathered: F < σ. Where `counts` are
@@ -125,15 +131,15 @@ class Gatherer {
   const AggregationMap* ground_;
   AggregationParams params_;
   const Routes* routes_;
-  double longest_ = 0;                      ///< way [µm] from any node
-  std::vector<float> seen_x_;               ///< where each robot was seen last
+  double longest_ = 0;         ///< way [µm] from any node
+  std::vector<float> seen_x_;  ///< where each robot was seen last
   std::vector<float> seen_y_;
   std::vector<std::uint32_t> counts_;       ///< robots in each place; empty: one
   std::vector<std::uint32_t> nodes_;        ///< nearest node of each robot
   std::vector<double> ways_;                ///< way to the goal of each robot [µm]
   std::vector<std::uint32_t> heading_for_;  ///< node that each robot was last led to
-  double sum_ways_ = 0;  ///< over all robots
-  double robots_ = 0;    ///< how many
+  double sum_ways_ = 0;                     ///< over all robots
+  double robots_ = 0;                       ///< how many
   double mean_way_ = 0;
   std::size_t leader_ = ~std::size_t{0};
   Vec2 waypoint_;

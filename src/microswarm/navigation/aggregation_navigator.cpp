@@ -25,15 +25,19 @@ void AggregationNavigator::prepare(const Snapshot& world) {
   gatherer_.emplace(*ground_, params_);
   forecast_.emplace(RobotStepper(world.map(), robots_.max_speed * tick_), robots_.contact,
                     robots_.response_lag);
+  if (params_.method == Aggregation::rollout)
+    rollout_.emplace(*ground_, forecast_->stepper(), params_, rng_);
 }
 
-Command AggregationNavigator::step(const Observation& seen, const Stop&) {
+Command AggregationNavigator::step(const Observation& seen, const Stop& stop) {
   view_ = {};
   if (seen.robots.empty() || seen.age() > params_.frame_timeout)
     return issue(seen.now, {}, "blind");
-  const std::optional<Vec2> move = gatherer_->next(forecast_->at_effect(seen));
+  const Robots robots = forecast_->at_effect(seen);
+  const std::optional<Vec2> move =
+      rollout_ ? rollout_->next(robots, stop) : gatherer_->next(robots);
   if (!move) return issue(seen.now, {}, "arrived");
-  view_.local_target = gatherer_->waypoint();
+  if (!rollout_) view_.local_target = gatherer_->waypoint();
   return issue(seen.now, command_for(*move, tick_), "gather");
 }
 

@@ -6,12 +6,13 @@
 #include "microswarm/navigation/aggregation.hpp"
 #include "microswarm/navigation/navigator.hpp"
 #include "microswarm/navigation/robot_forecast.hpp"
+#include "microswarm/navigation/rollout.hpp"
 
 namespace microswarm {
 
-/// HRA and DCA, Alg 3 and 5 [gather], as a navigator: looks at where the robots will be when its
-/// command takes effect, and gives the gatherer's move, or as much of it as a tick allows. States:
-/// gather, arrived, blind.
+/// HRA and DCA, Alg 3 and 5 [gather], and the rollout planner as a navigator: looks at where the
+/// robots will be when its command takes effect, and gives the gatherer's move, or as much of it as
+/// a tick allows. States: gather, arrived, blind.
 class AggregationNavigator : public Navigator {
  public:
   /// `robots`: what is known of them; `tick` [s] between two commands. It goes on until the mean
@@ -38,6 +39,7 @@ class AggregationNavigator : public Navigator {
   std::optional<RobotForecast> forecast_;
   std::optional<AggregationMap> ground_;
   std::optional<Gatherer> gatherer_;
+  std::optional<RolloutGatherer> rollout_;
   NavigatorView view_;
 };
 

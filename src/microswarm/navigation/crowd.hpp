@@ -15,6 +15,12 @@ class Crowd {
  public:
   explicit Crowd(const Robots& robots);
 
+  /// How many robots.
+  std::size_t size() const { return place_of_.size(); }
+  /// Where robot i is, in the coordinates of `places`.
+  PointF place_of(std::size_t i) const {
+    return {places_.x[place_of_[i]], places_.y[place_of_[i]]};
+  }
   const Robots& places() const { return places_; }
   /// To be moved by a RobotStepper.
   Robots& places() { return places_; }

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/rollout.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+
+#include "tests/navigation/gathering.hpp"
+
+namespace microswarm {
+namespace {
+
+AggregationParams with_work(const Gathering& g, double most_work) {
+  AggregationParams params = g.params;
+  params.rollout.budget = 2e5;
+  params.rollout.most_work = most_work;
+  return params;
+}
+
+int steps_of(const Gathering& g, Aggregation method, Robots robots) {
+  AggregationParams params = g.params;
+  params.method = method;
+  Gatherer gatherer(g.ground, params);
+  return gather(g.stepper, gatherer, robots, 20'000).steps;
+}
+
+int best_base(const Gathering& g, const Robots& robots) {
+  return std::min(steps_of(g, Aggregation::heuristic, robots),
+                  steps_of(g, Aggregation::divide_and_conquer, robots));
+}
+
+TEST(Rollout, NeverTakesLongerThanItsBaseAndEndsThere) {
+  const Gathering network(scenes::vascular_network());
+  for (const Gathering* g : {&t_junction(), &network}) {
+    for (const int count : {1, 2, 3, 16, 100}) {
+      for (const double work : {1.0, 2e5, 1e6}) {
+        Robots robots = g->robots(count, 4);
+        const int base = best_base(*g, robots);
+        const AggregationParams params = with_work(*g, work);
+        RolloutGatherer gatherer(g->ground, g->stepper, params, Rng(3, Purpose::planner));
+        const GatherResult result = gather(g->stepper, gatherer, robots, 20'000);
+        EXPECT_EQ(result.status, Status::solved);
+        EXPECT_LE(result.steps, base) << g->scene.name << " " << count << " " << work;
+        EXPECT_LT(result.mean_way, params.sigma);
+        EXPECT_EQ(gatherer.replans(), 0);
+        for (std::size_t i = 0; i < robots.size(); ++i)
+          EXPECT_TRUE(g->ground.map.is_free(robots.position(i), 0));
+      }
+    }
+  }
+}
+
+// What it is for: HRA and DCA need more than 240 steps here.
+TEST(Rollout, FindsMuchShorterPlans) {
+  const Gathering& t = t_junction();
+  double sum = 0;
+  double base = 0;
+  for (std::uint32_t trial = 0; trial < 4; ++trial) {
+    Robots robots = t.robots(128, trial);
+    base += best_base(t, robots);
+    RolloutGatherer gatherer(t.ground, t.stepper, with_work(t, 4e6), Rng(3, Purpose::planner));
+    sum += gather(t.stepper, gatherer, robots, 2000).steps;
+    EXPECT_GT(gatherer.improvements(), 3);
+  }
+  EXPECT_LT(sum, 0.9 * base);
+}
+
+// The plan shrinks, never grows, while nothing disturbs it.
+TEST(Rollout, StepsLeftOnlyShrink) {
+  const Gathering& t = t_junction();
+  Robots robots = t.robots(64, 2);
+  RolloutGatherer gatherer(t.ground, t.stepper, with_work(t, 2e6), Rng(3, Purpose::planner));
+  std::size_t left = 10'000;
+  while (const auto move = gatherer.next(robots)) {
+    EXPECT_LT(gatherer.steps_left(), left);
+    left = gatherer.steps_left();
+    t.stepper.step(robots, *move, ContactRule::stop);
+  }
+  EXPECT_EQ(left, 0u);
+}
+
+TEST(Rollout, SameSeedSameMoves) {
+  const Gathering& t = t_junction();
+  Robots one = t.robots(64, 5);
+  Robots two = one;
+  const AggregationParams params = with_work(t, 1e6);
+  RolloutGatherer first(t.ground, t.stepper, params, Rng(3, Purpose::planner));
+  RolloutGatherer second(t.ground, t.stepper, params, Rng(3, Purpose::planner));
+  EXPECT_EQ(gather(t.stepper, first, one, 5000).steps, gather(t.stepper, second, two, 5000).steps);
+  EXPECT_EQ(one.x, two.x);
+  EXPECT_EQ(one.y, two.y);
+  EXPECT_EQ(first.work(), second.work());
+}
+
+void shake(const RobotStepper& stepper, Robots& robots, double by, Rng& rng) {
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    const double dx = by * rng.normal();
+    const double dy = by * rng.normal();
+    const PointF at =
+        stepper.moved({robots.x[i], robots.y[i]}, {static_cast<float>(dx), static_cast<float>(dy)},
+                      ContactRule::stop);
+    robots.x[i] = at.x;
+    robots.y[i] = at.y;
+  }
+}
+
+TEST(Rollout, PlansAnewWhenRobotsStray) {
+  const Gathering& t = t_junction();
+  for (const double noise : {0.05, 0.2}) {
+    Robots robots = t.robots(48, 7);
+    Rng rng(9, Purpose::plant);
+    RolloutGatherer gatherer(t.ground, t.stepper, with_work(t, 5e5), Rng(3, Purpose::planner));
+    int steps = 0;
+    for (; steps < 3000; ++steps) {
+      const auto move = gatherer.next(robots);
+      if (!move) break;
+      t.stepper.step(robots, *move, ContactRule::stop);
+      shake(t.stepper, robots, noise, rng);
+    }
+    EXPECT_LT(steps, 3000) << noise;
+    EXPECT_LT(gatherer.mean_way(), t.params.sigma);
+    EXPECT_GT(gatherer.replans(), 0);
+  }
+}
+
+// Another swarm is another task.
+TEST(Rollout, BeginsAnewWithAnotherSwarm) {
+  const Gathering& t = t_junction();
+  RolloutGatherer gatherer(t.ground, t.stepper, with_work(t, 1e5), Rng(3, Purpose::planner));
+  Robots many = t.robots(30, 1);
+  ASSERT_TRUE(gatherer.next(many));
+  Robots few = t.robots(10, 2);
+  EXPECT_EQ(gather(t.stepper, gatherer, few, 2000).status, Status::solved);
+}
+
+// Robots that no input moves: no plan holds, yet it always has a move to give.
+TEST(Rollout, GoesOnWhenNothingHelps) {
+  const Gathering& t = t_junction();
+  AggregationParams params = with_work(t, 1e5);
+  params.rollout.most_steps = 50;  // no plan is as short
+  RolloutGatherer gatherer(t.ground, t.stepper, params, Rng(3, Purpose::planner));
+  const Robots robots = t.robots(8, 1);
+  for (int i = 0; i < 300; ++i) ASSERT_TRUE(gatherer.next(robots));
+  EXPECT_EQ(gatherer.steps_left(), 0u);
+  Robots moving = robots;
+  EXPECT_EQ(gather(t.stepper, gatherer, moving, 3000).status, Status::solved);
+}
+
+TEST(Rollout, OfNobodyAndOfOne) {
+  const Gathering& t = t_junction();
+  RolloutGatherer gatherer(t.ground, t.stepper, with_work(t, 1e5), Rng(3, Purpose::planner));
+  EXPECT_EQ(gatherer.next(t.robots(0, 1)), std::nullopt);
+  Robots one = t.stepper.place(std::vector<Vec2>{{50, 56}});
+  EXPECT_EQ(gatherer.next(one), std::nullopt);  // gathered already
+  EXPECT_LT(gatherer.mean_way(), t.params.sigma);
+}
+
+TEST(Rollout, StopEndsTheThinkingOnly) {
+  const Gathering& t = t_junction();
+  const std::atomic<bool> stop{true};
+  RolloutGatherer gatherer(t.ground, t.stepper, with_work(t, 1e6), Rng(3, Purpose::planner));
+  EXPECT_TRUE(gatherer.next(t.robots(16, 1), Stop(&stop)));
+  EXPECT_EQ(gatherer.improvements(), 0);
+  EXPECT_GT(gatherer.steps_left(), 0u);
+}
+
+}  // namespace
+}  // namespace microswarm
