@@ -7,6 +7,8 @@
 #include "microswarm/core/angles.hpp"
 #include "microswarm/experiment/progress.hpp"
 #include "microswarm/experiment/record.hpp"
+#include "microswarm/navigation/aggregation_check.hpp"
+#include "microswarm/navigation/channel_width.hpp"
 
 namespace microswarm::cli {
 
@@ -65,11 +67,24 @@ std::string summary(const RunResult& result) {
                             m.planning_events, 1e3 * p.mean, 1e3 * p.max);
 }
 
+/// What [gather] assumes of the ground, on stderr where it does not hold.
+void note_assumptions(const Scenario& scenario, const Map& map) {
+  const auto* params = std::get_if<AggregationParams>(&scenario.navigator);
+  if (!params) return;
+  constexpr double published_width = 10;  // [µm]
+  Rng rng(scenario.seed, Purpose::scene);
+  const double width =
+      params->scale > 0 ? params->scale * published_width : channel_width(map, rng);
+  for (const std::string& note : unmet_assumptions(map, *scenario.goal, width))
+    fmt::print(stderr, "note: {}\n", note);
+}
+
 }  // namespace
 
 int run_once(const Scene& scene, const World& world, const RunOutput& o,
              const ReportOptions& report, const Stop& stop) {
   const std::filesystem::path folder = o.out;
+  note_assumptions(scene.scenario, *world.map);
   Recorder recorder(scene);
   RunResult result;
   {

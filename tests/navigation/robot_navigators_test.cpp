@@ -3,10 +3,12 @@
 
 #include <deque>
 
+#include "microswarm/navigation/aggregation_check.hpp"
 #include "microswarm/navigation/aggregation_navigator.hpp"
 #include "microswarm/navigation/plan_player.hpp"
 #include "tests/scenes/global_worlds.hpp"
 #include "tests/scenes/vascular.hpp"
+#include "tests/scenes/worlds.hpp"
 
 namespace microswarm {
 namespace {
@@ -175,6 +177,20 @@ TEST(AggregationNavigator, GathersUnderLagAndDelayAndHoldsThen) {
   nothing.robots = {};
   EXPECT_EQ(navigator.step(nothing, {}).speed, 0);
   EXPECT_EQ(navigator.view().state, "blind");
+}
+
+TEST(AggregationGround, KnowsDeadEndsAndWhatIsApart) {
+  const scenes::Vascular t = scenes::t_junction();
+  const Map map = t.map();
+  EXPECT_EQ(aggregation_ground(map, t.goal, 10).ways_out, 1);
+  EXPECT_GT(aggregation_ground(map, t.goal, 10).reached_share, 0.999);
+  EXPECT_TRUE(unmet_assumptions(map, t.goal, 10).empty());
+  EXPECT_EQ(aggregation_ground(map, {50, 95}, 10).ways_out, 3);  // in the junction
+  EXPECT_EQ(aggregation_ground(map, {20, 95}, 10).ways_out, 2);
+  // Two rooms, and a goal in the smaller one.
+  const Map apart({{0, 0}, {100, 10}}, {scenes::rectangle({{24, -1}, {25, 11}})});
+  EXPECT_NEAR(aggregation_ground(apart, {3, 5}, 10).reached_share, 24.0 / 99, 0.02);
+  EXPECT_EQ(unmet_assumptions(apart, {3, 5}, 10).size(), 1u);
 }
 
 }  // namespace
