@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Aggregation [gather] on the vessel masks of CHASE_DB1, which are not part of the project.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "microswarm/experiment/run.hpp"
+
+namespace microswarm {
+namespace {
+
+TEST(Gather, RobotsAnywhereInARealVesselMaskComeTogether) {
+  const char* data = std::getenv("MICROSWARM_DATA");
+  const std::filesystem::path folder =
+      data ? data : std::filesystem::path(MICROSWARM_SOURCE_DIR) / ".." / "shared" / "data";
+  const std::filesystem::path mask = folder / "vessels" / "CHASE_09L_mask_obs1.png";
+  if (!std::filesystem::exists(mask)) GTEST_SKIP() << "no " << mask;
+  constexpr double step = 4;
+  Scenario s;
+  s.map = guess_map_spec(mask, 6.0);
+  s.robots.emplace().count = 48;
+  s.robots->max_speed = 80;
+  s.tick = step / s.robots->max_speed;
+  s.time_limit = 100'000 * s.tick;
+  s.goal = Vec2{234, 3217};  // a dead end
+  s.goal_tolerance = 10 * step;
+  AggregationParams params;
+  params.scale = step;
+  for (const Aggregation method : {Aggregation::heuristic, Aggregation::divide_and_conquer}) {
+    params.method = method;
+    s.navigator = params;
+    const World world = build_world(load_scene(s, {}));
+    check(s, world, "mask");
+    EXPECT_EQ(simulate(s, world).status, Status::solved);
+  }
+}
+
+}  // namespace
+}  // namespace microswarm
