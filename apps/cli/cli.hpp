@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -21,7 +22,16 @@ inline constexpr int not_reached = 3;
 
 /// What every command is given: the stop that Ctrl-C sets.
 struct Context {
+  explicit Context(const std::atomic<bool>* flag) : stop(flag), interrupted(flag) {}
+  /// The same with a deadline.
+  Stop within(double seconds) const {
+    return Stop(std::chrono::duration_cast<Stop::Clock::duration>(
+                    std::chrono::duration<double>(seconds)),
+                interrupted);
+  }
+
   Stop stop;
+  const std::atomic<bool>* interrupted;
 };
 
 /// A command registers its options on the app and sets `action`, which main() calls once the whole
@@ -31,6 +41,7 @@ using Action = std::function<int(const Context&)>;
 void add_run(CLI::App& app, Action& action);
 void add_plan(CLI::App& app, Action& action);
 void add_gather(CLI::App& app, Action& action);
+void add_global(CLI::App& app, Action& action);
 void add_replay(CLI::App& app, Action& action);
 void add_report(CLI::App& app, Action& action);
 void add_schema(CLI::App& app, Action& action);

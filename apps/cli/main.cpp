@@ -38,7 +38,7 @@ int complain(const char* what, int code) {
 int act(const microswarm::cli::Action& action) {
   using namespace microswarm;
   try {
-    const int code = action({Stop(&interrupted)});
+    const int code = action(cli::Context(&interrupted));
     cli::flush_output();
     return code;
   } catch (const InputError& e) {
@@ -69,6 +69,7 @@ int main(int argc, char** argv) {
   cli::Action action;
   cli::add_run(app, action);
   cli::add_plan(app, action);
+  cli::add_global(app, action);
   cli::add_gather(app, action);
   cli::add_map(app, action);
   cli::add_replay(app, action);

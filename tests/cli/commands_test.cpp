@@ -18,6 +18,7 @@ class Commands : public CommandLine {
 TEST_F(Commands, HelpHasAnExample) {
   for (const Arguments& command : std::vector<Arguments>{{"run"},
                                                          {"plan"},
+                                                         {"global"},
                                                          {"gather"},
                                                          {"map", "info"},
                                                          {"map", "check"},

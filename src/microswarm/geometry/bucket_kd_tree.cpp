@@ -24,7 +24,7 @@ class NearestSearch {
   NearestSearch(const BucketKdTree::View& tree, const float* point) : tree_(tree), point_(point) {}
 
   std::uint32_t run() {
-    visit(0, 0);
+    visit(0);
     return best_;
   }
 
@@ -32,41 +32,39 @@ class NearestSearch {
   using Tag = hn::CappedTag<float, BucketKdTree::Row::size>;
   using V = hn::Vec<Tag>;
 
-  // `bound` is about the least square of a distance from the point into the node's cell, `beside_`
-  // how far the point lies beside it in each dimension.
-  void visit(std::uint32_t index, double bound) {
+  // The child that is nearer first.
+  void visit(std::uint32_t index) {
     const BucketKdTree::Node node = tree_.nodes[index];
     if (node.axis == tree_.dimension) return look_through(node.child);
-    const float beside = point_[node.axis] - node.split;
-    const std::uint32_t near = beside < 0 ? 0 : 1;
-    visit(node.child + near, bound);
-    const double before = beside_[node.axis];
-    const double after = beside;
-    const double other = bound - before * before + after * after;
-    if (is_too_far(other)) return;
-    beside_[node.axis] = after;
-    visit(node.child + 1 - near, other);
-    beside_[node.axis] = before;
+    float near = square_to_box(node.child);
+    float far = square_to_box(node.child + 1);
+    std::uint32_t first = 0;
+    if (far < near) {
+      std::swap(near, far);
+      first = 1;
+    }
+    if (is_too_far(near)) return;
+    visit(node.child + first);
+    if (!is_too_far(far)) visit(node.child + 1 - first);
   }
 
   /// With room for the rounding of both squares.
-  bool is_too_far(double square) const { return square * (1 - 1e-5) > least_; }
+  bool is_too_far(float square) const { return square * (1 - 1e-5f) > least_; }
 
   void look_through(std::uint32_t index) {
-    for (; index != BucketKdTree::none; index = tree_.buckets[index].next) {
-      const BucketKdTree::Bucket& bucket = tree_.buckets[index];
-      if (is_too_far(square_to_box(bucket))) return;
-      scan(bucket, tree_.rows + index * tree_.dimension * rows_a_line);
-    }
+    for (; index != BucketKdTree::none; index = tree_.buckets[index].next)
+      scan(tree_.buckets[index], tree_.rows + index * tree_.dimension * rows_a_line);
   }
 
-  double square_to_box(const BucketKdTree::Bucket& bucket) const {
-    const hn::CappedTag<float, 4> d;
+  float square_to_box(std::uint32_t node) const {
+    const hn::CappedTag<float, BucketKdTree::BoxRow::size> d;
+    const std::size_t width = tree_.box_rows * BucketKdTree::BoxRow::size;
+    const float* low = tree_.boxes[2 * tree_.box_rows * node].x.data();
     auto sum = hn::Zero(d);
-    for (std::size_t k = 0; k < tree_.dimension; k += hn::Lanes(d)) {
-      const auto p = hn::LoadU(d, point_ + k);
-      const auto below = hn::Sub(hn::LoadU(d, bucket.low.data() + k), p);
-      const auto above = hn::Sub(p, hn::LoadU(d, bucket.high.data() + k));
+    for (std::size_t k = 0; k < width; k += hn::Lanes(d)) {
+      const auto p = hn::Load(d, point_ + k);
+      const auto below = hn::Sub(hn::Load(d, low + k), p);
+      const auto above = hn::Sub(p, hn::Load(d, low + width + k));
       const auto out = hn::Max(hn::Max(below, above), hn::Zero(d));
       sum = hn::Add(sum, hn::Mul(out, out));
     }
@@ -105,7 +103,6 @@ class NearestSearch {
 
   const BucketKdTree::View& tree_;
   const float* point_;
-  std::array<double, BucketKdTree::most_dimensions> beside_{};
   float least_ = std::numeric_limits<float>::infinity();
   std::uint32_t best_ = BucketKdTree::none;
 };
@@ -132,21 +129,44 @@ constexpr int deepest = 48;
 
 }  // namespace
 
-BucketKdTree::BucketKdTree(std::size_t dimension) : dimension_(dimension) {
+BucketKdTree::BucketKdTree(std::size_t dimension)
+    : dimension_(dimension), box_rows_((dimension + BoxRow::size - 1) / BoxRow::size) {
   assert(dimension >= 1 && dimension <= most_dimensions);
-  nodes_.push_back({0, static_cast<std::uint32_t>(dimension_), new_bucket()});
+  new_nodes(1);
+  nodes_[0].child = new_bucket();
 }
 
 std::uint32_t BucketKdTree::nearest(std::span<const float> point) const {
   assert(size_ > 0 && point.size() == dimension_);
-  std::array<float, most_dimensions> padded{};
+  alignas(64) std::array<float, most_dimensions> padded{};
   std::copy(point.begin(), point.end(), padded.begin());
   return HWY_DYNAMIC_DISPATCH(nearest_here)(view(), padded.data());
 }
 
 std::size_t BucketKdTree::bytes() const {
-  return nodes_.capacity() * sizeof(Node) + buckets_.capacity() * sizeof(Bucket) +
-         rows_.capacity() * sizeof(Row);
+  return nodes_.capacity() * sizeof(Node) + boxes_.capacity() * sizeof(BoxRow) +
+         buckets_.capacity() * sizeof(Bucket) + rows_.capacity() * sizeof(Row);
+}
+
+/// Leaves without a bucket and without points; the first one's index.
+std::uint32_t BucketKdTree::new_nodes(std::size_t count) {
+  const auto first = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.resize(nodes_.size() + count, {0, static_cast<std::uint32_t>(dimension_), none});
+  boxes_.resize(2 * box_rows_ * nodes_.size());
+  for (std::uint32_t node = first; node < nodes_.size(); ++node) {
+    std::fill_n(low(node), dimension_, far_away);
+    std::fill_n(high(node), dimension_, -far_away);
+  }
+  return first;
+}
+
+void BucketKdTree::include(std::uint32_t node, const float* point) {
+  float* least = low(node);
+  float* most = high(node);
+  for (std::size_t k = 0; k < dimension_; ++k) {
+    least[k] = std::min(least[k], point[k]);
+    most[k] = std::max(most[k], point[k]);
+  }
 }
 
 std::uint32_t BucketKdTree::new_bucket() {
@@ -161,20 +181,13 @@ void BucketKdTree::clear(std::uint32_t index) {
   Bucket& bucket = buckets_[index];
   bucket.count = 0;
   bucket.next = none;
-  bucket.low.fill(0);
-  bucket.high.fill(0);
-  std::fill_n(bucket.low.begin(), dimension_, far_away);
-  std::fill_n(bucket.high.begin(), dimension_, -far_away);
   std::fill_n(line(index, 0), dimension_ * bucket_size, far_away);
 }
 
 void BucketKdTree::append(std::uint32_t index, const float* point, std::uint32_t number) {
   Bucket& bucket = buckets_[index];
-  for (std::size_t axis = 0; axis < dimension_; ++axis) {
+  for (std::size_t axis = 0; axis < dimension_; ++axis)
     line(index, axis)[bucket.count] = point[axis];
-    bucket.low[axis] = std::min(bucket.low[axis], point[axis]);
-    bucket.high[axis] = std::max(bucket.high[axis], point[axis]);
-  }
   bucket.points[bucket.count++] = number;
 }
 
@@ -183,16 +196,19 @@ void BucketKdTree::add(std::span<const float> point) {
   assert(std::ranges::all_of(point, [](float x) { return std::abs(x) < 1e17f; }));
   const auto number = static_cast<std::uint32_t>(size_++);
   std::uint32_t node = 0;
+  include(node, point.data());
   for (int depth = 0;; ++depth) {
     while (nodes_[node].axis != dimension_) {
       const Node& n = nodes_[node];
       node = n.child + (point[n.axis] < n.split ? 0 : 1);
+      include(node, point.data());
       ++depth;
     }
     const std::uint32_t bucket = nodes_[node].child;
     if (buckets_[bucket].count < bucket_size) return append(bucket, point.data(), number);
     if (depth >= deepest && size_ - 1 > size_at_rebuild_ + size_at_rebuild_ / 8) {
       rebuild();
+      include(0, point.data());
       node = 0;
       depth = 0;
       continue;
@@ -214,11 +230,11 @@ void BucketKdTree::spill(std::uint32_t index) {
 bool BucketKdTree::split(std::uint32_t node) {
   const std::uint32_t full = nodes_[node].child;
   const std::size_t axis = widest_axis(full);
-  if (!(buckets_[full].low[axis] < buckets_[full].high[axis])) return false;
   const std::uint32_t behind = buckets_[full].next;
   std::vector<float> values(line(full, axis), line(full, axis) + bucket_size);
   if (behind != none) values.push_back(line(behind, axis)[0]);
   std::ranges::sort(values);
+  if (!(values.front() < values.back())) return false;
   float middle = values[values.size() / 2];
   if (middle == values[0]) middle = *std::ranges::upper_bound(values, middle);
 
@@ -226,35 +242,41 @@ bool BucketKdTree::split(std::uint32_t node) {
   const std::vector<float> points(line(full, 0), line(full, 0) + dimension_ * bucket_size);
   const std::array<std::uint32_t, 2> halves{full, new_bucket()};
   clear(full);
-  const auto child = static_cast<std::uint32_t>(nodes_.size());
-  for (const std::uint32_t half : halves)
-    nodes_.push_back({0, static_cast<std::uint32_t>(dimension_), half});
+  const std::uint32_t child = new_nodes(2);
+  for (std::uint32_t half = 0; half < 2; ++half) nodes_[child + half].child = halves[half];
   nodes_[node] = {middle, static_cast<std::uint32_t>(axis), child};
   std::array<float, most_dimensions> point;
   for (std::size_t i = 0; i < bucket_size; ++i) {
     for (std::size_t k = 0; k < dimension_; ++k) point[k] = points[k * bucket_size + i];
-    append(halves[point[axis] < middle ? 0 : 1], point.data(), old.points[i]);
+    const std::uint32_t half = point[axis] < middle ? 0 : 1;
+    append(halves[half], point.data(), old.points[i]);
+    include(child + half, point.data());
   }
   if (behind != none) {
-    Bucket& half = buckets_[halves[line(behind, axis)[0] < middle ? 0 : 1]];
-    half.next = behind;
-    include(half, buckets_[behind]);
+    for (std::size_t k = 0; k < dimension_; ++k) point[k] = line(behind, k)[0];
+    const std::uint32_t half = point[axis] < middle ? 0 : 1;
+    buckets_[halves[half]].next = behind;
+    include(child + half, point.data());
   }
   return true;
 }
 
-void BucketKdTree::include(Bucket& bucket, const Bucket& other) const {
-  for (std::size_t k = 0; k < dimension_; ++k) {
-    bucket.low[k] = std::min(bucket.low[k], other.low[k]);
-    bucket.high[k] = std::max(bucket.high[k], other.high[k]);
-  }
-}
-
-std::size_t BucketKdTree::widest_axis(std::uint32_t index) const {
-  const Bucket& bucket = buckets_[index];
+/// Of a full bucket and what lies behind it.
+std::size_t BucketKdTree::widest_axis(std::uint32_t bucket) const {
+  const std::uint32_t behind = buckets_[bucket].next;
   std::size_t widest = 0;
-  for (std::size_t k = 1; k < dimension_; ++k)
-    if (bucket.high[k] - bucket.low[k] > bucket.high[widest] - bucket.low[widest]) widest = k;
+  float most = 0;
+  for (std::size_t k = 0; k < dimension_; ++k) {
+    const float* x = line(bucket, k);
+    auto [low, high] = std::ranges::minmax(std::span(x, bucket_size));
+    if (behind != none) {
+      low = std::min(low, line(behind, k)[0]);
+      high = std::max(high, line(behind, k)[0]);
+    }
+    if (high - low <= most) continue;
+    most = high - low;
+    widest = k;
+  }
   return widest;
 }
 
@@ -267,9 +289,10 @@ void BucketKdTree::rebuild() {
   std::vector<std::uint32_t> points(size_ - 1);
   std::iota(points.begin(), points.end(), 0u);
   nodes_.clear();
+  boxes_.clear();
   buckets_.clear();
   rows_.clear();
-  nodes_.emplace_back();
+  new_nodes(1);
   build(0, points, all);
   size_at_rebuild_ = size_;
 }
@@ -281,9 +304,11 @@ void BucketKdTree::build(std::uint32_t node, std::span<std::uint32_t> points,
   std::size_t axis = 0;
   float widest = 0;
   for (std::size_t k = 0; k < dimension_; ++k) {
-    const auto [low, high] =
+    const auto [least, most] =
         std::ranges::minmax(points, {}, [&](std::uint32_t point) { return at(point, k); });
-    const float width = at(high, k) - at(low, k);
+    low(node)[k] = at(least, k);
+    high(node)[k] = at(most, k);
+    const float width = at(most, k) - at(least, k);
     if (width > widest) {
       widest = width;
       axis = k;
@@ -308,8 +333,7 @@ void BucketKdTree::build(std::uint32_t node, std::span<std::uint32_t> points,
     middle = std::nextafter(middle, far_away);
     left = std::partition(points.begin(), points.end(), is_left);
   }
-  const auto child = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.resize(nodes_.size() + 2);
+  const std::uint32_t child = new_nodes(2);
   nodes_[node] = {middle, static_cast<std::uint32_t>(axis), child};
   build(child, {points.begin(), left}, all);
   build(child + 1, {left, points.end()}, all);

@@ -9,6 +9,7 @@
 
 #include "microswarm/geometry/bucket_kd_tree.hpp"
 #include "microswarm/planning/free_goal.hpp"
+#include "microswarm/planning/global_separation.hpp"
 
 namespace microswarm {
 namespace {
@@ -26,6 +27,7 @@ class Growth {
          std::span<const Vec2> goals, const GlobalRrtParams& params, Rng& rng)
       : map_(map),
         stepper_(stepper),
+        separation_(stepper, params.contact, params.separation),
         goals_(goals),
         params_(params),
         rng_(rng),
@@ -38,6 +40,7 @@ class Growth {
     tree.origin = map.bounds().centre();
     tree.robostep = params.robostep;
     tree.contact = params.contact;
+    tree.separation = params.separation;
     tree.moves = input_moves(params.directions, params.robostep);
     add(relative(starts), 0, 0);
   }
@@ -119,12 +122,29 @@ class Growth {
         sums_[a] += dx * dx + dy * dy;
       }
     }
-    const auto best = static_cast<std::size_t>(std::ranges::min_element(sums_) - sums_.begin());
-    Configuration next{};
-    for (std::size_t i = 0; i < n_; ++i) put(next, i, reached_[i * moves.size() + best]);
     grown_.counts.edge_checks += moves.size();
+    auto best = std::ranges::min_element(sums_);
+    while (!keeps_apart(from, static_cast<std::size_t>(best - sums_.begin()))) {
+      *best = std::numeric_limits<float>::infinity();
+      best = std::ranges::min_element(sums_);
+      if (std::isinf(*best)) return;
+    }
+    const auto input = static_cast<std::size_t>(best - sums_.begin());
+    Configuration next{};
+    for (std::size_t i = 0; i < n_; ++i) put(next, i, reached_[i * moves.size() + input]);
     if (std::ranges::equal(used(next), start)) return;
-    add(next, from, static_cast<std::uint8_t>(best));
+    add(next, from, static_cast<std::uint8_t>(input));
+  }
+
+  bool keeps_apart(std::uint32_t node, std::size_t input) const {
+    if (!separation_.is_on()) return true;
+    const std::span<const float> start = grown_.tree.configuration(node);
+    std::array<PointF, most_global_robots> before, after;
+    for (std::size_t i = 0; i < n_; ++i) {
+      before[i] = {start[2 * i], start[2 * i + 1]};
+      after[i] = reached_[i * sums_.size() + input];
+    }
+    return separation_.holds({before.data(), n_}, {after.data(), n_}, grown_.tree.moves[input]);
   }
 
   void add(const Configuration& c, std::uint32_t parent, std::uint8_t input) {
@@ -144,6 +164,7 @@ class Growth {
 
   const Map& map_;
   const RobotStepper& stepper_;
+  GlobalSeparation separation_;
   std::span<const Vec2> goals_;
   const GlobalRrtParams& params_;
   Rng& rng_;
@@ -154,15 +175,25 @@ class Growth {
   std::vector<PointF> reached_;
 };
 
+double least_distance(std::span<const Vec2> places) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) least = std::min(least, distance(places[i], places[j]));
+  return least;
+}
+
 }  // namespace
 
 std::optional<Status> robots_fault(const Map& map, std::span<const Vec2> starts,
-                                   std::span<const Vec2> goals, double tolerance, double guard) {
+                                   std::span<const Vec2> goals, double tolerance, double guard,
+                                   double separation) {
   for (const Vec2 p : starts)
     if (!is_finite(p) || !map.is_free(p, guard)) return Status::start_blocked;
+  if (least_distance(starts) < separation) return Status::start_blocked;
   const Snapshot world(std::shared_ptr<const Map>(std::shared_ptr<void>(), &map));
   for (const Vec2 p : goals)
     if (!free_goal(world, p, tolerance, 0)) return Status::goal_blocked;
+  if (least_distance(goals) + 2 * tolerance < separation) return Status::goal_blocked;
   return std::nullopt;
 }
 
@@ -171,7 +202,7 @@ GlobalRrt global_rrt(const Map& map, std::span<const Vec2> starts, std::span<con
   check_robots(starts, goals);
   const RobotStepper stepper = input_stepper(map, params.robostep);
   const std::optional<Status> fault =
-      robots_fault(map, starts, goals, params.goal_tolerance, stepper.guard());
+      robots_fault(map, starts, goals, params.goal_tolerance, stepper.guard(), params.separation);
   if (fault == Status::start_blocked) return {{Status::start_blocked}, {}, {}};
   Growth growth(map, stepper, starts, goals, params, rng);
   if (!fault) return growth.run(stop);

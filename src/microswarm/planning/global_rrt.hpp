@@ -12,7 +12,7 @@
 
 namespace microswarm {
 
-/// `goal_bias` goes beyond the paper, whose tree knows no goal.
+/// `goal_bias` and `separation` go beyond the paper, whose tree knows no goal.
 struct GlobalRrtParams {
   static constexpr std::string_view type_name = "global_rrt";
   double robostep = 5;
@@ -20,6 +20,7 @@ struct GlobalRrtParams {
   ContactRule contact = ContactRule::slide;
   double goal_tolerance = 20;
   double goal_bias = 0;
+  double separation = 0;
   int max_nodes = 40'000;  // K
   int max_iterations = 100'000'000;
   bool stop_at_first = true;
@@ -32,6 +33,8 @@ struct GlobalRrtParams {
     visit(self.goal_tolerance,
           {"goal_tolerance", Unit::um, {1e-3, 1e6}, "How near every robot must come to its goal."});
     visit(self.goal_bias, {"goal_bias", Unit::none, {0, 1}, "Share of samples at the goals."});
+    visit(self.separation,
+          {"separation", Unit::um, {0, 1e6}, "Least distance between robots; 0: none."});
     visit(self.max_nodes, {"max_nodes", Unit::none, {1, 1e8}, "Nodes to grow at most (K)."});
     visit(self.max_iterations, {"max_iterations", Unit::none, {1, 1e9}, "Tries at most."});
     visit(self.stop_at_first,
@@ -50,15 +53,18 @@ struct GlobalRrt {
 /// by the input of k that brings them nearest to a random free configuration; an input that moves
 /// no robot adds no node. Without goals the tree grows to its limits, to be asked later. A pure
 /// function of its arguments. The answer's status is start_blocked
-/// (no tree then) or goal_blocked (just the root), solved, node_limit, and stopped or time_limit
+/// (no tree then; robots nearer to each other than the separation are that too) or goal_blocked
+/// (just the root), solved, node_limit, and stopped or time_limit
 /// when it was told to stop; its node is the best there is. Throws InputError when there are no
 /// robots, more than most_global_robots, or goals that are not as many.
 GlobalRrt global_rrt(const Map& map, std::span<const Vec2> starts, std::span<const Vec2> goals,
                      const GlobalRrtParams& params, Rng& rng, const Stop& stop = {});
 
-/// What is wrong before any planning: start_blocked, goal_blocked (no free spot within the
-/// tolerance of a goal) or nothing.
+/// What is wrong before any planning: start_blocked (in a wall, or two robots nearer than
+/// `separation`), goal_blocked (no free spot within the tolerance of a goal, or two goals so near
+/// that no spots are far enough apart) or nothing.
 std::optional<Status> robots_fault(const Map& map, std::span<const Vec2> starts,
-                                   std::span<const Vec2> goals, double tolerance, double guard);
+                                   std::span<const Vec2> goals, double tolerance, double guard,
+                                   double separation = 0);
 
 }  // namespace microswarm

@@ -12,6 +12,7 @@
 #include "microswarm/core/error.hpp"
 #include "microswarm/planning/geodesic_field.hpp"
 #include "microswarm/planning/global_rrt.hpp"
+#include "microswarm/planning/global_separation.hpp"
 
 namespace microswarm {
 namespace {
@@ -102,6 +103,7 @@ class Round {
   Round(const Problem& problem, std::span<const GeodesicField> fields, const Configuration& start,
         double cell, Rng& rng, PlanCounts& counts)
       : problem_(problem),
+        separation_(problem.stepper, problem.params.contact, problem.params.separation),
         fields_(fields),
         rng_(rng),
         counts_(counts),
@@ -164,7 +166,9 @@ class Round {
         is_moving |= std::abs(q.x - p.x) + std::abs(q.y - p.y) > still;
       }
       counts_.edge_checks += 1;
-      if (!is_moving) {
+      const bool is_apart =
+          separation_.holds({before.data(), problem_.n}, {now.data(), problem_.n}, move);
+      if (!is_moving || !is_apart) {
         if (steps > 1) node_at(before, static_cast<std::uint16_t>(steps - 1));
         return;
       }
@@ -208,6 +212,7 @@ class Round {
   }
 
   const Problem& problem_;
+  GlobalSeparation separation_;
   std::span<const GeodesicField> fields_;
   Rng& rng_;
   PlanCounts& counts_;
@@ -268,8 +273,8 @@ GlobalSearch global_search(const Map& map, std::span<const Vec2> starts,
   const Problem problem = make_problem(map, starts, goals, params);
   GlobalSearch found;
   found.plan.worst = std::numeric_limits<double>::infinity();
-  const std::optional<Status> fault =
-      robots_fault(map, starts, goals, params.goal_tolerance, problem.stepper.guard());
+  const std::optional<Status> fault = robots_fault(map, starts, goals, params.goal_tolerance,
+                                                   problem.stepper.guard(), params.separation);
   if (fault) {
     found.plan.status = *fault;
     return found;

@@ -21,6 +21,7 @@ struct GlobalSearchParams {
   double cell = 0;
   double noise = 0.8;
   double travel_weight = 0.2;
+  double separation = 0;
   int round_nodes = 15'000;
   int max_nodes = 100'000'000;
   template <class Self, class V>
@@ -39,6 +40,8 @@ struct GlobalSearchParams {
                                {0, 1e3},
                                "Cost of the way the swarm has to go as a whole, "
                                "against that of a wrong formation."});
+    visit(self.separation,
+          {"separation", Unit::um, {0, 1e6}, "Least distance between robots; 0: none."});
     visit(self.round_nodes,
           {"round_nodes", Unit::none, {1, 1e8}, "Nodes after which the first round starts anew."});
     visit(self.max_nodes, {"max_nodes", Unit::none, {1, 2e9}, "Nodes of all rounds at most."});

@@ -28,6 +28,7 @@ struct GlobalTree {
   Vec2 origin;  ///< of the configurations, the middle of the map
   double robostep = 0;
   ContactRule contact = ContactRule::slide;
+  double separation = 0;              ///< [µm] that robots keep from each other; 0: none
   std::vector<PointF> moves;          ///< the inputs by their index
   std::vector<float> configurations;  ///< [µm] x, y of robot 0, of robot 1 …, 2n a node
   std::vector<std::uint32_t> parents;

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/planning/global_shorten.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "microswarm/planning/global_separation.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr int most_rounds = 20;
+
+using Robots8 = std::array<PointF, most_global_robots>;
+
+/// `count` equal inputs from `first` on.
+struct Run {
+  std::size_t first;
+  std::size_t count;
+};
+
+class Shortening {
+ public:
+  Shortening(const Map& map, const GlobalPlan& plan, std::span<const Vec2> goals,
+             const GlobalPlay& play, const Stop& stop)
+      : play_(play),
+        stepper_(input_stepper(map, play.robostep)),
+        separation_(stepper_, play.contact, play.separation),
+        stop_(stop),
+        n_(goals.size()),
+        origin_(map.bounds().centre()) {
+    for (std::size_t i = 0; i < n_; ++i) goals_[i] = stepper_.relative(goals[i]);
+    for (const Vec2 u : plan.inputs)
+      inputs_.push_back({static_cast<float>(u.x), static_cast<float>(u.y)});
+    Robots8 start{};
+    for (std::size_t i = 0; i < n_; ++i) start[i] = stepper_.relative(plan.configurations[0][i]);
+    states_.push_back(start);
+    for (const PointF u : inputs_) {
+      Robots8 next = states_.back();
+      step(next, u);
+      states_.push_back(next);
+    }
+  }
+
+  void run() {
+    for (int round = 0; round < most_rounds && !stop_(); ++round) {
+      const std::size_t before = inputs_.size();
+      for (std::size_t length = std::max<std::size_t>(1, inputs_.size() / 2);; length /= 2) {
+        drop_stretches(length);
+        if (length == 1) break;
+      }
+      drop_pairs();
+      if (inputs_.size() == before) break;
+    }
+  }
+
+  GlobalPlan plan() const {
+    GlobalPlan plan{Status::solved, {}, {}, worst(states_.back())};
+    for (const PointF u : inputs_)
+      plan.inputs.push_back({static_cast<double>(u.x), static_cast<double>(u.y)});
+    for (const Robots8& robots : states_) {
+      std::vector<Vec2>& places = plan.configurations.emplace_back();
+      for (std::size_t i = 0; i < n_; ++i)
+        places.push_back(origin_ +
+                         Vec2{static_cast<double>(robots[i].x), static_cast<double>(robots[i].y)});
+    }
+    return plan;
+  }
+  bool reaches() const { return worst(states_.back()) <= play_.goal_tolerance; }
+
+ private:
+  /// False when robots come too near each other.
+  bool step(Robots8& robots, PointF u) const {
+    const Robots8 before = robots;
+    for (std::size_t i = 0; i < n_; ++i) {
+      const PointF p = robots[i];
+      robots[i] = stepper_.faces().near(p).empty() ? PointF{p.x + u.x, p.y + u.y}
+                                                   : stepper_.moved(p, u, play_.contact);
+    }
+    return separation_.holds({before.data(), n_}, {robots.data(), n_}, u);
+  }
+
+  double worst(const Robots8& robots) const {
+    double square = 0;
+    for (std::size_t i = 0; i < n_; ++i) {
+      const double dx = static_cast<double>(robots[i].x) - static_cast<double>(goals_[i].x);
+      const double dy = static_cast<double>(robots[i].y) - static_cast<double>(goals_[i].y);
+      square = std::max(square, dx * dx + dy * dy);
+    }
+    return std::sqrt(square);
+  }
+
+  /// Plays the inputs without those of `gaps`, which lie in order; takes them when that reaches the
+  /// goals, up to where it first does.
+  bool try_without(std::span<const Run> gaps) {
+    const std::size_t from = gaps[0].first;
+    Robots8 robots = states_[from];
+    played_.clear();
+    bool solved = worst(robots) <= play_.goal_tolerance;
+    std::size_t gap = 0;
+    for (std::size_t k = from; k < inputs_.size() && !solved;) {
+      if (gap < gaps.size() && k == gaps[gap].first) {
+        k += gaps[gap++].count;
+        continue;
+      }
+      if (!step(robots, inputs_[k])) return false;
+      played_.emplace_back(inputs_[k++], robots);
+      solved = worst(robots) <= play_.goal_tolerance;
+    }
+    if (!solved) return false;
+    inputs_.resize(from);
+    states_.resize(from + 1);
+    for (const auto& [u, state] : played_) {
+      inputs_.push_back(u);
+      states_.push_back(state);
+    }
+    return true;
+  }
+
+  void drop_stretches(std::size_t length) {
+    for (std::size_t first = 0; first + length <= inputs_.size() && !stop_();)
+      if (const Run gap{first, length}; !try_without({&gap, 1}))
+        first += std::max<std::size_t>(1, length / 4);
+  }
+
+  std::vector<Run> runs() const {
+    std::vector<Run> all;
+    for (std::size_t k = 0; k < inputs_.size(); ++k) {
+      const bool goes_on =
+          k > 0 && inputs_[k].x == inputs_[k - 1].x && inputs_[k].y == inputs_[k - 1].y;
+      if (goes_on)
+        ++all.back().count;
+      else
+        all.push_back({k, 1});
+    }
+    return all;
+  }
+
+  void drop_pairs() {
+    std::vector<Run> all = runs();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      for (std::size_t j = i + 1; j < all.size() && !stop_(); ++j) {
+        std::size_t count = std::min(all[i].count, all[j].count);
+        for (; count > 0; count /= 2)
+          if (try_without(std::array{Run{all[i].first, count}, Run{all[j].first, count}})) break;
+        if (count == 0) continue;
+        all = runs();
+        if (i >= all.size()) return;
+        j = i;
+      }
+    }
+  }
+
+  GlobalPlay play_;
+  RobotStepper stepper_;
+  GlobalSeparation separation_;
+  const Stop& stop_;
+  std::size_t n_;
+  Vec2 origin_;
+  Robots8 goals_{};
+  std::vector<PointF> inputs_;
+  std::vector<Robots8> states_;  ///< before the first input, and after each
+  std::vector<std::pair<PointF, Robots8>> played_;
+};
+
+}  // namespace
+
+GlobalPlan shortened(const Map& map, const GlobalPlan& plan, std::span<const Vec2> goals,
+                     const GlobalPlay& play, const Stop& stop) {
+  if (plan.status != Status::solved) return plan;
+  Shortening shortening(map, plan, goals, play, stop);
+  if (!shortening.reaches()) return plan;
+  shortening.run();
+  return shortening.plan();
+}
+
+}  // namespace microswarm

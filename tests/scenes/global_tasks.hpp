@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "microswarm/world/map.hpp"
+
+namespace microswarm::scenes {
+
+/// Robots under one input with their goals on a map.
+struct GlobalTask {
+  std::string name;
+  Map map;
+  std::vector<Vec2> starts;
+  std::vector<Vec2> goals;
+  double robostep = 5;
+  double tolerance = 20;
+};
+
+/// Six robots in Env 1–4: the four of [global], and two more in the same manner.
+GlobalTask six_robots(int env);
+
+/// Fig 1, 8 and 12 [global] are published as pictures only; these are maps of ours of the same
+/// kind: three robots in a vascular network, three in a digestive system (planar: the duodenum goes
+/// around the colon, where a body's lies behind it), and two magnets between obstacles whose sides
+/// are all along the axes.
+GlobalTask vascular_task();
+GlobalTask digestive_task();
+GlobalTask magnets_task();
+
+}  // namespace microswarm::scenes
