@@ -45,6 +45,8 @@ void add_global(CLI::App& app, Action& action);
 void add_replay(CLI::App& app, Action& action);
 void add_report(CLI::App& app, Action& action);
 void add_schema(CLI::App& app, Action& action);
+void add_sweep(CLI::App& app, Action& action);
+void add_export(CLI::App& app, Action& action);
 void add_map(CLI::App& app, Action& action);
 void add_reproduce(CLI::App& app, Action& action);
 void add_bench(CLI::App& app, Action& action);
@@ -63,7 +65,7 @@ void print(fmt::format_string<Values...> format, Values&&... values) {
   put(fmt::format(format, std::forward<Values>(values)...));
 }
 
-/// Progress on stderr, only where that is a terminal: "label [#####.....] 50 % 3 s left".
+/// Progress on stderr, only where that is a terminal: "label [#####.....] 50 % 3 s left note".
 class ProgressBar {
  public:
   explicit ProgressBar(std::string label);
@@ -71,13 +73,14 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
   /// `share` of the work is done, in [0, 1].
-  void update(double share);
+  void update(double share, const std::string& note = {});
 
  private:
   std::string label_;
   bool shown_;
   Stop::Clock::time_point began_;
   int last_ = -1;
+  std::string note_;
 };
 
 /// Makes the folder, with its parents, and tries whether files can be written there. Throws

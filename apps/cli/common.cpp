@@ -39,15 +39,16 @@ ProgressBar::~ProgressBar() {
   if (shown_ && last_ >= 0) fmt::print(stderr, "\r\033[K");
 }
 
-void ProgressBar::update(double share) {
+void ProgressBar::update(double share, const std::string& note) {
   const int percent = static_cast<int>(100 * std::clamp(share, 0.0, 1.0));
-  if (!shown_ || percent == last_) return;
+  if (!shown_ || (percent == last_ && note == note_)) return;
   last_ = percent;
+  note_ = note;
   const double spent = std::chrono::duration<double>(Stop::Clock::now() - began_).count();
   const double left = share > 0 ? spent * (1 - share) / share : 0;
   const auto done = static_cast<std::size_t>(percent / 4);
-  fmt::print(stderr, "\r\033[K{} [{}{}] {:3} % {:.0f} s left", label_, std::string(done, '#'),
-             std::string(25 - done, '.'), percent, left);
+  fmt::print(stderr, "\r\033[K{} [{}{}] {:3} % {:.0f} s left {}", label_, std::string(done, '#'),
+             std::string(25 - done, '.'), percent, left, note);
   std::fflush(stderr);
 }
 

@@ -71,6 +71,8 @@ int main(int argc, char** argv) {
   cli::add_plan(app, action);
   cli::add_global(app, action);
   cli::add_gather(app, action);
+  cli::add_sweep(app, action);
+  cli::add_export(app, action);
   cli::add_map(app, action);
   cli::add_replay(app, action);
   cli::add_report(app, action);

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// The layout that ompl::tools::Benchmark writes and ompl_benchmark_statistics.py reads.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "microswarm/config/yaml.hpp"
+#include "microswarm/core/text.hpp"
+#include "microswarm/experiment/sweep_export.hpp"
+
+namespace microswarm {
+namespace {
+
+using Kind = SweepColumnKind;
+using Role = SweepColumn::Role;
+using Lines = std::vector<std::string>;
+
+/// The reader takes a line apart at its spaces.
+std::string one_word(std::string_view text) {
+  std::string word(text.empty() ? "sweep" : text);
+  for (char& c : word)
+    if (static_cast<unsigned char>(c) <= ' ') c = '_';
+  return word;
+}
+
+/// Free text inside the log must not look like the end of its block, and stays on its line.
+std::string plain_line(std::string_view text) { return one_line(text, 10'000); }
+
+std::string number_of(const SqlValue& value) {
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
+  const auto* real = std::get_if<double>(&value);
+  return real && std::isfinite(*real) ? number_text(*real) : "";
+}
+
+std::string text_of(const SqlValue& value) {
+  const auto* text = std::get_if<std::string>(&value);
+  return text ? *text : number_of(value);
+}
+
+/// Words of the column `status`, in the order of their numbers in the log.
+Lines statuses() {
+  Lines words;
+  for (int i = 0; i <= static_cast<int>(Status::collided); ++i)
+    words.emplace_back(to_string(static_cast<Status>(i)));
+  return words;
+}
+
+class LogWriter {
+ public:
+  explicit LogWriter(const SweepReader& sweep)
+      : sweep_(sweep), status_(sweep.column("status")), compute_(sweep.column("compute_s")) {
+    const auto& columns = sweep.columns();
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (columns[i].role == Role::parameter) parameters_.push_back(i);
+      const bool measured = columns[i].role == Role::metric || columns[i].role == Role::wall_clock;
+      if (measured && columns[i].kind != Kind::text) properties_.push_back(i);
+    }
+  }
+
+  /// The log of cells first … first + methods − 1.
+  std::string log(std::size_t first) const {
+    const std::size_t methods = sweep_.sweep().methods.size();
+    std::vector<std::vector<std::vector<SqlValue>>> rows(methods);
+    double total = 0;
+    for (std::size_t i = 0; i < methods; ++i)
+      sweep_.each_row(
+          [&](std::span<const SqlValue> row) {
+            rows[i].emplace_back(row.begin(), row.end());
+            if (const auto* seconds = std::get_if<double>(&row[compute_])) total += *seconds;
+          },
+          first + i);
+    std::string text = head(first, total);
+    for (std::size_t i = 0; i < methods; ++i) text += planner(sweep_.sweep().methods[i], rows[i]);
+    return text;
+  }
+
+ private:
+  std::string head(std::size_t cell, double total) const {
+    const Sweep& sweep = sweep_.sweep();
+    const Scenario scenario =
+        read_yaml_text<Scenario>(sweep_.scenario(cell), sweep_.name() + ", cell's scenario");
+    std::string text = fmt::format("microswarm version {}\nExperiment {}\n",
+                                   sweep_.about("version"), one_word(sweep.name));
+    text += properties_of(cell / sweep.methods.size());
+    text += fmt::format("Running on {}\nStarting at {}\n", one_word(sweep_.about("host")),
+                        sweep_.about("begun"));
+    text += "<<<|\n" + setup(sweep) + "|>>>\n<<<|\n|>>>\n";
+    text += fmt::format("{} is the random seed\n{} seconds per run\n0 MB per run\n",
+                        sweep_.about("seed"), number_text(scenario.time_limit));
+    text += fmt::format("{} runs per planner\n{} seconds spent to collect the data\n", sweep.trials,
+                        number_text(total));
+    text += "1 enum type\nstatus";
+    for (const std::string& word : statuses()) text += "|" + word;
+    return text + fmt::format("\n{} planners\n", sweep.methods.size());
+  }
+
+  /// The grid's values as properties of the experiment.
+  std::string properties_of(std::size_t combination) const {
+    const auto& grid = sweep_.sweep().grid;
+    Lines values(grid.size());
+    for (std::size_t i = grid.size(); i-- > 0;) {
+      values[i] = grid[i].values[combination % grid[i].values.size()];
+      combination /= grid[i].values.size();
+    }
+    std::string text = fmt::format("{} experiment properties\n", grid.size());
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      const SweepColumn& column = sweep_.columns()[parameters_[i]];
+      text +=
+          fmt::format("{} {} = {}\n", column.name, enum_name(column.kind), plain_line(values[i]));
+    }
+    return text;
+  }
+
+  static std::string setup(const Sweep& sweep) {
+    std::string text = fmt::format("scenario: {}\n", plain_line(sweep.scenario));
+    if (!sweep.description.empty())
+      text += fmt::format("description: {}\n", plain_line(sweep.description));
+    for (const std::string& setting : sweep.set)
+      text += fmt::format("set: {}\n", plain_line(setting));
+    return text;
+  }
+
+  std::string planner(const SweepMethod& method,
+                      const std::vector<std::vector<SqlValue>>& rows) const {
+    std::string text = fmt::format("{}\n{} common properties\n", method.name, method.set.size());
+    for (const std::string& setting : method.set) {
+      const std::size_t equals = setting.find('=');
+      text += fmt::format("{} = {}\n", plain_line(setting.substr(0, equals)),
+                          plain_line(setting.substr(equals + 1)));
+    }
+    text += fmt::format("{} properties for each run\n", properties_.size() + 3);
+    text += "solved BOOLEAN\nstatus ENUM\ntime REAL\n";
+    for (const std::size_t i : properties_)
+      text += fmt::format("{} {}\n", sweep_.columns()[i].name, enum_name(sweep_.columns()[i].kind));
+    text += fmt::format("{} runs\n", rows.size());
+    const Lines words = statuses();
+    for (const std::vector<SqlValue>& row : rows) {
+      const std::string status = text_of(row[status_]);
+      const auto number = std::find(words.begin(), words.end(), status) - words.begin();
+      text +=
+          fmt::format("{}; {}; {}; ", status == words[0] ? 1 : 0, number, number_of(row[compute_]));
+      for (const std::size_t i : properties_) text += number_of(row[i]) + "; ";
+      text += "\n";
+    }
+    return text + ".\n";
+  }
+
+  const SweepReader& sweep_;
+  std::size_t status_, compute_;
+  std::vector<std::size_t> parameters_, properties_;
+};
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> ompl_logs(const SweepReader& sweep) {
+  const LogWriter writer(sweep);
+  const std::size_t methods = sweep.sweep().methods.size();
+  std::vector<std::pair<std::string, std::string>> logs;
+  for (std::size_t cell = 0; cell < sweep.cells(); cell += methods)
+    logs.emplace_back(fmt::format("{:05}.log", cell / methods), writer.log(cell));
+  return logs;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/sweep_crew.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "microswarm/core/parallel.hpp"
+#include "microswarm/experiment/record.hpp"
+
+namespace microswarm {
+
+namespace {
+constexpr std::size_t most_ahead = 64;  // trials a thread
+}  // namespace
+
+TrialResult run_task(const SweepPlan& plan, const SweepTask& task, const Stop& stop) {
+  const SweepCell& cell = plan.cells[task.cell];
+  Recorder recorder(Scene{cell.scenario, {}}, task.trial);
+  RunListener* const listeners[] = {&recorder};
+  TrialResult trial;
+  trial.result = simulate(cell.scenario, cell.world, task.trial, listeners, stop);
+  trial.ran = true;
+  trial.hash = recorder.record().hash();
+  return trial;
+}
+
+SweepCrew::SweepCrew(const SweepPlan& plan, int jobs)
+    : plan_(plan),
+      jobs_(jobs > 0 ? jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))),
+      enough_(2 * static_cast<std::size_t>(jobs_)),
+      runner_([this] {
+        for_each_index(static_cast<std::size_t>(jobs_), jobs_, [this](std::size_t) { work(); });
+      }) {}
+
+SweepCrew::~SweepCrew() {
+  {
+    const std::lock_guard lock(mutex_);
+    halt_ = true;
+  }
+  given_.notify_all();
+}
+
+void SweepCrew::give(std::span<const SweepTask> tasks) {
+  {
+    const std::lock_guard lock(mutex_);
+    tasks_.insert(tasks_.end(), tasks.begin(), tasks.end());
+  }
+  in_hand_ += tasks.size();
+  given_.notify_all();
+}
+
+std::vector<SweepRow> SweepCrew::take(std::chrono::milliseconds patience) {
+  std::unique_lock lock(mutex_);
+  ended_.wait_for(lock, patience, [this] { return !rows_.empty() || thrown_; });
+  if (thrown_) std::rethrow_exception(thrown_);
+  std::vector<SweepRow> rows = std::exchange(rows_, {});
+  const auto jobs = static_cast<std::size_t>(jobs_);
+  const bool waited = in_hand_ >= enough_ && in_hand_ - rows.size() < jobs;
+  if (waited) enough_ = std::min(2 * enough_, most_ahead * jobs);
+  in_hand_ -= rows.size();
+  return rows;
+}
+
+void SweepCrew::work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    given_.wait(lock, [this] { return halt_ || !tasks_.empty(); });
+    if (halt_) return;
+    const SweepTask task = tasks_.front();
+    tasks_.pop_front();
+    lock.unlock();
+    SweepRow row{task, {}};
+    std::exception_ptr thrown;
+    try {
+      row.values = result_values(run_task(plan_, task, Stop(&halt_)));
+    } catch (...) {
+      thrown = std::current_exception();
+    }
+    lock.lock();
+    if (halt_) return;
+    if (thrown) thrown_ = thrown;
+    rows_.push_back(std::move(row));
+    ended_.notify_one();
+  }
+}
+
+}  // namespace microswarm

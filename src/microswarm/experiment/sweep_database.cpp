@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/sweep_database.hpp"
+
+#include <fmt/format.h>
+
+#include "microswarm/config/write.hpp"
+#include "microswarm/config/yaml.hpp"
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/hash.hpp"
+#include "microswarm/core/text.hpp"
+#include "microswarm/core/version.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr std::int64_t application_id = 0x6d737770;  // "mswp"
+constexpr std::int64_t layout = 1;
+
+std::string text_of(const SqlValue& value) {
+  const auto* text = std::get_if<std::string>(&value);
+  return text ? *text : std::string();
+}
+
+bool is_empty(const Database& database) {
+  return database.number("PRAGMA application_id") == 0 &&
+         database.number("SELECT count(*) FROM sqlite_master") == 0;
+}
+
+void check_layout(const Database& database) {
+  if (database.number("PRAGMA application_id") != application_id)
+    database.fail("is no database of a sweep");
+  const std::int64_t written = database.number("PRAGMA user_version");
+  if (written != layout)
+    database.fail(
+        fmt::format("has sweep layout {}, this program knows layout {}", written, layout));
+}
+
+std::map<std::string, std::string> read_about(const Database& database) {
+  std::map<std::string, std::string> about;
+  database.select("SELECT key, value FROM sweep", {},
+                  [&](std::span<const SqlValue> row) { about[text_of(row[0])] = text_of(row[1]); });
+  return about;
+}
+
+std::vector<SweepColumn> read_columns(const Database& database) {
+  std::vector<SweepColumn> columns;
+  database.select(
+      "SELECT name, kind, unit, description, role FROM columns ORDER BY place", {},
+      [&](std::span<const SqlValue> row) {
+        const auto kind = enum_value<SweepColumnKind>(text_of(row[1]));
+        const auto role = enum_value<SweepColumn::Role>(text_of(row[4]));
+        if (!kind || !role) database.fail("is damaged: an unknown kind of column");
+        columns.push_back({text_of(row[0]), *kind, text_of(row[2]), text_of(row[3]), *role});
+      });
+  return columns;
+}
+
+/// `WITHOUT ROWID` keeps the rows in the order of their key, whatever order they came in.
+std::string trials_sql(const std::vector<SweepColumn>& columns) {
+  std::string sql = "CREATE TABLE trials(";
+  for (const SweepColumn& column : columns)
+    sql += fmt::format("{} {}, ", sql_name(column.name), enum_name(column.kind));
+  return sql + "PRIMARY KEY(cell, trial)) WITHOUT ROWID";
+}
+
+std::string insert_sql(const std::vector<SweepColumn>& columns) {
+  std::string places;
+  for (std::size_t i = 0; i < columns.size(); ++i) places += i ? ", ?" : "?";
+  return fmt::format("INSERT INTO trials VALUES({})", places);
+}
+
+std::string inputs_hash(const SweepPlan& plan) {
+  Hash hash;
+  for (const SweepCell& cell : plan.cells) hash.text(cell.input_hash);
+  return hash.hex();
+}
+
+/// What a sweep must not change half-way: what people call it, and its text or fingerprint.
+struct Identity {
+  const char* key;
+  const char* name;
+  std::string value;
+};
+
+std::vector<Identity> identity_of(const SweepPlan& plan) {
+  return {{"version", "version of this program", std::string(version)},
+          {"sweep", "sweep file", to_yaml(plan.sweep)},
+          {"scenario", "scenario", plan.scenario_text},
+          {"inputs_hash", "map, track or program", inputs_hash(plan)}};
+}
+
+/// Before the first look: a folder is told apart from what cannot be written.
+const std::filesystem::path& no_folder(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error))
+    throw InputError(file.string() + ": is a folder, must be a file for the database");
+  return file;
+}
+
+}  // namespace
+
+SweepDatabase::SweepDatabase(const std::filesystem::path& file, const SweepPlan& plan,
+                             const SweepOrigin& origin)
+    : plan_(plan),
+      columns_(sweep_columns(plan)),
+      lock_(no_folder(file)),
+      database_(file, Database::Access::write),
+      insert_(insert_sql(columns_)) {
+  if (is_empty(database_)) {
+    try {
+      make(origin);
+    } catch (const InputError&) {  // nothing is left behind of what did not come to be
+      std::error_code error;
+      if (std::filesystem::file_size(file, error) == 0) std::filesystem::remove(file, error);
+      throw;
+    }
+  } else {
+    check_layout(database_);
+    check_same();
+  }
+}
+
+void SweepDatabase::make(const SweepOrigin& origin) {
+  Transaction transaction(database_);
+  database_.run(fmt::format("PRAGMA application_id = {}", application_id));
+  database_.run(fmt::format("PRAGMA user_version = {}", layout));
+  database_.run("CREATE TABLE sweep(key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID");
+  const auto about = [&](const std::string& key, const std::string& value) {
+    database_.run("INSERT INTO sweep VALUES(?, ?)", std::vector<SqlValue>{key, value});
+  };
+  for (const Identity& one : identity_of(plan_)) about(one.key, one.value);
+  about("name", plan_.sweep.name);
+  about("hash", plan_.hash());
+  about("cells", std::to_string(plan_.cells.size()));
+  about("trials", std::to_string(plan_.sweep.trials));
+  about("seed", std::to_string(plan_.cells.front().scenario.seed));
+  about("host", origin.host);
+  about("begun", origin.begun);
+
+  database_.run(
+      "CREATE TABLE columns(place INTEGER PRIMARY KEY, name TEXT, kind TEXT, unit TEXT, "
+      "description TEXT, role TEXT)");
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    const SweepColumn& column = columns_[i];
+    database_.run("INSERT INTO columns VALUES(?, ?, ?, ?, ?, ?)",
+                  std::vector<SqlValue>{static_cast<std::int64_t>(i), column.name,
+                                        std::string(enum_name(column.kind)), column.unit,
+                                        column.description, std::string(enum_name(column.role))});
+  }
+  database_.run(
+      "CREATE TABLE cells(cell INTEGER PRIMARY KEY, method TEXT, input_hash TEXT, scenario TEXT)");
+  for (std::size_t i = 0; i < plan_.cells.size(); ++i) {
+    const SweepCell& cell = plan_.cells[i];
+    database_.run("INSERT INTO cells VALUES(?, ?, ?, ?)",
+                  std::vector<SqlValue>{static_cast<std::int64_t>(i), cell.method, cell.input_hash,
+                                        scenario_text(cell.scenario)});
+  }
+  database_.run(trials_sql(columns_));
+  transaction.commit();
+}
+
+void SweepDatabase::check_same() const {
+  auto about = read_about(database_);
+  for (const Identity& one : identity_of(plan_))
+    if (about[one.key] != one.value)
+      database_.fail(fmt::format(
+          "was begun with another {}: go on with that one, or give another database with --out",
+          one.name));
+  const std::vector<SweepColumn> columns = read_columns(database_);
+  bool same = columns.size() == columns_.size();
+  for (std::size_t i = 0; same && i < columns.size(); ++i)
+    same = columns[i].name == columns_[i].name && columns[i].kind == columns_[i].kind;
+  if (!same)
+    database_.fail("was begun by a program with other columns: give another database with --out");
+}
+
+std::vector<SweepTask> SweepDatabase::missing() const {
+  const auto trials = static_cast<std::uint32_t>(plan_.sweep.trials);
+  std::vector<bool> there(plan_.cells.size() * trials);
+  database_.select("SELECT cell, trial FROM trials", {}, [&](std::span<const SqlValue> row) {
+    const auto* cell = std::get_if<std::int64_t>(row.data());
+    const auto* trial = std::get_if<std::int64_t>(&row[1]);
+    if (!cell || !trial || *cell < 0 || *trial < 0 || *trial >= trials ||
+        static_cast<std::size_t>(*cell) >= plan_.cells.size())
+      database_.fail("is damaged: it has a trial that the sweep has not");
+    there[static_cast<std::size_t>(*cell) * trials + static_cast<std::size_t>(*trial)] = true;
+  });
+  std::vector<SweepTask> tasks;
+  for (std::uint32_t cell = 0; cell < plan_.cells.size(); ++cell)
+    for (std::uint32_t trial = 0; trial < trials; ++trial)
+      if (!there[std::size_t{cell} * trials + trial]) tasks.push_back({cell, trial});
+  return tasks;
+}
+
+void SweepDatabase::add(const std::vector<SweepRow>& rows) {
+  if (rows.empty()) return;
+  Transaction transaction(database_);
+  for (const SweepRow& row : rows) {
+    std::vector<SqlValue> values = task_values(plan_, columns_, row.task);
+    values.insert(values.end(), row.values.begin(), row.values.end());
+    database_.run(insert_, values);
+  }
+  transaction.commit();
+}
+
+SweepReader::SweepReader(const std::filesystem::path& file)
+    : database_(no_folder(file), Database::Access::read) {
+  check_layout(database_);
+  columns_ = read_columns(database_);
+  about_ = read_about(database_);
+  sweep_ = read_sweep_text(about("sweep"), name() + ", sweep");
+}
+
+std::size_t SweepReader::column(const std::string& name) const {
+  for (std::size_t i = 0; i < columns_.size(); ++i)
+    if (columns_[i].name == name) return i;
+  database_.fail("is damaged: it has no column " + quote(name));
+}
+
+std::string SweepReader::about(const std::string& key) const {
+  const auto found = about_.find(key);
+  if (found == about_.end()) database_.fail("is damaged: it does not say its " + key);
+  return found->second;
+}
+
+std::size_t SweepReader::trials() const {
+  return static_cast<std::size_t>(database_.number("SELECT count(*) FROM trials"));
+}
+
+std::string SweepReader::scenario(std::size_t cell) const {
+  std::string text;
+  database_.select("SELECT scenario FROM cells WHERE cell = ?",
+                   std::vector<SqlValue>{static_cast<std::int64_t>(cell)},
+                   [&](std::span<const SqlValue> row) { text = text_of(row[0]); });
+  return text;
+}
+
+void SweepReader::each_row(const std::function<void(std::span<const SqlValue>)>& row,
+                           std::optional<std::size_t> cell) const {
+  std::string names;
+  for (const SweepColumn& column : columns_)
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", sql_name(column.name));
+  std::vector<SqlValue> values;
+  if (cell) values.emplace_back(static_cast<std::int64_t>(*cell));
+  database_.select(fmt::format("SELECT {} FROM trials{} ORDER BY cell, trial", names,
+                               cell ? " WHERE cell = ?" : ""),
+                   values, row);
+}
+
+void SweepReader::each_value(std::size_t column,
+                             const std::function<void(const SqlValue&)>& value) const {
+  database_.select(
+      fmt::format("SELECT {} FROM trials ORDER BY cell, trial", sql_name(columns_[column].name)),
+      {}, [&](std::span<const SqlValue> row) { value(row[0]); });
+}
+
+}  // namespace microswarm

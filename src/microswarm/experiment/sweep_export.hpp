@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "microswarm/experiment/record.hpp"
+#include "microswarm/experiment/sweep_database.hpp"
+
+namespace microswarm {
+
+/// The table of trials as CSV (RFC 4180): a line of column names, a line a trial; NULL is empty.
+std::string sweep_csv(const SweepReader& sweep);
+
+/// The table of trials as an HDF5 file: a dataset of one dimension for each column in `/trials`,
+/// with its unit and description as attributes; the sweep file and each cell's scenario as texts.
+std::string sweep_hdf5(const SweepReader& sweep);
+
+/// Logs as OMPL's benchmarks write them, which ompl_benchmark_statistics.py puts into a database
+/// for Planner Arena: a file name and a log for each combination of the grid's values, in which the
+/// methods are the planners.
+std::vector<std::pair<std::string, std::string>> ompl_logs(const SweepReader& sweep);
+
+/// Names of a record's tables: frames, paths, paths/points, ...
+std::vector<std::string> record_tables(const Record& record);
+
+/// One table of a record as CSV, units in the names. In a table of parts, as the points of all
+/// paths, the column `row` tells whose part it is. Throws InputError for a table that there is not.
+std::string record_csv(const Record& record, const std::string& table);
+
+}  // namespace microswarm

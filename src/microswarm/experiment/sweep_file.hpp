@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "microswarm/core/fields.hpp"
+
+namespace microswarm {
+
+/// A key of the scenario and the values that it takes in turn, as they stand behind `--set KEY=`.
+struct SweepParameter {
+  std::string key;
+  std::vector<std::string> values;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.key, {"key", Unit::none, {}, "Key of the scenario, as navigator.margin_um.", true});
+    visit(self.values,
+          {"values", Unit::none, {}, "What it is set to; lists and mappings in quotes.", true});
+  }
+};
+
+/// A name for settings that belong together: what is compared with what.
+struct SweepMethod {
+  std::string name;
+  std::vector<std::string> set;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.name, {"name", Unit::none, {}, "What the method is called.", true});
+    visit(self.set, {"set", Unit::none, {}, "Settings KEY=VALUE, as of --set."});
+  }
+};
+
+/// Many experiments as data: every combination of a grid's values, by every method, so many times.
+struct Sweep {
+  std::string name;
+  std::string description;
+  std::string scenario;
+  std::vector<std::string> set;
+  std::vector<SweepParameter> grid;
+  std::vector<SweepMethod> methods;
+  int trials = 1;
+  std::optional<std::uint64_t> seed;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.name, {"name", Unit::none, {}, "What the sweep is called."});
+    visit(self.description, {"description", Unit::none, {}, "What it is for, for people."});
+    visit(self.scenario,
+          {"scenario", Unit::none, {}, "Scenario file, from the sweep file's folder.", true});
+    visit(self.set, {"set", Unit::none, {}, "Settings KEY=VALUE of all cells, as of --set."});
+    visit(self.grid, {"grid", Unit::none, {}, "Parameters; every combination is run."});
+    visit(self.methods, {"methods", Unit::none, {}, "What is compared, in every combination."});
+    visit(self.trials, {"trials", Unit::none, {1, 1e6}, "Trials of each cell: 0 to n - 1.", true});
+    visit(self.seed, {"seed", Unit::none, {}, "Seed in place of the scenario's."});
+  }
+};
+
+/// Most cells, and most trials in all, that a sweep may have.
+inline constexpr std::size_t most_cells = 100'000;
+inline constexpr std::size_t most_trials = 10'000'000;
+
+/// Reads a sweep file. Without methods there is one, called "default". Throws InputError, one line,
+/// also for what contradicts itself: no values, a key, a value or a name given twice, too many.
+Sweep read_sweep(const std::filesystem::path& file);
+
+/// The same from a text; `name` stands for the file in messages.
+Sweep read_sweep_text(std::string_view text, const std::string& name);
+
+/// Number of combinations of a sweep's values and methods.
+std::size_t cell_count(const Sweep& sweep);
+
+}  // namespace microswarm

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/sweep_plan.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <exception>
+#include <map>
+#include <mutex>
+
+#include "microswarm/config/write.hpp"
+#include "microswarm/config/yaml.hpp"
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/hash.hpp"
+#include "microswarm/core/parallel.hpp"
+
+namespace microswarm {
+namespace {
+
+/// Calls body(i) for all i on several threads; of what is thrown, that of the least i comes out.
+template <class Body>
+void for_each_in_order(std::size_t count, int jobs, Body body) {
+  std::vector<std::exception_ptr> thrown(count);
+  for_each_index(count, jobs, [&](std::size_t i) {
+    try {
+      body(i);
+    } catch (...) {
+      thrown[i] = std::current_exception();
+    }
+  });
+  for (const std::exception_ptr& one : thrown)
+    if (one) std::rethrow_exception(one);
+}
+
+/// Maps by their fingerprint, each built once.
+class MapShelf {
+ public:
+  World world_of(const Scene& scene) {
+    const std::uint64_t key = fingerprint(scene.map);
+    {
+      const std::lock_guard lock(mutex_);
+      if (const auto found = maps_.find(key); found != maps_.end())
+        return {found->second, scene.scenario.obstacles};
+    }
+    World world = build_world(scene);
+    const std::lock_guard lock(mutex_);
+    world.map = maps_.emplace(key, world.map).first->second;
+    return world;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::uint64_t, std::shared_ptr<const Map>> maps_;
+};
+
+struct Loader {
+  const SweepPlan& plan;
+  const Scenario& base;
+  std::filesystem::path folder;
+  MapShelf& maps;
+
+  void apply(Scenario& scenario, const std::string& setting, const std::string& what) const {
+    try {
+      set_value(scenario, setting);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {}{}", plan.file, what, error.what()));
+    }
+  }
+
+  Scenario scenario_of(const SweepCell& cell, const SweepMethod& method) const {
+    Scenario scenario = base;
+    for (const std::string& setting : plan.sweep.set) apply(scenario, setting, "");
+    for (const std::string& setting : method.set)
+      apply(scenario, setting, fmt::format("method '{}': ", method.name));
+    for (std::size_t i = 0; i < cell.values.size(); ++i)
+      apply(scenario, fmt::format("{}={}", plan.sweep.grid[i].key, cell.values[i]), "grid: ");
+    if (plan.sweep.seed) scenario.seed = *plan.sweep.seed;
+    return scenario;
+  }
+
+  SweepCell cell_of(std::size_t index) const {
+    SweepCell cell;
+    const SweepMethod& method = plan.sweep.methods[index % plan.sweep.methods.size()];
+    index /= plan.sweep.methods.size();
+    cell.method = method.name;
+    cell.values.resize(plan.sweep.grid.size());
+    for (std::size_t i = cell.values.size(); i-- > 0;) {
+      const std::vector<std::string>& values = plan.sweep.grid[i].values;
+      cell.values[i] = values[index % values.size()];
+      index /= values.size();
+    }
+    const Scene scene = load_scene(scenario_of(cell, method), folder);
+    cell.input_hash = scene.hash();
+    cell.world = maps.world_of(scene);
+    cell.scenario = scene.scenario;
+    return cell;
+  }
+};
+
+std::string cell_name(const SweepPlan& plan, const SweepCell& cell) {
+  std::string name;
+  for (std::size_t i = 0; i < cell.values.size(); ++i)
+    name += fmt::format("{}={}, ", plan.sweep.grid[i].key, cell.values[i]);
+  return fmt::format("{}: {}method '{}'", plan.file, name, cell.method);
+}
+
+}  // namespace
+
+std::string SweepPlan::hash() const {
+  Hash hash;
+  hash.text(to_yaml(sweep));
+  hash.text(scenario_text);
+  for (const SweepCell& cell : cells) hash.text(cell.input_hash);
+  return hash.hex();
+}
+
+SweepPlan load_sweep(const std::filesystem::path& file, int jobs) {
+  SweepPlan plan{
+      .sweep = read_sweep(file), .file = file.string(), .scenario_text = {}, .cells = {}};
+  const std::filesystem::path scenario_file = file.parent_path() / plan.sweep.scenario;
+  const Scenario base = read_scenario(scenario_file);
+  plan.scenario_text = scenario_text(base);
+  MapShelf maps;
+  const Loader loader{plan, base, scenario_file.parent_path(), maps};
+  std::vector<SweepCell> cells(cell_count(plan.sweep));
+  cells[0] = loader.cell_of(0);  // alone, for the map that all may share
+  for_each_in_order(cells.size() - 1, jobs,
+                    [&](std::size_t i) { cells[i + 1] = loader.cell_of(i + 1); });
+  plan.cells = std::move(cells);
+  return plan;
+}
+
+void check(const SweepPlan& plan, int jobs) {
+  for_each_in_order(plan.cells.size(), jobs, [&](std::size_t i) {
+    const SweepCell& cell = plan.cells[i];
+    check(cell.scenario, cell.world, cell_name(plan, cell));
+  });
+}
+
+}  // namespace microswarm

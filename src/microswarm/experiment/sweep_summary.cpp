@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/sweep_summary.hpp"
+
+#include "microswarm/core/statistics.hpp"
+
+namespace microswarm {
+namespace {
+
+using Role = SweepColumn::Role;
+
+std::optional<double> number_of(const SqlValue& value) {
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
+  if (const auto* real = std::get_if<double>(&value)) return *real;
+  return std::nullopt;
+}
+
+bool is_measured(const SweepColumn& column) {
+  return column.role == Role::metric || column.role == Role::wall_clock;
+}
+
+CellSummary summary_of(const SweepReader& sweep, std::size_t cell) {
+  const std::vector<SweepColumn>& columns = sweep.columns();
+  const std::size_t method = sweep.column("method"), status = sweep.column("status"),
+                    arrived = sweep.column("arrived");
+  CellSummary summary{.cell = cell};
+  std::vector<std::vector<double>> values(columns.size());
+  sweep.each_row(
+      [&](std::span<const SqlValue> row) {
+        if (summary.trials++ == 0) {
+          if (const auto* name = std::get_if<std::string>(&row[method])) summary.method = *name;
+          for (std::size_t i = 0; i < columns.size(); ++i)
+            if (columns[i].role == Role::parameter) summary.parameters.push_back(row[i]);
+        }
+        if (const auto* word = std::get_if<std::string>(&row[status])) ++summary.endings[*word];
+        if (number_of(row[arrived]).value_or(0) == 0) return;
+        ++summary.arrived;
+        for (std::size_t i = 0; i < columns.size(); ++i)
+          if (const auto number = number_of(row[i]); number && is_measured(columns[i]))
+            values[i].push_back(*number);
+      },
+      cell);
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (!values[i].empty()) summary.medians[columns[i].name] = median(values[i]);
+  return summary;
+}
+
+}  // namespace
+
+std::vector<CellSummary> summarise(const SweepReader& sweep) {
+  std::vector<CellSummary> summaries;
+  for (std::size_t cell = 0; cell < sweep.cells(); ++cell)
+    summaries.push_back(summary_of(sweep, cell));
+  return summaries;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/sweep_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "microswarm/config/number.hpp"
+#include "microswarm/config/write.hpp"
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/text.hpp"
+
+namespace microswarm {
+namespace {
+
+using Kind = SweepColumnKind;
+using Role = SweepColumn::Role;
+
+/// The value that a field has in a table, and its kind. Numbers are as they are shown; what is no
+/// single number or word is a line of JSON.
+template <class T>
+struct Cell {
+  static constexpr Kind kind = std::is_floating_point_v<T> ? Kind::real
+                               : std::is_integral_v<T>     ? Kind::whole
+                                                           : Kind::text;
+  static SqlValue value(const T& field, Unit unit) {
+    if constexpr (std::is_floating_point_v<T>)
+      return field * unit_shown_per_stored(unit);
+    else if constexpr (std::is_integral_v<T>)
+      return static_cast<std::int64_t>(field);
+    else if constexpr (NamedEnum<T>)
+      return std::string(enum_name(field));
+    else if constexpr (std::is_same_v<T, std::string>)
+      return field;
+    else
+      return json_line(type_of<T>(), unit, &field);
+  }
+};
+template <class T>
+struct Cell<std::optional<T>> {
+  static constexpr Kind kind = Cell<T>::kind;
+  static SqlValue value(const std::optional<T>& field, Unit unit) {
+    return field ? Cell<T>::value(*field, unit) : SqlValue{};
+  }
+};
+
+/// Lists the columns and values of a struct with fields, what is nested in it too.
+struct FieldLister {
+  std::vector<SweepColumn>& columns;
+  std::vector<SqlValue>& values;
+  std::string prefix;
+  Role role;
+
+  template <class T>
+  void operator()(const T& field, const FieldInfo& info) {
+    if constexpr (HasFields<T>) {
+      const std::string inner = fmt::format("{}{}_", prefix, info.name);
+      T::fields(field, FieldLister{columns, values, inner, role});
+    } else {
+      std::string name = prefix + std::string(info.name);
+      if (info.unit != Unit::none) name.append("_").append(unit_suffix(info.unit));
+      columns.push_back({std::move(name), Cell<T>::kind, std::string(unit_symbol(info.unit)),
+                         std::string(info.doc), role});
+      values.push_back(Cell<T>::value(field, info.unit));
+    }
+  }
+};
+
+/// Columns and values of a trial's outcome, side by side.
+struct Results {
+  std::vector<SweepColumn> columns;
+  std::vector<SqlValue> values;
+
+  void add(SweepColumn column, SqlValue value) {
+    columns.push_back(std::move(column));
+    values.push_back(std::move(value));
+  }
+  void add_seconds(const std::string& name, const std::string& doc, double seconds) {
+    add({name, Kind::real, "s", doc, Role::wall_clock}, seconds);
+  }
+};
+
+Results results_of(const TrialResult& trial) {
+  Results r;
+  const RunResult& run = trial.result;
+  r.add({"status", Kind::text, "", "How it ended.", Role::result},
+        std::string(to_string(run.status)));
+  r.add({"arrived", Kind::whole, "", "1 when the goal was reached, else 0.", Role::result},
+        std::int64_t{run.status == Status::solved});
+  Metrics::fields(run.metrics, FieldLister{r.columns, r.values, "", Role::metric});
+  const TimeSummary planning = summarise(run.timing.planning);
+  const TimeSummary steps = summarise(run.timing.steps);
+  r.add_seconds("planning_mean_s", "Wall clock: a step in which it planned, on average.",
+                planning.mean);
+  r.add_seconds("planning_max_s", "Wall clock: the longest of these.", planning.max);
+  r.add_seconds("step_mean_s", "Wall clock: a step of the navigator, on average.", steps.mean);
+  r.add_seconds("step_max_s", "Wall clock: the longest of these.", steps.max);
+  r.add_seconds("compute_s", "Wall clock: all steps of the navigator.",
+                std::accumulate(run.timing.steps.begin(), run.timing.steps.end(), 0.0));
+  r.add({"record_hash", Kind::text, "", "Fingerprint of all that is physical.", Role::result},
+        trial.hash);
+  return r;
+}
+
+std::string column_name(std::string_view key) {
+  std::string name(key);
+  for (char& c : name) {
+    const bool word = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    if (!word) c = '_';
+  }
+  return name;
+}
+
+Kind kind_of(const std::vector<std::string>& values) {
+  Kind kind = Kind::whole;
+  for (const std::string& value : values) {
+    const auto number = parse_number(value);
+    if (!number) return Kind::text;
+    if (*number != std::floor(*number) || std::abs(*number) > 1e15) kind = Kind::real;
+  }
+  return kind;
+}
+
+SqlValue value_of(const std::string& text, Kind kind) {
+  if (kind == Kind::text) return text;
+  const double number = parse_number(text).value_or(0);
+  if (kind == Kind::real) return number;
+  return static_cast<std::int64_t>(number);
+}
+
+constexpr std::size_t first_parameter = 3;
+
+}  // namespace
+
+std::vector<SweepColumn> sweep_columns(const SweepPlan& plan) {
+  std::vector<SweepColumn> columns = {
+      {"cell", Kind::whole, "", "Combination of values and method, from 0.", Role::key},
+      {"trial", Kind::whole, "", "Trial of the seed, from 0.", Role::key},
+      {"method", Kind::text, "", "The method's name.", Role::key}};
+  std::vector<SweepColumn> results = results_of({}).columns;
+  for (const SweepParameter& parameter : plan.sweep.grid)
+    columns.push_back({column_name(parameter.key), kind_of(parameter.values), "",
+                       "Set by the sweep: " + parameter.key, Role::parameter});
+  columns.insert(columns.end(), results.begin(), results.end());
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    for (std::size_t k = i + 1; k < columns.size(); ++k)
+      if (columns[i].name == columns[k].name)
+        throw InputError(fmt::format("{}: the table would have two columns {}", plan.file,
+                                     quote(columns[i].name)));
+  return columns;
+}
+
+std::vector<SqlValue> task_values(const SweepPlan& plan, const std::vector<SweepColumn>& columns,
+                                  const SweepTask& task) {
+  const SweepCell& cell = plan.cells[task.cell];
+  std::vector<SqlValue> values = {std::int64_t{task.cell}, std::int64_t{task.trial}, cell.method};
+  for (std::size_t i = 0; i < cell.values.size(); ++i)
+    values.push_back(value_of(cell.values[i], columns[first_parameter + i].kind));
+  return values;
+}
+
+std::vector<SqlValue> result_values(const TrialResult& trial) { return results_of(trial).values; }
+
+}  // namespace microswarm
