@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/sweep_export.hpp"
+
+#include <cstdlib>
+
+#include "microswarm/experiment/sweep_summary.hpp"
+#include "tests/experiment/sweeps.hpp"
+
+namespace microswarm {
+namespace {
+
+/// A Python that has the module, or nothing.
+std::string python_with(const std::string& module) {
+  for (const std::string candidate : {"/usr/bin/python3", "python3"})
+    if (std::system((candidate + " -c 'import " + module + "' > /dev/null 2>&1").c_str()) == 0)
+      return candidate;
+  return {};
+}
+
+class SweepExport : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder() = sweep_folder("sweep_export", sweep_text(2));
+    run_alone(load_sweep(folder() / "sweep.yaml", 1), folder() / "sweep.db", 2);
+  }
+  static std::filesystem::path& folder() {
+    static std::filesystem::path path;
+    return path;
+  }
+  static bool python(const std::string& module, const std::string& arguments) {
+    const std::string command =
+        python_with(module) + " " + MICROSWARM_SOURCE_DIR + "/tests/experiment/" + arguments;
+    return std::system(command.c_str()) == 0;
+  }
+  SweepReader sweep{folder() / "sweep.db"};
+};
+
+TEST_F(SweepExport, CsvHasALineATrial) {
+  const std::string csv = sweep_csv(sweep);
+  EXPECT_TRUE(
+      csv.starts_with("cell,trial,method,navigator_margin_um,goal_um,status,arrived,time_s,"))
+      << csv.substr(0, 200);
+  EXPECT_NE(csv.find("\n0,0,straight on,60,\"[700, 500]\",solved,1,"), csv.npos);
+  EXPECT_NE(csv.find("\n7,1,route,90.5,\"[800, 600]\",solved,1,"), csv.npos);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 17);
+}
+
+TEST_F(SweepExport, SummaryAgreesWithTheRows) {
+  const std::vector<CellSummary> cells = summarise(sweep);
+  ASSERT_EQ(cells.size(), 8u);
+  for (const CellSummary& cell : cells) {
+    std::vector<double> times;
+    const std::size_t time = sweep.column("time_s"), arrived = sweep.column("arrived");
+    sweep.each_row(
+        [&](std::span<const SqlValue> row) {
+          if (row[arrived] == SqlValue{std::int64_t{1}})
+            times.push_back(std::get<double>(row[time]));
+        },
+        cell.cell);
+    EXPECT_EQ(cell.trials, 2u);
+    EXPECT_EQ(cell.arrived, times.size());
+    ASSERT_FALSE(times.empty());
+    EXPECT_EQ(cell.medians.at("time_s"), *std::min_element(times.begin(), times.end()));
+    EXPECT_FALSE(cell.medians.contains("cell"));
+  }
+  EXPECT_EQ(cells[1].method, "route");
+}
+
+TEST_F(SweepExport, H5pyReadsIt) {
+  if (python_with("h5py").empty()) GTEST_SKIP() << "python3-h5py is not installed";
+  write_file_atomically(folder() / "sweep.h5", sweep_hdf5(sweep));
+  write_file_atomically(folder() / "sweep.csv", sweep_csv(sweep));
+  EXPECT_TRUE(python("h5py", "read_sweep.py " + (folder() / "sweep.h5").string() + " " +
+                                 (folder() / "sweep.csv").string()));
+}
+
+TEST_F(SweepExport, PlannerArenasImporterReadsTheLogs) {
+  if (python_with("sqlite3").empty()) GTEST_SKIP() << "python3 is not installed";
+  const auto logs = ompl_logs(sweep);
+  ASSERT_EQ(logs.size(), 4u);
+  std::string files;
+  for (const auto& [name, log] : logs) {
+    write_file_atomically(folder() / name, log);
+    files += " " + (folder() / name).string();
+  }
+  write_file_atomically(folder() / "sweep.csv", sweep_csv(sweep));
+  EXPECT_TRUE(python("sqlite3", "read_ompl_logs.py " + (folder() / "sweep.csv").string() + files));
+}
+
+TEST(RecordExport, TablesAsCsv) {
+  const Record record = record_of(small_flight());
+  const std::string frames = record_csv(record, "frames");
+  EXPECT_TRUE(frames.starts_with("t_s,x_um,y_um,heading_rad,")) << frames.substr(0, 100);
+  EXPECT_EQ(static_cast<std::size_t>(std::count(frames.begin(), frames.end(), '\n')),
+            record.frames.size() + 1);
+  EXPECT_TRUE(record_csv(record, "paths/points").starts_with("row,x_um,y_um\n0,"));
+  EXPECT_TRUE(record_csv(record, "events").starts_with("t_s,kind,"));
+  EXPECT_TRUE(error_of([&] {
+                record_csv(record, "frame");
+              }).starts_with("the record has no table 'frame', only frames, paths, "));
+}
+
+}  // namespace
+}  // namespace microswarm

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/experiment/sweeps.hpp"
+
+#include "microswarm/experiment/sweep_crew.hpp"
+#include "microswarm/experiment/trials.hpp"
+
+namespace microswarm {
+namespace {
+
+std::string complaint(const std::string& text) {
+  return error_of([&] { read_sweep_text(text, "s.yaml"); });
+}
+
+TEST(SweepFile, SaysWhatIsWrongInOneLine) {
+  const std::string head = "scenario: a.yaml\n";
+  EXPECT_EQ(complaint(head + "trials: 0\n"), "s.yaml:2:9: trials is 0, allowed 1..1e6");
+  EXPECT_EQ(complaint(head), "s.yaml:1:1: missing key 'trials'");
+  EXPECT_EQ(complaint(head + "trials: 1\ngird: []\n"),
+            "s.yaml:3:1: unknown key 'gird', did you mean 'grid'?");
+  const std::string grid = head + "trials: 1\ngrid:\n";
+  EXPECT_EQ(complaint(grid + "  - {key: tick_s, values: []}\n"),
+            "s.yaml: values of 'tick_s' is empty");
+  EXPECT_EQ(complaint(grid + "  - {key: tick_s, values: [1, 2, 1]}\n"),
+            "s.yaml: values of 'tick_s' has '1' twice");
+  EXPECT_EQ(complaint(grid + "  - {key: seed, values: [1]}\n"),
+            "s.yaml: the grid sets 'seed': trials differ by themselves");
+  const std::string axis = "  - {key: tick_s, values: [1]}\n";
+  EXPECT_EQ(complaint(grid + axis + axis), "s.yaml: the grid has 'tick_s' twice");
+  const std::string methods = head + "trials: 1\nmethods:\n";
+  EXPECT_EQ(complaint(methods + "  - {name: a}\n  - {name: a}\n"),
+            "s.yaml: two methods are called 'a'");
+  EXPECT_EQ(complaint(methods + "  - {name: \"\"}\n"),
+            "s.yaml: a method's name is '', must be one line of text");
+  EXPECT_EQ(complaint(methods + "  - {name: a, set: [seed=3]}\n"),
+            "s.yaml: 'seed=3' stands in 'set': give the sweep's key 'seed'");
+}
+
+TEST(SweepFile, TooManyTrialsAreRefused) {
+  std::string grid;
+  for (const char* key : {"a", "b", "c"}) {
+    grid += std::string("  - key: ") + key + "\n    values: [";
+    for (int i = 0; i < 60; ++i) grid += std::to_string(i) + ",";
+    grid += "]\n";
+  }
+  EXPECT_EQ(complaint("scenario: a.yaml\ntrials: 1\ngrid:\n" + grid),
+            "s.yaml: more than 100000 cells");
+  EXPECT_EQ(
+      complaint("scenario: a.yaml\ntrials: 1000000\ngrid:\n" + grid.substr(0, grid.size() / 3)),
+      "s.yaml: more than 10000000 trials in all");
+}
+
+TEST(SweepPlan, CellsAreTheCrossProduct) {
+  const auto folder = sweep_folder("sweep_cells", sweep_text());
+  const SweepPlan plan = load_sweep(folder / "sweep.yaml", 2);
+  ASSERT_EQ(plan.cells.size(), 8u);
+  EXPECT_EQ(plan.cells[0].values, (std::vector<std::string>{"60", "[700, 500]"}));
+  EXPECT_EQ(plan.cells[0].method, "straight on");
+  EXPECT_EQ(plan.cells[1].method, "route");
+  EXPECT_EQ(plan.cells[2].values, (std::vector<std::string>{"60", "[800, 600]"}));
+  EXPECT_EQ(plan.cells[7].values, (std::vector<std::string>{"90.5", "[800, 600]"}));
+  EXPECT_EQ(margin_of(plan.cells[7].scenario.navigator), 90.5);
+  EXPECT_EQ(plan.cells[7].scenario.time_limit, 20);
+  EXPECT_EQ(plan.cells[7].scenario.seed, 7u);
+  EXPECT_EQ(plan.cells[0].world.map, plan.cells[7].world.map);
+  EXPECT_EQ(plan.hash(), load_sweep(folder / "sweep.yaml", 1).hash());
+}
+
+TEST(SweepPlan, BadSettingsNameWhereTheyStand) {
+  const auto refused = [](const std::string& from, const std::string& to) {
+    std::string text = sweep_text();
+    text.replace(text.find(from), from.size(), to);
+    const auto folder = sweep_folder("sweep_bad", text);
+    const std::string file = (folder / "sweep.yaml").string();
+    const std::string what = error_of([&] { check(load_sweep(file, 2), 2); });
+    return what.starts_with(file + ": ") ? what.substr(file.size() + 2) : "elsewhere: " + what;
+  };
+  EXPECT_EQ(refused("navigator.margin_um", "navigator.magrin_um"),
+            "grid: --set navigator.magrin_um: unknown key 'magrin_um', did you mean 'margin_um'?");
+  EXPECT_EQ(refused("guide=straight", "guide=sideways"),
+            "method 'straight on': --set navigator.guide: guide is 'sideways', allowed: straight, "
+            "route");
+  EXPECT_EQ(refused("time_limit_s=20", "time_limit_s=-1"),
+            "--set time_limit_s: time_limit_s is -1 s, allowed 0..1e5 s");
+  EXPECT_TRUE(refused("[800, 600]", "[1000, 100]")
+                  .starts_with("navigator.margin_um=60, goal_um=[1000, 100], method 'straight on': "
+                               "goal "));
+}
+
+TEST(SweepPlan, ATrialIsTheTrialOfRun) {
+  const auto folder = sweep_folder("sweep_trial", sweep_text());
+  const SweepPlan plan = load_sweep(folder / "sweep.yaml", 1);
+  const auto trials = run_trials(plan.cells[3].scenario, plan.cells[3].world, {.trials = 3});
+  for (std::uint32_t trial = 0; trial < 3; ++trial)
+    EXPECT_EQ(run_task(plan, {3, trial}).hash, trials[trial].hash);
+}
+
+TEST(SweepTable, EveryMetricHasItsColumnWithUnit) {
+  const auto folder = sweep_folder("sweep_columns", sweep_text());
+  const SweepPlan plan = load_sweep(folder / "sweep.yaml", 1);
+  const std::vector<SweepColumn> columns = sweep_columns(plan);
+  const auto named = [&](const std::string& name) {
+    for (const SweepColumn& column : columns)
+      if (column.name == name) return column;
+    ADD_FAILURE() << name;
+    return SweepColumn{};
+  };
+  EXPECT_EQ(named("turning_deg").unit, "°");
+  EXPECT_EQ(named("walls_clearance_um").role, SweepColumn::Role::metric);
+  EXPECT_EQ(named("contacts").kind, SweepColumnKind::whole);
+  EXPECT_EQ(named("navigator_margin_um").kind, SweepColumnKind::real);
+  EXPECT_EQ(named("goal_um").kind, SweepColumnKind::text);
+  EXPECT_EQ(named("planning_max_s").role, SweepColumn::Role::wall_clock);
+}
+
+TEST(SweepMessage, ComesBackAsItWas) {
+  SweepMessage message{.kind = SweepMessage::Kind::rows,
+                       .text = "a\0b",
+                       .want = 3,
+                       .tasks = {{1, 2}},
+                       .rows = {{{4, 5}, {std::int64_t{-1}, 0.1, std::string("x"), {}}}}};
+  const std::string bytes = to_bytes(message);
+  const SweepMessage back = message_of(bytes);
+  EXPECT_EQ(back.kind, message.kind);
+  EXPECT_EQ(back.text, message.text);
+  EXPECT_EQ(back.want, 3u);
+  EXPECT_EQ(back.tasks.at(0).trial, 2u);
+  EXPECT_EQ(back.rows.at(0).task.cell, 4u);
+  EXPECT_EQ(back.rows.at(0).values, message.rows[0].values);
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    EXPECT_NE(error_of([&] { message_of(bytes.substr(0, size)); }), "") << size;
+}
+
+}  // namespace
+}  // namespace microswarm
