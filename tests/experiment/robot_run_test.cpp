@@ -133,6 +133,9 @@ TEST(RobotCheck, WhatCannotBeMeant) {
   s.robots->starts[1] = {200, 160};
   EXPECT_EQ(check_error(s), "s.yaml: start 2 is 10 µm inside wall 1");
   s = two_robots();
+  s.robots->starts[1] = s.robots->starts[0];
+  EXPECT_EQ(check_error(s), "s.yaml: robots 1 and 2 start in one place: nothing parts them");
+  s = two_robots();
   s.robots->starts.assign(9, {60, 300});
   s.robots->goals.assign(9, {330, 300});
   EXPECT_EQ(check_error(s),

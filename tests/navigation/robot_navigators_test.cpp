@@ -134,6 +134,25 @@ TEST(PlanPlayer, RobotsThatWereCarriedAwayJoinThePlanAgain) {
   EXPECT_FALSE(player.view().planned);
 }
 
+TEST(PlanPlayer, WithoutAPlanItHoldsAndTriesAgainLater) {
+  const RobotSwarmParams params = two_robots();
+  PlanPlayerParams hard;
+  hard.planner.max_nodes = 1;
+  Rig rig(scenes::global_world(1), params, params.starts, 0);
+  PlanPlayer player(hard, params, 20, tick, Rng(1, Purpose::planner));
+  player.prepare(rig.world);
+  int planned = 0;
+  int stuck = 0;
+  for (int i = 0; i < 250; ++i) {
+    rig.apply(player.step(rig.observe(), {}));
+    planned += player.view().planned;
+    stuck += player.view().state == "stuck";
+  }
+  EXPECT_GE(planned, 2);
+  EXPECT_LE(planned, 3);
+  EXPECT_GT(stuck, 100);
+}
+
 TEST(PlanPlayer, HoldsWhenItSeesTooFewTooOldOrIsThere) {
   const RobotSwarmParams params = two_robots();
   Rig rig(scenes::global_world(1), params, params.starts, 0);

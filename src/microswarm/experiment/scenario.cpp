@@ -193,6 +193,12 @@ void check_places(const Scenario& scenario, const World& world, const std::strin
     if (!connected(*world.map, robots.starts[i], goal_of(i)))
       throw InputError(fmt::format("{}: robot {} is cut off from its goal by walls", where, i + 1));
   }
+  for (std::size_t i = 0; i < robots.goals.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (robots.starts[i] == robots.starts[k] &&
+          distance(robots.goals[i], robots.goals[k]) > 2 * scenario.goal_tolerance)
+        throw InputError(fmt::format("{}: robots {} and {} start in one place: nothing parts them",
+                                     where, k + 1, i + 1));
 }
 
 }  // namespace

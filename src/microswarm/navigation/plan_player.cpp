@@ -41,7 +41,7 @@ Command PlanPlayer::step(const Observation& seen, const Stop& stop) {
   }
   view_.state = "play";
   if (!on_plan_ || input_ == plan_.inputs.size() || off(robots) > params_.stray)
-    find_way(robots, stop);
+    find_way(robots, seen.now, stop);
   if (input_ == plan_.inputs.size()) return issue(seen.now, {}, "stuck");
   return issue(seen.now, next_piece(), view_.state);
 }
@@ -82,7 +82,7 @@ std::optional<std::size_t> PlanPlayer::place_to_join(const Robots& robots) const
   return std::nullopt;
 }
 
-void PlanPlayer::find_way(const Robots& robots, const Stop& stop) {
+void PlanPlayer::find_way(const Robots& robots, double now, const Stop& stop) {
   expected_ = robots;
   if (on_plan_ && piece_ == 0 && leads_home(robots, input_) && input_ < plan_.inputs.size()) return;
   piece_ = 0;
@@ -92,8 +92,12 @@ void PlanPlayer::find_way(const Robots& robots, const Stop& stop) {
     on_plan_ = true;
     return;
   }
+  on_plan_ = false;
+  input_ = plan_.inputs.size();
+  if (now < retry_at_) return;
   const std::vector<Vec2> places = places_of(robots);
   plan_ = global_search(*map_, places, swarm_.goals, params_.planner, rng_, stop).plan;
+  if (plan_.status != Status::solved) retry_at_ = now + params_.retry_time;
   input_ = 0;
   on_plan_ = true;
   view_.state = "replan";

@@ -15,11 +15,19 @@ namespace microswarm {
 /// Plays the inputs of a plan for several robots under one input, and watches them: errors would
 /// add up, as [global] says of its own. The goal tolerance is that of the planner.
 struct PlanPlayerParams {
+  /// A search that gives up after some seconds.
+  static GlobalSearchParams limited() {
+    GlobalSearchParams p;
+    p.max_nodes = 2'000'000;
+    return p;
+  }
+
   static constexpr std::string_view type_name = "plan_player";
   double stray = 3;
   int rejoin_candidates = 64;
   double frame_timeout = 0.5;
-  GlobalSearchParams planner;
+  double retry_time = 10;
+  GlobalSearchParams planner = limited();
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.stray,
@@ -31,14 +39,16 @@ struct PlanPlayerParams {
            "Places of the plan, the nearest ones, at which joining it again is tried."});
     visit(self.frame_timeout,
           {"frame_timeout", Unit::s, {0, 60}, "Hold when the newest frame is older than this."});
+    visit(self.retry_time,
+          {"retry_time", Unit::s, {0, 1e5}, "Hold for so long after a search that found no plan."});
     visit(self.planner, {"planner", Unit::none, {}, "How inputs are searched."});
   }
 };
 
 /// See PlanPlayerParams. When robots stray it tries, by playing the rest of the plan through on its
 /// own model, whether that still brings all to their goals; then whether it does from another place
-/// of the plan; else it plans anew from where they are. States: play, rejoin, replan, arrived,
-/// blind, and stuck when no plan was found.
+/// of the plan; else it plans anew from where they are. A plan that leads only nearer is played
+/// too. States: play, rejoin, replan, arrived, blind, and stuck when there is no plan.
 class PlanPlayer : public Navigator {
  public:
   /// `robots`: what is known of them, with a goal each; `tick` [s] between two commands.
@@ -57,7 +67,7 @@ class PlanPlayer : public Navigator {
   double off(const Robots& robots) const;
   bool leads_home(Robots robots, std::size_t from) const;
   std::optional<std::size_t> place_to_join(const Robots& robots) const;
-  void find_way(const Robots& robots, const Stop& stop);
+  void find_way(const Robots& robots, double now, const Stop& stop);
   Command next_piece();
   Command issue(double now, Command command, std::string_view state);
 
@@ -72,6 +82,7 @@ class PlanPlayer : public Navigator {
   int piece_ = 0;          ///< of that input, which is more than a tick's way
   Robots expected_;        ///< when the next command takes effect
   bool on_plan_ = false;
+  double retry_at_ = 0;  ///< [s] not to be searched for before
   NavigatorView view_;
 };
 
