@@ -6,6 +6,7 @@
 #include "microswarm/report/rows.hpp"
 #include "options.hpp"
 #ifdef MICROSWARM_HAS_BENCH
+#include "bench/global.hpp"
 #include "bench/planning.hpp"
 #include "bench/swarm.hpp"
 #endif
@@ -15,8 +16,8 @@ namespace {
 
 #ifdef MICROSWARM_HAS_BENCH
 std::vector<BenchRow> rows_of(const std::string& group, bool quick, const Stop& stop) {
-  return group == "planning" ? bench::planning(scenario_folder(), quick, stop)
-                             : bench::swarm(quick, stop);
+  if (group == "planning") return bench::planning(scenario_folder(), quick, stop);
+  return group == "global" ? bench::global(quick, stop) : bench::swarm(quick, stop);
 }
 
 int measure(const std::string& group, const std::string& csv, bool quick, bool json,
@@ -48,7 +49,7 @@ void add_bench(CLI::App& app, Action& action) {
       app, "bench",
       "Measure speeds beside a peer's in the same run: exit code 3 when one falls short",
       "bench planning --quick --csv planning.csv");
-  cmd->add_option("group", *group, "What to measure: planning, swarm")
+  cmd->add_option("group", *group, "What to measure: planning, swarm, global")
       ->required()
       ->type_name("GROUP");
   cmd->add_option("--csv", *csv, "Write the rows to this file too")->type_name("FILE");
@@ -56,9 +57,9 @@ void add_bench(CLI::App& app, Action& action) {
   add_json(cmd, *json);
   cmd->callback([=, &action] {
     action = [=](const Context& context) {
-      if (*group != "planning" && *group != "swarm")
+      if (*group != "planning" && *group != "swarm" && *group != "global")
         throw InputError(
-            fmt::format("bench: unknown group '{}', there are: planning, swarm", *group));
+            fmt::format("bench: unknown group '{}', there are: planning, swarm, global", *group));
       return measure(*group, *csv, *quick, *json, context);
     };
   });

@@ -28,8 +28,9 @@ struct ReproduceOptions {
 std::vector<ReproduceRow> reproduce_drrt(const std::string& figure, const ReproduceOptions& options,
                                          const Stop& stop);
 
-/// [global]: fig3-5 (step lengths), fig6 (hypercubes), fig7 (distance between the starts), fig9-10
-/// (four robots, a tree asked again), beyond (the search that uses walls), or all when empty.
+/// [global]: fig1 (vascular network), fig3-5 (step lengths), fig6 (hypercubes), fig7 (distance
+/// between the starts), fig8 (digestive system), fig9-10 (four robots, a tree asked again), fig12
+/// (two magnets), beyond (the search that uses walls), beyond-6 (six robots), or all when empty.
 std::vector<ReproduceRow> reproduce_global(const std::string& figure,
                                            const ReproduceOptions& options, const Stop& stop);
 

@@ -13,9 +13,8 @@
 #include "microswarm/planning/coverage.hpp"
 #include "microswarm/planning/global_rrt.hpp"
 #include "microswarm/planning/global_search.hpp"
-#include "microswarm/report/picture.hpp"
 #include "microswarm/report/plot.hpp"
-#include "reproduce.hpp"
+#include "reproduce_global.hpp"
 #include "tests/scenes/global_worlds.hpp"
 
 namespace microswarm::cli {
@@ -70,18 +69,6 @@ struct Curve {
   }
 };
 
-ReproduceRow row(const char* figure, std::string quantity, const char* unit,
-                 std::optional<double> paper, double ours, std::optional<double> aim = {},
-                 bool at_most = true) {
-  return {.figure = figure,
-          .quantity = std::move(quantity),
-          .unit = unit,
-          .paper = paper,
-          .ours = ours,
-          .aim = aim,
-          .at_most = at_most};
-}
-
 /// Fig 3–5: coverage against Robostep, for trees of several sizes.
 std::vector<ReproduceRow> step_lengths(const ReproduceOptions& options, const Stop& stop) {
   constexpr std::array steps{1., 3., 5., 10., 20., 40., 50., 60., 70., 80., 100., 150., 200.};
@@ -104,14 +91,14 @@ std::vector<ReproduceRow> step_lengths(const ReproduceOptions& options, const St
   write_all({plot}, options, "fig3-5");
   std::vector<ReproduceRow> rows;
   for (std::size_t k = 0; k < sizes.size(); ++k)
-    rows.push_back(row("fig3", fmt::format("coverage at step 60, {} nodes", sizes[k]), "%", {},
-                       curves[k].y[7]));
-  rows.push_back(row("fig3", "coverage, 7500 nodes to 1000, at step 60", "1", {},
-                     curves[3].y[7] / std::max(1e-12, curves[0].y[7]), 1, false));
-  rows.push_back(row("fig5", "best step length, 7500 nodes", "µm", 60, curves[3].best()));
-  rows.push_back(row("fig5", "coverage at step 60, share of the best", "%", {},
-                     100 * curves[3].y[7] / std::max(1e-12, *std::ranges::max_element(curves[3].y)),
-                     90, false));
+    rows.push_back(global_row("fig3", fmt::format("coverage at step 60, {} nodes", sizes[k]), "%",
+                              {}, curves[k].y[7]));
+  rows.push_back(global_row("fig3", "coverage, 7500 nodes to 1000, at step 60", "1", {},
+                            curves[3].y[7] / std::max(1e-12, curves[0].y[7]), 1, false));
+  rows.push_back(global_row("fig5", "best step length, 7500 nodes", "µm", 60, curves[3].best()));
+  rows.push_back(global_row(
+      "fig5", "coverage at step 60, share of the best", "%", {},
+      100 * curves[3].y[7] / std::max(1e-12, *std::ranges::max_element(curves[3].y)), 90, false));
   return rows;
 }
 
@@ -133,10 +120,10 @@ std::vector<ReproduceRow> cell_sizes(const ReproduceOptions& options, const Stop
               .series = {{"", curve.x, curve.y}},
               .y_min = 0}},
             options, "fig6");
-  return {
-      row("fig6", "coverage, hypercubes of 50 µm", "%", {}, curve.y.front()),
-      row("fig6", "coverage, hypercubes of 10 µm", "%", {}, curve.y.back()),
-      row("fig6", "falls with every smaller hypercube (1: yes)", "1", 1, falls ? 1 : 0, 1, false)};
+  return {global_row("fig6", "coverage, hypercubes of 50 µm", "%", {}, curve.y.front()),
+          global_row("fig6", "coverage, hypercubes of 10 µm", "%", {}, curve.y.back()),
+          global_row("fig6", "falls with every smaller hypercube (1: yes)", "1", 1, falls ? 1 : 0,
+                     1, false)};
 }
 
 /// Fig 7: coverage against the distance between the two starts.
@@ -155,60 +142,10 @@ std::vector<ReproduceRow> initial_distances(const ReproduceOptions& options, con
               .series = {{"", curve.x, curve.y}},
               .y_min = 0}},
             options, "fig7");
-  return {row("fig7", "coverage, starts 200 µm apart", "%", {}, curve.y.front()),
-          row("fig7", "coverage, starts 1 µm apart", "%", {}, curve.y.back()),
-          row("fig7", "coverage at 1 µm, share of that at 200 µm", "%", {},
-              100 * curve.y.back() / std::max(1e-12, curve.y.front()), 100)};
-}
-
-void draw(const Map& map, const GlobalPlan& plan, std::span<const Vec2> goals,
-          const std::string& title, const fs::path& file) {
-  constexpr std::array<Colour, 4> colour{colours::path, colours::swarm, colours::obstacle,
-                                         colours::circle};
-  Picture picture(map.bounds(), title);
-  picture.walls(map);
-  for (std::size_t robot = 0; robot < goals.size(); ++robot) {
-    std::vector<Vec2> way;
-    for (const auto& places : plan.configurations) way.push_back(places[robot]);
-    picture.line(way, colour[robot % colour.size()], 2.5);
-    picture.mark(way.front(), fmt::format("start {}", robot + 1), colour[robot % colour.size()]);
-    picture.circle({goals[robot], 20}, colour[robot % colour.size()], 2);
-    picture.legend(fmt::format("robot {}, its goal dashed", robot + 1),
-                   colour[robot % colour.size()]);
-  }
-  for (const char* kind : {".png", ".svg", ".pdf"}) {
-    fs::path named = file;
-    picture.write(named.replace_extension(kind));
-  }
-}
-
-/// Fig 9, 10: four robots in Env 3, a tree of 341,997 nodes that is asked for several goals.
-std::vector<ReproduceRow> reuse(const ReproduceOptions& options, const Stop& stop) {
-  const int nodes = options.quick ? 60'000 : 341'997;
-  const Map map = scenes::global_world(3);
-  const auto began = Stop::Clock::now();
-  const GlobalTree tree = grown(map, global_starts, 5, nodes, 0, stop);
-  const auto seconds = [&](Stop::Clock::time_point from) {
-    return std::chrono::duration<double>(Stop::Clock::now() - from).count();
-  };
-  const double growing = seconds(began);
-  std::vector<double> asking;
-  int solved = 0;
-  double worst = std::numeric_limits<double>::infinity();
-  for (const std::span<const Vec2> goals :
-       {std::span<const Vec2>(global_goals), std::span<const Vec2>(scenes::global_other_goals)}) {
-    const auto from = Stop::Clock::now();
-    const GoalAnswer answer = ask(tree, goals, 20);
-    asking.push_back(1e3 * seconds(from));
-    solved += answer.status == Status::solved;
-    worst = std::min(worst, answer.worst);
-  }
-  return {row("fig9", "four robots in Env 3, plain tree: nodes", "1", 341'997,
-              static_cast<double>(tree.size())),
-          row("fig9", "nodes per second", "1/s", {}, static_cast<double>(tree.size()) / growing),
-          row("fig10", "goals solved by the plain tree, of 2", "1", 2, solved),
-          row("fig10", "worst robot's distance from its goal, the better of 2", "µm", 20, worst),
-          row("fig10", "asking the tree for another goal", "ms", {}, quantile(asking, 1), 5)};
+  return {global_row("fig7", "coverage, starts 200 µm apart", "%", {}, curve.y.front()),
+          global_row("fig7", "coverage, starts 1 µm apart", "%", {}, curve.y.back()),
+          global_row("fig7", "coverage at 1 µm, share of that at 200 µm", "%", {},
+                     100 * curve.y.back() / std::max(1e-12, curve.y.front()), 100)};
 }
 
 struct Aim {
@@ -238,19 +175,19 @@ std::vector<ReproduceRow> search(const ReproduceOptions& options, const Stop& st
         times.push_back(std::chrono::duration<double>(Stop::Clock::now() - began).count());
         solved += found.plan.status == Status::solved;
         ++tries;
-        if (seed == 0 && !options.out.empty())
-          draw(map, found.plan, first(global_goals, aim.robots),
-               fmt::format("Env {}, {} robots, {} inputs", env, aim.robots,
-                           found.plan.inputs.size()),
-               fs::path(options.out) / fmt::format("env{}-n{}", env, aim.robots));
+        if (seed == 0)
+          draw_plan(options, fmt::format("env{}-n{}", env, aim.robots),
+                    fmt::format("Env {}, {} robots, {} inputs", env, aim.robots,
+                                found.plan.inputs.size()),
+                    map, found.plan, first(global_goals, aim.robots));
       }
     }
     const std::string who =
         fmt::format("{} robots, Env 1–4, within {:g} s", aim.robots, aim.seconds);
-    rows.push_back(row("beyond", who + ": solved", "%", {}, 100.0 * solved / std::max(1, tries),
-                       aim.share, false));
-    rows.push_back(row("beyond", who + ": time, median", "s", {}, median(times)));
-    rows.push_back(row("beyond", who + ": time, longest", "s", {}, quantile(times, 1)));
+    rows.push_back(global_row("beyond", who + ": solved", "%", {},
+                              100.0 * solved / std::max(1, tries), aim.share, false));
+    rows.push_back(global_row("beyond", who + ": time, median", "s", {}, median(times)));
+    rows.push_back(global_row("beyond", who + ": time, longest", "s", {}, quantile(times, 1)));
   }
   return rows;
 }
@@ -260,11 +197,15 @@ std::vector<ReproduceRow> search(const ReproduceOptions& options, const Stop& st
 std::vector<ReproduceRow> reproduce_global(const std::string& figure,
                                            const ReproduceOptions& options, const Stop& stop) {
   using Make = std::vector<ReproduceRow> (*)(const ReproduceOptions&, const Stop&);
-  constexpr std::array<std::pair<std::string_view, Make>, 5> figures{{{"fig3-5", step_lengths},
+  constexpr std::array<std::pair<std::string_view, Make>, 9> figures{{{"fig1", global_vascular},
+                                                                      {"fig3-5", step_lengths},
                                                                       {"fig6", cell_sizes},
                                                                       {"fig7", initial_distances},
-                                                                      {"fig9-10", reuse},
-                                                                      {"beyond", search}}};
+                                                                      {"fig8", global_digestive},
+                                                                      {"fig9-10", global_reuse},
+                                                                      {"fig12", global_magnets},
+                                                                      {"beyond", search},
+                                                                      {"beyond-6", global_six}}};
   std::vector<ReproduceRow> rows;
   std::vector<std::string_view> names;
   bool known = figure.empty();

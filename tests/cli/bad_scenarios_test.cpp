@@ -118,7 +118,7 @@ TEST_F(BadScenarios, PaperFigureGroup) {
           "reproduce: unknown paper 'drtt', there are: drrt, global, gather");
   refused({"reproduce", "drrt/fig9"},
           "reproduce drrt: unknown figure 'fig9', there are: fig3, fig5a, fig5b");
-  refused({"bench", "speed"}, "bench: unknown group 'speed', there are: planning, swarm");
+  refused({"bench", "speed"}, "bench: unknown group 'speed', there are: planning, swarm, global");
 }
 
 }  // namespace

@@ -65,17 +65,17 @@ GlobalTask six_robots(int env) {
   GlobalTask task{"six robots", global_world(env), {}, {}};
   task.starts.assign(global_starts.begin(), global_starts.end());
   task.goals.assign(global_goals.begin(), global_goals.end());
-  for (const Vec2 p : {Vec2{60, 100}, Vec2{110, 300}}) task.starts.push_back(p);
-  for (const Vec2 p : {Vec2{330, 100}, Vec2{280, 300}}) task.goals.push_back(p);
+  for (const Vec2 p : {Vec2{60, 100}, Vec2{60, 75}}) task.starts.push_back(p);
+  for (const Vec2 p : {Vec2{330, 100}, Vec2{330, 75}}) task.goals.push_back(p);
   return task;
 }
 
 GlobalTask vascular_task() {
   return {"vascular network",
           large_vascular_network().map(),
-          {{30, 30}, {30, 60}, {30, 90}},
-          {{370, 280}, {370, 250}, {300, 280}},
-          2,
+          {{26, 77}, {24, 97}, {23, 117}},
+          {{114, 71}, {201, 105}, {148, 156}},
+          4,
           6};
 }
 
@@ -83,8 +83,8 @@ GlobalTask digestive_task() {
   return {"digestive system",
           digestive_map(),
           {{200, 480}, {200, 450}, {150, 350}},
-          {{150, 350}, {80, 287}, {40, 150}},
-          3,
+          {{150, 350}, {40, 150}, {230, 85}},
+          6,
           8};
 }
 
@@ -99,9 +99,9 @@ GlobalTask magnets_task() {
   return {"two magnets",
           {{{0, 0}, {300, 300}}, walls},
           {{30, 250}, {30, 60}},
-          {{265, 260}, {200, 50}},
+          {{265, 255}, {200, 60}},
           5,
-          15};
+          25};
 }
 
 }  // namespace microswarm::scenes

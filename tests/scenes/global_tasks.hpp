@@ -18,7 +18,7 @@ struct GlobalTask {
   double tolerance = 20;
 };
 
-/// Six robots in Env 1–4: the four of [global], and two more in the same manner.
+/// Six robots in Env 1–4: the four of [global], and two more in a row with them.
 GlobalTask six_robots(int env);
 
 /// Fig 1, 8 and 12 [global] are published as pictures only; these are maps of ours of the same

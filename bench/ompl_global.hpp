@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "microswarm/planning/global_rrt.hpp"
+
+namespace microswarm::bench {
+
+/// How far OMPL's RRT got.
+struct OmplGrowth {
+  std::size_t nodes = 0;
+  double seconds = 0;
+};
+
+/// Grows OMPL's RRT to `nodes` or for `most_seconds` in the space of several robots' places, with
+/// its own nearest neighbours and with the local planner of ours, Alg 2 [global], as its directed
+/// control sampler; each input is one step of its propagator.
+OmplGrowth grow_ompl(const Map& map, std::span<const Vec2> starts, const GlobalRrtParams& params,
+                     std::size_t nodes, double most_seconds);
+
+}  // namespace microswarm::bench
