@@ -13,6 +13,8 @@
 #include "microswarm/planning/coverage.hpp"
 #include "microswarm/planning/global_rrt.hpp"
 #include "microswarm/planning/global_search.hpp"
+#include "microswarm/planning/global_shorten.hpp"
+#include "microswarm/report/picture.hpp"
 #include "microswarm/report/plot.hpp"
 #include "reproduce_global.hpp"
 #include "tests/scenes/global_worlds.hpp"
@@ -69,6 +71,29 @@ struct Curve {
   }
 };
 
+/// Fig 4: trees of two robots by several step lengths, each robot's part in a colour.
+void draw_trees(const Map& map, const ReproduceOptions& options, const Stop& stop) {
+  if (options.out.empty()) return;
+  constexpr int nodes = 7500;
+  constexpr std::array<Colour, 2> colour{{{0.35, 0.70, 0.90, 0.8}, {0.90, 0.62, 0.0, 0.8}}};
+  for (const double step : {1., 3., 5., 50., 200.}) {
+    const GlobalTree tree = grown(map, first(global_starts, 2), step, nodes, 0, stop);
+    Picture picture(map.bounds(), fmt::format("Fig 4: {} nodes, Robostep {:g} µm", nodes, step));
+    picture.walls(map);
+    for (std::size_t robot = 0; robot < 2; ++robot) {
+      std::vector<TreeNode> part(tree.size());
+      for (std::uint32_t node = 0; node < tree.size(); ++node) {
+        part[node].position = tree.position(node, robot);
+        part[node].parent = tree.parents[node];
+      }
+      picture.tree(part, colour[robot]);
+      picture.mark(global_starts[robot], fmt::format("start {}", robot + 1));
+      picture.legend(fmt::format("tree of robot {}", robot + 1), colour[robot]);
+    }
+    picture.write(fs::path(options.out) / fmt::format("fig4-step{:g}.png", step));
+  }
+}
+
 /// Fig 3–5: coverage against Robostep, for trees of several sizes.
 std::vector<ReproduceRow> step_lengths(const ReproduceOptions& options, const Stop& stop) {
   constexpr std::array steps{1., 3., 5., 10., 20., 40., 50., 60., 70., 80., 100., 150., 200.};
@@ -89,6 +114,7 @@ std::vector<ReproduceRow> step_lengths(const ReproduceOptions& options, const St
   for (std::size_t k = 0; k < sizes.size(); ++k)
     plot.series.push_back({fmt::format("{} nodes", sizes[k]), curves[k].x, curves[k].y});
   write_all({plot}, options, "fig3-5");
+  draw_trees(map, options, stop);
   std::vector<ReproduceRow> rows;
   for (std::size_t k = 0; k < sizes.size(); ++k)
     rows.push_back(global_row("fig3", fmt::format("coverage at step 60, {} nodes", sizes[k]), "%",
@@ -159,7 +185,7 @@ std::vector<ReproduceRow> search(const ReproduceOptions& options, const Stop& st
   std::vector<ReproduceRow> rows;
   for (const Aim aim : {Aim{2, 0.5, 100}, Aim{3, 10, 90}, Aim{4, 60, 90}}) {
     const int seeds = options.quick ? (aim.robots < 4 ? 3 : 1) : (aim.robots < 4 ? 20 : 5);
-    std::vector<double> times;
+    std::vector<double> times, inputs, brief;
     int solved = 0;
     int tries = 0;
     for (int env = 1; env <= scenes::global_worlds; ++env) {
@@ -175,6 +201,12 @@ std::vector<ReproduceRow> search(const ReproduceOptions& options, const Stop& st
         times.push_back(std::chrono::duration<double>(Stop::Clock::now() - began).count());
         solved += found.plan.status == Status::solved;
         ++tries;
+        if (found.plan.status == Status::solved) {
+          const auto goals = first(global_goals, aim.robots);
+          inputs.push_back(static_cast<double>(found.plan.inputs.size()));
+          brief.push_back(
+              static_cast<double>(shortened(map, found.plan, goals, {}, stop).inputs.size()));
+        }
         if (seed == 0)
           draw_plan(options, fmt::format("env{}-n{}", env, aim.robots),
                     fmt::format("Env {}, {} robots, {} inputs", env, aim.robots,
@@ -188,6 +220,9 @@ std::vector<ReproduceRow> search(const ReproduceOptions& options, const Stop& st
                               100.0 * solved / std::max(1, tries), aim.share, false));
     rows.push_back(global_row("beyond", who + ": time, median", "s", {}, median(times)));
     rows.push_back(global_row("beyond", who + ": time, longest", "s", {}, quantile(times, 1)));
+    rows.push_back(global_row("beyond", who + ": inputs, median", "1", {}, median(inputs)));
+    rows.push_back(
+        global_row("beyond", who + ": inputs when shortened, median", "1", {}, median(brief)));
   }
   return rows;
 }
