@@ -26,6 +26,7 @@ RolloutGatherer::RolloutGatherer(const AggregationMap& ground, const RobotSteppe
       params_(params.rollout),
       stepper_(&stepper),
       rng_(rng),
+      ground_(&ground),
       base_(ground, params),
       expected_(Robots{}) {}
 
@@ -37,15 +38,23 @@ std::optional<Vec2> RolloutGatherer::next(const Robots& robots, const Stop& stop
   if (mean_way_ < simulator_.params().sigma) return std::nullopt;
   if (begins) {
     start(robots);
-  } else if (steps() > 0 && (done_ == steps() || !on_plan(robots))) {
+  } else if (leads() && (done_ == steps() || !on_plan(robots))) {
     plan_anew(robots);
   }
+  if (!leads()) return base_.next(robots);
   think(params_.budget - (simulator_.work() - work_before), stop);
-  if (steps() == 0) return base_.next(robots);
+  ++made_;
   const Vec2 move = plan_.moves[done_++];
   if (done_ % mark_interval == 0) expected_.join();
   stepper_->step(expected_.places(), move, ContactRule::stop);
   return move;
+}
+
+// Not without a plan, nor when robots are so unlike those of the simulation that it would take
+// twice as long as its base should: then a policy that looks at them at every step is better.
+bool RolloutGatherer::leads() const {
+  constexpr std::size_t most_bases = 2;
+  return steps() > 0 && made_ + steps_left() <= most_bases * base_steps_;
 }
 
 // The mean way shrinks by a step a move at best.
@@ -81,11 +90,16 @@ void RolloutGatherer::start(const Robots& robots) {
   const auto longest = static_cast<std::size_t>(params_.most_steps);
   for (const Aggregation method : {Aggregation::divide_and_conquer, Aggregation::heuristic}) {
     const std::size_t most = plan_.moves.empty() ? longest : steps();
-    if (auto draft = simulated(robots, method, most)) {
-      plan_.moves = std::move(draft->moves);
-      plan_.marks = std::move(draft->marks);
-    }
+    auto draft = simulated(robots, method, most);
+    if (!draft) continue;
+    plan_.moves = std::move(draft->moves);
+    plan_.marks = std::move(draft->marks);
+    AggregationParams base = simulator_.params();
+    base.method = method;
+    base_ = Gatherer(*ground_, base);
   }
+  made_ = 0;
+  base_steps_ = steps();
   grown_.reset();
   head_start_ = 0;
   looks_ahead_ = params_.candidates > 0;

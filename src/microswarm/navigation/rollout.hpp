@@ -13,8 +13,9 @@ namespace microswarm {
 /// budget of simulated robot-steps on shorter ones, and the plan is replaced only by a plan that
 /// all robots were simulated with. So without noise it never takes more steps than the better of
 /// the two, and ends where that ends. When the robots stray from it, it plans anew from where they
-/// are seen: by the rest of the plan or by either policy, whichever is the shortest. Deterministic
-/// unless a deadline stops its thinking.
+/// are seen: by the rest of the plan or by either policy, whichever is the shortest. When plans
+/// slip as fast as they are followed, the better policy leads to the end. Deterministic unless a
+/// deadline stops its thinking.
 class RolloutGatherer {
  public:
   /// Map and stepper, of the rule "stop", must outlive it. Uses `params.rollout`.
@@ -27,7 +28,7 @@ class RolloutGatherer {
 
   /// F(n, t): mean way to the goal [µm] when it was measured last; at the end it is that of then.
   double mean_way() const { return mean_way_; }
-  /// Moves left in the plan; 0 when neither policy has found an end and DCA leads step by step.
+  /// Moves left in the plan; 0 when neither policy has found an end.
   std::size_t steps_left() const { return plan_.moves.size() - done_; }
   /// How often it planned anew since robots strayed.
   int replans() const { return replans_; }
@@ -38,6 +39,7 @@ class RolloutGatherer {
   int guard_count() const { return base_.guard_count(); }
 
  private:
+  bool leads() const;
   bool on_plan(const Robots& robots) const;
   void look(const Robots& robots, bool always);
   void start(const Robots& robots);
@@ -56,7 +58,8 @@ class RolloutGatherer {
   RolloutParams params_;
   const RobotStepper* stepper_;
   Rng rng_;
-  Gatherer base_;  ///< leads when there is no plan
+  const AggregationMap* ground_;
+  Gatherer base_;  ///< leads when no plan does
   RolloutPlan plan_;
   std::size_t done_ = 0;               ///< moves of the plan that were made
   Crowd expected_;                     ///< where robots are when they follow it
@@ -65,7 +68,9 @@ class RolloutGatherer {
   bool looks_ahead_ = true;
   double thought_ = 0;  ///< work on better plans
   double mean_way_ = 0;
-  int unmeasured_ = 0;  ///< moves until F is measured again
+  int unmeasured_ = 0;          ///< moves until F is measured again
+  std::size_t made_ = 0;        ///< moves of plans
+  std::size_t base_steps_ = 0;  ///< what the base needed in the simulation
   int replans_ = 0;
   int improvements_ = 0;
 };

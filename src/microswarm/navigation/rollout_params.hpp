@@ -19,7 +19,7 @@ struct RolloutParams {
   int candidates = 16;
   int horizon = 150;
   int commit = 50;
-  double stray = 0.5;
+  double stray = 1;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.budget, {"budget", Unit::none, {0, 1e12}, "Work of a decision, in robot-steps."});
