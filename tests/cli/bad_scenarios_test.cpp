@@ -74,7 +74,8 @@ TEST_F(BadScenarios, Settings) {
   set("swarm", "--set 'swarm': must be KEY=VALUE");
   set("swarm.radius_um=", "--set swarm.radius_um: radius_um must be a number, not empty");
   set("navigator.type=pilot",
-      "--set navigator.type: type of navigator is 'pilot', allowed: hierarchical_drrt_star");
+      "--set navigator.type: type of navigator is 'pilot', allowed: hierarchical_drrt_star, "
+      "plan_player, aggregation");
   set("goal_um=[1]", "--set goal_um: goal_um must be [x, y], not a list of 1");
 }
 
@@ -92,7 +93,8 @@ TEST_F(BadScenarios, Records) {
 }
 
 TEST_F(BadScenarios, CommandLine) {
-  const std::string there = "run, plan, gather, map, replay, report, reproduce, bench, schema";
+  const std::string there =
+      "run, plan, global, gather, sweep, export, map, replay, report, reproduce, bench, schema";
   refused({}, "a command is missing, there are: " + there + " (see microswarm --help)");
   refused({"fly"}, "unknown command 'fly', there are: " + there + " (see microswarm --help)");
   refused({"rnu"}, "unknown command 'rnu', did you mean 'run'? (see microswarm --help)");
