@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/experiment/sweep_export.hpp"
 
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
 #include <cstdlib>
 
 #include "microswarm/experiment/sweep_summary.hpp"
@@ -85,6 +89,25 @@ TEST_F(SweepExport, PlannerArenasImporterReadsTheLogs) {
   }
   write_file_atomically(folder() / "sweep.csv", sweep_csv(sweep));
   EXPECT_TRUE(python("sqlite3", "read_ompl_logs.py " + (folder() / "sweep.csv").string() + files));
+}
+
+TEST_F(SweepExport, WhatAKilledWriterLeftHalfDoneIsUndone) {
+  const auto file = folder() / "killed.db";
+  std::filesystem::copy_file(folder() / "sweep.db", file);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    Database database(file, Database::Access::write);
+    database.run("PRAGMA cache_size = 2");  // pages go to the disk before the transaction ends
+    const Transaction transaction(database);
+    for (std::int64_t i = 0; i < 200; ++i)
+      database.run("INSERT INTO cells(cell, scenario) VALUES(?, ?)",
+                   std::vector<SqlValue>{100 + i, std::string(5000, 'x')});
+    ::kill(::getpid(), SIGKILL);
+  }
+  ::waitpid(child, nullptr, 0);
+  EXPECT_TRUE(std::filesystem::exists(file.string() + "-journal"));
+  EXPECT_EQ(SweepReader(file).cells(), 8u);
+  EXPECT_EQ(physical_rows(file), physical_rows(folder() / "sweep.db"));
 }
 
 TEST(RecordExport, TablesAsCsv) {

@@ -65,6 +65,20 @@ TEST(SweepPlan, CellsAreTheCrossProduct) {
   EXPECT_EQ(plan.hash(), load_sweep(folder / "sweep.yaml", 1).hash());
 }
 
+TEST(SweepPlan, TheSweepThatComesWithTheProgramCanBeRun) {
+  const std::filesystem::path folder = std::string(MICROSWARM_SOURCE_DIR) + "/scenarios/sweeps";
+  const SweepPlan plan = load_sweep(folder / "first_flight.yaml", 2);
+  check(plan, 2);
+  EXPECT_EQ(plan.cells.size(), 12u);
+}
+
+TEST(SweepFile, TheOneInTheDocsIsRead) {
+  const std::string page = read_file(std::string(MICROSWARM_SOURCE_DIR) + "/docs/sweeps.md");
+  const std::size_t begin = page.find("```yaml\n") + 8;
+  const Sweep sweep = read_sweep_text(page.substr(begin, page.find("```", begin) - begin), "docs");
+  EXPECT_EQ(sweep.methods.at(1).set.at(0), "navigator.horizon_s=0");
+}
+
 TEST(SweepPlan, BadSettingsNameWhereTheyStand) {
   const auto refused = [](const std::string& from, const std::string& to) {
     std::string text = sweep_text();

@@ -81,9 +81,10 @@ WriterLock::WriterLock(const std::filesystem::path& file)
 WriterLock::~WriterLock() { ::close(file_); }
 
 Database::Database(const std::filesystem::path& file, Access access) : name_(file.string()) {
-  const int flags = access == Access::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE;
+  // For reading too: what a writer that was killed left half done is undone by who comes next.
+  // SQLite itself is content with reading where it may not write.
   const int code = sqlite3_open_v2(std::filesystem::absolute(file).c_str(), &connection_,
-                                   flags | SQLITE_OPEN_NOMUTEX, nullptr);
+                                   SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX, nullptr);
   const auto refuse = [&](const std::string& why) {
     sqlite3_close(connection_);
     throw InputError(fmt::format("{}: {}", name_, why));
@@ -114,8 +115,7 @@ void Database::fail_with(int code) const {
     case SQLITE_CORRUPT:
       fail("is damaged: " + why);
     case SQLITE_BUSY:
-      fail(fmt::format("cannot write: another program has kept it locked for {} s",
-                       patience_ms / 1000));
+      fail(fmt::format("another program has kept it locked for {} s", patience_ms / 1000));
     case SQLITE_FULL:
     case SQLITE_IOERR:
     case SQLITE_READONLY:

@@ -131,7 +131,6 @@ void SweepDatabase::make(const SweepOrigin& origin) {
   for (const Identity& one : identity_of(plan_)) about(one.key, one.value);
   about("name", plan_.sweep.name);
   about("hash", plan_.hash());
-  about("cells", std::to_string(plan_.cells.size()));
   about("trials", std::to_string(plan_.sweep.trials));
   about("seed", std::to_string(plan_.cells.front().scenario.seed));
   about("host", origin.host);
@@ -221,6 +220,10 @@ std::string SweepReader::about(const std::string& key) const {
   const auto found = about_.find(key);
   if (found == about_.end()) database_.fail("is damaged: it does not say its " + key);
   return found->second;
+}
+
+std::size_t SweepReader::cells() const {
+  return static_cast<std::size_t>(database_.number("SELECT count(*) FROM cells"));
 }
 
 std::size_t SweepReader::trials() const {

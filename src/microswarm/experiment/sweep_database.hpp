@@ -53,7 +53,7 @@ class SweepReader {
   std::size_t column(const std::string& name) const;
   /// The sweep file as YAML, with every key written out.
   const Sweep& sweep() const { return sweep_; }
-  std::size_t cells() const { return static_cast<std::size_t>(std::stoull(about("cells"))); }
+  std::size_t cells() const;
   std::size_t trials() const;
   /// A text kept about the sweep: version, host, begun, seed, ... Throws InputError for none.
   std::string about(const std::string& key) const;
