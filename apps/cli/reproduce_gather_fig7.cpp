@@ -147,7 +147,7 @@ Plot plot_of(const std::string& name, const Measured& m) {
 void add_rows(const std::string& name, const Measured& m, std::vector<ReproduceRow>& rows) {
   const auto add = [&](std::size_t i, const char* what, double steps) {
     rows.push_back({.figure = "fig7",
-                    .quantity = fmt::format("{}, {} regions: {}", name, m.regions[i], what),
+                    .quantity = fmt::format("{}, regions {}: {}", name, m.regions[i], what),
                     .unit = "1",
                     .ours = steps});
   };
