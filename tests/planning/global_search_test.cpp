@@ -112,6 +112,17 @@ TEST(GlobalSearch, AClosedRoomIsLeftUnsolved) {
   EXPECT_EQ(found.plan.status, Status::node_limit);
 }
 
+TEST(GlobalSearch, RobotsThatHaveMetAreNotParted) {
+  const std::vector<Vec2> from{{100, 200}, {100, 200}}, far{{120, 200}, {200, 300}};
+  Rng rng(1, Purpose::planner);
+  const auto found = global_search(global_world(1), from, far, {.max_nodes = 20'000}, rng);
+  EXPECT_EQ(found.plan.status, Status::node_limit);
+  EXPECT_LT(found.counts.samples, 1000u);
+  ASSERT_EQ(found.plan.configurations.size(), 1u);
+  const std::vector<Vec2> near{{200, 300}, {220, 300}};
+  EXPECT_EQ(global_search(global_world(1), from, near, {}, rng).plan.status, Status::solved);
+}
+
 TEST(GlobalSearch, SaysWhatIsWrong) {
   const Map map = global_world(1);
   Rng rng(1, Purpose::planner);

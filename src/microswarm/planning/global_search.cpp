@@ -19,10 +19,12 @@ namespace {
 
 constexpr double round_growth = 1.3;
 constexpr double cell_of_tolerance = 2.25;
-constexpr double finest_of_cell = 0.7;  // a round's hypercubes are this to 1.4 times the cell
-constexpr double finer = 0.8;           // when a round found nothing new any more
+constexpr double finest_of_cell = 0.7;   // a round's hypercubes are this to 1.4 times the cell
+constexpr double finer = 0.8;            // when a round found nothing new any more
+constexpr double finest_of_step = 1e-3;  // nothing new however fine: there is nothing more
 constexpr int most_rounds = 10'000;
 constexpr double still_of_step = 0.002;  // a shorter move is none
+constexpr double met_of_step = 0.002;    // robots nearer than that have met
 
 using Configuration = std::array<PointF, most_global_robots>;
 
@@ -72,6 +74,17 @@ struct Problem {
       square = std::max(square, e.x * e.x + e.y * e.y);
     }
     return std::sqrt(static_cast<double>(square));
+  }
+  /// Have two robots met whose goals no place serves both? The same inputs never part them again.
+  bool is_dead(const Configuration& c) const {
+    const auto near = static_cast<float>(met_of_step * params.robostep);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (std::abs(c[i].x - c[j].x) < near && std::abs(c[i].y - c[j].y) < near &&
+            std::hypot(goals[i].x - goals[j].x, goals[i].y - goals[j].y) >
+                2 * static_cast<float>(params.goal_tolerance))
+          return true;
+    return false;
   }
   Vec2 position(PointF p) const {
     return map.bounds().centre() + Vec2{static_cast<double>(p.x), static_cast<double>(p.y)};
@@ -183,6 +196,7 @@ class Round {
   }
 
   void add(const Configuration& c, std::uint32_t parent, Held held) {
+    if (!nodes_.empty() && problem_.is_dead(c)) return;
     const double worst = problem_.worst(c);
     const bool is_best = worst < worst_;
     if (!seen_.insert(hypercube(c)).second && !is_best) return;
@@ -299,7 +313,9 @@ GlobalSearch global_search(const Map& map, std::span<const Vec2> starts,
     if (round.worst() < found.plan.worst) found.plan = played(problem, start, round.inputs());
     if (end == Round::End::solved || end == Round::End::told) break;
     round_nodes *= round_growth;
-    if (end == Round::End::exhausted) cell *= finer;
+    if (end != Round::End::exhausted) continue;
+    cell *= finer;
+    if (cell < finest_of_step * params.robostep) break;
   }
   found.plan.status = Status::node_limit;
   if (end == Round::End::solved) found.plan.status = Status::solved;
