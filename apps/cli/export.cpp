@@ -5,7 +5,7 @@
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
-#include "microswarm/experiment/sweep_export.hpp"
+#include "microswarm/sweep/export.hpp"
 #include "options.hpp"
 
 namespace microswarm::cli {

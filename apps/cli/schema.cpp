@@ -4,7 +4,7 @@
 #include "microswarm/config/help.hpp"
 #include "microswarm/config/schema.hpp"
 #include "microswarm/experiment/scenario.hpp"
-#include "microswarm/experiment/sweep_file.hpp"
+#include "microswarm/sweep/sweep_file.hpp"
 #include "options.hpp"
 
 namespace microswarm::cli {

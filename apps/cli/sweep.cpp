@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/sweep.hpp"
+#include "microswarm/sweep/sweep.hpp"
 
 #include <fmt/chrono.h>
 #include <unistd.h>
@@ -11,8 +11,8 @@
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/text.hpp"
-#include "microswarm/experiment/sweep_export.hpp"
-#include "microswarm/experiment/sweep_summary.hpp"
+#include "microswarm/sweep/export.hpp"
+#include "microswarm/sweep/summary.hpp"
 #include "options.hpp"
 
 namespace microswarm::cli {

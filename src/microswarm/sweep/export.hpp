@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "microswarm/experiment/record.hpp"
-#include "microswarm/experiment/sweep_database.hpp"
+#include "microswarm/sweep/sweep_database.hpp"
 
 namespace microswarm {
 

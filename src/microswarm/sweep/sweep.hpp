@@ -4,9 +4,9 @@
 #include <functional>
 #include <map>
 
-#include "microswarm/experiment/sweep_database.hpp"
-#include "microswarm/experiment/sweep_message.hpp"
-#include "microswarm/experiment/sweep_ranks.hpp"
+#include "microswarm/sweep/message.hpp"
+#include "microswarm/sweep/ranks.hpp"
+#include "microswarm/sweep/sweep_database.hpp"
 
 namespace microswarm {
 

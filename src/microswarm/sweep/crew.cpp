@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/sweep_crew.hpp"
+#include "microswarm/sweep/crew.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/sweep.hpp"
+#include "microswarm/sweep/sweep.hpp"
 
 #include <fstream>
 
-#include "tests/experiment/sweeps.hpp"
+#include "tests/sweep/sweeps.hpp"
 
 namespace microswarm {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/sweep_database.hpp"
+#include "microswarm/sweep/sweep_database.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/experiment/sweeps.hpp"
+#include "tests/sweep/sweeps.hpp"
 
-#include "microswarm/experiment/sweep_crew.hpp"
 #include "microswarm/experiment/trials.hpp"
+#include "microswarm/sweep/crew.hpp"
 
 namespace microswarm {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "microswarm/experiment/database.hpp"
-#include "microswarm/experiment/sweep_plan.hpp"
 #include "microswarm/experiment/trials.hpp"
+#include "microswarm/sweep/database.hpp"
+#include "microswarm/sweep/plan.hpp"
 
 namespace microswarm {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/sweep_table.hpp"
+#include "microswarm/sweep/table.hpp"
 
 #include <fmt/format.h>
 

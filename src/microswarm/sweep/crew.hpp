@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "microswarm/experiment/sweep_table.hpp"
+#include "microswarm/sweep/table.hpp"
 
 namespace microswarm {
 

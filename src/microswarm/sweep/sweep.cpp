@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/sweep.hpp"
+#include "microswarm/sweep/sweep.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "microswarm/core/error.hpp"
-#include "microswarm/experiment/sweep_crew.hpp"
+#include "microswarm/sweep/crew.hpp"
 
 namespace microswarm {
 namespace {

@@ -4,7 +4,7 @@
 #include <map>
 #include <optional>
 
-#include "microswarm/experiment/sweep_table.hpp"
+#include "microswarm/sweep/table.hpp"
 
 namespace microswarm {
 

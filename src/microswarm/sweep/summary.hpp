@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "microswarm/experiment/sweep_database.hpp"
+#include "microswarm/sweep/sweep_database.hpp"
 
 namespace microswarm {
 

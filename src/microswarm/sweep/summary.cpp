@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/sweep_summary.hpp"
+#include "microswarm/sweep/summary.hpp"
 
 #include "microswarm/core/statistics.hpp"
 

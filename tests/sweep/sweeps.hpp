@@ -2,7 +2,7 @@
 #pragma once
 
 #include "microswarm/core/file.hpp"
-#include "microswarm/experiment/sweep.hpp"
+#include "microswarm/sweep/sweep.hpp"
 #include "tests/experiment/scenes.hpp"
 
 namespace microswarm {

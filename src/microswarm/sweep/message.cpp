@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/sweep_message.hpp"
+#include "microswarm/sweep/message.hpp"
 
 #include <cstring>
 

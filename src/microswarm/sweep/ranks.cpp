@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/sweep_ranks.hpp"
+#include "microswarm/sweep/ranks.hpp"
 
 #include <cstdlib>
 

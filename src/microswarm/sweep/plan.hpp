@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "microswarm/experiment/scenario.hpp"
-#include "microswarm/experiment/sweep_file.hpp"
+#include "microswarm/sweep/sweep_file.hpp"
 
 namespace microswarm {
 

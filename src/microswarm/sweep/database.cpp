@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/database.hpp"
+#include "microswarm/sweep/database.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

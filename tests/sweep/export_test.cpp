@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/sweep_export.hpp"
+#include "microswarm/sweep/export.hpp"
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -7,8 +7,8 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "microswarm/experiment/sweep_summary.hpp"
-#include "tests/experiment/sweeps.hpp"
+#include "microswarm/sweep/summary.hpp"
+#include "tests/sweep/sweeps.hpp"
 
 namespace microswarm {
 namespace {
@@ -33,7 +33,7 @@ class SweepExport : public testing::Test {
   }
   static bool python(const std::string& module, const std::string& arguments) {
     const std::string command =
-        python_with(module) + " " + MICROSWARM_SOURCE_DIR + "/tests/experiment/" + arguments;
+        python_with(module) + " " + MICROSWARM_SOURCE_DIR + "/tests/sweep/" + arguments;
     return std::system(command.c_str()) == 0;
   }
   SweepReader sweep{folder() / "sweep.db"};

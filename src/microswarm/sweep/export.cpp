@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/sweep_export.hpp"
+#include "microswarm/sweep/export.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

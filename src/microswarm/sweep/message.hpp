@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "microswarm/experiment/sweep_table.hpp"
+#include "microswarm/sweep/table.hpp"
 
 namespace microswarm {
 

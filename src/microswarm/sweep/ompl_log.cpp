@@ -7,7 +7,7 @@
 
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/text.hpp"
-#include "microswarm/experiment/sweep_export.hpp"
+#include "microswarm/sweep/export.hpp"
 
 namespace microswarm {
 namespace {
