@@ -188,5 +188,37 @@ TEST(RobotStepper, StopsOrDoesNotMove) {
   EXPECT_EQ(moved(stepper, map, {10, 20}, {0, 0}, ContactRule::slide), (Vec2{10, 20}));
 }
 
+// The same input again and again along a wall is rounded the same way each time: towards the wall,
+// for some slants.
+TEST(RobotStepper, ThousandsOfEqualMovesAlongSlantingWallsDoNotCreepIntoThem) {
+  for (int i = 1; i < 400; i += 7) {
+    const double slant = 0.0005 * i;
+    const Map map({{0, 0}, {400, 500}},
+                  {Polygon{{{0, 0}, {31, 0}, {31 + 500 * slant, 500}, {0, 500}}, {}}});
+    const RobotStepper stepper(map, 3.2);
+    const Vec2 along = Vec2{slant, 1} / norm(Vec2{slant, 1});
+    const Vec2 off{along.y, -along.x};
+    for (const double length : {0.05, 0.3, 1.0}) {
+      for (const double lean : {-10.0, -0.2, -1e-3, -1e-5, -1e-6, -1e-7, 0.0, 1e-8, 1e-7}) {
+        const Vec2 move = length * (along + lean * off);
+        const PointF m{static_cast<float>(move.x), static_cast<float>(move.y)};
+        for (const ContactRule rule :
+             {ContactRule::slide, ContactRule::stop, ContactRule::reject}) {
+          PointF p = stepper.relative({31 + 20 * slant + 5, 20});
+          for (int k = 0; k < 20; ++k) p = stepper.moved(p, {-0.5F, 0}, ContactRule::stop);
+          Vec2 q;
+          for (int k = 0; k < 2000 && q.y < 490; ++k) {
+            p = stepper.moved(p, m, rule);
+            q = stepper.faces().origin() + Vec2{static_cast<double>(p.x), static_cast<double>(p.y)};
+          }
+          ASSERT_TRUE(map.is_free(q, 0)) << slant << ' ' << length << ' ' << lean;
+          if (rule != ContactRule::slide || lean < -1) continue;
+          ASSERT_GT(q.y, std::min(400.0, 1000 * length)) << "held by a plain wall";
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace microswarm

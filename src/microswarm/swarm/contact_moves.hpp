@@ -25,27 +25,31 @@ class ContactMoves {
   }
 
   /// Contacts in order along the move: what is left of it goes on along the wall that was met,
-  /// until nothing is left or a corner holds the robot.
+  /// until nothing is left or a corner holds the robot. Along a wall each piece leans off it by
+  /// more than rounding can bring the robot nearer.
   PointF slid(PointF p, PointF left) const {
     int contacts = 0;
+    PointF lean;
     const float most_pieces = std::ceil(length(left) / reach_) + most_contacts;
     for (float k = 0; k < most_pieces; ++k) {
       const float far = length(left);
       const float share = far > reach_ ? reach_ / far : 1.0f;
-      const PointF piece{share * left.x, share * left.y};
+      const PointF done{share * left.x, share * left.y};
+      const PointF piece{done.x + lean.x, done.y + lean.y};
       const FaceContact contact = first_contact_(p, piece);
       if (!contact.met()) {
         p = {p.x + piece.x, p.y + piece.y};
         if (share == 1.0f) return p;
-        left = {left.x - piece.x, left.y - piece.y};
+        left = {left.x - done.x, left.y - done.y};
         continue;
       }
       p = {p.x + contact.time * piece.x, p.y + contact.time * piece.y};
       if (++contacts == most_contacts) return p;
-      left = {left.x - contact.time * piece.x, left.y - contact.time * piece.y};
+      left = {left.x - contact.time * done.x, left.y - contact.time * done.y};
       const PointF n = contact.normal;
       const float along = left.y * n.x - left.x * n.y;
       left = {-along * n.y, along * n.x};
+      lean = {guard_ / 4 * n.x, guard_ / 4 * n.y};
       if (std::abs(along) < guard_) return p;
     }
     return p;

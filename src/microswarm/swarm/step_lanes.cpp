@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 
 #include "microswarm/swarm/contact_moves.hpp"
 
@@ -33,21 +34,25 @@ HWY_INLINE V times_to_contact(D d, const FaceLanes<V>& face, V x, V y, V move_x,
                               V guard) {
   const V never = hn::Set(d, 2.0f);
   const V zero = hn::Zero(d);
-  const V v = hn::Add(hn::Mul(move_x, face.normal_x), hn::Mul(move_y, face.normal_y));
   const V dx = hn::Sub(x, face.middle_x);
   const V dy = hn::Sub(y, face.middle_y);
   const V away = hn::Add(hn::Mul(dx, face.normal_x), hn::Mul(dy, face.normal_y));
-  const auto near = hn::And(hn::And(hn::Lt(v, zero), hn::Lt(hn::Add(away, v), guard)),
-                            hn::Ge(away, hn::Neg(guard)));
+  const V v = hn::Add(hn::Mul(move_x, face.normal_x), hn::Mul(move_y, face.normal_y));
+  const auto too_near = hn::Lt(away, guard);
+  const V leaving = hn::IfThenElseZero(too_near, hn::Mul(guard, hn::Set(d, 0.125f)));
+  const auto near =
+      hn::And(hn::And(hn::Lt(v, leaving), hn::Lt(hn::Add(away, v), hn::Add(guard, leaving))),
+              hn::Ge(away, hn::Neg(guard)));
   if (hn::AllFalse(d, near)) return never;
-  const V hit = hn::Max(zero, hn::Div(hn::Sub(guard, away), v));
+  const V towards = hn::Min(v, hn::Set(d, -std::numeric_limits<float>::min()));
+  const V hit = hn::Max(zero, hn::Div(hn::Sub(guard, away), towards));
   const V sideways = hn::Sub(hn::Mul(move_y, face.normal_x), hn::Mul(move_x, face.normal_y));
   const V along = hn::Add(hn::Sub(hn::Mul(dy, face.normal_x), hn::Mul(dx, face.normal_y)),
                           hn::Mul(hit, sideways));
   const auto meets = hn::And(near, hn::Le(hn::Abs(along), hn::Add(face.half_length, guard)));
   const V standoff = hn::Mul(hn::Set(d, 2.0f), guard);
-  const V time = hn::Max(zero, hn::Div(hn::Sub(standoff, away), v));
-  return hn::IfThenElse(meets, time, never);
+  const V time = hn::Max(zero, hn::Div(hn::Sub(standoff, away), towards));
+  return hn::IfThenElse(meets, hn::IfThenZeroElse(too_near, time), never);
 }
 
 /// Calls visit(pack, k, time) for the faces near one robot, a face a lane: `time` belongs to those
@@ -112,9 +117,10 @@ template <class D, class V>
 HWY_INLINE V first_of_all(D d, const WallFaces& faces, PointF move, V x, V y) {
   const V guard = hn::Set(d, faces.guard());
   const V move_x = hn::Set(d, move.x), move_y = hn::Set(d, move.y);
+  const float leaving = faces.guard() / 8;
   V first = hn::Set(d, 2.0f);
   for (const WallFace& face : faces.all()) {
-    if (!(move.x * face.normal.x + move.y * face.normal.y < 0)) continue;
+    if (!(move.x * face.normal.x + move.y * face.normal.y < leaving)) continue;
     const FaceLanes<V> same{hn::Set(d, face.middle.x), hn::Set(d, face.middle.y),
                             hn::Set(d, face.normal.x), hn::Set(d, face.normal.y),
                             hn::Set(d, face.half_length)};

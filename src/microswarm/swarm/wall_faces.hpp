@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -25,11 +26,13 @@ struct WallFace {
   float half_length = 0;  ///< [µm]; 0 for the blunted tip of a sharp corner
 };
 
-/// Up to eight faces side by side, for machines that look at so many at once; normals of the rest
-/// are 0.
+/// Up to eight faces side by side, for machines that look at so many at once; the rest have lengths
+/// below 0, so that nothing meets them.
 struct alignas(32) FacePack {
   static constexpr std::size_t size = 8;
-  std::array<float, size> middle_x{}, middle_y{}, normal_x{}, normal_y{}, half_length{};
+  std::array<float, size> middle_x{}, middle_y{}, normal_x{}, normal_y{}, half_length;
+
+  FacePack() { half_length.fill(std::numeric_limits<float>::lowest()); }
 
   WallFace operator[](std::size_t i) const {
     return {{middle_x[i], middle_y[i]}, {normal_x[i], normal_y[i]}, half_length[i]};
@@ -107,20 +110,23 @@ class WallFaces {
 };
 
 /// Share of the move `move` up to where a robot at `p` stands off from the face; 2 when the face is
-/// not met. The batch stepping does the same operations in the same order: the same bits.
+/// not met. A robot that many moves along the wall have rounded to nearer than `guard` stays (0)
+/// unless it leaves by an eighth of that: it would go on being rounded, into the wall. The batch
+/// stepping does the same operations in the same order: the same bits.
 inline float time_to_contact(const WallFace& face, PointF p, PointF move, float guard) {
   constexpr float never = 2;
-  const float v = move.x * face.normal.x + move.y * face.normal.y;
-  if (!(v < 0)) return never;
   const float dx = p.x - face.middle.x;
   const float dy = p.y - face.middle.y;
   const float d = dx * face.normal.x + dy * face.normal.y;
-  if (!(d + v < guard && d >= -guard)) return never;
-  const float hit = std::max(0.0f, (guard - d) / v);
+  const float v = move.x * face.normal.x + move.y * face.normal.y;
+  const float leaving = d < guard ? guard / 8 : 0.0f;
+  if (!(v < leaving && d + v < guard + leaving && d >= -guard)) return never;
+  const float towards = std::min(v, -std::numeric_limits<float>::min());
+  const float hit = std::max(0.0f, (guard - d) / towards);
   const float along = (dy * face.normal.x - dx * face.normal.y) +
                       hit * (move.y * face.normal.x - move.x * face.normal.y);
   if (!(std::abs(along) <= face.half_length + guard)) return never;
-  return std::max(0.0f, (2 * guard - d) / v);
+  return d < guard ? 0.0f : std::max(0.0f, (2 * guard - d) / towards);
 }
 
 }  // namespace microswarm
