@@ -190,7 +190,9 @@ TEST(Coverage, SameAsCountingEveryHypercube) {
     }
     EXPECT_EQ(found.occupied, cubes.size());
     // Rectangles 150…250 × 210…350 and 50…190 fill whole cells of 30.
-    if (cell == 30) EXPECT_EQ(found.free_cells, 100u - 2 * 8);
+    if (cell == 30) {
+      EXPECT_EQ(found.free_cells, 100u - 2 * 8);
+    }
     EXPECT_DOUBLE_EQ(found.share, double(cubes.size()) / std::pow(double(found.free_cells), 2));
   }
 }
