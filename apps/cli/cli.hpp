@@ -87,6 +87,9 @@ class ProgressBar {
 /// InputError "FOLDER: cannot make the folder: REASON" or "…: cannot write: REASON".
 void make_folder(const std::string& folder);
 
+/// Throws InputError when the file to be written is the one that is read.
+void keep_input(const std::string& out, const std::string& in);
+
 /// Folder of the scenarios that come with the program: of the source tree it was built in, or of
 /// the installation. Throws InputError when there is none.
 std::filesystem::path scenario_folder();

@@ -52,6 +52,14 @@ void ProgressBar::update(double share, const std::string& note) {
   std::fflush(stderr);
 }
 
+void keep_input(const std::string& out, const std::string& in) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  if (out.empty() || in.empty()) return;
+  if (fs::equivalent(out, in, none) || fs::weakly_canonical(out) == fs::weakly_canonical(in))
+    throw InputError(out + ": is the input, which would be lost");
+}
+
 void make_folder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);

@@ -34,6 +34,8 @@ void export_record(const Options& o) {
 }
 
 void export_sweep(const Options& o) {
+  if (!o.table.empty() && o.table != "frames")
+    throw InputError(o.file + ": --table takes the record of a run");
   const SweepReader sweep(o.file);
   if (!o.csv.empty()) {
     write_file_atomically(o.csv, sweep_csv(sweep));
@@ -54,6 +56,8 @@ void export_sweep(const Options& o) {
 int export_command(const Options& o) {
   if (o.csv.empty() && o.hdf5.empty() && o.ompl.empty())
     throw InputError("export: nothing to write: give --csv, --hdf5 or --ompl");
+  keep_input(o.csv, o.file);
+  keep_input(o.hdf5, o.file);
   is_hdf5(o.file) ? export_record(o) : export_sweep(o);
   return ok;
 }

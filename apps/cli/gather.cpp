@@ -38,12 +38,24 @@ void fit(Scenario& scenario, double width, int most_steps) {
   scenario.goal_tolerance = width;
 }
 
+/// Its --um-per-px is that of the photograph.
+MapSpec map_spec(const Options& o) {
+  try {
+    return guess_map_spec(o.map, o.um_per_px);
+  } catch (const InputError& error) {
+    std::string what = error.what();
+    if (const auto at = what.find("--um-per-px"); at != std::string::npos)
+      what.replace(at, 2, "--map-");
+    throw InputError(what);
+  }
+}
+
 int gather_command(const Options& o, const Context& context) {
   const std::vector<double> to = numbers(o.goal);
   const ReportOptions report = report_options(o.photo);
   Scenario scenario;
   scenario.name = std::filesystem::path(o.map).stem().string();
-  scenario.map = guess_map_spec(o.map, o.um_per_px);
+  scenario.map = map_spec(o);
   scenario.robots.emplace().count = o.robots;
   scenario.goal = Vec2{to[0], to[1]};
   scenario.navigator = AggregationParams{};
@@ -55,7 +67,7 @@ int gather_command(const Options& o, const Context& context) {
   Rng rng(o.seed, Purpose::planner);
   fit(scene.scenario, o.channel_width ? *o.channel_width : channel_width(*world.map, rng),
       o.most_steps);
-  for (const std::string& setting : o.settings) set_value(scene.scenario, setting);
+  set_values(scene.scenario, o.settings);
   check(scene.scenario, world, o.map);
   if (!o.out.empty()) make_folder(o.out);
   return run_once(scene, world, {o.out, false, o.json}, report, context.stop);

@@ -15,6 +15,7 @@
 #include "microswarm/planning/global_rrt.hpp"
 #include "microswarm/planning/global_search.hpp"
 #include "microswarm/planning/global_shorten.hpp"
+#include "microswarm/world/passage.hpp"
 #include "options.hpp"
 #include "robot_picture.hpp"
 
@@ -81,6 +82,25 @@ double seconds_since(Stop::Clock::time_point began) {
   return std::chrono::duration<double>(Stop::Clock::now() - began).count();
 }
 
+/// Throws InputError when nothing can bring the robots to their goals.
+void check_ways(const std::string& map_name, const Map& map, std::span<const Vec2> starts,
+                std::span<const Vec2> goals, double tolerance) {
+  const Snapshot world(std::shared_ptr<const Map>(std::shared_ptr<void>(), &map));
+  if (goals.size() != starts.size()) return;  // the planner says so, or there are none
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    if (!world.why_blocked(starts[i], 0).empty()) continue;
+    if (const std::string why = world.why_blocked(goals[i], 0); !why.empty())
+      throw InputError(fmt::format("{}: robot {}: goal {}", map_name, i + 1, why));
+    if (!connected(map, starts[i], goals[i]))
+      throw InputError(
+          fmt::format("{}: robot {} is cut off from its goal by walls", map_name, i + 1));
+    for (std::size_t k = 0; k < i; ++k)
+      if (starts[i] == starts[k] && distance(goals[i], goals[k]) > 2 * tolerance)
+        throw InputError(fmt::format("{}: robots {} and {} start in one place: nothing parts them",
+                                     map_name, k + 1, i + 1));
+  }
+}
+
 /// Throws InputError when no planner could have brought the robots there.
 void explain(const Options& o, const Map& map, std::span<const Vec2> starts,
              std::span<const Vec2> goals, const GlobalPlay& play, Status status) {
@@ -116,7 +136,7 @@ GlobalRrtParams parameters_of(const Options& o, const GlobalTree& tree) {
   grown.contact = tree.contact;
   grown.separation = tree.separation;
   choice.planner = grown;
-  for (const std::string& s : o.settings) set_value(choice, s);
+  set_values(choice, o.settings);
   const auto* set = std::get_if<GlobalRrtParams>(&choice.planner);
   const auto differs = [&](const char* key, const auto& was, const auto& is) {
     if (was != is)
@@ -219,6 +239,7 @@ Found found_plan(const Options& o, const LoadedMap& map, std::span<const Vec2> g
     const GlobalTree tree = read_global_tree(o.tree, map);
     const GlobalRrtParams params = parameters_of(o, tree);
     play = play_of(params);
+    check_ways(o.map, *map.map, tree.positions(0), goals, params.goal_tolerance);
     const auto began = Stop::Clock::now();
     Found found{plan_to(tree, ask(tree, goals, params.goal_tolerance)), tree.size()};
     found.seconds = seconds_since(began);
@@ -230,9 +251,10 @@ Found found_plan(const Options& o, const LoadedMap& map, std::span<const Vec2> g
     to_be_kept.stop_at_first = false;
     choice.planner = to_be_kept;
   }
-  for (const std::string& s : o.settings) set_value(choice, s);
+  set_values(choice, o.settings);
   play = play_of(choice.planner);
   const std::vector<Vec2> starts = places(o.robots);
+  check_ways(o.map, *map.map, starts, goals, play.goal_tolerance);
   Rng rng(o.seed, Purpose::planner);
   const auto began = Stop::Clock::now();
   const auto* rrt = std::get_if<GlobalRrtParams>(&choice.planner);
@@ -248,6 +270,8 @@ Found found_plan(const Options& o, const LoadedMap& map, std::span<const Vec2> g
 
 int global_command(const Options& o, const Context& context) {
   check_options(o);
+  for (const std::string& out : {o.save_tree, o.picture})
+    for (const std::string& in : {o.map, o.tree}) keep_input(out, in);
   const Stop stop = o.time_limit ? context.within(*o.time_limit) : context.stop;
   const LoadedMap map = load_map(guess_map_spec(o.map, o.um_per_px));
   const std::vector<Vec2> goals = places(o.goals);

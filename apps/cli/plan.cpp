@@ -102,8 +102,9 @@ void show(const Plan& made, double start_heading, double ms, bool json) {
 }
 
 int plan_command(const Options& o, const Context& context) {
+  keep_input(o.picture, o.map);
   Choice choice;
-  for (const std::string& s : o.settings) set_value(choice, s);
+  set_values(choice, o.settings);
   const std::vector<double> from = numbers(o.start);
   const std::vector<double> to = numbers(o.goal);
   const Pose2 start{{from[0], from[1]}, from.size() > 2 ? radians(from[2]) : 0.0};

@@ -44,12 +44,14 @@ std::string um(double length) {
 std::string robots_summary(const RunResult& result, const RobotSwarmParams& robots) {
   const Metrics& m = result.metrics;
   const bool gathered = result.status == Status::solved && robots.goals.empty();
-  return fmt::format(
-      "{} after {:.1f} s of simulated time and {} commands\n  {} {:.1f} µm\n  planning  {} times\n",
-      gathered ? "gathered" : ending(result.status), m.time, result.timing.steps.size(),
-      robots.goals.empty() ? "goal      the mean way to it is"
-                           : "goals     the robot farthest from its own is off by",
-      m.goal_distance, m.planning_events);
+  const std::string planning =
+      robots.goals.empty() ? "" : fmt::format("  planning  {} times\n", m.planning_events);
+  return fmt::format("{} after {:.1f} s of simulated time and {} commands\n  {} {:.1f} µm\n{}",
+                     gathered ? "gathered" : ending(result.status), m.time,
+                     result.timing.steps.size(),
+                     robots.goals.empty() ? "goal      the mean way to it is"
+                                          : "goals     the robot farthest from its own is off by",
+                     m.goal_distance, planning);
 }
 
 std::string summary(const RunResult& result) {

@@ -168,6 +168,9 @@ int sweep_command(Options o, const Context& context) {
   const SweepPlan plan = load_sweep(file, o.jobs);
   check(plan, o.jobs);
   if (o.out.empty()) o.out = file.stem().string() + ".db";
+  keep_input(o.out, o.sweep);
+  keep_input(o.csv, o.sweep);
+  keep_input(o.csv, o.out);
   const std::filesystem::path folder = std::filesystem::path(o.out).parent_path();
   if (!folder.empty()) make_folder(folder.string());
   SweepProgress progress;

@@ -35,14 +35,26 @@ TEST(Set, ReachesEveryField) {
   EXPECT_EQ(scene.note, std::nullopt);
 }
 
-TEST(Set, ATypeBeginsTheVariantAfresh) {
+TEST(Set, AnotherTypeBeginsTheVariantAfreshTheSameKeepsWhatIsSet) {
   Scene scene;
   set_value(scene, "tip.type=fan");
   EXPECT_EQ(scene.tip, Shape{Fan{}});
   set_value(scene, "tip.opening_deg=10");
   EXPECT_EQ(std::get<Fan>(scene.tip).opening, radians(10));
   set_value(scene, "tip.type=fan");
-  EXPECT_EQ(scene.tip, Shape{Fan{}});
+  EXPECT_EQ(std::get<Fan>(scene.tip).opening, radians(10));
+  Scene fresh;
+  set_values(fresh, {"tip.type=fan", "tip.opening_deg=10"});
+  EXPECT_EQ(fresh.tip, scene.tip);
+}
+
+TEST(Set, ATypeAfterWhatItMayDropIsRefused) {
+  Scene scene;
+  EXPECT_EQ(message_of([&] {
+              set_values(scene, {"tip.opening_deg=10", "tip.type=fan"});
+            }),
+            "--set tip.type: comes after 'tip.opening_deg=10', which it may drop: give it first");
+  check_types_first({"tip.type=fan", "tip.type=fan", "tip.opening_deg=10"});
 }
 
 TEST(Set, ComplaintsNameTheKeyAndLeaveTheValue) {

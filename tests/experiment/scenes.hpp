@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -85,9 +87,10 @@ inline Record record_of(const Scenario& scenario, std::uint32_t trial = 0) {
   return recorder.take();
 }
 
-/// A folder of its own for a test, empty.
+/// A folder of its own for a test, empty. Tests of one fixture may run in several processes.
 inline std::filesystem::path empty_folder(const std::string& name) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / ("microswarm_" + name);
+  const auto folder = std::filesystem::path(testing::TempDir()) /
+                      ("microswarm_" + name + "_" + std::to_string(getpid()));
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;

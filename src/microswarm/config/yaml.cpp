@@ -104,14 +104,30 @@ void set_value(const Type& type, void* value, std::string_view assignment) {
     if (more) path.remove_prefix(dot + 1);
     if (!more && word == "type") {
       enter_content(place);
-      if (place.type->kind == TypeKind::variant)
+      if (place.type->kind == TypeKind::variant) {
+        const YamlNode chosen = parse_yaml(text, name);
+        const std::size_t held = place.type->count(place.value);
+        if (chosen.text == place.type->words[held]) return;  // its settings stay
         return reader.choose(*place.type, fmt::format("type of {}", place.label), place.value,
-                             parse_yaml(text, name));
+                             chosen);
+      }
     }
     enter(place, word, reader);
   }
   reader.read(*place.type, place.info, place.label, place.value,
               value_node(*place.type, text, name));
+}
+
+void check_types_first(const std::vector<std::string>& assignments) {
+  for (std::size_t i = 0; i < assignments.size(); ++i) {
+    const std::string key = assignments[i].substr(0, assignments[i].find('='));
+    if (!key.ends_with(".type")) continue;
+    const std::string part = key.substr(0, key.size() - 4);  // with the dot
+    for (std::size_t k = 0; k < i; ++k)
+      if (assignments[k].starts_with(part) && !assignments[k].starts_with(key + "="))
+        throw InputError(fmt::format("--set {}: comes after {}, which it may drop: give it first",
+                                     key, quote(assignments[k])));
+  }
 }
 
 }  // namespace microswarm

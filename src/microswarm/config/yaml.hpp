@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "microswarm/config/type.hpp"
 #include "microswarm/core/file.hpp"
@@ -38,15 +39,26 @@ T read_yaml_file(const std::filesystem::path& path) {
 }
 
 /// Applies one `--set` assignment, "planner.step_um=60": keys joined by dots, a list's entries by
-/// index, then a value as it would stand in a file (a text may go without quotes). A variant's
-/// `type` brings that alternative with its defaults; its other keys need the alternative to be
-/// there already. Errors are as in a file, behind "--set planner.stpe_um: "; then `value` is as it
-/// was before.
+/// index, then a value as it would stand in a file (a text may go without quotes). Another `type`
+/// of a variant brings that alternative with its defaults; its other keys need the alternative to
+/// be there already. Errors are as in a file, behind "--set planner.stpe_um: "; then `value` is as
+/// it was before.
 template <HasFields T>
 void set_value(T& value, std::string_view assignment) {
   T changed = value;
   set_value(type_of<T>(), &changed, assignment);
   value = std::move(changed);
+}
+
+/// Throws InputError when one of several assignments chooses a variant's `type` after another has
+/// set a part of it, which would be lost.
+void check_types_first(const std::vector<std::string>& assignments);
+
+/// Applies several assignments in their order, after check_types_first.
+template <HasFields T>
+void set_values(T& value, const std::vector<std::string>& assignments) {
+  check_types_first(assignments);
+  for (const std::string& assignment : assignments) set_value(value, assignment);
 }
 
 }  // namespace microswarm

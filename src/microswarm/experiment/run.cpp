@@ -161,6 +161,7 @@ class Run {
 
   RunResult finish(Status status) {
     const Observation seen = plant_.observe();
+    if (scenario_.robots && !task_) begin_with_robots(seen);
     if (status == Status::stopped || status == Status::time_limit || status == Status::held)
       move_to(present(seen));
     Frame frame;

@@ -60,7 +60,7 @@ void hash_map(Hash& hash, const MapParts& map) {
 Scenario read_scenario(const std::filesystem::path& file,
                        const std::vector<std::string>& settings) {
   Scenario scenario = read_yaml_file<Scenario>(file);
-  for (const std::string& setting : settings) set_value(scenario, setting);
+  set_values(scenario, settings);
   return scenario;
 }
 
@@ -157,6 +157,8 @@ void check_body(const Scenario& scenario, const World& world, const std::string&
 void check_count(const Scenario& scenario, const std::string& where) {
   const RobotSwarmParams& robots = *scenario.robots;
   const auto fail = [&](const std::string& what) { throw InputError(where + ": " + what); };
+  if (to_yaml(scenario.swarm) != to_yaml(RibbonParams{}))
+    fail("swarm is for a swarm of one body; it and robots are both given");
   if (scenario.start) fail("start is for a swarm of one body; robots have robots.starts_um");
   if (!scenario.obstacles.empty()) fail("robots and moving obstacles cannot be in one scenario");
   if (robots.count > 0 && !robots.starts.empty())

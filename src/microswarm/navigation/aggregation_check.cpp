@@ -30,7 +30,7 @@ std::vector<bool> flood(const Map& map, const NodeLattice& lattice, Vec2 from,
 }
 
 double reached_share(const Map& map, Vec2 goal) {
-  const NodeLattice lattice(map.bounds(), 0, 100'000);
+  const NodeLattice lattice(map.bounds(), 0, 1'000'000);
   const std::vector<bool> reached = flood(map, lattice, goal, [](std::uint32_t) { return true; });
   double free = 0;
   double counted = 0;

@@ -14,7 +14,7 @@ struct AggregationGround {
   int ways_out = 0;          ///< channels that lead away from the goal; 1 at a dead end
 };
 
-/// Looks at a map with channels of about `width` [µm]: over a grid of some 100,000 places, and the
+/// Looks at a map with channels of about `width` [µm]: over a grid of some million places, and the
 /// surroundings of the goal out to 1.25 widths.
 AggregationGround aggregation_ground(const Map& map, Vec2 goal, double width);
 

@@ -67,8 +67,22 @@ struct Loader {
     }
   }
 
+  /// In the order in which they are applied.
+  void check_order(const SweepCell& cell, const SweepMethod& method) const {
+    std::vector<std::string> all = plan.sweep.set;
+    all.insert(all.end(), method.set.begin(), method.set.end());
+    for (std::size_t i = 0; i < cell.values.size(); ++i)
+      all.push_back(plan.sweep.grid[i].key + "=" + cell.values[i]);
+    try {
+      check_types_first(all);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: method '{}': {}", plan.file, method.name, error.what()));
+    }
+  }
+
   Scenario scenario_of(const SweepCell& cell, const SweepMethod& method) const {
     Scenario scenario = base;
+    check_order(cell, method);
     for (const std::string& setting : plan.sweep.set) apply(scenario, setting, "");
     for (const std::string& setting : method.set)
       apply(scenario, setting, fmt::format("method '{}': ", method.name));
