@@ -25,9 +25,9 @@ struct Context {
   explicit Context(const std::atomic<bool>* flag) : stop(flag), interrupted(flag) {}
   /// The same with a deadline.
   Stop within(double seconds) const {
-    return Stop(std::chrono::duration_cast<Stop::Clock::duration>(
-                    std::chrono::duration<double>(seconds)),
-                interrupted);
+    return Stop(
+        std::chrono::duration_cast<Stop::Clock::duration>(std::chrono::duration<double>(seconds)),
+        interrupted);
   }
 
   Stop stop;

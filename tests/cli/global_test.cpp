@@ -77,6 +77,10 @@ TEST_F(Global, SaysWhatIsWrong) {
   refused({"global", "l.csv", "--robots", "60,250;60,251", "--goals", goals, "--set",
            "planner.separation_um=10"},
           "l.csv: two starts are nearer to each other than separation_um 10");
+  refused({"global", "l.csv", "--robots", "60,300;60,300", "--goals", goals},
+          "l.csv: robots 1 and 2 start in one place: nothing parts them");
+  refused({"global", "l.csv", "--robots", robots, "--save-tree", "l.csv"},
+          "l.csv: is the input, which would be lost");
   refused({"global", "l.csv", "--robots", "60 250", "--goals", goals},
           "--robots: must be places as 60,300;60,250 in µm, not '60 250' (see microswarm global "
           "--help)");

@@ -171,6 +171,8 @@ TEST_F(Sweeps, ExportsARecordToo) {
   EXPECT_TRUE(read("frames.csv").starts_with("t_s,x_um,"));
   good({"export", "out/run.h5", "--csv", "events.csv", "--table", "events"});
   EXPECT_TRUE(read("events.csv").starts_with("t_s,kind,"));
+  refused({"export", "out/run.h5", "--csv", "out/../out/run.h5"},
+          "out/../out/run.h5: is the input, which would be lost");
   refused({"export", "out/run.h5", "--hdf5", "x.h5"}, "out/run.h5: is HDF5 as it is");
   refused({"export", "out/run.h5", "--ompl", "x"},
           "out/run.h5: --ompl takes the database of a sweep");

@@ -28,7 +28,9 @@ TEST(Trials, TwoThreadsGiveTheBitsOfOne) {
 TEST(Trials, VaryChangesEachTrialByItself) {
   Scenario scenario = open_room();
   TrialOptions options{.trials = 4, .jobs = 2};
-  options.vary = [](Scenario& s, std::uint32_t trial) { s.start->position.y = 300 + 100.0 * trial; };
+  options.vary = [](Scenario& s, std::uint32_t trial) {
+    s.start->position.y = 300 + 100.0 * trial;
+  };
   const auto trials = run_trials(scenario, world_of(scenario), options);
   for (std::uint32_t i = 0; i < 4; ++i) {
     scenario.start->position.y = 300 + 100.0 * i;

@@ -118,7 +118,8 @@ std::vector<Column<Frame>> columns_of(const Frame*) {
           "goal_distance", Unit::um, "What is left to the goal; of robots as in the metrics.",
           [](auto& f) -> auto& { return f.goal_distance; }),
       column<Frame>(
-          "wall_clearance", Unit::um, "From the centre at t to walls and border; infinite for robots.",
+          "wall_clearance", Unit::um,
+          "From the centre at t to walls and border; infinite for robots.",
           [](auto& f) -> auto& { return f.wall_clearance; }),
       column<Frame>(
           "obstacle_clearance", Unit::um,

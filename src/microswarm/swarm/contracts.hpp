@@ -24,8 +24,8 @@ struct TimedPose {
 
 /// What is seen: the newest frame, which is `age()` old when the navigator gets it. `swarm` is
 /// empty when no swarm was found in the frame. `robots` are its robots one by one, where they are
-/// told apart: robot i is the same in every observation; `swarm` is then their middle. `world` holds
-/// the map and the obstacles as seen then. Both live at least until the next observation.
+/// told apart: robot i is the same in every observation; `swarm` is then their middle. `world`
+/// holds the map and the obstacles as seen then. Both live at least until the next observation.
 struct Observation {
   double now = 0;   ///< time at which the navigator is asked [s]
   double seen = 0;  ///< time at which the frame was taken [s]
