@@ -22,8 +22,9 @@ std::vector<bool> flood(const Map& map, const NodeLattice& lattice, Vec2 from,
     open.push_back(node);
   };
   lattice.for_each_around(from, [&](std::uint32_t node) { visit(from, node); });
-  for (std::size_t k = 0; k < open.size(); ++k) {
-    const std::uint32_t node = open[k];
+  while (!open.empty()) {
+    const std::uint32_t node = open.back();
+    open.pop_back();
     lattice.for_each_neighbour(node, [&](std::uint32_t next) { visit(lattice[node], next); });
   }
   return reached;

@@ -47,6 +47,7 @@ std::vector<Pile> piles_of(const std::vector<Vec2>& places, double spot) {
     ++pile.count;
   }
   std::vector<Pile> piles;
+  piles.reserve(by_cell.size());
   for (const auto& [cell, pile] : by_cell)
     piles.push_back({pile.place / static_cast<double>(pile.count), pile.count});
   return piles;
