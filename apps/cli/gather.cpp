@@ -28,10 +28,9 @@ struct Options {
 /// The published lengths and speed [gather], for channels of 10 µm, made as large as this map's
 /// channels: a step a tick, gathered when the mean way is as short as a channel is wide.
 void fit(Scenario& scenario, double width, int most_steps) {
-  constexpr double published_width = 10;  // [µm]
-  constexpr double speed = 80;            // [µm/s]
+  constexpr double speed = 80;  // [µm/s]
   auto& params = std::get<AggregationParams>(scenario.navigator);
-  params.scale = width / published_width;
+  params.scale = width / published_channel_width;
   scenario.robots->max_speed = speed;
   scenario.tick = params.step * params.scale / speed;
   scenario.time_limit = most_steps * scenario.tick;

@@ -11,11 +11,11 @@
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/text.hpp"
 #include "microswarm/experiment/global_tree_file.hpp"
+#include "microswarm/experiment/robot_check.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/planning/global_rrt.hpp"
 #include "microswarm/planning/global_search.hpp"
 #include "microswarm/planning/global_shorten.hpp"
-#include "microswarm/world/passage.hpp"
 #include "options.hpp"
 #include "robot_picture.hpp"
 
@@ -39,14 +39,7 @@ struct Options {
   bool json = false;
 };
 
-/// The planner's choice as a file would hold it, so that --set planner.… works as in scenarios.
-struct Choice {
-  std::variant<GlobalSearchParams, GlobalRrtParams> planner;
-  template <class Self, class V>
-  static void fields(Self& self, V&& visit) {
-    visit(self.planner, {"planner", Unit::none, {}, "Planner and its parameters."});
-  }
-};
+using Choice = PlannerChoice<std::variant<GlobalSearchParams, GlobalRrtParams>>;
 
 /// "60,300;60,250"; empty when it is no such list.
 std::vector<Vec2> places(const std::string& text) {
@@ -82,23 +75,10 @@ double seconds_since(Stop::Clock::time_point began) {
   return std::chrono::duration<double>(Stop::Clock::now() - began).count();
 }
 
-/// Throws InputError when nothing can bring the robots to their goals.
-void check_ways(const std::string& map_name, const Map& map, std::span<const Vec2> starts,
-                std::span<const Vec2> goals, double tolerance) {
-  const Snapshot world(std::shared_ptr<const Map>(std::shared_ptr<void>(), &map));
-  if (goals.size() != starts.size()) return;  // the planner says so, or there are none
-  for (std::size_t i = 0; i < goals.size(); ++i) {
-    if (!world.why_blocked(starts[i], 0).empty()) continue;
-    if (const std::string why = world.why_blocked(goals[i], 0); !why.empty())
-      throw InputError(fmt::format("{}: robot {}: goal {}", map_name, i + 1, why));
-    if (!connected(map, starts[i], goals[i]))
-      throw InputError(
-          fmt::format("{}: robot {} is cut off from its goal by walls", map_name, i + 1));
-    for (std::size_t k = 0; k < i; ++k)
-      if (starts[i] == starts[k] && distance(goals[i], goals[k]) > 2 * tolerance)
-        throw InputError(fmt::format("{}: robots {} and {} start in one place: nothing parts them",
-                                     map_name, k + 1, i + 1));
-  }
+/// That the planner says itself when there are not as many goals as robots.
+void check_ends(const Options& o, const Map& map, std::span<const Vec2> starts,
+                std::span<const Vec2> goals, const GlobalPlay& play) {
+  if (goals.size() == starts.size()) check_ways(map, starts, goals, play.goal_tolerance, 0, o.map);
 }
 
 /// Throws InputError when no planner could have brought the robots there.
@@ -239,7 +219,7 @@ Found found_plan(const Options& o, const LoadedMap& map, std::span<const Vec2> g
     const GlobalTree tree = read_global_tree(o.tree, map);
     const GlobalRrtParams params = parameters_of(o, tree);
     play = play_of(params);
-    check_ways(o.map, *map.map, tree.positions(0), goals, params.goal_tolerance);
+    check_ends(o, *map.map, tree.positions(0), goals, play);
     const auto began = Stop::Clock::now();
     Found found{plan_to(tree, ask(tree, goals, params.goal_tolerance)), tree.size()};
     found.seconds = seconds_since(began);
@@ -254,7 +234,7 @@ Found found_plan(const Options& o, const LoadedMap& map, std::span<const Vec2> g
   set_values(choice, o.settings);
   play = play_of(choice.planner);
   const std::vector<Vec2> starts = places(o.robots);
-  check_ways(o.map, *map.map, starts, goals, play.goal_tolerance);
+  check_ends(o, *map.map, starts, goals, play);
   Rng rng(o.seed, Purpose::planner);
   const auto began = Stop::Clock::now();
   const auto* rrt = std::get_if<GlobalRrtParams>(&choice.planner);

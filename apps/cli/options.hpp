@@ -34,6 +34,17 @@ void add_photo(CLI::App* command, PhotoOptions& options);
 /// Reads the photograph, if one is named. Throws InputError.
 ReportOptions report_options(const PhotoOptions& options);
 
+/// The planner's choice as a file would hold it, so that --set planner.… works as in scenarios;
+/// `Planners` is a variant.
+template <class Planners>
+struct PlannerChoice {
+  Planners planner;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.planner, {"planner", Unit::none, {}, "Planner and its parameters."});
+  }
+};
+
 /// "11 of 14 aims are met", of rows to reproduce or of a bench.
 template <class Row>
 std::string aims_met(const std::vector<Row>& rows) {

@@ -30,14 +30,7 @@ struct Options {
   bool json = false;
 };
 
-/// The planner's choice as a file would hold it, so that --set planner.… works as in scenarios.
-struct Choice {
-  PlannerParams planner;
-  template <class Self, class V>
-  static void fields(Self& self, V&& visit) {
-    visit(self.planner, {"planner", Unit::none, {}, "Planner and its parameters."});
-  }
-};
+using Choice = PlannerChoice<PlannerParams>;
 
 struct Ends {
   double clearance;

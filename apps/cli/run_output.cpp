@@ -73,10 +73,8 @@ std::string summary(const RunResult& result) {
 void note_assumptions(const Scenario& scenario, const Map& map) {
   const auto* params = std::get_if<AggregationParams>(&scenario.navigator);
   if (!params) return;
-  constexpr double published_width = 10;  // [µm]
   Rng rng(scenario.seed, Purpose::scene);
-  const double width =
-      params->scale > 0 ? params->scale * published_width : channel_width(map, rng);
+  const double width = published_channel_width * scale_of(*params, map, rng);
   for (const std::string& note : unmet_assumptions(map, *scenario.goal, width))
     fmt::print(stderr, "note: {}\n", note);
 }

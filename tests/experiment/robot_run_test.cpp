@@ -131,7 +131,7 @@ TEST(RobotCheck, WhatCannotBeMeant) {
   EXPECT_EQ(check_error(s), "s.yaml: robots.goals_um has 1 places, robots.starts_um has 2");
   s = two_robots();
   s.robots->starts[1] = {200, 160};
-  EXPECT_EQ(check_error(s), "s.yaml: start 2 is 10 µm inside wall 1");
+  EXPECT_EQ(check_error(s), "s.yaml: robot 2: start is 10 µm inside wall 1");
   s = two_robots();
   s.robots->starts[1] = s.robots->starts[0];
   EXPECT_EQ(check_error(s), "s.yaml: robots 1 and 2 start in one place: nothing parts them");

@@ -34,12 +34,7 @@ struct Rig {
         swarm(p, RobotStepper(map, p.max_speed * tick), starts, rng),
         history{places()} {}
 
-  std::vector<Vec2> places() const {
-    std::vector<Vec2> out;
-    for (std::size_t i = 0; i < swarm.robots().size(); ++i)
-      out.push_back(swarm.robots().position(i));
-    return out;
-  }
+  std::vector<Vec2> places() const { return swarm.robots().positions(); }
   Observation observe() const {
     const auto ticks = static_cast<double>(history.size() - 1);
     return {.now = now,

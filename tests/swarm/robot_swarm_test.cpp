@@ -38,9 +38,9 @@ TEST(LaggingCommands, EachTakesEffectWhenItsLagIsOver) {
   LaggingCommands commands(0.15);
   std::vector<std::pair<double, double>> acted;  // speed, seconds
   const auto act = [&](const Command& c, double dt) { acted.emplace_back(c.speed, dt); };
-  commands.pass({0, 1}, 0.1, act);
-  commands.pass({0, 2}, 0.1, act);
-  commands.pass({0, 3}, 0.1, act);
+  commands.pass({0, 1}, 0.1, 0.1, act);
+  commands.pass({0, 2}, 0.1, 0.1, act);
+  commands.pass({0, 3}, 0.1, 0.1, act);
   const std::vector<std::pair<double, double>> expected{
       {0, 0.1}, {0, 0.05}, {1, 0.05}, {1, 0.05}, {2, 0.05}};
   ASSERT_EQ(acted.size(), expected.size());

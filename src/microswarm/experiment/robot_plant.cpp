@@ -23,12 +23,6 @@ SwarmPose body_of(std::span<const Vec2> robots, double heading) {
   return {{middle, heading}, std::sqrt(squares / static_cast<double>(robots.size()))};
 }
 
-std::vector<Vec2> places_of(const Robots& robots) {
-  std::vector<Vec2> places(robots.size());
-  for (std::size_t i = 0; i < places.size(); ++i) places[i] = robots.position(i);
-  return places;
-}
-
 RobotSwarm make_swarm(const Scenario& scenario, const Map& map, std::uint32_t trial, Rng& rng) {
   const std::vector<Vec2> starts = robot_starts(scenario, map, trial);
   return {*scenario.robots, RobotStepper(map, scenario.robots->max_speed * scenario.tick), starts,
@@ -63,7 +57,7 @@ RobotPlant::RobotPlant(const Scenario& scenario, World world, std::uint32_t tria
       motion_(scenario.seed, Purpose::plant, trial),
       noise_(scenario.seed, Purpose::sensor, trial),
       swarm_(make_swarm(scenario, *world_.map, trial, motion_)) {
-  history_.push_back({0, places_of(swarm_.robots())});
+  history_.push_back({0, swarm_.robots().positions()});
 }
 
 Observation RobotPlant::observe() {
@@ -86,7 +80,7 @@ void RobotPlant::apply(const Command& command, double dt) {
   swarm_.step(command, dt, motion_);
   command_ = command;
   now_ += dt;
-  history_.push_back({now_, places_of(swarm_.robots())});
+  history_.push_back({now_, swarm_.robots().positions()});
   while (history_.size() > 1 && history_[1].t <= now_ - sensing_.observation_delay)
     history_.pop_front();
 }

@@ -11,6 +11,7 @@
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/hash.hpp"
+#include "microswarm/experiment/robot_check.hpp"
 #include "microswarm/formats/tracks.hpp"
 #include "microswarm/planning/free_goal.hpp"
 #include "microswarm/world/passage.hpp"
@@ -154,55 +155,6 @@ void check_body(const Scenario& scenario, const World& world, const std::string&
   check_margin(scenario, world, where);
 }
 
-void check_count(const Scenario& scenario, const std::string& where) {
-  const RobotSwarmParams& robots = *scenario.robots;
-  const auto fail = [&](const std::string& what) { throw InputError(where + ": " + what); };
-  if (to_yaml(scenario.swarm) != to_yaml(RibbonParams{}))
-    fail("swarm is for a swarm of one body; it and robots are both given");
-  if (scenario.start) fail("start is for a swarm of one body; robots have robots.starts_um");
-  if (!scenario.obstacles.empty()) fail("robots and moving obstacles cannot be in one scenario");
-  if (robots.count > 0 && !robots.starts.empty())
-    fail("robots.count and robots.starts_um are both given");
-  if (robots.count == 0 && robots.starts.empty())
-    fail("no robots: give robots.count or robots.starts_um");
-  if (robots.goals.empty() == !scenario.goal)
-    fail(scenario.goal ? "goal_um and robots.goals_um are both given" : "missing key 'goal_um'");
-  if (robots.goals.empty()) return;
-  if (robots.goals.size() != robots.starts.size())
-    fail(fmt::format("robots.goals_um has {} places, robots.starts_um has {}", robots.goals.size(),
-                     robots.starts.size()));
-  if (robots.starts.size() > most_global_robots)
-    fail(fmt::format("{} robots with goals of their own, at most {} can be planned for",
-                     robots.starts.size(), most_global_robots));
-}
-
-void check_places(const Scenario& scenario, const World& world, const std::string& where) {
-  const RobotSwarmParams& robots = *scenario.robots;
-  const Snapshot walls(world.map);
-  const double guard = 2 * RobotStepper(*world.map, robots.max_speed * scenario.tick).guard();
-  const auto check_free = [&](const std::string& what, Vec2 p, double radius) {
-    if (const auto why = walls.why_blocked(p, radius); !why.empty())
-      throw InputError(fmt::format("{}: {} {}", where, what, why));
-  };
-  const auto goal_of = [&](std::size_t i) {
-    return robots.goals.empty() ? *scenario.goal : robots.goals[i];
-  };
-  if (scenario.goal) check_free("goal", *scenario.goal, 0);
-  for (std::size_t i = 0; i < robots.goals.size(); ++i)
-    check_free(fmt::format("goal {}", i + 1), robots.goals[i], 0);
-  for (std::size_t i = 0; i < robots.starts.size(); ++i) {
-    check_free(fmt::format("start {}", i + 1), robots.starts[i], guard);
-    if (!connected(*world.map, robots.starts[i], goal_of(i)))
-      throw InputError(fmt::format("{}: robot {} is cut off from its goal by walls", where, i + 1));
-  }
-  for (std::size_t i = 0; i < robots.goals.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k)
-      if (robots.starts[i] == robots.starts[k] &&
-          distance(robots.goals[i], robots.goals[k]) > 2 * scenario.goal_tolerance)
-        throw InputError(fmt::format("{}: robots {} and {} start in one place: nothing parts them",
-                                     where, k + 1, i + 1));
-}
-
 }  // namespace
 
 Task task_of(const Scenario& scenario) {
@@ -215,12 +167,13 @@ Task task_of(const Scenario& scenario) {
 
 void check(const Scenario& scenario, const World& world, const std::string& where) {
   check_sensing(scenario, where);
-  if (scenario.robots) check_count(scenario, where);
+  if (scenario.robots) check_robots(scenario, where);
   if (!scenario.robots && !scenario.goal)
     throw InputError(fmt::format("{}: missing key 'goal_um'", where));
   if (const auto lack = what_it_lacks(scenario.navigator, task_of(scenario)); !lack.empty())
     throw InputError(fmt::format("{}: this navigator needs {}", where, lack));
-  scenario.robots ? check_places(scenario, world, where) : check_body(scenario, world, where);
+  scenario.robots ? check_robot_places(scenario, *world.map, where)
+                  : check_body(scenario, world, where);
 }
 
 }  // namespace microswarm

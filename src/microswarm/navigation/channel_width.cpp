@@ -21,9 +21,12 @@ double channel_width(const Map& map, Rng& rng) {
   return 4 * sum / count;
 }
 
+double scale_of(const AggregationParams& params, const Map& map, Rng& rng) {
+  return params.scale > 0 ? params.scale : channel_width(map, rng) / published_channel_width;
+}
+
 AggregationParams fitted(AggregationParams params, const Map& map, Rng& rng) {
-  constexpr double published_width = 10;  // [µm]
-  const double factor = params.scale > 0 ? params.scale : channel_width(map, rng) / published_width;
+  const double factor = scale_of(params, map, rng);
   params.tree = scaled(params.tree, factor);
   for (double* length : {&params.step, &params.sigma, &params.discount_length}) *length *= factor;
   params.scale = 1;

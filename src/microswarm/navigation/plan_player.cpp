@@ -7,16 +7,6 @@
 
 namespace microswarm {
 
-namespace {
-
-std::vector<Vec2> places_of(const Robots& robots) {
-  std::vector<Vec2> places;
-  for (std::size_t i = 0; i < robots.size(); ++i) places.push_back(robots.position(i));
-  return places;
-}
-
-}  // namespace
-
 PlanPlayer::PlanPlayer(const PlanPlayerParams& params, const RobotSwarmParams& robots,
                        double goal_tolerance, double tick, Rng rng)
     : params_(params), swarm_(robots), tick_(tick), rng_(rng) {
@@ -95,7 +85,7 @@ void PlanPlayer::find_way(const Robots& robots, double now, const Stop& stop) {
   on_plan_ = false;
   input_ = plan_.inputs.size();
   if (now < retry_at_) return;
-  const std::vector<Vec2> places = places_of(robots);
+  const std::vector<Vec2> places = robots.positions();
   plan_ = global_search(*map_, places, swarm_.goals, params_.planner, rng_, stop).plan;
   if (plan_.status != Status::solved) retry_at_ = now + params_.retry_time;
   input_ = 0;

@@ -9,8 +9,8 @@
 #include <map>
 #include <utility>
 
+#include "microswarm/report/ground.hpp"
 #include "microswarm/report/page.hpp"
-#include "microswarm/report/picture.hpp"
 #include "microswarm/report/plot.hpp"
 
 namespace microswarm {
@@ -23,9 +23,7 @@ struct Subject {
   const ReportOptions& options;
   World world;
   const Scenario& scenario() const { return record.scene.scenario; }
-  std::string title() const {
-    return scenario().name.empty() ? std::string("run") : scenario().name;
-  }
+  std::string title() const { return title_of(record); }
   bool few() const { return scenario().robots->starts.size() - 1 < most_numbered; }
 };
 
@@ -86,12 +84,7 @@ void draw_goals(Picture& picture, const Subject& s) {
 void draw(const Subject& s, const RobotMoment& moment, const std::string& what,
           const std::filesystem::path& file) {
   Picture picture(s.world.map->bounds(), fmt::format("{}: {}", s.title(), what));
-  if (s.options.photo) {
-    picture.photo(*s.options.photo, s.options.um_per_px, 0.25);
-    picture.walls(*s.world.map, {1, 1, 1, 0.55}, colours::wall_edge);
-  } else {
-    picture.walls(*s.world.map);
-  }
+  draw_ground(picture, *s.world.map, s.options);
   draw_ways(picture, s, moment.t);
   draw_robots(picture, s, moment.places);
   draw_goals(picture, s);

@@ -8,8 +8,8 @@
 #include <span>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/report/ground.hpp"
 #include "microswarm/report/page.hpp"
-#include "microswarm/report/picture.hpp"
 #include "microswarm/report/plot.hpp"
 #include "microswarm/report/robots_report.hpp"
 
@@ -25,19 +25,8 @@ struct Subject {
   const ReportOptions& options;
   World world;
   const Scenario& scenario() const { return record.scene.scenario; }
-  std::string title() const {
-    return scenario().name.empty() ? std::string("run") : scenario().name;
-  }
+  std::string title() const { return title_of(record); }
 };
-
-void draw_ground(Picture& picture, const Subject& s) {
-  if (s.options.photo) {
-    picture.photo(*s.options.photo, s.options.um_per_px, 0.25);
-    picture.walls(*s.world.map, {1, 1, 1, 0.55}, colours::wall_edge);
-  } else {
-    picture.walls(*s.world.map);
-  }
-}
 
 void draw_ends(Picture& picture, const Subject& s) {
   picture.mark(s.scenario().start->position, "start");
@@ -66,7 +55,7 @@ void overview(const Subject& s, std::span<const PlanEvent* const> shown,
       s.world.map->bounds(),
       fmt::format("{}: {} after {:.1f} s, {:.0f} µm", s.title(), to_string(record.result.status),
                   record.result.metrics.time, record.result.metrics.length));
-  draw_ground(picture, s);
+  draw_ground(picture, *s.world.map, s.options);
   for (int k = 0; k < ghosts; ++k) {
     Colour c = colours::obstacle;
     c.alpha = faint;
@@ -103,7 +92,7 @@ void moment(const Subject& s, const PlanEvent& event, const std::filesystem::pat
   const Frame& frame = frame_at(s.record, event.t);
   Picture picture(around(s, frame, event),
                   fmt::format("{} at {:.1f} s: local target, tree and path", s.title(), event.t));
-  draw_ground(picture, s);
+  draw_ground(picture, *s.world.map, s.options);
   picture.bodies(s.world.at(event.t).moving().bodies());
   for (const Detection& d : event.plan.detections) picture.circle(d.circle, colours::circle, 1);
   picture.tree(event.plan.tree);

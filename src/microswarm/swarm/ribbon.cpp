@@ -8,32 +8,18 @@
 
 namespace microswarm {
 
-namespace {
-
-// Times nearer than this are the same moment: sums of ticks and lags do not come out even.
-constexpr double same_moment = 1e-9;
-
-}  // namespace
-
-Ribbon::Ribbon(const RibbonParams& params, Pose2 start) : params_(params), pose_(start) {}
+Ribbon::Ribbon(const RibbonParams& params, Pose2 start)
+    : params_(params), pose_(start), commands_(params.response_lag) {}
 
 void Ribbon::step(const Command& command, double dt, Rng& rng) {
-  pending_.push_back({command, params_.response_lag});
   swept_.assign(1, {0, pose_});
   double passed = 0;
-  while (dt - passed > same_moment) {
-    while (!pending_.empty() && pending_.front().due <= same_moment) {
-      active_ = pending_.front().command;
-      active_.speed = std::clamp(active_.speed, 0.0, params_.max_speed);
-      pending_.pop_front();
-    }
-    const double until_next = pending_.empty() ? dt : pending_.front().due;
-    const double piece = std::min({ribbon_substep, dt - passed, until_next});
+  commands_.pass(command, dt, ribbon_substep, [&](const Command& active, double piece) {
+    active_ = {active.heading, std::clamp(active.speed, 0.0, params_.max_speed)};
     advance(piece, rng);
-    for (Pending& p : pending_) p.due -= piece;
     passed += piece;
     swept_.push_back({passed, pose_});
-  }
+  });
   swept_.back().t = dt;
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <deque>
 #include <span>
 #include <vector>
 
 #include "microswarm/core/fields.hpp"
 #include "microswarm/core/rng.hpp"
 #include "microswarm/swarm/contracts.hpp"
+#include "microswarm/swarm/lagging_commands.hpp"
 
 namespace microswarm {
 
@@ -53,17 +53,12 @@ class Ribbon {
   std::span<const TimedPose> swept() const { return swept_; }
 
  private:
-  struct Pending {
-    Command command;
-    double due;  // [s] from now
-  };
-
   void advance(double dt, Rng& rng);
 
   RibbonParams params_;
   Pose2 pose_;
   Command active_;
-  std::deque<Pending> pending_;
+  LaggingCommands commands_;
   std::vector<TimedPose> swept_;
 };
 

@@ -21,6 +21,11 @@ struct Robots {
   Vec2 position(std::size_t i) const {
     return origin + Vec2{static_cast<double>(x[i]), static_cast<double>(y[i])};
   }
+  std::vector<Vec2> positions() const {
+    std::vector<Vec2> all(size());
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = position(i);
+    return all;
+  }
 };
 
 /// Moves point robots that all get the same input and meet walls: Alg 2 [global], Eq 1 [gather]. No

@@ -21,7 +21,7 @@ RobotSwarm::RobotSwarm(const RobotSwarmParams& params, RobotStepper stepper,
 }
 
 void RobotSwarm::step(const Command& command, double dt, Rng& rng) {
-  commands_.pass(command, dt, [&](Command active, double piece) {
+  commands_.pass(command, dt, dt, [&](Command active, double piece) {
     active.speed = std::clamp(active.speed, 0.0, params_.max_speed);
     own_speed_.empty() ? stepper_.step(robots_, displacement(active, piece), params_.contact)
                        : advance_each(active, piece, rng);

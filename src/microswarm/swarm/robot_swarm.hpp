@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <deque>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "microswarm/core/fields.hpp"
 #include "microswarm/core/rng.hpp"
 #include "microswarm/swarm/contracts.hpp"
+#include "microswarm/swarm/lagging_commands.hpp"
 #include "microswarm/swarm/robot_stepper.hpp"
 
 namespace microswarm {
@@ -60,43 +59,6 @@ struct RobotSwarmParams {
     visit(self.response_lag,
           {"response_lag", Unit::s, {0, 10}, "Dead time from a command to its effect."});
   }
-};
-
-/// Commands on their way to a swarm, each of which takes effect `lag` seconds after it was given.
-/// Before the first one it holds.
-class LaggingCommands {
- public:
-  explicit LaggingCommands(double lag) : lag_(lag) {}
-
-  /// Gives a command and lets `dt` seconds pass: calls `act(command, seconds)` for what is in
-  /// effect, piece by piece.
-  template <class Act>
-  void pass(const Command& command, double dt, Act&& act) {
-    pending_.push_back({command, lag_});
-    for (double passed = 0; dt - passed > same_moment;) {
-      while (!pending_.empty() && pending_.front().due <= same_moment) {
-        active_ = pending_.front().command;
-        pending_.pop_front();
-      }
-      const double until_next =
-          pending_.empty() ? std::numeric_limits<double>::infinity() : pending_.front().due;
-      double piece = until_next < dt - passed ? until_next : dt - passed;
-      act(active_, piece);
-      for (Pending& p : pending_) p.due -= piece;
-      passed += piece;
-    }
-  }
-
- private:
-  // Times nearer than this are the same moment: sums of ticks and lags do not come out even.
-  static constexpr double same_moment = 1e-9;
-  struct Pending {
-    Command command;
-    double due;  // [s] from now
-  };
-  double lag_;
-  Command active_;
-  std::deque<Pending> pending_;
 };
 
 /// The moving part of that model.

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "microswarm/report/picture.hpp"
+#include "microswarm/report/run_report.hpp"
+
+namespace microswarm {
+
+/// What a run is called in reports.
+std::string title_of(const Record& record);
+
+/// The walls, over the photograph where there is one.
+void draw_ground(Picture& picture, const Map& map, const ReportOptions& options);
+
+}  // namespace microswarm
