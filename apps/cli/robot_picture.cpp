@@ -14,7 +14,7 @@ namespace {
 constexpr Colour violet{0.42, 0.24, 0.60, 1};
 constexpr Colour sky{0.34, 0.71, 0.91, 1};
 constexpr Colour olive{0.55, 0.50, 0.10, 1};
-constexpr std::array<Colour, most_global_robots> robot_colours{
+constexpr std::array<Colour, 8> robot_colours{
     colours::path, colours::swarm, colours::obstacle, colours::circle, colours::goal, violet,
     sky,           olive};
 
@@ -25,15 +25,16 @@ void draw_robots(const Map& map, const GlobalPlan& plan, std::span<const Vec2> g
   Picture picture(map.bounds(), title);
   picture.walls(map);
   for (std::size_t robot = 0; robot < goals.size(); ++robot) {
+    const Colour colour = robot_colours[robot % robot_colours.size()];
     std::vector<Vec2> way;
     for (const auto& places : plan.configurations) way.push_back(places[robot]);
-    picture.circle({goals[robot], tolerance}, robot_colours[robot], 2);
-    picture.line(way, robot_colours[robot], 2.5);
+    picture.circle({goals[robot], tolerance}, colour, 2);
+    picture.line(way, colour, 2.5);
     if (!way.empty()) {
-      picture.mark(way.front(), fmt::format("start {}", robot + 1), robot_colours[robot]);
-      picture.mark(way.back(), "", robot_colours[robot]);
+      picture.mark(way.front(), fmt::format("start {}", robot + 1), colour);
+      picture.mark(way.back(), "", colour);
     }
-    picture.legend(fmt::format("robot {}, its goal dashed", robot + 1), robot_colours[robot]);
+    picture.legend(fmt::format("robot {}, its goal dashed", robot + 1), colour);
   }
   picture.write(file);
 }

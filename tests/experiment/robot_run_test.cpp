@@ -136,10 +136,10 @@ TEST(RobotCheck, WhatCannotBeMeant) {
   s.robots->starts[1] = s.robots->starts[0];
   EXPECT_EQ(check_error(s), "s.yaml: robots 1 and 2 start in one place: nothing parts them");
   s = two_robots();
-  s.robots->starts.assign(9, {60, 300});
-  s.robots->goals.assign(9, {330, 300});
+  s.robots->starts.assign(65, {60, 300});
+  s.robots->goals.assign(65, {330, 300});
   EXPECT_EQ(check_error(s),
-            "s.yaml: 9 robots with goals of their own, at most 8 can be planned for");
+            "s.yaml: 65 robots with goals of their own, at most 64 can be planned for");
   s = two_robots();
   std::get<PolygonsMap>(s.map).walls = {{{200, 50}, {210, 50}, {210, 350}, {200, 350}}};
   EXPECT_EQ(check_error(s), "s.yaml: robot 1 is cut off from its goal by walls");

@@ -58,7 +58,7 @@ void expect_same_as_brute_force(std::size_t dimension, std::size_t count,
 float uniform(Rng& rng, std::size_t) { return static_cast<float>(rng.uniform(-150, 150)); }
 
 TEST(BucketKdTree, UniformPointsInEveryDimension) {
-  for (std::size_t d = 1; d <= BucketKdTree::most_dimensions; ++d)
+  for (const std::size_t d : {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 15, 16, 17, 31, 64, 128})
     expect_same_as_brute_force(d, 3000, uniform);
 }
 

@@ -76,17 +76,24 @@ class NearestSearch {
     const std::size_t lanes = hn::Lanes(d);
     HWY_ALIGN float squares[BucketKdTree::bucket_size];
     V least = hn::Set(d, std::numeric_limits<float>::infinity());
+    const V limit = hn::Set(d, least_);
+    const std::size_t half = (tree_.dimension + 1) / 2;
     const float* x = rows->x.data();
     for (std::size_t i = 0; i < bucket.count; i += 2 * lanes) {
       V a = hn::Zero(d), b = hn::Zero(d);
-      for (std::size_t axis = 0; axis < tree_.dimension; ++axis) {
-        const V p = hn::Set(d, point_[axis]);
-        const float* line = x + axis * BucketKdTree::bucket_size + i;
-        const V da = hn::Sub(hn::Load(d, line), p);
-        const V db = hn::Sub(hn::Load(d, line + lanes), p);
-        a = hn::Add(a, hn::Mul(da, da));
-        b = hn::Add(b, hn::Mul(db, db));
-      }
+      const auto add_axes = [&](std::size_t first, std::size_t end) HWY_ATTR {
+        for (std::size_t axis = first; axis < end; ++axis) {
+          const V p = hn::Set(d, point_[axis]);
+          const float* line = x + axis * BucketKdTree::bucket_size + i;
+          const V da = hn::Sub(hn::Load(d, line), p);
+          const V db = hn::Sub(hn::Load(d, line + lanes), p);
+          a = hn::Add(a, hn::Mul(da, da));
+          b = hn::Add(b, hn::Mul(db, db));
+        }
+      };
+      add_axes(0, half);
+      // Half a sum that is too much already is left at that: it is no least one.
+      if (!hn::AllTrue(d, hn::Gt(hn::Min(a, b), limit))) add_axes(half, tree_.dimension);
       hn::Store(a, d, squares + i);
       hn::Store(b, d, squares + i + lanes);
       least = hn::Min(least, hn::Min(a, b));

@@ -19,7 +19,7 @@ namespace microswarm {
 /// safe to run in several threads.
 class BucketKdTree {
  public:
-  static constexpr std::size_t most_dimensions = 16;
+  static constexpr std::size_t most_dimensions = 128;
 
   /// `dimension` is 1 to most_dimensions.
   explicit BucketKdTree(std::size_t dimension);

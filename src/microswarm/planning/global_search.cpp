@@ -2,7 +2,6 @@
 #include "microswarm/planning/global_search.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -26,7 +25,7 @@ constexpr int most_rounds = 10'000;
 constexpr double still_of_step = 0.002;  // a shorter move is none
 constexpr double met_of_step = 0.002;    // robots nearer than that have met
 
-using Configuration = std::array<PointF, most_global_robots>;
+using Configuration = std::span<const PointF>;
 
 /// An input held for some steps.
 struct Held {
@@ -35,7 +34,6 @@ struct Held {
 };
 
 struct Node {
-  Configuration robots;
   std::uint32_t parent = 0;
   Held held;
 };
@@ -62,12 +60,12 @@ struct Problem {
     if (stepper.faces().near(p).empty()) return {p.x + move.x, p.y + move.y};
     return stepper.moved(p, move, params.contact);
   }
-  Configuration placed(std::span<const Vec2> places) const {
-    Configuration c{};
+  std::vector<PointF> placed(std::span<const Vec2> places) const {
+    std::vector<PointF> c(n);
     for (std::size_t i = 0; i < n; ++i) c[i] = stepper.relative(places[i]);
     return c;
   }
-  double worst(const Configuration& c) const {
+  double worst(Configuration c) const {
     float square = 0;
     for (std::size_t i = 0; i < n; ++i) {
       const PointF e{goals[i].x - c[i].x, goals[i].y - c[i].y};
@@ -76,7 +74,7 @@ struct Problem {
     return std::sqrt(static_cast<double>(square));
   }
   /// Have two robots met whose goals no place serves both? The same inputs never part them again.
-  bool is_dead(const Configuration& c) const {
+  bool is_dead(Configuration c) const {
     const auto near = static_cast<float>(met_of_step * params.robostep);
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < i; ++j)
@@ -91,7 +89,7 @@ struct Problem {
   }
   /// How wrong the robots stand to each other, and the way they have to go together: straight, or
   /// where there are `fields`, the mean of their ways around the walls.
-  double cost(const Configuration& c, std::span<const GeodesicField> fields) const {
+  double cost(Configuration c, std::span<const GeodesicField> fields) const {
     Vec2 sum;
     double squares = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -113,14 +111,17 @@ struct Problem {
 /// One search from the start, with its own hypercubes.
 class Round {
  public:
-  Round(const Problem& problem, std::span<const GeodesicField> fields, const Configuration& start,
+  Round(const Problem& problem, std::span<const GeodesicField> fields, Configuration start,
         double cell, Rng& rng, PlanCounts& counts)
       : problem_(problem),
         separation_(problem.stepper, problem.params.contact, problem.params.separation),
         fields_(fields),
         rng_(rng),
         counts_(counts),
-        per_cell_(static_cast<float>(1 / cell)) {
+        per_cell_(static_cast<float>(1 / cell)),
+        offset_(problem.n),
+        before_(problem.n),
+        now_(problem.n) {
     for (PointF& p : offset_)
       p = {static_cast<float>(rng.uniform()), static_cast<float>(rng.uniform())};
     add(start, 0, {});
@@ -152,56 +153,59 @@ class Round {
   }
 
  private:
+  Configuration configuration(std::uint32_t node) const {
+    return {places_.data() + problem_.n * node, problem_.n};
+  }
   bool is_solved() const { return worst_ <= problem_.params.goal_tolerance; }
 
   // Nodes after 1, 2, 4, 8 … steps, where what hinders the robots changes, and where they rest.
   void hold(std::uint32_t from, std::size_t input) {
     const PointF move = problem_.moves[input];
     const auto still = static_cast<float>(still_of_step * problem_.params.robostep);
-    Configuration now = nodes_[from].robots;
-    unsigned hindered_before = 0;
-    unsigned at_rest = 0;
+    std::ranges::copy(configuration(from), now_.begin());
+    std::uint64_t hindered_before = 0;
+    std::uint64_t at_rest = 0;
     std::uint16_t next = 1;
-    const auto node_at = [&](const Configuration& c, std::uint16_t steps) {
+    const auto node_at = [&](Configuration c, std::uint16_t steps) {
       add(c, from, {static_cast<std::uint8_t>(input), steps});
     };
     for (std::uint16_t steps = 1; steps <= problem_.most_steps; ++steps) {
-      const Configuration before = now;
-      unsigned hindered = 0;
+      std::swap(before_, now_);
+      std::uint64_t hindered = 0;
       bool is_moving = false;
       for (std::size_t i = 0; i < problem_.n; ++i) {
-        const PointF p = before[i];
-        const PointF q = (at_rest >> i & 1u) != 0 ? p : problem_.moved(p, move);
-        if (q.x == p.x && q.y == p.y) at_rest |= 1u << i;
-        now[i] = q;
+        const PointF p = before_[i];
+        const PointF q = (at_rest >> i & 1) != 0 ? p : problem_.moved(p, move);
+        if (q.x == p.x && q.y == p.y) at_rest |= std::uint64_t{1} << i;
+        now_[i] = q;
         const float lost = std::abs(q.x - p.x - move.x) + std::abs(q.y - p.y - move.y);
-        if (lost > still) hindered |= 1u << i;
+        if (lost > still) hindered |= std::uint64_t{1} << i;
         is_moving |= std::abs(q.x - p.x) + std::abs(q.y - p.y) > still;
       }
       counts_.edge_checks += 1;
-      const bool is_apart =
-          separation_.holds({before.data(), problem_.n}, {now.data(), problem_.n}, move);
+      const bool is_apart = separation_.holds(before_, now_, move);
       if (!is_moving || !is_apart) {
-        if (steps > 1) node_at(before, static_cast<std::uint16_t>(steps - 1));
+        if (steps > 1) node_at(before_, static_cast<std::uint16_t>(steps - 1));
         return;
       }
       const bool changes = steps > 1 && hindered != hindered_before;
-      if (changes) node_at(before, static_cast<std::uint16_t>(steps - 1));
-      if (changes || steps == next || problem_.worst(now) <= problem_.params.goal_tolerance)
-        node_at(now, steps);
+      if (changes) node_at(before_, static_cast<std::uint16_t>(steps - 1));
+      if (changes || steps == next || problem_.worst(now_) <= problem_.params.goal_tolerance)
+        node_at(now_, steps);
       if (is_solved()) return;
       if (steps == next) next = static_cast<std::uint16_t>(2 * next);
       hindered_before = hindered;
     }
   }
 
-  void add(const Configuration& c, std::uint32_t parent, Held held) {
+  void add(Configuration c, std::uint32_t parent, Held held) {
     if (!nodes_.empty() && problem_.is_dead(c)) return;
     const double worst = problem_.worst(c);
     const bool is_best = worst < worst_;
     if (!seen_.insert(hypercube(c)).second && !is_best) return;
     const auto node = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.push_back({c, parent, held});
+    nodes_.push_back({parent, held});
+    places_.insert(places_.end(), c.begin(), c.end());
     ++counts_.samples;
     const double noisy = problem_.cost(c, fields_) * (1 + problem_.params.noise * rng_.uniform());
     open_.push({static_cast<float>(noisy), node});
@@ -211,7 +215,7 @@ class Round {
   }
 
   /// Fingerprint of the hypercube; two that share one only cost a node.
-  std::uint64_t hypercube(const Configuration& c) const {
+  std::uint64_t hypercube(Configuration c) const {
     std::uint64_t h = 0;
     const auto mix = [&](float v) {
       const auto cell = static_cast<std::int64_t>(std::floor(v));
@@ -231,8 +235,10 @@ class Round {
   Rng& rng_;
   PlanCounts& counts_;
   float per_cell_;
-  Configuration offset_{};
+  std::vector<PointF> offset_;  // of the hypercubes
+  std::vector<PointF> before_, now_;
   std::vector<Node> nodes_;
+  std::vector<PointF> places_;  // n a node
   std::unordered_set<std::uint64_t> seen_;
   std::priority_queue<Open> open_;
   std::uint32_t best_ = 0;
@@ -240,10 +246,10 @@ class Round {
 };
 
 /// The inputs one by one, and where the robots get by them.
-GlobalPlan played(const Problem& problem, const Configuration& start,
+GlobalPlan played(const Problem& problem, Configuration start,
                   const std::vector<Held>& inputs) {
   GlobalPlan plan;
-  Configuration now = start;
+  std::vector<PointF> now(start.begin(), start.end());
   const auto note = [&] {
     std::vector<Vec2> places;
     for (std::size_t i = 0; i < problem.n; ++i) places.push_back(problem.position(now[i]));
@@ -293,7 +299,7 @@ GlobalSearch global_search(const Map& map, std::span<const Vec2> starts,
     found.plan.status = *fault;
     return found;
   }
-  const Configuration start = problem.placed(starts);
+  const std::vector<PointF> start = problem.placed(starts);
   const auto most_nodes = static_cast<std::uint64_t>(params.max_nodes);
   double round_nodes = params.round_nodes;
   double cell = params.cell > 0 ? params.cell : cell_of_tolerance * params.goal_tolerance;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include "microswarm/planning/global_separation.hpp"
@@ -14,7 +13,7 @@ namespace {
 
 constexpr int most_rounds = 20;
 
-using Robots8 = std::array<PointF, most_global_robots>;
+using Configuration = std::vector<PointF>;
 
 /// `count` equal inputs from `first` on.
 struct Run {
@@ -32,14 +31,14 @@ class Shortening {
         stop_(stop),
         n_(goals.size()),
         origin_(map.bounds().centre()) {
-    for (std::size_t i = 0; i < n_; ++i) goals_[i] = stepper_.relative(goals[i]);
+    for (const Vec2 goal : goals) goals_.push_back(stepper_.relative(goal));
     for (const Vec2 u : plan.inputs)
       inputs_.push_back({static_cast<float>(u.x), static_cast<float>(u.y)});
-    Robots8 start{};
-    for (std::size_t i = 0; i < n_; ++i) start[i] = stepper_.relative(plan.configurations[0][i]);
+    Configuration start;
+    for (const Vec2 p : plan.configurations[0]) start.push_back(stepper_.relative(p));
     states_.push_back(start);
     for (const PointF u : inputs_) {
-      Robots8 next = states_.back();
+      Configuration next = states_.back();
       step(next, u);
       states_.push_back(next);
     }
@@ -61,7 +60,7 @@ class Shortening {
     GlobalPlan plan{Status::solved, {}, {}, worst(states_.back())};
     for (const PointF u : inputs_)
       plan.inputs.push_back({static_cast<double>(u.x), static_cast<double>(u.y)});
-    for (const Robots8& robots : states_) {
+    for (const Configuration& robots : states_) {
       std::vector<Vec2>& places = plan.configurations.emplace_back();
       for (std::size_t i = 0; i < n_; ++i)
         places.push_back(origin_ +
@@ -73,17 +72,17 @@ class Shortening {
 
  private:
   /// False when robots come too near each other.
-  bool step(Robots8& robots, PointF u) const {
-    const Robots8 before = robots;
+  bool step(Configuration& robots, PointF u) {
+    before_ = robots;
     for (std::size_t i = 0; i < n_; ++i) {
       const PointF p = robots[i];
       robots[i] = stepper_.faces().near(p).empty() ? PointF{p.x + u.x, p.y + u.y}
                                                    : stepper_.moved(p, u, play_.contact);
     }
-    return separation_.holds({before.data(), n_}, {robots.data(), n_}, u);
+    return separation_.holds(before_, robots, u);
   }
 
-  double worst(const Robots8& robots) const {
+  double worst(const Configuration& robots) const {
     double square = 0;
     for (std::size_t i = 0; i < n_; ++i) {
       const double dx = static_cast<double>(robots[i].x) - static_cast<double>(goals_[i].x);
@@ -97,8 +96,9 @@ class Shortening {
   /// goals, up to where it first does.
   bool try_without(std::span<const Run> gaps) {
     const std::size_t from = gaps[0].first;
-    Robots8 robots = states_[from];
+    Configuration robots = states_[from];
     played_.clear();
+    reached_.clear();
     bool solved = worst(robots) <= play_.goal_tolerance;
     std::size_t gap = 0;
     for (std::size_t k = from; k < inputs_.size() && !solved;) {
@@ -107,16 +107,16 @@ class Shortening {
         continue;
       }
       if (!step(robots, inputs_[k])) return false;
-      played_.emplace_back(inputs_[k++], robots);
+      played_.push_back(inputs_[k++]);
+      reached_.insert(reached_.end(), robots.begin(), robots.end());
       solved = worst(robots) <= play_.goal_tolerance;
     }
     if (!solved) return false;
     inputs_.resize(from);
     states_.resize(from + 1);
-    for (const auto& [u, state] : played_) {
-      inputs_.push_back(u);
-      states_.push_back(state);
-    }
+    inputs_.insert(inputs_.end(), played_.begin(), played_.end());
+    for (auto at = reached_.begin(); at != reached_.end(); at += static_cast<std::ptrdiff_t>(n_))
+      states_.emplace_back(at, at + static_cast<std::ptrdiff_t>(n_));
     return true;
   }
 
@@ -160,10 +160,12 @@ class Shortening {
   const Stop& stop_;
   std::size_t n_;
   Vec2 origin_;
-  Robots8 goals_{};
+  Configuration goals_;
   std::vector<PointF> inputs_;
-  std::vector<Robots8> states_;  ///< before the first input, and after each
-  std::vector<std::pair<PointF, Robots8>> played_;
+  std::vector<Configuration> states_;  ///< before the first input, and after each
+  std::vector<PointF> played_;           ///< of the try under way
+  std::vector<PointF> reached_;          ///< n after each
+  Configuration before_;
 };
 
 }  // namespace
