@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/navigation/motion_fit.hpp"
+#include "microswarm/swarm/contracts.hpp"
+
+namespace microswarm {
+
+struct ObstacleTrackerParams {
+  int frames = 12;
+  double memory = 4;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.frames, {"frames", Unit::none, {2, 100}, "Frames to tell a motion from, at most."});
+    visit(self.memory, {"memory",
+                        Unit::s,
+                        {1e-2, 60},
+                        "Older frames, from which the noise is told, are forgotten."});
+  }
+};
+
+/// How one body moves, as told from where it was seen; at the time of the newest frame.
+struct TrackedBody {
+  Vec2 centre;                ///< the disc's, or the centroid of the outline [µm]
+  Vec2 velocity;              ///< of the centre [µm/s]; 0 when seen only once
+  Vec2 acceleration;          ///< of the centre [µm/s²]; 0 while it goes straight
+  double velocity_error = 0;  ///< of a coordinate, standard deviation [µm/s]; infinite at first
+  double radius = 0;          ///< of the disc, or to the farthest vertex [µm]
+  double radius_rate = 0;     ///< [µm/s]
+  double outline_speed = 0;   ///< the outline moved so fast besides the centre [µm/s]
+  int frames = 0;             ///< on which this stands
+
+  /// Where its centre will be `dt` seconds later at this velocity.
+  Vec2 centre_after(double dt) const { return centre + dt * velocity; }
+};
+
+/// Tells every obstacle's motion from what was seen of it: places in frames and their times, never
+/// what a simulation knows (Body::velocity, Body::deformation_speed). Frames may be missed, late or
+/// uneven. A body is known again by its obstacle's number, the leaves of one obstacle by their
+/// order. Allocates nothing once it has seen the obstacles.
+class ObstacleTracker {
+ public:
+  explicit ObstacleTracker(const ObstacleTrackerParams& params = {}) : params_(params) {}
+
+  /// Takes a frame. One that is not newer than the last is not taken again; one that is older
+  /// begins anew. An observation without a world is left out.
+  void see(const Observation& observation);
+  /// One entry a body, in the order of the newest frame's moving().bodies().
+  std::span<const TrackedBody> bodies() const { return bodies_; }
+  /// When the newest frame was taken [s]; -infinity before the first.
+  double seen() const { return seen_; }
+
+ private:
+  /// What is remembered of one body.
+  struct Trail {
+    std::uint32_t obstacle = 0;
+    std::uint32_t leaf = 0;
+    std::vector<Sighting> places;  ///< of the centre, ascending in time
+    std::vector<Sighting> radii;   ///< (radius, 0)
+    std::vector<Vec2> outline;     ///< in the newest frame, about the centre
+    double outline_speed = 0;
+  };
+
+  void take(const Snapshot& frame);
+  Trail& trail_of(std::uint32_t obstacle, std::uint32_t leaf);
+  void extend(Trail& trail, const Body& body) const;
+  TrackedBody told_by(const Trail& trail) const;
+
+  ObstacleTrackerParams params_;
+  double seen_ = -std::numeric_limits<double>::infinity();
+  std::vector<Trail> trails_;  ///< ascending by (obstacle, leaf)
+  std::vector<TrackedBody> bodies_;
+};
+
+/// Centre of a body as the tracker takes it, and its radius around it [µm].
+Disc extent_of(const Body& body);
+
+}  // namespace microswarm
