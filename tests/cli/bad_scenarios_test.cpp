@@ -10,7 +10,7 @@ class BadScenarios : public CommandLine {};
 
 TEST_F(BadScenarios, NotANumber) {
   run_refused(with(two_rooms(), "radius_um", "  radius_um: .nan"),
-              "flight.yaml:8:14: radius_um is .nan, must be finite");
+              "flight.yaml:9:14: radius_um is .nan, must be finite");
   write("flight.yaml", two_rooms());
   refused({"run", "flight.yaml", "--set", "swarm.radius_um=nan"},
           "--set swarm.radius_um: radius_um is nan, must be finite");
@@ -42,7 +42,7 @@ TEST_F(BadScenarios, GoalCutOff) {
 
 TEST_F(BadScenarios, UnknownKey) {
   run_refused(with(two_rooms(), "radius_um", "  radus_um: 40"),
-              "flight.yaml:8:3: unknown key 'radus_um', did you mean 'radius_um'?");
+              "flight.yaml:9:3: unknown key 'radus_um', did you mean 'radius_um'?");
   write("flight.yaml", two_rooms());
   refused({"run", "flight.yaml", "--set", "swarn.radius_um=3"},
           "--set swarn.radius_um: unknown key 'swarn', did you mean 'swarm'?");
@@ -50,14 +50,14 @@ TEST_F(BadScenarios, UnknownKey) {
 
 TEST_F(BadScenarios, WrongType) {
   run_refused(with(two_rooms(), "radius_um", "  radius_um: thick"),
-              "flight.yaml:8:14: radius_um must be a number, not 'thick'");
+              "flight.yaml:9:14: radius_um must be a number, not 'thick'");
   run_refused(with(two_rooms(), "goal_um", "goal_um: 5"),
-              "flight.yaml:11:10: goal_um must be [x, y], not '5'");
+              "flight.yaml:12:10: goal_um must be [x, y], not '5'");
 }
 
 TEST_F(BadScenarios, OutOfRange) {
   run_refused(with(two_rooms(), "radius_um", "  radius_um: -3"),
-              "flight.yaml:8:14: radius_um is -3 µm, allowed 0.001..1e5 µm");
+              "flight.yaml:9:14: radius_um is -3 µm, allowed 0.001..1e5 µm");
 }
 
 TEST_F(BadScenarios, MicrometresPerPixelMissing) {

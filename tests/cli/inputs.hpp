@@ -21,6 +21,7 @@ inline std::string two_rooms(int gap = 300) {
          lower + "], [1000, " + upper + ", 60, " + lower +
          "]]\n"
          "swarm:\n"
+         "  type: ribbon\n"
          "  radius_um: 40\n"
          "  max_speed_um_per_s: 120\n"
          "start: {x_um: 200, y_um: 400, heading_deg: 0}\n"

@@ -11,7 +11,7 @@ namespace {
 Scenario delayed(double delay) {
   Scenario scenario = open_room();
   scenario.sensing.observation_delay = delay;
-  scenario.swarm.response_lag = 0;
+  std::get<RibbonParams>(scenario.swarm).response_lag = 0;
   scenario.obstacles = {disc(50, Straight{.start = {500, 700}, .velocity = {30, 0}})};
   return scenario;
 }
@@ -43,7 +43,7 @@ TEST(KinematicPlant, AtTheBeginningItShowsTheStart) {
 
 TEST(KinematicPlant, DelaysLongerThanATickKeepTheirHistory) {
   Scenario scenario = delayed(1.05);
-  scenario.swarm.max_turn_rate = 1;
+  std::get<RibbonParams>(scenario.swarm).max_turn_rate = 1;
   KinematicPlant plant(scenario, world_of(scenario));
   std::vector<Pose2> truth{*scenario.start};
   for (int i = 0; i < 40; ++i) {
@@ -75,7 +75,7 @@ TEST(KinematicPlant, NoiseAndMissedFramesAreThoseAskedFor) {
 
 TEST(KinematicPlant, TrialsDifferAndRepeat) {
   Scenario scenario = delayed(0);
-  scenario.swarm.position_noise = 5;
+  std::get<RibbonParams>(scenario.swarm).position_noise = 5;
   const auto end_of = [&](std::uint32_t trial) {
     KinematicPlant plant(scenario, world_of(scenario), trial);
     for (int i = 0; i < 10; ++i) plant.apply({0, 40}, 0.1);

@@ -32,7 +32,7 @@ TEST(Record, AStraightFlightIsTheSameBitsInEveryBuild) {
   Recorder recorder(scene);
   RunListener* const listeners[] = {&recorder};
   run(scenario, plant, navigator, listeners);
-  EXPECT_EQ(recorder.record().hash(), "e7de53cc5bd9a355");
+  EXPECT_EQ(recorder.record().hash(), "f898f36d39703ff6");
 }
 
 TEST(Record, TheSmallFlightArrives) { EXPECT_EQ(flight().result.status, Status::solved); }

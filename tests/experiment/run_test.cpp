@@ -99,7 +99,8 @@ TEST(Run, NothingThatComesAfterTheLastTouchCounts) {
   Steady navigator({0, 0});
   const Told told = run_with(scenario, navigator);
   EXPECT_EQ(told.result.status, Status::collided);
-  EXPECT_NEAR(told.result.metrics.obstacles.clearance, scenario.swarm.radius, 0.1);
+  EXPECT_NEAR(told.result.metrics.obstacles.clearance,
+              std::get<RibbonParams>(scenario.swarm).radius, 0.1);
 }
 
 TEST(Run, ATouchWhileHoldingIsNotTheSwarmsFault) {
@@ -180,6 +181,33 @@ TEST(TimeSummary, OfKnownNumbers) {
   EXPECT_EQ(s.p99, 5);
   EXPECT_EQ(s.max, 5);
   EXPECT_EQ(summarise({}).count, 0);
+}
+
+TEST(AvoidanceCost, IsEquationFour) {
+  // The examples given with Fig 1 [radar]: 100 of 200 px left at 60°, 130 left at 90°.
+  EXPECT_NEAR(avoidance_cost({100, 0}, pi / 3, true, 200), 0.25, 1e-12);
+  EXPECT_NEAR(avoidance_cost({0, 130}, 0, true, 200), 0.65, 1e-12);
+  EXPECT_EQ(avoidance_cost({100, 0}, 0, true, 200), 0);
+  EXPECT_EQ(avoidance_cost({-100, 0}, 0, true, 200), 1);
+  EXPECT_EQ(avoidance_cost({100, 0}, 0, false, 200), 0.5);  // a hold gets no nearer
+  EXPECT_EQ(avoidance_cost({0, 0}, 1, true, 200), 0);
+}
+
+TEST(Run, CountsWhatItAvoidsOnlyWhileSomethingIsNear) {
+  Scenario scenario = open_room();
+  scenario.detection_range = 100;
+  scenario.obstacles = {disc(50, Still{{1000, 800}, 0})};
+  GoStraight navigator(*scenario.goal, 60);
+  const Told far = run_with(scenario, navigator);
+  EXPECT_EQ(far.result.metrics.avoidance.time, 0);
+  EXPECT_EQ(far.result.metrics.avoidance.mean_cost, 0);
+  EXPECT_GT(far.result.metrics.avoidance.least_gap, 100);
+  scenario.detection_range = 400;
+  const Told near = run_with(scenario, navigator);
+  EXPECT_GT(near.result.metrics.avoidance.time, 1);
+  EXPECT_GE(near.result.metrics.avoidance.mean_gap, near.result.metrics.avoidance.least_gap);
+  EXPECT_NEAR(near.result.metrics.avoidance.least_gap, far.result.metrics.avoidance.least_gap,
+              1e-9);
 }
 
 }  // namespace

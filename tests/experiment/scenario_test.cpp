@@ -40,7 +40,7 @@ TEST(Scenario, SettingsComeAfterTheFile) {
   const Scenario scenario =
       read_scenario(folder / "s.yaml", {"seed=9", "swarm.radius_um=25", "goal_um=[7, 8]"});
   EXPECT_EQ(scenario.seed, 9u);
-  EXPECT_EQ(scenario.swarm.radius, 25);
+  EXPECT_EQ(std::get<RibbonParams>(scenario.swarm).radius, 25);
   EXPECT_EQ(scenario.goal, (Vec2{7, 8}));
 }
 
@@ -118,7 +118,7 @@ TEST(ScenarioCheck, GoalCutOff) {
   std::get<PolygonsMap>(scenario.map).walls = {bar(1000, 0, 20, 1000).outer};
   EXPECT_EQ(check_error(scenario), "s.yaml: goal is cut off from the start by walls");
   // For a swarm thinner than the search for ways can see, too.
-  scenario.swarm.radius = 0.5;
+  std::get<RibbonParams>(scenario.swarm).radius = 0.5;
   std::get<HierarchicalParams>(scenario.navigator).margin = 1;
   EXPECT_EQ(check_error(scenario), "s.yaml: goal is cut off from the start by walls");
 }
@@ -138,7 +138,7 @@ TEST(ScenarioCheck, SwarmWiderThanEveryPassage) {
   const std::string expected =
       "s.yaml: swarm is 80 µm wide, wider than every passage to the goal: the widest is about ";
   EXPECT_EQ(check_error(scenario).substr(0, expected.size()), expected);
-  scenario.swarm.radius = 29;
+  std::get<RibbonParams>(scenario.swarm).radius = 29;
   std::get<HierarchicalParams>(scenario.navigator).margin = 29;
   EXPECT_EQ(check_error(scenario), "");
 }

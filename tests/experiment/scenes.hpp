@@ -58,7 +58,7 @@ inline Scenario open_room() {
   scenario.map = PolygonsMap{.lo = {0, 0}, .hi = {2000, 1000}, .walls = {}, .discs = {}};
   scenario.start = Pose2{{200, 500}, 0};
   scenario.goal = Vec2{1800, 500};
-  scenario.swarm.max_speed = 60;
+  std::get<RibbonParams>(scenario.swarm).max_speed = 60;
   scenario.time_limit = 60;
   return scenario;
 }
@@ -71,7 +71,7 @@ inline Scenario small_flight() {
   scenario.obstacles = {
       disc(60, HarmonicLine{.centre = {600, 500}, .amplitude = {0, 250}, .period = 40}),
       disc(50, HarmonicLine{.centre = {1400, 500}, .amplitude = {150, 0}, .period = 40})};
-  scenario.swarm.position_noise = 2;
+  std::get<RibbonParams>(scenario.swarm).position_noise = 2;
   scenario.sensing.position_noise = 3;
   return scenario;
 }

@@ -15,8 +15,8 @@ TEST(Watch, SeesADiscThatFliesThroughTheSwarmBetweenTwoTicks) {
   // At 100 µm per ms it is far away on both sides at the ticks.
   scenario.obstacles = {disc(10, Straight{.start = {1000, -4000}, .velocity = {0, 90000}})};
   const World world = world_of(scenario);
-  Watch watch(world, 40);
-  const Way way{{0, {{1000, 500}, 0}}, {0.1, {{1000, 500}, 0}}};
+  Watch watch(world);
+  const Way way{{0, {{1000, 500}, 0}, 40}, {0.1, {{1000, 500}, 0}, 40}};
   const auto touches = watch.follow(0, way);
   ASSERT_EQ(touches.size(), 1u);
   EXPECT_EQ(touches[0].kind, EventKind::contact_obstacle);
@@ -35,13 +35,13 @@ TEST(Watch, LeastDistanceIsThatOfTheClosedForm) {
     const Vec2 from{rng.uniform(300, 1700), rng.uniform(300, 700)};
     const Vec2 swarm_velocity{rng.uniform(-80, 80), rng.uniform(-80, 80)};
     world.obstacles = {disc(30, Straight{start, velocity})};
-    Watch watch(world, 20);
+    Watch watch(world);
     double least = 1e9;
     Vec2 p = from;
     bool touched = false;
     for (int tick = 0; tick < 10; ++tick) {
       const Vec2 q = p + 0.1 * swarm_velocity;
-      touched |= !watch.follow(0.1 * tick, Way{{0, {p, 0}}, {0.1, {q, 0}}}).empty();
+      touched |= !watch.follow(0.1 * tick, Way{{0, {p, 0}, 20}, {0.1, {q, 0}, 20}}).empty();
       p = q;
     }
     const Vec2 gap = start - from, closing = velocity - swarm_velocity;
@@ -59,9 +59,9 @@ TEST(Watch, LeastDistanceToABreathingDisc) {
   scenario.obstacles = {{BreathingDisc{.least_radius = 50, .greatest_radius = 150, .period = 0.4},
                          Still{{1000, 500}, 0}}};
   const World world = world_of(scenario);
-  Watch watch(world, 40);
+  Watch watch(world);
   for (int tick = 0; tick < 8; ++tick)
-    watch.follow(0.1 * tick, Way{{0, {{1200, 500}, 0}}, {0.1, {{1200, 500}, 0}}});
+    watch.follow(0.1 * tick, Way{{0, {{1200, 500}, 0}, 40}, {0.1, {{1200, 500}, 0}, 40}});
   EXPECT_NEAR(watch.obstacles().clearance, 50, 0.05);
 }
 
@@ -70,10 +70,11 @@ TEST(Watch, ATouchThatLastsIsOneEvent) {
   scenario.obstacles = {
       disc(50, HarmonicLine{.centre = {1000, 500}, .amplitude = {0, 200}, .period = 10})};
   const World world = world_of(scenario);
-  Watch watch(world, 40);
+  Watch watch(world);
   std::size_t touches = 0;
   for (int tick = 0; tick < 200; ++tick)
-    touches += watch.follow(0.1 * tick, Way{{0, {{1000, 500}, 0}}, {0.1, {{1000, 500}, 0}}}).size();
+    touches += watch.follow(0.1 * tick, Way{{0, {{1000, 500}, 0}, 40}, {0.1, {{1000, 500}, 0}, 40}})
+                   .size();
   EXPECT_EQ(touches, 5u);  // it begins on the swarm and comes back every half period
 }
 
@@ -81,20 +82,35 @@ TEST(Watch, WallsAndBorder) {
   Scenario scenario = open_room();
   std::get<PolygonsMap>(scenario.map).walls = {{{999, 0}, {1000, 0}, {1000, 900}, {999, 900}}};
   const World world = world_of(scenario);
-  Watch watch(world, 40);
+  Watch watch(world);
   // One jump over a wall of 1 µm: both ends are clear.
-  auto touches = watch.follow(0, Way{{0, {{900, 500}, 0}}, {0.1, {{1100, 500}, 0}}});
+  auto touches = watch.follow(0, Way{{0, {{900, 500}, 0}, 40}, {0.1, {{1100, 500}, 0}, 40}});
   ASSERT_EQ(touches.size(), 1u);
   EXPECT_EQ(touches[0].kind, EventKind::contact_wall);
   EXPECT_EQ(touches[0].body, 0u);
   EXPECT_EQ(watch.walls().clearance, 0);
 
-  Watch other(world, 40);
-  EXPECT_TRUE(other.follow(0, Way{{0, {{1200, 100}, 0}}, {0.1, {{1200, 50}, 0}}}).empty());
-  touches = other.follow(0.1, Way{{0, {{1200, 50}, 0}}, {0.1, {{1200, 30}, 0}}});
+  Watch other(world);
+  EXPECT_TRUE(other.follow(0, Way{{0, {{1200, 100}, 0}, 40}, {0.1, {{1200, 50}, 0}, 40}}).empty());
+  touches = other.follow(0.1, Way{{0, {{1200, 50}, 0}, 40}, {0.1, {{1200, 30}, 0}, 40}});
   ASSERT_EQ(touches.size(), 1u);
   EXPECT_EQ(touches[0].body, border_body);
   EXPECT_EQ(other.walls().clearance, 30);
+}
+
+TEST(Watch, ASwarmThatWidensTouchesWhatItDidNotReach) {
+  Scenario scenario = open_room();
+  scenario.obstacles = {disc(50, Still{{1000, 500}, 0})};
+  const World world = world_of(scenario);
+  Watch watch(world);
+  EXPECT_TRUE(watch.follow(0, Way{{0, {{1100, 500}, 0}, 40}, {0.1, {{1100, 500}, 0}, 40}}).empty());
+  EXPECT_NEAR(watch.least_gap(), 10, 1e-9);
+  const auto touches =
+      watch.follow(0.1, Way{{0, {{1100, 500}, 0}, 40}, {0.1, {{1100, 500}, 0}, 60}});
+  ASSERT_EQ(touches.size(), 1u);
+  EXPECT_NEAR(touches[0].t, 0.15, 0.001);
+  EXPECT_NEAR(watch.least_gap(), -10, 1e-9);
+  EXPECT_NEAR(watch.obstacles().clearance, 50, 1e-9);
 }
 
 TEST(Watch, ArrivalIsTheFirstMomentWithinTheTolerance) {

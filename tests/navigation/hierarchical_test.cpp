@@ -7,6 +7,7 @@
 
 #include "microswarm/core/hash.hpp"
 #include "microswarm/navigation/make.hpp"
+#include "microswarm/swarm/swarm_body.hpp"
 #include "microswarm/swarm/unicycle.hpp"
 
 namespace microswarm {
@@ -21,7 +22,7 @@ Snapshot room(std::vector<Body> bodies = {}, std::vector<Polygon> walls = {}) {
 
 std::unique_ptr<Navigator> navigator(const Snapshot& world, std::uint64_t seed = 1) {
   auto made = make_navigator(HierarchicalParams{},
-                             Task{.swarm = {}, .robots = {}, .goal = goal, .goal_tolerance = 30},
+                             Task{.swarm = limits_of(RibbonParams{}), .robots = {}, .goal = goal, .goal_tolerance = 30},
                              Rng(seed, Purpose::planner));
   made->prepare(world);
   return made;

@@ -32,8 +32,8 @@ Scenario street(const Tracks& tracks) {
     track.samples = std::make_shared<const Samples>(samples);
     s.obstacles.push_back({DiscShape{pedestrian_radius}, track});
   }
-  s.swarm.radius = 40;
-  s.swarm.max_speed = 60;
+  std::get<RibbonParams>(s.swarm).radius = 40;
+  std::get<RibbonParams>(s.swarm).max_speed = 60;
   HierarchicalParams navigator;
   navigator.margin = 60;
   navigator.speed = 60;

@@ -160,7 +160,7 @@ TEST(GlobalRrt, SaysWhatIsWrong) {
   EXPECT_EQ(status({{100, 200}}, {{100, 210}}), Status::solved);
   EXPECT_THROW(status({}, {}), InputError);
   EXPECT_THROW(status({{100, 200}}, {{100, 100}, {100, 120}}), InputError);
-  EXPECT_THROW(status(std::vector<Vec2>(9, {100, 200}), std::vector<Vec2>(9, {100, 200})),
+  EXPECT_THROW(status(std::vector<Vec2>(65, {100, 200}), std::vector<Vec2>(65, {100, 200})),
                InputError);
 }
 

@@ -76,7 +76,7 @@ TEST(Sweep, OnAChangedInputIsRefused) {
   write_file_atomically(folder / "sweep.yaml", "# the same\n" + sweep_text(1));
   EXPECT_EQ(refused(), "");
   Scenario scenario = small_flight();
-  scenario.swarm.max_speed += 1;
+  std::get<RibbonParams>(scenario.swarm).max_speed += 1;
   write_file_atomically(folder / "flight.yaml", scenario_text(scenario));
   EXPECT_EQ(refused(), line("scenario"));
 }

@@ -43,6 +43,8 @@ UnitText text_of(Unit unit) {
       return {"um_per_px", "µm/px"};
     case Unit::ms:
       return {"ms", "ms"};
+    case Unit::mt:
+      return {"mt", "mT"};
   }
   assert(false);
   return {};

@@ -7,7 +7,22 @@ namespace microswarm {
 
 /// Unit of a parameter or a recorded quantity. Lengths are µm, times s, angles rad, flux densities
 /// mT and currents A everywhere inside; `deg` marks an angle held in rad and shown in degrees.
-enum class Unit { none, um, s, hz, rad, deg, um_per_s, deg_per_s, per_s, um2, px, um_per_px, ms };
+enum class Unit {
+  none,
+  um,
+  s,
+  hz,
+  rad,
+  deg,
+  um_per_s,
+  deg_per_s,
+  per_s,
+  um2,
+  px,
+  um_per_px,
+  ms,
+  mt
+};
 
 /// Suffix of a key or a column that holds this unit: "um" in `step_um`; empty for `none`.
 std::string_view unit_suffix(Unit unit);

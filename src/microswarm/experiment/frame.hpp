@@ -19,6 +19,7 @@ namespace microswarm {
 struct Frame {
   double t = 0;                   ///< when the tick begins [s]
   Pose2 pose;                     ///< where the swarm is at t (what was last seen, on a rig)
+  double radius = 0;              ///< of the swarm at t [µm]; of robots 0
   double speed = 0;               ///< of the swarm at t [µm/s]
   double seen = 0;                ///< when the frame that the navigator got was taken [s]
   std::optional<Pose2> observed;  ///< the swarm in that frame
@@ -26,6 +27,7 @@ struct Frame {
   double goal_distance = 0;       ///< what is left to the goal [µm]; see Metrics::goal_distance
   double wall_clearance = 0;      ///< from the centre at t to walls and border [µm]; of robots inf
   double obstacle_clearance = 0;  ///< from the centre at t to moving bodies [µm]; inf without any
+  double avoidance_cost = 0;      ///< δ at t, Eq 4 [radar]
   std::optional<Vec2> target;     ///< the navigator's local target
   std::string state;              ///< the navigator's word for what it does
   bool planned = false;           ///< a planning event

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "microswarm/core/fields.hpp"
+#include "microswarm/geometry/vec2.hpp"
 
 namespace microswarm {
 
@@ -19,6 +21,29 @@ struct LeastClearance {
   }
 };
 
+/// How a run got out of the way of what moves [radar]. An obstacle counts when it is nearer to the
+/// swarm's edge than the detection range.
+struct Avoidance {
+  double mean_cost = 0;
+  double time = 0;
+  double mean_gap = 0;
+  double least_gap = std::numeric_limits<double>::infinity();
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.mean_cost,
+          {"mean_cost", Unit::none, {}, "Mean avoidance cost δ of the run, Eq 3, 4 [radar]."});
+    visit(self.time, {"time", Unit::s, {}, "Time with an obstacle in the detection circle."});
+    visit(self.mean_gap,
+          {"mean_gap", Unit::um, {}, "From edge to edge in that time, the nearest obstacle's."});
+    visit(self.least_gap, {"least_gap", Unit::um, {}, "Least of all gaps, below 0 of a touch."});
+  }
+};
+
+/// The avoidance cost δ, Eq 3, 4 [radar], while an obstacle is detected: `left` [µm] is the vector
+/// to the goal, `start_distance` [µm] that from the start. A swarm that stands still is taken to
+/// move across: it gets no nearer.
+double avoidance_cost(Vec2 left, double heading, bool moves, double start_distance);
+
 /// What a run amounts to. Physical, hence the same in every repetition.
 struct Metrics {
   double time = 0;
@@ -28,6 +53,7 @@ struct Metrics {
   double hold_time = 0;
   LeastClearance walls;
   LeastClearance obstacles;
+  Avoidance avoidance;
   int planning_events = 0;
   int contacts = 0;
   int avoidable_contacts = 0;
@@ -45,6 +71,7 @@ struct Metrics {
     visit(self.hold_time, {"hold_time", Unit::s, {}, "Time under the command to hold."});
     visit(self.walls, {"walls", Unit::none, {}, "Least clearance to walls and border."});
     visit(self.obstacles, {"obstacles", Unit::none, {}, "Least clearance to moving bodies."});
+    visit(self.avoidance, {"avoidance", Unit::none, {}, "Of moving obstacles."});
     visit(self.planning_events, {"planning_events", Unit::none, {}, "Times it called a planner."});
     visit(self.contacts, {"contacts", Unit::none, {}, "Touches of walls and moving bodies."});
     visit(self.avoidable_contacts,

@@ -11,11 +11,10 @@ namespace microswarm {
 KinematicPlant::KinematicPlant(const Scenario& scenario, World world, std::uint32_t trial)
     : world_(std::move(world)),
       sensing_(scenario.sensing),
-      radius_(scenario.swarm.radius),
-      ribbon_(scenario.swarm, *scenario.start),
+      swarm_(scenario.swarm, *scenario.start),
       drift_(scenario.seed, Purpose::plant, trial),
       noise_(scenario.seed, Purpose::sensor, trial),
-      history_{{0, *scenario.start}} {}
+      history_{{0, *scenario.start, swarm_.pose().radius}} {}
 
 Observation KinematicPlant::observe() {
   const double seen = std::max(0.0, now_ - sensing_.observation_delay);
@@ -25,17 +24,18 @@ Observation KinematicPlant::observe() {
   const bool missed = noise_.uniform() < sensing_.missed_share;
   const double dx = noise_.normal(), dy = noise_.normal(), turn = noise_.normal();
   if (missed) return observation;
-  Pose2 pose = pose_on(history_, seen);
+  const TimedPose was = moment_on(history_, seen);
+  Pose2 pose = was.pose;
   pose.position += sensing_.position_noise * Vec2{dx, dy};
   if (sensing_.heading_noise > 0) pose.heading = wrap(pose.heading + sensing_.heading_noise * turn);
-  observation.swarm = SwarmPose{pose, radius_};
+  observation.swarm = SwarmPose{pose, was.radius};
   return observation;
 }
 
 void KinematicPlant::apply(const Command& command, double dt) {
-  ribbon_.step(command, dt, drift_);
-  for (const TimedPose& pose : ribbon_.swept().subspan(1))
-    history_.push_back({now_ + pose.t, pose.pose});
+  swarm_.step(command, dt, drift_);
+  for (const TimedPose& pose : swarm_.swept().subspan(1))
+    history_.push_back({now_ + pose.t, pose.pose, pose.radius});
   now_ += dt;
   const double oldest = now_ - sensing_.observation_delay;
   const auto still_seen = std::find_if(history_.begin(), history_.end() - 1,
@@ -45,9 +45,9 @@ void KinematicPlant::apply(const Command& command, double dt) {
 
 std::optional<Truth> KinematicPlant::truth() const {
   return Truth{.now = now_,
-               .swarm = {ribbon_.pose(), radius_},
-               .speed = ribbon_.speed(),
-               .swept = ribbon_.swept(),
+               .swarm = swarm_.pose(),
+               .speed = swarm_.speed(),
+               .swept = swarm_.swept(),
                .robots = {},
                .world = &world_};
 }

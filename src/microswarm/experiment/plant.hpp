@@ -9,8 +9,8 @@
 
 namespace microswarm {
 
-/// Simulation without physics: a ribbon in a world, seen by a camera that shows both as they were
-/// `observation_delay` ago (at the very beginning: as they were at t = 0). The ribbon neither
+/// Simulation without physics: a swarm in a world, seen by a camera that shows both as they were
+/// `observation_delay` ago (at the very beginning: as they were at t = 0). The swarm neither
 /// slides nor stops at walls; whoever runs it watches for contact.
 class KinematicPlant : public Plant {
  public:
@@ -24,8 +24,7 @@ class KinematicPlant : public Plant {
  private:
   World world_;
   SensingParams sensing_;
-  double radius_;
-  Ribbon ribbon_;
+  SwarmBody swarm_;
   Rng drift_;
   Rng noise_;
   double now_ = 0;

@@ -15,7 +15,7 @@ namespace microswarm {
 namespace {
 
 constexpr std::string_view format_name = "microswarm record";
-constexpr std::int64_t format_version = 2;
+constexpr std::int64_t format_version = 3;
 constexpr const char* words_attribute = "words";  // joined by spaces, indexed from 0
 
 std::vector<std::string> split(std::string_view words) {

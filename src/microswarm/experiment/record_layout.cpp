@@ -94,6 +94,9 @@ std::vector<Column<Frame>> columns_of(const Frame*) {
           "heading", Unit::rad, "The swarm's heading at t.",
           [](auto& f) -> auto& { return f.pose.heading; }),
       column<Frame>(
+          "radius", Unit::um, "The swarm's radius at t; of robots 0.",
+          [](auto& f) -> auto& { return f.radius; }),
+      column<Frame>(
           "speed", Unit::um_per_s, "The swarm's speed at t.",
           [](auto& f) -> auto& { return f.speed; }),
       column<Frame>(
@@ -125,6 +128,9 @@ std::vector<Column<Frame>> columns_of(const Frame*) {
           "obstacle_clearance", Unit::um,
           "From the centre at t to moving bodies; infinite without any.",
           [](auto& f) -> auto& { return f.obstacle_clearance; }),
+      column<Frame>(
+          "avoidance_cost", Unit::none, "Avoidance cost δ at t, Eq 4 [radar].",
+          [](auto& f) -> auto& { return f.avoidance_cost; }),
       column<Frame>(
           "target_x", Unit::um, "The navigator's local target.", target,
           [](auto& p) -> auto& { return p.x; }),

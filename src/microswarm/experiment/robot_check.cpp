@@ -12,7 +12,9 @@ namespace microswarm {
 void check_robots(const Scenario& scenario, const std::string& where) {
   const RobotSwarmParams& robots = *scenario.robots;
   const auto fail = [&](const std::string& what) { throw InputError(where + ": " + what); };
-  if (to_yaml(scenario.swarm) != to_yaml(RibbonParams{}))
+  const SwarmParams untouched;
+  if (to_yaml(type_of<SwarmParams>(), &scenario.swarm) !=
+      to_yaml(type_of<SwarmParams>(), &untouched))
     fail("swarm is for a swarm of one body; it and robots are both given");
   if (scenario.start) fail("start is for a swarm of one body; robots have robots.starts_um");
   if (!scenario.obstacles.empty()) fail("robots and moving obstacles cannot be in one scenario");

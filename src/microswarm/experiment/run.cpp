@@ -23,6 +23,7 @@ using Clock = std::chrono::steady_clock;
 struct Present {
   double t = 0;
   Pose2 pose;
+  double radius = 0;
   double speed = 0;
   double goal_distance = std::numeric_limits<double>::infinity();
 };
@@ -34,8 +35,10 @@ class Run {
       std::span<RunListener* const> listeners)
       : scenario_(scenario), plant_(plant), navigator_(navigator), listeners_(listeners) {
     if (scenario.start) present_.pose = *scenario.start;
+    detection_range_ = scenario.detection_range.value_or(detection_range_of(scenario.navigator));
+    if (scenario.goal) start_distance_ = distance(present_.pose.position, *scenario.goal);
     const auto truth = plant.truth();
-    if (truth && !scenario.robots) watch_.emplace(*truth->world, scenario.swarm.radius);
+    if (truth && !scenario.robots) watch_.emplace(*truth->world);
   }
 
   RunResult to_the_end(const Stop& stop) {
@@ -75,13 +78,14 @@ class Run {
 
   Present present(const Observation& seen) {
     if (const auto truth = plant_.truth())
-      return {truth->now, truth->swarm.pose, truth->speed,
-              left(truth->swarm.pose.position, truth->robots)};
-    if (!seen.swarm) return {seen.now, present_.pose, present_.speed, present_.goal_distance};
+      return {truth->now, truth->swarm.pose, scenario_.robots ? 0 : truth->swarm.radius,
+              truth->speed, left(truth->swarm.pose.position, truth->robots)};
+    if (!seen.swarm)
+      return {seen.now, present_.pose, present_.radius, present_.speed, present_.goal_distance};
     const double passed = seen.now - present_.t;
     const double way = distance(present_.pose.position, seen.swarm->pose.position);
-    return {seen.now, seen.swarm->pose, passed > 0 ? way / passed : 0,
-            left(seen.swarm->pose.position, seen.robots)};
+    return {seen.now, seen.swarm->pose, scenario_.robots ? 0 : seen.swarm->radius,
+            passed > 0 ? way / passed : 0, left(seen.swarm->pose.position, seen.robots)};
   }
 
   /// How far it is to the end of the task [µm].
@@ -97,7 +101,8 @@ class Run {
 
   /// The same along all of a way that began at t0.
   void move_along(std::span<const TimedPose> way, double t0, double speed) {
-    for (const TimedPose& p : way) move_to({t0 + p.t, p.pose, speed, left(p.pose.position, {})});
+    for (const TimedPose& p : way)
+      move_to({t0 + p.t, p.pose, p.radius, speed, left(p.pose.position, {})});
   }
 
   void note_step(const Observation& seen, const Command& command, double took) {
@@ -111,6 +116,19 @@ class Run {
     frame.state = view.state;
     frame.planned = view.planned;
     tell(frame, view, seen);
+    note_avoidance(frame);
+  }
+
+  /// Each tick counts as it begins.
+  void note_avoidance(const Frame& frame) {
+    if (!is_detected(frame)) return;
+    cost_sum_ += frame.avoidance_cost;
+    gap_sum_ += frame.obstacle_clearance - frame.radius;
+    ++detected_ticks_;
+  }
+
+  bool is_detected(const Frame& frame) const {
+    return !task_ && frame.obstacle_clearance - frame.radius < detection_range_;
   }
 
   /// How long the swarm has been told to hold by now.
@@ -154,7 +172,8 @@ class Run {
   }
 
   static void cut(std::vector<TimedPose>& way, double t) {
-    const TimedPose end{t, pose_on(way, t)};
+    TimedPose end = moment_on(way, t);
+    end.t = t;
     std::erase_if(way, [t](const TimedPose& pose) { return pose.t >= t && pose.t > 0; });
     if (t > 0) way.push_back(end);
   }
@@ -172,9 +191,16 @@ class Run {
     Metrics& metrics = result_.metrics;
     metrics.time = present_.t;
     metrics.goal_distance = present_.goal_distance;
+    if (detected_ticks_ > 0) {
+      const double ticks = static_cast<double>(result_.timing.steps.size());
+      metrics.avoidance.mean_cost = cost_sum_ / ticks;
+      metrics.avoidance.time = detected_ticks_ * scenario_.tick;
+      metrics.avoidance.mean_gap = gap_sum_ / detected_ticks_;
+    }
     if (watch_) {
       metrics.walls = watch_->walls();
       metrics.obstacles = watch_->obstacles();
+      metrics.avoidance.least_gap = watch_->least_gap();
     }
     for (RunListener* listener : listeners_) listener->on_end(result_);
     return std::move(result_);
@@ -186,6 +212,7 @@ class Run {
     const Snapshot world = truth ? truth->world->at(present_.t) : *seen.world;
     frame.t = present_.t;
     frame.pose = present_.pose;
+    frame.radius = present_.radius;
     frame.speed = present_.speed;
     frame.seen = seen.seen;
     if (seen.swarm) frame.observed = seen.swarm->pose;
@@ -193,12 +220,17 @@ class Run {
     constexpr double none = std::numeric_limits<double>::infinity();
     frame.wall_clearance = task_ ? none : world.map().clearance(frame.pose.position);
     frame.obstacle_clearance = task_ ? none : world.moving().clearance(frame.pose.position, none);
+    if (is_detected(frame))
+      frame.avoidance_cost = avoidance_cost(*scenario_.goal - frame.pose.position,
+                                            frame.pose.heading, frame.speed > 0, start_distance_);
     if (!watch_) {
       Metrics& metrics = result_.metrics;
       if (frame.wall_clearance < metrics.walls.clearance)
         metrics.walls = {frame.wall_clearance, frame.t};
       if (frame.obstacle_clearance < metrics.obstacles.clearance)
         metrics.obstacles = {frame.obstacle_clearance, frame.t};
+      metrics.avoidance.least_gap =
+          std::min(metrics.avoidance.least_gap, frame.obstacle_clearance - frame.radius);
     }
     for (RunListener* listener : listeners_) {
       listener->on_frame(frame, view, world);
@@ -220,6 +252,11 @@ class Run {
   std::optional<RobotTask> task_;  // of robots that are told apart
   Present present_;
   double hold_time_ = 0;
+  double detection_range_ = 0;  // [µm]
+  double start_distance_ = 0;   // from the goal [µm]
+  double cost_sum_ = 0;
+  double gap_sum_ = 0;  // [µm]
+  int detected_ticks_ = 0;
   RunResult result_;
 };
 

@@ -143,7 +143,7 @@ void check_margin(const Scenario& scenario, const World& world, const std::strin
 
 void check_body(const Scenario& scenario, const World& world, const std::string& where) {
   if (!scenario.start) throw InputError(fmt::format("{}: missing key 'start'", where));
-  const double radius = scenario.swarm.radius;
+  const double radius = limits_of(scenario.swarm).radius;
   if (const auto why = world.at(0).why_blocked(scenario.start->position, radius); !why.empty())
     throw InputError(fmt::format("{}: start {}", where, why));
   // The swarm's centre may stop anywhere within the tolerance.
@@ -158,7 +158,7 @@ void check_body(const Scenario& scenario, const World& world, const std::string&
 }  // namespace
 
 Task task_of(const Scenario& scenario) {
-  return {.swarm = scenario.swarm,
+  return {.swarm = limits_of(scenario.swarm),
           .robots = scenario.robots,
           .goal = scenario.goal,
           .goal_tolerance = scenario.goal_tolerance,

@@ -11,8 +11,8 @@
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/formats/map_parts.hpp"
 #include "microswarm/navigation/make.hpp"
-#include "microswarm/swarm/ribbon.hpp"
 #include "microswarm/swarm/robot_swarm.hpp"
+#include "microswarm/swarm/swarm_body.hpp"
 #include "microswarm/world/world.hpp"
 
 namespace microswarm {
@@ -44,7 +44,7 @@ struct Scenario {
   std::string description;
   MapSpec map;
   std::vector<Obstacle> obstacles;
-  RibbonParams swarm;
+  SwarmParams swarm;
   std::optional<RobotSwarmParams> robots;
   SensingParams sensing;
   std::optional<Pose2> start;
@@ -55,6 +55,7 @@ struct Scenario {
   double time_limit = 300;
   double hold_limit = 60;
   bool stop_at_contact = true;
+  std::optional<double> detection_range;
   std::uint64_t seed = 1;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -85,6 +86,12 @@ struct Scenario {
            Unit::none,
            {},
            "End at the first touch, or count it and go on; it ends collided."});
+    visit(self.detection_range,
+          {"detection_range",
+           Unit::um,
+           {0, 1e6},
+           "Obstacles nearer to the swarm's edge count as being avoided, in the metrics; none: the "
+           "radar's own range (d_r), of other navigators 50 µm."});
     visit(self.seed, {"seed", Unit::none, {}, "Seed of every random stream."});
   }
 };

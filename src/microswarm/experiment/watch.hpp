@@ -21,8 +21,8 @@ class Watch {
  public:
   static constexpr double resolution = 0.02;  ///< [µm]
 
-  /// The world must outlive the watch. Closer to the centre than `radius` is a touch.
-  Watch(const World& world, double radius);
+  /// The world must outlive the watch. Closer to the centre than the swarm is wide is a touch.
+  explicit Watch(const World& world);
 
   /// Follows the way `swept`, which begins at time t0, and returns the touches that begin in it, in
   /// order of time. Obstacles that were touched at the end of the last way do not begin anew.
@@ -30,11 +30,14 @@ class Watch {
 
   const LeastClearance& walls() const { return walls_; }
   const LeastClearance& obstacles() const { return obstacles_; }
+  /// Least distance from the swarm's edge to an obstacle, below 0 when it touched one [µm].
+  double least_gap() const { return least_gap_; }
 
  private:
   struct Sample {
     double t = 0;
     double clearance = 0;
+    double gap = 0;  ///< the same from the swarm's edge, below 0 inside
   };
   struct Way;
 
@@ -43,10 +46,10 @@ class Watch {
   std::optional<RunEvent> wall_touch(const Way& way);
 
   const World* world_;
-  double radius_;
   std::vector<double> top_speeds_;
   LeastClearance walls_;
   LeastClearance obstacles_;
+  double least_gap_ = std::numeric_limits<double>::infinity();
   std::vector<bool> touching_;
   bool touching_wall_ = false;
   std::vector<Body> bodies_;
@@ -55,7 +58,7 @@ class Watch {
 /// When [s, counted as in `swept`] the way first comes within `tolerance` of the goal.
 std::optional<double> first_arrival(std::span<const TimedPose> swept, Vec2 goal, double tolerance);
 
-/// Pose on the way at time t, clamped to its ends; the way must not be empty.
-Pose2 pose_on(std::span<const TimedPose> swept, double t);
+/// Where the swarm is on its way at time t, clamped to its ends; the way must not be empty.
+TimedPose moment_on(std::span<const TimedPose> swept, double t);
 
 }  // namespace microswarm

@@ -19,11 +19,13 @@ constexpr std::array<double, 3> eases{1.0, 0.5, 0.25};
 }  // namespace
 
 HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params,
-                                             const RibbonParams& swarm, Vec2 goal,
+                                             const SwarmLimits& swarm, Vec2 goal,
                                              double goal_tolerance, Rng rng)
     : params_(params), swarm_(swarm), goal_(goal), goal_tolerance_(goal_tolerance), rng_(rng) {
   params_.speed = std::min(params.speed, swarm.max_speed);
-  slack_ = std::max(1.0, params_.speed * swarm.max_turn_rate * tick * tick / 8);
+  // How far the arc of a tick is from its chord; a swarm that turns at once makes none.
+  if (std::isfinite(swarm.max_turn_rate))
+    slack_ = std::max(1.0, params_.speed * swarm.max_turn_rate * tick * tick / 8);
 }
 
 void HierarchicalNavigator::prepare(const Snapshot& world) {

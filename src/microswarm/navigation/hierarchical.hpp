@@ -16,7 +16,7 @@
 #include "microswarm/navigation/navigator.hpp"
 #include "microswarm/navigation/route.hpp"
 #include "microswarm/planning/planners.hpp"
-#include "microswarm/swarm/ribbon.hpp"
+#include "microswarm/swarm/swarm_limits.hpp"
 
 namespace microswarm {
 
@@ -78,7 +78,7 @@ struct HierarchicalParams {
 class HierarchicalNavigator : public Navigator {
  public:
   /// `swarm` is what is known of the swarm: radius, turning limit and dead time.
-  HierarchicalNavigator(const HierarchicalParams& params, const RibbonParams& swarm, Vec2 goal,
+  HierarchicalNavigator(const HierarchicalParams& params, const SwarmLimits& swarm, Vec2 goal,
                         double goal_tolerance, Rng rng);
 
   void prepare(const Snapshot& world) override;
@@ -114,7 +114,7 @@ class HierarchicalNavigator : public Navigator {
   Command escape(const Observation& seen);
 
   HierarchicalParams params_;
-  RibbonParams swarm_;
+  SwarmLimits swarm_;
   Vec2 goal_;
   double goal_tolerance_;
   Rng rng_;

@@ -54,6 +54,16 @@ double margin_of(const NavigatorParams& params) {
   return std::visit([](const auto& p) { return margin(p); }, params);
 }
 
+double detection_range_of(const NavigatorParams& params) {
+  constexpr double of_others = 50;
+  return std::visit(
+      [](const auto& p) {
+        if constexpr (requires { p.detection_range; }) return p.detection_range;
+        return of_others;
+      },
+      params);
+}
+
 double frame_timeout_of(const NavigatorParams& params) {
   return std::visit([](const auto& p) { return p.frame_timeout; }, params);
 }

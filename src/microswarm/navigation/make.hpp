@@ -18,7 +18,7 @@ using NavigatorParams = std::variant<HierarchicalParams, PlanPlayerParams, Aggre
 
 /// What a navigator is told of its task.
 struct Task {
-  RibbonParams swarm;                      ///< of a swarm that is seen as one body
+  SwarmLimits swarm;                       ///< of a swarm that is seen as one body
   std::optional<RobotSwarmParams> robots;  ///< of one whose robots are told apart
   std::optional<Vec2> goal;                ///< nothing when the robots have goals of their own
   double goal_tolerance = 0;               ///< [µm]
@@ -30,6 +30,10 @@ std::string_view what_it_lacks(const NavigatorParams& params, const Task& task);
 
 /// Least distance [µm] from its centre that the navigator keeps for a swarm seen as one body.
 double margin_of(const NavigatorParams& params);
+
+/// How near [µm] to the swarm's edge an obstacle is when it begins to be avoided, for metrics: the
+/// detection range d_r of the radar, and 50 µm of those that have none.
+double detection_range_of(const NavigatorParams& params);
 
 /// Age [s] from which on the navigator holds a frame for too old.
 double frame_timeout_of(const NavigatorParams& params);

@@ -63,7 +63,7 @@ void overview(const Subject& s, std::span<const PlanEvent* const> shown,
   }
   picture.bodies(s.world.at(end).moving().bodies());
   picture.line(trail(record, end), colours::path, 3);
-  picture.swarm(record.frames.back().pose, s.scenario().swarm.radius);
+  picture.swarm(record.frames.back().pose, record.frames.back().radius);
   draw_ends(picture, s);
   for (std::size_t k = 0; k < shown.size(); ++k)
     picture.mark(frame_at(record, shown[k]->t).pose.position, fmt::format("{}", k + 1),
@@ -80,7 +80,7 @@ void overview(const Subject& s, std::span<const PlanEvent* const> shown,
 /// The whole map, or what is near the swarm where the map is much larger.
 Box around(const Subject& s, const Frame& frame, const PlanEvent& event) {
   const Box map = s.world.map->bounds();
-  double reach = 25 * s.scenario().swarm.radius;
+  double reach = 25 * frame.radius;
   for (const Vec2 p : event.plan.path)
     reach = std::max(reach, 2 * distance(p, frame.pose.position));
   if (4 * reach > std::max(map.width(), map.height())) return map;
@@ -98,7 +98,7 @@ void moment(const Subject& s, const PlanEvent& event, const std::filesystem::pat
   picture.tree(event.plan.tree);
   picture.line(trail(s.record, event.t), {0.0, 0.45, 0.70, 0.35}, 2.5);
   picture.line(event.plan.path, colours::path, 3);
-  picture.swarm(frame.pose, s.scenario().swarm.radius);
+  picture.swarm(frame.pose, frame.radius);
   if (frame.target) picture.mark(*frame.target, "local target", colours::circle);
   draw_ends(picture, s);
   picture.legend("swarm", colours::swarm, true);
@@ -161,10 +161,10 @@ std::vector<Plot> plots(const Subject& s) {
   }
   clearance.series = {walls, bodies};
   const double margin = margin_of(s.scenario().navigator);
-  clearance.levels = {{"swarm's radius", s.scenario().swarm.radius},
-                      {"navigator's margin", margin}};
+  const double radius = limits_of(s.scenario().swarm).radius;
+  clearance.levels = {{"swarm's radius", radius}, {"navigator's margin", margin}};
   clearance.y_min = 0;
-  clearance.y_max = 5 * std::max(margin, s.scenario().swarm.radius);
+  clearance.y_max = 5 * std::max(margin, radius);
   out.push_back(clearance);
   return out;
 }

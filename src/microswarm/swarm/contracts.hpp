@@ -16,10 +16,11 @@ struct SwarmPose {
   double radius = 0;
 };
 
-/// A pose and when it was taken [s].
+/// Where a swarm was, how wide [µm], and when [s].
 struct TimedPose {
   double t = 0;
   Pose2 pose;
+  double radius = 0;
 };
 
 /// What is seen: the newest frame, which is `age()` old when the navigator gets it. `swarm` is

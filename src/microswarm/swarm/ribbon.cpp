@@ -12,13 +12,13 @@ Ribbon::Ribbon(const RibbonParams& params, Pose2 start)
     : params_(params), pose_(start), commands_(params.response_lag) {}
 
 void Ribbon::step(const Command& command, double dt, Rng& rng) {
-  swept_.assign(1, {0, pose_});
+  swept_.assign(1, {0, pose_, params_.radius});
   double passed = 0;
   commands_.pass(command, dt, ribbon_substep, [&](const Command& active, double piece) {
     active_ = {active.heading, std::clamp(active.speed, 0.0, params_.max_speed)};
     advance(piece, rng);
     passed += piece;
-    swept_.push_back({passed, pose_});
+    swept_.push_back({passed, pose_, params_.radius});
   });
   swept_.back().t = dt;
 }

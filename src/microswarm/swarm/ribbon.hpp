@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "microswarm/core/fields.hpp"
@@ -14,6 +15,7 @@ namespace microswarm {
 /// Ribbon-like swarm under an oscillating field, as a unicycle [drrt]: it turns towards the
 /// commanded heading at a limited rate and moves along its own heading.
 struct RibbonParams {
+  static constexpr std::string_view type_name = "ribbon";
   double radius = 40;
   double max_speed = 80;
   double max_turn_rate = 3;
@@ -44,6 +46,7 @@ class Ribbon {
   Ribbon(const RibbonParams& params, Pose2 start);
 
   const Pose2& pose() const { return pose_; }
+  double radius() const { return params_.radius; }
   double speed() const { return active_.speed; }
   /// Lets `dt` seconds pass under `command`, which takes effect exactly `response_lag` later; noise
   /// is drawn from `rng`.

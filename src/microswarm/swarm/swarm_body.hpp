@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <variant>
+
+#include "microswarm/swarm/ribbon.hpp"
+#include "microswarm/swarm/swarm_limits.hpp"
+#include "microswarm/swarm/vortex.hpp"
+
+namespace microswarm {
+
+/// Any swarm that is seen as one body, chosen at run time by its `type`.
+using SwarmParams = std::variant<RibbonParams, VortexParams>;
+
+/// What a navigator is told of such a swarm.
+SwarmLimits limits_of(const SwarmParams& params);
+
+/// Its moving part.
+class SwarmBody {
+ public:
+  SwarmBody(const SwarmParams& params, Pose2 start);
+
+  SwarmPose pose() const;
+  double speed() const;  ///< [µm/s]
+  /// See Ribbon::step and Vortex::step.
+  void step(const Command& command, double dt, Rng& rng);
+  std::span<const TimedPose> swept() const;
+
+ private:
+  std::variant<Ribbon, Vortex> body_;
+};
+
+}  // namespace microswarm

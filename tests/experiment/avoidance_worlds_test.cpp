@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/scenes/avoidance_worlds.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "microswarm/world/passage.hpp"
+
+namespace microswarm {
+namespace {
+
+using scenes::AvoidanceOptions;
+
+constexpr int worlds = 16;
+
+AvoidanceOptions with_walls(AvoidanceOptions options) {
+  options.walls = true;
+  return options;
+}
+
+template <class Check>
+void for_each_world(const AvoidanceOptions& options, Check&& check_one) {
+  for (std::uint64_t seed = 0; seed < worlds; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Scenario s = scenes::avoidance_scenario(seed, options);
+    check_one(s, scenes::avoidance_world(s));
+  }
+}
+
+double radius_of(const Scenario& s) { return limits_of(s.swarm).radius; }
+
+class AvoidanceWorlds : public testing::TestWithParam<AvoidanceOptions> {};
+
+TEST_P(AvoidanceWorlds, AreScenariosThatTheProgramTakes) {
+  for_each_world(GetParam(), [](Scenario s, const World& world) {
+    for (const Obstacle& obstacle : s.obstacles) EXPECT_NO_THROW(check(obstacle, "obstacle"));
+    HierarchicalParams navigator;
+    navigator.margin = radius_of(s) + 0.8 * scenes::avoidance_passage_gap;
+    s.navigator = navigator;
+    EXPECT_NO_THROW(check(s, world, "world"));
+  });
+}
+
+TEST_P(AvoidanceWorlds, NothingIsNearTheSwarmAtTheStart) {
+  for_each_world(GetParam(), [](const Scenario& s, const World& world) {
+    for (std::size_t i = 0; i < s.obstacles.size(); ++i) {
+      if (std::holds_alternative<DeformingChannel>(s.obstacles[i].shape)) continue;
+      const World alone{world.map, {s.obstacles[i]}};
+      const double gap = alone.at(0).moving().clearance(s.start->position, 1e4) - radius_of(s);
+      EXPECT_GE(gap, scenes::avoidance_start_gap + top_speed(s.obstacles[i]) - 1e-9) << i;
+    }
+  });
+}
+
+TEST_P(AvoidanceWorlds, ObstaclesKeepToTheirSpeeds) {
+  for_each_world(GetParam(), [](const Scenario& s, const World&) {
+    const double swarm = limits_of(s.swarm).max_speed;
+    for (const Obstacle& obstacle : s.obstacles) {
+      const double ratio = top_speed(obstacle) / swarm;
+      EXPECT_LE(ratio, GetParam().most_speed_ratio + 1e-6);
+      if (GetParam().least_speed_ratio < 1) continue;
+      EXPECT_GE(ratio, GetParam().least_speed_ratio - 1e-6);
+    }
+  });
+}
+
+TEST_P(AvoidanceWorlds, TheGoalIsFreeMostOfTheTime) {
+  for_each_world(GetParam(), [](const Scenario& s, const World& world) {
+    int busy = 0;
+    constexpr int looks = 60;
+    for (int k = 0; k < looks; ++k)
+      busy += !world.at(2 * k).moving().is_free(*s.goal, radius_of(s) + s.goal_tolerance);
+    EXPECT_LE(busy, 0.5 * looks);
+  });
+}
+
+TEST_P(AvoidanceWorlds, WhatStandsLeavesAWay) {
+  for_each_world(GetParam(), [](const Scenario& s, const World&) {
+    // A disc that holds all that a resting obstacle ever covers, in place of it.
+    std::vector<Disc> resting;
+    for (const Obstacle& obstacle : s.obstacles) {
+      const auto* still = std::get_if<Still>(&obstacle.motion);
+      const auto* valve = std::get_if<Valve>(&obstacle.shape);
+      if (!still || std::holds_alternative<DeformingChannel>(obstacle.shape)) continue;
+      if (valve && GetParam().walls) continue;  // of a gate: it opens again
+      double extent = 0;
+      for (int k = 0; k < 40; ++k) {
+        std::vector<Body> bodies;
+        append_bodies(obstacle, 0, k, bodies);
+        for (const Body& body : bodies) {
+          if (const auto* disc = std::get_if<Disc>(&body.shape)) {
+            extent = std::max(extent, disc->radius);
+          } else {
+            for (const Vec2 p : std::get<Polygon>(body.shape).outer)
+              extent = std::max(extent, distance(p, still->position));
+          }
+        }
+      }
+      resting.push_back({still->position, extent});
+    }
+    MapParts parts = read_map_parts(s.map);
+    parts.discs.insert(parts.discs.end(), resting.begin(), resting.end());
+    const Map map(parts.bounds, parts.walls, parts.discs);
+    const WidestPath way = widest_path(map, s.start->position, *s.goal, radius_of(s));
+    EXPECT_GE(way.clearance + 1.5 * way.resolution, radius_of(s));
+  });
+}
+
+TEST_P(AvoidanceWorlds, AreAPureFunctionOfTheirArguments) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const Scene once{scenes::avoidance_scenario(seed, GetParam()), {}};
+    const Scene again{scenes::avoidance_scenario(seed, GetParam()), {}};
+    EXPECT_EQ(once.hash(), again.hash());
+    const Scene other{scenes::avoidance_scenario(seed + 1, GetParam()), {}};
+    EXPECT_NE(once.hash(), other.hash());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, AvoidanceWorlds,
+                         testing::Values(scenes::slow_obstacles, with_walls(scenes::slow_obstacles),
+                                         scenes::fast_obstacles));
+
+TEST(AvoidanceWorlds, HaveAllShapesAndMotions) {
+  std::set<std::string_view> kinds;
+  for_each_world(with_walls(scenes::slow_obstacles), [&](const Scenario& s, const World&) {
+    for (const Obstacle& obstacle : s.obstacles) {
+      kinds.insert(std::visit([](const auto& shape) { return shape.type_name; }, obstacle.shape));
+      kinds.insert(
+          std::visit([](const auto& motion) { return motion.type_name; }, obstacle.motion));
+    }
+  });
+  EXPECT_EQ(kinds.size(), std::variant_size_v<Shape> + std::variant_size_v<Motion>);
+}
+
+}  // namespace
+}  // namespace microswarm
