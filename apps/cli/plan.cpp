@@ -119,7 +119,8 @@ int plan_command(const Options& o, const Context& context) {
 void add_plan(CLI::App& app, Action& action) {
   auto o = std::make_shared<Options>();
   CLI::App* cmd = add_command(
-      app, "plan", "Plan one path on a map by drrt_star, rrt_star, uniform_rrt_star, rrt or a_star",
+      app, "plan",
+      "Plan one path on a map by drrt_star, rrt_star, uniform_rrt_star, rrt, a_star or fmt_star",
       "plan map.png --um-per-px 5 --start 200,700,-90 --goal 1750,300 \\\n"
       "      --set planner.type=a_star --set planner.clearance_um=40 --picture path.svg");
   cmd->add_option("map", o->map, "Picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles")

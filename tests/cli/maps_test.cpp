@@ -83,7 +83,8 @@ TEST_F(Maps, PlanInPictures) {
 }
 
 TEST_F(Maps, EveryPlanner) {
-  for (const std::string planner : {"drrt_star", "rrt_star", "uniform_rrt_star", "rrt", "a_star"}) {
+  for (const std::string planner :
+       {"drrt_star", "rrt_star", "uniform_rrt_star", "rrt", "a_star", "fmt_star"}) {
     const Json plan = Json::parse(
         good({"plan", "room.pgm", "--um-per-px", "10", "--start", "100,300", "--goal", "500,300",
               "--set", "planner.type=" + planner, "--set", "planner.clearance_um=30", "--json"}));
@@ -94,7 +95,7 @@ TEST_F(Maps, EveryPlanner) {
   refused({"plan", "room.pgm", "--um-per-px", "10", "--start", "100,300", "--goal", "500,300",
            "--set", "planner.type=rrt**"},
           "--set planner.type: type of planner is 'rrt**', allowed: drrt_star, rrt_star, "
-          "uniform_rrt_star, rrt, a_star");
+          "uniform_rrt_star, rrt, a_star, fmt_star");
 }
 
 /// A vessel of 8 px that forks.

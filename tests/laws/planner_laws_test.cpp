@@ -38,6 +38,10 @@ Params small(double tolerance = 30) {
     params.max_nodes = 600;
     params.max_iterations = 2000;
   }
+  if constexpr (std::is_same_v<Params, FmtStarParams>) {
+    params.samples = 400;
+    params.max_nodes = 3200;
+  }
   return params;
 }
 
@@ -255,6 +259,9 @@ PlannerParams endless(PlannerParams params) {
           p.max_iterations = 100'000'000;
           p.max_nodes = 10'000'000;
           p.stop_at_first = false;
+        } else if constexpr (requires { p.samples; }) {
+          p.samples = 10'000'000;
+          p.max_nodes = 10'000'000;
         } else {
           p.cell = 0.01;
           p.max_nodes = 100'000'000;
@@ -308,6 +315,7 @@ std::vector<Case> cases() {
       {"DrrtStar", small<DrrtStarParams>(), 0x2488fe83fd1ece26},
       {"DrrtStarPlain", plain_drrt_star(), 0x82ec4c82ab162e0a},
       {"DrrtStarGrown", grown<DrrtStarParams>(), 0xbf3f0c96c730532f},
+      {"FmtStar", small<FmtStarParams>(), 0x219c61690d2bb702},
   };
 }
 

@@ -6,6 +6,7 @@
 #include "microswarm/planning/a_star.hpp"
 #include "microswarm/planning/detection.hpp"
 #include "microswarm/planning/drrt_star.hpp"
+#include "microswarm/planning/fmt_star.hpp"
 #include "microswarm/planning/rrt.hpp"
 #include "microswarm/planning/rrt_star.hpp"
 
@@ -16,8 +17,8 @@ namespace microswarm {
 /// exception; `stop` is asked at least once a millisecond.
 
 /// Any planner, chosen at run time by its `type`.
-using PlannerParams =
-    std::variant<DrrtStarParams, RrtStarParams, UniformRrtStarParams, RrtParams, AStarParams>;
+using PlannerParams = std::variant<DrrtStarParams, RrtStarParams, UniformRrtStarParams, RrtParams,
+                                   AStarParams, FmtStarParams>;
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const PlannerParams& params, Rng& rng,
           const Stop& stop = {});
 

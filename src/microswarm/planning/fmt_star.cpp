@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/planning/fmt_star.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/geometry/point_grid.hpp"
+#include "microswarm/planning/free_goal.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr std::uint64_t draws_per_sample = 200;  // at most, in the mean
+constexpr std::uint64_t between_stops = 64;
+
+/// A sample that the tree has reached and still grows from.
+struct Open {
+  double cost;
+  std::uint32_t node;
+  friend bool operator<(const Open& a, const Open& b) {
+    return a.cost != b.cost ? a.cost > b.cost : a.node > b.node;  // cheapest first
+  }
+};
+
+/// Where a sample stands with the tree: V_unvisited, V_open and V_closed.
+enum class Mark : std::uint8_t { unvisited, open, closed };
+
+/// Samples are numbered: 0 is the start, 1 the goal.
+class March {
+ public:
+  March(const Snapshot& world, Pose2 start, Vec2 goal, Vec2 free_goal, const FmtStarParams& params,
+        Rng& rng, const Stop& stop)
+      : world_(world),
+        start_(start),
+        goal_(goal),
+        params_(params),
+        rng_(rng),
+        stop_(stop),
+        sampled_(world.bounds().grown(-params.clearance)),
+        grid_(world.bounds()) {
+    grid_.add(start.position);
+    grid_.add(free_goal);
+  }
+
+  Plan run() {
+    const auto most = static_cast<std::size_t>(params_.max_nodes);
+    for (std::size_t n = static_cast<std::size_t>(params_.samples);; n *= 2) {
+      draw(std::min(n, most));
+      grow();
+      if (ended_) break;
+      if (n >= most) ended_ = Status::node_limit;
+    }
+    return finish();
+  }
+
+ private:
+  struct Neighbours {
+    std::uint32_t first = 0;
+    std::uint32_t last = 0;  ///< 0 before they are looked up: everybody's neighbours include it
+  };
+
+  bool told_to_stop(std::uint64_t count) {
+    if (count % between_stops == 0 && stop_())
+      ended_ = stop_.requested() ? Status::stopped : Status::time_limit;
+    return ended_.has_value();
+  }
+  void draw(std::size_t count);
+  void begin();
+  void grow();
+  void expand(std::uint32_t z);
+  void try_to_join(std::uint32_t x);
+  Neighbours neighbours(std::uint32_t sample);
+  Plan finish();
+
+  const Snapshot& world_;
+  Pose2 start_;
+  Vec2 goal_;
+  const FmtStarParams& params_;
+  Rng& rng_;
+  const Stop& stop_;
+  Box sampled_;
+  PointGrid grid_;  ///< the samples
+  double radius_ = 0;
+  PlanCounts counts_;
+  std::optional<Status> ended_;
+
+  std::vector<Mark> marks_;
+  std::vector<std::uint32_t> nodes_;  ///< of the tree, one a sample that is not unvisited
+  std::vector<Neighbours> near_;      ///< of each sample, in the two below
+  std::vector<std::uint32_t> neighbours_;
+  std::vector<bool> blocked_;          ///< the edge to it has been found not to be free
+  std::vector<Open> open_;             ///< a heap
+  std::vector<std::uint32_t> joined_;  ///< V_open,new
+  std::vector<TreeNode> tree_;
+  std::vector<std::uint32_t> samples_of_;  ///< sample of each node
+  std::uint32_t arrived_ = 0;              ///< node
+};
+
+void March::draw(std::size_t count) {
+  const std::uint64_t most = counts_.samples + draws_per_sample * count;
+  while (grid_.size() < count + 2 && counts_.samples < most) {
+    if (told_to_stop(counts_.samples)) return;
+    ++counts_.samples;
+    const double x = rng_.uniform(sampled_.lo.x, sampled_.hi.x);
+    const Vec2 p{x, rng_.uniform(sampled_.lo.y, sampled_.hi.y)};
+    if (world_.is_free(p, params_.clearance)) grid_.add(p);
+  }
+  const double hits = static_cast<double>(grid_.size() - 1);
+  const double draws = static_cast<double>(counts_.samples + 1);
+  const double area = sampled_.width() * sampled_.height() * std::min(1.0, hits / draws);
+  radius_ = fmt_radius(params_.radius_factor, area, grid_.size());
+}
+
+void March::begin() {
+  marks_.assign(grid_.size(), Mark::unvisited);
+  nodes_.assign(grid_.size(), 0);
+  near_.assign(grid_.size(), {});
+  neighbours_.clear();
+  blocked_.clear();
+  tree_.assign(1, {start_.position, start_.heading, 0, 0});
+  samples_of_.assign(1, 0);
+  open_.assign(1, {0, 0});
+  marks_[0] = Mark::open;
+}
+
+void March::grow() {
+  if (ended_) return;
+  begin();
+  while (!open_.empty()) {
+    if (told_to_stop(counts_.iterations)) return;
+    ++counts_.iterations;
+    std::pop_heap(open_.begin(), open_.end());
+    const std::uint32_t node = open_.back().node;
+    open_.pop_back();
+    if (distance(tree_[node].position, goal_) <= params_.goal_tolerance) {
+      arrived_ = node;
+      ended_ = Status::solved;
+      return;
+    }
+    expand(samples_of_[node]);
+  }
+}
+
+void March::expand(std::uint32_t z) {
+  joined_.clear();
+  const Neighbours near = neighbours(z);
+  for (std::uint32_t i = near.first; i < near.last; ++i)
+    if (marks_[neighbours_[i]] == Mark::unvisited) try_to_join(neighbours_[i]);
+  for (const std::uint32_t x : joined_) {
+    marks_[x] = Mark::open;
+    open_.push_back({tree_[nodes_[x]].cost, nodes_[x]});
+    std::push_heap(open_.begin(), open_.end());
+  }
+  marks_[z] = Mark::closed;
+}
+
+/// Hangs x under the open neighbour that is the cheapest way to it, walls left aside, when that
+/// edge is free; if not, x waits for another one to be the cheapest.
+void March::try_to_join(std::uint32_t x) {
+  const Vec2 p = grid_[x];
+  const Neighbours near = neighbours(x);
+  double least = std::numeric_limits<double>::infinity();
+  std::uint32_t best = near.last;
+  for (std::uint32_t i = near.first; i < near.last; ++i) {
+    const std::uint32_t y = neighbours_[i];
+    if (marks_[y] != Mark::open) continue;
+    const TreeNode& node = tree_[nodes_[y]];
+    const double cost = node.cost + distance(node.position, p);
+    if (cost < least) {
+      least = cost;
+      best = i;
+    }
+  }
+  if (best == near.last || blocked_[best]) return;
+  const std::uint32_t parent = nodes_[neighbours_[best]];
+  const Vec2 from = tree_[parent].position;
+  ++counts_.edge_checks;
+  if (!world_.is_free(Segment{from, p}, params_.clearance)) {
+    blocked_[best] = true;
+    return;
+  }
+  nodes_[x] = static_cast<std::uint32_t>(tree_.size());
+  tree_.push_back({p, heading_of(p - from), least, parent});
+  samples_of_.push_back(x);
+  joined_.push_back(x);
+}
+
+Plan March::finish() {
+  Plan plan;
+  plan.status = *ended_;
+  plan.counts = counts_;
+  if (tree_.empty()) begin();
+  std::uint32_t last = arrived_;
+  if (plan.status != Status::solved) {
+    const auto nearer = [&](const TreeNode& a, const TreeNode& b) {
+      return distance(a.position, goal_) < distance(b.position, goal_);
+    };
+    last = static_cast<std::uint32_t>(std::min_element(tree_.begin(), tree_.end(), nearer) -
+                                      tree_.begin());
+  }
+  plan.path = path_to(tree_, last);
+  plan.tree = std::move(tree_);
+  return plan;
+}
+
+March::Neighbours March::neighbours(std::uint32_t sample) {
+  Neighbours& near = near_[sample];
+  if (near.last > 0) return near;
+  near.first = static_cast<std::uint32_t>(neighbours_.size());
+  grid_.within(grid_[sample], radius_, neighbours_);
+  const Vec2 p = grid_[sample];
+  const auto own = neighbours_.begin() + near.first;
+  neighbours_.erase(
+      std::remove_if(own, neighbours_.end(), [&](std::uint32_t i) { return grid_[i] == p; }),
+      neighbours_.end());
+  near.last = static_cast<std::uint32_t>(neighbours_.size());
+  blocked_.resize(neighbours_.size(), false);
+  return near;
+}
+
+}  // namespace
+
+double fmt_radius(double radius_factor, double area, std::size_t n) {
+  const double count = static_cast<double>(std::max<std::size_t>(2, n));
+  return 2 * radius_factor * std::sqrt(0.5 * area / pi * std::log(count) / count);
+}
+
+Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const FmtStarParams& params, Rng& rng,
+          const Stop& stop) {
+  if (const auto fault =
+          query_fault(world, start.position, goal, params.goal_tolerance, params.clearance)) {
+    Plan blocked;
+    blocked.status = *fault;
+    blocked.path.push_back(start.position);
+    return blocked;
+  }
+  const auto end = free_goal(world, goal, params.goal_tolerance, params.clearance);
+  return March(world, start, goal, *end, params, rng, stop).run();
+}
+
+}  // namespace microswarm
