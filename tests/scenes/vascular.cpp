@@ -129,8 +129,10 @@ class Generator {
   std::vector<Open> open_;
 };
 
-/// A network that has not died out early, or else the largest of some.
-ChannelGraph grown(const VascularShape& shape, Rng& rng) {
+}  // namespace
+
+// A network that has not died out early, or else the largest of some.
+ChannelGraph random_channels(const VascularShape& shape, Rng& rng) {
   constexpr int most_tries = 20;
   const double places =
       std::floor(shape.width / shape.spacing) * std::floor(shape.height / shape.spacing);
@@ -142,8 +144,6 @@ ChannelGraph grown(const VascularShape& shape, Rng& rng) {
   }
   return best;
 }
-
-}  // namespace
 
 std::vector<Polygon> walls_of(const ChannelGraph& graph) {
   std::vector<Polygon> channels;
@@ -211,7 +211,7 @@ Vascular large_vascular_network() {
 }
 
 Vascular random_vascular(const VascularShape& shape, Rng& rng) {
-  const ChannelGraph graph = grown(shape, rng);
+  const ChannelGraph graph = random_channels(shape, rng);
   Vascular v;
   v.name = "random_vascular";
   v.bounds = graph.bounds;

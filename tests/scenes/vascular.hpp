@@ -54,6 +54,8 @@ struct VascularShape {
   double missing = 0.15;  ///< share of the places that have no joint
 };
 
+/// Random channels as a graph; joint 0 is a dead end. See random_vascular.
+ChannelGraph random_channels(const VascularShape& shape, Rng& rng);
 /// Random channels: a tree over joints that stray from a grid, and some loops. Connected by
 /// construction; the goal is at a dead end, which always exists.
 Vascular random_vascular(const VascularShape& shape, Rng& rng);

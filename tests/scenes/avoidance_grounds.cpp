@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/scenes/avoidance_grounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/world/clip.hpp"
+#include "tests/scenes/vascular.hpp"
+#include "tests/scenes/worlds.hpp"
+
+namespace microswarm::scenes {
+namespace {
+
+constexpr double side_of(int obstacles) { return 1400 + 25.0 * obstacles; }
+
+/// Start on the left and goal on the right, or the other way round, or so from below to above.
+void place_ends(Ground& ground, double off_border, Rng& rng) {
+  const double side = ground.map.hi.x;
+  const double near = off_border + 0.08 * side * rng.uniform();
+  const double far = side - off_border - 0.08 * side * rng.uniform();
+  Vec2 a{near, rng.uniform(off_border, side - off_border)};
+  Vec2 b{far, rng.uniform(off_border, side - off_border)};
+  if (rng.below(2) == 1) std::swap(a, b);
+  if (rng.below(2) == 1) std::swap(a.x, a.y), std::swap(b.x, b.y);
+  ground.start = a;
+  ground.goal = b;
+}
+
+std::vector<Vec2> star(Vec2 centre, double radius, Rng& rng) {
+  const int corners = 3 + static_cast<int>(rng.below(6));
+  const double turn = rng.uniform(-pi, pi);
+  std::vector<Vec2> ring;
+  for (int k = 0; k < corners; ++k)
+    ring.push_back(centre +
+                   radius * rng.uniform(0.5, 1) * unit_vector(turn + 2 * pi * k / corners));
+  return ring;
+}
+
+void add_wall(Ground& ground, const Polygon& wall) { ground.map.walls.push_back(wall.outer); }
+
+/// An upright wall from x to x + thickness with two gates, a valve in some of them.
+void add_gates(Ground& ground, const Crosser& swarm, double x, double speed, Rng& rng) {
+  constexpr double thickness = 60;
+  const double height = ground.map.hi.y;
+  const double gate = 2 * swarm.half_passage;
+  double from = 0;
+  for (int k = 0; k < 2; ++k) {
+    const double width = rng.uniform(1.1, 1.6) * gate;
+    const double least = 0.1 * height + 0.45 * height * k;
+    const double low = rng.uniform(least, least + 0.35 * height - width);
+    add_wall(ground, rectangle({{x, from}, {x + thickness, low}}));
+    from = low + width;
+    if (rng.below(2) == 0) continue;
+    Valve valve{.span = width,
+                .thickness = 30,
+                .least_gap = rng.uniform(0, 40),
+                .greatest_gap = rng.uniform(gate, width),
+                .phase = rng.uniform()};
+    valve.period = pi / 2 * (valve.greatest_gap - valve.least_gap) / speed;
+    const Obstacle gate_valve{valve, Still{{x + thickness / 2, low + width / 2}, 0}};
+    ground.fixtures.push_back(gate_valve);
+  }
+  add_wall(ground, rectangle({{x, from}, {x + thickness, height}}));
+}
+
+}  // namespace
+
+Ground open_ground(const Crosser& swarm, int obstacles, Rng& rng) {
+  Ground ground;
+  const double side = side_of(obstacles);
+  ground.map.hi = {side, side};
+  place_ends(ground, 2 * swarm.half_passage, rng);
+  return ground;
+}
+
+Ground scattered_ground(const Crosser& swarm, int obstacles, Rng& rng) {
+  Ground ground = open_ground(swarm, obstacles + 15, rng);
+  const double side = ground.map.hi.x;
+  const double passage = 2 * swarm.half_passage;
+  std::vector<Disc> taken{{ground.start, swarm.half_passage}, {ground.goal, swarm.half_passage}};
+  const int walls = 3 + static_cast<int>(rng.below(12));
+  for (int tries = 0; tries < 12 * walls && ground.map.walls.size() + ground.map.discs.size() <
+                                                static_cast<std::size_t>(walls);
+       ++tries) {
+    const double radius = rng.uniform(40, 220);
+    const double inset = passage + radius;
+    const double x = rng.uniform(inset, side - inset);
+    const Disc room{{x, rng.uniform(inset, side - inset)}, radius};
+    const auto is_near = [&](const Disc& other) {
+      return distance(other.centre, room.centre) < other.radius + radius + passage;
+    };
+    const std::uint64_t kind = rng.below(3);
+    if (std::any_of(taken.begin(), taken.end(), is_near)) continue;
+    taken.push_back(room);
+    const double slant = rng.uniform(0.15, 1.4);
+    if (kind == 0) {
+      ground.map.discs.push_back({room.centre, radius});
+    } else if (kind == 1) {
+      add_wall(ground, turned_rectangle(room.centre, 2 * radius * std::cos(slant),
+                                        2 * radius * std::sin(slant), rng.uniform(-pi, pi)));
+    } else {
+      ground.map.walls.push_back(star(room.centre, radius, rng));
+    }
+  }
+  return ground;
+}
+
+Ground gated_ground(const Crosser& swarm, double speed_ratio, Rng& rng) {
+  Ground ground;
+  const double gate = 2 * swarm.half_passage;
+  ground.map.hi = {2400, 2000};
+  const int walls = 1 + static_cast<int>(rng.below(2));
+  for (int k = 0; k < walls; ++k) {
+    const double x = walls == 1 ? rng.uniform(1000, 1400) : rng.uniform(650, 850) + 850 * k;
+    add_gates(ground, swarm, x, speed_ratio * swarm.speed, rng);
+  }
+  ground.extent = 70;
+  ground.start = {rng.uniform(gate, 350), rng.uniform(gate, 2000 - gate)};
+  ground.goal = {2400 - rng.uniform(gate, 350), rng.uniform(gate, 2000 - gate)};
+  if (rng.below(2) == 1) std::swap(ground.start, ground.goal);
+  return ground;
+}
+
+Ground vessel_ground(const Crosser& swarm, Rng& rng) {
+  VascularShape shape;
+  shape.width = 3200;
+  shape.height = 2400;
+  shape.spacing = 800;
+  shape.least_half = 2 * swarm.half_passage + 70;
+  shape.most_half = shape.least_half + 60;
+  shape.wander = 0.12;
+  const ChannelGraph graph = random_channels(shape, rng);
+  Ground ground;
+  ground.map.hi = graph.bounds.hi;
+  // Two halves, in which no wall surrounds a vessel: outlines have no holes then.
+  const std::vector<Polygon> free = difference(graph.bounds, walls_of(graph));
+  const Vec2 middle = graph.bounds.centre();
+  for (const Box half : {Box{graph.bounds.lo, {middle.x, graph.bounds.hi.y}},
+                         Box{{middle.x, graph.bounds.lo.y}, graph.bounds.hi}}) {
+    for (const Polygon& wall : difference(half, free)) add_wall(ground, wall);
+  }
+  for (const auto& [a, b] : graph.channels)
+    ground.lanes.push_back({graph.joints[a].centre, graph.joints[b].centre});
+  ground.lane_room = shape.least_half;
+  ground.extent = 60;
+  ground.enclosed = true;
+  ground.goal = graph.joints[0].centre;
+  const auto farther = [&](const Disc& a, const Disc& b) {
+    return distance(a.centre, ground.goal) < distance(b.centre, ground.goal);
+  };
+  ground.start = std::max_element(graph.joints.begin(), graph.joints.end(), farther)->centre;
+  return ground;
+}
+
+Ground channel_ground(const Crosser& swarm, double speed_ratio, Rng& rng) {
+  Ground ground;
+  DeformingChannel channel;
+  channel.amplitude = rng.uniform(10, 30);
+  channel.half_width = 2 * swarm.half_passage + 70 + channel.amplitude;
+  channel.end_half_width = channel.half_width + rng.uniform(0, 60);
+  channel.wavelength = rng.uniform(500, 1000);
+  channel.period = 2 * pi * channel.amplitude / (speed_ratio * swarm.speed);
+  const double swing = rng.uniform(0, 110);
+  const double wave = rng.uniform(1500, 2200);
+  const double phase = rng.uniform(-pi, pi);
+  constexpr double length = 2200;
+  const double inset = channel.end_half_width + channel.amplitude + 60;
+  const double middle = inset + swing + 60;
+  for (double x = 0; x <= length + 1; x += length / 16)
+    channel.centre_line.push_back(
+        {inset + x, middle + swing * std::sin(2 * pi * x / wave + phase)});
+  ground.map.hi = {2 * inset + length, 2 * middle};
+  channel.block_centre = 0.5 * ground.map.hi;
+  channel.block_width = ground.map.hi.x + 200;
+  channel.block_height = ground.map.hi.y + 200;
+  ground.lanes = {channel.centre_line};
+  ground.lane_room = channel.half_width - channel.amplitude;
+  ground.extent = 60;
+  ground.enclosed = true;
+  ground.start = channel.centre_line.front();
+  ground.goal = channel.centre_line.back();
+  if (rng.below(2) == 1) std::swap(ground.start, ground.goal);
+  const Obstacle block{channel, Still{}};
+  ground.fixtures.push_back(block);
+  return ground;
+}
+
+}  // namespace microswarm::scenes

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/scenes/avoidance_worlds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/geometry/distance.hpp"
+#include "tests/scenes/avoidance_movers.hpp"
+
+namespace microswarm::scenes {
+namespace {
+
+constexpr double look = 0.5;           // between two looks at where a mover goes [s]
+constexpr double looked_at = 120;      // how far [s]
+constexpr double off_walls = 5;        // of what comes through [µm]
+constexpr int tries_each = 15;         // to find an obstacle that is fair
+constexpr double goal_tolerance = 30;  // [µm]
+
+VortexParams random_swarm(Rng& rng) {
+  VortexParams swarm;
+  swarm.radius = rng.uniform(35, 55);
+  swarm.moving_radius = swarm.radius * rng.uniform(0.85, 1.15);
+  swarm.radius_ripple = rng.uniform(0, 0.5);
+  swarm.max_speed = rng.uniform(60, 100);
+  swarm.position_noise = rng.uniform(0, 1.5);
+  return swarm;
+}
+
+SensingParams random_sensing(Rng& rng) {
+  SensingParams sensing;
+  sensing.position_noise = rng.uniform(0, 2);
+  sensing.heading_noise = rng.uniform(0, 0.05);
+  sensing.missed_share = rng.uniform(0, 0.05);
+  return sensing;
+}
+
+/// Takes only obstacles that leave the world fair to cross.
+class Referee {
+ public:
+  Referee(const Ground& ground, const Map& walls, const Crosser& swarm, double swarm_radius)
+      : ground_(ground),
+        walls_(walls),
+        passage_(2 * swarm.half_passage),
+        radius_(swarm_radius),
+        goal_busy_(static_cast<std::size_t>(looked_at / look), false) {}
+
+  bool accepts(const Mover& mover) {
+    if (!starts_apart(mover.obstacle)) return false;
+    if (mover.rests && !leaves_passages(mover)) return false;
+    std::vector<bool> busy = goal_busy_;
+    for (std::size_t i = 0; i < busy.size(); ++i) {
+      const double t = look * static_cast<double>(i);
+      const Placement at = placement(mover.obstacle.motion, t);
+      if (!at.present) continue;
+      if (!keeps_off_walls(mover, at.pose.position)) return false;
+      busy[i] = busy[i] || gap(mover.obstacle, t, ground_.goal) <
+                               radius_ + goal_tolerance + avoidance_passage_gap;
+    }
+    const auto count = std::count(busy.begin(), busy.end(), true);
+    if (static_cast<double>(count) > avoidance_goal_busy * static_cast<double>(busy.size()))
+      return false;
+    goal_busy_ = std::move(busy);
+    if (mover.rests) resting_.push_back({position(mover), mover.extent});
+    return true;
+  }
+
+ private:
+  static Vec2 position(const Mover& mover) {
+    return placement(mover.obstacle.motion, 0).pose.position;
+  }
+
+  static double gap(const Obstacle& obstacle, double t, Vec2 p) {
+    std::vector<Body> bodies;
+    append_bodies(obstacle, 0, t, bodies);
+    double least = std::numeric_limits<double>::infinity();
+    for (const Body& body : bodies)
+      least = std::min(
+          least, std::visit([p](const auto& shape) { return distance(p, shape); }, body.shape));
+    return least;
+  }
+
+  bool starts_apart(const Obstacle& obstacle) const {
+    return gap(obstacle, 0, ground_.start) >= radius_ + avoidance_start_gap + top_speed(obstacle);
+  }
+
+  bool leaves_passages(const Mover& mover) const {
+    const Vec2 p = position(mover);
+    if (distance(p, ground_.goal) < mover.extent + passage_) return false;
+    if (walls_.border_clearance(p) < mover.extent + passage_) return false;
+    return std::none_of(resting_.begin(), resting_.end(), [&](const Disc& other) {
+      return distance(p, other.centre) < other.radius + mover.extent + passage_;
+    });
+  }
+
+  bool keeps_off_walls(const Mover& mover, Vec2 p) const {
+    if (!walls_.bounds().contains(p)) return mover.passes && !ground_.enclosed;
+    const double room = ground_.lanes.empty() ? walls_.wall_clearance(p) : lane_room(p);
+    return room >= mover.extent + (mover.passes ? off_walls : passage_);
+  }
+
+  /// Between walls that move: how far they are at least.
+  double lane_room(Vec2 p) const {
+    double off = std::numeric_limits<double>::infinity();
+    for (const std::vector<Vec2>& lane : ground_.lanes)
+      for (std::size_t i = 1; i < lane.size(); ++i)
+        off = std::min(off, distance(p, Segment{lane[i - 1], lane[i]}));
+    return ground_.lane_room - off;
+  }
+
+  const Ground& ground_;
+  const Map& walls_;
+  double passage_;
+  double radius_;
+  std::vector<Disc> resting_;
+  std::vector<bool> goal_busy_;
+};
+
+Ground random_ground(const AvoidanceOptions& options, const Crosser& swarm, int obstacles,
+                     Rng& rng) {
+  if (!options.walls) return open_ground(swarm, obstacles, rng);
+  const double slow = std::min(0.9, options.most_speed_ratio);
+  const std::uint64_t kind = rng.below(20);
+  if (kind < 8) return scattered_ground(swarm, obstacles, rng);
+  if (kind < 13) return gated_ground(swarm, slow * rng.uniform(0.3, 1), rng);
+  if (kind < 18) return vessel_ground(swarm, rng);
+  return channel_ground(swarm, slow * rng.uniform(0.3, 1), rng);
+}
+
+}  // namespace
+
+Scenario avoidance_scenario(std::uint64_t seed, const AvoidanceOptions& options) {
+  Rng rng(seed, Purpose::scene);
+  Scenario s;
+  const VortexParams swarm = random_swarm(rng);
+  s.swarm = swarm;
+  s.sensing = random_sensing(rng);
+  s.seed = seed;
+  const double radius = greatest_radius(swarm);
+  const Crosser crosser{radius + avoidance_passage_gap, swarm.max_speed};
+  const auto most = static_cast<std::uint64_t>(options.most_obstacles);
+  const int asked = 1 + static_cast<int>(rng.below(most));
+  const Ground ground = random_ground(options, crosser, asked, rng);
+  s.map = ground.map;
+  s.obstacles = ground.fixtures;
+  s.start = Pose2{ground.start, heading_of(ground.goal - ground.start)};
+  s.goal = ground.goal;
+  s.goal_tolerance = goal_tolerance;
+  s.time_limit = 60 + 5 * distance(ground.start, ground.goal) / swarm.max_speed;
+  s.hold_limit = s.time_limit;
+  s.stop_at_contact = false;
+
+  // A coarse field will do for the few questions that are asked here.
+  constexpr double field_cell = 50;
+  const MapParts parts = read_map_parts(s.map);
+  const Map walls(parts.bounds, parts.walls, parts.discs, field_cell);
+  Referee referee(ground, walls, crosser, radius);
+  for (int i = 0; i < asked; ++i) {
+    for (int k = 0; k < tries_each; ++k) {
+      const double ratio = rng.uniform(options.least_speed_ratio, options.most_speed_ratio);
+      Mover mover =
+          random_mover(ground, crosser, ratio, options.least_speed_ratio < 1, s.time_limit, rng);
+      if (!referee.accepts(mover)) continue;
+      s.obstacles.push_back(std::move(mover.obstacle));
+      break;
+    }
+  }
+  return s;
+}
+
+World avoidance_world(const Scenario& scenario) {
+  return build_world({scenario, read_map_parts(scenario.map)});
+}
+
+}  // namespace microswarm::scenes
