@@ -70,6 +70,10 @@ GlobalTask six_robots(int env) {
   return task;
 }
 
+std::vector<Vec2> six_goals_apart() {
+  return {{213, 175}, {111, 155}, {111, 105}, {128, 55}, {253, 97}, {311, 50}};
+}
+
 GlobalTask vascular_task() {
   return {"vascular network",
           large_vascular_network().map(),

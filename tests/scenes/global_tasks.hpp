@@ -20,6 +20,9 @@ struct GlobalTask {
 
 /// Six robots in Env 1–4: the four of [global], and two more in a row with them.
 GlobalTask six_robots(int env);
+/// Other goals for them in Env 1, each at least 50 µm from the others and all over the map: where
+/// six inputs drawn at random, each held for 5 to 44 steps, bring them.
+std::vector<Vec2> six_goals_apart();
 
 /// Fig 1, 8 and 12 [global] are published as pictures only; these are maps of ours of the same
 /// kind: three robots in a vascular network, three in a digestive system (planar: the duodenum goes
