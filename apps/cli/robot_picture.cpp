@@ -34,7 +34,8 @@ void draw_robots(const Map& map, const GlobalPlan& plan, std::span<const Vec2> g
       picture.mark(way.front(), fmt::format("start {}", robot + 1), colour);
       picture.mark(way.back(), "", colour);
     }
-    picture.legend(fmt::format("robot {}, its goal dashed", robot + 1), colour);
+    picture.legend(fmt::format("robot {}{}", robot + 1, robot == 0 ? ", goals dashed" : ""),
+                   colour);
   }
   picture.write(file);
 }
