@@ -2,6 +2,7 @@
 #include "microswarm/navigation/hierarchical.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "microswarm/core/angles.hpp"
@@ -21,7 +22,12 @@ constexpr std::array<double, 3> eases{1.0, 0.5, 0.25};
 HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params,
                                              const SwarmLimits& swarm, Vec2 goal,
                                              double goal_tolerance, Rng rng)
-    : params_(params), swarm_(swarm), goal_(goal), goal_tolerance_(goal_tolerance), rng_(rng) {
+    : params_(params),
+      swarm_(swarm),
+      goal_(goal),
+      goal_tolerance_(goal_tolerance),
+      rng_(rng),
+      forecast_(swarm) {
   params_.speed = std::min(params.speed, swarm.max_speed);
   // How far the arc of a tick is from its chord; a swarm that turns at once makes none.
   if (std::isfinite(swarm.max_turn_rate))
@@ -44,8 +50,9 @@ Command HierarchicalNavigator::step(const Observation& seen, const Stop& stop) {
 
 Command HierarchicalNavigator::issue(double now, Command command, std::string_view state) {
   view_.state = state;
-  if (!issued_.empty()) period_ = std::clamp(now - issued_.back().time, tick, 1.0);
-  issued_.push_back({now, command});
+  if (issued_at_) period_ = std::clamp(now - *issued_at_, tick, 1.0);
+  issued_at_ = now;
+  forecast_.note(now, command);
   return command;
 }
 
@@ -54,9 +61,7 @@ Command HierarchicalNavigator::decide(const Observation& seen, const Stop& stop)
   if (!seen.swarm || !seen.world || !is_finite(seen.swarm->pose.position) ||
       !std::isfinite(seen.swarm->pose.heading) || seen.age() > params_.frame_timeout)
     return issue(seen.now, {}, "blind");
-  while (issued_.size() > 1 && issued_[1].time + swarm_.response_lag <= seen.seen)
-    issued_.pop_front();
-  pose_ = pose_at_effect(seen);
+  pose_ = forecast_.at_effect(seen);
   const Command hold{pose_.heading, 0};
   if (distance(pose_.position, goal_) <= goal_tolerance_) {  // line 2
     path_.clear();
@@ -79,21 +84,6 @@ Command HierarchicalNavigator::decide(const Observation& seen, const Stop& stop)
   if (look_ahead(seen, params_.margin, [&](const Pose2&, double) { return hold; }).safe)
     return issue(seen.now, hold, "hold");
   return escape(seen);
-}
-
-Pose2 HierarchicalNavigator::pose_at_effect(const Observation& seen) const {
-  Pose2 pose = seen.swarm->pose;
-  double t = seen.seen;
-  const double effect = seen.now + swarm_.response_lag;
-  for (std::size_t i = 0; i < issued_.size() && t < effect; ++i) {
-    const double until = i + 1 < issued_.size()
-                             ? std::min(effect, issued_[i + 1].time + swarm_.response_lag)
-                             : effect;
-    if (until <= t || issued_[i].time + swarm_.response_lag > t + 1e-9) continue;
-    pose = unicycle_step(pose, issued_[i].command, swarm_.max_turn_rate, until - t);
-    t = until;
-  }
-  return pose;
 }
 
 // Path Safety, P_clt Unsafe: the rest of the path against what is seen now.

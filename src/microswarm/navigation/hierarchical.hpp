@@ -2,33 +2,21 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "microswarm/core/fields.hpp"
+#include "microswarm/navigation/body_forecast.hpp"
 #include "microswarm/navigation/follower.hpp"
+#include "microswarm/navigation/guide.hpp"
 #include "microswarm/navigation/local_target.hpp"
 #include "microswarm/navigation/navigator.hpp"
-#include "microswarm/navigation/route.hpp"
 #include "microswarm/planning/planners.hpp"
 #include "microswarm/swarm/swarm_limits.hpp"
 
 namespace microswarm {
-
-/// Which way the goal is taken to lie.
-enum class Guide {
-  straight,  ///< the straight direction, as Eq 4e [drrt] has it
-  route,     ///< along the free space of the static map
-};
-constexpr auto enum_names(Guide) {
-  return std::array<std::pair<Guide, std::string_view>, 2>{
-      {{Guide::straight, "straight"}, {Guide::route, "route"}}};
-}
 
 /// Hierarchical D-RRT* planning framework: Algorithm 4 [drrt] over local target selection
 /// (Algorithm 1) and the local planner (Algorithms 2–3). Ours besides: the guide along the map, and
@@ -86,10 +74,6 @@ class HierarchicalNavigator : public Navigator {
   NavigatorView view() const override { return view_; }
 
  private:
-  struct Issued {
-    double time;
-    Command command;
-  };
   struct Outlook {
     bool safe = false;
     double least = 0;  ///< least clearance on the way [µm]
@@ -98,7 +82,6 @@ class HierarchicalNavigator : public Navigator {
 
   Command decide(const Observation& seen, const Stop& stop);
   Command issue(double now, Command command, std::string_view state);
-  Pose2 pose_at_effect(const Observation& seen) const;
   bool path_holds(const Snapshot& world) const;
   void replan(const Snapshot& seen, const Snapshot& ahead, const Stop& stop);
   bool replan_with(const Snapshot& world, double clearance, const Stop& stop);
@@ -122,7 +105,8 @@ class HierarchicalNavigator : public Navigator {
   double slack_ = 1;     ///< kept besides the margin, for what happens within a tick [µm]
   double period_ = 0.1;  ///< between the last two commands [s]
 
-  std::deque<Issued> issued_;
+  std::optional<double> issued_at_;  ///< the last command [s]
+  BodyForecast forecast_;
   Pose2 pose_;  ///< where the swarm will be when the command of this step takes effect
   std::vector<Vec2> path_;
   PathPlace place_;

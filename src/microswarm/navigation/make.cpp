@@ -23,10 +23,28 @@ Made make(const AggregationParams& p, const Task& task, Rng rng) {
                                                 task.tick, rng);
 }
 
-std::string_view lacks(const HierarchicalParams&, const Task& task) {
+Made make(const StraightParams& p, const Task& task, Rng) {
+  return std::make_unique<StraightNavigator>(p, task.swarm, *task.goal, task.goal_tolerance);
+}
+
+Made make(const PotentialFieldParams& p, const Task& task, Rng) {
+  return std::make_unique<PotentialFieldNavigator>(p, task.swarm, *task.goal, task.goal_tolerance);
+}
+
+Made make(const VelocityObstacleParams& p, const Task& task, Rng) {
+  return std::make_unique<VelocityObstacleNavigator>(p, task.swarm, *task.goal,
+                                                     task.goal_tolerance);
+}
+
+std::string_view lacks_body(const Task& task) {
   if (task.robots) return "a swarm that is one body: it cannot steer robots one by one";
   return task.goal ? "" : "a goal";
 }
+
+std::string_view lacks(const HierarchicalParams&, const Task& task) { return lacks_body(task); }
+std::string_view lacks(const StraightParams&, const Task& task) { return lacks_body(task); }
+std::string_view lacks(const PotentialFieldParams&, const Task& task) { return lacks_body(task); }
+std::string_view lacks(const VelocityObstacleParams&, const Task& task) { return lacks_body(task); }
 
 std::string_view lacks(const PlanPlayerParams&, const Task& task) {
   return task.robots && !task.robots->goals.empty() ? "" : "robots with a goal each";

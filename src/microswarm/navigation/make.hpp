@@ -9,12 +9,16 @@
 #include "microswarm/navigation/aggregation.hpp"
 #include "microswarm/navigation/hierarchical.hpp"
 #include "microswarm/navigation/plan_player.hpp"
+#include "microswarm/navigation/potential_field.hpp"
+#include "microswarm/navigation/straight.hpp"
+#include "microswarm/navigation/velocity_obstacle.hpp"
 #include "microswarm/swarm/robot_swarm.hpp"
 
 namespace microswarm {
 
 /// Any navigator, chosen at run time by its `type`.
-using NavigatorParams = std::variant<HierarchicalParams, PlanPlayerParams, AggregationParams>;
+using NavigatorParams = std::variant<HierarchicalParams, PlanPlayerParams, AggregationParams,
+                                     StraightParams, PotentialFieldParams, VelocityObstacleParams>;
 
 /// What a navigator is told of its task.
 struct Task {

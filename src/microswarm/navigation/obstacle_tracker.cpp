@@ -40,6 +40,11 @@ void remember(std::vector<Sighting>& trail, Sighting newest, int most, double me
 
 }  // namespace
 
+double outward_speed(const Body& body, const TrackedBody& motion) {
+  return std::holds_alternative<Disc>(body.shape) ? std::max(0.0, motion.radius_rate)
+                                                  : motion.outline_speed;
+}
+
 Disc extent_of(const Body& body) {
   if (const auto* disc = std::get_if<Disc>(&body.shape)) return *disc;
   const std::vector<Vec2>& outline = *outline_of(body);
@@ -50,8 +55,9 @@ Disc extent_of(const Body& body) {
 
 void ObstacleTracker::see(const Observation& observation) {
   if (!observation.world || !std::isfinite(observation.seen)) return;
-  if (observation.seen == seen_) return;
-  if (observation.seen < seen_) trails_.clear();
+  const bool same_count = observation.world->moving().bodies().size() == bodies_.size();
+  if (observation.seen == seen_ && same_count) return;
+  if (observation.seen <= seen_) trails_.clear();
   seen_ = observation.seen;
   take(*observation.world);
 }
@@ -110,6 +116,7 @@ TrackedBody ObstacleTracker::told_by(const Trail& trail) const {
           .velocity = place.velocity,
           .acceleration = place.acceleration,
           .velocity_error = place.velocity_error,
+          .noise = place.noise,
           .radius = radius.place.x,
           .radius_rate = radius.velocity.x,
           .outline_speed = trail.outline_speed,

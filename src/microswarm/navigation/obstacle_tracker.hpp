@@ -31,6 +31,7 @@ struct TrackedBody {
   Vec2 velocity;              ///< of the centre [µm/s]; 0 when seen only once
   Vec2 acceleration;          ///< of the centre [µm/s²]; 0 while it goes straight
   double velocity_error = 0;  ///< of a coordinate, standard deviation [µm/s]; infinite at first
+  double noise = 0;           ///< with which the centre is seen, of a coordinate [µm]
   double radius = 0;          ///< of the disc, or to the farthest vertex [µm]
   double radius_rate = 0;     ///< [µm/s]
   double outline_speed = 0;   ///< the outline moved so fast besides the centre [µm/s]
@@ -48,8 +49,8 @@ class ObstacleTracker {
  public:
   explicit ObstacleTracker(const ObstacleTrackerParams& params = {}) : params_(params) {}
 
-  /// Takes a frame. One that is not newer than the last is not taken again; one that is older
-  /// begins anew. An observation without a world is left out.
+  /// Takes a frame. One that is as new as the last is not taken again; one that is older, or as
+  /// new with another number of bodies, begins anew. An observation without a world is left out.
   void see(const Observation& observation);
   /// One entry a body, in the order of the newest frame's moving().bodies().
   std::span<const TrackedBody> bodies() const { return bodies_; }
@@ -77,6 +78,9 @@ class ObstacleTracker {
   std::vector<Trail> trails_;  ///< ascending by (obstacle, leaf)
   std::vector<TrackedBody> bodies_;
 };
+
+/// How fast [µm/s] the body's outline comes outwards besides the motion of its centre, at most.
+double outward_speed(const Body& body, const TrackedBody& motion);
 
 /// Centre of a body as the tracker takes it, and its radius around it [µm].
 Disc extent_of(const Body& body);

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/helm.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace microswarm {
+
+bool sees_swarm(const Observation& seen, double frame_timeout) {
+  return seen.swarm && seen.world && is_finite(seen.swarm->pose.position) &&
+         std::isfinite(seen.swarm->pose.heading) && std::isfinite(seen.swarm->radius) &&
+         seen.age() <= frame_timeout && seen.world->map().is_free(seen.swarm->pose.position, 0);
+}
+
+Helm::Helm(const SwarmLimits& swarm, double speed, Vec2 goal, double goal_tolerance,
+           double frame_timeout)
+    : swarm_(swarm),
+      speed_(std::min(speed, swarm.max_speed)),
+      goal_(goal),
+      goal_tolerance_(goal_tolerance),
+      frame_timeout_(frame_timeout),
+      forecast_(swarm) {}
+
+const Pose2* Helm::begin(const Observation& seen) {
+  view_ = {};
+  now_ = seen.now;
+  if (!sees_swarm(seen, frame_timeout_)) {
+    why_rest_ = "blind";
+    return nullptr;
+  }
+  delay_ = seen.age() + swarm_.response_lag;
+  pose_ = forecast_.at_effect(seen);
+  if (distance(pose_.position, goal_) > goal_tolerance_) return &pose_;
+  why_rest_ = "arrived";
+  return nullptr;
+}
+
+Command Helm::issue(const Command& command, std::string_view state) {
+  view_.state = state;
+  forecast_.note(now_, command);
+  return command;
+}
+
+}  // namespace microswarm
