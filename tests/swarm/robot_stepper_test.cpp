@@ -103,6 +103,30 @@ TEST(RobotStepper, NoRobotEverLeavesFreeSpace) {
   }
 }
 
+TEST(RobotStepper, NothingSlipsInExactlyAlongTheDiagonalOfASquareCorner) {
+  std::vector<Polygon> walls;
+  for (int i = 0; i < 10; ++i)
+    for (int j = 0; j < 10; ++j)
+      walls.push_back(box(600 * i + 300, 600 * j + 300, 600 * i + 306, 600 * j + 306));
+  const Map map({{0, 0}, {5994, 5760}}, walls);
+  const RobotStepper stepper(map, 4);
+  Rng rng(8, Purpose::scene);
+  std::vector<Vec2> starts;
+  for (int k = 0; k < 4000; ++k) {
+    const double i = static_cast<double>(rng.below(10)), j = static_cast<double>(rng.below(10));
+    const double back = static_cast<double>(800 + rng.below(20'000)) / 8192;  // no rounding
+    starts.push_back({600 * i + 300 - back, 600 * j + 300 - back});
+  }
+  for (const double length : {2.0, 2.828, 3.0, 3.7, 4.0})
+    for (const ContactRule rule : rules) {
+      Robots robots = stepper.place(starts);
+      for (int k = 0; k < 3; ++k) {
+        stepper.step(robots, length * unit_vector(pi / 4), rule);
+        for (const Vec2 p : robots.positions()) ASSERT_TRUE(map.is_free(p, 0)) << p.x << ' ' << p.y;
+      }
+    }
+}
+
 TEST(RobotStepper, LanesGiveTheBitsOfThePlainForm) {
   for (const Case& c : cases()) {
     const RobotStepper stepper(c.map, c.reach);

@@ -61,14 +61,14 @@ void WallFaces::add_ring(std::span<const Vec2> ring) {
     const Vec2 in = direction(tip - before);
     const Vec2 out = direction(after - tip);
     if (dot(in, out) >= 0 || cross(in, out) < 0) continue;
-    faces_.push_back({rounded(tip - origin_), rounded(direction(in - out)), 0});
+    faces_.push_back({rounded(tip - origin_), rounded(direction(in - out)), overlap()});
   }
 }
 
 void WallFaces::add_face(Vec2 a, Vec2 b) {
   const Vec2 along = direction(b - a);
   faces_.push_back({rounded(0.5 * (a + b) - origin_), rounded({along.y, -along.x}),
-                    static_cast<float>(0.5 * distance(a, b))});
+                    static_cast<float>(0.5 * distance(a, b)) + overlap()});
 }
 
 void WallFaces::add_border(const Box& bounds) {

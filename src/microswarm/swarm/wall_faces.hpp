@@ -23,7 +23,7 @@ struct PointF {
 struct WallFace {
   PointF middle;
   PointF normal;
-  float half_length = 0;  ///< [µm]; 0 for the blunted tip of a sharp corner
+  float half_length = 0;  ///< [µm], and what it overlaps its neighbours by
 };
 
 /// Up to eight faces side by side, for machines that look at so many at once; the rest have lengths
@@ -52,8 +52,10 @@ struct FaceContact {
 /// every cell of a grid. No point robot passes a face, though positions and products are rounded:
 /// a move that would bring the robot nearer than `guard` to a face is a contact, and the robot then
 /// stops `standoff` from the face, measured square to it, so that grazing contacts do not let it
-/// creep up. Both are far wider than all rounding. A face reaches `guard` beyond its ends, and a
-/// corner sharper than 90° has a face of length 0 across its tip; so no gap is left between faces.
+/// creep up. Both are far wider than all rounding. A face reaches one and a half guards beyond its
+/// ends (with one, a robot that comes straight at a corner of 90° would meet both faces just at
+/// their ends, and rounding could let it through), and a corner sharper than 90° has a face across
+/// its tip; so no gap is left between faces.
 /// Discs are taken as the polygons of 64 corners around them.
 class WallFaces {
  public:
@@ -74,6 +76,8 @@ class WallFaces {
   FaceContact first_contact(PointF p, PointF move) const;
 
  private:
+  /// What half_length holds besides: time_to_contact adds one guard.
+  float overlap() const { return 0.5f * guard_; }
   void add_ring(std::span<const Vec2> ring);
   void add_face(Vec2 a, Vec2 b);
   void add_border(const Box& bounds);
