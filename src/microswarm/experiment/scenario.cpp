@@ -172,6 +172,7 @@ void check(const Scenario& scenario, const World& world, const std::string& wher
     throw InputError(fmt::format("{}: missing key 'goal_um'", where));
   if (const auto lack = what_it_lacks(scenario.navigator, task_of(scenario)); !lack.empty())
     throw InputError(fmt::format("{}: this navigator needs {}", where, lack));
+  check_navigator(scenario.navigator, task_of(scenario), *world.map, where);
   scenario.robots ? check_robot_places(scenario, *world.map, where)
                   : check_body(scenario, world, where);
 }

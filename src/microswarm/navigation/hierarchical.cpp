@@ -7,6 +7,7 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/navigation/forecast.hpp"
+#include "microswarm/navigation/helm.hpp"
 #include "microswarm/swarm/unicycle.hpp"
 
 namespace microswarm {
@@ -58,9 +59,7 @@ Command HierarchicalNavigator::issue(double now, Command command, std::string_vi
 
 // Algorithm 4 [drrt], one pass of its loop
 Command HierarchicalNavigator::decide(const Observation& seen, const Stop& stop) {
-  if (!seen.swarm || !seen.world || !is_finite(seen.swarm->pose.position) ||
-      !std::isfinite(seen.swarm->pose.heading) || seen.age() > params_.frame_timeout)
-    return issue(seen.now, {}, "blind");
+  if (!sees_swarm(seen, params_.frame_timeout)) return issue(seen.now, {}, "blind");
   pose_ = forecast_.at_effect(seen);
   const Command hold{pose_.heading, 0};
   if (distance(pose_.position, goal_) <= goal_tolerance_) {  // line 2

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/navigation/make.hpp"
 
+#include <fmt/format.h>
+
+#include "microswarm/core/error.hpp"
 #include "microswarm/navigation/aggregation_navigator.hpp"
 
 namespace microswarm {
@@ -21,6 +24,10 @@ Made make(const PlanPlayerParams& p, const Task& task, Rng rng) {
 Made make(const AggregationParams& p, const Task& task, Rng rng) {
   return std::make_unique<AggregationNavigator>(p, *task.robots, *task.goal, task.goal_tolerance,
                                                 task.tick, rng);
+}
+
+Made make(const RadarParams& p, const Task& task, Rng rng) {
+  return std::make_unique<RadarNavigator>(p, task.swarm, *task.goal, task.goal_tolerance, rng);
 }
 
 Made make(const StraightParams& p, const Task& task, Rng) {
@@ -45,6 +52,7 @@ std::string_view lacks(const HierarchicalParams&, const Task& task) { return lac
 std::string_view lacks(const StraightParams&, const Task& task) { return lacks_body(task); }
 std::string_view lacks(const PotentialFieldParams&, const Task& task) { return lacks_body(task); }
 std::string_view lacks(const VelocityObstacleParams&, const Task& task) { return lacks_body(task); }
+std::string_view lacks(const RadarParams&, const Task& task) { return lacks_body(task); }
 
 std::string_view lacks(const PlanPlayerParams&, const Task& task) {
   return task.robots && !task.robots->goals.empty() ? "" : "robots with a goal each";
@@ -56,6 +64,17 @@ std::string_view lacks(const AggregationParams&, const Task& task) {
   return task.goal ? "" : "one goal for all robots";
 }
 
+// Waypoints must be where the swarm can be.
+void check_on(const RadarParams& p, const Task& task, const Map& map, const std::string& where) {
+  check(p, where);
+  const Snapshot walls(std::shared_ptr<const Map>(std::shared_ptr<void>(), &map));
+  for (std::size_t i = 0; i < p.waypoints.size(); ++i)
+    if (const auto why = walls.why_blocked(p.waypoints[i], task.swarm.radius); !why.empty())
+      throw InputError(fmt::format("{}: waypoint {} {}", where, i + 1, why));
+}
+template <class Other>
+void check_on(const Other&, const Task&, const Map&, const std::string&) {}
+
 double margin(const HierarchicalParams& p) { return p.margin; }
 template <class OfRobots>
 double margin(const OfRobots&) {
@@ -66,6 +85,11 @@ double margin(const OfRobots&) {
 
 std::string_view what_it_lacks(const NavigatorParams& params, const Task& task) {
   return std::visit([&](const auto& p) { return lacks(p, task); }, params);
+}
+
+void check_navigator(const NavigatorParams& params, const Task& task, const Map& map,
+                     const std::string& where) {
+  std::visit([&](const auto& p) { check_on(p, task, map, where); }, params);
 }
 
 double margin_of(const NavigatorParams& params) {

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <variant>
 
@@ -10,6 +11,7 @@
 #include "microswarm/navigation/hierarchical.hpp"
 #include "microswarm/navigation/plan_player.hpp"
 #include "microswarm/navigation/potential_field.hpp"
+#include "microswarm/navigation/radar.hpp"
 #include "microswarm/navigation/straight.hpp"
 #include "microswarm/navigation/velocity_obstacle.hpp"
 #include "microswarm/swarm/robot_swarm.hpp"
@@ -17,8 +19,9 @@
 namespace microswarm {
 
 /// Any navigator, chosen at run time by its `type`.
-using NavigatorParams = std::variant<HierarchicalParams, PlanPlayerParams, AggregationParams,
-                                     StraightParams, PotentialFieldParams, VelocityObstacleParams>;
+using NavigatorParams =
+    std::variant<HierarchicalParams, PlanPlayerParams, AggregationParams, RadarParams,
+                 StraightParams, PotentialFieldParams, VelocityObstacleParams>;
 
 /// What a navigator is told of its task.
 struct Task {
@@ -31,6 +34,11 @@ struct Task {
 
 /// What a navigator can steer: nothing when it can do the task, else what it lacks.
 std::string_view what_it_lacks(const NavigatorParams& params, const Task& task);
+
+/// Throws InputError, one line that begins with `where`, when the navigator's parameters make no
+/// sense together or on this map.
+void check_navigator(const NavigatorParams& params, const Task& task, const Map& map,
+                     const std::string& where);
 
 /// Least distance [µm] from its centre that the navigator keeps for a swarm seen as one body.
 double margin_of(const NavigatorParams& params);

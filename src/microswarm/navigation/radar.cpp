@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/radar.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "microswarm/navigation/helm.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double replan_time = 1;  // least time between two plans [s]
+
+}  // namespace
+
+RadarNavigator::RadarNavigator(const RadarParams& params, const SwarmLimits& swarm, Vec2 goal,
+                               double goal_tolerance, Rng rng)
+    : params_(params),
+      swarm_(swarm),
+      goal_(goal),
+      goal_tolerance_(goal_tolerance),
+      rng_(rng),
+      safety_radius_(params.safety_radius),
+      forecast_(swarm),
+      scanner_(directions_of(params)) {
+  params_.speed = std::min(params.speed, swarm.max_speed);
+}
+
+Command RadarNavigator::step(const Observation& seen, const Stop& stop) {
+  view_ = {};
+  look_.reset();
+  contact_.reset();
+  world_ = seen.world;
+  const Command command = decide(seen, stop);
+  forecast_.note(seen.now, command);
+  view_.path = route_.rest();
+  return command;
+}
+
+Command RadarNavigator::decide(const Observation& seen, const Stop& stop) {
+  if (!sees_swarm(seen, params_.frame_timeout) || !(seen.swarm->radius > 0))
+    return issue({}, "blind");
+  pose_ = params_.compensate_delay ? forecast_.at_effect(seen) : seen.swarm->pose;
+  if (!seen.world->is_free(pose_.position, 0)) return issue({}, "hold");
+  find_route(seen, stop);
+  const bool has_plan = !route_.empty();
+  const Vec2 target = has_plan ? route_.target(seen.world->map(), pose_.position,
+                                               seen.swarm->radius, params_.waypoint_tolerance)
+                               : goal_;
+  look_ = look_around(seen, target);
+  contact_ = scanner_.detect(*look_, *seen.world);
+  if (contact_)
+    look_->circles.safety = safety_radius_.radius(look_->circles.safety, look_->circles.prediction,
+                                                  contact_->distance - look_->radius);
+  view_.local_target = target;
+
+  if (distance(pose_.position, goal_) <= goal_tolerance_) return rest(seen, "arrived");
+  if (!has_plan) return rest(seen, "stuck");
+  const Waiting waiting{pose_.position, look_->radius, look_->circles.prediction, target};
+  for (const WaitArea& area : params_.wait_areas)  // Eq 29
+    if (must_wait(area, seen.world->moving().bodies(), waiting)) return rest(seen, "wait");
+  if (const auto heading = scanner_.choose(*look_, *seen.world)) {
+    const bool straight =
+        !contact_ && turn_between(*heading, heading_of(target - pose_.position)) < 1e-9;
+    return issue({*heading, params_.speed}, straight ? "direct" : "avoid");
+  }
+  if (!contact_) return rest(seen, "stuck");
+  if (params_.retreat) {
+    const bool pressed = contact_->distance < look_->circles.prediction;
+    if (const auto heading = scanner_.retreat(*look_, *seen.world, pressed))
+      return issue({*heading, params_.speed}, "retreat");
+  }
+  return issue({pose_.heading, 0}, "hold");
+}
+
+// Waypoints by hand, planned, or just the goal.
+void RadarNavigator::find_route(const Observation& seen, const Stop& stop) {
+  if (!routed_ && !params_.waypoints.empty()) {
+    std::vector<Vec2> points = params_.waypoints;
+    points.push_back(goal_);
+    route_ = RadarRoute(std::move(points));
+  } else if (!routed_ && !params_.global_plan) {
+    route_ = RadarRoute({goal_});
+  } else if (params_.waypoints.empty() && params_.global_plan && seen.now >= plan_again_at_ &&
+             (!routed_ || !route_.in_sight())) {
+    view_.planned = true;
+    plan_again_at_ = seen.now + replan_time;
+    const Snapshot walls(seen.world->shared_map());
+    const double radius = std::max(swarm_.radius, seen.swarm->radius);
+    if (!plan_route(walls, std::max(params_.planner.clearance, radius), stop))
+      plan_route(walls, radius, stop);
+  }
+  routed_ = true;
+}
+
+bool RadarNavigator::plan_route(const Snapshot& walls, double clearance, const Stop& stop) {
+  FmtStarParams planner = params_.planner;
+  planner.clearance = clearance;
+  planner.goal_tolerance = std::min(planner.goal_tolerance, goal_tolerance_);
+  Plan found = plan(walls, pose_, goal_, planner, rng_, stop);
+  if (found.status != Status::solved) return false;
+  if (found.path.size() > 1) found.path.erase(found.path.begin());
+  route_ = RadarRoute(std::move(found.path));
+  return true;
+}
+
+RadarLook RadarNavigator::look_around(const Observation& seen, Vec2 target) const {
+  const double radius = seen.swarm->radius;
+  const double dead_time = seen.age() + swarm_.response_lag;
+  return {.centre = pose_.position,
+          .radius = radius,
+          .target = target,
+          .circles = circles_of(params_, radius),
+          .step = params_.prediction_distance,
+          .wall_distance = params_.safety_distance,
+          .approach = params_.compensate_delay ? params_.obstacle_speed_bound * dead_time : 0,
+          .target_gain = params_.target_gain,
+          .avoidance_gain = params_.avoidance_gain};
+}
+
+// Holds, unless an obstacle is in the prediction circle and there is a way to get out of its way.
+Command RadarNavigator::rest(const Observation& seen, std::string_view state) {
+  const bool pressed = contact_ && contact_->distance < look_->circles.prediction;
+  if (pressed && params_.retreat)
+    if (const auto heading = scanner_.retreat(*look_, *seen.world, true))
+      return issue({*heading, params_.speed}, "retreat");
+  return issue({pose_.heading, 0}, state);
+}
+
+Command RadarNavigator::issue(const Command& command, std::string_view state) {
+  view_.state = state;
+  return command;
+}
+
+std::optional<RadarScan> RadarNavigator::last_scan() const {
+  if (!look_ || !world_) return std::nullopt;
+  return scan(*look_, *world_, scanner_.directions());
+}
+
+}  // namespace microswarm

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "microswarm/core/rng.hpp"
+#include "microswarm/navigation/body_forecast.hpp"
+#include "microswarm/navigation/navigator.hpp"
+#include "microswarm/navigation/radar_circles.hpp"
+#include "microswarm/navigation/radar_route.hpp"
+#include "microswarm/navigation/radar_scan.hpp"
+#include "microswarm/navigation/radar_scanner.hpp"
+#include "microswarm/navigation/safety_radius.hpp"
+#include "microswarm/swarm/swarm_limits.hpp"
+
+namespace microswarm {
+
+/// Navigation by a hierarchical radar [radar], see RadarParams. It knows of obstacles only where
+/// they are and how wide. Made for a swarm that moves into any direction at once. States: direct,
+/// avoid, retreat, hold, wait, arrived, blind, and stuck when there is no plan round the walls or
+/// they leave no way that leads nearer.
+class RadarNavigator : public Navigator {
+ public:
+  /// `params` passed `check`; `swarm` is what is known of the swarm.
+  RadarNavigator(const RadarParams& params, const SwarmLimits& swarm, Vec2 goal,
+                 double goal_tolerance, Rng rng);
+
+  Command step(const Observation& observation, const Stop& stop) override;
+  NavigatorView view() const override { return view_; }
+
+  /// The last decision in full, made up when it is asked for. Until the next observation; empty
+  /// when the last step scanned nothing: blind, arrived, or without a plan.
+  std::optional<RadarScan> last_scan() const;
+  /// What that decision rests on, at no cost.
+  const std::optional<RadarLook>& last_look() const { return look_; }
+
+ private:
+  Command decide(const Observation& seen, const Stop& stop);
+  void find_route(const Observation& seen, const Stop& stop);
+  bool plan_route(const Snapshot& walls, double clearance, const Stop& stop);
+  RadarLook look_around(const Observation& seen, Vec2 target) const;
+  Command rest(const Observation& seen, std::string_view state);
+  Command issue(const Command& command, std::string_view state);
+
+  RadarParams params_;
+  SwarmLimits swarm_;
+  Vec2 goal_;
+  double goal_tolerance_;
+  Rng rng_;
+  SafetyRadius safety_radius_;
+  BodyForecast forecast_;
+  RadarScanner scanner_;
+  RadarRoute route_;
+  bool routed_ = false;       ///< has looked for a route
+  double plan_again_at_ = 0;  ///< [s]
+  Pose2 pose_;                ///< where the swarm is when the command takes effect
+  std::optional<RadarLook> look_;
+  std::optional<RadarContact> contact_;
+  const Snapshot* world_ = nullptr;  ///< of the last observation
+  NavigatorView view_;
+};
+
+}  // namespace microswarm

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "microswarm/navigation/radar_circles.hpp"
+#include "microswarm/world/snapshot.hpp"
+
+namespace microswarm {
+
+/// What one decision of the radar rests on, the world besides. Lengths in µm.
+struct RadarLook {
+  Vec2 centre;                ///< of the swarm, O_s
+  double radius = 0;          ///< of the swarm, r_s
+  Vec2 target;                ///< O_t
+  RadarCircles circles;       ///< as controlled: with r_f of Eq 24
+  double step = 0;            ///< d_p
+  double wall_distance = 0;   ///< d_f of walls and border, Eq 30; they need no control of r_f
+  double approach = 0;        ///< obstacles count as nearer by this
+  double target_gain = 0;     ///< k_t ε
+  double avoidance_gain = 0;  ///< k_a η
+
+  /// Distance that a predictive swarm's centre keeps from obstacles: r_s + d_f, `approach` besides.
+  double obstacle_reach() const { return circles.safety - step + approach; }
+  /// The same of walls and border.
+  double wall_reach() const { return radius + wall_distance; }
+};
+
+/// q_t and q_a of Eq 10–12 [radar].
+struct RadarWeights {
+  double target = 1;
+  double avoidance = 0.5;
+};
+
+/// The weights with an obstacle whose edge is `distance` µm from the swarm's centre. As printed,
+/// the scale of Q_a is 0 for an obstacle that is as wide as the circle leaves room for, and Q_a
+/// grows again inside the circle; measured from the obstacle's edge, between the swarm's and the
+/// detection circle, both are sound: q_a = 1/2 + k_a η / 2 · ((1/s − 1/r_d) / (1/r_s − 1/r_d))².
+/// Hence q_t >= 1 > q_a for k_a η < 1.
+RadarWeights radar_weights(const RadarLook& look, double distance);
+
+/// Why a direction is not among χ_2 of Eq 17 [radar].
+enum class BeamFate { kept, obstacle, wall };
+constexpr auto enum_names(BeamFate) {
+  return std::array<std::pair<BeamFate, std::string_view>, 3>{
+      {{BeamFate::kept, "kept"}, {BeamFate::obstacle, "obstacle"}, {BeamFate::wall, "wall"}}};
+}
+
+/// One of the alternative directions, Eq 8 [radar].
+struct RadarBeam {
+  double heading = 0;  ///< θ_i
+  BeamFate fate = BeamFate::kept;
+  std::uint32_t obstacle = 0;  ///< number of the one that screens it, where one does
+  double score = 0;            ///< φ_i of Eq 9, 31; 0 where screened
+};
+
+/// One decision in full, for people: every direction and what became of it.
+struct RadarScan {
+  RadarLook look;
+  RadarWeights weights;
+  std::optional<std::uint32_t> nearest;  ///< body in the detection circle that Eq 9 is about
+  std::vector<RadarBeam> beams;          ///< directions 0, β, 2β, …
+  std::optional<std::size_t> best;       ///< of the beams; none where all are screened
+  std::optional<double> straight;        ///< θ_f of Eq 14 where it is taken: nothing is detected
+};
+
+/// Asks every direction against every body and wall: slow, and the yardstick for RadarScanner.
+RadarScan scan(const RadarLook& look, const Snapshot& world, int directions);
+
+/// Distance [µm] from a point to a body's edge, 0 inside.
+double edge_distance(const Body& body, Vec2 p);
+
+}  // namespace microswarm

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/radar_scanner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "microswarm/geometry/distance.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double least_way = 1e-9;  // as in scan [µm]
+/// Distances that differ by less are the same: along a wall is no nearer to it [µm].
+constexpr double rounding = 1e-6;
+
+}  // namespace
+
+RadarScanner::RadarScanner(int directions) {
+  const auto n = static_cast<std::size_t>(directions);
+  for (int i = 0; i < directions; ++i) {
+    const Vec2 u = unit_vector(wrap(2 * pi * i / directions));
+    ux_.push_back(u.x);
+    uy_.push_back(u.y);
+  }
+  for (auto* buffer : {&px_, &py_, &room_, &gap_, &way_}) buffer->resize(n);
+  discs_.reserve(64);
+  edges_.reserve(256);
+  bodies_.reserve(64);
+}
+
+double RadarScanner::heading(std::size_t i) const {
+  return wrap(2 * pi * static_cast<int>(i) / directions());
+}
+
+void RadarScanner::note(RadarContact contact) {
+  if (!nearest_ || contact.distance < nearest_->distance ||
+      (contact.distance == nearest_->distance && contact.body < nearest_->body))
+    nearest_ = contact;
+}
+
+std::optional<RadarContact> RadarScanner::detect(const RadarLook& look, const Snapshot& world) {
+  nearest_.reset();
+  discs_.clear();
+  edges_.clear();
+  bodies_.clear();
+  const double reach = look.circles.detection + look.approach;
+  const BodySet& moving = world.moving();
+  const Box near = Box{look.centre, look.centre}.grown(reach);
+  moving.discs().for_each_in(near, [&](std::size_t i) {
+    const Disc disc = moving.discs().disc(i);
+    const double d = distance(look.centre, disc);
+    if (d >= reach) return;
+    const std::uint32_t body = moving.discs().body_of(i);
+    discs_.push_back({disc, d});
+    bodies_.push_back(body);
+    note({body, d - look.approach});
+  });
+  // An edge that is farther than this is not the one of its body that is nearest to a predictive
+  // swarm.
+  const double far = reach + 2 * look.step;
+  moving.polygons().for_each_edge_in(near.grown(2 * look.step), [&](std::uint32_t body, Segment e) {
+    const double squared = squared_distance(look.centre, e);
+    if (squared >= far * far) return;
+    edges_.push_back({e, body});
+    const double d = std::sqrt(squared);
+    if (d >= reach) return;
+    if (std::find(bodies_.begin(), bodies_.end(), body) == bodies_.end()) bodies_.push_back(body);
+    note({body, d - look.approach});
+  });
+  return nearest_;
+}
+
+void RadarScanner::place(const RadarLook& look) {
+  for (std::size_t i = 0; i < ux_.size(); ++i) {
+    px_[i] = look.centre.x + look.step * ux_[i];
+    py_[i] = look.centre.y + look.step * uy_[i];
+  }
+}
+
+void RadarScanner::screen(const RadarLook& look, const Snapshot& world) {
+  place(look);
+  screen_by_obstacles(look, world);
+  screen_by_walls(look, world);
+}
+
+// Eq 17, 30. What is outside the safety circle screens nothing: a step of d_p leaves it d_f away.
+void RadarScanner::screen_by_obstacles(const RadarLook& look, const Snapshot& world) {
+  std::fill(room_.begin(), room_.end(), infinity);
+  const double reach = look.obstacle_reach();
+  for (const NearDisc& near : discs_) {
+    if (near.distance > reach + look.step + rounding) continue;
+    const Vec2 c = near.disc.centre;
+    const double keep = near.disc.radius + reach;
+    for (std::size_t i = 0; i < room_.size(); ++i) {
+      const double dx = c.x - px_[i];
+      const double dy = c.y - py_[i];
+      room_[i] = std::min(room_[i], dx * dx + dy * dy - keep * keep);
+    }
+  }
+  for (const NearEdge& near : edges_) {
+    if (distance(look.centre, near.edge) > reach + look.step + rounding) continue;
+    for (std::size_t i = 0; i < room_.size(); ++i)
+      room_[i] =
+          std::min(room_[i], squared_distance(Vec2{px_[i], py_[i]}, near.edge) - reach * reach);
+  }
+  if (edges_.empty() || look.step < reach) return;  // else a step may end deep inside
+  for (std::size_t i = 0; i < room_.size(); ++i)
+    if (room_[i] >= 0 && world.moving().polygons().holds({px_[i], py_[i]})) room_[i] = -1;
+}
+
+void RadarScanner::screen_by_walls(const RadarLook& look, const Snapshot& world) {
+  const double reach = look.wall_reach();
+  const Map& map = world.map();
+  if (map.field().lower(look.centre) >= reach + look.step + rounding) return;
+  for (std::size_t i = 0; i < room_.size(); ++i)
+    if (room_[i] >= 0 && !map.is_free(Vec2{px_[i], py_[i]}, reach)) room_[i] = -1;
+}
+
+// ‖O_pe O_ob‖ − r_s − r_ob of Eq 9, from edge to edge where the body is no disc.
+void RadarScanner::measure_nearest(const RadarLook& look, const Snapshot& world) {
+  if (!nearest_) return;
+  const Body& body = world.moving().bodies()[nearest_->body];
+  const double edge = look.approach + look.radius;
+  if (const auto* disc = std::get_if<Disc>(&body.shape)) {
+    for (std::size_t i = 0; i < gap_.size(); ++i) {
+      const double dx = disc->centre.x - px_[i];
+      const double dy = disc->centre.y - py_[i];
+      gap_[i] = std::max(0.0, std::sqrt(dx * dx + dy * dy) - disc->radius) - edge;
+    }
+    return;
+  }
+  std::fill(gap_.begin(), gap_.end(), infinity);
+  for (const NearEdge& near : edges_) {
+    if (near.body != nearest_->body) continue;
+    for (std::size_t i = 0; i < gap_.size(); ++i)
+      gap_[i] = std::min(gap_[i], squared_distance(Vec2{px_[i], py_[i]}, near.edge));
+  }
+  for (double& g : gap_) g = std::sqrt(g) - edge;
+}
+
+// Eq 9–13, 31 over what room_ has kept.
+std::optional<std::size_t> RadarScanner::best(const RadarLook& look, const Snapshot& world) {
+  RadarWeights weights{radar_weights(look, look.circles.detection).target, 0};
+  if (nearest_) weights = radar_weights(look, nearest_->distance);
+  measure_nearest(look, world);
+  double least_way_term = infinity, most_way_term = -infinity;
+  double least_gap = infinity, most_gap = -infinity;
+  for (std::size_t i = 0; i < room_.size(); ++i) {
+    const double dx = look.target.x - px_[i];
+    const double dy = look.target.y - py_[i];
+    way_[i] = 1 / std::max(std::sqrt(dx * dx + dy * dy), least_way);
+  }
+  for (std::size_t i = 0; i < room_.size(); ++i) {
+    if (room_[i] < 0) continue;
+    least_way_term = std::min(least_way_term, way_[i]);
+    most_way_term = std::max(most_way_term, way_[i]);
+    if (!nearest_) continue;
+    least_gap = std::min(least_gap, gap_[i]);
+    most_gap = std::max(most_gap, gap_[i]);
+  }
+  const double way_span = most_way_term - least_way_term;
+  const double gap_span = most_gap - least_gap;
+  std::optional<std::size_t> found;
+  double best_score = 0;
+  for (std::size_t i = 0; i < room_.size(); ++i) {
+    if (room_[i] < 0) continue;
+    double score = weights.target * (way_span > 0 ? (way_[i] - least_way_term) / way_span : 0);
+    score += weights.avoidance * (gap_span > 0 ? (gap_[i] - least_gap) / gap_span : 0);
+    if (found && score <= best_score) continue;
+    best_score = score;
+    found = i;
+  }
+  return found;
+}
+
+std::optional<double> RadarScanner::choose(const RadarLook& look, const Snapshot& world) {
+  if (!nearest_) {  // Eq 14–16
+    const double straight = heading_of(look.target - look.centre);
+    const double ahead = std::min(look.step, distance(look.centre, look.target));
+    if (world.map().is_free(look.centre + ahead * unit_vector(straight), look.wall_reach()))
+      return straight;
+  }
+  screen(look, world);
+  const auto found = best(look, world);
+  if (!found) return std::nullopt;
+  // Walls alone that leave no way nearer to the target: what leads away would only lead back.
+  const bool gains =
+      distance({px_[*found], py_[*found]}, look.target) < distance(look.centre, look.target);
+  if (!nearest_ && !gains) return std::nullopt;
+  return heading(*found);
+}
+
+std::vector<bool> RadarScanner::kept(const RadarLook& look, const Snapshot& world) {
+  screen(look, world);
+  std::vector<bool> out(room_.size());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = room_[i] >= 0;
+  return out;
+}
+
+RadarScanner::Outcome RadarScanner::outcome(const RadarLook& look, const Snapshot& world,
+                                            Vec2 to) const {
+  const Segment way{look.centre, to};
+  Outcome out{.allowed = true, .least = infinity, .on_way = infinity};
+  const auto consider = [&](double before, double on_way, double after, double reach) {
+    out.least = std::min(out.least, after);
+    out.on_way = std::min(out.on_way, on_way);
+    out.allowed = out.allowed && on_way > 0 && (on_way >= before - rounding || after >= reach);
+  };
+  for (const std::uint32_t i : bodies_) {
+    const Body& body = world.moving().bodies()[i];
+    const double on_way =
+        std::visit([&](const auto& shape) { return distance(way, shape); }, body.shape);
+    consider(edge_distance(body, look.centre), on_way, edge_distance(body, to),
+             look.obstacle_reach());
+  }
+  const Map& map = world.map();
+  const double reach = look.wall_reach();
+  const double before = map.clearance(look.centre);
+  if (before - look.step < reach)
+    consider(before, map.clearance(way, infinity), map.clearance(to), reach);
+  return out;
+}
+
+std::optional<double> RadarScanner::retreat(const RadarLook& look, const Snapshot& world,
+                                            bool pressed) {
+  place(look);
+  const double now = outcome(look, world, look.centre).least;
+  std::optional<std::size_t> found, emergency;
+  double least = 0;
+  double emergency_least = now + rounding;
+  for (std::size_t i = 0; i < ux_.size(); ++i) {
+    const Outcome o = outcome(look, world, {px_[i], py_[i]});
+    if (o.allowed && o.least > least) {
+      least = o.least;
+      found = i;
+    }
+    if (o.on_way > 0 && o.on_way >= now - rounding && o.least > emergency_least) {
+      emergency_least = o.least;
+      emergency = i;
+    }
+  }
+  if (!found && pressed) found = emergency;
+  return found ? std::optional(heading(*found)) : std::nullopt;
+}
+
+}  // namespace microswarm

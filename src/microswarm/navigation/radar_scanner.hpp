@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "microswarm/navigation/radar_scan.hpp"
+
+namespace microswarm {
+
+/// The nearest body in the detection circle.
+struct RadarContact {
+  std::uint32_t body = 0;
+  double distance = 0;  ///< from the swarm's centre to its edge, `approach` taken off [µm]
+};
+
+/// What `scan` would choose, quickly: what is near is gathered once, then asked for all directions
+/// in flat loops. Allocates nothing once its buffers have grown.
+class RadarScanner {
+ public:
+  explicit RadarScanner(int directions);
+
+  int directions() const { return static_cast<int>(ux_.size()); }
+
+  /// Gathers what is in the detection circle; of its nearest body tells which it is.
+  std::optional<RadarContact> detect(const RadarLook& look, const Snapshot& world);
+  /// Heading of the best direction by Eq 9–17, 30, 31 [radar] among what was detected for the same
+  /// look, whose safety circle may have changed since; nothing where all are screened.
+  std::optional<double> choose(const RadarLook& look, const Snapshot& world);
+  /// Heading of the best way out where none is safe, ours. A direction may come within reach of
+  /// things, but nearer only to those that stay out of reach; the one with the largest least gap at
+  /// its end wins. With `pressed`, should there be none: one that at least gains on the least gap.
+  std::optional<double> retreat(const RadarLook& look, const Snapshot& world, bool pressed);
+  /// The directions that are not screened, χ_2 of Eq 17 [radar], among what was detected.
+  std::vector<bool> kept(const RadarLook& look, const Snapshot& world);
+
+ private:
+  struct NearDisc {
+    Disc disc;
+    double distance;
+  };
+  struct NearEdge {
+    Segment edge;
+    std::uint32_t body;
+  };
+  /// How a step leaves the swarm [µm from its centre].
+  struct Outcome {
+    bool allowed = false;  ///< nearer only to what stays out of reach
+    double least = 0;      ///< distance at its end to whatever is nearest
+    double on_way = 0;     ///< least distance on the way
+  };
+
+  void note(RadarContact contact);
+  void place(const RadarLook& look);
+  void screen(const RadarLook& look, const Snapshot& world);
+  void screen_by_obstacles(const RadarLook& look, const Snapshot& world);
+  void screen_by_walls(const RadarLook& look, const Snapshot& world);
+  void measure_nearest(const RadarLook& look, const Snapshot& world);
+  std::optional<std::size_t> best(const RadarLook& look, const Snapshot& world);
+  Outcome outcome(const RadarLook& look, const Snapshot& world, Vec2 to) const;
+  double heading(std::size_t i) const;
+
+  std::vector<double> ux_, uy_;    ///< directions
+  std::vector<double> px_, py_;    ///< predictive swarms
+  std::vector<double> room_;       ///< squared distance beyond the reach; negative: screened
+  std::vector<double> gap_, way_;  ///< terms of Eq 9
+  std::optional<RadarContact> nearest_;
+  std::vector<NearDisc> discs_;
+  std::vector<NearEdge> edges_;
+  std::vector<std::uint32_t> bodies_;  ///< that are near, each once
+};
+
+}  // namespace microswarm

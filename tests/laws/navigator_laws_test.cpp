@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: Apache-2.0
+// Laws that every navigator of a swarm seen as one body keeps, whatever the world.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "microswarm/core/hash.hpp"
+#include "microswarm/navigation/make.hpp"
+#include "microswarm/swarm/unicycle.hpp"
+#include "tests/laws/allocations.hpp"
+#include "tests/scenes/worlds.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double tick = 0.1;
+constexpr double radius = 30;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr SwarmLimits swarm{
+    .radius = radius, .max_speed = 70, .max_turn_rate = infinity, .response_lag = 0.1};
+
+struct Case {
+  std::string name;
+  NavigatorParams params;
+  bool allocates = false;  ///< its steps call a planner
+};
+
+void PrintTo(const Case& c, std::ostream* os) { *os << c.name; }
+
+/// Discs that cross a room with some walls. Places are pure in t.
+struct Scene {
+  std::shared_ptr<const Map> map;
+  std::vector<Vec2> from, velocity;
+  std::vector<double> radii;
+  Vec2 start, goal;
+
+  Snapshot at(double t) const {
+    std::vector<Body> bodies;
+    for (std::size_t i = 0; i < from.size(); ++i)
+      bodies.push_back({.shape = Disc{from[i] + t * velocity[i], radii[i]},
+                        .velocity = velocity[i],
+                        .obstacle = static_cast<std::uint32_t>(i)});
+    return Snapshot(map, t, std::move(bodies));
+  }
+};
+
+Scene random_scene(std::uint32_t trial, int movers = 6) {
+  Rng rng(21, Purpose::scene, trial);
+  Scene scene;
+  std::vector<Polygon> walls;
+  for (int i = 0; i < 3; ++i)
+    walls.push_back(scenes::turned_rectangle({rng.uniform(300, 900), rng.uniform(100, 700)},
+                                             rng.uniform(20, 120), rng.uniform(10, 60),
+                                             rng.uniform(0, 3)));
+  scene.map = std::make_shared<const Map>(Box{{0, 0}, {1200, 800}}, walls, std::vector<Disc>{}, 5);
+  scene.start = {120, rng.uniform(120, 680)};
+  scene.goal = {1080, rng.uniform(120, 680)};
+  for (int i = 0; i < movers; ++i) {
+    scene.from.push_back({rng.uniform(300, 1000), rng.uniform(0, 800)});
+    scene.velocity.push_back(rng.uniform(0, 50) * unit_vector(rng.uniform(-3, 3)));
+    scene.radii.push_back(rng.uniform(10, 60));
+  }
+  return scene;
+}
+
+Observation see(const Snapshot& world, const Pose2& pose, double now) {
+  return {.now = now,
+          .seen = now - 0.05,
+          .swarm = SwarmPose{pose, radius},
+          .robots = {},
+          .world = &world};
+}
+
+class NavigatorLaws : public testing::TestWithParam<Case> {
+ protected:
+  std::unique_ptr<Navigator> make(Vec2 goal, std::uint64_t seed = 1) const {
+    const Task task{.swarm = swarm, .robots = {}, .goal = goal, .goal_tolerance = 20, .tick = tick};
+    return make_navigator(GetParam().params, task, Rng(seed, Purpose::planner));
+  }
+
+  /// Steers a swarm for some ticks; `watch(world, pose, command, state)` sees each.
+  template <class Watch>
+  void drive(const Scene& scene, int ticks, Watch&& watch) const {
+    const auto navigator = make(scene.goal);
+    Pose2 pose{scene.start, 0};
+    Command active;  // obeyed a tick late
+    for (int k = 0; k < ticks; ++k) {
+      const Snapshot world = scene.at(tick * k);
+      if (k == 0) navigator->prepare(world);
+      const Command command = navigator->step(see(world, pose, tick * k), {});
+      watch(world, pose, command, *navigator);
+      pose = unicycle_step(pose, active, swarm.max_turn_rate, tick);
+      active = command;
+    }
+  }
+};
+
+TEST_P(NavigatorLaws, SameSeedSameBits) {
+  const auto digest = [&] {
+    Hash hash;
+    for (std::uint32_t trial = 0; trial < 6; ++trial)
+      drive(random_scene(trial), 120, [&](auto&, auto&, const Command& c, const Navigator& n) {
+        hash.value(c.heading);
+        hash.value(c.speed);
+        hash.text(n.view().state);
+      });
+    return hash.digest();
+  };
+  EXPECT_EQ(digest(), digest());
+}
+
+TEST_P(NavigatorLaws, CommandsAreWithinLimits) {
+  for (std::uint32_t trial = 0; trial < 20; ++trial)
+    drive(random_scene(trial), 150, [&](auto&, auto&, const Command& c, const Navigator& n) {
+      ASSERT_TRUE(std::isfinite(c.heading) && std::isfinite(c.speed));
+      ASSERT_GE(c.speed, 0);
+      ASSERT_LE(c.speed, swarm.max_speed);
+      ASSERT_FALSE(n.view().state.empty());
+    });
+}
+
+TEST_P(NavigatorLaws, GetsThereInTheOpen) {
+  Scene scene = random_scene(0, 0);
+  scene.map = std::make_shared<const Map>(Box{{0, 0}, {1200, 800}}, std::vector<Polygon>{});
+  double left = infinity;
+  bool arrived = false;
+  drive(scene, 400, [&](auto&, const Pose2& pose, const Command& c, const Navigator& n) {
+    left = std::min(left, distance(pose.position, scene.goal));
+    if (n.view().state != "arrived") return;
+    arrived = true;
+    EXPECT_EQ(c.speed, 0);
+  });
+  EXPECT_LE(left, 20);
+  EXPECT_TRUE(arrived);
+}
+
+TEST_P(NavigatorLaws, HoldsWithoutAGoodLook) {
+  const Scene scene = random_scene(1, 0);
+  const Snapshot world = scene.at(0);
+  const auto navigator = make(scene.goal);
+  navigator->prepare(world);
+  const Observation good = see(world, {scene.start, 0}, 0);
+  double now = 0;
+  const auto expect_hold = [&](Observation bad, const char* what) {
+    now += tick;
+    const double age = bad.now - bad.seen;
+    bad.now = now;
+    bad.seen = now - age;
+    const Command c = navigator->step(bad, {});
+    EXPECT_EQ(c.speed, 0) << what;
+    EXPECT_TRUE(std::isfinite(c.heading)) << what;
+    EXPECT_EQ(navigator->view().state, "blind") << what;
+  };
+  Observation bad = good;
+  bad.swarm.reset();
+  expect_hold(bad, "no swarm");
+  bad = good;
+  bad.swarm->pose.position.y = nan;
+  expect_hold(bad, "no number");
+  bad = good;
+  bad.swarm->pose.heading = infinity;
+  expect_hold(bad, "no heading");
+  bad = good;
+  bad.seen -= 3;
+  expect_hold(bad, "stale");
+  bad = good;
+  bad.world = nullptr;
+  expect_hold(bad, "no world");
+  // And goes on when it sees again.
+  now += tick;
+  EXPECT_GT(navigator->step(see(world, {scene.start, 0}, now), {}).speed, 0);
+}
+
+TEST_P(NavigatorLaws, HoldsInAWall) {
+  Scene scene = random_scene(0, 0);
+  scene.map = std::make_shared<const Map>(
+      Box{{0, 0}, {1200, 800}}, std::vector<Polygon>{scenes::rectangle({{300, 300}, {700, 500}})});
+  const Snapshot world = scene.at(0);
+  const auto navigator = make(scene.goal);
+  navigator->prepare(world);
+  EXPECT_EQ(navigator->step(see(world, {{500, 400}, 0}, 0), {}).speed, 0);
+  EXPECT_EQ(navigator->view().state, "blind");
+}
+
+TEST_P(NavigatorLaws, SwarmInAnObstacleIsNoCrash) {
+  Scene scene = random_scene(0, 1);
+  scene.from[0] = {600, 400};
+  const Snapshot world = scene.at(0);
+  const auto navigator = make(scene.goal);
+  navigator->prepare(world);
+  for (int k = 0; k < 5; ++k) {
+    const Command c = navigator->step(see(world, {{600, 400}, 0}, tick * k), {});
+    EXPECT_TRUE(std::isfinite(c.heading) && std::isfinite(c.speed));
+    EXPECT_FALSE(navigator->view().state.empty());
+  }
+}
+
+TEST_P(NavigatorLaws, TouchesNothingWhenBlockedAllAround) {
+  Scene scene = random_scene(0, 0);
+  const double in = radius + 4, out = in + 20;
+  const Vec2 c{600, 400};
+  scene.map = std::make_shared<const Map>(
+      Box{{0, 0}, {1200, 800}},
+      std::vector<Polygon>{scenes::rectangle({c + Vec2{-out, -out}, c + Vec2{out, -in}}),
+                           scenes::rectangle({c + Vec2{-out, in}, c + Vec2{out, out}}),
+                           scenes::rectangle({c + Vec2{-out, -out}, c + Vec2{-in, out}}),
+                           scenes::rectangle({c + Vec2{in, -out}, c + Vec2{out, out}})},
+      std::vector<Disc>{}, 2);
+  scene.start = c;
+  double moved = 0;
+  drive(scene, 60, [&](const Snapshot& world, const Pose2& pose, auto&, auto&) {
+    ASSERT_TRUE(world.is_free(pose.position, radius));
+    moved = std::max(moved, distance(pose.position, c));
+  });
+  EXPECT_LT(moved, 4);
+}
+
+TEST_P(NavigatorLaws, StepsAllocateNothing) {
+  if (GetParam().allocates) GTEST_SKIP() << "calls a planner";
+  const Scene scene = random_scene(3, 12);
+  std::vector<Snapshot> worlds;
+  for (int k = 0; k < 120; ++k) worlds.push_back(scene.at(tick * k));
+  const auto navigator = make(scene.goal);
+  navigator->prepare(worlds[0]);
+  Pose2 pose{scene.start, 0};
+  std::size_t made = 0;
+  for (int k = 0; k < 120; ++k) {
+    const Observation seen = see(worlds[static_cast<std::size_t>(k)], pose, tick * k);
+    const std::size_t before = laws::allocations();
+    const Command command = navigator->step(seen, {});
+    if (k >= 20) made += laws::allocations() - before;
+    pose = unicycle_step(pose, command, swarm.max_turn_rate, tick);
+  }
+  EXPECT_EQ(made, 0u);
+}
+
+std::vector<Case> cases() {
+  HierarchicalParams hierarchical;
+  hierarchical.margin = 40;
+  RadarParams radar;
+  radar.target_gain = 0.01;
+  RadarParams guided = radar;
+  guided.waypoints = {{600, 400}};
+  guided.safety_radius.adaptive = true;
+  guided.obstacle_speed_bound = 50;
+  return {{"Hierarchical", hierarchical, true},
+          {"Radar", radar},
+          {"RadarGuided", guided},
+          {"StraightStop", StraightParams{}},
+          {"PotentialField", PotentialFieldParams{}},
+          {"VelocityObstacle", VelocityObstacleParams{}}};
+}
+
+INSTANTIATE_TEST_SUITE_P(All, NavigatorLaws, testing::ValuesIn(cases()),
+                         [](const auto& c) { return c.param.name; });
+
+// Radar alone: measured by asking every body and wall, no command leads into what is screened.
+TEST(RadarLaws, NoCommandIntoAScreenedDirection) {
+  RadarParams params;
+  params.target_gain = 0.01;
+  params.compensate_delay = false;
+  int avoided = 0, held = 0;
+  for (std::uint32_t trial = 0; trial < 40; ++trial) {
+    const Scene scene = random_scene(trial, 10);
+    params.retreat = trial % 2 == 0;
+    RadarNavigator navigator(params, swarm, scene.goal, 20, Rng(1, Purpose::planner));
+    Pose2 pose{scene.start, 0};
+    for (int k = 0; k < 200; ++k) {
+      const Snapshot world = scene.at(tick * k);
+      const Command c = navigator.step(see(world, pose, tick * k), {});
+      const auto state = navigator.view().state;
+      held += state == "hold";
+      if (state == "direct" || state == "avoid") {
+        const double step =
+            state == "direct" ? std::min(25.0, distance(pose.position, scene.goal)) : 25.0;
+        const Vec2 place = pose.position + step * unit_vector(c.heading);
+        ASSERT_GE(world.clearance(place), radius + 25 - 1e-9) << trial << ", " << k;
+        avoided += state == "avoid";
+      } else {
+        ASSERT_EQ(c.speed > 0, state == "retreat") << state;
+      }
+      pose = unicycle_step(pose, c, swarm.max_turn_rate, tick);
+    }
+  }
+  EXPECT_GT(avoided, 500);
+  EXPECT_GT(held, 0);
+}
+
+}  // namespace
+}  // namespace microswarm

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/radar.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/navigation/make.hpp"
+#include "tests/scenes/worlds.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double tick = 0.1;
+constexpr double radius = 100;
+constexpr SwarmLimits vortex{.radius = radius,
+                             .max_speed = 85,
+                             .max_turn_rate = std::numeric_limits<double>::infinity(),
+                             .response_lag = 0};
+
+std::shared_ptr<const Map> room(std::vector<Polygon> walls = {}) {
+  return std::make_shared<const Map>(Box{{0, 0}, {3000, 1500}}, std::move(walls));
+}
+
+Body disc(Vec2 c, double r, std::uint32_t obstacle = 0) {
+  return {.shape = Disc{c, r}, .obstacle = obstacle};
+}
+
+/// What became of a swarm that was steered for a while.
+struct Trip {
+  bool arrived = false;
+  double least_gap = 1e9;  ///< from its edge to obstacles, walls and border
+  double time = 0;
+  std::vector<std::string> states;
+
+  bool was(std::string_view state) const {
+    return std::find(states.begin(), states.end(), state) != states.end();
+  }
+};
+
+using Movers = std::function<std::vector<Body>(double t)>;
+
+Trip drive(const RadarParams& params, Vec2 start, Vec2 goal, std::shared_ptr<const Map> map,
+           const Movers& movers, double most_seconds = 120) {
+  RadarNavigator navigator(params, vortex, goal, 20, Rng(1, Purpose::planner));
+  Trip trip;
+  Pose2 pose{start, 0};
+  for (; trip.time < most_seconds; trip.time += tick) {
+    const Snapshot world(map, trip.time, movers(trip.time));
+    trip.least_gap = std::min(trip.least_gap, world.clearance(pose.position) - radius);
+    trip.arrived = distance(pose.position, goal) <= 20;
+    if (trip.arrived) break;
+    const Command c = navigator.step({.now = trip.time,
+                                      .seen = trip.time,
+                                      .swarm = SwarmPose{pose, radius},
+                                      .robots = {},
+                                      .world = &world},
+                                     {});
+    trip.states.emplace_back(navigator.view().state);
+    pose = unicycle_step(pose, c, vortex.max_turn_rate, tick);
+  }
+  return trip;
+}
+
+std::vector<Body> nothing(double) { return {}; }
+
+TEST(Radar, GoesStraightWhereNothingIs) {
+  const Trip trip = drive({}, {300, 700}, {2700, 800}, room(), nothing);
+  EXPECT_TRUE(trip.arrived);
+  EXPECT_FALSE(trip.was("avoid"));
+  EXPECT_NEAR(trip.time, (distance(Vec2{300, 700}, Vec2{2700, 800}) - 20) / 85, 2 * tick);
+}
+
+TEST(Radar, AvoidsWhatStandsInTheWay) {
+  const Trip trip = drive({}, {300, 700}, {2700, 700}, room(), [](double) {
+    return std::vector{disc({1500, 690}, 150)};
+  });
+  EXPECT_TRUE(trip.arrived);
+  EXPECT_TRUE(trip.was("avoid"));
+  EXPECT_GT(trip.least_gap, 15);  // d_f less what a tick and the step take
+}
+
+TEST(Radar, AvoidsWhatCrossesAndWhatComes) {
+  for (const Vec2 v : {Vec2{0, -40}, Vec2{0, 40}, Vec2{-40, 0}, Vec2{-30, 30}}) {
+    const Trip trip = drive({}, {300, 700}, {2700, 720}, room(), [&](double t) {
+      return std::vector{disc(Vec2{1500, 700} + (t - 14) * v, 150)};
+    });
+    EXPECT_TRUE(trip.arrived);
+    EXPECT_GT(trip.least_gap, 0) << v.x << ", " << v.y;
+  }
+}
+
+TEST(Radar, GivesWayWhereItWaits) {
+  // At its goal already, and something comes over it.
+  RadarParams params;
+  RadarNavigator navigator(params, vortex, {1500, 700}, 30, Rng(1, Purpose::planner));
+  Pose2 pose{{1500, 700}, 0};
+  const auto map = room();
+  double least = 1e9;
+  for (int k = 0; k < 400; ++k) {
+    const double t = tick * k;
+    const Snapshot world(map, t, {disc({1500 + 600 - 40 * t, 710}, 150)});
+    const Command c = navigator.step(
+        {.now = t, .seen = t, .swarm = SwarmPose{pose, radius}, .robots = {}, .world = &world}, {});
+    pose = unicycle_step(pose, c, vortex.max_turn_rate, tick);
+    least = std::min(least, world.clearance(pose.position) - radius);
+  }
+  EXPECT_GT(least, 0);
+}
+
+TEST(Radar, WithoutRetreatItHoldsAsPublished) {
+  // Obstacles on both sides, within the safety circle: no direction is safe.
+  const std::vector<Body> both{disc({1700, 700}, 80, 0), disc({1300, 700}, 80, 1)};
+  const Snapshot world(room(), 0, both);
+  for (const bool retreat : {false, true}) {
+    RadarParams params;
+    params.safety_distance = 80;
+    params.detection_range = 120;
+    params.retreat = retreat;
+    RadarNavigator navigator(params, vortex, {2700, 700}, 30, Rng(1, Purpose::planner));
+    const Command c = navigator.step({.now = 0,
+                                      .seen = 0,
+                                      .swarm = SwarmPose{{{1500, 700}, 0}, radius},
+                                      .robots = {},
+                                      .world = &world},
+                                     {});
+    EXPECT_EQ(c.speed > 0, retreat);
+    EXPECT_EQ(navigator.view().state, retreat ? "retreat" : "hold");
+  }
+}
+
+TEST(Radar, FollowsWaypointsRoundAWall) {
+  const auto map = room({scenes::rectangle({{1400, 0}, {1450, 1000}})});
+  RadarParams params;
+  const Trip blind = drive(params, {700, 400}, {2300, 400}, map, nothing);
+  EXPECT_FALSE(blind.arrived);
+  EXPECT_TRUE(blind.was("stuck"));
+  EXPECT_GT(blind.least_gap, 0);
+  params.waypoints = {{1300, 1250}, {1600, 1250}};
+  const Trip by_hand = drive(params, {700, 400}, {2300, 400}, map, nothing);
+  EXPECT_TRUE(by_hand.arrived);
+  EXPECT_GT(by_hand.least_gap, 0);
+  params.waypoints.clear();
+  params.global_plan = true;
+  params.planner.clearance = 140;
+  const Trip planned = drive(params, {700, 400}, {2300, 400}, map, nothing);
+  EXPECT_TRUE(planned.arrived);
+  EXPECT_GT(planned.least_gap, 0);
+}
+
+TEST(Radar, IsStuckWithoutAPlan) {
+  const auto map = room({scenes::rectangle({{1400, 0}, {1450, 1500}})});
+  RadarParams params;
+  params.global_plan = true;
+  params.planner.max_nodes = 2000;
+  const Trip trip = drive(params, {700, 400}, {2300, 400}, map, nothing, 3);
+  EXPECT_EQ(trip.states.front(), "stuck");
+  EXPECT_FALSE(trip.was("direct"));
+}
+
+TEST(Radar, WaitsForAValve) {
+  // A passage of 600 µm; the valve is closed for some time, and the swarm must not be touched.
+  const auto map = room({scenes::rectangle({{1400, 0}, {1600, 450}}),
+                         scenes::rectangle({{1400, 1050}, {1600, 1500}})});
+  const Obstacle valve{Valve{.span = 600, .thickness = 60, .greatest_gap = 500, .period = 40},
+                       Still{.position = {1500, 750}}};
+  const auto leaves = [&](double t) {
+    std::vector<Body> bodies;
+    append_bodies(valve, 0, t, bodies);
+    return bodies;
+  };
+  RadarParams params;
+  params.safety_distance = 15;
+  params.wait_areas = {{.centre = {1500, 750}, .width = 700, .height = 700, .least_gap = 400}};
+  for (const double begin : {0.0, 7.0, 13.0, 20.0, 26.0, 33.0}) {
+    const Trip trip =
+        drive(params, {900, 750}, {2300, 750}, map, [&](double t) { return leaves(t + begin); });
+    EXPECT_TRUE(trip.arrived) << begin;
+    EXPECT_GT(trip.least_gap, 0) << begin;
+  }
+}
+
+TEST(Radar, MakesUpForDelays) {
+  // Seen 0.2 s late, obeyed 0.3 s late: it decides for the place it will have got to.
+  SwarmLimits slow = vortex;
+  slow.response_lag = 0.3;
+  const Snapshot world(room(), 0);
+  RadarNavigator navigator({}, slow, {2700, 700}, 20, Rng(1, Purpose::planner));
+  for (int k = 0; k < 20; ++k) {
+    const double now = tick * k;
+    navigator.step({.now = now,
+                    .seen = now - 0.2,
+                    .swarm = SwarmPose{{{500, 700}, 0}, radius},
+                    .robots = {},
+                    .world = &world},
+                   {});
+  }
+  ASSERT_TRUE(navigator.last_look());
+  EXPECT_NEAR(navigator.last_look()->centre.x, 500 + 0.5 * 85, 1e-9);
+}
+
+TEST(Radar, LastScanIsOfTheLastStep) {
+  const Snapshot world(room(), 0, {disc({1700, 700}, 80, 3)});
+  RadarNavigator navigator({}, vortex, {2700, 700}, 20, Rng(1, Purpose::planner));
+  EXPECT_FALSE(navigator.last_scan());
+  const Command c = navigator.step({.now = 0,
+                                    .seen = 0,
+                                    .swarm = SwarmPose{{{1500, 700}, 0}, radius},
+                                    .robots = {},
+                                    .world = &world},
+                                   {});
+  const auto scan = navigator.last_scan();
+  ASSERT_TRUE(scan);
+  ASSERT_TRUE(scan->best);
+  EXPECT_EQ(scan->beams.size(), 360u);
+  EXPECT_EQ(scan->beams[*scan->best].heading, c.heading);
+  EXPECT_EQ(scan->beams[0].fate, BeamFate::obstacle);
+  EXPECT_EQ(scan->beams[0].obstacle, 3u);
+}
+
+TEST(Radar, WaypointsInAWallAreRefused) {
+  const auto map = room({scenes::rectangle({{1400, 0}, {1450, 1000}})});
+  RadarParams params;
+  params.waypoints = {{500, 500}, {1420, 500}};
+  const Task task{.swarm = vortex, .robots = {}, .goal = Vec2{2300, 400}, .goal_tolerance = 20};
+  try {
+    check_navigator(params, task, *map, "x.yaml");
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_STREQ(e.what(), "x.yaml: waypoint 2 is 20 µm inside wall 1");
+  }
+  params.waypoints.pop_back();
+  check_navigator(params, task, *map, "x.yaml");
+}
+
+TEST(RadarRoute, NeverRunsBack) {
+  const Map map(Box{{0, 0}, {3000, 1500}}, {scenes::rectangle({{1400, 0}, {1450, 1000}})});
+  RadarRoute route({{300, 1200}, {1300, 1250}, {1600, 1250}, {2300, 400}});
+  EXPECT_EQ(route.target(map, {300, 300}, 100, 20), (Vec2{1300, 1250}));  // the farthest seen
+  EXPECT_TRUE(route.in_sight());
+  EXPECT_EQ(route.target(map, {1290, 1250}, 100, 20), (Vec2{1600, 1250}));
+  // Thrown back behind the wall: the next one stays, seen or not.
+  EXPECT_EQ(route.target(map, {1200, 200}, 100, 20), (Vec2{1600, 1250}));
+  EXPECT_FALSE(route.in_sight());
+  EXPECT_EQ(route.target(map, {1800, 1250}, 100, 20), (Vec2{2300, 400}));
+}
+
+}  // namespace
+}  // namespace microswarm

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/wait_area.hpp"
+
+#include <gtest/gtest.h>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/world/obstacle.hpp"
+#include "tests/scenes/worlds.hpp"
+
+namespace microswarm {
+namespace {
+
+/// A valve across a passage that runs upwards, 400 µm wide at x = 0; its leaves lie at y = ±20.
+std::vector<Body> valve(double gap) {
+  const Obstacle obstacle{Valve{.span = 400, .least_gap = gap, .greatest_gap = gap},
+                          Still{.position = {0, 0}, .heading = radians(90)}};
+  std::vector<Body> bodies;
+  append_bodies(obstacle, 0, 0, bodies);
+  return bodies;
+}
+
+const WaitArea area{.centre = {0, 0}, .width = 600, .height = 600, .least_gap = 120};
+
+Waiting swarm(Vec2 at, Vec2 target = {0, 1000}) { return {at, 50, 75, target}; }
+
+TEST(GapBetween, Shapes) {
+  const auto disc = [](Vec2 c, double r) { return Body{.shape = Disc{c, r}}; };
+  const auto box = [](Box b) { return Body{.shape = scenes::rectangle(b)}; };
+  EXPECT_DOUBLE_EQ(gap_between(disc({0, 0}, 10), disc({50, 0}, 15)), 25);
+  EXPECT_DOUBLE_EQ(gap_between(disc({0, 0}, 30), disc({50, 0}, 25)), 0);
+  EXPECT_DOUBLE_EQ(gap_between(disc({0, 0}, 10), box({{30, -5}, {40, 5}})), 20);
+  EXPECT_DOUBLE_EQ(gap_between(box({{30, -5}, {40, 5}}), disc({0, 0}, 10)), 20);
+  EXPECT_DOUBLE_EQ(gap_between(box({{0, 0}, {10, 10}}), box({{13, 14}, {20, 20}})), 5);
+  EXPECT_DOUBLE_EQ(gap_between(box({{0, 0}, {10, 10}}), box({{2, 2}, {4, 4}})), 0);
+}
+
+TEST(WaitArea, WaitsBeforeAValveThatIsTooNarrow) {
+  EXPECT_TRUE(must_wait(area, valve(100), swarm({0, -200})));
+  EXPECT_TRUE(must_wait(area, valve(0), swarm({0, -200})));
+  EXPECT_FALSE(must_wait(area, valve(140), swarm({0, -200})));
+}
+
+TEST(WaitArea, BeginsWithTheEdgeOfTheSwarm) {
+  EXPECT_TRUE(must_wait(area, valve(0), swarm({0, -349})));
+  EXPECT_FALSE(must_wait(area, valve(0), swarm({0, -351})));
+}
+
+TEST(WaitArea, GoesOnWhereLeavesCouldCloseOnIt) {
+  EXPECT_FALSE(must_wait(area, valve(100), swarm({0, 0})));
+  EXPECT_FALSE(must_wait(area, valve(100), swarm({0, -90})));  // 70 µm from the leaves' way
+  EXPECT_TRUE(must_wait(area, valve(100), swarm({0, -100})));
+}
+
+TEST(WaitArea, GoesOnBeyondTheValve) {
+  EXPECT_FALSE(must_wait(area, valve(0), swarm({0, 200})));
+  EXPECT_FALSE(must_wait(area, valve(0), swarm({0, -200}, {0, -1000})));
+  EXPECT_TRUE(must_wait(area, valve(0), swarm({0, 200}, {0, -1000})));
+}
+
+TEST(WaitArea, OtherObstaclesAreNoValve) {
+  std::vector<Body> two = valve(0);
+  two[1].obstacle = 1;
+  EXPECT_FALSE(must_wait(area, two, swarm({0, -200})));
+  std::vector<Body> elsewhere = valve(0);
+  WaitArea far = area;
+  far.centre = {0, -600};
+  EXPECT_FALSE(must_wait(far, elsewhere, swarm({0, -600})));
+}
+
+TEST(WaitArea, MayBeTurned) {
+  WaitArea turned = area;
+  turned.width = 1200;
+  turned.height = 100;
+  EXPECT_FALSE(must_wait(turned, valve(0), swarm({0, -400})));
+  turned.heading = radians(90);
+  EXPECT_TRUE(must_wait(turned, valve(0), swarm({0, -400})));
+}
+
+}  // namespace
+}  // namespace microswarm
