@@ -127,7 +127,7 @@ class Judge {
         contact.t - limits_.response_lag - scenario_.sensing.observation_delay + 1e-9;
     for (auto state = states.rbegin(); state != states.rend() && !verdict.avoidable; ++state) {
       if (state->t > latest || state->t < contact.t - params_.lookback) continue;
-      if (touches(world_, *state)) continue;
+      if (!is_seen(contact, state->t) || touches(world_, *state)) continue;
       if (const Answer* answer = find(*state, contact.t + params_.aftermath)) {
         verdict.avoidable = true;
         verdict.decided = state->t;
@@ -138,6 +138,13 @@ class Judge {
   }
 
  private:
+  /// What has only just come into the world nobody can have decided about.
+  bool is_seen(const RunEvent& contact, double t) const {
+    if (contact.kind != EventKind::contact_obstacle) return true;
+    const double seen = t - scenario_.sensing.observation_delay;
+    return placement(world_.obstacles[contact.body].motion, seen).present;
+  }
+
   const Answer* find(const State& state, double until) const {
     const World near = within_reach(world_, state, until, limits_);
     const Watch fresh(near);

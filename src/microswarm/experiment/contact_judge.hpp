@@ -47,9 +47,10 @@ struct ContactVerdict {
 
 /// Judges every contact of a run of KinematicPlant. A contact at t_c was avoidable when from the
 /// swarm's true state at some tick t between t_c − lookback and t_c − (response lag + observation
-/// delay), touching nothing yet, holding or retreating keeps it free of any contact with walls and
-/// obstacles, as they truly moved, until t_c + aftermath. Commands already given take effect
-/// before; the drift is that of the run. `scenario`, `world` and `trial` are those of the run.
+/// delay), touching nothing yet and the obstacle in sight, holding or retreating keeps it free of
+/// any contact with walls and obstacles, as they truly moved, until t_c + aftermath. Commands
+/// already given take effect before; the drift is that of the run. `scenario`, `world` and `trial`
+/// are those of the run.
 std::vector<ContactVerdict> judge_contacts(const Scenario& scenario, const World& world,
                                            std::uint32_t trial, const ContactLog& log,
                                            const JudgeParams& params = {});
