@@ -9,6 +9,7 @@
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/config.h>
 #include <ompl/geometric/PathGeometric.h>
+#include <ompl/geometric/planners/fmt/FMT.h>
 #include <ompl/geometric/planners/informedtrees/BITstar.h>
 #include <ompl/geometric/planners/rrt/InformedRRTstar.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
@@ -71,7 +72,18 @@ std::shared_ptr<Planner> with_range(const ob::SpaceInformationPtr& si, double ra
   return planner;
 }
 
-ob::PlannerPtr make(OmplPlanner kind, const ob::SpaceInformationPtr& si, double range) {
+/// The planner as published: a radius, not a count, makes neighbours.
+ob::PlannerPtr fmt_star(const ob::SpaceInformationPtr& si, const OmplQuery& query) {
+  auto planner = std::make_shared<og::FMT>(si);
+  planner->setNumSamples(query.samples);
+  planner->setNearestK(false);
+  planner->setRadiusMultiplier(query.radius_factor);
+  if (query.free_area > 0) planner->setFreeSpaceVolume(query.free_area);
+  return planner;
+}
+
+ob::PlannerPtr make(OmplPlanner kind, const ob::SpaceInformationPtr& si, const OmplQuery& query) {
+  const double range = query.range;
   switch (kind) {
     case OmplPlanner::rrt_connect:
       return with_range<og::RRTConnect>(si, range);
@@ -81,6 +93,8 @@ ob::PlannerPtr make(OmplPlanner kind, const ob::SpaceInformationPtr& si, double 
       return with_range<og::InformedRRTstar>(si, range);
     case OmplPlanner::bit_star:
       return std::make_shared<og::BITstar>(si);
+    case OmplPlanner::fmt_star:
+      return fmt_star(si, query);
   }
   return {};
 }
@@ -104,6 +118,8 @@ std::string_view name_of(OmplPlanner planner) {
       return "OMPL Informed RRT*";
     case OmplPlanner::bit_star:
       return "OMPL BIT*";
+    case OmplPlanner::fmt_star:
+      return "OMPL FMT*";
   }
   return {};
 }
@@ -121,7 +137,7 @@ OmplResult run_ompl(OmplPlanner kind, const OmplQuery& q) {
   auto objective = std::make_shared<ob::PathLengthOptimizationObjective>(si);
   if (q.first_solution) objective->setCostThreshold(objective->infiniteCost());
   problem->setOptimizationObjective(objective);
-  const ob::PlannerPtr planner = make(kind, si, q.range);
+  const ob::PlannerPtr planner = make(kind, si, q);
   planner->setProblemDefinition(problem);
   planner->setup();
 

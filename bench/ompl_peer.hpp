@@ -10,7 +10,7 @@
 
 namespace microswarm::bench {
 
-enum class OmplPlanner { rrt_connect, rrt_star, informed_rrt_star, bit_star };
+enum class OmplPlanner { rrt_connect, rrt_star, informed_rrt_star, bit_star, fmt_star };
 
 std::string_view name_of(OmplPlanner planner);
 std::string ompl_version();
@@ -32,6 +32,9 @@ struct OmplQuery {
   double clearance = 40;
   double goal_tolerance = 50;
   double range = 80;
+  unsigned samples = 1000;     ///< of FMT*
+  double radius_factor = 1.1;  ///< of FMT*
+  double free_area = 0;        ///< of FMT* [µm²]; 0: the bounds', as OMPL does by itself
   double most_seconds = 1;
   bool first_solution = true;  ///< stop at it, or use up the time
 };

@@ -240,8 +240,9 @@ std::vector<BenchRow> queries(bool quick) {
 std::vector<BenchRow> planning(const std::filesystem::path& scenarios, bool quick,
                                const Stop& stop) {
   std::vector<BenchRow> rows = queries(quick);
-  for (auto&& more : {clutter(quick, stop), tree_growth(quick, stop),
-                      s_channel(scenarios, quick, stop), replanning(scenarios, quick, stop)})
+  for (auto&& more :
+       {clutter(quick, stop), tree_growth(quick, stop), s_channel(scenarios, quick, stop),
+        fmt_star(scenarios, quick, stop), replanning(scenarios, quick, stop)})
     rows.insert(rows.end(), more.begin(), more.end());
   return rows;
 }

@@ -22,4 +22,9 @@ std::vector<BenchRow> planning(const std::filesystem::path& scenarios, bool quic
 std::vector<BenchRow> replanning(const std::filesystem::path& scenarios, bool quick,
                                  const Stop& stop);
 
+/// FMT* in the S-channel of Fig 3 [drrt], on both sides the same number of samples and the same
+/// radius: time and length of the first path; part of planning().
+std::vector<BenchRow> fmt_star(const std::filesystem::path& scenarios, bool quick,
+                               const Stop& stop);
+
 }  // namespace microswarm::bench

@@ -315,7 +315,7 @@ std::vector<Case> cases() {
       {"DrrtStar", small<DrrtStarParams>(), 0x2488fe83fd1ece26},
       {"DrrtStarPlain", plain_drrt_star(), 0x82ec4c82ab162e0a},
       {"DrrtStarGrown", grown<DrrtStarParams>(), 0xbf3f0c96c730532f},
-      {"FmtStar", small<FmtStarParams>(), 0x219c61690d2bb702},
+      {"FmtStar", small<FmtStarParams>(), 0x2c9f62bc94e4eeba},
   };
 }
 

@@ -7,14 +7,16 @@
 #include <optional>
 
 #include "microswarm/core/angles.hpp"
-#include "microswarm/geometry/point_grid.hpp"
 #include "microswarm/planning/free_goal.hpp"
+#include "microswarm/planning/sample_buckets.hpp"
 
 namespace microswarm {
 namespace {
 
 constexpr std::uint64_t draws_per_sample = 200;  // at most, in the mean
 constexpr std::uint64_t between_stops = 64;
+constexpr double least_radius = 1e-3;  // [µm], in a space that has no area
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A sample that the tree has reached and still grows from.
 struct Open {
@@ -25,8 +27,7 @@ struct Open {
   }
 };
 
-/// Where a sample stands with the tree: V_unvisited, V_open and V_closed.
-enum class Mark : std::uint8_t { unvisited, open, closed };
+constexpr std::uint32_t blocked = 1u << 31;
 
 /// Samples are numbered: 0 is the start, 1 the goal.
 class March {
@@ -40,10 +41,7 @@ class March {
         rng_(rng),
         stop_(stop),
         sampled_(world.bounds().grown(-params.clearance)),
-        grid_(world.bounds()) {
-    grid_.add(start.position);
-    grid_.add(free_goal);
-  }
+        samples_{start.position, free_goal} {}
 
   Plan run() {
     const auto most = static_cast<std::size_t>(params_.max_nodes);
@@ -57,9 +55,11 @@ class March {
   }
 
  private:
-  struct Neighbours {
+  /// A sample's neighbours, a run in neighbours_.
+  struct Run {
     std::uint32_t first = 0;
-    std::uint32_t last = 0;  ///< 0 before they are looked up: everybody's neighbours include it
+    std::uint32_t last = 0;
+    bool known = false;
   };
 
   bool told_to_stop(std::uint64_t count) {
@@ -72,7 +72,7 @@ class March {
   void grow();
   void expand(std::uint32_t z);
   void try_to_join(std::uint32_t x);
-  Neighbours neighbours(std::uint32_t sample);
+  Run neighbours(std::uint32_t sample);
   Plan finish();
 
   const Snapshot& world_;
@@ -82,18 +82,18 @@ class March {
   Rng& rng_;
   const Stop& stop_;
   Box sampled_;
-  PointGrid grid_;  ///< the samples
-  double radius_ = 0;
+  std::vector<Vec2> samples_;
+  SampleBuckets buckets_;
   PlanCounts counts_;
   std::optional<Status> ended_;
 
-  std::vector<Mark> marks_;
-  std::vector<std::uint32_t> nodes_;  ///< of the tree, one a sample that is not unvisited
-  std::vector<Neighbours> near_;      ///< of each sample, in the two below
-  std::vector<std::uint32_t> neighbours_;
-  std::vector<bool> blocked_;          ///< the edge to it has been found not to be free
-  std::vector<Open> open_;             ///< a heap
-  std::vector<std::uint32_t> joined_;  ///< V_open,new
+  std::vector<bool> visited_;         ///< of each sample
+  std::vector<double> open_costs_;    ///< of each sample: its cost-to-come, infinity if not open
+  std::vector<std::uint32_t> nodes_;  ///< of the tree, of each sample that is visited
+  std::vector<Run> runs_;             ///< of each sample
+  std::vector<std::uint32_t> neighbours_;  ///< with the mark `blocked` on edges that are not free
+  std::vector<Open> open_;                 ///< a heap
+  std::vector<std::uint32_t> joined_;      ///< V_open,new
   std::vector<TreeNode> tree_;
   std::vector<std::uint32_t> samples_of_;  ///< sample of each node
   std::uint32_t arrived_ = 0;              ///< node
@@ -101,29 +101,31 @@ class March {
 
 void March::draw(std::size_t count) {
   const std::uint64_t most = counts_.samples + draws_per_sample * count;
-  while (grid_.size() < count + 2 && counts_.samples < most) {
+  while (samples_.size() < count + 2 && counts_.samples < most) {
     if (told_to_stop(counts_.samples)) return;
     ++counts_.samples;
     const double x = rng_.uniform(sampled_.lo.x, sampled_.hi.x);
     const Vec2 p{x, rng_.uniform(sampled_.lo.y, sampled_.hi.y)};
-    if (world_.is_free(p, params_.clearance)) grid_.add(p);
+    if (world_.is_free(p, params_.clearance)) samples_.push_back(p);
   }
-  const double hits = static_cast<double>(grid_.size() - 1);
+  const double hits = static_cast<double>(samples_.size() - 1);
   const double draws = static_cast<double>(counts_.samples + 1);
   const double area = sampled_.width() * sampled_.height() * std::min(1.0, hits / draws);
-  radius_ = fmt_radius(params_.radius_factor, area, grid_.size());
+  const double radius = fmt_radius(params_.radius_factor, area, samples_.size());
+  buckets_ = SampleBuckets(samples_, std::max(radius, least_radius));
 }
 
 void March::begin() {
-  marks_.assign(grid_.size(), Mark::unvisited);
-  nodes_.assign(grid_.size(), 0);
-  near_.assign(grid_.size(), {});
+  visited_.assign(samples_.size(), false);
+  open_costs_.assign(samples_.size(), infinity);
+  nodes_.assign(samples_.size(), 0);
+  runs_.assign(samples_.size(), {});
   neighbours_.clear();
-  blocked_.clear();
   tree_.assign(1, {start_.position, start_.heading, 0, 0});
   samples_of_.assign(1, 0);
   open_.assign(1, {0, 0});
-  marks_[0] = Mark::open;
+  visited_[0] = true;
+  open_costs_[0] = 0;
 }
 
 void March::grow() {
@@ -146,46 +148,45 @@ void March::grow() {
 
 void March::expand(std::uint32_t z) {
   joined_.clear();
-  const Neighbours near = neighbours(z);
+  const Run near = neighbours(z);
   for (std::uint32_t i = near.first; i < near.last; ++i)
-    if (marks_[neighbours_[i]] == Mark::unvisited) try_to_join(neighbours_[i]);
+    if (const std::uint32_t x = neighbours_[i] & ~blocked; !visited_[x]) try_to_join(x);
   for (const std::uint32_t x : joined_) {
-    marks_[x] = Mark::open;
-    open_.push_back({tree_[nodes_[x]].cost, nodes_[x]});
+    const double cost = tree_[nodes_[x]].cost;
+    open_costs_[x] = cost;
+    open_.push_back({cost, nodes_[x]});
     std::push_heap(open_.begin(), open_.end());
   }
-  marks_[z] = Mark::closed;
+  open_costs_[z] = infinity;
 }
 
 /// Hangs x under the open neighbour that is the cheapest way to it, walls left aside, when that
 /// edge is free; if not, x waits for another one to be the cheapest.
 void March::try_to_join(std::uint32_t x) {
-  const Vec2 p = grid_[x];
-  const Neighbours near = neighbours(x);
-  double least = std::numeric_limits<double>::infinity();
-  std::uint32_t best = near.last;
+  const Run near = neighbours(x);
+  const Vec2 p = samples_[x];
+  double least = infinity;
+  std::uint32_t* best = nullptr;
   for (std::uint32_t i = near.first; i < near.last; ++i) {
-    const std::uint32_t y = neighbours_[i];
-    if (marks_[y] != Mark::open) continue;
-    const TreeNode& node = tree_[nodes_[y]];
-    const double cost = node.cost + distance(node.position, p);
-    if (cost < least) {
-      least = cost;
-      best = i;
-    }
+    const std::uint32_t y = neighbours_[i] & ~blocked;
+    if (open_costs_[y] >= least) continue;
+    const double cost = open_costs_[y] + distance(samples_[y], p);
+    if (cost >= least) continue;
+    least = cost;
+    best = &neighbours_[i];
   }
-  if (best == near.last || blocked_[best]) return;
-  const std::uint32_t parent = nodes_[neighbours_[best]];
-  const Vec2 from = tree_[parent].position;
+  if (!best || (*best & blocked) != 0) return;
+  const Vec2 from = samples_[*best];
   ++counts_.edge_checks;
   if (!world_.is_free(Segment{from, p}, params_.clearance)) {
-    blocked_[best] = true;
+    *best |= blocked;
     return;
   }
   nodes_[x] = static_cast<std::uint32_t>(tree_.size());
-  tree_.push_back({p, heading_of(p - from), least, parent});
+  tree_.push_back({p, heading_of(p - from), least, nodes_[*best]});
   samples_of_.push_back(x);
   joined_.push_back(x);
+  visited_[x] = true;
 }
 
 Plan March::finish() {
@@ -206,19 +207,14 @@ Plan March::finish() {
   return plan;
 }
 
-March::Neighbours March::neighbours(std::uint32_t sample) {
-  Neighbours& near = near_[sample];
-  if (near.last > 0) return near;
-  near.first = static_cast<std::uint32_t>(neighbours_.size());
-  grid_.within(grid_[sample], radius_, neighbours_);
-  const Vec2 p = grid_[sample];
-  const auto own = neighbours_.begin() + near.first;
-  neighbours_.erase(
-      std::remove_if(own, neighbours_.end(), [&](std::uint32_t i) { return grid_[i] == p; }),
-      neighbours_.end());
-  near.last = static_cast<std::uint32_t>(neighbours_.size());
-  blocked_.resize(neighbours_.size(), false);
-  return near;
+March::Run March::neighbours(std::uint32_t sample) {
+  Run& run = runs_[sample];
+  if (run.known) return run;
+  run.known = true;
+  run.first = static_cast<std::uint32_t>(neighbours_.size());
+  buckets_.append_near(samples_[sample], neighbours_);
+  run.last = static_cast<std::uint32_t>(neighbours_.size());
+  return run;
 }
 
 }  // namespace

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "microswarm/geometry/shapes.hpp"
+
+namespace microswarm {
+
+/// Fixed points in square cells at least as wide as the radius in which neighbours are asked for:
+/// all within it lie in three rows of three cells, each row one run of memory.
+class SampleBuckets {
+ public:
+  SampleBuckets() = default;
+  /// At least one point, and a radius [µm] above 0.
+  SampleBuckets(std::span<const Vec2> points, double radius);
+
+  /// Appends the indices of all other points within the radius (inclusive) of `p` to `out`; points
+  /// in the same place as `p` are left out.
+  void append_near(Vec2 p, std::vector<std::uint32_t>& out) const;
+
+ private:
+  struct Placed {
+    Vec2 place;
+    std::uint32_t index = 0;
+  };
+  int index(double offset, int count) const {
+    const double i = offset / cell_;
+    return static_cast<int>(i > 0 ? std::min(i, count - 1.0) : 0);
+  }
+
+  double radius_ = 1;
+  double cell_ = 1;
+  Box box_;
+  int columns_ = 1;
+  int rows_ = 1;
+  std::vector<std::uint32_t> first_;  ///< of each cell in placed_, and the end
+  std::vector<Placed> placed_;
+};
+
+}  // namespace microswarm
