@@ -8,6 +8,7 @@
 #ifdef MICROSWARM_HAS_BENCH
 #include "bench/global.hpp"
 #include "bench/planning.hpp"
+#include "bench/radar.hpp"
 #include "bench/swarm.hpp"
 #endif
 
@@ -17,6 +18,7 @@ namespace {
 #ifdef MICROSWARM_HAS_BENCH
 std::vector<BenchRow> rows_of(const std::string& group, bool quick, const Stop& stop) {
   if (group == "planning") return bench::planning(scenario_folder(), quick, stop);
+  if (group == "radar") return bench::radar(quick, stop);
   return group == "global" ? bench::global(quick, stop) : bench::swarm(quick, stop);
 }
 
@@ -49,7 +51,7 @@ void add_bench(CLI::App& app, Action& action) {
       app, "bench",
       "Measure speeds beside a peer's in the same run: exit code 3 when one falls short",
       "bench planning --quick --csv planning.csv");
-  cmd->add_option("group", *group, "What to measure: planning, swarm, global")
+  cmd->add_option("group", *group, "What to measure: planning, swarm, global, radar")
       ->required()
       ->type_name("GROUP");
   cmd->add_option("--csv", *csv, "Write the rows to this file too")->type_name("FILE");
@@ -57,9 +59,9 @@ void add_bench(CLI::App& app, Action& action) {
   add_json(cmd, *json);
   cmd->callback([=, &action] {
     action = [=](const Context& context) {
-      if (*group != "planning" && *group != "swarm" && *group != "global")
-        throw InputError(
-            fmt::format("bench: unknown group '{}', there are: planning, swarm, global", *group));
+      if (*group != "planning" && *group != "swarm" && *group != "global" && *group != "radar")
+        throw InputError(fmt::format(
+            "bench: unknown group '{}', there are: planning, swarm, global, radar", *group));
       return measure(*group, *csv, *quick, *json, context);
     };
   });

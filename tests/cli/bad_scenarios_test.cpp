@@ -120,7 +120,8 @@ TEST_F(BadScenarios, PaperFigureGroup) {
           "reproduce: unknown paper 'drtt', there are: drrt, global, gather");
   refused({"reproduce", "drrt/fig9"},
           "reproduce drrt: unknown figure 'fig9', there are: fig3, fig5a, fig5b");
-  refused({"bench", "speed"}, "bench: unknown group 'speed', there are: planning, swarm, global");
+  refused({"bench", "speed"},
+          "bench: unknown group 'speed', there are: planning, swarm, global, radar");
 }
 
 }  // namespace

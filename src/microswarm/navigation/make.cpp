@@ -12,6 +12,8 @@ namespace {
 
 using Made = std::unique_ptr<Navigator>;
 
+constexpr double range_of_others = 50;  // [µm]; see detection_range_of
+
 Made make(const HierarchicalParams& p, const Task& task, Rng rng) {
   return std::make_unique<HierarchicalNavigator>(p, task.swarm, *task.goal, task.goal_tolerance,
                                                  rng);
@@ -97,11 +99,10 @@ double margin_of(const NavigatorParams& params) {
 }
 
 double detection_range_of(const NavigatorParams& params) {
-  constexpr double of_others = 50;
   return std::visit(
       [](const auto& p) {
         if constexpr (requires { p.detection_range; }) return p.detection_range;
-        return of_others;
+        return range_of_others;
       },
       params);
 }

@@ -3,31 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "microswarm/geometry/distance.hpp"
 
 namespace microswarm {
 namespace {
-
-/// 1/‖O_pe O_t‖ is taken for no less than this [µm].
-constexpr double least_way = 1e-9;
-
-/// N(·) of Eq 9: from 0 to 1 over the candidates, 0 where all are equal.
-class Normalised {
- public:
-  void include(double v) {
-    least_ = std::min(least_, v);
-    greatest_ = std::max(greatest_, v);
-  }
-  double operator()(double v) const {
-    return greatest_ > least_ ? (v - least_) / (greatest_ - least_) : 0;
-  }
-
- private:
-  double least_ = std::numeric_limits<double>::infinity();
-  double greatest_ = -std::numeric_limits<double>::infinity();
-};
 
 double nearness(Vec2 place, Vec2 target) {
   return 1 / std::max(distance(place, target), least_way);
@@ -69,7 +49,7 @@ void choose(RadarScan& out, const Snapshot& world) {
     return edge_distance(world.moving().bodies()[*out.nearest], p) - out.look.approach -
            out.look.radius;
   };
-  Normalised towards, away;
+  MinMax towards, away;
   for (const RadarBeam& beam : out.beams) {
     if (beam.fate != BeamFate::kept) continue;
     const Vec2 place = place_of(out.look, beam.heading);
@@ -80,8 +60,8 @@ void choose(RadarScan& out, const Snapshot& world) {
     RadarBeam& beam = out.beams[i];
     if (beam.fate != BeamFate::kept) continue;
     const Vec2 place = place_of(out.look, beam.heading);
-    beam.score = out.weights.target * towards(nearness(place, out.look.target)) +
-                 out.weights.avoidance * away(gap(place));
+    beam.score = out.weights.target * towards.normalised(nearness(place, out.look.target)) +
+                 out.weights.avoidance * away.normalised(gap(place));
     if (!out.best || beam.score > out.beams[*out.best].score) out.best = i;
   }
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -43,6 +44,25 @@ struct RadarWeights {
 /// detection circle, both are sound: q_a = 1/2 + k_a η / 2 · ((1/s − 1/r_d) / (1/r_s − 1/r_d))².
 /// Hence q_t >= 1 > q_a for k_a η < 1.
 RadarWeights radar_weights(const RadarLook& look, double distance);
+
+/// 1/‖O_pe O_t‖ of Eq 9 takes no way for shorter than this [µm].
+inline constexpr double least_way = 1e-9;
+
+/// N(·) of Eq 9 [radar]: from 0 to 1 over the candidates, 0 where all are equal.
+class MinMax {
+ public:
+  void include(double v) {
+    least_ = v < least_ ? v : least_;
+    greatest_ = v > greatest_ ? v : greatest_;
+  }
+  /// Per unit beyond the least; 0 where all are equal.
+  double scale() const { return greatest_ > least_ ? 1 / (greatest_ - least_) : 0; }
+  double normalised(double v) const { return (v - least_) * scale(); }
+
+ private:
+  double least_ = std::numeric_limits<double>::infinity();
+  double greatest_ = -std::numeric_limits<double>::infinity();
+};
 
 /// Why a direction is not among χ_2 of Eq 17 [radar].
 enum class BeamFate { kept, obstacle, wall };

@@ -11,7 +11,6 @@ namespace microswarm {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double least_way = 1e-9;  // as in scan [µm]
 /// Distances that differ by less are the same: along a wall is no nearer to it [µm].
 constexpr double rounding = 1e-6;
 
@@ -118,16 +117,27 @@ void RadarScanner::screen_by_walls(const RadarLook& look, const Snapshot& world)
     if (room_[i] >= 0 && !map.is_free(Vec2{px_[i], py_[i]}, reach)) room_[i] = -1;
 }
 
+// 1/‖O_pe O_t‖ of Eq 9.
+void RadarScanner::measure_way(Vec2 target) {
+  for (std::size_t i = 0; i < way_.size(); ++i) {
+    const double dx = target.x - px_[i];
+    const double dy = target.y - py_[i];
+    const double way = std::sqrt(dx * dx + dy * dy);
+    way_[i] = 1 / (way > least_way ? way : least_way);
+  }
+}
+
 // ‖O_pe O_ob‖ − r_s − r_ob of Eq 9, from edge to edge where the body is no disc.
-void RadarScanner::measure_nearest(const RadarLook& look, const Snapshot& world) {
-  if (!nearest_) return;
+void RadarScanner::measure_gap(const RadarLook& look, const Snapshot& world) {
   const Body& body = world.moving().bodies()[nearest_->body];
   const double edge = look.approach + look.radius;
   if (const auto* disc = std::get_if<Disc>(&body.shape)) {
+    const Disc d = *disc;
     for (std::size_t i = 0; i < gap_.size(); ++i) {
-      const double dx = disc->centre.x - px_[i];
-      const double dy = disc->centre.y - py_[i];
-      gap_[i] = std::max(0.0, std::sqrt(dx * dx + dy * dy) - disc->radius) - edge;
+      const double dx = d.centre.x - px_[i];
+      const double dy = d.centre.y - py_[i];
+      const double to_edge = std::sqrt(dx * dx + dy * dy) - d.radius;
+      gap_[i] = (to_edge > 0 ? to_edge : 0) - edge;
     }
     return;
   }
@@ -143,33 +153,27 @@ void RadarScanner::measure_nearest(const RadarLook& look, const Snapshot& world)
 // Eq 9–13, 31 over what room_ has kept.
 std::optional<std::size_t> RadarScanner::best(const RadarLook& look, const Snapshot& world) {
   RadarWeights weights{radar_weights(look, look.circles.detection).target, 0};
-  if (nearest_) weights = radar_weights(look, nearest_->distance);
-  measure_nearest(look, world);
-  double least_way_term = infinity, most_way_term = -infinity;
-  double least_gap = infinity, most_gap = -infinity;
-  for (std::size_t i = 0; i < room_.size(); ++i) {
-    const double dx = look.target.x - px_[i];
-    const double dy = look.target.y - py_[i];
-    way_[i] = 1 / std::max(std::sqrt(dx * dx + dy * dy), least_way);
+  measure_way(look.target);
+  if (nearest_) {
+    weights = radar_weights(look, nearest_->distance);
+    measure_gap(look, world);
+  } else {
+    std::fill(gap_.begin(), gap_.end(), 0);
   }
+  MinMax way, gap;
   for (std::size_t i = 0; i < room_.size(); ++i) {
     if (room_[i] < 0) continue;
-    least_way_term = std::min(least_way_term, way_[i]);
-    most_way_term = std::max(most_way_term, way_[i]);
-    if (!nearest_) continue;
-    least_gap = std::min(least_gap, gap_[i]);
-    most_gap = std::max(most_gap, gap_[i]);
+    way.include(way_[i]);
+    gap.include(gap_[i]);
   }
-  const double way_span = most_way_term - least_way_term;
-  const double gap_span = most_gap - least_gap;
   std::optional<std::size_t> found;
-  double best_score = 0;
+  double most = 0;
   for (std::size_t i = 0; i < room_.size(); ++i) {
     if (room_[i] < 0) continue;
-    double score = weights.target * (way_span > 0 ? (way_[i] - least_way_term) / way_span : 0);
-    score += weights.avoidance * (gap_span > 0 ? (gap_[i] - least_gap) / gap_span : 0);
-    if (found && score <= best_score) continue;
-    best_score = score;
+    const double score =
+        weights.target * way.normalised(way_[i]) + weights.avoidance * gap.normalised(gap_[i]);
+    if (found && score <= most) continue;
+    most = score;
     found = i;
   }
   return found;

@@ -56,7 +56,8 @@ class RadarScanner {
   void screen(const RadarLook& look, const Snapshot& world);
   void screen_by_obstacles(const RadarLook& look, const Snapshot& world);
   void screen_by_walls(const RadarLook& look, const Snapshot& world);
-  void measure_nearest(const RadarLook& look, const Snapshot& world);
+  void measure_way(Vec2 target);
+  void measure_gap(const RadarLook& look, const Snapshot& world);
   std::optional<std::size_t> best(const RadarLook& look, const Snapshot& world);
   Outcome outcome(const RadarLook& look, const Snapshot& world, Vec2 to) const;
   double heading(std::size_t i) const;
@@ -64,7 +65,7 @@ class RadarScanner {
   std::vector<double> ux_, uy_;    ///< directions
   std::vector<double> px_, py_;    ///< predictive swarms
   std::vector<double> room_;       ///< squared distance beyond the reach; negative: screened
-  std::vector<double> gap_, way_;  ///< terms of Eq 9
+  std::vector<double> way_, gap_;  ///< terms of Eq 9
   std::optional<RadarContact> nearest_;
   std::vector<NearDisc> discs_;
   std::vector<NearEdge> edges_;

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/radar.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/core/rng.hpp"
+#include "microswarm/core/statistics.hpp"
+#include "microswarm/navigation/radar.hpp"
+#include "tests/scenes/worlds.hpp"
+
+namespace microswarm::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double swarm_radius = 350;
+constexpr double room_an_obstacle = 1400;  // side of its square [µm]
+
+/// A swarm among obstacles, at least one of which is in its detection circle.
+struct Place {
+  std::shared_ptr<const Snapshot> world;
+  Vec2 swarm;
+};
+
+Body obstacle(Vec2 at, bool is_disc, std::uint32_t number, Rng& rng) {
+  Body body{.shape = Disc{at, 275}, .obstacle = number};
+  if (!is_disc) body.shape = scenes::turned_rectangle(at, 700, 300, rng.uniform(-pi, pi));
+  return body;
+}
+
+std::vector<Place> places(int obstacles, bool discs, int count, Rng& rng) {
+  const double side = room_an_obstacle * std::sqrt(obstacles);
+  const auto map = std::make_shared<const Map>(Box{{0, 0}, {side, side}}, std::vector<Polygon>{});
+  const RadarCircles circles = circles_of({}, swarm_radius);
+  std::vector<Place> all;
+  for (int draw = 0; draw < 1000 * count && std::ssize(all) < count; ++draw) {
+    std::vector<Body> bodies;
+    for (int i = 0; i < obstacles; ++i) {
+      const double x = rng.uniform(0, side);
+      bodies.push_back(
+          obstacle({x, rng.uniform(0, side)}, discs, static_cast<std::uint32_t>(i), rng));
+    }
+    const auto world = std::make_shared<const Snapshot>(map, 0, std::move(bodies));
+    for (int k = 0; k < 20 && std::ssize(all) < count; ++k) {
+      const double x = rng.uniform(0.1 * side, 0.9 * side);
+      const Vec2 p{x, rng.uniform(0.1 * side, 0.9 * side)};
+      const double gap = world->moving().clearance(p, 1e9);
+      if (gap > swarm_radius && gap < circles.detection) all.push_back({world, p});
+    }
+  }
+  return all;
+}
+
+template <class Decide>
+std::vector<double> times(const std::vector<Place>& all, int rounds, const Stop& stop,
+                          Decide&& decide) {
+  std::vector<double> microseconds;
+  for (int round = 0; round < rounds && !stop(); ++round) {
+    for (const Place& place : all) {
+      const auto began = Clock::now();
+      decide(place);
+      const std::chrono::duration<double, std::micro> took = Clock::now() - began;
+      if (round > 0 || rounds == 1) microseconds.push_back(took.count());  // else it warms up
+    }
+  }
+  return microseconds;
+}
+
+void add_rows(std::vector<BenchRow>& rows, const std::string& name, int obstacles, bool discs,
+              std::optional<double> aim, bool quick, const Stop& stop) {
+  Rng rng(1, Purpose::scene);
+  const std::vector<Place> all = places(obstacles, discs, quick ? 100 : 400, rng);
+  const SwarmLimits swarm{.radius = swarm_radius,
+                          .max_speed = 85.8,
+                          .max_turn_rate = std::numeric_limits<double>::infinity()};
+  RadarNavigator navigator({}, swarm, {0, 0}, 1, Rng(1, Purpose::planner));
+  double now = 0;
+  double sum = 0;  // keeps the results from being thought useless
+  const std::vector<double> ours = times(all, quick ? 20 : 100, stop, [&](const Place& place) {
+    now += 0.1;
+    sum += navigator
+               .step({.now = now,
+                      .seen = now,
+                      .swarm = SwarmPose{{place.swarm, 0}, swarm_radius},
+                      .robots = {},
+                      .world = place.world.get()},
+                     {})
+               .heading;
+  });
+  const std::vector<double> naive = times(all, quick ? 1 : 3, stop, [&](const Place& place) {
+    navigator.step({.now = now,
+                    .seen = now,
+                    .swarm = SwarmPose{{place.swarm, 0}, swarm_radius},
+                    .robots = {},
+                    .world = place.world.get()},
+                   {});
+    if (navigator.last_look())
+      sum += scan(*navigator.last_look(), *place.world, 360).weights.target;
+  });
+  for (const double q : {0.5, 0.99})
+    rows.push_back({.name = name,
+                    .quantity = q < 0.6 ? "time of a decision, p50" : "time of a decision, p99",
+                    .unit = "µs",
+                    .ours = quantile(ours, q) + 0 * sum,
+                    .peer = quantile(naive, q),
+                    .peer_name = "every direction against every obstacle",
+                    .aim = aim});
+}
+
+}  // namespace
+
+std::vector<BenchRow> radar(bool quick, const Stop& stop) {
+  std::vector<BenchRow> rows;
+  add_rows(rows, "360 directions, 12 discs", 12, true, 5, quick, stop);
+  add_rows(rows, "360 directions, 1000 discs", 1000, true, 100, quick, stop);
+  add_rows(rows, "360 directions, 12 boxes", 12, false, std::nullopt, quick, stop);
+  add_rows(rows, "360 directions, 1000 boxes", 1000, false, std::nullopt, quick, stop);
+  return rows;
+}
+
+}  // namespace microswarm::bench
