@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli.hpp"
@@ -23,6 +25,13 @@ struct ReproduceOptions {
   int seed_count() const { return quick ? quick_seeds : full_seeds; }
 };
 
+/// A row of a paper's figure.
+inline ReproduceRow row_of(std::string figure, std::string quantity, std::string unit,
+                           std::optional<double> paper, double ours,
+                           std::optional<double> aim = {}, bool at_most = true) {
+  return {std::move(figure), std::move(quantity), std::move(unit), paper, ours, aim, at_most, {}};
+}
+
 /// [drrt]: fig3 (S-channel), fig5a (deforming channel), fig5b (moving obstacles), or all when
 /// empty.
 std::vector<ReproduceRow> reproduce_drrt(const std::string& figure, const ReproduceOptions& options,
@@ -39,5 +48,12 @@ std::vector<ReproduceRow> reproduce_global(const std::string& figure,
 /// for robots with a real rig's faults), or all when empty.
 std::vector<ReproduceRow> reproduce_gather(const std::string& figure,
                                            const ReproduceOptions& options, const Stop& stop);
+
+/// [radar]: fig5-6 (three cases of one obstacle), fig7 (series of radii), fig8 (twelve obstacles),
+/// fig10 (the cases as an experiment), fig11-12 (twelve obstacles as an experiment), fig13
+/// (micromaze), safety (generated worlds), fast (obstacles faster than the swarm), or all when
+/// empty.
+std::vector<ReproduceRow> reproduce_radar(const std::string& figure,
+                                          const ReproduceOptions& options, const Stop& stop);
 
 }  // namespace microswarm::cli

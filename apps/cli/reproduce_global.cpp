@@ -117,12 +117,12 @@ std::vector<ReproduceRow> step_lengths(const ReproduceOptions& options, const St
   draw_trees(map, options, stop);
   std::vector<ReproduceRow> rows;
   for (std::size_t k = 0; k < sizes.size(); ++k)
-    rows.push_back(global_row("fig3", fmt::format("coverage at step 60, {} nodes", sizes[k]), "%",
-                              {}, curves[k].y[7]));
-  rows.push_back(global_row("fig3", "coverage, 7500 nodes to 1000, at step 60", "1", {},
-                            curves[3].y[7] / std::max(1e-12, curves[0].y[7]), 1, false));
-  rows.push_back(global_row("fig5", "best step length, 7500 nodes", "µm", 60, curves[3].best()));
-  rows.push_back(global_row(
+    rows.push_back(row_of("fig3", fmt::format("coverage at step 60, {} nodes", sizes[k]), "%", {},
+                          curves[k].y[7]));
+  rows.push_back(row_of("fig3", "coverage, 7500 nodes to 1000, at step 60", "1", {},
+                        curves[3].y[7] / std::max(1e-12, curves[0].y[7]), 1, false));
+  rows.push_back(row_of("fig5", "best step length, 7500 nodes", "µm", 60, curves[3].best()));
+  rows.push_back(row_of(
       "fig5", "coverage at step 60, share of the best", "%", {},
       100 * curves[3].y[7] / std::max(1e-12, *std::ranges::max_element(curves[3].y)), 90, false));
   return rows;
@@ -146,10 +146,10 @@ std::vector<ReproduceRow> cell_sizes(const ReproduceOptions& options, const Stop
               .series = {{"", curve.x, curve.y}},
               .y_min = 0}},
             options, "fig6");
-  return {global_row("fig6", "coverage, hypercubes of 50 µm", "%", {}, curve.y.front()),
-          global_row("fig6", "coverage, hypercubes of 10 µm", "%", {}, curve.y.back()),
-          global_row("fig6", "falls with every smaller hypercube (1: yes)", "1", 1, falls ? 1 : 0,
-                     1, false)};
+  return {row_of("fig6", "coverage, hypercubes of 50 µm", "%", {}, curve.y.front()),
+          row_of("fig6", "coverage, hypercubes of 10 µm", "%", {}, curve.y.back()),
+          row_of("fig6", "falls with every smaller hypercube (1: yes)", "1", 1, falls ? 1 : 0, 1,
+                 false)};
 }
 
 /// Fig 7: coverage against the distance between the two starts.
@@ -168,10 +168,10 @@ std::vector<ReproduceRow> initial_distances(const ReproduceOptions& options, con
               .series = {{"", curve.x, curve.y}},
               .y_min = 0}},
             options, "fig7");
-  return {global_row("fig7", "coverage, starts 200 µm apart", "%", {}, curve.y.front()),
-          global_row("fig7", "coverage, starts 1 µm apart", "%", {}, curve.y.back()),
-          global_row("fig7", "coverage at 1 µm, share of that at 200 µm", "%", {},
-                     100 * curve.y.back() / std::max(1e-12, curve.y.front()), 100)};
+  return {row_of("fig7", "coverage, starts 200 µm apart", "%", {}, curve.y.front()),
+          row_of("fig7", "coverage, starts 1 µm apart", "%", {}, curve.y.back()),
+          row_of("fig7", "coverage at 1 µm, share of that at 200 µm", "%", {},
+                 100 * curve.y.back() / std::max(1e-12, curve.y.front()), 100)};
 }
 
 struct Aim {
@@ -216,13 +216,13 @@ std::vector<ReproduceRow> search(const ReproduceOptions& options, const Stop& st
     }
     const std::string who =
         fmt::format("{} robots, Env 1–4, within {:g} s", aim.robots, aim.seconds);
-    rows.push_back(global_row("beyond", who + ": solved", "%", {},
-                              100.0 * solved / std::max(1, tries), aim.share, false));
-    rows.push_back(global_row("beyond", who + ": time, median", "s", {}, median(times)));
-    rows.push_back(global_row("beyond", who + ": time, longest", "s", {}, quantile(times, 1)));
-    rows.push_back(global_row("beyond", who + ": inputs, median", "1", {}, median(inputs)));
+    rows.push_back(row_of("beyond", who + ": solved", "%", {}, 100.0 * solved / std::max(1, tries),
+                          aim.share, false));
+    rows.push_back(row_of("beyond", who + ": time, median", "s", {}, median(times)));
+    rows.push_back(row_of("beyond", who + ": time, longest", "s", {}, quantile(times, 1)));
+    rows.push_back(row_of("beyond", who + ": inputs, median", "1", {}, median(inputs)));
     rows.push_back(
-        global_row("beyond", who + ": inputs when shortened, median", "1", {}, median(brief)));
+        row_of("beyond", who + ": inputs when shortened, median", "1", {}, median(brief)));
   }
   return rows;
 }

@@ -12,19 +12,6 @@
 
 namespace microswarm::cli {
 
-/// A row of the figures of [global].
-inline ReproduceRow global_row(const char* figure, std::string quantity, const char* unit,
-                               std::optional<double> paper, double ours,
-                               std::optional<double> aim = {}, bool at_most = true) {
-  return {.figure = figure,
-          .quantity = std::move(quantity),
-          .unit = unit,
-          .paper = paper,
-          .ours = ours,
-          .aim = aim,
-          .at_most = at_most};
-}
-
 /// Draws the plan in all forms of pictures; not at all without a folder to draw in.
 void draw_plan(const ReproduceOptions& options, const std::string& name, const std::string& title,
                const Map& map, const GlobalPlan& plan, std::span<const Vec2> goals,

@@ -68,16 +68,15 @@ std::vector<ReproduceRow> searched(const char* figure, const char* name,
   }
   const std::string who = fmt::format("{}, {} robots", task.name, task.starts.size());
   std::vector<ReproduceRow> rows{
-      global_row(figure, fmt::format("{}: solved within {:g} s, of {}", who, seconds, seeds), "1",
-                 {}, static_cast<double>(times.size()), seeds, false)};
+      row_of(figure, fmt::format("{}: solved within {:g} s, of {}", who, seconds, seeds), "1", {},
+             static_cast<double>(times.size()), seeds, false)};
   if (times.empty()) return rows;
-  rows.push_back(global_row(figure, who + ": time, median", "s", {}, median(times)));
-  rows.push_back(global_row(figure, who + ": inputs, median", "1", {}, median(found)));
-  rows.push_back(
-      global_row(figure, who + ": inputs when shortened, median", "1", {}, median(brief)));
+  rows.push_back(row_of(figure, who + ": time, median", "s", {}, median(times)));
+  rows.push_back(row_of(figure, who + ": inputs, median", "1", {}, median(found)));
+  rows.push_back(row_of(figure, who + ": inputs when shortened, median", "1", {}, median(brief)));
   if (params.separation > 0)
-    rows.push_back(global_row(figure, who + ": least distance between robots", "µm", {},
-                              *std::ranges::min_element(apart), params.separation - 1e-3, false));
+    rows.push_back(row_of(figure, who + ": least distance between robots", "µm", {},
+                          *std::ranges::min_element(apart), params.separation - 1e-3, false));
   return rows;
 }
 
@@ -141,17 +140,16 @@ std::vector<ReproduceRow> global_reuse(const ReproduceOptions& options, const St
                           tree.size(), answer.worst),
               *map.map, plan_to(loaded, answer), goals);
   }
-  return {
-      global_row("fig9", "four robots in Env 3, plain tree: nodes", "1", 341'997,
+  return {row_of("fig9", "four robots in Env 3, plain tree: nodes", "1", 341'997,
                  static_cast<double>(tree.size())),
-      global_row("fig9", "nodes per second", "1/s", {}, static_cast<double>(tree.size()) / growing),
-      global_row("fig9", "bytes a node of the tree's file", "B", {},
+          row_of("fig9", "nodes per second", "1/s", {}, static_cast<double>(tree.size()) / growing),
+          row_of("fig9", "bytes a node of the tree's file", "B", {},
                  bytes / static_cast<double>(tree.size())),
-      global_row("fig10", "loading the tree, every input played", "s", {}, loading),
-      global_row("fig10", "the same answers as before it was saved, of 2", "1", {}, same, 2, false),
-      global_row("fig10", "goals solved by the plain tree, of 2", "1", 2, solved),
-      global_row("fig10", "worst robot's distance from its goal, the better of 2", "µm", 20, worst),
-      global_row("fig10", "asking the tree for another goal", "ms", {}, median(asking), 5)};
+          row_of("fig10", "loading the tree, every input played", "s", {}, loading),
+          row_of("fig10", "the same answers as before it was saved, of 2", "1", {}, same, 2, false),
+          row_of("fig10", "goals solved by the plain tree, of 2", "1", 2, solved),
+          row_of("fig10", "worst robot's distance from its goal, the better of 2", "µm", 20, worst),
+          row_of("fig10", "asking the tree for another goal", "ms", {}, median(asking), 5)};
 }
 
 // Inputs along the axes only, so that cylinders meet walls squarely; then a search that keeps the
@@ -180,11 +178,10 @@ std::vector<ReproduceRow> global_magnets(const ReproduceOptions& options, const 
     apart = std::min(apart, least_distance(plan));
   }
   std::vector<ReproduceRow> rows{
-      global_row("fig12",
-                 fmt::format("two magnets, plain tree of 40,000 nodes: solved, of {}", seeds), "1",
-                 {}, solved, seeds / 2, false),
-      global_row("fig12", "nodes until solved, median", "1", 40'000, median(nodes)),
-      global_row("fig12", "least distance between the magnets", "µm", {}, apart)};
+      row_of("fig12", fmt::format("two magnets, plain tree of 40,000 nodes: solved, of {}", seeds),
+             "1", {}, solved, seeds / 2, false),
+      row_of("fig12", "nodes until solved, median", "1", 40'000, median(nodes)),
+      row_of("fig12", "least distance between the magnets", "µm", {}, apart)};
   GlobalSearchParams keeps_apart;
   keeps_apart.directions = 4;
   keeps_apart.separation = 40;
