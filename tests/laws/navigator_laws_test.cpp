@@ -250,7 +250,8 @@ std::vector<Case> cases() {
           {"RadarGuided", guided},
           {"StraightStop", StraightParams{}},
           {"PotentialField", PotentialFieldParams{}},
-          {"VelocityObstacle", VelocityObstacleParams{}}};
+          {"VelocityObstacle", VelocityObstacleParams{}},
+          {"Predictive", PredictiveParams{}}};
 }
 
 INSTANTIATE_TEST_SUITE_P(All, NavigatorLaws, testing::ValuesIn(cases()),

@@ -45,6 +45,10 @@ Made make(const VelocityObstacleParams& p, const Task& task, Rng) {
                                                      task.goal_tolerance);
 }
 
+Made make(const PredictiveParams& p, const Task& task, Rng rng) {
+  return std::make_unique<PredictiveNavigator>(p, task.swarm, *task.goal, task.goal_tolerance, rng);
+}
+
 std::string_view lacks_body(const Task& task) {
   if (task.robots) return "a swarm that is one body: it cannot steer robots one by one";
   return task.goal ? "" : "a goal";
@@ -54,6 +58,7 @@ std::string_view lacks(const HierarchicalParams&, const Task& task) { return lac
 std::string_view lacks(const StraightParams&, const Task& task) { return lacks_body(task); }
 std::string_view lacks(const PotentialFieldParams&, const Task& task) { return lacks_body(task); }
 std::string_view lacks(const VelocityObstacleParams&, const Task& task) { return lacks_body(task); }
+std::string_view lacks(const PredictiveParams&, const Task& task) { return lacks_body(task); }
 std::string_view lacks(const RadarParams&, const Task& task) { return lacks_body(task); }
 
 std::string_view lacks(const PlanPlayerParams&, const Task& task) {

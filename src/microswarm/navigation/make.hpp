@@ -11,6 +11,7 @@
 #include "microswarm/navigation/hierarchical.hpp"
 #include "microswarm/navigation/plan_player.hpp"
 #include "microswarm/navigation/potential_field.hpp"
+#include "microswarm/navigation/predictive.hpp"
 #include "microswarm/navigation/radar.hpp"
 #include "microswarm/navigation/straight.hpp"
 #include "microswarm/navigation/velocity_obstacle.hpp"
@@ -21,7 +22,7 @@ namespace microswarm {
 /// Any navigator, chosen at run time by its `type`.
 using NavigatorParams =
     std::variant<HierarchicalParams, PlanPlayerParams, AggregationParams, RadarParams,
-                 StraightParams, PotentialFieldParams, VelocityObstacleParams>;
+                 StraightParams, PotentialFieldParams, VelocityObstacleParams, PredictiveParams>;
 
 /// What a navigator is told of its task.
 struct Task {

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "microswarm/geometry/shapes.hpp"
+#include "microswarm/world/body.hpp"
+
+namespace microswarm {
+
+/// A body as quick to ask as can be: the part of its surrounding disc that is on the inner side of
+/// all edges of its convex hull. A disc has none. How far a point is from it is told a little too
+/// near beside blunt corners, never too far.
+struct ConvexOutline {
+  struct Edge {
+    Vec2 normal;        ///< outwards, of length 1
+    double offset = 0;  ///< of the edge from the centre along it [µm]
+  };
+  Vec2 centre;        ///< the disc's, or the centroid of the outline [µm]
+  double radius = 0;  ///< of the disc, or to the farthest vertex [µm]
+  std::vector<Edge> edges;
+
+  /// Distance [µm] of a point at `from_centre`, negative inside.
+  double distance_at(Vec2 from_centre) const;
+};
+
+/// Makes outlines of bodies and keeps its buffer.
+class ConvexOutliner {
+ public:
+  /// Takes the body into `out`, whose memory is kept.
+  void take(const Body& body, ConvexOutline& out);
+  /// Share of the hull of the body last taken that is not in the body; 0 for a disc.
+  double hollow_share() const { return hollow_share_; }
+
+ private:
+  void find_hull(const std::vector<Vec2>& outline);
+
+  std::vector<Vec2> sorted_;
+  std::vector<Vec2> hull_;
+  double hollow_share_ = 0;
+};
+
+}  // namespace microswarm

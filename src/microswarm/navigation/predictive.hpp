@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/core/rng.hpp"
+#include "microswarm/navigation/convex_outline.hpp"
+#include "microswarm/navigation/foresight.hpp"
+#include "microswarm/navigation/guide.hpp"
+#include "microswarm/navigation/helm.hpp"
+#include "microswarm/navigation/time_field.hpp"
+
+namespace microswarm {
+
+/// Navigation that looks ahead in time, ours: obstacles faster than the swarm cannot be outrun, but
+/// they can be foreseen. Where they will be is told from what was seen (Foresight); the best way
+/// through the seconds to come is found among all (TimeField); its first leg is chosen by exact
+/// distances, and commanded until the next frame.
+struct PredictiveParams {
+  static constexpr std::string_view type_name = "predictive";
+  double speed = 80;
+  double margin = 3;
+  double wall_margin = 4;
+  double horizon = 6;
+  double step = 0.5;
+  int directions = 48;
+  RiskParams risk;
+  ForesightParams foresight;
+  Guide guide = Guide::route;
+  double route_cell = 20;
+  double frame_timeout = 0.5;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Speed asked for."});
+    visit(self.margin, {"margin", Unit::um, {0, 1e5}, "Gap that counts as contact still."});
+    visit(self.wall_margin, {"wall_margin", Unit::um, {0, 1e5}, "Gap that is kept to walls."});
+    visit(self.horizon, {"horizon", Unit::s, {0.2, 60}, "How far it looks ahead."});
+    visit(self.step, {"step", Unit::s, {0.05, 10}, "Of time, between two places of a way ahead."});
+    visit(self.directions, {"directions", Unit::none, {4, 720}, "Of the first leg."});
+    visit(self.risk, {"risk", Unit::none, {}, "What nearness to obstacles costs."});
+    visit(self.foresight, {"foresight", Unit::none, {}, "How obstacles are foreseen."});
+    visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight, or route."});
+    visit(self.route_cell, {"route_cell", Unit::um, {1e-2, 1e5}, "Grid spacing of the route."});
+    visit(self.frame_timeout,
+          {"frame_timeout", Unit::s, {0, 60}, "Hold when the newest frame is older than this."});
+  }
+};
+
+/// See PredictiveParams. States: follow (no obstacle is foreseen near to the way), avoid, escape
+/// (contact is foreseen on the best way even), hold, arrived, blind.
+class PredictiveNavigator : public Navigator {
+ public:
+  PredictiveNavigator(const PredictiveParams& params, const SwarmLimits& swarm, Vec2 goal,
+                      double goal_tolerance, Rng rng);
+
+  void prepare(const Snapshot& world) override;
+  Command step(const Observation& observation, const Stop& stop) override;
+  NavigatorView view() const override;
+
+  const Foresight& foresight() const { return foresight_; }
+
+ private:
+  static constexpr int leg_pieces = 5;
+  struct Leg {
+    Command command;
+    double cost = 0;
+    double least_gap = 0;  ///< to obstacles [µm]
+  };
+
+  void look_at_bodies(const Observation& seen, Vec2 from);
+  bool stands_hollow(const ConvexOutline& outline, const TrackedBody& motion, Vec2 from) const;
+  void look_ahead(double effect);
+  bool goal_is_clear(const Map& map, const Pose2& pose) const;
+  void solve(const Map& map, Vec2 from);
+  double left_from(Vec2 p) const;
+  float standing_risk(const Map& map, Vec2 p) const;
+  Leg best_leg(const Map& map, const Pose2& pose);
+  Leg tried(const Map& map, const Pose2& pose, const Command& command, double bound) const;
+  double gap_in_piece(int piece, Segment way, double& doubt) const;
+  double follow_field(Vec2 from);
+
+  PredictiveParams params_;
+  Helm helm_;
+  double goal_tolerance_;
+  double radius_;  ///< with the margin [µm]
+  Foresight foresight_;
+  TimeField field_;
+  Route route_;
+  bool in_sight_ = true;  ///< is the goal?
+
+  ConvexOutliner outliner_;
+  std::vector<ConvexOutline> outlines_;  ///< of the bodies that are foreseen
+  std::vector<std::size_t> body_of_;
+  std::size_t bodies_ = 0;
+  std::vector<BodyAhead> ahead_;      ///< at the samples of the field
+  std::vector<BodyAhead> leg_ahead_;  ///< at the ends of the pieces of the first leg
+  std::vector<Body> hollow_bodies_;
+  BodySet hollow_;      ///< bodies that the swarm is within the hull of: taken as they stand
+  double closing_ = 0;  ///< what those may come nearer meanwhile [µm]
+  std::vector<Vec2> path_;
+  bool planned_ = false;
+};
+
+}  // namespace microswarm

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/predictive.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/core/hash.hpp"
+#include "microswarm/swarm/unicycle.hpp"
+#include "microswarm/world/world.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Vec2 goal{1800, 500};
+constexpr double tolerance = 30;
+constexpr SwarmLimits vortex{50, 70, infinity, 0.1};
+constexpr SwarmLimits ribbon{50, 70, 3, 0.1};
+
+/// A swarm that obeys late in a world that is seen late; bodies' true velocities are not shown.
+struct Drive {
+  std::vector<Polygon> walls{};
+  std::vector<Obstacle> obstacles{};
+  SwarmLimits swarm = vortex;
+  Pose2 pose{{200, 500}, 0};
+  PredictiveParams params{};
+  std::uint64_t seed = 1;
+  double least_gap = infinity;  ///< from edge to edge [µm]
+  double time = 0;
+  bool arrived = false;
+  std::vector<std::string> states{};
+  Hash hash{};
+
+  bool was(std::string_view state) const {
+    return std::find(states.begin(), states.end(), state) != states.end();
+  }
+
+  static Snapshot frame(const World& world, double t) {
+    const Snapshot true_frame = world.at(t);
+    std::vector<Body> bodies(true_frame.moving().bodies().begin(),
+                             true_frame.moving().bodies().end());
+    for (Body& body : bodies) {
+      body.velocity = {1e9, -1e9};
+      body.deformation_speed = 1e9;
+    }
+    return Snapshot(world.map, t, std::move(bodies));
+  }
+
+  void run(double seconds) {
+    constexpr double substep = 0.01;
+    const World world{std::make_shared<const Map>(Box{{0, 0}, {2000, 1000}}, walls), obstacles};
+    PredictiveNavigator navigator(params, swarm, goal, tolerance, Rng(seed, Purpose::planner));
+    navigator.prepare(frame(world, 0));
+    std::vector<Pose2> was_there(6, pose);
+    std::vector<Command> pending(10);
+    while (time < seconds && !arrived) {
+      const double seen = std::max(0.0, time - 0.05);
+      const Snapshot now = frame(world, seen);
+      const Command command = navigator.step({.now = time,
+                                              .seen = seen,
+                                              .swarm = SwarmPose{was_there.front(), swarm.radius},
+                                              .robots = {},
+                                              .world = &now},
+                                             {});
+      states.emplace_back(navigator.view().state);
+      hash.value(command.heading);
+      hash.value(command.speed);
+      for (int k = 0; k < 10; ++k, time += substep) {
+        pending.push_back(command);
+        pose = unicycle_step(pose, pending.front(), swarm.max_turn_rate, substep);
+        pending.erase(pending.begin());
+        was_there.push_back(pose);
+        was_there.erase(was_there.begin());
+        least_gap =
+            std::min(least_gap, world.at(time + substep).clearance(pose.position) - swarm.radius);
+      }
+      arrived = distance(pose.position, goal) <= tolerance;
+    }
+  }
+};
+
+TEST(Predictive, GoesStraightInTheOpen) {
+  for (const SwarmLimits& swarm : {vortex, ribbon}) {
+    Drive drive{.swarm = swarm};
+    drive.run(40);
+    EXPECT_TRUE(drive.arrived);
+    EXPECT_LT(drive.time, 1600 / 70.0 + 1);
+    EXPECT_FALSE(drive.was("avoid") || drive.was("escape") || drive.was("hold"));
+  }
+}
+
+TEST(Predictive, LetsWhatIsThreeTimesAsFastCross) {
+  for (const SwarmLimits& swarm : {vortex, ribbon})
+    for (const double y : {-900.0, -600.0, -300.0, 1300.0}) {
+      // It crosses the straight way when the swarm is there.
+      const Vec2 from{900, y};
+      const double meets_at = 10;
+      const Vec2 velocity{0, (500 - y) / meets_at};
+      Drive drive{.obstacles = {{DiscShape{80}, Straight{from, velocity}}}, .swarm = swarm};
+      drive.run(60);
+      EXPECT_TRUE(drive.arrived);
+      EXPECT_GT(drive.least_gap, 0) << y;
+      EXPECT_LT(drive.time, 30) << y;
+    }
+}
+
+TEST(Predictive, StepsAsideOfWhatComesHeadOn) {
+  for (const SwarmLimits& swarm : {vortex, ribbon})
+    for (const double faster : {1.0, 2.0, 3.0}) {
+      Drive drive{.obstacles = {{DiscShape{100}, Straight{{1900, 500}, {-70 * faster, 0}}}},
+                  .swarm = swarm};
+      drive.run(60);
+      EXPECT_TRUE(drive.arrived);
+      EXPECT_GT(drive.least_gap, 0) << faster;
+      EXPECT_LT(drive.time, 30) << faster;
+    }
+}
+
+TEST(Predictive, GoesRoundAWallAndLetsAnObstaclePassInTheGap) {
+  const std::vector<Polygon> walls{{{{980, 0}, {1020, 0}, {1020, 620}, {980, 620}}, {}}};
+  for (const double period : {6.0, 9.0}) {
+    Drive drive{.walls = walls,
+                .obstacles = {{DiscShape{60}, HarmonicLine{{1000, 850}, {300, 0}, period, 0.2}}}};
+    drive.run(120);
+    EXPECT_TRUE(drive.arrived);
+    EXPECT_GT(drive.least_gap, 0) << period;
+  }
+}
+
+TEST(Predictive, HoldsOrLeavesRatherThanBeRunOver) {
+  // A broad bar that sweeps the room leaves a gap at one side only, and turns back at its ends.
+  Drive drive{.obstacles = {{BoxShape{80, 560}, HarmonicLine{{900, 280}, {500, 0}, 30, 0.25}}}};
+  drive.run(120);
+  EXPECT_TRUE(drive.arrived);
+  EXPECT_GT(drive.least_gap, 0);
+  EXPECT_TRUE(drive.was("avoid"));
+}
+
+TEST(Predictive, GivesWayBeforeItsGoal) {
+  Drive drive{.obstacles = {{DiscShape{60}, HarmonicLine{goal, {0, 300}, 8, 0}}}};
+  drive.run(120);
+  EXPECT_TRUE(drive.arrived);
+  EXPECT_GT(drive.least_gap, 0);
+}
+
+TEST(Predictive, ThroughAChannelWithMovingWalls) {
+  DeformingChannel channel;
+  channel.centre_line = {{150, 500}, {700, 400}, {1200, 600}, {1850, 500}};
+  channel.half_width = 120;
+  channel.end_half_width = 140;
+  channel.amplitude = 20;
+  channel.block_centre = {1000, 500};
+  channel.block_height = 1100;
+  Drive drive{.obstacles = {{channel, Still{{0, 0}, 0}}}};
+  drive.run(120);
+  EXPECT_TRUE(drive.arrived);
+  EXPECT_GT(drive.least_gap, 0);
+}
+
+TEST(Predictive, SameSeedSameBits) {
+  const auto digest = [](std::uint64_t seed) {
+    Drive drive{.obstacles = {{DiscShape{80}, HarmonicLine{{900, 500}, {100, 300}, 9, 0}},
+                              {BoxShape{90, 60}, HarmonicArc{{1300, 500}, 200, 0, 2, 12, 0}}},
+                .seed = seed};
+    drive.run(60);
+    EXPECT_TRUE(drive.arrived);
+    return drive.hash.digest();
+  };
+  EXPECT_EQ(digest(5), digest(5));
+}
+
+TEST(Predictive, HoldsWhenBlindAndGoesOn) {
+  const World world{std::make_shared<const Map>(Box{{0, 0}, {2000, 1000}}, std::vector<Polygon>{}),
+                    {{DiscShape{60}, Straight{{900, 0}, {0, 50}}}}};
+  PredictiveNavigator navigator({}, vortex, goal, tolerance, Rng(1, Purpose::planner));
+  const Snapshot frame = world.at(0);
+  navigator.prepare(frame);
+  const Observation good{
+      .now = 0, .seen = 0, .swarm = SwarmPose{{{200, 500}, 0}, 50}, .robots = {}, .world = &frame};
+  EXPECT_GT(navigator.step(good, {}).speed, 0);
+  Observation bad = good;
+  bad.now = 0.1;
+  bad.seen = 0.1;
+  bad.swarm.reset();
+  EXPECT_EQ(navigator.step(bad, {}).speed, 0);
+  EXPECT_EQ(navigator.view().state, "blind");
+  EXPECT_TRUE(navigator.view().path.empty());
+  bad = good;
+  bad.now = 3;
+  EXPECT_EQ(navigator.step(bad, {}).speed, 0) << "stale";
+  bad.seen = 3;
+  bad.swarm->pose.position.x = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(navigator.step(bad, {}).speed, 0);
+  const Snapshot later = world.at(3.1);
+  Observation again = good;
+  again.now = again.seen = 3.1;
+  again.world = &later;
+  EXPECT_GT(navigator.step(again, {}).speed, 0);
+  again.swarm->pose.position = goal;
+  EXPECT_EQ(navigator.step(again, {}).speed, 0);
+  EXPECT_EQ(navigator.view().state, "arrived");
+}
+
+}  // namespace
+}  // namespace microswarm
