@@ -27,8 +27,8 @@ struct ReproduceOptions {
 
 /// A row of a paper's figure.
 inline ReproduceRow row_of(std::string figure, std::string quantity, std::string unit,
-                           std::optional<double> paper, double ours,
-                           std::optional<double> aim = {}, bool at_most = true) {
+                           std::optional<double> paper, double ours, std::optional<double> aim = {},
+                           bool at_most = true) {
   return {std::move(figure), std::move(quantity), std::move(unit), paper, ours, aim, at_most, {}};
 }
 

@@ -21,9 +21,10 @@ Snapshot room(std::vector<Body> bodies = {}, std::vector<Polygon> walls = {}) {
 }
 
 std::unique_ptr<Navigator> navigator(const Snapshot& world, std::uint64_t seed = 1) {
-  auto made = make_navigator(HierarchicalParams{},
-                             Task{.swarm = limits_of(RibbonParams{}), .robots = {}, .goal = goal, .goal_tolerance = 30},
-                             Rng(seed, Purpose::planner));
+  auto made = make_navigator(
+      HierarchicalParams{},
+      Task{.swarm = limits_of(RibbonParams{}), .robots = {}, .goal = goal, .goal_tolerance = 30},
+      Rng(seed, Purpose::planner));
   made->prepare(world);
   return made;
 }

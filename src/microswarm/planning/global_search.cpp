@@ -246,8 +246,7 @@ class Round {
 };
 
 /// The inputs one by one, and where the robots get by them.
-GlobalPlan played(const Problem& problem, Configuration start,
-                  const std::vector<Held>& inputs) {
+GlobalPlan played(const Problem& problem, Configuration start, const std::vector<Held>& inputs) {
   GlobalPlan plan;
   std::vector<PointF> now(start.begin(), start.end());
   const auto note = [&] {

@@ -163,8 +163,8 @@ class Shortening {
   Configuration goals_;
   std::vector<PointF> inputs_;
   std::vector<Configuration> states_;  ///< before the first input, and after each
-  std::vector<PointF> played_;           ///< of the try under way
-  std::vector<PointF> reached_;          ///< n after each
+  std::vector<PointF> played_;         ///< of the try under way
+  std::vector<PointF> reached_;        ///< n after each
   Configuration before_;
 };
 
