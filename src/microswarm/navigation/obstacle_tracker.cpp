@@ -28,13 +28,13 @@ const std::vector<Vec2>* outline_of(const Body& body) {
 }
 
 /// Sightings from which the noise is told, in windows of a fit.
-constexpr int windows = 4;
+constexpr std::size_t windows = 4;
 
 /// Keeps the newest `most` that are at most `memory` old.
-void remember(std::vector<Sighting>& trail, Sighting newest, int most, double memory) {
+void remember(std::vector<Sighting>& trail, Sighting newest, std::size_t most, double memory) {
   const auto outdated = [&](const Sighting& s) { return s.t < newest.t - memory; };
   std::erase_if(trail, outdated);
-  if (std::ssize(trail) >= most) trail.erase(trail.begin());
+  if (trail.size() >= most) trail.erase(trail.begin());
   trail.push_back(newest);
 }
 
@@ -84,7 +84,7 @@ ObstacleTracker::Trail& ObstacleTracker::trail_of(std::uint32_t obstacle, std::u
   Trail fresh;
   fresh.obstacle = obstacle;
   fresh.leaf = leaf;
-  const auto most = static_cast<std::size_t>(windows * params_.frames);
+  const std::size_t most = windows * static_cast<std::size_t>(params_.frames);
   fresh.places.reserve(most);
   fresh.radii.reserve(most);
   return *trails_.insert(at, std::move(fresh));
@@ -105,8 +105,9 @@ void ObstacleTracker::extend(Trail& trail, const Body& body) const {
       trail.outline[i] = v;
     }
   }
-  remember(trail.places, {seen_, extent.centre}, windows * params_.frames, params_.memory);
-  remember(trail.radii, {seen_, {extent.radius, 0}}, windows * params_.frames, params_.memory);
+  const std::size_t most = windows * static_cast<std::size_t>(params_.frames);
+  remember(trail.places, {seen_, extent.centre}, most, params_.memory);
+  remember(trail.radii, {seen_, {extent.radius, 0}}, most, params_.memory);
 }
 
 TrackedBody ObstacleTracker::told_by(const Trail& trail) const {

@@ -70,9 +70,9 @@ Command PotentialFieldNavigator::step(const Observation& seen, const Stop&) {
 }
 
 /// Strength of a push at a gap [µm].
-double PotentialFieldNavigator::push(double gap) const {
-  if (gap >= params_.influence) return 0;
-  const double x = std::min(most_nearness, params_.influence / std::max(gap, 1e-9));
+double PotentialFieldNavigator::push(double gap, double influence) const {
+  if (gap >= influence) return 0;
+  const double x = std::min(most_nearness, influence / std::max(gap, 1e-9));
   return params_.repulsion * (x - 1) * x * x;
 }
 
@@ -86,11 +86,12 @@ double PotentialFieldNavigator::calm_near_goal(Vec2 p) const {
 Vec2 PotentialFieldNavigator::push_of_walls(const Map& map, Vec2 p) const {
   const double edge = helm_.swarm().radius + params_.margin;
   const double gap = map.clearance(p) - edge;
-  if (gap >= params_.influence) return {};
+  if (gap >= params_.wall_influence) return {};
   const auto slope = [&](Vec2 d) {
     return (map.clearance(p + d) - map.clearance(p - d)) / (2 * stencil);
   };
-  return calm_near_goal(p) * push(gap) * Vec2{slope({stencil, 0}), slope({0, stencil})};
+  return calm_near_goal(p) * push(gap, params_.wall_influence) *
+         Vec2{slope({stencil, 0}), slope({0, stencil})};
 }
 
 /// −∇ of ½ k g₀ (g₀ / g − 1)² with g = gap − reaction time · closing speed: away from the nearest
@@ -112,7 +113,7 @@ Vec2 PotentialFieldNavigator::push_of(const Body& body, const TrackedBody& motio
   const Vec2 across = relative - dot(relative, n) * n;
   const double spoke = std::max(helm_.swarm().radius, distance(at, motion.centre));
   const double calm = norm(motion.velocity) < resting ? calm_near_goal(p) : 1;
-  return calm * push(gap) * ((params_.reaction_time / spoke) * across - n);
+  return calm * push(gap, params_.influence) * ((params_.reaction_time / spoke) * across - n);
 }
 
 /// The command that follows the force, or the nearest direction beside it, and into no wall.
@@ -124,7 +125,8 @@ std::optional<Command> PotentialFieldNavigator::clear_of_walls(const Map& map, c
   const double r = std::min(helm_.swarm().radius, (1 - 1e-9) * map.clearance(pose.position));
   const double speed = helm_.speed() * std::min(1.0, norm(force));
   for (int k = 0; k <= 2 * most_aside; ++k) {
-    const double aside = (k % 2 == 0 ? -1 : 1) * ((k + 1) / 2) * step_aside;
+    const int steps = k % 2 == 0 ? -k / 2 : (k + 1) / 2;
+    const double aside = steps * step_aside;
     Command command{wrap(heading_of(force) + aside), speed};
     const double turn = std::isinf(turn_rate) ? 0 : wrap(command.heading - pose.heading);
     if (std::abs(turn) > pi / 2) command.speed *= 0.5;

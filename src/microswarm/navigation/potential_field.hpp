@@ -19,6 +19,7 @@ struct PotentialFieldParams {
   double speed = 60;
   double repulsion = 0.1;  // k
   double influence = 150;  // g₀
+  double wall_influence = 20;
   double reaction_time = 0.5;
   double least_force = 0.05;
   double margin = 10;
@@ -31,7 +32,9 @@ struct PotentialFieldParams {
     visit(self.repulsion,
           {"repulsion", Unit::none, {0, 1e6}, "Gain of the push, beside a draw of 1."});
     visit(self.influence,
-          {"influence", Unit::um, {1e-3, 1e6}, "Gap from which on nothing pushes."});
+          {"influence", Unit::um, {1e-3, 1e6}, "Gap from which on no obstacle pushes."});
+    visit(self.wall_influence,
+          {"wall_influence", Unit::um, {1e-3, 1e6}, "Gap from which on no wall pushes."});
     visit(self.reaction_time,
           {"reaction_time", Unit::s, {0, 60}, "What comes nearer counts as so much nearer."});
     visit(self.least_force,
@@ -57,7 +60,7 @@ class PotentialFieldNavigator : public Navigator {
   NavigatorView view() const override { return helm_.view(); }
 
  private:
-  double push(double gap) const;
+  double push(double gap, double influence) const;
   Vec2 push_of_walls(const Map& map, Vec2 p) const;
   Vec2 push_of(const Body& body, const TrackedBody& motion, Vec2 p, Vec2 wanted) const;
   double calm_near_goal(Vec2 p) const;
