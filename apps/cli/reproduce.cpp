@@ -15,8 +15,11 @@ namespace {
 using Reproduce = std::vector<ReproduceRow> (*)(const std::string& figure,
                                                 const ReproduceOptions& options, const Stop& stop);
 
-constexpr std::array<std::pair<std::string_view, Reproduce>, 3> papers{
-    {{"drrt", reproduce_drrt}, {"global", reproduce_global}, {"gather", reproduce_gather}}};
+constexpr std::array<std::pair<std::string_view, Reproduce>, 4> papers{
+    {{"drrt", reproduce_drrt},
+     {"global", reproduce_global},
+     {"radar", reproduce_radar},
+     {"gather", reproduce_gather}}};
 
 Reproduce reproduce_of(const std::string& paper) {
   std::vector<std::string_view> names;
@@ -51,8 +54,9 @@ void add_reproduce(CLI::App& app, Action& action) {
   CLI::App* cmd = add_command(app, "reproduce",
                               "A paper's figures beside ours: exit code 3 when one falls short",
                               "reproduce drrt/fig5a --quick --out out/drrt");
-  cmd->add_option("key", *key,
-                  "Paper, or one of its figures: drrt, drrt/fig3, global, global/fig7, gather …")
+  cmd->add_option(
+         "key", *key,
+         "Paper, or one of its figures: drrt, drrt/fig3, global, global/fig7, radar, gather …")
       ->required()
       ->type_name("KEY");
   cmd->add_option("--out", o->out, "Folder for plots, pictures and the table as CSV")

@@ -39,7 +39,8 @@ std::vector<Vec2> star(Vec2 centre, double radius, Rng& rng) {
 
 void add_wall(Ground& ground, const Polygon& wall) { ground.map.walls.push_back(wall.outer); }
 
-/// An upright wall from x to x + thickness with two gates, a valve in some of them.
+/// An upright wall from x to x + thickness with two gates, a valve in some of them. A valve lets
+/// the swarm pass for about half of its period.
 void add_gates(Ground& ground, const Crosser& swarm, double x, double speed, Rng& rng) {
   constexpr double thickness = 60;
   const double height = ground.map.hi.y;
@@ -55,7 +56,7 @@ void add_gates(Ground& ground, const Crosser& swarm, double x, double speed, Rng
     Valve valve{.span = width,
                 .thickness = 30,
                 .least_gap = rng.uniform(0, 40),
-                .greatest_gap = rng.uniform(gate, width),
+                .greatest_gap = rng.uniform(2, 2.4) * gate,
                 .phase = rng.uniform()};
     valve.period = pi / 2 * (valve.greatest_gap - valve.least_gap) / speed;
     const Obstacle gate_valve{valve, Still{{x + thickness / 2, low + width / 2}, 0}};

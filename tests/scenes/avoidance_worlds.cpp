@@ -124,7 +124,7 @@ Ground random_ground(const AvoidanceOptions& options, const Crosser& swarm, int 
   const std::uint64_t kind = rng.below(20);
   if (kind < 8) return scattered_ground(swarm, obstacles, rng);
   if (kind < 13) return gated_ground(swarm, slow * rng.uniform(0.3, 1), rng);
-  if (kind < 18) return vessel_ground(swarm, rng);
+  if (kind < 19) return vessel_ground(swarm, rng);
   return channel_ground(swarm, slow * rng.uniform(0.3, 1), rng);
 }
 
@@ -150,6 +150,7 @@ Scenario avoidance_scenario(std::uint64_t seed, const AvoidanceOptions& options)
   s.time_limit = 60 + 5 * distance(ground.start, ground.goal) / swarm.max_speed;
   s.hold_limit = s.time_limit;
   s.stop_at_contact = false;
+  s.detection_range = avoidance_detection_range;
 
   // A coarse field will do for the few questions that are asked here.
   constexpr double field_cell = 50;

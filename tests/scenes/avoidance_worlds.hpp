@@ -29,6 +29,9 @@ inline constexpr double avoidance_passage_gap = 30;
 /// Greatest share of the first minutes in which obstacles are on the goal or too near to it.
 inline constexpr double avoidance_goal_busy = 0.4;
 
+/// Of the metrics, for every navigator the same [µm]: d_r of case I [radar].
+inline constexpr double avoidance_detection_range = 70;
+
 /// A vortex-like swarm that has to cross a world of obstacles of all shapes and motions, seen with
 /// delay, noise and missed frames. A pure function of its arguments. What stands still, walls
 /// included, leaves passages for the swarm, so that a way from start to goal always exists; what

@@ -74,6 +74,7 @@ Scenario street_scenario(const Street& recorded, std::uint64_t seed) {
   s.time_limit = 240;
   s.hold_limit = s.time_limit;
   s.stop_at_contact = false;
+  s.detection_range = avoidance_detection_range;
   const double begin = rng.uniform(0, std::max(0.0, recorded.recording - s.time_limit));
   for (const auto& [id, samples] : recorded.tracks) {
     if (samples.times.back() < begin || samples.times.front() > begin + s.time_limit) continue;

@@ -13,6 +13,7 @@
 
 namespace microswarm {
 
+/// How the motion models of obstacles are judged and how far they are doubted.
 struct ForesightParams {
   double memory = 60;
   double proof_time = 2;

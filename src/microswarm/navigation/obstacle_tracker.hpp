@@ -12,6 +12,7 @@
 
 namespace microswarm {
 
+/// What an ObstacleTracker tells a motion from.
 struct ObstacleTrackerParams {
   int frames = 12;
   double memory = 4;

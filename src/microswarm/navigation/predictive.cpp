@@ -224,12 +224,9 @@ PredictiveNavigator::Leg PredictiveNavigator::tried(const Map& map, const Pose2&
   for (int piece = 0; piece < leg_pieces; ++piece) {
     const Pose2 next = unicycle_step(pose, command, helm_.swarm().max_turn_rate, dt);
     const Segment way{pose.position, next.position};
-    double doubt = 0;
-    const double gap = gap_in_piece(piece, way, doubt);
-    leg.least_gap = std::min(leg.least_gap, gap);
-    const double risk = std::max(static_cast<double>(standing_risk(map, next.position)),
-                                 static_cast<double>(risk_of(params_.risk, static_cast<float>(gap),
-                                                             static_cast<float>(doubt))));
+    const Meeting met = meeting(piece, way);
+    leg.least_gap = std::min(leg.least_gap, met.gap);
+    const double risk = std::max(met.risk, static_cast<double>(standing_risk(map, next.position)));
     leg.cost += dt * (1 + risk);
     if (command.speed > 0 && !map.is_free(way, needed)) leg.cost = no_way + bound;
     if (leg.cost > bound) return leg;
@@ -240,10 +237,9 @@ PredictiveNavigator::Leg PredictiveNavigator::tried(const Map& map, const Pose2&
   return leg;
 }
 
-/// Least gap to the bodies while the swarm goes along a piece of the first leg; at most the risk's
-/// reach. `doubt` is that of the body that is nearest.
-double PredictiveNavigator::gap_in_piece(int piece, Segment way, double& doubt) const {
-  double least = std::numeric_limits<double>::infinity();
+/// What the bodies mean to the swarm while it goes along a piece of the first leg.
+PredictiveNavigator::Meeting PredictiveNavigator::meeting(int piece, Segment way) const {
+  Meeting out;
   const std::size_t first = static_cast<std::size_t>(piece) * bodies_;
   for (std::size_t i = 0; i < bodies_; ++i) {
     const BodyAhead& a = leg_ahead_[first + i];
@@ -256,11 +252,11 @@ double PredictiveNavigator::gap_in_piece(int piece, Segment way, double& doubt) 
     if (squared_norm(p) > away * away) continue;
     const double gap =
         distance_to(outlines_[i], rotated(p, -a.turn), rotated(q, -b.turn), near) - grown;
-    if (gap - b.doubt >= least - doubt) continue;
-    least = gap;
-    doubt = b.doubt;
+    const auto risk = risk_of(params_.risk, static_cast<float>(gap), static_cast<float>(b.doubt));
+    out.gap = std::min(out.gap, gap);
+    out.risk = std::max(out.risk, static_cast<double>(risk));
   }
-  return least;
+  return out;
 }
 
 /// Draws the way that the field holds for best; the least gap to a body on it [µm], told where a

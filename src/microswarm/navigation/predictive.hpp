@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -69,6 +70,11 @@ class PredictiveNavigator : public Navigator {
     double least_gap = 0;  ///< to obstacles [µm]
   };
 
+  struct Meeting {
+    double gap = std::numeric_limits<double>::infinity();  ///< least, where it is near [µm]
+    double risk = 0;                                       ///< greatest, seconds a second
+  };
+
   void look_at_bodies(const Observation& seen, Vec2 from);
   bool stands_hollow(const ConvexOutline& outline, const TrackedBody& motion, Vec2 from) const;
   void look_ahead(double effect);
@@ -78,7 +84,7 @@ class PredictiveNavigator : public Navigator {
   float standing_risk(const Map& map, Vec2 p) const;
   Leg best_leg(const Map& map, const Pose2& pose);
   Leg tried(const Map& map, const Pose2& pose, const Command& command, double bound) const;
-  double gap_in_piece(int piece, Segment way, double& doubt) const;
+  Meeting meeting(int piece, Segment way) const;
   double follow_field(Vec2 from);
 
   PredictiveParams params_;

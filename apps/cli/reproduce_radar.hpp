@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "microswarm/experiment/record.hpp"
+#include "reproduce.hpp"
+
+namespace microswarm::cli {
+
+/// A swarm of 200 px is taken for one of 750 µm: the paper gives no scale, but a gap of 75.31 µm as
+/// 0.10 body lengths.
+inline constexpr double radar_um_per_px = 3.75;
+
+/// A scenario of [radar], ready to run.
+struct RadarSetting {
+  Scene scene;
+  World world;
+
+  RadarParams& params() { return std::get<RadarParams>(scene.scenario.navigator); }
+};
+/// Throws InputError as reading a scenario does.
+RadarSetting load_radar(const ReproduceOptions& options, const char* name);
+/// One run, recorded.
+Record record_of(const RadarSetting& setting, const Stop& stop);
+
+/// Figures of [radar], by subject: one obstacle (5, 6, 7, 10), twelve obstacles (8, 11, 12), the
+/// micromaze (13).
+std::vector<ReproduceRow> radar_single(const ReproduceOptions& options, const Stop& stop);
+std::vector<ReproduceRow> radar_series(const ReproduceOptions& options, const Stop& stop);
+std::vector<ReproduceRow> radar_twelve(const ReproduceOptions& options, const Stop& stop);
+std::vector<ReproduceRow> radar_experiment(const ReproduceOptions& options, const Stop& stop);
+std::vector<ReproduceRow> radar_twelve_experiment(const ReproduceOptions& options,
+                                                  const Stop& stop);
+std::vector<ReproduceRow> radar_micromaze(const ReproduceOptions& options, const Stop& stop);
+
+}  // namespace microswarm::cli

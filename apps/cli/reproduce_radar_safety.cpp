@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reproduce_radar_safety.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+
+#include "microswarm/core/statistics.hpp"
+#include "safety_campaign.hpp"
+#include "safety_tables.hpp"
+#include "tests/scenes/avoidance_worlds.hpp"
+#include "tests/scenes/pedestrians.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double just_slower = 8;    // of recorded walkers: the fastest makes 50 µm/s of 60
+constexpr double as_fast = 2.9;      // the usual one is as fast as the swarm
+constexpr double aimed_share = 0.2;  // of the radar's contacts, for whoever looks ahead
+
+/// How many worlds each crosses: the more, the quicker its decisions are.
+struct Counts {
+  int radar;
+  int baseline;
+  int planner;  ///< D-RRT* and the one that looks ahead
+
+  int of(std::string_view navigator) const {
+    if (navigator.starts_with(RadarParams::type_name)) return radar;
+    const bool is_baseline = !is_ours(navigator);
+    return is_baseline ? baseline : planner;
+  }
+};
+
+/// A course with how many of its worlds are crossed, quick or in full.
+struct Race {
+  Course course;
+  Counts quick;
+  Counts full;
+};
+
+Course generated(std::string name, scenes::AvoidanceOptions options, bool walls) {
+  options.walls = walls;
+  return {.name = std::move(name),
+          .walls = walls,
+          .scenario =
+              [options](std::uint64_t seed) { return scenes::avoidance_scenario(seed, options); },
+          .world = scenes::avoidance_world};
+}
+
+/// Nothing where the recording is absent.
+std::optional<Course> recorded(std::string name, double slower, const ReproduceOptions& options) {
+  const char* given = std::getenv("MICROSWARM_DATA");
+  const fs::path data =
+      given ? fs::path(given) : options.scenarios / ".." / ".." / "shared" / "data";
+  const fs::path file = scenes::street_file(data);
+  if (!fs::exists(file)) {
+    fmt::print(stderr, "{}: left out, {} is absent\n", name, file.lexically_normal().string());
+    return std::nullopt;
+  }
+  const auto street = std::make_shared<const scenes::Street>(scenes::read_street(file, slower));
+  return Course{
+      .name = std::move(name),
+      .walls = false,
+      .scenario = [street](std::uint64_t seed) { return scenes::street_scenario(*street, seed); },
+      .world = scenes::avoidance_world};
+}
+
+CourseResult crossed(const Race& race, const ReproduceOptions& options, const Stop& stop) {
+  const Course& course = race.course;
+  const Counts& counts = options.quick ? race.quick : race.full;
+  CourseResult out{.course = course, .who = contestants(course.scenario(0)), .crossings = {}};
+  std::vector<int> worlds;
+  for (const Contestant& who : out.who) worlds.push_back(counts.of(who.name));
+  ProgressBar bar(course.name);
+  const auto progress = [&](double share) { bar.update(share); };
+  out.crossings = cross(course, out.who, worlds, progress, stop);
+  return out;
+}
+
+void add_rows(const std::string& figure, const CourseResult& result,
+              std::vector<ReproduceRow>& rows) {
+  for (std::size_t k = 0; k < result.who.size(); ++k) {
+    const Tally tally = tally_of(result.crossings[k]);
+    const std::string note = tally.runs == 1 ? "1 world" : fmt::format("{} worlds", tally.runs);
+    const auto row = [&](const char* what, const char* unit, double ours,
+                         std::optional<double> aim = {}) {
+      rows.push_back(
+          {.figure = figure,
+           .quantity = fmt::format("{}, {}: {}", result.course.name, result.who[k].name, what),
+           .unit = unit,
+           .ours = ours,
+           .aim = aim,
+           .note = note});
+    };
+    row("contacts a run", "1", tally.contacts);
+    row("avoidable contacts a run", "1", tally.avoidable,
+        figure == "safety" && is_ours(result.who[k].name) ? std::optional(0.0) : std::nullopt);
+    row("arrived", "%", 100 * tally.arrived);
+    row("time ÷ straight at full speed, median", "1", tally.slowness);
+    row("avoidance cost δ, mean", "1", tally.delta);
+  }
+}
+
+/// Of two navigators over the worlds that both have crossed.
+std::optional<double> contact_ratio(const CourseResult& result, std::string_view ours,
+                                    std::string_view other) {
+  const auto find = [&](std::string_view name) -> const std::vector<Crossing>* {
+    for (std::size_t k = 0; k < result.who.size(); ++k)
+      if (result.who[k].name == name) return &result.crossings[k];
+    return nullptr;
+  };
+  const auto* a = find(ours);
+  const auto* b = find(other);
+  if (!a || !b) return std::nullopt;
+  const std::size_t both = std::min(a->size(), b->size());
+  const double theirs = tally_of(std::span(*b).first(both)).contacts;
+  if (theirs <= 0) return std::nullopt;
+  return tally_of(std::span(*a).first(both)).contacts / theirs;
+}
+
+void add_ratios(const std::string& figure, const CourseResult& result,
+                std::vector<ReproduceRow>& rows) {
+  for (const char* other : {"radar", "radar_as_published", "hierarchical_drrt_star"}) {
+    const auto ratio = contact_ratio(result, "predictive", other);
+    if (!ratio) continue;
+    rows.push_back(
+        {.figure = figure,
+         .quantity =
+             fmt::format("{}: contacts of predictive ÷ those of {}", result.course.name, other),
+         .unit = "1",
+         .ours = *ratio,
+         .aim = other == std::string_view("radar") ? std::optional(aimed_share) : std::nullopt});
+  }
+}
+
+std::vector<ReproduceRow> raced(const std::string& figure, const std::vector<Race>& races,
+                                const ReproduceOptions& options, const Stop& stop) {
+  std::vector<ReproduceRow> rows;
+  std::vector<CourseResult> results;
+  for (const Race& race : races) {
+    results.push_back(crossed(race, options, stop));
+    add_rows(figure, results.back(), rows);
+    if (figure == "fast") add_ratios(figure, results.back(), rows);
+  }
+  if (!options.out.empty() && !stop()) write_safety(results, options.out, figure);
+  return rows;
+}
+
+}  // namespace
+
+std::vector<ReproduceRow> radar_safety(const ReproduceOptions& options, const Stop& stop) {
+  std::vector<Race> races{
+      {generated("open", scenes::slow_obstacles, false), {16, 8, 4}, {10'000, 2000, 1000}},
+      {generated("walls", scenes::slow_obstacles, true), {8, 4, 1}, {10'000, 2000, 300}}};
+  if (auto street = recorded("walkers", just_slower, options))
+    races.push_back({*street, {40, 40, 40}, {1000, 1000, 1000}});
+  return raced("safety", races, options, stop);
+}
+
+std::vector<ReproduceRow> radar_fast(const ReproduceOptions& options, const Stop& stop) {
+  std::vector<Race> races{
+      {generated("fast", scenes::fast_obstacles, false), {24, 12, 12}, {1000, 1000, 1000}}};
+  if (auto street = recorded("fast walkers", as_fast, options))
+    races.push_back({*street, {40, 40, 40}, {1000, 1000, 1000}});
+  return raced("fast", races, options, stop);
+}
+
+}  // namespace microswarm::cli

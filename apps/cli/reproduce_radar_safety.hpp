@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "reproduce.hpp"
+
+namespace microswarm::cli {
+
+/// Generated worlds with obstacles slower than the swarm, with and without walls, and recorded
+/// walkers: contacts, those that holding or retreating could have avoided, arrivals and times of
+/// every navigator. Plots, tables of all runs and contacts, and some worlds go to options.out.
+std::vector<ReproduceRow> radar_safety(const ReproduceOptions& options, const Stop& stop);
+
+/// The same with obstacles at 1 to 3 times the swarm's speed, and walkers as fast as it.
+std::vector<ReproduceRow> radar_fast(const ReproduceOptions& options, const Stop& stop);
+
+}  // namespace microswarm::cli

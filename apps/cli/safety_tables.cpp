@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "safety_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "cli.hpp"
+#include "microswarm/core/file.hpp"
+#include "microswarm/core/statistics.hpp"
+#include "microswarm/report/page.hpp"
+#include "reproduce_gather.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int worlds_written = 3;  // a navigator and course
+constexpr std::size_t obstacles_a_bin = 10;
+
+double slowness(const Crossing& c) { return c.time / c.straight; }
+
+template <class Visit>
+void for_each_run(const std::vector<CourseResult>& results, Visit&& visit) {
+  for (const CourseResult& result : results)
+    for (std::size_t k = 0; k < result.who.size(); ++k)
+      for (std::size_t seed = 0; seed < result.crossings[k].size(); ++seed)
+        if (result.crossings[k][seed].ran) visit(result, k, seed, result.crossings[k][seed]);
+}
+
+std::string runs_csv(const std::vector<CourseResult>& results) {
+  std::string out =
+      "course,navigator,seed,status,arrived,obstacles,time_s,straight_s,delta,least_gap_um,hold_s,"
+      "contacts,avoidable\n";
+  for_each_run(
+      results, [&](const CourseResult& result, std::size_t k, std::size_t seed, const Crossing& c) {
+        out += fmt::format("{},{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{}\n",
+                           result.course.name, result.who[k].name, seed, to_string(c.status),
+                           c.arrived ? 1 : 0, c.obstacles, c.time, c.straight, c.delta, c.least_gap,
+                           c.hold_time, c.contacts.size(), c.avoidable());
+      });
+  return out;
+}
+
+std::string contacts_csv(const std::vector<CourseResult>& results) {
+  std::string out =
+      "course,navigator,seed,t_s,kind,body,x_um,y_um,speed_um_per_s,avoidable,"
+      "decided_s,way\n";
+  for_each_run(
+      results, [&](const CourseResult& result, std::size_t k, std::size_t seed, const Crossing& c) {
+        for (const ContactVerdict& v : c.contacts)
+          out += fmt::format("{},{},{},{:.6g},{},{},{:.6g},{:.6g},{:.6g},{},{},\"{}\"\n",
+                             result.course.name, result.who[k].name, seed, v.contact.t,
+                             v.contact.kind == EventKind::contact_wall ? "wall" : "obstacle",
+                             v.contact.body, v.contact.position.x, v.contact.position.y,
+                             v.contact.speed, v.avoidable ? 1 : 0,
+                             v.avoidable ? fmt::format("{:.6g}", v.decided) : "", v.way);
+      });
+  return out;
+}
+
+void write_worlds(const std::vector<CourseResult>& results, const fs::path& folder) {
+  make_folder(folder.string());
+  const CourseResult* course = nullptr;
+  std::size_t of = 0;
+  int written = 0;
+  for_each_run(
+      results, [&](const CourseResult& result, std::size_t k, std::size_t seed, const Crossing& c) {
+        if (course != &result || of != k) course = &result, of = k, written = 0;
+        if (c.avoidable() == 0 || written == worlds_written) return;
+        ++written;
+        Scenario scenario = result.course.scenario(seed);
+        scenario.navigator = result.who[k].params(scenario, result.course.walls);
+        std::string stem = fmt::format("{}-{}-{}", result.course.name, result.who[k].name, seed);
+        std::replace(stem.begin(), stem.end(), ' ', '-');
+        write_scenario(std::move(scenario), folder, stem);
+      });
+}
+
+/// Mean contacts of the runs among so and so many obstacles.
+Plot contacts_plot(const CourseResult& result) {
+  Plot plot{
+      .title = result.course.name, .x_label = "obstacles", .y_label = "contacts a run", .y_min = 0};
+  double most = 0;
+  for (std::size_t k = 0; k < result.who.size(); ++k) {
+    std::vector<double> contacts;
+    std::vector<double> runs;
+    for (const Crossing& c : result.crossings[k]) {
+      if (!c.ran) continue;
+      const std::size_t bin = c.obstacles / obstacles_a_bin;
+      if (runs.size() <= bin) contacts.resize(bin + 1), runs.resize(bin + 1);
+      contacts[bin] += static_cast<double>(c.contacts.size());
+      runs[bin] += 1;
+    }
+    Series series{.label = result.who[k].name};
+    for (std::size_t bin = 0; bin < runs.size(); ++bin) {
+      if (runs[bin] == 0) continue;
+      series.x.push_back(static_cast<double>(obstacles_a_bin) * (static_cast<double>(bin) + 0.5));
+      series.y.push_back(contacts[bin] / runs[bin]);
+      most = std::max(most, series.y.back());
+    }
+    plot.series.push_back(std::move(series));
+  }
+  plot.y_max = 1.8 * std::max(most, 0.05);  // the legend stands above
+  return plot;
+}
+
+Plot times_plot(const CourseResult& result) {
+  Plot plot{.title = result.course.name, .y_label = "time ÷ straight at full speed", .log_y = true};
+  for (std::size_t k = 0; k < result.who.size(); ++k) {
+    Series series{.label = result.who[k].name, .style = PlotStyle::box};
+    for (const Crossing& c : result.crossings[k])
+      if (c.ran && c.arrived) series.y.push_back(slowness(c));
+    series.x.assign(series.y.size(), static_cast<double>(k + 1));
+    plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
+std::vector<std::vector<std::string>> table_of(const CourseResult& result) {
+  std::vector<std::vector<std::string>> lines{{"navigator", "worlds", "contacts a run",
+                                               "avoidable a run", "runs with contact, %",
+                                               "arrived, %", "time ÷ straight, median", "mean δ"}};
+  for (std::size_t k = 0; k < result.who.size(); ++k) {
+    const Tally t = tally_of(result.crossings[k]);
+    lines.push_back({result.who[k].name, std::to_string(t.runs), fmt::format("{:.4f}", t.contacts),
+                     fmt::format("{:.4f}", t.avoidable), fmt::format("{:.2f}", 100 * t.touched),
+                     fmt::format("{:.2f}", 100 * t.arrived), fmt::format("{:.3f}", t.slowness),
+                     fmt::format("{:.3f}", t.delta)});
+  }
+  return lines;
+}
+
+}  // namespace
+
+Tally tally_of(std::span<const Crossing> crossings) {
+  Tally out;
+  std::vector<double> times;
+  for (const Crossing& c : crossings) {
+    if (!c.ran) continue;
+    ++out.runs;
+    out.contacts += static_cast<double>(c.contacts.size());
+    out.avoidable += c.avoidable();
+    out.touched += !c.contacts.empty();
+    out.arrived += c.arrived;
+    out.delta += c.delta;
+    if (c.arrived) times.push_back(slowness(c));
+  }
+  for (double* sum : {&out.contacts, &out.avoidable, &out.touched, &out.arrived, &out.delta})
+    *sum /= std::max(1, out.runs);
+  out.slowness = median(times);
+  return out;
+}
+
+bool is_ours(std::string_view navigator) {
+  constexpr std::array<std::string_view, 3> ours{"hierarchical_drrt_star", "radar", "predictive"};
+  return std::find(ours.begin(), ours.end(), navigator) != ours.end();
+}
+
+void write_safety(const std::vector<CourseResult>& results, const fs::path& folder,
+                  const std::string& stem) {
+  std::vector<Plot> contacts;
+  std::vector<Plot> times;
+  std::vector<PageSection> sections{
+      {"",
+       "Contacts by the number of obstacles, and how long the crossing took. A contact counts as "
+       "avoidable when holding or retreating could have avoided it.",
+       {},
+       {{stem + "-contacts.svg", "Contacts a run"}, {stem + "-times.svg", "Times"}}}};
+  for (const CourseResult& result : results) {
+    contacts.push_back(contacts_plot(result));
+    times.push_back(times_plot(result));
+    sections.push_back({result.course.name, "", table_of(result), {}});
+  }
+  write_file_atomically(folder / (stem + "-runs.csv"), runs_csv(results));
+  write_file_atomically(folder / (stem + "-contacts.csv"), contacts_csv(results));
+  write_everywhere(contacts, folder / (stem + "-contacts"));
+  write_everywhere(times, folder / (stem + "-times"));
+  write_page(folder / (stem + ".html"), "Crossing among obstacles", sections);
+  write_worlds(results, folder / (stem + "-worlds"));
+}
+
+}  // namespace microswarm::cli

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "safety_campaign.hpp"
+
+namespace microswarm::cli {
+
+/// One course with all that crossed it.
+struct CourseResult {
+  Course course;
+  std::vector<Contestant> who;
+  Crossings crossings;
+};
+
+/// What some crossings of one navigator amount to.
+struct Tally {
+  int runs = 0;
+  double contacts = 0;   ///< a run
+  double avoidable = 0;  ///< a run
+  double touched = 0;    ///< share of the runs with a contact
+  double arrived = 0;    ///< share of the runs
+  double slowness = 0;   ///< median of time ÷ straight at full speed, of those that arrived
+  double delta = 0;      ///< mean avoidance cost
+};
+Tally tally_of(std::span<const Crossing> crossings);
+
+/// The navigators of which no avoidable contact is asked.
+bool is_ours(std::string_view navigator);
+
+/// Writes into `folder`: STEM-runs.csv and STEM-contacts.csv (a line a run, a line a contact),
+/// STEM.html with plots and a table a course, and in STEM-worlds/ the first worlds of avoidable
+/// contacts of every navigator as scenarios to run.
+void write_safety(const std::vector<CourseResult>& results, const std::filesystem::path& folder,
+                  const std::string& stem);
+
+}  // namespace microswarm::cli
