@@ -75,7 +75,8 @@ TEST_F(BadScenarios, Settings) {
   set("swarm.radius_um=", "--set swarm.radius_um: radius_um must be a number, not empty");
   set("navigator.type=pilot",
       "--set navigator.type: type of navigator is 'pilot', allowed: hierarchical_drrt_star, "
-      "plan_player, aggregation");
+      "plan_player, aggregation, "
+      "radar, straight_stop, potential_field, velocity_obstacle, predictive");
   set("goal_um=[1]", "--set goal_um: goal_um must be [x, y], not a list of 1");
 }
 
@@ -117,7 +118,7 @@ TEST_F(BadScenarios, CommandLine) {
 
 TEST_F(BadScenarios, PaperFigureGroup) {
   refused({"reproduce", "drtt"},
-          "reproduce: unknown paper 'drtt', there are: drrt, global, gather");
+          "reproduce: unknown paper 'drtt', there are: drrt, global, radar, gather");
   refused({"reproduce", "drrt/fig9"},
           "reproduce drrt: unknown figure 'fig9', there are: fig3, fig5a, fig5b");
   refused({"bench", "speed"},
