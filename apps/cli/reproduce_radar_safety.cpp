@@ -155,18 +155,18 @@ std::vector<ReproduceRow> raced(const std::string& figure, const std::vector<Rac
 
 std::vector<ReproduceRow> radar_safety(const ReproduceOptions& options, const Stop& stop) {
   std::vector<Race> races{
-      {generated("open", scenes::slow_obstacles, false), {16, 8, 4}, {10'000, 2000, 1000}},
-      {generated("walls", scenes::slow_obstacles, true), {8, 4, 1}, {10'000, 2000, 300}}};
+      {generated("open", scenes::slow_obstacles, false), {10, 5, 3}, {10'000, 2000, 1000}},
+      {generated("walls", scenes::slow_obstacles, true), {5, 3, 1}, {10'000, 2000, 300}}};
   if (auto street = recorded("walkers", just_slower, options))
-    races.push_back({*street, {40, 40, 40}, {1000, 1000, 1000}});
+    races.push_back({*street, {20, 20, 20}, {1000, 1000, 1000}});
   return raced("safety", races, options, stop);
 }
 
 std::vector<ReproduceRow> radar_fast(const ReproduceOptions& options, const Stop& stop) {
   std::vector<Race> races{
-      {generated("fast", scenes::fast_obstacles, false), {24, 12, 12}, {1000, 1000, 1000}}};
+      {generated("fast", scenes::fast_obstacles, false), {12, 8, 8}, {1000, 1000, 1000}}};
   if (auto street = recorded("fast walkers", as_fast, options))
-    races.push_back({*street, {40, 40, 40}, {1000, 1000, 1000}});
+    races.push_back({*street, {20, 20, 20}, {1000, 1000, 1000}});
   return raced("fast", races, options, stop);
 }
 

@@ -20,6 +20,12 @@ namespace fs = std::filesystem;
 constexpr int worlds_written = 3;  // a navigator and course
 constexpr std::size_t obstacles_a_bin = 10;
 
+/// For people; in plots "_" would lower the next letter.
+std::string spelt(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
 double slowness(const Crossing& c) { return c.time / c.straight; }
 
 template <class Visit>
@@ -94,7 +100,7 @@ Plot contacts_plot(const CourseResult& result) {
       contacts[bin] += static_cast<double>(c.contacts.size());
       runs[bin] += 1;
     }
-    Series series{.label = result.who[k].name};
+    Series series{.label = spelt(result.who[k].name)};
     for (std::size_t bin = 0; bin < runs.size(); ++bin) {
       if (runs[bin] == 0) continue;
       series.x.push_back(static_cast<double>(obstacles_a_bin) * (static_cast<double>(bin) + 0.5));
@@ -110,7 +116,7 @@ Plot contacts_plot(const CourseResult& result) {
 Plot times_plot(const CourseResult& result) {
   Plot plot{.title = result.course.name, .y_label = "time ÷ straight at full speed", .log_y = true};
   for (std::size_t k = 0; k < result.who.size(); ++k) {
-    Series series{.label = result.who[k].name, .style = PlotStyle::box};
+    Series series{.label = spelt(result.who[k].name), .style = PlotStyle::box};
     for (const Crossing& c : result.crossings[k])
       if (c.ran && c.arrived) series.y.push_back(slowness(c));
     series.x.assign(series.y.size(), static_cast<double>(k + 1));
@@ -125,10 +131,10 @@ std::vector<std::vector<std::string>> table_of(const CourseResult& result) {
                                                "arrived, %", "time ÷ straight, median", "mean δ"}};
   for (std::size_t k = 0; k < result.who.size(); ++k) {
     const Tally t = tally_of(result.crossings[k]);
-    lines.push_back({result.who[k].name, std::to_string(t.runs), fmt::format("{:.4f}", t.contacts),
-                     fmt::format("{:.4f}", t.avoidable), fmt::format("{:.2f}", 100 * t.touched),
-                     fmt::format("{:.2f}", 100 * t.arrived), fmt::format("{:.3f}", t.slowness),
-                     fmt::format("{:.3f}", t.delta)});
+    lines.push_back({spelt(result.who[k].name), std::to_string(t.runs),
+                     fmt::format("{:.4f}", t.contacts), fmt::format("{:.4f}", t.avoidable),
+                     fmt::format("{:.2f}", 100 * t.touched), fmt::format("{:.2f}", 100 * t.arrived),
+                     fmt::format("{:.3f}", t.slowness), fmt::format("{:.3f}", t.delta)});
   }
   return lines;
 }

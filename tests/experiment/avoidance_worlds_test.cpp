@@ -14,7 +14,7 @@ namespace {
 
 using scenes::AvoidanceOptions;
 
-constexpr int worlds = 16;
+constexpr int worlds = 10;
 
 AvoidanceOptions with_walls(AvoidanceOptions options) {
   options.walls = true;

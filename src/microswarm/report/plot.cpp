@@ -20,8 +20,8 @@ extern char** environ;
 namespace microswarm {
 namespace {
 
-constexpr std::array<const char*, 6> palette{"#0072B2", "#D55E00", "#009E73",
-                                             "#CC79A7", "#E69F00", "#56B4E9"};
+constexpr std::array<const char*, 7> palette{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                             "#E69F00", "#56B4E9", "#333333"};
 
 std::string in_quotes(std::string_view s) {
   std::string out = "\"";
