@@ -241,7 +241,7 @@ TEST(RadarScanner, RetreatsFromWhatComes) {
   RadarScanner scanner(directions);
   scanner.detect(look, world);
   ASSERT_FALSE(scanner.choose(look, world));
-  const auto heading = scanner.retreat(look, world, true);
+  const auto heading = scanner.retreat(look, world);
   ASSERT_TRUE(heading);
   const Vec2 after = look.centre + 25 * unit_vector(*heading);
   EXPECT_GT(world.clearance(after), world.clearance(look.centre));
@@ -257,7 +257,7 @@ TEST(RadarScanner, NoWayOutIsNone) {
   RadarScanner scanner(directions);
   scanner.detect(look, world);
   EXPECT_FALSE(scanner.choose(look, world));
-  EXPECT_FALSE(scanner.retreat(look, world, true));
+  EXPECT_FALSE(scanner.retreat(look, world));
 }
 
 }  // namespace

@@ -65,11 +65,9 @@ Command RadarNavigator::decide(const Observation& seen, const Stop& stop) {
     return issue({*heading, params_.speed}, straight ? "direct" : "avoid");
   }
   if (!contact_) return rest(seen, "stuck");
-  if (params_.retreat) {
-    const bool pressed = contact_->distance < look_->circles.prediction;
-    if (const auto heading = scanner_.retreat(*look_, *seen.world, pressed))
+  if (params_.retreat)
+    if (const auto heading = scanner_.retreat(*look_, *seen.world))
       return issue({*heading, params_.speed}, "retreat");
-  }
   return issue({pose_.heading, 0}, "hold");
 }
 
@@ -122,7 +120,7 @@ RadarLook RadarNavigator::look_around(const Observation& seen, Vec2 target) cons
 Command RadarNavigator::rest(const Observation& seen, std::string_view state) {
   const bool pressed = contact_ && contact_->distance < look_->circles.prediction;
   if (pressed && params_.retreat)
-    if (const auto heading = scanner_.retreat(*look_, *seen.world, true))
+    if (const auto heading = scanner_.retreat(*look_, *seen.world))
       return issue({*heading, params_.speed}, "retreat");
   return issue({pose_.heading, 0}, state);
 }

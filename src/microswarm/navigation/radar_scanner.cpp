@@ -11,8 +11,9 @@ namespace microswarm {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Distances that differ by less are the same: along a wall is no nearer to it [µm].
-constexpr double rounding = 1e-6;
+constexpr double rounding = 1e-6;  // of distances [µm]
+constexpr std::size_t retreat_directions = 36;
+constexpr double least_gain = 0.1;  // of a retreat over the hold, so that it comes to rest [steps]
 
 }  // namespace
 
@@ -206,46 +207,34 @@ std::vector<bool> RadarScanner::kept(const RadarLook& look, const Snapshot& worl
 RadarScanner::Outcome RadarScanner::outcome(const RadarLook& look, const Snapshot& world,
                                             Vec2 to) const {
   const Segment way{look.centre, to};
-  Outcome out{.allowed = true, .least = infinity, .on_way = infinity};
-  const auto consider = [&](double before, double on_way, double after, double reach) {
-    out.least = std::min(out.least, after);
-    out.on_way = std::min(out.on_way, on_way);
-    out.allowed = out.allowed && on_way > 0 && (on_way >= before - rounding || after >= reach);
-  };
+  const Map& map = world.map();
+  Outcome out{.on_way = map.clearance(way, look.circles.detection), .at_end = map.clearance(to)};
   for (const std::uint32_t i : bodies_) {
     const Body& body = world.moving().bodies()[i];
-    const double on_way =
-        std::visit([&](const auto& shape) { return distance(way, shape); }, body.shape);
-    consider(edge_distance(body, look.centre), on_way, edge_distance(body, to),
-             look.obstacle_reach());
+    out.on_way =
+        std::min(out.on_way,
+                 std::visit([&](const auto& shape) { return distance(way, shape); }, body.shape));
+    out.at_end = std::min(out.at_end, edge_distance(body, to));
   }
-  const Map& map = world.map();
-  const double reach = look.wall_reach();
-  const double before = map.clearance(look.centre);
-  if (before - look.step < reach)
-    consider(before, map.clearance(way, infinity), map.clearance(to), reach);
+  out.at_end = std::min(out.at_end, look.circles.detection);
   return out;
 }
 
-std::optional<double> RadarScanner::retreat(const RadarLook& look, const Snapshot& world,
-                                            bool pressed) {
-  place(look);
-  const double now = outcome(look, world, look.centre).least;
-  std::optional<std::size_t> found, emergency;
-  double least = 0;
-  double emergency_least = now + rounding;
-  for (std::size_t i = 0; i < ux_.size(); ++i) {
-    const Outcome o = outcome(look, world, {px_[i], py_[i]});
-    if (o.allowed && o.least > least) {
-      least = o.least;
+// What keeps most distance on the way and gains most at its end, after one step or a longer way.
+std::optional<double> RadarScanner::retreat(const RadarLook& look, const Snapshot& world) const {
+  const double hold = outcome(look, world, look.centre).worth() + least_gain * look.step;
+  std::optional<std::size_t> found;
+  double most = hold;
+  const std::size_t stride = std::max<std::size_t>(1, ux_.size() / retreat_directions);
+  for (std::size_t i = 0; i < ux_.size(); i += stride) {
+    for (const double steps : {1.0, 3.0}) {
+      const Outcome o =
+          outcome(look, world, look.centre + steps * look.step * Vec2{ux_[i], uy_[i]});
+      if (o.on_way <= 0 || o.worth() <= most) continue;
+      most = o.worth();
       found = i;
     }
-    if (o.on_way > 0 && o.on_way >= now - rounding && o.least > emergency_least) {
-      emergency_least = o.least;
-      emergency = i;
-    }
   }
-  if (!found && pressed) found = emergency;
   return found ? std::optional(heading(*found)) : std::nullopt;
 }
 

@@ -28,10 +28,10 @@ class RadarScanner {
   /// Heading of the best direction by Eq 9–17, 30, 31 [radar] among what was detected for the same
   /// look, whose safety circle may have changed since; nothing where all are screened.
   std::optional<double> choose(const RadarLook& look, const Snapshot& world);
-  /// Heading of the best way out where none is safe, ours. A direction may come within reach of
-  /// things, but nearer only to those that stay out of reach; the one with the largest least gap at
-  /// its end wins. With `pressed`, should there be none: one that at least gains on the least gap.
-  std::optional<double> retreat(const RadarLook& look, const Snapshot& world, bool pressed);
+  /// Heading of the best way out where no direction is safe, ours: of some directions, one step or
+  /// three long, the one with the greatest sum of the least distance to anything on its way and
+  /// that at its end; nothing where holding is as good.
+  std::optional<double> retreat(const RadarLook& look, const Snapshot& world) const;
   /// The directions that are not screened, χ_2 of Eq 17 [radar], among what was detected.
   std::vector<bool> kept(const RadarLook& look, const Snapshot& world);
 
@@ -44,11 +44,11 @@ class RadarScanner {
     Segment edge;
     std::uint32_t body;
   };
-  /// How a step leaves the swarm [µm from its centre].
+  /// Distances from the swarm's centre to whatever is nearest, at most r_d [µm].
   struct Outcome {
-    bool allowed = false;  ///< nearer only to what stays out of reach
-    double least = 0;      ///< distance at its end to whatever is nearest
-    double on_way = 0;     ///< least distance on the way
+    double on_way = 0;  ///< least of them
+    double at_end = 0;
+    double worth() const { return on_way + at_end; }
   };
 
   void note(RadarContact contact);
