@@ -55,6 +55,8 @@ RadarParams wide_radar() {
 RadarParams published_radar() {
   RadarParams params;
   params.retreat = false;
+  params.guard.active = false;
+  params.most_turn = pi;
   params.compensate_delay = false;
   return params;
 }

@@ -41,7 +41,7 @@ struct Camera {
       tracker.see({.now = now, .seen = now - delay, .swarm = {}, .robots = {}, .world = &world});
     }
   }
-  const TrackedBody& body(std::size_t i = 0) const { return tracker.bodies()[i]; }
+  TrackedBody body(std::size_t i = 0) const { return tracker.body(i); }
 };
 
 Obstacle disc(Motion motion) { return {DiscShape{60}, std::move(motion)}; }
@@ -60,7 +60,7 @@ TEST(ObstacleTracker, ConstantVelocityIsFoundExactly) {
                                 {BoxShape{200, 40}, Straight{{500, 500}, {-20, 70}}},
                                 {PolygonShape{{{0, 0}, {100, 0}, {0, 60}}}, Straight{{}, {5, 5}}}}};
     camera.watch(3, missed);
-    ASSERT_EQ(camera.tracker.bodies().size(), 3u);
+    ASSERT_EQ(camera.tracker.size(), 3u);
     for (const auto& [i, v] : {std::pair{0, Vec2{93, -41}}, {1, Vec2{-20, 70}}, {2, Vec2{5, 5}}}) {
       EXPECT_LT(distance(camera.body(i).velocity, v), 1e-6);
       EXPECT_LT(norm(camera.body(i).acceleration), 1e-4);
@@ -127,7 +127,7 @@ TEST(ObstacleTracker, BreathingLeavesAndTurning) {
                               {Valve{400, 40, 0, 300, 10, 0}, Still{}},
                               {BoxShape{200, 40}, HarmonicArc{{0, 0}, 500, 0, 0.5, 20, 0}}}};
   camera.watch(10.06);
-  ASSERT_EQ(camera.tracker.bodies().size(), 4u);
+  ASSERT_EQ(camera.tracker.size(), 4u);
   EXPECT_NEAR(camera.body(0).radius_rate, 60 * 2 * pi / 10, 1);
   EXPECT_LT(norm(camera.body(0).velocity), 1e-9);
   EXPECT_GT(camera.body(0).outline_speed, 30);
@@ -150,17 +150,17 @@ TEST(ObstacleTracker, ObstaclesComeAndGo) {
   see(0, {at(0, 4), at(100, 7)});
   see(0.1, {at(110, 7)});
   see(0.2, {at(40, 4), at(120, 7)});
-  EXPECT_NEAR(tracker.bodies()[0].velocity.x, 200, 1e-9);
-  EXPECT_NEAR(tracker.bodies()[1].velocity.x, 100, 1e-9);
+  EXPECT_NEAR(tracker.body(0).velocity.x, 200, 1e-9);
+  EXPECT_NEAR(tracker.body(1).velocity.x, 100, 1e-9);
   see(0.2, {at(0, 4), at(0, 7)});  // the same frame again
-  EXPECT_NEAR(tracker.bodies()[1].velocity.x, 100, 1e-9);
+  EXPECT_NEAR(tracker.body(1).velocity.x, 100, 1e-9);
   see(5, {at(900, 4)});  // forgotten meanwhile
-  ASSERT_EQ(tracker.bodies().size(), 1u);
-  EXPECT_EQ(tracker.bodies()[0].velocity, Vec2{});
+  ASSERT_EQ(tracker.size(), 1u);
+  EXPECT_EQ(tracker.body(0).velocity, Vec2{});
   see(0.1, {at(900, 4)});  // begun anew
-  EXPECT_EQ(tracker.bodies()[0].frames, 1);
+  EXPECT_EQ(tracker.body(0).frames, 1);
   tracker.see({});
-  EXPECT_EQ(tracker.bodies().size(), 1u);
+  EXPECT_EQ(tracker.size(), 1u);
 }
 
 }  // namespace

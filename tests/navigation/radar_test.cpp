@@ -81,6 +81,21 @@ TEST(Radar, AvoidsWhatStandsInTheWay) {
   EXPECT_GT(trip.least_gap, 15);  // d_f less what a tick and the step take
 }
 
+Body box(Vec2 middle, double width, double height) {
+  return {.shape = scenes::rectangle(
+              {middle - 0.5 * Vec2{width, height}, middle + 0.5 * Vec2{width, height}})};
+}
+
+TEST(Radar, GetsRoundWhatIsFlat) {
+  for (const Vec2 size : {Vec2{100, 100}, Vec2{30, 300}, Vec2{300, 300}}) {
+    const Trip trip = drive({}, {300, 750}, {2700, 750}, room(), [&](double) {
+      return std::vector{box({1500, 750}, size.x, size.y)};
+    });
+    EXPECT_TRUE(trip.arrived) << size.x << " × " << size.y;
+    EXPECT_GT(trip.least_gap, 0);
+  }
+}
+
 TEST(Radar, AvoidsWhatCrossesAndWhatComes) {
   for (const Vec2 v : {Vec2{0, -40}, Vec2{0, 40}, Vec2{-40, 0}, Vec2{-30, 30}}) {
     const Trip trip = drive({}, {300, 700}, {2700, 720}, room(), [&](double t) {
@@ -118,6 +133,7 @@ TEST(Radar, WithoutRetreatItHoldsAsPublished) {
     params.safety_distance = 80;
     params.detection_range = 120;
     params.retreat = retreat;
+    params.guard.active = retreat;
     RadarNavigator navigator(params, vortex, {2700, 700}, 30, Rng(1, Purpose::planner));
     const Command c = navigator.step({.now = 0,
                                       .seen = 0,
@@ -234,9 +250,19 @@ TEST(Radar, WaypointsInAWallAreRefused) {
   check_navigator(params, task, *map, "x.yaml");
 }
 
+TEST(RadarRoute, GivenWaypointsAreVisitedInOrder) {
+  const Map map(Box{{0, 0}, {3000, 1500}}, {});
+  RadarRoute route({{1000, 1200}, {2000, 300}, {2700, 750}}, false);
+  EXPECT_EQ(route.target(map, {300, 750}, 100, 20), (Vec2{1000, 1200}));
+  EXPECT_EQ(route.target(map, {900, 1100}, 100, 20), (Vec2{1000, 1200}));
+  EXPECT_EQ(route.target(map, {995, 1195}, 100, 20), (Vec2{2000, 300}));
+  EXPECT_EQ(route.target(map, {1300, 1200}, 100, 20), (Vec2{2000, 300}));  // driven off
+  EXPECT_EQ(route.target(map, {2040, 330}, 100, 20), (Vec2{2700, 750}));   // nearly, and beyond
+}
+
 TEST(RadarRoute, NeverRunsBack) {
   const Map map(Box{{0, 0}, {3000, 1500}}, {scenes::rectangle({{1400, 0}, {1450, 1000}})});
-  RadarRoute route({{300, 1200}, {1300, 1250}, {1600, 1250}, {2300, 400}});
+  RadarRoute route({{300, 1200}, {1300, 1250}, {1600, 1250}, {2300, 400}}, true);
   EXPECT_EQ(route.target(map, {300, 300}, 100, 20), (Vec2{1300, 1250}));  // the farthest seen
   EXPECT_TRUE(route.in_sight());
   EXPECT_EQ(route.target(map, {1290, 1250}, 100, 20), (Vec2{1600, 1250}));

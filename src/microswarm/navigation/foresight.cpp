@@ -48,7 +48,7 @@ Foresight::Foresight(const ForesightParams& params)
 
 void Foresight::see(const Observation& observation) {
   tracker_.see(observation);
-  if (tracker_.seen() == now_ && tracker_.bodies().size() == seen_bodies_.size()) return;
+  if (tracker_.seen() == now_ && tracker_.size() == seen_bodies_.size()) return;
   if (tracker_.seen() < now_) {
     books_.clear();
     oscillations_ = OscillationFit();
@@ -66,7 +66,7 @@ void Foresight::take(const Snapshot& frame) {
     const auto leaf = std::count_if(bodies.begin(), bodies.begin() + static_cast<long>(i), same);
     const std::size_t at = book_of(bodies[i].obstacle, static_cast<std::uint32_t>(leaf));
     Book& book = books_[at];
-    const TrackedBody& motion = tracker_.bodies()[i];
+    const TrackedBody& motion = book.motion = tracker_.body(i);
     note(book, bodies[i], motion);
     prove(book);
     model(book, motion);
@@ -191,7 +191,7 @@ void Foresight::forecast(Book& book) const {
 
 BodyAhead Foresight::at(std::size_t body, double t) const {
   const Book& book = books_[seen_bodies_[body]];
-  const TrackedBody& motion = tracker_.bodies()[body];
+  const TrackedBody& motion = book.motion;
   const double s = t - now_;
   BodyAhead out;
   out.centre = book.models.place(book.believed, book.trail, s);

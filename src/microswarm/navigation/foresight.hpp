@@ -61,7 +61,7 @@ class Foresight {
   BodyAhead at(std::size_t body, double t) const;
   /// Which of MotionModels is believed.
   std::size_t model(std::size_t body) const { return books_[seen_bodies_[body]].believed; }
-  const TrackedBody& tracked(std::size_t body) const { return tracker_.bodies()[body]; }
+  const TrackedBody& tracked(std::size_t body) const { return books_[seen_bodies_[body]].motion; }
 
  private:
   static constexpr std::array<double, 2> spans{0.5, 1.5};  ///< of the forecasts that are proved [s]
@@ -81,6 +81,7 @@ class Foresight {
   struct Book {
     std::uint32_t obstacle = 0;
     std::uint32_t leaf = 0;
+    TrackedBody motion;
     MotionTrail trail;
     MotionModels models;
     std::vector<Vec2> outline;  ///< when its turn was 0, about the centre

@@ -16,6 +16,10 @@ constexpr std::size_t most_differences = 64;
 
 /// Third difference of four sightings, in standard deviations of one coordinate's noise.
 double third_difference(std::span<const Sighting, 4> s) {
+  const double dt = s[1].t - s[0].t;
+  const double uneven = std::abs(s[2].t - s[1].t - dt) + std::abs(s[3].t - s[2].t - dt);
+  if (uneven < 1e-6 * dt)
+    return norm(s[3].place - s[0].place + 3 * (s[1].place - s[2].place)) / std::sqrt(20.0);
   Vec2 sum;
   double variance = 0;
   for (std::size_t i = 0; i < 4; ++i) {

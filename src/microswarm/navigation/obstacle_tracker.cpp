@@ -30,10 +30,8 @@ const std::vector<Vec2>* outline_of(const Body& body) {
 /// Sightings from which the noise is told, in windows of a fit.
 constexpr std::size_t windows = 4;
 
-/// Keeps the newest `most` that are at most `memory` old.
-void remember(std::vector<Sighting>& trail, Sighting newest, std::size_t most, double memory) {
-  const auto outdated = [&](const Sighting& s) { return s.t < newest.t - memory; };
-  std::erase_if(trail, outdated);
+/// Keeps the newest `most`.
+void remember(std::vector<Sighting>& trail, Sighting newest, std::size_t most) {
   if (trail.size() >= most) trail.erase(trail.begin());
   trail.push_back(newest);
 }
@@ -53,45 +51,64 @@ Disc extent_of(const Body& body) {
   return extent;
 }
 
-void ObstacleTracker::see(const Observation& observation) {
+void ObstacleTracker::see(const Observation& observation, double range) {
   if (!observation.world || !std::isfinite(observation.seen)) return;
-  const bool same_count = observation.world->moving().bodies().size() == bodies_.size();
-  if (observation.seen == seen_ && same_count) return;
+  const auto bodies = observation.world->moving().bodies();
+  if (observation.seen == seen_ && bodies.size() == trail_of_.size()) return;
   if (observation.seen <= seen_) trails_.clear();
   seen_ = observation.seen;
-  take(*observation.world);
+  find_trails(bodies);
+  const Vec2 centre = observation.swarm ? observation.swarm->pose.position : Vec2{};
+  const double infinity = std::numeric_limits<double>::infinity();
+  const Disc within{centre, observation.swarm ? range : infinity};
+  for (std::size_t i = 0; i < bodies.size(); ++i) extend(trails_[trail_of_[i]], bodies[i], within);
 }
 
-void ObstacleTracker::take(const Snapshot& frame) {
-  std::erase_if(trails_,
-                [&](const Trail& t) { return t.places.back().t < seen_ - params_.memory; });
-  bodies_.clear();
-  const auto bodies = frame.moving().bodies();
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const auto same = [&](const Body& b) { return b.obstacle == bodies[i].obstacle; };
-    const auto leaf = std::count_if(bodies.begin(), bodies.begin() + static_cast<long>(i), same);
-    Trail& trail = trail_of(bodies[i].obstacle, static_cast<std::uint32_t>(leaf));
-    extend(trail, bodies[i]);
-    bodies_.push_back(told_by(trail));
-  }
+std::vector<ObstacleTracker::Trail>::iterator ObstacleTracker::lower_bound(const Key& key) {
+  return std::lower_bound(trails_.begin(), trails_.end(), key,
+                          [](const Trail& t, const Key& k) { return t.key < k; });
 }
 
-ObstacleTracker::Trail& ObstacleTracker::trail_of(std::uint32_t obstacle, std::uint32_t leaf) {
-  const auto key = [](const Trail& t) { return std::pair(t.obstacle, t.leaf); };
-  const auto at = std::lower_bound(trails_.begin(), trails_.end(), std::pair(obstacle, leaf),
-                                   [&](const Trail& t, const auto& k) { return key(t) < k; });
-  if (at != trails_.end() && key(*at) == std::pair(obstacle, leaf)) return *at;
-  Trail fresh;
-  fresh.obstacle = obstacle;
-  fresh.leaf = leaf;
-  const std::size_t most = windows * static_cast<std::size_t>(params_.frames);
-  fresh.places.reserve(most);
-  fresh.radii.reserve(most);
-  return *trails_.insert(at, std::move(fresh));
+// Frames mostly show the same bodies in the same order.
+void ObstacleTracker::find_trails(std::span<const Body> bodies) {
+  std::erase_if(trails_, [&](const Trail& t) { return t.present < seen_ - params_.memory; });
+  const auto for_each_key = [&](auto&& visit) {
+    Key key{0, 0};
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const bool next = i > 0 && bodies[i].obstacle == bodies[i - 1].obstacle;
+      key = {bodies[i].obstacle, next ? key.second + 1 : 0};
+      visit(i, key);
+    }
+  };
+  for_each_key([&](std::size_t i, const Key& key) {
+    if (i < trail_of_.size() && trail_of_[i] < trails_.size() && trails_[trail_of_[i]].key == key)
+      return;
+    const auto at = lower_bound(key);
+    if (at != trails_.end() && at->key == key) return;
+    Trail& fresh = *trails_.insert(at, Trail{});
+    fresh.key = key;
+    const std::size_t most = windows * static_cast<std::size_t>(params_.frames);
+    fresh.places.reserve(most);
+    fresh.radii.reserve(most);
+  });
+  trail_of_.resize(bodies.size(), 0);
+  for_each_key([&](std::size_t i, const Key& key) {
+    if (trail_of_[i] < trails_.size() && trails_[trail_of_[i]].key == key) return;
+    trail_of_[i] = static_cast<std::size_t>(lower_bound(key) - trails_.begin());
+  });
 }
 
-void ObstacleTracker::extend(Trail& trail, const Body& body) const {
+void ObstacleTracker::extend(Trail& trail, const Body& body, Disc within) const {
+  trail.present = seen_;
   const Disc extent = extent_of(body);
+  if (distance(extent.centre, within.centre) - extent.radius > within.radius) {
+    trail.places.clear();
+    trail.radii.clear();
+    return;
+  }
+  const auto outdated = [&](const Sighting& s) { return s.t < seen_ - params_.memory; };
+  std::erase_if(trail.places, outdated);
+  std::erase_if(trail.radii, outdated);
   const bool again = !trail.places.empty();
   const double dt = again ? seen_ - trail.places.back().t : 1;
   trail.outline_speed = again ? std::abs(extent.radius - trail.radii.back().place.x) / dt : 0;
@@ -106,11 +123,12 @@ void ObstacleTracker::extend(Trail& trail, const Body& body) const {
     }
   }
   const std::size_t most = windows * static_cast<std::size_t>(params_.frames);
-  remember(trail.places, {seen_, extent.centre}, most, params_.memory);
-  remember(trail.radii, {seen_, {extent.radius, 0}}, most, params_.memory);
+  remember(trail.places, {seen_, extent.centre}, most);
+  remember(trail.radii, {seen_, {extent.radius, 0}}, most);
 }
 
 TrackedBody ObstacleTracker::told_by(const Trail& trail) const {
+  if (trail.places.empty()) return {.velocity_error = std::numeric_limits<double>::infinity()};
   const MotionFit place = fit_motion(trail.places, params_.frames);
   const MotionFit radius = fit_motion(trail.radii, params_.frames);
   return {.centre = place.place,

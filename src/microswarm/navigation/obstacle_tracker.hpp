@@ -4,27 +4,14 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "microswarm/core/fields.hpp"
 #include "microswarm/navigation/motion_fit.hpp"
+#include "microswarm/navigation/obstacle_tracker_params.hpp"
 #include "microswarm/swarm/contracts.hpp"
 
 namespace microswarm {
-
-/// What an ObstacleTracker tells a motion from.
-struct ObstacleTrackerParams {
-  int frames = 12;
-  double memory = 4;
-  template <class Self, class V>
-  static void fields(Self& self, V&& visit) {
-    visit(self.frames, {"frames", Unit::none, {2, 100}, "Frames to tell a motion from, at most."});
-    visit(self.memory, {"memory",
-                        Unit::s,
-                        {1e-2, 60},
-                        "Older frames, from which the noise is told, are forgotten."});
-  }
-};
 
 /// How one body moves, as told from where it was seen; at the time of the newest frame.
 struct TrackedBody {
@@ -45,39 +32,44 @@ struct TrackedBody {
 /// Tells every obstacle's motion from what was seen of it: places in frames and their times, never
 /// what a simulation knows (Body::velocity, Body::deformation_speed). Frames may be missed, late or
 /// uneven. A body is known again by its obstacle's number, the leaves of one obstacle by their
-/// order. Allocates nothing once it has seen the obstacles.
+/// order, which follow each other in a frame. Allocates nothing once it has seen the obstacles.
 class ObstacleTracker {
  public:
   explicit ObstacleTracker(const ObstacleTrackerParams& params = {}) : params_(params) {}
 
   /// Takes a frame. One that is as new as the last is not taken again; one that is older, or as
   /// new with another number of bodies, begins anew. An observation without a world is left out.
-  void see(const Observation& observation);
-  /// One entry a body, in the order of the newest frame's moving().bodies().
-  std::span<const TrackedBody> bodies() const { return bodies_; }
+  /// Bodies all of which are farther than `range` [µm] from the swarm that is seen are left out.
+  void see(const Observation& observation, double range = std::numeric_limits<double>::infinity());
+  /// Of the newest frame.
+  std::size_t size() const { return trail_of_.size(); }
+  /// How the body at this place in the newest frame's moving().bodies() moves; what was left out
+  /// rests, with an infinite velocity error.
+  TrackedBody body(std::size_t body) const { return told_by(trails_[trail_of_[body]]); }
   /// When the newest frame was taken [s]; -infinity before the first.
   double seen() const { return seen_; }
 
  private:
+  using Key = std::pair<std::uint32_t, std::uint32_t>;  ///< obstacle and leaf
   /// What is remembered of one body.
   struct Trail {
-    std::uint32_t obstacle = 0;
-    std::uint32_t leaf = 0;
-    std::vector<Sighting> places;  ///< of the centre, ascending in time
+    Key key;
+    double present = 0;            ///< when it was in a frame [s]
+    std::vector<Sighting> places;  ///< of the centre, ascending in time; none when left out
     std::vector<Sighting> radii;   ///< (radius, 0)
     std::vector<Vec2> outline;     ///< in the newest frame, about the centre
     double outline_speed = 0;
   };
 
-  void take(const Snapshot& frame);
-  Trail& trail_of(std::uint32_t obstacle, std::uint32_t leaf);
-  void extend(Trail& trail, const Body& body) const;
+  void find_trails(std::span<const Body> bodies);
+  std::vector<Trail>::iterator lower_bound(const Key& key);
+  void extend(Trail& trail, const Body& body, Disc within) const;
   TrackedBody told_by(const Trail& trail) const;
 
   ObstacleTrackerParams params_;
   double seen_ = -std::numeric_limits<double>::infinity();
-  std::vector<Trail> trails_;  ///< ascending by (obstacle, leaf)
-  std::vector<TrackedBody> bodies_;
+  std::vector<Trail> trails_;          ///< ascending by key
+  std::vector<std::size_t> trail_of_;  ///< by body of the newest frame
 };
 
 /// How fast [µm/s] the body's outline comes outwards besides the motion of its centre, at most.

@@ -60,7 +60,7 @@ Command PotentialFieldNavigator::step(const Observation& seen, const Stop&) {
   Vec2 pushes = push_of_walls(world.map(), p);
   const auto bodies = world.moving().bodies();
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    pushes += push_of(bodies[i], tracker_.bodies()[i], p, helm_.speed() * draw);
+    pushes += push_of(bodies[i], tracker_.body(i), p, helm_.speed() * draw);
   const Vec2 force = draw + pushes;
   const Command hold{pose->heading, 0};
   if (norm(force) < params_.least_force) return helm_.issue(hold, "stuck");

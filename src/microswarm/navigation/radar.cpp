@@ -9,7 +9,8 @@
 namespace microswarm {
 namespace {
 
-constexpr double replan_time = 1;  // least time between two plans [s]
+constexpr double replan_time = 1;   // least time between two plans [s]
+constexpr double usual_tick = 0.1;  // [s]
 
 }  // namespace
 
@@ -22,7 +23,8 @@ RadarNavigator::RadarNavigator(const RadarParams& params, const SwarmLimits& swa
       rng_(rng),
       safety_radius_(params.safety_radius),
       forecast_(swarm),
-      scanner_(directions_of(params)) {
+      scanner_(directions_of(params)),
+      guard_(params.guard, std::min(params.speed, swarm.max_speed)) {
   params_.speed = std::min(params.speed, swarm.max_speed);
 }
 
@@ -31,10 +33,34 @@ Command RadarNavigator::step(const Observation& seen, const Stop& stop) {
   look_.reset();
   contact_.reset();
   world_ = seen.world;
-  const Command command = decide(seen, stop);
+  Command command = decide(seen, stop);
+  if (params_.guard.active && seen.world) command = guarded(command, seen);
+  last_ = seen.now;
   forecast_.note(seen.now, command);
   view_.path = route_.rest();
   return command;
+}
+
+// A frame without a swarm is no reason to forget where it was.
+Command RadarNavigator::guarded(const Command& command, const Observation& seen) {
+  guard_.see(seen);
+  if (look_) {
+    sighted_ = seen.seen;
+    sighting_ = seen.swarm;
+  } else if (sighting_ && seen.now - sighted_ <= params_.frame_timeout) {
+    pose_ = forecast_.at_effect(
+        {.now = seen.now, .seen = sighted_, .swarm = sighting_, .robots = {}, .world = seen.world});
+  } else {
+    return command;
+  }
+  const Guard::Start start{.place = pose_.position,
+                           .radius = std::max(sighting_->radius, swarm_.radius),
+                           .time = seen.now + swarm_.response_lag};
+  const double since = seen.now - last_;
+  const double tick = since > 0 && since < 1 ? since : usual_tick;
+  const auto instead = guard_.overrules(command, start, seen.world->map(), tick);
+  if (!instead) return command;
+  return issue(*instead, instead->speed > 0 ? "retreat" : "hold");
 }
 
 Command RadarNavigator::decide(const Observation& seen, const Stop& stop) {
@@ -62,6 +88,7 @@ Command RadarNavigator::decide(const Observation& seen, const Stop& stop) {
   if (const auto heading = scanner_.choose(*look_, *seen.world)) {
     const bool straight =
         !contact_ && turn_between(*heading, heading_of(target - pose_.position)) < 1e-9;
+    course_ = heading;
     return issue({*heading, params_.speed}, straight ? "direct" : "avoid");
   }
   if (!contact_) return rest(seen, "stuck");
@@ -76,9 +103,9 @@ void RadarNavigator::find_route(const Observation& seen, const Stop& stop) {
   if (!routed_ && !params_.waypoints.empty()) {
     std::vector<Vec2> points = params_.waypoints;
     points.push_back(goal_);
-    route_ = RadarRoute(std::move(points));
+    route_ = RadarRoute(std::move(points), false);
   } else if (!routed_ && !params_.global_plan) {
-    route_ = RadarRoute({goal_});
+    route_ = RadarRoute({goal_}, true);
   } else if (params_.waypoints.empty() && params_.global_plan && seen.now >= plan_again_at_ &&
              (!routed_ || !route_.in_sight())) {
     view_.planned = true;
@@ -98,7 +125,7 @@ bool RadarNavigator::plan_route(const Snapshot& walls, double clearance, const S
   Plan found = plan(walls, pose_, goal_, planner, rng_, stop);
   if (found.status != Status::solved) return false;
   if (found.path.size() > 1) found.path.erase(found.path.begin());
-  route_ = RadarRoute(std::move(found.path));
+  route_ = RadarRoute(std::move(found.path), true);
   return true;
 }
 
@@ -113,10 +140,11 @@ RadarLook RadarNavigator::look_around(const Observation& seen, Vec2 target) cons
           .wall_distance = params_.safety_distance,
           .approach = params_.compensate_delay ? params_.obstacle_speed_bound * dead_time : 0,
           .target_gain = params_.target_gain,
-          .avoidance_gain = params_.avoidance_gain};
+          .avoidance_gain = params_.avoidance_gain,
+          .course = course_,
+          .most_turn = params_.most_turn};
 }
 
-// Holds, unless an obstacle is in the prediction circle and there is a way to get out of its way.
 Command RadarNavigator::rest(const Observation& seen, std::string_view state) {
   const bool pressed = contact_ && contact_->distance < look_->circles.prediction;
   if (pressed && params_.retreat)

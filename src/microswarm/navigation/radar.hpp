@@ -6,6 +6,7 @@
 
 #include "microswarm/core/rng.hpp"
 #include "microswarm/navigation/body_forecast.hpp"
+#include "microswarm/navigation/guard.hpp"
 #include "microswarm/navigation/navigator.hpp"
 #include "microswarm/navigation/radar_circles.hpp"
 #include "microswarm/navigation/radar_route.hpp"
@@ -29,14 +30,16 @@ class RadarNavigator : public Navigator {
   Command step(const Observation& observation, const Stop& stop) override;
   NavigatorView view() const override { return view_; }
 
-  /// The last decision in full, made up when it is asked for. Until the next observation; empty
-  /// when the last step scanned nothing: blind, arrived, or without a plan.
+  /// The last decision by Eq 9–17 in full, made up when it is asked for, while the observation's
+  /// world is still there; empty when the last step looked at nothing: blind, or inside a body. In
+  /// the states direct and avoid its best direction is the one that was commanded.
   std::optional<RadarScan> last_scan() const;
   /// What that decision rests on, at no cost.
   const std::optional<RadarLook>& last_look() const { return look_; }
 
  private:
   Command decide(const Observation& seen, const Stop& stop);
+  Command guarded(const Command& command, const Observation& seen);
   void find_route(const Observation& seen, const Stop& stop);
   bool plan_route(const Snapshot& walls, double clearance, const Stop& stop);
   RadarLook look_around(const Observation& seen, Vec2 target) const;
@@ -51,10 +54,15 @@ class RadarNavigator : public Navigator {
   SafetyRadius safety_radius_;
   BodyForecast forecast_;
   RadarScanner scanner_;
+  Guard guard_;
   RadarRoute route_;
   bool routed_ = false;       ///< has looked for a route
   double plan_again_at_ = 0;  ///< [s]
-  Pose2 pose_;                ///< where the swarm is when the command takes effect
+  double last_ = -1;          ///< when a step was asked for last [s]
+  double sighted_ = 0;        ///< when the swarm was seen last [s]
+  std::optional<SwarmPose> sighting_;
+  std::optional<double> course_;  ///< the direction last chosen among safe ones
+  Pose2 pose_;                    ///< where the swarm is when the command takes effect
   std::optional<RadarLook> look_;
   std::optional<RadarContact> contact_;
   const Snapshot* world_ = nullptr;  ///< of the last observation

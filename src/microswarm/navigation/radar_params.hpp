@@ -7,14 +7,15 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/fields.hpp"
+#include "microswarm/navigation/guard_params.hpp"
 #include "microswarm/navigation/safety_radius.hpp"
 #include "microswarm/navigation/wait_area.hpp"
 #include "microswarm/planning/fmt_star.hpp"
 
 namespace microswarm {
 
-/// Radar-based navigation among moving obstacles [radar]. Ours besides: the retreat, and that
-/// delays are made up for.
+/// Radar-based navigation among moving obstacles [radar]. Ours besides: that it keeps to a side,
+/// the retreat, the guard, and that delays are made up for.
 struct RadarParams {
   static constexpr std::string_view type_name = "radar";
   double speed = 85.8;
@@ -25,7 +26,9 @@ struct RadarParams {
   double target_gain = 0.1;         // k_t ε
   double avoidance_gain = 0.9;      // k_a η
   SafetyRadiusParams safety_radius;
+  double most_turn = 2 * pi / 3;
   bool retreat = true;
+  GuardParams guard;
   bool compensate_delay = true;
   double obstacle_speed_bound = 0;
   std::vector<WaitArea> wait_areas;
@@ -59,8 +62,14 @@ struct RadarParams {
                                 "Growth of q_a with nearness (k_a eta); q_a stays below q_t."});
     visit(self.safety_radius,
           {"safety_radius", Unit::none, {}, "Control of the safety circle's radius."});
+    visit(self.most_turn, {"most_turn",
+                           Unit::deg,
+                           {30, 180},
+                           "Directions that turn more from the last one are taken only where no "
+                           "other is safe; 180 as published."});
     visit(self.retreat,
           {"retreat", Unit::none, {}, "With no safe direction get away, else hold as published."});
+    visit(self.guard, {"guard", Unit::none, {}, "Keeps a way out open, foreseeing obstacles."});
     visit(self.compensate_delay,
           {"compensate_delay",
            Unit::none,

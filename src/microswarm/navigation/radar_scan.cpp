@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "microswarm/geometry/distance.hpp"
+#include "microswarm/navigation/obstacle_tracker.hpp"
 
 namespace microswarm {
 namespace {
@@ -42,12 +43,23 @@ std::optional<std::uint32_t> nearest_body(const RadarLook& look, const Snapshot&
   return nearest;
 }
 
+void keep_course(RadarScan& out) {
+  const auto is_on = [&](const RadarBeam& beam) {
+    return beam.fate == BeamFate::kept && keeps_course(out.look, unit_vector(beam.heading));
+  };
+  if (std::none_of(out.beams.begin(), out.beams.end(), is_on)) return;
+  for (RadarBeam& beam : out.beams)
+    if (beam.fate == BeamFate::kept && !is_on(beam)) beam.fate = BeamFate::turn;
+}
+
 /// Eq 9, 13
 void choose(RadarScan& out, const Snapshot& world) {
+  // N(·) takes away what is the same for all: r_s, r_ob.
   const auto gap = [&](Vec2 p) {
     if (!out.nearest) return 0.0;
-    return edge_distance(world.moving().bodies()[*out.nearest], p) - out.look.approach -
-           out.look.radius;
+    const Body& body = world.moving().bodies()[*out.nearest];
+    const auto centre = centre_of(body);
+    return centre ? distance(*centre, p) : edge_distance(body, p);
   };
   MinMax towards, away;
   for (const RadarBeam& beam : out.beams) {
@@ -70,6 +82,11 @@ void choose(RadarScan& out, const Snapshot& world) {
 
 double edge_distance(const Body& body, Vec2 p) {
   return std::visit([&](const auto& shape) { return distance(p, shape); }, body.shape);
+}
+
+std::optional<Vec2> centre_of(const Body& body) {
+  const Vec2 centre = extent_of(body).centre;
+  return edge_distance(body, centre) > 0 ? std::nullopt : std::optional(centre);
 }
 
 RadarWeights radar_weights(const RadarLook& look, double distance_to_edge) {
@@ -101,6 +118,7 @@ RadarScan scan(const RadarLook& look, const Snapshot& world, int directions) {
     if (world.map().is_free(look.centre + ahead * unit_vector(heading), look.wall_reach()))
       out.straight = heading;
   }
+  keep_course(out);
   choose(out, world);
   return out;
 }

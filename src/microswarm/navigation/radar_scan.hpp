@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include "microswarm/navigation/radar_circles.hpp"
@@ -16,15 +14,17 @@ namespace microswarm {
 
 /// What one decision of the radar rests on, the world besides. Lengths in µm.
 struct RadarLook {
-  Vec2 centre;                ///< of the swarm, O_s
-  double radius = 0;          ///< of the swarm, r_s
-  Vec2 target;                ///< O_t
-  RadarCircles circles;       ///< as controlled: with r_f of Eq 24
-  double step = 0;            ///< d_p
-  double wall_distance = 0;   ///< d_f of walls and border, Eq 30; they need no control of r_f
-  double approach = 0;        ///< obstacles count as nearer by this
-  double target_gain = 0;     ///< k_t ε
-  double avoidance_gain = 0;  ///< k_a η
+  Vec2 centre;                   ///< of the swarm, O_s
+  double radius = 0;             ///< of the swarm, r_s
+  Vec2 target;                   ///< O_t
+  RadarCircles circles;          ///< as controlled: with r_f of Eq 24
+  double step = 0;               ///< d_p
+  double wall_distance = 0;      ///< d_f of walls and border, Eq 30; they need no control of r_f
+  double approach = 0;           ///< obstacles count as nearer by this
+  double target_gain = 0;        ///< k_t ε
+  double avoidance_gain = 0;     ///< k_a η
+  std::optional<double> course;  ///< the last direction that was chosen
+  double most_turn = pi;         ///< from the course, where there is a choice
 
   /// Distance that a predictive swarm's centre keeps from obstacles: r_s + d_f, `approach` besides.
   double obstacle_reach() const { return circles.safety - step + approach; }
@@ -64,12 +64,13 @@ class MinMax {
   double greatest_ = -std::numeric_limits<double>::infinity();
 };
 
-/// Why a direction is not among χ_2 of Eq 17 [radar].
-enum class BeamFate { kept, obstacle, wall };
-constexpr auto enum_names(BeamFate) {
-  return std::array<std::pair<BeamFate, std::string_view>, 3>{
-      {{BeamFate::kept, "kept"}, {BeamFate::obstacle, "obstacle"}, {BeamFate::wall, "wall"}}};
+/// Does a direction keep to the side of the course?
+inline bool keeps_course(const RadarLook& look, Vec2 direction) {
+  return !look.course || dot(direction, unit_vector(*look.course)) >= std::cos(look.most_turn);
 }
+
+/// Why a direction is not among χ_2 of Eq 17 [radar], or turns too far where others are.
+enum class BeamFate { kept, obstacle, wall, turn };
 
 /// One of the alternative directions, Eq 8 [radar].
 struct RadarBeam {
@@ -94,5 +95,10 @@ RadarScan scan(const RadarLook& look, const Snapshot& world, int directions);
 
 /// Distance [µm] from a point to a body's edge, 0 inside.
 double edge_distance(const Body& body, Vec2 p);
+
+/// O_ob of Eq 9 [radar]: the disc's centre or the polygon's centroid, so that along a flat face one
+/// way is better than the other. Nothing where the body is not around it, as a hollow one: then
+/// the distance to its edge counts.
+std::optional<Vec2> centre_of(const Body& body);
 
 }  // namespace microswarm

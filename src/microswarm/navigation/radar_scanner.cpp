@@ -118,6 +118,14 @@ void RadarScanner::screen_by_walls(const RadarLook& look, const Snapshot& world)
     if (room_[i] >= 0 && !map.is_free(Vec2{px_[i], py_[i]}, reach)) room_[i] = -1;
 }
 
+void RadarScanner::keep_course(const RadarLook& look) {
+  const auto is_on = [&](std::size_t i) { return keeps_course(look, {ux_[i], uy_[i]}); };
+  bool any = false;
+  for (std::size_t i = 0; i < room_.size() && !any; ++i) any = room_[i] >= 0 && is_on(i);
+  for (std::size_t i = 0; any && i < room_.size(); ++i)
+    if (!is_on(i)) room_[i] = -1;
+}
+
 // 1/‖O_pe O_t‖ of Eq 9.
 void RadarScanner::measure_way(Vec2 target) {
   for (std::size_t i = 0; i < way_.size(); ++i) {
@@ -128,17 +136,13 @@ void RadarScanner::measure_way(Vec2 target) {
   }
 }
 
-// ‖O_pe O_ob‖ − r_s − r_ob of Eq 9, from edge to edge where the body is no disc.
-void RadarScanner::measure_gap(const RadarLook& look, const Snapshot& world) {
-  const Body& body = world.moving().bodies()[nearest_->body];
-  const double edge = look.approach + look.radius;
-  if (const auto* disc = std::get_if<Disc>(&body.shape)) {
-    const Disc d = *disc;
+// ‖O_pe O_ob‖ of Eq 9; N(·) takes r_s and r_ob away.
+void RadarScanner::measure_gap(const Snapshot& world) {
+  if (const auto centre = centre_of(world.moving().bodies()[nearest_->body])) {
     for (std::size_t i = 0; i < gap_.size(); ++i) {
-      const double dx = d.centre.x - px_[i];
-      const double dy = d.centre.y - py_[i];
-      const double to_edge = std::sqrt(dx * dx + dy * dy) - d.radius;
-      gap_[i] = (to_edge > 0 ? to_edge : 0) - edge;
+      const double dx = centre->x - px_[i];
+      const double dy = centre->y - py_[i];
+      gap_[i] = std::sqrt(dx * dx + dy * dy);
     }
     return;
   }
@@ -148,7 +152,7 @@ void RadarScanner::measure_gap(const RadarLook& look, const Snapshot& world) {
     for (std::size_t i = 0; i < gap_.size(); ++i)
       gap_[i] = std::min(gap_[i], squared_distance(Vec2{px_[i], py_[i]}, near.edge));
   }
-  for (double& g : gap_) g = std::sqrt(g) - edge;
+  for (double& g : gap_) g = std::sqrt(g);
 }
 
 // Eq 9–13, 31 over what room_ has kept.
@@ -157,7 +161,7 @@ std::optional<std::size_t> RadarScanner::best(const RadarLook& look, const Snaps
   measure_way(look.target);
   if (nearest_) {
     weights = radar_weights(look, nearest_->distance);
-    measure_gap(look, world);
+    measure_gap(world);
   } else {
     std::fill(gap_.begin(), gap_.end(), 0);
   }
@@ -188,6 +192,7 @@ std::optional<double> RadarScanner::choose(const RadarLook& look, const Snapshot
       return straight;
   }
   screen(look, world);
+  if (look.course && look.most_turn < pi) keep_course(look);
   const auto found = best(look, world);
   if (!found) return std::nullopt;
   // Walls alone that leave no way nearer to the target: what leads away would only lead back.

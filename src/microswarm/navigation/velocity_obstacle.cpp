@@ -112,7 +112,7 @@ void VelocityObstacleNavigator::find_threats(const Snapshot& world, Vec2 p) {
   threats_.clear();
   const auto bodies = world.moving().bodies();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const TrackedBody& motion = tracker_.bodies()[i];
+    const TrackedBody motion = tracker_.body(i);
     const bool round = std::holds_alternative<Disc>(bodies[i].shape);
     const double speed = outward_speed(bodies[i], motion);
     const Vec2 at = p - helm_.delay() * motion.velocity;

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/guard.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "microswarm/core/angles.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double regain = 5;            // of a gap that is too small [µm/s]
+constexpr double gap_that_counts = 30;  // of two ways, more is no better [µm]
+constexpr double same_gap = 0.5;        // [µm]
+constexpr double contact_gap = 1;       // [µm]
+constexpr double contact_rate = 1;      // it grows so fast [µm/s]
+constexpr double widening_time = 1;     // for which an outline goes on as seen [s]
+constexpr double dead_time = 0.5;       // at most, from a frame to the effect of a command [s]
+constexpr double hollow = 0.02;         // share of a hull that is not in the body
+constexpr double very_hollow = 0.4;
+constexpr double rounding = 1e-6;  // [µm]
+constexpr std::array<double, 2> waits{0.5, 1};
+constexpr std::array<double, 3> runs{0.5, 1, 2};
+
+}  // namespace
+
+Vec2 Guard::Way::at(double t) const {
+  return std::min(t, until) * first + std::max(0.0, t - until) * second;
+}
+
+bool Guard::Outcome::is_better_than(const Outcome& other) const {
+  return until_contact != other.until_contact ? until_contact > other.until_contact
+                                              : worth() > other.worth() + same_gap;
+}
+
+Guard::Guard(const GuardParams& params, double speed)
+    : params_(params),
+      speed_(speed),
+      samples_(static_cast<int>(std::ceil(params.horizon / params.step))),
+      tracker_(params.tracker),
+      velocities_(1) {
+  for (int k = 0; k < params.directions; ++k)
+    velocities_.push_back(speed * unit_vector(wrap(2 * pi * k / params.directions)));
+}
+
+void Guard::see(const Observation& observation) {
+  // What is farther cannot come near within the horizon unless it is much faster than the swarm.
+  const double range = 3 * speed_ * (params_.horizon + dead_time);
+  tracker_.see(observation, range + (observation.swarm ? observation.swarm->radius : 0));
+  world_ = observation.world;
+}
+
+std::optional<Command> Guard::overrules(const Command& wanted, const Start& start, const Map& map,
+                                        double tick) {
+  start_ = start;
+  look_at_bodies(start);
+  if (bodies_ == 0 && hollow_.empty()) return std::nullopt;
+  wall_keep_ =
+      std::clamp(map.clearance(start.place) - rounding, 0.0, start.radius + params_.wall_margin);
+  if (leaves_a_way(map, wanted, tick)) return std::nullopt;
+  return best_way(map);
+}
+
+void Guard::look_at_bodies(const Start& start) {
+  bodies_ = 0;
+  hollow_bodies_.clear();
+  closing_ = 0;
+  const auto bodies = world_->moving().bodies();
+  const double ahead = start.time - tracker_.seen();
+  for (std::size_t i = 0; i < bodies.size() && i < tracker_.size(); ++i) {
+    const Disc extent = extent_of(bodies[i]);
+    const double far = distance(extent.centre, start.place) - extent.radius - start.radius;
+    if (far > 3 * speed_ * (params_.horizon + dead_time)) continue;
+    const TrackedBody motion = tracker_.body(i);
+    const double widening = outward_speed(bodies[i], motion);
+    const double closing = speed_ + norm(motion.velocity) + params_.margin_rate;
+    if (far > params_.margin + closing * (params_.horizon + ahead) + widening * widening_time)
+      continue;
+    if (met_.size() == bodies_) met_.emplace_back();
+    Met& met = met_[bodies_];
+    outliner_.take(bodies[i], met.outline);
+    const double from_hull = met.outline.distance_at(start.place - met.outline.centre);
+    if (outliner_.hollow_share() > very_hollow ||
+        (outliner_.hollow_share() > hollow && from_hull < 0)) {
+      hollow_bodies_.push_back(bodies[i]);
+      closing_ = std::max(closing_, widening + norm(motion.velocity));
+      continue;
+    }
+    met.velocity = motion.velocity;
+    met.widening = widening;
+    met.outline.centre = motion.centre_after(ahead);
+    ++bodies_;
+  }
+  hollow_.assign(hollow_bodies_);
+  gap_now_ = gap(start.place, 0, params_.margin);
+}
+
+/// From the swarm at p to whatever is nearest, t seconds after the start, at most `limit` [µm].
+double Guard::gap(Vec2 p, double t, double limit) const {
+  double least = limit;
+  const double widened = std::min(widening_time, start_.time - tracker_.seen() + t);
+  for (std::size_t k = 0; k < bodies_; ++k) {
+    const Met& met = met_[k];
+    const double touch = start_.radius + met.widening * widened;
+    const Vec2 off = p - (met.outline.centre + t * met.velocity);
+    const double far = met.outline.radius + touch + least;
+    if (squared_norm(off) < far * far)
+      least = std::min(least, met.outline.distance_at(off) - touch);
+  }
+  if (hollow_.empty()) return least;
+  const double touch = start_.radius + closing_ * widened;
+  return std::min(least, hollow_.clearance(p, touch + limit) - touch);
+}
+
+bool Guard::is_free(const Map& map, const Way& way) const {
+  Vec2 last = start_.place;
+  for (int s = 1; s <= samples_; ++s) {
+    const double t = s * params_.step;
+    const Vec2 p = start_.place + way.at(t);
+    const double margin = std::min(params_.margin + params_.margin_rate * t, gap_now_ + regain * t);
+    if (gap(p, t, margin + 1) < margin) return false;
+    if (p != last && !map.is_free(Segment{last, p}, wall_keep_)) return false;
+    last = p;
+  }
+  return true;
+}
+
+Guard::Outcome Guard::outcome(const Map& map, const Way& way) const {
+  Outcome out{.until_contact = 0, .least = gap_that_counts, .last = 0};
+  Vec2 last = start_.place;
+  bool touched = false;
+  for (int s = 1; s <= samples_; ++s) {
+    const double t = s * params_.step;
+    const Vec2 p = start_.place + way.at(t);
+    if (p != last && !map.is_free(Segment{last, p}, wall_keep_)) return out;
+    out.last = gap(p, t, gap_that_counts);
+    out.least = std::min(out.least, out.last);
+    touched = touched || out.last < contact_gap + contact_rate * t;
+    if (!touched) out.until_contact = t;
+    last = p;
+  }
+  return out;
+}
+
+bool Guard::leaves_a_way(const Map& map, const Command& wanted, double tick) {
+  const Vec2 begin = wanted.speed * unit_vector(wanted.heading);
+  if (is_free(map, {begin, tick, velocities_[last_]})) return true;
+  for (std::size_t k = 0; k < velocities_.size(); ++k) {
+    if (!is_free(map, {begin, tick, velocities_[k]})) continue;
+    last_ = k;
+    return true;
+  }
+  return false;
+}
+
+Command Guard::best_way(const Map& map) const {
+  Outcome best{-1, -infinity, 0};
+  Vec2 begin;
+  const auto consider = [&](const Way& way) {
+    const Outcome o = outcome(map, way);
+    if (!o.is_better_than(best)) return;
+    best = o;
+    begin = way.until > 0 ? way.first : way.second;
+  };
+  for (const Vec2 v : velocities_) consider({{}, 0, v});
+  for (const Vec2 v : velocities_) {
+    for (const double t : waits) consider({{}, t, v});
+    for (const double t : runs) consider({v, t, {}});
+  }
+  const double speed = norm(begin);
+  return {speed > 0 ? heading_of(begin) : 0, speed};
+}
+
+}  // namespace microswarm

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "microswarm/navigation/convex_outline.hpp"
+#include "microswarm/navigation/guard_params.hpp"
+#include "microswarm/navigation/obstacle_tracker.hpp"
+#include "microswarm/swarm/contracts.hpp"
+
+namespace microswarm {
+
+/// See GuardParams. For a swarm that moves into any direction at once. Allocates nothing once it
+/// has seen the obstacles.
+class Guard {
+ public:
+  /// A swarm as it will be when a command takes effect.
+  struct Start {
+    Vec2 place;         ///< [µm]
+    double radius = 0;  ///< [µm]
+    double time = 0;    ///< [s]
+  };
+
+  /// `speed` is that of a way out [µm/s].
+  Guard(const GuardParams& params, double speed);
+
+  /// Takes a frame; to be told of every one.
+  void see(const Observation& observation);
+  /// Nothing when there is a way out after `wanted`, should it last for `tick` [s]. Else how the
+  /// way begins that is free for longest; of those that are for the whole horizon, the one that
+  /// keeps most distance.
+  std::optional<Command> overrules(const Command& wanted, const Start& start, const Map& map,
+                                   double tick);
+
+ private:
+  /// Two velocities, the second from `until` on [s].
+  struct Way {
+    Vec2 first;
+    double until = 0;
+    Vec2 second;
+    Vec2 at(double t) const;
+  };
+  struct Outcome {
+    double until_contact = 0;    ///< [s]
+    double least = 0, last = 0;  ///< gap on the way and at its end, as far as more is better [µm]
+    double worth() const { return least + last; }
+    bool is_better_than(const Outcome& other) const;
+  };
+  /// A body that may be met.
+  struct Met {
+    ConvexOutline outline;  ///< at the start
+    Vec2 velocity;
+    double widening = 0;  ///< of its outline [µm/s]
+  };
+
+  void look_at_bodies(const Start& start);
+  double gap(Vec2 p, double t, double limit) const;
+  bool is_free(const Map& map, const Way& way) const;
+  Outcome outcome(const Map& map, const Way& way) const;
+  bool leaves_a_way(const Map& map, const Command& wanted, double tick);
+  Command best_way(const Map& map) const;
+
+  GuardParams params_;
+  double speed_;
+  int samples_;  ///< of a way
+  ObstacleTracker tracker_;
+  std::vector<Vec2> velocities_;  ///< hold first
+  std::size_t last_ = 0;          ///< which of them was a way out last time
+
+  Start start_;
+  double wall_keep_ = 0;
+  double gap_now_ = 0;  ///< at the start, at most the margin [µm]
+  ConvexOutliner outliner_;
+  std::vector<Met> met_;
+  std::size_t bodies_ = 0;  ///< how many of met_
+  std::vector<Body> hollow_bodies_;
+  BodySet hollow_;      ///< bodies that the swarm is within the hull of: taken as they stand
+  double closing_ = 0;  ///< how fast those come nearer [µm/s]
+  const Snapshot* world_ = nullptr;  ///< of the frame last taken
+};
+
+}  // namespace microswarm

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "microswarm/core/fields.hpp"
+
+namespace microswarm {
+
+/// What an ObstacleTracker tells a motion from.
+struct ObstacleTrackerParams {
+  int frames = 12;
+  double memory = 4;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.frames, {"frames", Unit::none, {2, 100}, "Frames to tell a motion from, at most."});
+    visit(self.memory, {"memory",
+                        Unit::s,
+                        {1e-2, 60},
+                        "Older frames, from which the noise is told, are forgotten."});
+  }
+};
+
+}  // namespace microswarm
