@@ -87,6 +87,21 @@ class ProgressBar {
 /// InputError "FOLDER: cannot make the folder: REASON" or "…: cannot write: REASON".
 void make_folder(const std::string& folder);
 
+/// A folder that one command at a time fills, so that two do not mix. The hold goes with the
+/// process, however that ends; where a file system has no locks there is none.
+class OutFolder {
+ public:
+  /// Makes the folder, as make_folder, and holds it; nothing when its name is empty. Throws
+  /// InputError "FOLDER: another command is writing to it".
+  explicit OutFolder(const std::string& folder);
+  ~OutFolder();
+  OutFolder(const OutFolder&) = delete;
+  OutFolder& operator=(const OutFolder&) = delete;
+
+ private:
+  int folder_ = -1;
+};
+
 /// Throws InputError when the file to be written is the one that is read.
 void keep_input(const std::string& out, const std::string& in);
 

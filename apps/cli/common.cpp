@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -70,6 +71,19 @@ void make_folder(const std::string& folder) {
     ::close(nameless);
   else if (errno != EOPNOTSUPP && errno != EISDIR)  // else it shows only when a file is written
     throw InputError(folder + ": cannot write: " + std::generic_category().message(errno));
+}
+
+OutFolder::OutFolder(const std::string& folder) {
+  if (folder.empty()) return;
+  make_folder(folder);
+  folder_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder_ < 0 || ::flock(folder_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  ::close(folder_);
+  throw InputError(folder + ": another command is writing to it");
+}
+
+OutFolder::~OutFolder() {
+  if (folder_ >= 0) ::close(folder_);
 }
 
 std::filesystem::path scenario_folder() {

@@ -46,7 +46,7 @@ void export_sweep(const Options& o) {
     print("wrote {}\n", o.hdf5);
   }
   if (o.ompl.empty()) return;
-  make_folder(o.ompl);
+  const OutFolder hold(o.ompl);
   const auto logs = ompl_logs(sweep);
   for (const auto& [name, log] : logs)
     write_file_atomically(std::filesystem::path(o.ompl) / name, log);

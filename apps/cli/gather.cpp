@@ -37,6 +37,20 @@ void fit(Scenario& scenario, double width, int most_steps) {
   scenario.goal_tolerance = width;
 }
 
+/// The usual width of the map's channels: as given, with a note on stderr where that is far from
+/// what is measured, else measured.
+double width_of(const Options& o, const Map& map) {
+  constexpr double far = 5;
+  Rng rng(o.seed, Purpose::planner);
+  const double measured = channel_width(map, rng);
+  if (!o.channel_width) return measured;
+  if (*o.channel_width > far * measured || far * *o.channel_width < measured)
+    fmt::print(stderr,
+               "note: --channel-width is {:.4g} µm, the map's channels are about {:.4g} µm\n",
+               *o.channel_width, measured);
+  return *o.channel_width;
+}
+
 /// Its --um-per-px is that of the photograph.
 MapSpec map_spec(const Options& o) {
   try {
@@ -63,12 +77,10 @@ int gather_command(const Options& o, const Context& context) {
   const World world = build_world(scene);
   if (const std::string why = world.at(0).why_blocked(*scene.scenario.goal, 0); !why.empty())
     throw InputError(fmt::format("{}: goal {}", o.map, why));
-  Rng rng(o.seed, Purpose::planner);
-  fit(scene.scenario, o.channel_width ? *o.channel_width : channel_width(*world.map, rng),
-      o.most_steps);
+  fit(scene.scenario, width_of(o, *world.map), o.most_steps);
   set_values(scene.scenario, o.settings);
   check(scene.scenario, world, o.map);
-  if (!o.out.empty()) make_folder(o.out);
+  const OutFolder hold(o.out);
   return run_once(scene, world, {o.out, false, o.json}, report, context.stop);
 }
 

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <variant>
 
+#include "global_choice.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
@@ -13,10 +14,7 @@
 #include "microswarm/experiment/global_tree_file.hpp"
 #include "microswarm/experiment/robot_check.hpp"
 #include "microswarm/formats/map_file.hpp"
-#include "microswarm/planning/global_rrt.hpp"
-#include "microswarm/planning/global_search.hpp"
 #include "microswarm/planning/global_shorten.hpp"
-#include "options.hpp"
 #include "robot_picture.hpp"
 
 namespace microswarm::cli {
@@ -39,7 +37,7 @@ struct Options {
   bool json = false;
 };
 
-using Choice = PlannerChoice<std::variant<GlobalSearchParams, GlobalRrtParams>>;
+using Choice = GlobalChoice;
 
 /// "60,300;60,250"; empty when it is no such list.
 std::vector<Vec2> places(const std::string& text) {

@@ -94,10 +94,17 @@ void show(const Plan& made, double start_heading, double ms, bool json) {
   for (const Vec2 p : made.path) print("{:.3f},{:.3f}\n", p.x, p.y);
 }
 
+/// Throws InputError when the planner's parameters do not fit together.
+void check_planner(const PlannerParams& planner) {
+  if (const auto* fmt_star = std::get_if<FmtStarParams>(&planner))
+    check(*fmt_star, Places("plan").within("planner", "planner"));
+}
+
 int plan_command(const Options& o, const Context& context) {
   keep_input(o.picture, o.map);
   Choice choice;
   set_values(choice, o.settings);
+  check_planner(choice.planner);
   const std::vector<double> from = numbers(o.start);
   const std::vector<double> to = numbers(o.goal);
   const Pose2 start{{from[0], from[1]}, from.size() > 2 ? radians(from[2]) : 0.0};

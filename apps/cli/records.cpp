@@ -27,7 +27,7 @@ int replay_command(const std::string& file, bool json, const Context& context) {
 int report_command(const std::string& file, const std::string& out, const PhotoOptions& photo) {
   const Record record = read_record(file);
   const ReportOptions options = report_options(photo);
-  make_folder(out);
+  const OutFolder hold(out);
   write_run_report(record, out, options);
   print("wrote {}/index.html\n", out);
   return ok;

@@ -37,7 +37,7 @@ int reproduce_command(const std::string& key, ReproduceOptions options, bool jso
   const std::string paper = key.substr(0, key.find('/'));
   const std::string figure = key.size() > paper.size() ? key.substr(paper.size() + 1) : "";
   const Reproduce reproduce = reproduce_of(paper);
-  if (!options.out.empty()) make_folder(options.out);
+  const OutFolder hold(options.out);
   const std::vector<ReproduceRow> rows = reproduce(figure, options, context.stop);
   if (options.quick) fmt::print(stderr, "quick: fewer seeds\n");
   put(json ? rows_json(rows) : rows_table(rows) + aims_met(rows));

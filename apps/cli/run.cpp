@@ -70,7 +70,7 @@ int many_runs(const Options& o, const Scene& scene, const World& world, const St
     row.update(to_json(r, results[i].hash));
     list.push_back(std::move(row));
     if (!o.json)
-      print("trial {:3}: {} after {:.1f} s, {:.0f} µm long, record {}\n", i, ending(r.status),
+      print("trial {:3}: {} after {:.1f} s, {:.0f} µm long, record {}\n", i, ending(r),
             r.metrics.time, r.metrics.length, results[i].hash);
   }
   if (o.json)
@@ -84,13 +84,14 @@ int many_runs(const Options& o, const Scene& scene, const World& world, const St
 
 int run_command(const Options& o, const Context& context) {
   const std::filesystem::path file = o.scenario;
-  Scenario scenario = read_scenario(file, o.settings);
+  Places places;
+  Scenario scenario = read_scenario(file, o.settings, places);
   if (o.seed) scenario.seed = *o.seed;
-  const Scene scene = load_scene(std::move(scenario), file.parent_path());
+  const Scene scene = load_scene(std::move(scenario), file.parent_path(), places);
   const World world = build_world(scene);
-  check(scene.scenario, world, file.string());
+  check(scene.scenario, world, places);
   const ReportOptions report = report_options(o.photo);
-  if (!o.out.empty()) make_folder(o.out);
+  const OutFolder hold(o.out);
   return o.trials > 1 ? many_runs(o, scene, world, context.stop)
                       : run_once(scene, world, {o.out, o.no_report, o.json}, report, context.stop);
 }

@@ -15,23 +15,38 @@ namespace microswarm::cli {
 nlohmann::ordered_json to_json(const RunResult& result, const std::string& hash) {
   return {
       {"status", to_string(result.status)},
+      {"state", result.state},
       {"metrics", nlohmann::ordered_json::parse(to_json_text(result.metrics))},
       {"planning", nlohmann::ordered_json::parse(to_json_text(summarise(result.timing.planning)))},
       {"record_hash", hash}};
 }
 
-std::string_view ending(Status status) {
-  switch (status) {
+namespace {
+
+/// Why a navigator stood still, by its state.
+std::string reason(std::string_view state) {
+  if (state == "stuck") return "it found no way";
+  if (state == "wait") return "it waited for a valve";
+  if (state == "blind") return "it saw no swarm, or too late";
+  if (state == "hold") return "no move was safe";
+  if (state == "arrived") return "it saw the swarm at the goal";
+  return fmt::format("its state was '{}'", state);
+}
+
+}  // namespace
+
+std::string ending(const RunResult& result) {
+  switch (result.status) {
     case Status::solved:
       return "goal reached";
     case Status::time_limit:
       return "time limit";
     case Status::held:
-      return "held: nothing was safe, or nothing was seen,";
+      return fmt::format("held: {},", reason(result.state));
     case Status::collided:
       return "touched a wall or an obstacle";
     default:
-      return to_string(status);
+      return std::string(to_string(result.status));
   }
 }
 
@@ -47,26 +62,45 @@ std::string robots_summary(const RunResult& result, const RobotSwarmParams& robo
   const std::string planning =
       robots.goals.empty() ? "" : fmt::format("  planning  {} times\n", m.planning_events);
   return fmt::format("{} after {:.1f} s of simulated time and {} commands\n  {} {:.1f} µm\n{}",
-                     gathered ? "gathered" : ending(result.status), m.time,
-                     result.timing.steps.size(),
+                     gathered ? "gathered" : ending(result), m.time, result.timing.steps.size(),
                      robots.goals.empty() ? "goal      the mean way to it is"
                                           : "goals     the robot farthest from its own is off by",
                      m.goal_distance, planning);
 }
 
+std::string avoidance_text(const Avoidance& a) {
+  if (!std::isfinite(a.least_gap)) return {};
+  const std::string mean = a.time > 0 ? fmt::format(", {} on average", um(a.mean_gap)) : "";
+  return fmt::format(
+      "  avoiding  {:.1f} s, mean avoidance cost {:.3g}; gap to obstacles {} at least{}\n", a.time,
+      a.mean_cost, um(a.least_gap), mean);
+}
+
 std::string summary(const RunResult& result) {
   const Metrics& m = result.metrics;
   const TimeSummary p = summarise(result.timing.planning);
-  std::string text =
-      fmt::format("{} after {:.1f} s of simulated time", ending(result.status), m.time);
+  std::string text = fmt::format("{} after {:.1f} s of simulated time", ending(result), m.time);
   if (result.status != Status::solved)
     text += fmt::format(", {:.0f} µm from the goal", m.goal_distance);
   text += fmt::format("\n  way       {:.0f} µm long, turned {:.0f}° in all, held for {:.1f} s\n",
                       m.length, degrees(m.turning), m.hold_time);
   text += fmt::format("  nearest   wall {}, moving obstacle {} (from the swarm's centre)\n",
                       um(m.walls.clearance), um(m.obstacles.clearance));
+  text += avoidance_text(m.avoidance);
   return text + fmt::format("  planning  {} times, {:.3f} ms on average, {:.3f} ms the longest\n",
                             m.planning_events, 1e3 * p.mean, 1e3 * p.max);
+}
+
+/// Settings that are allowed, but hardly meant, on stderr.
+void note_oddities(const Scenario& scenario) {
+  if (scenario.robots) return;
+  const SwarmLimits swarm = limits_of(scenario.swarm);
+  const double way = swarm.max_speed * scenario.tick;
+  if (way <= 2 * swarm.radius) return;
+  fmt::print(stderr,
+             "note: tick_s is {:.4g}: between two commands the swarm drives up to {:.4g} µm, more "
+             "than it is wide, {:.4g} µm\n",
+             scenario.tick, way, 2 * swarm.radius);
 }
 
 /// What [gather] assumes of the ground, on stderr where it does not hold.
@@ -84,6 +118,7 @@ void note_assumptions(const Scenario& scenario, const Map& map) {
 int run_once(const Scene& scene, const World& world, const RunOutput& o,
              const ReportOptions& report, const Stop& stop) {
   const std::filesystem::path folder = o.out;
+  note_oddities(scene.scenario);
   note_assumptions(scene.scenario, *world.map);
   Recorder recorder(scene);
   RunResult result;

@@ -25,7 +25,7 @@ int run_once(const Scene& scene, const World& world, const RunOutput& output,
 
 nlohmann::ordered_json to_json(const RunResult& result, const std::string& hash);
 
-/// How a run ended, for people.
-std::string_view ending(Status status);
+/// How a run ended, for people: "goal reached", "held: waited for a valve,".
+std::string ending(const RunResult& result);
 
 }  // namespace microswarm::cli

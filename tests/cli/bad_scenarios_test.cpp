@@ -27,17 +27,45 @@ TEST_F(BadScenarios, NotANumberInTracks) {
 
 TEST_F(BadScenarios, StartInAWall) {
   run_refused(with(two_rooms(), "start:", "start: {x_um: 1012, y_um: 100, heading_deg: 0}"),
-              "flight.yaml: start is 12 µm inside wall 3");
+              "flight.yaml:11:8: start is 12 µm inside wall 3");
 }
 
 TEST_F(BadScenarios, WiderThanEveryPassage) {
-  run_refused(two_rooms(60),
-              "flight.yaml: swarm is 80 µm wide, wider than every passage to the goal: the widest "
-              "is about 60 µm, at (1000, 400) µm");
+  run_refused(
+      two_rooms(60),
+      "flight.yaml:9:14: swarm is 80 µm wide, wider than every passage to the goal: the widest "
+      "is about 60 µm, at (1000, 400) µm");
 }
 
 TEST_F(BadScenarios, GoalCutOff) {
-  run_refused(two_rooms(0), "flight.yaml: goal is cut off from the start by walls");
+  run_refused(two_rooms(0), "flight.yaml:12:10: goal is cut off from the start by walls");
+}
+
+TEST_F(BadScenarios, KeysThatDoNotFitTogether) {
+  const std::string radar = two_rooms() + "navigator:\n  type: radar\n";
+  run_refused(radar + "  angle_step_deg: 7\n",
+              "flight.yaml:18:19: navigator.angle_step_deg is 7, must divide 360");
+  run_refused(radar + "  waypoints_um: [[1030, 700]]\n",
+              "flight.yaml:18:18: waypoint 1 is 30 µm inside wall 4");
+  run_refused(radar + "  detection_range_um: 300\n  prediction_distance_um: 200\n",
+              "flight.yaml:19:27: navigator.prediction_distance_um is 200, more than twice the "
+              "swarm's least radius + safety_distance_um, 130: it could step over a wall");
+  run_refused(two_rooms() +
+                  "obstacles:\n"
+                  "  - shape: {type: valve, span_um: 100, least_gap_um: 120}\n"
+                  "    motion: {type: still, position_um: [500, 200]}\n",
+              "flight.yaml:17:54: obstacle 1: least_gap_um is 120, leaves no leaf in span_um, 100");
+  refused({"run", "flight.yaml", "--set", "obstacles=[]", "--set", "start.x_um=1012"},
+          "--set start.x_um: start is 12 µm inside wall 3");
+}
+
+TEST_F(BadScenarios, CoordinatesBeyondMeasure) {
+  const std::string discs =
+      two_rooms() + "obstacles:\n  - shape: {type: disc, radius_um: 30}\n    motion: ";
+  run_refused(discs + "{type: harmonic_line, centre_um: [0, 0], amplitude_um: [0, 1e308]}\n",
+              "flight.yaml:18:72: amplitude_um is 1e308 µm, allowed -1e9..1e9 µm");
+  run_refused(discs + "{type: straight, start_um: [1e300, 0], velocity_um_per_s: [0, 0]}\n",
+              "flight.yaml:18:41: start_um is 1e300 µm, allowed -1e9..1e9 µm");
 }
 
 TEST_F(BadScenarios, UnknownKey) {

@@ -57,6 +57,40 @@ TEST_F(Commands, RunThatDoesNotReachTheGoal) {
   EXPECT_EQ(Json::parse(outcome.out).at("status"), "time_limit");
 }
 
+TEST_F(Commands, RunThatIsHeldSaysWhy) {
+  write("wait.yaml",
+        "map: {type: rectangles, lo_um: [0, 0], hi_um: [2000, 800], rectangles_um: "
+        "[[1000, 0, 60, 250], [1000, 550, 60, 250]]}\n"
+        "obstacles:\n"
+        "  - shape: {type: valve, span_um: 300, least_gap_um: 0, greatest_gap_um: 200, period_s: "
+        "1000, phase: -0.25}\n"
+        "    motion: {type: still, position_um: [1030, 400]}\n"
+        "swarm: {type: vortex, radius_um: 50, moving_radius_um: 50}\n"
+        "start: {x_um: 700, y_um: 400}\n"
+        "goal_um: [1600, 400]\n"
+        "hold_limit_s: 20\n"
+        "navigator:\n"
+        "  type: radar\n"
+        "  wait_areas:\n"
+        "    - {centre_um: [1030, 400], width_um: 600, height_um: 400, least_gap_um: 190}\n");
+  const Outcome outcome = run({"run", "wait.yaml", "--out", "wait"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_TRUE(outcome.out.starts_with("held: it waited for a valve, after ")) << outcome.out;
+  EXPECT_NE(outcome.out.find("mean avoidance cost "), std::string::npos) << outcome.out;
+  EXPECT_NE(read("wait/index.html").find("held (wait)"), std::string::npos);
+  EXPECT_NE(read("wait/index.html").find("mean avoidance cost δ"), std::string::npos);
+  EXPECT_NE(read("wait/overview.svg").size(), 0U);
+}
+
+TEST_F(Commands, OddSettingsGetAHint) {
+  const Outcome outcome =
+      run({"run", "flight.yaml", "--set", "tick_s=10", "--set", "time_limit_s=20"});
+  EXPECT_EQ(outcome.err,
+            "note: tick_s is 10: between two commands the swarm drives up to 1200 µm, more than it "
+            "is wide, 80 µm\n");
+}
+
 TEST_F(Commands, RunAsJson) {
   const Json run = Json::parse(good({"run", "flight.yaml", "--json", "--seed", "7"}));
   EXPECT_EQ(run.at("status"), "solved");
@@ -126,6 +160,13 @@ TEST_F(Commands, GatherBringsRobotsTogether) {
   refused({"gather", "t.csv", "--goal", "10,10"}, "t.csv: goal is 10 µm inside wall 1");
   refused({"gather", "t.csv", "--goal", "50,3", "--robots", "0"},
           "--robots: must be a whole number 1..1000000, not '0' (see microswarm gather --help)");
+}
+
+TEST_F(Commands, SchemaHasTheKeysOfGlobal) {
+  const std::string keys = good({"schema", "--keys", "--global"});
+  for (const char* key :
+       {"type: global_search", "type: global_rrt", "separation_um", "robostep_um"})
+    EXPECT_NE(keys.find(key), std::string::npos) << key;
 }
 
 TEST_F(Commands, SchemaIsJson) {

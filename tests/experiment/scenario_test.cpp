@@ -68,7 +68,7 @@ TEST(Scenario, AnUnknownTrackIsOneLine) {
 
   scenario.obstacles = {disc(10, Track{"people.csv", "8", nullptr})};
   EXPECT_EQ(error_of([&] { load_scene(scenario, folder); }),
-            (folder / "people.csv").string() + ": has no id '8'");
+            "obstacle 1: " + (folder / "people.csv").string() + " has no id '8'");
   scenario.obstacles = {disc(10, Track{"nobody.csv", "8", nullptr})};
   EXPECT_NE(error_of([&] { load_scene(scenario, folder); }).find("nobody.csv: cannot read"),
             std::string::npos);
@@ -78,6 +78,42 @@ TEST(Scenario, AnObstacleThatMakesNoSenseIsNamed) {
   Scenario scenario = open_room();
   scenario.obstacles = {{PolygonShape{{{0, 0}, {1, 1}}}, Still{}}};
   EXPECT_NE(error_of([&] { load_scene(scenario, {}); }).find("obstacle 1"), std::string::npos);
+}
+
+TEST(Scenario, WhatComesOutLaterHasItsPlaceToo) {
+  const auto folder = empty_folder("scenario_places");
+  const auto message = [&](const std::string& text, const std::vector<std::string>& set = {}) {
+    write_file_atomically(folder / "s.yaml", text);
+    const std::string what = error_of([&] {
+      Places places;
+      const Scene scene = load_scene(read_scenario(folder / "s.yaml", set, places), folder, places);
+      check(scene.scenario, build_world(scene), places);
+    });
+    return what.substr(what.starts_with("--set") ? 0 : std::min(what.size(), what.find("s.yaml")));
+  };
+  const std::string room =
+      "map: {type: polygons, hi_um: [2000, 1000], walls_um: [[[900, 0], [1000, 0], [1000, 400]]]}\n"
+      "start: {x_um: 200, y_um: 500}\n"
+      "goal_um: [1800, 500]\n";
+  EXPECT_EQ(message(room), "");
+  EXPECT_EQ(message(room + "obstacles:\n"
+                           "  - shape: {type: disc, radius_um: 5}\n"
+                           "    motion: {type: still, position_um: [9, 9]}\n"
+                           "  - motion: {type: still, position_um: [9, 9]}\n"
+                           "    shape:\n"
+                           "      type: breathing_disc\n"
+                           "      least_radius_um: 90\n"
+                           "      greatest_radius_um: 20\n"),
+            "s.yaml:10:24: obstacle 2: least_radius_um is 90, more than greatest_radius_um, 20");
+  EXPECT_EQ(message(room, {"start.y_um=100", "start.x_um=990"}),
+            "--set start.x_um: start is 10 µm inside wall 1");
+  EXPECT_EQ(message("map: {type: polygons, hi_um: [2000, 0]}\n"),
+            "s.yaml:1:6: map: the map's bounds are empty: 0..2000 × 0..0 µm");
+  EXPECT_EQ(message(room + "navigator:\n  type: radar\n  angle_step_deg: 7\n"),
+            "s.yaml:6:19: navigator.angle_step_deg is 7, must divide 360");
+  EXPECT_EQ(message(room + "navigator:\n  type: radar\n  safety_distance_um: 50\n"),
+            "s.yaml:6:23: navigator.detection_range_um is 70, less than prediction_distance_um + "
+            "safety_distance_um, 75: the safety circle must lie within the detection circle");
 }
 
 TEST(Scenario, SceneHashKnowsTheWorld) {

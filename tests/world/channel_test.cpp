@@ -93,11 +93,11 @@ TEST(Channel, what_cannot_be_a_channel_is_named) {
   DeformingChannel c = winding;
   EXPECT_EQ(message(c), "");
   c.centre_line = {{5, 5}, {5, 5}};
-  EXPECT_EQ(message(c), "obstacle 1: centre_line needs two different points at least");
+  EXPECT_EQ(message(c), "obstacle 1: centre_line_um needs two different points at least");
   c = winding;
   c.amplitude = 150;
   EXPECT_EQ(message(c),
-            "obstacle 1: amplitude 150 µm closes the channel, its half width is 150 µm");
+            "obstacle 1: amplitude_um is 150, closes the channel, whose half width is 150 µm");
   c = winding;
   c.centre_line = {{-400, 0}, {0, 0}, {-380, 20}};
   EXPECT_NE(message(c).find("too tight"), std::string::npos);

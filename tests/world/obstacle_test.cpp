@@ -133,17 +133,18 @@ TEST(Obstacle, what_makes_no_sense_is_named) {
   };
   for (const Obstacle& o : all_obstacles()) EXPECT_EQ(message(o), "");
   EXPECT_EQ(message({BreathingDisc{90, 20}, Still{}}),
-            "obstacle 2: least_radius 90 µm exceeds greatest_radius 20 µm");
+            "obstacle 2: least_radius_um is 90, more than greatest_radius_um, 20");
   EXPECT_EQ(message({Valve{.span = 400, .least_gap = 300, .greatest_gap = 200}, Still{}}),
-            "obstacle 2: least_gap 300 µm exceeds greatest_gap 200 µm");
-  EXPECT_NE(message({Valve{.span = 400, .least_gap = 500, .greatest_gap = 600}, Still{}}), "");
+            "obstacle 2: least_gap_um is 300, more than greatest_gap_um, 200");
+  EXPECT_EQ(message({Valve{.span = 400, .least_gap = 500, .greatest_gap = 600}, Still{}}),
+            "obstacle 2: least_gap_um is 500, leaves no leaf in span_um, 400");
   EXPECT_EQ(message({PolygonShape{{{0, 0}, {1, 1}}}, Still{}}),
-            "obstacle 2: a polygon needs three different vertices at least");
+            "obstacle 2: vertices_um needs three different points at least");
   EXPECT_EQ(message({PolygonShape{{{0, 0}, {1, 1}, {2, 2}}}, Still{}}),
-            "obstacle 2: the polygon has no area");
-  EXPECT_EQ(message({DiscShape{5}, Waypoints{}}), "obstacle 2: waypoints without a point");
+            "obstacle 2: vertices_um has no area between its points");
+  EXPECT_EQ(message({DiscShape{5}, Waypoints{}}), "obstacle 2: points_um is empty");
   EXPECT_EQ(message({DiscShape{5}, Track{"t.csv", "9", nullptr}}),
-            "obstacle 2: no samples of id '9' in t.csv");
+            "obstacle 2: t.csv: no samples of id '9'");
   const auto leap = std::make_shared<Samples>(Samples{{0, 2, 2}, {{0, 0}, {1, 1}, {2, 2}}});
   EXPECT_EQ(message({DiscShape{5}, Track{"t.csv", "9", leap}}),
             "obstacle 2: t.csv: times of id '9' do not ascend at 2 s");

@@ -81,10 +81,11 @@ YamlNode value_node(const Type& type, std::string_view text, std::string_view na
 
 }  // namespace
 
-void read_yaml(const Type& type, void* value, std::string_view text, std::string_view name) {
+YamlNode read_yaml(const Type& type, void* value, std::string_view text, std::string_view name) {
   YamlNode node = parse_yaml(text, name);
   if (node.line == 0) node.line = node.column = 1;  // an empty document
   ValueReader(name, true).read(type, {}, "", value, node);
+  return node;
 }
 
 void set_value(const Type& type, void* value, std::string_view assignment) {

@@ -9,15 +9,16 @@
 #include <vector>
 
 #include "microswarm/config/type.hpp"
+#include "microswarm/config/yaml_places.hpp"
 #include "microswarm/core/file.hpp"
 
 namespace microswarm {
 
 inline constexpr std::size_t max_yaml_bytes = 16 << 20;
 
-/// Reads the YAML text into the value, which keeps what the text does not give. On an error the
-/// value may be half read.
-void read_yaml(const Type& type, void* value, std::string_view text, std::string_view name);
+/// Reads the YAML text into the value, which keeps what the text does not give, and returns the
+/// document. On an error the value may be half read.
+YamlNode read_yaml(const Type& type, void* value, std::string_view text, std::string_view name);
 
 /// What `set_value` does, on a described value.
 void set_value(const Type& type, void* value, std::string_view assignment);
@@ -59,6 +60,19 @@ template <HasFields T>
 void set_values(T& value, const std::vector<std::string>& assignments) {
   check_types_first(assignments);
   for (const std::string& assignment : assignments) set_value(value, assignment);
+}
+
+/// A parameter struct from a YAML file with assignments applied after it; `places` then tells where
+/// each key stands.
+template <HasFields T>
+T read_yaml_file(const std::filesystem::path& path, const std::vector<std::string>& assignments,
+                 Places& places) {
+  T value{};
+  const std::string name = path.string();
+  YamlNode document = read_yaml(type_of<T>(), &value, read_file(path, max_yaml_bytes), name);
+  set_values(value, assignments);
+  places = places_of(std::move(document), name, assignments);
+  return value;
 }
 
 }  // namespace microswarm

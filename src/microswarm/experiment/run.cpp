@@ -114,6 +114,7 @@ class Run {
     frame.command = command;
     frame.target = view.local_target;
     frame.state = view.state;
+    result_.state = view.state;
     frame.planned = view.planned;
     tell(frame, view, seen);
     note_avoidance(frame);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "microswarm/experiment/frame.hpp"
 #include "microswarm/experiment/metrics.hpp"
 #include "microswarm/experiment/scenario.hpp"
@@ -13,6 +15,7 @@ struct RunResult {
   Status status = Status::time_limit;
   Metrics metrics;
   Timing timing;
+  std::string state;  ///< the navigator's word for what it did last
 };
 
 /// Hears what happens in a run: recorder, live view, progress bar. References hold during the call.
@@ -33,9 +36,9 @@ class RunListener {
 /// The only loop: at every tick it observes, asks the navigator, applies the command, and watches,
 /// in continuous time, for contact and for the goal; whether robots that are told apart have done
 /// their task it looks up at every tick, and walls are no danger to them. Ends with `solved`,
-/// `collided`, `held` (nothing was safe for the scenario's hold limit, or up to its time limit),
-/// `time_limit` or `stopped`. Without the plant's truth, clearances and contacts are those of what
-/// was seen.
+/// `collided`, `held` (the navigator stood still for the scenario's hold limit, or up to its time
+/// limit), `time_limit` or `stopped`. Without the plant's truth, clearances and contacts are those
+/// of what was seen.
 RunResult run(const Scenario& scenario, Plant& plant, Navigator& navigator,
               std::span<RunListener* const> listeners = {}, const Stop& stop = {});
 

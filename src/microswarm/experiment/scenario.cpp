@@ -9,8 +9,8 @@
 
 #include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
-#include "microswarm/core/error.hpp"
 #include "microswarm/core/hash.hpp"
+#include "microswarm/experiment/radar_check.hpp"
 #include "microswarm/experiment/robot_check.hpp"
 #include "microswarm/formats/tracks.hpp"
 #include "microswarm/planning/free_goal.hpp"
@@ -20,19 +20,25 @@ namespace microswarm {
 
 namespace {
 
+Places obstacle_in(const Places& where, std::size_t i) {
+  return where.within(fmt::format("obstacles.{}", i), fmt::format("obstacle {}", i + 1));
+}
+
 /// Fills in the samples of all tracks; a file is read once.
-void load_tracks(std::vector<Obstacle>& obstacles, const std::filesystem::path& base) {
+void load_tracks(std::vector<Obstacle>& obstacles, const std::filesystem::path& base,
+                 const Places& where) {
   std::map<std::filesystem::path, Tracks> files;
-  for (Obstacle& obstacle : obstacles) {
-    auto* track = std::get_if<Track>(&obstacle.motion);
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    auto* track = std::get_if<Track>(&obstacles[i].motion);
     if (!track) continue;
-    if (track->file.empty()) throw InputError("missing key 'file' of an obstacle's track");
+    const Places motion = obstacle_in(where, i).within("motion");
+    if (track->file.empty()) throw motion.error("file", "missing key 'file' of its track");
     const std::filesystem::path path = base / track->file;
     auto file = files.find(path);
     if (file == files.end()) file = files.emplace(path, read_tracks(path)).first;
     const auto samples = file->second.find(track->id);
     if (samples == file->second.end())
-      throw InputError(fmt::format("{}: has no id '{}'", path.string(), track->id));
+      throw motion.error("id", fmt::format("{} has no id '{}'", path.string(), track->id));
     track->samples = std::make_shared<const Samples>(samples->second);
   }
 }
@@ -58,11 +64,15 @@ void hash_map(Hash& hash, const MapParts& map) {
 
 }  // namespace
 
+Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& settings,
+                       Places& places) {
+  return read_yaml_file<Scenario>(file, settings, places);
+}
+
 Scenario read_scenario(const std::filesystem::path& file,
                        const std::vector<std::string>& settings) {
-  Scenario scenario = read_yaml_file<Scenario>(file);
-  set_values(scenario, settings);
-  return scenario;
+  Places places;
+  return read_scenario(file, settings, places);
 }
 
 std::string scenario_text(const Scenario& scenario) { return to_yaml(scenario); }
@@ -80,11 +90,11 @@ std::string Scene::hash() const {
   return hash.hex();
 }
 
-Scene load_scene(Scenario scenario, const std::filesystem::path& base) {
-  load_tracks(scenario.obstacles, base);
+Scene load_scene(Scenario scenario, const std::filesystem::path& base, const Places& where) {
+  load_tracks(scenario.obstacles, base, where);
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)
-    check(scenario.obstacles[i], fmt::format("obstacle {}", i + 1));
-  MapParts map = read_map_parts(scenario.map, base);
+    check(scenario.obstacles[i], obstacle_in(where, i));
+  MapParts map = read_map_parts(scenario.map, base, where);
   return {std::move(scenario), std::move(map)};
 }
 
@@ -94,63 +104,69 @@ World build_world(const Scene& scene) {
           scene.scenario.obstacles};
 }
 
-void check_way(const Map& map, Vec2 start, Vec2 goal, double radius, const std::string& where) {
+void check_way(const Map& map, Vec2 start, Vec2 goal, double radius, const Places& where) {
   const WidestPath way = widest_path(map, start, goal, radius);
   if (!way.found && !connected(map, start, goal))
-    throw InputError(fmt::format("{}: goal is cut off from the start by walls", where));
+    throw where.error("goal_um", "goal is cut off from the start by walls");
   // A way that the search may have missed for its resolution is not denied.
   if (way.clearance + 1.5 * way.resolution >= radius) return;
-  throw InputError(fmt::format(
-      "{}: swarm is {:.4g} µm wide, wider than every passage to the goal: the widest is about "
-      "{:.3g} µm, at ({:.4g}, {:.4g}) µm",
-      where, 2 * radius, 2 * way.clearance, way.tightest.x, way.tightest.y));
+  throw where.error(
+      {"swarm.radius_um", "swarm", "goal_um"},
+      fmt::format(
+          "swarm is {:.4g} µm wide, wider than every passage to the goal: the widest is about "
+          "{:.3g} µm, at ({:.4g}, {:.4g}) µm",
+          2 * radius, 2 * way.clearance, way.tightest.x, way.tightest.y));
 }
 
 namespace {
 
 // A navigator that takes what it sees for too old holds for ever.
-void check_sensing(const Scenario& scenario, const std::string& where) {
+void check_sensing(const Scenario& scenario, const Places& where) {
   const double timeout = frame_timeout_of(scenario.navigator);
   const double delay = scenario.sensing.observation_delay;
   if (delay <= timeout) return;
-  throw InputError(
-      fmt::format("{}: sensing.observation_delay_s is {:.4g}, more than navigator.frame_timeout_s, "
+  throw where.error(
+      {"sensing.observation_delay_s", "navigator.frame_timeout_s"},
+      fmt::format("sensing.observation_delay_s is {:.4g}, more than navigator.frame_timeout_s, "
                   "{:.4g}: every frame would be too old",
-                  where, delay, timeout));
+                  delay, timeout));
 }
 
 // What the swarm fits through, its navigator may still refuse.
-void check_margin(const Scenario& scenario, const World& world, const std::string& where) {
+void check_margin(const Scenario& scenario, const World& world, const Places& where) {
   const double margin = margin_of(scenario.navigator);
   const Snapshot walls(world.map);
   const auto target = free_goal(walls, *scenario.goal, scenario.goal_tolerance, margin);
   if (!target)
-    throw InputError(fmt::format("{}: goal {} (navigator.margin_um)", where,
-                                 walls.why_blocked(*scenario.goal, margin)));
+    throw where.error("goal_um", fmt::format("goal {} (navigator.margin_um)",
+                                             walls.why_blocked(*scenario.goal, margin)));
   const WidestPath way = widest_path(*world.map, scenario.start->position, *target, margin);
   // A start that is nearer to a wall is let go: the navigator leads away from there.
   const double needed = std::min(margin, world.map->clearance(scenario.start->position));
   if (way.clearance + 1.5 * way.resolution >= needed) return;
   if (!way.found)
-    throw InputError(
-        fmt::format("{}: navigator.margin_um is {:.4g}, wider than the passages to the goal allow",
-                    where, margin));
-  throw InputError(fmt::format(
-      "{}: navigator.margin_um is {:.4g}, wider than the passages to the goal allow: about {:.3g} "
-      "µm are left at ({:.4g}, {:.4g}) µm",
-      where, margin, way.clearance, way.tightest.x, way.tightest.y));
+    throw where.error(
+        "navigator.margin_um",
+        fmt::format("navigator.margin_um is {:.4g}, wider than the passages to the goal allow",
+                    margin));
+  throw where.error(
+      "navigator.margin_um",
+      fmt::format(
+          "navigator.margin_um is {:.4g}, wider than the passages to the goal allow: about {:.3g} "
+          "µm are left at ({:.4g}, {:.4g}) µm",
+          margin, way.clearance, way.tightest.x, way.tightest.y));
 }
 
-void check_body(const Scenario& scenario, const World& world, const std::string& where) {
-  if (!scenario.start) throw InputError(fmt::format("{}: missing key 'start'", where));
+void check_body(const Scenario& scenario, const World& world, const Places& where) {
+  if (!scenario.start) throw where.error("start", "missing key 'start'");
   const double radius = limits_of(scenario.swarm).radius;
   if (const auto why = world.at(0).why_blocked(scenario.start->position, radius); !why.empty())
-    throw InputError(fmt::format("{}: start {}", where, why));
+    throw where.error("start", fmt::format("start {}", why));
   // The swarm's centre may stop anywhere within the tolerance.
   const Snapshot walls(world.map);
   const auto target = free_goal(walls, *scenario.goal, scenario.goal_tolerance, radius);
   if (!target)
-    throw InputError(fmt::format("{}: goal {}", where, walls.why_blocked(*scenario.goal, radius)));
+    throw where.error("goal_um", fmt::format("goal {}", walls.why_blocked(*scenario.goal, radius)));
   check_way(*world.map, scenario.start->position, *target, radius, where);
   check_margin(scenario, world, where);
 }
@@ -165,16 +181,17 @@ Task task_of(const Scenario& scenario) {
           .tick = scenario.tick};
 }
 
-void check(const Scenario& scenario, const World& world, const std::string& where) {
+void check(const Scenario& scenario, const World& world, const Places& where) {
   check_sensing(scenario, where);
   if (scenario.robots) check_robots(scenario, where);
-  if (!scenario.robots && !scenario.goal)
-    throw InputError(fmt::format("{}: missing key 'goal_um'", where));
+  if (!scenario.robots && !scenario.goal) throw where.error("goal_um", "missing key 'goal_um'");
   if (const auto lack = what_it_lacks(scenario.navigator, task_of(scenario)); !lack.empty())
-    throw InputError(fmt::format("{}: this navigator needs {}", where, lack));
+    throw where.error({"navigator.type", "navigator"},
+                      fmt::format("this navigator needs {}", lack));
   check_navigator(scenario.navigator, task_of(scenario), *world.map, where);
   scenario.robots ? check_robot_places(scenario, *world.map, where)
                   : check_body(scenario, world, where);
+  check_radar(scenario, world, where);
 }
 
 }  // namespace microswarm

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "microswarm/core/fields.hpp"
+#include "microswarm/core/places.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/formats/map_parts.hpp"
 #include "microswarm/navigation/make.hpp"
@@ -97,7 +98,9 @@ struct Scenario {
 };
 
 /// Reads a scenario; `settings` are `key.path=value` texts, as from --set, applied after the file.
-/// Throws InputError, naming file, line and column.
+/// Throws InputError, naming file, line and column. `places` then tells where its keys stand.
+Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& settings,
+                       Places& places);
 Scenario read_scenario(const std::filesystem::path& file,
                        const std::vector<std::string>& settings = {});
 
@@ -114,8 +117,8 @@ struct Scene {
 };
 
 /// Reads the scenario's map and tracks, relative to the folder `base`. Throws InputError for a file
-/// or an obstacle that makes no sense.
-Scene load_scene(Scenario scenario, const std::filesystem::path& base);
+/// or an obstacle that makes no sense; `where` knows the scenario's keys.
+Scene load_scene(Scenario scenario, const std::filesystem::path& base, const Places& where = {});
 
 /// What a scenario tells its navigator.
 Task task_of(const Scenario& scenario);
@@ -125,12 +128,12 @@ World build_world(const Scene& scene);
 
 /// Throws InputError, one line, when the run cannot be meant so: the start or the goal in a wall
 /// ("start is 12 µm inside wall 3"), the swarm wider than every passage, the goal cut off from the
-/// start, or no way that keeps the navigator's margin. `where` begins the line: the scenario's file
-/// or name. Robots and their goals are looked at one by one.
-void check(const Scenario& scenario, const World& world, const std::string& where);
+/// start, no way that keeps the navigator's margin, or a navigator that would never get on. `where`
+/// knows the scenario's keys, or is a name for it. Robots and their goals are looked at one by one.
+void check(const Scenario& scenario, const World& world, const Places& where);
 
 /// The last two of these complaints alone: between two free points of a map, for a swarm of
 /// `radius` [µm].
-void check_way(const Map& map, Vec2 start, Vec2 goal, double radius, const std::string& where);
+void check_way(const Map& map, Vec2 start, Vec2 goal, double radius, const Places& where);
 
 }  // namespace microswarm

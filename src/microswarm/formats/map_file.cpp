@@ -13,6 +13,7 @@
 #include "microswarm/formats/moving_ai.hpp"
 #include "microswarm/formats/rectangles.hpp"
 #include "microswarm/formats/ros.hpp"
+#include "microswarm/world/channel.hpp"
 #include "microswarm/world/obstacle.hpp"
 
 namespace microswarm {
@@ -26,21 +27,21 @@ MapParts parts_of(const Mask& blocked, double cell, Vec2 lo = {}) {
 
 /// Where the map's file is; a map type that was chosen by --set may have none.
 template <class Spec>
-fs::path named(const Spec& spec, const fs::path& base) {
-  if (spec.file.empty()) throw InputError("missing key map.file");
+fs::path named(const Spec& spec, const fs::path& base, const Places& where) {
+  if (spec.file.empty()) throw where.error("map.file", "missing key map.file");
   return base / spec.file;
 }
 
-MapParts read(const ImageMap& spec, const fs::path& base) {
-  const Image image = read_image(named(spec, base));
+MapParts read(const ImageMap& spec, const fs::path& base, const Places& where) {
+  const Image image = read_image(named(spec, base, where));
   const bool dark_is_wall = spec.free == FreePixels::bright;
   MapParts parts = parts_of(threshold(image, spec.threshold, dark_is_wall), spec.um_per_px);
   simplify(parts.walls, spec.simplify);
   return parts;
 }
 
-MapParts read(const RosMap& spec, const fs::path& base) {
-  const fs::path yaml = named(spec, base);
+MapParts read(const RosMap& spec, const fs::path& base, const Places& where) {
+  const fs::path yaml = named(spec, base, where);
   const RosHeader header = read_ros_header(yaml);
   const Image image = read_image(yaml.parent_path() / header.image);
   const Vec2 origin{header.origin[0], header.origin[1]};
@@ -48,19 +49,21 @@ MapParts read(const RosMap& spec, const fs::path& base) {
                   spec.um_per_m * origin);
 }
 
-MapParts read(const MovingAiMap& spec, const fs::path& base) {
-  return parts_of(read_moving_ai(named(spec, base)), spec.um_per_cell);
+MapParts read(const MovingAiMap& spec, const fs::path& base, const Places& where) {
+  return parts_of(read_moving_ai(named(spec, base, where)), spec.um_per_cell);
 }
 
-MapParts read(const GeoJsonMap& spec, const fs::path& base) {
-  return read_geojson(named(spec, base), spec.um_per_unit);
+MapParts read(const GeoJsonMap& spec, const fs::path& base, const Places& where) {
+  return read_geojson(named(spec, base, where), spec.um_per_unit);
 }
 
-MapParts read(const RectanglesMap& spec, const fs::path& base) {
+MapParts read(const RectanglesMap& spec, const fs::path& base, const Places& where) {
   MapParts parts;
   for (std::size_t i = 0; i < spec.rectangles.size(); ++i) {
-    const std::string where = "map.rectangles_um[" + std::to_string(i) + "]";
-    parts.walls.push_back(rectangle(spec.rectangles[i], where));
+    const std::string number = std::to_string(i);
+    parts.walls.push_back(rectangle(
+        spec.rectangles[i],
+        where.before({"map.rectangles_um." + number}) + "map.rectangles_um[" + number + "]"));
   }
   if (!spec.file.empty()) {
     std::vector<Polygon> more = read_rectangles(base / spec.file);
@@ -71,20 +74,21 @@ MapParts read(const RectanglesMap& spec, const fs::path& base) {
   return parts;
 }
 
-MapParts read(const PolygonsMap& spec, const fs::path&) {
+MapParts read(const PolygonsMap& spec, const fs::path&, const Places& where) {
   MapParts parts{{spec.lo, spec.hi}, {}, {}};
   for (std::size_t i = 0; i < spec.walls.size(); ++i) {
     Polygon wall = normalised({spec.walls[i], {}});
     if (wall.outer.empty() || signed_area(wall.outer) == 0)
-      throw InputError("map.walls_um[" + std::to_string(i) +
-                       "]: at least 3 points with an area between them expected");
+      throw where.error("map.walls_um." + std::to_string(i),
+                        "map.walls_um[" + std::to_string(i) +
+                            "]: at least 3 points with an area between them expected");
     parts.walls.push_back(std::move(wall));
   }
   for (const DiscWall& disc : spec.discs) parts.discs.push_back({disc.centre, disc.radius});
   return parts;
 }
 
-MapParts read(const ChannelMap& spec, const fs::path&) {
+MapParts read(const ChannelMap& spec, const fs::path&, const Places& where) {
   const Vec2 middle{spec.width / 2, spec.height / 2};
   DeformingChannel channel;
   for (const Vec2 p : spec.centre_line) channel.centre_line.push_back(p - middle);
@@ -94,8 +98,8 @@ MapParts read(const ChannelMap& spec, const fs::path&) {
   channel.amplitude = 0;
   channel.block_width = spec.width;
   channel.block_height = spec.height;
+  check(channel, where.within("map", "map"));
   const Obstacle block{channel, Still{middle}};
-  check(block, "map");
   std::vector<Body> bodies;
   append_bodies(block, 0, 0, bodies);
   MapParts parts{{{0, 0}, {spec.width, spec.height}}, {}, {}};
@@ -106,12 +110,12 @@ MapParts read(const ChannelMap& spec, const fs::path&) {
 }
 
 /// What stands before a message about the map as a whole.
-std::string name_of(const MapSpec& spec, const fs::path& base) {
+std::string name_of(const MapSpec& spec, const fs::path& base, const Places& where) {
   return std::visit(
       [&](const auto& s) {
         if constexpr (requires { s.file; })
           if (!s.file.empty()) return (base / s.file).string();
-        return std::string("map");
+        return where.before({"map"}) + "map";
       },
       spec);
 }
@@ -134,9 +138,9 @@ RosMap guess_ros(const fs::path& path, std::optional<double> um_per_px) {
 
 }  // namespace
 
-MapParts read_map_parts(const MapSpec& spec, const fs::path& base) {
-  MapParts parts = std::visit([&](const auto& s) { return read(s, base); }, spec);
-  check(parts, name_of(spec, base));
+MapParts read_map_parts(const MapSpec& spec, const fs::path& base, const Places& where) {
+  MapParts parts = std::visit([&](const auto& s) { return read(s, base, where); }, spec);
+  check(parts, name_of(spec, base, where));
   return parts;
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "microswarm/core/fields.hpp"
+#include "microswarm/core/places.hpp"
 #include "microswarm/formats/map_parts.hpp"
 #include "microswarm/world/map.hpp"
 
@@ -160,8 +161,9 @@ using MapSpec =
     std::variant<PolygonsMap, RectanglesMap, ChannelMap, ImageMap, RosMap, MovingAiMap, GeoJsonMap>;
 
 /// Reads what the spec names, files relative to the folder `base`. Throws InputError, one line that
-/// names file, place, value and limit.
-MapParts read_map_parts(const MapSpec& spec, const std::filesystem::path& base = {});
+/// names file, place, value and limit; `where` knows the key `map` of a scenario.
+MapParts read_map_parts(const MapSpec& spec, const std::filesystem::path& base = {},
+                        const Places& where = {});
 
 /// A map ready for planning, and the fingerprint of the parts it was built from.
 struct LoadedMap {

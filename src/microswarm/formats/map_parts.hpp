@@ -6,11 +6,9 @@
 #include <vector>
 
 #include "microswarm/geometry/shapes.hpp"
+#include "microswarm/world/motion.hpp"
 
 namespace microswarm {
-
-/// No coordinate of a map may be farther from 0 than this [µm].
-inline constexpr double max_coordinate = 1e9;
 
 /// What a reader of maps hands on: everything a Map is built from, as it stood in the file.
 struct MapParts {

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "microswarm/core/error.hpp"
 #include "microswarm/navigation/aggregation_navigator.hpp"
 
 namespace microswarm {
@@ -72,15 +71,17 @@ std::string_view lacks(const AggregationParams&, const Task& task) {
 }
 
 // Waypoints must be where the swarm can be.
-void check_on(const RadarParams& p, const Task& task, const Map& map, const std::string& where) {
+void check_on(const RadarParams& p, const Task& task, const Map& map, const Places& where) {
   check(p, where);
+  check_step(p, task.swarm, where);
   const Snapshot walls(std::shared_ptr<const Map>(std::shared_ptr<void>(), &map));
   for (std::size_t i = 0; i < p.waypoints.size(); ++i)
     if (const auto why = walls.why_blocked(p.waypoints[i], task.swarm.radius); !why.empty())
-      throw InputError(fmt::format("{}: waypoint {} {}", where, i + 1, why));
+      throw where.error(fmt::format("navigator.waypoints_um.{}", i),
+                        fmt::format("waypoint {} {}", i + 1, why));
 }
 template <class Other>
-void check_on(const Other&, const Task&, const Map&, const std::string&) {}
+void check_on(const Other&, const Task&, const Map&, const Places&) {}
 
 double margin(const HierarchicalParams& p) { return p.margin; }
 template <class OfRobots>
@@ -95,7 +96,7 @@ std::string_view what_it_lacks(const NavigatorParams& params, const Task& task) 
 }
 
 void check_navigator(const NavigatorParams& params, const Task& task, const Map& map,
-                     const std::string& where) {
+                     const Places& where) {
   std::visit([&](const auto& p) { check_on(p, task, map, where); }, params);
 }
 

@@ -3,10 +3,10 @@
 
 #include <memory>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <variant>
 
+#include "microswarm/core/places.hpp"
 #include "microswarm/navigation/aggregation.hpp"
 #include "microswarm/navigation/hierarchical.hpp"
 #include "microswarm/navigation/plan_player.hpp"
@@ -36,10 +36,10 @@ struct Task {
 /// What a navigator can steer: nothing when it can do the task, else what it lacks.
 std::string_view what_it_lacks(const NavigatorParams& params, const Task& task);
 
-/// Throws InputError, one line that begins with `where`, when the navigator's parameters make no
-/// sense together or on this map.
+/// Throws InputError, one line, when the navigator's parameters make no sense together, for this
+/// swarm or on this map; `where` knows the keys of a scenario.
 void check_navigator(const NavigatorParams& params, const Task& task, const Map& map,
-                     const std::string& where);
+                     const Places& where);
 
 /// Least distance [µm] from its centre that the navigator keeps for a swarm seen as one body.
 double margin_of(const NavigatorParams& params);

@@ -5,8 +5,6 @@
 
 #include <cmath>
 
-#include "microswarm/core/error.hpp"
-
 namespace microswarm {
 
 RadarCircles circles_of(const RadarParams& params, double swarm_radius) {
@@ -20,20 +18,40 @@ int directions_of(const RadarParams& params) {
   return static_cast<int>(std::lround(2 * pi / params.angle_step));
 }
 
-void check(const RadarParams& params, const std::string& where) {
+void check(const RadarParams& params, const Places& where) {
   const double safety = params.prediction_distance + params.safety_distance;
   if (params.detection_range < safety)
-    throw InputError(fmt::format(
-        "{}: navigator.detection_range_um is {:.4g}, less than prediction_distance_um + "
-        "safety_distance_um, {:.4g}: the safety circle must lie within the detection circle",
-        where, params.detection_range, safety));
+    throw where.error(
+        {"navigator.detection_range_um", "navigator.prediction_distance_um",
+         "navigator.safety_distance_um"},
+        fmt::format(
+            "navigator.detection_range_um is {:.4g}, less than prediction_distance_um + "
+            "safety_distance_um, {:.4g}: the safety circle must lie within the detection circle",
+            params.detection_range, safety));
   const double count = 2 * pi / params.angle_step;
   if (std::abs(count - std::round(count)) > 1e-9 * count || std::round(count) < 3)
-    throw InputError(fmt::format("{}: navigator.angle_step_deg is {:.6g}, must divide 360", where,
-                                 degrees(params.angle_step)));
+    throw where.error("navigator.angle_step_deg",
+                      fmt::format("navigator.angle_step_deg is {:.6g}, must divide 360",
+                                  degrees(params.angle_step)));
   if (!(params.speed > 0))
-    throw InputError(fmt::format("{}: navigator.speed_um_per_s is {:.4g}, must be above 0", where,
-                                 params.speed));
+    throw where.error(
+        "navigator.speed_um_per_s",
+        fmt::format("navigator.speed_um_per_s is {:.4g}, must be above 0", params.speed));
+  if (params.global_plan && !params.waypoints.empty())
+    throw where.error({"navigator.global_plan", "navigator.waypoints_um"},
+                      "navigator.global_plan is true and navigator.waypoints_um are given: only "
+                      "one of them can be");
+  check(params.planner, where.within("navigator.planner", "navigator.planner"));
+}
+
+void check_step(const RadarParams& params, const SwarmLimits& swarm, const Places& where) {
+  const double most = 2 * (swarm.radius - swarm.radius_variation + params.safety_distance);
+  if (params.prediction_distance <= most) return;
+  throw where.error(
+      {"navigator.prediction_distance_um", "navigator.safety_distance_um"},
+      fmt::format("navigator.prediction_distance_um is {:.4g}, more than twice the swarm's least "
+                  "radius + safety_distance_um, {:.4g}: it could step over a wall",
+                  params.prediction_distance, most));
 }
 
 }  // namespace microswarm

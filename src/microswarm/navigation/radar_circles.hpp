@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-
+#include "microswarm/core/places.hpp"
 #include "microswarm/navigation/radar_params.hpp"
+#include "microswarm/swarm/swarm_limits.hpp"
 
 namespace microswarm {
 
@@ -20,8 +20,14 @@ RadarCircles circles_of(const RadarParams& params, double swarm_radius);
 /// 360° / β: the number of directions.
 int directions_of(const RadarParams& params);
 
-/// Throws InputError, one line that begins with `where`, when the safety circle is not within the
-/// detection circle, β does not divide 360°, or the speed is none.
-void check(const RadarParams& params, const std::string& where);
+/// Throws InputError, one line, when the safety circle is not within the detection circle, β does
+/// not divide 360°, the speed is none, waypoints are both given and to be planned, or the planner's
+/// parameters do not fit together; `where` knows the keys of a scenario.
+void check(const RadarParams& params, const Places& where);
+
+/// The same when d_p is more than twice the sum of the swarm's least radius and d_f: then a thin
+/// wall could lie between the two ends of a step, and neither would touch it. The published d_p is
+/// at most an eighth of a body length [radar].
+void check_step(const RadarParams& params, const SwarmLimits& swarm, const Places& where);
 
 }  // namespace microswarm

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "microswarm/geometry/distance.hpp"
 
@@ -72,7 +73,20 @@ Frame frame_of(const Body& a, const Body& b) {
           .half_width = 0.5 * (y.max - y.min)};
 }
 
+Frame frame_of(const WaitArea& area) {
+  return {area.centre, unit_vector(area.heading), area.width / 2, area.height / 2};
+}
+
 }  // namespace
+
+bool is_in(const WaitArea& area, Vec2 p) { return frame_of(area).distance_to(p) <= 0; }
+
+Polygon outline_of(const WaitArea& area) {
+  const Frame frame = frame_of(area);
+  const Vec2 x = frame.half_length * frame.along;
+  const Vec2 y = frame.half_width * perpendicular(frame.along);
+  return {{area.centre - x - y, area.centre + x - y, area.centre + x + y, area.centre - x + y}, {}};
+}
 
 double gap_between(const Body& a, const Body& b) {
   const double between =
@@ -81,7 +95,7 @@ double gap_between(const Body& a, const Body& b) {
 }
 
 bool must_wait(const WaitArea& area, std::span<const Body> bodies, const Waiting& swarm) {
-  const Frame A{area.centre, unit_vector(area.heading), area.width / 2, area.height / 2};
+  const Frame A = frame_of(area);
   if (A.distance_to(swarm.position) > swarm.radius) return false;
   for (std::size_t i = 0; i + 1 < bodies.size(); ++i) {
     if (bodies[i].obstacle != bodies[i + 1].obstacle) continue;

@@ -6,6 +6,7 @@
 #include "microswarm/core/fields.hpp"
 #include "microswarm/geometry/vec2.hpp"
 #include "microswarm/world/body_set.hpp"
+#include "microswarm/world/motion.hpp"
 
 namespace microswarm {
 
@@ -19,7 +20,7 @@ struct WaitArea {
   double least_gap = 500;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.centre, {"centre", Unit::um, {}, "Middle of the area.", true});
+    visit(self.centre, {"centre", Unit::um, coordinates, "Middle of the area.", true});
     visit(self.width, {"width", Unit::um, {1e-3, 1e6}, "Along its heading.", true});
     visit(self.height, {"height", Unit::um, {1e-3, 1e6}, "Across its heading.", true});
     visit(self.heading, {"heading", Unit::deg, {-360, 360}, "How it is turned."});
@@ -35,6 +36,12 @@ struct Waiting {
   double reach = 0;   ///< nearer to the leaves' way than this it does not wait [µm]
   Vec2 target;        ///< [µm]
 };
+
+/// Is the point in the area?
+bool is_in(const WaitArea& area, Vec2 p);
+
+/// Its rectangle.
+Polygon outline_of(const WaitArea& area);
 
 /// Distance [µm] between two bodies, 0 when they touch or overlap.
 double gap_between(const Body& a, const Body& b);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/planning/free_goal.hpp"
@@ -218,6 +219,13 @@ March::Run March::neighbours(std::uint32_t sample) {
 }
 
 }  // namespace
+
+void check(const FmtStarParams& params, const Places& where) {
+  if (params.max_nodes >= params.samples) return;
+  throw where.error({"max_nodes", "samples"}, "max_nodes is " + std::to_string(params.max_nodes) +
+                                                  ", less than samples, " +
+                                                  std::to_string(params.samples));
+}
 
 double fmt_radius(double radius_factor, double area, std::size_t n) {
   const double count = static_cast<double>(std::max<std::size_t>(2, n));

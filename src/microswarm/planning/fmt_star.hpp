@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "microswarm/core/fields.hpp"
+#include "microswarm/core/places.hpp"
 #include "microswarm/planning/plan.hpp"
 
 namespace microswarm {
@@ -35,6 +36,9 @@ struct FmtStarParams {
           {"max_nodes", Unit::none, {1, 1e7}, "Samples at most, doubled while there is no path."});
   }
 };
+
+/// Throws InputError when `max_nodes` is less than `samples`; `where` knows the keys.
+void check(const FmtStarParams& params, const Places& where);
 
 /// γ √(log n / n) [µm] with γ = 2 (1 + η) √(1/2) √(area / π): the radius within which samples are
 /// neighbours, for n samples in a free space of `area` µm².

@@ -8,11 +8,18 @@ namespace microswarm {
 namespace {
 
 SwarmLimits limits(const RibbonParams& p) {
-  return {p.radius, p.max_speed, p.max_turn_rate, p.response_lag};
+  return {.radius = p.radius,
+          .max_speed = p.max_speed,
+          .max_turn_rate = p.max_turn_rate,
+          .response_lag = p.response_lag};
 }
 
 SwarmLimits limits(const VortexParams& p) {
-  return {greatest_radius(p), p.max_speed, std::numeric_limits<double>::infinity(), p.response_lag};
+  return {.radius = greatest_radius(p),
+          .max_speed = p.max_speed,
+          .max_turn_rate = std::numeric_limits<double>::infinity(),
+          .response_lag = p.response_lag,
+          .radius_variation = greatest_radius(p) - least_radius(p)};
 }
 
 std::variant<Ribbon, Vortex> made(const RibbonParams& p, Pose2 start) { return Ribbon(p, start); }

@@ -10,6 +10,7 @@ struct SwarmLimits {
   double max_turn_rate =
       0;                    ///< [rad/s]; infinite for a swarm that moves into any direction at once
   double response_lag = 0;  ///< dead time from a command to its effect [s]
+  double radius_variation = 0;  ///< by how much its radius may be less [µm]
 };
 
 }  // namespace microswarm

@@ -21,6 +21,11 @@ double greatest_radius(const VortexParams& p) {
   return std::max(p.radius, p.moving_radius) + most_ripples * p.radius_ripple;
 }
 
+double least_radius(const VortexParams& p) {
+  const double least = std::min(p.radius, p.moving_radius);
+  return std::max(least_share * least, least - most_ripples * p.radius_ripple);
+}
+
 double pitch_of(const VortexParams& params, const Command& command) {
   return params.max_pitch * std::clamp(command.speed / params.max_speed, 0.0, 1.0);
 }
@@ -68,10 +73,7 @@ void Vortex::breathe(double dt, Rng& rng) {
   radius_ = aim + kept * (radius_ - aim);
   if (params_.radius_ripple <= 0) return;
   radius_ += params_.radius_ripple * std::sqrt(1 - kept * kept) * rng.normal();
-  const double least = std::min(params_.radius, params_.moving_radius);
-  radius_ = std::clamp(radius_,
-                       std::max(least_share * least, least - most_ripples * params_.radius_ripple),
-                       greatest_radius(params_));
+  radius_ = std::clamp(radius_, least_radius(params_), greatest_radius(params_));
 }
 
 }  // namespace microswarm

@@ -54,6 +54,8 @@ struct VortexParams {
 
 /// The widest it gets [µm].
 double greatest_radius(const VortexParams& params);
+/// The narrowest it gets [µm].
+double least_radius(const VortexParams& params);
 
 /// The pitch φ [rad] that a command asks for, at most max_pitch: Eq 2 [radar].
 double pitch_of(const VortexParams& params, const Command& command);

@@ -53,6 +53,13 @@ class MapShelf {
   std::map<std::uint64_t, std::shared_ptr<const Map>> maps_;
 };
 
+std::string cell_name(const SweepPlan& plan, const SweepCell& cell) {
+  std::string name;
+  for (std::size_t i = 0; i < cell.values.size(); ++i)
+    name += fmt::format("{}={}, ", plan.sweep.grid[i].key, cell.values[i]);
+  return fmt::format("{}: {}method '{}'", plan.file, name, cell.method);
+}
+
 struct Loader {
   const SweepPlan& plan;
   const Scenario& base;
@@ -103,20 +110,13 @@ struct Loader {
       cell.values[i] = values[index % values.size()];
       index /= values.size();
     }
-    const Scene scene = load_scene(scenario_of(cell, method), folder);
+    const Scene scene = load_scene(scenario_of(cell, method), folder, cell_name(plan, cell));
     cell.input_hash = scene.hash();
     cell.world = maps.world_of(scene);
     cell.scenario = scene.scenario;
     return cell;
   }
 };
-
-std::string cell_name(const SweepPlan& plan, const SweepCell& cell) {
-  std::string name;
-  for (std::size_t i = 0; i < cell.values.size(); ++i)
-    name += fmt::format("{}={}, ", plan.sweep.grid[i].key, cell.values[i]);
-  return fmt::format("{}: {}method '{}'", plan.file, name, cell.method);
-}
 
 }  // namespace
 

@@ -16,7 +16,7 @@ std::vector<Vec2> channel_outline(const DeformingChannel& channel, double t);
 Polygon channel_block(const DeformingChannel& channel, double t);
 
 /// Throws InputError when the channel closes, folds in a bend too tight for its width, runs into
-/// itself or leaves the block at any time; `where` names the obstacle.
-void check(const DeformingChannel& channel, const std::string& where);
+/// itself or leaves the block at any time; `where` knows its keys.
+void check(const DeformingChannel& channel, const Places& where);
 
 }  // namespace microswarm

@@ -14,6 +14,10 @@
 
 namespace microswarm {
 
+/// No coordinate of a world may be farther from 0 than this [µm].
+inline constexpr double max_coordinate = 1e9;
+inline constexpr Range coordinates{-max_coordinate, max_coordinate};
+
 /// Does not move.
 struct Still {
   static constexpr std::string_view type_name = "still";
@@ -21,7 +25,7 @@ struct Still {
   double heading = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.position, {"position", Unit::um, {}, "Where it stands.", true});
+    visit(self.position, {"position", Unit::um, coordinates, "Where it stands.", true});
     visit(self.heading, {"heading", Unit::deg, {-360, 360}, "How it is turned."});
   }
 };
@@ -33,7 +37,7 @@ struct Straight {
   Vec2 velocity{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.start, {"start", Unit::um, {}, "Where it is at t = 0.", true});
+    visit(self.start, {"start", Unit::um, coordinates, "Where it is at t = 0.", true});
     visit(self.velocity, {"velocity", Unit::um_per_s, {-1e5, 1e5}, "Its velocity.", true});
   }
 };
@@ -48,8 +52,9 @@ struct HarmonicLine {
   double phase = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.centre, {"centre", Unit::um, {}, "Middle of the way.", true});
-    visit(self.amplitude, {"amplitude", Unit::um, {}, "From the middle to the end.", true});
+    visit(self.centre, {"centre", Unit::um, coordinates, "Middle of the way.", true});
+    visit(self.amplitude,
+          {"amplitude", Unit::um, coordinates, "From the middle to the end.", true});
     visit(self.period, {"period", Unit::s, {1e-2, 1e6}, "Time for forth and back."});
     visit(self.phase, {"phase", Unit::none, {-1, 1}, "Share of the period at t = 0."});
   }
@@ -67,7 +72,7 @@ struct HarmonicArc {
   double phase = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.pivot, {"pivot", Unit::um, {}, "Centre of the arc.", true});
+    visit(self.pivot, {"pivot", Unit::um, coordinates, "Centre of the arc.", true});
     visit(self.radius, {"radius", Unit::um, {0, 1e6}, "Radius of the arc.", true});
     visit(self.middle, {"middle", Unit::deg, {-360, 360}, "Direction of the middle of the arc."});
     visit(self.half_angle, {"half_angle", Unit::deg, {0, 180}, "From the middle to the end."});
@@ -92,7 +97,7 @@ struct Waypoints {
   AtEnd at_end = AtEnd::back;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.points, {"points", Unit::um, {}, "Where it passes, in order.", true});
+    visit(self.points, {"points", Unit::um, coordinates, "Where it passes, in order.", true});
     visit(self.speed, {"speed", Unit::um_per_s, {0, 1e5}, "Its speed."});
     visit(self.at_end, {"at_end", Unit::none, {}, "At the last point: stay, back or loop."});
   }

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "microswarm/core/angles.hpp"
-#include "microswarm/core/error.hpp"
 #include "microswarm/core/text.hpp"
 #include "microswarm/world/channel.hpp"
 
@@ -128,44 +127,45 @@ struct OwnSpeed {
   }
 };
 
-void check_order(double least, double greatest, const std::string& what, const std::string& where) {
+void check_order(double least, double greatest, const std::string& what, const Places& where) {
   if (least <= greatest) return;
-  throw InputError(where + ": least_" + what + " " + number_text(least) + " µm exceeds greatest_" +
-                   what + " " + number_text(greatest) + " µm");
+  const std::string low = "least_" + what, high = "greatest_" + what;
+  throw where.error({low, high}, low + " is " + number_text(least) + ", more than " + high + ", " +
+                                     number_text(greatest));
 }
 
 struct Checker {
-  const std::string& where;
+  const Places& where;
 
   void operator()(const BreathingDisc& s) const {
-    check_order(s.least_radius, s.greatest_radius, "radius", where);
+    check_order(s.least_radius, s.greatest_radius, "radius_um", where);
   }
   void operator()(const Valve& s) const {
-    check_order(s.least_gap, s.greatest_gap, "gap", where);
+    check_order(s.least_gap, s.greatest_gap, "gap_um", where);
     if (s.least_gap < s.span) return;
-    throw InputError(where + ": least_gap " + number_text(s.least_gap) +
-                     " µm leaves no leaf in a span of " + number_text(s.span) + " µm");
+    throw where.error({"least_gap_um", "span_um"}, "least_gap_um is " + number_text(s.least_gap) +
+                                                       ", leaves no leaf in span_um, " +
+                                                       number_text(s.span));
   }
   void operator()(const PolygonShape& s) const {
     const Polygon ring = normalised({s.vertices, {}});
-    if (ring.outer.size() < 3) {
-      throw InputError(where + ": a polygon needs three different vertices at least");
-    }
-    if (signed_area(ring.outer) == 0) throw InputError(where + ": the polygon has no area");
+    if (ring.outer.size() < 3)
+      throw where.error("vertices_um", "vertices_um needs three different points at least");
+    if (signed_area(ring.outer) == 0)
+      throw where.error("vertices_um", "vertices_um has no area between its points");
   }
   void operator()(const DeformingChannel& s) const { check(s, where); }
   void operator()(const Waypoints& m) const {
-    if (m.points.empty()) throw InputError(where + ": waypoints without a point");
+    if (m.points.empty()) throw where.error("points_um", "points_um is empty");
   }
   void operator()(const Track& m) const {
-    if (!m.samples || m.samples->times.empty()) {
-      throw InputError(where + ": no samples of id '" + m.id + "' in " + m.file);
-    }
+    if (!m.samples || m.samples->times.empty())
+      throw where.error("id", m.file + ": no samples of id '" + m.id + "'");
     const auto& times = m.samples->times;
     for (std::size_t i = 1; i < times.size(); ++i) {
       if (times[i] > times[i - 1]) continue;
-      throw InputError(where + ": " + m.file + ": times of id '" + m.id + "' do not ascend at " +
-                       number_text(times[i]) + " s");
+      throw where.error("id", m.file + ": times of id '" + m.id + "' do not ascend at " +
+                                  number_text(times[i]) + " s");
     }
   }
   template <class Other>
@@ -187,9 +187,9 @@ double top_speed(const Obstacle& obstacle) {
          (turning > 0 ? turning * std::visit(Extent{}, obstacle.shape) : 0);
 }
 
-void check(const Obstacle& obstacle, const std::string& where) {
-  std::visit(Checker{where}, obstacle.shape);
-  std::visit(Checker{where}, obstacle.motion);
+void check(const Obstacle& obstacle, const Places& where) {
+  std::visit(Checker{where.within("shape")}, obstacle.shape);
+  std::visit(Checker{where.within("motion")}, obstacle.motion);
 }
 
 }  // namespace microswarm

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "microswarm/core/places.hpp"
 #include "microswarm/world/body.hpp"
 #include "microswarm/world/motion.hpp"
 
@@ -56,13 +57,14 @@ struct PolygonShape {
   std::vector<Vec2> vertices;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.vertices, {"vertices", Unit::um, {}, "Outline around its position.", true});
+    visit(self.vertices, {"vertices", Unit::um, coordinates, "Outline around its position.", true});
   }
 };
 
 /// Two leaves that close a passage from both sides: they lie across the mover's heading and leave a
 /// gap that goes between its bounds as a sine of time. A leaf is what stands in the passage, from
-/// half a span beside the position to the gap: its inner end moves, its outer end rests.
+/// half a span beside the position to the gap: its inner end moves, its outer end rests. At a gap
+/// of the span or more the leaves are drawn in, and nothing stands in the passage.
 struct Valve {
   static constexpr std::string_view type_name = "valve";
   double span = 400;
@@ -101,14 +103,14 @@ struct DeformingChannel {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.centre_line,
-          {"centre_line", Unit::um, {}, "Middle of the channel; smoothed.", true});
+          {"centre_line", Unit::um, coordinates, "Middle of the channel; smoothed.", true});
     visit(self.half_width, {"half_width", Unit::um, {1, 1e6}, "Half width at rest."});
     visit(self.end_half_width, {"end_half_width", Unit::um, {1, 1e6}, "Half width at the ends."});
     visit(self.end_length, {"end_length", Unit::um, {0, 1e6}, "Over which an end widens."});
     visit(self.amplitude, {"amplitude", Unit::um, {0, 1e6}, "Amplitude of the wave."});
     visit(self.wavelength, {"wavelength", Unit::um, {1, 1e7}, "Wavelength along the channel."});
     visit(self.period, {"period", Unit::s, {1e-2, 1e6}, "Period of the wave."});
-    visit(self.block_centre, {"block_centre", Unit::um, {}, "Centre of the solid block."});
+    visit(self.block_centre, {"block_centre", Unit::um, coordinates, "Centre of the solid block."});
     visit(self.block_width, {"block_width", Unit::um, {1, 1e6}, "Width of the solid block."});
     visit(self.block_height, {"block_height", Unit::um, {1, 1e6}, "Height of the solid block."});
   }
@@ -136,7 +138,7 @@ void append_bodies(const Obstacle& obstacle, std::uint32_t index, double t, std:
 double top_speed(const Obstacle& obstacle);
 
 /// Throws InputError when a field makes no sense with another (fewer than three vertices, least
-/// above greatest radius, a channel that runs into itself, …); `where` names the obstacle.
-void check(const Obstacle& obstacle, const std::string& where);
+/// above greatest radius, a channel that runs into itself, …); `where` knows its keys.
+void check(const Obstacle& obstacle, const Places& where);
 
 }  // namespace microswarm

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/config/yaml_places.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <memory>
+#include <utility>
+
+#include "microswarm/core/text.hpp"
+
+namespace microswarm {
+namespace {
+
+const YamlNode* child(const YamlNode& node, std::string_view word) {
+  if (node.kind == YamlNode::Kind::map) {
+    for (std::size_t i = 0; i < node.items.size(); i += 2)
+      if (node.items[i].text == word) return &node.items[i + 1];
+  } else if (node.kind == YamlNode::Kind::list) {
+    std::size_t i = node.items.size();
+    const char* end = word.data() + word.size();
+    if (std::from_chars(word.data(), end, i).ptr == end && i < node.items.size())
+      return &node.items[i];
+  }
+  return nullptr;
+}
+
+const YamlNode* node_at(const YamlNode& document, std::string_view key) {
+  const YamlNode* node = &document;
+  for (bool more = true; more && node;) {
+    const std::size_t dot = key.find('.');
+    more = dot != std::string_view::npos;
+    node = child(*node, key.substr(0, dot));
+    if (more) key.remove_prefix(dot + 1);
+  }
+  return node;
+}
+
+bool is_or_holds(std::string_view outer, std::string_view key) {
+  return key.starts_with(outer) && (key.size() == outer.size() || key[outer.size()] == '.');
+}
+
+struct Document {
+  YamlNode root;
+  std::string name;
+  std::vector<std::string> assignments;
+
+  std::optional<std::string> operator()(std::string_view key, bool about_all) const {
+    for (auto a = assignments.rbegin(); a != assignments.rend(); ++a)
+      if (const std::string_view path = std::string_view(*a).substr(0, a->find('='));
+          sets(path, std::string_view(*a).substr(path.size() + 1), key) ||
+          (about_all && is_or_holds(key, path)))
+        return fmt::format("--set {}", one_line(path));
+    const YamlNode* node = node_at(root, key);
+    if (!node) return std::nullopt;
+    return fmt::format("{}:{}:{}", name, node->line, node->column);
+  }
+
+  /// A type that is another than the document's brings all keys beside it anew.
+  bool sets(std::string_view path, std::string_view value, std::string_view key) const {
+    if (is_or_holds(path, key)) return true;
+    constexpr std::string_view type = ".type";
+    if (!path.ends_with(type) || !is_or_holds(path.substr(0, path.size() - type.size()), key))
+      return false;
+    const YamlNode* node = node_at(root, path);
+    return !node || node->text != value;
+  }
+};
+
+}  // namespace
+
+Places places_of(YamlNode document, const std::string& name, std::vector<std::string> assignments) {
+  const auto found =
+      std::make_shared<const Document>(Document{std::move(document), name, std::move(assignments)});
+  return {name, [found](std::string_view key, bool about_all) { return (*found)(key, about_all); }};
+}
+
+}  // namespace microswarm

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is refused of a radar's parameters, its route and its wait areas.
+#include <gtest/gtest.h>
+
+#include "tests/experiment/scenes.hpp"
+
+namespace microswarm {
+namespace {
+
+/// A swarm of 40 µm in the open room, with a wall up to the middle and a valve of 400 µm beside it.
+Scenario radar_room() {
+  Scenario s = open_room();
+  std::get<PolygonsMap>(s.map).walls = {{{950, 0}, {1050, 0}, {1050, 450}, {950, 450}}};
+  s.obstacles = {{Valve{.span = 400, .thickness = 40, .least_gap = 0, .greatest_gap = 300},
+                  Still{.position = {1000, 700}}}};
+  s.navigator = RadarParams{};
+  return s;
+}
+
+RadarParams& radar(Scenario& s) { return std::get<RadarParams>(s.navigator); }
+
+std::string refusal(const Scenario& s) {
+  return error_of([&] { check(s, world_of(s), "s.yaml"); });
+}
+
+TEST(RadarCheck, StepsThatCouldLeapOverAWall) {
+  Scenario s = radar_room();
+  radar(s).detection_range = 200;
+  radar(s).prediction_distance = 130;  // 2 (40 + 25)
+  EXPECT_EQ(refusal(s), "");
+  radar(s).prediction_distance = 131;
+  EXPECT_EQ(refusal(s),
+            "s.yaml: navigator.prediction_distance_um is 131, more than twice the swarm's least "
+            "radius + safety_distance_um, 130: it could step over a wall");
+  s.swarm = VortexParams{.radius = 45, .moving_radius = 50, .radius_ripple = 5};  // 35 at least
+  EXPECT_NE(refusal(s).find("safety_distance_um, 120"), std::string::npos) << refusal(s);
+}
+
+TEST(RadarCheck, WaypointsGivenAndPlanned) {
+  Scenario s = radar_room();
+  radar(s).waypoints = {{1000, 700}};
+  radar(s).global_plan = true;
+  EXPECT_EQ(refusal(s),
+            "s.yaml: navigator.global_plan is true and navigator.waypoints_um are given: only one "
+            "of them can be");
+}
+
+TEST(RadarCheck, FewerNodesThanSamples) {
+  Scenario s = radar_room();
+  radar(s).planner.samples = 500;
+  radar(s).planner.max_nodes = 499;
+  EXPECT_EQ(refusal(s), "s.yaml: navigator.planner: max_nodes is 499, less than samples, 500");
+  radar(s).planner.max_nodes = 500;
+  EXPECT_EQ(refusal(s), "");
+}
+
+TEST(RadarCheck, LegsThroughAWall) {
+  Scenario s = radar_room();
+  radar(s).waypoints = {{900, 600}, {1100, 600}};
+  EXPECT_EQ(refusal(s), "");
+  radar(s).waypoints = {{900, 600}, {1100, 200}, {1200, 600}};
+  EXPECT_EQ(refusal(s),
+            "s.yaml: the way from waypoint 1 (900, 600) to waypoint 2 (1100, 200) µm crosses a "
+            "wall");
+  radar(s).waypoints = {{1100, 300}};
+  EXPECT_EQ(refusal(s),
+            "s.yaml: the way from start (200, 500) to waypoint 1 (1100, 300) µm crosses a wall");
+  radar(s).waypoints = {{900, 300}};
+  EXPECT_EQ(refusal(s),
+            "s.yaml: the way from waypoint 1 (900, 300) to goal (1800, 500) µm crosses a wall");
+  radar(s).waypoints.clear();  // then it is the navigator's to find one
+  EXPECT_EQ(refusal(s), "");
+}
+
+TEST(RadarCheck, WaitAreas) {
+  Scenario s = radar_room();
+  WaitArea area{.centre = {1000, 700}, .width = 300, .height = 300, .least_gap = 200};
+  const auto why = [&] {
+    radar(s).wait_areas = {area};
+    return refusal(s);
+  };
+  EXPECT_EQ(why(), "");
+  area.least_gap = 300;  // which it reaches for no time
+  EXPECT_EQ(why(),
+            "s.yaml: wait area 1: least_gap_um is 300, the valve in it opens to 300 µm (obstacle "
+            "1)");
+  area.least_gap = 200;
+  area.centre = {1000, 500};
+  EXPECT_EQ(why(), "s.yaml: wait area 1: the middle of no valve is in it");
+  area.centre = {1000, 1400};
+  EXPECT_EQ(why(), "s.yaml: wait area 1: at (1000, 1400) µm it is outside the map");
+}
+
+TEST(RadarCheck, AValveThatIsDrawnInStopsNobody) {
+  Scenario s = radar_room();
+  std::get<Valve>(s.obstacles[0].shape).greatest_gap = 450;  // beyond its span
+  radar(s).wait_areas = {{.centre = {1000, 700}, .width = 300, .height = 300, .least_gap = 460}};
+  EXPECT_EQ(refusal(s), "");
+}
+
+}  // namespace
+}  // namespace microswarm
