@@ -7,6 +7,12 @@
 #include "microswarm/navigation/obstacle_tracker.hpp"
 
 namespace microswarm {
+namespace {
+
+constexpr double hollow = 0.02;  // share of a hull that is not in the body
+constexpr double very_hollow = 0.4;
+
+}  // namespace
 
 double ConvexOutline::distance_at(Vec2 from_centre) const {
   double distance = norm(from_centre) - radius;
@@ -31,6 +37,13 @@ void ConvexOutliner::take(const Body& body, ConvexOutline& out) {
   }
   const double whole = signed_area(hull_);
   if (whole > 0) hollow_share_ = 1 - area(*polygon) / whole;
+}
+
+bool ConvexOutliner::misleads(const ConvexOutline& out, std::span<const Vec2> places) const {
+  if (hollow_share_ <= hollow) return false;
+  return hollow_share_ > very_hollow || std::any_of(places.begin(), places.end(), [&](Vec2 p) {
+           return out.distance_at(p - out.centre) < 0;
+         });
 }
 
 // Monotone chain (Andrew).

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "microswarm/geometry/shapes.hpp"
@@ -31,6 +32,9 @@ class ConvexOutliner {
   void take(const Body& body, ConvexOutline& out);
   /// Share of the hull of the body last taken that is not in the body; 0 for a disc.
   double hollow_share() const { return hollow_share_; }
+  /// Would the outline of the body last taken, `out`, tell of it what is not true: that it fills
+  /// what is much of its hull, or some of it with one of these places in it?
+  bool misleads(const ConvexOutline& out, std::span<const Vec2> places) const;
 
  private:
   void find_hull(const std::vector<Vec2>& outline);

@@ -19,9 +19,7 @@ constexpr double contact_gap = 1;       // [µm]
 constexpr double contact_rate = 1;      // it grows so fast [µm/s]
 constexpr double widening_time = 1;     // for which an outline goes on as seen [s]
 constexpr double dead_time = 0.5;       // at most, from a frame to the effect of a command [s]
-constexpr double hollow = 0.02;         // share of a hull that is not in the body
-constexpr double very_hollow = 0.4;
-constexpr double rounding = 1e-6;  // [µm]
+constexpr double rounding = 1e-6;       // [µm]
 constexpr std::array<double, 2> waits{0.5, 1};
 constexpr std::array<double, 3> runs{0.5, 1, 2};
 
@@ -82,9 +80,7 @@ void Guard::look_at_bodies(const Start& start) {
     if (met_.size() == bodies_) met_.emplace_back();
     Met& met = met_[bodies_];
     outliner_.take(bodies[i], met.outline);
-    const double from_hull = met.outline.distance_at(start.place - met.outline.centre);
-    if (outliner_.hollow_share() > very_hollow ||
-        (outliner_.hollow_share() > hollow && from_hull < 0)) {
+    if (outliner_.misleads(met.outline, std::array{start.place})) {
       hollow_bodies_.push_back(bodies[i]);
       closing_ = std::max(closing_, widening + norm(motion.velocity));
       continue;

@@ -2,6 +2,7 @@
 #include "microswarm/navigation/predictive.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -16,10 +17,8 @@ constexpr double wall_nearness = 1.5;  // seconds a second, at the wall margin
 constexpr double wall_reach = 20;      // beyond the wall margin [µm]
 constexpr double no_way = 1000;        // to the goal [s]
 constexpr double inner_goal = 0.9;     // of the tolerance: where it counts as reached
-constexpr double hollow = 0.02;        // share of a hull that is not in the body
-constexpr double very_hollow = 0.4;
-constexpr double slow_share = 0.1;  // of the swarm's speed
-constexpr double outline_time = 1;  // for which a hollow body is taken to close in [s]
+constexpr double slow_share = 0.1;     // of the swarm's speed
+constexpr double outline_time = 1;     // for which a hollow body is taken to close in [s]
 constexpr double rounding = 1e-9;
 constexpr std::array<double, 2> speed_shares{1, 0.5};
 
@@ -125,9 +124,7 @@ void PredictiveNavigator::look_at_bodies(const Observation& seen, Vec2 from) {
 bool PredictiveNavigator::stands_hollow(const ConvexOutline& outline, const TrackedBody& motion,
                                         Vec2 from) const {
   if (norm(motion.velocity) > slow_share * helm_.speed()) return false;
-  const auto in_hull = [&](Vec2 p) { return outline.distance_at(p - outline.centre) < 0; };
-  return outliner_.hollow_share() > very_hollow ||
-         (outliner_.hollow_share() > hollow && (in_hull(from) || in_hull(helm_.goal())));
+  return outliner_.misleads(outline, std::array{from, helm_.goal()});
 }
 
 /// Where the bodies will be, from when this step's command takes effect.

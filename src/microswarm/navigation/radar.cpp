@@ -88,7 +88,7 @@ Command RadarNavigator::decide(const Observation& seen, const Stop& stop) {
   if (const auto heading = scanner_.choose(*look_, *seen.world)) {
     const bool straight =
         !contact_ && turn_between(*heading, heading_of(target - pose_.position)) < 1e-9;
-    course_ = heading;
+    course_ = unit_vector(*heading);
     return issue({*heading, params_.speed}, straight ? "direct" : "avoid");
   }
   if (!contact_) return rest(seen, "stuck");
@@ -142,7 +142,7 @@ RadarLook RadarNavigator::look_around(const Observation& seen, Vec2 target) cons
           .target_gain = params_.target_gain,
           .avoidance_gain = params_.avoidance_gain,
           .course = course_,
-          .most_turn = params_.most_turn};
+          .least_cosine = std::cos(params_.most_turn)};
 }
 
 Command RadarNavigator::rest(const Observation& seen, std::string_view state) {

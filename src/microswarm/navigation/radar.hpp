@@ -61,8 +61,8 @@ class RadarNavigator : public Navigator {
   double last_ = -1;          ///< when a step was asked for last [s]
   double sighted_ = 0;        ///< when the swarm was seen last [s]
   std::optional<SwarmPose> sighting_;
-  std::optional<double> course_;  ///< the direction last chosen among safe ones
-  Pose2 pose_;                    ///< where the swarm is when the command takes effect
+  std::optional<Vec2> course_;  ///< the direction last chosen among safe ones
+  Pose2 pose_;                  ///< where the swarm is when the command takes effect
   std::optional<RadarLook> look_;
   std::optional<RadarContact> contact_;
   const Snapshot* world_ = nullptr;  ///< of the last observation

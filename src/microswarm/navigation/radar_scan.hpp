@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -14,17 +13,17 @@ namespace microswarm {
 
 /// What one decision of the radar rests on, the world besides. Lengths in µm.
 struct RadarLook {
-  Vec2 centre;                   ///< of the swarm, O_s
-  double radius = 0;             ///< of the swarm, r_s
-  Vec2 target;                   ///< O_t
-  RadarCircles circles;          ///< as controlled: with r_f of Eq 24
-  double step = 0;               ///< d_p
-  double wall_distance = 0;      ///< d_f of walls and border, Eq 30; they need no control of r_f
-  double approach = 0;           ///< obstacles count as nearer by this
-  double target_gain = 0;        ///< k_t ε
-  double avoidance_gain = 0;     ///< k_a η
-  std::optional<double> course;  ///< the last direction that was chosen
-  double most_turn = pi;         ///< from the course, where there is a choice
+  Vec2 centre;                 ///< of the swarm, O_s
+  double radius = 0;           ///< of the swarm, r_s
+  Vec2 target;                 ///< O_t
+  RadarCircles circles;        ///< as controlled: with r_f of Eq 24
+  double step = 0;             ///< d_p
+  double wall_distance = 0;    ///< d_f of walls and border, Eq 30; they need no control of r_f
+  double approach = 0;         ///< obstacles count as nearer by this
+  double target_gain = 0;      ///< k_t ε
+  double avoidance_gain = 0;   ///< k_a η
+  std::optional<Vec2> course;  ///< unit vector of the direction last chosen
+  double least_cosine = -1;    ///< of the angle to it, where there is a choice
 
   /// Distance that a predictive swarm's centre keeps from obstacles: r_s + d_f, `approach` besides.
   double obstacle_reach() const { return circles.safety - step + approach; }
@@ -66,7 +65,7 @@ class MinMax {
 
 /// Does a direction keep to the side of the course?
 inline bool keeps_course(const RadarLook& look, Vec2 direction) {
-  return !look.course || dot(direction, unit_vector(*look.course)) >= std::cos(look.most_turn);
+  return !look.course || dot(direction, *look.course) >= look.least_cosine;
 }
 
 /// Why a direction is not among χ_2 of Eq 17 [radar], or turns too far where others are.

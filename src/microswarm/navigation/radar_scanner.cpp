@@ -192,7 +192,7 @@ std::optional<double> RadarScanner::choose(const RadarLook& look, const Snapshot
       return straight;
   }
   screen(look, world);
-  if (look.course && look.most_turn < pi) keep_course(look);
+  if (look.course && look.least_cosine > -1) keep_course(look);
   const auto found = best(look, world);
   if (!found) return std::nullopt;
   // Walls alone that leave no way nearer to the target: what leads away would only lead back.
