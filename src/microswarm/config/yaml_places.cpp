@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <memory>
 #include <utility>
@@ -43,14 +44,15 @@ bool is_or_holds(std::string_view outer, std::string_view key) {
 struct Document {
   YamlNode root;
   std::string name;
-  std::vector<std::string> assignments;
+  std::vector<std::string> assignments;  // the last one first
 
   std::optional<std::string> operator()(std::string_view key, bool about_all) const {
-    for (auto a = assignments.rbegin(); a != assignments.rend(); ++a)
-      if (const std::string_view path = std::string_view(*a).substr(0, a->find('='));
-          sets(path, std::string_view(*a).substr(path.size() + 1), key) ||
+    for (const std::string_view assignment : assignments) {
+      const std::string_view path = assignment.substr(0, assignment.find('='));
+      if (sets(path, assignment.substr(path.size() + 1), key) ||
           (about_all && is_or_holds(key, path)))
         return fmt::format("--set {}", one_line(path));
+    }
     const YamlNode* node = node_at(root, key);
     if (!node) return std::nullopt;
     return fmt::format("{}:{}:{}", name, node->line, node->column);
@@ -70,6 +72,7 @@ struct Document {
 }  // namespace
 
 Places places_of(YamlNode document, const std::string& name, std::vector<std::string> assignments) {
+  std::reverse(assignments.begin(), assignments.end());
   const auto found =
       std::make_shared<const Document>(Document{std::move(document), name, std::move(assignments)});
   return {name, [found](std::string_view key, bool about_all) { return (*found)(key, about_all); }};
