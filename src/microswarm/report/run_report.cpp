@@ -10,8 +10,9 @@
 #include "microswarm/core/angles.hpp"
 #include "microswarm/report/ground.hpp"
 #include "microswarm/report/page.hpp"
-#include "microswarm/report/plot.hpp"
+#include "microswarm/report/radar_marks.hpp"
 #include "microswarm/report/robots_report.hpp"
+#include "microswarm/report/run_plots.hpp"
 
 namespace microswarm {
 namespace {
@@ -63,6 +64,7 @@ void overview(const Subject& s, std::span<const PlanEvent* const> shown,
   }
   picture.bodies(s.world.at(end).moving().bodies());
   picture.line(trail(record, end), colours::path, 3);
+  draw_radar_marks(picture, record);
   picture.swarm(record.frames.back().pose, record.frames.back().radius);
   draw_ends(picture, s);
   for (std::size_t k = 0; k < shown.size(); ++k)
@@ -128,45 +130,13 @@ const PlanEvent& tightest(const Record& record, std::size_t first, std::size_t e
       [&](const PlanEvent& a, const PlanEvent& b) { return clearance(a) < clearance(b); });
 }
 
-std::vector<Plot> plots(const Subject& s) {
-  const Record& record = s.record;
-  std::vector<Plot> out;
-  const std::vector<double>& planning = record.result.timing.planning;
-  if (!planning.empty()) {
-    const TimeSummary sum = summarise(planning);
-    Plot times{.title = "Planning events", .x_label = "event", .y_label = "planning time (ms)"};
-    Series each{.label = "each event", .style = PlotStyle::points};
-    for (std::size_t i = 0; i < planning.size(); ++i) {
-      each.x.push_back(static_cast<double>(i + 1));
-      each.y.push_back(1e3 * planning[i]);
-    }
-    times.series = {each};
-    times.levels = {
-        {fmt::format("mean {:.3f} ms", 1e3 * sum.mean), 1e3 * sum.mean},
-        {fmt::format("mean + sd {:.3f} ms", 1e3 * (sum.mean + sum.sd)), 1e3 * (sum.mean + sum.sd)}};
-    times.y_min = 0;
-    out.push_back(times);
-  }
-  Plot clearance{.title = "Clearance of the swarm's centre",
-                 .x_label = "time (s)",
-                 .y_label = "distance (µm)"};
-  Series walls{.label = "walls and border"};
-  Series bodies{.label = "moving obstacles"};
-  for (const Frame& f : record.frames) {
-    walls.x.push_back(f.t);
-    walls.y.push_back(f.wall_clearance);
-    if (!std::isfinite(f.obstacle_clearance)) continue;
-    bodies.x.push_back(f.t);
-    bodies.y.push_back(f.obstacle_clearance);
-  }
-  clearance.series = {walls, bodies};
-  const double margin = margin_of(s.scenario().navigator);
-  const double radius = limits_of(s.scenario().swarm).radius;
-  clearance.levels = {{"swarm's radius", radius}, {"navigator's margin", margin}};
-  clearance.y_min = 0;
-  clearance.y_max = 5 * std::max(margin, radius);
-  out.push_back(clearance);
-  return out;
+/// The status; of a run that ended standing still also the navigator's last state.
+std::string ended(const Record& record) {
+  std::string text(to_string(record.result.status));
+  const std::size_t frames = record.frames.size();
+  if (record.result.status == Status::held && frames > 1)
+    text += fmt::format(" ({})", record.frames[frames - 2].state);
+  return text;
 }
 
 std::vector<std::vector<std::string>> numbers(const Record& record) {
@@ -174,12 +144,17 @@ std::vector<std::vector<std::string>> numbers(const Record& record) {
   const TimeSummary p = summarise(record.result.timing.planning);
   const auto um = [](double v) { return std::isfinite(v) ? fmt::format("{:.1f} µm", v) : "–"; };
   return {{"quantity", "value"},
-          {"ended", std::string(to_string(record.result.status))},
+          {"ended", ended(record)},
           {"time", fmt::format("{:.1f} s", m.time)},
           {"length of the way", um(m.length)},
           {"total turning", fmt::format("{:.0f}°", degrees(m.turning))},
           {"least distance of the centre to walls", um(m.walls.clearance)},
           {"least distance of the centre to obstacles", um(m.obstacles.clearance)},
+          {"time with an obstacle in range", fmt::format("{:.1f} s", m.avoidance.time)},
+          {"mean avoidance cost δ", fmt::format("{:.4g}", m.avoidance.mean_cost)},
+          {"mean gap to the nearest obstacle in that time",
+           m.avoidance.time > 0 ? um(m.avoidance.mean_gap) : "–"},
+          {"least gap to an obstacle", um(m.avoidance.least_gap)},
           {"time held", fmt::format("{:.1f} s", m.hold_time)},
           {"planning events", fmt::format("{}", m.planning_events)},
           {"planning time, mean ± sd", fmt::format("{:.3f} ± {:.3f} ms", 1e3 * p.mean, 1e3 * p.sd)},
@@ -212,7 +187,7 @@ void write_run_report(const Record& record, const std::filesystem::path& folder,
     moment(s, *chosen[k], folder / name);
     stills.pictures.emplace_back(name, moment_caption(s, k + 1, *chosen[k]));
   }
-  write_plots(plots(s), folder / "plots.png");
+  write_plots(run_plots(record), folder / "plots.png");
   write_page(
       folder / "index.html", s.title(),
       {{.text = s.scenario().description,

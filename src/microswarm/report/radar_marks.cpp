@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/report/radar_marks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "microswarm/navigation/radar_circles.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr Colour waiting{0.40, 0.30, 0.65, 1};
+constexpr Colour detection{0.55, 0.35, 0.15, 1};
+constexpr Colour safety{0.90, 0.60, 0.0, 1};
+constexpr Colour prediction{0.80, 0.15, 0.15, 1};
+
+/// Where the swarm's edge was nearest to an obstacle, or to a wall where there are none.
+const Frame& tightest(const Record& record) {
+  const auto gap = [](const Frame& f) {
+    const bool among = std::isfinite(f.obstacle_clearance);
+    return (among ? f.obstacle_clearance : f.wall_clearance) - f.radius;
+  };
+  return *std::min_element(record.frames.begin(), record.frames.end(),
+                           [&](const Frame& a, const Frame& b) {
+                             const bool a_among = std::isfinite(a.obstacle_clearance);
+                             const bool b_among = std::isfinite(b.obstacle_clearance);
+                             return a_among != b_among ? a_among : gap(a) < gap(b);
+                           });
+}
+
+void draw_circles(Picture& picture, const Frame& frame, const RadarParams& params) {
+  RadarCircles circles = circles_of(params, frame.radius);
+  circles.safety =
+      SafetyRadius(params.safety_radius)
+          .radius(circles.safety, circles.prediction, frame.obstacle_clearance - frame.radius);
+  const Vec2 at = frame.pose.position;
+  Colour body = colours::swarm;
+  body.alpha = 0.5;
+  picture.swarm(frame.pose, frame.radius, body);
+  picture.circle({at, circles.detection}, detection, 2, false);
+  picture.circle({at, circles.safety}, safety, 2, false);
+  picture.circle({at, circles.prediction}, prediction, 2, false);
+  picture.legend(fmt::format("circles at {:.1f} s, the least gap: detection", frame.t), detection);
+  picture.legend("safety", safety);
+  picture.legend("prediction", prediction);
+}
+
+}  // namespace
+
+void draw_radar_marks(Picture& picture, const Record& record) {
+  const auto* params = std::get_if<RadarParams>(&record.scene.scenario.navigator);
+  if (!params || record.frames.empty()) return;
+  for (const WaitArea& area : params->wait_areas) {
+    std::vector<Vec2> outline = outline_of(area).outer;
+    outline.push_back(outline.front());
+    picture.line(outline, waiting, 2, true);
+  }
+  for (std::size_t i = 0; i < params->waypoints.size(); ++i)
+    picture.mark(params->waypoints[i], fmt::format("waypoint {}", i + 1), waiting);
+  if (!params->wait_areas.empty()) picture.legend("wait areas", waiting);
+  draw_circles(picture, tightest(record), *params);
+}
+
+}  // namespace microswarm

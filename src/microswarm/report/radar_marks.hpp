@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "microswarm/experiment/record.hpp"
+#include "microswarm/report/picture.hpp"
+
+namespace microswarm {
+
+/// What a radar was given and went by: wait areas and waypoints, and its three circles about the
+/// swarm where the gap to an obstacle was least, or else to a wall. Nothing for other navigators.
+void draw_radar_marks(Picture& picture, const Record& record);
+
+}  // namespace microswarm
