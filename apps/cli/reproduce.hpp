@@ -27,9 +27,19 @@ struct ReproduceOptions {
 
 /// A row of a paper's figure.
 inline ReproduceRow row_of(std::string figure, std::string quantity, std::string unit,
-                           std::optional<double> paper, double ours, std::optional<double> aim = {},
-                           bool at_most = true) {
+                           std::optional<double> paper, std::optional<double> ours,
+                           std::optional<double> aim = {}, bool at_most = true) {
   return {std::move(figure), std::move(quantity), std::move(unit), paper, ours, aim, at_most, {}};
+}
+
+/// One whose aim is to be within `share` of the paper's figure, on either side: the bound that is
+/// named is the one on our side. Without a figure in the paper it has no aim.
+inline ReproduceRow row_within(double share, std::string figure, std::string quantity,
+                               std::string unit, std::optional<double> paper,
+                               std::optional<double> ours) {
+  const bool above = !paper || !ours || *ours >= *paper;
+  const auto aim = paper ? std::optional(*paper * (above ? 1 + share : 1 - share)) : std::nullopt;
+  return row_of(std::move(figure), std::move(quantity), std::move(unit), paper, ours, aim, above);
 }
 
 /// [drrt]: fig3 (S-channel), fig5a (deforming channel), fig5b (moving obstacles), or all when

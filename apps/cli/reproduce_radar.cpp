@@ -22,12 +22,20 @@ RadarSetting load_radar(const ReproduceOptions& options, const char* name) {
   return {std::move(scene), std::move(world)};
 }
 
-Record record_of(const RadarSetting& setting, const Stop& stop) {
-  Recorder recorder(setting.scene);
-  RunListener* const listeners[] = {&recorder};
-  simulate(setting.scene.scenario, setting.world, 0, listeners, stop);
-  return recorder.take();
+namespace {
+
+/// What there is of a figure that was not finished: it has no aims to meet.
+std::vector<ReproduceRow> interrupted(std::string_view figure, std::vector<ReproduceRow> rows) {
+  fmt::print(stderr, "{}: interrupted\n", figure);
+  if (rows.empty()) rows.push_back({.figure = std::string(figure), .quantity = "interrupted"});
+  for (ReproduceRow& row : rows) {
+    row.aim.reset();
+    row.note = row.note.empty() ? "interrupted" : row.note + ", interrupted";
+  }
+  return rows;
 }
+
+}  // namespace
 
 std::vector<ReproduceRow> reproduce_radar(const std::string& figure,
                                           const ReproduceOptions& options, const Stop& stop) {
@@ -48,7 +56,9 @@ std::vector<ReproduceRow> reproduce_radar(const std::string& figure,
     names.push_back(name);
     if (!figure.empty() && figure != name) continue;
     known = true;
-    const auto more = make(options, stop);
+    if (stop()) continue;
+    auto more = make(options, stop);
+    if (stop()) more = interrupted(name, std::move(more));
     rows.insert(rows.end(), more.begin(), more.end());
   }
   if (!known)

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "microswarm/experiment/record.hpp"
+#include "radar_run.hpp"
 #include "reproduce.hpp"
 
 namespace microswarm::cli {
@@ -14,6 +14,10 @@ namespace microswarm::cli {
 /// A swarm of 200 px is taken for one of 750 µm: the paper gives no scale, but a gap of 75.31 µm as
 /// 0.10 body lengths.
 inline constexpr double radar_um_per_px = 3.75;
+
+/// How near to the paper's figures ours are to be, as a share of them.
+inline constexpr double near_cost = 0.15;
+inline constexpr double near_time = 0.10;
 
 /// A scenario of [radar], ready to run.
 struct RadarSetting {
@@ -24,11 +28,9 @@ struct RadarSetting {
 };
 /// Throws InputError as reading a scenario does.
 RadarSetting load_radar(const ReproduceOptions& options, const char* name);
-/// One run, recorded.
-Record record_of(const RadarSetting& setting, const Stop& stop);
 
 /// Figures of [radar], by subject: one obstacle (5, 6, 7, 10), twelve obstacles (8, 11, 12), the
-/// micromaze (13).
+/// micromaze (13). What is interrupted gives the rows that were done, or none.
 std::vector<ReproduceRow> radar_single(const ReproduceOptions& options, const Stop& stop);
 std::vector<ReproduceRow> radar_series(const ReproduceOptions& options, const Stop& stop);
 std::vector<ReproduceRow> radar_twelve(const ReproduceOptions& options, const Stop& stop);

@@ -30,7 +30,7 @@ struct Counts {
   int planner;  ///< D-RRT* and the one that looks ahead
 
   int of(std::string_view navigator) const {
-    if (navigator.starts_with(RadarParams::type_name)) return radar;
+    if (navigator == RadarParams::type_name) return radar;
     const bool is_baseline = !is_ours(navigator);
     return is_baseline ? baseline : planner;
   }
@@ -86,8 +86,9 @@ void add_rows(const std::string& figure, const CourseResult& result,
               std::vector<ReproduceRow>& rows) {
   for (std::size_t k = 0; k < result.who.size(); ++k) {
     const Tally tally = tally_of(result.crossings[k]);
+    if (tally.runs == 0) continue;  // it was told to stop
     const std::string note = tally.runs == 1 ? "1 world" : fmt::format("{} worlds", tally.runs);
-    const auto row = [&](const char* what, const char* unit, double ours,
+    const auto row = [&](const char* what, const char* unit, std::optional<double> ours,
                          std::optional<double> aim = {}) {
       rows.push_back(
           {.figure = figure,
@@ -117,10 +118,15 @@ std::optional<double> contact_ratio(const CourseResult& result, std::string_view
   const auto* a = find(ours);
   const auto* b = find(other);
   if (!a || !b) return std::nullopt;
-  const std::size_t both = std::min(a->size(), b->size());
-  const double theirs = tally_of(std::span(*b).first(both)).contacts;
-  if (theirs <= 0) return std::nullopt;
-  return tally_of(std::span(*a).first(both)).contacts / theirs;
+  std::vector<Crossing> mine, theirs;
+  for (std::size_t seed = 0; seed < std::min(a->size(), b->size()); ++seed) {
+    if (!(*a)[seed].ran || !(*b)[seed].ran) continue;
+    mine.push_back((*a)[seed]);
+    theirs.push_back((*b)[seed]);
+  }
+  const double of_theirs = tally_of(theirs).contacts;
+  if (of_theirs <= 0) return std::nullopt;
+  return tally_of(mine).contacts / of_theirs;
 }
 
 void add_ratios(const std::string& figure, const CourseResult& result,
@@ -143,6 +149,7 @@ std::vector<ReproduceRow> raced(const std::string& figure, const std::vector<Rac
   std::vector<ReproduceRow> rows;
   std::vector<CourseResult> results;
   for (const Race& race : races) {
+    if (stop()) break;
     results.push_back(crossed(race, options, stop));
     add_rows(figure, results.back(), rows);
     if (figure == "fast") add_ratios(figure, results.back(), rows);
@@ -155,10 +162,10 @@ std::vector<ReproduceRow> raced(const std::string& figure, const std::vector<Rac
 
 std::vector<ReproduceRow> radar_safety(const ReproduceOptions& options, const Stop& stop) {
   std::vector<Race> races{
-      {generated("open", scenes::slow_obstacles, false), {10, 5, 3}, {10'000, 2000, 1000}},
-      {generated("walls", scenes::slow_obstacles, true), {5, 3, 1}, {10'000, 2000, 300}}};
+      {generated("open", scenes::slow_obstacles, false), {10, 5, 3}, {10'000, 500, 300}},
+      {generated("walls", scenes::slow_obstacles, true), {5, 3, 1}, {10'000, 500, 100}}};
   if (auto street = recorded("walkers", just_slower, options))
-    races.push_back({*street, {20, 20, 20}, {1000, 1000, 1000}});
+    races.push_back({*street, {20, 20, 20}, {300, 300, 300}});
   return raced("safety", races, options, stop);
 }
 
@@ -166,7 +173,7 @@ std::vector<ReproduceRow> radar_fast(const ReproduceOptions& options, const Stop
   std::vector<Race> races{
       {generated("fast", scenes::fast_obstacles, false), {12, 8, 8}, {1000, 1000, 1000}}};
   if (auto street = recorded("fast walkers", as_fast, options))
-    races.push_back({*street, {20, 20, 20}, {1000, 1000, 1000}});
+    races.push_back({*street, {20, 20, 20}, {300, 300, 300}});
   return raced("fast", races, options, stop);
 }
 

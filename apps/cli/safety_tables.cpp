@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <iterator>
 
 #include "cli.hpp"
 #include "microswarm/core/file.hpp"
@@ -19,12 +21,8 @@ namespace fs = std::filesystem;
 
 constexpr int worlds_written = 3;  // a navigator and course
 constexpr std::size_t obstacles_a_bin = 10;
-
-/// For people; in plots "_" would lower the next letter.
-std::string spelt(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
+constexpr int enough_worlds = 10;       // in a bin, to be joined with the next
+constexpr double least_percent = 0.01;  // of time beyond the straight way; the axis has no zero
 
 double slowness(const Crossing& c) { return c.time / c.straight; }
 
@@ -85,42 +83,99 @@ void write_worlds(const std::vector<CourseResult>& results, const fs::path& fold
       });
 }
 
-/// Mean contacts of the runs among so and so many obstacles.
+/// Mean contacts of the runs among so and so many obstacles: joined where there are enough of them,
+/// rings else.
 Plot contacts_plot(const CourseResult& result) {
-  Plot plot{
-      .title = result.course.name, .x_label = "obstacles", .y_label = "contacts a run", .y_min = 0};
-  double most = 0;
+  Plot plot{.title = result.course.name,
+            .x_label = fmt::format("obstacles (rings: fewer than {} worlds)", enough_worlds),
+            .y_label = "contacts a run",
+            .key_below = true,
+            .y_min = 0};
+  std::vector<Series> few;
   for (std::size_t k = 0; k < result.who.size(); ++k) {
     std::vector<double> contacts;
-    std::vector<double> runs;
+    std::vector<int> runs;
     for (const Crossing& c : result.crossings[k]) {
       if (!c.ran) continue;
       const std::size_t bin = c.obstacles / obstacles_a_bin;
       if (runs.size() <= bin) contacts.resize(bin + 1), runs.resize(bin + 1);
       contacts[bin] += static_cast<double>(c.contacts.size());
-      runs[bin] += 1;
+      ++runs[bin];
     }
-    Series series{.label = spelt(result.who[k].name)};
+    plot.series.push_back(
+        {.label = result.who[k].name, .x = {}, .y = {}, .style = PlotStyle::marked});
+    few.push_back({.label = "", .x = {}, .y = {}, .style = PlotStyle::rings});
     for (std::size_t bin = 0; bin < runs.size(); ++bin) {
       if (runs[bin] == 0) continue;
+      Series& series = runs[bin] < enough_worlds ? few.back() : plot.series.back();
       series.x.push_back(static_cast<double>(obstacles_a_bin) * (static_cast<double>(bin) + 0.5));
       series.y.push_back(contacts[bin] / runs[bin]);
-      most = std::max(most, series.y.back());
     }
-    plot.series.push_back(std::move(series));
+    if (plot.series.back().x.empty()) std::swap(few.back().label, plot.series.back().label);
   }
-  plot.y_max = 1.8 * std::max(most, 0.05);  // the legend stands above
+  double most = 0, longest = 0;
+  for (const std::vector<Series>* all : {&plot.series, &few})
+    for (const Series& series : *all) {
+      for (const double x : series.x) longest = std::max(longest, x);
+      for (const double y : series.y) most = std::max(most, y);
+    }
+  plot.x_min = 0;
+  plot.x_max = longest + 0.5 * static_cast<double>(obstacles_a_bin);
+  plot.y_max = std::max(0.1, 1.1 * most);
+  for (std::size_t k = 0; k < few.size(); ++k) few[k].colour = k;
+  std::move(few.begin(), few.end(), std::back_inserter(plot.series));
   return plot;
 }
 
+/// A column a navigator, also for one that has nothing to show.
+void name_columns(const CourseResult& result, Plot& plot) {
+  plot.x_min = 0.5;
+  plot.x_max = static_cast<double>(result.who.size()) + 0.5;
+  for (std::size_t k = 0; k < result.who.size(); ++k)
+    plot.x_ticks.push_back({result.who[k].name, static_cast<double>(k + 1)});
+}
+
 Plot times_plot(const CourseResult& result) {
-  Plot plot{.title = result.course.name, .y_label = "time ÷ straight at full speed", .log_y = true};
+  Plot plot{.title = result.course.name, .y_label = "time lost (%)", .log_y = true};
+  name_columns(result, plot);
   for (std::size_t k = 0; k < result.who.size(); ++k) {
-    Series series{.label = spelt(result.who[k].name), .style = PlotStyle::box};
+    Series series{.label = result.who[k].name, .x = {}, .y = {}, .style = PlotStyle::box};
     for (const Crossing& c : result.crossings[k])
-      if (c.ran && c.arrived) series.y.push_back(slowness(c));
+      if (c.ran && c.arrived) series.y.push_back(std::max(least_percent, 100 * (slowness(c) - 1)));
     series.x.assign(series.y.size(), static_cast<double>(k + 1));
     plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
+/// Avoidable contacts a run on a scale of powers, with a place of its own for none.
+Plot avoidable_plot(const CourseResult& result) {
+  Plot plot{.title = result.course.name, .y_label = "avoidable contacts a run", .log_y = true};
+  name_columns(result, plot);
+  double least = 1, most = 1;
+  for (const auto& crossings : result.crossings) {
+    const double avoidable = tally_of(crossings).avoidable;
+    if (avoidable > 0) least = std::min(least, avoidable);
+    most = std::max(most, avoidable);
+  }
+  const double first = std::floor(std::log10(least)), last = std::ceil(std::log10(most));
+  const double none = std::pow(10, first - 0.7);  // below the first power
+  plot.y_ticks.push_back({"none", none});
+  for (double power = first; power <= last; ++power) {
+    const double at = std::pow(10, power);
+    plot.y_ticks.push_back({fmt::format("{:g}", at), at});
+  }
+  plot.y_min = 0.5 * none;
+  plot.y_max = 2 * std::pow(10, last);
+  for (std::size_t k = 0; k < result.who.size(); ++k) {
+    const Tally tally = tally_of(result.crossings[k]);
+    if (tally.runs == 0) continue;
+    const bool some = tally.avoidable > 0;
+    plot.series.push_back({.label = "",
+                           .x = {static_cast<double>(k + 1)},
+                           .y = {some ? tally.avoidable : none},
+                           .style = some ? PlotStyle::points : PlotStyle::rings,
+                           .colour = k});
   }
   return plot;
 }
@@ -131,10 +186,11 @@ std::vector<std::vector<std::string>> table_of(const CourseResult& result) {
                                                "arrived, %", "time ÷ straight, median", "mean δ"}};
   for (std::size_t k = 0; k < result.who.size(); ++k) {
     const Tally t = tally_of(result.crossings[k]);
-    lines.push_back({spelt(result.who[k].name), std::to_string(t.runs),
-                     fmt::format("{:.4f}", t.contacts), fmt::format("{:.4f}", t.avoidable),
-                     fmt::format("{:.2f}", 100 * t.touched), fmt::format("{:.2f}", 100 * t.arrived),
-                     fmt::format("{:.3f}", t.slowness), fmt::format("{:.3f}", t.delta)});
+    lines.push_back({result.who[k].name, std::to_string(t.runs), fmt::format("{:.4f}", t.contacts),
+                     fmt::format("{:.4f}", t.avoidable), fmt::format("{:.2f}", 100 * t.touched),
+                     fmt::format("{:.2f}", 100 * t.arrived),
+                     t.slowness ? fmt::format("{:.3f}", *t.slowness) : "–",
+                     fmt::format("{:.3f}", t.delta)});
   }
   return lines;
 }
@@ -156,7 +212,7 @@ Tally tally_of(std::span<const Crossing> crossings) {
   }
   for (double* sum : {&out.contacts, &out.avoidable, &out.touched, &out.arrived, &out.delta})
     *sum /= std::max(1, out.runs);
-  out.slowness = median(times);
+  out.slowness = median_if_any(times);
   return out;
 }
 
@@ -169,20 +225,26 @@ void write_safety(const std::vector<CourseResult>& results, const fs::path& fold
                   const std::string& stem) {
   std::vector<Plot> contacts;
   std::vector<Plot> times;
+  std::vector<Plot> avoidable;
   std::vector<PageSection> sections{
       {"",
        "Contacts by the number of obstacles, and how long the crossing took. A contact counts as "
-       "avoidable when holding or retreating could have avoided it.",
+       "avoidable when holding or retreating could have avoided it. Time lost is that beyond the "
+       "straight way at full speed.",
        {},
-       {{stem + "-contacts.svg", "Contacts a run"}, {stem + "-times.svg", "Times"}}}};
+       {{stem + "-avoidable.svg", "Avoidable contacts a run"},
+        {stem + "-contacts.svg", "Contacts a run"},
+        {stem + "-times.svg", "Times"}}}};
   for (const CourseResult& result : results) {
     contacts.push_back(contacts_plot(result));
     times.push_back(times_plot(result));
+    avoidable.push_back(avoidable_plot(result));
     sections.push_back({result.course.name, "", table_of(result), {}});
   }
   write_file_atomically(folder / (stem + "-runs.csv"), runs_csv(results));
   write_file_atomically(folder / (stem + "-contacts.csv"), contacts_csv(results));
   write_everywhere(contacts, folder / (stem + "-contacts"));
+  write_everywhere(avoidable, folder / (stem + "-avoidable"));
   write_everywhere(times, folder / (stem + "-times"));
   write_page(folder / (stem + ".html"), "Crossing among obstacles", sections);
   write_worlds(results, folder / (stem + "-worlds"));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,8 +26,9 @@ struct Tally {
   double avoidable = 0;  ///< a run
   double touched = 0;    ///< share of the runs with a contact
   double arrived = 0;    ///< share of the runs
-  double slowness = 0;   ///< median of time ÷ straight at full speed, of those that arrived
-  double delta = 0;      ///< mean avoidance cost
+  /// Median of time ÷ straight at full speed, of those that arrived; nothing if none did.
+  std::optional<double> slowness;
+  double delta = 0;  ///< mean avoidance cost
 };
 Tally tally_of(std::span<const Crossing> crossings);
 

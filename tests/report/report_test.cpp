@@ -73,6 +73,8 @@ TEST(Rows, SayWhetherTheAimIsMet) {
   EXPECT_FALSE((ReproduceRow{.ours = 2, .aim = 1}.ok()));
   EXPECT_TRUE((ReproduceRow{.ours = 2, .aim = 1, .at_most = false}.ok()));
   EXPECT_TRUE((ReproduceRow{.ours = 2}.ok()));
+  EXPECT_FALSE((ReproduceRow{.aim = 1}.ok()));
+  EXPECT_FALSE((ReproduceRow{.aim = 0, .at_most = false}.ok()));
   EXPECT_FALSE(all_ok(std::vector<BenchRow>{{.ours = 3, .aim = 2}}));
 }
 
@@ -80,6 +82,13 @@ TEST(Rows, RatiosAreAboveOneWhereWeAreFaster) {
   EXPECT_EQ((BenchRow{.ours = 2, .peer = 10}.ratio()), 5);
   EXPECT_EQ((BenchRow{.ours = 10, .peer = 2, .at_most = false}.ratio()), 5);
   EXPECT_FALSE((BenchRow{.ours = 10}.ratio()));
+}
+
+TEST(Rows, NothingMeasuredIsNoZero) {
+  const std::vector<ReproduceRow> rows{{.figure = "f", .quantity = "median", .unit = "s"}};
+  EXPECT_EQ(rows_csv(rows), "figure,quantity,unit,paper,ours,aim,ok,note\nf,median,s,,,,true,\n");
+  EXPECT_NE(rows_json(rows).find("\"ours\": null"), std::string::npos);
+  EXPECT_EQ(rows_table(rows).find('0'), std::string::npos);
 }
 
 TEST(Rows, JsonHasThePromisedKeys) {

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdlib>
 
+#include "microswarm/core/statistics.hpp"
 #include "microswarm/sweep/summary.hpp"
 #include "tests/sweep/sweeps.hpp"
 
@@ -64,7 +65,7 @@ TEST_F(SweepExport, SummaryAgreesWithTheRows) {
     EXPECT_EQ(cell.trials, 2u);
     EXPECT_EQ(cell.arrived, times.size());
     ASSERT_FALSE(times.empty());
-    EXPECT_EQ(cell.medians.at("time_s"), *std::min_element(times.begin(), times.end()));
+    EXPECT_EQ(cell.medians.at("time_s"), median(times));
     EXPECT_FALSE(cell.medians.contains("cell"));
   }
   EXPECT_EQ(cells[1].method, "route");

@@ -21,10 +21,14 @@ constexpr double title_height = 34;
 constexpr double foot_height = 52;
 constexpr double least_radius = 4;  // of a disc that would else be lost
 
+constexpr double key_line = 22;  // height of a line of the legend
+
 struct Entry {
   std::string label;
   Colour colour;
   bool round;
+  double x = 0;     // of its left end
+  double down = 0;  // below the first line
 };
 
 cairo_status_t append(void* out, const unsigned char* data, unsigned int length) {
@@ -47,7 +51,9 @@ struct Picture::Impl {
   std::string title;
   double scale;
   double width;
-  double height;
+  double height;  // with a legend of one line
+  double key_end = 0;
+  double key_down = 0;  // of the last line below the first
   cairo_surface_t* recording;
   cairo_t* cr;
   std::vector<Entry> entries;
@@ -111,7 +117,8 @@ struct Picture::Impl {
   void finish(cairo_surface_t* target) const;
   void frame(cairo_t* out) const;
   void scale_bar(cairo_t* out) const;
-  void key(cairo_t* out, double from_x) const;
+  void key(cairo_t* out) const;
+  void add_to_key(std::string_view label, Colour c, bool round);
 };
 
 void Picture::Impl::scale_bar(cairo_t* out) const {
@@ -125,24 +132,36 @@ void Picture::Impl::scale_bar(cairo_t* out) const {
   cairo_show_text(out, fmt::format("{:g} µm", length).c_str());
 }
 
-void Picture::Impl::key(cairo_t* out, double from_x) const {
-  double x = from_x;
-  const double y = height - foot_height + 26;
+/// In lines as long as the picture is wide, beside the scale bar.
+void Picture::Impl::add_to_key(std::string_view label, Colour c, bool round) {
+  const double left = margin + std::max(120.0, round_length(0.25 * view.width()) * scale + 40);
+  cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cr, 15);
+  cairo_text_extents_t extents;
+  cairo_text_extents(cr, std::string(label).c_str(), &extents);
+  const double length = (round ? 20 : 24) + extents.x_advance;
+  if (entries.empty()) key_end = left;
+  if (key_end > left && key_end + length > width - margin) {
+    key_end = left;
+    key_down += key_line;
+  }
+  entries.push_back({std::string(label), c, round, key_end, key_down});
+  key_end += length + 22;
+}
+
+void Picture::Impl::key(cairo_t* out) const {
   cairo_set_font_size(out, 15);
   for (const Entry& e : entries) {
+    const double y = height - foot_height + 26 + e.down;
     cairo_set_source_rgba(out, e.colour.red, e.colour.green, e.colour.blue, e.colour.alpha);
     if (e.round)
-      cairo_arc(out, x + 7, y - 5, 7, 0, 2 * pi);
+      cairo_arc(out, e.x + 7, y - 5, 7, 0, 2 * pi);
     else
-      cairo_rectangle(out, x, y - 9, 18, 8);
+      cairo_rectangle(out, e.x, y - 9, 18, 8);
     cairo_fill(out);
     cairo_set_source_rgba(out, colours::ink.red, colours::ink.green, colours::ink.blue, 1);
-    x += e.round ? 20 : 24;
-    cairo_move_to(out, x, y);
+    cairo_move_to(out, e.x + (e.round ? 20 : 24), y);
     cairo_show_text(out, e.label.c_str());
-    cairo_text_extents_t extents;
-    cairo_text_extents(out, e.label.c_str(), &extents);
-    x += extents.x_advance + 22;
   }
 }
 
@@ -158,7 +177,7 @@ void Picture::Impl::frame(cairo_t* out) const {
     cairo_show_text(out, title.c_str());
   }
   scale_bar(out);
-  key(out, margin + std::max(120.0, round_length(0.25 * view.width()) * scale + 40));
+  key(out);
 }
 
 void Picture::Impl::finish(cairo_surface_t* target) const {
@@ -288,12 +307,12 @@ void Picture::text(Vec2 at, std::string_view text, Colour colour, double size_px
 }
 
 void Picture::legend(std::string_view label, Colour colour, bool round) {
-  impl_->entries.push_back({std::string(label), colour, round});
+  impl_->add_to_key(label, colour, round);
 }
 
 void Picture::write(const std::filesystem::path& path) const {
   const auto width = std::ceil(impl_->width);
-  const auto height = std::ceil(impl_->height);
+  const auto height = std::ceil(impl_->height + impl_->key_down);
   const std::string kind = path.extension().string();
   std::string bytes;
   cairo_surface_t* surface = nullptr;

@@ -74,7 +74,7 @@ class Picture {
   /// A labelled point: a ring of constant size.
   void mark(Vec2 at, std::string_view label, Colour colour = colours::ink);
   void text(Vec2 at, std::string_view text, Colour colour = colours::ink, double size_px = 15);
-  /// One line of the legend, in order.
+  /// One entry of the legend, in order; it has as many lines as it needs.
   void legend(std::string_view label, Colour colour, bool round = false);
 
   /// Writes the finished picture; extension .png, .svg or .pdf, else InputError. The picture can be

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
+#include <limits>
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
@@ -22,6 +24,9 @@ namespace {
 
 constexpr std::array<const char*, 7> palette{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                              "#E69F00", "#56B4E9", "#333333"};
+
+constexpr const char* band_colour = "#ececec";
+constexpr std::array<int, 7> markers{7, 5, 9, 11, 13, 8, 4};  // gnuplot's
 
 std::string in_quotes(std::string_view s) {
   std::string out = "\"";
@@ -42,13 +47,19 @@ std::string data_block(std::size_t plot, std::size_t series, const Series& s) {
 
 std::string drawn(std::size_t plot, std::size_t series, const Series& s) {
   const std::string data = fmt::format("$d{}_{}", plot, series);
-  const std::string colour = palette[series % palette.size()];
+  const std::string colour = palette[s.colour.value_or(series) % palette.size()];
   const std::string title = s.label.empty() ? "notitle" : "title " + in_quotes(s.label);
   switch (s.style) {
     case PlotStyle::line:
       return fmt::format("{} using 1:2 with lines lw 2 lc rgb '{}' {}", data, colour, title);
+    case PlotStyle::marked:
+      return fmt::format("{} using 1:2 with linespoints lw 2 pt {} ps 0.7 lc rgb '{}' {}", data,
+                         markers[series % markers.size()], colour, title);
+    case PlotStyle::rings:
+      return fmt::format("{} using 1:2 with points pt 6 ps 1.2 lc rgb '{}' {}", data, colour,
+                         title);
     case PlotStyle::points:
-      return fmt::format("{} using 1:2 with points pt 7 ps 0.6 lc rgb '{}' {}", data, colour,
+      return fmt::format("{} using 1:2 with points pt 7 ps 0.7 lc rgb '{}' {}", data, colour,
                          title);
     case PlotStyle::bars:
       return fmt::format("{} using 1:2 with boxes fs solid 0.7 lc rgb '{}' {}", data, colour,
@@ -60,38 +71,94 @@ std::string drawn(std::size_t plot, std::size_t series, const Series& s) {
   return {};
 }
 
+std::string listed(const std::vector<Tick>& ticks) {
+  std::vector<std::string> out;
+  for (const Tick& tick : ticks)
+    out.push_back(fmt::format("{} {:.9g}", in_quotes(tick.label), tick.at));
+  return fmt::format("({})", fmt::join(out, ", "));
+}
+
+/// 1, 2, 5, 10, … over what is drawn; none where it is too much or nothing.
+std::vector<Tick> log_ticks(const Plot& plot) {
+  double least = plot.y_min.value_or(std::numeric_limits<double>::infinity());
+  double most = plot.y_max.value_or(0);
+  for (const Series& s : plot.series)
+    for (const double y : s.y) {
+      if (y <= 0) continue;
+      if (!plot.y_min) least = std::min(least, y);
+      if (!plot.y_max) most = std::max(most, y);
+    }
+  std::vector<Tick> out;
+  if (!(least > 0) || !(most < 1e3 * least)) return out;
+  const int last = static_cast<int>(std::ceil(std::log10(most)));
+  for (int power = static_cast<int>(std::floor(std::log10(least))); power <= last; ++power)
+    for (const double digit : {1, 2, 5}) {
+      const double at = digit * std::pow(10, power);
+      out.push_back({fmt::format("{:g}", at), at});
+    }
+  return out;
+}
+
+std::string axes(const Plot& plot) {
+  const auto limit = [](std::optional<double> v) { return v ? fmt::format("{:g}", *v) : "*"; };
+  std::string out = fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\n", limit(plot.x_min),
+                                limit(plot.x_max), limit(plot.y_min), limit(plot.y_max));
+  out += plot.log_y ? "set logscale y\n" : "unset logscale\n";
+  std::vector<Tick> names = plot.x_ticks;
+  if (names.empty())
+    for (const Series& s : plot.series)
+      if (s.style == PlotStyle::box && !s.x.empty()) names.push_back({s.label, s.x[0]});
+  out += names.empty() ? "set xtics norotate autojustify auto\n"
+                       : fmt::format("set xtics rotate by 50 right {}\n", listed(names));
+  const std::vector<Tick> ticks =
+      plot.y_ticks.empty() && plot.log_y ? log_ticks(plot) : plot.y_ticks;
+  out += ticks.empty() ? "set ytics auto\n" : fmt::format("set ytics {}\n", listed(ticks));
+  return out;
+}
+
+/// Bands and marks: gnuplot keeps them from panel to panel.
+std::string ground(const Plot& plot) {
+  std::string out = "unset object\nunset arrow\nunset label\n";
+  for (const Band& band : plot.bands)
+    out += fmt::format(
+        "set object rectangle from {:.9g}, graph 0 to {:.9g}, graph 1 behind fc rgb '{}' fs solid "
+        "noborder\n",
+        band.from, band.to, band_colour);
+  for (const Mark& mark : plot.marks)
+    out += fmt::format(
+        "set arrow from {0:.9g}, graph 0 to {0:.9g}, graph 1 nohead dt 3 lc rgb '#666666'\n"
+        "set label {1} at {0:.9g}, graph 0.98 rotate by 90 right offset -0.6,0 font ',9' tc rgb "
+        "'#444444'\n",
+        mark.x, in_quotes(mark.label));
+  return out;
+}
+
 std::string panel(const Plot& plot, std::size_t index) {
   std::string out =
-      fmt::format("set title {}\nset xlabel {}\nset ylabel {}\n", in_quotes(plot.title),
-                  in_quotes(plot.x_label), in_quotes(plot.y_label));
-  out += plot.log_y ? "set logscale y\n" : "unset logscale\n";
-  const auto limit = [](std::optional<double> y) { return y ? fmt::format("{:g}", *y) : "*"; };
-  out += fmt::format("set yrange [{}:{}]\n", limit(plot.y_min), limit(plot.y_max));
-  std::vector<std::string> tics;
+      fmt::format("set title {}\nset xlabel {} offset 0,{}\nset ylabel {}\n", in_quotes(plot.title),
+                  in_quotes(plot.x_label), plot.key_below ? 0.6 : 0.0, in_quotes(plot.y_label));
+  out += axes(plot) + ground(plot);
+  out += plot.key_below ? "set key outside below center\n" : "set key inside top right\n";
   std::vector<std::string> items;
-  for (std::size_t i = 0; i < plot.series.size(); ++i) {
-    const Series& s = plot.series[i];
-    if (s.x.empty()) continue;
-    if (s.style == PlotStyle::box)
-      tics.push_back(fmt::format("{} {:g}", in_quotes(s.label), s.x[0]));
-    items.push_back(drawn(index, i, s));
-  }
+  for (std::size_t i = 0; i < plot.series.size(); ++i)
+    if (!plot.series[i].x.empty()) items.push_back(drawn(index, i, plot.series[i]));
   for (std::size_t i = 0; i < plot.levels.size(); ++i)
     items.push_back(fmt::format("{:.9g} with lines dt 2 lw 1.5 lc rgb '{}' title {}",
                                 plot.levels[i].y, i == 0 ? "#444444" : "#888888",
                                 in_quotes(plot.levels[i].label)));
-  out += tics.empty() ? "set xtics auto\n"
-                      : fmt::format("set xtics ({}) rotate by -20\n", fmt::join(tics, ", "));
-  if (items.empty()) items.push_back("0 notitle");
+  if (!plot.bands.empty() && !plot.band_label.empty())
+    items.push_back(fmt::format("keyentry with boxes fs solid noborder lc rgb '{}' title {}",
+                                band_colour, in_quotes(plot.band_label)));
+  if (items.empty()) items.emplace_back("0 notitle");
   return out + fmt::format("plot {}\n", fmt::join(items, ", \\\n  "));
 }
 
 std::string terminal(const std::string& kind, std::size_t panels) {
   const std::size_t width = 640 * panels;
-  if (kind == ".png") return fmt::format("pngcairo size {},460 font 'sans,11'", width);
+  if (kind == ".png") return fmt::format("pngcairo noenhanced size {},460 font 'sans,11'", width);
   if (kind == ".svg")
-    return fmt::format("svg size {},460 font 'sans,13' background 'white'", width);
-  return fmt::format("pdfcairo size {:g}in,4.2in font 'sans,11'",
+    return fmt::format("svg noenhanced size {},460 font 'sans,13' background 'white'", width);
+  return fmt::format("pdfcairo noenhanced size {:g}in,4.2in font 'sans,11'",
                      5.8 * static_cast<double>(panels));
 }
 
@@ -139,7 +206,7 @@ void write_plots(const std::vector<Plot>& plots, const std::filesystem::path& pa
     throw InputError(path.string() + ": a plot is .png, .svg or .pdf");
   std::string script = fmt::format("set terminal {}\n", terminal(kind, plots.size()));
   script +=
-      "set grid lc rgb '#dddddd'\nset key top right\nset style boxplot outliers pointtype 7\n"
+      "set grid lc rgb '#dddddd'\nset style boxplot outliers pointtype 7\n"
       "set boxwidth 0.8 relative\n";
   for (std::size_t i = 0; i < plots.size(); ++i)
     for (std::size_t j = 0; j < plots[i].series.size(); ++j)

@@ -8,9 +8,9 @@
 
 namespace microswarm {
 
-/// How a series is drawn: joined, as steps, as points, as bars from 0, or as one box with whiskers
-/// over all its y (x of the first point says where).
-enum class PlotStyle { line, points, bars, box };
+/// How a series is drawn: joined, joined with a marker at each point, as points, as rings, as bars
+/// from 0, or as one box with whiskers over all its y (x of the first point says where).
+enum class PlotStyle { line, marked, points, rings, bars, box };
 
 /// Values of one thing, x and y of equal length.
 struct Series {
@@ -18,6 +18,7 @@ struct Series {
   std::vector<double> x;
   std::vector<double> y;
   PlotStyle style = PlotStyle::line;
+  std::optional<std::size_t> colour = {};  ///< as that of the series of this number; else its own
 };
 
 /// A horizontal line with its label: a mean, a limit, a paper's value.
@@ -26,14 +27,41 @@ struct Level {
   double y = 0;
 };
 
-/// One diagram. Labels carry their units.
+/// A vertical line with its label.
+struct Mark {
+  std::string label;
+  double x = 0;
+};
+
+/// A stretch of the x axis with a grey ground.
+struct Band {
+  double from = 0;
+  double to = 0;
+};
+
+/// A label of an axis.
+struct Tick {
+  std::string label;
+  double at = 0;
+};
+
+/// One diagram. Labels carry their units. Series of the style `box` label the x axis where no ticks
+/// are given.
 struct Plot {
   std::string title;
   std::string x_label;
   std::string y_label;
   std::vector<Series> series;
   std::vector<Level> levels;
+  std::vector<Mark> marks;
+  std::vector<Band> bands;
+  std::string band_label;
+  std::vector<Tick> x_ticks;
+  std::vector<Tick> y_ticks;
   bool log_y = false;
+  bool key_below = false;  ///< the legend stands below, not in the diagram
+  std::optional<double> x_min;
+  std::optional<double> x_max;
   std::optional<double> y_min;
   std::optional<double> y_max;
 };

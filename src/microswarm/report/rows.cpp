@@ -78,9 +78,10 @@ std::optional<double> BenchRow::ratio() const {
 std::string rows_json(const std::vector<ReproduceRow>& rows) {
   Json list = Json::array();
   for (const auto& r : rows) {
-    Json row = {
-        {"figure", r.figure}, {"quantity", r.quantity}, {"unit", r.unit}, {"paper", json(r.paper)},
-        {"ours", r.ours},     {"aim", json(r.aim)},     {"ok", r.ok()}};
+    Json row = {{"figure", r.figure},   {"quantity", r.quantity},
+                {"unit", r.unit},       {"paper", json(r.paper)},
+                {"ours", json(r.ours)}, {"aim", json(r.aim)},
+                {"ok", r.ok()}};
     if (!r.note.empty()) row["note"] = r.note;
     list.push_back(std::move(row));
   }

@@ -7,19 +7,20 @@
 
 namespace microswarm {
 
-/// One figure of a paper beside ours. `paper` is empty where the paper gives none, `aim` where we
-/// set none; `at_most` says on which side of the aim ours has to be.
+/// One figure of a paper beside ours. `paper` is empty where the paper gives none, `ours` where
+/// there is nothing to tell (a median over nobody), `aim` where we set none; `at_most` says on
+/// which side of the aim ours has to be. Nothing meets no aim.
 struct ReproduceRow {
   std::string figure;
   std::string quantity;
   std::string unit;
   std::optional<double> paper;
-  double ours = 0;
+  std::optional<double> ours;
   std::optional<double> aim;
   bool at_most = true;
   std::string note;
 
-  bool ok() const { return !aim || (at_most ? ours <= *aim : ours >= *aim); }
+  bool ok() const { return !aim || (ours && (at_most ? *ours <= *aim : *ours >= *aim)); }
 };
 
 /// One measured speed beside its peer's in the same run. `ratio` is peer ÷ ours for times and ours

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// Figure 13 of [radar]: the micromaze.
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "microswarm/core/statistics.hpp"
+#include "microswarm/experiment/trials.hpp"
+#include "radar_picture.hpp"
+#include "reproduce_radar.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+/// When the swarm was nearest to something, which is how far from a place at a time.
+template <class Distance>
+double nearest(const Record& record, Distance&& distance_of) {
+  return std::min_element(
+             record.frames.begin(), record.frames.end(),
+             [&](const Frame& a, const Frame& b) { return distance_of(a) < distance_of(b); })
+      ->t;
+}
+
+/// The middle of the first time in which it waits for a valve, from t0 [s] on; none when it does
+/// not.
+std::optional<double> middle_of_wait(const Record& record, double t0) {
+  const auto waits = [](const Frame& f) { return f.state == "wait"; };
+  const auto from = record.frames.begin() + static_cast<std::ptrdiff_t>(frame_at(record, t0));
+  const auto begin = std::find_if(from, record.frames.end(), waits);
+  if (begin == record.frames.end()) return std::nullopt;
+  const auto end = std::find_if_not(begin, record.frames.end(), waits);
+  return begin->t + 0.5 * (std::prev(end)->t - begin->t);
+}
+
+/// What the figure shows: the plan, a mover that is avoided, the wait at the first valve, the way
+/// through it, past what breathes, at the second valve, and the end.
+std::vector<double> moments_of(const Record& record) {
+  const Scenario& scenario = record.scene.scenario;
+  const auto& areas = std::get<RadarParams>(scenario.navigator).wait_areas;
+  const auto to_obstacle = [&](std::size_t k) {
+    return nearest(record, [&](const Frame& f) {
+      return distance(f.pose.position, placement(scenario.obstacles[k].motion, f.t).pose.position);
+    });
+  };
+  std::vector<double> out{0, record.result.metrics.time};
+  const auto add = [&](std::optional<double> t) {
+    if (t) out.push_back(*t);
+  };
+  bool met_mover = false;
+  for (std::size_t k = 0; k < scenario.obstacles.size(); ++k) {
+    const Shape& shape = scenario.obstacles[k].shape;
+    const bool first_mover = std::holds_alternative<DiscShape>(shape) && !met_mover;
+    met_mover = met_mover || first_mover;
+    if (first_mover || std::holds_alternative<BreathingDisc>(shape)) add(to_obstacle(k));
+  }
+  double passed = 0;
+  for (const WaitArea& area : areas) {
+    add(middle_of_wait(record, passed));
+    passed =
+        nearest(record, [&](const Frame& f) { return distance(f.pose.position, area.centre); });
+    add(passed);
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+}  // namespace
+
+std::vector<ReproduceRow> radar_micromaze(const ReproduceOptions& options, const Stop& stop) {
+  constexpr const char* figure = "fig13";
+  const RadarSetting s = load_radar(options, "micromaze.yaml");
+  const auto trials =
+      run_trials(s.scene.scenario, s.world,
+                 {.trials = options.quick ? 5 : 20, .progress = {}, .vary = {}}, stop);
+  const RadarRun run = run_radar(s.scene, s.world, stop);
+  if (stop()) return {};
+  if (!options.out.empty())
+    draw_radar_moments(run, s.world, moments_of(run.record), "micromaze",
+                       std::filesystem::path(options.out) / figure);
+  std::vector<double> times;
+  int contacts = 0;
+  for (const TrialResult& t : trials) {
+    contacts += t.result.metrics.contacts;
+    if (t.result.status == Status::solved) times.push_back(t.result.metrics.time);
+  }
+  const double share = static_cast<double>(times.size()) / static_cast<double>(trials.size());
+  return {
+      row_of(figure, "micromaze: goal reached without contact", "%", 100, 100 * share, 100, false),
+      row_of(figure, "micromaze: contacts", "1", 0, contacts, 0),
+      row_within(near_time, figure, "micromaze: total time, median", "s", 408.2,
+                 median_if_any(times)),
+      row_of(figure, "micromaze: time spent waiting, the run that is drawn", "s", {},
+             run.record.result.metrics.hold_time)};
+}
+
+}  // namespace microswarm::cli

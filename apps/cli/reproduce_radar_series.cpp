@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// Figure 7 of [radar]: the mean avoidance cost over the circles' radii.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <numeric>
+
+#include "microswarm/report/plot.hpp"
+#include "reproduce_gather.hpp"
+#include "reproduce_radar.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double swarm_radius = 100, step = 25;  // r_s, d_p [px]
+constexpr double as_good_as_rising = 0.9;        // of a rank correlation
+
+/// One series: radii of one circle, the other one's fixed [px]. The cases of Fig 5 are ends of
+/// series; `rising_from` is where the paper says that the cost begins to rise (its point A).
+struct Sweep {
+  const char* name;
+  const char* title;
+  double first, last;
+  std::optional<double> safety, detection;
+  std::optional<double> cost_first, cost_last;
+  double rising_from;
+};
+
+constexpr std::array<Sweep, 3> series{
+    {{"series I", "series I: r_d varies, r_f = 150 px", 170, 350, 150, {}, 0.14, 0.18, 170},
+     {"series II", "series II: r_f varies, r_d = 350 px", 150, 330, {}, 350, 0.18, 0.28, 170},
+     {"series III", "series III: r_f varies, r_d = 250 px", 150, 230, {}, 250, {}, {}, 150}}};
+
+/// What was measured at each radius.
+struct Curve {
+  std::vector<double> radius, cost;
+  std::vector<int> side;
+};
+
+Curve measured(const Sweep& sweep, const ReproduceOptions& options, const Stop& stop) {
+  const double between = options.quick ? 20 : 10;
+  Curve curve;
+  for (double r = sweep.first; r <= sweep.last && !stop(); r += between) {
+    RadarSetting s = load_radar(options, "single.yaml");
+    s.params().safety_distance = sweep.safety.value_or(r) - swarm_radius - step;
+    s.params().detection_range = sweep.detection.value_or(r) - swarm_radius;
+    const RadarRun run = run_radar(s.scene, s.world, stop);
+    curve.radius.push_back(r);
+    curve.cost.push_back(run.record.result.metrics.avoidance.mean_cost);
+    curve.side.push_back(side_passed(run.record));
+  }
+  return curve;
+}
+
+/// Ranks 0, 1, …, equal values sharing the mean of theirs.
+std::vector<double> ranks(const std::vector<double>& values) {
+  std::vector<double> out;
+  for (const double v : values) {
+    const auto less = std::count_if(values.begin(), values.end(), [v](double w) { return w < v; });
+    const auto equal = std::count(values.begin(), values.end(), v);
+    out.push_back(static_cast<double>(less) + 0.5 * static_cast<double>(equal - 1));
+  }
+  return out;
+}
+
+/// Spearman's: 1 when y rises all along with x, -1 when it falls. Nothing for fewer than two.
+std::optional<double> rank_correlation(const std::vector<double>& x, const std::vector<double>& y) {
+  const std::vector<double> a = ranks(x), b = ranks(y);
+  const double mean = 0.5 * (static_cast<double>(a.size()) - 1);
+  double ab = 0, aa = 0, bb = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ab += (a[i] - mean) * (b[i] - mean);
+    aa += (a[i] - mean) * (a[i] - mean);
+    bb += (b[i] - mean) * (b[i] - mean);
+  }
+  if (aa <= 0 || bb <= 0) return std::nullopt;
+  return ab / std::sqrt(aa * bb);
+}
+
+/// The points from the radius on.
+std::pair<std::vector<double>, std::vector<double>> from(const Curve& curve, double radius) {
+  const auto k =
+      std::lower_bound(curve.radius.begin(), curve.radius.end(), radius) - curve.radius.begin();
+  return {{curve.radius.begin() + k, curve.radius.end()},
+          {curve.cost.begin() + k, curve.cost.end()}};
+}
+
+void add_rows(const Sweep& sweep, const Curve& curve, std::vector<ReproduceRow>& rows) {
+  const auto name = [&](const std::string& what) {
+    return fmt::format("{}: {}", sweep.name, what);
+  };
+  rows.push_back(row_within(near_cost, "fig7", name("mean cost at the smallest radius"), "1",
+                            sweep.cost_first, curve.cost.front()));
+  rows.push_back(row_within(near_cost, "fig7", name("mean cost at the greatest"), "1",
+                            sweep.cost_last, curve.cost.back()));
+  const auto [x, y] = from(curve, sweep.rising_from);
+  rows.push_back(row_of(
+      "fig7",
+      name(fmt::format("rank correlation of cost and radius from {:g} px on", sweep.rising_from)),
+      "1", 1, rank_correlation(x, y), as_good_as_rising, false));
+  int rising = 0;
+  for (std::size_t i = 1; i < y.size(); ++i) rising += y[i] > y[i - 1];
+  rows.push_back(row_of("fig7", name("steps between radii there that raise the cost"), "%", 100,
+                        100.0 * rising / std::max<double>(1, static_cast<double>(y.size()) - 1)));
+  if (sweep.rising_from > sweep.first)
+    rows.push_back(row_of("fig7",
+                          name(fmt::format("cost falls up to {:g} px by", sweep.rising_from)), "1",
+                          {}, curve.cost.front() - y.front(), 0, false));
+  const auto same = std::count(curve.side.begin(), curve.side.end(), curve.side.back());
+  rows.push_back(
+      row_of("fig7", name("runs that pass on the same side as the last"), "%", {},
+             100.0 * static_cast<double>(same) / static_cast<double>(curve.side.size())));
+}
+
+Plot plot_of(const Sweep& sweep, const Curve& curve) {
+  Series other{.label = "passes on the other side", .style = PlotStyle::points};
+  for (std::size_t i = 0; i < curve.radius.size(); ++i) {
+    if (curve.side[i] == curve.side.back()) continue;
+    other.x.push_back(curve.radius[i]);
+    other.y.push_back(curve.cost[i]);
+  }
+  Series paper{.label = "paper: cases of Fig 5", .style = PlotStyle::rings};
+  if (sweep.cost_first) paper.x.push_back(sweep.first), paper.y.push_back(*sweep.cost_first);
+  if (sweep.cost_last) paper.x.push_back(sweep.last), paper.y.push_back(*sweep.cost_last);
+  Series ours{.label = "ours", .x = curve.radius, .y = curve.cost, .style = PlotStyle::marked};
+  return {.title = sweep.title,
+          .x_label = "radius (px)",
+          .y_label = "mean avoidance cost",
+          .series = {std::move(ours), std::move(paper), std::move(other)},
+          .key_below = true,
+          .x_min = sweep.first - 10,
+          .x_max = sweep.last + 10,
+          .y_min = 0,
+          .y_max = 0.35};
+}
+
+}  // namespace
+
+std::vector<ReproduceRow> radar_series(const ReproduceOptions& options, const Stop& stop) {
+  std::vector<ReproduceRow> rows;
+  std::vector<Plot> plots;
+  for (const Sweep& sweep : series) {
+    const Curve curve = measured(sweep, options, stop);
+    if (stop()) return rows;
+    add_rows(sweep, curve, rows);
+    plots.push_back(plot_of(sweep, curve));
+  }
+  if (!options.out.empty()) write_everywhere(plots, fs::path(options.out) / "fig7");
+  return rows;
+}
+
+}  // namespace microswarm::cli
