@@ -73,6 +73,7 @@ std::string drawn(std::size_t plot, std::size_t series, const Series& s) {
 
 std::string listed(const std::vector<Tick>& ticks) {
   std::vector<std::string> out;
+  out.reserve(ticks.size());
   for (const Tick& tick : ticks)
     out.push_back(fmt::format("{} {:.9g}", in_quotes(tick.label), tick.at));
   return fmt::format("({})", fmt::join(out, ", "));
