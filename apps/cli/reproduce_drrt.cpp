@@ -16,7 +16,7 @@
 #include "microswarm/report/picture.hpp"
 #include "microswarm/report/plot.hpp"
 #include "microswarm/report/run_report.hpp"
-#include "reproduce.hpp"
+#include "reproduce_figures.hpp"
 
 namespace microswarm::cli {
 namespace {
@@ -371,22 +371,13 @@ std::vector<ReproduceRow> loop_figure(const LoopFigure& f, const ReproduceOption
 
 std::vector<ReproduceRow> reproduce_drrt(const std::string& figure, const ReproduceOptions& options,
                                          const Stop& stop) {
-  const std::array<std::string_view, 3> figures{"fig3", "fig5a", "fig5b"};
-  if (!figure.empty() && std::find(figures.begin(), figures.end(), figure) == figures.end())
-    throw InputError(fmt::format("reproduce drrt: unknown figure '{}', there are: {}", figure,
-                                 fmt::join(figures, ", ")));
-  std::vector<ReproduceRow> rows;
-  const auto add = [&](const char* name, auto&& make) {
-    if (!figure.empty() && figure != name) return;
-    const auto more = make();
-    rows.insert(rows.end(), more.begin(), more.end());
-  };
-  add("fig3", [&] { return fig3(options, stop); });
-  add("fig5a", [&] { return loop_figure(deforming, options, stop); });
-  add("fig5b", [&] { return loop_figure(moving, options, stop); });
-  if (!options.out.empty())
-    write_file_atomically(fs::path(options.out) / "drrt.csv", rows_csv(rows));
-  return rows;
+  constexpr std::array<Figure, 3> figures{
+      {{"fig3", fig3},
+       {"fig5a",
+        [](const ReproduceOptions& o, const Stop& s) { return loop_figure(deforming, o, s); }},
+       {"fig5b",
+        [](const ReproduceOptions& o, const Stop& s) { return loop_figure(moving, o, s); }}}};
+  return reproduce_figures("drrt", figures, figure, options, stop);
 }
 
 }  // namespace microswarm::cli

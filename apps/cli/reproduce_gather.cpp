@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reproduce_gather.hpp"
 
-#include <fmt/format.h>
+#include <array>
 
-#include <algorithm>
-
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/file.hpp"
+#include "reproduce_figures.hpp"
 
 namespace microswarm::cli {
 
@@ -39,22 +36,23 @@ void write_everywhere(const std::vector<Plot>& plots, const std::filesystem::pat
   for (const char* kind : {".png", ".svg", ".pdf"}) write_plots(plots, stem.string() + kind);
 }
 
+namespace {
+
+template <auto add>
+std::vector<ReproduceRow> rows_of(const ReproduceOptions& options, const Stop& stop) {
+  std::vector<ReproduceRow> rows;
+  add(options, stop, rows);
+  return rows;
+}
+
+}  // namespace
+
 std::vector<ReproduceRow> reproduce_gather(const std::string& figure,
                                            const ReproduceOptions& options, const Stop& stop) {
-  using Figure = void (*)(const ReproduceOptions&, const Stop&, std::vector<ReproduceRow>&);
-  constexpr std::array<std::pair<std::string_view, Figure>, 3> figures{
-      {{"fig7", gather_fig7}, {"fig9", gather_fig9}, {"fig10", gather_fig10}}};
-  const bool known = std::any_of(figures.begin(), figures.end(),
-                                 [&](const auto& entry) { return entry.first == figure; });
-  if (!figure.empty() && !known)
-    throw InputError(
-        fmt::format("reproduce gather: unknown figure '{}', there are: fig7, fig9, fig10", figure));
-  std::vector<ReproduceRow> rows;
-  for (const auto& [name, reproduce] : figures)
-    if (figure.empty() || figure == name) reproduce(options, stop, rows);
-  if (!options.out.empty() && !stop())
-    write_file_atomically(std::filesystem::path(options.out) / "gather.csv", rows_csv(rows));
-  return rows;
+  constexpr std::array<Figure, 3> figures{{{"fig7", rows_of<gather_fig7>},
+                                           {"fig9", rows_of<gather_fig9>},
+                                           {"fig10", rows_of<gather_fig10>}}};
+  return reproduce_figures("gather", figures, figure, options, stop);
 }
 
 }  // namespace microswarm::cli

@@ -16,6 +16,7 @@
 #include "microswarm/planning/global_shorten.hpp"
 #include "microswarm/report/picture.hpp"
 #include "microswarm/report/plot.hpp"
+#include "reproduce_figures.hpp"
 #include "reproduce_global.hpp"
 #include "tests/scenes/global_worlds.hpp"
 
@@ -231,32 +232,16 @@ std::vector<ReproduceRow> search(const ReproduceOptions& options, const Stop& st
 
 std::vector<ReproduceRow> reproduce_global(const std::string& figure,
                                            const ReproduceOptions& options, const Stop& stop) {
-  using Make = std::vector<ReproduceRow> (*)(const ReproduceOptions&, const Stop&);
-  constexpr std::array<std::pair<std::string_view, Make>, 9> figures{{{"fig1", global_vascular},
-                                                                      {"fig3-5", step_lengths},
-                                                                      {"fig6", cell_sizes},
-                                                                      {"fig7", initial_distances},
-                                                                      {"fig8", global_digestive},
-                                                                      {"fig9-10", global_reuse},
-                                                                      {"fig12", global_magnets},
-                                                                      {"beyond", search},
-                                                                      {"beyond-6", global_six}}};
-  std::vector<ReproduceRow> rows;
-  std::vector<std::string_view> names;
-  bool known = figure.empty();
-  for (const auto& [name, make] : figures) {
-    names.push_back(name);
-    if (!figure.empty() && figure != name) continue;
-    known = true;
-    const auto more = make(options, stop);
-    rows.insert(rows.end(), more.begin(), more.end());
-  }
-  if (!known)
-    throw InputError(fmt::format("reproduce global: unknown figure '{}', there are: {}", figure,
-                                 fmt::join(names, ", ")));
-  if (!options.out.empty())
-    write_file_atomically(fs::path(options.out) / "global.csv", rows_csv(rows));
-  return rows;
+  constexpr std::array<Figure, 9> figures{{{"fig1", global_vascular},
+                                           {"fig3-5", step_lengths},
+                                           {"fig6", cell_sizes},
+                                           {"fig7", initial_distances},
+                                           {"fig8", global_digestive},
+                                           {"fig9-10", global_reuse},
+                                           {"fig12", global_magnets},
+                                           {"beyond", search},
+                                           {"beyond-6", global_six}}};
+  return reproduce_figures("global", figures, figure, options, stop);
 }
 
 }  // namespace microswarm::cli

@@ -48,8 +48,8 @@ TEST_F(BadScenarios, KeysThatDoNotFitTogether) {
   run_refused(radar + "  waypoints_um: [[1030, 700]]\n",
               "flight.yaml:18:18: waypoint 1 is 30 µm inside wall 4");
   run_refused(radar + "  detection_range_um: 300\n  prediction_distance_um: 200\n",
-              "flight.yaml:19:27: navigator.prediction_distance_um is 200, more than twice the "
-              "swarm's least radius + safety_distance_um, 130: it could step over a wall");
+              "flight.yaml:19:27: navigator.prediction_distance_um is 200, more than the "
+              "swarm's least diameter + safety_distance_um, 105: it could step over a wall");
   run_refused(two_rooms() +
                   "obstacles:\n"
                   "  - shape: {type: valve, span_um: 100, least_gap_um: 120}\n"

@@ -26,14 +26,14 @@ std::string refusal(const Scenario& s) {
 TEST(RadarCheck, StepsThatCouldLeapOverAWall) {
   Scenario s = radar_room();
   radar(s).detection_range = 200;
-  radar(s).prediction_distance = 130;  // 2 (40 + 25)
+  radar(s).prediction_distance = 105;  // 2 · 40 + 25
   EXPECT_EQ(refusal(s), "");
-  radar(s).prediction_distance = 131;
+  radar(s).prediction_distance = 106;
   EXPECT_EQ(refusal(s),
-            "s.yaml: navigator.prediction_distance_um is 131, more than twice the swarm's least "
-            "radius + safety_distance_um, 130: it could step over a wall");
+            "s.yaml: navigator.prediction_distance_um is 106, more than the swarm's least "
+            "diameter + safety_distance_um, 105: it could step over a wall");
   s.swarm = VortexParams{.radius = 45, .moving_radius = 50, .radius_ripple = 5};  // 35 at least
-  EXPECT_NE(refusal(s).find("safety_distance_um, 120"), std::string::npos) << refusal(s);
+  EXPECT_NE(refusal(s).find("safety_distance_um, 95"), std::string::npos) << refusal(s);
 }
 
 TEST(RadarCheck, WaypointsGivenAndPlanned) {

@@ -89,7 +89,7 @@ TEST(Guard, DoesNotDriveInto) {
 // Whatever is wanted: what is slower and goes straight does not touch.
 TEST(Guard, AnyDriverIsSafeAmongAFewThatGoStraight) {
   Rng rng(3, Purpose::test);
-  for (int trial = 0; trial < 60; ++trial) {
+  for (int trial = 0; trial < 300; ++trial) {
     const Vec2 start{2000, 2000};
     std::vector<Mover> movers;
     while (movers.size() < 3) {

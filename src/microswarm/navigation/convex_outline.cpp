@@ -3,21 +3,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "microswarm/navigation/obstacle_tracker.hpp"
 
 namespace microswarm {
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double hollow = 0.02;  // share of a hull that is not in the body
 constexpr double very_hollow = 0.4;
 
 }  // namespace
 
 double ConvexOutline::distance_at(Vec2 from_centre) const {
-  double distance = norm(from_centre) - radius;
-  for (const Edge& e : edges) distance = std::max(distance, dot(e.normal, from_centre) - e.offset);
-  return distance;
+  if (edges.empty()) return norm(from_centre) - radius;
+  double inside = -infinity;
+  double outside = infinity;  // squared
+  for (const Edge& e : edges) {
+    const double off = dot(e.normal, from_centre) - e.offset;
+    inside = std::max(inside, off);
+    if (off <= 0) continue;
+    const double along = dot(perpendicular(e.normal), from_centre);
+    const double beside = along - std::clamp(along, e.begin, e.end);
+    outside = std::min(outside, off * off + beside * beside);
+  }
+  return inside <= 0 ? inside : std::sqrt(outside);
 }
 
 void ConvexOutliner::take(const Body& body, ConvexOutline& out) {
@@ -33,7 +44,8 @@ void ConvexOutliner::take(const Body& body, ConvexOutline& out) {
     const Vec2 a = hull_[i] - out.centre;
     const Vec2 along = hull_[(i + 1) % hull_.size()] - hull_[i];
     const Vec2 normal = -perpendicular(along) / norm(along);
-    out.edges.push_back({normal, dot(normal, a)});
+    const double begin = dot(perpendicular(normal), a);
+    out.edges.push_back({normal, dot(normal, a), begin, begin + norm(along)});
   }
   const double whole = signed_area(hull_);
   if (whole > 0) hollow_share_ = 1 - area(*polygon) / whole;

@@ -9,19 +9,18 @@
 
 namespace microswarm {
 
-/// A body as quick to ask as can be: the part of its surrounding disc that is on the inner side of
-/// all edges of its convex hull. A disc has none. How far a point is from it is told a little too
-/// near beside blunt corners, never too far.
+/// The convex hull of a body, as quick to ask as can be. A disc has no edges.
 struct ConvexOutline {
   struct Edge {
-    Vec2 normal;        ///< outwards, of length 1
-    double offset = 0;  ///< of the edge from the centre along it [µm]
+    Vec2 normal;                ///< outwards, of length 1
+    double offset = 0;          ///< of the edge from the centre along it [µm]
+    double begin = 0, end = 0;  ///< of the edge along perpendicular(normal) [µm]
   };
   Vec2 centre;        ///< the disc's, or the centroid of the outline [µm]
   double radius = 0;  ///< of the disc, or to the farthest vertex [µm]
   std::vector<Edge> edges;
 
-  /// Distance [µm] of a point at `from_centre`, negative inside.
+  /// Distance [µm] of a point at `from_centre`, exact; negative inside.
   double distance_at(Vec2 from_centre) const;
 };
 

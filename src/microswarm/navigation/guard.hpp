@@ -30,7 +30,8 @@ class Guard {
   void see(const Observation& observation);
   /// Nothing when there is a way out after `wanted`, should it last for `tick` [s]. Else how the
   /// way begins that is free for longest; of those that are for the whole horizon, the one that
-  /// keeps most distance.
+  /// keeps most distance. Then also turns are tried, and a way once begun is kept to unless another
+  /// is clearly better.
   std::optional<Command> overrules(const Command& wanted, const Start& start, const Map& map,
                                    double tick);
 
@@ -48,19 +49,28 @@ class Guard {
     double worth() const { return least + last; }
     bool is_better_than(const Outcome& other) const;
   };
+  /// The way last ordered, as long as it is needed.
+  struct Begun {
+    Way way;
+    double time = 0;  ///< [s]
+  };
   /// A body that may be met.
   struct Met {
     ConvexOutline outline;  ///< at the start
     Vec2 velocity;
     double widening = 0;  ///< of its outline [µm/s]
+    double speed = 0;     ///< of its outline, at most [µm/s]
   };
 
   void look_at_bodies(const Start& start);
-  double gap(Vec2 p, double t, double limit) const;
+  double gap(Vec2 p, double t, double limit, double error_rate) const;
+  template <class Visit>
+  bool follow(const Way& way, Visit&& visit) const;
   bool is_free(const Map& map, const Way& way) const;
-  Outcome outcome(const Map& map, const Way& way) const;
+  /// Incomplete once it is known to be free for less than `least_time` [s].
+  Outcome outcome(const Map& map, const Way& way, double least_time) const;
   bool leaves_a_way(const Map& map, const Command& wanted, double tick);
-  Command best_way(const Map& map) const;
+  Command best_way(const Map& map);
 
   GuardParams params_;
   double speed_;
@@ -69,6 +79,7 @@ class Guard {
   std::vector<Vec2> velocities_;  ///< hold first
   std::size_t last_ = 0;          ///< which of them was a way out last time
 
+  std::optional<Begun> begun_;
   Start start_;
   double wall_keep_ = 0;
   double gap_now_ = 0;  ///< at the start, at most the margin [µm]

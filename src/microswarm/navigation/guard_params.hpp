@@ -10,12 +10,12 @@ namespace microswarm {
 /// they were seen to move.
 struct GuardParams {
   bool active = true;
-  double horizon = 3;
-  double step = 0.125;
+  double horizon = 5;
+  double step = 0.2;
   int directions = 36;
-  double margin = 6;
+  double margin = 12;
   double margin_rate = 4;
-  double wall_margin = 4;
+  double wall_margin = 10;
   ObstacleTrackerParams tracker;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -25,7 +25,7 @@ struct GuardParams {
     visit(self.directions, {"directions", Unit::none, {4, 360}, "Of ways out, evenly spread."});
     visit(self.margin, {"margin", Unit::um, {0, 1e5}, "Gap to obstacles that counts as contact."});
     visit(self.margin_rate,
-          {"margin_rate", Unit::um_per_s, {0, 1e5}, "It grows so fast: what is foreseen errs."});
+          {"margin_rate", Unit::um_per_s, {0, 1e5}, "It grows so fast for what moves."});
     visit(self.wall_margin, {"wall_margin", Unit::um, {0, 1e5}, "Gap that is kept to walls."});
     visit(self.tracker, {"tracker", Unit::none, {}, "How the obstacles' motion is told."});
   }

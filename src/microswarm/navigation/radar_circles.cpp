@@ -45,13 +45,14 @@ void check(const RadarParams& params, const Places& where) {
 }
 
 void check_step(const RadarParams& params, const SwarmLimits& swarm, const Places& where) {
-  const double most = 2 * (swarm.radius - swarm.radius_variation + params.safety_distance);
+  const double kept = params.safety_radius.adaptive ? 0 : params.safety_distance;
+  const double most = 2 * (swarm.radius - swarm.radius_variation) + kept;
   if (params.prediction_distance <= most) return;
   throw where.error(
       {"navigator.prediction_distance_um", "navigator.safety_distance_um"},
-      fmt::format("navigator.prediction_distance_um is {:.4g}, more than twice the swarm's least "
-                  "radius + safety_distance_um, {:.4g}: it could step over a wall",
-                  params.prediction_distance, most));
+      fmt::format("navigator.prediction_distance_um is {:.4g}, more than the swarm's least "
+                  "diameter{}, {:.4g}: it could step over a wall",
+                  params.prediction_distance, kept > 0 ? " + safety_distance_um" : "", most));
 }
 
 }  // namespace microswarm

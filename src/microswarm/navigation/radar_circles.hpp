@@ -25,9 +25,9 @@ int directions_of(const RadarParams& params);
 /// parameters do not fit together; `where` knows the keys of a scenario.
 void check(const RadarParams& params, const Places& where);
 
-/// The same when d_p is more than twice the sum of the swarm's least radius and d_f: then a thin
-/// wall could lie between the two ends of a step, and neither would touch it. The published d_p is
-/// at most an eighth of a body length [radar].
+/// The same when d_p is more than the swarm's least diameter and, where r_f is not controlled, d_f:
+/// then a thin wall could lie between a swarm and its predictive swarm, and neither would touch it.
+/// The published d_p is at most an eighth of a body length [radar].
 void check_step(const RadarParams& params, const SwarmLimits& swarm, const Places& where);
 
 }  // namespace microswarm

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reproduce_figures.hpp"
+
+#include <fmt/ranges.h>
+
+#include <filesystem>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/file.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+std::vector<ReproduceRow> interrupted(std::string_view figure, std::vector<ReproduceRow> rows) {
+  if (rows.empty()) rows.push_back({.figure = std::string(figure), .quantity = "interrupted"});
+  for (ReproduceRow& row : rows) {
+    row.aim.reset();
+    row.note = row.note.empty() ? "interrupted" : row.note + ", interrupted";
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::vector<ReproduceRow> reproduce_figures(std::string_view paper, std::span<const Figure> figures,
+                                            const std::string& figure,
+                                            const ReproduceOptions& options, const Stop& stop) {
+  std::vector<ReproduceRow> rows;
+  std::vector<std::string_view> names;
+  bool known = figure.empty();
+  for (const auto& [name, make] : figures) {
+    names.push_back(name);
+    if (!figure.empty() && figure != name) continue;
+    known = true;
+    if (stop()) continue;
+    auto more = make(options, stop);
+    if (stop()) more = interrupted(name, std::move(more));
+    rows.insert(rows.end(), more.begin(), more.end());
+  }
+  if (!known)
+    throw InputError(fmt::format("reproduce {}: unknown figure '{}', there are: {}", paper, figure,
+                                 fmt::join(names, ", ")));
+  if (!options.out.empty())
+    write_file_atomically(std::filesystem::path(options.out) / fmt::format("{}.csv", paper),
+                          rows_csv(rows));
+  return rows;
+}
+
+}  // namespace microswarm::cli

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reproduce.hpp"
+
+namespace microswarm::cli {
+
+/// A figure of a paper, and what makes its rows.
+struct Figure {
+  std::string_view name;
+  std::vector<ReproduceRow> (*make)(const ReproduceOptions& options, const Stop& stop);
+};
+
+/// Rows of the one that is asked for, or of all when empty; with a folder, as PAPER.csv too. What
+/// there is of a figure that was stopped has no aims to meet. Throws InputError for an unknown one.
+std::vector<ReproduceRow> reproduce_figures(std::string_view paper, std::span<const Figure> figures,
+                                            const std::string& figure,
+                                            const ReproduceOptions& options, const Stop& stop);
+
+}  // namespace microswarm::cli

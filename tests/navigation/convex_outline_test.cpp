@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/convex_outline.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/core/rng.hpp"
+#include "microswarm/geometry/distance.hpp"
+
+namespace microswarm {
+namespace {
+
+Polygon convex_polygon(Rng& rng, Vec2 centre) {
+  Polygon polygon;
+  const int corners = 3 + static_cast<int>(rng.below(6));
+  for (int k = 0; k < corners; ++k) {
+    const double around = 2 * pi * (k + rng.uniform(0, 0.8)) / corners;
+    polygon.outer.push_back(centre + 100 * unit_vector(wrap(around)));
+  }
+  return polygon;
+}
+
+TEST(ConvexOutline, IsAsFarAsTheBody) {
+  Rng rng(5, Purpose::test);
+  ConvexOutliner outliner;
+  ConvexOutline outline;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Vec2 centre{rng.uniform(-500, 500), rng.uniform(-500, 500)};
+    const Polygon polygon = convex_polygon(rng, centre);
+    outliner.take({.shape = polygon}, outline);
+    for (int k = 0; k < 50; ++k) {
+      const Vec2 p = centre + Vec2{rng.uniform(-300, 300), rng.uniform(-300, 300)};
+      const double truth = distance(p, polygon);
+      const double told = outline.distance_at(p - outline.centre);
+      if (truth > 0)
+        EXPECT_NEAR(told, truth, 1e-9);
+      else
+        EXPECT_LE(told, 1e-9);
+    }
+  }
+}
+
+TEST(ConvexOutline, OfADiscIsTheDisc) {
+  ConvexOutliner outliner;
+  ConvexOutline outline;
+  outliner.take({.shape = Disc{{10, 20}, 30}}, outline);
+  EXPECT_TRUE(outline.edges.empty());
+  EXPECT_DOUBLE_EQ(outline.distance_at({50, 0}), 20);
+  EXPECT_DOUBLE_EQ(outline.distance_at({0, 0}), -30);
+}
+
+}  // namespace
+}  // namespace microswarm
