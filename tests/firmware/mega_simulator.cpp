@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+// mega_simulator FIRMWARE.elf: an ATmega2560 in real time whose serial line is a pseudo-terminal.
+// Prints `port PATH`, then `out MS o1 … o6` whenever an output changes (per mille, by the pins'
+// registers; MS on the monotonic clock). Takes lines: `cut`, `join` (the cable), `lose P` and
+// `flip P` (a share of the bytes to the device), `reset`.
+// Ends with its standard input.
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <poll.h>
+#include <pty.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cstdlib>
+#include <deque>
+#include <sstream>
+#include <string>
+#include <string_view>
+
+#include "microswarm/core/rng.hpp"
+
+extern "C" {
+#include <simavr/avr_uart.h>
+#include <simavr/sim_avr.h>
+#include <simavr/sim_elf.h>
+}
+
+namespace microswarm {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Outputs = std::array<int, 6>;
+
+constexpr double frequency = 16e6;
+constexpr int top = 799;
+
+std::int64_t milliseconds() {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now().time_since_epoch())
+      .count();
+}
+
+/// What the pins do, by the registers' addresses in the data sheet.
+Outputs outputs_of(const avr_t& avr) {
+  constexpr int port_a = 0x22, control_3a = 0x90, width_3a = 0x98, control_4a = 0xA0,
+                width_4a = 0xA8;
+  Outputs outputs{};
+  for (int c = 0; c < 6; ++c) {
+    const int of_timer = c % 3;
+    const int control = avr.data[c < 3 ? control_3a : control_4a];
+    const int at = (c < 3 ? width_3a : width_4a) + 2 * of_timer;
+    const int width = avr.data[at] | avr.data[at + 1] << 8;
+    const bool connected = (control >> (7 - 2 * of_timer)) & 1;
+    if (!connected) continue;
+    const int size = (1000 * (width + 1) + top) / (top + 1);
+    outputs[static_cast<std::size_t>(c)] = (avr.data[port_a] >> c) & 1 ? -size : size;
+  }
+  return outputs;
+}
+
+class Mega {
+ public:
+  explicit Mega(const char* firmware) {
+    elf_firmware_t elf{};
+    if (elf_read_firmware(firmware, &elf) != 0) fail("cannot read the firmware");
+    avr_ = avr_make_mcu_by_name("atmega2560");
+    if (!avr_) fail("knows no atmega2560");
+    avr_init(avr_);
+    elf.frequency = static_cast<std::uint32_t>(frequency);
+    avr_load_firmware(avr_, &elf);
+    avr_->sleep = [](avr_t*, avr_cycle_count_t) {};  // run() keeps the time
+    std::uint32_t flags = 0;
+    avr_ioctl(avr_, AVR_IOCTL_UART_GET_FLAGS('0'), &flags);
+    flags &= ~static_cast<std::uint32_t>(AVR_UART_FLAG_STDIO | AVR_UART_FLAG_POLL_SLEEP);
+    avr_ioctl(avr_, AVR_IOCTL_UART_SET_FLAGS('0'), &flags);
+    const auto irq = [&](int n) { return avr_io_getirq(avr_, AVR_IOCTL_UART_GETIRQ('0'), n); };
+    input_ = irq(UART_IRQ_INPUT);
+    avr_irq_register_notify(irq(UART_IRQ_OUTPUT), on_output, this);
+    avr_irq_register_notify(irq(UART_IRQ_OUT_XON), on_room, this);
+    avr_irq_register_notify(irq(UART_IRQ_OUT_XOFF), on_full, this);
+    open_port();
+  }
+
+  /// Until the standard input ends.
+  void run() {
+    const auto began = Clock::now();
+    Outputs shown{};
+    show(shown);
+    for (;;) {
+      const double seconds = std::chrono::duration<double>(Clock::now() - began).count();
+      const auto until = static_cast<avr_cycle_count_t>(seconds * frequency);
+      while (avr_->cycle < until) {
+        const int state = avr_run(avr_);
+        if (state == cpu_Crashed || state == cpu_Done) fail("the firmware crashed");
+      }
+      const Outputs now = outputs_of(*avr_);
+      if (now != shown) show(shown = now);
+      if (!exchange()) return;
+    }
+  }
+
+ private:
+  [[noreturn]] static void fail(std::string_view why) {
+    fmt::print(stderr, "mega_simulator: {}\n", why);
+    std::exit(1);
+  }
+
+  static void show(const Outputs& o) {
+    fmt::print("out {} {} {} {} {} {} {}\n", milliseconds(), o[0], o[1], o[2], o[3], o[4], o[5]);
+    std::fflush(stdout);
+  }
+
+  void open_port() {
+    termios raw{};
+    cfmakeraw(&raw);
+    std::array<char, 128> name{};
+    int other = -1;
+    if (openpty(&port_, &other, name.data(), &raw, nullptr) != 0) fail("no pseudo-terminal");
+    // The other end stays open, so that a host may come and go.
+    fcntl(port_, F_SETFL, O_NONBLOCK);
+    fmt::print("port {}\n", name.data());
+    std::fflush(stdout);
+  }
+
+  static void on_output(avr_irq_t*, std::uint32_t byte, void* self) {
+    Mega& mega = *static_cast<Mega*>(self);
+    const auto sent = static_cast<std::uint8_t>(byte);
+    if (!mega.cut_ && write(mega.port_, &sent, 1) < 0) return;  // nobody reads: lost
+  }
+  static void on_room(avr_irq_t*, std::uint32_t, void* self) {
+    Mega& mega = *static_cast<Mega*>(self);
+    mega.room_ = true;
+    mega.feed();
+  }
+  static void on_full(avr_irq_t*, std::uint32_t, void* self) {
+    static_cast<Mega*>(self)->room_ = false;
+  }
+
+  void feed() {
+    while (room_ && !waiting_.empty()) {
+      const std::uint8_t byte = waiting_.front();
+      waiting_.pop_front();
+      avr_raise_irq(input_, byte);
+    }
+  }
+
+  bool exchange() {
+    std::array<pollfd, 2> ready{{{port_, POLLIN, 0}, {STDIN_FILENO, POLLIN, 0}}};
+    if (poll(ready.data(), ready.size(), 1) <= 0) return true;
+    std::array<std::uint8_t, 256> bytes{};
+    if (ready[0].revents & POLLIN) {
+      const auto n = read(port_, bytes.data(), bytes.size());
+      for (std::size_t k = 0; n > 0 && k < static_cast<std::size_t>(n); ++k) take(bytes[k]);
+    }
+    feed();
+    if (!(ready[1].revents & (POLLIN | POLLHUP))) return true;
+    const auto n = read(STDIN_FILENO, bytes.data(), bytes.size());
+    if (n <= 0) return false;
+    orders_.append(bytes.begin(), bytes.begin() + n);
+    for (std::size_t end; (end = orders_.find('\n')) != std::string::npos;
+         orders_.erase(0, end + 1))
+      obey(orders_.substr(0, end));
+    return true;
+  }
+
+  void take(std::uint8_t byte) {
+    if (cut_ || rng_.uniform(0, 1) < lost_) return;
+    if (rng_.uniform(0, 1) < flipped_) byte ^= static_cast<std::uint8_t>(1u << rng_.below(8));
+    waiting_.push_back(byte);
+  }
+
+  void obey(const std::string& line) {
+    std::istringstream words(line);
+    std::string order;
+    words >> order;
+    if (order == "cut") cut_ = true;
+    if (order == "join") cut_ = false;
+    if (order == "lose") words >> lost_;
+    if (order == "flip") words >> flipped_;
+    if (order == "reset") avr_reset(avr_);
+  }
+
+  avr_t* avr_ = nullptr;
+  avr_irq_t* input_ = nullptr;
+  int port_ = -1;
+  bool room_ = true, cut_ = false;
+  double lost_ = 0, flipped_ = 0;
+  std::deque<std::uint8_t> waiting_;
+  std::string orders_;
+  Rng rng_{1, Purpose::test};
+};
+
+}  // namespace
+}  // namespace microswarm
+
+int main(int count, char** arguments) {
+  if (count != 2) {
+    fmt::print(stderr, "usage: mega_simulator FIRMWARE.elf\n");
+    return 2;
+  }
+  microswarm::Mega(arguments[1]).run();
+  return 0;
+}
