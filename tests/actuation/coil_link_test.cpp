@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/actuation/coil_link.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "microswarm/core/rng.hpp"
+
+namespace microswarm {
+namespace {
+
+CoilReply some_reply(Rng& rng) {
+  CoilReply reply{.to = CoilMessage::set,
+                  .sequence = static_cast<std::uint8_t>(rng.below(256)),
+                  .version = coil_link_version,
+                  .result = CoilResult::limited,
+                  .state = CoilState::armed,
+                  .limited = 0x21,
+                  .good = static_cast<int>(rng.below(65536)),
+                  .bad = static_cast<int>(rng.below(3)),
+                  .trips = 0};
+  for (int& output : reply.outputs) output = static_cast<int>(rng.below(2001)) - 1000;
+  return reply;
+}
+
+std::vector<CoilReply> replies_in(CoilReplyReader& reader, std::span<const std::uint8_t> bytes) {
+  std::vector<CoilReply> replies;
+  for (const std::uint8_t byte : bytes)
+    if (const auto reply = reader.take(byte)) replies.push_back(*reply);
+  return replies;
+}
+
+bool same(const CoilReply& a, const CoilReply& b) { return encode(a) == encode(b); }
+
+TEST(CoilLink, CheckSumIsTheKnownOne) {
+  constexpr std::string_view digits = "123456789";
+  const std::vector<std::uint8_t> bytes(digits.begin(), digits.end());
+  EXPECT_EQ(crc16(bytes), 0x29B1);
+}
+
+TEST(CoilLink, FramesEndWithTheirOnlyZero) {
+  Rng rng(1, Purpose::test);
+  for (int k = 0; k < 500; ++k) {
+    std::array<int, coil_link_channels> outputs{};
+    for (int& output : outputs)
+      output = rng.below(2) ? 0 : static_cast<int>(rng.below(2001)) - 1000;
+    const auto frame = encode_set(static_cast<std::uint8_t>(k), outputs);
+    EXPECT_EQ(std::count(frame.begin(), frame.end(), 0), 1);
+    EXPECT_EQ(frame.back(), 0);
+    EXPECT_EQ(frame.size(), 18u);
+  }
+}
+
+TEST(CoilLink, RepliesComeBackAsTheyWere) {
+  Rng rng(2, Purpose::test);
+  CoilReplyReader reader;
+  for (int k = 0; k < 500; ++k) {
+    const CoilReply reply = some_reply(rng);
+    const auto read = replies_in(reader, encode(reply));
+    ASSERT_EQ(read.size(), 1u);
+    EXPECT_TRUE(same(read[0], reply));
+    EXPECT_EQ(read[0].outputs, reply.outputs);
+  }
+  EXPECT_EQ(reader.bad(), 0);
+}
+
+TEST(CoilLink, NoFlippedBitIsTakenForAReply) {
+  Rng rng(3, Purpose::test);
+  const auto frame = encode(some_reply(rng));
+  for (std::size_t k = 0; k + 1 < frame.size(); ++k)
+    for (unsigned bit = 0; bit < 8; ++bit) {
+      auto bytes = frame;
+      bytes[k] = static_cast<std::uint8_t>(bytes[k] ^ (1u << bit));
+      CoilReplyReader reader;
+      EXPECT_TRUE(replies_in(reader, bytes).empty()) << k << ", " << bit;
+    }
+}
+
+TEST(CoilLink, GarbageBeforeAReplyCostsThatReplyAtMost) {
+  Rng rng(4, Purpose::test);
+  const CoilReply reply = some_reply(rng);
+  const auto frame = encode(reply);
+  CoilReplyReader reader;
+  for (int k = 0; k < 300; ++k) {
+    std::vector<std::uint8_t> bytes;
+    for (std::uint64_t n = rng.below(100); n > 0; --n)
+      bytes.push_back(static_cast<std::uint8_t>(rng.below(256)));
+    bytes.insert(bytes.end(), frame.begin(), frame.end());
+    bytes.insert(bytes.end(), frame.begin(), frame.end());
+    const auto read = replies_in(reader, bytes);
+    ASSERT_FALSE(read.empty());
+    EXPECT_TRUE(same(read.back(), reply));
+  }
+}
+
+}  // namespace
+}  // namespace microswarm
