@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace microswarm {
+
+/// A pair that may be made, and what it costs.
+struct AssignmentEdge {
+  int row = 0;
+  int column = 0;
+  double cost = 0;
+};
+
+/// Pairs rows with columns, each with one at most, so that the sum of the pairs' costs and of
+/// `alone` for each row left alone is least: shortest augmenting paths with potentials
+/// [jonker]. A search never leaves the rows and columns that edges join to where it began, so that
+/// scattered robots cost little more than a pass over the edges.
+///
+/// [jonker] R. Jonker and A. Volgenant, A shortest augmenting path algorithm for dense and sparse
+/// linear assignment problems, Computing 38, 325 (1987).
+class Assignment {
+ public:
+  /// The column of each row, nothing for a row left alone. `edges` ascend by row; several between
+  /// the same two are allowed. Costs are finite; those above `alone` are never taken. Among equally
+  /// good solutions the same is given every time. Valid until the next call.
+  const std::vector<std::optional<int>>& solve(int rows, int columns,
+                                               const std::vector<AssignmentEdge>& edges,
+                                               double alone);
+
+ private:
+  struct Reached {
+    double distance;
+    int column;
+    friend bool operator>(const Reached& a, const Reached& b) {
+      return a.distance != b.distance ? a.distance > b.distance : a.column > b.column;
+    }
+  };
+
+  void begin(int rows, int columns, const std::vector<AssignmentEdge>& edges);
+  bool take_cheapest(int row, const std::vector<AssignmentEdge>& edges, double alone);
+  void augment(int row, const std::vector<AssignmentEdge>& edges, double alone);
+  void reach(int column, int from, double distance);
+  void settle_potentials(double shortest);
+
+  std::vector<std::size_t> first_edge_;  ///< of each row, and one beyond the last
+  std::vector<std::optional<int>> column_of_;
+  std::vector<std::optional<int>> row_of_;
+  std::vector<double> row_potential_;
+  std::vector<double> column_potential_;
+  // Of one search:
+  std::vector<double> distance_;  ///< of each column, infinite where it was not reached
+  std::vector<int> from_;         ///< the row a column was reached from
+  std::vector<bool> done_;
+  std::vector<int> touched_;  ///< columns reached
+  std::vector<Reached> heap_;
+};
+
+}  // namespace microswarm

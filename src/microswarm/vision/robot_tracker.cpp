@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/vision/robot_tracker.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+namespace microswarm {
+
+RobotTracker::RobotTracker(const TrackerParams& p, double diameter, double frame_time)
+    : noise_{.measurement = p.measurement.value_or(diameter / 50),
+             .jitter = p.jitter.value_or(diameter / 10),
+             .speed_change = p.speed_change.value_or(diameter / 100 / frame_time),
+             .start_speed = p.start_speed.value_or(diameter / 20 / frame_time)},
+      gate_(p.gate),
+      search_range_(p.search_range.value_or(5 * diameter / 11)),
+      touch_(p.touch.value_or(1.2 * diameter)),
+      frame_time_(frame_time),
+      memory_(p.memory) {
+  assert(diameter > 0 && frame_time > 0);
+}
+
+const std::vector<Sighting>& RobotTracker::step(int frame, std::span<const Vec2> seen) {
+  for (Robot& robot : robots_) robot.filter.predict(frame_time_, noise_);
+  find_candidates(seen);
+  match(frame, seen);
+  give_birth(frame, seen);
+  bury();
+  return sightings_;
+}
+
+void RobotTracker::finish() {
+  for (Robot& robot : robots_) robot.missed = memory_ + 1;
+  bury();
+}
+
+/// Pairs within reach, at the cost of their likelihood: a robot that could be anywhere claims a
+/// place less than one that is due there.
+void RobotTracker::find_candidates(std::span<const Vec2> seen) {
+  by_height_.resize(seen.size());
+  std::iota(by_height_.begin(), by_height_.end(), 0);
+  std::sort(by_height_.begin(), by_height_.end(),
+            [&](int a, int b) { return seen[a].y != seen[b].y ? seen[a].y < seen[b].y : a < b; });
+  double least = 0;
+  for (const Robot& robot : robots_) {
+    const double variance = robot.filter.seen_variance(noise_);
+    least = least > 0 ? std::min(least, variance) : variance;
+  }
+  edges_.clear();
+  for (int row = 0; row < std::ssize(robots_); ++row) {
+    const RobotFilter& filter = robots_[row].filter;
+    const double variance = filter.seen_variance(noise_);
+    const double reach = std::min(search_range_, gate_ * std::sqrt(variance));
+    const double doubt = 2 * std::log(variance / least);
+    auto at = std::lower_bound(by_height_.begin(), by_height_.end(), filter.place().y - reach,
+                               [&](int i, double y) { return seen[i].y < y; });
+    for (; at != by_height_.end() && seen[*at].y <= filter.place().y + reach; ++at) {
+      const double squared = squared_norm(seen[*at] - filter.place());
+      if (squared <= reach * reach) edges_.push_back({row, *at, squared / variance + doubt});
+    }
+  }
+}
+
+void RobotTracker::match(int frame, std::span<const Vec2> seen) {
+  const auto& column_of = assignment_.solve(static_cast<int>(robots_.size()),
+                                            static_cast<int>(seen.size()), edges_, gate_ * gate_);
+  sightings_.assign(seen.size(), {});
+  robot_at_.assign(seen.size(), std::nullopt);
+  for (int row = 0; row < std::ssize(robots_); ++row) {
+    Robot& robot = robots_[row];
+    if (!column_of[row]) {
+      ++robot.missed;
+      continue;
+    }
+    robot_at_[*column_of[row]] = row;
+    robot.filter.correct(seen[*column_of[row]], noise_);
+  }
+  for (Robot& robot : robots_) note_merge(robot, frame, seen);
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (!robot_at_[i]) continue;
+    Robot& robot = robots_[*robot_at_[i]];
+    if (robot.merged_with) {
+      if (const auto other = toucher(seen[i], robot.id, seen))
+        events_.push_back({frame, TrackChange::split, robot.id, other});
+      robot.merged_with.reset();
+    }
+    robot.missed = 0;
+    robot.last_frame = frame;
+    sightings_[i] = {robot.id, robot.filter.place(), robot.filter.velocity()};
+  }
+}
+
+void RobotTracker::note_merge(Robot& robot, int frame, std::span<const Vec2> seen) {
+  if (robot.missed != 1) return;
+  robot.merged_with = toucher(robot.filter.place(), robot.id, seen);
+  if (robot.merged_with)
+    events_.push_back({frame, TrackChange::merge, robot.id, robot.merged_with});
+}
+
+/// The nearest other robot seen in this frame within touch of a place.
+std::optional<int> RobotTracker::toucher(Vec2 place, int of, std::span<const Vec2> seen) const {
+  std::optional<int> nearest;
+  double least = touch_ * touch_;
+  auto at = std::lower_bound(by_height_.begin(), by_height_.end(), place.y - touch_,
+                             [&](int i, double y) { return seen[i].y < y; });
+  for (; at != by_height_.end() && seen[*at].y <= place.y + touch_; ++at) {
+    const double squared = squared_norm(seen[*at] - place);
+    if (!robot_at_[*at] || squared > least) continue;
+    const int id = robots_[*robot_at_[*at]].id;
+    if (id == of) continue;
+    least = squared;
+    nearest = id;
+  }
+  return nearest;
+}
+
+void RobotTracker::give_birth(int frame, std::span<const Vec2> seen) {
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (robot_at_[i]) continue;
+    const int id = next_id_++;
+    const auto other = frame_ ? toucher(seen[i], id, seen) : std::nullopt;
+    events_.push_back({frame, other ? TrackChange::split : TrackChange::birth, id, other});
+    robots_.push_back({id, frame, 0, {}, RobotFilter(seen[i], noise_)});
+    sightings_[i] = {id, seen[i], {}};
+  }
+  frame_ = frame;
+}
+
+void RobotTracker::bury() {
+  for (const Robot& robot : robots_)
+    if (robot.missed > memory_)
+      events_.push_back({robot.last_frame, TrackChange::death, robot.id, {}});
+  std::erase_if(robots_, [&](const Robot& robot) { return robot.missed > memory_; });
+}
+
+}  // namespace microswarm

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/vision/particles.hpp"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/vision/ring_fit.hpp"
+#include "microswarm/vision/running_max.hpp"
+#include "tests/vision/spots.hpp"
+
+namespace microswarm {
+namespace {
+
+/// Root mean square distance of found particles from the true places, each the nearest within 1 px;
+/// nothing when one is missing.
+std::optional<double> rms_error(const std::vector<Vec2>& truth,
+                                const std::vector<Particle>& found) {
+  double sum = 0;
+  for (const Vec2 p : truth) {
+    double least = 1;
+    for (const Particle& particle : found)
+      least = std::min(least, squared_norm(particle.at_px - p));
+    if (least >= 1) return std::nullopt;
+    sum += least;
+  }
+  return std::sqrt(sum / static_cast<double>(truth.size()));
+}
+
+TEST(Particles, CentresAreExactToATwentiethOfAPixel) {
+  for (const bool dark : {false, true})
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      Rng rng(seed, Purpose::test);
+      const auto truth = test::scattered(400, 300, 25, rng);
+      const Image image = test::draw_spots(400, 300, truth, 2.2, dark ? -90 : 90, 1.5, rng);
+      ParticleFinder finder({.diameter = 13,
+                             .tone = dark ? ParticleTone::dark : ParticleTone::bright,
+                             .min_mass = 300});
+      const auto& found = finder.find(image);
+      EXPECT_EQ(found.size(), truth.size());
+      const auto error = rms_error(truth, found);
+      ASSERT_TRUE(error) << "seed " << seed;
+      EXPECT_LT(*error, 0.05) << "seed " << seed;
+    }
+}
+
+TEST(Particles, ErrorGrowsWithNoise) {
+  double last = 0;
+  for (const double noise : {0.5, 4.0, 12.0}) {
+    Rng rng(9, Purpose::test);
+    const auto truth = test::scattered(400, 300, 25, rng);
+    const Image image = test::draw_spots(400, 300, truth, 2.2, 90, noise, rng);
+    ParticleFinder finder({.diameter = 13, .tone = ParticleTone::bright, .min_mass = 300});
+    const auto error = rms_error(truth, finder.find(image));
+    ASSERT_TRUE(error) << noise;
+    EXPECT_GT(*error, last);
+    last = *error;
+  }
+}
+
+TEST(Particles, MovedPictureMovesParticles) {
+  Rng rng(3, Purpose::test);
+  std::vector<Vec2> places = test::scattered(300, 200, 30, rng);
+  ParticleFinder finder({.diameter = 11, .tone = ParticleTone::bright, .min_mass = 300});
+  Rng none(1, Purpose::test);
+  const Image a = test::draw_spots(300, 200, places, 2, 80, 0, none);
+  const std::vector<Particle> before = finder.find(a);
+  for (Vec2& p : places) p += Vec2{7, 0};
+  Image b = a;  // the same pixels, seven columns on
+  for (int y = 0; y < 200; ++y)
+    for (int x = 7; x < 300; ++x) b.pixels[b.index(x, y)] = a.pixels[a.index(x - 7, y)];
+  const std::vector<Particle> after = finder.find(b);
+  ASSERT_EQ(after.size(), before.size());
+  for (std::size_t i = 0; i < after.size(); ++i)
+    EXPECT_NEAR(distance(after[i].at_px, before[i].at_px + Vec2{7, 0}), 0, 1e-9);
+}
+
+TEST(Particles, FainterOfTwoTooNearIsDropped) {
+  Rng rng(1, Purpose::test);
+  const Image one = test::draw_spots(100, 100, {{40, 50}}, 2, 60, 0, rng);
+  Image two = one;
+  const Image other = test::draw_spots(100, 100, {{49, 50}}, 2, 100, 0, rng);
+  for (std::size_t i = 0; i < two.pixels.size(); ++i)
+    two.pixels[i] = std::max(one.pixels[i], other.pixels[i]);
+  ParticleFinder wide({.diameter = 9, .tone = ParticleTone::bright, .separation = 14});
+  ASSERT_EQ(wide.find(two).size(), 1U);
+  EXPECT_NEAR(wide.find(two)[0].at_px.x, 49, 0.5);
+  ParticleFinder narrow({.diameter = 5, .tone = ParticleTone::bright, .separation = 6});
+  EXPECT_EQ(narrow.find(two).size(), 2U);
+}
+
+TEST(Particles, NoneInBlankAndTinyPictures) {
+  ParticleFinder finder({.diameter = 11});
+  for (const int side : {1, 2, 5, 11, 12, 40}) {
+    const Image blank{side, side, 1, std::vector<std::uint8_t>(side * side, 77)};
+    EXPECT_TRUE(finder.find(blank).empty()) << side;
+  }
+}
+
+TEST(Particles, NothingIsNearerToTheBorderThanTheMask) {
+  Rng rng(5, Purpose::test);
+  const auto truth = std::vector<Vec2>{{2, 2}, {97, 50}, {50, 50}, {50, 1}};
+  const Image image = test::draw_spots(100, 100, truth, 2, 90, 2, rng);
+  ParticleFinder finder({.diameter = 11, .tone = ParticleTone::bright, .min_mass = 100});
+  for (const Particle& p : finder.find(image)) {
+    EXPECT_GE(std::min(p.at_px.x, p.at_px.y), 3);
+    EXPECT_LE(std::max(p.at_px.x, p.at_px.y), 96);
+  }
+}
+
+TEST(Particles, SamePictureSameBits) {
+  Rng rng(8, Purpose::test);
+  const auto truth = test::scattered(300, 200, 20, rng);
+  const Image image = test::draw_spots(300, 200, truth, 2, 70, 6, rng);
+  ParticleFinder used({.diameter = 11, .tone = ParticleTone::bright});
+  used.find(test::draw_spots(500, 100, {{50, 50}}, 2, 70, 6, rng));
+  const std::vector<Particle> again = used.find(image);
+  ParticleFinder fresh({.diameter = 11, .tone = ParticleTone::bright});
+  const auto& once = fresh.find(image);
+  ASSERT_EQ(once.size(), again.size());
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    EXPECT_EQ(once[i].at_px, again[i].at_px);
+    EXPECT_EQ(once[i].mass, again[i].mass);
+  }
+}
+
+TEST(Particles, NoiseAsWideAsAParticleIsRefused) {
+  EXPECT_THROW(ParticleFinder({.diameter = 5, .noise = 5}), InputError);
+}
+
+TEST(RunningMax, IsThatOfEachWindow) {
+  Rng rng(2, Purpose::test);
+  for (int side = 1; side <= 20; ++side) {
+    const int width = 1 + static_cast<int>(rng.below(30));
+    const int height = 1 + static_cast<int>(rng.below(30));
+    std::vector<std::uint8_t> in(width * height);
+    for (auto& v : in) v = static_cast<std::uint8_t>(rng.below(256));
+    std::vector<std::uint8_t> out;
+    RunningMax(side).run(in, width, height, out);
+    const int before = (side - 1) / 2;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        int highest = 0;
+        for (int v = std::max(0, y - before); v < std::min(height, y - before + side); ++v)
+          for (int u = std::max(0, x - before); u < std::min(width, x - before + side); ++u)
+            highest = std::max<int>(highest, in[v * width + u]);
+        ASSERT_EQ(out[y * width + x], highest) << side << " at " << x << ", " << y;
+      }
+  }
+}
+
+TEST(RingFit, FindsCentreAndRadius) {
+  Rng rng(4, Purpose::test);
+  for (int k = 0; k < 20; ++k) {
+    const double x = rng.uniform(29, 31);
+    const Vec2 centre{x, rng.uniform(29, 31)};
+    const double radius = rng.uniform(7, 10);
+    Image image{60, 60, 1, {}};
+    for (int row = 0; row < 60; ++row)
+      for (int column = 0; column < 60; ++column) {
+        const double off = distance(Vec2(column, row), centre) - radius;
+        const double grey = 150 - 80 * std::exp(-0.5 * off * off / 2.25) + 2 * rng.normal();
+        image.pixels.push_back(static_cast<std::uint8_t>(grey));
+      }
+    const auto ring = fit_ring(image, {30, 30}, 8.5, true);
+    ASSERT_TRUE(ring);
+    EXPECT_LT(distance(ring->centre_px, centre), 0.1);
+    EXPECT_NEAR(ring->radius_px, radius, 0.1);
+  }
+  const Image blank{60, 60, 1, std::vector<std::uint8_t>(3600, 90)};
+  EXPECT_FALSE(fit_ring(blank, {30, 30}, 8, true));
+}
+
+}  // namespace
+}  // namespace microswarm
