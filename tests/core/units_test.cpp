@@ -12,7 +12,7 @@ namespace {
 
 TEST(Units, EveryUnitHasItsOwnSuffixAndASymbol) {
   std::set<std::string_view> suffixes;
-  for (int i = 0; i <= static_cast<int>(Unit::mt); ++i) {
+  for (int i = 0; i <= static_cast<int>(Unit::k_per_w); ++i) {
     const Unit unit = static_cast<Unit>(i);
     EXPECT_TRUE(suffixes.insert(unit_suffix(unit)).second) << unit_suffix(unit);
     EXPECT_EQ(unit_symbol(unit).empty(), unit == Unit::none);

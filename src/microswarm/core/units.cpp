@@ -45,6 +45,22 @@ UnitText text_of(Unit unit) {
       return {"ms", "ms"};
     case Unit::mt:
       return {"mt", "mT"};
+    case Unit::mt_per_a:
+      return {"mt_per_a", "mT/A"};
+    case Unit::a:
+      return {"a", "A"};
+    case Unit::a_per_s:
+      return {"a_per_s", "A/s"};
+    case Unit::v:
+      return {"v", "V"};
+    case Unit::ohm:
+      return {"ohm", "Ω"};
+    case Unit::mh:
+      return {"mh", "mH"};
+    case Unit::degc:
+      return {"degc", "°C"};
+    case Unit::k_per_w:
+      return {"k_per_w", "K/W"};
   }
   assert(false);
   return {};

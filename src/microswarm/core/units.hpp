@@ -21,7 +21,15 @@ enum class Unit {
   px,
   um_per_px,
   ms,
-  mt
+  mt,
+  mt_per_a,
+  a,
+  a_per_s,
+  v,
+  ohm,
+  mh,
+  degc,
+  k_per_w
 };
 
 /// Suffix of a key or a column that holds this unit: "um" in `step_um`; empty for `none`.

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "microswarm/core/fields.hpp"
+
+namespace microswarm {
+
+/// One coil as its amplifier sees it, a resistance and an inductance in series, with what it may
+/// bear. It warms up as one body: T = ambient + thermal_resistance · power in the end, approached
+/// with the time constant. A limit that is not given does not limit.
+struct DriveParams {
+  double resistance = 1;
+  double inductance = 1;
+  double thermal_resistance = 1;
+  double thermal_time = 300;
+  double ambient = 22;
+  std::optional<double> max_current;
+  std::optional<double> max_voltage;
+  std::optional<double> max_slew;
+  std::optional<double> max_temperature;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.resistance, {"resistance", Unit::ohm, {1e-6, 1e6}, "Resistance of the coil."});
+    visit(self.inductance, {"inductance", Unit::mh, {0, 1e6}, "Inductance of the coil."});
+    visit(self.thermal_resistance,
+          {"thermal_resistance", Unit::k_per_w, {0, 1e6}, "Warmer than its surroundings by."});
+    visit(self.thermal_time,
+          {"thermal_time", Unit::s, {1e-3, 1e7}, "Time constant with which it warms up."});
+    visit(self.ambient, {"ambient", Unit::degc, {-273, 1e3}, "Temperature around the coil."});
+    visit(self.max_current, {"max_current", Unit::a, {1e-6, 1e6}, "Greatest current."});
+    visit(self.max_voltage, {"max_voltage", Unit::v, {1e-6, 1e6}, "Greatest voltage."});
+    visit(self.max_slew,
+          {"max_slew", Unit::a_per_s, {1e-6, 1e9}, "Fastest change of the current."});
+    visit(self.max_temperature,
+          {"max_temperature", Unit::degc, {-273, 1e4}, "Temperature that is not exceeded."});
+  }
+};
+
+}  // namespace microswarm
