@@ -21,6 +21,8 @@ class TextRows {
   std::vector<double> numbers(std::size_t count, char separator, const char* what);
   /// The number that one piece of the row spells.
   double number(std::string_view piece, std::string_view what) const;
+  /// Number of the line last given, from 1.
+  int line() const { return line_; }
   /// Complains of a row that follows.
   void end();
   /// Throws InputError "NAME:LINE: WHY" at the row last given.

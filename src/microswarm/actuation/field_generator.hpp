@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/swarm/contracts.hpp"
+
+namespace microswarm {
+
+/// How a field drives a swarm: pitched and rotating [radar], rolling [gather], or oscillating
+/// [drrt].
+enum class FieldKind { rotating, rolling, oscillating };
+constexpr auto enum_names(FieldKind) {
+  return std::array<std::pair<FieldKind, std::string_view>, 3>{
+      {{FieldKind::rotating, "rotating"},
+       {FieldKind::rolling, "rolling"},
+       {FieldKind::oscillating, "oscillating"}}};
+}
+
+/// How commands become a field. A speed becomes a pitch, speed = c · pitch (Eq 2 [radar]), or with
+/// rolling fields a frequency, speed = length_per_turn · f.
+struct FieldGeneratorParams {
+  FieldKind kind = FieldKind::rotating;
+  double amplitude = 8;
+  double frequency = 16;
+  double speed_per_pitch = 1145.9155902616465;  // 20 µm/s a degree
+  double max_pitch = 0.0872664625997165;        // 5°
+  double length_per_turn = 20;
+  double max_turn_rate = 6.283185307179586;    // 360°/s
+  double max_pitch_rate = 0.5235987755982988;  // 30°/s
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.kind, {"kind", Unit::none, {}, "How the field drives the swarm."});
+    visit(self.amplitude, {"amplitude", Unit::mt, {0, 1e4}, "Flux density."});
+    visit(self.frequency,
+          {"frequency", Unit::hz, {1e-6, 1e4}, "Turns a second; of rolling fields the most."});
+    visit(self.speed_per_pitch, {"speed_per_pitch",
+                                 Unit::um_per_s,
+                                 {1e-6, 1e9},
+                                 "Speed for a pitch of 1 rad, the constant c of Eq 2 [radar]."});
+    visit(self.max_pitch, {"max_pitch", Unit::deg, {0, 90}, "Pitch up to which it is stable."});
+    visit(self.length_per_turn,
+          {"length_per_turn", Unit::um, {1e-6, 1e6}, "Way of one turn of a rolling field."});
+    visit(self.max_turn_rate,
+          {"max_turn_rate", Unit::deg_per_s, {1e-3, 1e6}, "Fastest change of the heading."});
+    visit(self.max_pitch_rate,
+          {"max_pitch_rate", Unit::deg_per_s, {1e-3, 1e6}, "Fastest change of the pitch."});
+  }
+};
+
+/// Makes the field for a navigator's commands, at 10 Hz or any other rate. Phase, heading and pitch
+/// go on from where they are, so that the field never jumps: it changes by no more than
+/// `max_rate()` · Δt.
+class FieldGenerator {
+ public:
+  FieldGenerator(const FieldGeneratorParams& params, double heading);
+
+  /// The command from now on. Speed 0 takes the pitch or the frequency to 0; the heading stays.
+  void command(const Command& command);
+  /// Lets `dt` seconds pass; the field [mT] then.
+  const Eigen::Vector3d& advance(double dt);
+
+  const Eigen::Vector3d& field() const { return field_; }
+  double heading() const { return heading_; }      ///< [rad]
+  double pitch() const { return pitch_; }          ///< [rad]
+  double phase() const { return phase_; }          ///< [rad], in [0, 2π)
+  double frequency() const { return frequency_; }  ///< [Hz]
+  /// The fastest that the field can change [mT/s].
+  double max_rate() const;
+
+ private:
+  void update_field();
+
+  FieldGeneratorParams params_;
+  double heading_;
+  double wanted_heading_;
+  double pitch_ = 0;
+  double wanted_pitch_ = 0;
+  double phase_ = 0;
+  double frequency_ = 0;
+  Eigen::Vector3d field_;
+};
+
+}  // namespace microswarm

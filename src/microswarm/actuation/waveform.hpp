@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "microswarm/core/fields.hpp"
+
+namespace microswarm {
+
+/// Rotating field of amplitude A [mT] whose plane is pitched by `pitch` towards `heading` [rad];
+/// `phase` is 2πft: Eq 1 [radar].
+Eigen::Vector3d rotating_field(double amplitude, double pitch, double heading, double phase);
+
+/// Field that rolls bodies on the floor towards `heading`: it turns in the upright plane through
+/// the heading, over the top and forwards. With u across the heading and w up this is Eq 1
+/// [global]; where the phase is a multiple of 2π it points along the heading.
+Eigen::Vector3d rolling_field(double amplitude, double heading, double phase);
+
+/// Field in the plane along `heading`: where steering begins and ends, Eq 2 [global].
+Eigen::Vector3d steering_field(double amplitude, double heading);
+
+/// Field that oscillates along `heading`, raised by `pitch` out of the plane; [drrt] uses 16 Hz and
+/// 10 mT in the plane.
+Eigen::Vector3d oscillating_field(double amplitude, double pitch, double heading, double phase);
+
+/// How rollers are driven: [global] takes 3 mT, [gather] 5 Hz.
+struct RollingParams {
+  double amplitude = 3;
+  double frequency = 1;
+  double steering_rate = 1.5707963267948966;  // 90°/s
+  double length_per_turn = 1000;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.amplitude, {"amplitude", Unit::mt, {1e-6, 1e4}, "Flux density."});
+    visit(self.frequency, {"frequency", Unit::hz, {1e-6, 1e4}, "Turns a second when rolling."});
+    visit(self.steering_rate,
+          {"steering_rate", Unit::deg_per_s, {1e-3, 1e5}, "How fast the heading turns."});
+    visit(self.length_per_turn,
+          {"length_per_turn", Unit::um, {1e-3, 1e7}, "Way of one turn: π times the diameter."});
+  }
+};
+
+/// One straight move of a plan.
+struct Move {
+  double heading = 0;  ///< [rad]
+  double length = 0;   ///< [µm]
+};
+
+/// One stretch of a waveform: it steers from one heading to another, or rolls whole turns.
+struct WaveformPiece {
+  double start = 0;  ///< [s]
+  double duration = 0;
+  double heading = 0;  ///< at its start [rad]
+  double turn = 0;     ///< of the heading during it [rad]
+  int rolls = 0;       ///< whole turns during it
+};
+
+/// A field over time, without a jump from its first instant to its last. Before and after it stands
+/// still.
+class Waveform {
+ public:
+  Waveform(double amplitude, std::vector<WaveformPiece> pieces)
+      : amplitude_(amplitude), pieces_(std::move(pieces)) {}
+
+  double duration() const {
+    return pieces_.empty() ? 0 : pieces_.back().start + pieces_.back().duration;
+  }
+  const std::vector<WaveformPiece>& pieces() const { return pieces_; }
+  /// The field [mT] at any time [s].
+  Eigen::Vector3d at(double t) const;
+  /// The field at 0, 1/rate, 2/rate, … up to the end; `rate` in Hz.
+  std::vector<Eigen::Vector3d> sample(double rate) const;
+
+ private:
+  double amplitude_;
+  std::vector<WaveformPiece> pieces_;
+};
+
+/// What a plan becomes.
+struct RollingPlan {
+  Waveform waveform;
+  std::vector<int> rolls;  ///< whole turns of each move, the nearest number to its length
+};
+
+/// Moves one after the other as one waveform: for each it steers, the shorter way round, then rolls
+/// a whole number of turns, so that steering begins in the plane: Eq 1, 2 [global]. The field
+/// begins along `heading`. A move shorter than half a turn does nothing.
+RollingPlan rolling_plan(std::span<const Move> moves, double heading, const RollingParams& params);
+
+}  // namespace microswarm

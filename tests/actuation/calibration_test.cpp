@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/actuation/calibration.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tests/actuation/support.hpp"
+
+namespace microswarm {
+namespace {
+
+Eigen::Matrix<double, 3, 4> true_matrix() {
+  Eigen::Matrix<double, 3, 4> A;
+  A << 1.2, -0.1, 0.02, 0.4, 0.05, 0.9, -0.03, 0.5, 0, 0.1, 2.1, -0.6;
+  return A;
+}
+
+std::string measured(int rows, double noise, const Eigen::Vector3d& offset) {
+  test::Dice dice(12);
+  std::string text = "# a probe at the centre\ni_x_a,i_y_a,i_z_a,i_w_a,x_um,bx_mt,by_mt,bz_mt\n";
+  for (int r = 0; r < rows; ++r) {
+    Eigen::Vector4d currents;
+    for (double& i : currents) i = 5 * dice.number();
+    const Eigen::Vector3d b = true_matrix() * currents + offset + noise * dice.vector();
+    text += fmt::format("{},{},{},{},{},{},{},{}\n", currents[0], currents[1], currents[2],
+                        currents[3], 10 * r, b[0], b[1], b[2]);
+  }
+  return text;
+}
+
+double error_of_fit(const FittedMatrix& fit) {
+  double worst = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t i = 0; i < 4; ++i)
+      worst = std::max(
+          worst, std::abs(fit.coils.field[k][i] - true_matrix()(static_cast<Eigen::Index>(k),
+                                                                static_cast<Eigen::Index>(i))));
+  return worst;
+}
+
+TEST(Calibration, FindsTheMatrixThatMadeTheFields) {
+  const auto exact = fit_matrix(parse_measurements(measured(4, 0, {0, 0, 0}), "m.csv"), false);
+  EXPECT_LE(error_of_fit(exact), 1e-12);
+  EXPECT_LE(exact.worst, 1e-12);
+  const Eigen::Vector3d earth(0.02, -0.01, 0.045);
+  const auto offset = fit_matrix(parse_measurements(measured(9, 0, earth), "m.csv"), true);
+  EXPECT_LE(error_of_fit(offset), 1e-12);
+  EXPECT_NEAR(offset.coils.offset[2], 0.045, 1e-12);
+  EXPECT_EQ(offset.coils.names, (std::vector<std::string>{"x", "y", "z", "w"}));
+}
+
+TEST(Calibration, ResidualsAreTheNoiseAndOrthogonalToTheCurrents) {
+  const FieldMeasurements rows = parse_measurements(measured(400, 0.1, {0, 0, 0}), "m.csv");
+  const FittedMatrix fit = fit_matrix(rows, false);
+  EXPECT_LE(error_of_fit(fit), 0.01);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(fit.rms[k], 0.1 / std::sqrt(3), 0.005);
+  EXPECT_NEAR(fit.total_rms, fit.rms.norm(), 1e-15);
+  Eigen::Matrix<double, 3, 4> products = Eigen::Matrix<double, 3, 4>::Zero();
+  for (std::size_t r = 0; r < rows.rows.size(); ++r) {
+    products += fit.residuals[r] * rows.rows[r].currents.transpose();
+    EXPECT_LE(fit.residuals[r].norm(), fit.worst);
+  }
+  EXPECT_LE(products.norm(), 1e-9);
+  EXPECT_EQ(fit.residuals[fit.worst_row].norm(), fit.worst);
+}
+
+TEST(Calibration, NamesTheWorstPoint) {
+  std::string text = measured(30, 0, {0, 0, 0});
+  text += "1,1,1,1,300,9,9,9\n";
+  const FieldMeasurements rows = parse_measurements(text, "m.csv");
+  const FittedMatrix fit = fit_matrix(rows, false);
+  EXPECT_EQ(fit.worst_row, 30u);
+  EXPECT_EQ(rows.rows[fit.worst_row].line, 33);
+  EXPECT_EQ(rows.rows[fit.worst_row].place, Eigen::Vector3d(300, 0, 0));
+}
+
+TEST(Calibration, RefusesWhatIsNotDetermined) {
+  const auto refusal = [](const std::string& text, bool offset = false) {
+    return test::error_of([&] { fit_matrix(parse_measurements(text, "m.csv"), offset); });
+  };
+  const std::string header = "i_x_a,i_y_a,i_z_a,bx_mt,by_mt,bz_mt\n";
+  EXPECT_EQ(refusal(header + "1,0,0,1,0,0\n0,1,0,0,1,0\n"),
+            "m.csv: 2 measurements do not tell the fields of 'z': currents are missing that change "
+            "each of them apart from the others");
+  EXPECT_EQ(refusal(header + "1,2,0,1,0,0\n0,0,1,0,1,0\n-2,-4,1,1,1,1\n"),
+            "m.csv: 3 measurements do not tell the fields of 'x', 'y': currents are missing that "
+            "change each of them apart from the others");
+  EXPECT_EQ(refusal(header + "1,0,0,1,0,0\n0,1,0,0,1,0\n0,0,1,1,1,1\n", true),
+            "m.csv: 3 measurements do not tell the fields of 'x', 'y', 'z': currents are missing "
+            "that change each of them apart from the others, and one without them all");
+}
+
+TEST(Calibration, RefusesBrokenFilesInOneLine) {
+  const auto refusal = [](const std::string& text) {
+    return test::error_of([&] { parse_measurements(text, "m.csv"); });
+  };
+  EXPECT_EQ(refusal(""),
+            "m.csv:1: a header with the columns i_NAME_a, bx_mt, by_mt, bz_mt is missing");
+  EXPECT_EQ(refusal("bx_mt,by_mt,bz_mt\n"),
+            "m.csv:1: 0 columns of currents, i_NAME_a, 1..64 expected");
+  EXPECT_EQ(refusal("i_x_a,bx_mt,by_mt\n"), "m.csv:1: column 'bz_mt' is missing");
+  EXPECT_EQ(refusal("i_x_a,i_x_a,bx_mt,by_mt,bz_mt\n"), "m.csv:1: column 'i_x_a' stands twice");
+  const std::string header = "i_x_a,bx_mt,by_mt,bz_mt\n";
+  EXPECT_EQ(refusal(header), "m.csv:1: no measurements follow the header");
+  EXPECT_EQ(refusal(header + "1,2,3\n"), "m.csv:2: 3 fields, the header has 4");
+  EXPECT_EQ(refusal(header + "1,2,x,4\n"), "m.csv:2: by_mt is 'x', must be a number");
+  EXPECT_EQ(refusal(header + "1,2,nan,4\n"), "m.csv:2: by_mt is 'nan', must be a number");
+  EXPECT_EQ(refusal(header + "2e9,2,3,4\n"), "m.csv:2: current of x is 2e9, at most 1e9");
+}
+
+}  // namespace
+}  // namespace microswarm

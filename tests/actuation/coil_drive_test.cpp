@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/actuation/coil_drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/actuation/support.hpp"
+
+namespace microswarm {
+namespace {
+
+DriveParams limited() {
+  DriveParams d;
+  d.resistance = 2;
+  d.inductance = 10;
+  d.thermal_resistance = 1.5;
+  d.thermal_time = 20;
+  d.max_current = 20;
+  d.max_voltage = 30;
+  d.max_slew = 1500;
+  d.max_temperature = 150;
+  return d;
+}
+
+TEST(CoilDrive, LeavesAloneWhatBreaksNoLimit) {
+  CoilDrive drive({limited(), limited()});
+  const Eigen::Vector2d wanted(1, -2);
+  const DrivenCurrents steady = drive.steady(wanted);
+  EXPECT_EQ(steady.currents, wanted);
+  EXPECT_TRUE(steady.hits.empty());
+  const DrivenCurrents step = drive.step(wanted, 0.1);
+  EXPECT_EQ(step.currents, wanted);
+  EXPECT_EQ(step.scale, 1);
+  EXPECT_TRUE(step.hits.empty());
+  EXPECT_EQ(drive.currents(), wanted);
+}
+
+TEST(CoilDrive, ScalesAsAWholeAndSaysWhatIsBroken) {
+  DriveParams weak = limited();
+  weak.max_current = 4;
+  DriveParams strong = limited();
+  strong.max_voltage.reset();
+  strong.max_temperature.reset();
+  const CoilDrive drive({strong, weak});
+  const DrivenCurrents held = drive.steady(Eigen::Vector2d(30, -16));
+  EXPECT_DOUBLE_EQ(held.scale, 0.25);
+  EXPECT_LE((held.currents - Eigen::Vector2d(7.5, -4)).norm(), 1e-12);
+  // 30 A beyond 20 A; 16 A beyond 4 A, 32 V beyond 30 V, 22 + 1.5 · 2 · 256 °C beyond 150 °C.
+  ASSERT_EQ(held.hits.size(), 4u);
+  EXPECT_EQ(held.hits[0].limit, DriveLimit::current);
+  EXPECT_EQ(held.hits[0].coil, 0u);
+  EXPECT_EQ(held.hits[0].asked, 30);
+  EXPECT_EQ(held.hits[0].allowed, 20);
+  EXPECT_EQ(held.hits[1].coil, 1u);
+  EXPECT_EQ(held.hits[2].limit, DriveLimit::voltage);
+  EXPECT_EQ(held.hits[2].asked, 32);
+  EXPECT_EQ(held.hits[3].limit, DriveLimit::temperature);
+  EXPECT_EQ(held.hits[3].asked, 22 + 1.5 * 2 * 256);
+}
+
+TEST(CoilDrive, WithoutLimitsEverythingIsAllowed) {
+  CoilDrive drive({DriveParams{}});
+  const Eigen::VectorXd wanted = Eigen::VectorXd::Constant(1, 1e4);
+  EXPECT_EQ(drive.steady(wanted).scale, 1);
+  EXPECT_EQ(drive.step(wanted, 1e-3).currents, wanted);
+}
+
+/// No limit is broken while a ramp runs, checked at both of its ends.
+void expect_within(const CoilDrive& after, const Eigen::VectorXd& from, double dt) {
+  const DriveParams d = limited();
+  for (Eigen::Index i = 0; i < from.size(); ++i) {
+    const double to = after.currents()[i];
+    const double rate = (to - from[i]) / dt;
+    const double kick = 1e-3 * d.inductance * rate;
+    EXPECT_LE(std::abs(to), *d.max_current * (1 + 1e-9));
+    EXPECT_LE(std::abs(rate), *d.max_slew * (1 + 1e-6));
+    EXPECT_LE(std::abs(d.resistance * to + kick), *d.max_voltage * (1 + 1e-6));
+    EXPECT_LE(std::abs(d.resistance * from[i] + kick), *d.max_voltage * (1 + 1e-6));
+    EXPECT_LE(after.temperatures()[i], *d.max_temperature + 1e-6);
+  }
+}
+
+TEST(CoilDrive, NoCommandBreaksALimit) {
+  test::Dice dice(11);
+  int scaled = 0, turned = 0, whole = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    CoilDrive drive({limited(), limited(), limited()});
+    for (int i = 0; i < 400; ++i) {
+      const Eigen::VectorXd from = drive.currents();
+      const Eigen::VectorXd wanted = 12 * std::abs(dice.number()) * dice.vector();
+      const double dt = std::pow(10, -2 + 1.5 * dice.number());
+      const DrivenCurrents result = drive.step(wanted, dt);
+      EXPECT_EQ(result.currents, drive.currents());
+      expect_within(drive, from, dt);
+      if (result.keeps_direction) {
+        EXPECT_LE((result.currents - result.scale * wanted).norm(), 1e-12);
+        EXPECT_EQ(result.scale == 1, result.hits.empty());
+        ++(result.scale < 1 ? scaled : whole);
+      } else {
+        EXPECT_FALSE(result.hits.empty());
+        ++turned;
+      }
+    }
+  }
+  EXPECT_GT(whole, 1000);
+  EXPECT_GT(scaled, 100);
+  EXPECT_GT(turned, 100);
+}
+
+TEST(CoilDrive, ComesToTheCommandUnderASlewLimit) {
+  CoilDrive drive({limited()});
+  const Eigen::VectorXd up = Eigen::VectorXd::Constant(1, 5);
+  drive.step(up, 1e-3);
+  EXPECT_NEAR(drive.currents()[0], 1.5, 1e-9);  // 1500 A/s for 1 ms
+  for (int i = 0; i < 5; ++i) drive.step(up, 1e-3);
+  EXPECT_NEAR(drive.currents()[0], 5, 1e-9);
+  const DrivenCurrents back = drive.step(-up, 1e-3);
+  EXPECT_FALSE(back.keeps_direction);
+  EXPECT_NEAR(back.currents[0], 3.5, 1e-9);
+}
+
+TEST(CoilDrive, WarmsUpAsTheThermalModelSays) {
+  CoilDrive drive({limited()});
+  const Eigen::VectorXd current = Eigen::VectorXd::Constant(1, 5);
+  drive.step(current, 1e-2);
+  const double start = drive.temperatures()[0];
+  drive.step(current, 20);
+  const double end = 22 + 1.5 * 2 * 25;
+  EXPECT_NEAR(drive.temperatures()[0], end + (start - end) * std::exp(-1), 1e-9);
+  for (int i = 0; i < 30; ++i) drive.step(current, 20);
+  EXPECT_NEAR(drive.temperatures()[0], end, 1e-6);
+}
+
+TEST(CoilDrive, HeatTakesCurrentAwayTillItCanBeHeld) {
+  DriveParams d = limited();
+  d.max_voltage.reset();
+  d.max_slew.reset();
+  CoilDrive drive({d});
+  const Eigen::VectorXd current = Eigen::VectorXd::Constant(1, 20);
+  EXPECT_EQ(drive.step(current, 1e-2).scale, 1);  // cold coils bear more than for ever
+  DrivenCurrents last;
+  for (int i = 0; i < 2000; ++i) {
+    last = drive.step(current, 0.1);
+    ASSERT_LE(drive.temperatures()[0], 150 + 1e-9);
+  }
+  EXPECT_NEAR(last.currents[0], drive.steady(current).currents[0], 0.05);
+  ASSERT_EQ(last.hits.size(), 1u);
+  EXPECT_EQ(last.hits[0].limit, DriveLimit::temperature);
+}
+
+}  // namespace
+}  // namespace microswarm
