@@ -10,6 +10,7 @@
 #include "bench/planning.hpp"
 #include "bench/radar.hpp"
 #include "bench/swarm.hpp"
+#include "bench/vision.hpp"
 #endif
 
 namespace microswarm::cli {
@@ -19,6 +20,7 @@ namespace {
 std::vector<BenchRow> rows_of(const std::string& group, bool quick, const Stop& stop) {
   if (group == "planning") return bench::planning(scenario_folder(), quick, stop);
   if (group == "radar") return bench::radar(quick, stop);
+  if (group == "vision") return bench::vision(quick, stop);
   return group == "global" ? bench::global(quick, stop) : bench::swarm(quick, stop);
 }
 
@@ -51,7 +53,7 @@ void add_bench(CLI::App& app, Action& action) {
       app, "bench",
       "Measure speeds beside a peer's in the same run: exit code 3 when one falls short",
       "bench planning --quick --csv planning.csv");
-  cmd->add_option("group", *group, "What to measure: planning, swarm, global, radar")
+  cmd->add_option("group", *group, "What to measure: planning, swarm, global, radar, vision")
       ->required()
       ->type_name("GROUP");
   cmd->add_option("--csv", *csv, "Write the rows to this file too")->type_name("FILE");
@@ -59,9 +61,11 @@ void add_bench(CLI::App& app, Action& action) {
   add_json(cmd, *json);
   cmd->callback([=, &action] {
     action = [=](const Context& context) {
-      if (*group != "planning" && *group != "swarm" && *group != "global" && *group != "radar")
+      if (*group != "planning" && *group != "swarm" && *group != "global" && *group != "radar" &&
+          *group != "vision")
         throw InputError(fmt::format(
-            "bench: unknown group '{}', there are: planning, swarm, global, radar", *group));
+            "bench: unknown group '{}', there are: planning, swarm, global, radar, vision",
+            *group));
       return measure(*group, *csv, *quick, *json, context);
     };
   });

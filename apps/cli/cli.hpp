@@ -48,6 +48,7 @@ void add_schema(CLI::App& app, Action& action);
 void add_sweep(CLI::App& app, Action& action);
 void add_export(CLI::App& app, Action& action);
 void add_map(CLI::App& app, Action& action);
+void add_track(CLI::App& app, Action& action);
 void add_reproduce(CLI::App& app, Action& action);
 void add_bench(CLI::App& app, Action& action);
 

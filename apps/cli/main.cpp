@@ -74,6 +74,7 @@ int main(int argc, char** argv) {
   cli::add_sweep(app, action);
   cli::add_export(app, action);
   cli::add_map(app, action);
+  cli::add_track(app, action);
   cli::add_replay(app, action);
   cli::add_report(app, action);
   cli::add_reproduce(app, action);

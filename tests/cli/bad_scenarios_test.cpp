@@ -151,7 +151,7 @@ TEST_F(BadScenarios, PaperFigureGroup) {
   refused({"reproduce", "drrt/fig9"},
           "reproduce drrt: unknown figure 'fig9', there are: fig3, fig5a, fig5b");
   refused({"bench", "speed"},
-          "bench: unknown group 'speed', there are: planning, swarm, global, radar");
+          "bench: unknown group 'speed', there are: planning, swarm, global, radar, vision");
 }
 
 }  // namespace

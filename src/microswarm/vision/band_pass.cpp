@@ -35,6 +35,15 @@ void extend(std::vector<T>& row, int margin, int width) {
   std::fill_n(row.begin() + margin + width, margin, row[margin + width - 1]);
 }
 
+/// Whole parts of (offset + sign · in) / by. The sums are far below 2^22, so that half a one more
+/// decides every division rightly.
+void divide(const std::int32_t* in, int count, std::int32_t sign, std::int32_t offset, int by,
+            std::int32_t* out) {
+  const float share = 1.0F / static_cast<float>(by);
+  for (int x = 0; x < count; ++x)
+    out[x] = static_cast<std::int32_t>((static_cast<float>(offset + sign * in[x]) + 0.5F) * share);
+}
+
 }  // namespace
 
 BandPass::BandPass(const BandPassParams& params)
@@ -86,24 +95,20 @@ void BandPass::find_ground(const Image& grey, int row) {
   const int half = params_.box_px / 2;
   const std::uint8_t* enters = row_of(grey, row + half);
   const std::uint8_t* leaves = row_of(grey, row - half - 1);
-  for (int x = 0; x < grey.width; ++x) column_sums_[x] += enters[x] - leaves[x];
-  // The sums are far below 2^22, so that half a grey decides every division rightly.
-  const float share = 1.0F / static_cast<float>(params_.box_px);
-  const int top = params_.dark_rises ? 255 * params_.box_px : 0;
-  const int sign = params_.dark_rises ? -1 : 1;
-  for (int x = 0; x < grey.width; ++x)
-    column_means_[half + x] =
-        static_cast<int>((static_cast<float>(top + sign * column_sums_[x]) + 0.5F) * share);
+  std::int32_t* sums = column_sums_.data();
+  for (int x = 0; x < grey.width; ++x) sums[x] += enters[x] - leaves[x];
+  const std::int32_t top = params_.dark_rises ? 255 * params_.box_px : 0;
+  const std::int32_t sign = params_.dark_rises ? -1 : 1;
+  std::int32_t* means = column_means_.data();
+  divide(sums, grey.width, sign, top, params_.box_px, means + half);
   extend(column_means_, half, grey.width);
+  std::int32_t* ground = ground_.data();
   std::int32_t sum = 0;
-  for (int i = 0; i < params_.box_px - 1; ++i) sum += column_means_[i];
-  for (int x = 0; x < grey.width; ++x) {
-    sum += column_means_[x + params_.box_px - 1];
-    ground_[x] = sum;
-    sum -= column_means_[x];
-  }
-  for (int x = 0; x < grey.width; ++x)
-    ground_[x] = static_cast<int>((static_cast<float>(ground_[x]) + 0.5F) * share);
+  for (int i = 0; i < params_.box_px; ++i) sum += means[i];
+  ground[0] = sum;
+  const std::int32_t* next = means + params_.box_px;
+  for (int x = 1; x < grey.width; ++x) ground[x] = sum += next[x - 1] - means[x - 1];
+  divide(ground, grey.width, 1, 0, params_.box_px, ground);
 }
 
 void BandPass::write_row(int width, float* out) const {

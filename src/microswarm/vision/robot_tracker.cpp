@@ -21,7 +21,7 @@ RobotTracker::RobotTracker(const TrackerParams& p, double diameter, double frame
   assert(diameter > 0 && frame_time > 0);
 }
 
-const std::vector<Sighting>& RobotTracker::step(int frame, std::span<const Vec2> seen) {
+const std::vector<SeenRobot>& RobotTracker::step(int frame, std::span<const Vec2> seen) {
   for (Robot& robot : robots_) robot.filter.predict(frame_time_, noise_);
   find_candidates(seen);
   match(frame, seen);

@@ -70,7 +70,7 @@ struct TrackerParams {
 };
 
 /// A robot that was seen in a frame.
-struct Sighting {
+struct SeenRobot {
   int id = 0;     ///< of the robot, from 0 in the order of birth
   Vec2 place;     ///< filtered [µm]
   Vec2 velocity;  ///< filtered [µm/s]
@@ -104,7 +104,7 @@ class RobotTracker {
 
   /// The next frame: where robots are seen [µm]. Gives the robot of each place, in the order of
   /// the places. Valid until the next call.
-  const std::vector<Sighting>& step(int frame, std::span<const Vec2> seen);
+  const std::vector<SeenRobot>& step(int frame, std::span<const Vec2> seen);
 
   /// No more frames: those not yet dead die.
   void finish();
@@ -143,7 +143,7 @@ class RobotTracker {
   std::vector<std::optional<int>> robot_at_;  ///< index of the robot at each of them
   std::vector<AssignmentEdge> edges_;
   Assignment assignment_;
-  std::vector<Sighting> sightings_;
+  std::vector<SeenRobot> sightings_;
   std::vector<TrackEvent> events_;
 };
 

@@ -25,7 +25,7 @@ constexpr int fraction_bits = 4;          // OpenCV draws in sixteenths of a pix
 const cv::Scalar white(255, 255, 255);
 const cv::Scalar black(0, 0, 0);
 
-/// One of eight colours that the colour-blind can tell apart (after Okabe & Ito), by number.
+/// One of six colours that the colour-blind can tell apart (after Okabe & Ito), by number.
 cv::Scalar colour_of(int id) {
   static const std::array<cv::Scalar, 6> colours{
       {{230, 159, 0}, {86, 180, 233}, {0, 158, 115}, {240, 228, 66}, {0, 114, 178}, {213, 94, 0}}};

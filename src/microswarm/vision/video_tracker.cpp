@@ -28,7 +28,7 @@ const std::vector<TrackRow>& VideoTracker::step(const VideoFrame& frame) {
   places_.clear();
   for (const Particle& particle : found)
     places_.push_back(place_in_world(particle.at_px, grey_.height, um_per_px_));
-  const std::vector<Sighting>& sightings = tracker_.step(frame.index, places_);
+  const std::vector<SeenRobot>& sightings = tracker_.step(frame.index, places_);
   rows_.clear();
   for (std::size_t i = 0; i < found.size(); ++i)
     rows_.push_back({.frame = frame.index,

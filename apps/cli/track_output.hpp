@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "microswarm/vision/video_tracker.hpp"
+
+namespace microswarm::cli {
+
+/// What was tracked in a video.
+struct TrackResult {
+  std::string source;
+  TrackSettings settings;
+  double frame_time = 1;  ///< [s]
+  int frames = 0;
+  std::vector<TrackRow> rows;
+  std::vector<TrackEvent> events;
+};
+
+/// Writes tracks.csv, events.csv and tracks.h5 into the folder. tracks.csv is what maps and
+/// obstacles read as recorded tracks. Throws InputError "FILE: cannot write: REASON".
+void write_tracks(const TrackResult& result, const std::filesystem::path& folder);
+
+nlohmann::ordered_json to_json(const TrackResult& result);
+/// A few lines for people.
+std::string track_summary(const TrackResult& result);
+
+}  // namespace microswarm::cli

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/vision.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "microswarm/core/rng.hpp"
+#include "microswarm/core/statistics.hpp"
+#include "microswarm/vision/mat.hpp"
+#include "microswarm/vision/video_tracker.hpp"
+
+namespace microswarm::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int width = 640;
+constexpr int height = 424;
+constexpr int robots = 600;
+constexpr double spread = 2.2;  // [px] of a spot
+constexpr double depth = 40;    // [grey]
+constexpr double grain = 2;     // [grey] of noise
+constexpr int diameter = 11;    // [px]
+
+double ms_since(Clock::time_point began) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - began).count();
+}
+
+/// Places for robots that do not touch at first.
+std::vector<Vec2> first_places(Rng& rng) {
+  std::vector<Vec2> places;
+  for (int draw = 0; draw < 1'000'000 && std::ssize(places) < robots; ++draw) {
+    const double x = rng.uniform(8, width - 8);
+    const Vec2 p{x, rng.uniform(8, height - 8)};
+    if (std::none_of(places.begin(), places.end(), [&](Vec2 q) { return distance(p, q) < 13; }))
+      places.push_back(p);
+  }
+  return places;
+}
+
+Image draw(const std::vector<Vec2>& at_px, Rng& rng) {
+  std::vector<double> grey(static_cast<std::size_t>(width) * height);
+  for (double& g : grey) g = 130 + grain * rng.normal();
+  for (const Vec2 p : at_px)
+    for (int y = std::max(0, static_cast<int>(p.y) - 9);
+         y < std::min(height, static_cast<int>(p.y) + 10); ++y)
+      for (int x = std::max(0, static_cast<int>(p.x) - 9);
+           x < std::min(width, static_cast<int>(p.x) + 10); ++x)
+        grey[static_cast<std::size_t>(y) * width + x] -=
+            depth * std::exp(-0.5 * squared_norm(Vec2(x, y) - p) / (spread * spread));
+  Image image{width, height, 1, {}};
+  for (const double g : grey)
+    image.pixels.push_back(static_cast<std::uint8_t>(std::clamp(std::lround(g), 0L, 255L)));
+  return image;
+}
+
+/// Robots on random walks with a common drift.
+std::vector<VideoFrame> video(int frames) {
+  Rng rng(1, Purpose::scene);
+  std::vector<Vec2> at = first_places(rng);
+  std::vector<VideoFrame> all;
+  for (int k = 0; k < frames; ++k) {
+    all.push_back({k, k / 24.0, draw(at, rng)});
+    for (Vec2& p : at) {
+      const double dx = 0.4 * rng.normal() + 0.1;
+      p = {std::clamp(p.x + dx, 8.0, width - 8.0),
+           std::clamp(p.y + 0.4 * rng.normal(), 8.0, height - 8.0)};
+    }
+  }
+  return all;
+}
+
+/// OpenCV's plain way: smooth, subtract the ground, threshold, centroids of what hangs together.
+std::size_t find_with_opencv(const Image& image) {
+  cv::Mat smooth;
+  cv::Mat ground;
+  cv::Mat rise;
+  cv::Mat labels;
+  cv::Mat stats;
+  cv::Mat centres;
+  cv::GaussianBlur(as_mat(image), smooth, {9, 9}, 1);
+  cv::blur(as_mat(image), ground, {diameter, diameter});
+  cv::subtract(ground, smooth, rise);
+  cv::threshold(rise, rise, 6, 255, cv::THRESH_BINARY);
+  return static_cast<std::size_t>(cv::connectedComponentsWithStats(rise, labels, stats, centres)) -
+         1;
+}
+
+struct Times {
+  std::vector<double> found;   ///< [ms]
+  std::vector<double> all;     ///< [ms]
+  std::vector<double> opencv;  ///< [ms]
+};
+
+Times measure(const std::vector<VideoFrame>& frames, const Stop& stop) {
+  const TrackSettings settings{.um_per_px = 0.35, .find = {.diameter = diameter, .min_mass = 100}};
+  ParticleFinder finder(settings.find);
+  VideoTracker tracker(settings, 1 / 24.0);
+  Times times;
+  for (const VideoFrame& frame : frames) {
+    if (stop()) break;
+    auto began = Clock::now();
+    finder.find(frame.picture);
+    times.found.push_back(ms_since(began));
+    began = Clock::now();
+    tracker.step(frame);
+    times.all.push_back(ms_since(began));
+    began = Clock::now();
+    find_with_opencv(frame.picture);
+    times.opencv.push_back(ms_since(began));
+  }
+  return times;
+}
+
+}  // namespace
+
+std::vector<BenchRow> vision(bool quick, const Stop& stop) {
+  const int threads = cv::getNumThreads();
+  cv::setNumThreads(1);
+  const Times times = measure(video(quick ? 100 : 500), stop);
+  cv::setNumThreads(threads);
+  std::vector<BenchRow> rows;
+  const auto add = [&](const char* name, const std::vector<double>& ours, double q,
+                       std::optional<double> aim) {
+    rows.push_back({.name = name,
+                    .quantity = q == 0.5 ? "time a frame, median" : "time a frame, 99 of 100",
+                    .unit = "ms",
+                    .ours = quantile(ours, q),
+                    .peer = quantile(times.opencv, q),
+                    .peer_name = "OpenCV: blur, box, threshold, components",
+                    .aim = aim});
+  };
+  add("600 robots found", times.found, 0.5, std::nullopt);
+  add("600 robots found", times.found, 0.99, std::nullopt);
+  add("600 robots found and followed", times.all, 0.5, 5);
+  add("600 robots found and followed", times.all, 0.99, std::nullopt);
+  return rows;
+}
+
+}  // namespace microswarm::bench

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// Videos in, tracks out.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "inputs.hpp"
+#include "program.hpp"
+
+namespace microswarm::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class Track : public CommandLine {
+ protected:
+  /// Twelve dark discs of 9 px, 40 px apart, that move by a pixel a frame to the right and down.
+  void film(const std::string& folder, int frames, int width = 200) const {
+    fs::create_directories(at.folder / folder);
+    for (int k = 0; k < frames; ++k)
+      write(folder + "/f" + std::to_string(k) + ".pgm", pgm(width, 160, [&](int x, int y) {
+              int grey = 200;
+              for (int i = 0; i < 12; ++i) {
+                const double dx = x - (30 + 40 * (i % 4) + k);
+                const double dy = y - (30 + 40 * (i / 4) + k);
+                if (dx * dx + dy * dy < 20) grey = 90;
+              }
+              return grey;
+            }));
+  }
+};
+
+TEST_F(Track, PicturesBecomeTables) {
+  film("video", 12);
+  const std::string text =
+      good({"track", "video", "--um-per-px", "0.5", "--rate", "10", "--out", "out"});
+  EXPECT_TRUE(text.starts_with("12 frames, 12.0 robots in each\n")) << text;
+  EXPECT_NE(text.find("wrote out/tracks.csv, tracks.h5, events.csv and overlay"), std::string::npos)
+      << text;
+  const std::string csv = read("out/tracks.csv");
+  EXPECT_TRUE(
+      csv.starts_with("frame,id,t_s,x_um,y_um,vx_um_per_s,vy_um_per_s,radius_um,mass,"
+                      "signal,eccentricity\n0,0,0,15.25,64.75,"))
+      << csv.substr(0, 200);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 12 * 12);
+  EXPECT_TRUE(read("out/tracks.h5").starts_with("\x89HDF"));
+  EXPECT_TRUE(read("out/events.csv").starts_with("frame,t_s,event,id,other\n0,0,birth,0,\n"));
+  for (const std::string& name : files()) EXPECT_EQ(name.find(".tmp-"), std::string::npos) << name;
+}
+
+TEST_F(Track, JsonTellsDriftAndSpeed) {
+  film("video", 12);
+  const Json json = Json::parse(good({"track", "video", "--um-per-px", "0.5", "--rate", "10",
+                                      "--out", "out", "--json", "--no-overlay"}));
+  EXPECT_EQ(json.at("frames"), 12);
+  EXPECT_EQ(json.at("features"), 144);
+  EXPECT_EQ(json.at("tracks"), 12);
+  EXPECT_EQ(json.at("tracks_10_frames"), 12);
+  EXPECT_NEAR(json.at("drift_um")[0], 5.5, 0.01);
+  EXPECT_NEAR(json.at("drift_um")[1], -5.5, 0.01);
+  EXPECT_NEAR(json.at("mean_speed_um_per_s"), 5 * std::sqrt(2.0), 0.01);
+  EXPECT_FALSE(exists("out/overlay.mp4"));
+}
+
+TEST_F(Track, TheSameVideoGivesTheSameBytes) {
+  film("video", 11);
+  write("track.yaml", "um_per_px: 0.5\nrate_hz: 10\nfind:\n  diameter_px: 9\n");
+  good({"track", "video", "--config", "track.yaml", "--out", "a", "--no-overlay"});
+  good({"track", "video", "--config", "track.yaml", "--out", "b", "--no-overlay"});
+  for (const std::string name : {"tracks.csv", "tracks.h5", "events.csv"})
+    EXPECT_EQ(read("a/" + name), read("b/" + name)) << name;
+}
+
+TEST_F(Track, BadInputIsRefused) {
+  film("video", 3);
+  const auto bad = [&](Arguments more, const std::string& line) {
+    Arguments words{"track"};
+    words.insert(words.end(), more.begin(), more.end());
+    refused(words, line);
+  };
+  bad({"video", "--out", "out"}, "video: µm per px is missing: give --um-per-px");
+  bad({"none.mp4", "--um-per-px", "1", "--out", "out"},
+      "none.mp4: cannot read: No such file or directory");
+  write("zero.yaml", "um_per_px: 0\n");
+  const Outcome zero = run({"track", "video", "--config", "zero.yaml", "--out", "out"});
+  EXPECT_EQ(zero.code, 2);
+  EXPECT_TRUE(zero.err.starts_with("microswarm: zero.yaml:1:")) << zero.err;
+  EXPECT_EQ(run({"track", "video", "--um-per-px", "0", "--out", "out"}).code, 2);
+  write("video.mp4", std::string(3000, 'v'));
+  bad({"video.mp4", "--um-per-px", "1", "--out", "out"}, "video.mp4: is no video that can be read");
+  fs::create_directories(at.folder / "nothing");
+  bad({"nothing", "--um-per-px", "1", "--out", "out"},
+      "nothing: no pictures in this folder (PNG, JPEG, BMP, PGM or PPM)");
+  write("video/f9.pgm", pgm(20, 20, [](int, int) { return 7; }));
+  bad({"video", "--um-per-px", "1", "--rate", "10", "--out", "out"},
+      "video/f9.pgm: 20x20 pixels, the first picture has 200x160");
+}
+
+TEST_F(Track, CtrlCKeepsWhatThereIs) {
+  film("video", 1, 300);
+  for (int k = 1; k < 3000; ++k)
+    fs::create_symlink("f0.pgm", at.folder / "video" / ("f" + std::to_string(k) + ".pgm"));
+  Program program({"track", "video", "--um-per-px", "1", "--rate", "10", "--out", "out", "--json"},
+                  at);
+  program.let_work(700);
+  ASSERT_TRUE(program.running());
+  program.send(SIGINT);
+  const Outcome outcome = program.wait();
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  const int frames = Json::parse(outcome.out).at("frames");
+  EXPECT_GT(frames, 0);
+  EXPECT_LT(frames, 3000);
+  EXPECT_TRUE(exists("out/tracks.csv"));
+  EXPECT_TRUE(exists("out/tracks.h5"));
+  for (const std::string& name : files()) EXPECT_EQ(name.find(".tmp-"), std::string::npos) << name;
+}
+
+}  // namespace
+}  // namespace microswarm::test
