@@ -30,7 +30,7 @@ struct Case {
 };
 
 /// Three cases on one geometry.
-struct Figure {
+struct CaseFigure {
   const char* name;
   const char* scenario;
   double um_per_px;
@@ -38,22 +38,22 @@ struct Figure {
   std::array<Case, 3> cases;
 };
 
-constexpr Figure simulated{"fig5-6",
-                           "single.yaml",
-                           1,
-                           28,
-                           {{{"Case I", 25, 70, 12.1, 30.6, 48.8, 18.5, 0.14},
-                             {"Case II", 25, 250, 7.9, 37.3, 51.9, 29.4, 0.18},
-                             {"Case III", 205, 250, 7.9, 39.0, 58.6, 31.1, 0.28}}}};
-constexpr Figure experiments{"fig10",
-                             "experiment_single.yaml",
-                             radar_um_per_px,
-                             20,
-                             {{{"Case I", 25, 70, 11.1, 32.8, {}, {}, 0.15},
-                               {"Case II", 25, 250, {}, {}, {}, {}, 0.24},
-                               {"Case III", 205, 250, {}, {}, {}, {}, 0.29}}}};
+constexpr CaseFigure simulated{"fig5-6",
+                               "single.yaml",
+                               1,
+                               28,
+                               {{{"Case I", 25, 70, 12.1, 30.6, 48.8, 18.5, 0.14},
+                                 {"Case II", 25, 250, 7.9, 37.3, 51.9, 29.4, 0.18},
+                                 {"Case III", 205, 250, 7.9, 39.0, 58.6, 31.1, 0.28}}}};
+constexpr CaseFigure experiments{"fig10",
+                                 "experiment_single.yaml",
+                                 radar_um_per_px,
+                                 20,
+                                 {{{"Case I", 25, 70, 11.1, 32.8, {}, {}, 0.15},
+                                   {"Case II", 25, 250, {}, {}, {}, {}, 0.24},
+                                   {"Case III", 205, 250, {}, {}, {}, {}, 0.29}}}};
 
-RadarSetting setting_of(const Figure& figure, const Case& c, const ReproduceOptions& options) {
+RadarSetting setting_of(const CaseFigure& figure, const Case& c, const ReproduceOptions& options) {
   RadarSetting s = load_radar(options, figure.scenario);
   s.params().safety_distance = c.safety_distance * figure.um_per_px;
   s.params().detection_range = c.detection_range * figure.um_per_px;
@@ -111,7 +111,7 @@ void add_noise_rows(const char* figure, const Case& c, RadarSetting s, int side,
   add("greatest total time", "s", *std::max_element(times.begin(), times.end()));
 }
 
-void draw(const Figure& figure, const std::vector<RadarRun>& runs,
+void draw(const CaseFigure& figure, const std::vector<RadarRun>& runs,
           const std::vector<RadarSetting>& settings, const ReproduceOptions& options) {
   if (options.out.empty()) return;
   double most = 0;
@@ -134,7 +134,7 @@ void draw(const Figure& figure, const std::vector<RadarRun>& runs,
 }
 
 /// The three cases: rows, δ over time, pictures.
-std::vector<ReproduceRow> cases(const Figure& figure, bool with_noise,
+std::vector<ReproduceRow> cases(const CaseFigure& figure, bool with_noise,
                                 const ReproduceOptions& options, const Stop& stop) {
   std::vector<ReproduceRow> rows, noisy;
   std::vector<RadarRun> runs;
