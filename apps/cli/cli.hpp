@@ -49,6 +49,7 @@ void add_sweep(CLI::App& app, Action& action);
 void add_export(CLI::App& app, Action& action);
 void add_map(CLI::App& app, Action& action);
 void add_track(CLI::App& app, Action& action);
+void add_rig(CLI::App& app, Action& action);
 void add_reproduce(CLI::App& app, Action& action);
 void add_bench(CLI::App& app, Action& action);
 

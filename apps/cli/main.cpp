@@ -77,6 +77,7 @@ int main(int argc, char** argv) {
   cli::add_track(app, action);
   cli::add_replay(app, action);
   cli::add_report(app, action);
+  cli::add_rig(app, action);
   cli::add_reproduce(app, action);
   cli::add_bench(app, action);
   cli::add_schema(app, action);

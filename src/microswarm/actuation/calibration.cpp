@@ -18,7 +18,8 @@ namespace microswarm {
 namespace {
 
 constexpr std::uint64_t max_bytes = 64ULL << 20;
-constexpr double largest = 1e9;  // of any number in the file
+constexpr double largest = 1e9;         // of any number in the file
+constexpr double least_current = 1e-9;  // [A] less is none
 // Currents that differ by less than this share are the same current.
 constexpr double weakest = 1e-6;
 
@@ -112,7 +113,7 @@ FittedMatrix fit_matrix(const FieldMeasurements& measured, bool with_offset) {
   // Each column in its own measure, so that small currents count as large ones.
   Eigen::VectorXd scale = inputs.leftCols(n).cwiseAbs().colwise().maxCoeff().transpose();
   for (double& s : scale)
-    if (s == 0) s = 1;
+    if (s < least_current) s = 1;
   inputs.leftCols(n) = inputs.leftCols(n) * scale.cwiseInverse().asDiagonal();
   if (with_offset) inputs.col(n).setOnes();
 

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "cli.hpp"
+#include "microswarm/actuation/coil_system.hpp"
+
+namespace microswarm::cli {
+
+/// Allows three numbers; `form` says what is meant.
+CLI::Validator triple(const char* form);
+/// What it allowed.
+Eigen::Vector3d triple_of(const std::string& text);
+
+/// The numbers in "1,0,0", one for each coil. Throws InputError.
+Eigen::VectorXd currents_of(const std::string& text, const CoilSystem& system);
+
+/// The part `rig map` of `rig`.
+void add_rig_map(CLI::App& rig, Action& action);
+
+}  // namespace microswarm::cli

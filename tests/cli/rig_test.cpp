@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// Coil systems through the program: fields, currents, limits, maps, calibrations.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+namespace microswarm::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class Rig : public CommandLine {
+ protected:
+  /// Helmholtz pairs of one radius and 100 turns: (4/5)^(3/2) µ0 n / R each.
+  Rig() {
+    write("rig.yaml",
+          "name: bench\ncoils: {type: helmholtz, radius_um: [50000, 50000, 50000], turns: [100, "
+          "100, 100]}\ndrives: [{max_current_a: 2}]\n");
+  }
+  static constexpr double mt_per_a = 0.71554175 * 1256.63706212 * 100 / 50000;
+};
+
+TEST_F(Rig, FieldOfCurrentsAndCurrentsOfAField) {
+  const Json made =
+      Json::parse(good({"rig", "field", "rig.yaml", "--currents", "1,0,-0.5", "--json"}));
+  EXPECT_NEAR(made["field_mt"][0].get<double>(), mt_per_a, 1e-6);
+  EXPECT_NEAR(made["field_mt"][2].get<double>(), -0.5 * mt_per_a, 1e-6);
+  EXPECT_EQ(made["scale"], 1);
+  EXPECT_EQ(made["limits"].size(), 0u);
+  const Json back = Json::parse(
+      good({"rig", "field", "rig.yaml", "--at", "0,0,0", "--field", "0,1,0", "--json"}));
+  EXPECT_NEAR(back["currents_a"][1].get<double>(), 1 / mt_per_a, 1e-6);
+  EXPECT_EQ(back["reached"], true);
+  EXPECT_NE(good({"rig", "field", "rig.yaml", "--field", "0,1,0"}).find("bench at (0, 0, 0) µm"),
+            std::string::npos);
+}
+
+TEST_F(Rig, SaysWhichLimitBites) {
+  const Outcome outcome = run({"rig", "field", "rig.yaml", "--currents", "4,1,0", "--json"});
+  EXPECT_EQ(outcome.code, 3);
+  const Json json = Json::parse(outcome.out);
+  EXPECT_EQ(json["scale"], 0.5);
+  EXPECT_EQ(json["currents_a"], Json({2, 0.5, 0}));
+  EXPECT_EQ(
+      json["limits"],
+      Json::array(
+          {{{"limit", "current"}, {"coil", "x"}, {"unit", "a"}, {"asked", 4}, {"allowed", 2}}}));
+  const Outcome text = run({"rig", "field", "rig.yaml", "--currents", "4,1,0"});
+  EXPECT_NE(text.out.find("current of coil x: 4 A, allowed 2 A: 2 A too much"), std::string::npos)
+      << text.out;
+}
+
+TEST_F(Rig, MapsAsPictureAndTable) {
+  const Json json = Json::parse(good({"rig", "map", "rig.yaml", "--field", "0,0,1", "--points",
+                                      "21", "--out", "even.png", "--json"}));
+  EXPECT_LT(json["largest_deviation"].get<double>(), 0.02);
+  EXPECT_EQ(read("even.png").substr(1, 3), "PNG");
+  good({"rig", "map", "rig.yaml", "--plane", "xz", "--points", "5", "--out", "even.csv"});
+  const std::string table = read("even.csv");
+  EXPECT_TRUE(table.starts_with("x_um,y_um,z_um,bx_mt,by_mt,bz_mt,deviation\n-10000,0,-10000,"));
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 26);
+}
+
+TEST_F(Rig, CalibrationGivesASystemThatIsReadAgain) {
+  write("measured.csv",
+        "i_a_a,i_b_a,i_c_a,bx_mt,by_mt,bz_mt\n1,0,0,2,0,0\n0,1,0,0,3,0\n0,0,1,0,0.5,4\n1,1,1,2,3.5,"
+        "4\n");
+  const std::string said = good({"rig", "calibrate", "measured.csv", "--out", "fitted.yaml"});
+  EXPECT_NE(said.find("4 measurements of 3 coils: a, b, c"), std::string::npos) << said;
+  const Json json =
+      Json::parse(good({"rig", "field", "fitted.yaml", "--field", "2,3.5,4", "--json"}));
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(json["currents_a"][i].get<double>(), 1, 1e-9);
+}
+
+TEST_F(Rig, RefusesInOneLine) {
+  refused({"rig", "field", "rig.yaml"}, "rig field: give either --currents or --field");
+  refused({"rig", "field", "rig.yaml", "--currents", "1,2"},
+          "--currents has 2 numbers, the system has 3 coils: x, y, z");
+  refused({"rig", "field", "none.yaml", "--field", "1,0,0"},
+          "none.yaml: cannot read: No such file or directory");
+  write("bad.yaml", "coils: {type: helmholtz, radus_um: [1, 2, 3]}\n");
+  refused({"rig", "field", "bad.yaml", "--field", "1,0,0"},
+          "bad.yaml:1:26: unknown key 'radus_um', did you mean 'radius_um'?");
+  write("few.csv", "i_a_a,i_b_a,bx_mt,by_mt,bz_mt\n1,0,2,0,0\n2,0,4,0,0\n");
+  refused({"rig", "calibrate", "few.csv", "--out", "x.yaml"},
+          "few.csv: 2 measurements do not tell the fields of 'b': currents are missing that change "
+          "each of them apart from the others");
+  refused({"rig", "map", "rig.yaml", "--currents", "0,0,0"},
+          "the field at the centre of the map is 0");
+}
+
+}  // namespace
+}  // namespace microswarm::test
