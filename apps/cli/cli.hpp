@@ -19,6 +19,7 @@ inline constexpr int ok = 0;
 inline constexpr int failed = 1;
 inline constexpr int bad_input = 2;
 inline constexpr int not_reached = 3;
+inline constexpr int hardware = 4;
 
 /// What every command is given: the stop that Ctrl-C sets.
 struct Context {

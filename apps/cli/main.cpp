@@ -28,7 +28,7 @@ constexpr const char* footer =
     "Exit codes: 0 done; 2 bad input or command line, told in one line; 3 ran, but the goal was "
     "not\n"
     "reached, a row falls short or Ctrl-C came (once: ends with what there is; twice: at once);\n"
-    "1 anything else.";
+    "4 a device is not there or does not answer; 1 anything else.";
 
 int complain(const char* what, int code) {
   std::fprintf(stderr, "microswarm: %s\n", what);
@@ -43,6 +43,8 @@ int act(const microswarm::cli::Action& action) {
     return code;
   } catch (const InputError& e) {
     return complain(e.what(), cli::bad_input);
+  } catch (const HardwareError& e) {
+    return complain(e.what(), cli::hardware);
   } catch (const std::filesystem::filesystem_error& e) {
     return complain(e.what(), cli::bad_input);
   } catch (const std::bad_alloc&) {
