@@ -14,7 +14,9 @@ inline constexpr int coil_link_version = 1;
 inline constexpr int coil_link_channels = 6;
 inline constexpr int coil_link_full_scale = 1000;  ///< of an output: per mille
 
+/// What the host tells the device.
 enum class CoilMessage : std::uint8_t { hello = 1, arm, set, stop, status };
+/// What the device made of it.
 enum class CoilResult : std::uint8_t {
   ok,
   limited,
@@ -24,6 +26,7 @@ enum class CoilResult : std::uint8_t {
   unknown,
   wrong_version
 };
+/// What the device is doing; its outputs are 0 unless it is armed.
 enum class CoilState : std::uint8_t { idle, armed, tripped, stopped };
 
 /// What the device answers to whatever it is told.

@@ -14,6 +14,7 @@
 
 namespace microswarm {
 
+/// Where the device is and how long it is waited for.
 struct SerialCoilParams {
   static constexpr const char* type_name = "serial";
   std::string port = "/dev/ttyACM0";
