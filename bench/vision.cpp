@@ -50,7 +50,7 @@ Image draw(const std::vector<Vec2>& at_px, Rng& rng) {
       for (int x = std::max(0, static_cast<int>(p.x) - 9);
            x < std::min(width, static_cast<int>(p.x) + 10); ++x)
         grey[static_cast<std::size_t>(y) * width + x] -=
-            depth * std::exp(-0.5 * squared_norm(Vec2(x, y) - p) / (spread * spread));
+            depth * std::exp(-0.5 * squared_norm(Vec2{1.0 * x, 1.0 * y} - p) / (spread * spread));
   Image image{width, height, 1, {}};
   for (const double g : grey)
     image.pixels.push_back(static_cast<std::uint8_t>(std::clamp(std::lround(g), 0L, 255L)));

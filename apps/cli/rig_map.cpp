@@ -60,7 +60,7 @@ Image image_of(const UniformityMap& map) {
       const Colour c = band_of(map.at(column, row)).colour;
       std::uint8_t* pixel = &image.pixels[image.index(column, n - 1 - row)];
       for (const double part : {c.red, c.green, c.blue})
-        *pixel++ = static_cast<std::uint8_t>(255 * part + 0.5);
+        *pixel++ = static_cast<std::uint8_t>(std::lround(255 * part));
     }
   return image;
 }

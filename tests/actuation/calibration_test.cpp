@@ -2,10 +2,12 @@
 #include "microswarm/actuation/calibration.hpp"
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "tests/actuation/support.hpp"
+#include "tests/files.hpp"
 
 namespace microswarm {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/actuation/coil_drive.hpp"
 
+#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/actuation/coil_system.hpp"
 
+#include <gtest/gtest.h>
 #include <Eigen/LU>
 #include <cmath>
 
@@ -8,6 +9,7 @@
 #include "microswarm/actuation/uniformity.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "tests/actuation/support.hpp"
+#include "tests/files.hpp"
 
 namespace microswarm {
 namespace {

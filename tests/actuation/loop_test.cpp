@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/actuation/loop.hpp"
 
+#include <gtest/gtest.h>
 #include <Eigen/Geometry>
 #include <cmath>
 
 #include "microswarm/actuation/winding.hpp"
 #include "microswarm/core/angles.hpp"
 #include "tests/actuation/support.hpp"
+#include "tests/files.hpp"
 
 namespace microswarm {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/actuation/mpem.hpp"
 
+#include <gtest/gtest.h>
 #include <cmath>
 #include <map>
 
@@ -8,6 +9,7 @@
 #include "microswarm/actuation/text_rows.hpp"
 #include "microswarm/core/text.hpp"
 #include "tests/actuation/support.hpp"
+#include "tests/files.hpp"
 
 namespace microswarm {
 namespace {

@@ -1,70 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random places, messages and folders for the tests of this floor.
+// Random places and differences for the tests of this floor.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Core>
-#include <cstdlib>
-#include <filesystem>
-#include <random>
-#include <string>
-#include <string_view>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/file.hpp"
+#include "microswarm/core/rng.hpp"
 
 namespace microswarm::test {
 
-/// An empty folder for the running test, gone with this object.
-class Folder {
- public:
-  Folder() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::path(testing::TempDir()) /
-            (std::string("actuation_") + info->test_suite_name() + "_" + info->name());
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  /// Writes a file; its path.
-  std::filesystem::path with(std::string_view name, std::string_view bytes) const {
-    write_file_atomically(path_ / name, bytes);
-    return path_ / name;
-  }
-
- private:
-  std::filesystem::path path_;
-};
-
-/// What the InputError says that `action` throws; it must be one line.
-template <class Action>
-std::string error_of(Action&& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    const std::string what = error.what();
-    EXPECT_EQ(what.find('\n'), std::string::npos) << what;
-    return what;
-  }
-  return "nothing was thrown";
-}
-
-/// Real input outside the repository; empty when it is not there.
-inline std::filesystem::path data_folder() {
-  const char* given = std::getenv("MICROSWARM_DATA");
-  const std::filesystem::path folder = given ? given : MICROSWARM_DEFAULT_DATA;
-  return std::filesystem::is_directory(folder) ? folder : std::filesystem::path();
-}
-
-/// Numbers in (-1, 1), the same on every machine.
+/// Numbers in [-1, 1) and vectors of them.
 class Dice {
  public:
-  explicit Dice(unsigned seed) : engine_(seed) {}
-  double number() { return static_cast<double>(engine_()) * 0x1p-31 - 1; }
+  explicit Dice(std::uint64_t seed) : rng_(seed, Purpose::test) {}
+  double number() { return rng_.uniform(-1, 1); }
   Eigen::Vector3d vector() {
     const double x = number();
     const double y = number();
@@ -76,7 +24,7 @@ class Dice {
   }
 
  private:
-  std::mt19937 engine_;
+  Rng rng_;
 };
 
 /// ∂B_i/∂x_j of a field by central differences of the fourth order.

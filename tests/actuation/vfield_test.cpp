@@ -2,8 +2,10 @@
 #include "microswarm/actuation/vfield.hpp"
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include "tests/actuation/support.hpp"
+#include "tests/files.hpp"
 
 namespace microswarm {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/actuation/waveform.hpp"
 
+#include <gtest/gtest.h>
 #include <Eigen/Geometry>
 #include <cmath>
 

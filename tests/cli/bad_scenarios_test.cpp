@@ -124,7 +124,8 @@ TEST_F(BadScenarios, Records) {
 
 TEST_F(BadScenarios, CommandLine) {
   const std::string there =
-      "run, plan, global, gather, sweep, export, map, track, replay, report, rig, reproduce, bench, schema";
+      "run, plan, global, gather, sweep, export, map, track, replay, report, rig, reproduce, "
+      "bench, schema";
   refused({}, "a command is missing, there are: " + there + " (see microswarm --help)");
   refused({"fly"}, "unknown command 'fly', there are: " + there + " (see microswarm --help)");
   refused({"rnu"}, "unknown command 'rnu', did you mean 'run'? (see microswarm --help)");

@@ -10,7 +10,7 @@
 #include "microswarm/formats/moving_ai.hpp"
 #include "microswarm/formats/ros.hpp"
 #include "microswarm/formats/tracks.hpp"
-#include "tests/formats/files.hpp"
+#include "tests/files.hpp"
 
 namespace microswarm {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "microswarm/core/rng.hpp"
 #include "microswarm/formats/json_place.hpp"
-#include "tests/formats/files.hpp"
+#include "tests/files.hpp"
 
 namespace microswarm {
 namespace {

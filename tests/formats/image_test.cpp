@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "microswarm/formats/pnm.hpp"
-#include "tests/formats/files.hpp"
+#include "tests/files.hpp"
 #include "tests/formats/png.hpp"
 
 namespace microswarm {

@@ -8,7 +8,7 @@
 #include "microswarm/formats/image.hpp"
 #include "microswarm/formats/pnm.hpp"
 #include "microswarm/formats/rectangles.hpp"
-#include "tests/formats/files.hpp"
+#include "tests/files.hpp"
 
 namespace microswarm {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "tests/formats/files.hpp"
+#include "tests/files.hpp"
 
 namespace microswarm {
 namespace {

@@ -8,7 +8,7 @@
 #include "microswarm/core/rng.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/formats/rasterise.hpp"
-#include "tests/formats/files.hpp"
+#include "tests/files.hpp"
 
 namespace microswarm {
 namespace {

@@ -2,18 +2,14 @@
 // Aggregation [gather] on the vessel masks of CHASE_DB1, which are not part of the project.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "microswarm/experiment/run.hpp"
+#include "tests/files.hpp"
 
 namespace microswarm {
 namespace {
 
 TEST(Gather, RobotsAnywhereInARealVesselMaskComeTogether) {
-  const char* data = std::getenv("MICROSWARM_DATA");
-  const std::filesystem::path folder =
-      data ? data : std::filesystem::path(MICROSWARM_SOURCE_DIR) / ".." / "shared" / "data";
-  const std::filesystem::path mask = folder / "vessels" / "CHASE_09L_mask_obs1.png";
+  const std::filesystem::path mask = test::data_folder() / "vessels" / "CHASE_09L_mask_obs1.png";
   if (!std::filesystem::exists(mask)) GTEST_SKIP() << "no " << mask;
   constexpr double step = 4;
   Scenario s;

@@ -2,11 +2,11 @@
 // Recorded pedestrians as moving obstacles, scaled so that all are slower than the swarm.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 
 #include "microswarm/experiment/trials.hpp"
 #include "microswarm/formats/tracks.hpp"
+#include "tests/files.hpp"
 
 namespace microswarm {
 namespace {
@@ -18,10 +18,7 @@ constexpr double recording = 2800;  // [s]
 constexpr int trials = 50;
 
 std::filesystem::path recorded_file() {
-  const char* data = std::getenv("MICROSWARM_DATA");
-  const std::filesystem::path folder =
-      data ? data : std::filesystem::path(MICROSWARM_SOURCE_DIR) / ".." / "shared" / "data";
-  return folder / "moving_obstacles" / "ucy_zara01_obsmat.txt";
+  return test::data_folder() / "moving_obstacles" / "ucy_zara01_obsmat.txt";
 }
 
 Scenario street(const Tracks& tracks) {

@@ -3,11 +3,10 @@
 // --gtest_also_run_disabled_tests --gtest_filter='*BillionSteps*'.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "microswarm/core/angles.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/swarm/robot_stepper.hpp"
+#include "tests/files.hpp"
 #include "tests/scenes/vascular.hpp"
 
 namespace microswarm {
@@ -34,11 +33,9 @@ std::vector<Ground> grounds() {
     const auto v = scenes::random_vascular({.width = size, .height = 0.9 * size}, rng);
     all.push_back({"generated " + std::to_string(i + 1), v.map(), 1});
   }
-  const char* data = std::getenv("MICROSWARM_DATA");
-  const std::filesystem::path folder =
-      data ? data : std::filesystem::path(MICROSWARM_SOURCE_DIR) / ".." / "shared" / "data";
   for (const char* name : {"01L", "05R", "09L", "12R"}) {
-    const auto file = folder / "vessels" / (std::string("CHASE_") + name + "_mask_obs1.png");
+    const auto file =
+        test::data_folder() / "vessels" / (std::string("CHASE_") + name + "_mask_obs1.png");
     if (std::filesystem::exists(file))
       all.push_back({name, *load_map(guess_map_spec(file, 6.0)).map, 4});
   }

@@ -2,12 +2,12 @@
 // A* against the published optima of the MovingAI benchmarks.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 
 #include "microswarm/formats/moving_ai.hpp"
 #include "microswarm/planning/a_star.hpp"
+#include "tests/files.hpp"
 
 namespace microswarm {
 namespace {
@@ -18,10 +18,7 @@ constexpr std::size_t every = 200;  // sanitizers are slow; the release build as
 constexpr std::size_t every = 10;
 #endif
 
-std::filesystem::path folder() {
-  const char* data = std::getenv("MICROSWARM_DATA");
-  return std::filesystem::path(data ? data : "../shared/data") / "grid_maps";
-}
+std::filesystem::path folder() { return test::data_folder() / "grid_maps"; }
 
 class GridMaps : public testing::TestWithParam<const char*> {};
 

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 
 #include "microswarm/core/rng.hpp"
@@ -12,6 +11,7 @@
 #include "microswarm/vision/outline.hpp"
 #include "microswarm/vision/overlay.hpp"
 #include "microswarm/world/passage.hpp"
+#include "tests/files.hpp"
 
 namespace microswarm {
 namespace {
@@ -98,12 +98,7 @@ TEST(Agreement, OfAMaskWithItselfIsPerfect) {
   EXPECT_EQ(a.specificity(), 1.0);
 }
 
-std::filesystem::path retinas() {
-  const char* data = std::getenv("MICROSWARM_DATA");
-  return (data ? std::filesystem::path(data)
-               : std::filesystem::path(MICROSWARM_SOURCE_DIR) / ".." / "shared" / "data") /
-         "vessels";
-}
+std::filesystem::path retinas() { return test::data_folder() / "vessels"; }
 
 TEST(Vessels, RetinasAgreeWithTheirObservers) {
   if (!std::filesystem::exists(retinas())) GTEST_SKIP() << retinas() << " is absent";

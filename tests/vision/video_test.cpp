@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -14,6 +13,7 @@
 #include "microswarm/core/file.hpp"
 #include "microswarm/vision/track_overlay.hpp"
 #include "microswarm/vision/video_tracker.hpp"
+#include "tests/files.hpp"
 #include "tests/vision/spots.hpp"
 
 namespace microswarm {
@@ -179,11 +179,7 @@ TEST(TrackOverlay, DrawsOnAPictureOfItsSize) {
 
 // Real videos.
 
-fs::path videos() {
-  const char* data = std::getenv("MICROSWARM_DATA");
-  return (data ? fs::path(data) : fs::path(MICROSWARM_SOURCE_DIR) / ".." / "shared" / "data") /
-         "video";
-}
+fs::path videos() { return test::data_folder() / "video"; }
 
 struct Reference {
   int particle;

@@ -47,9 +47,9 @@ Elliptic elliptic(double m, double rest) {
   const double K = boost::math::ellint_rf(0.0, rest, 1.0);
   const double D = boost::math::ellint_rd(0.0, rest, 1.0) / 3;
   const double G = (K - (2 - m) * D) / m;
-  const double dK = (K - D) / (2 * rest);
-  const double dD = (dK - 0.5 * D) / m;
-  return {K - m * D, G, (dK + D - (2 - m) * dD - G) / m};
+  const double slope_k = (K - D) / (2 * rest);
+  const double slope_d = (slope_k - 0.5 * D) / m;
+  return {K - m * D, G, (slope_k + D - (2 - m) * slope_d - G) / m};
 }
 
 }  // namespace

@@ -42,6 +42,8 @@ class SerialCoilDriver final : public CoilDriver {
   /// port, nothing answers in time, or it speaks another version.
   explicit SerialCoilDriver(const SerialCoilParams& params);
   ~SerialCoilDriver() override;
+  SerialCoilDriver(const SerialCoilDriver&) = delete;
+  SerialCoilDriver& operator=(const SerialCoilDriver&) = delete;
 
   int channels() const override { return coil_link_channels; }
   DriveStatus drive(std::span<const double> currents) override;

@@ -61,6 +61,7 @@ std::vector<double> TextRows::numbers(std::size_t count, char separator, const c
   if (words.size() != count)
     fail(fmt::format("{} numbers, {} expected: {}", words.size(), count, what));
   std::vector<double> values;
+  values.reserve(count);
   for (const std::string_view word : words) values.push_back(number(word, what));
   return values;
 }

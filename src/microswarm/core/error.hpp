@@ -15,8 +15,8 @@ class InputError : public std::runtime_error {
   InputError(const std::string& file, int line, int column, const std::string& what);
 };
 
-/// A device that is not there, does not answer or refuses. The command-line tool prints it and exits
-/// with 4.
+/// A device that is not there, does not answer or refuses. The command-line tool prints it and
+/// exits with 4.
 class HardwareError : public std::runtime_error {
  public:
   explicit HardwareError(const std::string& what) : std::runtime_error(what) {}

@@ -12,7 +12,7 @@ constexpr double cut = 4;  // spreads at which the Gaussian ends
 
 std::vector<float> gaussian(double spread) {
   if (spread <= 0) return {1.0F};
-  const int reach = static_cast<int>(cut * spread + 0.5);
+  const int reach = static_cast<int>(std::lround(cut * spread));
   std::vector<double> half;
   double sum = 0;
   for (int i = 0; i <= reach; ++i) {
@@ -20,6 +20,7 @@ std::vector<float> gaussian(double spread) {
     sum += (i == 0 ? 1 : 2) * half.back();
   }
   std::vector<float> taps;
+  taps.reserve(half.size());
   for (const double tap : half) taps.push_back(static_cast<float>(tap / sum));
   return taps;
 }

@@ -114,7 +114,7 @@ Particle ParticleFinder::refine(Peak at) const {
       along_y += value * m.dy;
     }
     const Vec2 off{static_cast<double>(along_x) / mass, static_cast<double>(along_y) / mass};
-    particle.at_px = Vec2(at.column, at.row) + off;
+    particle.at_px = Vec2{static_cast<double>(at.column), static_cast<double>(at.row)} + off;
     const auto step = [](double d) { return d > move_from ? 1 : d < -move_from ? -1 : 0; };
     const Peak next{std::clamp(at.column + step(off.x), radius_, width_ - 1 - radius_),
                     std::clamp(at.row + step(off.y), radius_, height_ - 1 - radius_)};

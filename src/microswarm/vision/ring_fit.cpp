@@ -91,6 +91,7 @@ std::optional<Ring> robust_circle(std::vector<Vec2> points) {
   auto ring = circle_through(points);
   if (!ring) return std::nullopt;
   std::vector<double> off;
+  off.reserve(points.size());
   for (const Vec2 p : points)
     off.push_back(std::abs(distance(p, ring->centre_px) - ring->radius_px));
   const double allowed = std::max(ray_step, far_off * median(off));

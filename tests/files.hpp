@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Folders, broken files and messages for the tests of this floor.
+// Folders, messages and real input for tests.
 #pragma once
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -20,7 +22,7 @@ class Folder {
  public:
   Folder() {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = std::string("formats_") + info->test_suite_name() + "_" + info->name();
+    std::string name = fmt::format("{}_{}_{}", info->test_suite_name(), info->name(), ::getpid());
     for (char& c : name)
       if (c == '/') c = '_';
     path_ = std::filesystem::path(testing::TempDir()) / name;
@@ -62,7 +64,7 @@ std::string error_of(Action&& action) {
 /// Real input outside the repository; empty when it is not there.
 inline std::filesystem::path data_folder() {
   const char* given = std::getenv("MICROSWARM_DATA");
-  const std::filesystem::path folder = given ? given : MICROSWARM_DEFAULT_DATA;
+  const std::filesystem::path folder = given ? given : MICROSWARM_SOURCE_DIR "/../shared/data";
   return std::filesystem::is_directory(folder) ? folder : std::filesystem::path();
 }
 
