@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/vision/ground.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "microswarm/core/statistics.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr int tiles_across = 24;  // along the longer side
+constexpr int rounds = 12;        // of re-weighting
+constexpr double rounding = 0.5;  // [grey] a residual below it is none
+constexpr double fit_limit = 4;   // spreads; what is farther off is no ground
+constexpr int terms = 6;
+
+using Terms = std::array<double, terms>;
+
+/// A surface of second degree; coordinates in units of half the longer side, from the middle.
+struct Surface {
+  Terms factor{};
+
+  static Terms at(double x, double y) { return {1, x, y, x * x, x * y, y * y}; }
+  double grey(double x, double y) const {
+    const Terms t = at(x, y);
+    double sum = 0;
+    for (int i = 0; i < terms; ++i) sum += factor[i] * t[i];
+    return sum;
+  }
+};
+
+struct Tile {
+  double x;
+  double y;
+  double grey;
+};
+
+/// The median of the tile's seen pixels, of every other row; nothing when less than half is seen.
+std::optional<double> median_of(const cv::Mat& grey, const cv::Mat& seen) {
+  std::array<int, 256> count{};
+  int all = 0;
+  int some = 0;
+  for (int y = 0; y < grey.rows; y += 2) {
+    const auto* row = grey.ptr<std::uint8_t>(y);
+    const auto* shown = seen.empty() ? nullptr : seen.ptr<std::uint8_t>(y);
+    for (int x = 0; x < grey.cols; ++x) {
+      ++all;
+      if (shown && !shown[x]) continue;
+      ++count[row[x]];
+      ++some;
+    }
+  }
+  if (2 * some < all || some == 0) return std::nullopt;
+  int sum = 0;
+  int value = 0;
+  while (2 * (sum + count[value]) < some) sum += count[value++];
+  // Within the grey, as if its pixels were spread evenly over it.
+  return value - 0.5 + (0.5 * some - sum) / count[value];
+}
+
+std::vector<Tile> tiles_of(const cv::Mat& grey, const cv::Mat& seen, double half) {
+  const int side = std::max(2, std::max(grey.cols, grey.rows) / tiles_across);
+  const cv::Rect all(0, 0, grey.cols, grey.rows);
+  std::vector<Tile> tiles;
+  for (int y = 0; y < grey.rows; y += side)
+    for (int x = 0; x < grey.cols; x += side) {
+      const cv::Rect box = cv::Rect(x, y, side, side) & all;
+      const auto value = median_of(grey(box), seen.empty() ? seen : seen(box));
+      if (!value) continue;
+      const double cx = box.x + 0.5 * (box.width - 1);
+      const double cy = box.y + 0.5 * (box.height - 1);
+      tiles.push_back(
+          {(cx - 0.5 * (grey.cols - 1)) / half, (cy - 0.5 * (grey.rows - 1)) / half, *value});
+    }
+  return tiles;
+}
+
+Surface fitted(const std::vector<Tile>& tiles, const std::vector<double>& weight) {
+  cv::Mat normal = cv::Mat::zeros(terms, terms, CV_64F);
+  cv::Mat right = cv::Mat::zeros(terms, 1, CV_64F);
+  for (std::size_t k = 0; k < tiles.size(); ++k) {
+    const Terms t = Surface::at(tiles[k].x, tiles[k].y);
+    for (int i = 0; i < terms; ++i) {
+      for (int j = 0; j < terms; ++j) normal.at<double>(i, j) += weight[k] * t[i] * t[j];
+      right.at<double>(i) += weight[k] * t[i] * tiles[k].grey;
+    }
+  }
+  cv::Mat solution;
+  cv::solve(normal, right, solution, cv::DECOMP_SVD);
+  Surface surface;
+  for (int i = 0; i < terms; ++i) surface.factor[i] = solution.at<double>(i);
+  return surface;
+}
+
+/// Least absolute residuals first, which half of all tiles cannot spoil, then Tukey's biweight.
+Surface fitted(const std::vector<Tile>& tiles) {
+  std::vector<double> weight(tiles.size(), 1);
+  std::vector<double> off(tiles.size());
+  Surface surface;
+  for (int round = 0; round < rounds; ++round) {
+    surface = fitted(tiles, weight);
+    for (std::size_t k = 0; k < tiles.size(); ++k)
+      off[k] = std::abs(tiles[k].grey - surface.grey(tiles[k].x, tiles[k].y));
+    const double limit = fit_limit * std::max(rounding, 1.4826 * median(off));
+    for (std::size_t k = 0; k < tiles.size(); ++k) {
+      const double u = std::min(1.0, off[k] / limit);
+      weight[k] =
+          2 * round < rounds ? 1 / std::max(rounding, off[k]) : (1 - u * u) * (1 - u * u) + 1e-9;
+    }
+  }
+  return surface;
+}
+
+}  // namespace
+
+cv::Mat ground_of(const cv::Mat& grey, const cv::Mat& seen) {
+  cv::Mat ground = cv::Mat::zeros(grey.size(), CV_32F);
+  const double half = 0.5 * std::max(grey.cols, grey.rows);
+  const std::vector<Tile> tiles = tiles_of(grey, seen, half);
+  if (tiles.empty()) return ground;
+  const Terms c = fitted(tiles).factor;
+  for (int row = 0; row < grey.rows; ++row) {
+    const double y = (row - 0.5 * (grey.rows - 1)) / half;
+    const double constant = c[0] + y * (c[2] + y * c[5]);
+    const double slope = c[1] + y * c[4];
+    auto* out = ground.ptr<float>(row);
+    for (int column = 0; column < grey.cols; ++column) {
+      const double x = (column - 0.5 * (grey.cols - 1)) / half;
+      out[column] = static_cast<float>(constant + x * (slope + x * c[3]));
+    }
+  }
+  return ground;
+}
+
+}  // namespace microswarm
