@@ -118,20 +118,6 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
   return files;
 }
 
-/// OpenCV's picture, 8-bit with 1, 3 or 4 channels, blue first, into ours.
-void take_picture(const cv::Mat& mat, Image& picture) {
-  const int channels = mat.channels() == 1 ? 1 : 3;
-  picture.width = mat.cols;
-  picture.height = mat.rows;
-  picture.channels = channels;
-  picture.pixels.resize(mat.total() * static_cast<std::size_t>(channels));
-  cv::Mat ours = as_mat(picture);
-  if (channels == 1)
-    mat.copyTo(ours);
-  else
-    cv::cvtColor(mat, ours, mat.channels() == 4 ? cv::COLOR_BGRA2RGB : cv::COLOR_BGR2RGB);
-}
-
 bool fits(const cv::Size& size) {
   return size.width >= 1 && size.height >= 1 && size.width <= max_image_side &&
          size.height <= max_image_side &&

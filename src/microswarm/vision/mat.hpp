@@ -2,6 +2,7 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "microswarm/formats/image.hpp"
 #include "microswarm/formats/mask.hpp"
@@ -25,6 +26,21 @@ inline Mask to_mask(const cv::Mat& mat) {
   for (int y = 0; y < mat.rows; ++y)
     for (int x = 0; x < mat.cols; ++x) mask.at(x, y) = mat.at<std::uint8_t>(y, x) != 0;
   return mask;
+}
+
+/// OpenCV's picture, 8-bit with 1, 3 or 4 channels, blue first, into ours, whose memory is used
+/// again.
+inline void take_picture(const cv::Mat& mat, Image& picture) {
+  const int channels = mat.channels() == 1 ? 1 : 3;
+  picture.width = mat.cols;
+  picture.height = mat.rows;
+  picture.channels = channels;
+  picture.pixels.resize(mat.total() * static_cast<std::size_t>(channels));
+  cv::Mat ours = as_mat(picture);
+  if (channels == 1)
+    mat.copyTo(ours);
+  else
+    cv::cvtColor(mat, ours, mat.channels() == 4 ? cv::COLOR_BGRA2RGB : cv::COLOR_BGR2RGB);
 }
 
 }  // namespace microswarm
