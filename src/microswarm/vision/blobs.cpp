@@ -17,6 +17,8 @@
 namespace microswarm {
 namespace {
 
+constexpr int ground_rows = 8;  // one row in so many tells the noise of the ground
+constexpr int margin = 2;       // working pixels along the outline that tell nothing of the grain
 constexpr double noise_limit = 5;  // spreads of the ground that something must stand out
 
 /// Pixels of the picture along a side of a working pixel: the coarser, the less noise and time.
@@ -123,6 +125,23 @@ bool measure(Blob& blob) {
   return true;
 }
 
+/// Mean square of the differences between neighbours in a row, over the pixels that `of` chooses.
+template <class Choose>
+double roughness(const cv::Mat& grey, const cv::Rect& box, int row_step, Choose&& of) {
+  double squares = 0;
+  double count = 0;
+  for (int y = box.y; y < box.br().y; y += row_step) {
+    const auto* row = grey.ptr<std::uint8_t>(y);
+    for (int x = box.x; x + 1 < box.br().x; ++x) {
+      if (!of(x, y)) continue;
+      const int step = row[x + 1] - row[x];
+      squares += step * step;
+      ++count;
+    }
+  }
+  return count > 0 ? squares / count : 0;
+}
+
 bool is_cut(const cv::Rect& box, const cv::Mat& labels, int label, const cv::Mat& seen) {
   if (box.x == 0 || box.y == 0 || box.br().x == labels.cols || box.br().y == labels.rows)
     return true;
@@ -140,7 +159,8 @@ std::vector<Blob> find_blobs(const Image& picture, const BlobParams& p, const Ma
   const cv::Mat seen = seen_of(picture, walls, side);
   if (picture.pixels.empty()) return {};
   const Image one = picture.channels == 1 ? Image{} : to_grey(picture);
-  const cv::Mat grey = coarse(as_mat(picture.channels == 1 ? picture : one), side);
+  const cv::Mat fine = as_mat(picture.channels == 1 ? picture : one);
+  const cv::Mat grey = coarse(fine, side);
   const cv::Mat rise = rise_of(grey, seen, p.tone == ParticleTone::dark, p.gap / 2 / side);
   const auto least =
       static_cast<float>(std::max(p.min_contrast, noise_limit * ground_spread(rise, seen)));
@@ -156,6 +176,11 @@ std::vector<Blob> find_blobs(const Image& picture, const BlobParams& p, const Ma
     set(piece.box).setTo(255, in);
     level(piece.box).setTo(half, in);
   }
+  const double noise =
+      roughness(fine, {0, 0, fine.cols, fine.rows}, ground_rows, [&](int x, int y) {
+        const cv::Point at(x / side, y / side);
+        return labels.at<int>(at) == 0 && (seen.empty() || seen.at<std::uint8_t>(at));
+      });
   std::vector<Blob> blobs;
   for (const Piece& piece : pieces_of(set, labels, least_area)) {
     Blob blob;
@@ -165,6 +190,18 @@ std::vector<Blob> find_blobs(const Image& picture, const BlobParams& p, const Ma
     blob.outline_px = level_line(rise, level.at<float>(start), start);
     for (Vec2& q : blob.outline_px) q = side * q + 0.5 * (side - 1) * Vec2{1, 1};
     if (!measure(blob) || blob.radius_px < p.min_radius || blob.radius_px > p.max_radius) continue;
+    const cv::Rect box(side * piece.box.tl(), side * piece.box.br());
+    const cv::Rect inner(margin, margin, labels.cols - 2 * margin, labels.rows - 2 * margin);
+    const double rough =
+        roughness(fine, box & cv::Rect(0, 0, fine.cols, fine.rows), 1, [&](int x, int y) {
+          const cv::Point at(x / side, y / side);
+          const auto in = [&](int dx, int dy) {
+            return labels.at<int>(at + cv::Point(dx, dy)) == piece.label;
+          };
+          return inner.contains(at) && in(margin, 0) && in(-margin, 0) && in(0, margin) &&
+                 in(0, -margin);
+        });
+    blob.grain = std::sqrt(std::max(0.0, rough - noise) / 2);
     blob.is_cut = is_cut(piece.box, labels, piece.label, seen);
     blobs.push_back(std::move(blob));
   }

@@ -46,6 +46,7 @@ struct Blob {
   double angle = 0;              ///< of its major axis [rad], from x towards y: clockwise as seen
   std::vector<Vec2> outline_px;  ///< where it is half as far from the ground as its middle
   double contrast = 0;           ///< median difference to the ground [grey]
+  double grain = 0;              ///< spread of the greys within beyond that of the noise [grey]
   bool is_cut = false;           ///< it goes on beyond the picture or behind a wall
 };
 

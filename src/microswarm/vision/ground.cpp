@@ -39,7 +39,8 @@ struct Tile {
   double grey;
 };
 
-/// The median of the tile's seen pixels, of every other row; nothing when less than half is seen.
+/// The median of the tile's seen pixels, of every other row; nothing when less than a quarter is
+/// seen.
 std::optional<double> median_of(const cv::Mat& grey, const cv::Mat& seen) {
   std::array<int, 256> count{};
   int all = 0;
@@ -54,7 +55,7 @@ std::optional<double> median_of(const cv::Mat& grey, const cv::Mat& seen) {
       ++some;
     }
   }
-  if (2 * some < all || some == 0) return std::nullopt;
+  if (4 * some < all || some == 0) return std::nullopt;
   int sum = 0;
   int value = 0;
   while (2 * (sum + count[value]) < some) sum += count[value++];

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/geometry/shapes.hpp"
+
+namespace microswarm {
+
+/// Where a camera sees the world: a similarity between pixels (x right, y down, (0, 0) is the
+/// middle of the first pixel) and world [µm].
+struct CameraScale {
+  double um_per_px = 1;
+  double rotation = 0;  ///< of the picture's x axis, seen in the world [rad]
+  bool y_up = true;     ///< up in the picture is up in the world; false for a mirrored picture
+  Vec2 origin_px;       ///< where the world's origin is
+
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.um_per_px, {"um_per_px", Unit::none, {1e-6, 1e6}, "µm that a pixel shows.", true});
+    visit(self.rotation, {"rotation",
+                          Unit::deg,
+                          {-360, 360},
+                          "Direction of the picture's x axis in the world, counter-clockwise."});
+    visit(self.y_up,
+          {"y_up", Unit::none, {}, "The world's y goes up in the picture; false when mirrored."});
+    visit(self.origin_px,
+          {"origin", Unit::px, {-1e6, 1e6}, "The world's origin in the picture, x right, y down."});
+  }
+
+  /// World place [µm] of a point in the picture.
+  Vec2 to_world(Vec2 at_px) const { return direction_to_world(at_px - origin_px); }
+  /// The point in the picture of a world place.
+  Vec2 to_picture(Vec2 place) const {
+    const Vec2 way = rotated(place, -rotation) / um_per_px;
+    return origin_px + Vec2{way.x, y_up ? -way.y : way.y};
+  }
+  /// A way in the picture as one in the world [µm].
+  Vec2 direction_to_world(Vec2 way_px) const {
+    return um_per_px * rotated({way_px.x, y_up ? -way_px.y : way_px.y}, rotation);
+  }
+};
+
+/// A picture of `height` pixels whose lower left corner is the world's origin, as maps lie
+/// (formats/mask.hpp).
+inline CameraScale upright_scale(int height, double um_per_px) {
+  return {.um_per_px = um_per_px, .origin_px = {-0.5, height - 0.5}};
+}
+
+/// A point in the picture and its world place [µm].
+struct ScalePoint {
+  Vec2 at_px;
+  Vec2 place;
+};
+
+/// A fitted scale and how far the points are from it.
+struct FittedScale {
+  CameraScale scale;
+  std::vector<double> residuals;  ///< of each point [µm]
+  double rms = 0;                 ///< [µm]
+  double worst = 0;               ///< [µm]
+};
+
+/// The similarity that fits two points or more by least squares. Throws InputError when all points
+/// are at one place.
+FittedScale fit_scale(std::span<const ScalePoint> points, bool y_up = true);
+
+/// The scale from two points whose distance [µm] is known; the axes of world and picture are
+/// parallel. The origin is at `origin_px`, or at the lower left corner of a picture of `height`
+/// pixels. Throws InputError when the points are one, or the distance is not above 0.
+CameraScale scale_of_distance(Vec2 a_px, Vec2 b_px, double distance, int height,
+                              std::optional<Vec2> origin_px = std::nullopt, bool y_up = true);
+
+/// A polygon in the picture as one in the world [µm], turned as Polygon asks for.
+Polygon polygon_in_world(const Polygon& in_picture, const CameraScale& scale);
+
+}  // namespace microswarm
