@@ -17,8 +17,7 @@
 namespace microswarm {
 namespace {
 
-constexpr int ground_rows = 8;  // one row in so many tells the noise of the ground
-constexpr int margin = 2;       // working pixels along the outline that tell nothing of the grain
+constexpr int ground_rows = 4;     // one working row in so many tells the noise of the ground
 constexpr double noise_limit = 5;  // spreads of the ground that something must stand out
 
 /// Pixels of the picture along a side of a working pixel: the coarser, the less noise and time.
@@ -77,12 +76,21 @@ double ground_spread(const cv::Mat& rise, const cv::Mat& seen) {
   return 1.4826 * median(std::move(off));
 }
 
+/// A connected set of working pixels.
 struct Piece {
   cv::Rect box;
-  int label = 0;
+  cv::Mat in;  ///< 255 in it, over the box
+
+  cv::Point first() const {
+    cv::Point at = box.tl();
+    while (!in.at<std::uint8_t>(at - box.tl())) ++at.x;
+    return at;
+  }
 };
 
-std::vector<Piece> pieces_of(const cv::Mat& set, cv::Mat& labels, double least_area) {
+/// Those of at least `least_area` pixels in a set, of which `corner` is the first pixel.
+std::vector<Piece> pieces_of(const cv::Mat& set, cv::Point corner, double least_area) {
+  cv::Mat labels;
   cv::Mat stats;
   cv::Mat centres;
   const int count = cv::connectedComponentsWithStats(set, labels, stats, centres, 4, CV_32S);
@@ -90,18 +98,20 @@ std::vector<Piece> pieces_of(const cv::Mat& set, cv::Mat& labels, double least_a
   for (int k = 1; k < count; ++k) {
     const int* s = stats.ptr<int>(k);
     if (s[cv::CC_STAT_AREA] < least_area) continue;
-    pieces.push_back(
-        {{s[cv::CC_STAT_LEFT], s[cv::CC_STAT_TOP], s[cv::CC_STAT_WIDTH], s[cv::CC_STAT_HEIGHT]},
-         k});
+    const cv::Rect box(s[cv::CC_STAT_LEFT], s[cv::CC_STAT_TOP], s[cv::CC_STAT_WIDTH],
+                       s[cv::CC_STAT_HEIGHT]);
+    pieces.push_back({box + corner, labels(box) == k});
   }
   return pieces;
 }
 
-float median_within(const cv::Mat& rise, const cv::Mat& labels, const Piece& piece) {
+float median_within(const cv::Mat& rise, const Piece& piece) {
   std::vector<double> values;
-  for (int y = piece.box.y; y < piece.box.br().y; ++y)
-    for (int x = piece.box.x; x < piece.box.br().x; ++x)
-      if (labels.at<int>(y, x) == piece.label) values.push_back(rise.at<float>(y, x));
+  values.reserve(piece.in.total());
+  for (int y = 0; y < piece.box.height; ++y)
+    for (int x = 0; x < piece.box.width; ++x)
+      if (piece.in.at<std::uint8_t>(y, x))
+        values.push_back(rise.at<float>(piece.box.y + y, piece.box.x + x));
   return static_cast<float>(median(std::move(values)));
 }
 
@@ -125,85 +135,88 @@ bool measure(Blob& blob) {
   return true;
 }
 
-/// Mean square of the differences between neighbours in a row, over the pixels that `of` chooses.
-template <class Choose>
-double roughness(const cv::Mat& grey, const cv::Rect& box, int row_step, Choose&& of) {
+/// What is searched: the picture, the pixels that are looked at and how far they stand out of the
+/// ground, the latter two in working pixels.
+struct Field {
+  int side = 1;  ///< of a working pixel
+  cv::Mat fine;
+  cv::Mat seen;
+  cv::Mat rise;
+};
+
+/// Mean square of the differences between neighbours in a row of the picture, in every `step`th row
+/// of the working pixels that `chosen` (over `box`) sets.
+double roughness(const Field& field, const cv::Rect& box, const cv::Mat& chosen, int step) {
+  const int side = field.side;
   double squares = 0;
   double count = 0;
-  for (int y = box.y; y < box.br().y; y += row_step) {
-    const auto* row = grey.ptr<std::uint8_t>(y);
-    for (int x = box.x; x + 1 < box.br().x; ++x) {
-      if (!of(x, y)) continue;
-      const int step = row[x + 1] - row[x];
-      squares += step * step;
+  for (int y = 0; y < box.height; y += step) {
+    const auto* row =
+        field.fine.ptr<std::uint8_t>(std::min(side * (box.y + y), field.fine.rows - 1));
+    const auto* in = chosen.ptr<std::uint8_t>(y);
+    const int end = std::min(side * box.br().x, field.fine.cols - 1);
+    for (int x = side * box.x; x < end; ++x) {
+      if (!in[x / side - box.x]) continue;
+      const int rise = row[x + 1] - row[x];
+      squares += rise * rise;
       ++count;
     }
   }
   return count > 0 ? squares / count : 0;
 }
 
-bool is_cut(const cv::Rect& box, const cv::Mat& labels, int label, const cv::Mat& seen) {
-  if (box.x == 0 || box.y == 0 || box.br().x == labels.cols || box.br().y == labels.rows)
-    return true;
+bool is_cut(const Piece& piece, const cv::Mat& seen, const cv::Size& size) {
+  const cv::Rect inner(1, 1, size.width - 2, size.height - 2);
+  if ((piece.box & inner) != piece.box) return true;
   if (seen.empty()) return false;
-  const cv::Rect around = box + cv::Size(2, 2) - cv::Point(1, 1);
+  const cv::Rect around = piece.box + cv::Size(2, 2) - cv::Point(1, 1);
   cv::Mat grown;
-  cv::dilate(labels(around) == label, grown, cv::Mat::ones(3, 3, CV_8U));
+  cv::copyMakeBorder(piece.in, grown, 1, 1, 1, 1, cv::BORDER_CONSTANT);
+  cv::dilate(grown, grown, cv::Mat::ones(3, 3, CV_8U));
   return cv::countNonZero(grown & ~seen(around)) > 0;
+}
+
+/// The blob that a piece is, whose outline runs at `level`; `noise` is the roughness of the ground.
+std::optional<Blob> blob_of(const Field& field, const Piece& piece, float level, double noise) {
+  Blob blob;
+  blob.outline_px = level_line(field.rise, level, piece.first());
+  for (Vec2& q : blob.outline_px) q = field.side * q + 0.5 * (field.side - 1) * Vec2{1, 1};
+  if (!measure(blob)) return std::nullopt;
+  blob.contrast = median_within(field.rise, piece);
+  cv::Mat inner;  // the edge tells nothing of the grain
+  cv::erode(piece.in, inner, cv::Mat::ones(5, 5, CV_8U), {-1, -1}, 1, cv::BORDER_CONSTANT, 0);
+  blob.grain = std::sqrt(std::max(0.0, roughness(field, piece.box, inner, 1) - noise) / 2);
+  blob.is_cut = is_cut(piece, field.seen, field.rise.size());
+  return blob;
 }
 
 }  // namespace
 
 std::vector<Blob> find_blobs(const Image& picture, const BlobParams& p, const Mask* walls) {
-  const int side = coarseness(p);
-  const cv::Mat seen = seen_of(picture, walls, side);
+  Field field{.side = coarseness(p)};
+  field.seen = seen_of(picture, walls, field.side);
   if (picture.pixels.empty()) return {};
   const Image one = picture.channels == 1 ? Image{} : to_grey(picture);
-  const cv::Mat fine = as_mat(picture.channels == 1 ? picture : one);
-  const cv::Mat grey = coarse(fine, side);
-  const cv::Mat rise = rise_of(grey, seen, p.tone == ParticleTone::dark, p.gap / 2 / side);
-  const auto least =
-      static_cast<float>(std::max(p.min_contrast, noise_limit * ground_spread(rise, seen)));
+  field.fine = as_mat(picture.channels == 1 ? picture : one);
+  field.rise = rise_of(coarse(field.fine, field.side), field.seen, p.tone == ParticleTone::dark,
+                       p.gap / 2 / field.side);
+  const auto least = static_cast<float>(
+      std::max(p.min_contrast, noise_limit * ground_spread(field.rise, field.seen)));
+  const cv::Mat high = field.rise > least;
+  const cv::Mat ground = field.seen.empty() ? cv::Mat(~high) : cv::Mat(~high & field.seen);
+  const double noise = roughness(field, {0, 0, ground.cols, ground.rows}, ground, ground_rows);
 
   // What stands out, then what of each piece does so by half as much as its middle.
-  const double least_area = std::numbers::pi * std::pow(0.5 * p.min_radius / side, 2);
-  cv::Mat labels;
-  cv::Mat set = cv::Mat::zeros(rise.size(), CV_8U);
-  cv::Mat level = cv::Mat::zeros(rise.size(), CV_32F);
-  for (const Piece& piece : pieces_of(rise > least, labels, least_area)) {
-    const float half = std::max(least, median_within(rise, labels, piece) / 2);
-    const cv::Mat in = (labels(piece.box) == piece.label) & (rise(piece.box) > half);
-    set(piece.box).setTo(255, in);
-    level(piece.box).setTo(half, in);
-  }
-  const double noise =
-      roughness(fine, {0, 0, fine.cols, fine.rows}, ground_rows, [&](int x, int y) {
-        const cv::Point at(x / side, y / side);
-        return labels.at<int>(at) == 0 && (seen.empty() || seen.at<std::uint8_t>(at));
-      });
+  const double least_area = std::numbers::pi * std::pow(0.5 * p.min_radius / field.side, 2);
   std::vector<Blob> blobs;
-  for (const Piece& piece : pieces_of(set, labels, least_area)) {
-    Blob blob;
-    blob.contrast = median_within(rise, labels, piece);
-    cv::Point start = piece.box.tl();
-    while (labels.at<int>(start) != piece.label) ++start.x;
-    blob.outline_px = level_line(rise, level.at<float>(start), start);
-    for (Vec2& q : blob.outline_px) q = side * q + 0.5 * (side - 1) * Vec2{1, 1};
-    if (!measure(blob) || blob.radius_px < p.min_radius || blob.radius_px > p.max_radius) continue;
-    const cv::Rect box(side * piece.box.tl(), side * piece.box.br());
-    const cv::Rect inner(margin, margin, labels.cols - 2 * margin, labels.rows - 2 * margin);
-    const double rough =
-        roughness(fine, box & cv::Rect(0, 0, fine.cols, fine.rows), 1, [&](int x, int y) {
-          const cv::Point at(x / side, y / side);
-          const auto in = [&](int dx, int dy) {
-            return labels.at<int>(at + cv::Point(dx, dy)) == piece.label;
-          };
-          return inner.contains(at) && in(margin, 0) && in(-margin, 0) && in(0, margin) &&
-                 in(0, -margin);
-        });
-    blob.grain = std::sqrt(std::max(0.0, rough - noise) / 2);
-    blob.is_cut = is_cut(piece.box, labels, piece.label, seen);
-    blobs.push_back(std::move(blob));
+  for (const Piece& piece : pieces_of(high, {}, least_area)) {
+    const float level = std::max(least, median_within(field.rise, piece) / 2);
+    const cv::Mat half_up = piece.in & (field.rise(piece.box) > level);
+    for (const Piece& part : pieces_of(half_up, piece.box.tl(), least_area)) {
+      std::optional<Blob> blob = blob_of(field, part, level, noise);
+      if (blob && blob->radius_px >= p.min_radius && blob->radius_px <= p.max_radius)
+        blobs.push_back(std::move(*blob));
+    }
   }
   std::stable_sort(blobs.begin(), blobs.end(),
                    [](const Blob& a, const Blob& b) { return a.radius_px > b.radius_px; });
