@@ -4,9 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/statistics.hpp"
+#include "microswarm/vision/scene_overlay.hpp"
+#include "microswarm/vision/wall_finder.hpp"
 #include "tests/files.hpp"
 #include "tests/vision/microscope.hpp"
 
@@ -63,6 +67,142 @@ TEST(SceneFinder, SwarmAndObstaclesOfTheSameToneAreToldApart) {
   }
   std::printf("grain: swarms at least %.1f, obstacles at most %.1f grey\n",
               quantile(grain_of_swarms, 0), quantile(grain_of_discs, 1));
+}
+
+/// Two channels that cross, with walls around them, and what moves in them.
+struct Channels {
+  DrawnFrame frame{width, height};
+  Mask walls{width, height};
+
+  Channels() {
+    for (const auto& [lo, hi] : {std::pair{Vec2{-0.5, -0.5}, Vec2{219.5, 159.5}},
+                                 {{379.5, -0.5}, {639.5, 159.5}},
+                                 {{-0.5, 319.5}, {219.5, 479.5}},
+                                 {{379.5, 319.5}, {639.5, 479.5}}}) {
+      frame.box(lo, hi, 0.6);
+      for (int y = static_cast<int>(lo.y + 0.5); y <= hi.y; ++y)
+        for (int x = static_cast<int>(lo.x + 0.5); x <= hi.x; ++x) walls.at(x, y) = 1;
+    }
+  }
+};
+
+/// Share of the pixels in which two masks agree.
+double agreement(const Mask& a, const Mask& b) {
+  double same = 0;
+  for (std::size_t i = 0; i < a.cells.size(); ++i) same += a.cells[i] == b.cells[i];
+  return same / static_cast<double>(a.cells.size());
+}
+
+TEST(Walls, AreFoundUnderUnevenLightThoughTheyAreHalfOfThePicture) {
+  double worst = 1;
+  for (int k = 0; k < 12; ++k) {
+    Rng rng(12, Purpose::test, k);
+    const Channels channels;
+    const Image still = channels.frame.expose(160, 0.4, k, 0.2, 6, rng);
+    worst = std::min(worst, agreement(find_walls(still), channels.walls));
+  }
+  std::printf("walls: %.2f %% of the pixels are right at least\n", 100 * worst);
+  EXPECT_GT(worst, 0.985);
+}
+
+TEST(Walls, NoneWhereThereAreNone) {
+  Rng rng(13, Purpose::test);
+  for (int k = 0; k < 5; ++k) {
+    const Mask walls = find_walls(DrawnFrame(width, height).expose(150, 0.4, k, 0.2, 8, rng));
+    EXPECT_EQ(walls, Mask(width, height));
+  }
+}
+
+TEST(Walls, ComeIntoTheWorldWhereTheyAre) {
+  const Channels channels;
+  const double um_per_px = 2.5;
+  const auto walls = walls_in_world(channels.walls, upright_scale(height, um_per_px), 2);
+  ASSERT_EQ(walls.size(), 4U);
+  double sum = 0;
+  for (const Polygon& p : walls) {
+    EXPECT_GT(signed_area(p.outer), 0);
+    sum += area(p);
+  }
+  EXPECT_NEAR(sum, um_per_px * um_per_px * (2 * 220 * 160 + 2 * 260 * 160), 0.01 * sum);
+  CameraScale mirrored{.um_per_px = 1, .rotation = 0.3, .y_up = false};
+  for (const Polygon& p : walls_in_world(channels.walls, mirrored, 1)) {
+    EXPECT_GT(signed_area(p.outer), 0);
+    const Box box = bounding_box(p);
+    EXPECT_GT(box.hi.x, box.lo.x);
+  }
+}
+
+TEST(Background, IsWhatStandsStill) {
+  Rng rng(14, Purpose::test);
+  const Channels channels;
+  std::vector<Image> pictures;
+  for (int k = 0; k < 7; ++k) {
+    Channels scene;
+    scene.frame.swarm({.centre = {60.0 + 90 * k, 240}, .radius = 30}, rng);
+    pictures.push_back(scene.frame.expose(160, 0.3, 0.4, 0.1, 4, rng));
+  }
+  EXPECT_GT(agreement(find_walls(still_background(pictures)), channels.walls), 0.985);
+  EXPECT_EQ(test::error_of([] { still_background({}); }), "background: no pictures");
+  pictures[3] = {2, 2, 1, {1, 2, 3, 4}};
+  EXPECT_EQ(test::error_of([&] { still_background(pictures); }),
+            "background: the pictures differ in size");
+}
+
+/// The frame of docs/vision.md: a swarm, discs and a polygon between walls. It is written where
+/// MICROSWARM_PICTURES says, with the picture of what stands still.
+TEST(SceneFinder, TheSceneOfTheDocsIsSeen) {
+  Rng rng(15, Purpose::test);
+  Channels scene;
+  const Image still = scene.frame.expose(165, 0.3, 0.6, 0.15, 5, rng);
+  scene.frame.swarm({.centre = {120, 236},
+                     .radius = 34,
+                     .elongation = 1.5,
+                     .angle = 0.4,
+                     .clumps = 330,
+                     .clump_radius = 1.7,
+                     .opacity = 0.7},
+                    rng);
+  scene.frame.disc({300, 90}, 26, 0.55);
+  scene.frame.disc({520, 262}, 20, 0.55);
+  scene.frame.polygon({{270, 395}, {325, 372}, {338, 410}, {290, 436}}, 0.55);
+  const Image picture = scene.frame.expose(165, 0.3, 0.6, 0.15, 5, rng);
+  if (const char* folder = std::getenv("MICROSWARM_PICTURES")) {
+    write_png(std::filesystem::path(folder) / "still.png", still);
+    write_png(std::filesystem::path(folder) / "frame.png", picture);
+  }
+  SceneParams params;
+  params.swarm.min_grain = 5;
+  const Mask walls = find_walls(still);
+  const SeenScene seen = find_scene(picture, params, std::nullopt, &walls);
+  ASSERT_EQ(seen.swarm.sight, SwarmSight::found);
+  EXPECT_LT(distance(seen.swarm.swarm->centre_px, {120, 236}), 1);
+  ASSERT_EQ(seen.obstacles.size(), 3U);
+  int discs = 0;
+  for (const SeenObstacle& o : seen.obstacles) discs += o.is_disc;
+  EXPECT_EQ(discs, 2);
+  const Image drawn = draw_scene(picture, seen, &walls);
+  EXPECT_EQ(drawn.channels, 3);
+}
+
+TEST(SceneFinder, ShapesComeIntoTheWorld) {
+  Rng rng(16, Purpose::test);
+  DrawnFrame frame(width, height);
+  frame.disc({100, 100}, 20, 0.5);
+  frame.polygon({{300, 300}, {380, 300}, {380, 340}, {300, 340}}, 0.5);
+  SceneParams params;
+  params.swarm.min_grain = 5;
+  const SeenScene scene = find_scene(frame.expose(160, 0, 0, 0, 3, rng), params);
+  EXPECT_EQ(scene.swarm.sight, SwarmSight::none);
+  ASSERT_EQ(scene.obstacles.size(), 2U);
+  for (const bool y_up : {true, false}) {
+    const CameraScale scale{.um_per_px = 3, .rotation = 0.5, .y_up = y_up, .origin_px = {50, 60}};
+    const auto box = std::get<Polygon>(scene.obstacles[0].shape(scale));
+    EXPECT_GT(signed_area(box.outer), 0);
+    EXPECT_NEAR(area(box), 80 * 40 * 9, 0.05 * 80 * 40 * 9);
+    const Disc disc = std::get<Disc>(scene.obstacles[1].shape(scale));
+    EXPECT_LT(distance(disc.centre, scale.to_world({100, 100})), 1);
+    EXPECT_NEAR(disc.radius, 60, 2);
+  }
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/statistics.hpp"
+#include "tests/files.hpp"
 #include "tests/vision/microscope.hpp"
 
 namespace microswarm {
@@ -67,7 +68,7 @@ TEST(SwarmFinder, PlaceSizeAndShapeOfHundredsOfSwarms) {
     std::vector<double> angle_off;
     std::vector<double> ms;
     int missed = 0;
-    for (std::uint32_t trial = 0; trial < 300; ++trial) {
+    for (std::uint32_t trial = 0; trial < (most_noise > 0 ? 250 : 50); ++trial) {
       const Scene s = scene(trial, most_noise);
       const auto began = std::chrono::steady_clock::now();
       const SwarmSighting seen = find_swarm(s.picture);
@@ -102,6 +103,176 @@ TEST(SwarmFinder, PlaceSizeAndShapeOfHundredsOfSwarms) {
     EXPECT_LT(quantile(radius_off, 0.99), 0.15);
     EXPECT_LT(quantile(angle_off, 0.99), 8);
   }
+}
+
+/// A swarm in the middle of an evenly lit picture, and what is put beside it.
+Image lit(const DrawnFrame& frame, double noise = 3) {
+  Rng rng(21, Purpose::test);
+  return frame.expose(150, 0.2, 0.5, 0.1, noise, rng);
+}
+DrawnFrame with_swarm(Vec2 centre, double radius) {
+  Rng rng(22, Purpose::test);
+  DrawnFrame frame(width, height);
+  frame.swarm({.centre = centre, .radius = radius, .clumps = clumps_for(radius)}, rng);
+  return frame;
+}
+
+TEST(SwarmFinder, LightUnevenByFortyPercentAndMuchNoise) {
+  for (const double noise : {0.0, 5.0, 10.0})
+    for (int k = 0; k < 8; ++k) {
+      Rng rng(5, Purpose::test, k);
+      const Image picture = with_swarm({400, 180}, 30).expose(140, 0.4, k * pi / 4, 0, noise, rng);
+      const SwarmSighting seen = find_swarm(picture);
+      ASSERT_EQ(seen.sight, SwarmSight::found) << noise << " " << k;
+      EXPECT_LT(distance(seen.swarm->centre_px, {400, 180}), 1);
+      EXPECT_NEAR(seen.swarm->radius_px, 30, 2);
+      EXPECT_FALSE(seen.swarm->is_cut);
+    }
+}
+
+TEST(SwarmFinder, TwoSwarmsAreSeveralAndTheOneSeenBeforeIsFollowed) {
+  DrawnFrame frame = with_swarm({150, 200}, 30);
+  Rng rng(7, Purpose::test);
+  frame.swarm({.centre = {450, 300}, .radius = 25, .clumps = clumps_for(25)}, rng);
+  const Image picture = lit(frame);
+  const SwarmSighting both = find_swarm(picture);
+  EXPECT_EQ(both.sight, SwarmSight::several);
+  EXPECT_FALSE(both.swarm);
+  ASSERT_EQ(both.candidates.size(), 2U);
+  EXPECT_GT(both.candidates[0].radius_px, both.candidates[1].radius_px);
+  const SwarmSighting one = find_swarm(picture, {}, Vec2{455, 290});
+  ASSERT_EQ(one.sight, SwarmSight::found);
+  EXPECT_LT(distance(one.swarm->centre_px, {450, 300}), 1);
+  const SwarmSighting gone = find_swarm(picture, {.jump = 60}, Vec2{300, 250});
+  EXPECT_EQ(gone.sight, SwarmSight::none);
+  const SwarmSighting wide = find_swarm(picture, {.jump = 400}, Vec2{300, 250});
+  EXPECT_EQ(wide.sight, SwarmSight::several);
+}
+
+TEST(SwarmFinder, DirtIsNoRival) {
+  DrawnFrame frame = with_swarm({150, 200}, 30);
+  frame.disc({400, 300}, 4, 0.3);   // below the least radius
+  frame.disc({500, 100}, 11, 0.3);  // of too small a share of the area
+  EXPECT_EQ(find_swarm(lit(frame)).sight, SwarmSight::found);
+}
+
+TEST(SwarmFinder, PartlyOutsideOfThePictureIsCut) {
+  for (const Vec2 centre : {Vec2{10, 240}, Vec2{630, 240}, Vec2{320, 5}, Vec2{320, 475}}) {
+    const SwarmSighting seen = find_swarm(lit(with_swarm(centre, 40)));
+    ASSERT_EQ(seen.sight, SwarmSight::found);
+    expect_finite(*seen.swarm);
+    EXPECT_TRUE(seen.swarm->is_cut);
+    EXPECT_LT(distance(seen.swarm->centre_px, centre), 20);
+    EXPECT_LT(seen.swarm->radius_px, 40);
+  }
+}
+
+TEST(SwarmFinder, AtAWallWhatTheWallDoesNotHideIsSeen) {
+  Mask walls(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) walls.at(x, y) = x >= 400 && x < 440;
+  for (const double x : {330.0, 360.0, 372.0, 385.0}) {
+    DrawnFrame frame = with_swarm({x, 240}, 30);
+    frame.box({399.5, -1}, {439.5, 480}, 0.3);
+    const SwarmSighting seen = find_swarm(lit(frame), {}, std::nullopt, &walls);
+    ASSERT_EQ(seen.sight, SwarmSight::found) << x;
+    EXPECT_EQ(seen.swarm->is_cut, x > 365) << x;
+    EXPECT_LT(distance(seen.swarm->centre_px, {x, 240}), x < 365 ? 1.5 : x < 380 ? 4 : 11) << x;
+  }
+  EXPECT_EQ(find_swarm(lit(DrawnFrame(width, height)), {}, std::nullopt, &walls).sight,
+            SwarmSight::none);
+  const Mask wrong(4, 3);
+  EXPECT_EQ(
+      test::error_of([&] { find_swarm(lit(DrawnFrame(width, height)), {}, std::nullopt, &wrong); }),
+      "walls: 4x3 pixels, the picture has 640x480");
+}
+
+TEST(SwarmFinder, TinySwarmsDownToTheLeastRadius) {
+  for (const double radius : {9.0, 7.0, 5.0, 4.0}) {
+    Rng rng(8, Purpose::test);
+    DrawnFrame frame(width, height);
+    frame.swarm({.centre = {300.25, 200.5}, .radius = radius, .clumps = 60, .clump_radius = 1},
+                rng);
+    SwarmFinderParams params;
+    params.look.min_radius = 0.6 * radius;
+    params.look.gap = 3;
+    const SwarmSighting seen = find_swarm(lit(frame), params);
+    ASSERT_EQ(seen.sight, SwarmSight::found) << radius;
+    EXPECT_LT(distance(seen.swarm->centre_px, {300.25, 200.5}), 0.5);
+    EXPECT_NEAR(seen.swarm->radius_px, radius, 2);
+  }
+}
+
+TEST(SwarmFinder, NothingIsFoundWhereNothingIs) {
+  const auto even = [](int w, int h, int channels, int grey) {
+    return Image{w, h, channels,
+                 std::vector<std::uint8_t>(static_cast<std::size_t>(w) * h * channels,
+                                           static_cast<std::uint8_t>(grey))};
+  };
+  for (const ParticleTone tone : {ParticleTone::dark, ParticleTone::bright}) {
+    SwarmFinderParams params;
+    params.look.tone = tone;
+    for (const int grey : {0, 1, 128, 254, 255})
+      for (const int channels : {1, 3})
+        EXPECT_EQ(find_swarm(even(width, height, channels, grey), params).sight, SwarmSight::none);
+    for (const int side : {1, 2, 3, 7, 20})
+      EXPECT_EQ(find_swarm(even(side, side, 1, 90), params).sight, SwarmSight::none);
+    EXPECT_EQ(find_swarm({}, params).sight, SwarmSight::none);
+    Rng rng(9, Purpose::test);
+    for (int k = 0; k < 20; ++k)
+      EXPECT_EQ(
+          find_swarm(DrawnFrame(width, height).expose(150, 0.4, k, 0.2, 10, rng), params).sight,
+          SwarmSight::none);
+  }
+}
+
+TEST(SwarmFinder, AnyPictureGivesFiniteBlobs) {
+  for (int k = 0; k < 60; ++k) {
+    Rng rng(10, Purpose::test, k);
+    Image image{1 + static_cast<int>(rng.below(90)), 1 + static_cast<int>(rng.below(90)), 1, {}};
+    const auto levels = 1 + rng.below(4);
+    for (int i = 0; i < image.width * image.height; ++i)
+      image.pixels.push_back(static_cast<std::uint8_t>(rng.below(levels) * 255 / levels));
+    SwarmFinderParams params;
+    params.look = {.min_radius = rng.uniform(1, 6), .gap = rng.uniform(1, 8)};
+    for (const Blob& b : find_swarm(image, params).candidates) expect_finite(b);
+  }
+}
+
+TEST(SwarmFinder, AFrozenPictureGivesTheSameBits) {
+  const Scene s = scene(3, 10);
+  const SwarmSighting a = find_swarm(s.picture);
+  const SwarmSighting b = find_swarm(s.picture);
+  ASSERT_EQ(a.sight, SwarmSight::found);
+  EXPECT_EQ(a.swarm->centre_px, b.swarm->centre_px);
+  EXPECT_EQ(a.swarm->radius_px, b.swarm->radius_px);
+  EXPECT_EQ(a.swarm->outline_px, b.swarm->outline_px);
+}
+
+TEST(SwarmFinder, BrightOnDarkIsAsDarkOnBright) {
+  const Scene s = scene(4, 5);
+  Image inverse = s.picture;
+  for (auto& g : inverse.pixels) g = static_cast<std::uint8_t>(255 - g);
+  SwarmFinderParams bright;
+  bright.look.tone = ParticleTone::bright;
+  const SwarmSighting a = find_swarm(s.picture);
+  const SwarmSighting b = find_swarm(inverse, bright);
+  ASSERT_EQ(a.sight, SwarmSight::found);
+  ASSERT_EQ(b.sight, SwarmSight::found);
+  EXPECT_LT(distance(a.swarm->centre_px, b.swarm->centre_px), 0.1);
+  EXPECT_NEAR(a.swarm->radius_px, b.swarm->radius_px, 0.1);
+}
+
+TEST(SwarmFinder, AMovedSwarmIsSeenMovedBetweenPixelsToo) {
+  double worst = 0;
+  const auto at = [](double dx) { return find_swarm(lit(with_swarm({300 + dx, 200}, 35), 2)); };
+  const Vec2 from = at(0).swarm->centre_px;
+  for (int k = 1; k <= 20; ++k) {
+    const Vec2 moved = at(0.1 * k).swarm->centre_px - from;
+    worst = std::max(worst, distance(moved, {0.1 * k, 0}));
+  }
+  std::printf("a swarm moved by tenths of a pixel: worst error of the way %.3f px\n", worst);
+  EXPECT_LT(worst, 0.15);
 }
 
 }  // namespace

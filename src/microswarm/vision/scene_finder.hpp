@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <variant>
 #include <vector>
 
@@ -50,39 +49,5 @@ struct SeenScene {
 /// What is not taken to be the swarm but looks like an obstacle is one.
 SeenScene find_scene(const Image& picture, const SceneParams& params = {},
                      std::optional<Vec2> before_px = std::nullopt, const Mask* walls = nullptr);
-
-/// Settings of `find_walls`.
-struct WallParams {
-  ParticleTone tone = ParticleTone::dark;
-  double min_contrast = 15;
-  double smooth = 2;
-  double min_area = 200;
-
-  template <class Self, class V>
-  static void fields(Self& self, V&& visit) {
-    visit(self.tone, {"tone", Unit::none, {}, "Walls are dark or bright against the channels."});
-    visit(self.min_contrast,
-          {"min_contrast", Unit::none, {1, 255}, "Least difference to the channels, in greys."});
-    visit(self.smooth,
-          {"smooth", Unit::px, {0, 100}, "Spread of the Gaussian that takes the noise away."});
-    visit(self.min_area, {"min_area",
-                          Unit::none,
-                          {0, 1e8},
-                          "Smaller walls, and smaller holes in them, are none; "
-                          "in square px."});
-  }
-};
-
-/// What stands still: each pixel's median over the pictures. Throws InputError when there is none
-/// or their sizes differ.
-Image still_background(std::span<const Image> pictures);
-
-/// The walls in a picture without swarm and obstacles, 1 = wall: what is farther from the light on
-/// the channels than half of the contrast. The light may be uneven; it is fitted to the channels
-/// alone. No walls where the contrast is below `min_contrast`.
-Mask find_walls(const Image& background, const WallParams& params = {});
-
-/// Smooth outlines [µm] of walls, for a Map, within `tolerance` [µm] of the mask's.
-std::vector<Polygon> walls_in_world(const Mask& walls, const CameraScale& scale, double tolerance);
 
 }  // namespace microswarm

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "microswarm/formats/image.hpp"
+#include "microswarm/formats/mask.hpp"
+#include "microswarm/vision/scene_finder.hpp"
+
+namespace microswarm {
+
+/// The picture in colours with what was seen in it: the swarm's outline, ellipse and centre in
+/// green (of several that may be it, each in yellow), obstacles as discs or hulls in orange, walls
+/// in blue.
+Image draw_scene(const Image& picture, const SeenScene& scene, const Mask* walls = nullptr);
+
+}  // namespace microswarm
