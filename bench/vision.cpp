@@ -10,6 +10,7 @@
 #include "microswarm/core/rng.hpp"
 #include "microswarm/core/statistics.hpp"
 #include "microswarm/vision/mat.hpp"
+#include "microswarm/vision/swarm_finder.hpp"
 #include "microswarm/vision/video_tracker.hpp"
 
 namespace microswarm::bench {
@@ -24,6 +25,8 @@ constexpr double spread = 2.2;  // [px] of a spot
 constexpr double depth = 40;    // [grey]
 constexpr double grain = 2;     // [grey] of noise
 constexpr int diameter = 11;    // [px]
+constexpr int swarm_width = 640;
+constexpr int swarm_height = 480;
 
 double ms_since(Clock::time_point began) {
   return std::chrono::duration<double, std::milli>(Clock::now() - began).count();
@@ -115,13 +118,83 @@ Times measure(const std::vector<VideoFrame>& frames, const Stop& stop) {
   return times;
 }
 
+/// A swarm of clumps under uneven light with noise, on its way through the pictures.
+std::vector<Image> swarm_pictures(int frames) {
+  constexpr int clumps = 600;
+  constexpr double radius = 50;  // [px]
+  constexpr double noise = 5;    // [grey]
+  Rng rng(2, Purpose::scene);
+  std::vector<Image> all;
+  all.reserve(static_cast<std::size_t>(frames));
+  for (int k = 0; k < frames; ++k) {
+    std::vector<double> light(static_cast<std::size_t>(swarm_width) * swarm_height);
+    for (int y = 0; y < swarm_height; ++y)
+      for (int x = 0; x < swarm_width; ++x)
+        light[static_cast<std::size_t>(y) * swarm_width + x] = 100 + 0.12 * x;
+    const Vec2 centre{80 + 480.0 * k / frames, 240};
+    for (int i = 0; i < clumps; ++i) {
+      const double r = radius * std::sqrt(rng.uniform());
+      const Vec2 p = centre + r * unit_vector(rng.uniform(-3.2, 3.2));
+      for (int y = static_cast<int>(p.y) - 2; y <= static_cast<int>(p.y) + 2; ++y)
+        for (int x = static_cast<int>(p.x) - 2; x <= static_cast<int>(p.x) + 2; ++x)
+          if (distance({1.0 * x, 1.0 * y}, p) < 2.5)
+            light[static_cast<std::size_t>(y) * swarm_width + x] *= 0.5;
+    }
+    Image image{swarm_width, swarm_height, 1, {}};
+    image.pixels.reserve(light.size());
+    for (const double g : light)
+      image.pixels.push_back(
+          static_cast<std::uint8_t>(std::clamp(std::lround(g + noise * rng.normal()), 0L, 255L)));
+    all.push_back(std::move(image));
+  }
+  return all;
+}
+
+/// OpenCV's plain way to one swarm: smooth, an adaptive threshold, close, the largest contour and
+/// its moments.
+double swarm_with_opencv(const Image& image) {
+  cv::Mat smooth;
+  cv::Mat set;
+  cv::GaussianBlur(as_mat(image), smooth, {13, 13}, 3);
+  cv::adaptiveThreshold(smooth, set, 255, cv::ADAPTIVE_THRESH_MEAN_C, cv::THRESH_BINARY_INV, 201,
+                        15);
+  cv::morphologyEx(set, set, cv::MORPH_CLOSE, cv::Mat::ones(7, 7, CV_8U));
+  std::vector<std::vector<cv::Point>> contours;
+  cv::findContours(set, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+  double largest = 0;
+  for (const auto& contour : contours) largest = std::max(largest, cv::moments(contour).m00);
+  return largest;
+}
+
+/// Rows of one swarm found in pictures of 640 × 480 pixels.
+void add_swarm(std::vector<BenchRow>& rows, bool quick, const Stop& stop) {
+  std::vector<double> ours;
+  std::vector<double> peer;
+  for (const Image& picture : swarm_pictures(quick ? 100 : 500)) {
+    if (stop()) break;
+    auto began = Clock::now();
+    find_swarm(picture);
+    ours.push_back(ms_since(began));
+    began = Clock::now();
+    swarm_with_opencv(picture);
+    peer.push_back(ms_since(began));
+  }
+  for (const double q : {0.5, 0.99})
+    rows.push_back({.name = "one swarm found",
+                    .quantity = q == 0.5 ? "time a frame, median" : "time a frame, 99 of 100",
+                    .unit = "ms",
+                    .ours = quantile(ours, q),
+                    .peer = quantile(peer, q),
+                    .peer_name = "OpenCV: blur, adaptive threshold, close, contours",
+                    .aim = q == 0.5 ? std::optional(5.0) : std::nullopt});
+}
+
 }  // namespace
 
 std::vector<BenchRow> vision(bool quick, const Stop& stop) {
   const int threads = cv::getNumThreads();
   cv::setNumThreads(1);
   const Times times = measure(video(quick ? 100 : 500), stop);
-  cv::setNumThreads(threads);
   std::vector<BenchRow> rows;
   const auto add = [&](const char* name, const std::vector<double>& ours, double q,
                        std::optional<double> aim) {
@@ -137,6 +210,8 @@ std::vector<BenchRow> vision(bool quick, const Stop& stop) {
   add("600 robots found", times.found, 0.99, std::nullopt);
   add("600 robots found and followed", times.all, 0.5, 5);
   add("600 robots found and followed", times.all, 0.99, std::nullopt);
+  add_swarm(rows, quick, stop);
+  cv::setNumThreads(threads);
   return rows;
 }
 

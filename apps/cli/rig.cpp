@@ -218,6 +218,8 @@ void add_rig(CLI::App& app, Action& action) {
   rig->require_subcommand(1);
   add_field(rig, action);
   add_rig_map(*rig, action);
+  add_rig_scale(*rig, action);
+  add_rig_see(*rig, action);
   add_calibrate(rig, action);
 }
 

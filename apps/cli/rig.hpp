@@ -19,5 +19,9 @@ Eigen::VectorXd currents_of(const std::string& text, const CoilSystem& system);
 
 /// The part `rig map` of `rig`.
 void add_rig_map(CLI::App& rig, Action& action);
+/// The part `rig scale` of `rig`.
+void add_rig_scale(CLI::App& rig, Action& action);
+/// The part `rig see` of `rig`.
+void add_rig_see(CLI::App& rig, Action& action);
 
 }  // namespace microswarm::cli

@@ -15,6 +15,7 @@ namespace {
 constexpr int fraction_bits = 4;  // OpenCV draws in sixteenths of a pixel
 
 // Of Okabe & Ito's colours, which the colour-blind can tell apart.
+const cv::Scalar white(255, 255, 255);
 const cv::Scalar green(0, 158, 115);
 const cv::Scalar yellow(240, 228, 66);
 const cv::Scalar orange(230, 159, 0);
@@ -45,11 +46,12 @@ std::vector<Vec2> ellipse_of(const Blob& blob) {
 
 void draw_blob(cv::Mat& picture, const Blob& blob, const cv::Scalar& colour) {
   draw_ring(picture, blob.outline_px, colour, 2);
-  draw_ring(picture, ellipse_of(blob), colour, 1);
-  constexpr double arm = 6;
-  for (const Vec2 way : {Vec2{arm, 0}, Vec2{0, arm}})
-    cv::line(picture, fine(blob.centre_px - way), fine(blob.centre_px + way), colour, 1,
-             cv::LINE_AA, fraction_bits);
+  draw_ring(picture, ellipse_of(blob), white, 1);
+  for (const Vec2 axis : {Vec2{blob.semi_major_px, 0}, Vec2{0, blob.semi_minor_px}}) {
+    const Vec2 way = rotated(axis, blob.angle);
+    cv::line(picture, fine(blob.centre_px - way), fine(blob.centre_px + way), white, 1, cv::LINE_AA,
+             fraction_bits);
+  }
 }
 
 }  // namespace
