@@ -239,6 +239,12 @@ TEST_P(NavigatorLaws, StepsAllocateNothing) {
 std::vector<Case> cases() {
   HierarchicalParams hierarchical;
   hierarchical.margin = 40;
+  HierarchicalParams hierarchical_learned = hierarchical;
+  hierarchical_learned.follower.kind = FollowerKind::learned;
+  PathNavigatorParams learned;
+  learned.follower.kind = FollowerKind::learned;
+  PathNavigatorParams against_flow;
+  against_flow.follower.correct_flow = true;
   RadarParams radar;
   radar.target_gain = 0.01;
   RadarParams guided = radar;
@@ -246,6 +252,10 @@ std::vector<Case> cases() {
   guided.safety_radius.adaptive = true;
   guided.obstacle_speed_bound = 50;
   return {{"Hierarchical", hierarchical, true},
+          {"HierarchicalLearned", hierarchical_learned, true},
+          {"Path", PathNavigatorParams{}},
+          {"PathAgainstFlow", against_flow},
+          {"PathLearned", learned},
           {"Radar", radar},
           {"RadarGuided", guided},
           {"StraightStop", StraightParams{}},

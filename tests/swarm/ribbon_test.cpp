@@ -114,5 +114,22 @@ TEST(Ribbon, SameStreamSameBits) {
   EXPECT_EQ(one.pose(), two.pose());
 }
 
+TEST(Ribbon, AFlowCarriesItAlsoWhileItHolds) {
+  Rng rng(1, Purpose::plant);
+  Ribbon ribbon({.response_lag = 0, .drift = {4, -2}}, {{10, 10}, 0});
+  ribbon.step({0, 0}, 0.5, rng);
+  EXPECT_NEAR(ribbon.pose().position.x, 12, 1e-9);
+  EXPECT_NEAR(ribbon.pose().position.y, 9, 1e-9);
+  EXPECT_EQ(ribbon.pose().heading, 0);
+}
+
+TEST(Ribbon, ItsSpeedMayBeOff) {
+  Rng rng(1, Purpose::plant);
+  Ribbon ribbon({.max_speed = 80, .response_lag = 0, .speed_factor = 0.9}, {});
+  ribbon.step({0, 100}, 0.5, rng);
+  EXPECT_NEAR(ribbon.pose().position.x, 36, 1e-9);
+  EXPECT_NEAR(ribbon.speed(), 72, 1e-9);
+}
+
 }  // namespace
 }  // namespace microswarm

@@ -142,6 +142,9 @@ void write_scene(Hdf5Writer& out, const Scene& scene) {
   write_points(out, "/map/discs", centres);
   number_column(out, "/map/discs/radius_um", radii, "µm");
   write_tracks(out, scene.scenario.obstacles);
+  if (const FollowerParams* follower = follower_of(scene.scenario.navigator);
+      follower && follower->loaded)
+    out.text("/follower_model", follower_model_text(*follower->loaded));
 }
 
 Scene read_scene(const Hdf5Reader& in) {
@@ -157,6 +160,10 @@ Scene read_scene(const Hdf5Reader& in) {
   for (std::size_t i = 0; i < radii.size(); ++i) scene.map.discs.push_back({centres[i], radii[i]});
   check(scene.map, in.name());
   read_tracks(in, scene.scenario.obstacles);
+  if (FollowerParams* follower = follower_of(scene.scenario.navigator);
+      follower && !follower->model.empty())
+    follower->loaded = std::make_shared<const FollowerModel>(
+        parse_follower_model(in.text("/follower_model"), in.name() + ":/follower_model"));
   return scene;
 }
 

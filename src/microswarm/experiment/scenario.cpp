@@ -9,6 +9,7 @@
 
 #include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
+#include "microswarm/core/file.hpp"
 #include "microswarm/core/hash.hpp"
 #include "microswarm/experiment/radar_check.hpp"
 #include "microswarm/experiment/robot_check.hpp"
@@ -19,6 +20,8 @@
 namespace microswarm {
 
 namespace {
+
+constexpr std::uint64_t max_model_bytes = 1 << 20;
 
 Places obstacle_in(const Places& where, std::size_t i) {
   return where.within(fmt::format("obstacles.{}", i), fmt::format("obstacle {}", i + 1));
@@ -41,6 +44,15 @@ void load_tracks(std::vector<Obstacle>& obstacles, const std::filesystem::path& 
       throw motion.error("id", fmt::format("{} has no id '{}'", path.string(), track->id));
     track->samples = std::make_shared<const Samples>(samples->second);
   }
+}
+
+/// Reads the model of a learned follower that the navigator names.
+void load_follower(NavigatorParams& navigator, const std::filesystem::path& base) {
+  FollowerParams* follower = follower_of(navigator);
+  if (!follower || follower->model.empty()) return;
+  const std::filesystem::path path = base / follower->model;
+  follower->loaded = std::make_shared<const FollowerModel>(
+      parse_follower_model(read_file(path, max_model_bytes), path.string()));
 }
 
 void hash_points(Hash& hash, const std::vector<Vec2>& points) {
@@ -87,11 +99,15 @@ std::string Scene::hash() const {
     for (const double t : track->samples->times) hash.value(t);
     hash_points(hash, track->samples->points);
   }
+  if (const FollowerParams* follower = follower_of(scenario.navigator);
+      follower && follower->loaded)
+    hash.text(follower_model_text(*follower->loaded));
   return hash.hex();
 }
 
 Scene load_scene(Scenario scenario, const std::filesystem::path& base, const Places& where) {
   load_tracks(scenario.obstacles, base, where);
+  load_follower(scenario.navigator, base);
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)
     check(scenario.obstacles[i], obstacle_in(where, i));
   MapParts map = read_map_parts(scenario.map, base, where);

@@ -116,8 +116,8 @@ struct Scene {
   std::string hash() const;
 };
 
-/// Reads the scenario's map and tracks, relative to the folder `base`. Throws InputError for a file
-/// or an obstacle that makes no sense; `where` knows the scenario's keys.
+/// Reads the scenario's map, tracks and learned follower, relative to the folder `base`. Throws
+/// InputError for a file or an obstacle that makes no sense; `where` knows the scenario's keys.
 Scene load_scene(Scenario scenario, const std::filesystem::path& base, const Places& where = {});
 
 /// What a scenario tells its navigator.

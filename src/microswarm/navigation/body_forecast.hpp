@@ -32,15 +32,17 @@ class BodyForecast {
     const auto in_effect = std::find_if(issued_.begin() + (issued_.empty() ? 0 : 1), issued_.end(),
                                         [&](const Issued& i) { return starts(i) > seen.seen; });
     if (in_effect - issued_.begin() > 1) issued_.erase(issued_.begin(), in_effect - 1);
-    Pose2 pose = seen.swarm->pose;
-    double t = seen.seen;
-    const double effect = seen.now + lag_;
-    for (std::size_t i = 0; i < issued_.size() && t < effect; ++i) {
-      const double until =
-          i + 1 < issued_.size() ? std::min(effect, starts(issued_[i + 1])) : effect;
-      if (until <= t || starts(issued_[i]) > t + same_moment) continue;
-      pose = unicycle_step(pose, issued_[i].command, turn_rate_, until - t);
-      t = until;
+    return moved(seen.swarm->pose, seen.seen, seen.now + lag_);
+  }
+
+  /// Where the commands take a swarm from its pose at the time `t` to the time `until` [s]. Those
+  /// before the newest frame that was asked about are forgotten.
+  Pose2 moved(Pose2 pose, double t, double until) const {
+    for (std::size_t i = 0; i < issued_.size() && t < until; ++i) {
+      const double end = i + 1 < issued_.size() ? std::min(until, starts(issued_[i + 1])) : until;
+      if (end <= t || starts(issued_[i]) > t + same_moment) continue;
+      pose = unicycle_step(pose, issued_[i].command, turn_rate_, end - t);
+      t = end;
     }
     return pose;
   }

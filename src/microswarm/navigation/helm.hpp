@@ -39,6 +39,8 @@ class Helm {
   /// From the frame to the effect of the command of this step [s].
   double delay() const { return delay_; }
   NavigatorView view() const { return view_; }
+  /// What the commands given so far do; it forgets the old ones in begin().
+  const BodyForecast& forecast() const { return forecast_; }
   void show_target(Vec2 target) { view_.local_target = target; }
 
  private:

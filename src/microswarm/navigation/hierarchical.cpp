@@ -28,7 +28,8 @@ HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params,
       goal_(goal),
       goal_tolerance_(goal_tolerance),
       rng_(rng),
-      forecast_(swarm) {
+      forecast_(swarm),
+      follower_(params.follower, swarm) {
   params_.speed = std::min(params.speed, swarm.max_speed);
   // How far the arc of a tick is from its chord; a swarm that turns at once makes none.
   if (std::isfinite(swarm.max_turn_rate))
@@ -60,6 +61,7 @@ Command HierarchicalNavigator::issue(double now, Command command, std::string_vi
 // Algorithm 4 [drrt], one pass of its loop
 Command HierarchicalNavigator::decide(const Observation& seen, const Stop& stop) {
   if (!sees_swarm(seen, params_.frame_timeout)) return issue(seen.now, {}, "blind");
+  follower_.see(seen, forecast_);
   pose_ = forecast_.at_effect(seen);
   const Command hold{pose_.heading, 0};
   if (distance(pose_.position, goal_) <= goal_tolerance_) {  // line 2
@@ -77,8 +79,10 @@ Command HierarchicalNavigator::decide(const Observation& seen, const Stop& stop)
     }
     if (path_.size() < 2) break;
     for (const double ease : eases)
-      if (const double speed = ease * params_.speed; look_along_path(seen, speed).safe)
-        return issue(seen.now, pursue(path_, place_, pose_, lookahead_at(speed), speed), "follow");
+      if (const double speed = ease * params_.speed; look_along_path(seen, speed).safe) {
+        const auto next = follower_.command(path_, place_, pose_, lookahead_at(speed), speed);
+        return issue(seen.now, next.command, next.handed_over ? "fallback" : "follow");
+      }
   }
   if (look_ahead(seen, params_.margin, [&](const Pose2&, double) { return hold; }).safe)
     return issue(seen.now, hold, "hold");
@@ -186,7 +190,7 @@ HierarchicalNavigator::Outlook HierarchicalNavigator::look_along_path(const Obse
   PathPlace place = place_;
   const double lookahead = lookahead_at(speed);
   return look_ahead(seen, params_.margin, [&](const Pose2& pose, double) {
-    const Command command = pursue(path_, place, pose, lookahead, speed);
+    const Command command = follower_.command(path_, place, pose, lookahead, speed).command;
     return way_left(path_, place) < 1 ? Command{pose.heading, 0} : command;
   });
 }

@@ -9,10 +9,10 @@
 
 #include "microswarm/core/fields.hpp"
 #include "microswarm/navigation/body_forecast.hpp"
-#include "microswarm/navigation/follower.hpp"
 #include "microswarm/navigation/guide.hpp"
 #include "microswarm/navigation/local_target.hpp"
 #include "microswarm/navigation/navigator.hpp"
+#include "microswarm/navigation/path_follower.hpp"
 #include "microswarm/planning/planners.hpp"
 #include "microswarm/swarm/swarm_limits.hpp"
 
@@ -36,6 +36,7 @@ struct HierarchicalParams {
   double extra_margin = 10;
   double speed = 60;
   double lookahead = 60;
+  FollowerParams follower;
   double horizon = 3;
   Guide guide = Guide::route;
   double route_cell = 20;
@@ -51,6 +52,7 @@ struct HierarchicalParams {
     visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Speed asked for."});
     visit(self.lookahead,
           {"lookahead", Unit::um, {1e-3, 1e5}, "How far ahead the path is pursued."});
+    visit(self.follower, {"follower", Unit::none, {}, "Who follows the path."});
     visit(self.horizon,
           {"horizon", Unit::s, {0, 60}, "How far commands are looked ahead; 0: not."});
     visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight, or route."});
@@ -62,7 +64,8 @@ struct HierarchicalParams {
   }
 };
 
-/// See HierarchicalParams. States: follow, hold, escape, arrived, blind.
+/// See HierarchicalParams. States: follow, fallback (the learned follower does not know and hands
+/// over to pure pursuit), hold, escape, arrived, blind.
 class HierarchicalNavigator : public Navigator {
  public:
   /// `swarm` is what is known of the swarm: radius, turning limit and dead time.
@@ -107,6 +110,7 @@ class HierarchicalNavigator : public Navigator {
 
   std::optional<double> issued_at_;  ///< the last command [s]
   BodyForecast forecast_;
+  PathFollower follower_;
   Pose2 pose_;  ///< where the swarm will be when the command of this step takes effect
   std::vector<Vec2> path_;
   PathPlace place_;

@@ -48,6 +48,10 @@ Made make(const PredictiveParams& p, const Task& task, Rng rng) {
   return std::make_unique<PredictiveNavigator>(p, task.swarm, *task.goal, task.goal_tolerance, rng);
 }
 
+Made make(const PathNavigatorParams& p, const Task& task, Rng) {
+  return std::make_unique<PathNavigator>(p, task.swarm, *task.goal, task.goal_tolerance);
+}
+
 std::string_view lacks_body(const Task& task) {
   if (task.robots) return "a swarm that is one body: it cannot steer robots one by one";
   return task.goal ? "" : "a goal";
@@ -59,6 +63,7 @@ std::string_view lacks(const PotentialFieldParams&, const Task& task) { return l
 std::string_view lacks(const VelocityObstacleParams&, const Task& task) { return lacks_body(task); }
 std::string_view lacks(const PredictiveParams&, const Task& task) { return lacks_body(task); }
 std::string_view lacks(const RadarParams&, const Task& task) { return lacks_body(task); }
+std::string_view lacks(const PathNavigatorParams&, const Task& task) { return lacks_body(task); }
 
 std::string_view lacks(const PlanPlayerParams&, const Task& task) {
   return task.robots && !task.robots->goals.empty() ? "" : "robots with a goal each";
@@ -116,6 +121,25 @@ double detection_range_of(const NavigatorParams& params) {
 double frame_timeout_of(const NavigatorParams& params) {
   return std::visit([](const auto& p) { return p.frame_timeout; }, params);
 }
+
+namespace {
+
+template <class Params>
+auto* follower_in(Params& params) {
+  using Follower =
+      std::conditional_t<std::is_const_v<Params>, const FollowerParams, FollowerParams>;
+  return std::visit(
+      [](auto& p) -> Follower* {
+        if constexpr (requires { p.follower; }) return &p.follower;
+        return nullptr;
+      },
+      params);
+}
+
+}  // namespace
+
+const FollowerParams* follower_of(const NavigatorParams& params) { return follower_in(params); }
+FollowerParams* follower_of(NavigatorParams& params) { return follower_in(params); }
 
 std::unique_ptr<Navigator> make_navigator(const NavigatorParams& params, const Task& task,
                                           Rng rng) {

@@ -9,6 +9,7 @@
 #include "microswarm/core/places.hpp"
 #include "microswarm/navigation/aggregation.hpp"
 #include "microswarm/navigation/hierarchical.hpp"
+#include "microswarm/navigation/path_navigator.hpp"
 #include "microswarm/navigation/plan_player.hpp"
 #include "microswarm/navigation/potential_field.hpp"
 #include "microswarm/navigation/predictive.hpp"
@@ -20,9 +21,9 @@
 namespace microswarm {
 
 /// Any navigator, chosen at run time by its `type`.
-using NavigatorParams =
-    std::variant<HierarchicalParams, PlanPlayerParams, AggregationParams, RadarParams,
-                 StraightParams, PotentialFieldParams, VelocityObstacleParams, PredictiveParams>;
+using NavigatorParams = std::variant<HierarchicalParams, PlanPlayerParams, AggregationParams,
+                                     RadarParams, StraightParams, PotentialFieldParams,
+                                     VelocityObstacleParams, PredictiveParams, PathNavigatorParams>;
 
 /// What a navigator is told of its task.
 struct Task {
@@ -50,6 +51,10 @@ double detection_range_of(const NavigatorParams& params);
 
 /// Age [s] from which on the navigator holds a frame for too old.
 double frame_timeout_of(const NavigatorParams& params);
+
+/// The follower's parameters of a navigator that follows a path; null for others.
+const FollowerParams* follower_of(const NavigatorParams& params);
+FollowerParams* follower_of(NavigatorParams& params);
 
 /// The navigator with these parameters; it lacks nothing for the task.
 std::unique_ptr<Navigator> make_navigator(const NavigatorParams& params, const Task& task, Rng rng);

@@ -15,7 +15,8 @@ void Ribbon::step(const Command& command, double dt, Rng& rng) {
   swept_.assign(1, {0, pose_, params_.radius});
   double passed = 0;
   commands_.pass(command, dt, ribbon_substep, [&](const Command& active, double piece) {
-    active_ = {active.heading, std::clamp(active.speed, 0.0, params_.max_speed)};
+    const double speed = std::clamp(active.speed, 0.0, params_.max_speed);
+    active_ = {active.heading, params_.speed_factor * speed};
     advance(piece, rng);
     passed += piece;
     swept_.push_back({passed, pose_, params_.radius});
@@ -25,6 +26,7 @@ void Ribbon::step(const Command& command, double dt, Rng& rng) {
 
 void Ribbon::advance(double dt, Rng& rng) {
   pose_ = unicycle_step(pose_, active_, params_.max_turn_rate, dt);
+  if (!(params_.drift == Vec2{})) pose_.position += dt * params_.drift;
   const double spread = std::sqrt(dt);
   if (params_.position_noise > 0) {
     const double x = rng.normal();

@@ -22,6 +22,8 @@ struct RibbonParams {
   double response_lag = 0.1;
   double position_noise = 0;
   double heading_noise = 0;
+  Vec2 drift{};
+  double speed_factor = 1;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.radius, {"radius", Unit::um, {1e-3, 1e5}, "Radius of the swarm's body."});
@@ -33,6 +35,12 @@ struct RibbonParams {
           {"position_noise", Unit::um, {0, 1e4}, "Random drift, standard deviation after 1 s."});
     visit(self.heading_noise,
           {"heading_noise", Unit::deg, {0, 360}, "Random turning, standard deviation after 1 s."});
+    visit(self.drift,
+          {"drift", Unit::um_per_s, {-1e5, 1e5}, "Flow that carries it; no navigator is told."});
+    visit(self.speed_factor, {"speed_factor",
+                              Unit::none,
+                              {0, 10},
+                              "Its speed beside the one commanded; no navigator is told."});
   }
 };
 
