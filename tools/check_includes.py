@@ -20,6 +20,7 @@ FLOORS = [
     "src/microswarm/actuation",
     "src/microswarm/vision",
     "src/microswarm/experiment",
+    "src/microswarm/learning",
     "src/microswarm/sweep",
     "src/microswarm/report",
     "tests/scenes",

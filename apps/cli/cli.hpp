@@ -51,6 +51,7 @@ void add_export(CLI::App& app, Action& action);
 void add_map(CLI::App& app, Action& action);
 void add_track(CLI::App& app, Action& action);
 void add_rig(CLI::App& app, Action& action);
+void add_learn(CLI::App& app, Action& action);
 void add_reproduce(CLI::App& app, Action& action);
 void add_bench(CLI::App& app, Action& action);
 

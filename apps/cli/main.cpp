@@ -80,6 +80,9 @@ int main(int argc, char** argv) {
   cli::add_replay(app, action);
   cli::add_report(app, action);
   cli::add_rig(app, action);
+#ifdef MICROSWARM_HAS_LEARNING
+  cli::add_learn(app, action);
+#endif
   cli::add_reproduce(app, action);
   cli::add_bench(app, action);
   cli::add_schema(app, action);

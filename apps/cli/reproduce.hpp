@@ -42,8 +42,8 @@ inline ReproduceRow row_within(double share, std::string figure, std::string qua
   return row_of(std::move(figure), std::move(quantity), std::move(unit), paper, ours, aim, above);
 }
 
-/// [drrt]: fig3 (S-channel), fig5a (deforming channel), fig5b (moving obstacles), or all when
-/// empty.
+/// [drrt]: fig3 (S-channel), fig5a (deforming channel), fig5b (moving obstacles), follower (the
+/// learned one beside pure pursuit and its expert), or all when empty.
 std::vector<ReproduceRow> reproduce_drrt(const std::string& figure, const ReproduceOptions& options,
                                          const Stop& stop);
 

@@ -17,6 +17,9 @@
 #include "microswarm/report/plot.hpp"
 #include "microswarm/report/run_report.hpp"
 #include "reproduce_figures.hpp"
+#ifdef MICROSWARM_HAS_LEARNING
+#include "follower_rows.hpp"
+#endif
 
 namespace microswarm::cli {
 namespace {
@@ -367,16 +370,30 @@ std::vector<ReproduceRow> loop_figure(const LoopFigure& f, const ReproduceOption
   return loop_rows(f, trials);
 }
 
+#ifdef MICROSWARM_HAS_LEARNING
+// The learned controller, of which the paper gives no figures.
+std::vector<ReproduceRow> follower(const ReproduceOptions& options, const Stop& stop) {
+  const ComparisonOptions comparison{.tasks = options.quick ? 60 : 200};
+  const auto outcomes = compare_with_progress(comparison, stop);
+  if (stop()) return {};
+  if (!options.out.empty()) write_follower_figures(outcomes, comparison, options.out);
+  return follower_rows(outcomes);
+}
+#endif
+
 }  // namespace
 
 std::vector<ReproduceRow> reproduce_drrt(const std::string& figure, const ReproduceOptions& options,
                                          const Stop& stop) {
-  constexpr std::array<Figure, 3> figures{
-      {{"fig3", fig3},
-       {"fig5a",
-        [](const ReproduceOptions& o, const Stop& s) { return loop_figure(deforming, o, s); }},
-       {"fig5b",
-        [](const ReproduceOptions& o, const Stop& s) { return loop_figure(moving, o, s); }}}};
+  static constexpr Figure figures[] = {
+      {"fig3", fig3},
+      {"fig5a",
+       [](const ReproduceOptions& o, const Stop& s) { return loop_figure(deforming, o, s); }},
+      {"fig5b", [](const ReproduceOptions& o, const Stop& s) { return loop_figure(moving, o, s); }},
+#ifdef MICROSWARM_HAS_LEARNING
+      {"follower", follower},
+#endif
+  };
   return reproduce_figures("drrt", figures, figure, options, stop);
 }
 

@@ -124,8 +124,8 @@ TEST_F(BadScenarios, Records) {
 
 TEST_F(BadScenarios, CommandLine) {
   const std::string there =
-      "run, plan, global, gather, sweep, export, map, track, replay, report, rig, reproduce, "
-      "bench, schema";
+      "run, plan, global, gather, sweep, export, map, track, replay, report, rig, learn, "
+      "reproduce, bench, schema";
   refused({}, "a command is missing, there are: " + there + " (see microswarm --help)");
   refused({"fly"}, "unknown command 'fly', there are: " + there + " (see microswarm --help)");
   refused({"rnu"}, "unknown command 'rnu', did you mean 'run'? (see microswarm --help)");
@@ -150,7 +150,7 @@ TEST_F(BadScenarios, PaperFigureGroup) {
   refused({"reproduce", "drtt"},
           "reproduce: unknown paper 'drtt', there are: drrt, global, radar, gather");
   refused({"reproduce", "drrt/fig9"},
-          "reproduce drrt: unknown figure 'fig9', there are: fig3, fig5a, fig5b");
+          "reproduce drrt: unknown figure 'fig9', there are: fig3, fig5a, fig5b, follower");
   refused({"bench", "speed"},
           "bench: unknown group 'speed', there are: planning, swarm, global, radar, vision");
 }

@@ -8,7 +8,15 @@
 namespace microswarm {
 
 /// What a random stream is for. Two purposes never share numbers, whatever the seed.
-enum class Purpose : std::uint32_t { planner = 1, plant, sensor, scene, start_goal, test };
+enum class Purpose : std::uint32_t {
+  planner = 1,
+  plant,
+  sensor,
+  scene,
+  start_goal,
+  test,
+  learning
+};
 
 /// Counter-based random stream (Philox4x32-10 by Random123), keyed by (seed, purpose, trial): the
 /// same key gives the same numbers on any thread, rank and build, and no two keys overlap. A copy

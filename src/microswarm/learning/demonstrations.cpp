@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/learning/demonstrations.hpp"
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/experiment/plant.hpp"
+#include "microswarm/experiment/run.hpp"
+#include "microswarm/learning/follower_expert.hpp"
+
+namespace microswarm {
+namespace {
+
+/// Beyond it an answer is next to the jump from π to -π, and no network can learn it [rad].
+constexpr double most_off = 2.5;
+
+/// Sees as a learned follower does, and asks the expert beside it.
+class Demonstrator : public Navigator {
+ public:
+  Demonstrator(const FollowerTask& task, const Scenario& scenario, const Plant& plant,
+               bool expert_drives)
+      : plant_(plant),
+        path_(task.path),
+        params_(std::get<PathNavigatorParams>(scenario.navigator)),
+        helm_(limits_of(scenario.swarm), params_.speed, *scenario.goal, scenario.goal_tolerance,
+              params_.frame_timeout),
+        follower_(params_.follower, helm_.swarm()),
+        expert_(std::get<RibbonParams>(scenario.swarm), path_, params_.speed),
+        expert_drives_(expert_drives) {}
+
+  Command step(const Observation& seen, const Stop&) override {
+    const Command wanted = expert_.command(plant_.truth()->swarm.pose, seen.now);
+    if (sees_swarm(seen, params_.frame_timeout)) follower_.see(seen, helm_.forecast());
+    const Pose2* pose = helm_.begin(seen);
+    const Command command = pose ? drive(*pose, wanted) : helm_.rest();
+    expert_.note(seen.now, command);
+    return command;
+  }
+  NavigatorView view() const override { return helm_.view(); }
+
+  std::vector<Demonstration> shown;
+
+ private:
+  Command drive(const Pose2& pose, const Command& wanted) {
+    const FollowerSight sight = sight_of(follower_.query(path_, place_, pose, params_.speed));
+    const double off = wrap(wanted.heading - sight.bearing);
+    if (std::abs(off) < most_off)
+      shown.push_back({sight.features, {off, wanted.speed / params_.speed}});
+    if (expert_drives_) return helm_.issue(wanted, "follow");
+    const auto next =
+        follower_.command(path_, place_, pose, params_.lookahead, params_.speed).command;
+    return helm_.issue(next, "follow");
+  }
+
+  const Plant& plant_;
+  const std::vector<Vec2>& path_;
+  PathNavigatorParams params_;
+  Helm helm_;
+  PathFollower follower_;
+  FollowerExpert expert_;
+  PathPlace place_;
+  bool expert_drives_;
+};
+
+}  // namespace
+
+std::vector<Demonstration> demonstrate(const FollowerTask& task,
+                                       const std::shared_ptr<const FollowerModel>& student,
+                                       const Stop& stop) {
+  FollowerParams follower{.kind = FollowerKind::learned, .loaded = student};
+  const Scenario scenario = with_follower(task, follower, 0.3);
+  KinematicPlant plant(scenario, task.world, task.number);
+  Demonstrator demonstrator(task, scenario, plant, student == nullptr);
+  run(scenario, plant, demonstrator, {}, stop);
+  return std::move(demonstrator.shown);
+}
+
+}  // namespace microswarm

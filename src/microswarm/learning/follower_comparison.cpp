@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/learning/follower_comparison.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <mutex>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/core/parallel.hpp"
+#include "microswarm/experiment/plant.hpp"
+#include "microswarm/experiment/run.hpp"
+#include "microswarm/learning/follower_expert.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr std::array<double, 8> lookaheads{0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.7, 1.0};  // [s]
+constexpr std::uint32_t tuning_tasks = 60;
+constexpr std::uint32_t first_tuning_task = 1U << 30;
+
+/// Lets the expert alone drive.
+class ExpertNavigator : public Navigator {
+ public:
+  ExpertNavigator(const FollowerTask& task, const Plant& plant)
+      : plant_(plant),
+        expert_(std::get<RibbonParams>(task.scenario.swarm), task.path,
+                std::get<RibbonParams>(task.scenario.swarm).max_speed) {}
+
+  Command step(const Observation& seen, const Stop&) override {
+    const Command command = expert_.command(plant_.truth()->swarm.pose, seen.now);
+    expert_.note(seen.now, command);
+    return command;
+  }
+  NavigatorView view() const override { return {.planned = false, .state = "follow"}; }
+
+ private:
+  const Plant& plant_;
+  FollowerExpert expert_;
+};
+
+/// Measures at every tick where the swarm really is.
+class Gauge : public RunListener {
+ public:
+  explicit Gauge(const std::vector<Vec2>& path) : path_(path) {}
+
+  void on_frame(const Frame& frame, const NavigatorView&, const Snapshot&) override {
+    if (frame.state == "end") return;
+    place_ = nearest_place(path_, frame.pose.position, place_);
+    const double off = distance(frame.pose.position, point_ahead(path_, place_, 0));
+    sum_ += off * off;
+    trace.push_back(off);
+    most_ = std::max(most_, off);
+    ++ticks_;
+    fallbacks_ += frame.state == "fallback";
+    if (frame.command.speed <= 0) return;
+    if (driven_) turning_ += turn_between(frame.command.heading, heading_);
+    heading_ = frame.command.heading;
+    driven_ = true;
+  }
+
+  std::vector<double> trace;
+
+  FollowedPath path(const RunResult& result, double speed) const {
+    const double ticks = std::max(1, ticks_);
+    return {.arrived = result.status == Status::solved,
+            .time = result.metrics.time,
+            .fair_time = way_left(path_, {}) / speed,
+            .rms_off = std::sqrt(sum_ / ticks),
+            .most_off = most_,
+            .field_turning = turning_ / std::max(1e-9, result.metrics.time),
+            .fallback_share = fallbacks_ / ticks};
+  }
+
+ private:
+  const std::vector<Vec2>& path_;
+  PathPlace place_;
+  double sum_ = 0, most_ = 0, turning_ = 0, heading_ = 0;
+  int ticks_ = 0, fallbacks_ = 0;
+  bool driven_ = false;
+};
+
+/// A follower as it is compared.
+struct Method {
+  const char* name;
+  FollowerParams follower;
+  double lookahead = 0;  ///< [s]
+  bool expert = false;
+};
+
+FollowedPath follow(const FollowerTask& task, const Method& method, const Stop& stop,
+                    std::vector<double>* trace = nullptr) {
+  const Scenario scenario = with_follower(task, method.follower, method.lookahead);
+  KinematicPlant plant(scenario, task.world, task.number);
+  std::unique_ptr<Navigator> navigator;
+  if (method.expert)
+    navigator = std::make_unique<ExpertNavigator>(task, plant);
+  else
+    navigator = make_navigator(scenario.navigator, task_of(scenario),
+                               Rng(scenario.seed, Purpose::planner, task.number));
+  Gauge gauge(task.path);
+  RunListener* const listeners[] = {&gauge};
+  const RunResult result = run(scenario, plant, *navigator, listeners, stop);
+  if (trace) *trace = std::move(gauge.trace);
+  return gauge.path(result, std::get<RibbonParams>(scenario.swarm).max_speed);
+}
+
+/// The four of them, pure pursuit tuned.
+std::array<Method, 4> methods(const ComparisonOptions& options, const Stop& stop) {
+  const FollowerParams plain;
+  const FollowerParams against_flow{.correct_flow = true};
+  const FollowerParams learned{.kind = FollowerKind::learned, .loaded = options.model};
+  const double lookahead = tune_lookahead(options, plain, stop).best();
+  const double in_flow = tune_lookahead(options, against_flow, stop).best();
+  return {{{"pure pursuit", plain, lookahead},
+           {"pure pursuit against the flow", against_flow, in_flow},
+           {"learned", learned, in_flow},
+           {"expert", plain, in_flow, true}}};
+}
+
+}  // namespace
+
+FollowerTask unseen_task(const ComparisonOptions& options, std::uint32_t number) {
+  FollowerTaskParams params = options.params;
+  params.start_spread = 0;
+  return follower_task(params, options.seed, number);
+}
+
+double LookaheadTuning::best() const {
+  const auto least = std::min_element(rms_off.begin(), rms_off.end());
+  return lookahead[static_cast<std::size_t>(least - rms_off.begin())];
+}
+
+LookaheadTuning tune_lookahead(const ComparisonOptions& options, const FollowerParams& follower,
+                               const Stop& stop) {
+  LookaheadTuning tuning;
+  std::vector<std::array<double, lookaheads.size()>> off(tuning_tasks);
+  for_each_index(tuning_tasks, options.jobs, [&](std::size_t i) {
+    const auto task = unseen_task(options, first_tuning_task + static_cast<std::uint32_t>(i));
+    for (std::size_t k = 0; k < lookaheads.size() && !stop(); ++k)
+      off[i][k] = follow(task, {"", follower, lookaheads[k]}, stop).rms_off;
+  });
+  for (std::size_t k = 0; k < lookaheads.size(); ++k) {
+    double sum = 0;
+    for (const auto& of_task : off) sum += of_task[k];
+    tuning.lookahead.push_back(lookaheads[k]);
+    tuning.rms_off.push_back(sum / tuning_tasks);
+  }
+  return tuning;
+}
+
+std::vector<FollowerOutcome> compare_followers(const ComparisonOptions& options, const Stop& stop) {
+  const auto compared = methods(options, stop);
+  const auto tasks = static_cast<std::size_t>(options.tasks);
+  std::vector<FollowerOutcome> outcomes;
+  outcomes.reserve(compared.size());
+  for (const Method& method : compared)
+    outcomes.push_back({method.name, std::vector<FollowedPath>(tasks)});
+  std::size_t done = 0;
+  std::mutex telling;
+  for_each_index(tasks, options.jobs, [&](std::size_t i) {
+    if (stop()) return;
+    const auto task = unseen_task(options, first_unseen_task + static_cast<std::uint32_t>(i));
+    for (std::size_t m = 0; m < compared.size(); ++m)
+      outcomes[m].paths[i] = follow(task, compared[m], stop);
+    const std::lock_guard lock(telling);
+    if (options.progress) options.progress(static_cast<double>(++done) / options.tasks);
+  });
+  return outcomes;
+}
+
+std::vector<FollowerTrace> follow_one(const ComparisonOptions& options, std::uint32_t number) {
+  const FollowerTask task = unseen_task(options, number);
+  std::vector<FollowerTrace> traces;
+  for (const Method& method : methods(options, {})) {
+    traces.push_back({method.name, {}});
+    follow(task, method, {}, &traces.back().off);
+  }
+  return traces;
+}
+
+}  // namespace microswarm

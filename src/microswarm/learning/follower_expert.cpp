@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/learning/follower_expert.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/navigation/path_follower.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double tick = 0.1;                                                       // [s]
+constexpr int ticks = 15;                                                          // of the preview
+constexpr std::array<double, 7> lookaheads{0.06, 0.1, 0.16, 0.25, 0.4, 0.6, 0.9};  // [s]
+constexpr std::array<double, 4> shares{1, 0.8, 0.6, 0.4};                          // of the speed
+// What a way costs, beside the mean square of its distance from the path in seconds of way.
+constexpr double slow_weight = 0.02;
+constexpr double turn_weight = 0.01;  // of squared turns a tick [1/rad²]
+constexpr double softness = 2e-4;     // ways whose costs differ by less count much alike
+
+SwarmLimits limits(const RibbonParams& swarm) {
+  return {.radius = swarm.radius,
+          .max_speed = swarm.max_speed,
+          .max_turn_rate = swarm.max_turn_rate,
+          .response_lag = swarm.response_lag};
+}
+
+}  // namespace
+
+FollowerExpert::FollowerExpert(const RibbonParams& swarm, std::span<const Vec2> path, double speed)
+    : swarm_(swarm), path_(path), speed_(speed), forecast_(limits(swarm)) {
+  last_.heading = heading_of(path[1] - path[0]);
+}
+
+void FollowerExpert::note(double now, const Command& command) {
+  forecast_.note(now, {command.heading, swarm_.speed_factor * command.speed});
+  if (command.speed > 0) last_ = command;
+}
+
+Command FollowerExpert::command(const Pose2& pose, double now) {
+  Pose2 at_effect = forecast_.at_effect(
+      {.now = now, .seen = now, .swarm = SwarmPose{pose, swarm_.radius}, .robots = {}});
+  at_effect.position += swarm_.response_lag * swarm_.drift;
+  place_ = nearest_place(path_, at_effect.position, place_);
+  std::array<Way, lookaheads.size() * shares.size()> ways;
+  auto way = ways.begin();
+  for (const double lookahead : lookaheads)
+    for (const double share : shares) *way++ = play(at_effect, place_, lookahead, share);
+  const Way& best = *std::min_element(ways.begin(), ways.end(),
+                                      [](const Way& a, const Way& b) { return a.cost < b.cost; });
+  double sum = 0, off = 0, speed = 0;
+  for (const Way& w : ways) {
+    const double weight = std::exp((best.cost - w.cost) / softness);
+    sum += weight;
+    off += weight * wrap(w.first.heading - best.first.heading);
+    speed += weight * w.first.speed;
+  }
+  return {wrap(best.first.heading + off / sum), speed / sum};
+}
+
+Pose2 FollowerExpert::moved(const Pose2& pose, const Command& command) const {
+  Pose2 next = unicycle_step(pose, {command.heading, swarm_.speed_factor * command.speed},
+                             swarm_.max_turn_rate, tick);
+  next.position += tick * swarm_.drift;
+  return next;
+}
+
+FollowerExpert::Way FollowerExpert::play(Pose2 pose, PathPlace place, double lookahead,
+                                         double share) const {
+  const double speed = share * speed_;
+  const double unit = speed_ * speed_;
+  Way way{.cost = slow_weight * (1 - share) * (1 - share)};
+  double heading = last_.heading;
+  for (int k = 0; k < ticks; ++k) {
+    Command command = pursue_in_flow(path_, place, pose, lookahead * speed_,
+                                     swarm_.speed_factor * speed, swarm_.drift);
+    command.speed = speed;
+    if (k == 0) way.first = command;
+    const double turn = wrap(command.heading - heading);
+    heading = command.heading;
+    pose = moved(pose, command);
+    if (way_left(path_, place) < tick * speed_) break;
+    const PathPlace now = nearest_place(path_, pose.position, place);
+    const double off2 = squared_norm(pose.position - point_ahead(path_, now, 0));
+    way.cost += (off2 / unit + turn_weight * turn * turn) / ticks;
+  }
+  return way;
+}
+
+}  // namespace microswarm

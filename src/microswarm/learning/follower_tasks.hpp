@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/experiment/scenario.hpp"
+
+namespace microswarm {
+
+/// Random paths to follow, and how much stands against it. Each task draws its own values from
+/// these ranges; lengths of the path are in seconds at the task's speed.
+struct FollowerTaskParams {
+  double least_speed = 30;
+  double most_speed = 90;
+  double least_turn_rate = radians(90);
+  double most_turn_rate = radians(360);
+  double unlimited_share = 0.2;
+  double most_flow = 0.2;
+  double speed_error = 0.15;
+  double position_noise = 3;
+  double heading_noise = radians(3);
+  double random_drift = 3;
+  double missed_share = 0.02;
+  double start_spread = 0.15;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.least_speed, {"least_speed", Unit::um_per_s, {1, 1e4}, "Slowest speed asked for."});
+    visit(self.most_speed, {"most_speed", Unit::um_per_s, {1, 1e4}, "Fastest."});
+    visit(self.least_turn_rate,
+          {"least_turn_rate", Unit::deg_per_s, {1, 3600}, "Least turning limit of the swarm."});
+    visit(self.most_turn_rate, {"most_turn_rate", Unit::deg_per_s, {1, 3600}, "Greatest."});
+    visit(self.unlimited_share, {"unlimited_share",
+                                 Unit::none,
+                                 {0, 1},
+                                 "Share of tasks whose swarm turns at 36000 °/s: at once."});
+    visit(self.most_flow, {"most_flow", Unit::none, {0, 0.8}, "Fastest flow, of the speed."});
+    visit(self.speed_error, {"speed_error", Unit::none, {0, 0.9}, "Speed is off by so much."});
+    visit(self.position_noise,
+          {"position_noise", Unit::um, {0, 1e3}, "Most noise of the seen position (sd)."});
+    visit(self.heading_noise,
+          {"heading_noise", Unit::deg, {0, 90}, "Most noise of the seen heading (sd)."});
+    visit(self.random_drift,
+          {"random_drift", Unit::um, {0, 1e3}, "Most random drift (sd after 1 s)."});
+    visit(self.missed_share, {"missed_share", Unit::none, {0, 1}, "Frames without a swarm."});
+    visit(self.start_spread,
+          {"start_spread", Unit::none, {0, 10}, "Start beside the path (sd), in seconds of way."});
+  }
+};
+
+/// A path to follow, from its first point to its last, as a scenario: a swarm in an open world.
+struct FollowerTask {
+  std::uint32_t number = 0;  ///< also that of its plant's noise
+  std::vector<Vec2> path;
+  Scenario scenario;  ///< its navigator is pure pursuit
+  World world;
+};
+
+/// The task of this number, drawn from the stream (seed, learning, number).
+FollowerTask follower_task(const FollowerTaskParams& params, std::uint64_t seed,
+                           std::uint32_t number);
+
+/// The task with a navigator that follows its path so.
+Scenario with_follower(const FollowerTask& task, const FollowerParams& follower,
+                       double lookahead_time);
+
+}  // namespace microswarm

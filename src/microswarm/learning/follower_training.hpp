@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "microswarm/learning/demonstrations.hpp"
+
+namespace microswarm {
+
+/// How a follower learns.
+struct FollowerTrainingParams {
+  std::uint64_t seed = 1;
+  int runs = 150;
+  int rounds = 4;
+  int hidden = 24;
+  int iterations = 150;
+  int last_iterations = 500;
+  double decay = 1e-6;
+  FollowerTaskParams tasks;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.seed, {"seed", Unit::none, {}, "Seed of tasks, noise and first weights."});
+    visit(self.runs, {"runs", Unit::none, {2, 1e5}, "Tasks that are run in each round."});
+    visit(self.rounds, {"rounds",
+                        Unit::none,
+                        {0, 100},
+                        "Rounds in which the student drives (DAgger), after the expert's own."});
+    visit(self.hidden, {"hidden", Unit::none, {1, 64}, "Width of the two hidden layers."});
+    visit(self.iterations, {"iterations", Unit::none, {1, 1e5}, "Of L-BFGS, after a round."});
+    visit(self.last_iterations,
+          {"last_iterations", Unit::none, {1, 1e5}, "Of L-BFGS, after the last round."});
+    visit(self.decay, {"decay", Unit::none, {0, 1}, "Times the squared weights, in the loss."});
+    visit(self.tasks, {"tasks", Unit::none, {}, "What there is to follow, and against what."});
+  }
+};
+
+/// A trained follower and how well it imitates: root mean square over both answers, of all that it
+/// learned from, and of every tenth run, which it did not.
+struct TrainedFollower {
+  bool finished = false;  ///< false when it was stopped: then the model is worth nothing
+  FollowerModel model;
+  std::size_t demonstrations = 0;
+  double training_error = 0;
+  double held_out_error = 0;
+};
+
+/// What a caller may want to hear, and how many threads to take; 0 takes one a core. The result is
+/// the same bits with any number.
+struct TrainingOptions {
+  int jobs = 0;
+  /// `share` of all the work is done, in [0, 1].
+  std::function<void(double share, const std::string& what)> progress;
+};
+
+/// Trains a follower: demonstrations of the expert, a first network, then rounds in which the
+/// newest network drives and the expert says what it would have done. All demonstrations are kept.
+TrainedFollower train_follower(const FollowerTrainingParams& params,
+                               const TrainingOptions& options = {}, const Stop& stop = {});
+
+}  // namespace microswarm
