@@ -21,6 +21,7 @@ FLOORS = [
     "src/microswarm/vision",
     "src/microswarm/experiment",
     "src/microswarm/learning",
+    "src/microswarm/rig",
     "src/microswarm/sweep",
     "src/microswarm/report",
     "tests/scenes",
@@ -28,7 +29,7 @@ FLOORS = [
     "apps",
     "tests",
 ]
-# These never see each other: only src/microswarm/experiment and what is above it joins them.
+# These never see each other: only src/microswarm/rig and what is above it joins them.
 APART = {f"src/microswarm/{name}" for name in ("navigation", "actuation", "vision")}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]')

@@ -51,6 +51,9 @@ class CoilDrive {
   const Eigen::VectorXd& currents() const { return currents_; }          ///< [A]
   const Eigen::VectorXd& temperatures() const { return temperatures_; }  ///< [°C]
 
+  /// All currents to zero at once, as when the amplifiers are switched off.
+  void cut() { currents_.setZero(); }
+
   /// The most of a command that can be held for ever.
   DrivenCurrents steady(const Eigen::VectorXd& wanted) const;
 

@@ -27,6 +27,8 @@ class CoilDriver {
   virtual ~CoilDriver() = default;
 
   virtual int channels() const = 0;
+  /// Currents [A] that the coils have, as far as the device told last.
+  virtual std::span<const double> currents() const = 0;
   /// Currents [A], one a channel, signed. To be repeated within the watchdog time, changed or not.
   virtual DriveStatus drive(std::span<const double> currents) = 0;
   /// All currents to zero; false when the device did not confirm it.
@@ -42,8 +44,7 @@ class SimulatedCoilDriver final : public CoilDriver {
   int channels() const override { return static_cast<int>(currents_.size()); }
   DriveStatus drive(std::span<const double> currents) override;
   bool stop() noexcept override;
-  /// [A]
-  std::span<const double> currents() const { return currents_; }
+  std::span<const double> currents() const override { return currents_; }
 
  private:
   std::vector<double> currents_;

@@ -153,6 +153,8 @@ std::optional<CoilReply> SerialCoilDriver::exchange(
     if (!port_->put(bytes, params_.reply_timeout)) continue;
     if (auto reply = answer_to(message, params_.reply_timeout)) {
       round_trip_ = seconds_since(began);
+      for (std::size_t c = 0; c < currents_.size(); ++c)
+        currents_[c] = params_.full_scale * reply->outputs[c] / coil_link_full_scale;
       return reply;
     }
   }

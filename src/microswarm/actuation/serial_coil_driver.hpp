@@ -7,16 +7,17 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "microswarm/actuation/coil_driver.hpp"
 #include "microswarm/actuation/coil_link.hpp"
-#include "microswarm/core/units.hpp"
+#include "microswarm/core/fields.hpp"
 
 namespace microswarm {
 
 /// Where the device is and how long it is waited for.
 struct SerialCoilParams {
-  static constexpr const char* type_name = "serial";
+  static constexpr std::string_view type_name = "serial";
   std::string port = "/dev/ttyACM0";
   double full_scale = 20;
   double reply_timeout = 0.02;
@@ -46,6 +47,7 @@ class SerialCoilDriver final : public CoilDriver {
   SerialCoilDriver& operator=(const SerialCoilDriver&) = delete;
 
   int channels() const override { return coil_link_channels; }
+  std::span<const double> currents() const override { return currents_; }
   DriveStatus drive(std::span<const double> currents) override;
   bool stop() noexcept override;
 
@@ -67,6 +69,7 @@ class SerialCoilDriver final : public CoilDriver {
   CoilReplyReader reader_;
   std::uint8_t sequence_ = 0;
   double round_trip_ = 0;
+  std::array<double, coil_link_channels> currents_{};  // as the last answer says [A]
 };
 
 }  // namespace microswarm

@@ -268,13 +268,15 @@ RunResult run(const Scenario& scenario, Plant& plant, Navigator& navigator,
   return Run(scenario, plant, navigator, listeners).to_the_end(stop);
 }
 
+std::unique_ptr<Plant> make_kinematic_plant(const Scenario& scenario, const World& world,
+                                            std::uint32_t trial) {
+  if (scenario.robots) return std::make_unique<RobotPlant>(scenario, world, trial);
+  return std::make_unique<KinematicPlant>(scenario, world, trial);
+}
+
 RunResult simulate(const Scenario& scenario, const World& world, std::uint32_t trial,
                    std::span<RunListener* const> listeners, const Stop& stop) {
-  std::unique_ptr<Plant> plant;
-  if (scenario.robots)
-    plant = std::make_unique<RobotPlant>(scenario, world, trial);
-  else
-    plant = std::make_unique<KinematicPlant>(scenario, world, trial);
+  const std::unique_ptr<Plant> plant = make_kinematic_plant(scenario, world, trial);
   const auto navigator = make_navigator(scenario.navigator, task_of(scenario),
                                         Rng(scenario.seed, Purpose::planner, trial));
   return run(scenario, *plant, *navigator, listeners, stop);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "microswarm/experiment/frame.hpp"
@@ -41,6 +42,10 @@ class RunListener {
 /// of what was seen.
 RunResult run(const Scenario& scenario, Plant& plant, Navigator& navigator,
               std::span<RunListener* const> listeners = {}, const Stop& stop = {});
+
+/// The simulation without physics that a scenario asks for: of one swarm, or of robots.
+std::unique_ptr<Plant> make_kinematic_plant(const Scenario& scenario, const World& world,
+                                            std::uint32_t trial = 0);
 
 /// Builds plant and navigator for one trial of a scenario and runs it.
 RunResult simulate(const Scenario& scenario, const World& world, std::uint32_t trial = 0,

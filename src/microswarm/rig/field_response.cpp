@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/rig/field_response.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "microswarm/core/angles.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double flat_pitch = 1e-3;  // [rad]: less points nowhere
+
+}  // namespace
+
+Command FieldResponse::step(const Eigen::Vector3d& field, double dt) {
+  const Eigen::Vector3d from = before_;
+  before_ = field;
+  if (from.norm() < params_.least_amplitude || field.norm() < params_.least_amplitude) {
+    turn_.clear();
+    return {heading_, 0};
+  }
+  switch (params_.kind) {
+    case FieldKind::rolling:
+      return rolling(from, field, dt);
+    case FieldKind::rotating:
+      return rotating(from, field, dt);
+    case FieldKind::oscillating:
+      return oscillating(field, dt);
+  }
+  return {};
+}
+
+/// A body on the floor that turns with the field, ω, rolls ω × z times its radius.
+Command FieldResponse::rolling(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double dt) {
+  const Eigen::Vector3d axis = from.cross(to);
+  const double turned = std::atan2(axis.norm(), from.dot(to));
+  if (turned <= 0) return {heading_, 0};
+  const Eigen::Vector3d rate = turned / dt * axis.normalized();
+  const Vec2 velocity = params_.length_per_turn / (2 * pi) * Vec2{rate.y(), -rate.x()};
+  if (norm(velocity) > 0) heading_ = heading_of(velocity);
+  return {heading_, norm(velocity)};
+}
+
+/// The normal of the plane that Eq 1 [radar] turns in, downwards where the pitch is 0.
+Command FieldResponse::rotating(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double dt) {
+  return pitched(-over_a_turn({dt, from.cross(to)}));
+}
+
+Command FieldResponse::oscillating(const Eigen::Vector3d& field, double dt) {
+  const Eigen::Vector3d along = over_a_turn({dt, field.dot(axis_) < 0 ? -field : field});
+  axis_ = along.normalized();
+  const Vec2 flat{axis_.x(), axis_.y()};
+  const double pitch = std::asin(std::clamp(axis_.z(), -1.0, 1.0));
+  const double sign = pitch < 0 ? -1 : 1;  // forwards is where the axis rises
+  if (std::abs(pitch) > flat_pitch) heading_ = heading_of(sign * flat);
+  return {heading_, params_.speed_per_pitch * std::abs(pitch)};
+}
+
+/// `raised` points upwards, and by the pitch towards the heading.
+Command FieldResponse::pitched(const Eigen::Vector3d& raised) {
+  const Vec2 flat{raised.x(), raised.y()};
+  const double pitch = std::atan2(norm(flat), std::abs(raised.z()));
+  if (pitch > flat_pitch) heading_ = heading_of(flat);
+  return {heading_, params_.speed_per_pitch * pitch};
+}
+
+Eigen::Vector3d FieldResponse::over_a_turn(const Piece& piece) {
+  turn_.push_back(piece);
+  double time = 0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Piece& p : turn_) {
+    time += p.dt;
+    sum += p.sum;
+  }
+  for (; turn_.size() > 1 && time > 1 / params_.frequency + 1e-9; turn_.pop_front()) {
+    time -= turn_.front().dt;
+    sum -= turn_.front().sum;
+  }
+  return sum;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "microswarm/actuation/coil_system.hpp"
+#include "microswarm/actuation/field_generator.hpp"
+#include "microswarm/actuation/serial_coil_driver.hpp"
+#include "microswarm/core/fields.hpp"
+#include "microswarm/core/places.hpp"
+#include "microswarm/rig/eye_params.hpp"
+#include "microswarm/rig/microscope.hpp"
+
+namespace microswarm {
+
+/// Coils that are not there: any current up to the full scale is taken.
+struct SimulatedCoils {
+  static constexpr std::string_view type_name = "simulated";
+  int channels = 6;
+  double full_scale = 20;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.channels, {"channels", Unit::none, {1, 64}, "Coils that can be connected."});
+    visit(self.full_scale,
+          {"full_scale", Unit::a, {1e-6, 1e6}, "Current of a channel that is fully on."});
+  }
+};
+
+/// A microscope that is not there: it draws the scenario's world.
+struct SimulatedCamera {
+  static constexpr std::string_view type_name = "simulated";
+  MicroscopeParams microscope;
+  double speed_error = 0;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.microscope, {"microscope", Unit::none, {}, "What its pictures are like."});
+    visit(self.speed_error, {"speed_error",
+                             Unit::none,
+                             {-0.9, 10},
+                             "The swarm is faster than the field is made for, by this share."});
+  }
+};
+
+/// When a run is ended for safety, with the coils at zero.
+struct SafetyParams {
+  double lost_swarm = 0.5;
+  double oldest_frame = 0.5;
+  double frozen_time = 1;
+  int missed_deadlines = 10;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.lost_swarm,
+          {"lost_swarm", Unit::s, {0, 100}, "The swarm was not seen, or not alone, for so long."});
+    visit(self.oldest_frame,
+          {"oldest_frame", Unit::s, {0, 100}, "The newest frame is older than this."});
+    visit(self.frozen_time,
+          {"frozen_time", Unit::s, {0, 100}, "Frames came that are all the same, for so long."});
+    visit(self.missed_deadlines,
+          {"missed_deadlines", Unit::none, {1, 1e6}, "Ticks in a row that ended too late."});
+  }
+};
+
+/// A file of a rig: camera, coils, and what is between them.
+struct RigParams {
+  std::string name;
+  std::string coils;
+  FieldGeneratorParams field;
+  double drive_rate = 200;
+  std::variant<SimulatedCoils, SerialCoilParams> driver;
+  std::variant<SimulatedCamera> camera;
+  EyeParams eye;
+  SafetyParams safety;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.name, {"name", Unit::none, {}, "Name of the rig."});
+    visit(self.coils, {"coils", Unit::none, {}, "File of the coil system, beside this one.", true});
+    visit(self.field, {"field", Unit::none, {}, "How commands become a field."});
+    visit(self.drive_rate, {"drive_rate",
+                            Unit::hz,
+                            {20, 1e4},
+                            "Currents are sent so often; at least ten times a "
+                            "turn of the field."});
+    visit(self.driver, {"driver", Unit::none, {}, "What the coils hang on."});
+    visit(self.camera, {"camera", Unit::none, {}, "What sees."});
+    visit(self.eye, {"eye", Unit::none, {}, "How pictures are read."});
+    visit(self.safety, {"safety", Unit::none, {}, "When a run is ended for safety."});
+  }
+};
+
+/// A rig's file and what it names, read and checked.
+struct Rig {
+  RigParams params;
+  CoilSystem system;
+};
+
+/// Reads the file of a rig and its coil system; `settings` are `key=value` texts as from --set.
+/// Throws InputError in one line.
+Rig read_rig(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
+
+}  // namespace microswarm

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// A field that was made for a command drives a swarm by that command.
+#include "microswarm/rig/field_response.hpp"
+
+#include <gtest/gtest.h>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/core/rng.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double step = 0.005;  // [s]
+
+class EveryField : public testing::TestWithParam<FieldKind> {
+ protected:
+  EveryField() {
+    field.kind = GetParam();
+    if (field.kind == FieldKind::rolling) field.frequency = 6;
+    response.kind = field.kind;
+    response.frequency = field.frequency;
+    response.speed_per_pitch = field.speed_per_pitch;
+    response.length_per_turn = field.length_per_turn;
+  }
+  FieldGeneratorParams field;
+  FieldResponseParams response;
+};
+
+TEST_P(EveryField, DrivesAsCommanded) {
+  Rng rng(1, Purpose::test);
+  FieldGenerator generator(field, 0.3);
+  FieldResponse swarm(response);
+  for (int command = 0; command < 40; ++command) {
+    const Command wanted{rng.uniform(-pi, pi), rng.uniform(5, 95)};
+    generator.command(wanted);
+    Command driven;
+    for (int i = 0; i < 300; ++i) driven = swarm.step(generator.advance(step), step);
+    EXPECT_NEAR(driven.speed, wanted.speed, 0.02 * wanted.speed);
+    EXPECT_LT(turn_between(driven.heading, wanted.heading), radians(1));
+  }
+}
+
+TEST_P(EveryField, HoldsAtSpeedZero) {
+  FieldGenerator generator(field, 1);
+  FieldResponse swarm(response);
+  generator.command({1, 60});
+  for (int i = 0; i < 400; ++i) swarm.step(generator.advance(step), step);
+  generator.command({});
+  Command driven;
+  for (int i = 0; i < 400; ++i) driven = swarm.step(generator.advance(step), step);
+  EXPECT_NEAR(driven.speed, 0, 1e-6);
+  EXPECT_LT(turn_between(driven.heading, 1), radians(2));
+}
+
+TEST_P(EveryField, NothingMovesWithoutAField) {
+  FieldGenerator generator(field, 1);
+  FieldResponse swarm(response);
+  generator.command({1, 60});
+  for (int i = 0; i < 400; ++i) swarm.step(generator.advance(step), step);
+  for (int i = 0; i < 40; ++i) EXPECT_EQ(swarm.step(Eigen::Vector3d::Zero(), step).speed, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, EveryField,
+                         testing::Values(FieldKind::rotating, FieldKind::rolling,
+                                         FieldKind::oscillating),
+                         [](const auto& kind) { return std::string(enum_name(kind.param)); });
+
+}  // namespace
+}  // namespace microswarm

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole scenarios through camera, coils and field, beside the simulation without them.
+#include "microswarm/rig/simulated_rig.hpp"
+
+#include <gtest/gtest.h>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/experiment/run.hpp"
+#include "microswarm/navigation/make.hpp"
+#include "tests/files.hpp"
+
+namespace microswarm {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path scenarios = fs::path(MICROSWARM_SOURCE_DIR) / "scenarios";
+
+// Drawing and reading large pictures takes most of the time.
+const std::vector<std::string> coarse{"camera.type=simulated", "camera.microscope.um_per_px=3"};
+
+struct Rehearsal {
+  Scene scene;
+  World world;
+  Rig rig;
+
+  Rehearsal(const std::string& scenario, const std::string& rig_name,
+            const std::vector<std::string>& rig_settings = {})
+      : scene(
+            load_scene(read_scenario(scenarios / scenario), (scenarios / scenario).parent_path())),
+        world(build_world(scene)),
+        rig(read_rig(scenarios / "rigs" / rig_name, rig_settings)) {}
+
+  RunResult in_rig(SimulatedRig& plant) const {
+    const Scenario& s = scene.scenario;
+    const auto navigator =
+        make_navigator(s.navigator, task_of(s), Rng(s.seed, Purpose::planner, 0));
+    return run(s, plant, *navigator);
+  }
+  RunResult in_rig() const {
+    SimulatedRig plant(scene.scenario, world, rig);
+    return in_rig(plant);
+  }
+  RunResult without() const { return simulate(scene.scenario, world); }
+};
+
+struct Pair {
+  const char* scenario;
+  const char* rig;
+  std::vector<std::string> rig_settings{};
+};
+
+class Rehearsals : public testing::TestWithParam<Pair> {};
+
+TEST_P(Rehearsals, TheGoalIsReachedAboutAsFast) {
+  const Rehearsal r(GetParam().scenario, GetParam().rig, GetParam().rig_settings);
+  const RunResult plain = r.without();
+  const RunResult whole = r.in_rig();
+  EXPECT_EQ(plain.status, Status::solved);
+  EXPECT_EQ(whole.status, Status::solved);
+  EXPECT_LT(whole.metrics.time, 1.35 * plain.metrics.time);
+  EXPECT_EQ(whole.metrics.contacts, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenarios, Rehearsals,
+                         testing::Values(Pair{"papers/radar/single.yaml", "vortex.yaml", coarse},
+                                         Pair{"papers/drrt/s_channel.yaml", "ribbon.yaml"},
+                                         Pair{"papers/drrt/moving_obstacles.yaml", "ribbon.yaml"},
+                                         Pair{"papers/gather/t_junction.yaml", "rollers.yaml"}),
+                         [](const auto& pair) {
+                           return fs::path(pair.param.scenario).stem().string();
+                         });
+
+TEST(SimulatedRig, TheSameSeedGivesTheSameRun) {
+  Rehearsal r("papers/radar/single.yaml", "vortex.yaml", coarse);
+  r.scene.scenario.time_limit = 8;
+  SimulatedRig first(r.scene.scenario, r.world, r.rig);
+  SimulatedRig second(r.scene.scenario, r.world, r.rig);
+  r.in_rig(first);
+  r.in_rig(second);
+  EXPECT_EQ(first.picture().pixels, second.picture().pixels);
+  EXPECT_EQ(first.truth()->swarm.pose.position, second.truth()->swarm.pose.position);
+  SimulatedRig other(r.scene.scenario, r.world, r.rig, 1);
+  r.in_rig(other);
+  EXPECT_NE(first.picture().pixels, other.picture().pixels);
+}
+
+TEST(SimulatedRig, LimitsOfTheCoilsSlowItDown) {
+  Rehearsal r("papers/radar/single.yaml", "vortex.yaml", coarse);
+  r.scene.scenario.time_limit = 3;
+  SimulatedRig free(r.scene.scenario, r.world, r.rig);
+  r.in_rig(free);
+  EXPECT_EQ(free.coils().scale, 1);
+  CoilSystemParams weak;
+  weak.coils = HelmholtzCoils{};
+  weak.drives = {DriveParams{.max_current = 0.01}};
+  const Rig rig{r.rig.params, CoilSystem(weak)};
+  SimulatedRig limited(r.scene.scenario, r.world, rig);
+  const Vec2 start = r.scene.scenario.start->position;
+  r.in_rig(limited);
+  EXPECT_LT(limited.coils().scale, 0.1);
+  EXPECT_LT(distance(limited.truth()->swarm.pose.position, start), 1);  // too weak to move it
+}
+
+TEST(SimulatedRig, WhatDoesNotGoTogetherIsRefused) {
+  const auto refusal = [](const std::vector<std::string>& settings) {
+    return test::error_of(
+        [&] { Rehearsal("papers/radar/single.yaml", "vortex.yaml", settings).in_rig(); });
+  };
+  EXPECT_EQ(refusal({"drive_rate_hz=100"}),
+            "the rig's drive_rate_hz is 100, the field turns 16 times a second and needs at least "
+            "160");
+  EXPECT_EQ(refusal({"field.max_pitch_deg=1"}),
+            "the swarm is meant to go 36.94 µm/s, this rig's field drives it at most 20 µm/s");
+  EXPECT_EQ(refusal({"driver.type=simulated", "driver.channels=2"}),
+            "the system has 3 coils, the driver 2 channels");
+}
+
+}  // namespace
+}  // namespace microswarm
