@@ -85,7 +85,7 @@ int see(const SeeOptions& o) {
     for (const Blob& b : s.candidates) json["candidates"].push_back(json_of(b));
     for (const SeenObstacle& b : scene.obstacles) {
       json["obstacles"].push_back(json_of(b.blob));
-      json["obstacles"].back()["shape"] = b.is_disc ? "disc" : "polygon";
+      json["obstacles"].back()["shape"] = b.disc ? "disc" : "polygon";
     }
     print("{}\n", json.dump(2));
   } else {
@@ -93,7 +93,7 @@ int see(const SeeOptions& o) {
     for (const Blob& b : s.candidates) print("  {}\n", text_of(b));
     print("obstacles: {}\n", scene.obstacles.size());
     for (const SeenObstacle& b : scene.obstacles)
-      print("  {} {}\n", b.is_disc ? "disc" : "polygon", text_of(b.blob));
+      print("  {} {}\n", b.disc ? "disc" : "polygon", text_of(b.blob));
     if (!o.out.empty()) print("wrote {}\n", o.out);
   }
   return s.sight == SwarmSight::found ? ok : not_reached;
@@ -103,8 +103,9 @@ int see(const SeeOptions& o) {
 
 void add_rig_see(CLI::App& rig, Action& action) {
   auto o = std::make_shared<SeeOptions>();
-  CLI::App* cmd = add_command(rig, "see", "What is seen in a picture: the swarm and obstacles",
-                              "rig see frame.png --set scene.swarm.min_grain=5 --out seen.png");
+  CLI::App* cmd =
+      add_command(rig, "see", "What is seen in a picture: the swarm and obstacles",
+                  "rig see frame.png --set scene.swarm.look.min_grain=8 --out seen.png");
   cmd->add_option("picture", o->picture, "Picture, or a camera as /dev/video0")
       ->required()
       ->type_name("FILE");

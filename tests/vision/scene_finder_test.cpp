@@ -44,16 +44,14 @@ TEST(SceneFinder, SwarmAndObstaclesOfTheSameToneAreToldApart) {
     const std::vector<Vec2> box{at - u - v, at + u - v, at + u + v, at - u + v};
     frame.polygon(box, 0.65);
     const Image picture = frame.expose(170, 0.3, rng.uniform(-3, 3), 0.1, rng.uniform(0, 8), rng);
-    SceneParams params;
-    params.swarm.min_grain = 4;
-    const SeenScene scene = find_scene(picture, params);
+    const SeenScene scene = find_scene(picture);
     ASSERT_EQ(scene.swarm.sight, SwarmSight::found) << trial;
     EXPECT_LT(distance(scene.swarm.swarm->centre_px, swarm.centre), 1.5);
     ASSERT_EQ(scene.obstacles.size(), 2U) << trial;
     int discs = 0;
     for (const SeenObstacle& o : scene.obstacles) {
-      discs += o.is_disc;
-      if (o.is_disc) {
+      discs += o.disc.has_value();
+      if (o.disc) {
         EXPECT_LT(distance(o.blob.centre_px, disc), 0.5);
         EXPECT_NEAR(o.blob.radius_px, radius, 1);
       } else {
@@ -67,6 +65,48 @@ TEST(SceneFinder, SwarmAndObstaclesOfTheSameToneAreToldApart) {
   }
   std::printf("grain: swarms at least %.1f, obstacles at most %.1f grey\n",
               quantile(grain_of_swarms, 0), quantile(grain_of_discs, 1));
+}
+
+TEST(SceneFinder, ASwarmThatTouchesAnObstacleOfItsToneIsStillSeenAndSoIsTheObstacle) {
+  std::vector<double> swarm_off;
+  std::vector<double> obstacle_off;
+  int lost = 0;
+  int discs = 0;
+  int trials = 0;
+  for (const double apart : {-6.0, 0.0, 3.0, 8.0})
+    for (int k = 0; k < 20; ++k, ++trials) {
+      Rng rng(17, Purpose::test, trials);
+      DrawnFrame frame(width, height);
+      const double radius = rng.uniform(15, 40);
+      const DrawnSwarm swarm{.centre = {320, 240},
+                             .radius = rng.uniform(25, 45),
+                             .clumps = 300,
+                             .clump_radius = 1.5,
+                             .opacity = 0.65};
+      const Vec2 disc =
+          swarm.centre + (swarm.radius + radius + apart) * unit_vector(rng.uniform(-3, 3));
+      frame.swarm(swarm, rng);
+      frame.disc(disc, radius, 0.65);
+      const SeenScene scene =
+          find_scene(frame.expose(170, 0.3, k, 0.1, rng.uniform(0, 8), rng), {}, swarm.centre);
+      if (scene.swarm.sight != SwarmSight::found || scene.obstacles.size() != 1) {
+        ++lost;
+        continue;
+      }
+      swarm_off.push_back(distance(scene.swarm.swarm->centre_px, swarm.centre));
+      const SeenObstacle& o = scene.obstacles[0];
+      discs += o.disc.has_value();
+      if (o.disc) obstacle_off.push_back(distance(o.disc->centre_px, disc));
+    }
+  std::printf(
+      "touching: %d of %d lost; swarm off %.2f px median, %.2f worst, obstacle %.2f and %.2f, "
+      "%d times seen as a disc\n",
+      lost, trials, quantile(swarm_off, 0.5), quantile(swarm_off, 1), quantile(obstacle_off, 0.5),
+      quantile(obstacle_off, 1), discs);
+  EXPECT_GE(discs, trials * 3 / 4);
+  EXPECT_LE(lost, 1);
+  EXPECT_LT(quantile(swarm_off, 0.9), 3);
+  EXPECT_LT(quantile(obstacle_off, 0.9), 4);
 }
 
 /// Two channels that cross, with walls around them, and what moves in them.
@@ -171,14 +211,13 @@ TEST(SceneFinder, TheSceneOfTheDocsIsSeen) {
     write_png(std::filesystem::path(folder) / "frame.png", picture);
   }
   SceneParams params;
-  params.swarm.min_grain = 5;
   const Mask walls = find_walls(still);
   const SeenScene seen = find_scene(picture, params, std::nullopt, &walls);
   ASSERT_EQ(seen.swarm.sight, SwarmSight::found);
   EXPECT_LT(distance(seen.swarm.swarm->centre_px, {120, 236}), 1);
   ASSERT_EQ(seen.obstacles.size(), 3U);
   int discs = 0;
-  for (const SeenObstacle& o : seen.obstacles) discs += o.is_disc;
+  for (const SeenObstacle& o : seen.obstacles) discs += o.disc.has_value();
   EXPECT_EQ(discs, 2);
   const Image drawn = draw_scene(picture, seen, &walls);
   EXPECT_EQ(drawn.channels, 3);
@@ -190,7 +229,6 @@ TEST(SceneFinder, ShapesComeIntoTheWorld) {
   frame.disc({100, 100}, 20, 0.5);
   frame.polygon({{300, 300}, {380, 300}, {380, 340}, {300, 340}}, 0.5);
   SceneParams params;
-  params.swarm.min_grain = 5;
   const SeenScene scene = find_scene(frame.expose(160, 0, 0, 0, 3, rng), params);
   EXPECT_EQ(scene.swarm.sight, SwarmSight::none);
   ASSERT_EQ(scene.obstacles.size(), 2U);

@@ -17,6 +17,7 @@
 namespace microswarm {
 namespace {
 
+constexpr int smooth_side = 5;     // working pixels over which a smooth part must reach
 constexpr int ground_rows = 4;     // one working row in so many tells the noise of the ground
 constexpr double noise_limit = 5;  // spreads of the ground that something must stand out
 
@@ -176,6 +177,36 @@ bool is_cut(const Piece& piece, const cv::Mat& seen, const cv::Size& size) {
   return cv::countNonZero(grown & ~seen(around)) > 0;
 }
 
+/// Mean difference of neighbours whose greys spread by `grain` beyond a noise of this roughness.
+double mean_step(double noise, double grain) {
+  return std::sqrt((noise + 2 * grain * grain) * 2 / std::numbers::pi);
+}
+
+/// The parts of a piece that are smooth over more than `smooth_side` working pixels. A pixel's
+/// grain is a median over its surroundings, so that the edge of a smooth thing is no grain.
+cv::Mat smooth_parts(const Field& field, const Piece& piece, double least) {
+  const int side = field.side;
+  const cv::Rect all(0, 0, field.fine.cols, field.fine.rows);
+  const cv::Mat fine = field.fine(cv::Rect(side * piece.box.tl(), side * piece.box.br()) & all);
+  cv::Mat steps;  // mean of the differences to the neighbours on the right and below
+  cv::Mat next;
+  cv::copyMakeBorder(fine, next, 0, 1, 0, 1, cv::BORDER_REPLICATE);
+  const cv::Rect same(0, 0, fine.cols, fine.rows);
+  cv::Mat right;
+  cv::Mat below;
+  cv::absdiff(fine, next(same + cv::Point(1, 0)), right);
+  cv::absdiff(fine, next(same + cv::Point(0, 1)), below);
+  cv::addWeighted(right, 0.5, below, 0.5, 0, steps);
+  steps = coarse(steps, side);
+  cv::medianBlur(steps, steps, 5);
+  cv::Mat smooth = piece.in & (steps <= least);
+  cv::Mat core;
+  const cv::Mat square = cv::Mat::ones(smooth_side, smooth_side, CV_8U);
+  cv::erode(smooth, core, square, {-1, -1}, 1, cv::BORDER_CONSTANT, 0);
+  cv::dilate(core, core, cv::Mat::ones(smooth_side + 4, smooth_side + 4, CV_8U));
+  return core & smooth;
+}
+
 /// The blob that a piece is, whose outline runs at `level`; `noise` is the roughness of the ground.
 std::optional<Blob> blob_of(const Field& field, const Piece& piece, float level, double noise) {
   Blob blob;
@@ -209,12 +240,19 @@ std::vector<Blob> find_blobs(const Image& picture, const BlobParams& p, const Ma
   // What stands out, then what of each piece does so by half as much as its middle.
   const double least_area = std::numbers::pi * std::pow(0.5 * p.min_radius / field.side, 2);
   std::vector<Blob> blobs;
-  for (const Piece& piece : pieces_of(high, {}, least_area)) {
+  for (Piece& piece : pieces_of(high, {}, least_area)) {
+    if (p.min_grain > 0) {
+      const cv::Mat smooth = smooth_parts(field, piece, mean_step(noise, p.min_grain));
+      piece.in &= ~smooth;
+      field.rise(piece.box).setTo(0, smooth);
+      if (cv::countNonZero(piece.in) < least_area) continue;
+    }
     const float level = std::max(least, median_within(field.rise, piece) / 2);
     const cv::Mat half_up = piece.in & (field.rise(piece.box) > level);
     for (const Piece& part : pieces_of(half_up, piece.box.tl(), least_area)) {
       std::optional<Blob> blob = blob_of(field, part, level, noise);
-      if (blob && blob->radius_px >= p.min_radius && blob->radius_px <= p.max_radius)
+      if (blob && blob->radius_px >= p.min_radius && blob->radius_px <= p.max_radius &&
+          blob->grain >= p.min_grain)
         blobs.push_back(std::move(*blob));
     }
   }

@@ -19,6 +19,7 @@ struct BlobParams {
   double max_radius = 200;
   double min_contrast = 8;
   double gap = 6;
+  double min_grain = 0;
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -33,6 +34,12 @@ struct BlobParams {
            Unit::px,
            {1, 1000},
            "Widest gap between clumps that belong together; edges are smoothed by half."});
+    visit(self.min_grain, {"min_grain",
+                           Unit::none,
+                           {0, 255},
+                           "Least spread of greys within, beyond that of the noise: a cloud of "
+                           "particles has some, a smooth obstacle has none. Smooth parts are cut "
+                           "off. 0: anything."});
   }
 };
 

@@ -10,6 +10,30 @@
 #include "microswarm/core/statistics.hpp"
 
 namespace microswarm {
+std::optional<Ring> circle_through(const std::vector<Vec2>& points) {
+  if (points.size() < 3) return std::nullopt;
+  const double n = static_cast<double>(points.size());
+  Vec2 mean;
+  for (const Vec2 p : points) mean += p / n;
+  double xx = 0;
+  double xy = 0;
+  double yy = 0;
+  double square = 0;
+  Vec2 pull;
+  for (const Vec2 p : points) {
+    const Vec2 d = p - mean;
+    xx += d.x * d.x;
+    xy += d.x * d.y;
+    yy += d.y * d.y;
+    square += squared_norm(d);
+    pull += 0.5 * squared_norm(d) * d;
+  }
+  const double det = xx * yy - xy * xy;
+  if (det <= 1e-9 * square * square) return std::nullopt;
+  const Vec2 centre{(pull.x * yy - pull.y * xy) / det, (pull.y * xx - pull.x * xy) / det};
+  return Ring{mean + centre, std::sqrt(squared_norm(centre) + square / n)};
+}
+
 namespace {
 
 constexpr int most_rounds = 10;
@@ -59,31 +83,6 @@ std::vector<Vec2> ring_points(const Image& grey, const Ring& guess, double reach
     if (r) points.push_back(guess.centre_px + *r * direction);
   }
   return points;
-}
-
-/// Kåsa's circle: least squares of |p − c|² − r²; nothing for points on a line.
-std::optional<Ring> circle_through(const std::vector<Vec2>& points) {
-  if (points.size() < 3) return std::nullopt;
-  const double n = static_cast<double>(points.size());
-  Vec2 mean;
-  for (const Vec2 p : points) mean += p / n;
-  double xx = 0;
-  double xy = 0;
-  double yy = 0;
-  double square = 0;
-  Vec2 pull;
-  for (const Vec2 p : points) {
-    const Vec2 d = p - mean;
-    xx += d.x * d.x;
-    xy += d.x * d.y;
-    yy += d.y * d.y;
-    square += squared_norm(d);
-    pull += 0.5 * squared_norm(d) * d;
-  }
-  const double det = xx * yy - xy * xy;
-  if (det <= 1e-9 * square * square) return std::nullopt;
-  const Vec2 centre{(pull.x * yy - pull.y * xy) / det, (pull.y * xx - pull.x * xy) / det};
-  return Ring{mean + centre, std::sqrt(squared_norm(centre) + square / n)};
 }
 
 /// The circle through those points that lie near the first one.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "microswarm/formats/image.hpp"
 #include "microswarm/geometry/vec2.hpp"
@@ -13,6 +14,10 @@ struct Ring {
   Vec2 centre_px;
   double radius_px = 0;
 };
+
+/// The circle through points by least squares of |p − c|² − r² (Kåsa 1976); nothing for points on a
+/// line.
+std::optional<Ring> circle_through(const std::vector<Vec2>& points);
 
 /// The dark circle (or bright one, unless `dark`) around `start`, whose radius is within half of
 /// `radius` to either side: the extreme grey on each of many rays, a circle through these by least

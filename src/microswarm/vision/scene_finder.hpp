@@ -6,14 +6,15 @@
 #include <vector>
 
 #include "microswarm/vision/camera_scale.hpp"
+#include "microswarm/vision/ring_fit.hpp"
 #include "microswarm/vision/swarm_finder.hpp"
 
 namespace microswarm {
 
-/// Settings of `find_scene`. Where obstacles have the swarm's tone, `swarm.min_grain` tells them
-/// apart.
+/// Settings of `find_scene`. Where obstacles have the swarm's tone, `swarm.look.min_grain` tells
+/// them apart.
 struct SceneParams {
-  SwarmFinderParams swarm;
+  SwarmFinderParams swarm{.look = {.min_grain = 5}};
   BlobParams obstacles{.gap = 3};
   double roundness = 0.06;
 
@@ -31,8 +32,8 @@ struct SceneParams {
 
 /// A moving obstacle in a picture [px]; x right, y down, (0, 0) is the middle of the first pixel.
 struct SeenObstacle {
-  Blob blob;                  ///< with the outline as seen
-  bool is_disc = false;       ///< of radius `blob.radius_px`; else the hull
+  Blob blob;                  ///< what is seen of it
+  std::optional<Ring> disc;   ///< when it is one, with what is hidden of it; else the hull
   std::vector<Vec2> hull_px;  ///< convex, holds the outline to half a pixel
 
   /// In the world [µm], as a Body has it.
@@ -46,7 +47,7 @@ struct SeenScene {
 };
 
 /// The swarm and the obstacles in a picture; `before_px`, `walls` and errors as for `find_swarm`.
-/// What is not taken to be the swarm but looks like an obstacle is one.
+/// Obstacles are what stands out besides the swarm, also where they touch it.
 SeenScene find_scene(const Image& picture, const SceneParams& params = {},
                      std::optional<Vec2> before_px = std::nullopt, const Mask* walls = nullptr);
 

@@ -60,9 +60,9 @@ Image draw_scene(const Image& picture, const SeenScene& scene, const Mask* walls
   Image shown = overlay(picture, walls ? *walls : Mask(picture.width, picture.height), blue);
   cv::Mat canvas = as_mat(shown);
   for (const SeenObstacle& o : scene.obstacles) {
-    if (o.is_disc)
-      cv::circle(canvas, fine(o.blob.centre_px),
-                 static_cast<int>(std::lround(o.blob.radius_px * (1 << fraction_bits))), orange, 2,
+    if (o.disc)
+      cv::circle(canvas, fine(o.disc->centre_px),
+                 static_cast<int>(std::lround(o.disc->radius_px * (1 << fraction_bits))), orange, 2,
                  cv::LINE_AA, fraction_bits);
     else
       draw_ring(canvas, o.hull_px, orange, 2);

@@ -9,7 +9,6 @@ SwarmSighting find_swarm(const Image& picture, const SwarmFinderParams& params,
                          std::optional<Vec2> before_px, const Mask* walls) {
   SwarmSighting seen{.candidates = find_blobs(picture, params.look, walls)};
   std::vector<Blob>& all = seen.candidates;
-  std::erase_if(all, [&](const Blob& b) { return b.grain < params.min_grain; });
   if (before_px)
     std::erase_if(all,
                   [&](const Blob& b) { return distance(b.centre_px, *before_px) > params.jump; });

@@ -17,7 +17,6 @@ struct SwarmFinderParams {
   BlobParams look;
   double jump = 60;
   double rival = 0.3;
-  double min_grain = 0;
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -28,11 +27,6 @@ struct SwarmFinderParams {
            Unit::none,
            {0, 1},
            "Something with this share of the largest one's area may be the swarm too."});
-    visit(self.min_grain, {"min_grain",
-                           Unit::none,
-                           {0, 255},
-                           "Least spread of greys within, beyond that of the noise: a cloud of "
-                           "particles has some, a smooth obstacle has none."});
   }
 };
 
