@@ -105,7 +105,7 @@ TEST_F(BadScenarios, Settings) {
   set("navigator.type=pilot",
       "--set navigator.type: type of navigator is 'pilot', allowed: hierarchical_drrt_star, "
       "plan_player, aggregation, "
-      "radar, straight_stop, potential_field, velocity_obstacle, predictive");
+      "radar, straight_stop, potential_field, velocity_obstacle, predictive, follow_path");
   set("goal_um=[1]", "--set goal_um: goal_um must be [x, y], not a list of 1");
 }
 
