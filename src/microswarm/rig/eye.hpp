@@ -40,8 +40,11 @@ class Eye {
   virtual void commanded(const Command& command, double t) { (void)command, (void)t; }
 };
 
+/// What a navigator is told of a sight, which outlives the observation, as the world does.
+Observation observation_of(const Sight& sight, const Snapshot& world, double now, double seen);
+
 /// The eye that a scenario needs: for one swarm among obstacles, or for robots.
 std::unique_ptr<Eye> make_eye(const EyeParams& params, const Scenario& scenario, const Map& map,
-                              const std::vector<Vec2>& starts, const CameraView& view);
+                              std::span<const Vec2> starts, const CameraView& view);
 
 }  // namespace microswarm

@@ -12,11 +12,11 @@
 namespace microswarm {
 namespace {
 
-constexpr double usual_side = 800;       // [px]
-constexpr std::size_t grains = 1 << 18;  // of noise that are drawn once
+constexpr double usual_side = 800;               // [px]
+constexpr std::size_t grains = 1 << 18;          // of noise that are drawn once
 constexpr std::size_t most_particles = 1 << 15;  // of a swarm
-constexpr int corner_bits = 4;           // sub-pixel bits of corners in OpenCV's polygons
-constexpr double swarm_spin = 0.5;       // [rad/s]; so that its picture is never the same
+constexpr int corner_bits = 4;                   // sub-pixel bits of corners in OpenCV's polygons
+constexpr double swarm_spin = 0.5;               // [rad/s]; so that its picture is never the same
 
 cv::Mat as_floats(std::vector<float>& values, int width, int height) {
   return {height, width, CV_32F, values.data()};

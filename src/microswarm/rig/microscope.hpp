@@ -54,11 +54,10 @@ struct MicroscopeParams {
           {"obstacle_depth", Unit::none, {0, 1}, "Share that obstacles take away."});
     visit(self.swarm_depth,
           {"swarm_depth", Unit::none, {0, 1}, "Share that one particle of a swarm takes away."});
-    visit(self.swarm_density,
-          {"swarm_density",
-           Unit::none,
-           {0.01, 10},
-           "Area of all its clumps of particles beside that of the swarm."});
+    visit(self.swarm_density, {"swarm_density",
+                               Unit::none,
+                               {0.01, 10},
+                               "Area of all its clumps of particles beside that of the swarm."});
     visit(self.particle_diameter,
           {"particle_diameter", Unit::px, {1, 100}, "Diameter of such a clump."});
     visit(self.robot_diameter,

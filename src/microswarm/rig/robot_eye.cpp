@@ -10,12 +10,12 @@
 namespace microswarm {
 
 RobotEye::RobotEye(const EyeParams& params, const RobotSwarmParams& robots, const Map& map,
-                   const std::vector<Vec2>& starts, const CameraView& view)
+                   std::span<const Vec2> starts, const CameraView& view)
     : scale_(view.scale),
       walls_(walls_in_picture(map, view.scale, view.width, view.height)),
       finder_(params.robots),
       max_speed_(robots.max_speed) {
-  sight_.robots = starts;
+  sight_.robots.assign(starts.begin(), starts.end());
 }
 
 void RobotEye::commanded(const Command& command, double) { command_ = command; }

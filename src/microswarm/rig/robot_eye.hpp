@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "microswarm/formats/mask.hpp"
@@ -16,7 +17,7 @@ class RobotEye : public Eye {
  public:
   /// The robots begin at `starts`.
   RobotEye(const EyeParams& params, const RobotSwarmParams& robots, const Map& map,
-           const std::vector<Vec2>& starts, const CameraView& view);
+           std::span<const Vec2> starts, const CameraView& view);
 
   const Sight& see(const Image& picture, double t) override;
   void commanded(const Command& command, double t) override;

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "microswarm/rig/eye.hpp"
+#include "microswarm/rig/field_response.hpp"
+#include "microswarm/rig/microscope.hpp"
+#include "microswarm/rig/rig_params.hpp"
+
+namespace microswarm {
+
+/// What stands on a bench, simulated: coils, the swarm between them and the microscope above. The
+/// currents make the field where the swarm truly is, and that field drives the swarm of the
+/// scenario's kinematic plant. The scenario's sensor noise is left out: pictures have their own.
+class SimulatedBench {
+ public:
+  /// The rig, whose camera is a simulated one, outlives it. `trial` chooses the streams. Throws
+  /// InputError when rig and scenario do not go together.
+  SimulatedBench(const Scenario& scenario, const World& world, const Rig& rig,
+                 std::uint32_t trial = 0);
+
+  /// Lets `dt` seconds pass after which the coils carry these currents [A].
+  void pass(std::span<const double> currents, double dt);
+
+  /// What the camera sees: the frame of the kinematic plant's observation, and its picture.
+  struct View {
+    double now;   ///< [s]
+    double seen;  ///< when the frame was taken [s]
+    const Image* picture;
+  };
+  /// Valid until the next look.
+  View look();
+
+  /// The truth; its way is that since `begin_way`.
+  Truth truth() const;
+  void begin_way() { way_.clear(); }
+  CameraView camera() const {
+    return {microscope_.scale(), microscope_.width(), microscope_.height()};
+  }
+  /// Where the swarm truly is among the coils [µm].
+  Eigen::Vector3d place() const;
+
+ private:
+  const Rig& rig_;
+  bool robots_;
+  double tick_;
+  FieldResponse response_;
+  std::unique_ptr<Plant> physics_;
+  std::shared_ptr<const Map> map_;
+  Microscope microscope_;
+  Eigen::Vector3d at_;    // where `actuation_` holds
+  Actuation actuation_;
+  std::vector<TimedPose> way_;
+  Vec2 step_{};         // of robots, not made yet [µm]
+  double waiting_ = 0;  // for how long [s]
+};
+
+/// Where a place of the map is among a rig's coils: the middle of the map is above their centre.
+Eigen::Vector3d place_among_coils(const CoilSystem& system, const Map& map, Vec2 place);
+
+/// Throws InputError when the rig cannot drive the scenario's swarm as fast as it is meant to go,
+/// or sends its currents too seldom for its field; `where` knows the scenario's keys.
+void check(const RigParams& rig, const Scenario& scenario, const Places& where = {});
+
+}  // namespace microswarm
