@@ -123,6 +123,19 @@ TEST(RobotTracker, MergeAndSplitAreNoted) {
   EXPECT_TRUE(splits[0].other);
 }
 
+TEST(RobotTracker, FlickerIsNeitherMergeNorSplit) {
+  RobotTracker tracker({.search_range = 6}, diameter, dt);
+  for (int k = 0; k < 60; ++k) {
+    std::vector<Vec2> seen{{0, 0}};
+    if (k % 5 != 3) seen.push_back({0.9 * diameter, 0});                       // gone now and then
+    if (k % 7 < 3) seen.push_back({0, (k % 14 < 7 ? 0.9 : -0.9) * diameter});  // there now and then
+    tracker.step(k, seen);
+  }
+  tracker.finish();
+  EXPECT_TRUE(events_of(tracker, TrackChange::merge).empty());
+  EXPECT_TRUE(events_of(tracker, TrackChange::split).empty());
+}
+
 TEST(RobotTracker, VelocityComesOutRight) {
   RobotTracker tracker({.search_range = 10, .jitter = 0.01, .start_speed = 40}, diameter, dt);
   Vec2 velocity;

@@ -17,7 +17,8 @@ RobotTracker::RobotTracker(const TrackerParams& p, double diameter, double frame
       search_range_(p.search_range.value_or(5 * diameter / 11)),
       touch_(p.touch.value_or(1.2 * diameter)),
       frame_time_(frame_time),
-      memory_(p.memory) {
+      memory_(p.memory),
+      lasting_(p.lasting) {
   assert(diameter > 0 && frame_time > 0);
 }
 
@@ -76,41 +77,61 @@ void RobotTracker::match(int frame, std::span<const Vec2> seen) {
     robot_at_[*column_of[row]] = row;
     robot.filter.correct(seen[*column_of[row]], noise_);
   }
-  for (Robot& robot : robots_) note_merge(robot, frame, seen);
+  for (Robot& robot : robots_)
+    if (robot.missed > 0) miss(robot, frame, seen);
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (!robot_at_[i]) continue;
     Robot& robot = robots_[*robot_at_[i]];
-    if (robot.merged_with) {
-      if (const auto other = toucher(seen[i], robot.id, seen))
-        events_.push_back({frame, TrackChange::split, robot.id, other});
-      robot.merged_with.reset();
-    }
-    robot.missed = 0;
-    robot.last_frame = frame;
+    meet(robot, frame, seen[i], seen);
     sightings_[i] = {robot.id, robot.filter.place(), robot.filter.velocity()};
   }
 }
 
-void RobotTracker::note_merge(Robot& robot, int frame, std::span<const Vec2> seen) {
-  if (robot.missed != 1) return;
-  robot.merged_with = toucher(robot.filter.place(), robot.id, seen);
-  if (robot.merged_with)
-    events_.push_back({frame, TrackChange::merge, robot.id, robot.merged_with});
+/// One that vanished by another and stays away has merged with it.
+void RobotTracker::miss(Robot& robot, int frame, std::span<const Vec2> seen) {
+  if (robot.missed == 1) {
+    robot.vanished.reset();
+    robot.appeared.reset();
+    if (robot.run >= lasting_)
+      robot.vanished = touched(robot.filter.place(), robot.id, frame, seen);
+    robot.run = 0;
+  }
+  if (robot.vanished && robot.missed == std::min(lasting_, memory_ + 1)) {
+    events_.push_back({robot.vanished->frame, TrackChange::merge, robot.id, robot.vanished->other});
+    robot.merged = true;
+  }
 }
 
-/// The nearest other robot seen in this frame within touch of a place.
-std::optional<int> RobotTracker::toucher(Vec2 place, int of, std::span<const Vec2> seen) const {
-  std::optional<int> nearest;
+/// One that comes back from a merge has split off if it stays.
+void RobotTracker::meet(Robot& robot, int frame, Vec2 place, std::span<const Vec2> seen) {
+  if (robot.merged) robot.appeared = touched(place, robot.id, frame, seen);
+  robot.merged = false;
+  robot.missed = 0;
+  robot.last_frame = frame;
+  ++robot.run;
+  note_split(robot);
+}
+
+void RobotTracker::note_split(Robot& robot) {
+  if (!robot.appeared || robot.run < lasting_) return;
+  events_.push_back({robot.appeared->frame, TrackChange::split, robot.id, robot.appeared->other});
+  robot.appeared.reset();
+}
+
+/// The nearest other robot seen in this frame within touch of a place that has been seen for long.
+std::optional<RobotTracker::Touch> RobotTracker::touched(Vec2 place, int of, int frame,
+                                                         std::span<const Vec2> seen) const {
+  std::optional<Touch> nearest;
   double least = touch_ * touch_;
   auto at = std::lower_bound(by_height_.begin(), by_height_.end(), place.y - touch_,
                              [&](int i, double y) { return seen[i].y < y; });
   for (; at != by_height_.end() && seen[*at].y <= place.y + touch_; ++at) {
     const double squared = squared_norm(seen[*at] - place);
     if (!robot_at_[*at] || squared > least) continue;
-    const int id = robots_[*robot_at_[*at]].id;
-    if (id == of) continue;
+    const Robot& other = robots_[*robot_at_[*at]];
+    if (other.id == of || other.run < lasting_) continue;
     least = squared;
-    nearest = id;
+    nearest = Touch{frame, other.id};
   }
   return nearest;
 }
@@ -119,9 +140,10 @@ void RobotTracker::give_birth(int frame, std::span<const Vec2> seen) {
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (robot_at_[i]) continue;
     const int id = next_id_++;
-    const auto other = frame_ ? toucher(seen[i], id, seen) : std::nullopt;
-    events_.push_back({frame, other ? TrackChange::split : TrackChange::birth, id, other});
-    robots_.push_back({id, frame, 0, {}, RobotFilter(seen[i], noise_)});
+    events_.push_back({frame, TrackChange::birth, id, {}});
+    robots_.push_back({.id = id, .last_frame = frame, .filter = RobotFilter(seen[i], noise_)});
+    if (frame_) robots_.back().appeared = touched(seen[i], id, frame, seen);
+    note_split(robots_.back());
     sightings_[i] = {id, seen[i], {}};
   }
   frame_ = frame;

@@ -20,6 +20,7 @@ namespace microswarm {
 /// between frames.
 struct TrackerParams {
   int memory = 3;
+  int lasting = 4;
   double gate = 4;
   std::optional<double> search_range;
   std::optional<double> measurement;
@@ -32,6 +33,11 @@ struct TrackerParams {
   static void fields(Self& self, V&& visit) {
     visit(self.memory,
           {"memory", Unit::none, {0, 10000}, "Frames a robot may be missing and go on."});
+    visit(self.lasting, {"lasting",
+                         Unit::none,
+                         {1, 10000},
+                         "Frames that a robot is seen before and gone after it merges, or seen "
+                         "after it splits off; less is flicker."});
     visit(self.gate, {"gate",
                       Unit::none,
                       {0.1, 100},
@@ -86,7 +92,9 @@ constexpr auto enum_names(TrackChange) {
 }
 
 /// A birth; a death, noted for the frame in which the robot was last seen; a merge: `id` vanished
-/// where it touched `other`; a split: `id` was born or came back where it touched `other`.
+/// where it touched `other`; a split: `id` was born or came back where it touched `other`. Merges
+/// and splits are noted when they have lasted, for the frame in which they were; a robot that is
+/// born of a split has its birth too, one that does not come back from a merge its death.
 struct TrackEvent {
   int frame = 0;
   TrackChange change = TrackChange::birth;
@@ -109,24 +117,34 @@ class RobotTracker {
   /// No more frames: those not yet dead die.
   void finish();
 
-  /// All that has happened so far; deaths come when they are certain.
+  /// All that has happened so far; all but births come when they are certain.
   const std::vector<TrackEvent>& events() const { return events_; }
   /// Robots ever seen.
   int births() const { return next_id_; }
 
  private:
+  /// Where a robot vanished or appeared beside another.
+  struct Touch {
+    int frame;
+    int other;
+  };
   struct Robot {
     int id;
     int last_frame;
     int missed = 0;
-    std::optional<int> merged_with;  ///< the robot it vanished in
+    int run = 1;                      ///< frames in a row that it has been seen
+    bool merged = false;              ///< it is gone in another
+    std::optional<Touch> vanished{};  ///< by the other, when it had been there for long enough
+    std::optional<Touch> appeared{};  ///< likewise; it is not yet there for long enough
     RobotFilter filter;
   };
 
   void find_candidates(std::span<const Vec2> seen);
   void match(int frame, std::span<const Vec2> seen);
-  void note_merge(Robot& robot, int frame, std::span<const Vec2> seen);
-  std::optional<int> toucher(Vec2 place, int of, std::span<const Vec2> seen) const;
+  void miss(Robot& robot, int frame, std::span<const Vec2> seen);
+  void meet(Robot& robot, int frame, Vec2 place, std::span<const Vec2> seen);
+  void note_split(Robot& robot);
+  std::optional<Touch> touched(Vec2 place, int of, int frame, std::span<const Vec2> seen) const;
   void give_birth(int frame, std::span<const Vec2> seen);
   void bury();
 
@@ -136,6 +154,7 @@ class RobotTracker {
   double touch_;
   double frame_time_;
   int memory_;
+  int lasting_;
   int next_id_ = 0;
   std::optional<int> frame_;  ///< the last one
   std::vector<Robot> robots_;
