@@ -54,7 +54,8 @@ void follow(FrameSource& source, TrackResult& result, VideoFileWriter* overlay, 
 
 int track(const Options& o, const Context& context) {
   TrackResult result{.source = o.video, .settings = settings_of(o)};
-  const std::unique_ptr<FrameSource> source = open_frames(o.video, result.settings.rate);
+  const std::unique_ptr<FrameSource> source =
+      open_frames(o.video, result.settings.rate, result.settings.depth);
   if (!source->rate())
     fmt::print(stderr, "note: {} tells no times, one picture a second is assumed: give --rate\n",
                o.video);

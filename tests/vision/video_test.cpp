@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <opencv2/imgcodecs.hpp>
 #include <set>
 #include <sstream>
 
@@ -95,6 +96,40 @@ TEST_F(Videos, WhatIsWrittenAsVideoIsReadAgain) {
     EXPECT_NEAR(frame.t, count / 12.5, 1e-9);
   }
   EXPECT_EQ(count, 7);
+}
+
+TEST_F(Videos, SixteenBitsAreScaledAlikeThroughTheVideo) {
+  const auto write = [&](const char* name, std::uint16_t first) {
+    const cv::Mat picture(4, 5, CV_16U, cv::Scalar(1000));
+    cv::Mat other = picture.clone();
+    other.at<std::uint16_t>(0, 0) = first;
+    cv::imwrite((folder / name).string(), other);
+  };
+  write("1.png", 4000);  // twelve bits
+  write("2.png", 2000);
+  write("3.png", 9000);  // white
+  const auto greys = [&](std::optional<int> depth) {
+    const auto frames = open_frames(folder, 1, depth);
+    std::vector<int> firsts;
+    VideoFrame frame;
+    while (frames->next(frame)) {
+      firsts.push_back(frame.picture.pixels[0]);
+      EXPECT_EQ(frame.picture.pixels[1],
+                std::lround(255.0 * 1000 / ((1 << depth.value_or(12)) - 1)));
+    }
+    return firsts;
+  };
+  EXPECT_EQ(greys(std::nullopt), (std::vector<int>{249, 125, 255}));
+  EXPECT_EQ(greys(14), (std::vector<int>{62, 31, 140}));
+  const std::vector<cv::Mat> pages{cv::Mat(4, 5, CV_16U, cv::Scalar(1023)),
+                                   cv::Mat(4, 5, CV_16U, cv::Scalar(512))};
+  cv::imwritemulti((folder / "stack.tif").string(), pages);
+  const auto stack = open_frames(folder / "stack.tif");
+  VideoFrame frame;
+  ASSERT_TRUE(stack->next(frame));
+  EXPECT_EQ(frame.picture.pixels[0], 255);
+  ASSERT_TRUE(stack->next(frame));
+  EXPECT_EQ(frame.picture.pixels[0], 128);
 }
 
 TEST_F(Videos, AWriterGivenUpLeavesNothing) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/formats/image.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -26,8 +28,8 @@ cv::Mat decoded(std::string_view bytes) {
   }
 }
 
-Image from_mat(cv::Mat mat, bool grey) {
-  if (mat.depth() == CV_16U) mat.convertTo(mat, CV_8U, 1.0 / 257);
+Image from_mat(cv::Mat mat, bool grey, int depth) {
+  if (mat.depth() == CV_16U) mat.convertTo(mat, CV_8U, 255.0 / ((1 << depth) - 1));
   Image image{mat.cols, mat.rows, grey ? 1 : 3, {}};
   image.pixels.resize(image.index(0, image.height));
   cv::Mat out(image.height, image.width, grey ? CV_8UC1 : CV_8UC3, image.pixels.data());
@@ -44,7 +46,7 @@ Image from_mat(cv::Mat mat, bool grey) {
 
 }  // namespace
 
-Image decode_image(std::span<const std::byte> bytes, std::string_view name) {
+Image decode_image(std::span<const std::byte> bytes, std::string_view name, int depth) {
   const ImageHeader header = check_image(bytes, name);
   if (header.kind == ImageKind::pnm) return decode_pnm(bytes, name);
   cv::Mat mat = header.kind == ImageKind::png
@@ -53,12 +55,23 @@ Image decode_image(std::span<const std::byte> bytes, std::string_view name) {
   if (mat.empty() || (mat.depth() != CV_8U && mat.depth() != CV_16U) ||
       (mat.channels() != 1 && mat.channels() != 3))
     throw InputError(std::string(name) + ": damaged image: its pixels cannot be decoded");
-  return from_mat(std::move(mat), header.grey);
+  return from_mat(std::move(mat), header.grey, depth);
 }
 
-Image read_image(const std::filesystem::path& path) {
+Image read_image(const std::filesystem::path& path, int depth) {
   const std::string bytes = read_file(path, max_file_bytes);
-  return decode_image(std::as_bytes(std::span(bytes.data(), bytes.size())), path.string());
+  return decode_image(std::as_bytes(std::span(bytes.data(), bytes.size())), path.string(), depth);
+}
+
+std::optional<int> sample_depth(const std::filesystem::path& path) {
+  const std::string bytes = read_file(path, max_file_bytes);
+  const auto raw = std::as_bytes(std::span(bytes.data(), bytes.size()));
+  if (check_image(raw, path.string()).kind != ImageKind::png) return std::nullopt;
+  const cv::Mat mat = decoded(pixel_chunks(raw));
+  if (mat.depth() != CV_16U) return std::nullopt;
+  double largest = 0;
+  cv::minMaxIdx(mat.reshape(1), nullptr, &largest);
+  return std::clamp(static_cast<int>(std::bit_width(static_cast<unsigned>(largest))), 8, 16);
 }
 
 Image to_grey(const Image& image) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -28,14 +29,19 @@ struct Image {
 inline constexpr int max_image_side = 16384;
 inline constexpr std::int64_t max_image_pixels = 64'000'000;
 
-/// Reads PNG, JPEG, BMP, PGM, PPM or PBM: 16-bit samples are scaled to 8 bits, palettes and 1-bit
+/// Reads PNG, JPEG, BMP, PGM, PPM or PBM: 16-bit samples are scaled to 8 bits, those of PNG as
+/// numbers of `depth` bits (8 to 16; what is larger becomes white), palettes and 1-bit
 /// pictures expanded, transparency dropped. The structure is checked before anything is decoded;
 /// throws InputError "x.png: WHY" for no file, an empty one, no image, a truncated or damaged one,
 /// 0 pixels, or more than max_image_side or max_image_pixels.
-Image read_image(const std::filesystem::path& path);
+Image read_image(const std::filesystem::path& path, int depth = 16);
 
 /// The same from memory; `name` stands for the file in messages.
-Image decode_image(std::span<const std::byte> bytes, std::string_view name);
+Image decode_image(std::span<const std::byte> bytes, std::string_view name, int depth = 16);
+
+/// Bits, 8 to 16, that the largest sample of a PNG with 16-bit samples needs; nothing for another
+/// picture. Throws as `read_image`.
+std::optional<int> sample_depth(const std::filesystem::path& path);
 
 /// The picture as one grey channel, of colours the luma 0.299 R + 0.587 G + 0.114 B, rounded.
 Image to_grey(const Image& image);

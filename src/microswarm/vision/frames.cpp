@@ -2,6 +2,7 @@
 #include "microswarm/vision/frames.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cctype>
 #include <cmath>
 #include <cstdint>
@@ -88,12 +89,14 @@ std::string last_number(const fs::path& file) {
 
 class Pictures : public Source {
  public:
-  Pictures(const fs::path& name, std::vector<fs::path> files, std::optional<double> rate)
-      : Source(name, rate), files_(std::move(files)) {}
+  Pictures(const fs::path& name, std::vector<fs::path> files, std::optional<double> rate,
+           std::optional<int> depth)
+      : Source(name, rate), files_(std::move(files)), depth_(depth) {}
   bool next(VideoFrame& frame) override {
     const auto at = static_cast<std::size_t>(given());
     if (at >= files_.size()) return false;
-    frame.picture = read_image(files_[at]);
+    if (!depth_) depth_ = sample_depth(files_[at]).value_or(16);
+    frame.picture = read_image(files_[at], *depth_);
     number(frame, files_[at]);
     return true;
   }
@@ -101,6 +104,7 @@ class Pictures : public Source {
 
  private:
   std::vector<fs::path> files_;
+  std::optional<int> depth_;
 };
 
 std::vector<fs::path> pictures_in(const fs::path& folder) {
@@ -131,10 +135,17 @@ void require_fit(const fs::path& source, const cv::Size& size) {
                      std::to_string(max_image_pixels) + " in all");
 }
 
+/// Bits, 8 to 16, that the largest sample needs.
+int bits_of(const cv::Mat& mat) {
+  double largest = 0;
+  cv::minMaxIdx(mat.reshape(1), nullptr, &largest);
+  return std::clamp(static_cast<int>(std::bit_width(static_cast<unsigned>(largest))), 8, 16);
+}
+
 class TiffStack : public Source {
  public:
-  TiffStack(const fs::path& file, std::optional<double> rate)
-      : Source(file, rate), count_(pages(file)) {}
+  TiffStack(const fs::path& file, std::optional<double> rate, std::optional<int> depth)
+      : Source(file, rate), count_(pages(file)), depth_(depth) {}
   bool next(VideoFrame& frame) override {
     if (given() >= count_) return false;
     std::vector<cv::Mat> page;
@@ -146,7 +157,10 @@ class TiffStack : public Source {
     if (page.empty() || page[0].empty())
       fail(name(), "picture " + std::to_string(given()) + " cannot be read");
     require_fit(name(), page[0].size());
-    if (page[0].depth() == CV_16U) page[0].convertTo(page[0], CV_8U, 255.0 / 65535);
+    if (page[0].depth() == CV_16U) {
+      if (!depth_) depth_ = bits_of(page[0]);
+      page[0].convertTo(page[0], CV_8U, 255.0 / ((1 << *depth_) - 1));
+    }
     if (page[0].depth() != CV_8U)
       fail(name(), "picture " + std::to_string(given()) + " has neither 8 nor 16 bits a sample");
     take_picture(page[0], frame.picture);
@@ -168,6 +182,7 @@ class TiffStack : public Source {
   }
 
   int count_;
+  std::optional<int> depth_;
 };
 
 class VideoFile : public Source {
@@ -203,18 +218,20 @@ class VideoFile : public Source {
 
 }  // namespace
 
-std::unique_ptr<FrameSource> open_frames(const fs::path& source, std::optional<double> rate) {
+std::unique_ptr<FrameSource> open_frames(const fs::path& source, std::optional<double> rate,
+                                         std::optional<int> depth) {
   std::error_code error;
   const fs::file_status status = fs::status(source, error);
   if (!fs::exists(status)) fail(source, "cannot read: No such file or directory");
   if (fs::is_directory(status))
-    return std::make_unique<Pictures>(source, pictures_in(source), rate);
+    return std::make_unique<Pictures>(source, pictures_in(source), rate, depth);
   if (!fs::is_regular_file(status)) fail(source, "is neither a file nor a folder");
   if (fs::file_size(source) == 0) fail(source, "is empty");
   if (is_picture(source))
-    return std::make_unique<Pictures>(source, std::vector<fs::path>{source}, rate);
+    return std::make_unique<Pictures>(source, std::vector<fs::path>{source}, rate, depth);
   const std::string extension = lower_extension(source);
-  if (extension == ".tif" || extension == ".tiff") return std::make_unique<TiffStack>(source, rate);
+  if (extension == ".tif" || extension == ".tiff")
+    return std::make_unique<TiffStack>(source, rate, depth);
   return std::make_unique<VideoFile>(source, rate);
 }
 

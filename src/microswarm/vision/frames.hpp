@@ -38,10 +38,13 @@ class FrameSource {
 
 /// Opens a video file, a folder of pictures (PNG, JPEG, BMP, PGM, PPM; in the order of the last
 /// number in their names) or a TIFF of many pictures. `rate` [1/s] is taken in place of the
-/// source's; one that tells none, as a folder, has one picture a second. Throws InputError
+/// source's; one that tells none, as a folder, has one picture a second. 16-bit samples of PNG and
+/// TIFF are numbers of `depth` bits, 8 to 16, by default as many as the first picture needs; all
+/// pictures are scaled to 8 bits alike, and what is larger becomes white. Throws InputError
 /// "SOURCE: WHY" when there is no picture or nothing that can be read.
 std::unique_ptr<FrameSource> open_frames(const std::filesystem::path& source,
-                                         std::optional<double> rate = std::nullopt);
+                                         std::optional<double> rate = std::nullopt,
+                                         std::optional<int> depth = std::nullopt);
 
 /// The channel of a picture in which robots are looked for.
 enum class VideoChannel { grey, red, green, blue };

@@ -15,6 +15,7 @@ namespace microswarm {
 struct TrackSettings {
   std::optional<double> um_per_px;  ///< must be given before anything is tracked
   std::optional<double> rate;
+  std::optional<int> depth;
   VideoChannel channel = VideoChannel::grey;
   ParticleParams find;
   TrackerParams track;
@@ -24,6 +25,10 @@ struct TrackSettings {
     visit(self.um_per_px, {"um_per_px", Unit::none, {1e-6, 1e6}, "µm that a pixel shows."});
     visit(self.rate,
           {"rate", Unit::hz, {1e-6, 1e6}, "Pictures a second; not given: as the video says."});
+    visit(self.depth, {"depth",
+                       Unit::none,
+                       {8, 16},
+                       "Bits that samples of 16 bits use; not given: as the first picture needs."});
     visit(self.channel, {"channel", Unit::none, {}, "Channel of colour that is looked at."});
     visit(self.find, {"find", Unit::none, {}, "How robots are found in a picture."});
     visit(self.track, {"track", Unit::none, {}, "How they are followed through the pictures."});
