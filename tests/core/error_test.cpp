@@ -21,7 +21,7 @@ TEST(Error, NamesThePlaceAsFarAsItIsKnown) {
 
 TEST(Status, EveryStatusHasItsOwnWord) {
   std::set<std::string_view> words;
-  for (int i = 0; i <= static_cast<int>(Status::collided); ++i) {
+  for (int i = 0; i <= static_cast<int>(Status::fault); ++i) {
     const std::string_view word = to_string(static_cast<Status>(i));
     EXPECT_EQ(word.find_first_not_of("abcdefghijklmnopqrstuvwxyz_"), std::string_view::npos);
     EXPECT_TRUE(words.insert(word).second) << word;

@@ -84,6 +84,19 @@ TEST(SwarmEye, SaysWhyThereIsNone) {
   EXPECT_FALSE(eye.see(black, 0.1).swarm);
 }
 
+TEST(SwarmEye, TwoSwarmsAreNotGuessedBetween) {
+  const auto map = channel();
+  Microscope microscope({}, *map, 1, 0);
+  SwarmEye eye(eye_params(), *map, {{300, 400}, 0}, view_of(microscope));
+  Image both = microscope.look(Snapshot(map), SwarmPose{{{260, 400}, 0}, 30}, {});
+  const Image right = microscope.look(Snapshot(map), SwarmPose{{{340, 400}, 0}, 30}, {});
+  for (std::size_t i = 0; i < both.pixels.size(); ++i)
+    both.pixels[i] = std::min(both.pixels[i], right.pixels[i]);
+  const Sight& seen = eye.see(both, 0);
+  EXPECT_FALSE(seen.swarm);
+  EXPECT_EQ(seen.trouble, "several");
+}
+
 TEST(RobotEye, KnowsEveryRobotWhileTheyAreApart) {
   const auto map = channel();
   MicroscopeParams optics;

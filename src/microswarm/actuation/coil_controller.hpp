@@ -45,6 +45,8 @@ class CoilController {
   bool stop() noexcept;
 
   const CoilOutput& output() const { return output_; }
+  /// What is aimed at [µm].
+  const Eigen::Vector3d& place() const { return place_; }
   const FieldGenerator& generator() const { return generator_; }
   /// What currents make at the place that is aimed at.
   const Actuation& actuation() const { return actuation_; }

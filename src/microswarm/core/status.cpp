@@ -25,6 +25,8 @@ std::string_view to_string(Status status) {
       return "held";
     case Status::collided:
       return "collided";
+    case Status::fault:
+      return "fault";
   }
   assert(false);
   return "unknown";

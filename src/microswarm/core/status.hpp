@@ -17,6 +17,7 @@ enum class Status {
   goal_blocked,   ///< no point within the goal tolerance is free
   held,           ///< run: the swarm held where it was until the end, nothing was safe
   collided,       ///< run: the swarm touched an obstacle or a wall
+  fault,          ///< run: the plant could not go on, as a rig that lost its swarm
 };
 
 /// The status in one word with underscores, as in records and JSON.

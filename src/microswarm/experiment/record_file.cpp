@@ -234,7 +234,7 @@ void write_times(Hdf5Writer& out, const std::string& path, const std::vector<dou
 }
 
 Status status_of(const Hdf5Reader& in, const std::string& word) {
-  for (int i = 0; i <= static_cast<int>(Status::collided); ++i)
+  for (int i = 0; i <= static_cast<int>(Status::fault); ++i)
     if (to_string(static_cast<Status>(i)) == word) return static_cast<Status>(i);
   in.fail("attribute status is the unknown word '" + word + "'");
 }

@@ -69,7 +69,7 @@ Column<Row> word_column(std::string_view name, std::string_view doc,
 }
 
 bool set_status(Status& status, const std::string& word) {
-  for (int i = 0; i <= static_cast<int>(Status::collided); ++i) {
+  for (int i = 0; i <= static_cast<int>(Status::fault); ++i) {
     status = static_cast<Status>(i);
     if (to_string(status) == word) return true;
   }

@@ -54,6 +54,10 @@ class Run {
     const Observation seen = plant_.observe();
     if (scenario_.robots && !task_) begin_with_robots(seen);
     move_to(present(seen));
+    if (!plant_.fault().empty()) {
+      result_.state = plant_.fault();
+      return Status::fault;
+    }
     if (present_.goal_distance <= scenario_.goal_tolerance) return arrived();
     if (result_.timing.steps.empty()) navigator_.prepare(*seen.world);
 
@@ -182,7 +186,7 @@ class Run {
   RunResult finish(Status status) {
     const Observation seen = plant_.observe();
     if (scenario_.robots && !task_) begin_with_robots(seen);
-    if (status == Status::stopped || status == Status::time_limit || status == Status::held)
+    if (status != Status::solved && status != Status::collided)
       move_to(present(seen));
     Frame frame;
     frame.state = "end";

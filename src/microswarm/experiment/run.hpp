@@ -38,8 +38,8 @@ class RunListener {
 /// in continuous time, for contact and for the goal; whether robots that are told apart have done
 /// their task it looks up at every tick, and walls are no danger to them. Ends with `solved`,
 /// `collided`, `held` (the navigator stood still for the scenario's hold limit, or up to its time
-/// limit), `time_limit` or `stopped`. Without the plant's truth, clearances and contacts are those
-/// of what was seen.
+/// limit), `time_limit`, `stopped`, or `fault`, with the plant's reason as the result's state.
+/// Without the plant's truth, clearances and contacts are those of what was seen.
 RunResult run(const Scenario& scenario, Plant& plant, Navigator& navigator,
               std::span<RunListener* const> listeners = {}, const Stop& stop = {});
 

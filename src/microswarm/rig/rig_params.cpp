@@ -9,7 +9,7 @@ Rig read_rig(const std::filesystem::path& file, const std::vector<std::string>& 
   Places places;
   auto params = read_yaml_file<RigParams>(file, settings, places);
   const std::filesystem::path coils = file.parent_path() / params.coils;
-  return {std::move(params), read_coil_system(coils)};
+  return {std::move(params), read_coil_system(coils), file.parent_path()};
 }
 
 }  // namespace microswarm

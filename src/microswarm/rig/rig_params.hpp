@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "microswarm/actuation/coil_system.hpp"
 #include "microswarm/actuation/field_generator.hpp"
@@ -13,6 +15,8 @@
 #include "microswarm/core/places.hpp"
 #include "microswarm/rig/eye_params.hpp"
 #include "microswarm/rig/microscope.hpp"
+#include "microswarm/vision/camera.hpp"
+#include "microswarm/vision/camera_scale.hpp"
 
 namespace microswarm {
 
@@ -44,11 +48,22 @@ struct SimulatedCamera {
   }
 };
 
+/// A video in place of a camera, at its own pace; for trying things out.
+struct VideoCamera {
+  static constexpr std::string_view type_name = "video";
+  std::string file;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.file,
+          {"file", Unit::none, {}, "Video, folder or TIFF, beside the rig's file.", true});
+  }
+};
+
 /// When a run is ended for safety, with the coils at zero.
 struct SafetyParams {
   double lost_swarm = 0.5;
   double oldest_frame = 0.5;
-  double frozen_time = 1;
+  double deadman = 0.5;
   int missed_deadlines = 10;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -56,8 +71,8 @@ struct SafetyParams {
           {"lost_swarm", Unit::s, {0, 100}, "The swarm was not seen, or not alone, for so long."});
     visit(self.oldest_frame,
           {"oldest_frame", Unit::s, {0, 100}, "The newest frame is older than this."});
-    visit(self.frozen_time,
-          {"frozen_time", Unit::s, {0, 100}, "Frames came that are all the same, for so long."});
+    visit(self.deadman,
+          {"deadman", Unit::s, {0.02, 100}, "No new command came from the navigator for so long."});
     visit(self.missed_deadlines,
           {"missed_deadlines", Unit::none, {1, 1e6}, "Ticks in a row that ended too late."});
   }
@@ -70,7 +85,8 @@ struct RigParams {
   FieldGeneratorParams field;
   double drive_rate = 200;
   std::variant<SimulatedCoils, SerialCoilParams> driver;
-  std::variant<SimulatedCamera> camera;
+  std::variant<SimulatedCamera, CameraParams, VideoCamera> camera;
+  std::optional<CameraScale> scale;
   EyeParams eye;
   SafetyParams safety;
   template <class Self, class V>
@@ -85,15 +101,18 @@ struct RigParams {
                             "turn of the field."});
     visit(self.driver, {"driver", Unit::none, {}, "What the coils hang on."});
     visit(self.camera, {"camera", Unit::none, {}, "What sees."});
+    visit(self.scale,
+          {"scale", Unit::none, {}, "Where the camera sees the world; a simulated one knows."});
     visit(self.eye, {"eye", Unit::none, {}, "How pictures are read."});
     visit(self.safety, {"safety", Unit::none, {}, "When a run is ended for safety."});
   }
 };
 
-/// A rig's file and what it names, read and checked.
+/// A rig's file and what it names.
 struct Rig {
   RigParams params;
   CoilSystem system;
+  std::filesystem::path folder;  ///< of the file
 };
 
 /// Reads the file of a rig and its coil system; `settings` are `key=value` texts as from --set.

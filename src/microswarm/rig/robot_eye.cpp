@@ -25,6 +25,11 @@ const Sight& RobotEye::see(const Image& picture, double t) {
   hide_walls(picture);
   for (const Particle& particle : finder_.find(open_))
     spots.push_back(scale_.to_world(particle.at_px));
+  if (sight_.robots.empty()) sight_.robots = spots;
+  if (sight_.robots.empty()) {
+    sight_.trouble = "none";
+    return sight_;
+  }
   const double passed = std::max(0.0, t - seen_);
   seen_ = t;
   // Half of where the command would take it: it may do so, or be held by a wall.

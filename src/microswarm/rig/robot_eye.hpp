@@ -15,7 +15,7 @@ namespace microswarm {
 /// are not told apart, as robots may lie on one another, are taken to be where the nearest spot is.
 class RobotEye : public Eye {
  public:
-  /// The robots begin at `starts`.
+  /// The robots begin at `starts`; with none, those of the first picture are all there are.
   RobotEye(const EyeParams& params, const RobotSwarmParams& robots, const Map& map,
            std::span<const Vec2> starts, const CameraView& view);
 

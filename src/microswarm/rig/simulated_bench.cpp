@@ -67,10 +67,13 @@ void SimulatedBench::pass(std::span<const double> currents, double dt) {
     way_.push_back({passed + p.t, p.pose, p.radius});
 }
 
-SimulatedBench::View SimulatedBench::look() {
+SimulatedBench::Shot SimulatedBench::shoot() {
   const Observation shown = physics_->observe();
-  const std::optional<SwarmPose> body = robots_ ? std::nullopt : shown.swarm;
-  return {shown.now, shown.seen, &microscope_.look(*shown.world, body, shown.robots)};
+  return {.now = shown.now,
+          .seen = shown.seen,
+          .world = *shown.world,
+          .swarm = robots_ ? std::nullopt : shown.swarm,
+          .robots = {shown.robots.begin(), shown.robots.end()}};
 }
 
 Truth SimulatedBench::truth() const {

@@ -26,14 +26,19 @@ class SimulatedBench {
   /// Lets `dt` seconds pass after which the coils carry these currents [A].
   void pass(std::span<const double> currents, double dt);
 
-  /// What the camera sees: the frame of the kinematic plant's observation, and its picture.
-  struct View {
-    double now;   ///< [s]
-    double seen;  ///< when the frame was taken [s]
-    const Image* picture;
+  /// What the camera is shown.
+  struct Shot {
+    double now = 0;   ///< [s]
+    double seen = 0;  ///< when it was so [s]
+    Snapshot world;
+    std::optional<SwarmPose> swarm;
+    std::vector<Vec2> robots;
   };
-  /// Valid until the next look.
-  View look();
+  Shot shoot();
+  /// Its picture, valid until the next; knows nothing of what passes meanwhile.
+  const Image& develop(const Shot& shot) {
+    return microscope_.look(shot.world, shot.swarm, shot.robots);
+  }
 
   /// The truth; its way is that since `begin_way`.
   Truth truth() const;
@@ -52,7 +57,7 @@ class SimulatedBench {
   std::unique_ptr<Plant> physics_;
   std::shared_ptr<const Map> map_;
   Microscope microscope_;
-  Eigen::Vector3d at_;    // where `actuation_` holds
+  Eigen::Vector3d at_;  // where `actuation_` holds
   Actuation actuation_;
   std::vector<TimedPose> way_;
   Vec2 step_{};         // of robots, not made yet [µm]

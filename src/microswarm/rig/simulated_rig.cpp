@@ -17,11 +17,11 @@ SimulatedRig::SimulatedRig(const Scenario& scenario, const World& world, const R
       eye_(make_eye(rig.params.eye, scenario, *map_, bench_.truth().robots, bench_.camera())) {}
 
 Observation SimulatedRig::observe() {
-  const SimulatedBench::View view = bench_.look();
-  picture_ = view.picture;
-  sight_ = &eye_->see(*picture_, view.seen);
-  seen_world_.emplace(map_, view.seen, sight_->moving);
-  return observation_of(*sight_, *seen_world_, view.now, view.seen);
+  const SimulatedBench::Shot shot = bench_.shoot();
+  picture_ = &bench_.develop(shot);
+  sight_ = &eye_->see(*picture_, shot.seen);
+  seen_world_.emplace(map_, shot.seen, sight_->moving);
+  return observation_of(*sight_, *seen_world_, shot.now, shot.seen);
 }
 
 void SimulatedRig::apply(const Command& command, double dt) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "microswarm/geometry/vec2.hpp"
 #include "microswarm/world/world.hpp"
@@ -72,6 +73,8 @@ class Plant {
   virtual Observation observe() = 0;
   /// Applies the command for `dt` seconds and lets them pass.
   virtual void apply(const Command& command, double dt) = 0;
+  /// Why it cannot go on, in words; empty while it can. Valid until the next observe().
+  virtual std::string_view fault() const { return {}; }
   /// Valid until the next apply(); empty when nobody knows.
   virtual std::optional<Truth> truth() const { return std::nullopt; }
 };

@@ -41,7 +41,7 @@ std::string text_of(const SqlValue& value) {
 /// Words of the column `status`, in the order of their numbers in the log.
 Lines statuses() {
   Lines words;
-  for (int i = 0; i <= static_cast<int>(Status::collided); ++i)
+  for (int i = 0; i <= static_cast<int>(Status::fault); ++i)
     words.emplace_back(to_string(static_cast<Status>(i)));
   return words;
 }

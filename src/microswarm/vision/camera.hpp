@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "microswarm/core/fields.hpp"
 #include "microswarm/vision/newest_frame.hpp"
@@ -12,6 +13,7 @@ namespace microswarm {
 
 /// Settings of a camera on V4L2.
 struct CameraParams {
+  static constexpr std::string_view type_name = "v4l2";
   std::string device = "/dev/video0";
   int width = 640;
   int height = 480;

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/rig/live_rig.hpp"
+
+#include <fmt/core.h>
+
+#include <chrono>
+#include <thread>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/rig/simulated_bench.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double first_frame = 5;  // [s] that a camera may take to begin
+
+const RigParams& checked(const Rig& rig, const Scenario& scenario) {
+  check(rig.params, scenario);
+  if (rig.params.safety.deadman < 2 * scenario.tick)
+    throw InputError(fmt::format(
+        "the rig's safety.deadman_s is {:.6g}, a tick of the scenario {:.6g} s: it must "
+        "be at least twice that",
+        rig.params.safety.deadman, scenario.tick));
+  return rig.params;
+}
+
+void sleep_until(double t) {
+  const double left = t - steady_seconds();
+  if (left > 0) std::this_thread::sleep_for(std::chrono::duration<double>(left));
+}
+
+}  // namespace
+
+LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const Rig& rig,
+                 std::unique_ptr<FrameSource> camera, const CameraScale& scale, CoilDriver& driver,
+                 std::function<void(const CoilMoment&)> heard)
+    : rig_(rig),
+      map_(std::move(map)),
+      camera_(std::move(camera), "camera"),
+      controller_(rig.system, checked(rig, scenario).field, driver,
+                  scenario.start ? scenario.start->heading : 0),
+      start_(steady_seconds()),
+      coils_(controller_, rig.params.drive_rate, rig.params.safety.deadman,
+             [this, heard = std::move(heard)](const CoilMoment& moment) {
+               {
+                 const std::lock_guard lock(timing_mutex_);
+                 timing_.coil_late.push_back(moment.late);
+                 timing_.round_trip.push_back(moment.round_trip);
+               }
+               if (heard) heard(moment);
+             }) {
+  if (!camera_.wait(frame_, first_frame))
+    throw HardwareError(fmt::format("camera: no picture within {} s", first_frame));
+  const Image& picture = frame_.frame.picture;
+  const std::vector<Vec2> starts = scenario.robots ? scenario.robots->starts : std::vector<Vec2>{};
+  eye_ = make_eye(rig.params.eye, scenario, *map_, starts, {scale, picture.width, picture.height});
+  start_ = steady_seconds();
+}
+
+Observation LiveRig::observe() {
+  begun_ = since_start();
+  if (fault_.empty()) take_frame();
+  const double now = since_start();
+  look_for_faults(now);
+  seen_world_.emplace(map_, seen_, sight_->moving);
+  return observation_of(*sight_, *seen_world_, now, seen_);
+}
+
+void LiveRig::take_frame() {
+  try {
+    const bool is_new = camera_.take(frame_) || !sight_;
+    if (!is_new) return;
+  } catch (const HardwareError& e) {
+    return fail(e.what());
+  }
+  seen_ = frame_.taken - start_;
+  const double began = steady_seconds();
+  take_channel(frame_.frame.picture, VideoChannel::grey, grey_);
+  sight_ = &eye_->see(grey_, seen_);
+  const double took = steady_seconds() - began;
+  if (sight_->swarm) found_ = seen_;
+  const std::lock_guard lock(timing_mutex_);
+  timing_.vision.push_back(took);
+}
+
+void LiveRig::look_for_faults(double now) {
+  const SafetyParams& safety = rig_.params.safety;
+  if (const std::string why = coils_.failure(); !why.empty()) return fail(why);
+  const CameraStatus camera = camera_.status();
+  if (camera.state == CameraState::frozen || camera.state == CameraState::black)
+    return fail(fmt::format("the camera's pictures are {}", enum_name(camera.state)));
+  if (camera.state == CameraState::ended) return fail("the camera has no more pictures");
+  const double age = now - seen_;
+  if (age > safety.oldest_frame)
+    return fail(
+        fmt::format("the newest picture is {:.2f} s old, allowed {} s", age, safety.oldest_frame));
+  if (now - found_ > safety.lost_swarm)
+    return fail(fmt::format("the swarm was not found for {:.2f} s ({}), allowed {} s", now - found_,
+                            sight_->trouble, safety.lost_swarm));
+  if (missed_in_a_row_ >= safety.missed_deadlines)
+    return fail(fmt::format("{} ticks in a row ended too late", missed_in_a_row_));
+  const std::lock_guard lock(timing_mutex_);
+  timing_.frame_age.push_back(age);
+}
+
+void LiveRig::apply(const Command& command, double dt) {
+  const double now = since_start();
+  if (next_ == 0) next_ = begun_;  // the first one
+  next_ += dt;
+  const bool missed = now > next_;
+  {
+    const std::lock_guard lock(timing_mutex_);
+    timing_.tick.push_back(now - begun_);
+    timing_.missed_deadlines += missed;
+  }
+  missed_in_a_row_ = missed ? missed_in_a_row_ + 1 : 0;
+  if (missed) next_ = now;
+  eye_->commanded(command, now);
+  const Vec2 place = sight_->swarm ? sight_->swarm->pose.position : map_->bounds().centre();
+  coils_.command(command, place_among_coils(rig_.system, *map_, place));
+  sleep_until(start_ + next_);
+}
+
+void LiveRig::fail(const std::string& why) {
+  stop(why);
+  if (fault_.empty()) fault_ = why;
+}
+
+void LiveRig::stop(const std::string& why) { coils_.stop(why); }
+
+RigTiming LiveRig::timing() const {
+  const std::lock_guard lock(timing_mutex_);
+  RigTiming timing = timing_;
+  const CameraStatus camera = camera_.status();
+  timing.frames = static_cast<int>(timing.vision.size());
+  timing.dropped_frames = camera.dropped;
+  return timing;
+}
+
+}  // namespace microswarm

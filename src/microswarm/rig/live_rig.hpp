@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "microswarm/actuation/coil_controller.hpp"
+#include "microswarm/rig/coil_loop.hpp"
+#include "microswarm/rig/eye.hpp"
+#include "microswarm/rig/rig_params.hpp"
+#include "microswarm/vision/newest_frame.hpp"
+
+namespace microswarm {
+
+/// How long the stages of a run took [s].
+struct RigTiming {
+  std::vector<double> frame_age;   ///< of the newest frame when a tick begins
+  std::vector<double> vision;      ///< to read a picture
+  std::vector<double> tick;        ///< from a tick's begin to its command
+  std::vector<double> coil_late;   ///< currents after they were due
+  std::vector<double> round_trip;  ///< of the coil driver
+  int missed_deadlines = 0;        ///< ticks that ended after the next should have begun
+  int frames = 0;                  ///< that were read
+  int dropped_frames = 0;          ///< that came and were not
+};
+
+/// A rig in real time: the newest frame is read, the command goes to the coils, the next tick
+/// begins when it is due. As soon as something is not as it should be (SafetyParams, a camera or a
+/// coil driver that fails) the coils go to zero for good and `fault` says why.
+class LiveRig : public Plant {
+ public:
+  /// The rig and the driver outlive it. `scale` is where the camera sees the world. `heard` is
+  /// called in the coils' thread with whatever was sent; what it throws is a fault. Waits for the
+  /// first frame; throws HardwareError when none comes, InputError when rig and scenario do not go
+  /// together.
+  LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const Rig& rig,
+          std::unique_ptr<FrameSource> camera, const CameraScale& scale, CoilDriver& driver,
+          std::function<void(const CoilMoment&)> heard = {});
+
+  Observation observe() override;
+  void apply(const Command& command, double dt) override;
+  std::string_view fault() const override { return fault_; }
+
+  /// Coils to zero, for good; from any thread.
+  void stop(const std::string& why);
+  RigTiming timing() const;
+  /// The newest picture and what was seen in it.
+  const Image& picture() const { return grey_; }
+  const Sight& sight() const { return *sight_; }
+
+ private:
+  void take_frame();
+  void look_for_faults(double now);
+  void fail(const std::string& why);
+  double since_start() const { return steady_seconds() - start_; }
+
+  const Rig& rig_;
+  std::shared_ptr<const Map> map_;
+  NewestFrame camera_;
+  CoilController controller_;
+  std::unique_ptr<Eye> eye_;
+  LiveFrame frame_;
+  Image grey_;
+  const Sight* sight_ = nullptr;
+  std::optional<Snapshot> seen_world_;
+  double start_;      // [s], by steady_seconds()
+  double seen_ = 0;   // when the newest frame was taken [s]
+  double found_ = 0;  // when the swarm was seen last [s]
+  double begun_ = 0;  // the tick [s]
+  double next_ = 0;   // when the next one begins [s]
+  int missed_in_a_row_ = 0;
+  std::string fault_;
+  mutable std::mutex timing_mutex_;
+  RigTiming timing_;
+  CoilLoop coils_;  // last: its thread uses what is above
+};
+
+}  // namespace microswarm

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs in real time against a simulated bench, and what happens when something fails.
+#include "microswarm/rig/live_rig.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/experiment/run.hpp"
+#include "microswarm/navigation/make.hpp"
+#include "microswarm/rig/live_bench.hpp"
+#include "microswarm/rig/simulated_rig.hpp"
+#include "tests/files.hpp"
+
+namespace microswarm {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Coils that remember what they were told, and fail when they are asked to.
+class WatchedCoils : public CoilDriver {
+ public:
+  struct Log {
+    std::atomic<double> strongest = 0;  // [A], of the last currents
+    std::atomic<int> drives = 0;
+    std::atomic<int> stops = 0;
+    std::atomic<DriveStatus> answer = DriveStatus::driven;
+  };
+  explicit WatchedCoils(std::shared_ptr<Log> log) : log_(std::move(log)) {}
+
+  int channels() const override { return 6; }
+  std::span<const double> currents() const override { return currents_; }
+  DriveStatus drive(std::span<const double> currents) override {
+    ++log_->drives;
+    const DriveStatus answer = log_->answer;
+    if (answer != DriveStatus::driven) return answer;
+    set(currents);
+    return answer;
+  }
+  bool stop() noexcept override {
+    ++log_->stops;
+    set(std::array<double, 6>{});
+    return true;
+  }
+
+ private:
+  void set(std::span<const double> currents) {
+    double most = 0;
+    for (std::size_t i = 0; i < currents_.size(); ++i) {
+      currents_[i] = currents[i];
+      most = std::max(most, std::abs(currents[i]));
+    }
+    log_->strongest = most;
+  }
+  std::shared_ptr<Log> log_;
+  std::array<double, 6> currents_{};
+};
+
+/// A camera between the bench and the rig that can be made to fail.
+class TroubledCamera : public FrameSource {
+ public:
+  struct Trouble {
+    std::atomic<bool> drop = false, freeze = false, black = false, unplug = false, no_swarm = false,
+                      jump = false;
+    std::atomic<double> late = 0;  // [s]
+  };
+  TroubledCamera(std::unique_ptr<FrameSource> camera, std::shared_ptr<Trouble> trouble)
+      : camera_(std::move(camera)), trouble_(std::move(trouble)) {}
+
+  bool next(VideoFrame& frame) override {
+    do {
+      if (trouble_->unplug) throw HardwareError("camera: unplugged");
+      if (!camera_->next(frame)) return false;
+    } while (trouble_->drop && frame.index % 4 != 0);
+    if (trouble_->freeze && !still_.pixels.empty()) frame.picture = still_;
+    still_ = frame.picture;
+    if (trouble_->black) paint(frame.picture, 0, {}, 1e9);
+    if (trouble_->no_swarm) paint(frame.picture, still_.pixels[still_.index(60, 60)], {}, 1e9);
+    if (trouble_->jump) frame.t -= 1e6;
+    if (trouble_->late > 0)
+      std::this_thread::sleep_for(std::chrono::duration<double>(trouble_->late));
+    return true;
+  }
+  std::optional<int> count() const override { return std::nullopt; }
+  std::optional<double> rate() const override { return camera_->rate(); }
+
+ private:
+  static void paint(Image& picture, std::uint8_t grey, Vec2 at, double radius) {
+    for (int row = 0; row < picture.height; ++row)
+      for (int column = 0; column < picture.width; ++column)
+        if (distance(at, Vec2{1.0 * column, 1.0 * row}) <= radius)
+          picture.pixels[picture.index(column, row)] = grey;
+    // A picture of a camera is never twice the same.
+    if (grey > 0) picture.pixels[static_cast<std::size_t>(count_++ % 1000)] ^= 1;
+  }
+  static inline std::atomic<int> count_ = 0;
+  std::unique_ptr<FrameSource> camera_;
+  std::shared_ptr<Trouble> trouble_;
+  Image still_;
+};
+
+class LiveRigs : public testing::Test {
+ protected:
+  LiveRigs() {
+    const fs::path scenarios = fs::path(MICROSWARM_SOURCE_DIR) / "scenarios";
+    scene = load_scene(read_scenario(scenarios / "papers/radar/single.yaml"), scenarios);
+    scene.scenario.obstacles.clear();
+    scene.scenario.time_limit = 30;
+    world = build_world(scene);
+    rig.emplace(read_rig(scenarios / "rigs/vortex.yaml",
+                         {"camera.type=simulated", "camera.microscope.um_per_px=6"}));
+  }
+
+  /// Runs until `seconds` have passed or it ends; `then` is called after 0.5 s.
+  RunResult go(double seconds, const std::function<void(LiveRig&)>& then = {}) {
+    const Scenario& s = scene.scenario;
+    LiveBench bench(s, world, *rig, std::make_unique<WatchedCoils>(coils));
+    LiveRig plant(s, world.map, *rig, std::make_unique<TroubledCamera>(bench.camera(40), trouble),
+                  bench.view().scale, bench.coils());
+    const auto navigator =
+        make_navigator(s.navigator, task_of(s), Rng(s.seed, Purpose::planner, 0));
+    std::atomic<bool> over = false;
+    std::thread trouble_maker([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(500));
+      driven = coils->strongest;
+      began = steady_seconds();
+      if (then) then(plant);
+      while (coils->strongest > 0 && !over)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      zero_after = steady_seconds() - began;
+    });
+    const RunResult result = run(s, plant, *navigator, {},
+                                 Stop(std::chrono::duration_cast<Stop::Clock::duration>(
+                                     std::chrono::duration<double>(seconds))));
+    timing = plant.timing();
+    at_end = coils->strongest;
+    place = bench.swarm().pose.position;
+    over = true;
+    trouble_maker.join();
+    return result;
+  }
+
+  Scene scene;
+  World world;
+  std::optional<Rig> rig;
+  std::shared_ptr<WatchedCoils::Log> coils = std::make_shared<WatchedCoils::Log>();
+  std::shared_ptr<TroubledCamera::Trouble> trouble = std::make_shared<TroubledCamera::Trouble>();
+  double driven = 0;      // [A], before the trouble
+  double began = 0;       // the trouble
+  double zero_after = 0;  // [s] it took until the coils were at zero
+  double at_end = -1;     // [A], when the run has ended
+  Vec2 place;
+  RigTiming timing;
+};
+
+TEST_F(LiveRigs, DrivesTheSwarmInRealTime) {
+  const Vec2 start = scene.scenario.start->position;
+  const RunResult result = go(3);
+  EXPECT_EQ(result.status, Status::stopped);
+  EXPECT_GT(driven, 0.1);
+  EXPECT_GT(distance(place, start), 0.6 * 3 * limits_of(scene.scenario.swarm).max_speed);
+  EXPECT_GE(timing.frames, 20);
+  EXPECT_NEAR(static_cast<double>(coils->drives), 3 * 200, 120);
+  EXPECT_GE(coils->stops, 1);  // when all is over
+}
+
+TEST_F(LiveRigs, DroppedFramesAreNoFault) {
+  trouble->drop = true;
+  EXPECT_EQ(go(2).status, Status::stopped);
+}
+
+TEST_F(LiveRigs, FrozenPicturesEndIt) {
+  const RunResult result = go(6, [&](LiveRig&) { trouble->freeze = true; });
+  EXPECT_EQ(result.status, Status::fault);
+  EXPECT_EQ(result.state, "the camera's pictures are frozen");
+  EXPECT_EQ(at_end, 0);
+  EXPECT_LT(zero_after, 0.8);
+}
+
+TEST_F(LiveRigs, BlackPicturesEndIt) {
+  const RunResult result = go(6, [&](LiveRig&) { trouble->black = true; });
+  EXPECT_EQ(result.status, Status::fault);
+  EXPECT_EQ(result.state, "the camera's pictures are black");
+  EXPECT_EQ(at_end, 0);
+  EXPECT_LT(zero_after, 0.8);
+}
+
+TEST_F(LiveRigs, PicturesThatComeTwoSecondsLateEndIt) {
+  const RunResult result = go(6, [&](LiveRig&) { trouble->late = 2; });
+  EXPECT_EQ(result.status, Status::fault);
+  EXPECT_NE(result.state.find("s old, allowed 0.5 s"), std::string::npos) << result.state;
+  EXPECT_EQ(at_end, 0);
+  EXPECT_LT(zero_after, 1.2);
+}
+
+TEST_F(LiveRigs, ASwarmThatLeavesThePictureEndsIt) {
+  const RunResult result = go(6, [&](LiveRig&) { trouble->no_swarm = true; });
+  EXPECT_EQ(result.status, Status::fault);
+  EXPECT_NE(result.state.find("the swarm was not found for"), std::string::npos) << result.state;
+  EXPECT_EQ(at_end, 0);
+  EXPECT_LT(zero_after, 1.2);
+}
+
+TEST_F(LiveRigs, AnUnpluggedCameraEndsIt) {
+  const RunResult result = go(6, [&](LiveRig&) { trouble->unplug = true; });
+  EXPECT_EQ(result.status, Status::fault);
+  EXPECT_EQ(result.state, "camera: unplugged");
+  EXPECT_EQ(at_end, 0);
+  EXPECT_LT(zero_after, 0.8);
+}
+
+TEST_F(LiveRigs, ASilentCoilDriverEndsIt) {
+  const RunResult result = go(6, [&](LiveRig&) { coils->answer = DriveStatus::no_answer; });
+  EXPECT_EQ(result.status, Status::fault);
+  EXPECT_EQ(result.state, "the coil driver does not answer");
+  EXPECT_EQ(at_end, 0);
+}
+
+TEST_F(LiveRigs, RefusedCurrentsEndIt) {
+  const RunResult result = go(6, [&](LiveRig&) { coils->answer = DriveStatus::refused; });
+  EXPECT_EQ(result.status, Status::fault);
+  EXPECT_EQ(result.state, "the coil driver refuses the currents");
+  EXPECT_EQ(at_end, 0);
+}
+
+TEST_F(LiveRigs, TimesInFramesThatJumpDoNotMatter) {
+  EXPECT_EQ(go(2, [&](LiveRig&) { trouble->jump = true; }).status, Status::stopped);
+}
+
+TEST_F(LiveRigs, TheEmergencyStopComesAtOnceFromAnyThread) {
+  const RunResult result = go(6, [&](LiveRig& plant) { plant.stop("key"); });
+  EXPECT_EQ(result.status, Status::fault);
+  EXPECT_EQ(result.state, "key");
+  EXPECT_LT(zero_after, 0.1);
+}
+
+/// Thinks for longer than it may.
+class Slow : public Navigator {
+ public:
+  Command step(const Observation&, const Stop&) override {
+    std::this_thread::sleep_for(std::chrono::duration<double>(++steps_ > 3 ? 1.5 : 0.0));
+    return {0, 30};
+  }
+  NavigatorView view() const override { return {}; }
+
+ private:
+  int steps_ = 0;
+};
+
+TEST_F(LiveRigs, ANavigatorThatHangsEndsIt) {
+  const Scenario& s = scene.scenario;
+  LiveBench bench(s, world, *rig, std::make_unique<WatchedCoils>(coils));
+  LiveRig plant(s, world.map, *rig, bench.camera(40), bench.view().scale, bench.coils());
+  Slow slow;
+  const RunResult result = run(s, plant, slow);
+  EXPECT_EQ(result.status, Status::fault);
+  EXPECT_NE(result.state.find("no command for 0.5"), std::string::npos) << result.state;
+  EXPECT_EQ(coils->strongest, 0);
+}
+
+TEST_F(LiveRigs, ALogThatCannotBeWrittenEndsIt) {
+  const Scenario& s = scene.scenario;
+  LiveBench bench(s, world, *rig, std::make_unique<WatchedCoils>(coils));
+  int moments = 0;
+  LiveRig plant(s, world.map, *rig, bench.camera(40), bench.view().scale, bench.coils(),
+                [&](const CoilMoment&) {
+                  if (++moments > 50) throw InputError("commands.csv: cannot write: disk full");
+                });
+  const auto navigator = make_navigator(s.navigator, task_of(s), Rng(1, Purpose::planner, 0));
+  const RunResult result = run(s, plant, *navigator);
+  EXPECT_EQ(result.status, Status::fault);
+  EXPECT_EQ(result.state, "commands.csv: cannot write: disk full");
+  EXPECT_EQ(coils->strongest, 0);
+}
+
+TEST_F(LiveRigs, ADeadmanShorterThanATickIsRefused) {
+  rig->params.safety.deadman = 0.1;
+  EXPECT_EQ(test::error_of([&] { go(1); }),
+            "the rig's safety.deadman_s is 0.1, a tick of the scenario 0.1 s: it must be at least "
+            "twice that");
+}
+
+}  // namespace
+}  // namespace microswarm
