@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <string>
+#include <tuple>
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/statistics.hpp"
@@ -87,7 +88,9 @@ std::vector<Vec2> corners_in(const Image& grey, std::size_t wanted) {
 struct Node {
   int column = 0;
   int row = 0;
-  friend auto operator<=>(const Node&, const Node&) = default;
+  friend bool operator<(const Node& a, const Node& b) {
+    return std::tie(a.column, a.row) < std::tie(b.column, b.row);
+  }
 };
 using Lattice = std::map<Node, std::size_t>;  ///< the point at each node
 
