@@ -214,12 +214,14 @@ void add_calibrate(CLI::App* rig, Action& action) {
 }  // namespace
 
 void add_rig(CLI::App& app, Action& action) {
-  CLI::App* rig = app.add_subcommand("rig", "Coils: fields, currents, evenness, calibration");
+  CLI::App* rig = app.add_subcommand("rig", "A bench: coils, camera, checks, runs in real time");
   rig->require_subcommand(1);
   add_field(rig, action);
   add_rig_map(*rig, action);
   add_rig_scale(*rig, action);
   add_rig_see(*rig, action);
+  add_rig_check(*rig, action);
+  add_rig_run(*rig, action);
   add_calibrate(rig, action);
 }
 

@@ -21,6 +21,10 @@ Eigen::VectorXd currents_of(const std::string& text, const CoilSystem& system);
 void add_rig_map(CLI::App& rig, Action& action);
 /// The part `rig scale` of `rig`.
 void add_rig_scale(CLI::App& rig, Action& action);
+/// The part `rig check` of `rig`.
+void add_rig_check(CLI::App& rig, Action& action);
+/// The part `rig run` of `rig`.
+void add_rig_run(CLI::App& rig, Action& action);
 /// The part `rig see` of `rig`.
 void add_rig_see(CLI::App& rig, Action& action);
 

@@ -7,6 +7,8 @@
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/text.hpp"
 #include "microswarm/experiment/trials.hpp"
+#include "microswarm/navigation/make.hpp"
+#include "microswarm/rig/simulated_rig.hpp"
 #include "run_output.hpp"
 
 namespace microswarm::cli {
@@ -17,6 +19,7 @@ using Json = nlohmann::ordered_json;
 struct Options {
   std::string scenario;
   std::string out;
+  std::string rig;
   std::vector<std::string> settings;
   std::optional<std::uint64_t> seed;
   int trials = 1;
@@ -82,6 +85,23 @@ int many_runs(const Options& o, const Scene& scene, const World& world, const St
   return solved == o.trials ? ok : not_reached;
 }
 
+/// The same through a rig in simulation: camera, coils and field.
+int rehearse(const Options& o, const Scene& scene, const World& world, const Places& places,
+             const ReportOptions& report, const Stop& stop) {
+  const Rig rig = read_rig(o.rig);
+  check(rig.params, scene.scenario, places);
+  if (!std::holds_alternative<SimulatedCamera>(rig.params.camera))
+    throw InputError(o.rig + ": its camera is no simulated one; see `microswarm rig run`");
+  return run_once(scene, world, {o.out, o.no_report, o.json}, report, stop,
+                  [&](std::span<RunListener* const> listeners, const Stop& until) {
+                    SimulatedRig plant(scene.scenario, world, rig);
+                    const auto navigator =
+                        make_navigator(scene.scenario.navigator, task_of(scene.scenario),
+                                       Rng(scene.scenario.seed, Purpose::planner));
+                    return run(scene.scenario, plant, *navigator, listeners, until);
+                  });
+}
+
 int run_command(const Options& o, const Context& context) {
   const std::filesystem::path file = o.scenario;
   Places places;
@@ -92,6 +112,7 @@ int run_command(const Options& o, const Context& context) {
   check(scene.scenario, world, places);
   const ReportOptions report = report_options(o.photo);
   const OutFolder hold(o.out);
+  if (!o.rig.empty()) return rehearse(o, scene, world, places, report, context.stop);
   return o.trials > 1 ? many_runs(o, scene, world, context.stop)
                       : run_once(scene, world, {o.out, o.no_report, o.json}, report, context.stop);
 }
@@ -110,11 +131,15 @@ void add_run(CLI::App& app, Action& action) {
                   "Folder for run.h5, pictures and index.html; with --trials for trials.csv")
       ->type_name("FOLDER");
   add_settings(cmd, o->settings, "Change a value of the scenario (again and again)");
+  cmd->add_option("--rig", o->rig,
+                  "Rig file (YAML): rehearse it with simulated camera, coils and field")
+      ->type_name("FILE");
   cmd->add_option("--seed", o->seed, "Seed of all random streams, in place of the scenario's")
       ->type_name("NUMBER")
       ->check(whole(0, UINT64_MAX));
   cmd->add_option("--trials", o->trials, "Run this often, each time with other random streams")
       ->type_name("NUMBER")
+      ->excludes("--rig")
       ->check(whole(1, 1'000'000));
   cmd->add_option("--jobs", o->jobs, "Threads for --trials; 0: one a core")
       ->type_name("NUMBER")

@@ -45,6 +45,8 @@ std::string ending(const RunResult& result) {
       return fmt::format("held: {},", reason(result.state));
     case Status::collided:
       return "touched a wall or an obstacle";
+    case Status::fault:
+      return fmt::format("fault: {},", result.state);
     default:
       return std::string(to_string(result.status));
   }
@@ -61,7 +63,7 @@ std::string robots_summary(const RunResult& result, const RobotSwarmParams& robo
   const bool gathered = result.status == Status::solved && robots.goals.empty();
   const std::string planning =
       robots.goals.empty() ? "" : fmt::format("  planning  {} times\n", m.planning_events);
-  return fmt::format("{} after {:.1f} s of simulated time and {} commands\n  {} {:.1f} µm\n{}",
+  return fmt::format("{} after {:.1f} s and {} commands\n  {} {:.1f} µm\n{}",
                      gathered ? "gathered" : ending(result), m.time, result.timing.steps.size(),
                      robots.goals.empty() ? "goal      the mean way to it is"
                                           : "goals     the robot farthest from its own is off by",
@@ -79,7 +81,7 @@ std::string avoidance_text(const Avoidance& a) {
 std::string summary(const RunResult& result) {
   const Metrics& m = result.metrics;
   const TimeSummary p = summarise(result.timing.planning);
-  std::string text = fmt::format("{} after {:.1f} s of simulated time", ending(result), m.time);
+  std::string text = fmt::format("{} after {:.1f} s", ending(result), m.time);
   if (result.status != Status::solved)
     text += fmt::format(", {:.0f} µm from the goal", m.goal_distance);
   text += fmt::format("\n  way       {:.0f} µm long, turned {:.0f}° in all, held for {:.1f} s\n",
@@ -116,7 +118,7 @@ void note_assumptions(const Scenario& scenario, const Map& map) {
 }  // namespace
 
 int run_once(const Scene& scene, const World& world, const RunOutput& o,
-             const ReportOptions& report, const Stop& stop) {
+             const ReportOptions& report, const Stop& stop, const Runner& runner) {
   const std::filesystem::path folder = o.out;
   note_oddities(scene.scenario);
   note_assumptions(scene.scenario, *world.map);
@@ -128,7 +130,7 @@ int run_once(const Scene& scene, const World& world, const RunOutput& o,
       bar.update(std::max(p.way_done, p.time_spent));
     });
     RunListener* const listeners[] = {&recorder, &progress};
-    result = simulate(scene.scenario, world, 0, listeners, stop);
+    result = runner ? runner(listeners, stop) : simulate(scene.scenario, world, 0, listeners, stop);
   }
   const Record& record = recorder.record();
   const std::string hash = record.hash();
@@ -144,6 +146,7 @@ int run_once(const Scene& scene, const World& world, const RunOutput& o,
     if (!o.out.empty())
       print("wrote {}\n", (folder / (o.no_report ? "run.h5" : "index.html")).string());
   }
+  if (result.status == Status::fault) return hardware;
   return result.status == Status::solved ? ok : not_reached;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -18,10 +20,13 @@ struct RunOutput {
   bool json = false;
 };
 
+/// Runs a scene, with these listening.
+using Runner = std::function<RunResult(std::span<RunListener* const>, const Stop&)>;
+
 /// Runs a scene once, with a progress bar, keeps its record and report, says how it went. The exit
-/// code.
+/// code. Without a runner it is simulated.
 int run_once(const Scene& scene, const World& world, const RunOutput& output,
-             const ReportOptions& report, const Stop& stop);
+             const ReportOptions& report, const Stop& stop, const Runner& runner = {});
 
 nlohmann::ordered_json to_json(const RunResult& result, const std::string& hash);
 

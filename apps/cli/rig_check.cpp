@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// `rig check`: does everything that a rig's file names work?
+#include <cmath>
+#include <memory>
+
+#include "microswarm/actuation/coil_controller.hpp"
+#include "microswarm/core/angles.hpp"
+#include "microswarm/core/statistics.hpp"
+#include "microswarm/vision/newest_frame.hpp"
+#include "options.hpp"
+#include "rig.hpp"
+#include "rig_devices.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+struct CheckOptions {
+  std::string rig;
+  std::vector<std::string> settings;
+  double seconds = 2;
+};
+
+struct Answers {
+  int failed = 0;
+  void say(bool good, const std::string& what, const std::string& answer) {
+    print("{:<4} {:<9} {}\n", good ? "ok" : "NO", what, answer);
+    failed += !good;
+  }
+};
+
+void check_camera(const Rig& rig, const CheckOptions& o, Answers& answers) {
+  if (std::holds_alternative<SimulatedCamera>(rig.params.camera))
+    return answers.say(true, "camera", "simulated");
+  try {
+    NewestFrame camera(open_camera_of(rig), "camera");
+    LiveFrame frame;
+    std::vector<double> gaps;
+    double before = 0;
+    for (const double end = steady_seconds() + o.seconds; steady_seconds() < end;) {
+      if (!camera.wait(frame, 0.1)) continue;
+      if (before > 0) gaps.push_back(frame.taken - before);
+      before = frame.taken;
+    }
+    const CameraStatus status = camera.status();
+    const bool good = status.state == CameraState::live && !gaps.empty();
+    answers.say(good, "camera",
+                fmt::format("{}, {} frames of {} × {} in {} s; between frames {}",
+                            enum_name(status.state), status.frames, frame.frame.picture.width,
+                            frame.frame.picture.height, o.seconds, quantiles(gaps)));
+  } catch (const std::runtime_error& e) {
+    answers.say(false, "camera", e.what());
+  }
+  answers.say(rig.params.scale.has_value(), "scale",
+              rig.params.scale ? fmt::format("{:.6g} µm a pixel", rig.params.scale->um_per_px)
+                               : "missing, see `microswarm rig scale`");
+}
+
+void check_driver(const Rig& rig, const CheckOptions& o, Answers& answers) {
+  const auto* serial = std::get_if<SerialCoilParams>(&rig.params.driver);
+  if (!serial) return answers.say(true, "driver", "simulated");
+  try {
+    SerialCoilDriver driver(*serial);
+    std::vector<double> times;
+    int failures = 0;
+    const std::vector<double> nothing(static_cast<std::size_t>(driver.channels()));
+    for (const double end = steady_seconds() + o.seconds; steady_seconds() < end;) {
+      const double began = steady_seconds();
+      failures += driver.drive(nothing) == DriveStatus::no_answer;
+      times.push_back(steady_seconds() - began);
+    }
+    const bool zero = driver.stop();
+    const double slow = quantile(times, 0.99);
+    answers.say(failures == 0, "driver",
+                fmt::format("{} exchanges with all currents at zero, {} without an answer; {}",
+                            times.size(), failures, quantiles(times)));
+    answers.say(zero, "stop", zero ? "confirmed" : "not confirmed");
+    answers.say(
+        slow < 1 / rig.params.drive_rate, "pace",
+        fmt::format("an exchange takes {:.2f} ms at p99, drive_rate_hz {:.6g} allows {:.2f}",
+                    1e3 * slow, rig.params.drive_rate, 1e3 / rig.params.drive_rate));
+  } catch (const std::runtime_error& e) {
+    answers.say(false, "driver", e.what());
+  }
+}
+
+/// Whether the coils can hold the field that is asked for, whatever its direction.
+void check_limits(const Rig& rig, Answers& answers) {
+  SimulatedCoilDriver driver(static_cast<int>(rig.system.size()), 1e9);
+  CoilController controller(rig.system, rig.params.field, driver, 0);
+  double least = 1;
+  bool reached = true;
+  const double dt = 1 / rig.params.drive_rate;
+  for (const double heading : {0.0, 0.5 * pi, 1.0, -2.0}) {
+    controller.command({heading, 1e9});
+    for (int i = 0; i < static_cast<int>(2 / dt); ++i) {
+      const CoilOutput& output = controller.advance(dt);
+      if (i * dt > 0.5) least = std::min(least, output.scale);
+      reached = reached && output.reached;
+    }
+  }
+  answers.say(
+      least >= 1 && reached, "limits",
+      !reached ? "these coils cannot make every field that is needed"
+      : least < 1
+          ? fmt::format("the field is weakened to {:.0f} % by the coils' limits", 100 * least)
+          : fmt::format("the coils hold {:.6g} mT in every direction", rig.params.field.amplitude));
+}
+
+int rig_check(const CheckOptions& o) {
+  const Rig rig = read_rig(o.rig, o.settings);
+  Answers answers;
+  answers.say(true, "coils", fmt::format("{}: {} coils", rig.system.name(), rig.system.size()));
+  check_limits(rig, answers);
+  check_camera(rig, o, answers);
+  check_driver(rig, o, answers);
+  if (answers.failed == 0) print("everything is as it should be\n");
+  return answers.failed == 0 ? ok : hardware;
+}
+
+}  // namespace
+
+void add_rig_check(CLI::App& rig, Action& action) {
+  auto o = std::make_shared<CheckOptions>();
+  CLI::App* cmd = add_command(rig, "check", "Camera, driver, limits, latency: does it all work?",
+                              "rig check rig.yaml");
+  cmd->add_option("rig", o->rig, "Rig file (YAML)")->required()->type_name("FILE");
+  cmd->add_option("--set", o->settings, "Change a value of the rig (again and again)")
+      ->type_name("KEY=VALUE");
+  cmd->add_option("--seconds", o->seconds, "How long each device is tried")
+      ->type_name("S")
+      ->check(number(0.1, 600));
+  cmd->callback([o, &action] { action = [o](const Context&) { return rig_check(*o); }; });
+}
+
+}  // namespace microswarm::cli

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rig_devices.hpp"
+
+#include <fmt/core.h>
+
+#include <chrono>
+#include <thread>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/statistics.hpp"
+#include "microswarm/rig/simulated_rig.hpp"
+#include "microswarm/vision/newest_frame.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+constexpr double simulated_rate = 60;  // [Hz] of a simulated camera
+
+std::unique_ptr<CoilDriver> open_coils(const RigParams& rig, bool dry) {
+  if (const auto* serial = std::get_if<SerialCoilParams>(&rig.driver); serial && !dry)
+    return std::make_unique<SerialCoilDriver>(*serial);
+  return simulated_coils(rig);
+}
+
+/// A video at its own pace.
+class PacedVideo : public FrameSource {
+ public:
+  explicit PacedVideo(std::unique_ptr<FrameSource> video)
+      : video_(std::move(video)), began_(steady_seconds()) {}
+  bool next(VideoFrame& frame) override {
+    if (!video_->next(frame)) return false;
+    const double left = began_ + frame.t - steady_seconds();
+    if (left > 0) std::this_thread::sleep_for(std::chrono::duration<double>(left));
+    return true;
+  }
+  std::optional<int> count() const override { return video_->count(); }
+  std::optional<double> rate() const override { return video_->rate(); }
+
+ private:
+  std::unique_ptr<FrameSource> video_;
+  double began_;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSource> open_camera_of(const Rig& rig) {
+  if (const auto* camera = std::get_if<CameraParams>(&rig.params.camera))
+    return open_camera(*camera);
+  const auto& video = std::get<VideoCamera>(rig.params.camera);
+  return std::make_unique<PacedVideo>(open_frames(rig.folder / video.file));
+}
+
+Devices open_devices(const Rig& rig, const std::string& file, const Scene& scene,
+                     const World& world, bool dry) {
+  Devices devices;
+  devices.coils = open_coils(rig.params, dry);
+  if (std::holds_alternative<SimulatedCamera>(rig.params.camera)) {
+    devices.bench =
+        std::make_unique<LiveBench>(scene.scenario, world, rig, std::move(devices.coils));
+    devices.camera = devices.bench->camera(simulated_rate);
+    devices.scale = devices.bench->view().scale;
+    return devices;
+  }
+  if (!rig.params.scale)
+    throw InputError(file +
+                     ": `scale` is missing: it says where the camera sees the world, see "
+                     "`microswarm rig scale`");
+  devices.camera = open_camera_of(rig);
+  devices.scale = *rig.params.scale;
+  return devices;
+}
+std::string quantiles(const std::vector<double>& times) {
+  if (times.empty()) return "–";
+  return fmt::format("{:.2f} / {:.2f} / {:.2f} ms", 1e3 * quantile(times, 0.5),
+                     1e3 * quantile(times, 0.95), 1e3 * quantile(times, 0.99));
+}
+
+}  // namespace microswarm::cli

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "microswarm/rig/live_bench.hpp"
+#include "microswarm/rig/rig_params.hpp"
+
+namespace microswarm::cli {
+
+/// What a rig's file names, opened.
+struct Devices {
+  std::unique_ptr<LiveBench> bench;  ///< of a simulated camera
+  std::unique_ptr<CoilDriver> coils;
+  std::unique_ptr<FrameSource> camera;
+  CameraScale scale;
+
+  CoilDriver& driver() { return bench ? bench->coils() : *coils; }
+};
+
+/// Opens camera and coils of the rig in `file`; with `dry`, nothing is sent to any coils. Throws
+/// HardwareError for a device that fails, InputError when the rig has no scale.
+Devices open_devices(const Rig& rig, const std::string& file, const Scene& scene,
+                     const World& world, bool dry);
+
+/// The camera or video of a rig whose camera is no simulated one; errors as above.
+std::unique_ptr<FrameSource> open_camera_of(const Rig& rig);
+
+/// Times [s] for people: "1.2 / 3.4 / 5.6 ms", p50, p95 and p99.
+std::string quantiles(const std::vector<double>& times);
+
+}  // namespace microswarm::cli

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// `rig run`: a scenario on a rig, in real time.
+#include <poll.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <memory>
+#include <thread>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/core/error.hpp"
+#include "microswarm/experiment/run.hpp"
+#include "microswarm/navigation/make.hpp"
+#include "microswarm/rig/live_rig.hpp"
+#include "rig.hpp"
+#include "rig_devices.hpp"
+#include "run_output.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+/// Calls `stop` when a key is pressed, where stdin is a terminal.
+class EmergencyKey {
+ public:
+  explicit EmergencyKey(std::function<void()> stop) : stop_(std::move(stop)) {
+    if (::isatty(STDIN_FILENO) == 0 || ::tcgetattr(STDIN_FILENO, &before_) != 0) return;
+    termios raw = before_;
+    raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+    ::tcsetattr(STDIN_FILENO, TCSANOW, &raw);
+    thread_ = std::thread([this] { listen(); });
+  }
+  ~EmergencyKey() {
+    if (!thread_.joinable()) return;
+    over_ = true;
+    thread_.join();
+    ::tcsetattr(STDIN_FILENO, TCSANOW, &before_);
+  }
+  EmergencyKey(const EmergencyKey&) = delete;
+  EmergencyKey& operator=(const EmergencyKey&) = delete;
+  bool is_there() const { return thread_.joinable(); }
+
+ private:
+  void listen() {
+    while (!over_) {
+      pollfd in{STDIN_FILENO, POLLIN, 0};
+      if (::poll(&in, 1, 20) <= 0) continue;
+      char key = 0;
+      if (::read(STDIN_FILENO, &key, 1) != 1) return;
+      if (key == ' ' || key == 'e' || key == 'E' || key == '\x1b') stop_();
+    }
+  }
+
+  std::function<void()> stop_;
+  termios before_{};
+  std::atomic<bool> over_ = false;
+  std::thread thread_;
+};
+
+/// commands.csv: what went to the coils, as it goes.
+class CommandLog {
+ public:
+  CommandLog(const std::filesystem::path& file, const CoilSystem& system) : file_(file) {
+    if (file.empty()) return;
+    out_.open(file);
+    std::string head = "t_s,heading_deg,speed_um_per_s,bx_mt,by_mt,bz_mt";
+    for (const std::string& coil : system.coil_names()) head += ",i_" + coil + "_a";
+    write(head + ",scale,status,late_s,round_trip_s\n");
+  }
+  void note(const CoilMoment& m) {
+    if (file_.empty()) return;
+    if (began_ == 0) began_ = m.t;
+    std::string row = fmt::format("{:.4f},{:.3f},{:.3f},{:.5f},{:.5f},{:.5f}", m.t - began_,
+                                  degrees(m.command.heading), m.command.speed, m.output.wanted.x(),
+                                  m.output.wanted.y(), m.output.wanted.z());
+    for (const double i : m.output.currents) row += fmt::format(",{:.5f}", i);
+    write(row + fmt::format(",{:.4f},{},{:.6f},{:.6f}\n", m.output.scale,
+                            to_string(m.output.status), m.late, m.round_trip));
+  }
+
+ private:
+  void write(const std::string& text) {
+    out_ << text << std::flush;
+    if (!out_) throw InputError(file_.string() + ": cannot write");
+  }
+  std::filesystem::path file_;
+  std::ofstream out_;
+  double began_ = 0;
+};
+
+void tell(const RigTiming& t) {
+  print("  latency   p50 / p95 / p99\n");
+  print("    age of a frame   {}\n", quantiles(t.frame_age));
+  print("    vision           {}\n", quantiles(t.vision));
+  print("    tick             {} (vision and navigator)\n", quantiles(t.tick));
+  print("    currents late    {}\n", quantiles(t.coil_late));
+  print("    coil driver      {}\n", quantiles(t.round_trip));
+  print("  {} ticks, {} missed their deadline; {} frames read, {} dropped\n", t.tick.size(),
+        t.missed_deadlines, t.frames, t.dropped_frames);
+}
+
+struct RunOptions {
+  std::string scenario;
+  std::string rig;
+  std::string out;
+  std::vector<std::string> settings;
+  std::vector<std::string> rig_settings;
+  std::optional<double> seconds;
+  bool dry_run = false;
+  bool json = false;
+};
+
+int rig_run(const RunOptions& o, const Context& context) {
+  const std::filesystem::path file = o.scenario;
+  Places places;
+  const Scene scene =
+      load_scene(read_scenario(file, o.settings, places), file.parent_path(), places);
+  const World world = build_world(scene);
+  check(scene.scenario, world, places);
+  const Rig rig = read_rig(o.rig, o.rig_settings);
+  check(rig.params, scene.scenario, places);
+  const OutFolder hold(o.out);
+  CommandLog log(o.out.empty() ? "" : std::filesystem::path(o.out) / "commands.csv", rig.system);
+  Devices devices = open_devices(rig, o.rig, scene, world, o.dry_run);
+  LiveRig plant(scene.scenario, world.map, rig, std::move(devices.camera), devices.scale,
+                devices.driver(), [&](const CoilMoment& m) { log.note(m); });
+  const auto navigator = make_navigator(scene.scenario.navigator, task_of(scene.scenario),
+                                        Rng(scene.scenario.seed, Purpose::planner));
+  const EmergencyKey key([&] { plant.stop("the emergency key was pressed"); });
+  if (key.is_there()) fmt::print(stderr, "space, e or Esc: coils to zero at once\n");
+  const Stop stop = o.seconds ? context.within(*o.seconds) : context.stop;
+  const int code = run_once(scene, world, {o.out, false, o.json}, {}, stop,
+                            [&](std::span<RunListener* const> listeners, const Stop& until) {
+                              RunResult result =
+                                  run(scene.scenario, plant, *navigator, listeners, until);
+                              plant.stop("the run has ended");
+                              return result;
+                            });
+  if (!o.json) tell(plant.timing());
+  return code;
+}
+
+}  // namespace
+
+void add_rig_run(CLI::App& rig, Action& action) {
+  auto o = std::make_shared<RunOptions>();
+  CLI::App* cmd = add_command(rig, "run", "Run a scenario on a rig, in real time",
+                              "rig run scenario.yaml --rig rig.yaml --dry-run --out out/rig");
+  cmd->add_option("scenario", o->scenario, "Scenario file (YAML)")->required()->type_name("FILE");
+  cmd->add_option("--rig", o->rig, "Rig file (YAML)")->required()->type_name("FILE");
+  cmd->add_option("--out", o->out, "Folder for run.h5, commands.csv and the report")
+      ->type_name("FOLDER");
+  cmd->add_flag("--dry-run", o->dry_run, "Nothing goes to the coils");
+  add_settings(cmd, o->settings, "Change a value of the scenario (again and again)");
+  cmd->add_option("--set-rig", o->rig_settings, "Change a value of the rig (again and again)")
+      ->type_name("KEY=VALUE");
+  cmd->add_option("--seconds", o->seconds, "End after this time")
+      ->type_name("S")
+      ->check(number(0.1, 1e6));
+  add_json(cmd, o->json);
+  cmd->callback(
+      [o, &action] { action = [o](const Context& context) { return rig_run(*o, context); }; });
+}
+
+}  // namespace microswarm::cli
