@@ -10,7 +10,7 @@
 #include "microswarm/core/rng.hpp"
 #include "microswarm/core/statistics.hpp"
 #include "microswarm/vision/mat.hpp"
-#include "microswarm/vision/swarm_finder.hpp"
+#include "microswarm/vision/scene_finder.hpp"
 #include "microswarm/vision/video_tracker.hpp"
 
 namespace microswarm::bench {
@@ -170,6 +170,7 @@ double swarm_with_opencv(const Image& image) {
 void add_swarm(std::vector<BenchRow>& rows, bool quick, const Stop& stop) {
   std::vector<double> ours;
   std::vector<double> peer;
+  std::vector<double> scene;
   for (const Image& picture : swarm_pictures(quick ? 100 : 500)) {
     if (stop()) break;
     auto began = Clock::now();
@@ -178,7 +179,16 @@ void add_swarm(std::vector<BenchRow>& rows, bool quick, const Stop& stop) {
     began = Clock::now();
     swarm_with_opencv(picture);
     peer.push_back(ms_since(began));
+    began = Clock::now();
+    find_scene(picture);
+    scene.push_back(ms_since(began));
   }
+  rows.push_back({.name = "a swarm and obstacles found",
+                  .quantity = "time a frame, median",
+                  .unit = "ms",
+                  .ours = quantile(scene, 0.5),
+                  .peer = quantile(peer, 0.5),
+                  .peer_name = "OpenCV: blur, adaptive threshold, close, contours"});
   for (const double q : {0.5, 0.99})
     rows.push_back({.name = "one swarm found",
                     .quantity = q == 0.5 ? "time a frame, median" : "time a frame, 99 of 100",

@@ -37,7 +37,7 @@ Mask hidden_by(const Blob& blob, const Image& picture, const Mask* walls, double
 
 /// The outline without what runs along something hidden or the picture's edge.
 std::vector<Vec2> own_outline(const Blob& blob, const cv::Size& size, const Mask* hidden) {
-  constexpr int margin = 6;  // [px]
+  constexpr int margin = 9;  // [px] as far as what is hidden bends the outline
   std::vector<Vec2> own;
   for (const Vec2 p : blob.outline_px) {
     const cv::Rect all(0, 0, size.width, size.height);

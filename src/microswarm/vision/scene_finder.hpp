@@ -15,7 +15,7 @@ namespace microswarm {
 /// them apart.
 struct SceneParams {
   SwarmFinderParams swarm{.look = {.min_grain = 5}};
-  BlobParams obstacles{.gap = 3};
+  BlobParams obstacles{.gap = 4};
   double roundness = 0.06;
 
   template <class Self, class V>
