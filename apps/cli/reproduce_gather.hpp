@@ -18,6 +18,9 @@ void gather_fig9(const ReproduceOptions& options, const Stop& stop,
 void gather_fig10(const ReproduceOptions& options, const Stop& stop,
                   std::vector<ReproduceRow>& rows);
 
+void gather_fig10_rig(const ReproduceOptions& options, const Stop& stop,
+                      std::vector<ReproduceRow>& rows);
+
 /// A map with its tree and its published number of nodes.
 AggregationParams gather_params(const scenes::Vascular& scene, Aggregation method);
 AggregationMap gather_map(const scenes::Vascular& scene);

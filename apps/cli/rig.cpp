@@ -221,6 +221,7 @@ void add_rig(CLI::App& app, Action& action) {
   add_rig_scale(*rig, action);
   add_rig_see(*rig, action);
   add_rig_check(*rig, action);
+  add_rig_rehearse(*rig, action);
   add_rig_run(*rig, action);
   add_calibrate(rig, action);
 }

@@ -23,6 +23,8 @@ void add_rig_map(CLI::App& rig, Action& action);
 void add_rig_scale(CLI::App& rig, Action& action);
 /// The part `rig check` of `rig`.
 void add_rig_check(CLI::App& rig, Action& action);
+/// The part `rig rehearse` of `rig`.
+void add_rig_rehearse(CLI::App& rig, Action& action);
 /// The part `rig run` of `rig`.
 void add_rig_run(CLI::App& rig, Action& action);
 /// The part `rig see` of `rig`.
