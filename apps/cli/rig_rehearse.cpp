@@ -25,6 +25,7 @@ struct Pair {
   std::string scenario;
   std::string rig;
   std::vector<std::string> settings{};  ///< of the scenario
+  std::vector<std::string> rig_settings{};
 };
 
 /// What is rehearsed when no scenario is named: every kind of navigator, scenarios of the papers.
@@ -35,7 +36,10 @@ std::vector<Pair> usual_pairs() {
       {papers + "drrt/s_channel.yaml", rigs + "ribbon.yaml"},
       {papers + "drrt/moving_obstacles.yaml", rigs + "ribbon.yaml"},
       {papers + "radar/single.yaml", rigs + "vortex.yaml"},
-      {papers + "radar/experiment_twelve.yaml", rigs + "vortex.yaml"},
+      {papers + "radar/experiment_twelve.yaml",
+       rigs + "vortex.yaml",
+       {},
+       {"camera.type=simulated", "camera.microscope.um_per_px=10"}},
       {papers + "global/two_robots.yaml", rigs + "rollers.yaml"},
       {papers + "gather/t_junction.yaml", rigs + "rollers.yaml", {"navigator.method=heuristic"}},
       {papers + "gather/t_junction.yaml",
@@ -62,6 +66,7 @@ struct Options {
   std::string scenario;
   std::string rig;
   std::vector<std::string> settings;
+  std::vector<std::string> rig_settings;
   std::string out;
   int trials = 5;
   int jobs = 0;
@@ -79,7 +84,8 @@ int rehearse(const Options& o, const Context& context) {
   if (o.scenario.empty() != o.rig.empty())
     throw InputError("rig rehearse: a scenario and --rig go together");
   const std::vector<Pair> pairs =
-      o.scenario.empty() ? usual_pairs() : std::vector<Pair>{{o.scenario, o.rig, o.settings}};
+      o.scenario.empty() ? usual_pairs()
+                         : std::vector<Pair>{{o.scenario, o.rig, o.settings, o.rig_settings}};
   const OutFolder hold(o.out);
   std::string csv = "scenario,settings,trial,plant,status,time_s,contacts,goal_distance_um\n";
   print("{:<42} {:>7}  {:^24}  {:^24}\n", "", "", "without a rig", "through the rig");
@@ -93,7 +99,7 @@ int rehearse(const Options& o, const Context& context) {
         load_scene(read_scenario(file, pair.settings, places), file.parent_path(), places);
     const World world = build_world(scene);
     check(scene.scenario, world, places);
-    const Rig rig = read_rig(pair.rig);
+    const Rig rig = read_rig(pair.rig, pair.rig_settings);
     check(rig.params, scene.scenario, places);
     const auto trials = static_cast<std::size_t>(o.trials);
     std::vector<std::array<RunResult, 2>> results(trials);
@@ -148,6 +154,8 @@ void add_rig_rehearse(CLI::App& rig, Action& action) {
       ->type_name("FILE");
   cmd->add_option("--rig", o->rig, "Rig file (YAML)")->type_name("FILE");
   add_settings(cmd, o->settings, "Change a value of the scenario (again and again)");
+  cmd->add_option("--set-rig", o->rig_settings, "Change a value of the rig (again and again)")
+      ->type_name("KEY=VALUE");
   cmd->add_option("--trials", o->trials, "Runs of each, with other random streams")
       ->type_name("NUMBER")
       ->check(whole(1, 100'000));

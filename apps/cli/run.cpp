@@ -20,6 +20,7 @@ struct Options {
   std::string scenario;
   std::string out;
   std::string rig;
+  std::vector<std::string> rig_settings;
   std::vector<std::string> settings;
   std::optional<std::uint64_t> seed;
   int trials = 1;
@@ -88,7 +89,7 @@ int many_runs(const Options& o, const Scene& scene, const World& world, const St
 /// The same through a rig in simulation: camera, coils and field.
 int rehearse(const Options& o, const Scene& scene, const World& world, const Places& places,
              const ReportOptions& report, const Stop& stop) {
-  const Rig rig = read_rig(o.rig);
+  const Rig rig = read_rig(o.rig, o.rig_settings);
   check(rig.params, scene.scenario, places);
   if (!std::holds_alternative<SimulatedCamera>(rig.params.camera))
     throw InputError(o.rig + ": its camera is no simulated one; see `microswarm rig run`");
@@ -134,6 +135,9 @@ void add_run(CLI::App& app, Action& action) {
   cmd->add_option("--rig", o->rig,
                   "Rig file (YAML): rehearse it with simulated camera, coils and field")
       ->type_name("FILE");
+  cmd->add_option("--set-rig", o->rig_settings, "Change a value of the rig (again and again)")
+      ->type_name("KEY=VALUE")
+      ->needs("--rig");
   cmd->add_option("--seed", o->seed, "Seed of all random streams, in place of the scenario's")
       ->type_name("NUMBER")
       ->check(whole(0, UINT64_MAX));
