@@ -28,7 +28,7 @@ struct Answers {
   }
 };
 
-void check_camera(const Rig& rig, const CheckOptions& o, Answers& answers) {
+void check_camera(const Rig& rig, const CheckOptions& o, const Stop& stop, Answers& answers) {
   if (std::holds_alternative<SimulatedCamera>(rig.params.camera))
     return answers.say(true, "camera", "simulated");
   try {
@@ -36,7 +36,7 @@ void check_camera(const Rig& rig, const CheckOptions& o, Answers& answers) {
     LiveFrame frame;
     std::vector<double> gaps;
     double before = 0;
-    for (const double end = steady_seconds() + o.seconds; steady_seconds() < end;) {
+    for (const double end = steady_seconds() + o.seconds; steady_seconds() < end && !stop();) {
       if (!camera.wait(frame, 0.1)) continue;
       if (before > 0) gaps.push_back(frame.taken - before);
       before = frame.taken;
@@ -55,7 +55,7 @@ void check_camera(const Rig& rig, const CheckOptions& o, Answers& answers) {
                                : "missing, see `microswarm rig scale`");
 }
 
-void check_driver(const Rig& rig, const CheckOptions& o, Answers& answers) {
+void check_driver(const Rig& rig, const CheckOptions& o, const Stop& stop, Answers& answers) {
   const auto* serial = std::get_if<SerialCoilParams>(&rig.params.driver);
   if (!serial) return answers.say(true, "driver", "simulated");
   try {
@@ -63,7 +63,7 @@ void check_driver(const Rig& rig, const CheckOptions& o, Answers& answers) {
     std::vector<double> times;
     int failures = 0;
     const std::vector<double> nothing(static_cast<std::size_t>(driver.channels()));
-    for (const double end = steady_seconds() + o.seconds; steady_seconds() < end;) {
+    for (const double end = steady_seconds() + o.seconds; steady_seconds() < end && !stop();) {
       const double began = steady_seconds();
       failures += driver.drive(nothing) == DriveStatus::no_answer;
       times.push_back(steady_seconds() - began);
@@ -85,10 +85,14 @@ void check_driver(const Rig& rig, const CheckOptions& o, Answers& answers) {
 
 /// Whether the coils can hold the field that is asked for, whatever its direction.
 void check_limits(const Rig& rig, Answers& answers) {
-  SimulatedCoilDriver driver(static_cast<int>(rig.system.size()), 1e9);
+  const auto* serial = std::get_if<SerialCoilParams>(&rig.params.driver);
+  const double full_scale =
+      serial ? serial->full_scale : std::get<SimulatedCoils>(rig.params.driver).full_scale;
+  SimulatedCoilDriver driver(static_cast<int>(rig.system.size()), full_scale);
   CoilController controller(rig.system, rig.params.field, driver, 0);
   double least = 1;
   bool reached = true;
+  bool taken = true;
   const double dt = 1 / rig.params.drive_rate;
   for (const double heading : {0.0, 0.5 * pi, 1.0, -2.0}) {
     controller.command({heading, 1e9});
@@ -96,6 +100,7 @@ void check_limits(const Rig& rig, Answers& answers) {
       const CoilOutput& output = controller.advance(dt);
       if (i * dt > 0.5) least = std::min(least, output.scale);
       reached = reached && output.reached;
+      taken = taken && output.status == DriveStatus::driven;
     }
   }
   answers.say(
@@ -106,13 +111,14 @@ void check_limits(const Rig& rig, Answers& answers) {
           : fmt::format("the coils hold {:.6g} mT in every direction", rig.params.field.amplitude));
 }
 
-int rig_check(const CheckOptions& o) {
+int rig_check(const CheckOptions& o, const Stop& stop) {
   const Rig rig = read_rig(o.rig, o.settings);
   Answers answers;
   answers.say(true, "coils", fmt::format("{}: {} coils", rig.system.name(), rig.system.size()));
   check_limits(rig, answers);
-  check_camera(rig, o, answers);
-  check_driver(rig, o, answers);
+  check_camera(rig, o, stop, answers);
+  check_driver(rig, o, stop, answers);
+  if (stop()) return not_reached;
   if (answers.failed == 0) print("everything is as it should be\n");
   return answers.failed == 0 ? ok : hardware;
 }
@@ -129,7 +135,9 @@ void add_rig_check(CLI::App& rig, Action& action) {
   cmd->add_option("--seconds", o->seconds, "How long each device is tried")
       ->type_name("S")
       ->check(number(0.1, 600));
-  cmd->callback([o, &action] { action = [o](const Context&) { return rig_check(*o); }; });
+  cmd->callback([o, &action] {
+    action = [o](const Context& context) { return rig_check(*o, context.stop); };
+  });
 }
 
 }  // namespace microswarm::cli

@@ -100,7 +100,7 @@ int rehearse(const Options& o, const Context& context) {
     const World world = build_world(scene);
     check(scene.scenario, world, places);
     const Rig rig = read_rig(pair.rig, pair.rig_settings);
-    check(rig.params, scene.scenario, places);
+    check(rig, scene.scenario, places);
     const auto trials = static_cast<std::size_t>(o.trials);
     std::vector<std::array<RunResult, 2>> results(trials);
     {

@@ -20,21 +20,19 @@
 namespace microswarm::cli {
 namespace {
 
-/// Calls `stop` when a key is pressed, where stdin is a terminal.
+/// Calls `stop` when a key is pressed, where this program has a terminal to itself. The terminal is
+/// as it was as soon as the program is asked to end.
 class EmergencyKey {
  public:
-  explicit EmergencyKey(std::function<void()> stop) : stop_(std::move(stop)) {
-    if (::isatty(STDIN_FILENO) == 0 || ::tcgetattr(STDIN_FILENO, &before_) != 0) return;
-    termios raw = before_;
-    raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
-    ::tcsetattr(STDIN_FILENO, TCSANOW, &raw);
+  EmergencyKey(std::function<void()> stop, const Stop& ended)
+      : stop_(std::move(stop)), ended_(ended) {
+    if (::isatty(STDIN_FILENO) == 0 || ::tcgetpgrp(STDIN_FILENO) != ::getpgrp()) return;
+    if (::tcgetattr(STDIN_FILENO, &before_) != 0) return;
     thread_ = std::thread([this] { listen(); });
   }
   ~EmergencyKey() {
-    if (!thread_.joinable()) return;
     over_ = true;
-    thread_.join();
-    ::tcsetattr(STDIN_FILENO, TCSANOW, &before_);
+    if (thread_.joinable()) thread_.join();
   }
   EmergencyKey(const EmergencyKey&) = delete;
   EmergencyKey& operator=(const EmergencyKey&) = delete;
@@ -42,30 +40,46 @@ class EmergencyKey {
 
  private:
   void listen() {
-    while (!over_) {
+    termios keys = before_;
+    keys.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+    while (!over_ && !ended_.requested()) {
+      // Again and again, as a shell sets it back when the program was stopped and goes on.
+      if (::tcgetpgrp(STDIN_FILENO) == ::getpgrp()) ::tcsetattr(STDIN_FILENO, TCSANOW, &keys);
       pollfd in{STDIN_FILENO, POLLIN, 0};
       if (::poll(&in, 1, 20) <= 0) continue;
       char key = 0;
-      if (::read(STDIN_FILENO, &key, 1) != 1) return;
+      if (::read(STDIN_FILENO, &key, 1) != 1) break;
       if (key == ' ' || key == 'e' || key == 'E' || key == '\x1b') stop_();
     }
+    if (::tcgetpgrp(STDIN_FILENO) == ::getpgrp()) ::tcsetattr(STDIN_FILENO, TCSANOW, &before_);
   }
 
   std::function<void()> stop_;
+  Stop ended_;
   termios before_{};
   std::atomic<bool> over_ = false;
   std::thread thread_;
 };
 
-/// commands.csv: what went to the coils, as it goes.
+/// commands.csv: what went to the coils. While the run lasts it is commands.csv.part, written as it
+/// goes.
 class CommandLog {
  public:
-  CommandLog(const std::filesystem::path& file, const CoilSystem& system) : file_(file) {
-    if (file.empty()) return;
-    out_.open(file);
+  /// In this folder; nothing is kept without one.
+  CommandLog(const std::string& folder, const CoilSystem& system) {
+    if (folder.empty()) return;
+    file_ = std::filesystem::path(folder) / "commands.csv";
+    part_ = file_.string() + ".part";
+    out_.open(part_);
     std::string head = "t_s,heading_deg,speed_um_per_s,bx_mt,by_mt,bz_mt";
     for (const std::string& coil : system.coil_names()) head += ",i_" + coil + "_a";
     write(head + ",scale,status,late_s,round_trip_s\n");
+  }
+  void finish() {
+    if (file_.empty()) return;
+    out_.close();
+    if (!out_) throw InputError(part_.string() + ": cannot write");
+    std::filesystem::rename(part_, file_);
   }
   void note(const CoilMoment& m) {
     if (file_.empty()) return;
@@ -74,16 +88,18 @@ class CommandLog {
                                   degrees(m.command.heading), m.command.speed, m.output.wanted.x(),
                                   m.output.wanted.y(), m.output.wanted.z());
     for (const double i : m.output.currents) row += fmt::format(",{:.5f}", i);
-    write(row + fmt::format(",{:.4f},{},{:.6f},{:.6f}\n", m.output.scale,
-                            to_string(m.output.status), m.late, m.round_trip));
+    row += fmt::format(",{:.4f},{},{:.6f},{:.6f}\n", m.output.scale, to_string(m.output.status),
+                       m.late, m.round_trip);
+    write(row);
   }
 
  private:
   void write(const std::string& text) {
-    out_ << text << std::flush;
-    if (!out_) throw InputError(file_.string() + ": cannot write");
+    out_ << text;
+    if (!out_) throw InputError(part_.string() + ": cannot write");
   }
   std::filesystem::path file_;
+  std::filesystem::path part_;
   std::ofstream out_;
   double began_ = 0;
 };
@@ -97,6 +113,18 @@ void tell(const RigTiming& t) {
   print("    coil driver      {}\n", quantiles(t.round_trip));
   print("  {} ticks, {} missed their deadline; {} frames read, {} dropped\n", t.tick.size(),
         t.missed_deadlines, t.frames, t.dropped_frames);
+  if (t.resumed > 0) print("  the coils had been off by themselves {} times\n", t.resumed);
+  if (t.scaled > 0) print("  the device weakened the currents {} times\n", t.scaled);
+}
+
+/// Where the line or the computer is too slow for the field, on stderr.
+void note_pace(const RigTiming& t, double seconds, const RigParams& rig) {
+  const double rate = static_cast<double>(t.round_trip.size()) / std::max(seconds, 1e-3);
+  if (seconds < 1 || rate >= 0.8 * rig.drive_rate) return;
+  fmt::print(stderr,
+             "note: currents were sent {:.0f} times a second, drive_rate_hz is {:.6g}; the field "
+             "turns {:.6g} times a second\n",
+             rate, rig.drive_rate, rig.field.frequency);
 }
 
 struct RunOptions {
@@ -118,24 +146,32 @@ int rig_run(const RunOptions& o, const Context& context) {
   const World world = build_world(scene);
   check(scene.scenario, world, places);
   const Rig rig = read_rig(o.rig, o.rig_settings);
-  check(rig.params, scene.scenario, places);
+  check(rig, scene.scenario, places);
   const OutFolder hold(o.out);
-  CommandLog log(o.out.empty() ? "" : std::filesystem::path(o.out) / "commands.csv", rig.system);
   Devices devices = open_devices(rig, o.rig, scene, world, o.dry_run);
+  CommandLog log(o.out, rig.system);
   LiveRig plant(scene.scenario, world.map, rig, std::move(devices.camera), devices.scale,
                 devices.driver(), [&](const CoilMoment& m) { log.note(m); });
   const auto navigator = make_navigator(scene.scenario.navigator, task_of(scene.scenario),
                                         Rng(scene.scenario.seed, Purpose::planner));
-  const EmergencyKey key([&] { plant.stop("the emergency key was pressed"); });
+  const EmergencyKey key([&] { plant.stop("the emergency key was pressed"); }, context.stop);
   if (key.is_there()) fmt::print(stderr, "space, e or Esc: coils to zero at once\n");
   const Stop stop = o.seconds ? context.within(*o.seconds) : context.stop;
-  const int code = run_once(scene, world, {o.out, false, o.json}, {}, stop,
+  double seconds = 0;
+  const int code = run_once(scene, world, {o.out, false, o.json, name_of(rig)}, {}, stop,
                             [&](std::span<RunListener* const> listeners, const Stop& until) {
                               RunResult result =
                                   run(scene.scenario, plant, *navigator, listeners, until);
                               plant.stop("the run has ended");
+                              seconds = result.metrics.time;
                               return result;
                             });
+  log.finish();
+  if (!plant.zero_is_confirmed())
+    fmt::print(stderr,
+               "note: the coil driver did not confirm that the coils are at zero; its own "
+               "watchdog must do it\n");
+  note_pace(plant.timing(), seconds, rig.params);
   if (!o.json) tell(plant.timing());
   return code;
 }

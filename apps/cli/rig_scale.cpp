@@ -30,12 +30,12 @@ struct ScaleOptions {
   bool json = false;
 };
 
-/// What stands in a rig's file under `camera_scale`.
+/// What stands in a rig's file under `scale`.
 struct ScalePiece {
-  CameraScale camera_scale;
+  CameraScale scale;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.camera_scale, {"camera_scale", Unit::none, {}, "Where the camera sees the world."});
+    visit(self.scale, {"scale", Unit::none, {}, "Where the camera sees the world."});
   }
 };
 
@@ -82,7 +82,7 @@ int scale(const ScaleOptions& o) {
   const std::string yaml = to_yaml(ScalePiece{s});
   if (!o.out.empty()) write_file_atomically(o.out, yaml);
   if (o.json) {
-    Json json{{"camera_scale",
+    Json json{{"scale",
                {{"um_per_px", s.um_per_px},
                 {"rotation_deg", s.rotation * 180 / std::numbers::pi},
                 {"y_up", s.y_up},

@@ -90,10 +90,8 @@ int many_runs(const Options& o, const Scene& scene, const World& world, const St
 int rehearse(const Options& o, const Scene& scene, const World& world, const Places& places,
              const ReportOptions& report, const Stop& stop) {
   const Rig rig = read_rig(o.rig, o.rig_settings);
-  check(rig.params, scene.scenario, places);
-  if (!std::holds_alternative<SimulatedCamera>(rig.params.camera))
-    throw InputError(o.rig + ": its camera is no simulated one; see `microswarm rig run`");
-  return run_once(scene, world, {o.out, o.no_report, o.json}, report, stop,
+  check(rig, scene.scenario, places);
+  return run_once(scene, world, {o.out, o.no_report, o.json, name_of(rig)}, report, stop,
                   [&](std::span<RunListener* const> listeners, const Stop& until) {
                     SimulatedRig plant(scene.scenario, world, rig);
                     const auto navigator =

@@ -122,7 +122,7 @@ int run_once(const Scene& scene, const World& world, const RunOutput& o,
   const std::filesystem::path folder = o.out;
   note_oddities(scene.scenario);
   note_assumptions(scene.scenario, *world.map);
-  Recorder recorder(scene);
+  Recorder recorder(scene, 0, o.rig);
   RunResult result;
   {
     ProgressBar bar(scene.scenario.name.empty() ? "run" : scene.scenario.name);

@@ -18,6 +18,7 @@ struct RunOutput {
   std::string out;  ///< folder for run.h5 and the report; empty: nothing is kept
   bool no_report = false;
   bool json = false;
+  std::string rig{};  ///< name of the rig it runs on; empty for a simulation
 };
 
 /// Runs a scene, with these listening.

@@ -26,8 +26,8 @@ TEST_F(RigCamera, ScaleFromTwoPoints) {
   draw("slide.pgm", [](int, int) { return false; });
   const Json told = Json::parse(good({"rig", "scale", "slide.pgm", "--points", "10,20,40,60",
                                       "--distance", "500", "--out", "scale.yaml", "--json"}));
-  EXPECT_EQ(told["camera_scale"]["um_per_px"], 10);
-  EXPECT_EQ(told["camera_scale"]["origin_px"], (Json{-0.5, 239.5}));
+  EXPECT_EQ(told["scale"]["um_per_px"], 10);
+  EXPECT_EQ(told["scale"]["origin_px"], (Json{-0.5, 239.5}));
   EXPECT_NE(read("scale.yaml").find("um_per_px: 10"), std::string::npos);
 }
 
@@ -38,7 +38,7 @@ TEST_F(RigCamera, ScaleFromAGridOfDots) {
   });
   const Json told =
       Json::parse(good({"rig", "scale", "slide.pgm", "--grid", "9x6", "--pitch", "100", "--json"}));
-  EXPECT_NEAR(told["camera_scale"]["um_per_px"].get<double>(), 100 / 30.0, 1e-3);
+  EXPECT_NEAR(told["scale"]["um_per_px"].get<double>(), 100 / 30.0, 1e-3);
   EXPECT_EQ(told["points"], 54);
   EXPECT_LT(told["worst_um"].get<double>(), 1);
   const Outcome other = run({"rig", "scale", "slide.pgm", "--grid", "9x7", "--pitch", "100"});

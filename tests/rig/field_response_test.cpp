@@ -40,6 +40,19 @@ TEST_P(EveryField, DrivesAsCommanded) {
   }
 }
 
+TEST_P(EveryField, SendingInUnevenPiecesChangesNothing) {
+  FieldGenerator generator(field, 0);
+  FieldResponse swarm(response);
+  generator.command({0.5, 60});
+  for (int i = 0; i < 200; ++i) swarm.step(generator.advance(0.01), 0.01);
+  double way = 0;
+  for (int i = 0; i < 300; ++i) {  // the field jumps every 10 ms and is looked at more often
+    const Eigen::Vector3d now = generator.advance(0.01);
+    for (const double piece : {0.005, 0.003, 0.002}) way += piece * swarm.step(now, piece).speed;
+  }
+  EXPECT_NEAR(way, 3 * 60, 4);
+}
+
 TEST_P(EveryField, HoldsAtSpeedZero) {
   FieldGenerator generator(field, 1);
   FieldResponse swarm(response);

@@ -277,9 +277,42 @@ TEST_F(LiveRigs, ALogThatCannotBeWrittenEndsIt) {
 
 TEST_F(LiveRigs, ADeadmanShorterThanATickIsRefused) {
   rig->params.safety.deadman = 0.1;
-  EXPECT_EQ(test::error_of([&] { go(1); }),
-            "the rig's safety.deadman_s is 0.1, a tick of the scenario 0.1 s: it must be at least "
-            "twice that");
+  const std::string error = test::error_of([&] { go(1); });
+  EXPECT_TRUE(
+      error.ends_with(": safety.deadman_s is 0.1, a tick of the scenario 0.1 s: it must be "
+                      "at least twice that"))
+      << error;
+}
+
+/// Gives one picture, then fails.
+class OnePicture : public FrameSource {
+ public:
+  explicit OnePicture(Image picture) : picture_(std::move(picture)) {}
+  bool next(VideoFrame& frame) override {
+    if (given_) throw HardwareError("camera: gone");
+    frame.picture = picture_;
+    return given_ = true;
+  }
+  std::optional<int> count() const override { return std::nullopt; }
+  std::optional<double> rate() const override { return std::nullopt; }
+
+ private:
+  Image picture_;
+  bool given_ = false;
+};
+
+TEST_F(LiveRigs, ACameraThatFailsAtTheStartEndsIt) {
+  const Scenario& s = scene.scenario;
+  LiveBench bench(s, world, *rig, std::make_unique<WatchedCoils>(coils));
+  const auto camera = bench.camera(40);
+  VideoFrame first;
+  ASSERT_TRUE(camera->next(first));
+  LiveRig plant(s, world.map, *rig, std::make_unique<OnePicture>(first.picture), bench.view().scale,
+                bench.coils());
+  const auto navigator = make_navigator(s.navigator, task_of(s), Rng(1, Purpose::planner, 0));
+  const RunResult result = run(s, plant, *navigator);
+  EXPECT_EQ(result.status, Status::fault);
+  EXPECT_EQ(result.state, "camera: gone");
 }
 
 }  // namespace

@@ -107,13 +107,32 @@ TEST(SimulatedRig, WhatDoesNotGoTogetherIsRefused) {
     return test::error_of(
         [&] { Rehearsal("papers/radar/single.yaml", "vortex.yaml", settings).in_rig(); });
   };
-  EXPECT_EQ(refusal({"drive_rate_hz=100"}),
-            "the rig's drive_rate_hz is 100, the field turns 16 times a second and needs at least "
-            "160");
-  EXPECT_EQ(refusal({"field.max_pitch_deg=1"}),
-            "the swarm is meant to go 36.94 µm/s, this rig's field drives it at most 20 µm/s");
-  EXPECT_EQ(refusal({"driver.type=simulated", "driver.channels=2"}),
-            "the system has 3 coils, the driver 2 channels");
+  const auto ends_with = [](const std::string& text, std::string_view end) {
+    return text.ends_with(end);
+  };
+  EXPECT_PRED2(ends_with, refusal({"drive_rate_hz=100"}),
+               ": drive_rate_hz is 100, the field turns 16 times a second and needs at least 160");
+  EXPECT_PRED2(ends_with, refusal({"field.max_pitch_deg=1"}),
+               "the swarm is meant to go 36.94 µm/s, this rig's field drives it at most 20 µm/s");
+  EXPECT_PRED2(ends_with, refusal({"driver.type=simulated", "driver.channels=2"}),
+               ": the system has 3 coils, the driver 2 channels");
+  EXPECT_PRED2(ends_with, refusal({"camera.type=simulated", "camera.microscope.um_per_px=0.001"}),
+               "pixels long, at most 4096 are drawn");
+  EXPECT_PRED2(ends_with, refusal({"camera.type=v4l2"}), ": the camera is no simulated one");
+}
+
+TEST(SimulatedRig, ASwarmMayBeFasterThanTheFieldIsMadeFor) {
+  Rehearsal r("papers/radar/single.yaml", "vortex.yaml", coarse);
+  r.scene.scenario.time_limit = 6;
+  const auto way = [&](double error) {
+    std::get<SimulatedCamera>(r.rig.params.camera).speed_error = error;
+    SimulatedRig plant(r.scene.scenario, r.world, r.rig);
+    const Vec2 from = plant.truth()->swarm.pose.position;
+    for (int i = 0; i < 60; ++i) plant.apply({1, 30}, 0.1);
+    return distance(from, plant.truth()->swarm.pose.position);
+  };
+  EXPECT_NEAR(way(1) / way(0), 2, 0.05);
+  EXPECT_NEAR(way(-0.5) / way(0), 0.5, 0.05);
 }
 
 }  // namespace

@@ -275,6 +275,11 @@ std::string Hdf5Reader::text(const std::string& path) const {
   return unpadded(std::move(value));
 }
 
+bool Hdf5Reader::has_attribute(const std::string& path, const char* name) const {
+  const Quiet quiet;
+  return H5Aexists_by_name(file_, path.c_str(), name, H5P_DEFAULT) > 0;
+}
+
 std::string Hdf5Reader::text_attribute(const std::string& path, const char* name) const {
   const Quiet quiet;
   const Id attribute(H5Aopen_by_name(file_, path.c_str(), name, H5P_DEFAULT, H5P_DEFAULT),

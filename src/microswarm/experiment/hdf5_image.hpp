@@ -54,6 +54,7 @@ class Hdf5Reader {
   std::vector<std::int64_t> integers(const std::string& path) const;
   std::string text(const std::string& path) const;
 
+  bool has_attribute(const std::string& path, const char* name) const;
   std::string text_attribute(const std::string& path, const char* name) const;
   double number_attribute(const std::string& path, const char* name) const;
   std::int64_t integer_attribute(const std::string& path, const char* name) const;

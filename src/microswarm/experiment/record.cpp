@@ -52,10 +52,11 @@ std::string Record::hash() const {
   return hash.hex();
 }
 
-Recorder::Recorder(Scene scene, std::uint32_t trial) {
+Recorder::Recorder(Scene scene, std::uint32_t trial, std::string rig) {
   record_.version = version;
   record_.scene = std::move(scene);
   record_.trial = trial;
+  record_.rig = std::move(rig);
 }
 
 void Recorder::on_frame(const Frame& frame, const NavigatorView& view, const Snapshot&) {

@@ -15,6 +15,7 @@ struct Record {
   std::string version;  ///< of the library that ran it
   Scene scene;          ///< world included: a record needs no other file
   std::uint32_t trial = 0;
+  std::string rig;  ///< name of the rig it ran on, which no replay has; empty for a simulation
   RunResult result;
   std::vector<Frame> frames;  ///< one a tick, and one for the end, whose state is "end"
   std::vector<PathChange> paths;
@@ -31,7 +32,7 @@ struct Record {
 /// to 128 moments, evenly from the start on, and at the end.
 class Recorder : public RunListener {
  public:
-  explicit Recorder(Scene scene, std::uint32_t trial = 0);
+  explicit Recorder(Scene scene, std::uint32_t trial = 0, std::string rig = {});
   void on_frame(const Frame& frame, const NavigatorView& view, const Snapshot& world) override;
   void on_robots(double t, std::span<const Vec2> robots) override;
   void on_event(const RunEvent& event) override { record_.events.push_back(event); }
@@ -61,7 +62,8 @@ struct ReplayResult {
   std::string difference;  ///< where they parted, for people; empty when identical
 };
 
-/// Runs the stored scene again and compares, up to the frame at which the record ends.
+/// Runs the stored scene again and compares, up to the frame at which the record ends. Throws
+/// InputError for a run on a rig.
 ReplayResult replay(const Record& record, const Stop& stop = {});
 
 }  // namespace microswarm

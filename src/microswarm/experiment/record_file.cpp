@@ -222,6 +222,7 @@ void write_root(Hdf5Writer& out, const Record& record) {
   out.attribute("/", "status", to_string(record.result.status));
   out.attribute("/", "seed", record.scene.scenario.seed);
   out.attribute("/", "trial", static_cast<std::int64_t>(record.trial));
+  if (!record.rig.empty()) out.attribute("/", "rig", record.rig);
   out.attribute("/", "input_hash", record.scene.hash());
   out.attribute("/", "record_hash", record.hash());
 }
@@ -271,6 +272,7 @@ Record read_record(const std::filesystem::path& file) {
   const std::int64_t trial = in.integer_attribute("/", "trial");
   if (!std::in_range<std::uint32_t>(trial)) in.fail("attribute trial is out of range");
   record.trial = static_cast<std::uint32_t>(trial);
+  if (in.has_attribute("/", "rig")) record.rig = in.text_attribute("/", "rig");
   record.scene = read_scene(in);
   visit_tables(record, TableReader{in});
   record.result.status = status_of(in, in.text_attribute("/", "status"));

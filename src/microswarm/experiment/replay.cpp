@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <atomic>
 
+#include "microswarm/core/error.hpp"
 #include "microswarm/core/hash.hpp"
 #include "microswarm/core/text.hpp"
 #include "microswarm/experiment/record.hpp"
@@ -130,6 +131,8 @@ std::string difference_of(const Metrics& stored, const Metrics& now) {
 }  // namespace
 
 ReplayResult replay(const Record& record, const Stop& stop) {
+  if (!record.rig.empty())
+    throw InputError("a run on a rig (" + record.rig + ") cannot be repeated");
   Recorder recorder(record.scene, record.trial);
   Ending ending(record, stop);
   RunListener* const listeners[] = {&recorder, &ending};

@@ -186,8 +186,7 @@ class Run {
   RunResult finish(Status status) {
     const Observation seen = plant_.observe();
     if (scenario_.robots && !task_) begin_with_robots(seen);
-    if (status != Status::solved && status != Status::collided)
-      move_to(present(seen));
+    if (status != Status::solved && status != Status::collided) move_to(present(seen));
     Frame frame;
     frame.state = "end";
     tell(frame, {}, seen);

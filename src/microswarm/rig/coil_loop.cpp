@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <utility>
@@ -46,6 +47,16 @@ void CoilLoop::stop(const std::string& why) {
   changed_.wait(lock, [this] { return at_zero_; });
 }
 
+void CoilLoop::wait(double seconds) {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, Seconds(std::max(0.0, seconds)), [this] { return !why_.empty(); });
+}
+
+bool CoilLoop::zero_is_confirmed() const {
+  const std::lock_guard lock(mutex_);
+  return confirmed_;
+}
+
 std::string CoilLoop::failure() const {
   const std::lock_guard lock(mutex_);
   return why_;
@@ -76,8 +87,7 @@ void CoilLoop::run() {
       break;
     }
     lock.unlock();
-    controller_.aim(place);
-    const std::string trouble = send(moment, Seconds(now - last).count());
+    const std::string trouble = send(moment, place, Seconds(now - last).count());
     last = now;
     if (now > due + period) due = now;  // what was missed is not made up for
     lock.lock();
@@ -86,15 +96,17 @@ void CoilLoop::run() {
     if (misses >= most_misses && why_.empty()) why_ = "the coil driver does not answer";
   }
   lock.unlock();
-  controller_.stop();
+  const bool confirmed = controller_.stop();
   lock.lock();
+  confirmed_ = confirmed;
   at_zero_ = true;
   changed_.notify_all();
 }
 
 /// What is wrong, or nothing.
-std::string CoilLoop::send(CoilMoment& moment, double dt) {
+std::string CoilLoop::send(CoilMoment& moment, const Eigen::Vector3d& place, double dt) {
   try {
+    controller_.aim(place);
     controller_.command(moment.command);
     const double began = steady_seconds();
     moment.output = controller_.advance(dt);

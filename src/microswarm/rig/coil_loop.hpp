@@ -40,12 +40,16 @@ class CoilLoop {
   /// Coils to zero, for good; from any thread. Returns when they are, or cannot be reached.
   void stop(const std::string& why);
 
+  /// Waits for `seconds`, or until it stops.
+  void wait(double seconds);
   /// Why the coils are at zero; empty while they are driven.
   std::string failure() const;
+  /// After stop(): the device said that the coils are at zero.
+  bool zero_is_confirmed() const;
 
  private:
   void run();
-  std::string send(CoilMoment& moment, double dt);
+  std::string send(CoilMoment& moment, const Eigen::Vector3d& place, double dt);
 
   CoilController& controller_;
   const double period_;
@@ -58,6 +62,7 @@ class CoilLoop {
   std::optional<double> commanded_;  // when [s]
   std::string why_;                  // it stops
   bool at_zero_ = false;
+  bool confirmed_ = false;
   std::thread thread_;
 };
 

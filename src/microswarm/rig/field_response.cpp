@@ -10,7 +10,8 @@
 namespace microswarm {
 namespace {
 
-constexpr double flat_pitch = 1e-3;  // [rad]: less points nowhere
+constexpr double rolling_inertia = 0.02;  // [s] in which a body follows the field
+constexpr double flat_pitch = 1e-3;       // [rad]: less points nowhere
 
 }  // namespace
 
@@ -36,8 +37,12 @@ Command FieldResponse::step(const Eigen::Vector3d& field, double dt) {
 Command FieldResponse::rolling(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double dt) {
   const Eigen::Vector3d axis = from.cross(to);
   const double turned = std::atan2(axis.norm(), from.dot(to));
-  if (turned <= 0) return {heading_, 0};
-  const Eigen::Vector3d rate = turned / dt * axis.normalized();
+  Eigen::Vector3d way = Eigen::Vector3d::Zero();
+  if (turned > 0) way = turned * axis.normalized();
+  const Eigen::Vector3d sum = over({dt, way}, rolling_inertia);
+  double time = 0;
+  for (const Piece& piece : turn_) time += piece.dt;
+  const Eigen::Vector3d rate = sum / time;
   const Vec2 velocity = params_.length_per_turn / (2 * pi) * Vec2{rate.y(), -rate.x()};
   if (norm(velocity) > 0) heading_ = heading_of(velocity);
   return {heading_, norm(velocity)};
@@ -45,11 +50,12 @@ Command FieldResponse::rolling(const Eigen::Vector3d& from, const Eigen::Vector3
 
 /// The normal of the plane that Eq 1 [radar] turns in, downwards where the pitch is 0.
 Command FieldResponse::rotating(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double dt) {
-  return pitched(-over_a_turn({dt, from.cross(to)}));
+  return pitched(-over({dt, from.cross(to)}, 1 / params_.frequency));
 }
 
 Command FieldResponse::oscillating(const Eigen::Vector3d& field, double dt) {
-  const Eigen::Vector3d along = over_a_turn({dt, field.dot(axis_) < 0 ? -field : field});
+  const Eigen::Vector3d along =
+      over({dt, field.dot(axis_) < 0 ? -field : field}, 1 / params_.frequency);
   axis_ = along.normalized();
   const Vec2 flat{axis_.x(), axis_.y()};
   const double pitch = std::asin(std::clamp(axis_.z(), -1.0, 1.0));
@@ -66,7 +72,7 @@ Command FieldResponse::pitched(const Eigen::Vector3d& raised) {
   return {heading_, params_.speed_per_pitch * pitch};
 }
 
-Eigen::Vector3d FieldResponse::over_a_turn(const Piece& piece) {
+Eigen::Vector3d FieldResponse::over(const Piece& piece, double last) {
   turn_.push_back(piece);
   double time = 0;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -74,7 +80,7 @@ Eigen::Vector3d FieldResponse::over_a_turn(const Piece& piece) {
     time += p.dt;
     sum += p.sum;
   }
-  for (; turn_.size() > 1 && time > 1 / params_.frequency + 1e-9; turn_.pop_front()) {
+  for (; turn_.size() > 1 && time > last + 1e-9; turn_.pop_front()) {
     time -= turn_.front().dt;
     sum -= turn_.front().sum;
   }

@@ -40,10 +40,10 @@ class FieldResponse {
   Command rotating(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double dt);
   Command oscillating(const Eigen::Vector3d& field, double dt);
   Command pitched(const Eigen::Vector3d& raised);
-  Eigen::Vector3d over_a_turn(const Piece& piece);
+  Eigen::Vector3d over(const Piece& piece, double last);
 
   FieldResponseParams params_;
-  std::deque<Piece> turn_;  // those of the last turn
+  std::deque<Piece> turn_;  // those of the last turn, or of the time in which a body follows
   Eigen::Vector3d before_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d axis_ = Eigen::Vector3d::UnitX();  // along which the field oscillates
   double heading_ = 0;

@@ -34,8 +34,7 @@ class LiveBench::Coils : public CoilDriver {
   }
   bool stop() noexcept override {
     const std::lock_guard lock(bench_.mutex_);
-    bench_.catch_up();
-    return driver_->stop();
+    return driver_->stop();  // the time before passes with no current; nothing that may fail here
   }
 
  private:
@@ -45,7 +44,17 @@ class LiveBench::Coils : public CoilDriver {
 
 class LiveBench::Camera : public FrameSource {
  public:
-  Camera(LiveBench& bench, double rate) : bench_(bench), rate_(rate), due_(steady_seconds()) {}
+  Camera(LiveBench& bench, double rate) : bench_(bench), rate_(rate), due_(steady_seconds()) {
+    const std::lock_guard lock(bench_.mutex_);
+    ++bench_.cameras_;
+  }
+  ~Camera() override {
+    const std::lock_guard lock(bench_.mutex_);
+    --bench_.cameras_;
+    bench_.no_camera_.notify_all();
+  }
+  Camera(const Camera&) = delete;
+  Camera& operator=(const Camera&) = delete;
 
   bool next(VideoFrame& frame) override {
     due_ = std::max(due_ + 1 / rate_, steady_seconds());
@@ -75,7 +84,10 @@ LiveBench::LiveBench(const Scenario& scenario, const World& world, const Rig& ri
       now_(steady_seconds()),
       coils_(std::make_unique<Coils>(*this, std::move(driver))) {}
 
-LiveBench::~LiveBench() = default;
+LiveBench::~LiveBench() {
+  std::unique_lock lock(mutex_);
+  no_camera_.wait(lock, [this] { return cameras_ == 0; });
+}
 
 std::unique_ptr<FrameSource> LiveBench::camera(double rate) {
   return std::make_unique<Camera>(*this, rate);

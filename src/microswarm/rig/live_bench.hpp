@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <condition_variable>
 #include <memory>
 #include <mutex>
 
@@ -18,6 +19,7 @@ class LiveBench {
   /// coils hang on.
   LiveBench(const Scenario& scenario, const World& world, const Rig& rig,
             std::unique_ptr<CoilDriver> driver);
+  /// Waits until its cameras are gone.
   ~LiveBench();
 
   /// Pictures at `rate` [Hz]; the bench outlives it.
@@ -34,6 +36,8 @@ class LiveBench {
   void catch_up();  // with the clock; the mutex is held
 
   std::mutex mutex_;
+  std::condition_variable no_camera_;
+  int cameras_ = 0;
   SimulatedBench bench_;
   double now_;  // [s], by steady_seconds()
   std::unique_ptr<Coils> coils_;

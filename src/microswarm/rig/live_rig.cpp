@@ -3,9 +3,6 @@
 
 #include <fmt/core.h>
 
-#include <chrono>
-#include <thread>
-
 #include "microswarm/core/error.hpp"
 #include "microswarm/rig/simulated_bench.hpp"
 
@@ -15,18 +12,14 @@ namespace {
 constexpr double first_frame = 5;  // [s] that a camera may take to begin
 
 const RigParams& checked(const Rig& rig, const Scenario& scenario) {
-  check(rig.params, scenario);
+  check(rig, scenario);
   if (rig.params.safety.deadman < 2 * scenario.tick)
-    throw InputError(fmt::format(
-        "the rig's safety.deadman_s is {:.6g}, a tick of the scenario {:.6g} s: it must "
-        "be at least twice that",
-        rig.params.safety.deadman, scenario.tick));
+    throw rig.where.error(
+        "safety.deadman_s",
+        fmt::format("safety.deadman_s is {:.6g}, a tick of the scenario {:.6g} s: it must be at "
+                    "least twice that",
+                    rig.params.safety.deadman, scenario.tick));
   return rig.params;
-}
-
-void sleep_until(double t) {
-  const double left = t - steady_seconds();
-  if (left > 0) std::this_thread::sleep_for(std::chrono::duration<double>(left));
 }
 
 }  // namespace
@@ -46,6 +39,8 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
                  const std::lock_guard lock(timing_mutex_);
                  timing_.coil_late.push_back(moment.late);
                  timing_.round_trip.push_back(moment.round_trip);
+                 timing_.resumed += moment.output.status == DriveStatus::resumed;
+                 timing_.scaled += moment.output.status == DriveStatus::scaled;
                }
                if (heard) heard(moment);
              }) {
@@ -55,6 +50,7 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
   const std::vector<Vec2> starts = scenario.robots ? scenario.robots->starts : std::vector<Vec2>{};
   eye_ = make_eye(rig.params.eye, scenario, *map_, starts, {scale, picture.width, picture.height});
   start_ = steady_seconds();
+  read_frame();
 }
 
 Observation LiveRig::observe() {
@@ -68,11 +64,13 @@ Observation LiveRig::observe() {
 
 void LiveRig::take_frame() {
   try {
-    const bool is_new = camera_.take(frame_) || !sight_;
-    if (!is_new) return;
+    if (camera_.take(frame_)) read_frame();
   } catch (const HardwareError& e) {
-    return fail(e.what());
+    fail(e.what());
   }
+}
+
+void LiveRig::read_frame() {
   seen_ = frame_.taken - start_;
   const double began = steady_seconds();
   take_channel(frame_.frame.picture, VideoChannel::grey, grey_);
@@ -95,8 +93,9 @@ void LiveRig::look_for_faults(double now) {
     return fail(
         fmt::format("the newest picture is {:.2f} s old, allowed {} s", age, safety.oldest_frame));
   if (now - found_ > safety.lost_swarm)
-    return fail(fmt::format("the swarm was not found for {:.2f} s ({}), allowed {} s", now - found_,
-                            sight_->trouble, safety.lost_swarm));
+    return fail(fmt::format("the swarm was not found for {:.2f} s{}, allowed {} s", now - found_,
+                            sight_->trouble == "several" ? " (there are several)" : "",
+                            safety.lost_swarm));
   if (missed_in_a_row_ >= safety.missed_deadlines)
     return fail(fmt::format("{} ticks in a row ended too late", missed_in_a_row_));
   const std::lock_guard lock(timing_mutex_);
@@ -118,7 +117,7 @@ void LiveRig::apply(const Command& command, double dt) {
   eye_->commanded(command, now);
   const Vec2 place = sight_->swarm ? sight_->swarm->pose.position : map_->bounds().centre();
   coils_.command(command, place_among_coils(rig_.system, *map_, place));
-  sleep_until(start_ + next_);
+  coils_.wait(next_ - since_start());
 }
 
 void LiveRig::fail(const std::string& why) {

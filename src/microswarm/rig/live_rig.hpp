@@ -23,6 +23,8 @@ struct RigTiming {
   std::vector<double> tick;        ///< from a tick's begin to its command
   std::vector<double> coil_late;   ///< currents after they were due
   std::vector<double> round_trip;  ///< of the coil driver
+  int resumed = 0;                 ///< times the coils had been off by themselves
+  int scaled = 0;                  ///< currents that the device's own limits made smaller
   int missed_deadlines = 0;        ///< ticks that ended after the next should have begun
   int frames = 0;                  ///< that were read
   int dropped_frames = 0;          ///< that came and were not
@@ -45,8 +47,10 @@ class LiveRig : public Plant {
   void apply(const Command& command, double dt) override;
   std::string_view fault() const override { return fault_; }
 
-  /// Coils to zero, for good; from any thread.
+  /// Coils to zero, for good; from any thread. The tick that is waited for ends at once.
   void stop(const std::string& why);
+  /// After stop(): the device said that the coils are at zero.
+  bool zero_is_confirmed() const { return coils_.zero_is_confirmed(); }
   RigTiming timing() const;
   /// The newest picture and what was seen in it.
   const Image& picture() const { return grey_; }
@@ -54,6 +58,7 @@ class LiveRig : public Plant {
 
  private:
   void take_frame();
+  void read_frame();
   void look_for_faults(double now);
   void fail(const std::string& why);
   double since_start() const { return steady_seconds() - start_; }
@@ -65,7 +70,8 @@ class LiveRig : public Plant {
   std::unique_ptr<Eye> eye_;
   LiveFrame frame_;
   Image grey_;
-  const Sight* sight_ = nullptr;
+  static inline const Sight unseen_{.trouble = "none"};
+  const Sight* sight_ = &unseen_;
   std::optional<Snapshot> seen_world_;
   double start_;      // [s], by steady_seconds()
   double seen_ = 0;   // when the newest frame was taken [s]

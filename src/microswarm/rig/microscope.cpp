@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/rig/microscope.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -12,6 +14,7 @@
 namespace microswarm {
 namespace {
 
+constexpr int most_side = 4096;                  // [px]
 constexpr double usual_side = 800;               // [px]
 constexpr std::size_t grains = 1 << 18;          // of noise that are drawn once
 constexpr std::size_t most_particles = 1 << 15;  // of a swarm
@@ -30,7 +33,13 @@ Microscope::Microscope(const MicroscopeParams& params, const Map& map, std::uint
   const Box& seen = map.bounds();
   const double cell = params.um_per_px.value_or(std::max(seen.width(), seen.height()) / usual_side);
   const auto pixels = [&](double length) {
-    return static_cast<int>(std::ceil(length / cell - 1e-9)) + 2 * params.margin;
+    const double n = std::ceil(length / cell - 1e-9) + 2 * params.margin;
+    if (!(n <= most_side))
+      throw InputError(
+          fmt::format("um_per_px is {:.6g}: the picture would be {:.6g} pixels long, "
+                      "at most {} are drawn",
+                      cell, n, most_side));
+    return static_cast<int>(n);
   };
   width_ = pixels(seen.width());
   height_ = pixels(seen.height());

@@ -1,15 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/rig/rig_params.hpp"
 
+#include <fmt/core.h>
+
 #include "microswarm/config/yaml.hpp"
 
 namespace microswarm {
+namespace {
+
+constexpr double least_sends = 10;  // in a turn of the field
+
+int channels_of(const RigParams& rig) {
+  const auto* simulated = std::get_if<SimulatedCoils>(&rig.driver);
+  return simulated ? simulated->channels : coil_link_channels;
+}
+
+void check(const RigParams& rig, const CoilSystem& system, const Places& where) {
+  const double least_rate = least_sends * rig.field.frequency;
+  if (rig.drive_rate < least_rate)
+    throw where.error({"drive_rate_hz", "field.frequency_hz"},
+                      fmt::format("drive_rate_hz is {:.6g}, the field turns {:.6g} times a second "
+                                  "and needs at least {:.6g}",
+                                  rig.drive_rate, rig.field.frequency, least_rate));
+  const int channels = channels_of(rig);
+  if (static_cast<int>(system.size()) > channels)
+    throw where.error(
+        {"driver.channels", "driver"},
+        fmt::format("the system has {} coils, the driver {} channels", system.size(), channels));
+}
+
+}  // namespace
 
 Rig read_rig(const std::filesystem::path& file, const std::vector<std::string>& settings) {
   Places places;
   auto params = read_yaml_file<RigParams>(file, settings, places);
-  const std::filesystem::path coils = file.parent_path() / params.coils;
-  return {std::move(params), read_coil_system(coils), file.parent_path()};
+  CoilSystem system = read_coil_system(file.parent_path() / params.coils);
+  check(params, system, places);
+  return {std::move(params), std::move(system), file.parent_path(), places};
+}
+
+std::string name_of(const Rig& rig) {
+  return rig.params.name.empty() ? "unnamed rig" : rig.params.name;
+}
+
+void check(const Rig& rig, const Scenario& scenario, const Places& where) {
+  const FieldGeneratorParams& field = rig.params.field;
+  const bool rolls = field.kind == FieldKind::rolling;
+  const double reach =
+      rolls ? field.length_per_turn * field.frequency : field.speed_per_pitch * field.max_pitch;
+  const double wanted =
+      scenario.robots ? scenario.robots->max_speed : limits_of(scenario.swarm).max_speed;
+  if (wanted > reach * (1 + 1e-9))
+    throw where.error({"robots.max_speed_um_per_s", "swarm.max_speed_um_per_s"},
+                      fmt::format("the swarm is meant to go {:.6g} µm/s, this rig's field drives "
+                                  "it at most {:.6g} µm/s",
+                                  wanted, reach));
 }
 
 }  // namespace microswarm

@@ -13,6 +13,7 @@
 #include "microswarm/actuation/serial_coil_driver.hpp"
 #include "microswarm/core/fields.hpp"
 #include "microswarm/core/places.hpp"
+#include "microswarm/experiment/scenario.hpp"
 #include "microswarm/rig/eye_params.hpp"
 #include "microswarm/rig/microscope.hpp"
 #include "microswarm/vision/camera.hpp"
@@ -52,8 +53,10 @@ struct SimulatedCamera {
 struct VideoCamera {
   static constexpr std::string_view type_name = "video";
   std::string file;
+  std::optional<double> rate;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
+    visit(self.rate, {"rate", Unit::hz, {1e-3, 1e4}, "Pictures a second; not given: as it says."});
     visit(self.file,
           {"file", Unit::none, {}, "Video, folder or TIFF, beside the rig's file.", true});
   }
@@ -67,10 +70,11 @@ struct SafetyParams {
   int missed_deadlines = 10;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.lost_swarm,
-          {"lost_swarm", Unit::s, {0, 100}, "The swarm was not seen, or not alone, for so long."});
+    visit(
+        self.lost_swarm,
+        {"lost_swarm", Unit::s, {0.01, 100}, "The swarm was not seen, or not alone, for so long."});
     visit(self.oldest_frame,
-          {"oldest_frame", Unit::s, {0, 100}, "The newest frame is older than this."});
+          {"oldest_frame", Unit::s, {0.01, 100}, "The newest frame is older than this."});
     visit(self.deadman,
           {"deadman", Unit::s, {0.02, 100}, "No new command came from the navigator for so long."});
     visit(self.missed_deadlines,
@@ -113,10 +117,19 @@ struct Rig {
   RigParams params;
   CoilSystem system;
   std::filesystem::path folder;  ///< of the file
+  Places where;                  ///< its keys
 };
 
+/// What it is called in records.
+std::string name_of(const Rig& rig);
+
 /// Reads the file of a rig and its coil system; `settings` are `key=value` texts as from --set.
-/// Throws InputError in one line.
+/// Throws InputError in one line, also for currents that are sent too seldom for the field and for
+/// a driver with too few channels.
 Rig read_rig(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
+
+/// Throws InputError when the rig cannot drive the scenario's swarm as fast as it is meant to go;
+/// `where` knows the scenario's keys.
+void check(const Rig& rig, const Scenario& scenario, const Places& where = {});
 
 }  // namespace microswarm

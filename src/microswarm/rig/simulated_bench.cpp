@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "microswarm/core/error.hpp"
@@ -13,8 +14,15 @@ namespace {
 
 constexpr double same_place = 20;  // [µm]; no coil's field changes over so short a way
 
-Scenario checked_without_noise(Scenario scenario, const RigParams& rig) {
+/// The scenario for the swarm as it is: its noise is in the pictures, and it may be faster than the
+/// field is made for.
+Scenario true_scenario(Scenario scenario, const Rig& rig) {
   check(rig, scenario);
+  const auto* camera = std::get_if<SimulatedCamera>(&rig.params.camera);
+  if (!camera) throw rig.where.error("camera", "the camera is no simulated one");
+  const double faster = std::max(1.0, 1 + camera->speed_error);
+  std::visit([&](auto& swarm) { swarm.max_speed *= faster; }, scenario.swarm);
+  if (scenario.robots) scenario.robots->max_speed *= faster;
   scenario.sensing.position_noise = 0;
   scenario.sensing.heading_noise = 0;
   scenario.sensing.missed_share = 0;
@@ -22,7 +30,8 @@ Scenario checked_without_noise(Scenario scenario, const RigParams& rig) {
 }
 
 FieldResponseParams response_of(const RigParams& rig) {
-  const double faster = 1 + std::get<SimulatedCamera>(rig.camera).speed_error;
+  const auto* camera = std::get_if<SimulatedCamera>(&rig.camera);
+  const double faster = 1 + (camera ? camera->speed_error : 0);
   return {.kind = rig.field.kind,
           .frequency = rig.field.frequency,
           .speed_per_pitch = faster * rig.field.speed_per_pitch,
@@ -37,7 +46,7 @@ SimulatedBench::SimulatedBench(const Scenario& scenario, const World& world, con
       robots_(scenario.robots.has_value()),
       tick_(scenario.tick),
       response_(response_of(rig.params)),
-      physics_(make_kinematic_plant(checked_without_noise(scenario, rig.params), world, trial)),
+      physics_(make_kinematic_plant(true_scenario(scenario, rig), world, trial)),
       map_(world.map),
       microscope_(std::get<SimulatedCamera>(rig.params.camera).microscope, *map_, scenario.seed,
                   trial),
@@ -90,25 +99,6 @@ Eigen::Vector3d SimulatedBench::place() const {
 Eigen::Vector3d place_among_coils(const CoilSystem& system, const Map& map, Vec2 place) {
   const Vec2 off = place - map.bounds().centre();
   return system.centre() + Eigen::Vector3d(off.x, off.y, 0);
-}
-
-void check(const RigParams& rig, const Scenario& scenario, const Places& where) {
-  const double least_rate = 10 * rig.field.frequency;
-  if (rig.drive_rate < least_rate)
-    throw InputError(
-        fmt::format("the rig's drive_rate_hz is {:.6g}, the field turns {:.6g} times a second and "
-                    "needs at least {:.6g}",
-                    rig.drive_rate, rig.field.frequency, least_rate));
-  const bool rolls = rig.field.kind == FieldKind::rolling;
-  const double reach = rolls ? rig.field.length_per_turn * rig.field.frequency
-                             : rig.field.speed_per_pitch * rig.field.max_pitch;
-  const double wanted =
-      scenario.robots ? scenario.robots->max_speed : limits_of(scenario.swarm).max_speed;
-  if (wanted > reach * (1 + 1e-9))
-    throw where.error({"robots.max_speed_um_per_s", "swarm.max_speed_um_per_s"},
-                      fmt::format("the swarm is meant to go {:.6g} µm/s, this rig's field drives "
-                                  "it at most {:.6g} µm/s",
-                                  wanted, reach));
 }
 
 }  // namespace microswarm

@@ -67,8 +67,4 @@ class SimulatedBench {
 /// Where a place of the map is among a rig's coils: the middle of the map is above their centre.
 Eigen::Vector3d place_among_coils(const CoilSystem& system, const Map& map, Vec2 place);
 
-/// Throws InputError when the rig cannot drive the scenario's swarm as fast as it is meant to go,
-/// or sends its currents too seldom for its field; `where` knows the scenario's keys.
-void check(const RigParams& rig, const Scenario& scenario, const Places& where = {});
-
 }  // namespace microswarm
