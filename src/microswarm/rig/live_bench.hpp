@@ -21,6 +21,8 @@ class LiveBench {
             std::unique_ptr<CoilDriver> driver);
   /// Waits until its cameras are gone.
   ~LiveBench();
+  LiveBench(const LiveBench&) = delete;
+  LiveBench& operator=(const LiveBench&) = delete;
 
   /// Pictures at `rate` [Hz]; the bench outlives it.
   std::unique_ptr<FrameSource> camera(double rate);

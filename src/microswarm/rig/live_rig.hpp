@@ -70,7 +70,7 @@ class LiveRig : public Plant {
   std::unique_ptr<Eye> eye_;
   LiveFrame frame_;
   Image grey_;
-  static inline const Sight unseen_{.trouble = "none"};
+  Sight unseen_;  // before the first picture
   const Sight* sight_ = &unseen_;
   std::optional<Snapshot> seen_world_;
   double start_;      // [s], by steady_seconds()
