@@ -3,6 +3,8 @@
 
 #include <fmt/core.h>
 
+#include <opencv2/core/utility.hpp>
+
 #include "microswarm/core/error.hpp"
 #include "microswarm/rig/simulated_bench.hpp"
 
@@ -10,6 +12,12 @@ namespace microswarm {
 namespace {
 
 constexpr double first_frame = 5;  // [s] that a camera may take to begin
+
+/// OpenCV's threads would take the cores that the coils' thread and the camera's need.
+const Rig& on_one_core(const Rig& rig) {
+  cv::setNumThreads(1);
+  return rig;
+}
 
 const RigParams& checked(const Rig& rig, const Scenario& scenario) {
   check(rig, scenario);
@@ -27,7 +35,7 @@ const RigParams& checked(const Rig& rig, const Scenario& scenario) {
 LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const Rig& rig,
                  std::unique_ptr<FrameSource> camera, const CameraScale& scale, CoilDriver& driver,
                  std::function<void(const CoilMoment&)> heard)
-    : rig_(rig),
+    : rig_(on_one_core(rig)),
       map_(std::move(map)),
       camera_(std::move(camera), "camera"),
       controller_(rig.system, checked(rig, scenario).field, driver,
