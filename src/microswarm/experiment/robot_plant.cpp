@@ -13,16 +13,6 @@ namespace microswarm {
 
 namespace {
 
-/// Their middle, and how far they are from it.
-SwarmPose body_of(std::span<const Vec2> robots, double heading) {
-  Vec2 sum{};
-  for (const Vec2 p : robots) sum += p;
-  const Vec2 middle = sum / static_cast<double>(robots.size());
-  double squares = 0;
-  for (const Vec2 p : robots) squares += squared_norm(p - middle);
-  return {{middle, heading}, std::sqrt(squares / static_cast<double>(robots.size()))};
-}
-
 RobotSwarm make_swarm(const Scenario& scenario, const Map& map, std::uint32_t trial, Rng& rng) {
   const std::vector<Vec2> starts = robot_starts(scenario, map, trial);
   return {*scenario.robots, RobotStepper(map, scenario.robots->max_speed * scenario.tick), starts,

@@ -4,17 +4,12 @@
 #include <algorithm>
 #include <optional>
 
-#include "microswarm/geometry/shapes.hpp"
+#include "microswarm/navigation/obstacle_tracker.hpp"
 
 namespace microswarm {
 namespace {
 
 constexpr double memory = 1;  // [s]: a body that was hidden is still known
-
-Vec2 centre_of(const Body& body) {
-  if (const auto* disc = std::get_if<Disc>(&body.shape)) return disc->centre;
-  return bounding_box(std::get<Polygon>(body.shape)).centre();
-}
 
 }  // namespace
 
@@ -25,13 +20,13 @@ void BodyNumbers::number(std::vector<Body>& bodies, double t) {
     for (std::size_t k = 0; k < known_.size(); ++k) {
       const Known& known = known_[k];
       const Vec2 expected = known.centre + (t - known.t) * known.velocity;
-      const double off = squared_norm(centre_of(bodies[b]) - expected);
+      const double off = squared_norm(extent_of(bodies[b]).centre - expected);
       if (off <= reach_ * reach_) edges.push_back({static_cast<int>(b), static_cast<int>(k), off});
     }
   const auto known_of = assignment_.solve(static_cast<int>(bodies.size()),
                                           static_cast<int>(known_.size()), edges, reach_ * reach_);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const Vec2 centre = centre_of(bodies[b]);
+    const Vec2 centre = extent_of(bodies[b]).centre;
     if (!known_of[b]) {
       bodies[b].obstacle = next_++;
       known_.push_back({bodies[b].obstacle, centre, {}, t});

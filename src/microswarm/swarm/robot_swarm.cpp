@@ -6,6 +6,15 @@
 
 namespace microswarm {
 
+SwarmPose body_of(std::span<const Vec2> robots, double heading) {
+  Vec2 sum{};
+  for (const Vec2 p : robots) sum += p;
+  const Vec2 middle = sum / static_cast<double>(robots.size());
+  double squares = 0;
+  for (const Vec2 p : robots) squares += squared_norm(p - middle);
+  return {{middle, heading}, std::sqrt(squares / static_cast<double>(robots.size()))};
+}
+
 RobotSwarm::RobotSwarm(const RobotSwarmParams& params, RobotStepper stepper,
                        std::span<const Vec2> starts, Rng& rng)
     : params_(params),

@@ -61,6 +61,10 @@ struct RobotSwarmParams {
   }
 };
 
+/// Robots as one body: their middle, and how far they are from it (root mean square). There is one
+/// at least.
+SwarmPose body_of(std::span<const Vec2> robots, double heading);
+
 /// The moving part of that model.
 class RobotSwarm {
  public:
