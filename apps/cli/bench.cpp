@@ -44,22 +44,21 @@ int measure(const std::string&, const std::string&, bool, bool, const Context&) 
 
 }  // namespace
 
-void add_bench(CLI::App& app, Action& action) {
+void add_bench(Command app, Action& action) {
   auto group = std::make_shared<std::string>();
   auto csv = std::make_shared<std::string>();
   auto quick = std::make_shared<bool>(false);
   auto json = std::make_shared<bool>(false);
-  CLI::App* cmd = add_command(
-      app, "bench",
-      "Measure speeds beside a peer's in the same run: exit code 3 when one falls short",
+  Command cmd = app.add_command(
+      "bench", "Measure speeds beside a peer's in the same run: exit code 3 when one falls short",
       "bench planning --quick --csv planning.csv");
-  cmd->add_option("group", *group, "What to measure: planning, swarm, global, radar, vision")
-      ->required()
-      ->type_name("GROUP");
-  cmd->add_option("--csv", *csv, "Write the rows to this file too")->type_name("FILE");
-  cmd->add_flag("--quick", *quick, "Fewer repetitions: ends within 50 s");
+  cmd.add_option("group", *group, "What to measure: planning, swarm, global, radar, vision")
+      .required()
+      .type_name("GROUP");
+  cmd.add_option("--csv", *csv, "Write the rows to this file too").type_name("FILE");
+  cmd.add_flag("--quick", *quick, "Fewer repetitions: ends within 50 s");
   add_json(cmd, *json);
-  cmd->callback([=, &action] {
+  cmd.callback([=, &action] {
     action = [=](const Context& context) {
       if (*group != "planning" && *group != "swarm" && *group != "global" && *group != "radar" &&
           *group != "vision")

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -13,6 +13,8 @@
 #include "microswarm/core/stop.hpp"
 
 namespace microswarm::cli {
+
+class Command;
 
 /// Exit codes of the program. Bad command lines and bad input are 2.
 inline constexpr int ok = 0;
@@ -39,24 +41,21 @@ struct Context {
 /// command line is known to be right; it returns the exit code.
 using Action = std::function<int(const Context&)>;
 
-void add_run(CLI::App& app, Action& action);
-void add_plan(CLI::App& app, Action& action);
-void add_gather(CLI::App& app, Action& action);
-void add_global(CLI::App& app, Action& action);
-void add_replay(CLI::App& app, Action& action);
-void add_report(CLI::App& app, Action& action);
-void add_schema(CLI::App& app, Action& action);
-void add_sweep(CLI::App& app, Action& action);
-void add_export(CLI::App& app, Action& action);
-void add_map(CLI::App& app, Action& action);
-void add_track(CLI::App& app, Action& action);
-void add_rig(CLI::App& app, Action& action);
-void add_learn(CLI::App& app, Action& action);
-void add_reproduce(CLI::App& app, Action& action);
-void add_bench(CLI::App& app, Action& action);
-
-/// What is wrong with a command line, in one line that says where help is.
-std::string usage_error(const CLI::App& app, const CLI::ParseError& error);
+void add_run(Command app, Action& action);
+void add_plan(Command app, Action& action);
+void add_gather(Command app, Action& action);
+void add_global(Command app, Action& action);
+void add_replay(Command app, Action& action);
+void add_report(Command app, Action& action);
+void add_schema(Command app, Action& action);
+void add_sweep(Command app, Action& action);
+void add_export(Command app, Action& action);
+void add_map(Command app, Action& action);
+void add_track(Command app, Action& action);
+void add_rig(Command app, Action& action);
+void add_learn(Command app, Action& action);
+void add_reproduce(Command app, Action& action);
+void add_bench(Command app, Action& action);
 
 /// Writes results to stdout. Throws InputError "stdout: cannot write: REASON"; when nobody reads
 /// stdout any more, the program ends as every program in a pipe does, by SIGPIPE.

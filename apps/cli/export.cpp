@@ -64,25 +64,25 @@ int export_command(const Options& o) {
 
 }  // namespace
 
-void add_export(CLI::App& app, Action& action) {
+void add_export(Command app, Action& action) {
   auto o = std::make_shared<Options>();
-  CLI::App* cmd =
-      add_command(app, "export",
-                  "Write a sweep's database, or a table of a run's record, in forms that "
-                  "other programs read",
-                  "export first_flight.db --csv trials.csv --hdf5 trials.h5 --ompl logs");
-  cmd->add_option("file", o->file, "Database of a sweep, or record of a run (run.h5)")
-      ->required()
-      ->type_name("FILE");
-  cmd->add_option("--csv", o->csv, "CSV, units in the names of its columns")->type_name("FILE");
-  cmd->add_option("--hdf5", o->hdf5, "HDF5, a dataset for each column")->type_name("FILE");
-  cmd->add_option("--ompl", o->ompl,
-                  "Folder for logs of OMPL's benchmarks, one for each combination of parameters")
-      ->type_name("FOLDER");
-  cmd->add_option("--table", o->table,
-                  "Table of a record: frames when not given, events, paths/points, ...")
-      ->type_name("NAME");
-  cmd->callback([o, &action] { action = [o](const Context&) { return export_command(*o); }; });
+  Command cmd =
+      app.add_command("export",
+                      "Write a sweep's database, or a table of a run's record, in forms that "
+                      "other programs read",
+                      "export first_flight.db --csv trials.csv --hdf5 trials.h5 --ompl logs");
+  cmd.add_option("file", o->file, "Database of a sweep, or record of a run (run.h5)")
+      .required()
+      .type_name("FILE");
+  cmd.add_option("--csv", o->csv, "CSV, units in the names of its columns").type_name("FILE");
+  cmd.add_option("--hdf5", o->hdf5, "HDF5, a dataset for each column").type_name("FILE");
+  cmd.add_option("--ompl", o->ompl,
+                 "Folder for logs of OMPL's benchmarks, one for each combination of parameters")
+      .type_name("FOLDER");
+  cmd.add_option("--table", o->table,
+                 "Table of a record: frames when not given, events, paths/points, ...")
+      .type_name("NAME");
+  cmd.callback([o, &action] { action = [o](const Context&) { return export_command(*o); }; });
 }
 
 }  // namespace microswarm::cli

@@ -86,43 +86,41 @@ int gather_command(const Options& o, const Context& context) {
 
 }  // namespace
 
-void add_gather(CLI::App& app, Action& action) {
+void add_gather(Command app, Action& action) {
   auto o = std::make_shared<Options>();
-  CLI::App* cmd = add_command(
-      app, "gather", "Gather many robots at a goal with one input for all, in a simulation",
+  Command cmd = app.add_command(
+      "gather", "Gather many robots at a goal with one input for all, in a simulation",
       "gather vessels.geojson --goal 11103,2397 --robots 512 --out out/gather");
-  cmd->add_option("map", o->map, "Picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles")
-      ->required()
-      ->type_name("FILE");
-  cmd->add_option("--map-um-per-px", o->um_per_px, "µm per pixel or cell of the map, 1e-6..1e6")
-      ->type_name("NUMBER")
-      ->check(number(1e-6, 1e6));
-  cmd->add_option("--goal", o->goal, "x,y in µm; in a dead end")
-      ->required()
-      ->type_name("X,Y")
-      ->check(place(2, "x,y in µm"));
-  cmd->add_option("--robots", o->robots, "How many, at random places; 256 when not given")
-      ->type_name("NUMBER")
-      ->check(whole(1, 1'000'000));
-  cmd->add_option(
-         "--channel-width", o->channel_width,
-         "Usual width of a channel in µm, which all lengths go by; measured when not given")
-      ->type_name("NUMBER")
-      ->check(number(1e-3, 1e6));
-  cmd->add_option("--most-steps", o->most_steps, "Give up after so many; 100000 when not given")
-      ->type_name("NUMBER")
-      ->check(whole(1, 100'000'000));
+  cmd.add_option("map", o->map, "Picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles")
+      .required()
+      .type_name("FILE");
+  cmd.add_option("--map-um-per-px", o->um_per_px, "µm per pixel or cell of the map, 1e-6..1e6")
+      .type_name("NUMBER")
+      .check(number(1e-6, 1e6));
+  cmd.add_option("--goal", o->goal, "x,y in µm; in a dead end")
+      .required()
+      .type_name("X,Y")
+      .check(place(2, "x,y in µm"));
+  cmd.add_option("--robots", o->robots, "How many, at random places; 256 when not given")
+      .type_name("NUMBER")
+      .check(whole(1, 1'000'000));
+  cmd.add_option("--channel-width", o->channel_width,
+                 "Usual width of a channel in µm, which all lengths go by; measured when not given")
+      .type_name("NUMBER")
+      .check(number(1e-3, 1e6));
+  cmd.add_option("--most-steps", o->most_steps, "Give up after so many; 100000 when not given")
+      .type_name("NUMBER")
+      .check(whole(1, 100'000'000));
   add_settings(cmd, o->settings,
                "Change a value of the scenario that is run, as navigator.method=heuristic");
-  cmd->add_option("--seed", o->seed, "Seed of the random streams; 1 when not given")
-      ->type_name("NUMBER")
-      ->check(whole(0, UINT64_MAX));
-  cmd->add_option("--out", o->out, "Folder for run.h5, pictures and index.html")
-      ->type_name("FOLDER");
+  cmd.add_option("--seed", o->seed, "Seed of the random streams; 1 when not given")
+      .type_name("NUMBER")
+      .check(whole(0, UINT64_MAX));
+  cmd.add_option("--out", o->out, "Folder for run.h5, pictures and index.html").type_name("FOLDER");
   add_photo(cmd, o->photo);
-  cmd->get_option("--photo")->needs("--out");
+  cmd.option("--photo").needs("--out");
   add_json(cmd, o->json);
-  cmd->callback([o, &action] {
+  cmd.callback([o, &action] {
     action = [o](const Context& context) { return gather_command(*o, context); };
   });
 }

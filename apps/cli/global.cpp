@@ -51,14 +51,13 @@ std::vector<Vec2> places(const std::string& text) {
   return all;
 }
 
-CLI::Validator place_list() {
-  return {[](std::string& text) -> std::string {
-            const std::size_t count = places(text).size();
-            if (count == 0) return "must be places as 60,300;60,250 in µm, not " + quote(text);
-            if (count <= most_global_robots) return {};
-            return fmt::format("has {} places, allowed are 1 to {}", count, most_global_robots);
-          },
-          ""};
+Check place_list() {
+  return {[](const std::string& text) -> std::string {
+    const std::size_t count = places(text).size();
+    if (count == 0) return "must be places as 60,300;60,250 in µm, not " + quote(text);
+    if (count <= most_global_robots) return {};
+    return fmt::format("has {} places, allowed are 1 to {}", count, most_global_robots);
+  }};
 }
 
 /// What was found, and what it took.
@@ -272,44 +271,43 @@ int global_command(const Options& o, const Context& context) {
 
 }  // namespace
 
-void add_global(CLI::App& app, Action& action) {
+void add_global(Command app, Action& action) {
   auto o = std::make_shared<Options>();
-  CLI::App* cmd = add_command(
-      app, "global",
+  Command cmd = app.add_command(
+      "global",
       "Plan inputs that bring each of several robots, which all get the same, to its goal",
       "global map.csv --robots \"60,300;60,250\" --goals \"330,300;330,200\" --picture ways.png\n"
       "  microswarm global map.csv --robots \"60,300;60,250\" --save-tree tree.h5 \\\n"
       "      --set planner.max_nodes=300000\n"
       "  microswarm global map.csv --tree tree.h5 --goals \"330,100;280,200\"");
-  cmd->add_option("map", o->map, "Picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles")
-      ->required()
-      ->type_name("FILE");
+  cmd.add_option("map", o->map, "Picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles")
+      .required()
+      .type_name("FILE");
   add_um_per_px(cmd, o->um_per_px, "µm per pixel or cell of the map, 1e-6..1e6");
-  cmd->add_option("--robots", o->robots, "Where the robots start, in µm; y points up")
-      ->type_name("X,Y;X,Y…")
-      ->check(place_list());
-  cmd->add_option("--goals", o->goals, "Each robot's goal, in the same order")
-      ->type_name("X,Y;X,Y…")
-      ->check(place_list());
-  cmd->add_option("--tree", o->tree, "Ask this tree, grown before on the same map")
-      ->type_name("FILE");
-  CLI::Option* save =
-      cmd->add_option("--save-tree", o->save_tree,
-                      "Grow a tree to planner.max_nodes and keep it in this HDF5 file");
-  save->type_name("FILE")->excludes("--tree");
+  cmd.add_option("--robots", o->robots, "Where the robots start, in µm; y points up")
+      .type_name("X,Y;X,Y…")
+      .check(place_list());
+  cmd.add_option("--goals", o->goals, "Each robot's goal, in the same order")
+      .type_name("X,Y;X,Y…")
+      .check(place_list());
+  cmd.add_option("--tree", o->tree, "Ask this tree, grown before on the same map")
+      .type_name("FILE");
+  Option save = cmd.add_option("--save-tree", o->save_tree,
+                               "Grow a tree to planner.max_nodes and keep it in this HDF5 file");
+  save.type_name("FILE").excludes("--tree");
   add_settings(cmd, o->settings,
                "Choose planner.type, global_search or global_rrt, and change its values");
-  cmd->add_option("--time-limit", o->time_limit, "Give up after so many seconds; none when missing")
-      ->type_name("NUMBER")
-      ->check(number(0, 1e6));
-  cmd->add_flag("--as-found", o->as_found, "Do not leave out inputs that are not needed");
-  cmd->add_option("--seed", o->seed, "Seed of the random stream; 1 when not given")
-      ->type_name("NUMBER")
-      ->check(whole(0, UINT64_MAX));
-  cmd->add_option("--picture", o->picture, "Draw the robots' ways: .png, .svg or .pdf")
-      ->type_name("FILE");
+  cmd.add_option("--time-limit", o->time_limit, "Give up after so many seconds; none when missing")
+      .type_name("NUMBER")
+      .check(number(0, 1e6));
+  cmd.add_flag("--as-found", o->as_found, "Do not leave out inputs that are not needed");
+  cmd.add_option("--seed", o->seed, "Seed of the random stream; 1 when not given")
+      .type_name("NUMBER")
+      .check(whole(0, UINT64_MAX));
+  cmd.add_option("--picture", o->picture, "Draw the robots' ways: .png, .svg or .pdf")
+      .type_name("FILE");
   add_json(cmd, o->json);
-  cmd->callback([o, &action] {
+  cmd.callback([o, &action] {
     action = [o](const Context& context) { return global_command(*o, context); };
   });
 }

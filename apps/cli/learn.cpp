@@ -112,25 +112,23 @@ int learn_command(const Options& o, const Context& context) {
 
 }  // namespace
 
-void add_learn(CLI::App& app, Action& action) {
+void add_learn(Command app, Action& action) {
   auto o = std::make_shared<Options>();
-  CLI::App* cmd = add_command(app, "learn", "Train what is learned, and compare it",
-                              "learn follower --out out/follower");
-  cmd->require_subcommand(1);
-  CLI::App* follower =
-      add_command(*cmd, "follower", "A follower of paths, taught by an expert in simulations",
-                  "learn follower --out out/follower --set hidden=32");
+  Command cmd = app.add_group("learn", "Train what is learned, and compare it");
+  Command follower =
+      cmd.add_command("follower", "A follower of paths, taught by an expert in simulations",
+                      "learn follower --out out/follower --set hidden=32");
   follower
-      ->add_option("--out", o->out, "Folder for follower.yaml, its card, the comparison and plots")
-      ->required()
-      ->type_name("FOLDER");
+      .add_option("--out", o->out, "Folder for follower.yaml, its card, the comparison and plots")
+      .required()
+      .type_name("FOLDER");
   add_settings(follower, o->settings, "Change a parameter of the training, as runs=300");
-  follower->add_option("--jobs", o->jobs, "Threads; one a core when not given")
-      ->type_name("NUMBER")
-      ->check(whole(1, 1024));
-  follower->add_flag("--quick", o->quick, "Little training, fewer paths: ends within 50 s");
+  follower.add_option("--jobs", o->jobs, "Threads; one a core when not given")
+      .type_name("NUMBER")
+      .check(whole(1, 1024));
+  follower.add_flag("--quick", o->quick, "Little training, fewer paths: ends within 50 s");
   add_json(follower, o->json);
-  follower->callback([o, &action] {
+  follower.callback([o, &action] {
     action = [o](const Context& context) { return learn_command(*o, context); };
   });
 }

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "cli.hpp"
+#include "command.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/version.hpp"
 
@@ -64,11 +65,10 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing
 
-  CLI::App app{"Plans, steers, gathers and measures magnetic microrobot swarms.", "microswarm"};
-  app.set_version_flag("--version", std::string(version), "Print the version and exit");
-  app.set_help_flag("-h,--help", "Print this help and exit");
-  app.require_subcommand(1);
-  app.footer(footer);
+  cli::CommandLine line("microswarm",
+                        "Plans, steers, gathers and measures magnetic microrobot swarms.",
+                        std::string(version), footer);
+  const cli::Command app = line.root();
   cli::Action action;
   cli::add_run(app, action);
   cli::add_plan(app, action);
@@ -88,11 +88,9 @@ int main(int argc, char** argv) {
   cli::add_bench(app, action);
   cli::add_schema(app, action);
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& e) {  // --help, --version
-    return app.exit(e);
-  } catch (const CLI::ParseError& e) {
-    return complain(cli::usage_error(app, e).c_str(), cli::bad_input);
+    if (const std::optional<int> code = line.parse(argc, argv)) return *code;
+  } catch (const InputError& e) {
+    return complain(e.what(), cli::bad_input);
   }
   return act(action);
 }

@@ -25,10 +25,10 @@ struct Options {
   bool json = false;
 };
 
-void add_input(CLI::App* cmd, const std::shared_ptr<Options>& o) {
-  cmd->add_option("map", o->map, "Picture, ROS YAML, MovingAI .map, GeoJSON or CSV of rectangles")
-      ->required()
-      ->type_name("FILE");
+void add_input(Command cmd, const std::shared_ptr<Options>& o) {
+  cmd.add_option("map", o->map, "Picture, ROS YAML, MovingAI .map, GeoJSON or CSV of rectangles")
+      .required()
+      .type_name("FILE");
   add_um_per_px(cmd, o->um_per_px, "µm per pixel or cell of the map, 1e-6..1e6");
 }
 
@@ -171,68 +171,66 @@ int segment(const SegmentOptions& o) {
   return ok;
 }
 
-void add_segment(CLI::App* map, Action& action) {
+void add_segment(Command map, Action& action) {
   auto o = std::make_shared<SegmentOptions>();
-  CLI::App* cmd = add_command(
-      *map, "segment", "Find the dark vessels of a photograph: writes a map and an overlay picture",
+  Command cmd = map.add_command(
+      "segment", "Find the dark vessels of a photograph: writes a map and an overlay picture",
       "map segment fundus.jpg --um-per-px 6 --out vessels.geojson");
-  cmd->add_option("photo", o->photo, "Photograph of vessels darker than what is around them")
-      ->required()
-      ->type_name("FILE");
+  cmd.add_option("photo", o->photo, "Photograph of vessels darker than what is around them")
+      .required()
+      .type_name("FILE");
   add_um_per_px(cmd, o->um_per_px, "µm per pixel of the photograph, 1e-6..1e6");
-  cmd->add_option("--out", o->out,
-                  "Map to write, vessels.geojson when not given; NAME-overlay.png is put beside it")
-      ->type_name("FILE");
-  cmd->add_option("--smooth", o->smooth, "Tolerance of the outlines in pixels, 0..100")
-      ->type_name("NUMBER")
-      ->check(number(0, 100));
-  cmd->add_option("--truth", o->truth, "Mask drawn by an observer (white vessels) to compare with")
-      ->type_name("FILE");
+  cmd.add_option("--out", o->out,
+                 "Map to write, vessels.geojson when not given; NAME-overlay.png is put beside it")
+      .type_name("FILE");
+  cmd.add_option("--smooth", o->smooth, "Tolerance of the outlines in pixels, 0..100")
+      .type_name("NUMBER")
+      .check(number(0, 100));
+  cmd.add_option("--truth", o->truth, "Mask drawn by an observer (white vessels) to compare with")
+      .type_name("FILE");
   add_settings(cmd, o->settings, "Change a value, for example min_width_px=6 (again and again)");
   add_json(cmd, o->json);
-  cmd->callback([o, &action] { action = [o](const Context&) { return segment(*o); }; });
+  cmd.callback([o, &action] { action = [o](const Context&) { return segment(*o); }; });
 }
 
 }  // namespace
 
-void add_map(CLI::App& app, Action& action) {
-  CLI::App* map = app.add_subcommand("map", "Look at maps, check, convert and make them");
-  map->require_subcommand(1);
+void add_map(Command app, Action& action) {
+  Command map = app.add_group("map", "Look at maps, check, convert and make them");
 
   auto o = std::make_shared<Options>();
-  CLI::App* info_cmd =
-      add_command(*map, "info", "Size, walls, hash", "map info map.png --um-per-px 5");
+  Command info_cmd = map.add_command("info", "Size, walls, hash", "map info map.png --um-per-px 5");
   add_input(info_cmd, o);
   add_json(info_cmd, o->json);
-  info_cmd->callback([o, &action] { action = [o](const Context&) { return info(*o); }; });
+  info_cmd.callback([o, &action] { action = [o](const Context&) { return info(*o); }; });
 
   auto resolution = std::make_shared<double>(0);
-  CLI::App* check_cmd = add_command(*map, "check", "Pieces, narrowest passage, what fits",
-                                    "map check vessels.geojson");
+  Command check_cmd =
+      map.add_command("check", "Pieces, narrowest passage, what fits", "map check vessels.geojson");
   add_input(check_cmd, o);
   check_cmd
-      ->add_option("--resolution", *resolution,
-                   "Grid spacing of the search in µm; 0: chosen for the map")
-      ->type_name("NUMBER")
-      ->check(number(0, 1e6));
+      .add_option("--resolution", *resolution,
+                  "Grid spacing of the search in µm; 0: chosen for the map")
+      .type_name("NUMBER")
+      .check(number(0, 1e6));
   add_json(check_cmd, o->json);
-  check_cmd->callback(
+  check_cmd.callback(
       [=, &action] { action = [=](const Context&) { return check(*o, *resolution); }; });
 
   auto out = std::make_shared<std::string>();
   auto cell = std::make_shared<std::optional<double>>();
-  CLI::App* convert_cmd = add_command(*map, "convert", "Write the map in another form",
-                                      "map convert vessels.geojson vessels.png --cell 5");
+  Command convert_cmd = map.add_command("convert", "Write the map in another form",
+                                        "map convert vessels.geojson vessels.png --cell 5");
   add_input(convert_cmd, o);
   convert_cmd
-      ->add_option("out", *out, "File to write: .geojson, .png, .map (MovingAI) or .yaml (ROS)")
-      ->required()
-      ->type_name("FILE");
+      .add_option("out", *out, "File to write: .geojson, .png, .map (MovingAI) or .yaml (ROS)")
+      .required()
+      .type_name("FILE");
   convert_cmd
-      ->add_option("--cell", *cell, "Side of a pixel or cell to write in µm; else as --um-per-px")
-      ->type_name("NUMBER")
-      ->check(number(1e-6, 1e6));
-  convert_cmd->callback(
+      .add_option("--cell", *cell, "Side of a pixel or cell to write in µm; else as --um-per-px")
+      .type_name("NUMBER")
+      .check(number(1e-6, 1e6));
+  convert_cmd.callback(
       [=, &action] { action = [=](const Context&) { return convert(*o, *out, *cell); }; });
 
   add_segment(map, action);

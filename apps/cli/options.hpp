@@ -8,29 +8,22 @@
 #include <vector>
 
 #include "cli.hpp"
+#include "command.hpp"
 #include "microswarm/report/run_report.hpp"
 
 namespace microswarm::cli {
 
-/// A command with what it does in one line and an example of a whole command line.
-CLI::App* add_command(CLI::App& parent, const char* name, const char* doc, const char* example);
-
-/// A decimal number within lo..hi: "is -3, allowed 0..100".
-CLI::Validator number(double lo, double hi);
-/// A whole number within lo..hi.
-CLI::Validator whole(std::uint64_t lo, std::uint64_t hi);
-
 /// Options that several commands have.
-void add_um_per_px(CLI::App* command, std::optional<double>& value, const char* doc);
-void add_settings(CLI::App* command, std::vector<std::string>& values, const char* doc);
-void add_json(CLI::App* command, bool& value);
+void add_um_per_px(Command command, std::optional<double>& value, const char* doc);
+void add_settings(Command command, std::vector<std::string>& values, const char* doc);
+void add_json(Command command, bool& value);
 
 /// `--photo` with its `--um-per-px`, for commands that draw reports.
 struct PhotoOptions {
   std::string file;
   std::optional<double> um_per_px;
 };
-void add_photo(CLI::App* command, PhotoOptions& options);
+void add_photo(Command command, PhotoOptions& options);
 /// Reads the photograph, if one is named. Throws InputError.
 ReportOptions report_options(const PhotoOptions& options);
 
@@ -56,7 +49,5 @@ std::string aims_met(const std::vector<Row>& rows) {
 
 /// The numbers in "200,500,-90"; empty when it is no such list.
 std::vector<double> numbers(const std::string& text);
-/// Allows 2 … `most` such numbers; `form` says what is meant.
-CLI::Validator place(std::size_t most, const char* form);
 
 }  // namespace microswarm::cli

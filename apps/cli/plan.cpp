@@ -123,33 +123,33 @@ int plan_command(const Options& o, const Context& context) {
 
 }  // namespace
 
-void add_plan(CLI::App& app, Action& action) {
+void add_plan(Command app, Action& action) {
   auto o = std::make_shared<Options>();
-  CLI::App* cmd = add_command(
-      app, "plan",
+  Command cmd = app.add_command(
+      "plan",
       "Plan one path on a map by drrt_star, rrt_star, uniform_rrt_star, rrt, a_star or fmt_star",
       "plan map.png --um-per-px 5 --start 200,700,-90 --goal 1750,300 \\\n"
       "      --set planner.type=a_star --set planner.clearance_um=40 --picture path.svg");
-  cmd->add_option("map", o->map, "Picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles")
-      ->required()
-      ->type_name("FILE");
+  cmd.add_option("map", o->map, "Picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles")
+      .required()
+      .type_name("FILE");
   add_um_per_px(cmd, o->um_per_px, "µm per pixel or cell of the map, 1e-6..1e6");
-  cmd->add_option("--start", o->start, "x,y or x,y,heading in µm and degrees; y points up")
-      ->required()
-      ->type_name("X,Y[,HEADING]")
-      ->check(place(3, "x,y or x,y,heading in µm and degrees"));
-  cmd->add_option("--goal", o->goal, "x,y in µm")
-      ->required()
-      ->type_name("X,Y")
-      ->check(place(2, "x,y in µm"));
+  cmd.add_option("--start", o->start, "x,y or x,y,heading in µm and degrees; y points up")
+      .required()
+      .type_name("X,Y[,HEADING]")
+      .check(place(3, "x,y or x,y,heading in µm and degrees"));
+  cmd.add_option("--goal", o->goal, "x,y in µm")
+      .required()
+      .type_name("X,Y")
+      .check(place(2, "x,y in µm"));
   add_settings(cmd, o->settings, "Choose planner.type and change its values (again and again)");
-  cmd->add_option("--seed", o->seed, "Seed of the random stream; 1 when not given")
-      ->type_name("NUMBER")
-      ->check(whole(0, UINT64_MAX));
-  cmd->add_option("--picture", o->picture, "Draw map, tree and path: .png, .svg or .pdf")
-      ->type_name("FILE");
+  cmd.add_option("--seed", o->seed, "Seed of the random stream; 1 when not given")
+      .type_name("NUMBER")
+      .check(whole(0, UINT64_MAX));
+  cmd.add_option("--picture", o->picture, "Draw map, tree and path: .png, .svg or .pdf")
+      .type_name("FILE");
   add_json(cmd, o->json);
-  cmd->callback(
+  cmd.callback(
       [o, &action] { action = [o](const Context& context) { return plan_command(*o, context); }; });
 }
 

@@ -35,31 +35,30 @@ int report_command(const std::string& file, const std::string& out, const PhotoO
 
 }  // namespace
 
-void add_replay(CLI::App& app, Action& action) {
+void add_replay(Command app, Action& action) {
   auto file = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
-  CLI::App* cmd = add_command(
-      app, "replay", "Run a record again: says identical, or where it parted (exit code 3)",
+  Command cmd = app.add_command(
+      "replay", "Run a record again: says identical, or where it parted (exit code 3)",
       "replay out/first/run.h5");
-  cmd->add_option("record", *file, "Record of a run (run.h5)")->required()->type_name("FILE");
+  cmd.add_option("record", *file, "Record of a run (run.h5)").required().type_name("FILE");
   add_json(cmd, *json);
-  cmd->callback([=, &action] {
+  cmd.callback([=, &action] {
     action = [=](const Context& context) { return replay_command(*file, *json, context); };
   });
 }
 
-void add_report(CLI::App& app, Action& action) {
+void add_report(Command app, Action& action) {
   auto file = std::make_shared<std::string>();
   auto out = std::make_shared<std::string>("report");
   auto photo = std::make_shared<PhotoOptions>();
-  CLI::App* cmd =
-      add_command(app, "report", "Draw the pictures and the page of a record once more",
-                  "report out/first/run.h5 --out out/report --photo photo.jpg --um-per-px 6");
-  cmd->add_option("record", *file, "Record of a run (run.h5)")->required()->type_name("FILE");
-  cmd->add_option("--out", *out, "Folder to write into; report when not given")
-      ->type_name("FOLDER");
+  Command cmd =
+      app.add_command("report", "Draw the pictures and the page of a record once more",
+                      "report out/first/run.h5 --out out/report --photo photo.jpg --um-per-px 6");
+  cmd.add_option("record", *file, "Record of a run (run.h5)").required().type_name("FILE");
+  cmd.add_option("--out", *out, "Folder to write into; report when not given").type_name("FOLDER");
   add_photo(cmd, *photo);
-  cmd->callback([=, &action] {
+  cmd.callback([=, &action] {
     action = [=](const Context&) { return report_command(*file, *out, *photo); };
   });
 }

@@ -47,23 +47,23 @@ int reproduce_command(const std::string& key, ReproduceOptions options, bool jso
 
 }  // namespace
 
-void add_reproduce(CLI::App& app, Action& action) {
+void add_reproduce(Command app, Action& action) {
   auto key = std::make_shared<std::string>();
   auto o = std::make_shared<ReproduceOptions>();
   auto json = std::make_shared<bool>(false);
-  CLI::App* cmd = add_command(app, "reproduce",
-                              "A paper's figures beside ours: exit code 3 when one falls short",
-                              "reproduce drrt/fig5a --quick --out out/drrt");
-  cmd->add_option(
+  Command cmd = app.add_command("reproduce",
+                                "A paper's figures beside ours: exit code 3 when one falls short",
+                                "reproduce drrt/fig5a --quick --out out/drrt");
+  cmd.add_option(
          "key", *key,
          "Paper, or one of its figures: drrt, drrt/fig3, global, global/fig7, radar, gather …")
-      ->required()
-      ->type_name("KEY");
-  cmd->add_option("--out", o->out, "Folder for plots, pictures and the table as CSV")
-      ->type_name("FOLDER");
-  cmd->add_flag("--quick", o->quick, "Fewer seeds: ends within 50 s");
+      .required()
+      .type_name("KEY");
+  cmd.add_option("--out", o->out, "Folder for plots, pictures and the table as CSV")
+      .type_name("FOLDER");
+  cmd.add_flag("--quick", o->quick, "Fewer seeds: ends within 50 s");
   add_json(cmd, *json);
-  cmd->callback([=, &action] {
+  cmd.callback([=, &action] {
     action = [=](const Context& context) { return reproduce_command(*key, *o, *json, context); };
   });
 }

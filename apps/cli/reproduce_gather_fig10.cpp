@@ -8,7 +8,6 @@
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/parallel.hpp"
 #include "microswarm/experiment/run.hpp"
-#include "microswarm/navigation/make.hpp"
 #include "microswarm/rig/simulated_rig.hpp"
 #include "reproduce_gather.hpp"
 
@@ -140,16 +139,13 @@ void gather_fig10_rig(const ReproduceOptions& options, const Stop& stop,
   const Rig rollers = read_rig(options.scenarios / "rigs/rollers.yaml",
                                {"camera.type=simulated", "camera.microscope.um_per_px=53",
                                 "camera.microscope.robot_diameter_px=4", "eye.robots.diameter_px=5",
-                                "eye.robots.min_mass=150"});
+                                "eye.robots.min_mass=60", "eye.robots.separation_px=3"});
   std::vector<RunResult> results(2 * trials);
   for_each_index(results.size(), 0, [&](std::size_t i) {
     if (stop()) return;
     const Scenario scenario = rig(scene, methods[i / trials].aggregation);
     const auto trial = static_cast<std::uint32_t>(i % trials);
-    SimulatedRig plant(scenario, world, rollers, trial);
-    const auto navigator = make_navigator(scenario.navigator, task_of(scenario),
-                                          Rng(scenario.seed, Purpose::planner, trial));
-    results[i] = run(scenario, plant, *navigator, {}, stop);
+    results[i] = rehearse(scenario, world, rollers, trial, {}, stop);
   });
   if (stop()) return;
   std::array<double, 2> frames{};

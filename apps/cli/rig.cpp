@@ -19,12 +19,11 @@
 
 namespace microswarm::cli {
 
-CLI::Validator triple(const char* form) {
-  return {[form](std::string& text) -> std::string {
-            if (numbers(text).size() == 3) return {};
-            return fmt::format("must be {}, not {}", form, quote(text));
-          },
-          ""};
+Check triple(const char* form) {
+  return {[form](const std::string& text) -> std::string {
+    if (numbers(text).size() == 3) return {};
+    return fmt::format("must be {}, not {}", form, quote(text));
+  }};
 }
 
 Eigen::Vector3d triple_of(const std::string& text) {
@@ -178,51 +177,50 @@ int calibrate(const CalibrateOptions& o) {
   return ok;
 }
 
-void add_field(CLI::App* rig, Action& action) {
+void add_field(Command rig, Action& action) {
   auto o = std::make_shared<FieldOptions>();
-  CLI::App* cmd = add_command(
-      *rig, "field", "The field that currents make at a place, or the currents for a field",
+  Command cmd = rig.add_command(
+      "field", "The field that currents make at a place, or the currents for a field",
       "rig field scenarios/rigs/cube.yaml --at 0,0,0 --field 3,0,0");
-  cmd->add_option("system", o->system, "Coil system (YAML)")->required()->type_name("FILE");
-  cmd->add_option("--at", o->at, "Place in µm, x,y,z; the centre when not given")
-      ->type_name("X,Y,Z")
-      ->check(triple("X,Y,Z"));
-  auto* currents =
-      cmd->add_option("--currents", o->currents, "Current of each coil in A")->type_name("A,A,…");
-  cmd->add_option("--field", o->field, "Field to make in mT, bx,by,bz")
-      ->type_name("BX,BY,BZ")
-      ->check(triple("BX,BY,BZ"))
-      ->excludes(currents);
+  cmd.add_option("system", o->system, "Coil system (YAML)").required().type_name("FILE");
+  cmd.add_option("--at", o->at, "Place in µm, x,y,z; the centre when not given")
+      .type_name("X,Y,Z")
+      .check(triple("X,Y,Z"));
+  const Option currents =
+      cmd.add_option("--currents", o->currents, "Current of each coil in A").type_name("A,A,…");
+  cmd.add_option("--field", o->field, "Field to make in mT, bx,by,bz")
+      .type_name("BX,BY,BZ")
+      .check(triple("BX,BY,BZ"))
+      .excludes(currents);
   add_json(cmd, o->json);
-  cmd->callback([o, &action] { action = [o](const Context&) { return field(*o); }; });
+  cmd.callback([o, &action] { action = [o](const Context&) { return field(*o); }; });
 }
 
-void add_calibrate(CLI::App* rig, Action& action) {
+void add_calibrate(Command rig, Action& action) {
   auto o = std::make_shared<CalibrateOptions>();
-  CLI::App* cmd = add_command(*rig, "calibrate", "Fit an actuation matrix to measured fields (CSV)",
-                              "rig calibrate measured.csv --out rig.yaml");
-  cmd->add_option("measured", o->measured,
-                  "CSV with i_NAME_a for each coil, bx_mt, by_mt, bz_mt and x_um, y_um, z_um")
-      ->required()
-      ->type_name("FILE");
-  cmd->add_option("--out", o->out, "Coil system to write (YAML)")->type_name("FILE");
-  cmd->add_flag("--offset", o->offset, "Fit the field without current too");
+  Command cmd = rig.add_command("calibrate", "Fit an actuation matrix to measured fields (CSV)",
+                                "rig calibrate measured.csv --out rig.yaml");
+  cmd.add_option("measured", o->measured,
+                 "CSV with i_NAME_a for each coil, bx_mt, by_mt, bz_mt and x_um, y_um, z_um")
+      .required()
+      .type_name("FILE");
+  cmd.add_option("--out", o->out, "Coil system to write (YAML)").type_name("FILE");
+  cmd.add_flag("--offset", o->offset, "Fit the field without current too");
   add_json(cmd, o->json);
-  cmd->callback([o, &action] { action = [o](const Context&) { return calibrate(*o); }; });
+  cmd.callback([o, &action] { action = [o](const Context&) { return calibrate(*o); }; });
 }
 
 }  // namespace
 
-void add_rig(CLI::App& app, Action& action) {
-  CLI::App* rig = app.add_subcommand("rig", "A bench: coils, camera, checks, runs in real time");
-  rig->require_subcommand(1);
+void add_rig(Command app, Action& action) {
+  Command rig = app.add_group("rig", "A bench: coils, camera, checks, runs in real time");
   add_field(rig, action);
-  add_rig_map(*rig, action);
-  add_rig_scale(*rig, action);
-  add_rig_see(*rig, action);
-  add_rig_check(*rig, action);
-  add_rig_rehearse(*rig, action);
-  add_rig_run(*rig, action);
+  add_rig_map(rig, action);
+  add_rig_scale(rig, action);
+  add_rig_see(rig, action);
+  add_rig_check(rig, action);
+  add_rig_rehearse(rig, action);
+  add_rig_run(rig, action);
   add_calibrate(rig, action);
 }
 

@@ -5,12 +5,13 @@
 #include <string>
 
 #include "cli.hpp"
+#include "command.hpp"
 #include "microswarm/actuation/coil_system.hpp"
 
 namespace microswarm::cli {
 
 /// Allows three numbers; `form` says what is meant.
-CLI::Validator triple(const char* form);
+Check triple(const char* form);
 /// What it allowed.
 Eigen::Vector3d triple_of(const std::string& text);
 
@@ -18,16 +19,16 @@ Eigen::Vector3d triple_of(const std::string& text);
 Eigen::VectorXd currents_of(const std::string& text, const CoilSystem& system);
 
 /// The part `rig map` of `rig`.
-void add_rig_map(CLI::App& rig, Action& action);
+void add_rig_map(Command rig, Action& action);
 /// The part `rig scale` of `rig`.
-void add_rig_scale(CLI::App& rig, Action& action);
+void add_rig_scale(Command rig, Action& action);
 /// The part `rig check` of `rig`.
-void add_rig_check(CLI::App& rig, Action& action);
+void add_rig_check(Command rig, Action& action);
 /// The part `rig rehearse` of `rig`.
-void add_rig_rehearse(CLI::App& rig, Action& action);
+void add_rig_rehearse(Command rig, Action& action);
 /// The part `rig run` of `rig`.
-void add_rig_run(CLI::App& rig, Action& action);
+void add_rig_run(Command rig, Action& action);
 /// The part `rig see` of `rig`.
-void add_rig_see(CLI::App& rig, Action& action);
+void add_rig_see(Command rig, Action& action);
 
 }  // namespace microswarm::cli

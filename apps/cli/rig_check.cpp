@@ -5,7 +5,7 @@
 
 #include "microswarm/actuation/coil_controller.hpp"
 #include "microswarm/core/angles.hpp"
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/durations.hpp"
 #include "microswarm/vision/newest_frame.hpp"
 #include "options.hpp"
 #include "rig.hpp"
@@ -32,21 +32,27 @@ void check_camera(const Rig& rig, const CheckOptions& o, const Stop& stop, Answe
   if (std::holds_alternative<SimulatedCamera>(rig.params.camera))
     return answers.say(true, "camera", "simulated");
   try {
-    NewestFrame camera(open_camera_of(rig), "camera");
+    std::unique_ptr<FrameSource> source = open_camera_of(rig);
+    const std::optional<double> rate = source->rate();
+    NewestFrame camera(std::move(source), "camera");
     LiveFrame frame;
-    std::vector<double> gaps;
+    Durations gaps;
     double before = 0;
     for (const double end = steady_seconds() + o.seconds; steady_seconds() < end && !stop();) {
       if (!camera.wait(frame, 0.1)) continue;
-      if (before > 0) gaps.push_back(frame.taken - before);
+      if (before > 0) gaps.add(frame.taken - before);
       before = frame.taken;
     }
     const CameraStatus status = camera.status();
-    const bool good = status.state == CameraState::live && !gaps.empty();
+    const bool good = status.state == CameraState::live && gaps.count() > 0;
     answers.say(good, "camera",
                 fmt::format("{}, {} frames of {} × {} in {} s; between frames {}",
                             enum_name(status.state), status.frames, frame.frame.picture.width,
                             frame.frame.picture.height, o.seconds, quantiles(gaps)));
+    if (const double usual = gaps.quantile(0.5); rate && gaps.count() > 0)
+      answers.say(usual <= 1.1 / *rate, "frames",
+                  fmt::format("{:.4g} ms apart as a rule, {:.6g} Hz means {:.4g}", 1e3 * usual,
+                              *rate, 1e3 / *rate));
   } catch (const std::runtime_error& e) {
     answers.say(false, "camera", e.what());
   }
@@ -60,19 +66,19 @@ void check_driver(const Rig& rig, const CheckOptions& o, const Stop& stop, Answe
   if (!serial) return answers.say(true, "driver", "simulated");
   try {
     SerialCoilDriver driver(*serial);
-    std::vector<double> times;
+    Durations times;
     int failures = 0;
     const std::vector<double> nothing(static_cast<std::size_t>(driver.channels()));
     for (const double end = steady_seconds() + o.seconds; steady_seconds() < end && !stop();) {
       const double began = steady_seconds();
       failures += driver.drive(nothing) == DriveStatus::no_answer;
-      times.push_back(steady_seconds() - began);
+      times.add(steady_seconds() - began);
     }
     const bool zero = driver.stop();
-    const double slow = quantile(times, 0.99);
+    const double slow = times.quantile(0.99);
     answers.say(failures == 0, "driver",
                 fmt::format("{} exchanges with all currents at zero, {} without an answer; {}",
-                            times.size(), failures, quantiles(times)));
+                            times.count(), failures, quantiles(times)));
     answers.say(zero, "stop", zero ? "confirmed" : "not confirmed");
     answers.say(
         slow < 1 / rig.params.drive_rate, "pace",
@@ -125,17 +131,17 @@ int rig_check(const CheckOptions& o, const Stop& stop) {
 
 }  // namespace
 
-void add_rig_check(CLI::App& rig, Action& action) {
+void add_rig_check(Command rig, Action& action) {
   auto o = std::make_shared<CheckOptions>();
-  CLI::App* cmd = add_command(rig, "check", "Camera, driver, limits, latency: does it all work?",
-                              "rig check rig.yaml");
-  cmd->add_option("rig", o->rig, "Rig file (YAML)")->required()->type_name("FILE");
-  cmd->add_option("--set", o->settings, "Change a value of the rig (again and again)")
-      ->type_name("KEY=VALUE");
-  cmd->add_option("--seconds", o->seconds, "How long each device is tried")
-      ->type_name("S")
-      ->check(number(0.1, 600));
-  cmd->callback([o, &action] {
+  Command cmd = rig.add_command("check", "Camera, driver, limits, latency: does it all work?",
+                                "rig check rig.yaml");
+  cmd.add_option("rig", o->rig, "Rig file (YAML)").required().type_name("FILE");
+  cmd.add_option("--set", o->settings, "Change a value of the rig (again and again)")
+      .type_name("KEY=VALUE");
+  cmd.add_option("--seconds", o->seconds, "How long each device is tried")
+      .type_name("S")
+      .check(number(0.1, 600));
+  cmd.callback([o, &action] {
     action = [o](const Context& context) { return rig_check(*o, context.stop); };
   });
 }

@@ -7,7 +7,6 @@
 #include <thread>
 
 #include "microswarm/core/error.hpp"
-#include "microswarm/core/statistics.hpp"
 #include "microswarm/rig/simulated_rig.hpp"
 #include "microswarm/vision/newest_frame.hpp"
 
@@ -50,29 +49,43 @@ std::unique_ptr<FrameSource> open_camera_of(const Rig& rig) {
   return std::make_unique<PacedVideo>(open_frames(rig.folder / video.file, video.rate));
 }
 
-Devices open_devices(const Rig& rig, const std::string& file, const Scene& scene,
-                     const World& world, bool dry) {
+RigScene load_rig_scene(const std::filesystem::path& scenario,
+                        const std::vector<std::string>& settings, const std::filesystem::path& rig,
+                        const std::vector<std::string>& rig_settings) {
+  Places places;
+  Scene scene =
+      load_scene(read_scenario(scenario, settings, places), scenario.parent_path(), places);
+  World world = build_world(scene);
+  check(scene.scenario, world, places);
+  RigScene on{std::move(scene), std::move(world), read_rig(rig, rig_settings)};
+  check(on.rig, on.scene.scenario, places);
+  return on;
+}
+
+Devices open_devices(const RigScene& on, bool dry) {
+  const RigParams& rig = on.rig.params;
   Devices devices;
-  devices.coils = open_coils(rig.params, dry);
-  if (std::holds_alternative<SimulatedCamera>(rig.params.camera)) {
+  devices.coils = open_coils(rig, dry);
+  if (std::holds_alternative<SimulatedCamera>(rig.camera)) {
     devices.bench =
-        std::make_unique<LiveBench>(scene.scenario, world, rig, std::move(devices.coils));
+        std::make_unique<LiveBench>(on.scene.scenario, on.world, on.rig, std::move(devices.coils));
     devices.camera = devices.bench->camera(simulated_rate);
     devices.scale = devices.bench->view().scale;
     return devices;
   }
-  if (!rig.params.scale)
-    throw InputError(file +
-                     ": `scale` is missing: it says where the camera sees the world, see "
-                     "`microswarm rig scale`");
-  devices.camera = open_camera_of(rig);
-  devices.scale = *rig.params.scale;
+  if (!rig.scale)
+    throw on.rig.where.error("scale",
+                             "`scale` is missing: it says where the camera sees the world, see "
+                             "`microswarm rig scale`");
+  devices.camera = open_camera_of(on.rig);
+  devices.scale = *rig.scale;
   return devices;
 }
-std::string quantiles(const std::vector<double>& times) {
-  if (times.empty()) return "–";
-  return fmt::format("{:.2f} / {:.2f} / {:.2f} ms", 1e3 * quantile(times, 0.5),
-                     1e3 * quantile(times, 0.95), 1e3 * quantile(times, 0.99));
+
+std::string quantiles(const Durations& times) {
+  if (times.count() == 0) return "–";
+  return fmt::format("{:.2f} / {:.2f} / {:.2f} ms", 1e3 * times.quantile(0.5),
+                     1e3 * times.quantile(0.95), 1e3 * times.quantile(0.99));
 }
 
 }  // namespace microswarm::cli

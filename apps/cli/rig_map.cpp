@@ -136,33 +136,32 @@ int map_field(const MapOptions& o) {
 
 }  // namespace
 
-void add_rig_map(CLI::App& rig, Action& action) {
+void add_rig_map(Command rig, Action& action) {
   auto o = std::make_shared<MapOptions>();
-  CLI::App* cmd =
-      add_command(rig, "map", "How even the field is around a place: a picture or a table",
-                  "rig map scenarios/rigs/helmholtz.yaml --out even.png");
-  cmd->add_option("system", o->system, "Coil system (YAML)")->required()->type_name("FILE");
-  cmd->add_option("--out", o->out, "File to write: .png, .svg, .pdf or .csv")->type_name("FILE");
-  cmd->add_option("--at", o->at, "Centre in µm, x,y,z; that of the system when not given")
-      ->type_name("X,Y,Z")
-      ->check(triple("X,Y,Z"));
-  auto* currents =
-      cmd->add_option("--currents", o->currents, "Current of each coil in A")->type_name("A,A,…");
-  cmd->add_option("--field", o->field, "Field at the centre in mT, 1,0,0 when not given")
-      ->type_name("BX,BY,BZ")
-      ->check(triple("BX,BY,BZ"))
-      ->excludes(currents);
-  cmd->add_option("--plane", o->plane, "Plane of the map: xy, xz or yz")
-      ->type_name("WORD")
-      ->check(CLI::IsMember({"xy", "xz", "yz"}));
-  cmd->add_option("--half-width", o->half_width, "Half the side of the map in µm, 10000 else")
-      ->type_name("NUMBER")
-      ->check(number(1, 1e8));
-  cmd->add_option("--points", o->points, "Places along a side, 3..1001")
-      ->type_name("NUMBER")
-      ->check(whole(3, 1001));
+  Command cmd = rig.add_command("map", "How even the field is around a place: a picture or a table",
+                                "rig map scenarios/rigs/helmholtz.yaml --out even.png");
+  cmd.add_option("system", o->system, "Coil system (YAML)").required().type_name("FILE");
+  cmd.add_option("--out", o->out, "File to write: .png, .svg, .pdf or .csv").type_name("FILE");
+  cmd.add_option("--at", o->at, "Centre in µm, x,y,z; that of the system when not given")
+      .type_name("X,Y,Z")
+      .check(triple("X,Y,Z"));
+  const Option currents =
+      cmd.add_option("--currents", o->currents, "Current of each coil in A").type_name("A,A,…");
+  cmd.add_option("--field", o->field, "Field at the centre in mT, 1,0,0 when not given")
+      .type_name("BX,BY,BZ")
+      .check(triple("BX,BY,BZ"))
+      .excludes(currents);
+  cmd.add_option("--plane", o->plane, "Plane of the map: xy, xz or yz")
+      .type_name("WORD")
+      .check(one_of({"xy", "xz", "yz"}));
+  cmd.add_option("--half-width", o->half_width, "Half the side of the map in µm, 10000 else")
+      .type_name("NUMBER")
+      .check(number(1, 1e8));
+  cmd.add_option("--points", o->points, "Places along a side, 3..1001")
+      .type_name("NUMBER")
+      .check(whole(3, 1001));
   add_json(cmd, o->json);
-  cmd->callback([o, &action] { action = [o](const Context&) { return map_field(*o); }; });
+  cmd.callback([o, &action] { action = [o](const Context&) { return map_field(*o); }; });
 }
 
 }  // namespace microswarm::cli

@@ -12,10 +12,10 @@
 #include "microswarm/core/statistics.hpp"
 #include "microswarm/core/text.hpp"
 #include "microswarm/experiment/run.hpp"
-#include "microswarm/navigation/make.hpp"
 #include "microswarm/rig/simulated_rig.hpp"
 #include "options.hpp"
 #include "rig.hpp"
+#include "rig_devices.hpp"
 
 namespace microswarm::cli {
 namespace {
@@ -72,14 +72,6 @@ struct Options {
   int jobs = 0;
 };
 
-RunResult through_rig(const Scenario& scenario, const World& world, const Rig& rig,
-                      std::uint32_t trial, const Stop& stop) {
-  SimulatedRig plant(scenario, world, rig, trial);
-  const auto navigator = make_navigator(scenario.navigator, task_of(scenario),
-                                        Rng(scenario.seed, Purpose::planner, trial));
-  return run(scenario, plant, *navigator, {}, stop);
-}
-
 int rehearse(const Options& o, const Context& context) {
   if (o.scenario.empty() != o.rig.empty())
     throw InputError("rig rehearse: a scenario and --rig go together");
@@ -94,13 +86,8 @@ int rehearse(const Options& o, const Context& context) {
   bool all = true;
   for (const Pair& pair : pairs) {
     const std::filesystem::path file = pair.scenario;
-    Places places;
-    const Scene scene =
-        load_scene(read_scenario(file, pair.settings, places), file.parent_path(), places);
-    const World world = build_world(scene);
-    check(scene.scenario, world, places);
-    const Rig rig = read_rig(pair.rig, pair.rig_settings);
-    check(rig, scene.scenario, places);
+    const RigScene on = load_rig_scene(file, pair.settings, pair.rig, pair.rig_settings);
+    const Scenario& scenario = on.scene.scenario;
     const auto trials = static_cast<std::size_t>(o.trials);
     std::vector<std::array<RunResult, 2>> results(trials);
     {
@@ -110,8 +97,8 @@ int rehearse(const Options& o, const Context& context) {
       for_each_index(trials, o.jobs, [&](std::size_t i) {
         const auto trial = static_cast<std::uint32_t>(i);
         if (context.stop()) return;
-        results[i][0] = simulate(scene.scenario, world, trial, {}, context.stop);
-        results[i][1] = through_rig(scene.scenario, world, rig, trial, context.stop);
+        results[i][0] = simulate(scenario, on.world, trial, {}, context.stop);
+        results[i][1] = microswarm::rehearse(scenario, on.world, on.rig, trial, {}, context.stop);
         const std::lock_guard lock(mutex);
         bar.update(++done / static_cast<double>(o.trials));
       });
@@ -145,25 +132,25 @@ int rehearse(const Options& o, const Context& context) {
 
 }  // namespace
 
-void add_rig_rehearse(CLI::App& rig, Action& action) {
+void add_rig_rehearse(Command rig, Action& action) {
   auto o = std::make_shared<Options>();
-  CLI::App* cmd =
-      add_command(rig, "rehearse", "Scenarios through a simulated rig, beside runs without one",
-                  "rig rehearse scenario.yaml --rig rig.yaml --trials 10");
-  cmd->add_option("scenario", o->scenario, "Scenario file (YAML); not given: some of the papers'")
-      ->type_name("FILE");
-  cmd->add_option("--rig", o->rig, "Rig file (YAML)")->type_name("FILE");
+  Command cmd =
+      rig.add_command("rehearse", "Scenarios through a simulated rig, beside runs without one",
+                      "rig rehearse scenario.yaml --rig rig.yaml --trials 10");
+  cmd.add_option("scenario", o->scenario, "Scenario file (YAML); not given: some of the papers'")
+      .type_name("FILE");
+  cmd.add_option("--rig", o->rig, "Rig file (YAML)").type_name("FILE");
   add_settings(cmd, o->settings, "Change a value of the scenario (again and again)");
-  cmd->add_option("--set-rig", o->rig_settings, "Change a value of the rig (again and again)")
-      ->type_name("KEY=VALUE");
-  cmd->add_option("--trials", o->trials, "Runs of each, with other random streams")
-      ->type_name("NUMBER")
-      ->check(whole(1, 100'000));
-  cmd->add_option("--jobs", o->jobs, "Threads; 0: one a core")
-      ->type_name("NUMBER")
-      ->check(whole(0, 1024));
-  cmd->add_option("--out", o->out, "Folder for rehearsal.csv")->type_name("FOLDER");
-  cmd->callback(
+  cmd.add_option("--set-rig", o->rig_settings, "Change a value of the rig (again and again)")
+      .type_name("KEY=VALUE");
+  cmd.add_option("--trials", o->trials, "Runs of each, with other random streams")
+      .type_name("NUMBER")
+      .check(whole(1, 100'000));
+  cmd.add_option("--jobs", o->jobs, "Threads; 0: one a core")
+      .type_name("NUMBER")
+      .check(whole(0, 1024));
+  cmd.add_option("--out", o->out, "Folder for rehearsal.csv").type_name("FOLDER");
+  cmd.callback(
       [o, &action] { action = [o](const Context& context) { return rehearse(*o, context); }; });
 }
 

@@ -6,6 +6,7 @@
 
 #include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "microswarm/core/angles.hpp"
@@ -111,15 +112,34 @@ void tell(const RigTiming& t) {
   print("    tick             {} (vision and navigator)\n", quantiles(t.tick));
   print("    currents late    {}\n", quantiles(t.coil_late));
   print("    coil driver      {}\n", quantiles(t.round_trip));
-  print("  {} ticks, {} missed their deadline; {} frames read, {} dropped\n", t.tick.size(),
+  print("  {} ticks, {} missed their deadline; {} frames read, {} dropped\n", t.tick.count(),
         t.missed_deadlines, t.frames, t.dropped_frames);
   if (t.resumed > 0) print("  the coils had been off by themselves {} times\n", t.resumed);
   if (t.scaled > 0) print("  the device weakened the currents {} times\n", t.scaled);
 }
 
+nlohmann::ordered_json to_json(const RigTiming& t) {
+  const auto ms = [](const Durations& d) {
+    return nlohmann::ordered_json{{"p50_ms", 1e3 * d.quantile(0.5)},
+                                  {"p95_ms", 1e3 * d.quantile(0.95)},
+                                  {"p99_ms", 1e3 * d.quantile(0.99)}};
+  };
+  return {{"frame_age", ms(t.frame_age)},
+          {"vision", ms(t.vision)},
+          {"tick", ms(t.tick)},
+          {"currents_late", ms(t.coil_late)},
+          {"coil_driver", ms(t.round_trip)},
+          {"ticks", t.tick.count()},
+          {"missed_deadlines", t.missed_deadlines},
+          {"frames_read", t.frames},
+          {"frames_dropped", t.dropped_frames},
+          {"coils_resumed", t.resumed},
+          {"currents_weakened", t.scaled}};
+}
+
 /// Where the line or the computer is too slow for the field, on stderr.
 void note_pace(const RigTiming& t, double seconds, const RigParams& rig) {
-  const double rate = static_cast<double>(t.round_trip.size()) / std::max(seconds, 1e-3);
+  const double rate = static_cast<double>(t.round_trip.count()) / std::max(seconds, 1e-3);
   if (seconds < 1 || rate >= 0.8 * rig.drive_rate) return;
   fmt::print(stderr,
              "note: currents were sent {:.0f} times a second, drive_rate_hz is {:.6g}; the field "
@@ -139,29 +159,24 @@ struct RunOptions {
 };
 
 int rig_run(const RunOptions& o, const Context& context) {
-  const std::filesystem::path file = o.scenario;
-  Places places;
-  const Scene scene =
-      load_scene(read_scenario(file, o.settings, places), file.parent_path(), places);
-  const World world = build_world(scene);
-  check(scene.scenario, world, places);
-  const Rig rig = read_rig(o.rig, o.rig_settings);
-  check(rig, scene.scenario, places);
+  const RigScene on = load_rig_scene(o.scenario, o.settings, o.rig, o.rig_settings);
+  const Scenario& scenario = on.scene.scenario;
   const OutFolder hold(o.out);
-  Devices devices = open_devices(rig, o.rig, scene, world, o.dry_run);
-  CommandLog log(o.out, rig.system);
-  LiveRig plant(scene.scenario, world.map, rig, std::move(devices.camera), devices.scale,
+  Devices devices = open_devices(on, o.dry_run);
+  CommandLog log(o.out, on.rig.system);
+  LiveRig plant(scenario, on.world.map, on.rig, std::move(devices.camera), devices.scale,
                 devices.driver(), [&](const CoilMoment& m) { log.note(m); });
-  const auto navigator = make_navigator(scene.scenario.navigator, task_of(scene.scenario),
-                                        Rng(scene.scenario.seed, Purpose::planner));
+  const auto navigator =
+      make_navigator(scenario.navigator, task_of(scenario), Rng(scenario.seed, Purpose::planner));
   const EmergencyKey key([&] { plant.stop("the emergency key was pressed"); }, context.stop);
   if (key.is_there()) fmt::print(stderr, "space, e or Esc: coils to zero at once\n");
   const Stop stop = o.seconds ? context.within(*o.seconds) : context.stop;
   double seconds = 0;
-  const int code = run_once(scene, world, {o.out, false, o.json, name_of(rig)}, {}, stop,
+  const RunOutput output{o.out, false, o.json, name_of(on.rig),
+                         [&] { return to_json(plant.timing()); }};
+  const int code = run_once(on.scene, on.world, output, {}, stop,
                             [&](std::span<RunListener* const> listeners, const Stop& until) {
-                              RunResult result =
-                                  run(scene.scenario, plant, *navigator, listeners, until);
+                              RunResult result = run(scenario, plant, *navigator, listeners, until);
                               plant.stop("the run has ended");
                               seconds = result.metrics.time;
                               return result;
@@ -171,30 +186,30 @@ int rig_run(const RunOptions& o, const Context& context) {
     fmt::print(stderr,
                "note: the coil driver did not confirm that the coils are at zero; its own "
                "watchdog must do it\n");
-  note_pace(plant.timing(), seconds, rig.params);
+  note_pace(plant.timing(), seconds, on.rig.params);
   if (!o.json) tell(plant.timing());
   return code;
 }
 
 }  // namespace
 
-void add_rig_run(CLI::App& rig, Action& action) {
+void add_rig_run(Command rig, Action& action) {
   auto o = std::make_shared<RunOptions>();
-  CLI::App* cmd = add_command(rig, "run", "Run a scenario on a rig, in real time",
-                              "rig run scenario.yaml --rig rig.yaml --dry-run --out out/rig");
-  cmd->add_option("scenario", o->scenario, "Scenario file (YAML)")->required()->type_name("FILE");
-  cmd->add_option("--rig", o->rig, "Rig file (YAML)")->required()->type_name("FILE");
-  cmd->add_option("--out", o->out, "Folder for run.h5, commands.csv and the report")
-      ->type_name("FOLDER");
-  cmd->add_flag("--dry-run", o->dry_run, "Nothing goes to the coils");
+  Command cmd = rig.add_command("run", "Run a scenario on a rig, in real time",
+                                "rig run scenario.yaml --rig rig.yaml --dry-run --out out/rig");
+  cmd.add_option("scenario", o->scenario, "Scenario file (YAML)").required().type_name("FILE");
+  cmd.add_option("--rig", o->rig, "Rig file (YAML)").required().type_name("FILE");
+  cmd.add_option("--out", o->out, "Folder for run.h5, commands.csv and the report")
+      .type_name("FOLDER");
+  cmd.add_flag("--dry-run", o->dry_run, "Nothing goes to the coils");
   add_settings(cmd, o->settings, "Change a value of the scenario (again and again)");
-  cmd->add_option("--set-rig", o->rig_settings, "Change a value of the rig (again and again)")
-      ->type_name("KEY=VALUE");
-  cmd->add_option("--seconds", o->seconds, "End after this time")
-      ->type_name("S")
-      ->check(number(0.1, 1e6));
+  cmd.add_option("--set-rig", o->rig_settings, "Change a value of the rig (again and again)")
+      .type_name("KEY=VALUE");
+  cmd.add_option("--seconds", o->seconds, "End after this time")
+      .type_name("S")
+      .check(number(0.1, 1e6));
   add_json(cmd, o->json);
-  cmd->callback(
+  cmd.callback(
       [o, &action] { action = [o](const Context& context) { return rig_run(*o, context); }; });
 }
 

@@ -107,47 +107,45 @@ int scale(const ScaleOptions& o) {
 
 }  // namespace
 
-void add_rig_scale(CLI::App& rig, Action& action) {
+void add_rig_scale(Command rig, Action& action) {
   auto o = std::make_shared<ScaleOptions>();
-  CLI::App* cmd = add_command(rig, "scale", "µm per pixel of a camera, from points or a grid",
-                              "rig scale slide.png --grid 9x6 --pitch 100 --out scale.yaml");
-  cmd->add_option("picture", o->picture, "Picture by the camera")->required()->type_name("FILE");
-  auto* points = cmd->add_option("--points", o->points, "Two points in the picture, px, y down")
-                     ->type_name("X1,Y1,X2,Y2")
-                     ->check(CLI::Validator(
-                         [](std::string& text) -> std::string {
-                           if (numbers(text).size() == 4) return {};
-                           return "must be X1,Y1,X2,Y2, not " + text;
-                         },
-                         ""));
-  cmd->add_option("--distance", o->distance, "µm between the two points")
-      ->type_name("NUMBER")
-      ->check(number(1e-3, 1e7))
-      ->needs(points);
-  auto* grid = cmd->add_option("--grid", o->grid,
-                               "Points of a calibration slide, as 9x6; a chessboard's are "
-                               "its inner corners")
-                   ->type_name("COLUMNSxROWS")
-                   ->excludes(points);
-  cmd->add_option("--pitch", o->pitch, "µm between neighbours of the grid")
-      ->type_name("NUMBER")
-      ->check(number(1e-3, 1e6))
-      ->needs(grid);
-  cmd->add_option("--pattern", o->pattern, "What the points are")
-      ->type_name("WORD")
-      ->check(CLI::IsMember({"dots", "chessboard"}))
-      ->capture_default_str();
-  cmd->add_option(
-         "--origin", o->origin,
-         "The world's origin in the picture, px, y down; not given: the lower left corner, "
-         "or the grid's first point")
-      ->type_name("X,Y")
-      ->check(place(2, "X,Y"));
-  cmd->add_flag("--mirrored", o->mirrored, "The world's y goes down in the picture");
-  cmd->add_option("--out", o->out, "File to write (YAML), a piece of a rig's file")
-      ->type_name("FILE");
+  Command cmd = rig.add_command("scale", "µm per pixel of a camera, from points or a grid",
+                                "rig scale slide.png --grid 9x6 --pitch 100 --out scale.yaml");
+  cmd.add_option("picture", o->picture, "Picture by the camera").required().type_name("FILE");
+  const Option points =
+      cmd.add_option("--points", o->points, "Two points in the picture, px, y down")
+          .type_name("X1,Y1,X2,Y2")
+          .check({[](const std::string& text) -> std::string {
+            if (numbers(text).size() == 4) return {};
+            return "must be X1,Y1,X2,Y2, not " + text;
+          }});
+  cmd.add_option("--distance", o->distance, "µm between the two points")
+      .type_name("NUMBER")
+      .check(number(1e-3, 1e7))
+      .needs(points);
+  const Option grid = cmd.add_option("--grid", o->grid,
+                                     "Points of a calibration slide, as 9x6; a chessboard's are "
+                                     "its inner corners")
+                          .type_name("COLUMNSxROWS")
+                          .excludes(points);
+  cmd.add_option("--pitch", o->pitch, "µm between neighbours of the grid")
+      .type_name("NUMBER")
+      .check(number(1e-3, 1e6))
+      .needs(grid);
+  cmd.add_option("--pattern", o->pattern, "What the points are")
+      .type_name("WORD")
+      .check(one_of({"dots", "chessboard"}))
+      .shows_default();
+  cmd.add_option("--origin", o->origin,
+                 "The world's origin in the picture, px, y down; not given: the lower left corner, "
+                 "or the grid's first point")
+      .type_name("X,Y")
+      .check(place(2, "X,Y"));
+  cmd.add_flag("--mirrored", o->mirrored, "The world's y goes down in the picture");
+  cmd.add_option("--out", o->out, "File to write (YAML), a piece of a rig's file")
+      .type_name("FILE");
   add_json(cmd, o->json);
-  cmd->callback([o, &action] { action = [o](const Context&) { return scale(*o); }; });
+  cmd.callback([o, &action] { action = [o](const Context&) { return scale(*o); }; });
 }
 
 }  // namespace microswarm::cli

@@ -101,23 +101,22 @@ int see(const SeeOptions& o) {
 
 }  // namespace
 
-void add_rig_see(CLI::App& rig, Action& action) {
+void add_rig_see(Command rig, Action& action) {
   auto o = std::make_shared<SeeOptions>();
-  CLI::App* cmd =
-      add_command(rig, "see", "What is seen in a picture: the swarm and obstacles",
-                  "rig see frame.png --set scene.swarm.look.min_grain=8 --out seen.png");
-  cmd->add_option("picture", o->picture, "Picture, or a camera as /dev/video0")
-      ->required()
-      ->type_name("FILE");
-  cmd->add_option("--still", o->still, "Picture without swarm and obstacles: shows the walls")
-      ->type_name("FILE");
-  cmd->add_option("--config", o->config, "Settings (YAML); --set comes after it")
-      ->type_name("FILE");
+  Command cmd =
+      rig.add_command("see", "What is seen in a picture: the swarm and obstacles",
+                      "rig see frame.png --set scene.swarm.look.min_grain=8 --out seen.png");
+  cmd.add_option("picture", o->picture, "Picture, or a camera as /dev/video0")
+      .required()
+      .type_name("FILE");
+  cmd.add_option("--still", o->still, "Picture without swarm and obstacles: shows the walls")
+      .type_name("FILE");
+  cmd.add_option("--config", o->config, "Settings (YAML); --set comes after it").type_name("FILE");
   add_settings(cmd, o->settings,
                "Change a value, for example scene.swarm.look.min_radius_px=12 (again and again)");
-  cmd->add_option("--out", o->out, "Picture to draw (PNG)")->type_name("FILE");
+  cmd.add_option("--out", o->out, "Picture to draw (PNG)").type_name("FILE");
   add_json(cmd, o->json);
-  cmd->callback([o, &action] { action = [o](const Context&) { return see(*o); }; });
+  cmd.callback([o, &action] { action = [o](const Context&) { return see(*o); }; });
 }
 
 }  // namespace microswarm::cli

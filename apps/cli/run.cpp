@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "microswarm/core/angles.hpp"
@@ -7,7 +8,6 @@
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/text.hpp"
 #include "microswarm/experiment/trials.hpp"
-#include "microswarm/navigation/make.hpp"
 #include "microswarm/rig/simulated_rig.hpp"
 #include "run_output.hpp"
 
@@ -93,11 +93,7 @@ int rehearse(const Options& o, const Scene& scene, const World& world, const Pla
   check(rig, scene.scenario, places);
   return run_once(scene, world, {o.out, o.no_report, o.json, name_of(rig)}, report, stop,
                   [&](std::span<RunListener* const> listeners, const Stop& until) {
-                    SimulatedRig plant(scene.scenario, world, rig);
-                    const auto navigator =
-                        make_navigator(scene.scenario.navigator, task_of(scene.scenario),
-                                       Rng(scene.scenario.seed, Purpose::planner));
-                    return run(scene.scenario, plant, *navigator, listeners, until);
+                    return microswarm::rehearse(scene.scenario, world, rig, 0, listeners, until);
                   });
 }
 
@@ -118,40 +114,40 @@ int run_command(const Options& o, const Context& context) {
 
 }  // namespace
 
-void add_run(CLI::App& app, Action& action) {
+void add_run(Command app, Action& action) {
   auto o = std::make_shared<Options>();
-  CLI::App* cmd = add_command(app, "run", "Run a scenario: simulate, record, report",
-                              "run scenarios/first_flight.yaml --out out/first --set "
-                              "swarm.radius_um=50");
-  cmd->add_option("scenario", o->scenario, "Scenario file (YAML); `schema --keys` lists its keys")
-      ->required()
-      ->type_name("FILE");
-  cmd->add_option("--out", o->out,
-                  "Folder for run.h5, pictures and index.html; with --trials for trials.csv")
-      ->type_name("FOLDER");
+  Command cmd = app.add_command("run", "Run a scenario: simulate, record, report",
+                                "run scenarios/first_flight.yaml --out out/first --set "
+                                "swarm.radius_um=50");
+  cmd.add_option("scenario", o->scenario, "Scenario file (YAML); `schema --keys` lists its keys")
+      .required()
+      .type_name("FILE");
+  cmd.add_option("--out", o->out,
+                 "Folder for run.h5, pictures and index.html; with --trials for trials.csv")
+      .type_name("FOLDER");
   add_settings(cmd, o->settings, "Change a value of the scenario (again and again)");
-  cmd->add_option("--rig", o->rig,
-                  "Rig file (YAML): rehearse it with simulated camera, coils and field")
-      ->type_name("FILE");
-  cmd->add_option("--set-rig", o->rig_settings, "Change a value of the rig (again and again)")
-      ->type_name("KEY=VALUE")
-      ->needs("--rig");
-  cmd->add_option("--seed", o->seed, "Seed of all random streams, in place of the scenario's")
-      ->type_name("NUMBER")
-      ->check(whole(0, UINT64_MAX));
-  cmd->add_option("--trials", o->trials, "Run this often, each time with other random streams")
-      ->type_name("NUMBER")
-      ->excludes("--rig")
-      ->check(whole(1, 1'000'000));
-  cmd->add_option("--jobs", o->jobs, "Threads for --trials; 0: one a core")
-      ->type_name("NUMBER")
-      ->needs("--trials")
-      ->check(whole(0, 1024));
+  cmd.add_option("--rig", o->rig,
+                 "Rig file (YAML): rehearse it with simulated camera, coils and field")
+      .type_name("FILE");
+  cmd.add_option("--set-rig", o->rig_settings, "Change a value of the rig (again and again)")
+      .type_name("KEY=VALUE")
+      .needs("--rig");
+  cmd.add_option("--seed", o->seed, "Seed of all random streams, in place of the scenario's")
+      .type_name("NUMBER")
+      .check(whole(0, UINT64_MAX));
+  cmd.add_option("--trials", o->trials, "Run this often, each time with other random streams")
+      .type_name("NUMBER")
+      .excludes("--rig")
+      .check(whole(1, 1'000'000));
+  cmd.add_option("--jobs", o->jobs, "Threads for --trials; 0: one a core")
+      .type_name("NUMBER")
+      .needs("--trials")
+      .check(whole(0, 1024));
   add_photo(cmd, o->photo);
-  cmd->get_option("--photo")->needs("--out");
-  cmd->add_flag("--no-report", o->no_report, "Write run.h5 only");
+  cmd.option("--photo").needs("--out");
+  cmd.add_flag("--no-report", o->no_report, "Write run.h5 only");
   add_json(cmd, o->json);
-  cmd->callback(
+  cmd.callback(
       [o, &action] { action = [o](const Context& context) { return run_command(*o, context); }; });
 }
 

@@ -2,6 +2,7 @@
 #include "run_output.hpp"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "microswarm/config/write.hpp"
 #include "microswarm/core/angles.hpp"
@@ -139,7 +140,9 @@ int run_once(const Scene& scene, const World& world, const RunOutput& o,
     if (!o.no_report) write_run_report(record, folder, report);
   }
   if (o.json) {
-    print("{}\n", to_json(result, hash).dump(2));
+    nlohmann::ordered_json json = to_json(result, hash);
+    if (o.rig_timing) json["rig_timing"] = o.rig_timing();
+    print("{}\n", json.dump(2));
   } else {
     const auto& robots = scene.scenario.robots;
     print("{}  record    {}\n", robots ? robots_summary(result, *robots) : summary(result), hash);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <functional>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,6 +19,7 @@ struct RunOutput {
   bool no_report = false;
   bool json = false;
   std::string rig{};  ///< name of the rig it runs on; empty for a simulation
+  std::function<nlohmann::ordered_json()> rig_timing{};  ///< of that rig, when the run is over
 };
 
 /// Runs a scene, with these listening.

@@ -1,43 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "global_choice.hpp"
 #include "microswarm/config/help.hpp"
 #include "microswarm/config/schema.hpp"
 #include "microswarm/experiment/scenario.hpp"
+#include "microswarm/rig/rig_params.hpp"
 #include "microswarm/sweep/sweep_file.hpp"
+#include "microswarm/vision/video_tracker.hpp"
 
 namespace microswarm::cli {
-
 namespace {
 
-template <HasFields T>
-void show(bool keys, std::string_view title) {
-  put(keys ? help_text<T>() : json_schema<T>(title));
+/// A kind of file, or what --set of a command changes.
+struct Kind {
+  std::string_view name;
+  Type type;
+};
+
+std::array<Kind, 6> kinds() {
+  return {{{"scenario", type_of<Scenario>()},
+           {"sweep", type_of<Sweep>()},
+           {"rig", type_of<RigParams>()},
+           {"coils", type_of<CoilSystemParams>()},
+           {"track", type_of<TrackSettings>()},
+           {"global", type_of<GlobalChoice>()}}};
+}
+
+void show(std::string_view name, bool keys) {
+  for (const Kind& kind : kinds())
+    if (kind.name == name)
+      put(keys ? help_text(kind.type) : json_schema(kind.type, fmt::format("microswarm {}", name)));
 }
 
 }  // namespace
 
-void add_schema(CLI::App& app, Action& action) {
+void add_schema(Command app, Action& action) {
+  auto name = std::make_shared<std::string>("scenario");
   auto keys = std::make_shared<bool>(false);
-  auto sweep = std::make_shared<bool>(false);
-  auto global = std::make_shared<bool>(false);
-  CLI::App* cmd = add_command(
-      app, "schema", "Every key a scenario may have, as JSON Schema (for editors) or as a table",
-      "schema --keys");
-  cmd->add_flag("--keys", *keys, "A table of every key with unit, default, range and meaning");
-  cmd->add_flag("--sweep", *sweep, "Of a sweep file in place of a scenario");
-  cmd->add_flag("--global", *global, "Of what `global --set` changes in place of a scenario")
-      ->excludes("--sweep");
-  cmd->callback([=, &action] {
+  Command cmd = app.add_command(
+      "schema", "Every key a file may have, as JSON Schema (for editors) or as a table",
+      "schema rig --keys");
+  std::vector<std::string> names;
+  for (const Kind& kind : kinds()) names.emplace_back(kind.name);
+  cmd.add_option("kind", *name,
+                 "A file of a scenario, sweep, rig, or coil system, or what --set of track or "
+                 "global changes")
+      .check(one_of(names))
+      .shows_default();
+  cmd.add_flag("--keys", *keys, "A table of every key with unit, default, range and meaning");
+  cmd.callback([=, &action] {
     action = [=](const Context&) {
-      if (*sweep)
-        show<Sweep>(*keys, "microswarm sweep");
-      else if (*global)
-        show<GlobalChoice>(*keys, "microswarm global");
-      else
-        show<Scenario>(*keys, "microswarm scenario");
+      show(*name, *keys);
       return ok;
     };
   });

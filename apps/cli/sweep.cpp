@@ -188,26 +188,26 @@ int sweep_command(Options o, const Context& context) {
 
 }  // namespace
 
-void add_sweep(CLI::App& app, Action& action) {
+void add_sweep(Command app, Action& action) {
   auto o = std::make_shared<Options>();
-  CLI::App* cmd = add_command(
-      app, "sweep",
+  Command cmd = app.add_command(
+      "sweep",
       "Run a scenario for every combination of parameters and methods, many trials each, into a "
       "database",
       "sweep scenarios/sweeps/first_flight.yaml --out out/first_flight.db");
-  cmd->add_option("sweep", o->sweep, "Sweep file (YAML); docs/sweeps.md tells its keys")
-      ->required()
-      ->type_name("FILE");
-  cmd->add_option("--out", o->out,
-                  "SQLite database, which a sweep that was ended goes on with; when not given, the "
-                  "sweep's name with .db in this folder")
-      ->type_name("FILE");
-  cmd->add_option("--jobs", o->jobs, "Threads; when not given one a core, under mpirun one a rank")
-      ->type_name("NUMBER")
-      ->check(whole(0, 1024));
-  cmd->add_option("--csv", o->csv, "Write the table of trials as CSV too")->type_name("FILE");
+  cmd.add_option("sweep", o->sweep, "Sweep file (YAML); docs/sweeps.md tells its keys")
+      .required()
+      .type_name("FILE");
+  cmd.add_option("--out", o->out,
+                 "SQLite database, which a sweep that was ended goes on with; when not given, the "
+                 "sweep's name with .db in this folder")
+      .type_name("FILE");
+  cmd.add_option("--jobs", o->jobs, "Threads; when not given one a core, under mpirun one a rank")
+      .type_name("NUMBER")
+      .check(whole(0, 1024));
+  cmd.add_option("--csv", o->csv, "Write the table of trials as CSV too").type_name("FILE");
   add_json(cmd, o->json);
-  cmd->callback([o, &action] {
+  cmd.callback([o, &action] {
     action = [o](const Context& context) { return sweep_command(*o, context); };
   });
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -81,28 +82,28 @@ int track(const Options& o, const Context& context) {
 
 }  // namespace
 
-void add_track(CLI::App& app, Action& action) {
+void add_track(Command app, Action& action) {
   auto o = std::make_shared<Options>();
-  CLI::App* cmd = add_command(app, "track", "Find and follow the robots of a video",
-                              "track swarm.mp4 --um-per-px 0.35 --set find.diameter_px=11 --out "
-                              "out/tracks");
-  cmd->add_option("video", o->video,
-                  "Video file, folder of pictures (PNG, JPEG, BMP, PGM, PPM) or TIFF of many")
-      ->required()
-      ->type_name("VIDEO");
-  cmd->add_option("--out", o->out, "Folder for tracks.csv, tracks.h5, events.csv and overlay.mp4")
-      ->required()
-      ->type_name("FOLDER");
+  Command cmd = app.add_command("track", "Find and follow the robots of a video",
+                                "track swarm.mp4 --um-per-px 0.35 --set find.diameter_px=11 --out "
+                                "out/tracks");
+  cmd.add_option("video", o->video,
+                 "Video file, folder of pictures (PNG, JPEG, BMP, PGM, PPM) or TIFF of many")
+      .required()
+      .type_name("VIDEO");
+  cmd.add_option("--out", o->out, "Folder for tracks.csv, tracks.h5, events.csv and overlay.mp4")
+      .required()
+      .type_name("FOLDER");
   add_um_per_px(cmd, o->um_per_px, "µm per pixel of the video, 1e-6..1e6");
-  cmd->add_option("--rate", o->rate, "Pictures a second, in place of what the video says")
-      ->type_name("NUMBER")
-      ->check(number(1e-6, 1e6));
-  cmd->add_option("--config", o->config, "Settings (YAML); the other options come after it")
-      ->type_name("FILE");
+  cmd.add_option("--rate", o->rate, "Pictures a second, in place of what the video says")
+      .type_name("NUMBER")
+      .check(number(1e-6, 1e6));
+  cmd.add_option("--config", o->config, "Settings (YAML); the other options come after it")
+      .type_name("FILE");
   add_settings(cmd, o->settings, "Change a value, for example find.tone=bright (again and again)");
-  cmd->add_flag("--no-overlay", o->no_overlay, "Draw no video");
+  cmd.add_flag("--no-overlay", o->no_overlay, "Draw no video");
   add_json(cmd, o->json);
-  cmd->callback(
+  cmd.callback(
       [o, &action] { action = [o](const Context& context) { return track(*o, context); }; });
 }
 

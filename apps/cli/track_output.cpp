@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "microswarm/config/write.hpp"
 #include "microswarm/core/file.hpp"

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "usage.hpp"
+
 #include <fmt/ranges.h>
 
+#include <CLI/CLI.hpp>
 #include <vector>
 
-#include "cli.hpp"
 #include "microswarm/core/text.hpp"
 
 namespace microswarm::cli {

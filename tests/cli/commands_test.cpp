@@ -163,7 +163,7 @@ TEST_F(Commands, GatherBringsRobotsTogether) {
 }
 
 TEST_F(Commands, SchemaHasTheKeysOfGlobal) {
-  const std::string keys = good({"schema", "--keys", "--global"});
+  const std::string keys = good({"schema", "global", "--keys"});
   for (const char* key :
        {"type: global_search", "type: global_rrt", "separation_um", "robostep_um"})
     EXPECT_NE(keys.find(key), std::string::npos) << key;
@@ -174,6 +174,16 @@ TEST_F(Commands, SchemaIsJson) {
   EXPECT_EQ(schema.at("type"), "object");
   EXPECT_TRUE(schema.at("properties").contains("navigator"));
   EXPECT_NE(good({"schema", "--keys"}).find("max_speed_um_per_s"), std::string::npos);
+  for (const auto& [kind, key] : {std::pair{"sweep", "scenario"},
+                                  {"rig", "driver"},
+                                  {"coils", "drives"},
+                                  {"track", "find"}}) {
+    EXPECT_TRUE(Json::parse(good({"schema", kind})).at("properties").contains(key)) << kind;
+    EXPECT_NE(good({"schema", kind, "--keys"}).find(key), std::string::npos) << kind;
+  }
+  refused({"schema", "planet"},
+          "kind: must be one of scenario, sweep, rig, coils, track, global, not 'planet' (see "
+          "microswarm schema --help)");
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/SVD>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -100,6 +100,25 @@ FieldMeasurements read_measurements(const std::filesystem::path& path) {
   return parse_measurements(read_file(path, max_bytes), path.string());
 }
 
+namespace {
+
+/// Columns that the matrix takes to nothing, each of length 1.
+Eigen::MatrixXd null_space(const Eigen::ColPivHouseholderQR<Eigen::MatrixXd>& qr) {
+  const Eigen::Index rank = qr.rank();
+  const Eigen::Index left = qr.cols() - rank;
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(qr.cols(), left);
+  columns.topRows(rank) = -qr.matrixR()
+                               .topLeftCorner(rank, rank)
+                               .triangularView<Eigen::Upper>()
+                               .solve(qr.matrixR().topRightCorner(rank, left));
+  columns.bottomRows(left).setIdentity();
+  columns = qr.colsPermutation() * columns;
+  columns.colwise().normalize();
+  return columns;
+}
+
+}  // namespace
+
 FittedMatrix fit_matrix(const FieldMeasurements& measured, bool with_offset) {
   const auto n = static_cast<Eigen::Index>(measured.coils.size());
   const auto count = static_cast<Eigen::Index>(measured.rows.size());
@@ -117,13 +136,11 @@ FittedMatrix fit_matrix(const FieldMeasurements& measured, bool with_offset) {
   inputs.leftCols(n) = inputs.leftCols(n) * scale.cwiseInverse().asDiagonal();
   if (with_offset) inputs.col(n).setOnes();
 
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(inputs, Eigen::ComputeThinU | Eigen::ComputeFullV);
-  const Eigen::VectorXd& strength = svd.singularValues();
-  Eigen::Index rank = 0;
-  while (rank < strength.size() && strength[rank] > weakest * strength[0]) ++rank;
-  if (rank < inputs.cols()) {
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(inputs);
+  qr.setThreshold(weakest);
+  if (qr.rank() < inputs.cols()) {
     std::vector<std::string> open;
-    const Eigen::MatrixXd unknown = svd.matrixV().rightCols(inputs.cols() - rank);
+    const Eigen::MatrixXd unknown = null_space(qr);
     for (Eigen::Index i = 0; i < n; ++i)
       if (unknown.row(i).norm() > 1e-3)
         open.push_back(quote(measured.coils[static_cast<std::size_t>(i)]));
@@ -133,7 +150,7 @@ FittedMatrix fit_matrix(const FieldMeasurements& measured, bool with_offset) {
         measured.file, count, fmt::join(open, ", "),
         with_offset ? ", and one without them all" : ""));
   }
-  const Eigen::MatrixXd fit = svd.solve(fields);
+  const Eigen::MatrixXd fit = qr.solve(fields);
   const Eigen::MatrixXd residuals = fields - inputs * fit;
 
   FittedMatrix result;

@@ -76,6 +76,8 @@ void hash_map(Hash& hash, const MapParts& map) {
 
 }  // namespace
 
+template const Type& type_of<Scenario>();
+
 Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& settings,
                        Places& places) {
   return read_yaml_file<Scenario>(file, settings, places);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "microswarm/config/type.hpp"
 #include "microswarm/core/fields.hpp"
 #include "microswarm/core/places.hpp"
 #include "microswarm/formats/map_file.hpp"
@@ -135,5 +136,8 @@ void check(const Scenario& scenario, const World& world, const Places& where);
 /// The last two of these complaints alone: between two free points of a map, for a swarm of
 /// `radius` [µm].
 void check_way(const Map& map, Vec2 start, Vec2 goal, double radius, const Places& where);
+
+/// Compiled once, in scenario.cpp: it describes all that a scenario may hold.
+extern template const Type& type_of<Scenario>();
 
 }  // namespace microswarm

@@ -45,8 +45,8 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
              [this, heard = std::move(heard)](const CoilMoment& moment) {
                {
                  const std::lock_guard lock(timing_mutex_);
-                 timing_.coil_late.push_back(moment.late);
-                 timing_.round_trip.push_back(moment.round_trip);
+                 timing_.coil_late.add(moment.late);
+                 timing_.round_trip.add(moment.round_trip);
                  timing_.resumed += moment.output.status == DriveStatus::resumed;
                  timing_.scaled += moment.output.status == DriveStatus::scaled;
                }
@@ -86,7 +86,7 @@ void LiveRig::read_frame() {
   const double took = steady_seconds() - began;
   if (sight_->swarm) found_ = seen_;
   const std::lock_guard lock(timing_mutex_);
-  timing_.vision.push_back(took);
+  timing_.vision.add(took);
 }
 
 void LiveRig::look_for_faults(double now) {
@@ -107,7 +107,7 @@ void LiveRig::look_for_faults(double now) {
   if (missed_in_a_row_ >= safety.missed_deadlines)
     return fail(fmt::format("{} ticks in a row ended too late", missed_in_a_row_));
   const std::lock_guard lock(timing_mutex_);
-  timing_.frame_age.push_back(age);
+  timing_.frame_age.add(age);
 }
 
 void LiveRig::apply(const Command& command, double dt) {
@@ -117,7 +117,7 @@ void LiveRig::apply(const Command& command, double dt) {
   const bool missed = now > next_;
   {
     const std::lock_guard lock(timing_mutex_);
-    timing_.tick.push_back(now - begun_);
+    timing_.tick.add(now - begun_);
     timing_.missed_deadlines += missed;
   }
   missed_in_a_row_ = missed ? missed_in_a_row_ + 1 : 0;
@@ -139,7 +139,7 @@ RigTiming LiveRig::timing() const {
   const std::lock_guard lock(timing_mutex_);
   RigTiming timing = timing_;
   const CameraStatus camera = camera_.status();
-  timing.frames = static_cast<int>(timing.vision.size());
+  timing.frames = static_cast<int>(timing.vision.count());
   timing.dropped_frames = camera.dropped;
   return timing;
 }

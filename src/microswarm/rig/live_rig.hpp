@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "microswarm/actuation/coil_controller.hpp"
+#include "microswarm/core/durations.hpp"
 #include "microswarm/rig/coil_loop.hpp"
 #include "microswarm/rig/eye.hpp"
 #include "microswarm/rig/rig_params.hpp"
@@ -16,18 +17,18 @@
 
 namespace microswarm {
 
-/// How long the stages of a run took [s].
+/// How long the stages of a run took.
 struct RigTiming {
-  std::vector<double> frame_age;   ///< of the newest frame when a tick begins
-  std::vector<double> vision;      ///< to read a picture
-  std::vector<double> tick;        ///< from a tick's begin to its command
-  std::vector<double> coil_late;   ///< currents after they were due
-  std::vector<double> round_trip;  ///< of the coil driver
-  int resumed = 0;                 ///< times the coils had been off by themselves
-  int scaled = 0;                  ///< currents that the device's own limits made smaller
-  int missed_deadlines = 0;        ///< ticks that ended after the next should have begun
-  int frames = 0;                  ///< that were read
-  int dropped_frames = 0;          ///< that came and were not
+  Durations frame_age;       ///< of the newest frame when a tick begins
+  Durations vision;          ///< to read a picture
+  Durations tick;            ///< from a tick's begin to its command
+  Durations coil_late;       ///< currents after they were due
+  Durations round_trip;      ///< of the coil driver
+  int resumed = 0;           ///< times the coils had been off by themselves
+  int scaled = 0;            ///< currents that the device's own limits made smaller
+  int missed_deadlines = 0;  ///< ticks that ended after the next should have begun
+  int frames = 0;            ///< that were read
+  int dropped_frames = 0;    ///< that came and were not
 };
 
 /// A rig in real time: the newest frame is read, the command goes to the coils, the next tick

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "microswarm/navigation/make.hpp"
+
 namespace microswarm {
 
 SimulatedRig::SimulatedRig(const Scenario& scenario, const World& world, const Rig& rig,
@@ -35,6 +37,14 @@ void SimulatedRig::apply(const Command& command, double dt) {
     controller_.advance(piece);
     bench_.pass(driver_.currents(), piece);
   }
+}
+
+RunResult rehearse(const Scenario& scenario, const World& world, const Rig& rig,
+                   std::uint32_t trial, std::span<RunListener* const> listeners, const Stop& stop) {
+  SimulatedRig plant(scenario, world, rig, trial);
+  const auto navigator = make_navigator(scenario.navigator, task_of(scenario),
+                                        Rng(scenario.seed, Purpose::planner, trial));
+  return run(scenario, plant, *navigator, listeners, stop);
 }
 
 std::unique_ptr<CoilDriver> simulated_coils(const RigParams& rig) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "microswarm/actuation/coil_controller.hpp"
+#include "microswarm/experiment/run.hpp"
 #include "microswarm/rig/eye.hpp"
 #include "microswarm/rig/simulated_bench.hpp"
 
@@ -41,6 +42,12 @@ class SimulatedRig : public Plant {
   const Sight* sight_ = nullptr;
   std::optional<Snapshot> seen_world_;
 };
+
+/// Builds plant and navigator for one trial of a scenario and runs it through the rig, as
+/// simulate() does without one.
+RunResult rehearse(const Scenario& scenario, const World& world, const Rig& rig,
+                   std::uint32_t trial = 0, std::span<RunListener* const> listeners = {},
+                   const Stop& stop = {});
 
 /// Coils that are not there, as the rig describes them.
 std::unique_ptr<CoilDriver> simulated_coils(const RigParams& rig);

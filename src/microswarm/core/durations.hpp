@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace microswarm {
+
+/// Many durations in a fixed place: how many there were in each of steps of 1 %, from 1 µs to
+/// about 1000 s.
+class Durations {
+ public:
+  /// One of `seconds`.
+  void add(double seconds) {
+    const double step = std::log(std::max(seconds, shortest) / shortest) / growth;
+    ++counts_[std::min(static_cast<std::size_t>(step), counts_.size() - 1)];
+    longest_ = std::max(longest_, seconds);
+    ++count_;
+  }
+  std::size_t count() const { return static_cast<std::size_t>(count_); }
+  /// Quantile q in [0, 1] by nearest rank [s]: at least that, and by at most 1 % or 1 µs more;
+  /// 0 for none.
+  double quantile(double q) const {
+    const auto rank = static_cast<std::uint64_t>(std::ceil(q * static_cast<double>(count_)));
+    std::uint64_t below = 0;
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+      below += counts_[i];
+      if (below >= std::max<std::uint64_t>(rank, 1))
+        return std::min(longest_, shortest * std::exp(growth * static_cast<double>(i + 1)));
+    }
+    return 0;
+  }
+
+ private:
+  static constexpr double shortest = 1e-6;               // [s]
+  static constexpr double growth = 0.00995033085316808;  // ln 1.01
+
+  std::array<std::uint32_t, 2083> counts_{};
+  std::uint64_t count_ = 0;
+  double longest_ = 0;  // [s]
+};
+
+}  // namespace microswarm
