@@ -130,7 +130,7 @@ TEST(RobotEye, PilesAreSeenAsOneAndComeApartAgain) {
   double t = 0;
   for (; robots[0].x < robots[1].x; robots[0].x += 4) see(t += 0.1);
   for (const Vec2 place : see(t += 0.1).robots)
-    EXPECT_LT(std::min(distance(place, robots[1]), distance(place, robots[2])), 3);
+    EXPECT_LT(std::min(distance(place, robots[1]), distance(place, robots[2])), 7);  // its radius
   for (int i = 0; i < 40; ++i, robots[0].y += 4) see(t += 0.1);
   const Sight& apart = see(t += 0.1);
   const auto near = [&](Vec2 place) {
@@ -138,6 +138,63 @@ TEST(RobotEye, PilesAreSeenAsOneAndComeApartAgain) {
                        [&](Vec2 p) { return distance(p, place) < 3; });
   };
   for (const Vec2 robot : robots) EXPECT_TRUE(near(robot));
+}
+
+/// Robots driven to and fro, with piles at the walls and in dim light; the shares of robot and
+/// picture for which nothing is seen near a robot, and no robot is near what is seen.
+struct Lost {
+  double unseen = 0;
+  double ghosts = 0;
+};
+Lost drive_to_and_fro(int count) {
+  const auto map = std::make_shared<const Map>(
+      Box{{0, 0}, {1200, 800}},
+      std::vector<Polygon>{{{{0, 0}, {1200, 0}, {1200, 100}, {0, 100}}, {}},
+                           {{{400, 300}, {700, 350}, {650, 600}, {450, 500}}, {}}});
+  MicroscopeParams optics;
+  optics.um_per_px = 4;
+  optics.robot_diameter = 4;
+  optics.light_gradient = 0.3;
+  Microscope microscope(optics, *map, 1, 0);
+  EyeParams params = eye_params();
+  params.robots = {.diameter = 5, .min_mass = 60, .separation = 3};
+  Rng rng(5, Purpose::test);
+  std::vector<Vec2> starts;
+  while (std::ssize(starts) < count) {
+    const Vec2 p{rng.uniform(0, 1200), rng.uniform(0, 800)};
+    if (map->is_free(p, 5)) starts.push_back(p);
+  }
+  const RobotStepper stepper(*map, 15);
+  Robots robots = stepper.place(starts);
+  RobotEye eye(params, {}, *map, starts, view_of(microscope));
+  constexpr double near = 30;  // [µm]; a robot's picture is 16 µm wide
+  const auto alone = [](Vec2 place, const std::vector<Vec2>& others) {
+    return std::none_of(others.begin(), others.end(),
+                        [&](Vec2 other) { return distance(place, other) < near; });
+  };
+  Lost lost;
+  Command command;
+  for (int frame = 0; frame < 300; ++frame) {
+    if (frame % 10 == 0) command = {rng.uniform(-pi, pi), 150};
+    const double t = 0.1 * frame;
+    const std::vector<Vec2> places = robots.positions();
+    const Sight& seen = eye.see(microscope.look(Snapshot(map, t), std::nullopt, places), t);
+    for (const Vec2 place : places) lost.unseen += alone(place, seen.robots);
+    for (const Vec2 place : seen.robots) lost.ghosts += alone(place, places);
+    eye.commanded(command, t);
+    stepper.step(robots, displacement(command, 0.1), ContactRule::stop);
+  }
+  lost.unseen /= 300.0 * count;
+  lost.ghosts /= 300.0 * count;
+  return lost;
+}
+
+TEST(RobotEye, LosesNoneAtWallsAndInPiles) {
+  for (const int count : {20, 150}) {
+    const Lost lost = drive_to_and_fro(count);
+    EXPECT_LT(lost.unseen, 0.01) << count;
+    EXPECT_LT(lost.ghosts, 0.01) << count;
+  }
 }
 
 TEST(BodyNumbers, StayWithTheirBodies) {

@@ -3,98 +3,142 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
+#include <numeric>
 
+#include "microswarm/core/angles.hpp"
+#include "microswarm/rig/still_ground.hpp"
 #include "microswarm/rig/walls_in_picture.hpp"
 
 namespace microswarm {
+namespace {
+
+constexpr double usual_time = 1.0;  // [s] between pictures, for the stepper's grid
+
+std::size_t nearest_of(std::span<const Vec2> places, Vec2 to) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < places.size(); ++i)
+    if (squared_norm(places[i] - to) < squared_norm(places[best] - to)) best = i;
+  return best;
+}
+
+}  // namespace
 
 RobotEye::RobotEye(const EyeParams& params, const RobotSwarmParams& robots, const Map& map,
                    std::span<const Vec2> starts, const CameraView& view)
     : scale_(view.scale),
-      walls_(walls_in_picture(map, view.scale, view.width, view.height)),
+      map_(map),
+      stepper_(map, robots.max_speed * usual_time),
+      contact_(robots.contact),
+      max_speed_(robots.max_speed),
       finder_(params.robots),
-      max_speed_(robots.max_speed) {
+      diameter_(2 * finder_.radius_px() * scale_.um_per_px),
+      ground_(std::make_unique<StillGround>(
+          walls_in_picture(map, view.scale, view.width, view.height), finder_.radius_px())) {
   sight_.robots.assign(starts.begin(), starts.end());
 }
+
+RobotEye::~RobotEye() = default;
 
 void RobotEye::commanded(const Command& command, double) { command_ = command; }
 
 const Sight& RobotEye::see(const Image& picture, double t) {
-  std::vector<Vec2> spots;
-  hide_walls(picture);
-  for (const Particle& particle : finder_.find(open_))
-    spots.push_back(scale_.to_world(particle.at_px));
-  if (sight_.robots.empty()) sight_.robots = spots;
-  if (sight_.robots.empty()) {
-    sight_.trouble = "none";
-    return sight_;
-  }
+  find_spots(picture);
+  if (sight_.robots.empty()) sight_.robots = spots_;
   const double passed = std::max(0.0, t - seen_);
   seen_ = t;
-  // Half of where the command would take it: it may do so, or be held by a wall.
-  for (Vec2& robot : sight_.robots) robot += 0.5 * displacement(command_, passed);
-  const double diameter = 2 * finder_.radius_px() * scale_.um_per_px;
-  if (!spots.empty()) pair(spots, diameter + 3 * max_speed_ * passed);
-  Vec2 sum{};
-  for (const Vec2 robot : sight_.robots) sum += robot;
-  const double n = static_cast<double>(sight_.robots.size());
-  const Vec2 middle = sum / n;
-  double squares = 0;
-  for (const Vec2 robot : sight_.robots) squares += squared_norm(robot - middle);
   sight_.swarm.reset();
-  sight_.trouble = spots.empty() ? "none" : "";
-  if (!spots.empty()) sight_.swarm = {{middle, command_.heading}, std::sqrt(squares / n)};
+  sight_.trouble = "none";
+  if (spots_.empty()) return sight_;
+  expect(passed);
+  pair(diameter_ + 3 * max_speed_ * passed);
+  place_the_unseen();
+  learn_ground();
+  sight_.trouble = "";
+  sight_.swarm = body_of(sight_.robots, command_.heading);
   return sight_;
 }
 
-/// Walls get the mean grey of what is free around them, so that their edges are no robots.
-void RobotEye::hide_walls(const Image& picture) {
-  open_ = picture;
-  const int side = 4 * finder_.radius_px() + 1;
-  cv::Mat grey(picture.height, picture.width, CV_8U, open_.pixels.data());
-  const cv::Mat walls(walls_.height, walls_.width, CV_8U, walls_.cells.data());
-  cv::Mat free, sum, around;
-  free = walls == 0;
-  cv::Mat masked = cv::Mat::zeros(grey.size(), CV_32F);
-  grey.convertTo(masked, CV_32F);
-  masked.setTo(0, walls);
-  cv::boxFilter(masked, sum, CV_32F, {side, side}, {-1, -1}, false);
-  cv::boxFilter(free, around, CV_32F, {side, side}, {-1, -1}, false);
-  cv::divide(sum, cv::max(around, 1), sum, 255);
-  const double ground = cv::mean(grey, free)[0];
-  sum.setTo(ground, around < 1);
-  sum.convertTo(masked, CV_8U);
-  masked.copyTo(grey, walls);
+void RobotEye::find_spots(const Image& picture) {
+  spots_.clear();
+  for (const Particle& particle : finder_.find(ground_->take_out(picture)))
+    spots_.push_back(scale_.to_world(particle.at_px));
 }
 
-void RobotEye::pair(const std::vector<Vec2>& spots, double reach) {
-  std::vector<Vec2>& robots = sight_.robots;
+/// Robots that the command takes on, as far as walls let them.
+void RobotEye::expect(double passed) {
+  std::vector<Vec2>& places = sight_.robots;
+  for (Vec2& place : places) place = free_near(place);
+  Robots robots = stepper_.place(places);
+  stepper_.step(robots, displacement(command_, passed), contact_);
+  places = robots.positions();
+}
+
+void RobotEye::pair(double reach) {
+  const std::vector<Vec2>& robots = sight_.robots;
   edges_.clear();
   // In order of x, so that only spots of about the same x are compared.
-  std::vector<int> by_x(spots.size());
-  for (std::size_t i = 0; i < by_x.size(); ++i) by_x[i] = static_cast<int>(i);
-  std::sort(by_x.begin(), by_x.end(), [&](int a, int b) { return spots[a].x < spots[b].x; });
+  std::vector<int> by_x(spots_.size());
+  std::iota(by_x.begin(), by_x.end(), 0);
+  const auto x_of = [&](int spot) { return spots_[static_cast<std::size_t>(spot)].x; };
+  std::sort(by_x.begin(), by_x.end(), [&](int a, int b) { return x_of(a) < x_of(b); });
   for (std::size_t r = 0; r < robots.size(); ++r) {
     auto at = std::partition_point(by_x.begin(), by_x.end(),
-                                   [&](int s) { return spots[s].x < robots[r].x - reach; });
-    for (; at != by_x.end() && spots[*at].x <= robots[r].x + reach; ++at)
-      if (const double d = squared_norm(spots[*at] - robots[r]); d <= reach * reach)
-        edges_.push_back({static_cast<int>(r), *at, d});
+                                   [&](int s) { return x_of(s) < robots[r].x - reach; });
+    for (; at != by_x.end() && x_of(*at) <= robots[r].x + reach; ++at) {
+      const double d = squared_norm(spots_[static_cast<std::size_t>(*at)] - robots[r]);
+      if (d <= reach * reach) edges_.push_back({static_cast<int>(r), *at, d});
+    }
   }
   const auto& spot_of = assignment_.solve(static_cast<int>(robots.size()),
-                                          static_cast<int>(spots.size()), edges_, reach * reach);
-  // A spot that is left over is a robot that was taken to be elsewhere: of those in a pile.
+                                          static_cast<int>(spots_.size()), edges_, reach * reach);
+  spot_of_.clear();
+  for (const std::optional<int>& spot : spot_of) spot_of_.push_back(spot.value_or(-1));
+}
+
+void RobotEye::place_the_unseen() {
+  std::vector<Vec2>& robots = sight_.robots;
+  std::vector<bool> taken(spots_.size());
+  std::vector<std::size_t> unseen;
   for (std::size_t r = 0; r < robots.size(); ++r) {
-    if (spot_of[r]) {
-      robots[r] = spots[static_cast<std::size_t>(*spot_of[r])];
+    if (spot_of_[r] < 0) {
+      unseen.push_back(r);
       continue;
     }
-    const auto nearest = std::min_element(spots.begin(), spots.end(), [&](Vec2 a, Vec2 b) {
-      return squared_norm(a - robots[r]) < squared_norm(b - robots[r]);
-    });
-    robots[r] = *nearest;
+    const auto spot = static_cast<std::size_t>(spot_of_[r]);
+    robots[r] = spots_[spot];
+    taken[spot] = true;
   }
+  for (std::size_t s = 0; s < spots_.size() && !unseen.empty(); ++s) {
+    if (taken[s]) continue;
+    const auto nearest =
+        std::min_element(unseen.begin(), unseen.end(), [&](std::size_t a, std::size_t b) {
+          return squared_norm(robots[a] - spots_[s]) < squared_norm(robots[b] - spots_[s]);
+        });
+    robots[*nearest] = spots_[s];
+    unseen.erase(nearest);
+  }
+  for (const std::size_t r : unseen)
+    if (!ground_->is_dark(scale_.to_picture(robots[r])))
+      robots[r] = spots_[nearest_of(spots_, robots[r])];
+}
+
+void RobotEye::learn_ground() {
+  std::vector<Vec2> at_px;
+  for (const Vec2 robot : sight_.robots) at_px.push_back(scale_.to_picture(robot));
+  for (const Vec2 spot : spots_) at_px.push_back(scale_.to_picture(spot));
+  ground_->learn(at_px);
+}
+
+/// A place where a robot can be: that one, or one about a robot's diameter away.
+Vec2 RobotEye::free_near(Vec2 place) const {
+  const double least = 2 * stepper_.guard();
+  if (map_.is_free(place, least)) return place;
+  for (int ring = 1; ring <= 8; ++ring)
+    for (int i = 0; i < 16; ++i) {
+      const Vec2 p = place + diameter_ * ring / 8 * unit_vector(2 * pi * i / 16);
+      if (map_.is_free(p, least)) return p;
+    }
+  return place;
 }
 
 }  // namespace microswarm
