@@ -96,7 +96,10 @@ void write_follower_figures(const std::vector<FollowerOutcome>& outcomes,
       std::vector<double> x(y.size(), static_cast<double>(i + 1));
       boxes[k].series.push_back({names[i], std::move(x), std::move(y), PlotStyle::box});
     }
-  Plot trace{.title = "On one of the paths", .x_label = "t (s)", .y_label = "off the path (µm)"};
+  Plot trace{.title = "On one of the paths",
+             .x_label = "t (s)",
+             .y_label = "off the path (µm)",
+             .key_below = true};
   for (const FollowerTrace& follower : follow_one(options, first_unseen_task)) {
     Series series{.label = follower.name, .x = {}, .y = follower.off};
     series.x.reserve(series.y.size());

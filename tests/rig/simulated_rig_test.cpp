@@ -121,6 +121,24 @@ TEST(SimulatedRig, WhatDoesNotGoTogetherIsRefused) {
   EXPECT_PRED2(ends_with, refusal({"camera.type=v4l2"}), ": the camera is no simulated one");
 }
 
+TEST(SimulatedRig, AScenarioBeyondTheGridOfTheFieldIsRefused) {
+  const test::Folder folder;
+  std::string grid = "8\n2 2 2\n-0.0002 0.0002\n-0.0002 0.0002\n-0.0002 0.0002\n";
+  for (int i = 0; i < 8; ++i)
+    grid += fmt::format("{} {} {} 0.001 0 0\n", i & 4 ? 0.0002 : -0.0002, i & 2 ? 0.0002 : -0.0002,
+                        i & 1 ? 0.0002 : -0.0002);
+  for (const char* name : {"x.txt", "y.txt", "z.txt"}) folder.with(name, grid);
+  folder.with("coils.yaml", "coils: {type: vfield, files: [x.txt, y.txt, z.txt]}\n");
+  folder.with("rig.yaml", "coils: coils.yaml\nfield: {kind: rotating, max_pitch_deg: 7.5}\n");
+  Rehearsal r("papers/radar/single.yaml", "vortex.yaml");
+  const Rig rig = read_rig(folder / "rig.yaml");
+  const std::string error = test::error_of([&] { SimulatedRig(r.scene.scenario, r.world, rig); });
+  EXPECT_TRUE(
+      error.ends_with("rig.yaml:1:8: the place (600, 300) µm of the scenario is at (-300, -700, 0) "
+                      "µm among the coils, where their field is not known"))
+      << error;
+}
+
 TEST(SimulatedRig, ASwarmMayBeFasterThanTheFieldIsMadeFor) {
   Rehearsal r("papers/radar/single.yaml", "vortex.yaml", coarse);
   r.scene.scenario.time_limit = 6;

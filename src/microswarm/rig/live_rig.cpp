@@ -52,6 +52,7 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
                }
                if (heard) heard(moment);
              }) {
+  check_workspace(rig, scenario, *map_);
   if (!camera_.wait(frame_, first_frame))
     throw HardwareError(fmt::format("camera: no picture within {} s", first_frame));
   const Image& picture = frame_.frame.picture;

@@ -50,7 +50,7 @@ SimulatedBench::SimulatedBench(const Scenario& scenario, const World& world, con
       map_(world.map),
       microscope_(std::get<SimulatedCamera>(rig.params.camera).microscope, *map_, scenario.seed,
                   trial),
-      at_(place()),
+      at_((check_workspace(rig, scenario, *map_), place())),
       actuation_(rig.system.at(at_)) {}
 
 void SimulatedBench::pass(std::span<const double> currents, double dt) {
@@ -99,6 +99,24 @@ Eigen::Vector3d SimulatedBench::place() const {
 Eigen::Vector3d place_among_coils(const CoilSystem& system, const Map& map, Vec2 place) {
   const Vec2 off = place - map.bounds().centre();
   return system.centre() + Eigen::Vector3d(off.x, off.y, 0);
+}
+
+void check_workspace(const Rig& rig, const Scenario& scenario, const Map& map) {
+  std::vector<Vec2> places;
+  if (scenario.start) places.push_back(scenario.start->position);
+  if (scenario.goal) places.push_back(*scenario.goal);
+  if (scenario.robots) {
+    places.insert(places.end(), scenario.robots->starts.begin(), scenario.robots->starts.end());
+    places.insert(places.end(), scenario.robots->goals.begin(), scenario.robots->goals.end());
+  }
+  for (const Vec2 place : places) {
+    const Eigen::Vector3d among = place_among_coils(rig.system, map, place);
+    if (!rig.system.in_workspace(among))
+      throw rig.where.error(
+          "coils", fmt::format("the place ({:.6g}, {:.6g}) µm of the scenario is at ({:.6g}, "
+                               "{:.6g}, {:.6g}) µm among the coils, where their field is not known",
+                               place.x, place.y, among.x(), among.y(), among.z()));
+  }
 }
 
 }  // namespace microswarm
