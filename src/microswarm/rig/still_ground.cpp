@@ -4,31 +4,18 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "microswarm/vision/ground.hpp"
+
 namespace microswarm {
 namespace {
 
-constexpr int light_reach = 8;         // robot radii over which the light is taken to be even
-constexpr double least_light = 0.85;   // of the mean: what is darker is a robot
 constexpr double dark = 0.8;           // of the ground
-constexpr double brighter_rate = 0.3;  // learned from a picture: robots only make it darker
+constexpr double brighter_rate = 0.1;  // learned from a picture: robots only make it darker
 constexpr double darker_rate = 0.03;
 
 cv::Mat disc(int radius) {
   const int side = 2 * radius + 1;
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side});
-}
-
-/// Mean of the values around each pixel, of those pixels alone that `use` names.
-cv::Mat mean_around(const cv::Mat& values, const cv::Mat& use, int side) {
-  cv::Mat used, sum, count, share;
-  values.copyTo(used, use);
-  use.convertTo(share, CV_32F, 1.0 / 255);
-  cv::boxFilter(used, sum, CV_32F, {side, side}, {-1, -1}, false);
-  cv::boxFilter(share, count, CV_32F, {side, side}, {-1, -1}, false);
-  const double all = std::max(1.0, cv::mean(values, use)[0]);
-  cv::Mat mean = sum / cv::max(count, 1);
-  mean.setTo(all, count < 1);
-  return mean;
 }
 
 }  // namespace
@@ -44,21 +31,14 @@ StillGround::StillGround(const Mask& walls, int reach) : reach_(reach) {
   at_edge_ = reached & wide_walls;
 }
 
-void StillGround::find_light(const Image& picture) {
+void StillGround::compare_with_light(const Image& picture) {
   const cv::Mat grey(picture.height, picture.width, CV_8U,
                      const_cast<std::uint8_t*>(picture.pixels.data()));
-  const int side = 2 * light_reach * reach_ + 1;
-  cv::Mat values;
-  grey.convertTo(values, CV_32F);
-  const cv::Mat first = mean_around(values, free_, side);
-  const cv::Mat lit = (values > least_light * first) & free_;
-  cv::Mat light;
-  cv::max(mean_around(values, lit, side), 1, light);
-  share_ = values / light;
+  cv::divide(grey, cv::max(ground_of(grey, free_), 1), share_, 1, CV_32F);
 }
 
 const Image& StillGround::take_out(const Image& picture) {
-  find_light(picture);
+  compare_with_light(picture);
   if (ground_.empty()) {
     ground_ = cv::Mat::ones(share_.size(), CV_32F);
     share_.copyTo(ground_, at_edge_);

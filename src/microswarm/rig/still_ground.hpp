@@ -28,7 +28,7 @@ class StillGround {
   void learn(std::span<const Vec2> robots);
 
  private:
-  void find_light(const Image& picture);
+  void compare_with_light(const Image& picture);
 
   int reach_;
   cv::Mat free_;     // 255 where no wall is
