@@ -11,6 +11,7 @@
 
 #include "bench/ompl_global.hpp"
 #include "microswarm/core/statistics.hpp"
+#include "microswarm/core/stop.hpp"
 #include "microswarm/experiment/global_tree_file.hpp"
 #include "microswarm/formats/mask.hpp"
 #include "microswarm/geometry/bucket_kd_tree.hpp"
@@ -23,10 +24,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t published_nodes = 341'997;  // Fig 9 [global]
-
-double seconds_since(Clock::time_point began) {
-  return std::chrono::duration<double>(Clock::now() - began).count();
-}
 
 GlobalTree grow(const Map& map, std::span<const Vec2> starts, std::size_t nodes, double step = 5) {
   GlobalRrtParams params;

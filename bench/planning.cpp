@@ -9,6 +9,7 @@
 
 #include "bench/ompl_peer.hpp"
 #include "microswarm/core/statistics.hpp"
+#include "microswarm/core/stop.hpp"
 #include "microswarm/experiment/scenario.hpp"
 #include "microswarm/geometry/distance.hpp"
 #include "microswarm/planning/planners.hpp"
@@ -18,10 +19,6 @@ namespace microswarm::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point began) {
-  return std::chrono::duration<double>(Clock::now() - began).count();
-}
 
 constexpr std::array all_peers{OmplPlanner::rrt_star, OmplPlanner::informed_rrt_star,
                                OmplPlanner::bit_star, OmplPlanner::rrt_connect};

@@ -17,7 +17,7 @@ namespace microswarm::cli {
 namespace {
 
 #ifdef MICROSWARM_HAS_BENCH
-std::vector<BenchRow> rows_of(const std::string& group, bool quick, const Stop& stop) {
+std::vector<BenchRow> bench_rows(const std::string& group, bool quick, const Stop& stop) {
   if (group == "planning") return bench::planning(scenario_folder(), quick, stop);
   if (group == "radar") return bench::radar(quick, stop);
   if (group == "vision") return bench::vision(quick, stop);
@@ -27,7 +27,7 @@ std::vector<BenchRow> rows_of(const std::string& group, bool quick, const Stop& 
 int measure(const std::string& group, const std::string& csv, bool quick, bool json,
             const Context& context) {
   if (!csv.empty()) const StagedFile can_be_written(csv);
-  const std::vector<BenchRow> rows = rows_of(group, quick, context.stop);
+  const std::vector<BenchRow> rows = bench_rows(group, quick, context.stop);
   if (!csv.empty() && !context.stop.requested())
     write_file_atomically(csv, "# " + bench::machine_line() + "\n" + rows_csv(rows));
   if (quick) fmt::print(stderr, "quick: fewer repetitions\n");

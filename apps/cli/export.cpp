@@ -11,7 +11,7 @@
 namespace microswarm::cli {
 namespace {
 
-struct Options {
+struct ExportOptions {
   std::string file;
   std::string csv;
   std::string hdf5;
@@ -26,14 +26,14 @@ bool is_hdf5(const std::string& file) {
   return std::string_view(first.data(), first.size()) == "\x89HDF";
 }
 
-void export_record(const Options& o) {
+void export_record(const ExportOptions& o) {
   if (!o.hdf5.empty()) throw InputError(o.file + ": is HDF5 as it is");
   if (!o.ompl.empty()) throw InputError(o.file + ": --ompl takes the database of a sweep");
   write_file_atomically(o.csv, record_csv(read_record(o.file), o.table));
   print("wrote {}\n", o.csv);
 }
 
-void export_sweep(const Options& o) {
+void export_sweep(const ExportOptions& o) {
   if (!o.table.empty() && o.table != "frames")
     throw InputError(o.file + ": --table takes the record of a run");
   const SweepReader sweep(o.file);
@@ -53,7 +53,7 @@ void export_sweep(const Options& o) {
   print("wrote {} logs into {}\n", logs.size(), o.ompl);
 }
 
-int export_command(const Options& o) {
+int export_command(const ExportOptions& o) {
   if (o.csv.empty() && o.hdf5.empty() && o.ompl.empty())
     throw InputError("export: nothing to write: give --csv, --hdf5 or --ompl");
   keep_input(o.csv, o.file);
@@ -65,7 +65,7 @@ int export_command(const Options& o) {
 }  // namespace
 
 void add_export(Command app, Action& action) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<ExportOptions>();
   Command cmd =
       app.add_command("export",
                       "Write a sweep's database, or a table of a run's record, in forms that "

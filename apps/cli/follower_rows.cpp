@@ -28,12 +28,6 @@ double rms_off(const FollowedPath& p) { return p.rms_off; }
 double turning(const FollowedPath& p) { return degrees(p.field_turning); }
 double relative_time(const FollowedPath& p) { return 100 * p.time / p.fair_time; }
 
-double mean(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double v : values) sum += v;
-  return values.empty() ? 0 : sum / static_cast<double>(values.size());
-}
-
 double arrived_share(const FollowerOutcome& o) {
   return 100 * static_cast<double>(values_of(o, rms_off).size()) /
          std::max<double>(1, static_cast<double>(o.paths.size()));

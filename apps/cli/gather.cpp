@@ -11,7 +11,7 @@
 namespace microswarm::cli {
 namespace {
 
-struct Options {
+struct GatherOptions {
   std::string map;
   std::optional<double> um_per_px;
   std::string goal;
@@ -39,7 +39,7 @@ void fit(Scenario& scenario, double width, int most_steps) {
 
 /// The usual width of the map's channels: as given, with a note on stderr where that is far from
 /// what is measured, else measured.
-double width_of(const Options& o, const Map& map) {
+double width_of(const GatherOptions& o, const Map& map) {
   constexpr double far = 5;
   Rng rng(o.seed, Purpose::planner);
   const double measured = channel_width(map, rng);
@@ -52,7 +52,7 @@ double width_of(const Options& o, const Map& map) {
 }
 
 /// Its --um-per-px is that of the photograph.
-MapSpec map_spec(const Options& o) {
+MapSpec map_spec(const GatherOptions& o) {
   try {
     return guess_map_spec(o.map, o.um_per_px);
   } catch (const InputError& error) {
@@ -63,7 +63,7 @@ MapSpec map_spec(const Options& o) {
   }
 }
 
-int gather_command(const Options& o, const Context& context) {
+int gather_command(const GatherOptions& o, const Context& context) {
   const std::vector<double> to = numbers(o.goal);
   const ReportOptions report = report_options(o.photo);
   Scenario scenario;
@@ -87,7 +87,7 @@ int gather_command(const Options& o, const Context& context) {
 }  // namespace
 
 void add_gather(Command app, Action& action) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<GatherOptions>();
   Command cmd = app.add_command(
       "gather", "Gather many robots at a goal with one input for all, in a simulation",
       "gather vessels.geojson --goal 11103,2397 --robots 512 --out out/gather");

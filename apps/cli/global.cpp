@@ -10,6 +10,7 @@
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
+#include "microswarm/core/stop.hpp"
 #include "microswarm/core/text.hpp"
 #include "microswarm/experiment/global_tree_file.hpp"
 #include "microswarm/experiment/robot_check.hpp"
@@ -22,7 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct GlobalOptions {
   std::string map;
   std::optional<double> um_per_px;
   std::string robots;
@@ -36,8 +37,6 @@ struct Options {
   bool as_found = false;
   bool json = false;
 };
-
-using Choice = GlobalChoice;
 
 /// "60,300;60,250"; empty when it is no such list.
 std::vector<Vec2> places(const std::string& text) {
@@ -68,18 +67,14 @@ struct Found {
   double seconds = 0;
 };
 
-double seconds_since(Stop::Clock::time_point began) {
-  return std::chrono::duration<double>(Stop::Clock::now() - began).count();
-}
-
 /// That the planner says itself when there are not as many goals as robots.
-void check_ends(const Options& o, const Map& map, std::span<const Vec2> starts,
+void check_ends(const GlobalOptions& o, const Map& map, std::span<const Vec2> starts,
                 std::span<const Vec2> goals, const GlobalPlay& play) {
   if (goals.size() == starts.size()) check_ways(map, starts, goals, play.goal_tolerance, 0, o.map);
 }
 
 /// Throws InputError when no planner could have brought the robots there.
-void explain(const Options& o, const Map& map, std::span<const Vec2> starts,
+void explain(const GlobalOptions& o, const Map& map, std::span<const Vec2> starts,
              std::span<const Vec2> goals, const GlobalPlay& play, Status status) {
   const Snapshot world(std::shared_ptr<const Map>(std::shared_ptr<void>(), &map));
   const bool starts_wrong = status == Status::start_blocked;
@@ -105,8 +100,8 @@ GlobalPlay play_of(const std::variant<GlobalSearchParams, GlobalRrtParams>& plan
 }
 
 /// The parameters a tree was grown with; what --set changes of them would not fit the tree.
-GlobalRrtParams parameters_of(const Options& o, const GlobalTree& tree) {
-  Choice choice;
+GlobalRrtParams parameters_of(const GlobalOptions& o, const GlobalTree& tree) {
+  GlobalChoice choice;
   GlobalRrtParams grown;
   grown.robostep = tree.robostep;
   grown.directions = static_cast<int>(tree.moves.size());
@@ -127,14 +122,14 @@ GlobalRrtParams parameters_of(const Options& o, const GlobalTree& tree) {
   return *set;
 }
 
-Found search(const Map& map, std::span<const Vec2> starts, std::span<const Vec2> goals,
-             const GlobalSearchParams& params, Rng& rng, const Stop& stop) {
+Found search_inputs(const Map& map, std::span<const Vec2> starts, std::span<const Vec2> goals,
+                    const GlobalSearchParams& params, Rng& rng, const Stop& stop) {
   GlobalSearch found = global_search(map, starts, goals, params, rng, stop);
   return {std::move(found.plan), found.counts.samples};
 }
 
 /// Grows a tree, keeps it where it is to be kept, and asks it.
-Found grow(const Options& o, const LoadedMap& map, std::span<const Vec2> starts,
+Found grow(const GlobalOptions& o, const LoadedMap& map, std::span<const Vec2> starts,
            std::span<const Vec2> goals, const GlobalRrtParams& params, Rng& rng, const Stop& stop) {
   const GlobalRrt grown = global_rrt(*map.map, starts, goals, params, rng, stop);
   Found found{{grown.answer.status}, grown.tree.size()};
@@ -179,7 +174,7 @@ void show_json(const Found& found, bool has_goals) {
   print("{}\n", json.dump(2));
 }
 
-void show(const Options& o, const Found& found) {
+void show(const GlobalOptions& o, const Found& found) {
   const GlobalPlan& plan = found.plan;
   if (o.goals.empty()) {
     print("tree of {} nodes, {:.2f} s\n", found.nodes, found.seconds);
@@ -201,7 +196,7 @@ void show(const Options& o, const Found& found) {
   if (!o.picture.empty()) print("wrote {}\n", o.picture);
 }
 
-void check_options(const Options& o) {
+void check_options(const GlobalOptions& o) {
   if (o.robots.empty() == o.tree.empty())
     throw InputError("global: give either --robots, where they start, or --tree, which knows");
   if (o.goals.empty() && o.save_tree.empty())
@@ -210,7 +205,7 @@ void check_options(const Options& o) {
 }
 
 /// The plan, from a tree that is there already or by a planner.
-Found found_plan(const Options& o, const LoadedMap& map, std::span<const Vec2> goals,
+Found found_plan(const GlobalOptions& o, const LoadedMap& map, std::span<const Vec2> goals,
                  GlobalPlay& play, const Stop& stop) {
   if (!o.tree.empty()) {
     const GlobalTree tree = read_global_tree(o.tree, map);
@@ -222,7 +217,7 @@ Found found_plan(const Options& o, const LoadedMap& map, std::span<const Vec2> g
     found.seconds = seconds_since(began);
     return found;
   }
-  Choice choice;
+  GlobalChoice choice;
   if (!o.save_tree.empty()) {
     GlobalRrtParams to_be_kept;
     to_be_kept.stop_at_first = false;
@@ -238,14 +233,14 @@ Found found_plan(const Options& o, const LoadedMap& map, std::span<const Vec2> g
   if (!rrt && !o.save_tree.empty())
     throw InputError("global: --save-tree keeps trees of planner.type=global_rrt only");
   Found found = rrt ? grow(o, map, starts, goals, *rrt, rng, stop)
-                    : search(*map.map, starts, goals, std::get<GlobalSearchParams>(choice.planner),
-                             rng, stop);
+                    : search_inputs(*map.map, starts, goals,
+                                    std::get<GlobalSearchParams>(choice.planner), rng, stop);
   found.seconds = seconds_since(began);
   explain(o, *map.map, starts, goals, play, found.plan.status);
   return found;
 }
 
-int global_command(const Options& o, const Context& context) {
+int global_command(const GlobalOptions& o, const Context& context) {
   check_options(o);
   for (const std::string& out : {o.save_tree, o.picture})
     for (const std::string& in : {o.map, o.tree}) keep_input(out, in);
@@ -272,7 +267,7 @@ int global_command(const Options& o, const Context& context) {
 }  // namespace
 
 void add_global(Command app, Action& action) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<GlobalOptions>();
   Command cmd = app.add_command(
       "global",
       "Plan inputs that bring each of several robots, which all get the same, to its goal",

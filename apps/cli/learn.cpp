@@ -16,7 +16,7 @@
 namespace microswarm::cli {
 namespace {
 
-struct Options {
+struct LearnOptions {
   std::string out;
   std::vector<std::string> settings;
   int jobs = 0;
@@ -27,7 +27,7 @@ struct Options {
 constexpr int tasks = 200;
 constexpr int quick_tasks = 40;
 
-FollowerTrainingParams training_params(const Options& o) {
+FollowerTrainingParams training_params(const LearnOptions& o) {
   FollowerTrainingParams params;
   if (o.quick) {
     params.runs = 20;
@@ -45,7 +45,7 @@ std::string hash_of(const std::string& text) {
 }
 
 /// What a reader of the model wants to know of it.
-std::string card(const TrainedFollower& trained, const std::string& model, const Options& o,
+std::string card(const TrainedFollower& trained, const std::string& model, const LearnOptions& o,
                  const std::vector<ReproduceRow>& rows) {
   std::string command = "microswarm learn follower --out DIR";
   if (o.quick) command += " --quick";
@@ -72,7 +72,7 @@ std::string card(const TrainedFollower& trained, const std::string& model, const
       rows_table(rows));
 }
 
-int learn_command(const Options& o, const Context& context) {
+int learn_command(const LearnOptions& o, const Context& context) {
   const FollowerTrainingParams params = training_params(o);
   const OutFolder hold(o.out);
   const std::filesystem::path folder = o.out;
@@ -113,7 +113,7 @@ int learn_command(const Options& o, const Context& context) {
 }  // namespace
 
 void add_learn(Command app, Action& action) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<LearnOptions>();
   Command cmd = app.add_group("learn", "Train what is learned, and compare it");
   Command follower =
       cmd.add_command("follower", "A follower of paths, taught by an expert in simulations",

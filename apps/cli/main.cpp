@@ -13,12 +13,12 @@
 
 namespace {
 
-std::atomic<bool> interrupted{false};
+std::atomic<bool> was_interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 // The first Ctrl-C asks for a clean end; a second one ends at once.
 extern "C" void on_interrupt(int signal) {
-  if (interrupted.exchange(true)) {
+  if (was_interrupted.exchange(true)) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
   }
@@ -39,7 +39,7 @@ int complain(const char* what, int code) {
 int act(const microswarm::cli::Action& action) {
   using namespace microswarm;
   try {
-    const int code = action(cli::Context(&interrupted));
+    const int code = action(cli::Context(&was_interrupted));
     cli::flush_output();
     return code;
   } catch (const InputError& e) {

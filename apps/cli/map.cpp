@@ -19,22 +19,22 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct MapOptions {
   std::string map;
   std::optional<double> um_per_px;
   bool json = false;
 };
 
-void add_input(Command cmd, const std::shared_ptr<Options>& o) {
+void add_input(Command cmd, const std::shared_ptr<MapOptions>& o) {
   cmd.add_option("map", o->map, "Picture, ROS YAML, MovingAI .map, GeoJSON or CSV of rectangles")
       .required()
       .type_name("FILE");
   add_um_per_px(cmd, o->um_per_px, "µm per pixel or cell of the map, 1e-6..1e6");
 }
 
-LoadedMap load(const Options& o) { return load_map(guess_map_spec(o.map, o.um_per_px)); }
+LoadedMap load(const MapOptions& o) { return load_map(guess_map_spec(o.map, o.um_per_px)); }
 
-int info(const Options& o) {
+int info(const MapOptions& o) {
   const LoadedMap loaded = load(o);
   const Box& b = loaded.map->bounds();
   const auto bodies = loaded.map->walls().bodies();
@@ -66,7 +66,7 @@ int info(const Options& o) {
   return ok;
 }
 
-int check(const Options& o, double resolution) {
+int check(const MapOptions& o, double resolution) {
   const MapReport r = check_map(*load(o).map, resolution);
   if (r.free_pieces == 0) throw InputError(o.map + ": all of the map is blocked");
   if (o.json) {
@@ -95,7 +95,7 @@ int check(const Options& o, double resolution) {
   return ok;
 }
 
-int convert(const Options& o, const std::string& out, const std::optional<double>& cell) {
+int convert(const MapOptions& o, const std::string& out, const std::optional<double>& cell) {
   write_map(out, *load(o).map, cell ? *cell : o.um_per_px.value_or(0));
   print("wrote {}\n", out);
   return ok;
@@ -198,7 +198,7 @@ void add_segment(Command map, Action& action) {
 void add_map(Command app, Action& action) {
   Command map = app.add_group("map", "Look at maps, check, convert and make them");
 
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<MapOptions>();
   Command info_cmd = map.add_command("info", "Size, walls, hash", "map info map.png --um-per-px 5");
   add_input(info_cmd, o);
   add_json(info_cmd, o->json);

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct PlanOptions {
   std::string map;
   std::optional<double> um_per_px;
   std::string start;
@@ -30,7 +30,7 @@ struct Options {
   bool json = false;
 };
 
-using Choice = PlannerChoice<PlannerParams>;
+using PathChoice = PlannerChoice<PlannerParams>;
 
 struct Ends {
   double clearance;
@@ -41,7 +41,7 @@ Ends ends_of(const PlannerParams& planner) {
   return std::visit([](const auto& p) { return Ends{p.clearance, p.goal_tolerance}; }, planner);
 }
 
-void draw(const Options& o, const Snapshot& world, const Pose2& start, Vec2 goal,
+void draw(const PlanOptions& o, const Snapshot& world, const Pose2& start, Vec2 goal,
           const PlannerParams& planner, const Plan& plan) {
   Picture picture(world.bounds(), fmt::format("{}: {}", o.map, to_string(plan.status)));
   picture.walls(world.map());
@@ -57,7 +57,7 @@ void draw(const Options& o, const Snapshot& world, const Pose2& start, Vec2 goal
 
 /// Throws InputError when no planner could have found a path: an end that is blocked, a swarm too
 /// wide, a goal cut off.
-void explain(const Options& o, const Snapshot& world, Vec2 start, Vec2 goal,
+void explain(const PlanOptions& o, const Snapshot& world, Vec2 start, Vec2 goal,
              const PlannerParams& planner, Status status) {
   const auto [clearance, tolerance] = ends_of(planner);
   if (status == Status::start_blocked)
@@ -100,9 +100,9 @@ void check_planner(const PlannerParams& planner) {
     check(*fmt_star, Places("plan").within("planner", "planner"));
 }
 
-int plan_command(const Options& o, const Context& context) {
+int plan_command(const PlanOptions& o, const Context& context) {
   keep_input(o.picture, o.map);
-  Choice choice;
+  PathChoice choice;
   set_values(choice, o.settings);
   check_planner(choice.planner);
   const std::vector<double> from = numbers(o.start);
@@ -124,7 +124,7 @@ int plan_command(const Options& o, const Context& context) {
 }  // namespace
 
 void add_plan(Command app, Action& action) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<PlanOptions>();
   Command cmd = app.add_command(
       "plan",
       "Plan one path on a map by drrt_star, rrt_star, uniform_rrt_star, rrt, a_star or fmt_star",

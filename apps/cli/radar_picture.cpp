@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 constexpr Colour detection{0.55, 0.35, 0.15, 1};
 constexpr Colour safety{0.95, 0.65, 0.0, 1};
 constexpr Colour prediction{0.80, 0.15, 0.15, 1};
-constexpr Colour detected{0.97, 0.72, 0.66, 0.95};
+constexpr Colour detected_colour{0.97, 0.72, 0.66, 0.95};
 constexpr Colour planned{0.8, 0.1, 0.1, 0.6};
 constexpr Colour waiting{0.5, 0.5, 0.5, 1};
 constexpr Colour goal{0.40, 0.25, 0.65, 1};
@@ -41,7 +41,7 @@ void draw_circles(Picture& picture, const RadarCircles& circles, Vec2 p) {
 void draw_obstacles(Picture& picture, const Snapshot& world, Disc circle) {
   for (const Body& body : world.moving().bodies())
     picture.bodies({&body, 1}, edge_distance(body, circle.centre) < circle.radius
-                                   ? detected
+                                   ? detected_colour
                                    : colours::obstacle);
 }
 
@@ -73,7 +73,7 @@ void legend(Picture& picture, const RadarParams& params, bool has_plan) {
   picture.legend("swarm", colours::swarm, true);
   picture.legend("its way", colours::path);
   picture.legend("obstacle", colours::obstacle, true);
-  picture.legend("detected", detected, true);
+  picture.legend("detected", detected_colour, true);
   picture.legend("detection circle", detection);
   picture.legend("safety circle", safety);
   picture.legend("prediction circle", prediction);

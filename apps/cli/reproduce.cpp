@@ -15,7 +15,7 @@ namespace {
 using Reproduce = std::vector<ReproduceRow> (*)(const std::string& figure,
                                                 const ReproduceOptions& options, const Stop& stop);
 
-constexpr std::array<std::pair<std::string_view, Reproduce>, 4> papers{
+constexpr std::array<std::pair<std::string_view, Reproduce>, 4> reproduced_papers{
     {{"drrt", reproduce_drrt},
      {"global", reproduce_global},
      {"radar", reproduce_radar},
@@ -23,7 +23,7 @@ constexpr std::array<std::pair<std::string_view, Reproduce>, 4> papers{
 
 Reproduce reproduce_of(const std::string& paper) {
   std::vector<std::string_view> names;
-  for (const auto& [name, reproduce] : papers) {
+  for (const auto& [name, reproduce] : reproduced_papers) {
     if (name == paper) return reproduce;
     names.push_back(name);
   }

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/parallel.hpp"
+#include "microswarm/core/statistics.hpp"
 #include "microswarm/experiment/run.hpp"
 #include "microswarm/rig/simulated_rig.hpp"
 #include "reproduce_gather.hpp"
@@ -20,14 +20,14 @@ namespace {
 constexpr double frames_per_s = 45;
 constexpr double um_per_unit = 200;  // the 100 × 90 map is the maze: 20 × 18 mm, channels of 1.8 mm
 
-struct Method {
+struct RigMethod {
   const char* name;
   Aggregation aggregation;
   std::optional<double> published;  // [frames]
 };
-constexpr std::array<Method, 3> methods{{{"HRA", Aggregation::heuristic, 93'063},
-                                         {"DCA", Aggregation::divide_and_conquer, 60'628},
-                                         {"rollout", Aggregation::rollout, std::nullopt}}};
+constexpr std::array<RigMethod, 3> rig_methods{{{"HRA", Aggregation::heuristic, 93'063},
+                                                {"DCA", Aggregation::divide_and_conquer, 60'628},
+                                                {"rollout", Aggregation::rollout, std::nullopt}}};
 
 World maze(const scenes::Vascular& scene) {
   std::vector<Polygon> walls = scene.walls;
@@ -69,11 +69,6 @@ Scenario rig(const scenes::Vascular& scene, Aggregation method) {
   return s;
 }
 
-double mean(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) /
-         static_cast<double>(std::max<std::size_t>(1, values.size()));
-}
-
 }  // namespace
 
 void gather_fig10(const ReproduceOptions& options, const Stop& stop,
@@ -81,36 +76,36 @@ void gather_fig10(const ReproduceOptions& options, const Stop& stop,
   const std::size_t trials = options.quick ? 2 : 10;
   const scenes::Vascular scene = scenes::vascular_network();
   const World world = maze(scene);
-  std::vector<RunResult> results(methods.size() * trials);
+  std::vector<RunResult> results(rig_methods.size() * trials);
   for_each_index(results.size(), 0, [&](std::size_t i) {
-    const Scenario scenario = rig(scene, methods[i / trials].aggregation);
+    const Scenario scenario = rig(scene, rig_methods[i / trials].aggregation);
     if (!stop())
       results[i] = simulate(scenario, world, static_cast<std::uint32_t>(i % trials), {}, stop);
   });
   if (stop()) return;
-  std::array<double, methods.size()> frames{};
+  std::array<double, rig_methods.size()> frames{};
   std::string csv = "method,trial,status,frames\n";
   Plot plot{.title = "300 robots in a maze", .x_label = "trial", .y_label = "frames", .y_min = 0};
-  for (std::size_t m = 0; m < methods.size(); ++m) {
-    Series series{.label = methods[m].name, .style = PlotStyle::points};
+  for (std::size_t m = 0; m < rig_methods.size(); ++m) {
+    Series series{.label = rig_methods[m].name, .style = PlotStyle::points};
     double gathered = 0;
     for (std::size_t t = 0; t < trials; ++t) {
       const RunResult& result = results[m * trials + t];
       series.x.push_back(static_cast<double>(t + 1));
       series.y.push_back(frames_per_s * result.metrics.time);
       gathered += result.status == Status::solved;
-      csv += fmt::format("{},{},{},{:.0f}\n", methods[m].name, t, to_string(result.status),
+      csv += fmt::format("{},{},{},{:.0f}\n", rig_methods[m].name, t, to_string(result.status),
                          series.y.back());
     }
     frames[m] = mean(series.y);
     rows.push_back(
         {.figure = "fig10",
-         .quantity = fmt::format("{}, 300 robots: mean frames at 45 fps", methods[m].name),
+         .quantity = fmt::format("{}, 300 robots: mean frames at 45 fps", rig_methods[m].name),
          .unit = "1",
-         .paper = methods[m].published,
+         .paper = rig_methods[m].published,
          .ours = frames[m]});
     rows.push_back({.figure = "fig10",
-                    .quantity = fmt::format("{}, 300 robots: gathered", methods[m].name),
+                    .quantity = fmt::format("{}, 300 robots: gathered", rig_methods[m].name),
                     .unit = "%",
                     .ours = 100 * gathered / static_cast<double>(trials),
                     .aim = 100,
@@ -119,7 +114,7 @@ void gather_fig10(const ReproduceOptions& options, const Stop& stop,
   }
   for (const std::size_t m : {1u, 2u})
     rows.push_back({.figure = "fig10",
-                    .quantity = fmt::format("{} against HRA", methods[m].name),
+                    .quantity = fmt::format("{} against HRA", rig_methods[m].name),
                     .unit = "%",
                     .paper = m == 1 ? std::optional(-34.9) : std::nullopt,
                     .ours = 100 * (frames[m] / std::max(1.0, frames[0]) - 1),
@@ -143,7 +138,7 @@ void gather_fig10_rig(const ReproduceOptions& options, const Stop& stop,
   std::vector<RunResult> results(2 * trials);
   for_each_index(results.size(), 0, [&](std::size_t i) {
     if (stop()) return;
-    const Scenario scenario = rig(scene, methods[i / trials].aggregation);
+    const Scenario scenario = rig(scene, rig_methods[i / trials].aggregation);
     const auto trial = static_cast<std::uint32_t>(i % trials);
     results[i] = rehearse(scenario, world, rollers, trial, {}, stop);
   });
@@ -158,9 +153,9 @@ void gather_fig10_rig(const ReproduceOptions& options, const Stop& stop,
       gathered += result.status == Status::solved;
     }
     frames[m] = mean(times);
-    const std::string method = fmt::format("{} through a rig, 300 robots", methods[m].name);
+    const std::string method = fmt::format("{} through a rig, 300 robots", rig_methods[m].name);
     rows.push_back(row_of("fig10-rig", method + ": mean frames at 45 fps", "1",
-                          methods[m].published, frames[m]));
+                          rig_methods[m].published, frames[m]));
     rows.push_back(row_of("fig10-rig", method + ": gathered", "%", {},
                           100 * gathered / static_cast<double>(trials), 100, false));
   }

@@ -30,15 +30,16 @@ constexpr std::size_t of_64 = 5;
 constexpr std::size_t of_1024 = 9;
 constexpr std::size_t first_compared = 2;  // n = 8, from which on DCA+OWRRT is best in the paper
 
-struct Method {
+struct GatherMethod {
   const char* name;
   Aggregation aggregation;
   bool weighted;
 };
-constexpr std::array<Method, 4> methods{{{"DCA+OWRRT", Aggregation::divide_and_conquer, true},
-                                         {"HRA+OWRRT", Aggregation::heuristic, true},
-                                         {"HRA+RRT", Aggregation::heuristic, false},
-                                         {"rollout", Aggregation::rollout, true}}};
+constexpr std::array<GatherMethod, 4> gather_methods{
+    {{"DCA+OWRRT", Aggregation::divide_and_conquer, true},
+     {"HRA+OWRRT", Aggregation::heuristic, true},
+     {"HRA+RRT", Aggregation::heuristic, false},
+     {"rollout", Aggregation::rollout, true}}};
 constexpr std::size_t published_methods = 3;
 constexpr std::size_t of_rollout = 3;
 
@@ -65,8 +66,8 @@ std::array<Ground, 3> grounds() {
 
 /// The rollout planner's work grows with log n: few robots need little.
 AggregationParams parameters(const Ground& ground, std::size_t method, std::size_t population) {
-  AggregationParams params = gather_params(ground.scene, methods[method].aggregation);
-  params.obstacle_weighted = methods[method].weighted;
+  AggregationParams params = gather_params(ground.scene, gather_methods[method].aggregation);
+  params.obstacle_weighted = gather_methods[method].weighted;
   params.rollout.most_work =
       ground.work * static_cast<double>(population + 1) / static_cast<double>(populations);
   return params;
@@ -81,15 +82,16 @@ struct Trial {
 class Trials {
  public:
   explicit Trials(int count)
-      : count_(static_cast<std::size_t>(count)), all_(methods.size() * populations * count_) {}
+      : count_(static_cast<std::size_t>(count)),
+        all_(gather_methods.size() * populations * count_) {}
 
   std::size_t size() const { return all_.size(); }
   std::size_t count() const { return count_; }
   Trial& operator[](std::size_t i) { return all_[i]; }
-  std::size_t method_of(std::size_t i) const { return i / count_ % methods.size(); }
+  std::size_t method_of(std::size_t i) const { return i / count_ % gather_methods.size(); }
   /// The largest first: they take the longest.
   std::size_t population_of(std::size_t i) const {
-    return populations - 1 - i / (count_ * methods.size());
+    return populations - 1 - i / (count_ * gather_methods.size());
   }
   std::size_t number_of(std::size_t i) const { return i % count_; }
 
@@ -163,18 +165,18 @@ std::optional<double> published(const Ground& ground, std::size_t method, std::s
 }
 
 void add_means(const Ground& ground, const Trials& trials, std::vector<ReproduceRow>& rows) {
-  for (std::size_t m = 0; m < methods.size(); ++m) {
+  for (std::size_t m = 0; m < gather_methods.size(); ++m) {
     for (std::size_t k = 0; k < populations; ++k) {
       rows.push_back({.figure = "fig9",
                       .quantity = fmt::format("{}, {}, n = {}: mean steps", ground.name,
-                                              methods[m].name, population(k)),
+                                              gather_methods[m].name, population(k)),
                       .unit = "1",
                       .paper = published(ground, m, k),
                       .ours = trials.mean_steps(m, k)});
     }
     rows.push_back(
         {.figure = "fig9",
-         .quantity = fmt::format("{}, {}: gathered", ground.name, methods[m].name),
+         .quantity = fmt::format("{}, {}: gathered", ground.name, gather_methods[m].name),
          .unit = "%",
          .ours = 100 *
                  trials.share(m, [](const Trial& t) { return t.result.status == Status::solved; }),
@@ -182,7 +184,8 @@ void add_means(const Ground& ground, const Trials& trials, std::vector<Reproduce
          .at_most = false});
     rows.push_back(
         {.figure = "fig9",
-         .quantity = fmt::format("{}, {}: with a livelock broken", ground.name, methods[m].name),
+         .quantity =
+             fmt::format("{}, {}: with a livelock broken", ground.name, gather_methods[m].name),
          .unit = "%",
          .ours = 100 * trials.share(m, [](const Trial& t) { return t.result.guard_count > 0; })});
   }
@@ -195,7 +198,7 @@ void add_likeness(const Ground& ground, const Trials& trials, std::vector<Reprod
       const double paper = *published(ground, m, k);
       rows.push_back({.figure = "fig9",
                       .quantity = fmt::format("{}, {}, n = {}: off the published mean", ground.name,
-                                              methods[m].name, population(k)),
+                                              gather_methods[m].name, population(k)),
                       .unit = "%",
                       .ours = 100 * std::abs(trials.mean_steps(m, k) / paper - 1),
                       .aim = 15});
@@ -284,10 +287,11 @@ std::string trials_csv(const std::array<Ground, 3>& maps, std::vector<Trials>& t
     for (std::size_t i = 0; i < trials[g].size(); ++i) {
       const Trial& t = trials[g][i];
       if (!t.ran) continue;
-      out += fmt::format(
-          "{},{},{},{},{},{},{:.9g},{}\n", maps[g].scene.name, methods[trials[g].method_of(i)].name,
-          population(trials[g].population_of(i)), trials[g].number_of(i),
-          to_string(t.result.status), t.result.steps, t.result.mean_way, t.result.guard_count);
+      out += fmt::format("{},{},{},{},{},{},{:.9g},{}\n", maps[g].scene.name,
+                         gather_methods[trials[g].method_of(i)].name,
+                         population(trials[g].population_of(i)), trials[g].number_of(i),
+                         to_string(t.result.status), t.result.steps, t.result.mean_way,
+                         t.result.guard_count);
     }
   }
   return out;
@@ -323,8 +327,8 @@ void add_violin(std::vector<double> values, double x, double half_width, Series&
 Plot plot_of(const Ground& ground, const Trials& trials) {
   Plot plot{.title = ground.name, .x_label = "log_2 n", .y_label = "steps", .y_min = 0};
   Series paper{.label = "published means", .style = PlotStyle::points};
-  for (std::size_t m = 0; m < methods.size(); ++m) {
-    Series series{.label = methods[m].name};
+  for (std::size_t m = 0; m < gather_methods.size(); ++m) {
+    Series series{.label = gather_methods[m].name};
     std::vector<double> xs;
     for (std::size_t k = 0; k < populations; ++k) {
       const double n = static_cast<double>(k + 1);
@@ -352,11 +356,11 @@ Plot plot_of(const Ground& ground, const Trials& trials) {
 /// Mean steps of every method, a line a population.
 std::vector<std::vector<std::string>> table_of(const Ground& ground, const Trials& trials) {
   std::vector<std::vector<std::string>> lines{{"n"}};
-  for (const Method& method : methods) lines[0].emplace_back(method.name);
+  for (const GatherMethod& method : gather_methods) lines[0].emplace_back(method.name);
   for (std::size_t k = 0; k < populations; ++k) {
     std::vector<std::string>& line = lines.emplace_back();
     line.push_back(std::to_string(population(k)));
-    for (std::size_t m = 0; m < methods.size(); ++m) {
+    for (std::size_t m = 0; m < gather_methods.size(); ++m) {
       line.push_back(fmt::format("{:.0f}", trials.mean_steps(m, k)));
       if (const auto steps = published(ground, m, k)) line.back() += fmt::format(" ({})", *steps);
     }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <numeric>
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
@@ -29,10 +28,6 @@ using scenes::global_starts;
 
 constexpr double grid_cell =
     50;  // [µm]: "coverage decreases as grid size decreases", so it is an edge
-
-double mean(const std::vector<double>& v) {
-  return v.empty() ? 0 : std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
-}
 
 std::span<const Vec2> first(std::span<const Vec2> places, std::size_t count) {
   return places.first(count);
@@ -63,7 +58,7 @@ double mean_coverage(const Map& map, std::span<const Vec2> starts, double step, 
   return mean(shares);
 }
 
-struct Curve {
+struct CoverageCurve {
   std::vector<double> x, y;
   double best() const {
     return x.empty()
@@ -101,7 +96,7 @@ std::vector<ReproduceRow> step_lengths(const ReproduceOptions& options, const St
   constexpr std::array sizes{1000, 2500, 5000, 7500};
   const Map map = scenes::global_world(1);
   const int trials = options.quick ? 3 : 10;
-  std::vector<Curve> curves(sizes.size());
+  std::vector<CoverageCurve> curves(sizes.size());
   for (std::size_t k = 0; k < sizes.size(); ++k)
     for (const double step : steps) {
       curves[k].x.push_back(step);
@@ -133,7 +128,7 @@ std::vector<ReproduceRow> step_lengths(const ReproduceOptions& options, const St
 std::vector<ReproduceRow> cell_sizes(const ReproduceOptions& options, const Stop& stop) {
   const Map map = scenes::global_world(1);
   const int trials = options.quick ? 3 : 10;
-  Curve curve;
+  CoverageCurve curve;
   bool falls = true;
   for (const double cell : {50., 40., 30., 20., 10.}) {
     const double share = mean_coverage(map, first(global_starts, 2), 60, 7500, cell, trials, stop);
@@ -157,7 +152,7 @@ std::vector<ReproduceRow> cell_sizes(const ReproduceOptions& options, const Stop
 std::vector<ReproduceRow> initial_distances(const ReproduceOptions& options, const Stop& stop) {
   const Map map = scenes::global_world(1);
   const int trials = options.quick ? 3 : 10;
-  Curve curve;
+  CoverageCurve curve;
   for (const double distance : {200., 150., 100., 70., 50., 20., 5., 1.}) {
     const std::array<Vec2, 2> starts{{{60, 300}, {60, 300 - distance}}};
     curve.x.push_back(distance);
@@ -182,7 +177,7 @@ struct Aim {
 };
 
 /// Beyond the paper: two to four robots in Env 1–4 by the search that uses walls.
-std::vector<ReproduceRow> search(const ReproduceOptions& options, const Stop& stop) {
+std::vector<ReproduceRow> search_rows(const ReproduceOptions& options, const Stop& stop) {
   std::vector<ReproduceRow> rows;
   for (const Aim aim : {Aim{2, 0.5, 100}, Aim{3, 10, 90}, Aim{4, 60, 90}}) {
     const int seeds = options.quick ? (aim.robots < 4 ? 3 : 1) : (aim.robots < 4 ? 20 : 5);
@@ -239,7 +234,7 @@ std::vector<ReproduceRow> reproduce_global(const std::string& figure,
                                            {"fig8", global_digestive},
                                            {"fig9-10", global_reuse},
                                            {"fig12", global_magnets},
-                                           {"beyond", search},
+                                           {"beyond", search_rows},
                                            {"beyond-6", global_six}}};
   return reproduce_figures("global", figures, figure, options, stop);
 }

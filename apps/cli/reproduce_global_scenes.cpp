@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "microswarm/core/statistics.hpp"
+#include "microswarm/core/stop.hpp"
 #include "microswarm/experiment/global_tree_file.hpp"
 #include "microswarm/planning/global_rrt.hpp"
 #include "microswarm/planning/global_search.hpp"
@@ -21,10 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = Stop::Clock;
-
-double seconds_since(Clock::time_point began) {
-  return std::chrono::duration<double>(Clock::now() - began).count();
-}
 
 Stop within(double seconds) {
   return Stop(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds)));

@@ -34,7 +34,7 @@ std::optional<double> middle_of_wait(const Record& record, double t0) {
 
 /// What the figure shows: the plan, a mover that is avoided, the wait at the first valve, the way
 /// through it, past what breathes, at the second valve, and the end.
-std::vector<double> moments_of(const Record& record) {
+std::vector<double> micromaze_moments(const Record& record) {
   const Scenario& scenario = record.scene.scenario;
   const auto& areas = std::get<RadarParams>(scenario.navigator).wait_areas;
   const auto to_obstacle = [&](std::size_t k) {
@@ -76,7 +76,7 @@ std::vector<ReproduceRow> radar_micromaze(const ReproduceOptions& options, const
   const RadarRun run = run_radar(s.scene, s.world, stop);
   if (stop()) return {};
   if (!options.out.empty())
-    draw_radar_moments(run, s.world, moments_of(run.record), "micromaze",
+    draw_radar_moments(run, s.world, micromaze_moments(run.record), "micromaze",
                        std::filesystem::path(options.out) / figure);
   std::vector<double> times;
   int contacts = 0;

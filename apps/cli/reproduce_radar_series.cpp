@@ -16,12 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double swarm_radius = 100, step = 25;  // r_s, d_p [px]
-constexpr double as_good_as_rising = 0.9;        // of a rank correlation
+constexpr double swarm_radius = 100, planner_step = 25;  // r_s, d_p [px]
+constexpr double as_good_as_rising = 0.9;                // of a rank correlation
 
 /// One series: radii of one circle, the other one's fixed [px]. The cases of Fig 5 are ends of
 /// series; `rising_from` is where the paper says that the cost begins to rise (its point A).
-struct Sweep {
+struct RadarSweep {
   const char* name;
   const char* title;
   double first, last;
@@ -30,23 +30,23 @@ struct Sweep {
   double rising_from;
 };
 
-constexpr std::array<Sweep, 3> series{
+constexpr std::array<RadarSweep, 3> published_series{
     {{"series I", "series I: r_d varies, r_f = 150 px", 170, 350, 150, {}, 0.14, 0.18, 170},
      {"series II", "series II: r_f varies, r_d = 350 px", 150, 330, {}, 350, 0.18, 0.28, 170},
      {"series III", "series III: r_f varies, r_d = 250 px", 150, 230, {}, 250, {}, {}, 150}}};
 
 /// What was measured at each radius.
-struct Curve {
+struct SeriesCurve {
   std::vector<double> radius, cost;
   std::vector<int> side;
 };
 
-Curve measured(const Sweep& sweep, const ReproduceOptions& options, const Stop& stop) {
+SeriesCurve measured(const RadarSweep& sweep, const ReproduceOptions& options, const Stop& stop) {
   const double between = options.quick ? 20 : 10;
-  Curve curve;
+  SeriesCurve curve;
   for (double r = sweep.first; r <= sweep.last && !stop(); r += between) {
     RadarSetting s = load_radar(options, "single.yaml");
-    s.params().safety_distance = sweep.safety.value_or(r) - swarm_radius - step;
+    s.params().safety_distance = sweep.safety.value_or(r) - swarm_radius - planner_step;
     s.params().detection_range = sweep.detection.value_or(r) - swarm_radius;
     const RadarRun run = run_radar(s.scene, s.world, stop);
     curve.radius.push_back(r);
@@ -82,14 +82,14 @@ std::optional<double> rank_correlation(const std::vector<double>& x, const std::
 }
 
 /// The points from the radius on.
-std::pair<std::vector<double>, std::vector<double>> from(const Curve& curve, double radius) {
+std::pair<std::vector<double>, std::vector<double>> from(const SeriesCurve& curve, double radius) {
   const auto k =
       std::lower_bound(curve.radius.begin(), curve.radius.end(), radius) - curve.radius.begin();
   return {{curve.radius.begin() + k, curve.radius.end()},
           {curve.cost.begin() + k, curve.cost.end()}};
 }
 
-void add_rows(const Sweep& sweep, const Curve& curve, std::vector<ReproduceRow>& rows) {
+void add_rows(const RadarSweep& sweep, const SeriesCurve& curve, std::vector<ReproduceRow>& rows) {
   const auto name = [&](const std::string& what) {
     return fmt::format("{}: {}", sweep.name, what);
   };
@@ -116,7 +116,7 @@ void add_rows(const Sweep& sweep, const Curve& curve, std::vector<ReproduceRow>&
              100.0 * static_cast<double>(same) / static_cast<double>(curve.side.size())));
 }
 
-Plot plot_of(const Sweep& sweep, const Curve& curve) {
+Plot plot_of(const RadarSweep& sweep, const SeriesCurve& curve) {
   Series other{.label = "passes on the other side", .style = PlotStyle::points};
   for (std::size_t i = 0; i < curve.radius.size(); ++i) {
     if (curve.side[i] == curve.side.back()) continue;
@@ -143,8 +143,8 @@ Plot plot_of(const Sweep& sweep, const Curve& curve) {
 std::vector<ReproduceRow> radar_series(const ReproduceOptions& options, const Stop& stop) {
   std::vector<ReproduceRow> rows;
   std::vector<Plot> plots;
-  for (const Sweep& sweep : series) {
-    const Curve curve = measured(sweep, options, stop);
+  for (const RadarSweep& sweep : published_series) {
+    const SeriesCurve curve = measured(sweep, options, stop);
     if (stop()) return rows;
     add_rows(sweep, curve, rows);
     plots.push_back(plot_of(sweep, curve));

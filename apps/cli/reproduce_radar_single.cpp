@@ -61,7 +61,7 @@ RadarSetting setting_of(const CaseFigure& figure, const Case& c, const Reproduce
 }
 
 /// From the first to the last moment with the obstacle in the detection circle.
-Period detected(const Record& record) {
+Period detected_period(const Record& record) {
   const std::vector<Period> periods = periods_detected(record);
   return periods.empty() ? Period{} : Period{periods.front().from, periods.back().to};
 }
@@ -69,7 +69,7 @@ Period detected(const Record& record) {
 void add_case_rows(const char* figure, const Case& c, const RadarRun& run,
                    std::vector<ReproduceRow>& rows) {
   const Metrics& m = run.record.result.metrics;
-  const Period period = detected(run.record);
+  const Period period = detected_period(run.record);
   const auto name = [&](const char* what) { return fmt::format("{}: {}", c.name, what); };
   const auto time = [&](const char* what, std::optional<double> paper, std::optional<double> ours) {
     rows.push_back(row_within(near_time, figure, name(what), "s", paper, ours));
@@ -123,7 +123,7 @@ void draw(const CaseFigure& figure, const std::vector<RadarRun>& runs,
     plots.push_back(cost_plot(runs[k], c.name, c.cost, 1.1 * most));
     if (c.entered) plots.back().marks.push_back({"paper: enters", *c.entered});
     if (c.left) plots.back().marks.push_back({"paper: leaves", *c.left});
-    const Period period = detected(runs[k].record);
+    const Period period = detected_period(runs[k].record);
     const std::array<double, 5> moments{0, period.from, figure.between, period.to,
                                         runs[k].record.result.metrics.time};
     draw_radar_moments(runs[k], settings[k].world, moments, c.name,

@@ -106,7 +106,7 @@ Drawn chosen(const Twelve& f, const RadarSetting& shipped, std::span<const Trial
 }
 
 /// The start, when the cost is greatest in each of the longest times of avoiding, and the end.
-std::vector<double> moments_of(const Record& record) {
+std::vector<double> twelve_moments(const Record& record) {
   constexpr std::size_t most = 4;
   std::vector<Period> periods = periods_detected(record);
   std::sort(periods.begin(), periods.end(),
@@ -127,7 +127,7 @@ std::vector<double> moments_of(const Record& record) {
 }
 
 void draw(const Twelve& f, const Drawn& drawn, const fs::path& folder) {
-  draw_radar_moments(drawn.run, drawn.setting.world, moments_of(drawn.run.record),
+  draw_radar_moments(drawn.run, drawn.setting.world, twelve_moments(drawn.run.record),
                      "twelve obstacles", folder / f.figure);
   double most = 0;
   for (const Frame& frame : drawn.run.record.frames) most = std::max(most, frame.avoidance_cost);
@@ -137,7 +137,7 @@ void draw(const Twelve& f, const Drawn& drawn, const fs::path& folder) {
 }
 
 /// What all scenes amount to, those that were crossed for costs and times.
-std::vector<ReproduceRow> rows_of(const Twelve& f, std::span<const TrialResult> trials) {
+std::vector<ReproduceRow> twelve_rows(const Twelve& f, std::span<const TrialResult> trials) {
   std::vector<double> costs, totals, gaps;
   int contacts = 0;
   for (const TrialResult& t : trials) {
@@ -171,7 +171,7 @@ std::vector<ReproduceRow> twelve(const Twelve& f, const ReproduceOptions& option
                    std::uint32_t trial) { scatter(scenario, f.top_speed, trial); }},
       stop);
   if (stop()) return {};
-  std::vector<ReproduceRow> rows = rows_of(f, trials);
+  std::vector<ReproduceRow> rows = twelve_rows(f, trials);
   const Drawn drawn = chosen(f, s, trials, stop);
   if (stop()) return rows;
   if (!options.out.empty()) draw(f, drawn, options.out);

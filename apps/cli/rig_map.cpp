@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct MapOptions {
+struct RigMapOptions {
   std::string system;
   std::string out;
   std::string at;
@@ -89,7 +89,7 @@ std::string csv_of(const UniformityMap& map) {
   return text;
 }
 
-int map_field(const MapOptions& o) {
+int map_field(const RigMapOptions& o) {
   keep_input(o.out, o.system);
   const CoilSystem system = read_coil_system(o.system);
   UniformityGrid grid{.centre = o.at.empty() ? system.centre() : triple_of(o.at),
@@ -137,7 +137,7 @@ int map_field(const MapOptions& o) {
 }  // namespace
 
 void add_rig_map(Command rig, Action& action) {
-  auto o = std::make_shared<MapOptions>();
+  auto o = std::make_shared<RigMapOptions>();
   Command cmd = rig.add_command("map", "How even the field is around a place: a picture or a table",
                                 "rig map scenarios/rigs/helmholtz.yaml --out even.png");
   cmd.add_option("system", o->system, "Coil system (YAML)").required().type_name("FILE");

@@ -62,7 +62,7 @@ struct Summary {
   std::string time() const { return times.empty() ? "–" : fmt::format("{:.1f}", median(times)); }
 };
 
-struct Options {
+struct RehearseOptions {
   std::string scenario;
   std::string rig;
   std::vector<std::string> settings;
@@ -72,7 +72,7 @@ struct Options {
   int jobs = 0;
 };
 
-int rehearse(const Options& o, const Context& context) {
+int rehearse_trials(const RehearseOptions& o, const Context& context) {
   if (o.scenario.empty() != o.rig.empty())
     throw InputError("rig rehearse: a scenario and --rig go together");
   const std::vector<Pair> pairs =
@@ -133,7 +133,7 @@ int rehearse(const Options& o, const Context& context) {
 }  // namespace
 
 void add_rig_rehearse(Command rig, Action& action) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<RehearseOptions>();
   Command cmd =
       rig.add_command("rehearse", "Scenarios through a simulated rig, beside runs without one",
                       "rig rehearse scenario.yaml --rig rig.yaml --trials 10");
@@ -150,8 +150,9 @@ void add_rig_rehearse(Command rig, Action& action) {
       .type_name("NUMBER")
       .check(whole(0, 1024));
   cmd.add_option("--out", o->out, "Folder for rehearsal.csv").type_name("FOLDER");
-  cmd.callback(
-      [o, &action] { action = [o](const Context& context) { return rehearse(*o, context); }; });
+  cmd.callback([o, &action] {
+    action = [o](const Context& context) { return rehearse_trials(*o, context); };
+  });
 }
 
 }  // namespace microswarm::cli

@@ -118,7 +118,7 @@ void tell(const RigTiming& t) {
   if (t.scaled > 0) print("  the device weakened the currents {} times\n", t.scaled);
 }
 
-nlohmann::ordered_json to_json(const RigTiming& t) {
+nlohmann::ordered_json timing_json(const RigTiming& t) {
   const auto ms = [](const Durations& d) {
     return nlohmann::ordered_json{{"p50_ms", 1e3 * d.quantile(0.5)},
                                   {"p95_ms", 1e3 * d.quantile(0.95)},
@@ -147,7 +147,7 @@ void note_pace(const RigTiming& t, double seconds, const RigParams& rig) {
              rate, rig.drive_rate, rig.field.frequency);
 }
 
-struct RunOptions {
+struct RigRunOptions {
   std::string scenario;
   std::string rig;
   std::string out;
@@ -158,7 +158,7 @@ struct RunOptions {
   bool json = false;
 };
 
-int rig_run(const RunOptions& o, const Context& context) {
+int rig_run(const RigRunOptions& o, const Context& context) {
   const RigScene on = load_rig_scene(o.scenario, o.settings, o.rig, o.rig_settings);
   const Scenario& scenario = on.scene.scenario;
   const OutFolder hold(o.out);
@@ -173,7 +173,7 @@ int rig_run(const RunOptions& o, const Context& context) {
   const Stop stop = o.seconds ? context.within(*o.seconds) : context.stop;
   double seconds = 0;
   const RunOutput output{o.out, false, o.json, name_of(on.rig),
-                         [&] { return to_json(plant.timing()); }};
+                         [&] { return timing_json(plant.timing()); }};
   const int code = run_once(on.scene, on.world, output, {}, stop,
                             [&](std::span<RunListener* const> listeners, const Stop& until) {
                               RunResult result = run(scenario, plant, *navigator, listeners, until);
@@ -194,7 +194,7 @@ int rig_run(const RunOptions& o, const Context& context) {
 }  // namespace
 
 void add_rig_run(Command rig, Action& action) {
-  auto o = std::make_shared<RunOptions>();
+  auto o = std::make_shared<RigRunOptions>();
   Command cmd = rig.add_command("run", "Run a scenario on a rig, in real time",
                                 "rig run scenario.yaml --rig rig.yaml --dry-run --out out/rig");
   cmd.add_option("scenario", o->scenario, "Scenario file (YAML)").required().type_name("FILE");

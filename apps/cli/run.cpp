@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct RunOptions {
   std::string scenario;
   std::string out;
   std::string rig;
@@ -49,7 +49,7 @@ std::string trials_csv(const std::vector<TrialResult>& trials) {
   return text;
 }
 
-int many_runs(const Options& o, const Scene& scene, const World& world, const Stop& stop) {
+int many_runs(const RunOptions& o, const Scene& scene, const World& world, const Stop& stop) {
   std::vector<TrialResult> results;
   {
     ProgressBar bar("trials");
@@ -87,8 +87,8 @@ int many_runs(const Options& o, const Scene& scene, const World& world, const St
 }
 
 /// The same through a rig in simulation: camera, coils and field.
-int rehearse(const Options& o, const Scene& scene, const World& world, const Places& places,
-             const ReportOptions& report, const Stop& stop) {
+int rehearse_run(const RunOptions& o, const Scene& scene, const World& world, const Places& places,
+                 const ReportOptions& report, const Stop& stop) {
   const Rig rig = read_rig(o.rig, o.rig_settings);
   check(rig, scene.scenario, places);
   return run_once(scene, world, {o.out, o.no_report, o.json, name_of(rig)}, report, stop,
@@ -97,7 +97,7 @@ int rehearse(const Options& o, const Scene& scene, const World& world, const Pla
                   });
 }
 
-int run_command(const Options& o, const Context& context) {
+int run_command(const RunOptions& o, const Context& context) {
   const std::filesystem::path file = o.scenario;
   Places places;
   Scenario scenario = read_scenario(file, o.settings, places);
@@ -107,7 +107,7 @@ int run_command(const Options& o, const Context& context) {
   check(scene.scenario, world, places);
   const ReportOptions report = report_options(o.photo);
   const OutFolder hold(o.out);
-  if (!o.rig.empty()) return rehearse(o, scene, world, places, report, context.stop);
+  if (!o.rig.empty()) return rehearse_run(o, scene, world, places, report, context.stop);
   return o.trials > 1 ? many_runs(o, scene, world, context.stop)
                       : run_once(scene, world, {o.out, o.no_report, o.json}, report, context.stop);
 }
@@ -115,7 +115,7 @@ int run_command(const Options& o, const Context& context) {
 }  // namespace
 
 void add_run(Command app, Action& action) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<RunOptions>();
   Command cmd = app.add_command("run", "Run a scenario: simulate, record, report",
                                 "run scenarios/first_flight.yaml --out out/first --set "
                                 "swarm.radius_um=50");

@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct SweepOptions {
   std::string sweep;
   std::string out;
   std::string csv;
@@ -63,7 +63,7 @@ SweepOrigin origin() {
   return {host.data(), fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::gmtime(std::time(nullptr)))};
 }
 
-Json to_json(const SqlValue& value) {
+Json json_of(const SqlValue& value) {
   return std::visit(
       [](const auto& held) -> Json {
         if constexpr (std::is_same_v<std::remove_cvref_t<decltype(held)>, std::monostate>)
@@ -74,12 +74,12 @@ Json to_json(const SqlValue& value) {
       value);
 }
 
-Json to_json(const SweepReader& sweep, const CellSummary& cell) {
+Json json_of(const SweepReader& sweep, const CellSummary& cell) {
   Json parameters = Json::object(), medians = Json::object();
   std::size_t next = 0;
   for (const SweepColumn& column : sweep.columns()) {
     if (column.role == SweepColumn::Role::parameter && next < cell.parameters.size())
-      parameters[column.name] = to_json(cell.parameters[next++]);
+      parameters[column.name] = json_of(cell.parameters[next++]);
     if (const auto found = cell.medians.find(column.name); found != cell.medians.end())
       medians[column.name] = found->second;
   }
@@ -120,7 +120,7 @@ std::string table(const SweepReader& sweep, const std::vector<CellSummary>& cell
     std::vector<std::string> line;
     for (const SqlValue& value : cell.parameters) {
       const auto* text = std::get_if<std::string>(&value);
-      line.push_back(text ? *text : to_json(value).dump());
+      line.push_back(text ? *text : json_of(value).dump());
     }
     line.insert(line.end(), {cell.method, std::to_string(cell.trials),
                              fmt::format("{:.1f}", 100 * cell.share_arrived())});
@@ -135,14 +135,14 @@ std::string table(const SweepReader& sweep, const std::vector<CellSummary>& cell
   return aligned(lines);
 }
 
-void tell(const Options& o, const SweepProgress& progress) {
+void tell(const SweepOptions& o, const SweepProgress& progress) {
   const SweepReader sweep(o.out);
   const std::vector<CellSummary> cells = summarise(sweep);
   if (!o.csv.empty()) write_file_atomically(o.csv, sweep_csv(sweep));
   const std::size_t there = progress.before + progress.added;
   if (o.json) {
     Json list = Json::array();
-    for (const CellSummary& cell : cells) list.push_back(to_json(sweep, cell));
+    for (const CellSummary& cell : cells) list.push_back(json_of(sweep, cell));
     print("{}\n", Json{{"database", o.out},
                        {"trials", there},
                        {"added", progress.added},
@@ -156,7 +156,7 @@ void tell(const Options& o, const SweepProgress& progress) {
         progress.added, progress.left > 0 ? "; the same command goes on" : "");
 }
 
-int sweep_command(Options o, const Context& context) {
+int sweep_command(SweepOptions o, const Context& context) {
   const Ranks ranks;
   if (o.jobs == 0 && ranks.count() > 1) o.jobs = 1;
   if (ranks.rank() > 0) {
@@ -189,7 +189,7 @@ int sweep_command(Options o, const Context& context) {
 }  // namespace
 
 void add_sweep(Command app, Action& action) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<SweepOptions>();
   Command cmd = app.add_command(
       "sweep",
       "Run a scenario for every combination of parameters and methods, many trials each, into a "

@@ -14,7 +14,7 @@
 namespace microswarm::cli {
 namespace {
 
-struct Options {
+struct TrackOptions {
   std::string video;
   std::string out;
   std::string config;
@@ -25,7 +25,7 @@ struct Options {
   bool json = false;
 };
 
-TrackSettings settings_of(const Options& o) {
+TrackSettings settings_of(const TrackOptions& o) {
   TrackSettings settings;
   if (!o.config.empty()) settings = read_yaml_file<TrackSettings>(o.config);
   set_values(settings, o.settings);
@@ -53,7 +53,7 @@ void follow(FrameSource& source, TrackResult& result, VideoFileWriter* overlay, 
   result.events = tracker.events();
 }
 
-int track(const Options& o, const Context& context) {
+int track(const TrackOptions& o, const Context& context) {
   TrackResult result{.source = o.video, .settings = settings_of(o)};
   const std::unique_ptr<FrameSource> source =
       open_frames(o.video, result.settings.rate, result.settings.depth);
@@ -83,7 +83,7 @@ int track(const Options& o, const Context& context) {
 }  // namespace
 
 void add_track(Command app, Action& action) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<TrackOptions>();
   Command cmd = app.add_command("track", "Find and follow the robots of a video",
                                 "track swarm.mp4 --um-per-px 0.35 --set find.diameter_px=11 --out "
                                 "out/tracks");

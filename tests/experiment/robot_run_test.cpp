@@ -4,6 +4,7 @@
 #include "microswarm/core/error.hpp"
 #include "microswarm/experiment/record.hpp"
 #include "microswarm/experiment/robot_plant.hpp"
+#include "tests/experiment/scenes.hpp"
 
 namespace microswarm {
 namespace {
@@ -40,22 +41,6 @@ Scenario two_robots() {
   s.goal_tolerance = 20;
   s.navigator = PlanPlayerParams{};
   return s;
-}
-
-Record record_of(const Scenario& scenario, std::uint32_t trial = 0) {
-  Recorder recorder(load_scene(scenario, {}), trial);
-  RunListener* const listeners[] = {&recorder};
-  simulate(scenario, build_world(load_scene(scenario, {})), trial, listeners);
-  return recorder.take();
-}
-
-std::string check_error(const Scenario& scenario) {
-  try {
-    check(scenario, build_world(load_scene(scenario, {})), "s.yaml");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(RobotRun, GathersAndComesBackFromItsFileToTheSameBits) {

@@ -9,10 +9,6 @@
 namespace microswarm {
 namespace {
 
-std::string check_error(const Scenario& scenario) {
-  return error_of([&] { check(scenario, world_of(scenario), "s.yaml"); });
-}
-
 Polygon bar(double x, double y, double width, double height) {
   return {{{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}}, {}};
 }

@@ -107,4 +107,9 @@ std::string error_of(Action action) {
   return {};
 }
 
+/// What is wrong with a scenario by its file's name; empty when nothing is.
+inline std::string check_error(const Scenario& scenario) {
+  return error_of([&] { check(scenario, world_of(scenario), "s.yaml"); });
+}
+
 }  // namespace microswarm

@@ -14,11 +14,11 @@ namespace {
 
 using test::error_of;
 
-MapParts parse(std::string_view text, double scale = 1) {
+MapParts parsed_geojson(std::string_view text, double scale = 1) {
   return parse_geojson(text, "x.geojson", scale);
 }
-std::string complaint(std::string_view text) {
-  return error_of([&] { parse(text); });
+std::string geojson_complaint(std::string_view text) {
+  return error_of([&] { parsed_geojson(text); });
 }
 
 constexpr std::string_view square = R"([[[0,0],[4,0],[4,4],[0,4],[0,0]]])";
@@ -35,7 +35,7 @@ std::string collection(std::string_view features) {
 }
 
 TEST(GeoJson, PolygonsMultiPolygonsAndPointsWithRadius) {
-  const MapParts parts = parse(collection(
+  const MapParts parts = parsed_geojson(collection(
       feature(polygon(square)) + "," +
       feature(R"({"type":"MultiPolygon","coordinates":[)" + std::string(square) + "," +
               R"([[[9,9],[9,12],[12,12],[9,9]]])" + "]}") +
@@ -53,15 +53,16 @@ TEST(GeoJson, PolygonsMultiPolygonsAndPointsWithRadius) {
 }
 
 TEST(GeoJson, GeometryAloneAndCollections) {
-  EXPECT_EQ(parse(polygon(square)).walls.size(), 1u);
+  EXPECT_EQ(parsed_geojson(polygon(square)).walls.size(), 1u);
   EXPECT_EQ(
-      parse(R"({"type":"GeometryCollection","geometries":[)" + polygon(square) + "]}").walls.size(),
+      parsed_geojson(R"({"type":"GeometryCollection","geometries":[)" + polygon(square) + "]}")
+          .walls.size(),
       1u);
 }
 
 TEST(GeoJson, HolesTurnTheOtherWay) {
   const MapParts parts =
-      parse(polygon("[[[0,0],[0,9],[9,9],[9,0],[0,0]],[[1,1],[2,1],[2,2],[1,2],[1,1]]]"));
+      parsed_geojson(polygon("[[[0,0],[0,9],[9,9],[9,0],[0,0]],[[1,1],[2,1],[2,2],[1,2],[1,1]]]"));
   ASSERT_EQ(parts.walls[0].holes.size(), 1u);
   EXPECT_GT(signed_area(parts.walls[0].outer), 0);
   EXPECT_LT(signed_area(parts.walls[0].holes[0]), 0);
@@ -71,20 +72,22 @@ TEST(GeoJson, HolesTurnTheOtherWay) {
 TEST(GeoJson, BoundsByFeatureOrByBox) {
   const std::string wall = feature(polygon("[[[1,1],[2,1],[2,2],[1,1]]]"));
   const Box by_feature =
-      parse(collection(feature(polygon(square), R"({"bounds":true})") + "," + wall)).bounds;
+      parsed_geojson(collection(feature(polygon(square), R"({"bounds":true})") + "," + wall))
+          .bounds;
   EXPECT_EQ(by_feature.lo, (Vec2{0, 0}));
   EXPECT_EQ(by_feature.hi, (Vec2{4, 4}));
   const Box by_box =
-      parse(R"({"type":"FeatureCollection","bbox":[-1,-2,5,6],"features":[)" + wall + "]}").bounds;
+      parsed_geojson(R"({"type":"FeatureCollection","bbox":[-1,-2,5,6],"features":[)" + wall + "]}")
+          .bounds;
   EXPECT_EQ(by_box.lo, (Vec2{-1, -2}));
   EXPECT_EQ(by_box.hi, (Vec2{5, 6}));
 }
 
 TEST(GeoJson, UnitsScaleEverything) {
-  const MapParts parts =
-      parse(collection(feature(R"({"type":"Point","coordinates":[2,3]})", R"({"radius":1})") + "," +
-                       feature(polygon(square), R"({"bounds":true})")),
-            1000);
+  const MapParts parts = parsed_geojson(
+      collection(feature(R"({"type":"Point","coordinates":[2,3]})", R"({"radius":1})") + "," +
+                 feature(polygon(square), R"({"bounds":true})")),
+      1000);
   EXPECT_EQ(parts.discs[0].centre, (Vec2{2000, 3000}));
   EXPECT_EQ(parts.discs[0].radius, 1000);
   EXPECT_EQ(parts.bounds.hi, (Vec2{4000, 4000}));
@@ -100,65 +103,68 @@ TEST(GeoJson, WrittenAndReadAgainGivesTheSameBits) {
     parts.discs.push_back({point(), rng.uniform(1e-9, 1e6)});
   }
   parts.bounds = box_of(parts);
-  EXPECT_EQ(fingerprint(parse(geojson_text(parts))), fingerprint(parts));
+  EXPECT_EQ(fingerprint(parsed_geojson(geojson_text(parts))), fingerprint(parts));
 }
 
 TEST(GeoJsonErrors, NameLineAndPlace) {
   const std::string good = feature(polygon(square)) + ",\n";
   EXPECT_EQ(
-      complaint(collection(good + feature(polygon("[[[0,0],[1,0],[\"a\",1],[0,0]]]")))),
+      geojson_complaint(collection(good + feature(polygon("[[[0,0],[1,0],[\"a\",1],[0,0]]]")))),
       "x.geojson:4: features[1].geometry.coordinates[0][2][0]: a number expected, not string");
-  EXPECT_EQ(complaint(collection(good + feature(polygon("[[[0,0],\n[1,0],\n[3e9,1],[0,0]]]")))),
-            "x.geojson:6: features[1].geometry.coordinates[0][2][0]: 3e9 µm, at most 1e9");
   EXPECT_EQ(
-      complaint(collection(feature(polygon("[[[0],[1,0],[1,1],[0,0]]]")))),
+      geojson_complaint(collection(good + feature(polygon("[[[0,0],\n[1,0],\n[3e9,1],[0,0]]]")))),
+      "x.geojson:6: features[1].geometry.coordinates[0][2][0]: 3e9 µm, at most 1e9");
+  EXPECT_EQ(
+      geojson_complaint(collection(feature(polygon("[[[0],[1,0],[1,1],[0,0]]]")))),
       "x.geojson:3: features[0].geometry.coordinates[0][0]: a position of 1 numbers, at least 2");
   EXPECT_EQ(
-      complaint(collection(feature(R"({"type":"LineString","coordinates":[[0,0],[1,1]]})"))),
+      geojson_complaint(
+          collection(feature(R"({"type":"LineString","coordinates":[[0,0],[1,1]]})"))),
       "x.geojson:3: features[0].geometry.type: 'LineString' is no wall: Polygon, MultiPolygon, "
       "and Point or MultiPoint with a radius are read");
-  EXPECT_EQ(complaint(collection(feature(R"({"type":"Point","coordinates":[0,0]})"))),
+  EXPECT_EQ(geojson_complaint(collection(feature(R"({"type":"Point","coordinates":[0,0]})"))),
             "x.geojson:3: features[0].geometry: a point needs the property 'radius' of its feature "
             "to be a disc");
-  EXPECT_EQ(
-      complaint(collection(feature(R"({"type":"Point","coordinates":[0,0]})", R"({"radius":-1})"))),
-      "x.geojson:3: features[0].properties.radius: -1 µm, must be above 0");
+  EXPECT_EQ(geojson_complaint(
+                collection(feature(R"({"type":"Point","coordinates":[0,0]})", R"({"radius":-1})"))),
+            "x.geojson:3: features[0].properties.radius: -1 µm, must be above 0");
 }
 
 TEST(GeoJsonErrors, Rings) {
-  EXPECT_EQ(complaint(polygon("[[[0,0],[1,0],[0,0]]]")),
+  EXPECT_EQ(geojson_complaint(polygon("[[[0,0],[1,0],[0,0]]]")),
             "x.geojson:1: coordinates[0]: a ring of 3 positions, at least 4 (the last repeats the "
             "first)");
-  EXPECT_EQ(complaint(polygon("[[[0,0],[1,0],[1,1],[0,1]]]")),
+  EXPECT_EQ(geojson_complaint(polygon("[[[0,0],[1,0],[1,1],[0,1]]]")),
             "x.geojson:1: coordinates[0]: a ring that does not end where it begins");
-  EXPECT_EQ(complaint(polygon("[[[0,0],[1,0],[2,0],[0,0]]]")),
+  EXPECT_EQ(geojson_complaint(polygon("[[[0,0],[1,0],[2,0],[0,0]]]")),
             "x.geojson:1: coordinates[0]: a ring without area");
-  EXPECT_EQ(complaint(polygon("[]")), "x.geojson:1: coordinates: a polygon without a ring");
-  EXPECT_EQ(complaint(polygon("7")), "x.geojson:1: coordinates: an array expected, not number");
+  EXPECT_EQ(geojson_complaint(polygon("[]")), "x.geojson:1: coordinates: a polygon without a ring");
+  EXPECT_EQ(geojson_complaint(polygon("7")),
+            "x.geojson:1: coordinates: an array expected, not number");
 }
 
 TEST(GeoJsonErrors, Members) {
-  EXPECT_EQ(complaint("[1]"), "x.geojson:1: an object expected, not array");
-  EXPECT_EQ(complaint("{}"), "x.geojson:1: 'type' is missing");
-  EXPECT_EQ(complaint(R"({"type":5})"), "x.geojson:1: type: a word expected");
-  EXPECT_EQ(complaint(R"({"type":"Polygon"})"), "x.geojson:1: 'coordinates' is missing");
-  EXPECT_EQ(complaint(R"({"type":"Feature"})"), "x.geojson:1: 'geometry' is missing");
-  EXPECT_EQ(complaint(collection("")), "x.geojson:1: no walls, no discs and no bounds");
-  EXPECT_EQ(complaint(R"({"type":"FeatureCollection","features":[],"bbox":[1,2,3]})"),
+  EXPECT_EQ(geojson_complaint("[1]"), "x.geojson:1: an object expected, not array");
+  EXPECT_EQ(geojson_complaint("{}"), "x.geojson:1: 'type' is missing");
+  EXPECT_EQ(geojson_complaint(R"({"type":5})"), "x.geojson:1: type: a word expected");
+  EXPECT_EQ(geojson_complaint(R"({"type":"Polygon"})"), "x.geojson:1: 'coordinates' is missing");
+  EXPECT_EQ(geojson_complaint(R"({"type":"Feature"})"), "x.geojson:1: 'geometry' is missing");
+  EXPECT_EQ(geojson_complaint(collection("")), "x.geojson:1: no walls, no discs and no bounds");
+  EXPECT_EQ(geojson_complaint(R"({"type":"FeatureCollection","features":[],"bbox":[1,2,3]})"),
             "x.geojson:1: bbox: 3 numbers, 4 or 6 expected");
-  EXPECT_EQ(
-      complaint(collection(feature(polygon("[[[0,0],[1,0],[1,1],[0,0]]]"), R"({"bounds":true})"))),
-      "x.geojson:3: features[0].geometry: the bounds must be a rectangle along the axes");
+  EXPECT_EQ(geojson_complaint(
+                collection(feature(polygon("[[[0,0],[1,0],[1,1],[0,0]]]"), R"({"bounds":true})"))),
+            "x.geojson:3: features[0].geometry: the bounds must be a rectangle along the axes");
 }
 
 TEST(GeoJsonErrors, NoJson) {
-  EXPECT_EQ(complaint(polygon("[[[0,0],\n[NaN,0],[1,1],[0,0]]]")).substr(0, 23),
+  EXPECT_EQ(geojson_complaint(polygon("[[[0,0],\n[NaN,0],[1,1],[0,0]]]")).substr(0, 23),
             "x.geojson:2: not JSON: ");
-  EXPECT_EQ(complaint("").substr(0, 23), "x.geojson:1: not JSON: ");
-  EXPECT_EQ(complaint("\n\n{\"type\":").substr(0, 23), "x.geojson:3: not JSON: ");
-  EXPECT_NE(complaint(polygon("[[[1e999,0]]]")).find("1e999"), std::string::npos);
-  EXPECT_EQ(complaint(std::string(5000, '[')), "x.geojson: nested deeper than 32");
-  EXPECT_NE(complaint("{\"\xff\":1}").find("not JSON"), std::string::npos);
+  EXPECT_EQ(geojson_complaint("").substr(0, 23), "x.geojson:1: not JSON: ");
+  EXPECT_EQ(geojson_complaint("\n\n{\"type\":").substr(0, 23), "x.geojson:3: not JSON: ");
+  EXPECT_NE(geojson_complaint(polygon("[[[1e999,0]]]")).find("1e999"), std::string::npos);
+  EXPECT_EQ(geojson_complaint(std::string(5000, '[')), "x.geojson: nested deeper than 32");
+  EXPECT_NE(geojson_complaint("{\"\xff\":1}").find("not JSON"), std::string::npos);
 }
 
 TEST(JsonPlace, TextAndLine) {

@@ -14,13 +14,13 @@ using test::error_of;
 
 constexpr std::string_view small = "type octile\nheight 2\nwidth 6\nmap\n.GS@TW\nOO....\n";
 
-Mask parse(std::string_view text) { return parse_moving_ai(text, "x.map"); }
-std::string complaint(std::string_view text) {
-  return error_of([&] { parse(text); });
+Mask parsed_octile(std::string_view text) { return parse_moving_ai(text, "x.map"); }
+std::string octile_complaint(std::string_view text) {
+  return error_of([&] { parsed_octile(text); });
 }
 
 TEST(MovingAi, DotsGrassAndSwampAreFree) {
-  const Mask mask = parse(small);
+  const Mask mask = parsed_octile(small);
   EXPECT_EQ(mask.width, 6);
   EXPECT_EQ(mask.height, 2);
   EXPECT_EQ(mask.cells, (std::vector<std::uint8_t>{0, 0, 0, 1, 1, 1, 1, 1, 0, 0, 0, 0}));
@@ -29,34 +29,37 @@ TEST(MovingAi, DotsGrassAndSwampAreFree) {
 TEST(MovingAi, OtherLineEndsAndBlankLinesAtTheEnd) {
   std::string crlf;
   for (const char c : small) crlf += c == '\n' ? "\r\n" : std::string(1, c);
-  EXPECT_EQ(parse(crlf), parse(small));
-  EXPECT_EQ(parse(std::string(small) + "\n \n"), parse(small));
-  EXPECT_EQ(parse("type tile\nheight 1\nwidth 1\nmap\n."), Mask(1, 1));
+  EXPECT_EQ(parsed_octile(crlf), parsed_octile(small));
+  EXPECT_EQ(parsed_octile(std::string(small) + "\n \n"), parsed_octile(small));
+  EXPECT_EQ(parsed_octile("type tile\nheight 1\nwidth 1\nmap\n."), Mask(1, 1));
 }
 
 TEST(MovingAi, WrittenAndReadAgain) {
-  EXPECT_EQ(parse(moving_ai_text(parse(small))), parse(small));
+  EXPECT_EQ(parsed_octile(moving_ai_text(parsed_octile(small))), parsed_octile(small));
 }
 
 TEST(MovingAiErrors, NameTheLine) {
-  EXPECT_EQ(complaint(""), "x.map: 'type ...' expected, not ''");
-  EXPECT_EQ(complaint("type cube\n"), "x.map:1: type 'cube' is neither octile nor tile");
-  EXPECT_EQ(complaint("type octile\nwidth 2"), "x.map:2: 'height ...' expected, not 'width 2'");
-  EXPECT_EQ(complaint("type octile\nheight x\n"), "x.map:2: height 'x' is no whole number");
-  EXPECT_EQ(complaint("type octile\nheight -3\n"), "x.map:2: height -3 is outside 0..1000000000");
-  EXPECT_EQ(complaint("type octile\nheight 20000\nwidth 20000\nmap\n"),
+  EXPECT_EQ(octile_complaint(""), "x.map: 'type ...' expected, not ''");
+  EXPECT_EQ(octile_complaint("type cube\n"), "x.map:1: type 'cube' is neither octile nor tile");
+  EXPECT_EQ(octile_complaint("type octile\nwidth 2"),
+            "x.map:2: 'height ...' expected, not 'width 2'");
+  EXPECT_EQ(octile_complaint("type octile\nheight x\n"), "x.map:2: height 'x' is no whole number");
+  EXPECT_EQ(octile_complaint("type octile\nheight -3\n"),
+            "x.map:2: height -3 is outside 0..1000000000");
+  EXPECT_EQ(octile_complaint("type octile\nheight 20000\nwidth 20000\nmap\n"),
             "x.map: 20000 × 20000 cells, at most 16384 a side");
-  EXPECT_EQ(complaint("type octile\nheight 0\nwidth 2\nmap\n"),
+  EXPECT_EQ(octile_complaint("type octile\nheight 0\nwidth 2\nmap\n"),
             "x.map: 2 × 0 cells, at least 1 × 1");
-  EXPECT_EQ(complaint("type octile\nheight 8000\nwidth 8000\nmap\n..\n"),
+  EXPECT_EQ(octile_complaint("type octile\nheight 8000\nwidth 8000\nmap\n..\n"),
             "x.map:4: 64000000 cells expected, the file has 42 bytes");
-  EXPECT_EQ(complaint("type octile\nheight 2\nwidth 2\nmap\n..\n"),
+  EXPECT_EQ(octile_complaint("type octile\nheight 2\nwidth 2\nmap\n..\n"),
             "x.map:5: truncated: 2 rows expected, 1 there");
-  EXPECT_EQ(complaint("type octile\nheight 1\nwidth 2\nmap\n...\n"),
+  EXPECT_EQ(octile_complaint("type octile\nheight 1\nwidth 2\nmap\n...\n"),
             "x.map:5: row of 3 cells, width is 2");
-  EXPECT_EQ(complaint("type octile\nheight 1\nwidth 2\nmap\n.\x01\n"),
+  EXPECT_EQ(octile_complaint("type octile\nheight 1\nwidth 2\nmap\n.\x01\n"),
             "x.map:5: column 2 is no letter");
-  EXPECT_EQ(complaint("type octile\nheight 1\nwidth 1\nmap\n.\n.\n"), "x.map:6: more than 1 rows");
+  EXPECT_EQ(octile_complaint("type octile\nheight 1\nwidth 1\nmap\n.\n.\n"),
+            "x.map:6: more than 1 rows");
 }
 
 TEST(Scenarios, QueriesAndTheirErrors) {

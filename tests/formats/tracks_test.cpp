@@ -12,13 +12,13 @@ namespace {
 
 using test::error_of;
 
-Tracks parse(std::string_view text) { return parse_tracks(text, "x.csv"); }
-std::string complaint(std::string_view text) {
-  return error_of([&] { parse(text); });
+Tracks parsed_tracks(std::string_view text) { return parse_tracks(text, "x.csv"); }
+std::string tracks_complaint(std::string_view text) {
+  return error_of([&] { parsed_tracks(text); });
 }
 
 TEST(Tracks, AnyOrderOfColumnsAndRows) {
-  const Tracks tracks = parse(
+  const Tracks tracks = parsed_tracks(
       "# by hand\r\n x_um, id ,y_um,note,t_s\r\n1,a,2,-,0\r\n\r\n5,b,6,-,0\r\n3,a,4,-,0.5\r\n");
   ASSERT_EQ(tracks.size(), 2u);
   EXPECT_EQ(tracks.at("a").times, (std::vector<double>{0, 0.5}));
@@ -28,18 +28,18 @@ TEST(Tracks, AnyOrderOfColumnsAndRows) {
 
 TEST(TracksErrors, NameTheLine) {
   const std::string head = "id,t_s,x_um,y_um\n";
-  EXPECT_EQ(complaint(""), "x.csv: no tracks: columns id,t_s,x_um,y_um and rows expected");
-  EXPECT_EQ(complaint(head), "x.csv: no tracks: columns id,t_s,x_um,y_um and rows expected");
-  EXPECT_EQ(complaint("id,t,x_um,y_um\n"),
+  EXPECT_EQ(tracks_complaint(""), "x.csv: no tracks: columns id,t_s,x_um,y_um and rows expected");
+  EXPECT_EQ(tracks_complaint(head), "x.csv: no tracks: columns id,t_s,x_um,y_um and rows expected");
+  EXPECT_EQ(tracks_complaint("id,t,x_um,y_um\n"),
             "x.csv:1: column 't_s' is missing: id,t_s,x_um,y_um expected");
-  EXPECT_EQ(complaint("id,id,t_s,x_um,y_um\n"), "x.csv:1: column 'id' stands twice");
-  EXPECT_EQ(complaint(head + "a,0,1\n"), "x.csv:2: 3 fields, the header has 4");
-  EXPECT_EQ(complaint(head + "a,0,1,x\n"), "x.csv:2: y_um 'x' is no number");
-  EXPECT_EQ(complaint(head + "a,0,nan,1\n"), "x.csv:2: x_um 'nan' is no number");
-  EXPECT_EQ(complaint(head + "a,0,inf,1\n"), "x.csv:2: x_um 'inf' is no number");
-  EXPECT_EQ(complaint(head + "a,0,-2e9,1\n"), "x.csv:2: x_um -2e9, at most 1e9");
-  EXPECT_EQ(complaint(head + ",0,1,1\n"), "x.csv:2: id is empty");
-  EXPECT_EQ(complaint(head + "a,1,1,1\nb,0,1,1\na,1,2,2\n"),
+  EXPECT_EQ(tracks_complaint("id,id,t_s,x_um,y_um\n"), "x.csv:1: column 'id' stands twice");
+  EXPECT_EQ(tracks_complaint(head + "a,0,1\n"), "x.csv:2: 3 fields, the header has 4");
+  EXPECT_EQ(tracks_complaint(head + "a,0,1,x\n"), "x.csv:2: y_um 'x' is no number");
+  EXPECT_EQ(tracks_complaint(head + "a,0,nan,1\n"), "x.csv:2: x_um 'nan' is no number");
+  EXPECT_EQ(tracks_complaint(head + "a,0,inf,1\n"), "x.csv:2: x_um 'inf' is no number");
+  EXPECT_EQ(tracks_complaint(head + "a,0,-2e9,1\n"), "x.csv:2: x_um -2e9, at most 1e9");
+  EXPECT_EQ(tracks_complaint(head + ",0,1,1\n"), "x.csv:2: id is empty");
+  EXPECT_EQ(tracks_complaint(head + "a,1,1,1\nb,0,1,1\na,1,2,2\n"),
             "x.csv:4: time 1 s of id 'a' is not after 1 s");
 }
 

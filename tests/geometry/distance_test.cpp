@@ -4,12 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "microswarm/geometry/predicates.hpp"
+#include "tests/geometry/frame.hpp"
 #include "tests/geometry/random_shapes.hpp"
 
 namespace microswarm {
 namespace {
-
-const Polygon frame{{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {{{2, 2}, {2, 8}, {8, 8}, {8, 2}}}};
 
 /// Least of f over [0, 1], a convex function, by ternary search.
 template <class F>

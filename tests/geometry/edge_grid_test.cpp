@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/geometry/edge_grid.hpp"
+#include "microswarm/core/infinity.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +12,6 @@
 
 namespace microswarm {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 EdgeGrid grid_of(const std::vector<Segment>& edges, double cell = 0) {
   return {edges, std::vector<std::uint32_t>(edges.size(), 0), cell};

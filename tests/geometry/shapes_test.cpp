@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/geometry/shapes.hpp"
+#include "tests/geometry/frame.hpp"
 
 #include <gtest/gtest.h>
 
 namespace microswarm {
 namespace {
-
-const Polygon frame{{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {{{2, 2}, {2, 8}, {8, 8}, {8, 2}}}};
 
 TEST(Vec2, TurnsAndAngles) {
   const double pi = 3.141592653589793;

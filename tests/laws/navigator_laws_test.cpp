@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "microswarm/core/hash.hpp"
+#include "microswarm/core/infinity.hpp"
 #include "microswarm/navigation/make.hpp"
 #include "microswarm/swarm/unicycle.hpp"
 #include "tests/laws/allocations.hpp"
@@ -16,7 +17,6 @@ namespace {
 
 constexpr double tick = 0.1;
 constexpr double radius = 30;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr SwarmLimits swarm{
     .radius = radius, .max_speed = 70, .max_turn_rate = infinity, .response_lag = 0.1};

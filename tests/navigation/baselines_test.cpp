@@ -10,24 +10,23 @@
 #include "microswarm/navigation/straight.hpp"
 #include "microswarm/navigation/velocity_obstacle.hpp"
 #include "microswarm/world/obstacle.hpp"
+#include "tests/navigation/room.hpp"
 
 namespace microswarm {
 namespace {
 
-constexpr Vec2 goal{1800, 500};
-constexpr double tolerance = 30;
-constexpr SwarmLimits vortex{50, 80, std::numeric_limits<double>::infinity(), 0.1};
-constexpr SwarmLimits ribbon{50, 80, 3, 0.1};
+constexpr SwarmLimits fast_vortex{50, 80, std::numeric_limits<double>::infinity(), 0.1};
+constexpr SwarmLimits fast_ribbon{50, 80, 3, 0.1};
 
 Polygon box(Vec2 lo, Vec2 hi) {
   return {.outer = {lo, {hi.x, lo.y}, hi, {lo.x, hi.y}}, .holes = {}};
 }
 
 /// A swarm that does what it is told, late, in a world of obstacles that are seen late.
-struct Drive {
+struct BaselineDrive {
   std::vector<Polygon> walls{};
   std::vector<Obstacle> obstacles{};
-  SwarmLimits swarm = vortex;
+  SwarmLimits swarm = fast_vortex;
   Pose2 pose{{200, 500}, 0};
   double delay = 0.05;
   double least_gap = std::numeric_limits<double>::infinity();  ///< from edge to edge
@@ -65,15 +64,15 @@ struct Drive {
         least_gap =
             std::min(least_gap, world.at(time + substep).clearance(pose.position) - swarm.radius);
       }
-      arrived = distance(pose.position, goal) <= tolerance;
+      arrived = distance(pose.position, room_goal) <= room_tolerance;
     }
   }
 };
 
 TEST(Straight, GoesStraightInTheOpen) {
-  for (const SwarmLimits& swarm : {vortex, ribbon}) {
-    Drive drive{.swarm = swarm, .pose = {{200, 500}, pi}};
-    StraightNavigator navigator({}, swarm, goal, tolerance);
+  for (const SwarmLimits& swarm : {fast_vortex, fast_ribbon}) {
+    BaselineDrive drive{.swarm = swarm, .pose = {{200, 500}, pi}};
+    StraightNavigator navigator({}, swarm, room_goal, room_tolerance);
     drive.run(navigator, 60);
     EXPECT_TRUE(drive.arrived);
     EXPECT_LT(drive.time, 1600 / 60.0 + 2);
@@ -81,8 +80,8 @@ TEST(Straight, GoesStraightInTheOpen) {
 }
 
 TEST(Straight, StopsBeforeWhatStandsAheadAndGoesOnAfterIt) {
-  Drive drive{.obstacles = {{DiscShape{60}, Straight{{1000, 300}, {0, 10}}}}};
-  StraightNavigator navigator({}, vortex, goal, tolerance);
+  BaselineDrive drive{.obstacles = {{DiscShape{60}, Straight{{1000, 300}, {0, 10}}}}};
+  StraightNavigator navigator({}, fast_vortex, room_goal, room_tolerance);
   drive.run(navigator, 100);
   EXPECT_TRUE(drive.arrived);
   EXPECT_TRUE(drive.was("hold"));
@@ -90,8 +89,8 @@ TEST(Straight, StopsBeforeWhatStandsAheadAndGoesOnAfterIt) {
 }
 
 TEST(Straight, StopsBeforeAWallAtItsDistance) {
-  Drive drive{.walls = {box({1000, 0}, {1020, 1000})}};
-  StraightNavigator navigator({}, vortex, goal, tolerance);
+  BaselineDrive drive{.walls = {box({1000, 0}, {1020, 1000})}};
+  StraightNavigator navigator({}, fast_vortex, room_goal, room_tolerance);
   drive.run(navigator, 60);
   EXPECT_FALSE(drive.arrived);
   EXPECT_NEAR(drive.pose.position.x, 1000 - 100 - 10 - 50, 8);
@@ -99,16 +98,16 @@ TEST(Straight, StopsBeforeAWallAtItsDistance) {
 }
 
 TEST(Straight, MayLeaveWhatIsNearBehindIt) {
-  Drive drive{.walls = {box({100, 400}, {145, 600})}};  // 5 µm behind its edge
-  StraightNavigator navigator({}, vortex, goal, tolerance);
+  BaselineDrive drive{.walls = {box({100, 400}, {145, 600})}};  // 5 µm behind its edge
+  StraightNavigator navigator({}, fast_vortex, room_goal, room_tolerance);
   drive.run(navigator, 60);
   EXPECT_TRUE(drive.arrived);
 }
 
 TEST(PotentialField, GoesRoundADiscThatStandsAside) {
-  for (const SwarmLimits& swarm : {vortex, ribbon}) {
-    Drive drive{.obstacles = {{DiscShape{80}, Still{{1000, 520}, 0}}}, .swarm = swarm};
-    PotentialFieldNavigator navigator({}, swarm, goal, tolerance);
+  for (const SwarmLimits& swarm : {fast_vortex, fast_ribbon}) {
+    BaselineDrive drive{.obstacles = {{DiscShape{80}, Still{{1000, 520}, 0}}}, .swarm = swarm};
+    PotentialFieldNavigator navigator({}, swarm, room_goal, room_tolerance);
     drive.run(navigator, 80);
     EXPECT_TRUE(drive.arrived);
     EXPECT_TRUE(drive.was("avoid"));
@@ -117,8 +116,8 @@ TEST(PotentialField, GoesRoundADiscThatStandsAside) {
 }
 
 TEST(PotentialField, IsStuckWhereForcesCancelOut) {
-  Drive drive{.obstacles = {{DiscShape{80}, Still{{1000, 500}, 0}}}};
-  PotentialFieldNavigator navigator({}, vortex, goal, tolerance);
+  BaselineDrive drive{.obstacles = {{DiscShape{80}, Still{{1000, 500}, 0}}}};
+  PotentialFieldNavigator navigator({}, fast_vortex, room_goal, room_tolerance);
   drive.run(navigator, 60);
   EXPECT_FALSE(drive.arrived);
   EXPECT_EQ(drive.states.back(), "stuck");
@@ -126,8 +125,8 @@ TEST(PotentialField, IsStuckWhereForcesCancelOut) {
 }
 
 TEST(PotentialField, ReachesAGoalBesideAWall) {
-  Drive drive{.walls = {box({1870, 300}, {1900, 700})}};
-  PotentialFieldNavigator navigator({}, vortex, goal, tolerance);
+  BaselineDrive drive{.walls = {box({1870, 300}, {1900, 700})}};
+  PotentialFieldNavigator navigator({}, fast_vortex, room_goal, room_tolerance);
   drive.run(navigator, 120);
   EXPECT_TRUE(drive.arrived);
   EXPECT_GT(drive.least_gap, 0);
@@ -136,10 +135,10 @@ TEST(PotentialField, ReachesAGoalBesideAWall) {
 TEST(PotentialField, TheRouteLeadsThroughTheGap) {
   const std::vector<Polygon> walls{box({1000, 0}, {1030, 700})};
   for (const Guide guide : {Guide::straight, Guide::route}) {
-    Drive drive{.walls = walls};
+    BaselineDrive drive{.walls = walls};
     PotentialFieldParams params;
     params.guide = guide;
-    PotentialFieldNavigator navigator(params, vortex, goal, tolerance);
+    PotentialFieldNavigator navigator(params, fast_vortex, room_goal, room_tolerance);
     drive.run(navigator, 120);
     EXPECT_EQ(drive.arrived, guide == Guide::route);
     EXPECT_GT(drive.least_gap, 0);
@@ -147,16 +146,16 @@ TEST(PotentialField, TheRouteLeadsThroughTheGap) {
 }
 
 TEST(PotentialField, GivesWayToWhatCrosses) {
-  Drive drive{.obstacles = {{DiscShape{60}, Straight{{1000, 0}, {0, 40}}}}};
-  PotentialFieldNavigator navigator({}, vortex, goal, tolerance);
+  BaselineDrive drive{.obstacles = {{DiscShape{60}, Straight{{1000, 0}, {0, 40}}}}};
+  PotentialFieldNavigator navigator({}, fast_vortex, room_goal, room_tolerance);
   drive.run(navigator, 80);
   EXPECT_TRUE(drive.arrived);
   EXPECT_GT(drive.least_gap, 0);
 }
 
 TEST(VelocityObstacle, KeepsToThePreferredVelocityInTheOpen) {
-  Drive drive;
-  VelocityObstacleNavigator navigator({}, vortex, goal, tolerance);
+  BaselineDrive drive;
+  VelocityObstacleNavigator navigator({}, fast_vortex, room_goal, room_tolerance);
   drive.run(navigator, 60);
   EXPECT_TRUE(drive.arrived);
   EXPECT_LT(drive.time, 1600 / 60.0 + 1);
@@ -164,11 +163,11 @@ TEST(VelocityObstacle, KeepsToThePreferredVelocityInTheOpen) {
 }
 
 TEST(VelocityObstacle, AvoidsWhatCrossesOrComesHeadOn) {
-  for (const SwarmLimits& swarm : {vortex, ribbon})
+  for (const SwarmLimits& swarm : {fast_vortex, fast_ribbon})
     for (const Straight& motion : {Straight{{1000, -40}, {0, 40}}, Straight{{1700, 500}, {-55, 0}},
                                    Straight{{600, 1250}, {30, -50}}}) {
-      Drive drive{.obstacles = {{DiscShape{70}, motion}}, .swarm = swarm};
-      VelocityObstacleNavigator navigator({}, swarm, goal, tolerance);
+      BaselineDrive drive{.obstacles = {{DiscShape{70}, motion}}, .swarm = swarm};
+      VelocityObstacleNavigator navigator({}, swarm, room_goal, room_tolerance);
       drive.run(navigator, 80);
       EXPECT_TRUE(drive.arrived);
       EXPECT_TRUE(drive.was("avoid"));
@@ -177,18 +176,19 @@ TEST(VelocityObstacle, AvoidsWhatCrossesOrComesHeadOn) {
 }
 
 TEST(VelocityObstacle, AvoidsBoxesAndWhatGrows) {
-  Drive drive{.obstacles = {{BoxShape{160, 60}, Straight{{1000, -200}, {0, 40}}},
-                            {BreathingDisc{20, 120, 8, 0}, Still{{600, 540}, 0}},
-                            {BoxShape{200, 30}, HarmonicArc{{1500, 500}, 60, 0, 0.5, 20, 0}}}};
-  VelocityObstacleNavigator navigator({}, vortex, goal, tolerance);
+  BaselineDrive drive{
+      .obstacles = {{BoxShape{160, 60}, Straight{{1000, -200}, {0, 40}}},
+                    {BreathingDisc{20, 120, 8, 0}, Still{{600, 540}, 0}},
+                    {BoxShape{200, 30}, HarmonicArc{{1500, 500}, 60, 0, 0.5, 20, 0}}}};
+  VelocityObstacleNavigator navigator({}, fast_vortex, room_goal, room_tolerance);
   drive.run(navigator, 90);
   EXPECT_TRUE(drive.arrived);
   EXPECT_GT(drive.least_gap, 0);
 }
 
 TEST(VelocityObstacle, TheRouteLeadsThroughTheGap) {
-  Drive drive{.walls = {box({1000, 0}, {1030, 700}), box({1300, 400}, {1330, 1000})}};
-  VelocityObstacleNavigator navigator({}, vortex, goal, tolerance);
+  BaselineDrive drive{.walls = {box({1000, 0}, {1030, 700}), box({1300, 400}, {1330, 1000})}};
+  VelocityObstacleNavigator navigator({}, fast_vortex, room_goal, room_tolerance);
   drive.run(navigator, 120);
   EXPECT_TRUE(drive.arrived);
   EXPECT_GT(drive.least_gap, 0);
@@ -198,7 +198,7 @@ TEST(VelocityObstacle, DoesNotReadWhatOnlyASimulationKnows) {
   const auto map = std::make_shared<const Map>(Box{{0, 0}, {2000, 1000}}, std::vector<Polygon>{});
   std::vector<Command> given[2];
   for (const int lies : {0, 1}) {
-    VelocityObstacleNavigator navigator({}, vortex, goal, tolerance);
+    VelocityObstacleNavigator navigator({}, fast_vortex, room_goal, room_tolerance);
     for (int k = 0; k < 20; ++k) {
       Body body{.shape = Disc{{600 - 5.0 * k, 480}, 60}};
       if (lies) body.velocity = {1e4, -1e4}, body.deformation_speed = 1e4;

@@ -11,20 +11,20 @@
 namespace microswarm {
 namespace {
 
-const std::vector<Vec2> corner{{0, 0}, {100, 0}, {100, 100}};
+const std::vector<Vec2> short_corner{{0, 0}, {100, 0}, {100, 100}};
 
 TEST(Follower, PlacesGoForwardOnly) {
-  PathPlace place = nearest_place(corner, {60, 5}, {});
+  PathPlace place = nearest_place(short_corner, {60, 5}, {});
   EXPECT_EQ(place.piece, 0U);
   EXPECT_NEAR(place.share, 0.6, 1e-12);
-  place = nearest_place(corner, {20, 0}, place);
+  place = nearest_place(short_corner, {20, 0}, place);
   EXPECT_NEAR(place.share, 0.6, 1e-12);
 }
 
 TEST(Follower, PointAheadRunsAroundTheCornerAndEndsAtTheEnd) {
-  EXPECT_EQ(point_ahead(corner, {0, 0.5}, 75), (Vec2{100, 25}));
-  EXPECT_EQ(point_ahead(corner, {0, 0}, 1e9), (Vec2{100, 100}));
-  EXPECT_NEAR(way_left(corner, {0, 0.5}), 150, 1e-12);
+  EXPECT_EQ(point_ahead(short_corner, {0, 0.5}, 75), (Vec2{100, 25}));
+  EXPECT_EQ(point_ahead(short_corner, {0, 0}, 1e9), (Vec2{100, 100}));
+  EXPECT_NEAR(way_left(short_corner, {0, 0.5}), 150, 1e-12);
 }
 
 TEST(Follower, APathOfOnePointIsHeldOn) {
@@ -39,18 +39,19 @@ TEST(Follower, ReachesTheEndFromAnyHeading) {
     Pose2 pose{{0, 10}, wrap(k * pi / 8)};
     PathPlace place;
     double worst = 0;
-    for (int i = 0; i < 400 && distance(pose.position, corner.back()) > 5; ++i) {
-      pose = unicycle_step(pose, pursue(corner, place, pose, 20, 30), 3, 0.05);
+    for (int i = 0; i < 400 && distance(pose.position, short_corner.back()) > 5; ++i) {
+      pose = unicycle_step(pose, pursue(short_corner, place, pose, 20, 30), 3, 0.05);
       double off = 1e9;
-      for (std::size_t j = 0; j + 1 < corner.size(); ++j) {
-        const PathPlace p =
-            nearest_place(std::vector<Vec2>{corner[j], corner[j + 1]}, pose.position, {});
-        off = std::min(off,
-                       distance(pose.position, corner[j] + p.share * (corner[j + 1] - corner[j])));
+      for (std::size_t j = 0; j + 1 < short_corner.size(); ++j) {
+        const PathPlace p = nearest_place(std::vector<Vec2>{short_corner[j], short_corner[j + 1]},
+                                          pose.position, {});
+        off = std::min(
+            off, distance(pose.position,
+                          short_corner[j] + p.share * (short_corner[j + 1] - short_corner[j])));
       }
       worst = std::max(worst, off);
     }
-    EXPECT_LE(distance(pose.position, corner.back()), 5) << "heading " << k * 22.5;
+    EXPECT_LE(distance(pose.position, short_corner.back()), 5) << "heading " << k * 22.5;
     EXPECT_LT(worst, 25) << "heading " << k * 22.5;
   }
 }

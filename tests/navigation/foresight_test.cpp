@@ -6,6 +6,7 @@
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/rng.hpp"
 #include "microswarm/world/obstacle.hpp"
+#include "tests/navigation/discs.hpp"
 
 namespace microswarm {
 namespace {
@@ -45,10 +46,8 @@ struct Watched {
   }
 };
 
-Obstacle disc(Motion motion) { return {DiscShape{60}, std::move(motion)}; }
-
 TEST(Foresight, GoesStraightOnWithWhatGoesStraight) {
-  Watched w{.obstacles = {disc(Straight{{-100, 50}, {170, -60}})}};
+  Watched w{.obstacles = {moving_disc(Straight{{-100, 50}, {170, -60}})}};
   w.watch(1);
   EXPECT_LT(w.error(6), 1e-6);
   w.watch(5);
@@ -56,7 +55,7 @@ TEST(Foresight, GoesStraightOnWithWhatGoesStraight) {
 }
 
 TEST(Foresight, LearnsASwingOnALine) {
-  Watched w{.obstacles = {disc(HarmonicLine{{0, 0}, {250, 100}, 11, 0.1})}};
+  Watched w{.obstacles = {moving_disc(HarmonicLine{{0, 0}, {250, 100}, 11, 0.1})}};
   w.watch(6);
   for (int k = 0; k < 100; ++k) {
     w.watch(0.1);
@@ -80,7 +79,7 @@ TEST(Foresight, LearnsASwingOnAnArcAndTurnsWithIt) {
 
 TEST(Foresight, RemembersTheCornersOfARound) {
   const Waypoints round{{{0, 0}, {400, 0}, {400, 300}}, 150, AtEnd::loop};
-  Watched w{.obstacles = {disc(round)}};
+  Watched w{.obstacles = {moving_disc(round)}};
   w.watch(12);  // a round takes 8 s
   int good = 0;
   for (int k = 0; k < 80; ++k) {
@@ -92,7 +91,7 @@ TEST(Foresight, RemembersTheCornersOfARound) {
 
 TEST(Foresight, ExpectsTheWayBackOfWhatTurnsBack) {
   const Waypoints there_and_back{{{0, 0}, {500, 0}, {500, 400}}, 160, AtEnd::back};
-  Watched w{.obstacles = {disc(there_and_back)}};
+  Watched w{.obstacles = {moving_disc(there_and_back)}};
   w.watch(6.5);  // it turns at 5.6 s, and meets the old corner, back, at 8.1 s
   EXPECT_LT(w.error(2.5), 30);
 }
@@ -113,9 +112,9 @@ TEST(Foresight, BreathingIsForeseen) {
 }
 
 TEST(Foresight, NoiseDoesNotUpsetIt) {
-  Watched w{.obstacles = {disc(Straight{{-900, 50}, {170, -60}}),
-                          disc(HarmonicLine{{0, 0}, {250, 100}, 11, 0.1}),
-                          disc(HarmonicArc{{0, 0}, 260, 0.4, 1.1, 9, 0.3})},
+  Watched w{.obstacles = {moving_disc(Straight{{-900, 50}, {170, -60}}),
+                          moving_disc(HarmonicLine{{0, 0}, {250, 100}, 11, 0.1}),
+                          moving_disc(HarmonicArc{{0, 0}, 260, 0.4, 1.1, 9, 0.3})},
             .noise = 1.5};
   w.watch(10);
   std::array<double, 3> sum{};
@@ -129,7 +128,8 @@ TEST(Foresight, NoiseDoesNotUpsetIt) {
 }
 
 TEST(Foresight, WhatVanishesIsForgotten) {
-  Watched w{.obstacles = {disc(Straight{{0, 0}, {100, 0}}), disc(Still{{900, 900}, 0})}};
+  Watched w{
+      .obstacles = {moving_disc(Straight{{0, 0}, {100, 0}}), moving_disc(Still{{900, 900}, 0})}};
   w.watch(3);
   w.obstacles.pop_back();
   w.watch(3);

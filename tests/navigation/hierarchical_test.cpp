@@ -9,22 +9,18 @@
 #include "microswarm/navigation/make.hpp"
 #include "microswarm/swarm/swarm_body.hpp"
 #include "microswarm/swarm/unicycle.hpp"
+#include "tests/navigation/room.hpp"
 
 namespace microswarm {
 namespace {
 
-constexpr Vec2 goal{1800, 500};
-
-Snapshot room(std::vector<Body> bodies = {}, std::vector<Polygon> walls = {}) {
-  return Snapshot(std::make_shared<const Map>(Box{{0, 0}, {2000, 1000}}, std::move(walls)), 0,
-                  std::move(bodies));
-}
-
 std::unique_ptr<Navigator> navigator(const Snapshot& world, std::uint64_t seed = 1) {
-  auto made = make_navigator(
-      HierarchicalParams{},
-      Task{.swarm = limits_of(RibbonParams{}), .robots = {}, .goal = goal, .goal_tolerance = 30},
-      Rng(seed, Purpose::planner));
+  auto made = make_navigator(HierarchicalParams{},
+                             Task{.swarm = limits_of(RibbonParams{}),
+                                  .robots = {},
+                                  .goal = room_goal,
+                                  .goal_tolerance = 30},
+                             Rng(seed, Purpose::planner));
   made->prepare(world);
   return made;
 }
@@ -34,7 +30,7 @@ Observation see(const Snapshot& world, Vec2 at, double heading = 0, double now =
 }
 
 TEST(Hierarchical, DrivesInTheOpen) {
-  const Snapshot world = room();
+  const Snapshot world = room_with();
   const auto n = navigator(world);
   const Command c = n->step(see(world, {300, 500}), {});
   EXPECT_GT(c.speed, 0);
@@ -44,7 +40,7 @@ TEST(Hierarchical, DrivesInTheOpen) {
 }
 
 TEST(Hierarchical, HoldsWhenBlind) {
-  const Snapshot world = room();
+  const Snapshot world = room_with();
   const auto n = navigator(world);
   Observation none = see(world, {300, 500});
   none.swarm.reset();
@@ -61,7 +57,7 @@ TEST(Hierarchical, HoldsWhenBlind) {
 }
 
 TEST(Hierarchical, HoldsAtTheGoal) {
-  const Snapshot world = room();
+  const Snapshot world = room_with();
   const auto n = navigator(world);
   EXPECT_EQ(n->step(see(world, {1790, 500}), {}).speed, 0);
   EXPECT_EQ(n->view().state, "arrived");
@@ -73,7 +69,7 @@ TEST(Hierarchical, HoldsWhenEverythingIsBlocked) {
                                    {.outer = {{200, 600}, {400, 600}, {400, 620}, {200, 620}}},
                                    {.outer = {{180, 380}, {200, 380}, {200, 620}, {180, 620}}},
                                    {.outer = {{400, 380}, {420, 380}, {420, 620}, {400, 620}}}};
-  const Snapshot world = room({}, walls);
+  const Snapshot world = room_with(walls);
   const auto n = navigator(world);
   for (int k = 0; k < 5; ++k) {
     const Command c = n->step(see(world, {300, 500}, 0, 0.1 * k), {});
@@ -86,23 +82,25 @@ TEST(Hierarchical, HoldsWhenEverythingIsBlocked) {
 TEST(Hierarchical, GetsOutOfTheWayOfWhatComesAtIt) {
   double x = 700;
   Pose2 pose{{300, 500}, 0};
-  const Snapshot start = room({{.shape = Disc{{x, 500}, 60}, .velocity = {-40, 0}, .obstacle = 0}});
+  const Snapshot start =
+      room_with({}, {{.shape = Disc{{x, 500}, 60}, .velocity = {-40, 0}, .obstacle = 0}});
   const auto n = navigator(start);
   double least = 1e9;
   for (int k = 0; k < 200; ++k) {
     const Snapshot world =
-        room({{.shape = Disc{{x, 500}, 60}, .velocity = {-40, 0}, .obstacle = 0}});
+        room_with({}, {{.shape = Disc{{x, 500}, 60}, .velocity = {-40, 0}, .obstacle = 0}});
     const Command c = n->step(see(world, pose.position, pose.heading, 0.1 * k), {});
     pose = unicycle_step(pose, c, 3, 0.1);
     x -= 4;
     least = std::min(least, distance(pose.position, Vec2{x, 500}) - 60);
   }
   EXPECT_GE(least, 90 - 1e-6);
-  EXPECT_LE(distance(pose.position, goal), 900);
+  EXPECT_LE(distance(pose.position, room_goal), 900);
 }
 
 std::uint64_t commands_hash(std::uint64_t seed) {
-  const Snapshot world = room({{.shape = Disc{{900, 480}, 120}, .velocity = {}, .obstacle = 0}});
+  const Snapshot world =
+      room_with({}, {{.shape = Disc{{900, 480}, 120}, .velocity = {}, .obstacle = 0}});
   const auto n = navigator(world, seed);
   Pose2 pose{{300, 500}, 1};
   Hash hash;

@@ -12,7 +12,7 @@
 namespace microswarm {
 namespace {
 
-const std::vector<Vec2> corner{{0, 0}, {300, 0}, {300, 300}};
+const std::vector<Vec2> long_corner{{0, 0}, {300, 0}, {300, 300}};
 
 std::string with_line(const std::string& begin, const std::string& line) {
   std::string text = follower_model_text(default_follower_model());
@@ -71,13 +71,15 @@ TEST(PathFollower, HandsOverWhereItWasNotTrained) {
   const FollowerParams learned{.kind = FollowerKind::learned};
   const Pose2 pose{{50, 5}, 0.1};
   PathPlace place;
-  EXPECT_FALSE(PathFollower(learned, swarm_of(3)).command(corner, place, pose, 20, 60).handed_over);
+  EXPECT_FALSE(
+      PathFollower(learned, swarm_of(3)).command(long_corner, place, pose, 20, 60).handed_over);
   // Slower to turn than any swarm of the training.
   place = {};
-  const auto answer = PathFollower(learned, swarm_of(0.1)).command(corner, place, pose, 20, 60);
+  const auto answer =
+      PathFollower(learned, swarm_of(0.1)).command(long_corner, place, pose, 20, 60);
   EXPECT_TRUE(answer.handed_over);
   PathPlace of_plain;
-  const Command plain = pursue(corner, of_plain, pose, 20, 60);
+  const Command plain = pursue(long_corner, of_plain, pose, 20, 60);
   EXPECT_EQ(answer.command.heading, plain.heading);
   EXPECT_EQ(answer.command.speed, plain.speed);
 }
@@ -89,7 +91,8 @@ TEST(PathFollower, CommandsDoNotDependOnWhereTheWorldLies) {
       return shift + Vec2{p.x * std::cos(turn) - p.y * std::sin(turn),
                           p.x * std::sin(turn) + p.y * std::cos(turn)};
     };
-    const std::vector<Vec2> path{moved(corner[0]), moved(corner[1]), moved(corner[2])};
+    const std::vector<Vec2> path{moved(long_corner[0]), moved(long_corner[1]),
+                                 moved(long_corner[2])};
     PathPlace place;
     return wrap(
         follower.command(path, place, {moved({270, 4}), 0.2 + turn}, 20, 60).command.heading -
@@ -102,9 +105,9 @@ TEST(PathFollower, CommandsDoNotDependOnWhereTheWorldLies) {
 std::string drive(const FollowerParams& follower, const RibbonParams& params, double& rms) {
   const Map map({{-200, -200}, {500, 500}}, std::vector<Polygon>{});
   const Snapshot world(std::make_shared<const Map>(map));
-  PathNavigator navigator({.path = {corner[0], corner[1]}, .follower = follower},
-                          swarm_of(params.max_turn_rate), corner[2], 10);
-  Ribbon ribbon(params, {corner[0], 0});
+  PathNavigator navigator({.path = {long_corner[0], long_corner[1]}, .follower = follower},
+                          swarm_of(params.max_turn_rate), long_corner[2], 10);
+  Ribbon ribbon(params, {long_corner[0], 0});
   Rng rng(1, Purpose::test);
   PathPlace place;
   double sum = 0;
@@ -116,8 +119,8 @@ std::string drive(const FollowerParams& follower, const RibbonParams& params, do
                            .swarm = SwarmPose{pose, 20},
                            .robots = {},
                            .world = &world};
-    place = nearest_place(corner, pose.position, place);
-    sum += squared_norm(pose.position - point_ahead(corner, place, 0));
+    place = nearest_place(long_corner, pose.position, place);
+    sum += squared_norm(pose.position - point_ahead(long_corner, place, 0));
     ribbon.step(navigator.step(seen, {}), 0.1, rng);
   }
   rms = std::sqrt(sum / ticks);
@@ -139,8 +142,8 @@ TEST(PathNavigator, SaysThatItHandsOver) {
   const Snapshot world(std::make_shared<const Map>(map));
   for (const double turn_rate : {3.0, 0.1}) {
     PathNavigator navigator(
-        {.path = {corner[0], corner[1]}, .follower = {.kind = FollowerKind::learned}},
-        swarm_of(turn_rate), corner[2], 10);
+        {.path = {long_corner[0], long_corner[1]}, .follower = {.kind = FollowerKind::learned}},
+        swarm_of(turn_rate), long_corner[2], 10);
     navigator.step({.now = 0, .seen = 0, .swarm = SwarmPose{{{0, 0}, 0}, 20}, .world = &world}, {});
     EXPECT_EQ(navigator.view().state, turn_rate == 3.0 ? "follow" : "fallback");
   }

@@ -4,14 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "microswarm/core/rng.hpp"
+#include "tests/navigation/room.hpp"
 
 namespace microswarm {
 namespace {
-
-Snapshot room(std::vector<Polygon> walls = {}, std::vector<Body> bodies = {}) {
-  return Snapshot(std::make_shared<const Map>(Box{{0, 0}, {2000, 1000}}, std::move(walls)), 0,
-                  std::move(bodies));
-}
 
 LocalTargetQuery towards(Vec2 from, double heading, Vec2 goal, double clearance = 40) {
   return {.swarm = {from, heading},
@@ -23,7 +19,7 @@ LocalTargetQuery towards(Vec2 from, double heading, Vec2 goal, double clearance 
 }
 
 TEST(LocalTarget, InTheOpenItLiesTowardsTheGoal) {
-  const auto target = select_local_target(room(), towards({500, 500}, 0, {1800, 500}), {});
+  const auto target = select_local_target(room_with(), towards({500, 500}, 0, {1800, 500}), {});
   ASSERT_TRUE(target);
   EXPECT_NEAR(target->position.y, 500, 1);
   EXPECT_GT(target->position.x, 600);
@@ -32,7 +28,8 @@ TEST(LocalTarget, InTheOpenItLiesTowardsTheGoal) {
 TEST(LocalTarget, NeverFartherThanTheBaseDistanceOrTheGoal) {
   const LocalTargetParams params;
   for (double goal_x : {520.0, 600.0, 1800.0}) {
-    const auto target = select_local_target(room(), towards({500, 500}, 0, {goal_x, 500}), params);
+    const auto target =
+        select_local_target(room_with(), towards({500, 500}, 0, {goal_x, 500}), params);
     ASSERT_TRUE(target);
     EXPECT_LE(distance(target->position, Vec2{500, 500}),
               std::min(params.base_distance, goal_x - 500) + 1e-9);
@@ -48,7 +45,7 @@ TEST(LocalTarget, TheWayThereIsFree) {
       bodies.push_back(
           {.shape = Disc{{rng.uniform(0, 2000), rng.uniform(0, 1000)}, rng.uniform(20, 100)},
            .obstacle = k});
-    const Snapshot world = room({}, bodies);
+    const Snapshot world = room_with({}, bodies);
     const Vec2 from{rng.uniform(100, 1900), rng.uniform(100, 900)};
     const auto target =
         select_local_target(world, towards(from, rng.uniform(-3, 3), {1800, 500}), {});
@@ -65,14 +62,15 @@ TEST(LocalTarget, ABlockedFanWidensToTheFullCircle) {
   const std::vector<Polygon> walls{{.outer = {{300, 300}, {700, 300}, {700, 420}, {300, 420}}},
                                    {.outer = {{300, 580}, {700, 580}, {700, 700}, {300, 700}}},
                                    {.outer = {{560, 420}, {700, 420}, {700, 580}, {560, 580}}}};
-  const auto target = select_local_target(room(walls), towards({500, 500}, 0, {1800, 500}), {});
+  const auto target =
+      select_local_target(room_with(walls), towards({500, 500}, 0, {1800, 500}), {});
   ASSERT_TRUE(target);
   EXPECT_LT(target->position.x, 500);
 }
 
 TEST(LocalTarget, AClosedInSwarmHasNone) {
   const auto in_wall =
-      select_local_target(room({{.outer = {{400, 400}, {600, 400}, {600, 600}, {400, 600}}}}),
+      select_local_target(room_with({{.outer = {{400, 400}, {600, 400}, {600, 600}, {400, 600}}}}),
                           towards({500, 500}, 0, {1800, 500}), {});
   EXPECT_FALSE(in_wall);
 }

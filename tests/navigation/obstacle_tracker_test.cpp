@@ -6,6 +6,7 @@
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/rng.hpp"
 #include "microswarm/world/obstacle.hpp"
+#include "tests/navigation/discs.hpp"
 
 namespace microswarm {
 namespace {
@@ -44,10 +45,8 @@ struct Camera {
   TrackedBody body(std::size_t i = 0) const { return tracker.body(i); }
 };
 
-Obstacle disc(Motion motion) { return {DiscShape{60}, std::move(motion)}; }
-
 TEST(ObstacleTracker, RestsWhenSeenOnce) {
-  Camera camera{.obstacles = {disc(Straight{{10, 20}, {50, 0}})}};
+  Camera camera{.obstacles = {moving_disc(Straight{{10, 20}, {50, 0}})}};
   camera.watch(0.05);
   EXPECT_EQ(camera.body().velocity, Vec2{});
   EXPECT_EQ(camera.body().frames, 1);
@@ -56,7 +55,7 @@ TEST(ObstacleTracker, RestsWhenSeenOnce) {
 
 TEST(ObstacleTracker, ConstantVelocityIsFoundExactly) {
   for (const double missed : {0.0, 0.5}) {
-    Camera camera{.obstacles = {disc(Straight{{10, 20}, {93, -41}}),
+    Camera camera{.obstacles = {moving_disc(Straight{{10, 20}, {93, -41}}),
                                 {BoxShape{200, 40}, Straight{{500, 500}, {-20, 70}}},
                                 {PolygonShape{{{0, 0}, {100, 0}, {0, 60}}}, Straight{{}, {5, 5}}}}};
     camera.watch(3, missed);
@@ -73,7 +72,7 @@ TEST(ObstacleTracker, ConstantVelocityIsFoundExactly) {
 
 TEST(ObstacleTracker, HarmonicVelocityWithinItsJerk) {
   const HarmonicLine motion{{500, 500}, {150, 80}, 12, 0};
-  Camera camera{.obstacles = {disc(motion)}};
+  Camera camera{.obstacles = {moving_disc(motion)}};
   double worst = 0;
   for (int k = 0; k < 150; ++k) {
     camera.watch(0.1);
@@ -89,7 +88,7 @@ TEST(ObstacleTracker, NoiseIsAveraged) {
   const double noise = 4;
   double squares = 0;
   int count = 0;
-  Camera camera{.obstacles = {disc(Straight{{}, velocity})}, .noise = noise};
+  Camera camera{.obstacles = {moving_disc(Straight{{}, velocity})}, .noise = noise};
   camera.watch(2);
   for (; count < 400; ++count) {
     camera.watch(0.1);
@@ -101,7 +100,7 @@ TEST(ObstacleTracker, NoiseIsAveraged) {
 
 TEST(ObstacleTracker, TheErrorItTellsIsTheErrorItMakes) {
   const Vec2 velocity{60, 30};
-  Camera camera{.obstacles = {disc(Straight{{}, velocity})}, .noise = 2};
+  Camera camera{.obstacles = {moving_disc(Straight{{}, velocity})}, .noise = 2};
   camera.watch(2);
   double squares = 0;
   double told = 0;
@@ -115,7 +114,7 @@ TEST(ObstacleTracker, TheErrorItTellsIsTheErrorItMakes) {
 }
 
 TEST(ObstacleTracker, ATurnIsNoticedWithinThreeFrames) {
-  Camera camera{.obstacles = {disc(Waypoints{{{0, 0}, {300, 0}}, 60, AtEnd::back})}};
+  Camera camera{.obstacles = {moving_disc(Waypoints{{{0, 0}, {300, 0}}, 60, AtEnd::back})}};
   camera.watch(4.96);
   EXPECT_NEAR(camera.body().velocity.x, 60, 1e-6);
   camera.watch(0.36);  // turned round at 5 s, seen 0.05 s late

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/navigation/predictive.hpp"
+#include "microswarm/core/infinity.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,21 +11,19 @@
 #include "microswarm/core/hash.hpp"
 #include "microswarm/swarm/unicycle.hpp"
 #include "microswarm/world/world.hpp"
+#include "tests/navigation/room.hpp"
 
 namespace microswarm {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr Vec2 goal{1800, 500};
-constexpr double tolerance = 30;
-constexpr SwarmLimits vortex{50, 70, infinity, 0.1};
-constexpr SwarmLimits ribbon{50, 70, 3, 0.1};
+constexpr SwarmLimits slow_vortex{50, 70, infinity, 0.1};
+constexpr SwarmLimits slow_ribbon{50, 70, 3, 0.1};
 
 /// A swarm that obeys late in a world that is seen late; bodies' true velocities are not shown.
-struct Drive {
+struct PredictiveDrive {
   std::vector<Polygon> walls{};
   std::vector<Obstacle> obstacles{};
-  SwarmLimits swarm = vortex;
+  SwarmLimits swarm = slow_vortex;
   Pose2 pose{{200, 500}, 0};
   PredictiveParams params{};
   std::uint64_t seed = 1;
@@ -52,7 +51,8 @@ struct Drive {
   void run(double seconds) {
     constexpr double substep = 0.01;
     const World world{std::make_shared<const Map>(Box{{0, 0}, {2000, 1000}}, walls), obstacles};
-    PredictiveNavigator navigator(params, swarm, goal, tolerance, Rng(seed, Purpose::planner));
+    PredictiveNavigator navigator(params, swarm, room_goal, room_tolerance,
+                                  Rng(seed, Purpose::planner));
     navigator.prepare(frame(world, 0));
     std::vector<Pose2> was_there(6, pose);
     std::vector<Command> pending(10);
@@ -77,14 +77,14 @@ struct Drive {
         least_gap =
             std::min(least_gap, world.at(time + substep).clearance(pose.position) - swarm.radius);
       }
-      arrived = distance(pose.position, goal) <= tolerance;
+      arrived = distance(pose.position, room_goal) <= room_tolerance;
     }
   }
 };
 
 TEST(Predictive, GoesStraightInTheOpen) {
-  for (const SwarmLimits& swarm : {vortex, ribbon}) {
-    Drive drive{.swarm = swarm};
+  for (const SwarmLimits& swarm : {slow_vortex, slow_ribbon}) {
+    PredictiveDrive drive{.swarm = swarm};
     drive.run(40);
     EXPECT_TRUE(drive.arrived);
     EXPECT_LT(drive.time, 1600 / 70.0 + 1);
@@ -93,13 +93,14 @@ TEST(Predictive, GoesStraightInTheOpen) {
 }
 
 TEST(Predictive, LetsWhatIsThreeTimesAsFastCross) {
-  for (const SwarmLimits& swarm : {vortex, ribbon})
+  for (const SwarmLimits& swarm : {slow_vortex, slow_ribbon})
     for (const double y : {-900.0, -600.0, -300.0, 1300.0}) {
       // It crosses the straight way when the swarm is there.
       const Vec2 from{900, y};
       const double meets_at = 10;
       const Vec2 velocity{0, (500 - y) / meets_at};
-      Drive drive{.obstacles = {{DiscShape{80}, Straight{from, velocity}}}, .swarm = swarm};
+      PredictiveDrive drive{.obstacles = {{DiscShape{80}, Straight{from, velocity}}},
+                            .swarm = swarm};
       drive.run(60);
       EXPECT_TRUE(drive.arrived);
       EXPECT_GT(drive.least_gap, 0) << y;
@@ -108,10 +109,11 @@ TEST(Predictive, LetsWhatIsThreeTimesAsFastCross) {
 }
 
 TEST(Predictive, StepsAsideOfWhatComesHeadOn) {
-  for (const SwarmLimits& swarm : {vortex, ribbon})
+  for (const SwarmLimits& swarm : {slow_vortex, slow_ribbon})
     for (const double faster : {1.0, 2.0, 3.0}) {
-      Drive drive{.obstacles = {{DiscShape{100}, Straight{{1900, 500}, {-70 * faster, 0}}}},
-                  .swarm = swarm};
+      PredictiveDrive drive{
+          .obstacles = {{DiscShape{100}, Straight{{1900, 500}, {-70 * faster, 0}}}},
+          .swarm = swarm};
       drive.run(60);
       EXPECT_TRUE(drive.arrived);
       EXPECT_GT(drive.least_gap, 0) << faster;
@@ -122,8 +124,9 @@ TEST(Predictive, StepsAsideOfWhatComesHeadOn) {
 TEST(Predictive, GoesRoundAWallAndLetsAnObstaclePassInTheGap) {
   const std::vector<Polygon> walls{{{{980, 0}, {1020, 0}, {1020, 620}, {980, 620}}, {}}};
   for (const double period : {6.0, 9.0}) {
-    Drive drive{.walls = walls,
-                .obstacles = {{DiscShape{60}, HarmonicLine{{1000, 850}, {300, 0}, period, 0.2}}}};
+    PredictiveDrive drive{
+        .walls = walls,
+        .obstacles = {{DiscShape{60}, HarmonicLine{{1000, 850}, {300, 0}, period, 0.2}}}};
     drive.run(120);
     EXPECT_TRUE(drive.arrived);
     EXPECT_GT(drive.least_gap, 0) << period;
@@ -132,7 +135,8 @@ TEST(Predictive, GoesRoundAWallAndLetsAnObstaclePassInTheGap) {
 
 TEST(Predictive, HoldsOrLeavesRatherThanBeRunOver) {
   // A broad bar that sweeps the room leaves a gap at one side only, and turns back at its ends.
-  Drive drive{.obstacles = {{BoxShape{80, 560}, HarmonicLine{{900, 280}, {500, 0}, 30, 0.25}}}};
+  PredictiveDrive drive{
+      .obstacles = {{BoxShape{80, 560}, HarmonicLine{{900, 280}, {500, 0}, 30, 0.25}}}};
   drive.run(120);
   EXPECT_TRUE(drive.arrived);
   EXPECT_GT(drive.least_gap, 0);
@@ -140,7 +144,7 @@ TEST(Predictive, HoldsOrLeavesRatherThanBeRunOver) {
 }
 
 TEST(Predictive, GivesWayBeforeItsGoal) {
-  Drive drive{.obstacles = {{DiscShape{60}, HarmonicLine{goal, {0, 300}, 8, 0}}}};
+  PredictiveDrive drive{.obstacles = {{DiscShape{60}, HarmonicLine{room_goal, {0, 300}, 8, 0}}}};
   drive.run(120);
   EXPECT_TRUE(drive.arrived);
   EXPECT_GT(drive.least_gap, 0);
@@ -154,7 +158,7 @@ TEST(Predictive, ThroughAChannelWithMovingWalls) {
   channel.amplitude = 20;
   channel.block_centre = {1000, 500};
   channel.block_height = 1100;
-  Drive drive{.obstacles = {{channel, Still{{0, 0}, 0}}}};
+  PredictiveDrive drive{.obstacles = {{channel, Still{{0, 0}, 0}}}};
   drive.run(120);
   EXPECT_TRUE(drive.arrived);
   EXPECT_GT(drive.least_gap, 0);
@@ -162,9 +166,10 @@ TEST(Predictive, ThroughAChannelWithMovingWalls) {
 
 TEST(Predictive, SameSeedSameBits) {
   const auto digest = [](std::uint64_t seed) {
-    Drive drive{.obstacles = {{DiscShape{80}, HarmonicLine{{900, 500}, {100, 300}, 9, 0}},
-                              {BoxShape{90, 60}, HarmonicArc{{1300, 500}, 200, 0, 2, 12, 0}}},
-                .seed = seed};
+    PredictiveDrive drive{
+        .obstacles = {{DiscShape{80}, HarmonicLine{{900, 500}, {100, 300}, 9, 0}},
+                      {BoxShape{90, 60}, HarmonicArc{{1300, 500}, 200, 0, 2, 12, 0}}},
+        .seed = seed};
     drive.run(60);
     EXPECT_TRUE(drive.arrived);
     return drive.hash.digest();
@@ -175,7 +180,8 @@ TEST(Predictive, SameSeedSameBits) {
 TEST(Predictive, HoldsWhenBlindAndGoesOn) {
   const World world{std::make_shared<const Map>(Box{{0, 0}, {2000, 1000}}, std::vector<Polygon>{}),
                     {{DiscShape{60}, Straight{{900, 0}, {0, 50}}}}};
-  PredictiveNavigator navigator({}, vortex, goal, tolerance, Rng(1, Purpose::planner));
+  PredictiveNavigator navigator({}, slow_vortex, room_goal, room_tolerance,
+                                Rng(1, Purpose::planner));
   const Snapshot frame = world.at(0);
   navigator.prepare(frame);
   const Observation good{
@@ -199,7 +205,7 @@ TEST(Predictive, HoldsWhenBlindAndGoesOn) {
   again.now = again.seen = 3.1;
   again.world = &later;
   EXPECT_GT(navigator.step(again, {}).speed, 0);
-  again.swarm->pose.position = goal;
+  again.swarm->pose.position = room_goal;
   EXPECT_EQ(navigator.step(again, {}).speed, 0);
   EXPECT_EQ(navigator.view().state, "arrived");
 }

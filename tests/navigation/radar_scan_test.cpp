@@ -8,6 +8,7 @@
 #include "microswarm/core/error.hpp"
 #include "microswarm/geometry/distance.hpp"
 #include "microswarm/navigation/radar_scanner.hpp"
+#include "tests/navigation/discs.hpp"
 #include "tests/scenes/worlds.hpp"
 
 namespace microswarm {
@@ -35,10 +36,6 @@ std::shared_ptr<const Map> walled(std::vector<Polygon> walls) {
 Snapshot arena(std::vector<Body> bodies = {}, std::vector<Polygon> walls = {}) {
   static const auto open = walled({});
   return Snapshot(walls.empty() ? open : walled(std::move(walls)), 0, std::move(bodies));
-}
-
-Body disc(Vec2 c, double r, std::uint32_t obstacle = 0) {
-  return {.shape = Disc{c, r}, .obstacle = obstacle};
 }
 
 TEST(RadarCircles, AreThoseOfThePaper) {
@@ -112,17 +109,17 @@ TEST(RadarWeights, AvoidanceGrowsWithNearness) {
 
 TEST(RadarScan, NothingDetectedGoesStraight) {
   const RadarLook look = look_at({500, 500}, 100, {1500, 800});
-  const RadarScan far = scan(look, arena({disc({820, 500}, 150)}), directions);
+  const RadarScan far = scan(look, arena({disc_body({820, 500}, 150)}), directions);
   EXPECT_FALSE(far.nearest);
   ASSERT_TRUE(far.straight);
   EXPECT_DOUBLE_EQ(*far.straight, std::atan2(300, 1000));
-  EXPECT_TRUE(scan(look, arena({disc({819, 500}, 150)}), directions).nearest);
+  EXPECT_TRUE(scan(look, arena({disc_body({819, 500}, 150)}), directions).nearest);
 }
 
 TEST(RadarScan, ScreensWhatComesTooNear) {
   // Edge 20 µm from the swarm's: a predictive swarm straight ahead would touch it.
   const RadarLook look = look_at({500, 500}, 100, {1500, 500});
-  const RadarScan s = scan(look, arena({disc({720, 500}, 100, 4)}), directions);
+  const RadarScan s = scan(look, arena({disc_body({720, 500}, 100, 4)}), directions);
   for (const RadarBeam& beam : s.beams) {
     const double gap = distance(Vec2{720, 500}, look.centre + 25 * unit_vector(beam.heading)) - 200;
     EXPECT_EQ(beam.fate == BeamFate::kept, gap >= 25) << degrees(beam.heading);
@@ -137,7 +134,7 @@ TEST(RadarScan, ScreensWhatComesTooNear) {
 TEST(RadarScan, TheNearestEdgeCountsNotTheNearestCentre) {
   const RadarLook look = look_at({500, 500}, 100, {1500, 500});
   const RadarScan s =
-      scan(look, arena({disc({500, 660}, 10, 0), disc({840, 500}, 200, 1)}), directions);
+      scan(look, arena({disc_body({500, 660}, 10, 0), disc_body({840, 500}, 200, 1)}), directions);
   ASSERT_TRUE(s.nearest);
   EXPECT_EQ(*s.nearest, 1u);  // 40 µm away, the other 50
 }
@@ -172,7 +169,7 @@ Case random_case(Rng& rng) {
   const auto count = rng.below(rng.below(4) == 0 ? 120 : 8);
   for (std::uint64_t i = 0; i < count; ++i) {
     const Vec2 at = centre + rng.uniform(0, 500) * unit_vector(rng.uniform(-pi, pi));
-    Body body = disc(at, rng.uniform(1, 120), static_cast<std::uint32_t>(i));
+    Body body = disc_body(at, rng.uniform(1, 120), static_cast<std::uint32_t>(i));
     if (rng.below(2) == 0)
       body.shape =
           scenes::turned_rectangle(at, rng.uniform(2, 250), rng.uniform(2, 60), rng.uniform(0, pi));
@@ -237,7 +234,7 @@ TEST(RadarScanner, KeepsAsTheFullScanDoes) {
 TEST(RadarScanner, RetreatsFromWhatComes) {
   // Hemmed in from left and right, both well within the safety circle: down and up are open.
   const RadarLook look = look_at({500, 500}, 100, {1500, 500});
-  const Snapshot world = arena({disc({660, 500}, 50), disc({355, 500}, 40)});
+  const Snapshot world = arena({disc_body({660, 500}, 50), disc_body({355, 500}, 40)});
   RadarScanner scanner(directions);
   scanner.detect(look, world);
   ASSERT_FALSE(scanner.choose(look, world));

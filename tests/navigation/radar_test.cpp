@@ -7,24 +7,21 @@
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/navigation/make.hpp"
+#include "tests/navigation/discs.hpp"
 #include "tests/scenes/worlds.hpp"
 
 namespace microswarm {
 namespace {
 
-constexpr double tick = 0.1;
-constexpr double radius = 100;
-constexpr SwarmLimits vortex{.radius = radius,
-                             .max_speed = 85,
-                             .max_turn_rate = std::numeric_limits<double>::infinity(),
-                             .response_lag = 0};
+constexpr double radar_tick = 0.1;
+constexpr double radar_radius = 100;
+constexpr SwarmLimits radar_vortex{.radius = radar_radius,
+                                   .max_speed = 85,
+                                   .max_turn_rate = std::numeric_limits<double>::infinity(),
+                                   .response_lag = 0};
 
-std::shared_ptr<const Map> room(std::vector<Polygon> walls = {}) {
+std::shared_ptr<const Map> radar_room(std::vector<Polygon> walls = {}) {
   return std::make_shared<const Map>(Box{{0, 0}, {3000, 1500}}, std::move(walls));
-}
-
-Body disc(Vec2 c, double r, std::uint32_t obstacle = 0) {
-  return {.shape = Disc{c, r}, .obstacle = obstacle};
 }
 
 /// What became of a swarm that was steered for a while.
@@ -43,22 +40,22 @@ using Movers = std::function<std::vector<Body>(double t)>;
 
 Trip drive(const RadarParams& params, Vec2 start, Vec2 goal, std::shared_ptr<const Map> map,
            const Movers& movers, double most_seconds = 120) {
-  RadarNavigator navigator(params, vortex, goal, 20, Rng(1, Purpose::planner));
+  RadarNavigator navigator(params, radar_vortex, goal, 20, Rng(1, Purpose::planner));
   Trip trip;
   Pose2 pose{start, 0};
-  for (; trip.time < most_seconds; trip.time += tick) {
+  for (; trip.time < most_seconds; trip.time += radar_tick) {
     const Snapshot world(map, trip.time, movers(trip.time));
-    trip.least_gap = std::min(trip.least_gap, world.clearance(pose.position) - radius);
+    trip.least_gap = std::min(trip.least_gap, world.clearance(pose.position) - radar_radius);
     trip.arrived = distance(pose.position, goal) <= 20;
     if (trip.arrived) break;
     const Command c = navigator.step({.now = trip.time,
                                       .seen = trip.time,
-                                      .swarm = SwarmPose{pose, radius},
+                                      .swarm = SwarmPose{pose, radar_radius},
                                       .robots = {},
                                       .world = &world},
                                      {});
     trip.states.emplace_back(navigator.view().state);
-    pose = unicycle_step(pose, c, vortex.max_turn_rate, tick);
+    pose = unicycle_step(pose, c, radar_vortex.max_turn_rate, radar_tick);
   }
   return trip;
 }
@@ -66,15 +63,15 @@ Trip drive(const RadarParams& params, Vec2 start, Vec2 goal, std::shared_ptr<con
 std::vector<Body> nothing(double) { return {}; }
 
 TEST(Radar, GoesStraightWhereNothingIs) {
-  const Trip trip = drive({}, {300, 700}, {2700, 800}, room(), nothing);
+  const Trip trip = drive({}, {300, 700}, {2700, 800}, radar_room(), nothing);
   EXPECT_TRUE(trip.arrived);
   EXPECT_FALSE(trip.was("avoid"));
-  EXPECT_NEAR(trip.time, (distance(Vec2{300, 700}, Vec2{2700, 800}) - 20) / 85, 2 * tick);
+  EXPECT_NEAR(trip.time, (distance(Vec2{300, 700}, Vec2{2700, 800}) - 20) / 85, 2 * radar_tick);
 }
 
 TEST(Radar, AvoidsWhatStandsInTheWay) {
-  const Trip trip = drive({}, {300, 700}, {2700, 700}, room(), [](double) {
-    return std::vector{disc({1500, 690}, 150)};
+  const Trip trip = drive({}, {300, 700}, {2700, 700}, radar_room(), [](double) {
+    return std::vector{disc_body({1500, 690}, 150)};
   });
   EXPECT_TRUE(trip.arrived);
   EXPECT_TRUE(trip.was("avoid"));
@@ -88,7 +85,7 @@ Body box(Vec2 middle, double width, double height) {
 
 TEST(Radar, GetsRoundWhatIsFlat) {
   for (const Vec2 size : {Vec2{100, 100}, Vec2{30, 300}, Vec2{300, 300}}) {
-    const Trip trip = drive({}, {300, 750}, {2700, 750}, room(), [&](double) {
+    const Trip trip = drive({}, {300, 750}, {2700, 750}, radar_room(), [&](double) {
       return std::vector{box({1500, 750}, size.x, size.y)};
     });
     EXPECT_TRUE(trip.arrived) << size.x << " × " << size.y;
@@ -98,8 +95,8 @@ TEST(Radar, GetsRoundWhatIsFlat) {
 
 TEST(Radar, AvoidsWhatCrossesAndWhatComes) {
   for (const Vec2 v : {Vec2{0, -40}, Vec2{0, 40}, Vec2{-40, 0}, Vec2{-30, 30}}) {
-    const Trip trip = drive({}, {300, 700}, {2700, 720}, room(), [&](double t) {
-      return std::vector{disc(Vec2{1500, 700} + (t - 14) * v, 150)};
+    const Trip trip = drive({}, {300, 700}, {2700, 720}, radar_room(), [&](double t) {
+      return std::vector{disc_body(Vec2{1500, 700} + (t - 14) * v, 150)};
     });
     EXPECT_TRUE(trip.arrived);
     EXPECT_GT(trip.least_gap, 0) << v.x << ", " << v.y;
@@ -109,35 +106,39 @@ TEST(Radar, AvoidsWhatCrossesAndWhatComes) {
 TEST(Radar, GivesWayWhereItWaits) {
   // At its goal already, and something comes over it.
   RadarParams params;
-  RadarNavigator navigator(params, vortex, {1500, 700}, 30, Rng(1, Purpose::planner));
+  RadarNavigator navigator(params, radar_vortex, {1500, 700}, 30, Rng(1, Purpose::planner));
   Pose2 pose{{1500, 700}, 0};
-  const auto map = room();
+  const auto map = radar_room();
   double least = 1e9;
   for (int k = 0; k < 400; ++k) {
-    const double t = tick * k;
-    const Snapshot world(map, t, {disc({1500 + 600 - 40 * t, 710}, 150)});
-    const Command c = navigator.step(
-        {.now = t, .seen = t, .swarm = SwarmPose{pose, radius}, .robots = {}, .world = &world}, {});
-    pose = unicycle_step(pose, c, vortex.max_turn_rate, tick);
-    least = std::min(least, world.clearance(pose.position) - radius);
+    const double t = radar_tick * k;
+    const Snapshot world(map, t, {disc_body({1500 + 600 - 40 * t, 710}, 150)});
+    const Command c = navigator.step({.now = t,
+                                      .seen = t,
+                                      .swarm = SwarmPose{pose, radar_radius},
+                                      .robots = {},
+                                      .world = &world},
+                                     {});
+    pose = unicycle_step(pose, c, radar_vortex.max_turn_rate, radar_tick);
+    least = std::min(least, world.clearance(pose.position) - radar_radius);
   }
   EXPECT_GT(least, 0);
 }
 
 TEST(Radar, WithoutRetreatItHoldsAsPublished) {
   // Obstacles on both sides, within the safety circle: no direction is safe.
-  const std::vector<Body> both{disc({1700, 700}, 80, 0), disc({1300, 700}, 80, 1)};
-  const Snapshot world(room(), 0, both);
+  const std::vector<Body> both{disc_body({1700, 700}, 80, 0), disc_body({1300, 700}, 80, 1)};
+  const Snapshot world(radar_room(), 0, both);
   for (const bool retreat : {false, true}) {
     RadarParams params;
     params.safety_distance = 80;
     params.detection_range = 120;
     params.retreat = retreat;
     params.guard.active = retreat;
-    RadarNavigator navigator(params, vortex, {2700, 700}, 30, Rng(1, Purpose::planner));
+    RadarNavigator navigator(params, radar_vortex, {2700, 700}, 30, Rng(1, Purpose::planner));
     const Command c = navigator.step({.now = 0,
                                       .seen = 0,
-                                      .swarm = SwarmPose{{{1500, 700}, 0}, radius},
+                                      .swarm = SwarmPose{{{1500, 700}, 0}, radar_radius},
                                       .robots = {},
                                       .world = &world},
                                      {});
@@ -147,7 +148,7 @@ TEST(Radar, WithoutRetreatItHoldsAsPublished) {
 }
 
 TEST(Radar, FollowsWaypointsRoundAWall) {
-  const auto map = room({scenes::rectangle({{1400, 0}, {1450, 1000}})});
+  const auto map = radar_room({scenes::rectangle({{1400, 0}, {1450, 1000}})});
   RadarParams params;
   const Trip blind = drive(params, {700, 400}, {2300, 400}, map, nothing);
   EXPECT_FALSE(blind.arrived);
@@ -166,7 +167,7 @@ TEST(Radar, FollowsWaypointsRoundAWall) {
 }
 
 TEST(Radar, IsStuckWithoutAPlan) {
-  const auto map = room({scenes::rectangle({{1400, 0}, {1450, 1500}})});
+  const auto map = radar_room({scenes::rectangle({{1400, 0}, {1450, 1500}})});
   RadarParams params;
   params.global_plan = true;
   params.planner.max_nodes = 2000;
@@ -177,8 +178,8 @@ TEST(Radar, IsStuckWithoutAPlan) {
 
 TEST(Radar, WaitsForAValve) {
   // A passage of 600 µm; the valve is closed for some time, and the swarm must not be touched.
-  const auto map = room({scenes::rectangle({{1400, 0}, {1600, 450}}),
-                         scenes::rectangle({{1400, 1050}, {1600, 1500}})});
+  const auto map = radar_room({scenes::rectangle({{1400, 0}, {1600, 450}}),
+                               scenes::rectangle({{1400, 1050}, {1600, 1500}})});
   const Obstacle valve{Valve{.span = 600, .thickness = 60, .greatest_gap = 500, .period = 40},
                        Still{.position = {1500, 750}}};
   const auto leaves = [&](double t) {
@@ -199,15 +200,15 @@ TEST(Radar, WaitsForAValve) {
 
 TEST(Radar, MakesUpForDelays) {
   // Seen 0.2 s late, obeyed 0.3 s late: it decides for the place it will have got to.
-  SwarmLimits slow = vortex;
+  SwarmLimits slow = radar_vortex;
   slow.response_lag = 0.3;
-  const Snapshot world(room(), 0);
+  const Snapshot world(radar_room(), 0);
   RadarNavigator navigator({}, slow, {2700, 700}, 20, Rng(1, Purpose::planner));
   for (int k = 0; k < 20; ++k) {
-    const double now = tick * k;
+    const double now = radar_tick * k;
     navigator.step({.now = now,
                     .seen = now - 0.2,
-                    .swarm = SwarmPose{{{500, 700}, 0}, radius},
+                    .swarm = SwarmPose{{{500, 700}, 0}, radar_radius},
                     .robots = {},
                     .world = &world},
                    {});
@@ -217,12 +218,12 @@ TEST(Radar, MakesUpForDelays) {
 }
 
 TEST(Radar, LastScanIsOfTheLastStep) {
-  const Snapshot world(room(), 0, {disc({1700, 700}, 80, 3)});
-  RadarNavigator navigator({}, vortex, {2700, 700}, 20, Rng(1, Purpose::planner));
+  const Snapshot world(radar_room(), 0, {disc_body({1700, 700}, 80, 3)});
+  RadarNavigator navigator({}, radar_vortex, {2700, 700}, 20, Rng(1, Purpose::planner));
   EXPECT_FALSE(navigator.last_scan());
   const Command c = navigator.step({.now = 0,
                                     .seen = 0,
-                                    .swarm = SwarmPose{{{1500, 700}, 0}, radius},
+                                    .swarm = SwarmPose{{{1500, 700}, 0}, radar_radius},
                                     .robots = {},
                                     .world = &world},
                                    {});
@@ -236,10 +237,11 @@ TEST(Radar, LastScanIsOfTheLastStep) {
 }
 
 TEST(Radar, WaypointsInAWallAreRefused) {
-  const auto map = room({scenes::rectangle({{1400, 0}, {1450, 1000}})});
+  const auto map = radar_room({scenes::rectangle({{1400, 0}, {1450, 1000}})});
   RadarParams params;
   params.waypoints = {{500, 500}, {1420, 500}};
-  const Task task{.swarm = vortex, .robots = {}, .goal = Vec2{2300, 400}, .goal_tolerance = 20};
+  const Task task{
+      .swarm = radar_vortex, .robots = {}, .goal = Vec2{2300, 400}, .goal_tolerance = 20};
   try {
     check_navigator(params, task, *map, "x.yaml");
     FAIL();

@@ -13,7 +13,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double tick = 0.1;
+constexpr double robot_tick = 0.1;
 
 /// Robots under a navigator, seen as they were some ticks ago.
 struct Rig {
@@ -31,21 +31,21 @@ struct Rig {
         params(p),
         delay_ticks(delay),
         world(std::make_shared<const Map>(map)),
-        swarm(p, RobotStepper(map, p.max_speed * tick), starts, rng),
+        swarm(p, RobotStepper(map, p.max_speed * robot_tick), starts, rng),
         history{places()} {}
 
   std::vector<Vec2> places() const { return swarm.robots().positions(); }
   Observation observe() const {
     const auto ticks = static_cast<double>(history.size() - 1);
     return {.now = now,
-            .seen = now - ticks * tick,
+            .seen = now - ticks * robot_tick,
             .swarm = SwarmPose{},
             .robots = history.front(),
             .world = &world};
   }
   void apply(const Command& command) {
-    swarm.step(command, tick, rng);
-    now += tick;
+    swarm.step(command, robot_tick, rng);
+    now += robot_tick;
     history.push_back(places());
     if (history.size() > delay_ticks + 1) history.pop_front();
   }
@@ -68,9 +68,9 @@ RobotSwarmParams two_robots() {
 
 TEST(RobotForecast, IsWhatComesUnderDelayAndLag) {
   RobotSwarmParams params = two_robots();
-  params.response_lag = tick;
+  params.response_lag = robot_tick;
   Rig rig(scenes::global_world(1), params, params.starts, 3);
-  RobotForecast forecast(RobotStepper(rig.map, params.max_speed * tick), params.contact,
+  RobotForecast forecast(RobotStepper(rig.map, params.max_speed * robot_tick), params.contact,
                          params.response_lag);
   for (int i = 0; i < 200; ++i) {
     const Robots foretold = forecast.at_effect(rig.observe());
@@ -86,7 +86,7 @@ TEST(PlanPlayer, WithoutErrorsItPlansOnceAndArrives) {
   for (const std::size_t delay : {0, 2}) {
     const RobotSwarmParams params = two_robots();
     Rig rig(scenes::global_world(1), params, params.starts, delay);
-    PlanPlayer player({}, params, 20, tick, Rng(1, Purpose::planner));
+    PlanPlayer player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
     player.prepare(rig.world);
     int planned = 0;
     for (int i = 0; i < 3000 && rig.worst() > 20; ++i) {
@@ -104,7 +104,7 @@ TEST(PlanPlayer, WithErrorsItFindsItsWayAgain) {
   params.heading_noise = 0.05;
   params.speed_spread = 0.1;
   Rig rig(scenes::global_world(1), params, params.starts, 1);
-  PlanPlayer player({}, params, 20, tick, Rng(1, Purpose::planner));
+  PlanPlayer player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
   player.prepare(rig.world);
   int found_again = 0;
   for (int i = 0; i < 6000 && rig.worst() > 20; ++i) {
@@ -118,7 +118,7 @@ TEST(PlanPlayer, WithErrorsItFindsItsWayAgain) {
 TEST(PlanPlayer, RobotsThatWereCarriedAwayJoinThePlanAgain) {
   const RobotSwarmParams params = two_robots();
   Rig rig(scenes::global_world(1), params, params.starts, 0);
-  PlanPlayer player({}, params, 20, tick, Rng(1, Purpose::planner));
+  PlanPlayer player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
   player.prepare(rig.world);
   std::vector<Observation> seen;
   for (int i = 0; i < 20; ++i) rig.apply(player.step(rig.observe(), {}));
@@ -134,7 +134,7 @@ TEST(PlanPlayer, WithoutAPlanItHoldsAndTriesAgainLater) {
   PlanPlayerParams hard;
   hard.planner.max_nodes = 1;
   Rig rig(scenes::global_world(1), params, params.starts, 0);
-  PlanPlayer player(hard, params, 20, tick, Rng(1, Purpose::planner));
+  PlanPlayer player(hard, params, 20, robot_tick, Rng(1, Purpose::planner));
   player.prepare(rig.world);
   int planned = 0;
   int stuck = 0;
@@ -151,7 +151,7 @@ TEST(PlanPlayer, WithoutAPlanItHoldsAndTriesAgainLater) {
 TEST(PlanPlayer, HoldsWhenItSeesTooFewTooOldOrIsThere) {
   const RobotSwarmParams params = two_robots();
   Rig rig(scenes::global_world(1), params, params.starts, 0);
-  PlanPlayer player({}, params, 20, tick, Rng(1, Purpose::planner));
+  PlanPlayer player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
   player.prepare(rig.world);
   Observation seen = rig.observe();
   seen.robots = seen.robots.first(1);
@@ -175,7 +175,7 @@ TEST(AggregationNavigator, GathersUnderLagAndDelayAndHoldsThen) {
   Rng rng(4, Purpose::scene);
   for (int i = 0; i < 64; ++i) starts.push_back({rng.uniform(2, 98), rng.uniform(92, 98)});
   Rig rig(t.map(), params, starts, 1);
-  AggregationNavigator navigator({}, params, t.goal, 20, tick, Rng(1, Purpose::planner));
+  AggregationNavigator navigator({}, params, t.goal, 20, robot_tick, Rng(1, Purpose::planner));
   navigator.prepare(rig.world);
   int steps = 0;
   while (steps < 2000) {

@@ -8,19 +8,19 @@
 namespace microswarm {
 namespace {
 
-constexpr double speed = 80;
-constexpr double radius = 50;
+constexpr double field_speed = 80;
+constexpr double field_radius = 50;
 
 /// A field around the origin with the goal far to the right.
 struct Made {
-  TimeField field{speed, 6, 0.5};
+  TimeField field{field_speed, 6, 0.5};
   Vec2 goal{1000, 0};
 
   void solve(std::span<const ConvexOutline> outlines, std::span<const BodyAhead> ahead) {
     field.begin(
         {}, {goal, 20}, [](Vec2) { return 0.0F; },
-        [&](Vec2 p) { return static_cast<float>(distance(p, goal) / speed); });
-    field.solve(outlines, ahead, radius, {});
+        [&](Vec2 p) { return static_cast<float>(distance(p, goal) / field_speed); });
+    field.solve(outlines, ahead, field_radius, {});
   }
 };
 
@@ -29,7 +29,7 @@ TEST(TimeField, InTheOpenTheCostIsTheWay) {
   made.solve({}, {});
   for (int k = 0; k < 16; ++k) {
     const Vec2 p = 30 * unit_vector(2 * pi * k / 16);
-    const double way = distance(p, made.goal) / speed;
+    const double way = distance(p, made.goal) / field_speed;
     EXPECT_GE(made.field.cost(1, p), 0.97 * way);
     EXPECT_LE(made.field.cost(1, p), 1.03 * way);
   }
@@ -40,7 +40,7 @@ TEST(TimeField, TheGoalEndsIt) {
   made.goal = {120, 0};
   made.solve({}, {});
   EXPECT_EQ(made.field.cost(1, {120, 0}), 0);
-  EXPECT_NEAR(made.field.cost(1, {0, 0}), 120 / speed, 0.6);
+  EXPECT_NEAR(made.field.cost(1, {0, 0}), 120 / field_speed, 0.6);
 }
 
 TEST(TimeField, ADiscThatComesCostsNothingBesideItsWay) {
@@ -52,10 +52,10 @@ TEST(TimeField, ADiscThatComesCostsNothingBesideItsWay) {
     ahead.push_back({.centre = {600 - 200 * made.field.time_of(s), 0}});
   made.solve(std::span(&disc, 1), ahead);
   const double on_its_way = made.field.cost(1, {40, 0});
-  EXPECT_GT(on_its_way, 960 / speed + 0.5);
-  EXPECT_LT(on_its_way, 960 / speed + 8) << "there is time to step aside";
+  EXPECT_GT(on_its_way, 960 / field_speed + 0.5);
+  EXPECT_LT(on_its_way, 960 / field_speed + 8) << "there is time to step aside";
   // Two seconds later it has just passed: in its place now, but not then.
-  EXPECT_LT(made.field.cost(6, {100, 170}), distance({100, 170}, made.goal) / speed + 0.5);
+  EXPECT_LT(made.field.cost(6, {100, 170}), distance({100, 170}, made.goal) / field_speed + 0.5);
 }
 
 TEST(TimeField, OutlinesAreNeverTooSmall) {

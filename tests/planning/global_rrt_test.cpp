@@ -8,15 +8,13 @@
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/planning/coverage.hpp"
+#include "tests/planning/global_ends.hpp"
 #include "tests/scenes/global_worlds.hpp"
 
 namespace microswarm {
 namespace {
 
 using scenes::global_world;
-
-std::span<const Vec2> starts(std::size_t n) { return {scenes::global_starts.data(), n}; }
-std::span<const Vec2> goals(std::size_t n) { return {scenes::global_goals.data(), n}; }
 
 GlobalRrt grow(int world, std::size_t n, const GlobalRrtParams& params, std::uint64_t seed = 1) {
   Rng rng(seed, Purpose::planner);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "microswarm/core/error.hpp"
+#include "tests/planning/global_ends.hpp"
 #include "tests/scenes/global_worlds.hpp"
 #include "tests/scenes/worlds.hpp"
 
@@ -13,9 +14,6 @@ namespace microswarm {
 namespace {
 
 using scenes::global_world;
-
-std::span<const Vec2> starts(std::size_t n) { return {scenes::global_starts.data(), n}; }
-std::span<const Vec2> goals(std::size_t n) { return {scenes::global_goals.data(), n}; }
 
 GlobalSearch search(int world, std::size_t n, const GlobalSearchParams& params = {},
                     std::uint64_t seed = 1, const Stop& stop = {}) {

@@ -10,6 +10,7 @@
 #include "microswarm/planning/global_rrt.hpp"
 #include "microswarm/planning/global_search.hpp"
 #include "microswarm/planning/global_shorten.hpp"
+#include "tests/planning/global_ends.hpp"
 #include "tests/scenes/global_worlds.hpp"
 #include "tests/scenes/worlds.hpp"
 
@@ -17,9 +18,6 @@ namespace microswarm {
 namespace {
 
 using scenes::global_world;
-
-std::span<const Vec2> starts(std::size_t n) { return {scenes::global_starts.data(), n}; }
-std::span<const Vec2> goals(std::size_t n) { return {scenes::global_goals.data(), n}; }
 
 double least_of(const std::vector<PointF>& robots) {
   double least = std::numeric_limits<double>::infinity();

@@ -6,15 +6,13 @@
 #include <algorithm>
 
 #include "microswarm/planning/global_search.hpp"
+#include "tests/planning/global_ends.hpp"
 #include "tests/scenes/global_worlds.hpp"
 
 namespace microswarm {
 namespace {
 
 using scenes::global_world;
-
-std::span<const Vec2> starts(std::size_t n) { return {scenes::global_starts.data(), n}; }
-std::span<const Vec2> goals(std::size_t n) { return {scenes::global_goals.data(), n}; }
 
 TEST(GlobalShorten, ReachesTheSameGoalsWithFewerInputs) {
   std::size_t before = 0, after = 0;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/planning/obstacle_weighted_rrt.hpp"
+#include "microswarm/core/infinity.hpp"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <limits>
 
 #include "microswarm/core/hash.hpp"
 #include "tests/scenes/vascular.hpp"
@@ -12,8 +12,6 @@
 
 namespace microswarm {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// As in the paper: Alg 1 alone grows the tree.
 ObstacleWeightedRrtParams with_nodes(int nodes) {

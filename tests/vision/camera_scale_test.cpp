@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/vision/camera_scale.hpp"
+#include "microswarm/core/angles.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <numbers>
 
 #include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
@@ -16,8 +16,6 @@
 
 namespace microswarm {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 CameraScale any_scale(Rng& rng, bool y_up) {
   CameraScale s{.um_per_px = rng.uniform(0.1, 20), .rotation = rng.uniform(-pi, pi), .y_up = y_up};

@@ -15,6 +15,10 @@
 
 namespace microswarm::test {
 
+/// Of the frames [px], unless a test asks for others.
+inline constexpr int frame_width = 640;
+inline constexpr int frame_height = 480;
+
 /// A swarm as it is drawn; lengths in px, y down.
 struct DrawnSwarm {
   Vec2 centre;

@@ -20,15 +20,12 @@ namespace {
 using test::DrawnFrame;
 using test::DrawnSwarm;
 
-constexpr int width = 640;
-constexpr int height = 480;
-
 TEST(SceneFinder, SwarmAndObstaclesOfTheSameToneAreToldApart) {
   std::vector<double> grain_of_swarms;
   std::vector<double> grain_of_discs;
   for (std::uint32_t trial = 0; trial < 40; ++trial) {
     Rng rng(3, Purpose::test, trial);
-    DrawnFrame frame(width, height);
+    DrawnFrame frame(test::frame_width, test::frame_height);
     const DrawnSwarm swarm{.centre = {rng.uniform(80, 240), rng.uniform(80, 400)},
                            .radius = rng.uniform(18, 45),
                            .clumps = 300,
@@ -76,7 +73,7 @@ TEST(SceneFinder, ASwarmThatTouchesAnObstacleOfItsToneIsStillSeenAndSoIsTheObsta
   for (const double apart : {-6.0, 0.0, 3.0, 8.0})
     for (int k = 0; k < 20; ++k, ++trials) {
       Rng rng(17, Purpose::test, trials);
-      DrawnFrame frame(width, height);
+      DrawnFrame frame(test::frame_width, test::frame_height);
       const double radius = rng.uniform(15, 40);
       const DrawnSwarm swarm{.centre = {320, 240},
                              .radius = rng.uniform(25, 45),
@@ -111,8 +108,8 @@ TEST(SceneFinder, ASwarmThatTouchesAnObstacleOfItsToneIsStillSeenAndSoIsTheObsta
 
 /// Two channels that cross, with walls around them, and what moves in them.
 struct Channels {
-  DrawnFrame frame{width, height};
-  Mask walls{width, height};
+  DrawnFrame frame{test::frame_width, test::frame_height};
+  Mask walls{test::frame_width, test::frame_height};
 
   Channels() {
     for (const auto& [lo, hi] : {std::pair{Vec2{-0.5, -0.5}, Vec2{219.5, 159.5}},
@@ -148,15 +145,17 @@ TEST(Walls, AreFoundUnderUnevenLightThoughTheyAreHalfOfThePicture) {
 TEST(Walls, NoneWhereThereAreNone) {
   Rng rng(13, Purpose::test);
   for (int k = 0; k < 5; ++k) {
-    const Mask walls = find_walls(DrawnFrame(width, height).expose(150, 0.4, k, 0.2, 8, rng));
-    EXPECT_EQ(walls, Mask(width, height));
+    const Mask walls = find_walls(
+        DrawnFrame(test::frame_width, test::frame_height).expose(150, 0.4, k, 0.2, 8, rng));
+    EXPECT_EQ(walls, Mask(test::frame_width, test::frame_height));
   }
 }
 
 TEST(Walls, ComeIntoTheWorldWhereTheyAre) {
   const Channels channels;
   const double um_per_px = 2.5;
-  const auto walls = walls_in_world(channels.walls, upright_scale(height, um_per_px), 2);
+  const auto walls =
+      walls_in_world(channels.walls, upright_scale(test::frame_height, um_per_px), 2);
   ASSERT_EQ(walls.size(), 4U);
   double sum = 0;
   for (const Polygon& p : walls) {
@@ -228,7 +227,7 @@ TEST(SceneFinder, TheSceneOfTheDocsIsSeen) {
 
 TEST(SceneFinder, ShapesComeIntoTheWorld) {
   Rng rng(16, Purpose::test);
-  DrawnFrame frame(width, height);
+  DrawnFrame frame(test::frame_width, test::frame_height);
   frame.disc({100, 100}, 20, 0.5);
   frame.polygon({{300, 300}, {380, 300}, {380, 340}, {300, 340}}, 0.5);
   SceneParams params;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/vision/swarm_finder.hpp"
+#include "microswarm/core/angles.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,10 +18,6 @@ namespace {
 using test::DrawnFrame;
 using test::DrawnSwarm;
 
-constexpr int width = 640;
-constexpr int height = 480;
-constexpr double pi = std::numbers::pi;
-
 int clumps_for(double radius) { return static_cast<int>(0.16 * radius * radius); }
 
 /// A swarm of any size, place and shape, under light uneven by up to 40 %, with noise.
@@ -33,12 +30,12 @@ Scene scene(std::uint32_t trial, double most_noise) {
   Scene s;
   s.swarm.radius = rng.uniform(15, 80);
   const double reach = 1.5 * s.swarm.radius + 4;
-  const double x = rng.uniform(reach, width - reach);
-  s.swarm.centre = {x, rng.uniform(reach, height - reach)};
+  const double x = rng.uniform(reach, test::frame_width - reach);
+  s.swarm.centre = {x, rng.uniform(reach, test::frame_height - reach)};
   s.swarm.elongation = rng.uniform(1, 2);
   s.swarm.angle = rng.uniform(-pi / 2, pi / 2);
   s.swarm.clumps = clumps_for(s.swarm.radius);
-  DrawnFrame frame(width, height);
+  DrawnFrame frame(test::frame_width, test::frame_height);
   frame.swarm(s.swarm, rng);
   const double slope = rng.uniform(0, 0.4);
   const double heading = rng.uniform(-pi, pi);
@@ -55,8 +52,8 @@ void expect_finite(const Blob& b) {
   EXPECT_GE(b.outline_px.size(), 3U);
   for (const Vec2 p : b.outline_px) {
     EXPECT_GE(std::min(p.x, p.y), -3);
-    EXPECT_LE(p.x, width + 3);
-    EXPECT_LE(p.y, height + 3);
+    EXPECT_LE(p.x, test::frame_width + 3);
+    EXPECT_LE(p.y, test::frame_height + 3);
   }
 }
 
@@ -112,7 +109,7 @@ Image lit(const DrawnFrame& frame, double noise = 3) {
 }
 DrawnFrame with_swarm(Vec2 centre, double radius) {
   Rng rng(22, Purpose::test);
-  DrawnFrame frame(width, height);
+  DrawnFrame frame(test::frame_width, test::frame_height);
   frame.swarm({.centre = centre, .radius = radius, .clumps = clumps_for(radius)}, rng);
   return frame;
 }
@@ -168,9 +165,9 @@ TEST(SwarmFinder, PartlyOutsideOfThePictureIsCut) {
 }
 
 TEST(SwarmFinder, AtAWallWhatTheWallDoesNotHideIsSeen) {
-  Mask walls(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) walls.at(x, y) = x >= 400 && x < 440;
+  Mask walls(test::frame_width, test::frame_height);
+  for (int y = 0; y < test::frame_height; ++y)
+    for (int x = 0; x < test::frame_width; ++x) walls.at(x, y) = x >= 400 && x < 440;
   for (const double x : {330.0, 360.0, 372.0, 385.0}) {
     DrawnFrame frame = with_swarm({x, 240}, 30);
     frame.box({399.5, -1}, {439.5, 480}, 0.3);
@@ -179,18 +176,22 @@ TEST(SwarmFinder, AtAWallWhatTheWallDoesNotHideIsSeen) {
     EXPECT_EQ(seen.swarm->is_cut, x > 365) << x;
     EXPECT_LT(distance(seen.swarm->centre_px, {x, 240}), x < 365 ? 1.5 : x < 380 ? 4 : 11) << x;
   }
-  EXPECT_EQ(find_swarm(lit(DrawnFrame(width, height)), {}, std::nullopt, &walls).sight,
-            SwarmSight::none);
-  const Mask wrong(4, 3);
   EXPECT_EQ(
-      test::error_of([&] { find_swarm(lit(DrawnFrame(width, height)), {}, std::nullopt, &wrong); }),
-      "walls: 4x3 pixels, the picture has 640x480");
+      find_swarm(lit(DrawnFrame(test::frame_width, test::frame_height)), {}, std::nullopt, &walls)
+          .sight,
+      SwarmSight::none);
+  const Mask wrong(4, 3);
+  EXPECT_EQ(test::error_of([&] {
+              find_swarm(lit(DrawnFrame(test::frame_width, test::frame_height)), {}, std::nullopt,
+                         &wrong);
+            }),
+            "walls: 4x3 pixels, the picture has 640x480");
 }
 
 TEST(SwarmFinder, TinySwarmsDownToTheLeastRadius) {
   for (const double radius : {9.0, 7.0, 5.0, 4.0}) {
     Rng rng(8, Purpose::test);
-    DrawnFrame frame(width, height);
+    DrawnFrame frame(test::frame_width, test::frame_height);
     frame.swarm({.centre = {300.25, 200.5}, .radius = radius, .clumps = 60, .clump_radius = 1},
                 rng);
     SwarmFinderParams params;
@@ -214,14 +215,19 @@ TEST(SwarmFinder, NothingIsFoundWhereNothingIs) {
     params.look.tone = tone;
     for (const int grey : {0, 1, 128, 254, 255})
       for (const int channels : {1, 3})
-        EXPECT_EQ(find_swarm(even(width, height, channels, grey), params).sight, SwarmSight::none);
+        EXPECT_EQ(
+            find_swarm(even(test::frame_width, test::frame_height, channels, grey), params).sight,
+            SwarmSight::none);
     for (const int side : {1, 2, 3, 7, 20})
       EXPECT_EQ(find_swarm(even(side, side, 1, 90), params).sight, SwarmSight::none);
     EXPECT_EQ(find_swarm({}, params).sight, SwarmSight::none);
     Rng rng(9, Purpose::test);
     for (int k = 0; k < 20; ++k)
       EXPECT_EQ(
-          find_swarm(DrawnFrame(width, height).expose(150, 0.4, k, 0.2, 10, rng), params).sight,
+          find_swarm(
+              DrawnFrame(test::frame_width, test::frame_height).expose(150, 0.4, k, 0.2, 10, rng),
+              params)
+              .sight,
           SwarmSight::none);
   }
 }

@@ -75,7 +75,7 @@ TEST(Motion, harmonic_ones_repeat_with_their_period) {
     }
   }
   EXPECT_EQ(placement(HarmonicLine{{1, 2}, {30, 0}, 8, 0}, 2).pose.position, (Vec2{31, 2}));
-  EXPECT_NEAR(distance(placement(arc, 3.3).pose.position, {0, 0}), 250, 1e-9);
+  EXPECT_NEAR(distance(placement(arc, 3.3).pose.position, Vec2{0, 0}), 250, 1e-9);
   EXPECT_EQ(top_speed(HarmonicLine{{}, {30, 40}, 10, 0}), 100 * pi / 10);
 }
 
@@ -94,8 +94,8 @@ TEST(Motion, waypoints_stay_turn_back_or_loop) {
   EXPECT_EQ(placement(Waypoints{points, 10, AtEnd::stay}, 25).velocity, (Vec2{0, 0}));
   EXPECT_EQ(at(AtEnd::back, 25), (Vec2{100, 50}));
   EXPECT_EQ(at(AtEnd::back, 45), (Vec2{50, 0}));
-  EXPECT_LT(distance(at(AtEnd::loop, 20 + 5 * std::sqrt(2.0)), {50, 50}), 1e-9);
-  EXPECT_LT(distance(at(AtEnd::loop, 1000 * (20 + 10 * std::sqrt(2.0)) + 5), {50, 0}), 1e-6);
+  EXPECT_LT(distance(at(AtEnd::loop, 20 + 5 * std::sqrt(2.0)), Vec2{50, 50}), 1e-9);
+  EXPECT_LT(distance(at(AtEnd::loop, 1000 * (20 + 10 * std::sqrt(2.0)) + 5), Vec2{50, 0}), 1e-6);
   EXPECT_FALSE(placement(Waypoints{}, 0).present);
   EXPECT_EQ(placement(Waypoints{points, 0, AtEnd::back}, 9).pose.position, (Vec2{0, 0}));
 }

@@ -21,7 +21,7 @@ constexpr std::uint64_t max_bytes = 64ULL << 20;
 constexpr double largest = 1e9;         // of any number in the file
 constexpr double least_current = 1e-9;  // [A] less is none
 // Currents that differ by less than this share are the same current.
-constexpr double weakest = 1e-6;
+constexpr double least_difference = 1e-6;
 
 constexpr std::array<std::string_view, 3> field_columns{"bx_mt", "by_mt", "bz_mt"};
 constexpr std::array<std::string_view, 3> place_columns{"x_um", "y_um", "z_um"};
@@ -137,7 +137,7 @@ FittedMatrix fit_matrix(const FieldMeasurements& measured, bool with_offset) {
   if (with_offset) inputs.col(n).setOnes();
 
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(inputs);
-  qr.setThreshold(weakest);
+  qr.setThreshold(least_difference);
   if (qr.rank() < inputs.cols()) {
     std::vector<std::string> open;
     const Eigen::MatrixXd unknown = null_space(qr);

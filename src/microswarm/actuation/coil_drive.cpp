@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <optional>
+
+#include "microswarm/core/infinity.hpp"
 
 namespace microswarm {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double rounding = 1e-12;
+constexpr double bound_rounding = 1e-12;
 constexpr double h_per_mh = 1e-3;
 
 /// The largest s in [0, 1] for which from + s · way lies within the bounds; nothing if none does.
@@ -20,7 +20,7 @@ std::optional<double> farthest(const Eigen::VectorXd& from, const Eigen::VectorX
   double least = 0;
   double most = 1;
   for (Eigen::Index i = 0; i < way.size(); ++i) {
-    const double slack = rounding * (1 + std::abs(from[i]) + std::abs(way[i]));
+    const double slack = bound_rounding * (1 + std::abs(from[i]) + std::abs(way[i]));
     if (way[i] == 0) {
       if (from[i] < lo[i] - slack || from[i] > hi[i] + slack) return std::nullopt;
       continue;
@@ -30,7 +30,7 @@ std::optional<double> farthest(const Eigen::VectorXd& from, const Eigen::VectorX
     least = std::max(least, std::min(a, b) - slack / std::abs(way[i]));
     most = std::min(most, std::max(a, b));
   }
-  if (!(least <= most + rounding)) return std::nullopt;
+  if (!(least <= most + bound_rounding)) return std::nullopt;
   return std::clamp(most, 0.0, 1.0);
 }
 
@@ -82,7 +82,7 @@ DrivenCurrents CoilDrive::steady(const Eigen::VectorXd& wanted) const {
     const DriveParams& d = drives_[i];
     const double I = std::abs(wanted[static_cast<Eigen::Index>(i)]);
     const auto check = [&](DriveLimit limit, double asked, double allowed, double most) {
-      if (asked <= allowed + rounding * std::abs(allowed)) return;
+      if (asked <= allowed + bound_rounding * std::abs(allowed)) return;
       result.hits.push_back({limit, i, asked, allowed});
       result.scale = std::min(result.scale, most / I);
     };
@@ -148,7 +148,7 @@ std::vector<LimitHit> CoilDrive::broken(const Eigen::VectorXd& to, double dt) co
     const auto i = static_cast<Eigen::Index>(k);
     const double rate = (to[i] - currents_[i]) / dt;
     const auto check = [&](DriveLimit limit, double asked, const std::optional<double>& allowed) {
-      if (allowed && asked > *allowed + rounding * (1 + std::abs(*allowed)))
+      if (allowed && asked > *allowed + bound_rounding * (1 + std::abs(*allowed)))
         hits.push_back({limit, k, asked, *allowed});
     };
     const double kick = h_per_mh * d.inductance * rate;

@@ -13,7 +13,7 @@ namespace microswarm {
 namespace {
 
 constexpr std::array<const char*, 3> axis_names{"x", "y", "z"};
-constexpr std::size_t max_coils = 64;
+constexpr std::size_t max_coils_of_set = 64;
 
 WindingParams winding(const Eigen::Vector3d& centre, int axis, double radius, double turns,
                       double length, double thickness) {
@@ -54,8 +54,8 @@ CoilSystem::CoilSystem(const CoilSystemParams& params, const Places& where,
 }
 
 void CoilSystem::check_names(const Places& where) const {
-  if (names_.empty() || names_.size() > max_coils)
-    throw where.error("", fmt::format("{} coils, allowed 1..{}", names_.size(), max_coils));
+  if (names_.empty() || names_.size() > max_coils_of_set)
+    throw where.error("", fmt::format("{} coils, allowed 1..{}", names_.size(), max_coils_of_set));
   for (std::size_t i = 0; i < names_.size(); ++i)
     if (std::find(names_.begin() + static_cast<std::ptrdiff_t>(i) + 1, names_.end(), names_[i]) !=
         names_.end())

@@ -7,8 +7,8 @@ namespace microswarm {
 namespace {
 
 // Less than this share of the strongest direction is rounding, no field.
-constexpr double weakest = 1e-9;
-constexpr double rounding = 1e-9;
+constexpr double weakest_direction = 1e-9;
+constexpr double current_rounding = 1e-9;
 
 }  // namespace
 
@@ -19,7 +19,7 @@ CurrentsForField currents_for(const Actuation& at, const Eigen::Vector3d& field)
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeFullU | Eigen::ComputeThinV);
   const Eigen::VectorXd& strength = svd.singularValues();
   CurrentsForField result;
-  while (result.rank < strength.size() && strength[result.rank] > weakest * strength[0])
+  while (result.rank < strength.size() && strength[result.rank] > weakest_direction * strength[0])
     ++result.rank;
   const Eigen::Vector3d wanted = field - at.offset.field;
   result.currents = Eigen::VectorXd::Zero(A.cols());
@@ -28,7 +28,7 @@ CurrentsForField currents_for(const Actuation& at, const Eigen::Vector3d& field)
   result.missing = svd.matrixU().rightCols(3 - result.rank);
   result.field = at.field_of(result.currents);
   result.short_by = (result.field - field).norm();
-  result.reached = result.short_by <= rounding * (field.norm() + at.offset.field.norm());
+  result.reached = result.short_by <= current_rounding * (field.norm() + at.offset.field.norm());
   return result;
 }
 

@@ -3,11 +3,12 @@
 
 #include <cmath>
 
+#include "microswarm/actuation/si.hpp"
+
 namespace microswarm {
 namespace {
 
 constexpr double m_per_um = 1e-6;
-constexpr double mt_per_t = 1e3;
 
 /// A vector field of degree k in r, r^k (f(c) u − g(c) z), c = cos θ = u·z, and its gradient; all
 /// multipoles have this form.

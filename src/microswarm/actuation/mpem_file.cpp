@@ -6,6 +6,7 @@
 #include <set>
 
 #include "microswarm/actuation/mpem.hpp"
+#include "microswarm/actuation/si.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/config/yaml_node.hpp"
 #include "microswarm/core/error.hpp"
@@ -18,8 +19,7 @@ namespace {
 using Kind = YamlNode::Kind;
 
 constexpr std::size_t max_order = 20;
-constexpr std::size_t max_coils = 1000;
-constexpr double um_per_m = 1e6;
+constexpr std::size_t max_coils_of_file = 1000;
 
 /// Reads one calibration; `label` names a part of it in words: "Src_1 of Coil_0".
 class Reader {
@@ -75,8 +75,8 @@ class Reader {
   }
 
   std::vector<std::string> list(const YamlNode& node, const std::string& label) const {
-    if (node.kind != Kind::list || node.items.empty() || node.items.size() > max_coils)
-      fail(node, fmt::format("{} must be a list of 1..{} names", label, max_coils));
+    if (node.kind != Kind::list || node.items.empty() || node.items.size() > max_coils_of_file)
+      fail(node, fmt::format("{} must be a list of 1..{} names", label, max_coils_of_file));
     std::vector<std::string> names;
     std::set<std::string> seen;
     for (const YamlNode& item : node.items) {

@@ -14,6 +14,7 @@
 #include <cmath>
 
 #include "microswarm/core/error.hpp"
+#include "microswarm/core/stop.hpp"
 
 namespace microswarm {
 namespace {
@@ -22,10 +23,6 @@ namespace asio = boost::asio;
 using Clock = std::chrono::steady_clock;
 
 constexpr unsigned baud = 115200;
-
-double seconds_since(Clock::time_point t) {
-  return std::chrono::duration<double>(Clock::now() - t).count();
-}
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "microswarm/actuation/si.hpp"
 #include "microswarm/actuation/text_rows.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/error.hpp"
@@ -16,8 +17,6 @@
 namespace microswarm {
 namespace {
 
-constexpr double um_per_m = 1e6;
-constexpr double mt_per_t = 1e3;
 constexpr int max_nodes = 1000;  // in one direction
 constexpr std::int64_t max_values = 4'000'000;
 

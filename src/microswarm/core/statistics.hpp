@@ -17,6 +17,11 @@ inline double quantile(std::vector<double> values, double q) {
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(k), values.end());
   return values[k];
 }
+/// Mean; 0 for none.
+inline double mean(const std::vector<double>& values) {
+  if (values.empty()) return 0;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
 /// The middle value, of an even number of them the mean of the two in the middle; 0 for none.
 inline double median(std::vector<double> values) {
   if (values.empty()) return 0;

@@ -29,4 +29,9 @@ class Stop {
   std::optional<Clock::time_point> deadline_;
 };
 
+/// What has gone by [s].
+inline double seconds_since(Stop::Clock::time_point began) {
+  return std::chrono::duration<double>(Stop::Clock::now() - began).count();
+}
+
 }  // namespace microswarm

@@ -13,8 +13,8 @@
 namespace microswarm {
 namespace {
 
-constexpr std::string_view format_name = "microswarm global-input tree";
-constexpr std::int64_t format_version = 1;
+constexpr std::string_view tree_format_name = "microswarm global-input tree";
+constexpr std::int64_t tree_format_version = 1;
 
 std::string hex(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
@@ -24,8 +24,8 @@ std::string column(std::size_t k) {
 }
 
 void write_root(Hdf5Writer& out, const GlobalTree& tree, const LoadedMap& map) {
-  out.attribute("/", "format", format_name);
-  out.attribute("/", "format_version", format_version);
+  out.attribute("/", "format", tree_format_name);
+  out.attribute("/", "format_version", tree_format_version);
   out.attribute("/", "version", version);
   out.attribute("/", "map_hash", hex(map.input_hash));
   out.attribute("/", "robots", static_cast<std::int64_t>(tree.robots));
@@ -66,12 +66,12 @@ class Reader {
 
  private:
   void check_origin() const {
-    if (in_.text_attribute("/", "format") != format_name)
+    if (in_.text_attribute("/", "format") != tree_format_name)
       in_.fail("holds no tree of global inputs");
     const std::int64_t written = in_.integer_attribute("/", "format_version");
-    if (written != format_version)
-      in_.fail(
-          fmt::format("has tree format {}, this program reads format {}", written, format_version));
+    if (written != tree_format_version)
+      in_.fail(fmt::format("has tree format {}, this program reads format {}", written,
+                           tree_format_version));
     const std::string hash = in_.text_attribute("/", "map_hash");
     if (hash != hex(map_.input_hash))
       in_.fail(fmt::format("was grown on another map: its hash is {}, this map's is {}", hash,

@@ -17,7 +17,7 @@ static_assert(sizeof(hid_t) == sizeof(std::int64_t));
 constexpr hsize_t most_values = 100'000'000;
 constexpr hsize_t compressed_from = 4096;  // values: below, chunks cost more than they save
 constexpr hsize_t chunk = 16'384;
-constexpr std::size_t growth = 1 << 20;  // [bytes]
+constexpr std::size_t image_growth = 1 << 20;  // [bytes]
 
 /// An HDF5 identifier that closes itself.
 class Id {
@@ -119,7 +119,7 @@ void write_attribute(hid_t file, const std::string& path, const char* name, hid_
 Hdf5Writer::Hdf5Writer() {
   const Quiet quiet;
   const Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_fapl_core(access, growth, false);
+  H5Pset_fapl_core(access, image_growth, false);
   const Id creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation, false);
   file_ = H5Fcreate("record", H5F_ACC_TRUNC, creation, access);
@@ -194,7 +194,7 @@ Hdf5Reader::Hdf5Reader(std::string bytes, std::string name)
     : bytes_(std::move(bytes)), name_(std::move(name)) {
   const Quiet quiet;
   const Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_fapl_core(access, growth, false);
+  H5Pset_fapl_core(access, image_growth, false);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
   if (!bytes_.empty()) H5Pset_file_image(access, bytes_.data(), bytes_.size());
   file_ = bytes_.empty() ? -1 : H5Fopen("record", H5F_ACC_RDONLY, access);

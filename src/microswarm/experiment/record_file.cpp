@@ -14,8 +14,8 @@ namespace microswarm {
 
 namespace {
 
-constexpr std::string_view format_name = "microswarm record";
-constexpr std::int64_t format_version = 3;
+constexpr std::string_view record_format_name = "microswarm record";
+constexpr std::int64_t record_format_version = 3;
 constexpr const char* words_attribute = "words";  // joined by spaces, indexed from 0
 
 std::vector<std::string> split(std::string_view words) {
@@ -215,8 +215,8 @@ struct MetricsReader {
 };
 
 void write_root(Hdf5Writer& out, const Record& record) {
-  out.attribute("/", "format", format_name);
-  out.attribute("/", "format_version", format_version);
+  out.attribute("/", "format", record_format_name);
+  out.attribute("/", "format_version", record_format_version);
   out.attribute("/", "version", record.version);
   out.attribute("/", "name", record.scene.scenario.name);
   out.attribute("/", "status", to_string(record.result.status));
@@ -241,11 +241,11 @@ Status status_of(const Hdf5Reader& in, const std::string& word) {
 }
 
 void check_format(const Hdf5Reader& in) {
-  if (in.text_attribute("/", "format") != format_name) in.fail("is no microswarm record");
+  if (in.text_attribute("/", "format") != record_format_name) in.fail("is no microswarm record");
   const std::int64_t written = in.integer_attribute("/", "format_version");
-  if (written != format_version)
+  if (written != record_format_version)
     in.fail("has record format " + std::to_string(written) + ", this program reads format " +
-            std::to_string(format_version));
+            std::to_string(record_format_version));
 }
 
 }  // namespace

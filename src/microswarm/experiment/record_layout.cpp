@@ -8,7 +8,7 @@ namespace microswarm {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 std::string key_of(std::string_view name, Unit unit) {
   std::string key(name);
@@ -36,21 +36,22 @@ Column<Row> column(std::string_view name, Unit unit, std::string_view doc, Field
 template <class Row, class OptionalOf, class FieldOf>
 Column<Row> column(std::string_view name, Unit unit, std::string_view doc, OptionalOf optional,
                    FieldOf field) {
-  return {.key = key_of(name, unit),
-          .unit = unit,
-          .doc = doc,
-          .kind = ColumnKind::real,
-          .number =
-              [=](const Row& row) { return optional(row) ? double{field(*optional(row))} : none; },
-          .set_number =
-              [=](Row& row, double v) {
-                if (std::isnan(v)) return;
-                if (!optional(row)) optional(row).emplace();
-                field(*optional(row)) = v;
-              },
-          .max = 0,
-          .word = {},
-          .set_word = {}};
+  return {
+      .key = key_of(name, unit),
+      .unit = unit,
+      .doc = doc,
+      .kind = ColumnKind::real,
+      .number =
+          [=](const Row& row) { return optional(row) ? double{field(*optional(row))} : no_value; },
+      .set_number =
+          [=](Row& row, double v) {
+            if (std::isnan(v)) return;
+            if (!optional(row)) optional(row).emplace();
+            field(*optional(row)) = v;
+          },
+      .max = 0,
+      .word = {},
+      .set_word = {}};
 }
 
 template <class Row>

@@ -110,7 +110,7 @@ void write_tracks(Hdf5Writer& out, const std::vector<Obstacle>& obstacles) {
       "The i-th obstacle that follows a track owns offset[i] to offset[i + 1] - 1, from 0.");
 }
 
-void read_tracks(const Hdf5Reader& in, std::vector<Obstacle>& obstacles) {
+void read_track_samples(const Hdf5Reader& in, std::vector<Obstacle>& obstacles) {
   const std::vector<double> times = in.numbers("/tracks/t_s");
   const std::vector<Vec2> points = read_points(in, "/tracks");
   if (points.size() != times.size()) in.fail("/tracks: t_s and x_um differ in length");
@@ -159,7 +159,7 @@ Scene read_scene(const Hdf5Reader& in) {
   if (radii.size() != centres.size()) in.fail("/map/discs: x_um and radius_um differ in length");
   for (std::size_t i = 0; i < radii.size(); ++i) scene.map.discs.push_back({centres[i], radii[i]});
   check(scene.map, in.name());
-  read_tracks(in, scene.scenario.obstacles);
+  read_track_samples(in, scene.scenario.obstacles);
   if (FollowerParams* follower = follower_of(scene.scenario.navigator);
       follower && !follower->model.empty())
     follower->loaded = std::make_shared<const FollowerModel>(

@@ -6,13 +6,13 @@
 #include <iterator>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/infinity.hpp"
 #include "microswarm/geometry/distance.hpp"
 
 namespace microswarm {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int most_samples = 20'000;  // of one obstacle in one way
 
 double top_speed_of(std::span<const TimedPose> way) {

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::uint64_t max_bytes = 64ULL << 20;
+constexpr std::uint64_t max_geojson_bytes = 64ULL << 20;
 constexpr int max_depth = 32;
 
 /// What the library says, without its own prefix "[json.exception.…] ".
@@ -47,9 +47,9 @@ Json parse(std::string_view text, std::string_view name) {
 }
 
 /// Walks through the document and collects walls and discs.
-class Reader {
+class GeoJsonReader {
  public:
-  Reader(std::string_view text, std::string_view name, double um_per_unit)
+  GeoJsonReader(std::string_view text, std::string_view name, double um_per_unit)
       : text_(text), name_(name), um_per_unit_(um_per_unit) {}
 
   MapParts read(const Json& root) {
@@ -260,11 +260,11 @@ std::string disc_text(const Disc& disc) {
 
 MapParts parse_geojson(std::string_view text, std::string_view name, double um_per_unit) {
   const Json root = parse(text, name);
-  return Reader(text, name, um_per_unit).read(root);
+  return GeoJsonReader(text, name, um_per_unit).read(root);
 }
 
 MapParts read_geojson(const std::filesystem::path& path, double um_per_unit) {
-  return parse_geojson(read_file(path, max_bytes), path.string(), um_per_unit);
+  return parse_geojson(read_file(path, max_geojson_bytes), path.string(), um_per_unit);
 }
 
 std::string geojson_text(const MapParts& parts) {

@@ -10,9 +10,9 @@ namespace {
 constexpr int highest_maximum = 65535;
 
 /// Reads numbers and samples one after another.
-class Reader {
+class PnmReader {
  public:
-  Reader(std::span<const std::byte> bytes, std::string_view name)
+  PnmReader(std::span<const std::byte> bytes, std::string_view name)
       : text_(reinterpret_cast<const char*>(bytes.data()), bytes.size()), name_(name), at_(2) {}
 
   [[noreturn]] void fail(const std::string& why) const {
@@ -63,7 +63,7 @@ class Reader {
   std::size_t at_;
 };
 
-void read_bits(Reader& reader, bool plain, Image& image) {
+void read_bits(PnmReader& reader, bool plain, Image& image) {
   for (int row = 0; row < image.height; ++row) {
     int packed = 0;
     for (int column = 0; column < image.width; ++column) {
@@ -74,7 +74,7 @@ void read_bits(Reader& reader, bool plain, Image& image) {
   }
 }
 
-void read_samples(Reader& reader, bool plain, int maximum, Image& image) {
+void read_samples(PnmReader& reader, bool plain, int maximum, Image& image) {
   const bool wide = maximum > 255;
   for (std::uint8_t& pixel : image.pixels) {
     int value = 0;
@@ -92,7 +92,7 @@ void read_samples(Reader& reader, bool plain, int maximum, Image& image) {
 }  // namespace
 
 Image decode_pnm(std::span<const std::byte> bytes, std::string_view name) {
-  Reader reader(bytes, name);
+  PnmReader reader(bytes, name);
   const int form = std::to_integer<int>(bytes[1]) - '0';
   const bool plain = form <= 3;
   const bool bits = form == 1 || form == 4;

@@ -12,7 +12,7 @@
 namespace microswarm {
 namespace {
 
-constexpr std::uint64_t max_bytes = 64ULL << 20;
+constexpr std::uint64_t max_rectangles_bytes = 64ULL << 20;
 
 bool has_number(const std::vector<std::string_view>& fields) {
   return std::any_of(fields.begin(), fields.end(),
@@ -56,7 +56,7 @@ std::vector<Polygon> parse_rectangles(std::string_view text, std::string_view na
 }
 
 std::vector<Polygon> read_rectangles(const std::filesystem::path& path) {
-  return parse_rectangles(read_file(path, max_bytes), path.string());
+  return parse_rectangles(read_file(path, max_rectangles_bytes), path.string());
 }
 
 }  // namespace microswarm

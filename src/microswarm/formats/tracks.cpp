@@ -14,7 +14,7 @@
 namespace microswarm {
 namespace {
 
-constexpr std::uint64_t max_bytes = 256ULL << 20;
+constexpr std::uint64_t max_tracks_bytes = 256ULL << 20;
 constexpr double max_time = 1e9;  // [s]
 
 enum Column : std::size_t { id, time_s, x_um, y_um, column_count };
@@ -89,12 +89,12 @@ Tracks parse_tracks(std::string_view text, std::string_view name) {
 }
 
 Tracks read_tracks(const std::filesystem::path& path) {
-  return parse_tracks(read_file(path, max_bytes), path.string());
+  return parse_tracks(read_file(path, max_tracks_bytes), path.string());
 }
 
 Tracks read_ucy_obsmat(const std::filesystem::path& path, double um_per_m, double time_scale) {
   constexpr double seconds_per_frame = 0.04;
-  const std::string text = read_file(path, max_bytes);
+  const std::string text = read_file(path, max_tracks_bytes);
   Lines lines(text, path.string());
   Tracks tracks;
   while (const std::optional<std::string_view> line = lines.next()) {

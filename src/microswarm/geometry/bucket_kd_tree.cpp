@@ -132,7 +132,7 @@ namespace {
 /// Of unused lanes: farther than any point, and its square is finite.
 constexpr float far_away = 1e18f;
 /// A deeper tree is built anew, unless it was not long ago.
-constexpr int deepest = 48;
+constexpr int deepest_tree = 48;
 
 /// Grows by an eighth where a vector by itself would double: the memory is mostly these.
 template <class T>
@@ -222,7 +222,7 @@ void BucketKdTree::add(std::span<const float> point) {
     }
     const std::uint32_t bucket = nodes_[node].child;
     if (buckets_[bucket].count < bucket_size) return append(bucket, point.data(), number);
-    if (depth >= deepest && size_ - 1 > size_at_rebuild_ + size_at_rebuild_ / 8) {
+    if (depth >= deepest_tree && size_ - 1 > size_at_rebuild_ + size_at_rebuild_ / 8) {
       rebuild();
       include(0, point.data());
       node = 0;

@@ -12,7 +12,7 @@ namespace microswarm {
 namespace {
 
 /// Obstacles nearer to one another than this share of the query's radius are taken as overlapping.
-constexpr double tolerance = 1e-9;
+constexpr double overlap_tolerance = 1e-9;
 
 struct Scratch {
   std::array<std::byte, 16384> bytes;
@@ -55,7 +55,7 @@ bool holds(const NearObstacle& polygon, Vec2 p) {
 }
 
 bool may_overlap(const NearObstacle& polygon, Disc disc) {
-  const double reach = disc.radius * (1 + tolerance);
+  const double reach = disc.radius * (1 + overlap_tolerance);
   for (const Segment& e : polygon.edges) {
     if (squared_distance(disc.centre, e) < reach * reach) return true;
   }
@@ -79,7 +79,7 @@ bool may_overlap(const NearObstacle& a, const NearObstacle& b, double r) {
   }
   if (a.is_disc) return may_overlap(b, a.disc);
   if (b.is_disc) return may_overlap(a, b.disc);
-  const double slack = tolerance * r;
+  const double slack = overlap_tolerance * r;
   for (const Segment& s : a.edges) {
     const Box box = Box{{std::min(s.a.x, s.b.x), std::min(s.a.y, s.b.y)},
                         {std::max(s.a.x, s.b.x), std::max(s.a.y, s.b.y)}}

@@ -3,13 +3,13 @@
 
 #include <cassert>
 
+#include "microswarm/core/infinity.hpp"
 #include "microswarm/geometry/distance.hpp"
 #include "microswarm/geometry/predicates.hpp"
 
 namespace microswarm {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Share of a coordinate that no rounding error here exceeds.
 constexpr double rounding = 1e-12;
 /// Cells never get so many that memory, or so small that rounding, is a matter.

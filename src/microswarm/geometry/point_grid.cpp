@@ -3,12 +3,13 @@
 
 #include <cassert>
 
+#include "microswarm/core/infinity.hpp"
+
 namespace microswarm {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Cells of this depth are not halved any more.
-constexpr int deepest = 60;
+constexpr int deepest_cell = 60;
 
 double squared(double x) { return x * x; }
 
@@ -78,7 +79,8 @@ void PointGrid::insert(std::uint32_t point) {
   for (int depth = 0;; ++depth) {
     if (child == nothing) link(new_bucket());
     if (!is_node(child)) {
-      if (buckets_[child / 2].count < bucket_size || depth >= deepest) return append(child, point);
+      if (buckets_[child / 2].count < bucket_size || depth >= deepest_cell)
+        return append(child, point);
       link(split(child, centre));
     }
     parent = child;

@@ -52,6 +52,10 @@ struct Polygon {
 Box bounding_box(std::span<const Vec2> points);
 /// Smallest box that holds the polygon.
 Box bounding_box(const Polygon& polygon);
+/// Smallest box that holds the disc.
+inline Box bounding_box(const Disc& disc) {
+  return Box{disc.centre, disc.centre}.grown(disc.radius);
+}
 /// Signed area of a ring [µm²], positive when counter-clockwise.
 double signed_area(std::span<const Vec2> ring);
 /// Area of the polygon less its holes [µm²].

@@ -10,7 +10,7 @@ namespace microswarm {
 namespace {
 
 /// Events this share of the size beside the true place do no harm; missing one would.
-constexpr double tolerance = 1e-9;
+constexpr double event_tolerance = 1e-9;
 
 /// Height of the edge at x; never beyond its ends, whatever the rounding.
 double height_at(const Segment& e, double x) {
@@ -98,7 +98,7 @@ class Slabs {
   }
 
   void add_event(Vec2 p) {
-    if (squared_norm(p) <= radius_ * radius_ * (1 + tolerance) && std::abs(p.x) < radius_) {
+    if (squared_norm(p) <= radius_ * radius_ * (1 + event_tolerance) && std::abs(p.x) < radius_) {
       events_.push_back(p.x);
     }
   }
@@ -112,12 +112,12 @@ class Slabs {
     if (!(chord2 >= 0) || length2 == 0) return;
     for (const double half : {-std::sqrt(chord2), std::sqrt(chord2)}) {
       const double t = (half - dot(from, along)) / length2;
-      if (t >= -tolerance && t <= 1 + tolerance) add_event(s.a + t * along);
+      if (t >= -event_tolerance && t <= 1 + event_tolerance) add_event(s.a + t * along);
     }
   }
 
   void cross(const Segment& s, const Segment& t) {
-    const double slack = tolerance * radius_;
+    const double slack = event_tolerance * radius_;
     if (!near_overlap(s.a.x, s.b.x, t.a.x, t.b.x, slack) ||
         !near_overlap(s.a.y, s.b.y, t.a.y, t.b.y, slack)) {
       return;
@@ -128,7 +128,7 @@ class Slabs {
     if (det == 0) return;
     const double u = microswarm::cross(t.a - s.a, e) / det;
     const double v = microswarm::cross(t.a - s.a, d) / det;
-    if (std::abs(u - 0.5) <= 0.5 + tolerance && std::abs(v - 0.5) <= 0.5 + tolerance) {
+    if (std::abs(u - 0.5) <= 0.5 + event_tolerance && std::abs(v - 0.5) <= 0.5 + event_tolerance) {
       add_event(s.a + u * d);
     }
   }

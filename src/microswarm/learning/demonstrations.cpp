@@ -10,7 +10,7 @@ namespace microswarm {
 namespace {
 
 /// Beyond it an answer is next to the jump from π to -π, and no network can learn it [rad].
-constexpr double most_off = 2.5;
+constexpr double most_off_path = 2.5;
 
 /// Sees as a learned follower does, and asks the expert beside it.
 class Demonstrator : public Navigator {
@@ -42,7 +42,7 @@ class Demonstrator : public Navigator {
   Command drive(const Pose2& pose, const Command& wanted) {
     const FollowerSight sight = sight_of(follower_.query(path_, place_, pose, params_.speed));
     const double off = wrap(wanted.heading - sight.bearing);
-    if (std::abs(off) < most_off)
+    if (std::abs(off) < most_off_path)
       shown.push_back({sight.features, {off, wanted.speed / params_.speed}});
     if (expert_drives_) return helm_.issue(wanted, "follow");
     const auto next =

@@ -15,7 +15,8 @@
 namespace microswarm {
 namespace {
 
-constexpr std::array<double, 8> lookaheads{0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.7, 1.0};  // [s]
+constexpr std::array<double, 8> compared_lookaheads{0.15, 0.2, 0.25, 0.3,
+                                                    0.4,  0.5, 0.7,  1.0};  // [s]
 constexpr std::uint32_t tuning_tasks = 60;
 constexpr std::uint32_t first_tuning_task = 1U << 30;
 
@@ -134,16 +135,16 @@ double LookaheadTuning::best() const {
 LookaheadTuning tune_lookahead(const ComparisonOptions& options, const FollowerParams& follower,
                                const Stop& stop) {
   LookaheadTuning tuning;
-  std::vector<std::array<double, lookaheads.size()>> off(tuning_tasks);
+  std::vector<std::array<double, compared_lookaheads.size()>> off(tuning_tasks);
   for_each_index(tuning_tasks, options.jobs, [&](std::size_t i) {
     const auto task = unseen_task(options, first_tuning_task + static_cast<std::uint32_t>(i));
-    for (std::size_t k = 0; k < lookaheads.size() && !stop(); ++k)
-      off[i][k] = follow(task, {"", follower, lookaheads[k]}, stop).rms_off;
+    for (std::size_t k = 0; k < compared_lookaheads.size() && !stop(); ++k)
+      off[i][k] = follow(task, {"", follower, compared_lookaheads[k]}, stop).rms_off;
   });
-  for (std::size_t k = 0; k < lookaheads.size(); ++k) {
+  for (std::size_t k = 0; k < compared_lookaheads.size(); ++k) {
     double sum = 0;
     for (const auto& of_task : off) sum += of_task[k];
-    tuning.lookahead.push_back(lookaheads[k]);
+    tuning.lookahead.push_back(compared_lookaheads[k]);
     tuning.rms_off.push_back(sum / tuning_tasks);
   }
   return tuning;

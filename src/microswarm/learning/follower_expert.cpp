@@ -11,10 +11,10 @@
 namespace microswarm {
 namespace {
 
-constexpr double tick = 0.1;                                                       // [s]
-constexpr int ticks = 15;                                                          // of the preview
-constexpr std::array<double, 7> lookaheads{0.06, 0.1, 0.16, 0.25, 0.4, 0.6, 0.9};  // [s]
-constexpr std::array<double, 4> shares{1, 0.8, 0.6, 0.4};                          // of the speed
+constexpr double tick = 0.1;  // [s]
+constexpr int ticks = 15;     // of the preview
+constexpr std::array<double, 7> tried_lookaheads{0.06, 0.1, 0.16, 0.25, 0.4, 0.6, 0.9};  // [s]
+constexpr std::array<double, 4> shares{1, 0.8, 0.6, 0.4};  // of the speed
 // What a way costs, beside the mean square of its distance from the path in seconds of way.
 constexpr double slow_weight = 0.02;
 constexpr double turn_weight = 0.01;  // of squared turns a tick [1/rad²]
@@ -44,9 +44,9 @@ Command FollowerExpert::command(const Pose2& pose, double now) {
       {.now = now, .seen = now, .swarm = SwarmPose{pose, swarm_.radius}, .robots = {}});
   at_effect.position += swarm_.response_lag * swarm_.drift;
   place_ = nearest_place(path_, at_effect.position, place_);
-  std::array<Way, lookaheads.size() * shares.size()> ways;
+  std::array<Way, tried_lookaheads.size() * shares.size()> ways;
   auto way = ways.begin();
-  for (const double lookahead : lookaheads)
+  for (const double lookahead : tried_lookaheads)
     for (const double share : shares) *way++ = play(at_effect, place_, lookahead, share);
   const Way& best = *std::min_element(ways.begin(), ways.end(),
                                       [](const Way& a, const Way& b) { return a.cost < b.cost; });

@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "microswarm/core/infinity.hpp"
 #include "microswarm/navigation/obstacle_tracker.hpp"
 
 namespace microswarm {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double hollow = 0.02;  // share of a hull that is not in the body
 constexpr double very_hollow = 0.4;
 

@@ -39,7 +39,7 @@ namespace {
 
 constexpr std::string_view version = "1";
 constexpr std::size_t most_layers = 6;
-constexpr double most = 1e6;  // of a weight or a feature
+constexpr double most_magnitude = 1e6;  // of a weight or a feature
 constexpr std::size_t most_text = 4096;
 
 template <class Values>
@@ -79,8 +79,9 @@ class Reader {
       const auto comma = list.find(", ");
       more = comma != std::string_view::npos;
       const auto value = parse_number(list.substr(0, comma));
-      if (!value || std::abs(*value) > most)
-        fail(fmt::format("{} is no number within ±{}", quote(list.substr(0, comma)), most));
+      if (!value || std::abs(*value) > most_magnitude)
+        fail(fmt::format("{} is no number within ±{}", quote(list.substr(0, comma)),
+                         most_magnitude));
       values.push_back(*value);
       if (more) list.remove_prefix(comma + 2);
       if (more && values.size() == most_many) fail(fmt::format("more than {} numbers", most_many));

@@ -22,11 +22,6 @@ constexpr double growing_time = 1.5;       // for which an outline goes on as ne
 constexpr std::array<double, MotionModels::count> prior_errors{0.20, 0.17, 0.20, 0.20, 0.20,
                                                                0.20, 0.20, 0.20, 0.14};
 
-const std::vector<Vec2>* outline_of(const Body& body) {
-  const auto* polygon = std::get_if<Polygon>(&body.shape);
-  return polygon ? &polygon->outer : nullptr;
-}
-
 /// How far `now` is turned against `then`, both about the centre, vertex by vertex [rad].
 double turn_against(std::span<const Vec2> then, std::span<const Vec2> now, Vec2 centre) {
   double sine = 0;

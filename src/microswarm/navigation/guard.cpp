@@ -4,23 +4,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/infinity.hpp"
 
 namespace microswarm {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double regain = 5;            // of a gap that is too small [µm/s]
-constexpr double gap_that_counts = 30;  // of two ways, more is no better [µm]
-constexpr double same_gap = 0.5;        // [µm]
-constexpr double contact_gap = 1;       // [µm]
-constexpr double contact_rate = 1;      // it grows so fast [µm/s]
-constexpr double widening_time = 1;     // for which an outline goes on as seen [s]
-constexpr double dead_time = 0.5;       // at most, from a frame to the effect of a command [s]
-constexpr double rounding = 1e-6;       // [µm]
+constexpr double regain = 5;                 // of a gap that is too small [µm/s]
+constexpr double gap_that_counts = 30;       // of two ways, more is no better [µm]
+constexpr double same_gap = 0.5;             // [µm]
+constexpr double contact_gap = 1;            // [µm]
+constexpr double contact_rate = 1;           // it grows so fast [µm/s]
+constexpr double widening_time = 1;          // for which an outline goes on as seen [s]
+constexpr double dead_time = 0.5;            // at most, from a frame to the effect of a command [s]
+constexpr double clearance_rounding = 1e-6;  // [µm]
 constexpr std::array<double, 2> waits{0.5, 1};
 constexpr std::array<double, 3> runs{0.5, 1, 2};
 constexpr std::array<double, 2> turns{0.4, 1};
@@ -61,8 +60,8 @@ std::optional<Command> Guard::overrules(const Command& wanted, const Start& star
   start_ = start;
   look_at_bodies(start);
   if (bodies_ == 0 && hollow_.empty()) return std::nullopt;
-  wall_keep_ =
-      std::clamp(map.clearance(start.place) - rounding, 0.0, start.radius + params_.wall_margin);
+  wall_keep_ = std::clamp(map.clearance(start.place) - clearance_rounding, 0.0,
+                          start.radius + params_.wall_margin);
   if (leaves_a_way(map, wanted, tick)) {
     begun_.reset();
     return std::nullopt;

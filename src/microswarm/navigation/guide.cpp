@@ -6,8 +6,8 @@
 namespace microswarm {
 namespace {
 
-constexpr double cell = 20;    // of the routes [µm]
-constexpr double reach = 400;  // along a route [µm]
+constexpr double cell = 20;          // of the routes [µm]
+constexpr double route_reach = 400;  // along a route [µm]
 
 }  // namespace
 
@@ -22,7 +22,7 @@ Vec2 GoalGuide::target(const Map& map, Vec2 from) const {
   for (const Way& way : ways_) {
     if (map.is_free(Segment{from, goal_}, way.clearance)) return goal_;
     if (std::isfinite(way.route.way_from(from)))
-      return way.route.ahead(map, from, reach, way.clearance);
+      return way.route.ahead(map, from, route_reach, way.clearance);
   }
   return goal_;
 }

@@ -13,7 +13,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double tick = 0.1;         // of the look-ahead [s]
+constexpr double escape_tick = 0.1;  // of the look-ahead [s]
 constexpr double first_leg = 1.0;    // of an escape [s]
 constexpr double last_weight = 0.1;  // of the clearance at an escape's end beside the least one
 constexpr std::array<double, 3> eases{1.0, 0.5, 0.25};
@@ -33,7 +33,7 @@ HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params,
   params_.speed = std::min(params.speed, swarm.max_speed);
   // How far the arc of a tick is from its chord; a swarm that turns at once makes none.
   if (std::isfinite(swarm.max_turn_rate))
-    slack_ = std::max(1.0, params_.speed * swarm.max_turn_rate * tick * tick / 8);
+    slack_ = std::max(1.0, params_.speed * swarm.max_turn_rate * escape_tick * escape_tick / 8);
 }
 
 void HierarchicalNavigator::prepare(const Snapshot& world) {
@@ -52,7 +52,7 @@ Command HierarchicalNavigator::step(const Observation& seen, const Stop& stop) {
 
 Command HierarchicalNavigator::issue(double now, Command command, std::string_view state) {
   view_.state = state;
-  if (issued_at_) period_ = std::clamp(now - *issued_at_, tick, 1.0);
+  if (issued_at_) period_ = std::clamp(now - *issued_at_, escape_tick, 1.0);
   issued_at_ = now;
   forecast_.note(now, command);
   return command;
@@ -160,21 +160,21 @@ HierarchicalNavigator::Outlook HierarchicalNavigator::look_ahead(const Observati
                                                                  Steer&& steer) const {
   const double enough = far_enough();
   const double delay = params_.horizon > 0 ? seen.age() + swarm_.response_lag : 0;
-  const int ticks = std::max(1, static_cast<int>(std::lround(params_.horizon / tick)));
+  const int ticks = std::max(1, static_cast<int>(std::lround(params_.horizon / escape_tick)));
   const Map& map = seen.world->map();
   Pose2 pose = pose_;
   Outlook out{.safe = true, .least = enough, .last = enough};
   Command command;
   double next_command = 0;
   for (int k = 0; k < ticks; ++k) {
-    if (k * tick >= next_command - 1e-9) {
-      command = steer(pose, k * tick);
+    if (k * escape_tick >= next_command - 1e-9) {
+      command = steer(pose, k * escape_tick);
       next_command += period_;
     }
-    const Pose2 next = unicycle_step(pose, command, swarm_.max_turn_rate, tick);
+    const Pose2 next = unicycle_step(pose, command, swarm_.max_turn_rate, escape_tick);
     const Segment move{pose.position, next.position};
-    const double from = delay + k * tick;
-    const double moving = forecast_clearance(*seen.world, move, from, from + tick, enough);
+    const double from = delay + k * escape_tick;
+    const double moving = forecast_clearance(*seen.world, move, from, from + escape_tick, enough);
     out.safe = out.safe && moving >= params_.margin + slack_ && map.is_free(move, params_.margin);
     // The whole move counts, so that no way through a wall is ever the best one.
     out.last = map.is_free(move, 0) ? std::min(moving, map.clearance(next.position)) : 0;

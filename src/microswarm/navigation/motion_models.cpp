@@ -9,11 +9,11 @@
 namespace microswarm {
 namespace {
 
-constexpr double acceleration_time = 1;  // for which it is taken to last [s]
-constexpr double turning_time = 1;       // the same of a turn that no model explains [s]
-constexpr std::size_t newest = 3;        // sightings that a model has to explain
-constexpr double largest_circle = 5000;  // [µm]
-constexpr double unturned = 1e-6;        // [rad]
+constexpr double acceleration_time = 1;      // for which it is taken to last [s]
+constexpr double turning_time = 1;           // the same of a turn that no model explains [s]
+constexpr std::size_t newest_explained = 3;  // sightings that a model has to explain
+constexpr double largest_circle = 5000;      // [µm]
+constexpr double unturned = 1e-6;            // [rad]
 
 double tolerance(double noise) { return 0.3 + 3 * noise; }
 
@@ -21,7 +21,7 @@ double tolerance(double noise) { return 0.3 + 3 * noise; }
 template <class At>
 bool explains(At&& at, std::span<const Sighting> seen, double off) {
   const Sighting& last = seen.back();
-  const auto tail = seen.last(std::min(newest, seen.size()));
+  const auto tail = seen.last(std::min(newest_explained, seen.size()));
   return std::all_of(tail.begin(), tail.end(),
                      [&](const Sighting& s) { return distance(at(s.t - last.t), s.place) < off; });
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "microswarm/core/infinity.hpp"
+
 namespace microswarm {
 namespace {
 
@@ -20,11 +22,6 @@ Vec2 centroid(std::span<const Vec2> ring) {
   }
   if (twice_area == 0) return bounding_box(ring).centre();
   return origin + sum / (3 * twice_area);
-}
-
-const std::vector<Vec2>* outline_of(const Body& body) {
-  const auto* polygon = std::get_if<Polygon>(&body.shape);
-  return polygon ? &polygon->outer : nullptr;
 }
 
 /// Sightings from which the noise is told, in windows of a fit.
@@ -59,7 +56,6 @@ void ObstacleTracker::see(const Observation& observation, double range) {
   seen_ = observation.seen;
   find_trails(bodies);
   const Vec2 centre = observation.swarm ? observation.swarm->pose.position : Vec2{};
-  const double infinity = std::numeric_limits<double>::infinity();
   const Disc within{centre, observation.swarm ? range : infinity};
   for (std::size_t i = 0; i < bodies.size(); ++i) extend(trails_[trail_of_[i]], bodies[i], within);
 }

@@ -18,8 +18,8 @@ constexpr double wall_reach = 20;      // beyond the wall margin [µm]
 constexpr double no_way = 1000;        // to the goal [s]
 constexpr double inner_goal = 0.9;     // of the tolerance: where it counts as reached
 constexpr double slow_share = 0.1;     // of the swarm's speed
-constexpr double outline_time = 1;     // for which a hollow body is taken to close in [s]
-constexpr double rounding = 1e-9;
+constexpr double closing_time = 1;     // for which a hollow body is taken to close in [s]
+constexpr double leg_rounding = 1e-9;
 constexpr std::array<double, 2> speed_shares{1, 0.5};
 
 /// Least distance from the outline to a point that runs straight from a to b, both seen from the
@@ -112,7 +112,7 @@ void PredictiveNavigator::look_at_bodies(const Observation& seen, Vec2 from) {
     outliner_.take(bodies[i], outline);
     if (stands_hollow(outline, foresight_.tracked(i), from)) {
       hollow_bodies_.push_back(bodies[i]);
-      closing_ = std::max(closing_, outline_time * foresight_.tracked(i).outline_speed);
+      closing_ = std::max(closing_, closing_time * foresight_.tracked(i).outline_speed);
       continue;
     }
     body_of_.push_back(i);
@@ -203,7 +203,7 @@ PredictiveNavigator::Leg PredictiveNavigator::best_leg(const Map& map, const Pos
       const Command command{wrap(straight + 2 * pi * k / params_.directions),
                             share * helm_.speed()};
       const Leg leg = tried(map, pose, command, best.cost);
-      if (leg.cost < best.cost - rounding) best = leg;
+      if (leg.cost < best.cost - leg_rounding) best = leg;
     }
   return best;
 }
@@ -213,7 +213,7 @@ PredictiveNavigator::Leg PredictiveNavigator::tried(const Map& map, const Pose2&
                                                     const Command& command, double bound) const {
   const double dt = field_.step() / leg_pieces;
   const double needed = std::min(helm_.swarm().radius + params_.wall_margin,
-                                 (1 - rounding) * map.clearance(from.position));
+                                 (1 - leg_rounding) * map.clearance(from.position));
   const Disc goal{helm_.goal(), inner_goal * goal_tolerance_};
   Leg leg{command, field_.cost(1, from.position), std::numeric_limits<double>::infinity()};
   leg.cost = 0;

@@ -3,15 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "microswarm/core/infinity.hpp"
 #include "microswarm/geometry/distance.hpp"
 
 namespace microswarm {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double rounding = 1e-6;  // of distances [µm]
+constexpr double scan_rounding = 1e-6;  // of distances [µm]
 constexpr std::size_t retreat_directions = 36;
 constexpr double least_gain = 0.1;  // of a retreat over the hold, so that it comes to rest [steps]
 
@@ -90,7 +89,7 @@ void RadarScanner::screen_by_obstacles(const RadarLook& look, const Snapshot& wo
   std::fill(room_.begin(), room_.end(), infinity);
   const double reach = look.obstacle_reach();
   for (const NearDisc& near : discs_) {
-    if (near.distance > reach + look.step + rounding) continue;
+    if (near.distance > reach + look.step + scan_rounding) continue;
     const Vec2 c = near.disc.centre;
     const double keep = near.disc.radius + reach;
     for (std::size_t i = 0; i < room_.size(); ++i) {
@@ -100,7 +99,7 @@ void RadarScanner::screen_by_obstacles(const RadarLook& look, const Snapshot& wo
     }
   }
   for (const NearEdge& near : edges_) {
-    if (distance(look.centre, near.edge) > reach + look.step + rounding) continue;
+    if (distance(look.centre, near.edge) > reach + look.step + scan_rounding) continue;
     for (std::size_t i = 0; i < room_.size(); ++i)
       room_[i] =
           std::min(room_[i], squared_distance(Vec2{px_[i], py_[i]}, near.edge) - reach * reach);
@@ -113,7 +112,7 @@ void RadarScanner::screen_by_obstacles(const RadarLook& look, const Snapshot& wo
 void RadarScanner::screen_by_walls(const RadarLook& look, const Snapshot& world) {
   const double reach = look.wall_reach();
   const Map& map = world.map();
-  if (map.field().lower(look.centre) >= reach + look.step + rounding) return;
+  if (map.field().lower(look.centre) >= reach + look.step + scan_rounding) return;
   for (std::size_t i = 0; i < room_.size(); ++i)
     if (room_[i] >= 0 && !map.is_free(Vec2{px_[i], py_[i]}, reach)) room_[i] = -1;
 }

@@ -6,7 +6,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double tick = 0.1;  // of the look ahead [s]
+constexpr double lookahead_tick = 0.1;  // of the look ahead [s]
 constexpr int most_ticks = 200;
 
 }  // namespace
@@ -29,7 +29,8 @@ bool StraightNavigator::way_is_clear(const Snapshot& world, Pose2 pose) const {
     const Command command{heading_of(helm_.goal() - pose.position), helm_.speed()};
     const bool aligned = std::isinf(helm_.swarm().max_turn_rate) ||
                          std::abs(wrap(command.heading - pose.heading)) < rounding;
-    const double dt = aligned ? left / command.speed : std::min(tick, left / command.speed);
+    const double dt =
+        aligned ? left / command.speed : std::min(lookahead_tick, left / command.speed);
     const Pose2 next = unicycle_step(pose, command, helm_.swarm().max_turn_rate, dt);
     if (!world.is_free(Segment{pose.position, next.position}, r)) return false;
     pose = next;

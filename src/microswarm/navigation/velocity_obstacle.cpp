@@ -12,8 +12,8 @@ namespace microswarm {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr double outline_time = 1;  // for which polygons are taken to go on deforming [s]
-constexpr double rounding = 1e-9;
+constexpr double deforming_time = 1;  // for which polygons are taken to go on deforming [s]
+constexpr double choice_rounding = 1e-9;
 constexpr int turning_pieces = 4;
 
 /// When, in [0, t], a point at `d` from a disc's centre that moves with `v` meets its rim, which
@@ -36,7 +36,7 @@ bool along_the_way(Pose2 pose, const Command& command, double turn_rate, double 
                    Visit&& visit) {
   double t = 0;
   const double turn = std::abs(wrap(command.heading - pose.heading));
-  if (command.speed > 0 && std::isfinite(turn_rate) && turn > rounding) {
+  if (command.speed > 0 && std::isfinite(turn_rate) && turn > choice_rounding) {
     const double piece = std::min(time, turn / turn_rate) / turning_pieces;
     for (int k = 0; k < turning_pieces; ++k, t += piece) {
       const Pose2 next = unicycle_step(pose, command, turn_rate, piece);
@@ -97,7 +97,7 @@ Command VelocityObstacleNavigator::step(const Observation& seen, const Stop&) {
       if (choice.speed == 0) return helm_.issue({pose->heading, 0}, "hold");
       return helm_.issue(command, choice.off == 0 ? "follow" : "avoid");
     }
-    const double penalty = choice.off + params_.urgency / std::max(time, rounding);
+    const double penalty = choice.off + params_.urgency / std::max(time, choice_rounding);
     if (penalty >= least_penalty) continue;
     least_penalty = penalty;
     best = command;
@@ -119,12 +119,12 @@ void VelocityObstacleNavigator::find_threats(const Snapshot& world, Vec2 p) {
     const double away =
         std::visit([&](const auto& shape) { return distance(at, shape); }, bodies[i].shape);
     const double wanted = helm_.swarm().radius + params_.margin +
-                          speed * (helm_.delay() + (round ? 0 : outline_time));
+                          speed * (helm_.delay() + (round ? 0 : deforming_time));
     const double top = helm_.speed() + norm(motion.velocity) + speed;
     if (away - wanted > top * params_.horizon) continue;
     threats_.push_back({.body = &bodies[i],
                         .velocity = motion.velocity,
-                        .reach = std::min(wanted, (1 - rounding) * away),
+                        .reach = std::min(wanted, (1 - choice_rounding) * away),
                         .growth = round ? speed : 0});
   }
 }
@@ -133,7 +133,7 @@ bool VelocityObstacleNavigator::clear_of_walls(const Map& map, const Pose2& pose
                                                const Command& command) const {
   if (command.speed == 0) return true;
   const double r = std::min(helm_.swarm().radius + params_.margin,
-                            (1 - rounding) * map.clearance(pose.position));
+                            (1 - choice_rounding) * map.clearance(pose.position));
   const double time =
       std::min(params_.wall_horizon, distance(pose.position, helm_.goal()) / command.speed);
   return along_the_way(pose, command, helm_.swarm().max_turn_rate, time,

@@ -23,7 +23,7 @@ constexpr Place operator+(Place a, Place b) { return {a.column + b.column, a.row
 constexpr Place operator-(Place a, Place b) { return {a.column - b.column, a.row - b.row}; }
 
 /// Straight moves have even numbers; a diagonal lies between its two.
-constexpr std::array<Place, 8> moves{
+constexpr std::array<Place, 8> grid_moves{
     {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
 
 enum class Mark : std::uint8_t { unknown, blocked, free, closed };
@@ -87,11 +87,11 @@ class Grid {
 /// Entry of the open list: the least estimate first, then the farthest from the start, then the
 /// lower left. Estimates are whole numbers of 2⁻³⁰ cells, so that rounding does not part what is
 /// equal: the many ways of equal length across open space.
-struct Open {
+struct OpenPlace {
   std::int64_t estimate;
   double cost;
   Place place;
-  friend bool operator<(const Open& a, const Open& b) {
+  friend bool operator<(const OpenPlace& a, const OpenPlace& b) {
     if (a.estimate != b.estimate) return a.estimate > b.estimate;
     if (a.cost != b.cost) return a.cost < b.cost;
     if (a.place.row != b.place.row) return a.place.row > b.place.row;
@@ -165,9 +165,9 @@ class Search {
   void open_neighbours(Place place, double cost) {
     std::array<Cell*, 8> cells{};
     std::array<bool, 8> free{};
-    for (std::size_t i = 0; i < 8; i += 2) cells[i] = open_cell(place + moves[i], free[i]);
+    for (std::size_t i = 0; i < 8; i += 2) cells[i] = open_cell(place + grid_moves[i], free[i]);
     for (std::size_t i = 1; i < 8; i += 2) {
-      if (free[i - 1] && free[(i + 1) % 8]) cells[i] = open_cell(place + moves[i], free[i]);
+      if (free[i - 1] && free[(i + 1) % 8]) cells[i] = open_cell(place + grid_moves[i], free[i]);
     }
     for (std::size_t i = 0; i < 8; ++i) {
       if (cells[i]) relax(place, cost, i, *cells[i]);
@@ -178,7 +178,7 @@ class Search {
     const double through = cost + params_.cell * (move % 2 == 0 ? 1 : std::numbers::sqrt2);
     if (through >= cell.cost) return;
     ++counts_.edge_checks;
-    const Place to = from + moves[move];
+    const Place to = from + grid_moves[move];
     if (!world_.is_free(Segment{grid_.position(from), grid_.position(to)}, params_.clearance)) {
       return;
     }
@@ -191,7 +191,7 @@ class Search {
     Plan plan;
     plan.status = status;
     plan.counts = counts_;
-    for (Place p = last; p != grid_.start(); p = p - moves[grid_[p].move]) {
+    for (Place p = last; p != grid_.start(); p = p - grid_moves[grid_[p].move]) {
       plan.path.push_back(grid_.position(p));
     }
     plan.path.push_back(grid_.position(grid_.start()));
@@ -203,7 +203,7 @@ class Search {
   Vec2 goal_;
   const AStarParams& params_;
   Grid grid_;
-  std::priority_queue<Open> open_;
+  std::priority_queue<OpenPlace> open_;
   PlanCounts counts_;
 };
 

@@ -11,7 +11,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double most_cells = 1 << 24;
+constexpr double most_space_cells = 1 << 24;
 constexpr int lattice = 16;
 
 class Cells {
@@ -20,7 +20,7 @@ class Cells {
     const Box& bounds = map.bounds();
     const double columns = std::ceil(bounds.width() / cell);
     const double rows = std::ceil(bounds.height() / cell);
-    if (!(cell > 0) || !(columns * rows <= most_cells))
+    if (!(cell > 0) || !(columns * rows <= most_space_cells))
       throw InputError("coverage cell: " + std::to_string(cell) +
                        " um, must be above 0 and leave at most 2^24 cells");
     columns_ = static_cast<std::uint32_t>(columns);

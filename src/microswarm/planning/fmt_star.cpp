@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/infinity.hpp"
 #include "microswarm/planning/free_goal.hpp"
 #include "microswarm/planning/sample_buckets.hpp"
 
@@ -17,18 +17,17 @@ namespace {
 constexpr std::uint64_t draws_per_sample = 200;  // at most, in the mean
 constexpr std::uint64_t between_stops = 64;
 constexpr double least_radius = 1e-3;  // [µm], in a space that has no area
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A sample that the tree has reached and still grows from.
-struct Open {
+struct OpenSample {
   double cost;
   std::uint32_t node;
-  friend bool operator<(const Open& a, const Open& b) {
+  friend bool operator<(const OpenSample& a, const OpenSample& b) {
     return a.cost != b.cost ? a.cost > b.cost : a.node > b.node;  // cheapest first
   }
 };
 
-constexpr std::uint32_t blocked = 1u << 31;
+constexpr std::uint32_t blocked_flag = 1u << 31;
 
 /// Samples are numbered: 0 is the start, 1 the goal.
 class March {
@@ -93,7 +92,7 @@ class March {
   std::vector<std::uint32_t> nodes_;  ///< of the tree, of each sample that is visited
   std::vector<Run> runs_;             ///< of each sample
   std::vector<std::uint32_t> neighbours_;  ///< with the mark `blocked` on edges that are not free
-  std::vector<Open> open_;                 ///< a heap
+  std::vector<OpenSample> open_;           ///< a heap
   std::vector<std::uint32_t> joined_;      ///< V_open,new
   std::vector<TreeNode> tree_;
   std::vector<std::uint32_t> samples_of_;  ///< sample of each node
@@ -151,7 +150,7 @@ void March::expand(std::uint32_t z) {
   joined_.clear();
   const Run near = neighbours(z);
   for (std::uint32_t i = near.first; i < near.last; ++i)
-    if (const std::uint32_t x = neighbours_[i] & ~blocked; !visited_[x]) try_to_join(x);
+    if (const std::uint32_t x = neighbours_[i] & ~blocked_flag; !visited_[x]) try_to_join(x);
   for (const std::uint32_t x : joined_) {
     const double cost = tree_[nodes_[x]].cost;
     open_costs_[x] = cost;
@@ -169,18 +168,18 @@ void March::try_to_join(std::uint32_t x) {
   double least = infinity;
   std::uint32_t* best = nullptr;
   for (std::uint32_t i = near.first; i < near.last; ++i) {
-    const std::uint32_t y = neighbours_[i] & ~blocked;
+    const std::uint32_t y = neighbours_[i] & ~blocked_flag;
     if (open_costs_[y] >= least) continue;
     const double cost = open_costs_[y] + distance(samples_[y], p);
     if (cost >= least) continue;
     least = cost;
     best = &neighbours_[i];
   }
-  if (!best || (*best & blocked) != 0) return;
+  if (!best || (*best & blocked_flag) != 0) return;
   const Vec2 from = samples_[*best];
   ++counts_.edge_checks;
   if (!world_.is_free(Segment{from, p}, params_.clearance)) {
-    *best |= blocked;
+    *best |= blocked_flag;
     return;
   }
   nodes_[x] = static_cast<std::uint32_t>(tree_.size());

@@ -12,10 +12,10 @@ namespace {
 
 constexpr float unknown = std::numeric_limits<float>::infinity();
 
-struct Open {
+struct OpenCell {
   float distance;
   std::size_t cell;
-  friend bool operator<(Open a, Open b) {
+  friend bool operator<(OpenCell a, OpenCell b) {
     return a.distance != b.distance ? a.distance > b.distance : a.cell > b.cell;
   }
 };
@@ -30,7 +30,7 @@ GeodesicField::GeodesicField(const Map& map, Vec2 goal, int cells) : goal_(goal)
   columns_ = std::max(1, static_cast<int>(std::ceil(bounds.width() / cell_)));
   rows_ = std::max(1, static_cast<int>(std::ceil(bounds.height() / cell_)));
   distances_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), unknown);
-  std::priority_queue<Open> open;
+  std::priority_queue<OpenCell> open;
   const auto reach = [&](std::size_t cell, double distance) {
     const auto d = static_cast<float>(distance);
     if (d >= distances_[cell]) return;
@@ -39,7 +39,7 @@ GeodesicField::GeodesicField(const Map& map, Vec2 goal, int cells) : goal_(goal)
   };
   reach(index(goal), distance(goal, centre(index(goal))));
   while (!open.empty()) {
-    const Open next = open.top();
+    const OpenCell next = open.top();
     open.pop();
     if (next.distance > distances_[next.cell]) continue;
     const int column = static_cast<int>(next.cell) % columns_;

@@ -14,12 +14,12 @@
 namespace microswarm {
 namespace {
 
-constexpr int most_draws = 10'000;        // of a place for one robot
+constexpr int most_place_draws = 10'000;  // of a place for one robot
 constexpr std::uint64_t asks_every = 16;  // iterations, each some 10 µs
 
 constexpr std::size_t most_reserved = 1 << 20;  // nodes
 
-using Configuration = std::array<float, 2 * most_global_robots>;
+using GrownPlaces = std::array<float, 2 * most_global_robots>;
 
 class Growth {
  public:
@@ -61,7 +61,7 @@ class Growth {
           answer.status = stop.requested() ? Status::stopped : Status::time_limit;
         break;
       }
-      const std::optional<Configuration> sample = sample_free();
+      const std::optional<GrownPlaces> sample = sample_free();
       if (!sample) continue;
       extend(nearest_.nearest(used(*sample)), *sample);
     }
@@ -69,30 +69,30 @@ class Growth {
   }
 
  private:
-  std::span<const float> used(const Configuration& c) const { return {c.data(), 2 * n_}; }
+  std::span<const float> used(const GrownPlaces& c) const { return {c.data(), 2 * n_}; }
 
-  Configuration relative(std::span<const Vec2> places) const {
-    Configuration c{};
+  GrownPlaces relative(std::span<const Vec2> places) const {
+    GrownPlaces c{};
     for (std::size_t i = 0; i < n_; ++i) put(c, i, stepper_.relative(places[i]));
     return c;
   }
 
-  static void put(Configuration& c, std::size_t robot, PointF p) {
+  static void put(GrownPlaces& c, std::size_t robot, PointF p) {
     c[2 * robot] = p.x;
     c[2 * robot + 1] = p.y;
   }
 
-  std::optional<Configuration> sample_free() {
+  std::optional<GrownPlaces> sample_free() {
     ++grown_.counts.samples;
     if (params_.goal_bias > 0 && !goals_.empty() && rng_.uniform() < params_.goal_bias)
       return relative(goals_);
     const Box& bounds = map_.bounds();
-    Configuration c{};
+    GrownPlaces c{};
     for (std::size_t i = 0; i < n_; ++i) {
       int draws = 0;
       Vec2 p;
       do {
-        if (++draws > most_draws) return std::nullopt;
+        if (++draws > most_place_draws) return std::nullopt;
         p.x = rng_.uniform(bounds.lo.x, bounds.hi.x);
         p.y = rng_.uniform(bounds.lo.y, bounds.hi.y);
       } while (!map_.is_free(p, 0));
@@ -102,7 +102,7 @@ class Growth {
   }
 
   // Alg 2 [global]: the input that gets nearest to the target, robot after robot.
-  void extend(std::uint32_t from, const Configuration& target) {
+  void extend(std::uint32_t from, const GrownPlaces& target) {
     const std::vector<PointF>& moves = grown_.tree.moves;
     const std::span<const float> start = grown_.tree.configuration(from);
     std::ranges::fill(sums_, 0.0f);
@@ -130,7 +130,7 @@ class Growth {
       if (std::isinf(*best)) return;
     }
     const auto input = static_cast<std::size_t>(best - sums_.begin());
-    Configuration next{};
+    GrownPlaces next{};
     for (std::size_t i = 0; i < n_; ++i) put(next, i, reached_[i * moves.size() + input]);
     if (std::ranges::equal(used(next), start)) return;
     add(next, from, static_cast<std::uint8_t>(input));
@@ -147,7 +147,7 @@ class Growth {
     return separation_.holds({before.data(), n_}, {after.data(), n_}, grown_.tree.moves[input]);
   }
 
-  void add(const Configuration& c, std::uint32_t parent, std::uint8_t input) {
+  void add(const GrownPlaces& c, std::uint32_t parent, std::uint8_t input) {
     GlobalTree& tree = grown_.tree;
     const auto node = static_cast<std::uint32_t>(tree.size());
     tree.add(used(c), parent, input);

@@ -21,11 +21,11 @@ constexpr double cell_of_tolerance = 2.25;
 constexpr double finest_of_cell = 0.7;   // a round's hypercubes are this to 1.4 times the cell
 constexpr double finer = 0.8;            // when a round found nothing new any more
 constexpr double finest_of_step = 1e-3;  // nothing new however fine: there is nothing more
-constexpr int most_rounds = 10'000;
+constexpr int most_search_rounds = 10'000;
 constexpr double still_of_step = 0.002;  // a shorter move is none
 constexpr double met_of_step = 0.002;    // robots nearer than that have met
 
-using Configuration = std::span<const PointF>;
+using HeldPlaces = std::span<const PointF>;
 
 /// An input held for some steps.
 struct Held {
@@ -38,10 +38,10 @@ struct Node {
   Held held;
 };
 
-struct Open {
+struct OpenNode {
   float cost;
   std::uint32_t node;
-  friend bool operator<(Open a, Open b) {
+  friend bool operator<(OpenNode a, OpenNode b) {
     return a.cost != b.cost ? a.cost > b.cost : a.node > b.node;
   }
 };
@@ -65,7 +65,7 @@ struct Problem {
     for (std::size_t i = 0; i < n; ++i) c[i] = stepper.relative(places[i]);
     return c;
   }
-  double worst(Configuration c) const {
+  double worst(HeldPlaces c) const {
     float square = 0;
     for (std::size_t i = 0; i < n; ++i) {
       const PointF e{goals[i].x - c[i].x, goals[i].y - c[i].y};
@@ -74,7 +74,7 @@ struct Problem {
     return std::sqrt(static_cast<double>(square));
   }
   /// Have two robots met whose goals no place serves both? The same inputs never part them again.
-  bool is_dead(Configuration c) const {
+  bool is_dead(HeldPlaces c) const {
     const auto near = static_cast<float>(met_of_step * params.robostep);
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < i; ++j)
@@ -89,7 +89,7 @@ struct Problem {
   }
   /// How wrong the robots stand to each other, and the way they have to go together: straight, or
   /// where there are `fields`, the mean of their ways around the walls.
-  double cost(Configuration c, std::span<const GeodesicField> fields) const {
+  double cost(HeldPlaces c, std::span<const GeodesicField> fields) const {
     Vec2 sum;
     double squares = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -111,7 +111,7 @@ struct Problem {
 /// One search from the start, with its own hypercubes.
 class Round {
  public:
-  Round(const Problem& problem, std::span<const GeodesicField> fields, Configuration start,
+  Round(const Problem& problem, std::span<const GeodesicField> fields, HeldPlaces start,
         double cell, Rng& rng, PlanCounts& counts)
       : problem_(problem),
         separation_(problem.stepper, problem.params.contact, problem.params.separation),
@@ -153,7 +153,7 @@ class Round {
   }
 
  private:
-  Configuration configuration(std::uint32_t node) const {
+  HeldPlaces configuration(std::uint32_t node) const {
     return {places_.data() + problem_.n * node, problem_.n};
   }
   bool is_solved() const { return worst_ <= problem_.params.goal_tolerance; }
@@ -166,7 +166,7 @@ class Round {
     std::uint64_t hindered_before = 0;
     std::uint64_t at_rest = 0;
     std::uint16_t next = 1;
-    const auto node_at = [&](Configuration c, std::uint16_t steps) {
+    const auto node_at = [&](HeldPlaces c, std::uint16_t steps) {
       add(c, from, {static_cast<std::uint8_t>(input), steps});
     };
     for (std::uint16_t steps = 1; steps <= problem_.most_steps; ++steps) {
@@ -198,7 +198,7 @@ class Round {
     }
   }
 
-  void add(Configuration c, std::uint32_t parent, Held held) {
+  void add(HeldPlaces c, std::uint32_t parent, Held held) {
     if (!nodes_.empty() && problem_.is_dead(c)) return;
     const double worst = problem_.worst(c);
     const bool is_best = worst < worst_;
@@ -215,7 +215,7 @@ class Round {
   }
 
   /// Fingerprint of the hypercube; two that share one only cost a node.
-  std::uint64_t hypercube(Configuration c) const {
+  std::uint64_t hypercube(HeldPlaces c) const {
     std::uint64_t h = 0;
     const auto mix = [&](float v) {
       const auto cell = static_cast<std::int64_t>(std::floor(v));
@@ -240,13 +240,13 @@ class Round {
   std::vector<Node> nodes_;
   std::vector<PointF> places_;  // n a node
   std::unordered_set<std::uint64_t> seen_;
-  std::priority_queue<Open> open_;
+  std::priority_queue<OpenNode> open_;
   std::uint32_t best_ = 0;
   double worst_ = std::numeric_limits<double>::infinity();
 };
 
 /// The inputs one by one, and where the robots get by them.
-GlobalPlan played(const Problem& problem, Configuration start, const std::vector<Held>& inputs) {
+GlobalPlan played(const Problem& problem, HeldPlaces start, const std::vector<Held>& inputs) {
   GlobalPlan plan;
   std::vector<PointF> now(start.begin(), start.end());
   const auto note = [&] {
@@ -304,7 +304,7 @@ GlobalSearch global_search(const Map& map, std::span<const Vec2> starts,
   double cell = params.cell > 0 ? params.cell : cell_of_tolerance * params.goal_tolerance;
   std::vector<GeodesicField> fields;
   Round::End end = Round::End::nodes;
-  while (found.rounds < most_rounds && found.counts.samples < most_nodes) {
+  while (found.rounds < most_search_rounds && found.counts.samples < most_nodes) {
     ++found.rounds;
     const double round_cell = cell * rng.uniform(finest_of_cell, 2 * finest_of_cell);
     const bool goes_around = found.rounds % 2 == 0;

@@ -11,9 +11,9 @@
 namespace microswarm {
 namespace {
 
-constexpr int most_rounds = 20;
+constexpr int most_shorten_rounds = 20;
 
-using Configuration = std::vector<PointF>;
+using PlayedPlaces = std::vector<PointF>;
 
 /// `count` equal inputs from `first` on.
 struct Run {
@@ -34,18 +34,18 @@ class Shortening {
     for (const Vec2 goal : goals) goals_.push_back(stepper_.relative(goal));
     for (const Vec2 u : plan.inputs)
       inputs_.push_back({static_cast<float>(u.x), static_cast<float>(u.y)});
-    Configuration start;
+    PlayedPlaces start;
     for (const Vec2 p : plan.configurations[0]) start.push_back(stepper_.relative(p));
     states_.push_back(start);
     for (const PointF u : inputs_) {
-      Configuration next = states_.back();
+      PlayedPlaces next = states_.back();
       step(next, u);
       states_.push_back(next);
     }
   }
 
   void run() {
-    for (int round = 0; round < most_rounds && !stop_(); ++round) {
+    for (int round = 0; round < most_shorten_rounds && !stop_(); ++round) {
       const std::size_t before = inputs_.size();
       for (std::size_t length = std::max<std::size_t>(1, inputs_.size() / 2);; length /= 2) {
         drop_stretches(length);
@@ -60,7 +60,7 @@ class Shortening {
     GlobalPlan plan{Status::solved, {}, {}, worst(states_.back())};
     for (const PointF u : inputs_)
       plan.inputs.push_back({static_cast<double>(u.x), static_cast<double>(u.y)});
-    for (const Configuration& robots : states_) {
+    for (const PlayedPlaces& robots : states_) {
       std::vector<Vec2>& places = plan.configurations.emplace_back();
       for (std::size_t i = 0; i < n_; ++i)
         places.push_back(origin_ +
@@ -72,7 +72,7 @@ class Shortening {
 
  private:
   /// False when robots come too near each other.
-  bool step(Configuration& robots, PointF u) {
+  bool step(PlayedPlaces& robots, PointF u) {
     before_ = robots;
     for (std::size_t i = 0; i < n_; ++i) {
       const PointF p = robots[i];
@@ -82,7 +82,7 @@ class Shortening {
     return separation_.holds(before_, robots, u);
   }
 
-  double worst(const Configuration& robots) const {
+  double worst(const PlayedPlaces& robots) const {
     double square = 0;
     for (std::size_t i = 0; i < n_; ++i) {
       const double dx = static_cast<double>(robots[i].x) - static_cast<double>(goals_[i].x);
@@ -96,7 +96,7 @@ class Shortening {
   /// goals, up to where it first does.
   bool try_without(std::span<const Run> gaps) {
     const std::size_t from = gaps[0].first;
-    Configuration robots = states_[from];
+    PlayedPlaces robots = states_[from];
     played_.clear();
     reached_.clear();
     bool solved = worst(robots) <= play_.goal_tolerance;
@@ -160,12 +160,12 @@ class Shortening {
   const Stop& stop_;
   std::size_t n_;
   Vec2 origin_;
-  Configuration goals_;
+  PlayedPlaces goals_;
   std::vector<PointF> inputs_;
-  std::vector<Configuration> states_;  ///< before the first input, and after each
-  std::vector<PointF> played_;         ///< of the try under way
-  std::vector<PointF> reached_;        ///< n after each
-  Configuration before_;
+  std::vector<PlayedPlaces> states_;  ///< before the first input, and after each
+  std::vector<PointF> played_;        ///< of the try under way
+  std::vector<PointF> reached_;       ///< n after each
+  PlayedPlaces before_;
 };
 
 }  // namespace

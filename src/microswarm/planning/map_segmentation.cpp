@@ -8,7 +8,7 @@
 namespace microswarm {
 namespace {
 
-constexpr std::uint32_t none = ~0u;
+constexpr std::uint32_t unassigned = ~0u;
 /// Where the ring begins in which the channels around a node are counted, as a share of its range.
 constexpr double ring_begin = 0.6;
 /// Fewer nodes than this make no channel.
@@ -118,7 +118,7 @@ class Segmenter {
       const double cost_b = tree_.weighted.cost[b];
       return cost_a != cost_b ? cost_a < cost_b : a < b;
     });
-    cluster_.assign(tree_.nodes.size(), none);
+    cluster_.assign(tree_.nodes.size(), unassigned);
     out_.region.assign(tree_.nodes.size(), 0);
     out_.branch.assign(tree_.nodes.size(), 0);
   }
@@ -198,7 +198,7 @@ class Segmenter {
       for (const std::uint32_t i : members) cluster_[junctions[i]] = clusters_;
       ++clusters_;
     }
-    std::erase_if(out_.junction_nodes, [&](std::uint32_t v) { return cluster_[v] == none; });
+    std::erase_if(out_.junction_nodes, [&](std::uint32_t v) { return cluster_[v] == unassigned; });
   }
 
   /// A few nodes in the corner of a bend are no junction: in its middle half a width must be full
@@ -223,23 +223,23 @@ class Segmenter {
   /// of a junction whose way leads by another junction of a region farther away belongs to that
   /// one, so that nobody ever goes to a region with a higher number.
   void grow_regions() {
-    std::vector<std::uint32_t> number(clusters_, none);
+    std::vector<std::uint32_t> number(clusters_, unassigned);
     for (const std::uint32_t v : by_cost_) {
       const std::uint32_t onward = out_.region[tree_.weighted.next[v]];
       out_.region[v] = onward;
-      if (cluster_[v] == none) continue;
+      if (cluster_[v] == unassigned) continue;
       std::uint32_t& n = number[cluster_[v]];
-      if (n == none) {
+      if (n == unassigned) {
         n = static_cast<std::uint32_t>(out_.regions.size());
         out_.regions.push_back({{}, v, v, onward, 0});
       }
       if (onward <= n) {
         out_.region[v] = n;
       } else {
-        cluster_[v] = none;
+        cluster_[v] = unassigned;
       }
     }
-    std::erase_if(out_.junction_nodes, [&](std::uint32_t v) { return cluster_[v] == none; });
+    std::erase_if(out_.junction_nodes, [&](std::uint32_t v) { return cluster_[v] == unassigned; });
     place_junctions();
   }
 
@@ -271,11 +271,11 @@ class Segmenter {
   /// bends later stays one branch.
   void find_branches() {
     std::vector<std::vector<double>> leaving(out_.regions.size());
-    std::vector<std::uint32_t> first(tree_.nodes.size(), none);
+    std::vector<std::uint32_t> first(tree_.nodes.size(), unassigned);
     for (const std::uint32_t v : medial_by_cost()) {
-      if (cluster_[v] != none) continue;
+      if (cluster_[v] != unassigned) continue;
       const std::uint32_t next = tree_.weighted.next[v];
-      first[v] = cluster_[next] != none ? v : first[next];
+      first[v] = cluster_[next] != unassigned ? v : first[next];
       leaving[out_.region[v]].push_back(direction(first[v]));
     }
     std::vector<std::vector<double>> branches;
@@ -287,7 +287,7 @@ class Segmenter {
       out_.regions[r].branches = static_cast<std::uint32_t>(branches[r].size());
     }
     for (const std::uint32_t v : by_cost_) {
-      const std::uint32_t from = first[v] == none ? v : first[v];
+      const std::uint32_t from = first[v] == unassigned ? v : first[v];
       out_.branch[v] = tree_.medial[v]
                            ? nearest_direction(branches[out_.region[v]], direction(from))
                            : out_.branch[tree_.weighted.next[v]];
@@ -308,7 +308,7 @@ class Segmenter {
   PointGrid grid_;                     ///< V*
   std::vector<std::uint32_t> medial_;  ///< its nodes
   std::vector<std::uint32_t> by_cost_;
-  std::vector<std::uint32_t> cluster_;  ///< of each node; none outside V_J
+  std::vector<std::uint32_t> cluster_;  ///< of each node; unassigned outside V_J
   std::uint32_t clusters_ = 0;
   std::vector<double> widths_;  ///< one a junction node
   std::vector<std::uint32_t> near_;

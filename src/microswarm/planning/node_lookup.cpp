@@ -11,7 +11,7 @@ namespace microswarm {
 namespace {
 
 constexpr double cells_per_node = 4;
-constexpr double most_cells = 4e6;
+constexpr double most_lookup_cells = 4e6;
 /// How often the search for a node that can be seen doubles its radius.
 constexpr int most_doublings = 3;
 /// A cell so many diagonals from all nodes is a place that the tree has not reached.
@@ -116,7 +116,7 @@ NodeLookup::NodeLookup(const Map& map, const PointGrid& grid) : origin_(map.boun
   assert(!grid.empty());
   const Box& bounds = map.bounds();
   const double wanted =
-      std::min(cells_per_node * static_cast<double>(grid.size()) + 1000, most_cells);
+      std::min(cells_per_node * static_cast<double>(grid.size()) + 1000, most_lookup_cells);
   const double side = std::sqrt(bounds.width() * bounds.height() / wanted);
   columns_ = static_cast<int>(std::clamp(bounds.width() / side, 1.0, wanted));
   rows_ = static_cast<int>(std::clamp(bounds.height() / side, 1.0, wanted));

@@ -3,17 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <queue>
 #include <utility>
 
+#include "microswarm/core/infinity.hpp"
 #include "microswarm/planning/tree_cover.hpp"
 
 namespace microswarm {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::uint32_t no_node = ~0u;
 /// A place on the wall is found to 2^-20 of an extension.
 constexpr int halvings = 20;
 

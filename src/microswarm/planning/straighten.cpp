@@ -3,15 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/infinity.hpp"
 
 namespace microswarm {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// An edge of a chain skips at most this many points, so that long paths take linear time.
 constexpr std::size_t window = 48;
 /// Costs that differ by no more than this share are taken for rounding.

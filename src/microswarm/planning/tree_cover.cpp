@@ -10,8 +10,6 @@
 namespace microswarm {
 namespace {
 
-constexpr std::uint32_t none = ~0u;
-
 class Cover {
  public:
   using Add = std::function<void(Vec2, std::uint32_t)>;
@@ -22,8 +20,8 @@ class Cover {
         lattice_(map.bounds(), cell, 100'000),
         radius_(std::max(radius, 2 * lattice_.spacing())),
         add_(add),
-        seen_(lattice_.size(), none),
-        own_(lattice_.size(), none) {}
+        seen_(lattice_.size(), no_node),
+        own_(lattice_.size(), no_node) {}
 
   void run() {
     std::vector<std::uint32_t> queue;
@@ -35,10 +33,10 @@ class Cover {
     for (std::size_t k = 0; k < queue.size(); ++k) {
       const std::uint32_t before = queue[k];
       lattice_.for_each_neighbour(before, [&](std::uint32_t cell) {
-        if (seen_[cell] != none) return;
+        if (seen_[cell] != no_node) return;
         if (!map_.is_free(Segment{lattice_[before], lattice_[cell]}, 0)) return;
         seen_[cell] = nearest_seen(lattice_[cell]);
-        if (seen_[cell] == none) seen_[cell] = node_in(before);
+        if (seen_[cell] == no_node) seen_[cell] = node_in(before);
         queue.push_back(cell);
       });
     }
@@ -48,7 +46,7 @@ class Cover {
   std::uint32_t nearest_seen(Vec2 p) {
     near_.clear();
     nodes_.within(p, radius_, near_);
-    std::uint32_t best = none;
+    std::uint32_t best = no_node;
     double least = std::numeric_limits<double>::infinity();
     for (const std::uint32_t v : near_) {
       const double d = distance(p, nodes_[v]);
@@ -61,7 +59,7 @@ class Cover {
 
   /// The node at the cell's centre, which becomes one.
   std::uint32_t node_in(std::uint32_t cell) {
-    if (own_[cell] == none) {
+    if (own_[cell] == no_node) {
       own_[cell] = static_cast<std::uint32_t>(nodes_.size());
       add_(lattice_[cell], seen_[cell]);
     }

@@ -9,6 +9,9 @@
 
 namespace microswarm {
 
+/// Instead of a node of a tree: none.
+inline constexpr std::uint32_t no_node = ~0u;
+
 /// Adds nodes to a tree until all that can be reached from its root sees it: a tree grown at random
 /// misses narrow branches of a wide map. From the root on, over the cells of a grid that see their
 /// neighbours' centres, each cell's centre must see a node within `radius` [µm]; where it does not,

@@ -33,7 +33,7 @@ std::string escaped(const std::string& s) {
   return out;
 }
 
-std::string table(const std::vector<std::vector<std::string>>& lines) {
+std::string html_table(const std::vector<std::vector<std::string>>& lines) {
   std::string out = "<table>\n";
   for (std::size_t i = 0; i < lines.size(); ++i) {
     out += "<tr>";
@@ -56,7 +56,7 @@ void write_page(const std::filesystem::path& path, const std::string& title,
   for (const PageSection& s : sections) {
     if (!s.heading.empty()) html += fmt::format("<h2>{}</h2>\n", escaped(s.heading));
     if (!s.text.empty()) html += fmt::format("<p>{}</p>\n", escaped(s.text));
-    if (!s.table.empty()) html += table(s.table);
+    if (!s.table.empty()) html += html_table(s.table);
     for (const auto& [file, caption] : s.pictures)
       html +=
           fmt::format("<figure><img src=\"{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>\n",

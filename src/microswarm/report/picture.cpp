@@ -16,20 +16,12 @@
 namespace microswarm {
 namespace {
 
-constexpr double margin = 24;
+constexpr double picture_margin = 24;
 constexpr double title_height = 34;
 constexpr double foot_height = 52;
-constexpr double least_radius = 4;  // of a disc that would else be lost
+constexpr double least_disc_radius = 4;  // of a disc that would else be lost
 
 constexpr double key_line = 22;  // height of a line of the legend
-
-struct Entry {
-  std::string label;
-  Colour colour;
-  bool round;
-  double x = 0;     // of its left end
-  double down = 0;  // below the first line
-};
 
 cairo_status_t append(void* out, const unsigned char* data, unsigned int length) {
   static_cast<std::string*>(out)->append(reinterpret_cast<const char*>(data), length);
@@ -47,6 +39,14 @@ double round_length(double most) {
 }  // namespace
 
 struct Picture::Impl {
+  struct LegendEntry {
+    std::string label;
+    Colour colour;
+    bool round;
+    double x = 0;     // of its left end
+    double down = 0;  // below the first line
+  };
+
   Box view;
   std::string title;
   double scale;
@@ -56,15 +56,15 @@ struct Picture::Impl {
   double key_down = 0;  // of the last line below the first
   cairo_surface_t* recording;
   cairo_t* cr;
-  std::vector<Entry> entries;
+  std::vector<LegendEntry> entries;
 
   Impl(const Box& v, std::string_view t, double pixels)
       : view(v), title(t), scale(pixels / std::max(v.width(), v.height())) {
-    width = v.width() * scale + 2 * margin;
-    height = v.height() * scale + margin + top() + foot_height;
+    width = v.width() * scale + 2 * picture_margin;
+    height = v.height() * scale + picture_margin + top() + foot_height;
     recording = cairo_recording_surface_create(CAIRO_CONTENT_COLOR_ALPHA, nullptr);
     cr = cairo_create(recording);
-    cairo_rectangle(cr, margin, top(), v.width() * scale, v.height() * scale);
+    cairo_rectangle(cr, picture_margin, top(), v.width() * scale, v.height() * scale);
     cairo_clip(cr);
     cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
@@ -76,9 +76,9 @@ struct Picture::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  double top() const { return title.empty() ? margin : margin + title_height; }
+  double top() const { return title.empty() ? picture_margin : picture_margin + title_height; }
   Vec2 at(Vec2 p) const {
-    return {margin + (p.x - view.lo.x) * scale, top() + (view.hi.y - p.y) * scale};
+    return {picture_margin + (p.x - view.lo.x) * scale, top() + (view.hi.y - p.y) * scale};
   }
   void colour(Colour c) const { cairo_set_source_rgba(cr, c.red, c.green, c.blue, c.alpha); }
   void trace(std::span<const Vec2> points) const {
@@ -90,7 +90,7 @@ struct Picture::Impl {
   void trace(const Disc& d) const {
     const Vec2 c = at(d.centre);
     cairo_new_sub_path(cr);
-    cairo_arc(cr, c.x, c.y, std::max(d.radius * scale, least_radius), 0, 2 * pi);
+    cairo_arc(cr, c.x, c.y, std::max(d.radius * scale, least_disc_radius), 0, 2 * pi);
   }
   void trace(const Polygon& polygon) const {
     trace(polygon.outer);
@@ -125,23 +125,24 @@ void Picture::Impl::scale_bar(cairo_t* out) const {
   const double length = round_length(0.25 * view.width());
   const double y = height - foot_height + 22;
   cairo_set_source_rgba(out, colours::ink.red, colours::ink.green, colours::ink.blue, 1);
-  cairo_rectangle(out, margin, y - 3, length * scale, 5);
+  cairo_rectangle(out, picture_margin, y - 3, length * scale, 5);
   cairo_fill(out);
   cairo_set_font_size(out, 15);
-  cairo_move_to(out, margin, y + 20);
+  cairo_move_to(out, picture_margin, y + 20);
   cairo_show_text(out, fmt::format("{:g} µm", length).c_str());
 }
 
 /// In lines as long as the picture is wide, beside the scale bar.
 void Picture::Impl::add_to_key(std::string_view label, Colour c, bool round) {
-  const double left = margin + std::max(120.0, round_length(0.25 * view.width()) * scale + 40);
+  const double left =
+      picture_margin + std::max(120.0, round_length(0.25 * view.width()) * scale + 40);
   cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(cr, 15);
   cairo_text_extents_t extents;
   cairo_text_extents(cr, std::string(label).c_str(), &extents);
   const double length = (round ? 20 : 24) + extents.x_advance;
   if (entries.empty()) key_end = left;
-  if (key_end > left && key_end + length > width - margin) {
+  if (key_end > left && key_end + length > width - picture_margin) {
     key_end = left;
     key_down += key_line;
   }
@@ -151,7 +152,7 @@ void Picture::Impl::add_to_key(std::string_view label, Colour c, bool round) {
 
 void Picture::Impl::key(cairo_t* out) const {
   cairo_set_font_size(out, 15);
-  for (const Entry& e : entries) {
+  for (const LegendEntry& e : entries) {
     const double y = height - foot_height + 26 + e.down;
     cairo_set_source_rgba(out, e.colour.red, e.colour.green, e.colour.blue, e.colour.alpha);
     if (e.round)
@@ -169,11 +170,11 @@ void Picture::Impl::frame(cairo_t* out) const {
   cairo_select_font_face(out, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_source_rgba(out, colours::ink.red, colours::ink.green, colours::ink.blue, 1);
   cairo_set_line_width(out, 1);
-  cairo_rectangle(out, margin, top(), view.width() * scale, view.height() * scale);
+  cairo_rectangle(out, picture_margin, top(), view.width() * scale, view.height() * scale);
   cairo_stroke(out);
   if (!title.empty()) {
     cairo_set_font_size(out, 20);
-    cairo_move_to(out, margin, margin + 18);
+    cairo_move_to(out, picture_margin, picture_margin + 18);
     cairo_show_text(out, title.c_str());
   }
   scale_bar(out);
@@ -296,7 +297,7 @@ void Picture::text(Vec2 at, std::string_view text, Colour colour, double size_px
   cairo_set_font_size(cr, size_px);
   cairo_text_extents_t extents;
   cairo_text_extents(cr, std::string(text).c_str(), &extents);
-  const double right = margin + impl_->view.width() * impl_->scale - extents.x_advance - 6;
+  const double right = picture_margin + impl_->view.width() * impl_->scale - extents.x_advance - 6;
   cairo_move_to(cr, std::min(p.x, right), std::max(p.y, impl_->top() + size_px + 2));
   cairo_text_path(cr, std::string(text).c_str());
   impl_->colour({1, 1, 1, 0.85});

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t most_numbered = 8;  // robots that get a colour and a number of their own
 
-struct Subject {
+struct RobotsSubject {
   const Record& record;
   const ReportOptions& options;
   World world;
@@ -27,7 +27,7 @@ struct Subject {
   bool few() const { return scenario().robots->starts.size() - 1 < most_numbered; }
 };
 
-Colour colour_of(const Subject& s, std::size_t robot) {
+Colour colour_of(const RobotsSubject& s, std::size_t robot) {
   return s.few() ? colours::robots[robot % colours::robots.size()] : colours::swarm;
 }
 
@@ -51,7 +51,7 @@ std::vector<Pile> piles_of(const std::vector<Vec2>& places, double spot) {
   return piles;
 }
 
-void draw_robots(Picture& picture, const Subject& s, const std::vector<Vec2>& places) {
+void draw_robots(Picture& picture, const RobotsSubject& s, const std::vector<Vec2>& places) {
   if (s.few()) {
     for (std::size_t i = 0; i < places.size(); ++i) picture.disc({places[i], 0}, colour_of(s, i));
     return;
@@ -64,7 +64,7 @@ void draw_robots(Picture& picture, const Subject& s, const std::vector<Vec2>& pl
 }
 
 /// The way of each of a few robots, as far as its moments tell.
-void draw_ways(Picture& picture, const Subject& s, double until) {
+void draw_ways(Picture& picture, const RobotsSubject& s, double until) {
   if (!s.few()) return;
   for (std::size_t i = 0; i < s.record.robots.front().places.size(); ++i) {
     std::vector<Vec2> way;
@@ -74,14 +74,14 @@ void draw_ways(Picture& picture, const Subject& s, double until) {
   }
 }
 
-void draw_goals(Picture& picture, const Subject& s) {
+void draw_goals(Picture& picture, const RobotsSubject& s) {
   const Scenario& scenario = s.scenario();
   for (std::size_t i = 0; i < scenario.robots->goals.size(); ++i)
     picture.circle({scenario.robots->goals[i], scenario.goal_tolerance}, colour_of(s, i), 2);
   if (scenario.goal) picture.mark(*scenario.goal, "goal", colours::goal);
 }
 
-void draw(const Subject& s, const RobotMoment& moment, const std::string& what,
+void draw(const RobotsSubject& s, const RobotMoment& moment, const std::string& what,
           const std::filesystem::path& file) {
   Picture picture(s.world.map->bounds(), fmt::format("{}: {}", s.title(), what));
   draw_ground(picture, *s.world.map, s.options);
@@ -91,7 +91,7 @@ void draw(const Subject& s, const RobotMoment& moment, const std::string& what,
   picture.write(file);
 }
 
-Plot left_over_time(const Subject& s) {
+Plot left_over_time(const RobotsSubject& s) {
   const bool each = !s.scenario().robots->goals.empty();
   Plot plot{.title = each ? "The worst robot's distance from its goal" : "Mean way to the goal, F",
             .x_label = "time (s)",
@@ -107,7 +107,7 @@ Plot left_over_time(const Subject& s) {
   return plot;
 }
 
-std::vector<std::vector<std::string>> numbers(const Record& record) {
+std::vector<std::vector<std::string>> robots_numbers(const Record& record) {
   const Metrics& m = record.result.metrics;
   return {{"quantity", "value"},
           {"ended", std::string(to_string(record.result.status))},
@@ -128,7 +128,7 @@ std::vector<std::vector<std::string>> numbers(const Record& record) {
 void write_robots_report(const Record& record, const std::filesystem::path& folder,
                          const ReportOptions& options) {
   if (record.frames.empty() || record.robots.empty()) return;
-  const Subject s{record, options, build_world(record.scene)};
+  const RobotsSubject s{record, options, build_world(record.scene)};
   const std::vector<RobotMoment>& moments = record.robots;
   PageSection stills{.heading = "Moments"};
   const std::array<std::pair<const char*, std::size_t>, 3> shown{
@@ -145,7 +145,7 @@ void write_robots_report(const Record& record, const std::filesystem::path& fold
   write_page(folder / "index.html", s.title(),
              {{.text = s.scenario().description},
               stills,
-              {.heading = "Numbers", .table = numbers(record)},
+              {.heading = "Numbers", .table = robots_numbers(record)},
               {.heading = "Over time", .pictures = {{"plots.png", ""}}}});
 }
 

@@ -34,7 +34,7 @@ std::size_t columns_of(const std::string& s) {
       std::count_if(s.begin(), s.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-std::string table(const std::vector<Cells>& lines) {
+std::string text_table(const std::vector<Cells>& lines) {
   std::vector<std::size_t> width;
   for (const Cells& line : lines) {
     width.resize(std::max(width.size(), line.size()));
@@ -108,7 +108,7 @@ std::string rows_table(const std::vector<ReproduceRow>& rows) {
   for (const auto& r : rows)
     lines.push_back({r.figure, r.quantity, r.unit, number(r.paper), number(r.ours),
                      aim_text(r.aim, r.at_most), verdict(r), r.note});
-  return table(lines);
+  return text_table(lines);
 }
 
 std::string rows_table(const std::vector<BenchRow>& rows) {
@@ -116,7 +116,7 @@ std::string rows_table(const std::vector<BenchRow>& rows) {
   for (const auto& r : rows)
     lines.push_back({r.name, r.quantity, r.unit, number(r.ours), number(r.peer), r.peer_name,
                      number(r.ratio()), aim_text(r.aim, r.at_most), verdict(r)});
-  return table(lines);
+  return text_table(lines);
 }
 
 std::string rows_csv(const std::vector<ReproduceRow>& rows) {

@@ -21,7 +21,7 @@ constexpr int ghosts = 6;   // earlier places of the obstacles that an overview 
 constexpr int moments = 3;  // planning events that get a picture
 constexpr double faint = 0.18;
 
-struct Subject {
+struct RunSubject {
   const Record& record;
   const ReportOptions& options;
   World world;
@@ -29,7 +29,7 @@ struct Subject {
   std::string title() const { return title_of(record); }
 };
 
-void draw_ends(Picture& picture, const Subject& s) {
+void draw_ends(Picture& picture, const RunSubject& s) {
   picture.mark(s.scenario().start->position, "start");
   picture.circle({*s.scenario().goal, s.scenario().goal_tolerance}, colours::goal, 2);
   picture.mark(*s.scenario().goal, "goal", colours::goal);
@@ -48,7 +48,7 @@ const Frame& frame_at(const Record& record, double t) {
   return after == record.frames.begin() ? *after : *(after - 1);
 }
 
-void overview(const Subject& s, std::span<const PlanEvent* const> shown,
+void overview(const RunSubject& s, std::span<const PlanEvent* const> shown,
               const std::filesystem::path& folder) {
   const Record& record = s.record;
   const double end = record.frames.back().t;
@@ -80,7 +80,7 @@ void overview(const Subject& s, std::span<const PlanEvent* const> shown,
 }
 
 /// The whole map, or what is near the swarm where the map is much larger.
-Box around(const Subject& s, const Frame& frame, const PlanEvent& event) {
+Box around(const RunSubject& s, const Frame& frame, const PlanEvent& event) {
   const Box map = s.world.map->bounds();
   double reach = 25 * frame.radius;
   for (const Vec2 p : event.plan.path)
@@ -90,7 +90,7 @@ Box around(const Subject& s, const Frame& frame, const PlanEvent& event) {
   return {frame.pose.position - half, frame.pose.position + half};
 }
 
-void moment(const Subject& s, const PlanEvent& event, const std::filesystem::path& file) {
+void moment(const RunSubject& s, const PlanEvent& event, const std::filesystem::path& file) {
   const Frame& frame = frame_at(s.record, event.t);
   Picture picture(around(s, frame, event),
                   fmt::format("{} at {:.1f} s: local target, tree and path", s.title(), event.t));
@@ -111,7 +111,7 @@ void moment(const Subject& s, const PlanEvent& event, const std::filesystem::pat
   picture.write(file);
 }
 
-std::string moment_caption(const Subject& s, std::size_t number, const PlanEvent& event) {
+std::string moment_caption(const RunSubject& s, std::size_t number, const PlanEvent& event) {
   const Frame& frame = frame_at(s.record, event.t);
   std::string text = fmt::format("{}: at {:.1f} s", number, event.t);
   if (std::isfinite(frame.obstacle_clearance))
@@ -139,7 +139,7 @@ std::string ended(const Record& record) {
   return text;
 }
 
-std::vector<std::vector<std::string>> numbers(const Record& record) {
+std::vector<std::vector<std::string>> run_numbers(const Record& record) {
   const Metrics& m = record.result.metrics;
   const TimeSummary p = summarise(record.result.timing.planning);
   const auto um = [](double v) { return std::isfinite(v) ? fmt::format("{:.1f} µm", v) : "–"; };
@@ -171,7 +171,7 @@ void write_run_report(const Record& record, const std::filesystem::path& folder,
                       const ReportOptions& options) {
   if (record.frames.empty()) return;
   if (record.scene.scenario.robots) return write_robots_report(record, folder, options);
-  const Subject s{record, options, build_world(record.scene)};
+  const RunSubject s{record, options, build_world(record.scene)};
   PageSection stills{.heading = "Moments",
                      .text =
                          "In each third of the run the planning event at which an obstacle was "
@@ -192,7 +192,7 @@ void write_run_report(const Record& record, const std::filesystem::path& folder,
       folder / "index.html", s.title(),
       {{.text = s.scenario().description,
         .pictures = {{"overview.png", "The whole run. Also as overview.svg and overview.pdf."}}},
-       {.heading = "Numbers", .table = numbers(record)},
+       {.heading = "Numbers", .table = run_numbers(record)},
        stills,
        {.heading = "Over time",
         .pictures = {{"plots.png", "Planning times are wall-clock times of this machine."}}}});

@@ -12,7 +12,6 @@
 namespace microswarm {
 namespace {
 
-using Kind = SweepColumnKind;
 using Role = SweepColumn::Role;
 using Lines = std::vector<std::string>;
 
@@ -27,15 +26,15 @@ std::string one_word(std::string_view text) {
 /// Free text inside the log must not look like the end of its block, and stays on its line.
 std::string plain_line(std::string_view text) { return one_line(text, 10'000); }
 
-std::string number_of(const SqlValue& value) {
+std::string log_number(const SqlValue& value) {
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
   const auto* real = std::get_if<double>(&value);
   return real && std::isfinite(*real) ? number_text(*real) : "";
 }
 
-std::string text_of(const SqlValue& value) {
+std::string log_text(const SqlValue& value) {
   const auto* text = std::get_if<std::string>(&value);
-  return text ? *text : number_of(value);
+  return text ? *text : log_number(value);
 }
 
 /// Words of the column `status`, in the order of their numbers in the log.
@@ -54,7 +53,7 @@ class LogWriter {
     for (std::size_t i = 0; i < columns.size(); ++i) {
       if (columns[i].role == Role::parameter) parameters_.push_back(i);
       const bool measured = columns[i].role == Role::metric || columns[i].role == Role::wall_clock;
-      if (measured && columns[i].kind != Kind::text) properties_.push_back(i);
+      if (measured && columns[i].kind != SweepColumnKind::text) properties_.push_back(i);
     }
   }
 
@@ -136,11 +135,11 @@ class LogWriter {
     text += fmt::format("{} runs\n", rows.size());
     const Lines words = statuses();
     for (const std::vector<SqlValue>& row : rows) {
-      const std::string status = text_of(row[status_]);
+      const std::string status = log_text(row[status_]);
       const auto number = std::find(words.begin(), words.end(), status) - words.begin();
-      text +=
-          fmt::format("{}; {}; {}; ", status == words[0] ? 1 : 0, number, number_of(row[compute_]));
-      for (const std::size_t i : properties_) text += number_of(row[i]) + "; ";
+      text += fmt::format("{}; {}; {}; ", status == words[0] ? 1 : 0, number,
+                          log_number(row[compute_]));
+      for (const std::size_t i : properties_) text += log_number(row[i]) + "; ";
       text += "\n";
     }
     return text + ".\n";

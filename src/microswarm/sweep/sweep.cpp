@@ -13,7 +13,7 @@
 namespace microswarm {
 namespace {
 
-using Kind = SweepMessage::Kind;
+using MessageKind = SweepMessage::Kind;
 
 constexpr std::chrono::milliseconds alone_patience{50};  // then Ctrl-C is looked for
 constexpr std::chrono::milliseconds rank_patience{1};    // then messages are
@@ -60,22 +60,22 @@ SweepHelpers::~SweepHelpers() {
 
 void SweepHelpers::hear(int from, SweepMessage message, const std::string& plan_hash) {
   switch (message.kind) {
-    case Kind::ready:
+    case MessageKind::ready:
       if (message.text == plan_hash)
         wanted_[from] += message.want;
       else
         failure_ = fmt::format("rank {} has read other files than rank 0", from);
       return;
-    case Kind::failed:
+    case MessageKind::failed:
       failure_ = fmt::format("rank {}: {}", from, message.text);
       return;
-    case Kind::rows:
+    case MessageKind::rows:
       wanted_[from] += message.want;
       return append(rows_, std::move(message.rows));
-    case Kind::stopped:
+    case MessageKind::stopped:
       stopped_ = true;
       return;
-    case Kind::done:
+    case MessageKind::done:
       --at_work_;
       return;
     default:
@@ -95,7 +95,8 @@ void SweepHelpers::feed(const std::function<std::vector<SweepTask>(std::size_t)>
     if (wanted == 0) continue;
     const std::vector<SweepTask> tasks = next(wanted);
     if (tasks.empty()) return;
-    ranks_.send(rank, to_bytes({.kind = Kind::tasks, .text = {}, .tasks = tasks, .rows = {}}));
+    ranks_.send(rank,
+                to_bytes({.kind = MessageKind::tasks, .text = {}, .tasks = tasks, .rows = {}}));
     wanted -= tasks.size();
   }
 }
@@ -103,7 +104,7 @@ void SweepHelpers::feed(const std::function<std::vector<SweepTask>(std::size_t)>
 std::vector<SweepRow> SweepHelpers::send_home() {
   if (at_work_ == 0) return {};
   for (int rank = 1; rank < ranks_.count(); ++rank)
-    ranks_.send(rank, to_bytes({.kind = Kind::over, .text = {}, .tasks = {}, .rows = {}}));
+    ranks_.send(rank, to_bytes({.kind = MessageKind::over, .text = {}, .tasks = {}, .rows = {}}));
   while (at_work_ > 0) {  // ends: each says done once, or mpirun ends all
     if (auto message = ranks_.receive())
       hear(message->from, message_of(message->bytes), "");
@@ -151,7 +152,7 @@ SweepProgress run_sweep(const SweepPlan& plan, SweepDatabase& database, SweepHel
 
 void help_sweep(const Ranks& ranks, const std::filesystem::path& file, int jobs, const Stop& stop) {
   const auto say = [&](const SweepMessage& message) { ranks.send(0, to_bytes(message)); };
-  const auto say_word = [&](Kind kind, const std::string& text) {
+  const auto say_word = [&](MessageKind kind, const std::string& text) {
     say({.kind = kind, .text = text, .tasks = {}, .rows = {}});
   };
   SweepPlan plan;
@@ -161,7 +162,7 @@ void help_sweep(const Ranks& ranks, const std::filesystem::path& file, int jobs,
       action();
     } catch (const std::exception& error) {
       crew.reset();
-      say_word(Kind::failed, error.what());
+      say_word(MessageKind::failed, error.what());
     }
   };
   std::size_t asked = 0;
@@ -173,25 +174,29 @@ void help_sweep(const Ranks& ranks, const std::filesystem::path& file, int jobs,
   attempt([&] {
     plan = load_sweep(file, jobs);
     crew = std::make_unique<SweepCrew>(plan, jobs);
-    say({.kind = Kind::ready, .text = plan.hash(), .want = want(), .tasks = {}, .rows = {}});
+    say({.kind = MessageKind::ready, .text = plan.hash(), .want = want(), .tasks = {}, .rows = {}});
   });
   for (bool over = false, stopped = false; !over;) {
-    if (stop() && !std::exchange(stopped, true)) say_word(Kind::stopped, "");
+    if (stop() && !std::exchange(stopped, true)) say_word(MessageKind::stopped, "");
     std::vector<SweepRow> rows;
     attempt([&] { rows = crew ? crew->take(rank_patience) : std::vector<SweepRow>(); });
     if (!rows.empty())
-      say({.kind = Kind::rows, .text = {}, .want = want(), .tasks = {}, .rows = std::move(rows)});
+      say({.kind = MessageKind::rows,
+           .text = {},
+           .want = want(),
+           .tasks = {},
+           .rows = std::move(rows)});
     const auto message = ranks.receive();
     if (!message && !crew) std::this_thread::sleep_for(rank_patience);
     if (!message) continue;
     const SweepMessage order = message_of(message->bytes);
-    over = order.kind == Kind::over;
+    over = order.kind == MessageKind::over;
     if (!crew) continue;
     crew->give(order.tasks);
     asked -= order.tasks.size();
   }
   crew.reset();
-  say_word(Kind::done, "");
+  say_word(MessageKind::done, "");
 }
 
 }  // namespace microswarm

@@ -15,16 +15,15 @@
 namespace microswarm {
 namespace {
 
-using Kind = SweepColumnKind;
 using Role = SweepColumn::Role;
 
 /// The value that a field has in a table, and its kind. Numbers are as they are shown; what is no
 /// single number or word is a line of JSON.
 template <class T>
 struct Cell {
-  static constexpr Kind kind = std::is_floating_point_v<T> ? Kind::real
-                               : std::is_integral_v<T>     ? Kind::whole
-                                                           : Kind::text;
+  static constexpr SweepColumnKind kind = std::is_floating_point_v<T> ? SweepColumnKind::real
+                                          : std::is_integral_v<T>     ? SweepColumnKind::whole
+                                                                      : SweepColumnKind::text;
   static SqlValue value(const T& field, Unit unit) {
     if constexpr (std::is_floating_point_v<T>)
       return field * unit_shown_per_stored(unit);
@@ -40,7 +39,7 @@ struct Cell {
 };
 template <class T>
 struct Cell<std::optional<T>> {
-  static constexpr Kind kind = Cell<T>::kind;
+  static constexpr SweepColumnKind kind = Cell<T>::kind;
   static SqlValue value(const std::optional<T>& field, Unit unit) {
     return field ? Cell<T>::value(*field, unit) : SqlValue{};
   }
@@ -78,17 +77,18 @@ struct Results {
     values.push_back(std::move(value));
   }
   void add_seconds(const std::string& name, const std::string& doc, double seconds) {
-    add({name, Kind::real, "s", doc, Role::wall_clock}, seconds);
+    add({name, SweepColumnKind::real, "s", doc, Role::wall_clock}, seconds);
   }
 };
 
 Results results_of(const TrialResult& trial) {
   Results r;
   const RunResult& run = trial.result;
-  r.add({"status", Kind::text, "", "How it ended.", Role::result},
+  r.add({"status", SweepColumnKind::text, "", "How it ended.", Role::result},
         std::string(to_string(run.status)));
-  r.add({"arrived", Kind::whole, "", "1 when the goal was reached, else 0.", Role::result},
-        std::int64_t{run.status == Status::solved});
+  r.add(
+      {"arrived", SweepColumnKind::whole, "", "1 when the goal was reached, else 0.", Role::result},
+      std::int64_t{run.status == Status::solved});
   Metrics::fields(run.metrics, FieldLister{r.columns, r.values, "", Role::metric});
   const TimeSummary planning = summarise(run.timing.planning);
   const TimeSummary steps = summarise(run.timing.steps);
@@ -99,7 +99,8 @@ Results results_of(const TrialResult& trial) {
   r.add_seconds("step_max_s", "Wall clock: the longest of these.", steps.max);
   r.add_seconds("compute_s", "Wall clock: all steps of the navigator.",
                 std::accumulate(run.timing.steps.begin(), run.timing.steps.end(), 0.0));
-  r.add({"record_hash", Kind::text, "", "Fingerprint of all that is physical.", Role::result},
+  r.add({"record_hash", SweepColumnKind::text, "", "Fingerprint of all that is physical.",
+         Role::result},
         trial.hash);
   return r;
 }
@@ -113,20 +114,20 @@ std::string column_name(std::string_view key) {
   return name;
 }
 
-Kind kind_of(const std::vector<std::string>& values) {
-  Kind kind = Kind::whole;
+SweepColumnKind kind_of(const std::vector<std::string>& values) {
+  SweepColumnKind kind = SweepColumnKind::whole;
   for (const std::string& value : values) {
     const auto number = parse_number(value);
-    if (!number) return Kind::text;
-    if (*number != std::floor(*number) || std::abs(*number) > 1e15) kind = Kind::real;
+    if (!number) return SweepColumnKind::text;
+    if (*number != std::floor(*number) || std::abs(*number) > 1e15) kind = SweepColumnKind::real;
   }
   return kind;
 }
 
-SqlValue value_of(const std::string& text, Kind kind) {
-  if (kind == Kind::text) return text;
+SqlValue value_of(const std::string& text, SweepColumnKind kind) {
+  if (kind == SweepColumnKind::text) return text;
   const double number = parse_number(text).value_or(0);
-  if (kind == Kind::real) return number;
+  if (kind == SweepColumnKind::real) return number;
   return static_cast<std::int64_t>(number);
 }
 
@@ -136,9 +137,9 @@ constexpr std::size_t first_parameter = 3;
 
 std::vector<SweepColumn> sweep_columns(const SweepPlan& plan) {
   std::vector<SweepColumn> columns = {
-      {"cell", Kind::whole, "", "Combination of values and method, from 0.", Role::key},
-      {"trial", Kind::whole, "", "Trial of the seed, from 0.", Role::key},
-      {"method", Kind::text, "", "The method's name.", Role::key}};
+      {"cell", SweepColumnKind::whole, "", "Combination of values and method, from 0.", Role::key},
+      {"trial", SweepColumnKind::whole, "", "Trial of the seed, from 0.", Role::key},
+      {"method", SweepColumnKind::text, "", "The method's name.", Role::key}};
   std::vector<SweepColumn> results = results_of({}).columns;
   for (const SweepParameter& parameter : plan.sweep.grid)
     columns.push_back({column_name(parameter.key), kind_of(parameter.values), "",

@@ -4,14 +4,11 @@
 #include <algorithm>
 #include <cassert>
 #include <functional>
-#include <limits>
+
+#include "microswarm/core/infinity.hpp"
 
 namespace microswarm {
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
+namespace {}  // namespace
 
 const std::vector<std::optional<int>>& Assignment::solve(int rows, int columns,
                                                          const std::vector<AssignmentEdge>& edges,

@@ -12,13 +12,13 @@
 namespace microswarm {
 namespace {
 
-constexpr int tiles_across = 24;  // along the longer side
-constexpr int rounds = 12;        // of re-weighting
-constexpr double rounding = 0.5;  // [grey] a residual below it is none
-constexpr double fit_limit = 4;   // spreads; what is farther off is no ground
-constexpr int terms = 6;
+constexpr int tiles_across = 24;   // along the longer side
+constexpr int ground_rounds = 12;  // of re-weighting
+constexpr double rounding = 0.5;   // [grey] a residual below it is none
+constexpr double fit_limit = 4;    // spreads; what is farther off is no ground
+constexpr int ground_terms = 6;
 
-using Terms = std::array<double, terms>;
+using Terms = std::array<double, ground_terms>;
 
 /// A surface of second degree; coordinates in units of half the longer side, from the middle.
 struct Surface {
@@ -28,7 +28,7 @@ struct Surface {
   double grey(double x, double y) const {
     const Terms t = at(x, y);
     double sum = 0;
-    for (int i = 0; i < terms; ++i) sum += factor[i] * t[i];
+    for (int i = 0; i < ground_terms; ++i) sum += factor[i] * t[i];
     return sum;
   }
 };
@@ -81,19 +81,19 @@ std::vector<Tile> tiles_of(const cv::Mat& grey, const cv::Mat& seen, double half
 }
 
 Surface fitted(const std::vector<Tile>& tiles, const std::vector<double>& weight) {
-  cv::Mat normal = cv::Mat::zeros(terms, terms, CV_64F);
-  cv::Mat right = cv::Mat::zeros(terms, 1, CV_64F);
+  cv::Mat normal = cv::Mat::zeros(ground_terms, ground_terms, CV_64F);
+  cv::Mat right = cv::Mat::zeros(ground_terms, 1, CV_64F);
   for (std::size_t k = 0; k < tiles.size(); ++k) {
     const Terms t = Surface::at(tiles[k].x, tiles[k].y);
-    for (int i = 0; i < terms; ++i) {
-      for (int j = 0; j < terms; ++j) normal.at<double>(i, j) += weight[k] * t[i] * t[j];
+    for (int i = 0; i < ground_terms; ++i) {
+      for (int j = 0; j < ground_terms; ++j) normal.at<double>(i, j) += weight[k] * t[i] * t[j];
       right.at<double>(i) += weight[k] * t[i] * tiles[k].grey;
     }
   }
   cv::Mat solution;
   cv::solve(normal, right, solution, cv::DECOMP_SVD);
   Surface surface;
-  for (int i = 0; i < terms; ++i) surface.factor[i] = solution.at<double>(i);
+  for (int i = 0; i < ground_terms; ++i) surface.factor[i] = solution.at<double>(i);
   return surface;
 }
 
@@ -102,15 +102,15 @@ Surface fitted(const std::vector<Tile>& tiles) {
   std::vector<double> weight(tiles.size(), 1);
   std::vector<double> off(tiles.size());
   Surface surface;
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < ground_rounds; ++round) {
     surface = fitted(tiles, weight);
     for (std::size_t k = 0; k < tiles.size(); ++k)
       off[k] = std::abs(tiles[k].grey - surface.grey(tiles[k].x, tiles[k].y));
     const double limit = fit_limit * std::max(rounding, 1.4826 * median(off));
     for (std::size_t k = 0; k < tiles.size(); ++k) {
       const double u = std::min(1.0, off[k] / limit);
-      weight[k] =
-          2 * round < rounds ? 1 / std::max(rounding, off[k]) : (1 - u * u) * (1 - u * u) + 1e-9;
+      weight[k] = 2 * round < ground_rounds ? 1 / std::max(rounding, off[k])
+                                            : (1 - u * u) * (1 - u * u) + 1e-9;
     }
   }
   return surface;

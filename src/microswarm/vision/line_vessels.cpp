@@ -15,18 +15,18 @@
 namespace microswarm {
 namespace {
 
-constexpr double working_radius = 4.3;  // [px] of the wide vessels, where the filter works best
-constexpr double first_diameter = 900;  // [px] of the view when the widths are first measured
-constexpr double most_diameter = 2000;  // [px] of the view at work
-constexpr double wide_quantile = 0.8;   // of the depths of vessel pixels ...
-constexpr double wide_factor = 1.35;    // ... times this is the wide radius
-constexpr double first_blur = 2.2;      // [px] by which the first look widens vessels
-constexpr double soft_rim = 0.01;       // of the view's diameter
-constexpr double dark_noise = 15;       // [grey levels] below which absorbance means little
-constexpr double opening = 8;           // wide radii across the disc of the opening
-constexpr double least_disc = 10;       // [px] to which that disc may be shrunk
-constexpr double sure_margin = 0.5;     // spreads above the threshold
-constexpr double small_piece = 0.2;     // of the least piece: too small to be bridged
+constexpr double working_radius = 4.3;      // [px] of the wide vessels, where the filter works best
+constexpr double first_diameter = 900;      // [px] of the view when the widths are first measured
+constexpr double most_diameter = 2000;      // [px] of the view at work
+constexpr double wide_line_quantile = 0.8;  // of the depths of vessel pixels ...
+constexpr double wide_factor = 1.35;        // ... times this is the wide radius
+constexpr double first_blur = 2.2;          // [px] by which the first look widens vessels
+constexpr double soft_rim = 0.01;           // of the view's diameter
+constexpr double dark_noise = 15;           // [grey levels] below which absorbance means little
+constexpr double opening = 8;               // wide radii across the disc of the opening
+constexpr double least_disc = 10;           // [px] to which that disc may be shrunk
+constexpr double sure_margin = 0.5;         // spreads above the threshold
+constexpr double small_piece = 0.2;         // of the least piece: too small to be bridged
 constexpr double reflex = 0.3;  // squares of the wide width: holes that light reflexes leave
 
 /// The picture at working resolution.
@@ -137,7 +137,7 @@ double measured_radius(const cv::Mat& grey, const cv::Mat& view, bool bright,
   const double scale = std::min(1.0, first_diameter / diameter_of(view));
   const Working w = at_scale(grey, view, scale, working_radius, bright);
   const cv::Mat vessels = find_lines(w, working_radius, params).fitted;
-  const double seen = quantile(depth_in(vessels), vessels, wide_quantile);
+  const double seen = quantile(depth_in(vessels), vessels, wide_line_quantile);
   if (seen == 0) return working_radius / scale;
   return wide_factor * std::sqrt(std::max(1.0, seen * seen - first_blur * first_blur)) / scale;
 }

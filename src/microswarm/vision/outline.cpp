@@ -23,24 +23,24 @@ struct Cell {
 
 /// Directions east, north, west, south, as steps in a picture whose rows go down. A cell's side k
 /// runs along direction k, with the cell on its left and direction k − 1 outwards.
-constexpr std::array<Cell, 4> direction{{{1, 0}, {0, -1}, {-1, 0}, {0, 1}}};
+constexpr std::array<Cell, 4> side_directions{{{1, 0}, {0, -1}, {-1, 0}, {0, 1}}};
 
 bool is_set(const Mask& mask, Cell c) {
   return c.column >= 0 && c.row >= 0 && c.column < mask.width && c.row < mask.height &&
          mask.at(c.column, c.row) != 0;
 }
 
-struct Side {
+struct PixelSide {
   Cell cell;
   int k = 0;
 };
 
 /// The side after `side` with set cells on the left. Cells that touch by a corner stay apart.
-Side next(const Mask& mask, Side side) {
-  const Cell ahead = side.cell + direction[side.k];
+PixelSide next(const Mask& mask, PixelSide side) {
+  const Cell ahead = side.cell + side_directions[side.k];
   if (!is_set(mask, ahead)) return {side.cell, (side.k + 1) % 4};
   const int outwards = (side.k + 3) % 4;
-  const Cell beside = ahead + direction[outwards];
+  const Cell beside = ahead + side_directions[outwards];
   if (!is_set(mask, beside)) return {ahead, side.k};
   return {beside, outwards};
 }
@@ -58,7 +58,7 @@ std::pair<std::vector<int>, int> pieces_by_edges(const Mask& mask) {
       while (!open.empty()) {
         const Cell c = open.back();
         open.pop_back();
-        for (const Cell d : direction) {
+        for (const Cell d : side_directions) {
           const Cell n = c + d;
           if (!is_set(mask, n) || piece[mask.index(n.column, n.row)] >= 0) continue;
           piece[mask.index(n.column, n.row)] = count;
@@ -76,13 +76,14 @@ class Tracer {
   Tracer(const Mask& mask, double cell, Vec2 lo)
       : mask_(mask), cell_(cell), lo_(lo), traced_(mask.cells.size(), 0) {}
 
-  bool is_start(Side side) const {
-    return !is_set(mask_, side.cell + direction[(side.k + 3) % 4]) && !(traced(side) & bit(side));
+  bool is_start(PixelSide side) const {
+    return !is_set(mask_, side.cell + side_directions[(side.k + 3) % 4]) &&
+           !(traced(side) & bit(side));
   }
 
-  std::vector<Vec2> trace(Side start) {
+  std::vector<Vec2> trace(PixelSide start) {
     std::vector<Vec2> ring;
-    Side side = start;
+    PixelSide side = start;
     do {
       traced_[mask_.index(side.cell.column, side.cell.row)] |= bit(side);
       ring.push_back(middle(side));
@@ -92,12 +93,12 @@ class Tracer {
   }
 
  private:
-  static std::uint8_t bit(Side side) { return static_cast<std::uint8_t>(1 << side.k); }
-  std::uint8_t traced(Side side) const {
+  static std::uint8_t bit(PixelSide side) { return static_cast<std::uint8_t>(1 << side.k); }
+  std::uint8_t traced(PixelSide side) const {
     return traced_[mask_.index(side.cell.column, side.cell.row)];
   }
-  Vec2 middle(Side side) const {
-    const Cell out = direction[(side.k + 3) % 4];
+  Vec2 middle(PixelSide side) const {
+    const Cell out = side_directions[(side.k + 3) % 4];
     return lo_ + cell_ * Vec2{side.cell.column + 0.5 + 0.5 * out.column,
                               mask_.height - side.cell.row - 0.5 - 0.5 * out.row};
   }
@@ -128,7 +129,7 @@ std::vector<Polygon> outline(const Mask& mask, double cell, double tolerance, Ve
     for (int column = 0; column < mask.width; ++column) {
       if (!mask.at(column, row)) continue;
       for (int k = 0; k < 4; ++k) {
-        const Side side{{column, row}, k};
+        const PixelSide side{{column, row}, k};
         if (!tracer.is_start(side)) continue;
         rings.push_back(tracer.trace(side));
         ring_piece.push_back(piece[mask.index(column, row)]);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int bad_pixels = 5;   // [px] window of the medians
 constexpr double speck = 0.05;  // squares of the wide width
-constexpr double wide_quantile = 0.8;
+constexpr double wide_region_quantile = 0.8;
 
 std::array<double, 256> histogram(const cv::Mat& grey, const cv::Mat& view) {
   std::array<double, 256> counts{};
@@ -34,8 +34,9 @@ double wide_width_of(const cv::Mat& set) {
     for (int x = 0; x < set.cols; ++x)
       if (set.at<std::uint8_t>(y, x)) depths.push_back(depth.at<float>(y, x));
   if (depths.empty()) return 0;
-  const auto nth = depths.begin() + static_cast<std::ptrdiff_t>(
-                                        wide_quantile * static_cast<double>(depths.size() - 1));
+  const auto nth =
+      depths.begin() +
+      static_cast<std::ptrdiff_t>(wide_region_quantile * static_cast<double>(depths.size() - 1));
   std::nth_element(depths.begin(), nth, depths.end());
   return 2 * *nth;
 }

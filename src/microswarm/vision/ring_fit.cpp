@@ -36,7 +36,7 @@ std::optional<Ring> circle_through(const std::vector<Vec2>& points) {
 
 namespace {
 
-constexpr int most_rounds = 10;
+constexpr int most_fit_rounds = 10;
 constexpr double still = 1e-3;    // [px] a centre that moves less has arrived
 constexpr double ray_step = 0.5;  // [px]
 constexpr double least_agreeing = 1.0 / 3;
@@ -107,7 +107,7 @@ std::optional<Ring> fit_ring(const Image& grey, Vec2 start, double radius, bool 
   const int rays = std::max(12, static_cast<int>(2 * pi * radius));
   const double reach = 0.5 * radius;
   Ring ring{start, radius};
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < most_fit_rounds; ++round) {
     const auto points = ring_points(grey, ring, reach, dark ? 1 : -1, rays);
     const auto next = robust_circle(points);
     if (!next || static_cast<double>(points.size()) < least_agreeing * rays ||

@@ -16,10 +16,10 @@
 namespace microswarm {
 namespace {
 
-constexpr int sigma = 2;          // vertices
-constexpr int reach = 3 * sigma;  // vertices on either side that count
-constexpr std::size_t least_smoothed = 2 * reach + 4;
-constexpr int most_rounds = 20;
+constexpr int ring_sigma = 2;               // vertices
+constexpr int ring_reach = 3 * ring_sigma;  // vertices on either side that count
+constexpr std::size_t least_smoothed = 2 * ring_reach + 4;
+constexpr int most_untangling_rounds = 20;
 constexpr double cells_per_bucket = 4;
 
 /// All rings as one list of vertices that are linked both ways, with the edges in square buckets.
@@ -121,10 +121,10 @@ std::vector<char> touching(const Rings& rings, double cell) {
   return found;
 }
 
-std::array<double, 2 * reach + 1> gaussian() {
-  std::array<double, 2 * reach + 1> weights{};
-  for (int k = -reach; k <= reach; ++k)
-    weights[k + reach] = std::exp(-0.5 * k * k / (sigma * sigma));
+std::array<double, 2 * ring_reach + 1> ring_weights() {
+  std::array<double, 2 * ring_reach + 1> weights{};
+  for (int k = -ring_reach; k <= ring_reach; ++k)
+    weights[k + ring_reach] = std::exp(-0.5 * k * k / (ring_sigma * ring_sigma));
   const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
   for (double& w : weights) w /= sum;
   return weights;
@@ -133,12 +133,12 @@ std::array<double, 2 * reach + 1> gaussian() {
 std::vector<Vec2> smoothed(const std::vector<Vec2>& ring, double limit) {
   const std::size_t n = ring.size();
   if (n < least_smoothed) return ring;
-  const auto weights = gaussian();
+  const auto weights = ring_weights();
   std::vector<Vec2> result(n);
   for (std::size_t i = 0; i < n; ++i) {
     Vec2 mean;
     for (std::size_t k = 0; k < weights.size(); ++k)
-      mean += weights[k] * ring[(i + n + k - reach) % n];
+      mean += weights[k] * ring[(i + n + k - ring_reach) % n];
     const Vec2 move = mean - ring[i];
     const double length = norm(move);
     result[i] = ring[i] + (length > limit ? limit / length : 1.0) * move;
@@ -245,7 +245,7 @@ void smooth_rings(Rings& rings, double cell, double limit) {
   if (limit <= 0) return;
   const Rings before = rings;
   for (auto& ring : rings) ring = smoothed(ring, limit);
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < most_untangling_rounds; ++round) {
     const auto found = touching(rings, cell);
     if (std::find(found.begin(), found.end(), 1) == found.end()) return;
     undo(rings, before, found);

@@ -8,23 +8,16 @@
 
 #include "microswarm/vision/mat.hpp"
 #include "microswarm/vision/overlay.hpp"
+#include "microswarm/vision/strokes.hpp"
 
 namespace microswarm {
 namespace {
 
-constexpr int fraction_bits = 4;  // OpenCV draws in sixteenths of a pixel
-
 // Of Okabe & Ito's colours, which the colour-blind can tell apart.
-const cv::Scalar white(255, 255, 255);
-const cv::Scalar green(0, 158, 115);
+const cv::Scalar swarm_green(0, 158, 115);
 const cv::Scalar yellow(240, 228, 66);
 const cv::Scalar orange(230, 159, 0);
 constexpr std::array<std::uint8_t, 3> blue{86, 180, 233};
-
-cv::Point fine(Vec2 p) {
-  return {static_cast<int>(std::lround(p.x * (1 << fraction_bits))),
-          static_cast<int>(std::lround(p.y * (1 << fraction_bits)))};
-}
 
 void draw_ring(cv::Mat& picture, const std::vector<Vec2>& ring, const cv::Scalar& colour,
                int thickness) {
@@ -68,7 +61,7 @@ Image draw_scene(const Image& picture, const SeenScene& scene, const Mask* walls
       draw_ring(canvas, o.hull_px, orange, 2);
   }
   if (scene.swarm.swarm)
-    draw_blob(canvas, *scene.swarm.swarm, green);
+    draw_blob(canvas, *scene.swarm.swarm, swarm_green);
   else
     for (const Blob& blob : scene.swarm.candidates) draw_blob(canvas, blob, yellow);
   return shown;

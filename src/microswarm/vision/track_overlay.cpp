@@ -13,6 +13,7 @@
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
 #include "microswarm/vision/mat.hpp"
+#include "microswarm/vision/strokes.hpp"
 
 namespace microswarm {
 namespace {
@@ -20,9 +21,7 @@ namespace {
 constexpr std::size_t trail_length = 20;  // frames
 constexpr int forgotten_after = 20;       // frames unseen
 constexpr int most_numbered = 100;        // robots; of more, no numbers are shown
-constexpr int fraction_bits = 4;          // OpenCV draws in sixteenths of a pixel
 
-const cv::Scalar white(255, 255, 255);
 const cv::Scalar black(0, 0, 0);
 
 /// One of six colours that the colour-blind can tell apart (after Okabe & Ito), by number.
@@ -30,11 +29,6 @@ cv::Scalar colour_of(int id) {
   static const std::array<cv::Scalar, 6> colours{
       {{230, 159, 0}, {86, 180, 233}, {0, 158, 115}, {240, 228, 66}, {0, 114, 178}, {213, 94, 0}}};
   return colours[static_cast<std::size_t>(id) % colours.size()];
-}
-
-cv::Point fine(Vec2 p) {
-  return {static_cast<int>(std::lround(p.x * (1 << fraction_bits))),
-          static_cast<int>(std::lround(p.y * (1 << fraction_bits)))};
 }
 
 void write(cv::Mat& picture, const std::string& text, cv::Point at, double size) {

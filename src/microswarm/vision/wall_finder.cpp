@@ -16,7 +16,7 @@ namespace microswarm {
 namespace {
 
 constexpr int tile = 16;            // [px] a side, in which the slope of the light is told
-constexpr int rounds = 15;          // of re-weighting
+constexpr int slope_rounds = 15;    // of re-weighting
 constexpr double least_off = 1e-4;  // [1/px] a slope that is off by less fits
 constexpr double two_sorts = 0.6;   // separability of greys that are walls and channels
 constexpr int middle_grey = 100;    // of the picture in even light
@@ -61,7 +61,7 @@ struct Light {
 
   explicit Light(const std::vector<Slope>& slopes) {
     std::vector<double> weight(slopes.size(), 1);
-    for (int round = 0; round < rounds; ++round) {
+    for (int round = 0; round < slope_rounds; ++round) {
       cv::Mat normal = cv::Mat::zeros(5, 5, CV_64F);
       cv::Mat right = cv::Mat::zeros(5, 1, CV_64F);
       for (std::size_t k = 0; k < slopes.size(); ++k)

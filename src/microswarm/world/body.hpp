@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <variant>
+#include <vector>
 
 #include "microswarm/geometry/shapes.hpp"
 
@@ -15,5 +16,11 @@ struct Body {
   double deformation_speed = 0;  ///< bound on how fast its outline moves besides [µm/s]
   std::uint32_t obstacle = 0;    ///< which wall piece or obstacle it is (two leaves share one)
 };
+
+/// The outer ring of a polygon; null for a disc.
+inline const std::vector<Vec2>* outline_of(const Body& body) {
+  const auto* polygon = std::get_if<Polygon>(&body.shape);
+  return polygon ? &polygon->outer : nullptr;
+}
 
 }  // namespace microswarm

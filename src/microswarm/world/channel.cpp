@@ -130,7 +130,7 @@ Box block_of(const DeformingChannel& channel) {
   return {channel.block_centre - half, channel.block_centre + half};
 }
 
-std::string text(Vec2 v) {
+std::string rounded_text(Vec2 v) {
   std::string out = "(";
   return out.append(number_text(std::round(v.x))) + ", " + number_text(std::round(v.y)) + ")";
 }
@@ -197,7 +197,7 @@ void check(const DeformingChannel& channel, const Places& where) {
   auto widest = [&](double s) { return half_width_at(channel, s, length) + channel.amplitude; };
   for (std::size_t i = 1; i < line.size(); ++i) {
     if (!folds(line[i - 1], line[i], widest(line[i - 1].s), widest(line[i].s))) continue;
-    throw where.error("centre_line_um", "the bend at " + text(line[i].position) +
+    throw where.error("centre_line_um", "the bend at " + rounded_text(line[i].position) +
                                             " is too tight for a half width of " +
                                             number_text(std::round(widest(line[i].s))) + " µm");
   }
@@ -206,7 +206,7 @@ void check(const DeformingChannel& channel, const Places& where) {
   const Box block = block_of(channel);
   for (const Vec2 v : ring) {
     if (v.x > block.lo.x && v.x < block.hi.x && v.y > block.lo.y && v.y < block.hi.y) continue;
-    throw where.error("centre_line_um", "the channel leaves its block at " + text(v));
+    throw where.error("centre_line_um", "the channel leaves its block at " + rounded_text(v));
   }
 }
 

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "microswarm/core/infinity.hpp"
 #include "microswarm/world/field_painter.hpp"
 
 namespace microswarm {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double cells_by_default = 260e3;
 constexpr double most_cells = 4 * 1024 * 1024;
 

@@ -5,13 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "microswarm/core/infinity.hpp"
+
 namespace microswarm {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t few_discs = 16;
-
-Box box_of(Disc d) { return Box{d.centre, d.centre}.grown(d.radius); }
 
 Box box_of(Segment s) {
   Box box;
@@ -45,7 +44,7 @@ void DiscSet::fill_buckets() {
   box_ = {};
   double diameters = 0;
   for (const Disc& d : discs_) {
-    const Box b = box_of(d);
+    const Box b = bounding_box(d);
     box_.include(b.lo);
     box_.include(b.hi);
     diameters += 2 * d.radius;
@@ -59,7 +58,7 @@ void DiscSet::fill_buckets() {
   rows_ = static_cast<int>(box_.height() * per_cell_) + 1;
   first_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
   auto for_each_cell = [&](const Disc& d, auto&& visit) {
-    const Box b = box_of(d);
+    const Box b = bounding_box(d);
     for (int row = row_of(b.lo.y); row <= row_of(b.hi.y); ++row) {
       for (int column = column_of(b.lo.x); column <= column_of(b.hi.x); ++column) {
         visit(first_[static_cast<std::size_t>(row) * columns_ + column]);

@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "microswarm/core/infinity.hpp"
+
 namespace microswarm {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double no_disc = -1;
 /// Blocks with this many candidates or cells are not divided further.
 constexpr std::size_t few_candidates = 1;

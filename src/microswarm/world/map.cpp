@@ -3,34 +3,32 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
 #include "microswarm/core/error.hpp"
+#include "microswarm/core/infinity.hpp"
 #include "microswarm/core/text.hpp"
 #include "microswarm/world/pieces.hpp"
 
 namespace microswarm {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-std::string text(Vec2 v) { return "(" + number_text(v.x) + ", " + number_text(v.y) + ")"; }
+std::string place_text(Vec2 v) { return "(" + number_text(v.x) + ", " + number_text(v.y) + ")"; }
 
 void check(const Box& bounds) {
   const bool finite = is_finite(bounds.lo) && is_finite(bounds.hi) &&
                       std::isfinite(bounds.width()) && std::isfinite(bounds.height());
   if (finite && bounds.width() > 0 && bounds.height() > 0) return;
-  throw InputError("map: bounds " + text(bounds.lo) + " to " + text(bounds.hi) + " µm are " +
-                   (finite ? "empty" : "not finite"));
+  throw InputError("map: bounds " + place_text(bounds.lo) + " to " + place_text(bounds.hi) +
+                   " µm are " + (finite ? "empty" : "not finite"));
 }
 
 void check(const std::vector<Polygon>& walls) {
   for (std::size_t i = 0; i < walls.size(); ++i) {
     for_each_edge(walls[i], [&](Vec2, Vec2 v) {
       if (is_finite(v)) return;
-      throw InputError("map: polygon " + std::to_string(i + 1) + ": vertex " + text(v) +
+      throw InputError("map: polygon " + std::to_string(i + 1) + ": vertex " + place_text(v) +
                        " is not finite");
     });
   }
@@ -40,7 +38,7 @@ void check(const std::vector<Disc>& discs) {
   for (std::size_t i = 0; i < discs.size(); ++i) {
     const Disc& d = discs[i];
     if (is_finite(d.centre) && std::isfinite(d.radius) && d.radius >= 0) continue;
-    throw InputError("map: disc " + std::to_string(i + 1) + ": centre " + text(d.centre) +
+    throw InputError("map: disc " + std::to_string(i + 1) + ": centre " + place_text(d.centre) +
                      ", radius " + number_text(d.radius) + " µm: must be finite, radius >= 0");
   }
 }

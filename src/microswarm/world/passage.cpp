@@ -15,7 +15,6 @@
 namespace microswarm {
 namespace {
 
-constexpr double nodes_by_default = 100e3;
 constexpr int corners_of_disc = 180;
 constexpr double room_ratio = 1.25;
 constexpr double room_share = 1e-3;

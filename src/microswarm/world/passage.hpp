@@ -8,6 +8,9 @@
 
 namespace microswarm {
 
+/// Nodes of a lattice, about, where no resolution is given.
+inline constexpr double nodes_by_default = 100e3;
+
 /// A narrow place between two rooms.
 struct Passage {
   Vec2 place;

@@ -7,12 +7,11 @@
 #include <optional>
 #include <utility>
 
+#include "microswarm/core/infinity.hpp"
 #include "microswarm/core/text.hpp"
 
 namespace microswarm {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// As few digits as tell it from `r`.
 std::string length_text(double d, double r) {

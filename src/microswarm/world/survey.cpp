@@ -29,8 +29,6 @@ struct Scratch {
   std::pmr::monotonic_buffer_resource memory{bytes.data(), bytes.size()};
 };
 
-Box box_of(Disc d) { return Box{d.centre, d.centre}.grown(d.radius); }
-
 const Disc* as_disc(const Body& body) { return std::get_if<Disc>(&body.shape); }
 
 void note(std::uint32_t body, double distance, MetBodies& met) {
@@ -44,7 +42,7 @@ void note(std::uint32_t body, double distance, MetBodies& met) {
 
 void find_met(const BodySet& set, Disc circle, MetBodies& met) {
   const DiscSet& discs = set.discs();
-  const Box box = box_of(circle);
+  const Box box = bounding_box(circle);
   discs.for_each_in(box, [&](std::size_t i) {
     const double d = distance(circle.centre, discs.disc(i));
     if (d <= circle.radius) met.push_back({discs.body_of(i), d});
@@ -103,7 +101,7 @@ class Collection {
       } else if (!is_added) {
         is_added = true;
         set.polygons().for_each_edge_in(
-            box_of(circle_), [&](std::uint32_t, const Segment& edge) { add_edge(edge); });
+            bounding_box(circle_), [&](std::uint32_t, const Segment& edge) { add_edge(edge); });
         add_polygon(set.polygons().winding(circle_.centre));
       }
     }

@@ -8,7 +8,6 @@
 namespace microswarm {
 namespace {
 
-constexpr double nodes_by_default = 100e3;
 constexpr std::uint32_t none = ~0u;
 
 /// Ways that wait to be carried on, the widest first; of equals the shortest.

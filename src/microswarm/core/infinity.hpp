@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <limits>
+
+namespace microswarm {
+
+/// Farther, later and dearer than anything.
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
+}  // namespace microswarm
