@@ -24,6 +24,8 @@ class RobotEye : public Eye {
   RobotEye(const EyeParams& params, const RobotSwarmParams& robots, const Map& map,
            std::span<const Vec2> starts, const CameraView& view);
   ~RobotEye() override;
+  RobotEye(const RobotEye&) = delete;
+  RobotEye& operator=(const RobotEye&) = delete;
 
   const Sight& see(const Image& picture, double t) override;
   void commanded(const Command& command, double t) override;
