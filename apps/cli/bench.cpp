@@ -30,7 +30,7 @@ int measure(const std::string& group, const std::string& csv, bool quick, bool j
   const std::vector<BenchRow> rows = bench_rows(group, quick, context.stop);
   if (!csv.empty() && !context.stop.requested())
     write_file_atomically(csv, "# " + bench::machine_line() + "\n" + rows_csv(rows));
-  if (quick) fmt::print(stderr, "quick: fewer repetitions\n");
+  if (quick) note("quick: fewer repetitions\n");
   put(json ? rows_json(rows) : bench::machine_line() + "\n" + rows_table(rows) + aims_met(rows));
   if (context.stop.requested()) return not_reached;
   return all_ok(rows) ? ok : not_reached;

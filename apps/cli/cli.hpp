@@ -68,6 +68,14 @@ void print(fmt::format_string<Values...> format, Values&&... values) {
   put(fmt::format(format, std::forward<Values>(values)...));
 }
 
+/// Says something on stderr, as far as anybody can read it: a closed terminal is no error.
+void say(std::string_view text) noexcept;
+
+template <class... Values>
+void note(fmt::format_string<Values...> format, Values&&... values) {
+  say(fmt::format(format, std::forward<Values>(values)...));
+}
+
 /// Progress on stderr, only where that is a terminal: "label [#####.....] 50 % 3 s left note".
 class ProgressBar {
  public:
@@ -76,7 +84,7 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
   /// `share` of the work is done, in [0, 1].
-  void update(double share, const std::string& note = {});
+  void update(double share, const std::string& doing = {});
 
  private:
   std::string label_;

@@ -109,7 +109,10 @@ Command Command::add_group(const char* name, const char* doc) {
 
 template <class T>
 Option Command::add_option(const char* name, T& value, const char* doc) {
-  return Option(app_->add_option(name, value, doc));
+  CLI::Option* option = app_->add_option(name, value, doc);
+  if constexpr (std::is_same_v<T, std::string>)  // as "$NOT_SET" gives
+    option->check([](const std::string& text) { return text.empty() ? "is empty" : ""; });
+  return Option(option);
 }
 template Option Command::add_option(const char*, std::string&, const char*);
 template Option Command::add_option(const char*, std::vector<std::string>&, const char*);

@@ -33,24 +33,28 @@ void flush_output() {
   if (std::fflush(stdout) != 0) output_failed(errno);
 }
 
+void say(std::string_view text) noexcept {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
 ProgressBar::ProgressBar(std::string label)
     : label_(std::move(label)), shown_(isatty(STDERR_FILENO) == 1), began_(Stop::Clock::now()) {}
 
 ProgressBar::~ProgressBar() {
-  if (shown_ && last_ >= 0) fmt::print(stderr, "\r\033[K");
+  if (shown_ && last_ >= 0) note("\r\033[K");
 }
 
-void ProgressBar::update(double share, const std::string& note) {
+void ProgressBar::update(double share, const std::string& doing) {
   const int percent = static_cast<int>(100 * std::clamp(share, 0.0, 1.0));
-  if (!shown_ || (percent == last_ && note == note_)) return;
+  if (!shown_ || (percent == last_ && doing == note_)) return;
   last_ = percent;
-  note_ = note;
+  note_ = doing;
   const double spent = std::chrono::duration<double>(Stop::Clock::now() - began_).count();
   const double left = share > 0 ? spent * (1 - share) / share : 0;
   const auto done = static_cast<std::size_t>(percent / 4);
-  fmt::print(stderr, "\r\033[K{} [{}{}] {:3} % {:.0f} s left {}", label_, std::string(done, '#'),
-             std::string(25 - done, '.'), percent, left, note);
-  std::fflush(stderr);
+  note("\r\033[K{} [{}{}] {:3} % {:.0f} s left {}", label_, std::string(done, '#'),
+       std::string(25 - done, '.'), percent, left, doing);
 }
 
 void keep_input(const std::string& out, const std::string& in) {

@@ -45,9 +45,8 @@ double width_of(const GatherOptions& o, const Map& map) {
   const double measured = channel_width(map, rng);
   if (!o.channel_width) return measured;
   if (*o.channel_width > far * measured || far * *o.channel_width < measured)
-    fmt::print(stderr,
-               "note: --channel-width is {:.4g} µm, the map's channels are about {:.4g} µm\n",
-               *o.channel_width, measured);
+    note("note: --channel-width is {:.4g} µm, the map's channels are about {:.4g} µm\n",
+         *o.channel_width, measured);
   return *o.channel_width;
 }
 

@@ -86,7 +86,7 @@ int learn_command(const LearnOptions& o, const Context& context) {
         context.stop);
   }
   if (!trained.finished) {
-    fmt::print(stderr, "interrupted: nothing is written\n");
+    note("interrupted: nothing is written\n");
     return not_reached;
   }
   const std::string model = follower_model_text(trained.model);
@@ -99,13 +99,13 @@ int learn_command(const LearnOptions& o, const Context& context) {
                                      .progress = {}};
   const auto outcomes = compare_with_progress(comparison, context.stop);
   if (context.stop.requested()) {
-    fmt::print(stderr, "interrupted: follower.yaml is written, and not compared\n");
+    note("interrupted: follower.yaml is written, and not compared\n");
     return not_reached;
   }
   const auto rows = follower_rows(outcomes);
   write_follower_figures(outcomes, comparison, folder);
   write_file_atomically(folder / "follower.md", card(trained, model, o, rows));
-  if (o.quick) fmt::print(stderr, "quick: less training, fewer paths\n");
+  if (o.quick) note("quick: less training, fewer paths\n");
   put(o.json ? rows_json(rows) : rows_table(rows) + aims_met(rows));
   return all_ok(rows) ? ok : not_reached;
 }

@@ -39,7 +39,7 @@ int reproduce_command(const std::string& key, ReproduceOptions options, bool jso
   const Reproduce reproduce = reproduce_of(paper);
   const OutFolder hold(options.out);
   const std::vector<ReproduceRow> rows = reproduce(figure, options, context.stop);
-  if (options.quick) fmt::print(stderr, "quick: fewer seeds\n");
+  if (options.quick) note("quick: fewer seeds\n");
   put(json ? rows_json(rows) : rows_table(rows) + aims_met(rows));
   if (context.stop.requested()) return not_reached;
   return all_ok(rows) ? ok : not_reached;

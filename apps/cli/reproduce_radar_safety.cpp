@@ -59,7 +59,7 @@ std::optional<Course> recorded(std::string name, double slower, const ReproduceO
       given ? fs::path(given) : options.scenarios / ".." / ".." / "shared" / "data";
   const fs::path file = scenes::street_file(data);
   if (!fs::exists(file)) {
-    fmt::print(stderr, "{}: left out, {} is absent\n", name, file.lexically_normal().string());
+    note("{}: left out, {} is absent\n", name, file.lexically_normal().string());
     return std::nullopt;
   }
   const auto street = std::make_shared<const scenes::Street>(scenes::read_street(file, slower));

@@ -33,6 +33,7 @@ Eigen::Vector3d triple_of(const std::string& text) {
 
 Eigen::VectorXd currents_of(const std::string& text, const CoilSystem& system) {
   const std::vector<double> given = numbers(text);
+  if (given.empty()) throw InputError("--currents: must be A,A,…, not " + quote(text));
   if (given.size() != system.size())
     throw InputError(fmt::format("--currents has {} numbers, the system has {} coils: {}",
                                  given.size(), system.size(),

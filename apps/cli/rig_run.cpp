@@ -76,13 +76,16 @@ class CommandLog {
     for (const std::string& coil : system.coil_names()) head += ",i_" + coil + "_a";
     write(head + ",scale,status,late_s,round_trip_s\n");
   }
-  void finish() {
+  /// Brings the log to its place; says what keeps it from there.
+  void finish() noexcept {
     if (file_.empty()) return;
     out_.close();
-    if (!out_) throw InputError(part_.string() + ": cannot write");
-    std::filesystem::rename(part_, file_);
+    std::error_code error;
+    if (out_) std::filesystem::rename(part_, file_, error);
+    if (!out_ || error)
+      note("microswarm: {}: cannot write; {} is what there is\n", file_.string(), part_.string());
   }
-  void note(const CoilMoment& m) {
+  void add(const CoilMoment& m) {
     if (file_.empty()) return;
     if (began_ == 0) began_ = m.t;
     std::string row = fmt::format("{:.4f},{:.3f},{:.3f},{:.5f},{:.5f},{:.5f}", m.t - began_,
@@ -133,6 +136,8 @@ nlohmann::ordered_json timing_json(const RigTiming& t) {
           {"missed_deadlines", t.missed_deadlines},
           {"frames_read", t.frames},
           {"frames_dropped", t.dropped_frames},
+          {"fields_weakened", t.limited},
+          {"least_field_share", t.least_scale},
           {"coils_resumed", t.resumed},
           {"currents_weakened", t.scaled}};
 }
@@ -141,10 +146,17 @@ nlohmann::ordered_json timing_json(const RigTiming& t) {
 void note_pace(const RigTiming& t, double seconds, const RigParams& rig) {
   const double rate = static_cast<double>(t.round_trip.count()) / std::max(seconds, 1e-3);
   if (seconds < 1 || rate >= 0.8 * rig.drive_rate) return;
-  fmt::print(stderr,
-             "note: currents were sent {:.0f} times a second, drive_rate_hz is {:.6g}; the field "
-             "turns {:.6g} times a second\n",
-             rate, rig.drive_rate, rig.field.frequency);
+  note(
+      "note: currents were sent {:.0f} times a second, drive_rate_hz is {:.6g}; the field "
+      "turns {:.6g} times a second\n",
+      rate, rig.drive_rate, rig.field.frequency);
+}
+
+/// Where the coils' limits weakened the field, on stderr.
+void note_limits(const RigTiming& t) {
+  if (t.limited > 0)
+    note("note: the coils' limits weakened the field in {} of {} sendings, to {:.0f} % at least\n",
+         t.limited, t.round_trip.count(), 100 * t.least_scale);
 }
 
 struct RigRunOptions {
@@ -165,11 +177,11 @@ int rig_run(const RigRunOptions& o, const Context& context) {
   Devices devices = open_devices(on, o.dry_run);
   CommandLog log(o.out, on.rig.system);
   LiveRig plant(scenario, on.world.map, on.rig, std::move(devices.camera), devices.scale,
-                devices.driver(), [&](const CoilMoment& m) { log.note(m); });
+                devices.driver(), [&](const CoilMoment& m) { log.add(m); });
   const auto navigator =
       make_navigator(scenario.navigator, task_of(scenario), Rng(scenario.seed, Purpose::planner));
   const EmergencyKey key([&] { plant.stop("the emergency key was pressed"); }, context.stop);
-  if (key.is_there()) fmt::print(stderr, "space, e or Esc: coils to zero at once\n");
+  if (key.is_there()) note("space, e or Esc: coils to zero at once\n");
   const Stop stop = o.seconds ? context.within(*o.seconds) : context.stop;
   double seconds = 0;
   const RunOutput output{o.out, false, o.json, name_of(on.rig),
@@ -179,13 +191,14 @@ int rig_run(const RigRunOptions& o, const Context& context) {
                               RunResult result = run(scenario, plant, *navigator, listeners, until);
                               plant.stop("the run has ended");
                               seconds = result.metrics.time;
+                              log.finish();
+                              if (!plant.zero_is_confirmed())
+                                note(
+                                    "note: the coil driver did not confirm that the coils are at "
+                                    "zero; its own watchdog must do it\n");
+                              note_limits(plant.timing());
                               return result;
                             });
-  log.finish();
-  if (!plant.zero_is_confirmed())
-    fmt::print(stderr,
-               "note: the coil driver did not confirm that the coils are at zero; its own "
-               "watchdog must do it\n");
   note_pace(plant.timing(), seconds, on.rig.params);
   if (!o.json) tell(plant.timing());
   return code;

@@ -3,9 +3,11 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "microswarm/config/write.hpp"
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/error.hpp"
 #include "microswarm/experiment/progress.hpp"
 #include "microswarm/experiment/record.hpp"
 #include "microswarm/navigation/aggregation_check.hpp"
@@ -84,7 +86,7 @@ std::string summary(const RunResult& result) {
   const TimeSummary p = summarise(result.timing.planning);
   std::string text = fmt::format("{} after {:.1f} s", ending(result), m.time);
   if (result.status != Status::solved)
-    text += fmt::format(", {:.0f} µm from the goal", m.goal_distance);
+    text += fmt::format(", {} from the goal", um(m.goal_distance));
   text += fmt::format("\n  way       {:.0f} µm long, turned {:.0f}° in all, held for {:.1f} s\n",
                       m.length, degrees(m.turning), m.hold_time);
   text += fmt::format("  nearest   wall {}, moving obstacle {} (from the swarm's centre)\n",
@@ -100,10 +102,10 @@ void note_oddities(const Scenario& scenario) {
   const SwarmLimits swarm = limits_of(scenario.swarm);
   const double way = swarm.max_speed * scenario.tick;
   if (way <= 2 * swarm.radius) return;
-  fmt::print(stderr,
-             "note: tick_s is {:.4g}: between two commands the swarm drives up to {:.4g} µm, more "
-             "than it is wide, {:.4g} µm\n",
-             scenario.tick, way, 2 * swarm.radius);
+  note(
+      "note: tick_s is {:.4g}: between two commands the swarm drives up to {:.4g} µm, more "
+      "than it is wide, {:.4g} µm\n",
+      scenario.tick, way, 2 * swarm.radius);
 }
 
 /// What [gather] assumes of the ground, on stderr where it does not hold.
@@ -112,15 +114,20 @@ void note_assumptions(const Scenario& scenario, const Map& map) {
   if (!params) return;
   Rng rng(scenario.seed, Purpose::scene);
   const double width = published_channel_width * scale_of(*params, map, rng);
-  for (const std::string& note : unmet_assumptions(map, *scenario.goal, width))
-    fmt::print(stderr, "note: {}\n", note);
+  for (const std::string& unmet : unmet_assumptions(map, *scenario.goal, width))
+    note("note: {}\n", unmet);
+}
+
+void keep(const Record& record, const RunOutput& o, const ReportOptions& report) {
+  const std::filesystem::path folder = o.out;
+  write_record(record, folder / "run.h5");
+  if (!o.no_report) write_run_report(record, folder, report);
 }
 
 }  // namespace
 
 int run_once(const Scene& scene, const World& world, const RunOutput& o,
              const ReportOptions& report, const Stop& stop, const Runner& runner) {
-  const std::filesystem::path folder = o.out;
   note_oddities(scene.scenario);
   note_assumptions(scene.scenario, *world.map);
   Recorder recorder(scene, 0, o.rig);
@@ -135,9 +142,12 @@ int run_once(const Scene& scene, const World& world, const RunOutput& o,
   }
   const Record& record = recorder.record();
   const std::string hash = record.hash();
-  if (!o.out.empty()) {
-    write_record(record, folder / "run.h5");
-    if (!o.no_report) write_run_report(record, folder, report);
+  // A result that cannot be kept is told all the same, and the other way round.
+  std::optional<InputError> lost;
+  try {
+    if (!o.out.empty()) keep(record, o, report);
+  } catch (const InputError& e) {
+    lost = e;
   }
   if (o.json) {
     nlohmann::ordered_json json = to_json(result, hash);
@@ -146,9 +156,12 @@ int run_once(const Scene& scene, const World& world, const RunOutput& o,
   } else {
     const auto& robots = scene.scenario.robots;
     print("{}  record    {}\n", robots ? robots_summary(result, *robots) : summary(result), hash);
-    if (!o.out.empty())
-      print("wrote {}\n", (folder / (o.no_report ? "run.h5" : "index.html")).string());
+    if (!o.out.empty() && !lost)
+      print("wrote {}\n",
+            (std::filesystem::path(o.out) / (o.no_report ? "run.h5" : "index.html")).string());
   }
+  if (lost && result.status != Status::fault) throw *lost;
+  if (lost) note("microswarm: {}\n", lost->what());  // the fault is the worse
   if (result.status == Status::fault) return hardware;
   return result.status == Status::solved ? ok : not_reached;
 }

@@ -40,15 +40,14 @@ class Meter {
     shown_ = now;
     const double seconds = std::chrono::duration<double>(now - began_).count();
     const double rate = static_cast<double>(p.added) / std::max(seconds, 1e-3);
-    const std::string note = fmt::format("{} of {} trials, {:.3g}/s", p.before + p.added,
+    const std::string done = fmt::format("{} of {} trials, {:.3g}/s", p.before + p.added,
                                          p.before + p.added + p.left, rate);
     bar_.update(static_cast<double>(p.added) /
                     static_cast<double>(std::max<std::size_t>(1, p.added + p.left)),
-                note);
+                done);
     if (!lines_ || now - written_ < std::chrono::seconds(30)) return;
     written_ = now;
-    fmt::print(stderr, "sweep: {}, {:.0f} s left\n", note,
-               static_cast<double>(p.left) / std::max(rate, 1e-6));
+    note("sweep: {}, {:.0f} s left\n", done, static_cast<double>(p.left) / std::max(rate, 1e-6));
   }
 
  private:

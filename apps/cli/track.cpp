@@ -58,8 +58,7 @@ int track(const TrackOptions& o, const Context& context) {
   const std::unique_ptr<FrameSource> source =
       open_frames(o.video, result.settings.rate, result.settings.depth);
   if (!source->rate())
-    fmt::print(stderr, "note: {} tells no times, one picture a second is assumed: give --rate\n",
-               o.video);
+    note("note: {} tells no times, one picture a second is assumed: give --rate\n", o.video);
   const double rate = source->rate().value_or(1);
   result.frame_time = 1 / rate;
   const OutFolder hold(o.out);

@@ -52,6 +52,8 @@ std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error) {
   if (!commands.empty() && app.get_subcommands().empty())
     return fmt::format("a command is missing, there are: {}", fmt::join(commands, ", "));
   std::string what = one_line(error.what());
+  if (const auto at = what.find(": At Most 1 required but received "); at != what.npos)
+    return what.substr(0, at) + " is given more than once";
   if (error.get_name() == "ArgumentMismatch" && what.ends_with(" missing")) {
     what.resize(what.size() - std::string_view(" missing").size());
     const std::string count = ": 1 required ";  // "--set: 1 required KEY=VALUE missing"

@@ -37,7 +37,11 @@ TEST_F(Output, FullDisk) {
 TEST_F(Output, DiskFullBeforeARecordIsWhole) {
   at.largest_file = 4096;
   fs::create_directory(at.folder / "out");
-  refused({"run", "flight.yaml", "--out", "out"}, "out/run.h5" + too_large);
+  const Outcome outcome = run({"run", "flight.yaml", "--out", "out"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.err, "microswarm: out/run.h5" + too_large + "\n");
+  EXPECT_TRUE(outcome.out.starts_with("goal reached after")) << outcome.out;  // told all the same
+  EXPECT_EQ(outcome.out.find("wrote"), std::string::npos);
 }
 
 TEST_F(Output, DiskFullAmongThePictures) {

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <opencv2/core/utility.hpp>
 
 #include "microswarm/core/error.hpp"
@@ -47,6 +48,8 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
                  const std::lock_guard lock(timing_mutex_);
                  timing_.coil_late.add(moment.late);
                  timing_.round_trip.add(moment.round_trip);
+                 timing_.limited += moment.output.scale < 1 - 1e-9;
+                 timing_.least_scale = std::min(timing_.least_scale, moment.output.scale);
                  timing_.resumed += moment.output.status == DriveStatus::resumed;
                  timing_.scaled += moment.output.status == DriveStatus::scaled;
                }
