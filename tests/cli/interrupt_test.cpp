@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ctrl-C, kill -9, and two at once.
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "inputs.hpp"
 #include "program.hpp"
@@ -55,6 +60,28 @@ TEST_F(Interrupted, CtrlCKeepsWhatThereIs) {
     EXPECT_TRUE(good({"replay", "out/run.h5"}).starts_with("identical: record "));
     fs::remove_all(at.folder / "out");
   }
+}
+
+/// Output and errors can no longer be written then, and the progress bar was on that terminal.
+TEST_F(Interrupted, AClosedTerminalEndsItWithEverythingKept) {
+  write("flight.yaml", endless());
+  const std::string folder = at.folder / "out";
+  const std::string scenario = at.folder / "flight.yaml";
+  int terminal = -1;
+  const pid_t child = ::forkpty(&terminal, nullptr, nullptr, nullptr);
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    ::execl(MICROSWARM_PROGRAM, MICROSWARM_PROGRAM, "run", scenario.c_str(), "--out",
+            folder.c_str(), nullptr);
+    ::_exit(127);
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  ::close(terminal);
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status)) << WTERMSIG(status);
+  EXPECT_TRUE(exists("out/index.html"));
+  expect_no_temporary_files();
 }
 
 TEST_F(Interrupted, CtrlCWithoutOutLeavesNothing) {
