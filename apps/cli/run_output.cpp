@@ -160,7 +160,7 @@ int run_once(const Scene& scene, const World& world, const RunOutput& o,
       print("wrote {}\n",
             (std::filesystem::path(o.out) / (o.no_report ? "run.h5" : "index.html")).string());
   }
-  if (lost && result.status != Status::fault) throw *lost;
+  if (lost && result.status != Status::fault) throw InputError(lost->what());
   if (lost) note("microswarm: {}\n", lost->what());  // the fault is the worse
   if (result.status == Status::fault) return hardware;
   return result.status == Status::solved ? ok : not_reached;
