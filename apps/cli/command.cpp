@@ -6,7 +6,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
+#include <sstream>
 
+#include "cli.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/text.hpp"
 #include "options.hpp"
@@ -39,6 +42,14 @@ Check one_of(const std::vector<std::string>& words) {
             return fmt::format("must be one of {}, not {}", fmt::join(words, ", "), quote(text));
           },
           fmt::format("{{{}}}", fmt::join(words, ","))};
+}
+
+Check file_kind(const std::vector<std::string>& kinds) {
+  return {[kinds](const std::string& text) -> std::string {
+    const std::string kind = std::filesystem::path(text).extension().string();
+    if (std::find(kinds.begin(), kinds.end(), kind) != kinds.end()) return {};
+    return fmt::format("must be a file {}, not {}", fmt::join(kinds, ", "), quote(text));
+  }};
 }
 
 Check place(std::size_t most, const char* form) {
@@ -125,7 +136,7 @@ template Option Command::add_option(const char*, std::optional<int>&, const char
 template Option Command::add_option(const char*, std::optional<std::uint64_t>&, const char*);
 
 Option Command::add_flag(const char* name, bool& value, const char* doc) {
-  return Option(app_->add_flag(name, value, doc));
+  return Option(app_->add_flag(name, value, doc)->disable_flag_override());
 }
 
 Option Command::option(const char* name) { return Option(app_->get_option(name)); }
@@ -148,7 +159,11 @@ std::optional<int> CommandLine::parse(int argc, char** argv) {
     app_->parse(argc, argv);
     return std::nullopt;
   } catch (const CLI::Success& e) {  // --help, --version
-    return app_->exit(e);
+    std::ostringstream help;
+    const int code = app_->exit(e, help, help);
+    put(help.str());
+    flush_output();
+    return code;
   } catch (const CLI::ParseError& e) {
     throw InputError(usage_error(*app_, e));
   }

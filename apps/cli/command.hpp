@@ -27,6 +27,8 @@ Check number(double lo, double hi);
 Check whole(std::uint64_t lo, std::uint64_t hi);
 /// One of these words.
 Check one_of(const std::vector<std::string>& words);
+/// A file's name that ends with one of these, as ".png".
+Check file_kind(const std::vector<std::string>& kinds);
 /// 2 … `most` numbers with commas between them; `form` says what is meant.
 Check place(std::size_t most, const char* form);
 

@@ -2,6 +2,7 @@
 // `rig check`: does everything that a rig's file names work?
 #include <cmath>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "microswarm/actuation/coil_controller.hpp"
 #include "microswarm/core/angles.hpp"
@@ -14,18 +15,40 @@
 namespace microswarm::cli {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 struct CheckOptions {
   std::string rig;
   std::vector<std::string> settings;
   double seconds = 2;
+  bool json = false;
 };
 
-struct Answers {
-  int failed = 0;
+/// Told as they come, or all at once as JSON.
+class Answers {
+ public:
+  explicit Answers(bool as_json) : as_json_(as_json) {}
   void say(bool good, const std::string& what, const std::string& answer) {
+    failed_ += !good;
+    if (as_json_) {
+      list_.push_back({{"what", what}, {"ok", good}, {"answer", answer}});
+      return;
+    }
     print("{:<4} {:<9} {}\n", good ? "ok" : "NO", what, answer);
-    failed += !good;
+    flush_output();
   }
+  bool all_good() const { return failed_ == 0; }
+  void finish() const {
+    if (as_json_)
+      print("{}\n", Json{{"ok", all_good()}, {"answers", list_}}.dump(2));
+    else if (all_good())
+      print("everything is as it should be\n");
+  }
+
+ private:
+  bool as_json_;
+  int failed_ = 0;
+  Json list_ = Json::array();
 };
 
 void check_camera(const Rig& rig, const CheckOptions& o, const Stop& stop, Answers& answers) {
@@ -114,8 +137,9 @@ void check_limits(const Rig& rig, Answers& answers) {
     }
   }
   answers.say(
-      least >= 1 && reached, "limits",
-      !reached ? "these coils cannot make every field that is needed"
+      least >= 1 && reached && taken, "limits",
+      !taken     ? "the driver does not take such currents, see full_scale"
+      : !reached ? "these coils cannot make every field that is needed"
       : least < 1
           ? fmt::format("the field is weakened to {:.0f} % by the coils' limits", 100 * least)
           : fmt::format("the coils hold {:.6g} mT in every direction", rig.params.field.amplitude));
@@ -123,14 +147,14 @@ void check_limits(const Rig& rig, Answers& answers) {
 
 int rig_check(const CheckOptions& o, const Stop& stop) {
   const Rig rig = read_rig(o.rig, o.settings);
-  Answers answers;
+  Answers answers(o.json);
   answers.say(true, "coils", fmt::format("{}: {} coils", rig.system.name(), rig.system.size()));
   check_limits(rig, answers);
   check_camera(rig, o, stop, answers);
   check_driver(rig, o, stop, answers);
   if (stop()) return not_reached;
-  if (answers.failed == 0) print("everything is as it should be\n");
-  return answers.failed == 0 ? ok : hardware;
+  answers.finish();
+  return answers.all_good() ? ok : hardware;
 }
 
 }  // namespace
@@ -145,6 +169,7 @@ void add_rig_check(Command rig, Action& action) {
   cmd.add_option("--seconds", o->seconds, "How long each device is tried")
       .type_name("S")
       .check(number(0.1, 600));
+  add_json(cmd, o->json);
   cmd.callback([o, &action] {
     action = [o](const Context& context) { return rig_check(*o, context.stop); };
   });

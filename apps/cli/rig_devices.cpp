@@ -6,6 +6,7 @@
 #include <chrono>
 #include <thread>
 
+#include "cli.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/rig/simulated_rig.hpp"
 #include "microswarm/vision/newest_frame.hpp"
@@ -49,6 +50,11 @@ std::unique_ptr<FrameSource> open_camera_of(const Rig& rig) {
   return std::make_unique<PacedVideo>(open_frames(rig.folder / video.file, video.rate));
 }
 
+void note_field(const Rig& rig, const Scenario& scenario) {
+  const std::string unusual = unusual_field(rig, scenario);
+  if (!unusual.empty()) note("note: {}: {}\n", name_of(rig), unusual);
+}
+
 RigScene load_rig_scene(const std::filesystem::path& scenario,
                         const std::vector<std::string>& settings, const std::filesystem::path& rig,
                         const std::vector<std::string>& rig_settings) {
@@ -57,8 +63,9 @@ RigScene load_rig_scene(const std::filesystem::path& scenario,
       load_scene(read_scenario(scenario, settings, places), scenario.parent_path(), places);
   World world = build_world(scene);
   check(scene.scenario, world, places);
-  RigScene on{std::move(scene), std::move(world), read_rig(rig, rig_settings)};
+  RigScene on{std::move(scene), std::move(world), read_rig(rig, {rig_settings, "--set-rig"})};
   check(on.rig, on.scene.scenario, places);
+  note_field(on.rig, on.scene.scenario);
   return on;
 }
 

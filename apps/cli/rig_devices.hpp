@@ -18,6 +18,9 @@ struct RigScene {
   Rig rig;
 };
 
+/// Says on stderr when the rig's kind of field is not the swarm's usual one.
+void note_field(const Rig& rig, const Scenario& scenario);
+
 /// Reads both files; settings are texts as from --set. Throws InputError in one line.
 RigScene load_rig_scene(const std::filesystem::path& scenario,
                         const std::vector<std::string>& settings, const std::filesystem::path& rig,

@@ -141,7 +141,9 @@ void add_rig_map(Command rig, Action& action) {
   Command cmd = rig.add_command("map", "How even the field is around a place: a picture or a table",
                                 "rig map scenarios/rigs/helmholtz.yaml --out even.png");
   cmd.add_option("system", o->system, "Coil system (YAML)").required().type_name("FILE");
-  cmd.add_option("--out", o->out, "File to write: .png, .svg, .pdf or .csv").type_name("FILE");
+  cmd.add_option("--out", o->out, "File to write: .png, .svg, .pdf or .csv")
+      .type_name("FILE")
+      .check(file_kind({".png", ".svg", ".pdf", ".csv"}));
   cmd.add_option("--at", o->at, "Centre in µm, x,y,z; that of the system when not given")
       .type_name("X,Y,Z")
       .check(triple("X,Y,Z"));

@@ -78,15 +78,19 @@ int rehearse_trials(const RehearseOptions& o, const Context& context) {
   const std::vector<Pair> pairs =
       o.scenario.empty() ? usual_pairs()
                          : std::vector<Pair>{{o.scenario, o.rig, o.settings, o.rig_settings}};
+  std::vector<RigScene> scenes;  // all of them first: what cannot begin is told at once
+  for (const Pair& pair : pairs)
+    scenes.push_back(load_rig_scene(pair.scenario, pair.settings, pair.rig, pair.rig_settings));
   const OutFolder hold(o.out);
   std::string csv = "scenario,settings,trial,plant,status,time_s,contacts,goal_distance_um\n";
   print("{:<42} {:>7}  {:^24}  {:^24}\n", "", "", "without a rig", "through the rig");
   print("{:<42} {:>7}  {:>7} {:>8} {:>7}  {:>7} {:>8} {:>7}\n", "scenario", "trials", "arrived",
         "contacts", "time s", "arrived", "contacts", "time s");
   bool all = true;
-  for (const Pair& pair : pairs) {
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const Pair& pair = pairs[k];
+    const RigScene& on = scenes[k];
     const std::filesystem::path file = pair.scenario;
-    const RigScene on = load_rig_scene(file, pair.settings, pair.rig, pair.rig_settings);
     const Scenario& scenario = on.scene.scenario;
     const auto trials = static_cast<std::size_t>(o.trials);
     std::vector<std::array<RunResult, 2>> results(trials);

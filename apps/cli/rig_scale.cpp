@@ -7,6 +7,7 @@
 #include "microswarm/config/write.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
+#include "microswarm/core/text.hpp"
 #include "microswarm/formats/image.hpp"
 #include "microswarm/vision/calibration_grid.hpp"
 #include "options.hpp"
@@ -48,9 +49,14 @@ std::optional<Vec2> origin_of(const ScaleOptions& o) {
 FittedScale from_points(const ScaleOptions& o, const Image& picture) {
   if (!o.distance) throw InputError("rig scale: --points needs --distance");
   const std::vector<double> v = numbers(o.points);
-  return {.scale = scale_of_distance({v[0], v[1]}, {v[2], v[3]}, *o.distance, picture.height,
-                                     origin_of(o), !o.mirrored),
-          .residuals = {}};
+  const Vec2 a{v[0], v[1]}, b{v[2], v[3]};
+  for (const Vec2 p : {a, b})
+    if (p.x < -0.5 || p.y < -0.5 || p.x > picture.width - 0.5 || p.y > picture.height - 0.5)
+      throw InputError(fmt::format("--points: {:.6g},{:.6g} is outside {}, which is {} × {} px",
+                                   p.x, p.y, o.picture, picture.width, picture.height));
+  const CameraScale scale =
+      scale_of_distance(a, b, *o.distance, picture.height, origin_of(o), !o.mirrored);
+  return {.scale = scale, .residuals = {}};
 }
 
 FittedScale from_grid(const ScaleOptions& o, const Image& picture) {
@@ -60,7 +66,7 @@ FittedScale from_grid(const ScaleOptions& o, const Image& picture) {
   if (std::sscanf(o.grid.c_str(), "%dx%d%n", &params.columns, &params.rows, &used) != 2 ||
       used != std::ssize(o.grid) || params.columns < 2 || params.rows < 2 ||
       params.columns > 1000 || params.rows > 1000)
-    throw InputError("--grid: must be COLUMNSxROWS, 2 to 1000 each, not " + o.grid);
+    throw InputError("--grid: must be COLUMNSxROWS, 2 to 1000 each, not " + quote(o.grid));
   FittedScale fit = [&] {
     try {
       return fit_scale(find_grid(picture, params), !o.mirrored);
@@ -117,7 +123,7 @@ void add_rig_scale(Command rig, Action& action) {
           .type_name("X1,Y1,X2,Y2")
           .check({[](const std::string& text) -> std::string {
             if (numbers(text).size() == 4) return {};
-            return "must be X1,Y1,X2,Y2, not " + text;
+            return "must be X1,Y1,X2,Y2, not " + quote(text);
           }});
   cmd.add_option("--distance", o->distance, "µm between the two points")
       .type_name("NUMBER")
@@ -135,7 +141,8 @@ void add_rig_scale(Command rig, Action& action) {
   cmd.add_option("--pattern", o->pattern, "What the points are")
       .type_name("WORD")
       .check(one_of({"dots", "chessboard"}))
-      .shows_default();
+      .shows_default()
+      .needs(grid);
   cmd.add_option("--origin", o->origin,
                  "The world's origin in the picture, px, y down; not given: the lower left corner, "
                  "or the grid's first point")

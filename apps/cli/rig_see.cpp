@@ -49,6 +49,15 @@ Image picture_of(const std::string& source, CameraParams camera) {
   throw HardwareError(source + ": no picture within 10 s");
 }
 
+/// A picture of the same place. Throws InputError when it is of another size.
+Image still_of(const std::string& file, const Image& picture) {
+  Image still = read_image(file);
+  if (still.width != picture.width || still.height != picture.height)
+    throw InputError(fmt::format("{}: is {} × {} px, the picture is {} × {} px", file, still.width,
+                                 still.height, picture.width, picture.height));
+  return still;
+}
+
 Json json_of(const Blob& b) {
   return {{"centre_px", {b.centre_px.x, b.centre_px.y}},
           {"radius_px", b.radius_px},
@@ -69,12 +78,13 @@ std::string text_of(const Blob& b) {
 
 int see(const SeeOptions& o) {
   keep_input(o.out, o.picture);
+  keep_input(o.out, o.still);
   SeeSettings settings;
   if (!o.config.empty()) settings = read_yaml_file<SeeSettings>(o.config);
   set_values(settings, o.settings);
   const Image picture = picture_of(o.picture, settings.camera);
   std::optional<Mask> walls;
-  if (!o.still.empty()) walls = find_walls(read_image(o.still), settings.walls);
+  if (!o.still.empty()) walls = find_walls(still_of(o.still, picture), settings.walls);
   const Mask* hidden = walls ? &*walls : nullptr;
   const SeenScene scene = find_scene(picture, settings.scene, std::nullopt, hidden);
   if (!o.out.empty()) write_png(o.out, draw_scene(picture, scene, hidden));
@@ -114,7 +124,9 @@ void add_rig_see(Command rig, Action& action) {
   cmd.add_option("--config", o->config, "Settings (YAML); --set comes after it").type_name("FILE");
   add_settings(cmd, o->settings,
                "Change a value, for example scene.swarm.look.min_radius_px=12 (again and again)");
-  cmd.add_option("--out", o->out, "Picture to draw (PNG)").type_name("FILE");
+  cmd.add_option("--out", o->out, "Picture to draw (PNG)")
+      .type_name("FILE")
+      .check(file_kind({".png"}));
   add_json(cmd, o->json);
   cmd.callback([o, &action] { action = [o](const Context&) { return see(*o); }; });
 }

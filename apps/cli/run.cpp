@@ -9,6 +9,7 @@
 #include "microswarm/core/text.hpp"
 #include "microswarm/experiment/trials.hpp"
 #include "microswarm/rig/simulated_rig.hpp"
+#include "rig_devices.hpp"
 #include "run_output.hpp"
 
 namespace microswarm::cli {
@@ -89,8 +90,9 @@ int many_runs(const RunOptions& o, const Scene& scene, const World& world, const
 /// The same through a rig in simulation: camera, coils and field.
 int rehearse_run(const RunOptions& o, const Scene& scene, const World& world, const Places& places,
                  const ReportOptions& report, const Stop& stop) {
-  const Rig rig = read_rig(o.rig, o.rig_settings);
+  const Rig rig = read_rig(o.rig, {o.rig_settings, "--set-rig"});
   check(rig, scene.scenario, places);
+  note_field(rig, scene.scenario);
   return run_once(scene, world, {o.out, o.no_report, o.json, name_of(rig)}, report, stop,
                   [&](std::span<RunListener* const> listeners, const Stop& until) {
                     return microswarm::rehearse(scene.scenario, world, rig, 0, listeners, until);

@@ -61,6 +61,24 @@ TEST_F(RigCamera, SeesASwarmAndDrawsIt) {
   EXPECT_EQ(run({"rig", "see", "empty.pgm"}).code, 3);
 }
 
+TEST_F(RigCamera, RefusesInOneLine) {
+  draw("slide.pgm", [](int, int) { return false; });
+  refused({"rig", "scale", "slide.pgm", "--points", "10,20,400,60", "--distance", "500"},
+          "--points: 400,60 is outside slide.pgm, which is 320 × 240 px");
+  refused({"rig", "scale", "slide.pgm", "--points", "0,0,0.5,0", "--distance", "1e7"},
+          "scale: 2e7 µm a pixel, allowed 1e-6..1e6");
+  refused(
+      {"rig", "scale", "slide.pgm", "--points", "1,2,3,4", "--distance", "9", "--pattern", "dots"},
+      "--pattern needs --grid (see microswarm rig scale --help)");
+  refused({"rig", "scale", "slide.pgm", "--points", "1,2,3,4", "--grid", "3x3"},
+          "--points and --grid do not go together (see microswarm rig scale --help)");
+  write("small.pgm", "P5\n2 1\n255\nab");
+  refused({"rig", "see", "slide.pgm", "--still", "small.pgm"},
+          "small.pgm: is 2 × 1 px, the picture is 320 × 240 px");
+  refused({"rig", "see", "slide.pgm", "--out", "seen.txt"},
+          "--out: must be a file .png, not 'seen.txt' (see microswarm rig see --help)");
+}
+
 TEST_F(RigCamera, NoSuchCameraIsAHardwareError) {
   const Outcome none = run({"rig", "see", "/dev/video97"});
   EXPECT_EQ(none.code, 4);

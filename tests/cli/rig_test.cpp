@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "inputs.hpp"
 #include "program.hpp"
 
 namespace microswarm::test {
@@ -88,6 +89,56 @@ TEST_F(Rig, RefusesInOneLine) {
           "each of them apart from the others");
   refused({"rig", "map", "rig.yaml", "--currents", "0,0,0"},
           "the field at the centre of the map is 0");
+  refused({"rig", "map", "rig.yaml", "--out", "even.bmp"},
+          "--out: must be a file .png, .svg, .pdf, .csv, not 'even.bmp' (see microswarm rig map "
+          "--help)");
+  refused({"rig", "map", "rig.yaml", "--json=3"},
+          "--json takes no value (see microswarm rig map --help)");
+}
+
+class WholeRig : public CommandLine {
+ protected:
+  static std::string rig(const char* name) {
+    return std::string(MICROSWARM_SOURCE_DIR "/scenarios/rigs/") + name;
+  }
+};
+
+TEST_F(WholeRig, IsCheckedInWordsAndInJson) {
+  const std::string words = good({"rig", "check", rig("vortex.yaml"), "--seconds", "0.2"});
+  EXPECT_NE(words.find("everything is as it should be"), std::string::npos) << words;
+  const Outcome outcome = run({"rig", "check", rig("vortex.yaml"), "--seconds", "0.2", "--json",
+                               "--set", "driver.full_scale_a=0.1"});
+  EXPECT_EQ(outcome.code, 4);
+  const Json told = Json::parse(outcome.out);
+  EXPECT_EQ(told["ok"], false);
+  EXPECT_EQ(told["answers"][1],
+            Json({{"what", "limits"},
+                  {"ok", false},
+                  {"answer", "the driver does not take such currents, see full_scale"}}));
+}
+
+TEST_F(WholeRig, TheBenchToStartFromIsWholeButForItsDevices) {
+  good({"rig", "check", rig("bench.yaml"), "--set", "driver.type=simulated", "--set",
+        "camera.type=simulated", "--seconds", "0.1"});
+  const Outcome outcome = run({"rig", "check", rig("bench.yaml"), "--seconds", "0.1", "--set",
+                               "driver.port=/dev/none", "--set", "camera.device=/dev/none"});
+  EXPECT_EQ(outcome.code, 4);
+  EXPECT_NE(outcome.out.find("NO   camera    /dev/none: cannot open: No such file or directory"),
+            std::string::npos)
+      << outcome.out;
+}
+
+TEST_F(WholeRig, WhatIsWrongIsToldWhereItWasGiven) {
+  refused(
+      {"rig", "check", rig("vortex.yaml"), "--set", "drive_rate_hz=20"},
+      "--set drive_rate_hz: drive_rate_hz is 20, the field turns 16 times a second and needs at "
+      "least 160");
+  write("flight.yaml", two_rooms());
+  refused({"run", "flight.yaml", "--rig", rig("vortex.yaml"), "--set-rig", "camera.foo=3"},
+          "--set-rig camera.foo: unknown key 'foo', allowed: microscope, speed_error");
+  refused({"run", "flight.yaml", "--rig", rig("ribbon.yaml"), "--set-rig", "drive_rate_hz=20"},
+          "--set-rig drive_rate_hz: drive_rate_hz is 20, the field turns 16 times a second and "
+          "needs at least 160");
 }
 
 }  // namespace

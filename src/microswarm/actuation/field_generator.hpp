@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "microswarm/core/angles.hpp"
 #include "microswarm/core/fields.hpp"
 #include "microswarm/swarm/contracts.hpp"
 
@@ -27,11 +28,11 @@ struct FieldGeneratorParams {
   FieldKind kind = FieldKind::rotating;
   double amplitude = 8;
   double frequency = 16;
-  double speed_per_pitch = 1145.9155902616465;  // 20 µm/s a degree
-  double max_pitch = 0.0872664625997165;        // 5°
+  double speed_per_pitch = 20 / radians(1);
+  double max_pitch = radians(5);
   double length_per_turn = 20;
-  double max_turn_rate = 6.283185307179586;    // 360°/s
-  double max_pitch_rate = 0.5235987755982988;  // 30°/s
+  double max_turn_rate = radians(360);
+  double max_pitch_rate = radians(30);
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.kind, {"kind", Unit::none, {}, "How the field drives the swarm."});

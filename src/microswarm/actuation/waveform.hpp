@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "microswarm/core/angles.hpp"
 #include "microswarm/core/fields.hpp"
 
 namespace microswarm {
@@ -30,7 +31,7 @@ Eigen::Vector3d oscillating_field(double amplitude, double pitch, double heading
 struct RollingParams {
   double amplitude = 3;
   double frequency = 1;
-  double steering_rate = 1.5707963267948966;  // 90°/s
+  double steering_rate = radians(90);
   double length_per_turn = 1000;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {

@@ -88,13 +88,14 @@ YamlNode read_yaml(const Type& type, void* value, std::string_view text, std::st
   return node;
 }
 
-void set_value(const Type& type, void* value, std::string_view assignment) {
+void set_value(const Type& type, void* value, std::string_view assignment,
+               std::string_view option) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string_view::npos || equals == 0)
-    throw InputError(fmt::format("--set {}: must be KEY=VALUE", quote(assignment)));
+    throw InputError(fmt::format("{} {}: must be KEY=VALUE", option, quote(assignment)));
   std::string_view path = assignment.substr(0, equals);
   const std::string_view text = assignment.substr(equals + 1);
-  const std::string name = fmt::format("--set {}", one_line(path));
+  const std::string name = fmt::format("{} {}", option, one_line(path));
   const ValueReader reader(name, false);
 
   Place place{&type, {}, "", value};
@@ -119,15 +120,16 @@ void set_value(const Type& type, void* value, std::string_view assignment) {
               value_node(*place.type, text, name));
 }
 
-void check_types_first(const std::vector<std::string>& assignments) {
+void check_types_first(const Settings& given) {
+  const std::vector<std::string>& assignments = given.texts;
   for (std::size_t i = 0; i < assignments.size(); ++i) {
     const std::string key = assignments[i].substr(0, assignments[i].find('='));
     if (!key.ends_with(".type")) continue;
     const std::string part = key.substr(0, key.size() - 4);  // with the dot
     for (std::size_t k = 0; k < i; ++k)
       if (assignments[k].starts_with(part) && !assignments[k].starts_with(key + "="))
-        throw InputError(fmt::format("--set {}: comes after {}, which it may drop: give it first",
-                                     key, quote(assignments[k])));
+        throw InputError(fmt::format("{} {}: comes after {}, which it may drop: give it first",
+                                     given.option, key, quote(assignments[k])));
   }
 }
 

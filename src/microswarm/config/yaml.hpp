@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "microswarm/config/settings.hpp"
 #include "microswarm/config/type.hpp"
 #include "microswarm/config/yaml_places.hpp"
 #include "microswarm/core/file.hpp"
@@ -21,7 +22,7 @@ inline constexpr std::size_t max_yaml_bytes = 16 << 20;
 YamlNode read_yaml(const Type& type, void* value, std::string_view text, std::string_view name);
 
 /// What `set_value` does, on a described value.
-void set_value(const Type& type, void* value, std::string_view assignment);
+void set_value(const Type& type, void* value, std::string_view assignment, std::string_view option);
 
 /// A parameter struct from YAML text; `name` stands for the file in messages. Strict: an unknown or
 /// missing key, a wrong type, a number out of its range or not finite, an unknown word is an
@@ -39,34 +40,33 @@ T read_yaml_file(const std::filesystem::path& path) {
   return read_yaml_text<T>(read_file(path, max_yaml_bytes), path.string());
 }
 
-/// Applies one `--set` assignment, "planner.step_um=60": keys joined by dots, a list's entries by
-/// index, then a value as it would stand in a file (a text may go without quotes). Another `type`
-/// of a variant brings that alternative with its defaults; its other keys need the alternative to
-/// be there already. Errors are as in a file, behind "--set planner.stpe_um: "; then `value` is as
-/// it was before.
+/// Applies one assignment of `--set` or a like option, "planner.step_um=60": keys joined by dots, a
+/// list's entries by index, then a value as it would stand in a file (a text may go without
+/// quotes). Another `type` of a variant brings that alternative with its defaults; its other keys
+/// need the alternative to be there already. Errors are as in a file, behind "--set
+/// planner.stpe_um: "; then `value` is as it was before.
 template <HasFields T>
-void set_value(T& value, std::string_view assignment) {
+void set_value(T& value, std::string_view assignment, std::string_view option = "--set") {
   T changed = value;
-  set_value(type_of<T>(), &changed, assignment);
+  set_value(type_of<T>(), &changed, assignment, option);
   value = std::move(changed);
 }
 
 /// Throws InputError when one of several assignments chooses a variant's `type` after another has
 /// set a part of it, which would be lost.
-void check_types_first(const std::vector<std::string>& assignments);
+void check_types_first(const Settings& assignments);
 
 /// Applies several assignments in their order, after check_types_first.
 template <HasFields T>
-void set_values(T& value, const std::vector<std::string>& assignments) {
+void set_values(T& value, const Settings& assignments) {
   check_types_first(assignments);
-  for (const std::string& assignment : assignments) set_value(value, assignment);
+  for (const std::string& text : assignments.texts) set_value(value, text, assignments.option);
 }
 
 /// A parameter struct from a YAML file with assignments applied after it; `places` then tells where
 /// each key stands.
 template <HasFields T>
-T read_yaml_file(const std::filesystem::path& path, const std::vector<std::string>& assignments,
-                 Places& places) {
+T read_yaml_file(const std::filesystem::path& path, const Settings& assignments, Places& places) {
   T value{};
   const std::string name = path.string();
   YamlNode document = read_yaml(type_of<T>(), &value, read_file(path, max_yaml_bytes), name);

@@ -44,14 +44,14 @@ bool is_or_holds(std::string_view outer, std::string_view key) {
 struct Document {
   YamlNode root;
   std::string name;
-  std::vector<std::string> assignments;  // the last one first
+  Settings assignments;  // the last one first
 
   std::optional<std::string> operator()(std::string_view key, bool about_all) const {
-    for (const std::string_view assignment : assignments) {
+    for (const std::string_view assignment : assignments.texts) {
       const std::string_view path = assignment.substr(0, assignment.find('='));
       if (sets(path, assignment.substr(path.size() + 1), key) ||
           (about_all && is_or_holds(key, path)))
-        return fmt::format("--set {}", one_line(path));
+        return fmt::format("{} {}", assignments.option, one_line(path));
     }
     const YamlNode* node = node_at(root, key);
     if (!node) return std::nullopt;
@@ -71,8 +71,8 @@ struct Document {
 
 }  // namespace
 
-Places places_of(YamlNode document, const std::string& name, std::vector<std::string> assignments) {
-  std::reverse(assignments.begin(), assignments.end());
+Places places_of(YamlNode document, const std::string& name, Settings assignments) {
+  std::reverse(assignments.texts.begin(), assignments.texts.end());
   const auto found =
       std::make_shared<const Document>(Document{std::move(document), name, std::move(assignments)});
   return {name, [found](std::string_view key, bool about_all) { return (*found)(key, about_all); }};

@@ -2,16 +2,16 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
+#include "microswarm/config/settings.hpp"
 #include "microswarm/config/yaml_node.hpp"
 #include "microswarm/core/places.hpp"
 
 namespace microswarm {
 
 /// Where the keys of a document stand: "NAME:LINE:COLUMN" of their values. A key that one of the
-/// `--set` assignments has set, in whole or in part, or whose alternative it has chosen, stands
+/// assignments has set, in whole or in part, or whose alternative it has chosen, stands
 /// there: "--set KEY".
-Places places_of(YamlNode document, const std::string& name, std::vector<std::string> assignments);
+Places places_of(YamlNode document, const std::string& name, Settings assignments);
 
 }  // namespace microswarm

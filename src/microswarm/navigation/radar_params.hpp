@@ -26,7 +26,7 @@ struct RadarParams {
   double target_gain = 0.1;         // k_t ε
   double avoidance_gain = 0.9;      // k_a η
   SafetyRadiusParams safety_radius;
-  double most_turn = 2 * pi / 3;
+  double most_turn = radians(120);
   bool retreat = true;
   GuardParams guard;
   bool compensate_delay = true;

@@ -5,6 +5,7 @@
 #include <deque>
 
 #include "microswarm/actuation/field_generator.hpp"
+#include "microswarm/core/angles.hpp"
 
 namespace microswarm {
 
@@ -12,10 +13,10 @@ namespace microswarm {
 /// field alone. A field weaker than `least_amplitude` [mT] moves nothing.
 struct FieldResponseParams {
   FieldKind kind = FieldKind::rotating;
-  double frequency = 16;                        ///< of the field [Hz]
-  double speed_per_pitch = 1145.9155902616465;  ///< [µm/s] a rad, c of Eq 2 [radar]
-  double length_per_turn = 20;                  ///< of a rolling field [µm]
-  double least_amplitude = 0.5;                 ///< [mT]
+  double frequency = 16;                     ///< of the field [Hz]
+  double speed_per_pitch = 20 / radians(1);  ///< [µm/s] a rad, c of Eq 2 [radar]
+  double length_per_turn = 20;               ///< of a rolling field [µm]
+  double least_amplitude = 0.5;              ///< [mT]
 };
 
 /// Watches the field and tells how it drives the swarm. Rotating fields: the plane in which the

@@ -31,7 +31,7 @@ void check(const RigParams& rig, const CoilSystem& system, const Places& where) 
 
 }  // namespace
 
-Rig read_rig(const std::filesystem::path& file, const std::vector<std::string>& settings) {
+Rig read_rig(const std::filesystem::path& file, const Settings& settings) {
   Places places;
   auto params = read_yaml_file<RigParams>(file, settings, places);
   CoilSystem system = read_coil_system(file.parent_path() / params.coils);
@@ -55,6 +55,18 @@ void check(const Rig& rig, const Scenario& scenario, const Places& where) {
                       fmt::format("the swarm is meant to go {:.6g} µm/s, this rig's field drives "
                                   "it at most {:.6g} µm/s",
                                   wanted, reach));
+}
+
+std::string unusual_field(const Rig& rig, const Scenario& scenario) {
+  const bool ribbon = std::holds_alternative<RibbonParams>(scenario.swarm);
+  const FieldKind usual = scenario.robots ? FieldKind::rolling
+                          : ribbon        ? FieldKind::oscillating
+                                          : FieldKind::rotating;
+  const FieldKind kind = rig.params.field.kind;
+  if (kind == usual) return {};
+  const char* swarm = scenario.robots ? "robots" : ribbon ? "a ribbon" : "a vortex";
+  return fmt::format("{} under a field that is {}: in the papers it is {}", swarm, enum_name(kind),
+                     enum_name(usual));
 }
 
 }  // namespace microswarm

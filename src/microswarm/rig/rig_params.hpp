@@ -11,6 +11,7 @@
 #include "microswarm/actuation/coil_system.hpp"
 #include "microswarm/actuation/field_generator.hpp"
 #include "microswarm/actuation/serial_coil_driver.hpp"
+#include "microswarm/config/settings.hpp"
 #include "microswarm/core/fields.hpp"
 #include "microswarm/core/places.hpp"
 #include "microswarm/experiment/scenario.hpp"
@@ -126,10 +127,14 @@ std::string name_of(const Rig& rig);
 /// Reads the file of a rig and its coil system; `settings` are `key=value` texts as from --set.
 /// Throws InputError in one line, also for currents that are sent too seldom for the field and for
 /// a driver with too few channels.
-Rig read_rig(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
+Rig read_rig(const std::filesystem::path& file, const Settings& settings = {});
 
 /// Throws InputError when the rig cannot drive the scenario's swarm as fast as it is meant to go;
 /// `where` knows the scenario's keys.
 void check(const Rig& rig, const Scenario& scenario, const Places& where = {});
+
+/// Says it when the scenario's swarm is driven by another kind of field in the papers than this
+/// rig has; empty else.
+std::string unusual_field(const Rig& rig, const Scenario& scenario);
 
 }  // namespace microswarm

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "microswarm/core/angles.hpp"
 #include "microswarm/core/fields.hpp"
 #include "microswarm/core/rng.hpp"
 #include "microswarm/swarm/contracts.hpp"
@@ -23,7 +24,7 @@ struct VortexParams {
   double radius_lag = 2;
   double radius_ripple = 0;
   double max_speed = 100;
-  double max_pitch = 0.0872664625997165;  // 5°
+  double max_pitch = radians(5);
   double response_lag = 0.1;
   double position_noise = 0;
   double field_amplitude = 8;

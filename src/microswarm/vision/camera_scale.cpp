@@ -55,6 +55,8 @@ CameraScale scale_of_distance(Vec2 a_px, Vec2 b_px, double distance_um, int heig
   if (!(distance_um > 0))
     throw InputError("distance_um: is " + number_text(distance_um) + ", must be above 0");
   CameraScale scale = upright_scale(height, distance_um / way);
+  if (!(scale.um_per_px >= 1e-6 && scale.um_per_px <= 1e6))
+    throw InputError("scale: " + number_text(scale.um_per_px) + " µm a pixel, allowed 1e-6..1e6");
   scale.y_up = y_up;
   if (origin_px) scale.origin_px = *origin_px;
   return scale;
