@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <filesystem>
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
+#include "microswarm/experiment/run.hpp"
 #include "microswarm/report/page.hpp"
 #include "microswarm/report/picture.hpp"
 #include "microswarm/report/plot.hpp"
 #include "microswarm/report/rows.hpp"
+#include "microswarm/report/run_report.hpp"
 
 namespace microswarm {
 namespace {
@@ -59,6 +62,18 @@ TEST_F(Report, PlotsAreWrittenAndNothingElseIsLeft) {
   EXPECT_EQ(read_file(folder_ / "p.png").substr(1, 3), "PNG");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
   EXPECT_THROW(write_plots({}, folder_ / "missing" / "p.png"), InputError);
+}
+
+TEST_F(Report, OfARunThatWasStoppedBeforeItsFirstTick) {
+  const fs::path file = fs::path(MICROSWARM_SOURCE_DIR) / "scenarios/first_flight.yaml";
+  const Scene scene = load_scene(read_scenario(file), file.parent_path());
+  Recorder recorder(scene);
+  RunListener* const listeners[] = {&recorder};
+  const std::atomic<bool> stopped = true;
+  simulate(scene.scenario, build_world(scene), 0, listeners, Stop(&stopped));
+  write_run_report(recorder.record(), folder_);
+  EXPECT_TRUE(fs::exists(folder_ / "index.html"));
+  EXPECT_TRUE(fs::exists(folder_ / "plots.png"));
 }
 
 TEST_F(Report, PagesEscapeText) {

@@ -13,6 +13,7 @@ namespace microswarm {
 struct Settings {
   Settings() = default;
   Settings(std::initializer_list<std::string> list) : texts(list) {}
+  // NOLINTNEXTLINE(google-explicit-constructor): a plain list is one of --set
   Settings(std::vector<std::string> list, std::string from = "--set")
       : texts(std::move(list)), option(std::move(from)) {}
 

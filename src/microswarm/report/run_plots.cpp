@@ -73,8 +73,9 @@ Plot clearances(const Record& record) {
   plot.y_min = 0;
   // What is near counts; a run that was never near shows at least its nearest.
   const Metrics& m = record.result.metrics;
-  plot.y_max = std::max(5 * std::max(margin, radius),
-                        1.5 * std::min(m.walls.clearance, m.obstacles.clearance));
+  const double nearest = std::min(m.walls.clearance, m.obstacles.clearance);
+  plot.y_max = 5 * std::max(margin, radius);
+  if (std::isfinite(nearest)) plot.y_max = std::max(*plot.y_max, 1.5 * nearest);
   return plot;
 }
 

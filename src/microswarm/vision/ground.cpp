@@ -81,15 +81,18 @@ std::vector<Tile> tiles_of(const cv::Mat& grey, const cv::Mat& seen, double half
 }
 
 Surface fitted(const std::vector<Tile>& tiles, const std::vector<double>& weight) {
-  cv::Mat normal = cv::Mat::zeros(ground_terms, ground_terms, CV_64F);
-  cv::Mat right = cv::Mat::zeros(ground_terms, 1, CV_64F);
+  std::array<Terms, ground_terms> sums{};
+  Terms sums_of_grey{};
   for (std::size_t k = 0; k < tiles.size(); ++k) {
     const Terms t = Surface::at(tiles[k].x, tiles[k].y);
     for (int i = 0; i < ground_terms; ++i) {
-      for (int j = 0; j < ground_terms; ++j) normal.at<double>(i, j) += weight[k] * t[i] * t[j];
-      right.at<double>(i) += weight[k] * t[i] * tiles[k].grey;
+      const double weighted = weight[k] * t[i];
+      for (int j = 0; j < ground_terms; ++j) sums[i][j] += weighted * t[j];
+      sums_of_grey[i] += weighted * tiles[k].grey;
     }
   }
+  const cv::Mat normal(ground_terms, ground_terms, CV_64F, sums.data());
+  const cv::Mat right(ground_terms, 1, CV_64F, sums_of_grey.data());
   cv::Mat solution;
   cv::solve(normal, right, solution, cv::DECOMP_SVD);
   Surface surface;
@@ -124,13 +127,16 @@ cv::Mat ground_of(const cv::Mat& grey, const cv::Mat& seen) {
   const std::vector<Tile> tiles = tiles_of(grey, seen, half);
   if (tiles.empty()) return ground;
   const Terms c = fitted(tiles).factor;
+  std::vector<double> across(static_cast<std::size_t>(grey.cols));
+  for (int column = 0; column < grey.cols; ++column)
+    across[column] = (column - 0.5 * (grey.cols - 1)) / half;
   for (int row = 0; row < grey.rows; ++row) {
     const double y = (row - 0.5 * (grey.rows - 1)) / half;
     const double constant = c[0] + y * (c[2] + y * c[5]);
     const double slope = c[1] + y * c[4];
     auto* out = ground.ptr<float>(row);
     for (int column = 0; column < grey.cols; ++column) {
-      const double x = (column - 0.5 * (grey.cols - 1)) / half;
+      const double x = across[column];
       out[column] = static_cast<float>(constant + x * (slope + x * c[3]));
     }
   }
