@@ -28,7 +28,8 @@ constexpr const char* footer =
     "microswarm COMMAND --help says more about a command.\n"
     "Exit codes: 0 done; 2 bad input or command line, told in one line; 3 ran, but the goal was "
     "not\n"
-    "reached, a row falls short or Ctrl-C came (once: ends with what there is; twice: at once);\n"
+    "reached, a row falls short or Ctrl-C came once, which ends with what there is; a second\n"
+    "Ctrl-C ends at once, by its signal;\n"
     "4 a device is not there or does not answer; 1 anything else.";
 
 int complain(const char* what, int code) {
@@ -61,6 +62,7 @@ int main(int argc, char** argv) {
   using namespace microswarm;
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
+  std::signal(SIGQUIT, on_interrupt);
   std::signal(SIGHUP, on_interrupt);  // the terminal was closed
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing

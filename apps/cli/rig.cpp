@@ -151,7 +151,14 @@ int calibrate(const CalibrateOptions& o) {
   CoilSystemParams system;
   system.name = std::filesystem::path(o.measured).stem().string();
   system.coils = fit.coils;
-  if (!o.out.empty()) write_file_atomically(o.out, to_yaml(system));
+  if (!o.out.empty()) {
+    write_file_atomically(o.out, to_yaml(system));
+    note("note: {} names no limits of the coils: add its `drives`\n", o.out);
+  }
+  const std::size_t unknowns = measured.coils.size() + (o.offset ? 1 : 0);
+  if (measured.rows.size() <= unknowns)
+    note("note: {} measurements for {} unknowns: the residuals tell nothing\n",
+         measured.rows.size(), unknowns);
   const FieldMeasurement& worst = measured.rows[fit.worst_row];
   if (o.json) {
     print("{}\n", Json{{"measurements", measured.rows.size()},

@@ -67,9 +67,11 @@ void check_camera(const Rig& rig, const CheckOptions& o, const Stop& stop, Answe
       before = frame.taken;
     }
     const CameraStatus status = camera.status();
-    const bool good = status.state == CameraState::live && gaps.count() > 0;
+    const bool is_video = std::holds_alternative<VideoCamera>(rig.params.camera);
+    const bool good = gaps.count() > 0 && (status.state == CameraState::live ||
+                                           (is_video && status.state == CameraState::ended));
     answers.say(good, "camera",
-                fmt::format("{}, {} frames of {} × {} in {} s; between frames {}",
+                fmt::format("{}, {} frames of {} × {} in {} s; between frames {} (p50 / p95 / p99)",
                             enum_name(status.state), status.frames, frame.frame.picture.width,
                             frame.frame.picture.height, o.seconds, quantiles(gaps)));
     if (const double usual = gaps.quantile(0.5); rate && gaps.count() > 0)
@@ -95,17 +97,23 @@ void check_driver(const Rig& rig, const CheckOptions& o, const Stop& stop, Answe
     SerialCoilDriver driver(*serial);
     Durations times;
     int failures = 0;
+    bool unarmed = false;
     const std::vector<double> nothing(static_cast<std::size_t>(driver.channels()));
     for (const double end = steady_seconds() + o.seconds; steady_seconds() < end && !stop();) {
       const double began = steady_seconds();
-      failures += driver.drive(nothing) == DriveStatus::no_answer;
+      const DriveStatus status = driver.drive(nothing);
+      failures += status == DriveStatus::no_answer;
+      unarmed = unarmed || status == DriveStatus::not_armed;
       times.add(steady_seconds() - began);
     }
     const bool zero = driver.stop();
     const double slow = times.quantile(0.99);
-    answers.say(failures == 0, "driver",
-                fmt::format("{} exchanges with all currents at zero, {} without an answer; {}",
-                            times.count(), failures, quantiles(times)));
+    answers.say(
+        failures == 0, "driver",
+        fmt::format(
+            "{} exchanges with all currents at zero, {} without an answer; {} (p50 / p95 / p99)",
+            times.count(), failures, quantiles(times)));
+    if (unarmed) answers.say(false, "driver", "the device does not let itself be armed");
     answers.say(zero, "stop", zero ? "confirmed" : "not confirmed");
     answers.say(
         slow < 1 / rig.params.drive_rate, "pace",
@@ -114,6 +122,20 @@ void check_driver(const Rig& rig, const CheckOptions& o, const Stop& stop, Answe
   } catch (const std::runtime_error& e) {
     answers.say(false, "driver", e.what());
   }
+}
+
+/// Says which limits the coil system's file does not give.
+std::string missing_limits(const Rig& rig) {
+  bool voltage = true, temperature = true;
+  for (const DriveParams& drive : rig.system.drives()) {
+    voltage = voltage && drive.max_voltage;
+    temperature = temperature && drive.max_temperature;
+  }
+  if (voltage && temperature) return {};
+  return fmt::format("; {} does not limit the {}", rig.params.coils,
+                     voltage       ? "temperature"
+                     : temperature ? "voltage"
+                                   : "voltage and the temperature");
 }
 
 /// Whether the coils can hold the field that is asked for, whatever its direction.
@@ -125,7 +147,6 @@ void check_limits(const Rig& rig, Answers& answers) {
   CoilController controller(rig.system, rig.params.field, driver, 0);
   double least = 1;
   bool reached = true;
-  bool taken = true;
   const double dt = 1 / rig.params.drive_rate;
   for (const double heading : {0.0, 0.5 * pi, 1.0, -2.0}) {
     controller.command({heading, 1e9});
@@ -133,16 +154,17 @@ void check_limits(const Rig& rig, Answers& answers) {
       const CoilOutput& output = controller.advance(dt);
       if (i * dt > 0.5) least = std::min(least, output.scale);
       reached = reached && output.reached;
-      taken = taken && output.status == DriveStatus::driven;
     }
   }
+  const double amplitude = rig.params.field.amplitude;
   answers.say(
-      least >= 1 && reached && taken, "limits",
-      !taken     ? "the driver does not take such currents, see full_scale"
-      : !reached ? "these coils cannot make every field that is needed"
+      least >= 1 && reached, "limits",
+      !reached ? "these coils cannot make every field that is needed"
       : least < 1
-          ? fmt::format("the field is weakened to {:.0f} % by the coils' limits", 100 * least)
-          : fmt::format("the coils hold {:.6g} mT in every direction", rig.params.field.amplitude));
+          ? fmt::format("the coils' limits weaken the field to {:.3g} mT, {:.6g} mT is meant",
+                        least * amplitude, amplitude)
+          : fmt::format("the coils hold {:.6g} mT in every direction{}", amplitude,
+                        missing_limits(rig)));
 }
 
 int rig_check(const CheckOptions& o, const Stop& stop) {

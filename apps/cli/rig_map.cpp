@@ -89,7 +89,7 @@ std::string csv_of(const UniformityMap& map) {
   return text;
 }
 
-int map_field(const RigMapOptions& o) {
+int map_field(const RigMapOptions& o, const Stop& stop) {
   keep_input(o.out, o.system);
   const CoilSystem system = read_coil_system(o.system);
   UniformityGrid grid{.centre = o.at.empty() ? system.centre() : triple_of(o.at),
@@ -99,7 +99,15 @@ int map_field(const RigMapOptions& o) {
   const Eigen::VectorXd currents =
       o.currents.empty() ? currents_for(system.at(grid.centre), triple_of(o.field)).currents
                          : currents_of(o.currents, system);
-  const UniformityMap map = uniformity(system, currents, grid);
+  const std::optional<UniformityMap> made = [&] {
+    ProgressBar bar("map");
+    return uniformity(system, currents, grid, [&](double share) {
+      bar.update(share);
+      return !stop();
+    });
+  }();
+  if (!made) return not_reached;
+  const UniformityMap& map = *made;
   const Eigen::Vector3d& b = map.centre_field;
   if (!o.out.empty()) {
     const std::filesystem::path out = o.out;
@@ -163,7 +171,9 @@ void add_rig_map(Command rig, Action& action) {
       .type_name("NUMBER")
       .check(whole(3, 1001));
   add_json(cmd, o->json);
-  cmd.callback([o, &action] { action = [o](const Context&) { return map_field(*o); }; });
+  cmd.callback([o, &action] {
+    action = [o](const Context& context) { return map_field(*o, context.stop); };
+  });
 }
 
 }  // namespace microswarm::cli

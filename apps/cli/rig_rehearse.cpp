@@ -81,6 +81,7 @@ int rehearse_trials(const RehearseOptions& o, const Context& context) {
   std::vector<RigScene> scenes;  // all of them first: what cannot begin is told at once
   for (const Pair& pair : pairs)
     scenes.push_back(load_rig_scene(pair.scenario, pair.settings, pair.rig, pair.rig_settings));
+  for (const RigScene& on : scenes) simulated_camera(on.rig);
   const OutFolder hold(o.out);
   std::string csv = "scenario,settings,trial,plant,status,time_s,contacts,goal_distance_um\n";
   print("{:<42} {:>7}  {:^24}  {:^24}\n", "", "", "without a rig", "through the rig");

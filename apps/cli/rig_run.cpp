@@ -66,8 +66,9 @@ class EmergencyKey {
 /// goes.
 class CommandLog {
  public:
-  /// In this folder; nothing is kept without one.
-  CommandLog(const std::string& folder, const CoilSystem& system) {
+  /// In this folder; nothing is kept without one. A dry run's rows say so.
+  CommandLog(const std::string& folder, const CoilSystem& system, bool dry)
+      : coils_(system.size()), dry_(dry) {
     if (folder.empty()) return;
     file_ = std::filesystem::path(folder) / "commands.csv";
     part_ = file_.string() + ".part";
@@ -76,9 +77,15 @@ class CommandLog {
     for (const std::string& coil : system.coil_names()) head += ",i_" + coil + "_a";
     write(head + ",scale,status,late_s,round_trip_s\n");
   }
-  /// Brings the log to its place; says what keeps it from there.
-  void finish() noexcept {
+  /// Adds when the coils were told to be at zero [s], by steady_seconds(), and brings the log to
+  /// its place; says what keeps it from there.
+  void finish(double zero_at, bool confirmed) noexcept {
     if (file_.empty()) return;
+    if (began_ > 0) {
+      out_ << fmt::format("{:.4f},,0,0,0,0", zero_at - began_);
+      for (std::size_t i = 0; i < coils_; ++i) out_ << ",0";
+      out_ << (dry_ ? ",1,dry,,\n" : confirmed ? ",1,zero,,\n" : ",1,zero_not_confirmed,,\n");
+    }
     out_.close();
     std::error_code error;
     if (out_) std::filesystem::rename(part_, file_, error);
@@ -92,8 +99,8 @@ class CommandLog {
                                   degrees(m.command.heading), m.command.speed, m.output.wanted.x(),
                                   m.output.wanted.y(), m.output.wanted.z());
     for (const double i : m.output.currents) row += fmt::format(",{:.5f}", i);
-    row += fmt::format(",{:.4f},{},{:.6f},{:.6f}\n", m.output.scale, to_string(m.output.status),
-                       m.late, m.round_trip);
+    row += fmt::format(",{:.4f},{},{:.6f},{:.6f}\n", m.output.scale,
+                       dry_ ? "dry" : to_string(m.output.status), m.late, m.round_trip);
     write(row);
   }
 
@@ -105,6 +112,8 @@ class CommandLog {
   std::filesystem::path file_;
   std::filesystem::path part_;
   std::ofstream out_;
+  std::size_t coils_;
+  bool dry_;
   double began_ = 0;
 };
 
@@ -175,7 +184,8 @@ int rig_run(const RigRunOptions& o, const Context& context) {
   const Scenario& scenario = on.scene.scenario;
   const OutFolder hold(o.out);
   Devices devices = open_devices(on, o.dry_run);
-  CommandLog log(o.out, on.rig.system);
+  if (o.dry_run) note("dry run: nothing goes to the coils\n");
+  CommandLog log(o.out, on.rig.system, o.dry_run);
   LiveRig plant(scenario, on.world.map, on.rig, std::move(devices.camera), devices.scale,
                 devices.driver(), [&](const CoilMoment& m) { log.add(m); });
   const auto navigator =
@@ -184,14 +194,14 @@ int rig_run(const RigRunOptions& o, const Context& context) {
   if (key.is_there()) note("space, e or Esc: coils to zero at once\n");
   const Stop stop = o.seconds ? context.within(*o.seconds) : context.stop;
   double seconds = 0;
-  const RunOutput output{o.out, false, o.json, name_of(on.rig),
+  const RunOutput output{o.out, false, o.json, name_of(on.rig) + (o.dry_run ? ", dry run" : ""),
                          [&] { return timing_json(plant.timing()); }};
   const int code = run_once(on.scene, on.world, output, {}, stop,
                             [&](std::span<RunListener* const> listeners, const Stop& until) {
                               RunResult result = run(scenario, plant, *navigator, listeners, until);
                               plant.stop("the run has ended");
                               seconds = result.metrics.time;
-                              log.finish();
+                              log.finish(plant.zero_at(), plant.zero_is_confirmed());
                               if (!plant.zero_is_confirmed())
                                 note(
                                     "note: the coil driver did not confirm that the coils are at "

@@ -67,13 +67,18 @@ FittedScale from_grid(const ScaleOptions& o, const Image& picture) {
       used != std::ssize(o.grid) || params.columns < 2 || params.rows < 2 ||
       params.columns > 1000 || params.rows > 1000)
     throw InputError("--grid: must be COLUMNSxROWS, 2 to 1000 each, not " + quote(o.grid));
-  FittedScale fit = [&] {
-    try {
-      return fit_scale(find_grid(picture, params), !o.mirrored);
-    } catch (const InputError& error) {
-      throw InputError(o.picture + ": " + error.what());
-    }
-  }();
+  std::vector<ScalePoint> points;
+  try {
+    points = find_grid(picture, params);
+  } catch (const InputError& error) {
+    throw InputError(o.picture + ": " + error.what());
+  }
+  if (o.mirrored)  // the grid too is seen in the mirror
+    for (ScalePoint& p : points) p.place.y = (params.rows - 1) * params.pitch - p.place.y;
+  FittedScale fit = fit_scale(points, !o.mirrored);
+  if (fit.worst > 0.25 * params.pitch)
+    throw InputError(fmt::format("{}: a point is {:.3g} µm off a grid of {:.6g} µm", o.picture,
+                                 fit.worst, params.pitch));
   if (const auto origin = origin_of(o)) fit.scale.origin_px = *origin;
   return fit;
 }
@@ -145,7 +150,7 @@ void add_rig_scale(Command rig, Action& action) {
       .needs(grid);
   cmd.add_option("--origin", o->origin,
                  "The world's origin in the picture, px, y down; not given: the lower left corner, "
-                 "or the grid's first point")
+                 "mirrored the upper left one, or the grid's first point")
       .type_name("X,Y")
       .check(place(2, "X,Y"));
   cmd.add_flag("--mirrored", o->mirrored, "The world's y goes down in the picture");

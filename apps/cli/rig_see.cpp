@@ -82,6 +82,8 @@ int see(const SeeOptions& o) {
   SeeSettings settings;
   if (!o.config.empty()) settings = read_yaml_file<SeeSettings>(o.config);
   set_values(settings, o.settings);
+  check(settings.scene.swarm.look, {});
+  check(settings.scene.obstacles, {});
   const Image picture = picture_of(o.picture, settings.camera);
   std::optional<Mask> walls;
   if (!o.still.empty()) walls = find_walls(still_of(o.still, picture), settings.walls);

@@ -33,16 +33,16 @@ TEST(CoilSystem, HelmholtzFieldIsEvenToTheFourthOrder) {
   const CoilSystem system = system_of("coils: {type: helmholtz}");
   const Eigen::Vector3d currents(0, 0, 1);
   const auto deviation = [&](double half_width) {
-    return uniformity(system, currents, {.half_width = half_width, .points = 3}).largest();
+    return uniformity(system, currents, {.half_width = half_width, .points = 3})->largest();
   };
   EXPECT_NEAR(deviation(4000) / deviation(2000), 16, 0.2);
-  const UniformityMap map = uniformity(system, currents, {.half_width = 40000, .points = 41});
+  const UniformityMap map = *uniformity(system, currents, {.half_width = 40000, .points = 41});
   EXPECT_EQ(map.at(20, 20), 0);
   EXPECT_LT(map.radius_within(0.01), map.radius_within(0.05));
   EXPECT_GT(map.radius_within(0.01), 10000);
   EXPECT_EQ(map.place(0, 40), Eigen::Vector3d(-40000, 40000, 0));
   const UniformityMap side =
-      uniformity(system, currents, {.plane = Plane::yz, .half_width = 1000, .points = 3});
+      *uniformity(system, currents, {.plane = Plane::yz, .half_width = 1000, .points = 3});
   EXPECT_EQ(side.place(2, 0), Eigen::Vector3d(0, 1000, -1000));
 }
 

@@ -48,6 +48,23 @@ TEST_F(RigCamera, ScaleFromAGridOfDots) {
             "9x7\n");
 }
 
+TEST_F(RigCamera, ScaleOfAMirroredPicture) {
+  draw("slide.pgm", [](int x, int y) {
+    return std::hypot((x + 15) % 30 - 15, (y + 15) % 30 - 15) < 6 && x > 15 && x < 285 && y > 15 &&
+           y < 195;
+  });
+  const Json grid = Json::parse(good(
+      {"rig", "scale", "slide.pgm", "--grid", "9x6", "--pitch", "100", "--mirrored", "--json"}));
+  EXPECT_NEAR(grid["scale"]["um_per_px"].get<double>(), 100 / 30.0, 1e-3);
+  EXPECT_EQ(grid["scale"]["y_up"], false);
+  EXPECT_NEAR(grid["scale"]["origin_px"][0].get<double>(), 30, 0.1);  // its upper left point
+  EXPECT_NEAR(grid["scale"]["origin_px"][1].get<double>(), 30, 0.1);
+  EXPECT_LT(grid["worst_um"].get<double>(), 1);
+  const Json points = Json::parse(good({"rig", "scale", "slide.pgm", "--points", "10,20,40,60",
+                                        "--distance", "500", "--mirrored", "--json"}));
+  EXPECT_EQ(points["scale"]["origin_px"], (Json{-0.5, -0.5}));
+}
+
 TEST_F(RigCamera, SeesASwarmAndDrawsIt) {
   draw("frame.pgm", [](int x, int y) { return std::hypot(x - 100, y - 90) < 25; });
   // A smooth disc, where swarms have grain.
@@ -75,6 +92,8 @@ TEST_F(RigCamera, RefusesInOneLine) {
   write("small.pgm", "P5\n2 1\n255\nab");
   refused({"rig", "see", "slide.pgm", "--still", "small.pgm"},
           "small.pgm: is 2 × 1 px, the picture is 320 × 240 px");
+  refused({"rig", "see", "slide.pgm", "--set", "scene.swarm.look.max_radius_px=5"},
+          "max_radius_px is 5, min_radius_px 8: nothing is found");
   refused({"rig", "see", "slide.pgm", "--out", "seen.txt"},
           "--out: must be a file .png, not 'seen.txt' (see microswarm rig see --help)");
 }

@@ -67,8 +67,10 @@ TEST_F(Rig, CalibrationGivesASystemThatIsReadAgain) {
   write("measured.csv",
         "i_a_a,i_b_a,i_c_a,bx_mt,by_mt,bz_mt\n1,0,0,2,0,0\n0,1,0,0,3,0\n0,0,1,0,0.5,4\n1,1,1,2,3.5,"
         "4\n");
-  const std::string said = good({"rig", "calibrate", "measured.csv", "--out", "fitted.yaml"});
-  EXPECT_NE(said.find("4 measurements of 3 coils: a, b, c"), std::string::npos) << said;
+  const Outcome said = run({"rig", "calibrate", "measured.csv", "--out", "fitted.yaml"});
+  EXPECT_EQ(said.code, 0);
+  EXPECT_NE(said.out.find("4 measurements of 3 coils: a, b, c"), std::string::npos) << said.out;
+  EXPECT_EQ(said.err, "note: fitted.yaml names no limits of the coils: add its `drives`\n");
   const Json json =
       Json::parse(good({"rig", "field", "fitted.yaml", "--field", "2,3.5,4", "--json"}));
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(json["currents_a"][i].get<double>(), 1, 1e-9);
@@ -114,7 +116,7 @@ TEST_F(WholeRig, IsCheckedInWordsAndInJson) {
   EXPECT_EQ(told["answers"][1],
             Json({{"what", "limits"},
                   {"ok", false},
-                  {"answer", "the driver does not take such currents, see full_scale"}}));
+                  {"answer", "the coils' limits weaken the field to 0.27 mT, 8 mT is meant"}}));
 }
 
 TEST_F(WholeRig, TheBenchToStartFromIsWholeButForItsDevices) {
@@ -126,6 +128,27 @@ TEST_F(WholeRig, TheBenchToStartFromIsWholeButForItsDevices) {
   EXPECT_NE(outcome.out.find("NO   camera    /dev/none: cannot open: No such file or directory"),
             std::string::npos)
       << outcome.out;
+}
+
+TEST_F(WholeRig, ADryRunSaysSoAndTheLogEndsWithZero) {
+  const std::string scenario = MICROSWARM_SOURCE_DIR "/scenarios/papers/radar/single.yaml";
+  const Outcome outcome = run({"rig", "run", scenario, "--rig", rig("vortex.yaml"), "--dry-run",
+                               "--seconds", "0.5", "--out", "dry"});
+  EXPECT_NE(outcome.err.find("dry run: nothing goes to the coils"), std::string::npos);
+  const std::string dry = read("dry/commands.csv");
+  EXPECT_EQ(dry.find("driven"), std::string::npos);
+  EXPECT_TRUE(dry.ends_with(",,0,0,0,0,0,0,0,1,dry,,\n")) << dry.substr(dry.size() - 200);
+  run({"rig", "run", scenario, "--rig", rig("vortex.yaml"), "--seconds", "0.5", "--out", "wet"});
+  const std::string wet = read("wet/commands.csv");
+  EXPECT_NE(wet.find(",driven,"), std::string::npos);
+  EXPECT_TRUE(wet.ends_with(",1,zero,,\n")) << wet.substr(wet.size() - 200);
+}
+
+TEST_F(WholeRig, ARehearsalOnTheBenchIsRefusedBeforeItBegins) {
+  const std::string scenario = MICROSWARM_SOURCE_DIR "/scenarios/papers/radar/single.yaml";
+  refused({"rig", "rehearse", scenario, "--rig", rig("bench.yaml")},
+          rig("bench.yaml") +
+              ":8:9: the camera is no simulated one, as a rehearsal needs: set camera.type");
 }
 
 TEST_F(WholeRig, WhatIsWrongIsToldWhereItWasGiven) {

@@ -80,8 +80,11 @@ class Simulator {
   /// When the outputs became these [ms], waiting for it for a second; nothing if they did not.
   std::optional<std::int64_t> when(const Outputs& wanted) {
     std::unique_lock lock(mutex_);
-    if (!news_.wait_for(lock, 1s, [&] { return outputs_ == wanted; })) return std::nullopt;
-    return changed_;
+    if (outputs_ == wanted) return changed_;
+    wanted_ = wanted;
+    matched_.reset();
+    news_.wait_for(lock, 1s, [&] { return matched_.has_value(); });
+    return matched_;
   }
 
  private:
@@ -96,6 +99,7 @@ class Simulator {
       if (what == "out") {
         words >> changed_;
         for (int& o : outputs_) words >> o;
+        if (outputs_ == wanted_ && !matched_) matched_ = changed_;  // it may not stay so
       }
       news_.notify_all();
     }
@@ -109,7 +113,8 @@ class Simulator {
   std::condition_variable news_;
   std::string port_;
   std::int64_t changed_ = 0;
-  Outputs outputs_{};
+  Outputs outputs_{}, wanted_{};
+  std::optional<std::int64_t> matched_;  // when they became those wanted
 };
 
 SerialCoilParams params(const std::string& port) {
@@ -145,6 +150,28 @@ TEST_F(Firmware, DrivesAndStops) {
   EXPECT_EQ(status->bad, 0);
   EXPECT_TRUE(driver.stop());
   EXPECT_TRUE(mega.when(off));
+}
+
+TEST_F(Firmware, WaitsUnarmedForTheFirstCurrents) {
+  SerialCoilDriver driver(params(mega.port()));
+  std::this_thread::sleep_for(300ms);  // longer than its watchdog
+  EXPECT_EQ(driver.ask_status()->trips, 0);
+  EXPECT_EQ(driver.drive(some), DriveStatus::driven);
+  EXPECT_TRUE(mega.when(some_outputs));
+  EXPECT_TRUE(driver.stop());
+  EXPECT_EQ(driver.drive(some), DriveStatus::driven);
+}
+
+TEST_F(Firmware, APortHasOneProgram) {
+  SerialCoilDriver driver(params(mega.port()));
+  EXPECT_EQ(driver.drive(some), DriveStatus::driven);
+  try {
+    SerialCoilDriver other(params(mega.port()));
+    FAIL();
+  } catch (const HardwareError& e) {
+    EXPECT_EQ(std::string(e.what()), mega.port() + ": another program drives coils there");
+  }
+  EXPECT_EQ(driver.drive(some), DriveStatus::driven);
 }
 
 TEST_F(Firmware, ReversesThroughZeroStepByStep) {

@@ -11,6 +11,7 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdlib>
@@ -34,6 +35,8 @@ using Clock = std::chrono::steady_clock;
 using Outputs = std::array<int, 6>;
 
 constexpr double frequency = 16e6;
+constexpr double slice = 0.001;     // [s] simulated between looks at the line
+constexpr double most_late = 0.02;  // [s]
 constexpr int top = 799;
 
 std::int64_t milliseconds() {
@@ -84,19 +87,26 @@ class Mega {
 
   /// Until the standard input ends.
   void run() {
-    const auto began = Clock::now();
+    auto began = Clock::now();
     Outputs shown{};
     show(shown);
     for (;;) {
-      const double seconds = std::chrono::duration<double>(Clock::now() - began).count();
-      const auto until = static_cast<avr_cycle_count_t>(seconds * frequency);
+      const double own = static_cast<double>(avr_->cycle) / frequency;
+      double late = std::chrono::duration<double>(Clock::now() - began).count() - own;
+      if (late > most_late) {  // the computer had other work: that time does not count
+        began += std::chrono::duration_cast<Clock::duration>(
+            std::chrono::duration<double>(late - most_late));
+        late = most_late;
+      }
+      // A little at a time, so that no message waits until all is caught up with.
+      const auto until = static_cast<avr_cycle_count_t>((own + std::min(late, slice)) * frequency);
       while (avr_->cycle < until) {
         const int state = avr_run(avr_);
         if (state == cpu_Crashed || state == cpu_Done) fail("the firmware crashed");
       }
       const Outputs now = outputs_of(*avr_);
       if (now != shown) show(shown = now);
-      if (!exchange()) return;
+      if (!exchange(late > slice ? 0 : 1)) return;
     }
   }
 
@@ -145,9 +155,10 @@ class Mega {
     }
   }
 
-  bool exchange() {
+  /// Waits for so long [ms] when nothing comes.
+  bool exchange(int wait) {
     std::array<pollfd, 2> ready{{{port_, POLLIN, 0}, {STDIN_FILENO, POLLIN, 0}}};
-    if (poll(ready.data(), ready.size(), 1) <= 0) return true;
+    if (poll(ready.data(), ready.size(), wait) <= 0) return true;
     std::array<std::uint8_t, 256> bytes{};
     if (ready[0].revents & POLLIN) {
       const auto n = read(port_, bytes.data(), bytes.size());

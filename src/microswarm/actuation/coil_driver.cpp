@@ -9,8 +9,8 @@
 namespace microswarm {
 
 std::string_view to_string(DriveStatus status) {
-  constexpr std::array<std::string_view, 5> names{"driven", "scaled", "resumed", "refused",
-                                                  "no_answer"};
+  constexpr std::array<std::string_view, 6> names{"driven",  "scaled",    "resumed",
+                                                  "refused", "not_armed", "no_answer"};
   return names[static_cast<std::size_t>(status)];
 }
 
@@ -19,8 +19,9 @@ SimulatedCoilDriver::SimulatedCoilDriver(int channels, double full_scale)
 
 DriveStatus SimulatedCoilDriver::drive(std::span<const double> currents) {
   assert(currents.size() == currents_.size());
-  const bool possible = std::all_of(currents.begin(), currents.end(),
-                                    [&](double i) { return std::abs(i) <= full_scale_; });
+  const bool possible = std::all_of(currents.begin(), currents.end(), [&](double i) {
+    return std::abs(i) <= full_scale_ * (1 + full_scale_slack);
+  });
   if (!possible) return DriveStatus::refused;
   std::copy(currents.begin(), currents.end(), currents_.begin());
   return DriveStatus::driven;

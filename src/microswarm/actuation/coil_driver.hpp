@@ -8,12 +8,16 @@
 
 namespace microswarm {
 
+/// Share of the full scale by which currents may exceed it, for rounding.
+inline constexpr double full_scale_slack = 1e-9;
+
 /// What became of a command to the coils.
 enum class DriveStatus : std::uint8_t {
   driven,
   scaled,     ///< the device's own limits made all currents smaller by the same factor
   resumed,    ///< driven, but the coils had been off: the device restarted or its watchdog struck
   refused,    ///< more current than the driver can be asked for; the coils are as before
+  not_armed,  ///< the device is off and does not let itself be armed
   no_answer,  ///< the coils are off within the device's watchdog time, or it is gone
 };
 std::string_view to_string(DriveStatus status);

@@ -53,6 +53,11 @@ CoilSystem::CoilSystem(const CoilSystemParams& params, const Places& where,
     drives_.push_back(given == 0 ? DriveParams{} : params.drives[given == 1 ? 0 : i]);
 }
 
+void CoilSystem::limit_current(double most) {
+  for (DriveParams& drive : drives_)
+    drive.max_current = std::min(most, drive.max_current.value_or(most));
+}
+
 void CoilSystem::check_names(const Places& where) const {
   if (names_.empty() || names_.size() > max_coils_of_set)
     throw where.error("", fmt::format("{} coils, allowed 1..{}", names_.size(), max_coils_of_set));

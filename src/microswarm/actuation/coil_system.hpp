@@ -154,6 +154,8 @@ class CoilSystem {
   const std::vector<std::string>& coil_names() const { return names_; }
   /// One for each coil.
   const std::vector<DriveParams>& drives() const { return drives_; }
+  /// No coil gets more than this from now on [A], as its driver cannot give more.
+  void limit_current(double most);
   /// The middle of the system or of its workspace [µm].
   const Eigen::Vector3d& centre() const { return centre_; }
   /// Whether the model is known to hold there; windings and a matrix know no bounds.

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 #include <poll.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -33,6 +34,8 @@ class SerialCoilDriver::Port {
     boost::system::error_code error;
     port_.open(path, error);
     if (error) throw HardwareError(fmt::format("{}: cannot open: {}", path, error.message()));
+    if (::flock(port_.native_handle(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+      throw HardwareError(path + ": another program drives coils there");
     using Base = asio::serial_port_base;
     const auto set = [&](const auto& option) {
       port_.set_option(option, error);
@@ -97,7 +100,6 @@ SerialCoilDriver::SerialCoilDriver(const SerialCoilParams& params)
   if (reply->version != coil_link_version || reply->result != CoilResult::ok)
     throw HardwareError(fmt::format("{}: the device speaks version {} of the protocol, this is {}",
                                     params_.port, reply->version, coil_link_version));
-  if (!arm()) throw HardwareError(fmt::format("{}: the device does not arm", params_.port));
 }
 
 SerialCoilDriver::~SerialCoilDriver() { stop(); }
@@ -107,14 +109,16 @@ DriveStatus SerialCoilDriver::drive(std::span<const double> currents) {
   std::array<int, coil_link_channels> outputs{};
   for (std::size_t c = 0; c < outputs.size(); ++c) {
     const double share = currents[c] / params_.full_scale;
-    if (!(std::abs(share) <= 1)) return DriveStatus::refused;
+    if (!(std::abs(share) <= 1 + full_scale_slack)) return DriveStatus::refused;
     outputs[c] = static_cast<int>(std::lround(share * coil_link_full_scale));
   }
+  DriveStatus status = DriveStatus::driven;
+  if (!armed_) armed_ = arm();  // only now: its watchdog does not wait for the first currents
   auto reply = exchange(CoilMessage::set, outputs);
   if (!reply) return DriveStatus::no_answer;
-  DriveStatus status = DriveStatus::driven;
   if (reply->result == CoilResult::not_armed) {
     if (!arm() || !(reply = exchange(CoilMessage::set, outputs))) return DriveStatus::no_answer;
+    if (reply->result == CoilResult::not_armed) return DriveStatus::not_armed;
     status = DriveStatus::resumed;
   }
   if (reply->result == CoilResult::limited) return DriveStatus::scaled;
@@ -124,8 +128,10 @@ DriveStatus SerialCoilDriver::drive(std::span<const double> currents) {
 bool SerialCoilDriver::stop() noexcept {
   try {
     const auto reply = exchange(CoilMessage::stop);
-    return reply && std::all_of(reply->outputs.begin(), reply->outputs.end(),
-                                [](int output) { return output == 0; });
+    const bool at_zero = reply && std::all_of(reply->outputs.begin(), reply->outputs.end(),
+                                              [](int output) { return output == 0; });
+    armed_ = armed_ && !at_zero;
+    return at_zero;
   } catch (...) {
     return false;  // no memory; the device's watchdog does it
   }

@@ -39,8 +39,9 @@ struct SerialCoilParams {
 /// Six coils behind an Arduino Mega 2560 with firmware/coil_driver (docs/protocol.md).
 class SerialCoilDriver final : public CoilDriver {
  public:
-  /// Opens the port, greets the device and arms it. Throws HardwareError when there is no such
-  /// port, nothing answers in time, or it speaks another version.
+  /// Opens the port and greets the device; it is armed when the first currents come. Throws
+  /// HardwareError when there is no such port, another program has it, nothing answers in time, or
+  /// the device speaks another version.
   explicit SerialCoilDriver(const SerialCoilParams& params);
   ~SerialCoilDriver() override;
   SerialCoilDriver(const SerialCoilDriver&) = delete;
@@ -69,6 +70,7 @@ class SerialCoilDriver final : public CoilDriver {
   CoilReplyReader reader_;
   std::uint8_t sequence_ = 0;
   double round_trip_ = 0;
+  bool armed_ = false;                                 // by us, and not stopped since
   std::array<double, coil_link_channels> currents_{};  // as the last answer says [A]
 };
 

@@ -40,17 +40,20 @@ double UniformityMap::radius_within(double share) const {
   return radius;
 }
 
-UniformityMap uniformity(const CoilSystem& system, const Eigen::VectorXd& currents,
-                         const UniformityGrid& grid) {
+std::optional<UniformityMap> uniformity(const CoilSystem& system, const Eigen::VectorXd& currents,
+                                        const UniformityGrid& grid,
+                                        const std::function<bool(double share)>& go_on) {
   assert(grid.points >= 2 && grid.half_width > 0);
   UniformityMap map{.grid = grid, .centre_field = system.at(grid.centre).field_of(currents)};
   const double strength = map.centre_field.norm();
   if (!(strength > 0)) throw InputError("the field at the centre of the map is 0");
-  for (int row = 0; row < grid.points; ++row)
+  for (int row = 0; row < grid.points; ++row) {
     for (int column = 0; column < grid.points; ++column) {
       map.field.push_back(system.at(map.place(column, row)).field_of(currents));
       map.deviation.push_back((map.field.back() - map.centre_field).norm() / strength);
     }
+    if (go_on && !go_on((row + 1.0) / grid.points)) return std::nullopt;
+  }
   return map;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <functional>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -42,8 +44,10 @@ struct UniformityMap {
   double radius_within(double share) const;
 };
 
-/// The map under constant currents [A]. Throws InputError when the field at the centre is 0.
-UniformityMap uniformity(const CoilSystem& system, const Eigen::VectorXd& currents,
-                         const UniformityGrid& grid);
+/// The map under constant currents [A]. Throws InputError when the field at the centre is 0. After
+/// each row `go_on` hears the share that is done; when it says no there is no map.
+std::optional<UniformityMap> uniformity(const CoilSystem& system, const Eigen::VectorXd& currents,
+                                        const UniformityGrid& grid,
+                                        const std::function<bool(double share)>& go_on = {});
 
 }  // namespace microswarm

@@ -52,6 +52,7 @@ class Run {
  private:
   std::optional<Status> tick(const Stop& stop) {
     const Observation seen = plant_.observe();
+    was_seen_ = was_seen_ || seen.swarm || plant_.truth();
     if (scenario_.robots && !task_) begin_with_robots(seen);
     move_to(present(seen));
     if (!plant_.fault().empty()) {
@@ -222,8 +223,10 @@ class Run {
     if (seen.swarm) frame.observed = seen.swarm->pose;
     frame.goal_distance = present_.goal_distance;
     constexpr double none = std::numeric_limits<double>::infinity();
-    frame.wall_clearance = task_ ? none : world.map().clearance(frame.pose.position);
-    frame.obstacle_clearance = task_ ? none : world.moving().clearance(frame.pose.position, none);
+    const bool one_is_there = !task_ && was_seen_;
+    frame.wall_clearance = one_is_there ? world.map().clearance(frame.pose.position) : none;
+    frame.obstacle_clearance =
+        one_is_there ? world.moving().clearance(frame.pose.position, none) : none;
     if (is_detected(frame))
       frame.avoidance_cost = avoidance_cost(*scenario_.goal - frame.pose.position,
                                             frame.pose.heading, frame.speed > 0, start_distance_);
@@ -255,6 +258,7 @@ class Run {
   std::optional<Watch> watch_;
   std::optional<RobotTask> task_;  // of robots that are told apart
   Present present_;
+  bool was_seen_ = false;  // the swarm, at least once
   double hold_time_ = 0;
   double detection_range_ = 0;  // [µm]
   double start_distance_ = 0;   // from the goal [µm]

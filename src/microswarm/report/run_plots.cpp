@@ -59,6 +59,7 @@ Plot clearances(const Record& record) {
   Series walls{.label = "walls and border"};
   Series bodies{.label = "moving obstacles"};
   for (const Frame& f : record.frames) {
+    if (!std::isfinite(f.wall_clearance)) continue;  // the swarm was not seen yet
     walls.x.push_back(f.t);
     walls.y.push_back(f.wall_clearance);
     if (!std::isfinite(f.obstacle_clearance)) continue;

@@ -116,6 +116,7 @@ std::string moment_caption(const RunSubject& s, std::size_t number, const PlanEv
   std::string text = fmt::format("{}: at {:.1f} s", number, event.t);
   if (std::isfinite(frame.obstacle_clearance))
     text += fmt::format(", {:.0f} µm from the nearest obstacle", frame.obstacle_clearance);
+  if (!std::isfinite(frame.wall_clearance)) return text;
   return text + fmt::format(", {:.0f} µm from the nearest wall", frame.wall_clearance);
 }
 

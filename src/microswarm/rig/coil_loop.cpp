@@ -57,6 +57,11 @@ bool CoilLoop::zero_is_confirmed() const {
   return confirmed_;
 }
 
+double CoilLoop::zero_at() const {
+  const std::lock_guard lock(mutex_);
+  return zero_at_;
+}
+
 std::string CoilLoop::failure() const {
   const std::lock_guard lock(mutex_);
   return why_;
@@ -97,7 +102,9 @@ void CoilLoop::run() {
   }
   lock.unlock();
   const bool confirmed = controller_.stop();
+  const double at_zero_at = steady_seconds();
   lock.lock();
+  zero_at_ = at_zero_at;
   confirmed_ = confirmed;
   at_zero_ = true;
   changed_.notify_all();
@@ -112,6 +119,8 @@ std::string CoilLoop::send(CoilMoment& moment, const Eigen::Vector3d& place, dou
     moment.output = controller_.advance(dt);
     moment.round_trip = steady_seconds() - began;
     if (moment.output.status == DriveStatus::refused) return "the coil driver refuses the currents";
+    if (moment.output.status == DriveStatus::not_armed)
+      return "the coils' device is off and does not let itself be armed";
     if (heard_) heard_(moment);
     return {};
   } catch (const std::exception& e) {

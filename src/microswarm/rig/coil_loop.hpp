@@ -46,6 +46,8 @@ class CoilLoop {
   std::string failure() const;
   /// After stop(): the device said that the coils are at zero.
   bool zero_is_confirmed() const;
+  /// After stop(): when they were told so [s], by steady_seconds().
+  double zero_at() const;
 
  private:
   void run();
@@ -63,6 +65,7 @@ class CoilLoop {
   std::string why_;                  // it stops
   bool at_zero_ = false;
   bool confirmed_ = false;
+  double zero_at_ = 0;
   std::thread thread_;
 };
 

@@ -54,6 +54,8 @@ class LiveRig : public Plant {
   void stop(const std::string& why);
   /// After stop(): the device said that the coils are at zero.
   bool zero_is_confirmed() const { return coils_.zero_is_confirmed(); }
+  /// After stop(): when the device was told so [s], by steady_seconds().
+  double zero_at() const { return coils_.zero_at(); }
   RigTiming timing() const;
   /// The newest picture and what was seen in it.
   const Image& picture() const { return grey_; }

@@ -15,6 +15,10 @@ int channels_of(const RigParams& rig) {
   return simulated ? simulated->channels : coil_link_channels;
 }
 
+double full_scale_of(const RigParams& rig) {
+  return std::visit([](const auto& driver) { return driver.full_scale; }, rig.driver);
+}
+
 void check(const RigParams& rig, const CoilSystem& system, const Places& where) {
   const double least_rate = least_sends * rig.field.frequency;
   if (rig.drive_rate < least_rate)
@@ -22,6 +26,8 @@ void check(const RigParams& rig, const CoilSystem& system, const Places& where) 
                       fmt::format("drive_rate_hz is {:.6g}, the field turns {:.6g} times a second "
                                   "and needs at least {:.6g}",
                                   rig.drive_rate, rig.field.frequency, least_rate));
+  check(rig.eye.scene.swarm.look, where.within("eye.scene.swarm.look"));
+  check(rig.eye.scene.obstacles, where.within("eye.scene.obstacles"));
   const int channels = channels_of(rig);
   if (static_cast<int>(system.size()) > channels)
     throw where.error(
@@ -36,11 +42,20 @@ Rig read_rig(const std::filesystem::path& file, const Settings& settings) {
   auto params = read_yaml_file<RigParams>(file, settings, places);
   CoilSystem system = read_coil_system(file.parent_path() / params.coils);
   check(params, system, places);
+  system.limit_current(full_scale_of(params));
   return {std::move(params), std::move(system), file.parent_path(), places};
 }
 
 std::string name_of(const Rig& rig) {
   return rig.params.name.empty() ? "unnamed rig" : rig.params.name;
+}
+
+const SimulatedCamera& simulated_camera(const Rig& rig) {
+  const auto* camera = std::get_if<SimulatedCamera>(&rig.params.camera);
+  if (!camera)
+    throw rig.where.error("camera",
+                          "the camera is no simulated one, as a rehearsal needs: set camera.type");
+  return *camera;
 }
 
 void check(const Rig& rig, const Scenario& scenario, const Places& where) {

@@ -124,10 +124,14 @@ struct Rig {
 /// What it is called in records.
 std::string name_of(const Rig& rig);
 
-/// Reads the file of a rig and its coil system; `settings` are `key=value` texts as from --set.
+/// Reads the file of a rig and its coil system, whose currents the driver's full scale limits;
+/// `settings` are `key=value` texts as from --set.
 /// Throws InputError in one line, also for currents that are sent too seldom for the field and for
 /// a driver with too few channels.
 Rig read_rig(const std::filesystem::path& file, const Settings& settings = {});
+
+/// The rig's camera, for a rehearsal. Throws InputError when it is no simulated one.
+const SimulatedCamera& simulated_camera(const Rig& rig);
 
 /// Throws InputError when the rig cannot drive the scenario's swarm as fast as it is meant to go;
 /// `where` knows the scenario's keys.

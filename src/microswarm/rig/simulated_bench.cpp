@@ -18,9 +18,7 @@ constexpr double same_place = 20;  // [µm]; no coil's field changes over so sho
 /// field is made for.
 Scenario true_scenario(Scenario scenario, const Rig& rig) {
   check(rig, scenario);
-  const auto* camera = std::get_if<SimulatedCamera>(&rig.params.camera);
-  if (!camera) throw rig.where.error("camera", "the camera is no simulated one");
-  const double faster = std::max(1.0, 1 + camera->speed_error);
+  const double faster = std::max(1.0, 1 + simulated_camera(rig).speed_error);
   std::visit([&](auto& swarm) { swarm.max_speed *= faster; }, scenario.swarm);
   if (scenario.robots) scenario.robots->max_speed *= faster;
   scenario.sensing.position_noise = 0;

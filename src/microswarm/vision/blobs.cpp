@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/vision/blobs.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -238,6 +240,13 @@ std::optional<Blob> blob_of(const Field& field, const Piece& piece, float level,
 }
 
 }  // namespace
+
+void check(const BlobParams& p, const Places& where) {
+  if (p.max_radius < p.min_radius)
+    throw where.error({"max_radius_px", "min_radius_px"},
+                      fmt::format("max_radius_px is {:.6g}, min_radius_px {:.6g}: nothing is found",
+                                  p.max_radius, p.min_radius));
+}
 
 std::vector<Blob> find_blobs(const Image& picture, const BlobParams& p, const Mask* walls) {
   Field field{.side = coarseness(p)};

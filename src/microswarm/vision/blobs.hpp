@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "microswarm/core/fields.hpp"
+#include "microswarm/core/places.hpp"
 #include "microswarm/formats/image.hpp"
 #include "microswarm/formats/mask.hpp"
 #include "microswarm/geometry/vec2.hpp"
@@ -42,6 +43,9 @@ struct BlobParams {
                            "off. 0: anything."});
   }
 };
+
+/// Throws InputError at `where` when its keys do not go together.
+void check(const BlobParams& params, const Places& where);
 
 /// Something compact in a picture. All in pixels: x right, y down, (0, 0) is the middle of the
 /// first pixel.

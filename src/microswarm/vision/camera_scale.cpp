@@ -58,6 +58,7 @@ CameraScale scale_of_distance(Vec2 a_px, Vec2 b_px, double distance_um, int heig
   if (!(scale.um_per_px >= 1e-6 && scale.um_per_px <= 1e6))
     throw InputError("scale: " + number_text(scale.um_per_px) + " µm a pixel, allowed 1e-6..1e6");
   scale.y_up = y_up;
+  if (!y_up) scale.origin_px.y = -0.5;  // y goes down from the upper edge
   if (origin_px) scale.origin_px = *origin_px;
   return scale;
 }
