@@ -111,6 +111,9 @@ class LiveRigs : public testing::Test {
     world = build_world(scene);
     rig.emplace(read_rig(scenarios / "rigs/vortex.yaml",
                          {"camera.type=simulated", "camera.microscope.um_per_px=6"}));
+    // A busy computer stalls: a test sets the limit that it is about.
+    rig->params.safety = {
+        .lost_swarm = 3, .oldest_frame = 3, .deadman = 3, .missed_deadlines = 100};
   }
 
   /// Runs until `seconds` have passed or it ends; `then` is called after 0.5 s.
@@ -189,6 +192,7 @@ TEST_F(LiveRigs, BlackPicturesEndIt) {
 }
 
 TEST_F(LiveRigs, PicturesThatComeTwoSecondsLateEndIt) {
+  rig->params.safety.oldest_frame = 0.5;
   const RunResult result = go(6, [&](LiveRig&) { trouble->late = 2; });
   EXPECT_EQ(result.status, Status::fault);
   EXPECT_NE(result.state.find("s old, allowed 0.5 s"), std::string::npos) << result.state;
@@ -197,6 +201,7 @@ TEST_F(LiveRigs, PicturesThatComeTwoSecondsLateEndIt) {
 }
 
 TEST_F(LiveRigs, ASwarmThatLeavesThePictureEndsIt) {
+  rig->params.safety.lost_swarm = 0.5;
   const RunResult result = go(6, [&](LiveRig&) { trouble->no_swarm = true; });
   EXPECT_EQ(result.status, Status::fault);
   EXPECT_NE(result.state.find("the swarm was not found for"), std::string::npos) << result.state;
@@ -226,6 +231,13 @@ TEST_F(LiveRigs, RefusedCurrentsEndIt) {
   EXPECT_EQ(at_end, 0);
 }
 
+TEST_F(LiveRigs, ADeviceThatStaysOffEndsIt) {
+  const RunResult result = go(6, [&](LiveRig&) { coils->answer = DriveStatus::not_armed; });
+  EXPECT_EQ(result.status, Status::fault);
+  EXPECT_EQ(result.state, "the coils' device is off and does not let itself be armed");
+  EXPECT_EQ(at_end, 0);
+}
+
 TEST_F(LiveRigs, TimesInFramesThatJumpDoNotMatter) {
   EXPECT_EQ(go(2, [&](LiveRig&) { trouble->jump = true; }).status, Status::stopped);
 }
@@ -251,6 +263,7 @@ class Slow : public Navigator {
 };
 
 TEST_F(LiveRigs, ANavigatorThatHangsEndsIt) {
+  rig->params.safety.deadman = 0.5;
   const Scenario& s = scene.scenario;
   LiveBench bench(s, world, *rig, std::make_unique<WatchedCoils>(coils));
   LiveRig plant(s, world.map, *rig, bench.camera(40), bench.view().scale, bench.coils());
