@@ -79,6 +79,7 @@ int rehearse_trials(const RehearseOptions& o, const Context& context) {
       o.scenario.empty() ? usual_pairs()
                          : std::vector<Pair>{{o.scenario, o.rig, o.settings, o.rig_settings}};
   std::vector<RigScene> scenes;  // all of them first: what cannot begin is told at once
+  scenes.reserve(pairs.size());
   for (const Pair& pair : pairs)
     scenes.push_back(load_rig_scene(pair.scenario, pair.settings, pair.rig, pair.rig_settings));
   for (const RigScene& on : scenes) simulated_camera(on.rig);
