@@ -63,6 +63,31 @@ TEST_F(Rig, MapsAsPictureAndTable) {
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 26);
 }
 
+TEST_F(Rig, AMapOfAMeasuredSystemStaysWhereItWasMeasured) {
+  // Two coils whose fields were measured in a cube of 2 x 2 x 2 mm.
+  for (const bool along_x : {true, false}) {
+    std::string grid = "8\n2 2 2\n-0.001 0.001\n-0.001 0.001\n-0.001 0.001\n";
+    for (const char* x : {"-0.001 ", "0.001 "})
+      for (const char* y : {"-0.001 ", "0.001 "})
+        for (const char* z : {"-0.001 ", "0.001 "})
+          grid += std::string(x) + y + z + (along_x ? "0.002 0 0\n" : "0 0.002 0\n");
+    write(along_x ? "x.txt" : "y.txt", grid);
+  }
+  write("grids.yaml", "coils: {type: vfield, files: [x.txt, y.txt]}\n");
+  const Json json = Json::parse(good({"rig", "map", "grids.yaml", "--points", "5", "--json"}));
+  EXPECT_LE(json["half_width_um"].get<double>(), 1000);
+  EXPECT_GT(json["half_width_um"].get<double>(), 800);
+  EXPECT_EQ(run({"rig", "map", "grids.yaml", "--half-width", "1001"}).code, 2);
+}
+
+TEST_F(Rig, RoundingIsNotShownAsAGradient) {
+  const std::string text = good({"rig", "field", "rig.yaml", "--at", "0,0,0", "--field", "3,0,0"});
+  EXPECT_NE(text.find("field (3, 0, 0) mT, 3 mT in all\ngradients dBx/dx 0, dBx/dy 0, dBx/dz 0, "
+                      "dBy/dy 0, dBy/dz 0 T/m\n"),
+            std::string::npos)
+      << text;
+}
+
 TEST_F(Rig, CalibrationGivesASystemThatIsReadAgain) {
   write("measured.csv",
         "i_a_a,i_b_a,i_c_a,bx_mt,by_mt,bz_mt\n1,0,0,2,0,0\n0,1,0,0,3,0\n0,0,1,0,0.5,4\n1,1,1,2,3.5,"
@@ -135,6 +160,7 @@ TEST_F(WholeRig, ADryRunSaysSoAndTheLogEndsWithZero) {
   const Outcome outcome = run({"rig", "run", scenario, "--rig", rig("vortex.yaml"), "--dry-run",
                                "--seconds", "0.5", "--out", "dry"});
   EXPECT_NE(outcome.err.find("dry run: nothing goes to the coils"), std::string::npos);
+  EXPECT_NE(read("dry/index.html").find(", dry run<"), std::string::npos);
   const std::string dry = read("dry/commands.csv");
   EXPECT_EQ(dry.find("driven"), std::string::npos);
   EXPECT_TRUE(dry.ends_with(",,0,0,0,0,0,0,0,1,dry,,\n")) << dry.substr(dry.size() - 200);

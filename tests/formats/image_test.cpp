@@ -89,6 +89,16 @@ TEST(Image, SixteenBitsAreScaledToEight) {
                {255, 128, 0});
 }
 
+TEST(Image, APhotographHasTheBitsThatItsLargestSampleNeeds) {
+  const Folder folder;
+  const cv::Mat twelve = (cv::Mat_<std::uint16_t>(1, 3) << 0, 2048, 4095);
+  const auto file = folder.with("twelve.png", encoded(".png", twelve));
+  expect_image(read_photograph(file), 3, 1, 1, {0, 128, 255});
+  expect_image(read_image(file), 3, 1, 1, {0, 8, 16});
+  const cv::Mat eight = (cv::Mat_<std::uint8_t>(1, 2) << 7, 9);
+  expect_image(read_photograph(folder.with("eight.png", encoded(".png", eight))), 2, 1, 1, {7, 9});
+}
+
 TEST(Image, PaletteIsLookedUp) {
   const std::string colours = test::chunk("PLTE", "\1\2\3\4\5\6\7\x8\x9");
   expect_image(decode(test::png(3, 1, 8, test::palette, "\0\2\0\1"s, colours)), 3, 1, 3,

@@ -6,6 +6,7 @@
 #include <atomic>
 
 #include "microswarm/core/error.hpp"
+#include "tests/cases.hpp"
 #include "tests/navigation/gathering.hpp"
 
 namespace microswarm {
@@ -59,7 +60,8 @@ scenes::Vascular generated(std::uint32_t number) {
 // Before the map shrank region by region, two regions handed the same robots to and fro for ever.
 TEST(Aggregation, NoLivelock) {
   std::vector<scenes::Vascular> maps{scenes::t_junction(), scenes::vascular_network()};
-  for (std::uint32_t number = 0; number < 6; ++number) maps.push_back(generated(number));
+  for (std::uint32_t number = 0; number < test::cases(6U); ++number)
+    maps.push_back(generated(number));
   for (const scenes::Vascular& map : maps) {
     const Gathering g(map);
     for (const Aggregation method : {Aggregation::heuristic, Aggregation::divide_and_conquer}) {

@@ -5,6 +5,7 @@
 
 #include "microswarm/core/rng.hpp"
 #include "microswarm/geometry/distance.hpp"
+#include "tests/cases.hpp"
 
 namespace microswarm {
 namespace {
@@ -37,7 +38,7 @@ double sampled(const Snapshot& world, Segment s, double t0, double t1) {
 
 TEST(Forecast, AgreesWithSmallStepsAndIsNeverGreater) {
   Rng rng(1, Purpose::test);
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < test::cases(300); ++i) {
     std::vector<Body> bodies;
     for (int k = 0; k < 3; ++k) {
       const Vec2 c{rng.uniform(0, 1000), rng.uniform(0, 1000)};

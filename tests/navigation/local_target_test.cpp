@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "microswarm/core/rng.hpp"
+#include "tests/cases.hpp"
 #include "tests/navigation/room.hpp"
 
 namespace microswarm {
@@ -39,7 +40,7 @@ TEST(LocalTarget, NeverFartherThanTheBaseDistanceOrTheGoal) {
 TEST(LocalTarget, TheWayThereIsFree) {
   Rng rng(2, Purpose::test);
   int found = 0;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < test::cases(300); ++i) {
     std::vector<Body> bodies;
     for (std::uint32_t k = 0; k < 12; ++k)
       bodies.push_back(
@@ -54,7 +55,7 @@ TEST(LocalTarget, TheWayThereIsFree) {
     ++found;
     EXPECT_TRUE(world.is_free(Segment{from, target->position}, 40));
   }
-  EXPECT_GT(found, 100);
+  EXPECT_GT(found, test::cases(100));
 }
 
 TEST(LocalTarget, ABlockedFanWidensToTheFullCircle) {

@@ -8,6 +8,7 @@
 #include "microswarm/core/error.hpp"
 #include "microswarm/geometry/distance.hpp"
 #include "microswarm/navigation/radar_scanner.hpp"
+#include "tests/cases.hpp"
 #include "tests/navigation/discs.hpp"
 #include "tests/scenes/worlds.hpp"
 
@@ -181,7 +182,7 @@ Case random_case(Rng& rng) {
 TEST(RadarScanner, ChoosesAsTheFullScanDoes) {
   RadarScanner scanner(directions);
   int avoided = 0, screened = 0, straight = 0;
-  for (std::uint32_t trial = 0; trial < 6000; ++trial) {
+  for (std::uint32_t trial = 0; trial < test::cases(6000U); ++trial) {
     Rng rng(9, Purpose::test, trial);
     const Case c = random_case(rng);
     std::vector<Polygon> walls;
@@ -212,9 +213,9 @@ TEST(RadarScanner, ChoosesAsTheFullScanDoes) {
     ASSERT_EQ(*fast, slow.beams[*slow.best].heading) << trial;
     avoided += contact.has_value();
   }
-  EXPECT_GT(avoided, 500);
-  EXPECT_GT(screened, 100);
-  EXPECT_GT(straight, 500);
+  EXPECT_GT(avoided, test::cases(500));
+  EXPECT_GT(screened, test::cases(100));
+  EXPECT_GT(straight, test::cases(500));
 }
 
 TEST(RadarScanner, KeepsAsTheFullScanDoes) {

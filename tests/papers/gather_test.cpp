@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "microswarm/experiment/run.hpp"
+#include "tests/cases.hpp"
 #include "tests/files.hpp"
 
 namespace microswarm {
@@ -14,7 +15,7 @@ TEST(Gather, RobotsAnywhereInARealVesselMaskComeTogether) {
   constexpr double step = 4;
   Scenario s;
   s.map = guess_map_spec(mask, 6.0);
-  s.robots.emplace().count = 48;
+  s.robots.emplace().count = test::cases(48);
   s.robots->max_speed = 80;
   s.tick = step / s.robots->max_speed;
   s.time_limit = 100'000 * s.tick;

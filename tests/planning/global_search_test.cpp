@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "microswarm/core/error.hpp"
+#include "tests/cases.hpp"
 #include "tests/planning/global_ends.hpp"
 #include "tests/scenes/global_worlds.hpp"
 #include "tests/scenes/worlds.hpp"
@@ -68,7 +69,7 @@ TEST(GlobalSearch, SolvesWithRobotsThatStopAtWalls) {
 
 TEST(GlobalSearch, EveryPlanReplaysInRandomWorlds) {
   Rng rng(4, Purpose::scene);
-  for (int k = 0; k < 20; ++k) {
+  for (int k = 0; k < test::cases(20); ++k) {
     const scenes::RawWorld world = scenes::random_world(k % scenes::random_kinds, rng);
     const Map map(world.bounds, world.walls, world.discs);
     std::vector<Vec2> from, to;

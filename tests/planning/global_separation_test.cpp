@@ -10,6 +10,7 @@
 #include "microswarm/planning/global_rrt.hpp"
 #include "microswarm/planning/global_search.hpp"
 #include "microswarm/planning/global_shorten.hpp"
+#include "tests/cases.hpp"
 #include "tests/planning/global_ends.hpp"
 #include "tests/scenes/global_worlds.hpp"
 #include "tests/scenes/worlds.hpp"
@@ -57,7 +58,7 @@ TEST(GlobalSeparation, HoldsOnlyWhereNoMomentOfTheMoveIsTooNear) {
     for (int world = 1; world <= scenes::global_worlds; ++world) {
       const Map map = global_world(world);
       const RobotStepper stepper = input_stepper(map, step);
-      for (int k = 0; k < 2000; ++k) {
+      for (int k = 0; k < test::cases(2000); ++k) {
         // Two robots near each other and near walls.
         Vec2 p, q;
         do {
@@ -82,8 +83,8 @@ TEST(GlobalSeparation, HoldsOnlyWhereNoMomentOfTheMoveIsTooNear) {
       }
     }
   }
-  EXPECT_GT(held, 1000);
-  EXPECT_GT(broken, 100);
+  EXPECT_GT(held, test::cases(1000));
+  EXPECT_GT(broken, test::cases(100));
   EXPECT_EQ(refused_too_much, 0);
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "tests/cases.hpp"
 #include "tests/scenes/vascular.hpp"
 #include "tests/scenes/worlds.hpp"
 
@@ -127,7 +128,7 @@ TEST(MapSegmentation, BendsAreNoJunctionsAndForksAre) {
 }
 
 TEST(MapSegmentation, LawsHoldOnGeneratedMaps) {
-  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+  for (int seed = 1; seed <= test::cases(12); ++seed) {
     scenes::VascularShape shape;
     shape.least_half = seed % 3 == 0 ? 1.5 : 3.5;
     Rng rng(seed, Purpose::scene);
@@ -148,9 +149,9 @@ TEST(MapSegmentation, AnOpenHallIsOneRegion) {
 }
 
 TEST(Vascular, GeneratedMapsAreConnectedAndEndAtADeadEnd) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (int seed = 1; seed <= test::cases(20); ++seed) {
     scenes::VascularShape shape;
-    shape.loops = 0.04 * static_cast<double>(seed);
+    shape.loops = 0.04 * seed;
     Rng rng(seed, Purpose::scene);
     Rng same(seed, Purpose::scene);
     const scenes::Vascular scene = scenes::random_vascular(shape, rng);

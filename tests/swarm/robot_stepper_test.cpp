@@ -5,6 +5,7 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/rng.hpp"
+#include "tests/cases.hpp"
 
 namespace microswarm {
 namespace {
@@ -215,7 +216,7 @@ TEST(RobotStepper, StopsOrDoesNotMove) {
 // The same input again and again along a wall is rounded the same way each time: towards the wall,
 // for some slants.
 TEST(RobotStepper, ThousandsOfEqualMovesAlongSlantingWallsDoNotCreepIntoThem) {
-  for (int i = 1; i < 400; i += 7) {
+  for (int i = 1; i < test::cases(400); i += 7) {
     const double slant = 0.0005 * i;
     const Map map({{0, 0}, {400, 500}},
                   {Polygon{{{0, 0}, {31, 0}, {31 + 500 * slant, 500}, {0, 500}}, {}}});

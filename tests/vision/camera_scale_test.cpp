@@ -11,6 +11,7 @@
 #include "microswarm/core/rng.hpp"
 #include "microswarm/vision/calibration_grid.hpp"
 #include "microswarm/vision/video_tracker.hpp"
+#include "tests/cases.hpp"
 #include "tests/files.hpp"
 #include "tests/vision/microscope.hpp"
 
@@ -135,7 +136,7 @@ TEST(CalibrationGrid, DotsAndChessboardsAreFoundAtAnyAngle) {
     double worst_scale = 0;
     double worst_point = 0;
     double worst_turn = 0;
-    for (int k = 0; k < 30; ++k) {
+    for (int k = 0; k < test::cases(30); ++k) {
       Rng rng(5, Purpose::test, k);
       GridParams grid{.pattern = pattern, .columns = 9, .rows = 6, .pitch = 100};
       if (k % 5 == 4) std::swap(grid.columns, grid.rows);

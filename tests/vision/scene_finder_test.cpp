@@ -11,6 +11,7 @@
 #include "microswarm/core/statistics.hpp"
 #include "microswarm/vision/scene_overlay.hpp"
 #include "microswarm/vision/wall_finder.hpp"
+#include "tests/cases.hpp"
 #include "tests/files.hpp"
 #include "tests/vision/microscope.hpp"
 
@@ -71,7 +72,7 @@ TEST(SceneFinder, ASwarmThatTouchesAnObstacleOfItsToneIsStillSeenAndSoIsTheObsta
   int discs = 0;
   int trials = 0;
   for (const double apart : {-6.0, 0.0, 3.0, 8.0})
-    for (int k = 0; k < 20; ++k, ++trials) {
+    for (int k = 0; k < test::cases(20); ++k, ++trials) {
       Rng rng(17, Purpose::test, trials);
       DrawnFrame frame(test::frame_width, test::frame_height);
       const double radius = rng.uniform(15, 40);

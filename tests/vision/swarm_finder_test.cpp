@@ -9,6 +9,7 @@
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/statistics.hpp"
+#include "tests/cases.hpp"
 #include "tests/files.hpp"
 #include "tests/vision/microscope.hpp"
 
@@ -65,7 +66,7 @@ TEST(SwarmFinder, PlaceSizeAndShapeOfHundredsOfSwarms) {
     std::vector<double> angle_off;
     std::vector<double> ms;
     int missed = 0;
-    for (std::uint32_t trial = 0; trial < (most_noise > 0 ? 250 : 50); ++trial) {
+    for (int trial = 0; trial < test::cases(most_noise > 0 ? 250 : 50); ++trial) {
       const Scene s = scene(trial, most_noise);
       const auto began = std::chrono::steady_clock::now();
       const SwarmSighting seen = find_swarm(s.picture);

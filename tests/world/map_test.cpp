@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "microswarm/core/error.hpp"
+#include "tests/cases.hpp"
 #include "tests/world/random_worlds.hpp"
 
 namespace microswarm {
@@ -45,7 +46,7 @@ TEST(Map, answers_as_brute_force_in_a_crowd) {
   for (int world = 0; world < 8; ++world) {
     const Drawn drawn = crowded(rng, 5 + 20 * world, 6 * world);
     const Map map = drawn.map();
-    for (int i = 0; i < 5000; ++i) {
+    for (int i = 0; i < test::cases(5000); ++i) {
       const double r = random_radius(rng, i);
       const Segment s = random_segment(rng, drawn.bounds.grown(5), i);
       const double at = drawn.clearance(s.a);

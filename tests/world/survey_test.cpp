@@ -4,6 +4,7 @@
 #include <map>
 
 #include "microswarm/world/snapshot.hpp"
+#include "tests/cases.hpp"
 #include "tests/world/random_worlds.hpp"
 
 namespace microswarm {
@@ -76,7 +77,7 @@ TEST(Survey, counts_what_a_raster_counts) {
     const Map map = drawn.map();
     const std::vector<Body> moving =
         world % 3 == 0 ? std::vector<Body>{} : random_moving(rng, drawn);
-    for (int i = 0; i < 12; ++i) {
+    for (int i = 0; i < test::cases(12); ++i) {
       expect_as_counted(map, moving, {random_point(rng, drawn.bounds), rng.uniform(20, 250)});
     }
   }
