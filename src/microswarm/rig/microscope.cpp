@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/each_cpu.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/rig/walls_in_picture.hpp"
 
@@ -23,6 +24,15 @@ constexpr double swarm_spin = 0.5;               // [rad/s]; so that its picture
 
 cv::Mat as_floats(std::vector<float>& values, int width, int height) {
   return {height, width, CV_32F, values.data()};
+}
+
+MICROSWARM_EACH_CPU void expose_pixels(float light, const float* lamp, const float* view,
+                                       const float* grain, std::uint8_t* out, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const float grey = light * lamp[i] * view[i] + grain[i] + 0.5F;
+    const float least = grey > 0.0F ? grey : 0.0F;
+    out[i] = static_cast<std::uint8_t>(static_cast<int>(least < 255.0F ? least : 255.0F));
+  }
 }
 
 }  // namespace
@@ -136,10 +146,10 @@ void Microscope::expose(double t) {
   const double swell = params_.light_drift * std::sin(2 * pi * t / params_.light_period);
   const auto light = static_cast<float>(1 + swell);
   std::size_t grain = rng_.below(grains);
-  for (std::size_t i = 0; i < view_.size(); ++i) {
-    const float grey = light * lamp_[i] * view_[i] + grain_[grain];
-    picture_.pixels[i] = static_cast<std::uint8_t>(std::clamp(grey + 0.5F, 0.0F, 255.0F));
-    grain = (grain + 1) & (grains - 1);
+  for (std::size_t i = 0; i < view_.size(); grain = 0) {
+    const std::size_t count = std::min(view_.size() - i, grains - grain);
+    expose_pixels(light, &lamp_[i], &view_[i], &grain_[grain], &picture_.pixels[i], count);
+    i += count;
   }
 }
 

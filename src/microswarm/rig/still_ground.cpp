@@ -4,18 +4,47 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "microswarm/core/each_cpu.hpp"
 #include "microswarm/vision/ground.hpp"
 
 namespace microswarm {
 namespace {
 
 constexpr double dark = 0.8;           // of the ground
-constexpr double brighter_rate = 0.1;  // learned from a picture: robots only make it darker
-constexpr double darker_rate = 0.03;
+constexpr float brighter_rate = 0.1F;  // learned from a picture: robots only make it darker
+constexpr float darker_rate = 0.03F;
+constexpr float least_ground = 0.05F;
 
 cv::Mat disc(int radius) {
   const int side = 2 * radius + 1;
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side});
+}
+
+MICROSWARM_EACH_CPU void divide(std::span<const std::uint8_t> grey, const float* light,
+                                float* share) {
+  for (std::size_t i = 0; i < grey.size(); ++i)
+    share[i] = static_cast<float>(grey[i]) / (light[i] > 1.0F ? light[i] : 1.0F);
+}
+
+/// The share of the ground, in greys; `level` beyond.
+MICROSWARM_EACH_CPU void level_out(std::span<const float> share, const float* ground,
+                                   const std::uint8_t* beyond, std::uint8_t* grey) {
+  constexpr auto level = static_cast<float>(StillGround::level);
+  for (std::size_t i = 0; i < share.size(); ++i) {
+    const float of_ground = share[i] / (ground[i] > least_ground ? ground[i] : least_ground);
+    const float value = level * (beyond[i] ? 1.0F : of_ground) + 0.5F;
+    grey[i] = static_cast<std::uint8_t>(static_cast<int>(value < 255.0F ? value : 255.0F));
+  }
+}
+
+/// The ground goes towards what is seen where `empty` is set.
+MICROSWARM_EACH_CPU void approach(std::span<const float> seen, const std::uint8_t* empty,
+                                  float* ground) {
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const float off = seen[i] - ground[i];
+    const float rate = off > 0.0F ? brighter_rate : darker_rate;
+    ground[i] += empty[i] ? rate * off : 0.0F;
+  }
 }
 
 }  // namespace
@@ -34,21 +63,22 @@ StillGround::StillGround(const Mask& walls, int reach) : reach_(reach) {
 void StillGround::compare_with_light(const Image& picture) {
   const cv::Mat grey(picture.height, picture.width, CV_8U,
                      const_cast<std::uint8_t*>(picture.pixels.data()));
-  cv::divide(grey, cv::max(ground_of(grey, free_), 1), share_, 1, CV_32F);
+  const cv::Mat light = ground_of(grey, free_);
+  share_.resize(picture.pixels.size());
+  divide(picture.pixels, light.ptr<float>(), share_.data());
 }
 
 const Image& StillGround::take_out(const Image& picture) {
   compare_with_light(picture);
   if (ground_.empty()) {
-    ground_ = cv::Mat::ones(share_.size(), CV_32F);
-    share_.copyTo(ground_, at_edge_);
+    ground_.assign(share_.size(), 1.0F);
+    for (std::size_t i = 0; i < share_.size(); ++i)
+      if (at_edge_.data[i]) ground_[i] = share_[i];
   }
   open_.width = picture.width;
   open_.height = picture.height;
   open_.pixels.resize(picture.pixels.size());
-  cv::Mat out(picture.height, picture.width, CV_8U, open_.pixels.data());
-  cv::Mat(share_ / cv::max(ground_, 0.05)).convertTo(out, CV_8U, level);
-  out.setTo(level, beyond_);
+  level_out(share_, ground_.data(), beyond_.data, open_.pixels.data());
   return open_;
 }
 
@@ -60,18 +90,12 @@ bool StillGround::is_dark(Vec2 at_px) const {
 }
 
 void StillGround::learn(std::span<const Vec2> robots) {
-  cv::Mat empty(share_.size(), CV_8U, cv::Scalar(255));
+  cv::Mat empty(open_.height, open_.width, CV_8U, cv::Scalar(255));
   for (const Vec2 robot : robots)
     cv::circle(empty,
                {static_cast<int>(std::lround(robot.x)), static_cast<int>(std::lround(robot.y))},
                reach_ + 1, 0, cv::FILLED);
-  const cv::Mat off = share_ - ground_;
-  cv::Mat brighter = (off > 0) & empty;
-  cv::Mat darker = (off <= 0) & empty;
-  cv::Mat learned = ground_ + brighter_rate * off;
-  learned.copyTo(ground_, brighter);
-  learned = ground_ + darker_rate * off;
-  learned.copyTo(ground_, darker);
+  approach(share_, empty.data, ground_.data());
 }
 
 }  // namespace microswarm

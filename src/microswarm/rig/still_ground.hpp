@@ -3,6 +3,7 @@
 
 #include <opencv2/core.hpp>
 #include <span>
+#include <vector>
 
 #include "microswarm/formats/image.hpp"
 #include "microswarm/formats/mask.hpp"
@@ -31,11 +32,11 @@ class StillGround {
   void compare_with_light(const Image& picture);
 
   int reach_;
-  cv::Mat free_;     // 255 where no wall is
-  cv::Mat beyond_;   // 255 on walls that no robot's picture reaches
-  cv::Mat at_edge_;  // 255 within reach of a wall's edge
-  cv::Mat share_;    // the picture as share of the light
-  cv::Mat ground_;   // the same where no robot is; empty before the first picture
+  cv::Mat free_;               // 255 where no wall is
+  cv::Mat beyond_;             // 255 on walls that no robot's picture reaches
+  cv::Mat at_edge_;            // 255 within reach of a wall's edge
+  std::vector<float> share_;   // the picture as share of the light
+  std::vector<float> ground_;  // the same where no robot is; empty before the first picture
   Image open_;
 };
 

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "microswarm/core/each_cpu.hpp"
+
 namespace microswarm {
 namespace {
 
@@ -38,8 +40,8 @@ void extend(std::vector<T>& row, int margin, int width) {
 
 /// Whole parts of (offset + sign · in) / by. The sums are far below 2^22, so that half a one more
 /// decides every division rightly.
-void divide(const std::int32_t* in, int count, std::int32_t sign, std::int32_t offset, int by,
-            std::int32_t* out) {
+MICROSWARM_EACH_CPU void divide(const std::int32_t* in, int count, std::int32_t sign,
+                                std::int32_t offset, int by, std::int32_t* out) {
   const float share = 1.0F / static_cast<float>(by);
   for (int x = 0; x < count; ++x)
     out[x] = static_cast<std::int32_t>((static_cast<float>(offset + sign * in[x]) + 0.5F) * share);
@@ -78,7 +80,7 @@ void BandPass::begin(const Image& grey) {
   }
 }
 
-void BandPass::smooth_down(const Image& grey, int row) {
+MICROSWARM_EACH_CPU void BandPass::smooth_down(const Image& grey, int row) {
   const int reach = static_cast<int>(taps_.size()) - 1;
   float* out = smoothed_.data() + reach;
   const std::uint8_t* middle = row_of(grey, row);
@@ -92,7 +94,7 @@ void BandPass::smooth_down(const Image& grey, int row) {
   extend(smoothed_, reach, grey.width);
 }
 
-void BandPass::find_ground(const Image& grey, int row) {
+MICROSWARM_EACH_CPU void BandPass::find_ground(const Image& grey, int row) {
   const int half = params_.box_px / 2;
   const std::uint8_t* enters = row_of(grey, row + half);
   const std::uint8_t* leaves = row_of(grey, row - half - 1);
@@ -112,7 +114,7 @@ void BandPass::find_ground(const Image& grey, int row) {
   divide(ground, grey.width, 1, 0, params_.box_px, ground);
 }
 
-void BandPass::write_row(int width, float* out) const {
+MICROSWARM_EACH_CPU void BandPass::write_row(int width, float* out) const {
   const int reach = static_cast<int>(taps_.size()) - 1;
   const float* in = smoothed_.data() + reach;
   for (int x = 0; x < width; ++x) out[x] = taps_[0] * in[x];

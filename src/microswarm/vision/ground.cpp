@@ -5,8 +5,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "microswarm/core/each_cpu.hpp"
 #include "microswarm/core/statistics.hpp"
 
 namespace microswarm {
@@ -119,6 +121,13 @@ Surface fitted(const std::vector<Tile>& tiles) {
   return surface;
 }
 
+/// constant + x (slope + x curve) for each x.
+MICROSWARM_EACH_CPU void write_parabola(std::span<const double> across, double constant,
+                                        double slope, double curve, float* out) {
+  for (std::size_t i = 0; i < across.size(); ++i)
+    out[i] = static_cast<float>(constant + across[i] * (slope + across[i] * curve));
+}
+
 }  // namespace
 
 cv::Mat ground_of(const cv::Mat& grey, const cv::Mat& seen) {
@@ -134,11 +143,7 @@ cv::Mat ground_of(const cv::Mat& grey, const cv::Mat& seen) {
     const double y = (row - 0.5 * (grey.rows - 1)) / half;
     const double constant = c[0] + y * (c[2] + y * c[5]);
     const double slope = c[1] + y * c[4];
-    auto* out = ground.ptr<float>(row);
-    for (int column = 0; column < grey.cols; ++column) {
-      const double x = across[column];
-      out[column] = static_cast<float>(constant + x * (slope + x * c[3]));
-    }
+    write_parabola(across, constant, slope, c[3], ground.ptr<float>(row));
   }
   return ground;
 }

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <string>
 
+#include "microswarm/core/each_cpu.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/text.hpp"
 #include "microswarm/vision/ring_fit.hpp"
@@ -30,6 +32,30 @@ BandPassParams band_of(const ParticleParams& p) {
 /// Side of the largest square in the circle of radius `separation`.
 int square_in(int separation) {
   return std::max(1, static_cast<int>(2 * separation / std::numbers::sqrt2));
+}
+
+MICROSWARM_EACH_CPU float highest_of(std::span<const float> values) {
+  std::array<float, 16> lanes{};  // each looks at every sixteenth, so that none waits
+  std::size_t i = 0;
+  for (; i + lanes.size() <= values.size(); i += lanes.size())
+    for (std::size_t k = 0; k < lanes.size(); ++k) lanes[k] = std::max(lanes[k], values[i + k]);
+  for (; i < values.size(); ++i) lanes[0] = std::max(lanes[0], values[i]);
+  return *std::max_element(lanes.begin(), lanes.end());
+}
+
+MICROSWARM_EACH_CPU void scale_down(std::span<const float> values, float scale,
+                                    std::uint8_t* bytes) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    bytes[i] = static_cast<std::uint8_t>(static_cast<int>(scale * values[i]));
+}
+
+/// Whether any of `count` values is above the threshold and the highest around it.
+MICROSWARM_EACH_CPU bool has_peak(const std::uint8_t* values, const std::uint8_t* highest,
+                                  std::uint8_t threshold, int count) {
+  std::uint8_t any = 0;
+  for (int i = 0; i < count; ++i)
+    any |= static_cast<std::uint8_t>((values[i] > threshold) & (values[i] == highest[i]));
+  return any != 0;
 }
 
 }  // namespace
@@ -62,13 +88,11 @@ const std::vector<Particle>& ParticleFinder::find(const Image& grey) {
 }
 
 void ParticleFinder::scale_to_bytes(const std::vector<float>& rise) {
-  float highest = 0;
-  for (const float r : rise) highest = std::max(highest, r);
+  const float highest = highest_of(rise);
   const float scale = highest > 0 ? 255.0F / highest : 0.0F;
   greys_per_byte_ = highest / 255.0;
   bytes_.resize(rise.size());
-  for (std::size_t i = 0; i < rise.size(); ++i)
-    bytes_[i] = static_cast<std::uint8_t>(static_cast<int>(scale * rise[i]));
+  scale_down(rise, scale, bytes_.data());
 }
 
 int ParticleFinder::peak_threshold() const {
@@ -87,14 +111,19 @@ int ParticleFinder::peak_threshold() const {
 
 void ParticleFinder::find_peaks() {
   peaks_.clear();
-  const int threshold = peak_threshold();
+  constexpr int stretch = 64;  // of a row, looked at as one
+  const auto threshold = static_cast<std::uint8_t>(peak_threshold());
   const int margin = std::max(radius_, separation_ / 2 - 1);
   surroundings_.run(bytes_, width_, height_, highest_);
   for (int row = margin; row < height_ - margin; ++row) {
-    const std::size_t begin = static_cast<std::size_t>(row) * width_;
-    for (int column = margin; column < width_ - margin; ++column) {
-      const std::uint8_t value = bytes_[begin + column];
-      if (value > threshold && value == highest_[begin + column]) peaks_.push_back({column, row});
+    const std::uint8_t* values = bytes_.data() + static_cast<std::size_t>(row) * width_;
+    const std::uint8_t* highest = highest_.data() + static_cast<std::size_t>(row) * width_;
+    for (int from = margin; from < width_ - margin; from += stretch) {
+      const int to = std::min(from + stretch, width_ - margin);
+      if (!has_peak(values + from, highest + from, threshold, to - from)) continue;
+      for (int column = from; column < to; ++column)
+        if (values[column] > threshold && values[column] == highest[column])
+          peaks_.push_back({column, row});
     }
   }
 }

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "microswarm/core/each_cpu.hpp"
+
 namespace microswarm {
 namespace {
 
-void raise(std::uint8_t* values, const std::uint8_t* others, std::size_t count) {
+MICROSWARM_EACH_CPU void raise(std::uint8_t* values, const std::uint8_t* others,
+                               std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) values[i] = std::max(values[i], others[i]);
 }
 
