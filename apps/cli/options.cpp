@@ -32,7 +32,7 @@ ReportOptions report_options(const PhotoOptions& options) {
   if (options.file.empty()) return {};
   if (!options.um_per_px)
     throw InputError(options.file + ": µm per px is missing: give --um-per-px");
-  return {read_image(options.file), *options.um_per_px};
+  return {read_photograph(options.file), *options.um_per_px};
 }
 
 std::vector<double> numbers(const std::string& text) {

@@ -56,7 +56,7 @@ std::vector<ReproduceRow> reproduce_global(const std::string& figure,
 /// [gather]: fig7 (recurrence models beside steps on maps of fewer regions), fig9 (steps of three
 /// methods and the rollout planner on three maps for 2 … 1024 robots), fig10 (frames of a camera
 /// for robots with a real rig's faults), fig10-rig (the same seen by a camera and driven by coils),
-/// or all when empty.
+/// fig10-frames (with a command for every frame of the camera), or all when empty.
 std::vector<ReproduceRow> reproduce_gather(const std::string& figure,
                                            const ReproduceOptions& options, const Stop& stop);
 

@@ -49,10 +49,11 @@ std::vector<ReproduceRow> rows_of(const ReproduceOptions& options, const Stop& s
 
 std::vector<ReproduceRow> reproduce_gather(const std::string& figure,
                                            const ReproduceOptions& options, const Stop& stop) {
-  constexpr std::array<Figure, 4> figures{{{"fig7", rows_of<gather_fig7>},
+  constexpr std::array<Figure, 5> figures{{{"fig7", rows_of<gather_fig7>},
                                            {"fig9", rows_of<gather_fig9>},
                                            {"fig10", rows_of<gather_fig10>},
-                                           {"fig10-rig", rows_of<gather_fig10_rig>}}};
+                                           {"fig10-rig", rows_of<gather_fig10_rig>},
+                                           {"fig10-frames", rows_of<gather_fig10_frames>}}};
   return reproduce_figures("gather", figures, figure, options, stop);
 }
 

@@ -18,8 +18,12 @@ void gather_fig9(const ReproduceOptions& options, const Stop& stop,
 void gather_fig10(const ReproduceOptions& options, const Stop& stop,
                   std::vector<ReproduceRow>& rows);
 
+/// Fig 10 seen by a camera and driven by coils: a picture and a command for every step, or for
+/// every frame at 45 a second.
 void gather_fig10_rig(const ReproduceOptions& options, const Stop& stop,
                       std::vector<ReproduceRow>& rows);
+void gather_fig10_frames(const ReproduceOptions& options, const Stop& stop,
+                         std::vector<ReproduceRow>& rows);
 
 /// A map with its tree and its published number of nodes.
 AggregationParams gather_params(const scenes::Vascular& scene, Aggregation method);

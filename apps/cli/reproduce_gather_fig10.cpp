@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <mutex>
 
+#include "cli.hpp"
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/parallel.hpp"
 #include "microswarm/core/statistics.hpp"
+#include "microswarm/experiment/progress.hpp"
 #include "microswarm/experiment/run.hpp"
 #include "microswarm/rig/simulated_rig.hpp"
 #include "reproduce_gather.hpp"
@@ -124,43 +127,107 @@ void gather_fig10(const ReproduceOptions& options, const Stop& stop,
   write_everywhere({plot}, std::filesystem::path(options.out) / "fig10");
 }
 
-/// The same robots seen by a camera and driven by coils, a picture and a command for every step.
+namespace {
+
+/// Robots seen by a camera and driven by coils: how they are commanded.
+struct ThroughRig {
+  const char* figure;
+  const char* what;
+  std::optional<double> tick;  // [s] between commands; without: a step of the method
+  std::size_t trials;
+};
+
+/// The share that is done of runs beside each other, each taken to need as long as the longest of
+/// the paper's, but for the last twentieth.
+class Shares {
+ public:
+  Shares(std::string label, std::size_t runs) : bar_(std::move(label)), shares_(runs) {}
+
+  void tell(std::size_t run, double share) {
+    const std::scoped_lock lock(mutex_);
+    shares_[run] = share;
+    bar_.update(mean(shares_));
+  }
+  void tell_time(std::size_t run, double t) {
+    constexpr double usual = 200'000 / frames_per_s;  // [s]
+    tell(run, std::min(0.95, t / usual));
+  }
+
+ private:
+  std::mutex mutex_;
+  ProgressBar bar_;
+  std::vector<double> shares_;
+};
+
 /// The rollout planner is no method of the paper.
-void gather_fig10_rig(const ReproduceOptions& options, const Stop& stop,
-                      std::vector<ReproduceRow>& rows) {
-  const std::size_t trials = options.quick ? 2 : 10;
+void gather_through_rig(const ThroughRig& how, const ReproduceOptions& options, const Stop& stop,
+                        std::vector<ReproduceRow>& rows) {
   const scenes::Vascular scene = scenes::vascular_network();
   const World world = maze(scene);
   const Rig rollers = read_rig(options.scenarios / "rigs/rollers.yaml",
                                {"camera.type=simulated", "camera.microscope.um_per_px=53",
                                 "camera.microscope.robot_diameter_px=4", "eye.robots.diameter_px=5",
                                 "eye.robots.min_mass=60", "eye.robots.separation_px=3"});
-  std::vector<RunResult> results(2 * trials);
-  for_each_index(results.size(), 0, [&](std::size_t i) {
-    if (stop()) return;
-    const Scenario scenario = rig(scene, rig_methods[i / trials].aggregation);
-    const auto trial = static_cast<std::uint32_t>(i % trials);
-    results[i] = rehearse(scenario, world, rollers, trial, {}, stop);
-  });
+  std::vector<RunResult> results(2 * how.trials);
+  {
+    Shares shares(how.figure, results.size());
+    for_each_index(results.size(), 0, [&](std::size_t i) {
+      if (stop()) return;
+      Scenario scenario = rig(scene, rig_methods[i % 2].aggregation);
+      scenario.tick = how.tick.value_or(scenario.tick);
+      ProgressListener progress(
+          scenario, [&](const RunProgress& p) { shares.tell_time(i, p.t); }, 10);
+      RunListener* const listeners[] = {&progress};
+      results[i] =
+          rehearse(scenario, world, rollers, static_cast<std::uint32_t>(i / 2), listeners, stop);
+      shares.tell(i, 1);
+    });
+  }
   if (stop()) return;
   std::array<double, 2> frames{};
+  std::string csv = "method,trial,status,frames\n";
   for (std::size_t m = 0; m < frames.size(); ++m) {
     std::vector<double> times;
     double gathered = 0;
-    for (std::size_t t = 0; t < trials; ++t) {
-      const RunResult& result = results[m * trials + t];
+    for (std::size_t t = 0; t < how.trials; ++t) {
+      const RunResult& result = results[2 * t + m];
       times.push_back(frames_per_s * result.metrics.time);
       gathered += result.status == Status::solved;
+      csv += fmt::format("{},{},{},{:.0f}\n", rig_methods[m].name, t, to_string(result.status),
+                         times.back());
     }
     frames[m] = mean(times);
-    const std::string method = fmt::format("{} through a rig, 300 robots", rig_methods[m].name);
-    rows.push_back(row_of("fig10-rig", method + ": mean frames at 45 fps", "1",
+    const std::string method = fmt::format("{} through a rig, {}", rig_methods[m].name, how.what);
+    rows.push_back(row_of(how.figure, method + ": mean frames at 45 fps", "1",
                           rig_methods[m].published, frames[m]));
-    rows.push_back(row_of("fig10-rig", method + ": gathered", "%", {},
-                          100 * gathered / static_cast<double>(trials), 100, false));
+    rows.push_back(row_of(how.figure, method + ": gathered", "%", {},
+                          100 * gathered / static_cast<double>(how.trials), 100, false));
   }
-  rows.push_back(row_of("fig10-rig", "DCA against HRA through a rig", "%", -34.9,
+  rows.push_back(row_of(how.figure, fmt::format("DCA against HRA, {}", how.what), "%", -34.9,
                         100 * (frames[1] / std::max(1.0, frames[0]) - 1), -34.9));
+  if (options.out.empty()) return;
+  write_file_atomically(
+      std::filesystem::path(options.out) / fmt::format("{}-trials.csv", how.figure), csv);
+}
+
+}  // namespace
+
+void gather_fig10_rig(const ReproduceOptions& options, const Stop& stop,
+                      std::vector<ReproduceRow>& rows) {
+  gather_through_rig({.figure = "fig10-rig",
+                      .what = "a command a step",
+                      .tick = {},
+                      .trials = options.quick ? 2u : 10u},
+                     options, stop, rows);
+}
+
+void gather_fig10_frames(const ReproduceOptions& options, const Stop& stop,
+                         std::vector<ReproduceRow>& rows) {
+  gather_through_rig({.figure = "fig10-frames",
+                      .what = "a command a frame",
+                      .tick = 1 / frames_per_s,
+                      .trials = options.quick ? 1u : 3u},
+                     options, stop, rows);
 }
 
 }  // namespace microswarm::cli

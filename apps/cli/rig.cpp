@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -58,6 +59,9 @@ Json json_of(const Eigen::VectorXd& v) {
   for (const double x : v) list.push_back(x);
   return list;
 }
+
+/// Without what is only rounding beside `whole`, the largest that could be there.
+double tidy(double x, double whole) { return std::abs(x) < 1e-12 * whole ? 0.0 : x; }
 
 std::string text_of(const Eigen::Vector3d& v) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", v[0], v[1], v[2]);
@@ -122,11 +126,14 @@ int field(const FieldOptions& o) {
   } else {
     print("{} at {} µm{}\n", system.name().empty() ? o.system : system.name(), text_of(place),
           system.in_workspace(place) ? "" : ", outside of the calibrated workspace");
-    print("field {} mT, {:.6g} mT in all\n", text_of(made), made.norm());
+    const Eigen::Vector3d clean = made.unaryExpr([&](double b) { return tidy(b, made.norm()); });
+    print("field {} mT, {:.6g} mT in all\n", text_of(clean), made.norm());
+    // In T/m as if the field were gone a metre away, which it is far sooner.
+    const auto of_slope = [&](Eigen::Index i) { return tidy(slope[i], made.norm() / 1e3); };
     print(
         "gradients dBx/dx {:.6g}, dBx/dy {:.6g}, dBx/dz {:.6g}, dBy/dy {:.6g}, dBy/dz {:.6g} "
         "T/m\n",
-        slope[0], slope[1], slope[2], slope[3], slope[4]);
+        of_slope(0), of_slope(1), of_slope(2), of_slope(3), of_slope(4));
     for (std::size_t i = 0; i < system.size(); ++i)
       print("  {:<10} {:12.6g} A\n", system.coil_names()[i],
             held.currents[static_cast<Eigen::Index>(i)]);

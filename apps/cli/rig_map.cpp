@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "microswarm/actuation/currents.hpp"
 #include "microswarm/actuation/uniformity.hpp"
@@ -28,7 +29,7 @@ struct RigMapOptions {
   std::string currents;
   std::string field = "1,0,0";
   std::string plane = "xy";
-  double half_width = 10000;
+  std::optional<double> half_width;
   std::uint64_t points = 101;
   bool json = false;
 };
@@ -89,13 +90,26 @@ std::string csv_of(const UniformityMap& map) {
   return text;
 }
 
+/// A centimetre, or what the system's workspace allows of it.
+double usual_half_width(const CoilSystem& system, const UniformityGrid& grid) {
+  const UniformityMap whole{.grid = grid, .centre_field = {}, .field = {}, .deviation = {}};
+  const int last = grid.points - 1;
+  const bool inside =
+      system.in_workspace(whole.place(0, 0)) && system.in_workspace(whole.place(last, 0)) &&
+      system.in_workspace(whole.place(0, last)) && system.in_workspace(whole.place(last, last));
+  if (inside || grid.half_width < 1) return grid.half_width;
+  UniformityGrid smaller = grid;
+  smaller.half_width *= 0.9;
+  return usual_half_width(system, smaller);
+}
+
 int map_field(const RigMapOptions& o, const Stop& stop) {
   keep_input(o.out, o.system);
   const CoilSystem system = read_coil_system(o.system);
   UniformityGrid grid{.centre = o.at.empty() ? system.centre() : triple_of(o.at),
                       .plane = *enum_value<Plane>(o.plane),
-                      .half_width = o.half_width,
                       .points = static_cast<int>(o.points)};
+  grid.half_width = o.half_width ? *o.half_width : usual_half_width(system, grid);
   const Eigen::VectorXd currents =
       o.currents.empty() ? currents_for(system.at(grid.centre), triple_of(o.field)).currents
                          : currents_of(o.currents, system);
@@ -164,7 +178,8 @@ void add_rig_map(Command rig, Action& action) {
   cmd.add_option("--plane", o->plane, "Plane of the map: xy, xz or yz")
       .type_name("WORD")
       .check(one_of({"xy", "xz", "yz"}));
-  cmd.add_option("--half-width", o->half_width, "Half the side of the map in µm, 10000 else")
+  cmd.add_option("--half-width", o->half_width,
+                 "Half the side of the map in µm; else 10000, or what lies in the workspace")
       .type_name("NUMBER")
       .check(number(1, 1e8));
   cmd.add_option("--points", o->points, "Places along a side, 3..1001")

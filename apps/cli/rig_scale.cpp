@@ -87,7 +87,7 @@ int scale(const ScaleOptions& o) {
   keep_input(o.out, o.picture);
   if (o.points.empty() == o.grid.empty())
     throw InputError("rig scale: give either --points or --grid");
-  const Image picture = read_image(o.picture);
+  const Image picture = read_photograph(o.picture);
   const FittedScale fit = o.grid.empty() ? from_points(o, picture) : from_grid(o, picture);
   const CameraScale& s = fit.scale;
   const std::string yaml = to_yaml(ScalePiece{s});

@@ -39,7 +39,7 @@ struct SeeOptions {
 
 /// The picture of a file, or the newest of a camera once it has had a second to settle.
 Image picture_of(const std::string& source, CameraParams camera) {
-  if (!source.starts_with("/dev/")) return read_image(source);
+  if (!source.starts_with("/dev/")) return read_photograph(source);
   camera.device = source;
   NewestFrame live = live_camera(camera);
   LiveFrame frame;
@@ -51,7 +51,7 @@ Image picture_of(const std::string& source, CameraParams camera) {
 
 /// A picture of the same place. Throws InputError when it is of another size.
 Image still_of(const std::string& file, const Image& picture) {
-  Image still = read_image(file);
+  Image still = read_photograph(file);
   if (still.width != picture.width || still.height != picture.height)
     throw InputError(fmt::format("{}: is {} × {} px, the picture is {} × {} px", file, still.width,
                                  still.height, picture.width, picture.height));

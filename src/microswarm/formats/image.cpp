@@ -74,6 +74,10 @@ std::optional<int> sample_depth(const std::filesystem::path& path) {
   return std::clamp(static_cast<int>(std::bit_width(static_cast<unsigned>(largest))), 8, 16);
 }
 
+Image read_photograph(const std::filesystem::path& path) {
+  return read_image(path, sample_depth(path).value_or(16));
+}
+
 Image to_grey(const Image& image) {
   if (image.channels == 1) return image;
   Image grey{image.width, image.height, 1, {}};

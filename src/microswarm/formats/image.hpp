@@ -43,6 +43,10 @@ Image decode_image(std::span<const std::byte> bytes, std::string_view name, int 
 /// picture. Throws as `read_image`.
 std::optional<int> sample_depth(const std::filesystem::path& path);
 
+/// What a camera wrote: samples of a PNG with 16 bits are numbers of as many bits as the largest of
+/// them needs, 12 of many cameras. Throws as `read_image`.
+Image read_photograph(const std::filesystem::path& path);
+
 /// The picture as one grey channel, of colours the luma 0.299 R + 0.587 G + 0.114 B, rounded.
 Image to_grey(const Image& image);
 

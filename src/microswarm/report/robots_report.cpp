@@ -117,6 +117,7 @@ std::vector<std::vector<std::string>> robots_numbers(const Record& record) {
           {"left to the goal", fmt::format("{:.1f} µm", m.goal_distance)},
           {"time held", fmt::format("{:.1f} s", m.hold_time)},
           {"planning events", fmt::format("{}", m.planning_events)},
+          {"rig", record.rig.empty() ? "none: simulated" : record.rig},
           {"seed, trial", fmt::format("{}, {}", record.scene.scenario.seed, record.trial)},
           {"version", record.version},
           {"inputs", record.scene.hash()},

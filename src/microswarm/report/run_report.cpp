@@ -160,6 +160,7 @@ std::vector<std::vector<std::string>> run_numbers(const Record& record) {
           {"planning events", fmt::format("{}", m.planning_events)},
           {"planning time, mean ± sd", fmt::format("{:.3f} ± {:.3f} ms", 1e3 * p.mean, 1e3 * p.sd)},
           {"planning time, longest", fmt::format("{:.3f} ms", 1e3 * p.max)},
+          {"rig", record.rig.empty() ? "none: simulated" : record.rig},
           {"seed, trial", fmt::format("{}, {}", record.scene.scenario.seed, record.trial)},
           {"version", record.version},
           {"inputs", record.scene.hash()},
