@@ -5,6 +5,7 @@
 
 #include "inputs.hpp"
 #include "program.hpp"
+#include "tests/cases.hpp"
 
 namespace microswarm::test {
 namespace {
@@ -164,7 +165,8 @@ TEST_F(WholeRig, ADryRunSaysSoAndTheLogEndsWithZero) {
   const std::string dry = read("dry/commands.csv");
   EXPECT_EQ(dry.find("driven"), std::string::npos);
   EXPECT_TRUE(dry.ends_with(",,0,0,0,0,0,0,0,1,dry,,\n")) << dry.substr(dry.size() - 200);
-  run({"rig", "run", scenario, "--rig", rig("vortex.yaml"), "--seconds", "0.5", "--out", "wet"});
+  run({"rig", "run", scenario, "--rig", rig("vortex.yaml"), "--seconds", sanitized ? "5" : "1",
+       "--out", "wet"});
   const std::string wet = read("wet/commands.csv");
   EXPECT_NE(wet.find(",driven,"), std::string::npos);
   EXPECT_TRUE(wet.ends_with(",1,zero,,\n")) << wet.substr(wet.size() - 200);

@@ -23,7 +23,8 @@ TEST(Gather, RobotsAnywhereInARealVesselMaskComeTogether) {
   s.goal_tolerance = 10 * step;
   AggregationParams params;
   params.scale = step;
-  for (const Aggregation method : {Aggregation::heuristic, Aggregation::divide_and_conquer}) {
+  for (const Aggregation method : {Aggregation::divide_and_conquer, Aggregation::heuristic}) {
+    if (test::sanitized && method == Aggregation::heuristic) break;  // steps in the same map
     params.method = method;
     s.navigator = params;
     const World world = build_world(load_scene(s, {}));
