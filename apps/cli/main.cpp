@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <malloc.h>  // of glibc
+
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -37,6 +39,14 @@ int complain(const char* what, int code) {
   return code;
 }
 
+/// Pictures come and go: their memory is kept, not given back to the system and cleared each time.
+void keep_memory() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  mallopt(M_TRIM_THRESHOLD, 256 << 20);
+#endif
+}
+
 int act(const microswarm::cli::Action& action) {
   using namespace microswarm;
   try {
@@ -60,6 +70,7 @@ int act(const microswarm::cli::Action& action) {
 
 int main(int argc, char** argv) {
   using namespace microswarm;
+  keep_memory();
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
   std::signal(SIGQUIT, on_interrupt);

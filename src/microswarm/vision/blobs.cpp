@@ -4,12 +4,15 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
+#include <span>
 #include <string>
 
+#include "microswarm/core/each_cpu.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/statistics.hpp"
 #include "microswarm/vision/ground.hpp"
@@ -53,28 +56,48 @@ cv::Mat seen_of(const Image& picture, const Mask* walls, int side) {
   return ~hidden;
 }
 
+/// What rises above the ground, or sinks below it with sign -1, where something is seen.
+MICROSWARM_EACH_CPU void take_ground(std::span<const std::uint8_t> grey, const std::uint8_t* seen,
+                                     float sign, float* ground) {
+  for (std::size_t i = 0; i < grey.size(); ++i) {
+    const float rise = sign * (static_cast<float>(grey[i]) - ground[i]);
+    ground[i] = seen[i] ? rise : 0.0F;
+  }
+}
+
+/// Means over what is seen from means over all.
+MICROSWARM_EACH_CPU void make_up(std::span<const float> share, const std::uint8_t* seen,
+                                 float* rise) {
+  for (std::size_t i = 0; i < share.size(); ++i) {
+    const float mean = rise[i] / (share[i] > 0.1F ? share[i] : 0.1F);
+    rise[i] = seen[i] ? mean : 0.0F;
+  }
+}
+
 /// How far each pixel stands out of the ground, smoothed; 0 where nothing is seen.
 cv::Mat rise_of(const cv::Mat& grey, const cv::Mat& seen, bool dark, double spread) {
-  cv::Mat rise;
-  cv::subtract(grey, ground_of(grey, seen), rise, cv::noArray(), CV_32F);
-  if (dark) rise *= -1;
+  assert(grey.isContinuous());
+  const cv::Mat all = seen.empty() ? cv::Mat(grey.size(), CV_8U, cv::Scalar(255)) : seen;
+  cv::Mat rise = ground_of(grey, seen);
+  take_ground({grey.ptr<std::uint8_t>(), grey.total()}, all.ptr<std::uint8_t>(), dark ? -1 : 1,
+              rise.ptr<float>());
   const int side = 2 * static_cast<int>(std::ceil(2.5 * spread)) + 1;
-  if (!seen.empty()) rise.setTo(0, ~seen);
   cv::GaussianBlur(rise, rise, {side, side}, spread, spread, cv::BORDER_REFLECT);
   if (seen.empty()) return rise;
   cv::Mat share;
   seen.convertTo(share, CV_32F, 1.0 / 255);
   cv::GaussianBlur(share, share, {side, side}, spread, spread, cv::BORDER_REFLECT);
-  rise /= cv::max(share, 0.1F);
-  rise.setTo(0, ~seen);
+  make_up({share.ptr<float>(), share.total()}, seen.ptr<std::uint8_t>(), rise.ptr<float>());
   return rise;
 }
 
-/// Spread of the ground around its surface, by the median of one pixel in seven.
+/// Spread of the ground around its surface, by the median of some ten thousand pixels.
 double ground_spread(const cv::Mat& rise, const cv::Mat& seen) {
+  constexpr std::size_t enough = 10'000;
+  const std::size_t step = 2 * (rise.total() / enough / 2) + 7;  // odd: no column again and again
   std::vector<double> off;
-  off.reserve(rise.total() / 7 + 1);
-  for (std::size_t i = 0; i < rise.total(); i += 7)
+  off.reserve(rise.total() / step + 1);
+  for (std::size_t i = 0; i < rise.total(); i += step)
     if (seen.empty() || seen.ptr<std::uint8_t>()[i]) off.push_back(std::abs(rise.ptr<float>()[i]));
   return 1.4826 * median(std::move(off));
 }
