@@ -54,6 +54,21 @@ TEST(Vfield, ReadsTheYamlForm) {
             "grid.yaml: data has 9 nodes, 2 × 2 × 2 are 8");
 }
 
+TEST(Vfield, RefusesGridsAndFieldsThatCannotBe) {
+  const auto yaml = [](const char* most, const char* field) {
+    std::string text = fmt::format(
+        "dim_x: 2\ndim_y: 2\ndim_z: 2\nmin_x: 0\nmax_x: {}\nmin_y: 0\nmax_y: 1\nmin_z: 0\n"
+        "max_z: 1\ndata:\n",
+        most);
+    for (int i = 0; i < 8; ++i) text += fmt::format("  - [0, {}, 1]\n", field);
+    return test::error_of([&] { parse_vfield_yaml(text, "grid.yaml"); });
+  };
+  EXPECT_EQ(yaml("1", "1"), "nothing was thrown");
+  EXPECT_EQ(yaml("1e-300", "1"), "grid.yaml: range 0 .. 1e-300 m, must ascend");
+  EXPECT_EQ(yaml("1", "-1e300"),
+            "grid.yaml: node 1 of data: a field of -1e300 T for one ampere, allowed -1000..1000");
+}
+
 TEST(Vfield, RefusesInOneLine) {
   const auto refusal = [](std::string_view from, std::string_view to) {
     std::string text = grid_text();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <span>
 
 #include "microswarm/actuation/si.hpp"
 #include "microswarm/actuation/text_rows.hpp"
@@ -19,13 +20,24 @@ namespace {
 
 constexpr int max_nodes = 1000;  // in one direction
 constexpr std::int64_t max_values = 4'000'000;
+constexpr double least_extent = 1e-9;  // [m]
+constexpr double most_field = 1e3;     // [T] of one ampere
 
 /// A range of the grid that makes sense, else what is wrong with it.
 std::string complaint(int nodes, double least, double most) {
   if (nodes < 2 || nodes > max_nodes)
     return fmt::format("{} nodes in one direction, allowed 2..{}", nodes, max_nodes);
-  if (!(least < most))
+  if (!(most - least >= least_extent))
     return fmt::format("range {} .. {} m, must ascend", number_text(least), number_text(most));
+  return {};
+}
+
+/// A field that could be, else what is wrong with it.
+std::string complaint(std::span<const double> field) {
+  for (const double b : field)
+    if (!(std::abs(b) <= most_field))
+      return fmt::format("a field of {} T for one ampere, allowed -{}..{}", number_text(b),
+                         number_text(most_field), number_text(most_field));
   return {};
 }
 
@@ -139,6 +151,8 @@ FieldGrid parse_vfield_text(std::string_view text, std::string_view name) {
         if (!((there - due).array().abs() <= 1e-3 * (hi - lo).array()).all())
           rows.fail(fmt::format("the node at ({}, {}, {}) m is due here: z fastest, x slowest",
                                 number_text(due[0]), number_text(due[1]), number_text(due[2])));
+        const std::string wrong = complaint(std::span(row).subspan(3));
+        if (!wrong.empty()) rows.fail(wrong);
         values.emplace_back(mt_per_t * row[3], mt_per_t * row[4], mt_per_t * row[5]);
       }
   rows.end();
@@ -163,6 +177,8 @@ FieldGrid parse_vfield_yaml(std::string_view text, std::string_view name) {
     if (node.size() != 3)
       fail(fmt::format("node {} of data has {} numbers, must be [Bx, By, Bz]", values.size() + 1,
                        node.size()));
+    if (const std::string wrong = complaint(node); !wrong.empty())
+      fail(fmt::format("node {} of data: {}", values.size() + 1, wrong));
     values.emplace_back(mt_per_t * node[0], mt_per_t * node[1], mt_per_t * node[2]);
   }
   const Eigen::Vector3d lo(file.least[0], file.least[1], file.least[2]);
