@@ -9,6 +9,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "microswarm/core/stop.hpp"
 
@@ -105,12 +106,14 @@ class OutFolder {
   /// Makes the folder, as make_folder, and holds it; nothing when its name is empty. Throws
   /// InputError "FOLDER: another command is writing to it".
   explicit OutFolder(const std::string& folder);
+  /// Takes away what it made and nothing came into.
   ~OutFolder();
   OutFolder(const OutFolder&) = delete;
   OutFolder& operator=(const OutFolder&) = delete;
 
  private:
   int folder_ = -1;
+  std::vector<std::filesystem::path> made_;  // the innermost first
 };
 
 /// Throws InputError when the file to be written is the one that is read.

@@ -79,6 +79,10 @@ void make_folder(const std::string& folder) {
 
 OutFolder::OutFolder(const std::string& folder) {
   if (folder.empty()) return;
+  std::error_code none;
+  for (std::filesystem::path at = std::filesystem::absolute(folder, none).lexically_normal();
+       at.has_relative_path() && !std::filesystem::exists(at, none); at = at.parent_path())
+    made_.push_back(at);
   make_folder(folder);
   folder_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder_ < 0 || ::flock(folder_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
@@ -87,7 +91,10 @@ OutFolder::OutFolder(const std::string& folder) {
 }
 
 OutFolder::~OutFolder() {
-  if (folder_ >= 0) ::close(folder_);
+  if (folder_ < 0) return;
+  for (const std::filesystem::path& folder : made_)
+    if (::rmdir(folder.c_str()) != 0 && errno != ENOENT) break;
+  ::close(folder_);
 }
 
 std::filesystem::path scenario_folder() {

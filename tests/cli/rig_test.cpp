@@ -172,6 +172,14 @@ TEST_F(WholeRig, ADryRunSaysSoAndTheLogEndsWithZero) {
   EXPECT_TRUE(wet.ends_with(",1,zero,,\n")) << wet.substr(wet.size() - 200);
 }
 
+TEST_F(WholeRig, ADeviceThatIsNotThereLeavesNoEmptyFolder) {
+  const std::string scenario = MICROSWARM_SOURCE_DIR "/scenarios/papers/radar/single.yaml";
+  const Outcome outcome = run({"rig", "run", scenario, "--rig", rig("bench.yaml"), "--set-rig",
+                               "camera.device=none", "--dry-run", "--out", "a/b"});
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+  EXPECT_FALSE(exists("a"));
+}
+
 TEST_F(WholeRig, ARehearsalOnTheBenchIsRefusedBeforeItBegins) {
   const std::string scenario = MICROSWARM_SOURCE_DIR "/scenarios/papers/radar/single.yaml";
   refused({"rig", "rehearse", scenario, "--rig", rig("bench.yaml")},
