@@ -103,8 +103,9 @@ void make_folder(const std::string& folder);
 /// process, however that ends; where a file system has no locks there is none.
 class OutFolder {
  public:
-  /// Makes the folder, as make_folder, and holds it; nothing when its name is empty. Throws
-  /// InputError "FOLDER: another command is writing to it".
+  /// Makes the folder, as make_folder, and holds it; nothing when its name is empty. Clears away
+  /// the temporary files of programs that were killed. Throws InputError "FOLDER: another command
+  /// is writing to it".
   explicit OutFolder(const std::string& folder);
   /// Takes away what it made and nothing came into.
   ~OutFolder();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/ranges.h>
 
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -59,9 +58,6 @@ Json json_of(const Eigen::VectorXd& v) {
   for (const double x : v) list.push_back(x);
   return list;
 }
-
-/// Without what is only rounding beside `whole`, the largest that could be there.
-double tidy(double x, double whole) { return std::abs(x) < 1e-12 * whole ? 0.0 : x; }
 
 std::string text_of(const Eigen::Vector3d& v) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", v[0], v[1], v[2]);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <string>
 
 #include "cli.hpp"
@@ -30,5 +31,8 @@ void add_rig_rehearse(Command rig, Action& action);
 void add_rig_run(Command rig, Action& action);
 /// The part `rig see` of `rig`.
 void add_rig_see(Command rig, Action& action);
+
+/// Without what is only rounding beside `whole`, the largest that could be there.
+inline double tidy(double x, double whole) { return std::abs(x) < 1e-12 * whole ? 0.0 : x; }
 
 }  // namespace microswarm::cli

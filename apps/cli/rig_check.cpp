@@ -61,7 +61,8 @@ void check_camera(const Rig& rig, const CheckOptions& o, const Stop& stop, Answe
     LiveFrame frame;
     Durations gaps;
     double before = 0;
-    for (const double end = steady_seconds() + o.seconds; steady_seconds() < end && !stop();) {
+    const double began = steady_seconds();
+    while (steady_seconds() < began + o.seconds && !stop()) {
       if (!camera.wait(frame, 0.1)) continue;
       if (before > 0) gaps.add(frame.taken - before);
       before = frame.taken;
@@ -70,10 +71,13 @@ void check_camera(const Rig& rig, const CheckOptions& o, const Stop& stop, Answe
     const bool is_video = std::holds_alternative<VideoCamera>(rig.params.camera);
     const bool good = gaps.count() > 0 && (status.state == CameraState::live ||
                                            (is_video && status.state == CameraState::ended));
-    answers.say(good, "camera",
-                fmt::format("{}, {} frames of {} × {} in {} s; between frames {} (p50 / p95 / p99)",
-                            enum_name(status.state), status.frames, frame.frame.picture.width,
-                            frame.frame.picture.height, o.seconds, quantiles(gaps)));
+    answers.say(
+        good, "camera",
+        fmt::format(
+            "{}, {} frames of {} × {} in {:.3g} s; {}", enum_name(status.state), status.frames,
+            frame.frame.picture.width, frame.frame.picture.height, steady_seconds() - began,
+            gaps.count() > 0 ? fmt::format("between frames {} (p50 / p95 / p99)", quantiles(gaps))
+                             : "too few to tell the time between them"));
     if (const double usual = gaps.quantile(0.5); rate && gaps.count() > 0)
       answers.say(usual <= 1.1 / *rate, "frames",
                   fmt::format("{:.4g} ms apart as a rule, {:.6g} Hz means {:.4g}", 1e3 * usual,

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "microswarm/actuation/coil_drive.hpp"
 #include "microswarm/actuation/currents.hpp"
 #include "microswarm/actuation/uniformity.hpp"
 #include "microswarm/core/error.hpp"
@@ -90,17 +91,31 @@ std::string csv_of(const UniformityMap& map) {
   return text;
 }
 
-/// A centimetre, or what the system's workspace allows of it.
-double usual_half_width(const CoilSystem& system, const UniformityGrid& grid) {
-  const UniformityMap whole{.grid = grid, .centre_field = {}, .field = {}, .deviation = {}};
+/// Whether all of it lies where the system was measured.
+bool in_workspace(const CoilSystem& system, const UniformityGrid& grid) {
+  const UniformityMap map{.grid = grid, .centre_field = {}, .field = {}, .deviation = {}};
   const int last = grid.points - 1;
-  const bool inside =
-      system.in_workspace(whole.place(0, 0)) && system.in_workspace(whole.place(last, 0)) &&
-      system.in_workspace(whole.place(0, last)) && system.in_workspace(whole.place(last, last));
-  if (inside || grid.half_width < 1) return grid.half_width;
-  UniformityGrid smaller = grid;
-  smaller.half_width *= 0.9;
-  return usual_half_width(system, smaller);
+  return system.in_workspace(map.place(0, 0)) && system.in_workspace(map.place(last, 0)) &&
+         system.in_workspace(map.place(0, last)) && system.in_workspace(map.place(last, last));
+}
+
+/// A centimetre, or what the system's workspace allows of it around the centre.
+double usual_half_width(const CoilSystem& system, UniformityGrid grid) {
+  const double usual = grid.half_width;
+  for (; grid.half_width > 1; grid.half_width *= 0.9)
+    if (in_workspace(system, grid)) return grid.half_width;
+  return usual;
+}
+
+/// What is seen: axes, the place unless it is the middle, and the field there.
+std::string title_of(const UniformityMap& map, bool is_middle) {
+  const std::string_view plane = enum_name(map.grid.plane);
+  const Eigen::Vector3d& c = map.grid.centre;
+  const Eigen::Vector3d& b = map.centre_field;
+  return fmt::format(
+      "|B − B0| / |B0|, {} to the right, {} up{}, B0 = ({:.3g}, {:.3g}, {:.3g}) mT", plane[0],
+      plane[1], is_middle ? "" : fmt::format(", around ({:g}, {:g}, {:g}) µm", c[0], c[1], c[2]),
+      b[0], b[1], b[2]);
 }
 
 int map_field(const RigMapOptions& o, const Stop& stop) {
@@ -121,17 +136,20 @@ int map_field(const RigMapOptions& o, const Stop& stop) {
     });
   }();
   if (!made) return not_reached;
-  const UniformityMap& map = *made;
-  const Eigen::Vector3d& b = map.centre_field;
+  UniformityMap map = *made;
+  Eigen::Vector3d& b = map.centre_field;
+  const double strength = b.norm();
+  for (double& component : b) component = tidy(component, strength);
+  const double largest = tidy(map.largest(), 1);
+  const bool inside = in_workspace(system, grid);
+  if (const double share = CoilDrive(system.drives()).steady(currents).scale; share < 1)
+    note("note: the coils' limits allow {:.3g} % of these currents\n", 100 * share);
   if (!o.out.empty()) {
     const std::filesystem::path out = o.out;
     if (out.extension() == ".csv")
       write_file_atomically(out, csv_of(map));
     else
-      draw(map,
-           fmt::format("|B − B0| / |B0|, plane {}, B0 = ({:.3g}, {:.3g}, {:.3g}) mT", o.plane, b[0],
-                       b[1], b[2]),
-           out);
+      draw(map, title_of(map, o.at.empty()), out);
   }
   const std::array<double, 3> shares{0.01, 0.05, 0.1};
   if (o.json) {
@@ -142,14 +160,16 @@ int map_field(const RigMapOptions& o, const Stop& stop) {
                        {"plane", o.plane},
                        {"half_width_um", grid.half_width},
                        {"points", grid.points},
+                       {"in_workspace", inside},
                        {"centre_field_mt", {b[0], b[1], b[2]}},
-                       {"largest_deviation", map.largest()},
+                       {"largest_deviation", largest},
                        {"radius_um_within", radii}}
                       .dump(2));
     return ok;
   }
-  print("B0 ({:.6g}, {:.6g}, {:.6g}) mT; at most {:.3g} % off within ±{:g} µm\n", b[0], b[1], b[2],
-        100 * map.largest(), grid.half_width);
+  print("B0 ({:.6g}, {:.6g}, {:.6g}) mT; at most {:.3g} % off within ±{:g} µm{}\n", b[0], b[1],
+        b[2], 100 * largest, grid.half_width,
+        inside ? "" : ", of which some is outside of the calibrated workspace");
   for (const double share : shares)
     print("within {:g} %: {:.0f} µm around the centre\n", 100 * share, map.radius_within(share));
   if (!o.out.empty()) print("wrote {}\n", o.out);

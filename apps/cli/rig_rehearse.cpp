@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
@@ -95,7 +96,7 @@ int rehearse_trials(const RehearseOptions& o, const Context& context) {
     const std::filesystem::path file = pair.scenario;
     const Scenario& scenario = on.scene.scenario;
     const auto trials = static_cast<std::size_t>(o.trials);
-    std::vector<std::array<RunResult, 2>> results(trials);
+    std::vector<std::optional<std::array<RunResult, 2>>> results(trials);
     {
       ProgressBar bar(file.stem().string());
       std::mutex mutex;
@@ -103,27 +104,34 @@ int rehearse_trials(const RehearseOptions& o, const Context& context) {
       for_each_index(trials, o.jobs, [&](std::size_t i) {
         const auto trial = static_cast<std::uint32_t>(i);
         if (context.stop()) return;
-        results[i][0] = simulate(scenario, on.world, trial, {}, context.stop);
-        results[i][1] = microswarm::rehearse(scenario, on.world, on.rig, trial, {}, context.stop);
+        const std::array<RunResult, 2> both{
+            simulate(scenario, on.world, trial, {}, context.stop),
+            microswarm::rehearse(scenario, on.world, on.rig, trial, {}, context.stop)};
+        if (context.stop()) return;
+        results[i] = both;
         const std::lock_guard lock(mutex);
         bar.update(++done / static_cast<double>(o.trials));
       });
     }
-    if (context.stop()) break;
     std::array<Summary, 2> sums;
-    for (std::size_t i = 0; i < trials; ++i)
+    int done = 0;
+    for (std::size_t i = 0; i < trials; ++i) {
+      if (!results[i]) continue;  // Ctrl-C
+      ++done;
       for (const std::size_t plant : {0U, 1U}) {
-        const RunResult& r = results[i][plant];
+        const RunResult& r = (*results[i])[plant];
         sums[plant].add(r);
         csv += fmt::format("{},{},{},{},{},{:.3f},{},{:.3f}\n", file.stem().string(),
                            fmt::join(pair.settings, " "), i, plant == 0 ? "kinematic" : "rig",
                            to_string(r.status), r.metrics.time, r.metrics.contacts,
                            r.metrics.goal_distance);
       }
+    }
+    if (done == 0) break;
     std::string name = file.stem().string();
     for (const std::string& setting : pair.settings)
       name += " " + setting.substr(setting.find('=') + 1);
-    print("{:<42} {:>7}  {:>7} {:>8} {:>7}  {:>7} {:>8} {:>7}\n", name, o.trials, sums[0].arrived,
+    print("{:<42} {:>7}  {:>7} {:>8} {:>7}  {:>7} {:>8} {:>7}\n", name, done, sums[0].arrived,
           sums[0].contacts, sums[0].time(), sums[1].arrived, sums[1].contacts, sums[1].time());
     flush_output();
     all = all && sums[1].arrived == o.trials;
@@ -133,6 +141,7 @@ int rehearse_trials(const RehearseOptions& o, const Context& context) {
     write_file_atomically(table, csv);
     print("wrote {}\n", table.string());
   }
+  if (context.stop()) print("interrupted\n");
   return all && !context.stop() ? ok : not_reached;
 }
 

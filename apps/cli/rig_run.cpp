@@ -194,8 +194,12 @@ int rig_run(const RigRunOptions& o, const Context& context) {
   if (key.is_there()) note("space, e or Esc: coils to zero at once\n");
   const Stop stop = o.seconds ? context.within(*o.seconds) : context.stop;
   double seconds = 0;
-  const RunOutput output{o.out, false, o.json, name_of(on.rig) + (o.dry_run ? ", dry run" : ""),
-                         [&] { return timing_json(plant.timing()); }};
+  const RunOutput output{o.out,
+                         false,
+                         o.json,
+                         name_of(on.rig) + (o.dry_run ? ", dry run" : ""),
+                         [&] { return timing_json(plant.timing()); },
+                         o.seconds};
   const int code = run_once(on.scene, on.world, output, {}, stop,
                             [&](std::span<RunListener* const> listeners, const Stop& until) {
                               RunResult result = run(scenario, plant, *navigator, listeners, until);

@@ -42,7 +42,12 @@ struct ScalePiece {
 
 std::optional<Vec2> origin_of(const ScaleOptions& o) {
   if (o.origin.empty()) return std::nullopt;
+  constexpr double farthest = 1e6;  // [px], as in a rig's file
   const std::vector<double> v = numbers(o.origin);
+  for (const double x : v)
+    if (std::abs(x) > farthest)
+      throw InputError(
+          fmt::format("--origin: is {} px, allowed -{:g}..{:g}", o.origin, farthest, farthest));
   return Vec2{v[0], v[1]};
 }
 

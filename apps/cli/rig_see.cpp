@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <variant>
 
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/error.hpp"
+#include "microswarm/rig/rig_params.hpp"
 #include "microswarm/vision/camera.hpp"
 #include "microswarm/vision/scene_overlay.hpp"
 #include "microswarm/vision/wall_finder.hpp"
@@ -30,6 +32,7 @@ struct SeeSettings {
 
 struct SeeOptions {
   std::string picture;
+  std::string rig;
   std::string still;
   std::string config;
   std::vector<std::string> settings;
@@ -76,12 +79,23 @@ std::string text_of(const Blob& b) {
       b.grain, b.is_cut ? ", cut" : "");
 }
 
-int see(const SeeOptions& o) {
-  keep_input(o.out, o.picture);
-  keep_input(o.out, o.still);
+/// Those of the rig, or of the settings' file, then of `--set`.
+SeeSettings settings_of(const SeeOptions& o) {
   SeeSettings settings;
+  if (!o.rig.empty()) {
+    const Rig rig = read_rig(o.rig);
+    settings.scene = rig.params.eye.scene;
+    if (const auto* camera = std::get_if<CameraParams>(&rig.params.camera))
+      settings.camera = *camera;
+  }
   if (!o.config.empty()) settings = read_yaml_file<SeeSettings>(o.config);
   set_values(settings, o.settings);
+  return settings;
+}
+
+int see(const SeeOptions& o) {
+  for (const std::string& input : {o.picture, o.still, o.config, o.rig}) keep_input(o.out, input);
+  const SeeSettings settings = settings_of(o);
   check(settings.scene.swarm.look, {});
   check(settings.scene.obstacles, {});
   const Image picture = picture_of(o.picture, settings.camera);
@@ -123,7 +137,13 @@ void add_rig_see(Command rig, Action& action) {
       .type_name("FILE");
   cmd.add_option("--still", o->still, "Picture without swarm and obstacles: shows the walls")
       .type_name("FILE");
-  cmd.add_option("--config", o->config, "Settings (YAML); --set comes after it").type_name("FILE");
+  const Option rig_file =
+      cmd.add_option("--rig", o->rig,
+                     "Rig file (YAML): looks as that rig does; --set comes after it")
+          .type_name("FILE");
+  cmd.add_option("--config", o->config, "Settings (YAML); --set comes after it")
+      .type_name("FILE")
+      .excludes(rig_file);
   add_settings(cmd, o->settings,
                "Change a value, for example scene.swarm.look.min_radius_px=12 (again and again)");
   cmd.add_option("--out", o->out, "Picture to draw (PNG)")

@@ -92,6 +92,7 @@ std::string summary(const RunResult& result) {
   text += fmt::format("  nearest   wall {}, moving obstacle {} (from the swarm's centre)\n",
                       um(m.walls.clearance), um(m.obstacles.clearance));
   text += avoidance_text(m.avoidance);
+  if (p.count == 0) return text + fmt::format("  planning  {} times\n", m.planning_events);
   return text + fmt::format("  planning  {} times, {:.3f} ms on average, {:.3f} ms the longest\n",
                             m.planning_events, 1e3 * p.mean, 1e3 * p.max);
 }
@@ -135,7 +136,8 @@ int run_once(const Scene& scene, const World& world, const RunOutput& o,
   {
     ProgressBar bar(scene.scenario.name.empty() ? "run" : scene.scenario.name);
     ProgressListener progress(scene.scenario, [&](const RunProgress& p) {
-      bar.update(std::max(p.way_done, p.time_spent));
+      const double spent = o.seconds ? p.t / *o.seconds : p.time_spent;
+      bar.update(std::max(p.way_done, spent));
     });
     RunListener* const listeners[] = {&recorder, &progress};
     result = runner ? runner(listeners, stop) : simulate(scene.scenario, world, 0, listeners, stop);

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,6 +21,7 @@ struct RunOutput {
   bool json = false;
   std::string rig{};  ///< name of the rig it runs on; empty for a simulation
   std::function<nlohmann::ordered_json()> rig_timing{};  ///< of that rig, when the run is over
+  std::optional<double> seconds{};  ///< after which it is ended, though the goal is not reached
 };
 
 /// Runs a scene, with these listening.

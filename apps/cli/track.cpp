@@ -63,12 +63,20 @@ int track(const TrackOptions& o, const Context& context) {
   result.frame_time = 1 / rate;
   const OutFolder hold(o.out);
   const std::filesystem::path folder = o.out;
+  keep_track_input(folder, o.video);
+  keep_track_input(folder, o.config);
   std::optional<VideoFileWriter> overlay;
   if (!o.no_overlay) overlay.emplace(folder / "overlay.mp4", rate);
+  result.promised = source->count();
   follow(*source, result, overlay ? &*overlay : nullptr, context.stop);
+  if (!context.stop.requested() && result.frames + 1 < result.promised.value_or(0))
+    note("note: {} says that it has {} pictures, after {} no more could be read\n", o.video,
+         *result.promised, result.frames);
 
   write_tracks(result, folder);
   const auto shown = overlay ? overlay->commit() : std::nullopt;
+  std::error_code none;  // an older overlay shows other tracks
+  if (!shown || shown->extension() != ".mp4") std::filesystem::remove(folder / "overlay.mp4", none);
   if (o.json)
     print("{}\n", to_json(result).dump(2));
   else

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "cli.hpp"
 #include "microswarm/config/write.hpp"
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/version.hpp"
@@ -116,6 +117,11 @@ std::string tracks_h5(const TrackResult& result) {
 
 }  // namespace
 
+void keep_track_input(const std::filesystem::path& folder, const std::string& input) {
+  for (const char* name : {"tracks.csv", "events.csv", "tracks.h5", "overlay.mp4", "overlay"})
+    keep_input((folder / name).string(), input);
+}
+
 void write_tracks(const TrackResult& result, const std::filesystem::path& folder) {
   write_file_atomically(folder / "tracks.csv", tracks_csv(result));
   write_file_atomically(folder / "events.csv", events_csv(result));
@@ -129,26 +135,34 @@ nlohmann::ordered_json to_json(const TrackResult& result) {
     return std::count_if(result.events.begin(), result.events.end(),
                          [&](const TrackEvent& e) { return e.change == change; });
   };
+  using Json = nlohmann::ordered_json;
+  const auto pair = [&](double by_x, double by_y) {
+    return s.drift ? Json{by_x * s.drift->x, by_y * s.drift->y} : Json(nullptr);
+  };
   return {{"frames", s.frames},
+          {"frames_promised", result.promised ? Json(*result.promised) : Json(nullptr)},
           {"features", s.features},
           {"tracks", s.tracks},
           {"tracks_10_frames", s.long_tracks},
-          {"drift_um", {s.drift.x, s.drift.y}},
-          {"drift_px", {s.drift.x / scale, -s.drift.y / scale}},
-          {"mean_speed_um_per_s", s.mean_speed},
+          {"drift_um", pair(1, 1)},
+          {"drift_px", pair(1 / scale, -1 / scale)},
+          {"mean_speed_um_per_s", s.mean_speed ? Json(*s.mean_speed) : Json(nullptr)},
           {"merges", count(TrackChange::merge)},
           {"splits", count(TrackChange::split)}};
 }
 
 std::string track_summary(const TrackResult& result) {
   const TrackSummary s = summarise(result.rows, result.frames);
-  return fmt::format(
+  std::string text = fmt::format(
       "{} frames, {:.1f} robots in each\n"
-      "  tracks    {}, of which {} have {} frames or more\n"
-      "  drift     ({:.3f}, {:.3f}) µm from the first frame to the last\n"
-      "  speed     {:.3g} µm/s on average from frame to frame\n",
+      "  tracks    {}, of which {} have {} frames or more\n",
       s.frames, s.frames > 0 ? static_cast<double>(s.features) / s.frames : 0, s.tracks,
-      s.long_tracks, TrackSummary::long_track, s.drift.x, s.drift.y, s.mean_speed);
+      s.long_tracks, TrackSummary::long_track);
+  if (!s.drift || !s.mean_speed) return text + "  drift     –, speed –: no track is long enough\n";
+  return text + fmt::format(
+                    "  drift     ({:.3f}, {:.3f}) µm from the first frame to the last\n"
+                    "  speed     {:.3g} µm/s on average from frame to frame\n",
+                    s.drift->x, s.drift->y, *s.mean_speed);
 }
 
 }  // namespace microswarm::cli

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct TrackResult {
   TrackSettings settings;
   double frame_time = 1;  ///< [s]
   int frames = 0;
+  std::optional<int> promised;  ///< frames that the video says it has
   std::vector<TrackRow> rows;
   std::vector<TrackEvent> events;
 };
@@ -23,6 +25,9 @@ struct TrackResult {
 /// Writes tracks.csv, events.csv and tracks.h5 into the folder. tracks.csv is what maps and
 /// obstacles read as recorded tracks. Throws InputError "FILE: cannot write: REASON".
 void write_tracks(const TrackResult& result, const std::filesystem::path& folder);
+
+/// Throws InputError when one of the files to be written is what is read.
+void keep_track_input(const std::filesystem::path& folder, const std::string& input);
 
 nlohmann::ordered_json to_json(const TrackResult& result);
 /// A few lines for people.

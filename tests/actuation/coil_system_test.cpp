@@ -40,6 +40,12 @@ TEST(CoilSystem, HelmholtzFieldIsEvenToTheFourthOrder) {
   EXPECT_EQ(map.at(20, 20), 0);
   EXPECT_LT(map.radius_within(0.01), map.radius_within(0.05));
   EXPECT_GT(map.radius_within(0.01), 10000);
+  for (const double share : {0.001, 0.01, 0.05})
+    for (int row = 0; row < map.grid.points; ++row)
+      for (int column = 0; column < map.grid.points; ++column)
+        if ((map.place(column, row) - map.grid.centre).norm() <= map.radius_within(share)) {
+          EXPECT_LE(map.at(column, row), share);
+        }
   EXPECT_EQ(map.place(0, 40), Eigen::Vector3d(-40000, 40000, 0));
   const UniformityMap side =
       *uniformity(system, currents, {.plane = Plane::yz, .half_width = 1000, .points = 3});

@@ -81,6 +81,13 @@ TEST_F(Rig, AMapOfAMeasuredSystemStaysWhereItWasMeasured) {
   EXPECT_EQ(run({"rig", "map", "grids.yaml", "--half-width", "1001"}).code, 2);
 }
 
+TEST_F(Rig, AMapSaysWhatCannotBe) {
+  const Outcome strong = run({"rig", "map", "rig.yaml", "--field", "50,0,0", "--points", "5"});
+  EXPECT_EQ(strong.code, 0);
+  EXPECT_TRUE(strong.err.starts_with("note: the coils' limits allow ")) << strong.err;
+  EXPECT_EQ(strong.out.find("e-1"), std::string::npos) << strong.out;  // rounding
+}
+
 TEST_F(Rig, RoundingIsNotShownAsAGradient) {
   const std::string text = good({"rig", "field", "rig.yaml", "--at", "0,0,0", "--field", "3,0,0"});
   EXPECT_NE(text.find("field (3, 0, 0) mT, 3 mT in all\ngradients dBx/dx 0, dBx/dy 0, dBx/dz 0, "

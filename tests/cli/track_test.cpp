@@ -61,6 +61,44 @@ TEST_F(Track, JsonTellsDriftAndSpeed) {
   EXPECT_FALSE(exists("out/overlay.mp4"));
 }
 
+TEST_F(Track, ShortTracksTellNoSpeed) {
+  film("video", 8);
+  const Arguments words{"track", "video", "--um-per-px", "0.5",         "--rate",
+                        "10",    "--out", "out",         "--no-overlay"};
+  EXPECT_NE(good(words).find("drift     –, speed –: no track is long enough"), std::string::npos);
+  Arguments in_json = words;
+  in_json.push_back("--json");
+  const Json json = Json::parse(good(in_json));
+  EXPECT_TRUE(json.at("drift_um").is_null());
+  EXPECT_TRUE(json.at("mean_speed_um_per_s").is_null());
+  EXPECT_EQ(json.at("frames_promised"), 8);
+}
+
+TEST_F(Track, NeverWritesOverWhatItReads) {
+  film("out/overlay", 3);
+  const auto before = read("out/overlay/f0.pgm");
+  refused({"track", "out/overlay", "--um-per-px", "1", "--rate", "10", "--out", "out"},
+          "out/overlay: is the input, which would be lost");
+  EXPECT_EQ(read("out/overlay/f0.pgm"), before);
+  write("out/overlay.mp4", "an older one");
+  film("video", 3);
+  good({"track", "video", "--um-per-px", "1", "--rate", "10", "--out", "out", "--no-overlay"});
+  EXPECT_FALSE(exists("out/overlay.mp4"));  // it shows other tracks
+}
+
+TEST_F(Track, WhatAKilledOneLeftIsClearedAway) {
+  film("video", 3);
+  fs::create_directories(at.folder / "out");
+  const std::string alive = "out/tracks.tmp-" + std::to_string(::getpid()) + "-0.h5";
+  write("out/tracks.tmp-999999999-0.h5", "of a program that is no more");
+  write(alive, "of one that runs");
+  write("out/mine.tmp-notes.txt", "of the user");
+  good({"track", "video", "--um-per-px", "1", "--rate", "10", "--out", "out", "--no-overlay"});
+  EXPECT_FALSE(exists("out/tracks.tmp-999999999-0.h5"));
+  EXPECT_TRUE(exists(alive));
+  EXPECT_TRUE(exists("out/mine.tmp-notes.txt"));
+}
+
 TEST_F(Track, TheSameVideoGivesTheSameBytes) {
   film("video", 11);
   write("track.yaml", "um_per_px: 0.5\nrate_hz: 10\nfind:\n  diameter_px: 9\n");

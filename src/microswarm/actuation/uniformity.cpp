@@ -32,12 +32,18 @@ double UniformityMap::largest() const {
 }
 
 double UniformityMap::radius_within(double share) const {
-  double radius = grid.half_width;
+  std::vector<std::pair<double, bool>> places;  // how far, and whether it deviates by more
+  places.reserve(deviation.size());
   for (int row = 0; row < grid.points; ++row)
     for (int column = 0; column < grid.points; ++column)
-      if (!(at(column, row) <= share))
-        radius = std::min(radius, (place(column, row) - grid.centre).norm());
-  return radius;
+      places.emplace_back((place(column, row) - grid.centre).norm(), !(at(column, row) <= share));
+  double broken = std::numeric_limits<double>::infinity();
+  for (const auto& [far, deviates] : places)
+    if (deviates) broken = std::min(broken, far);
+  double radius = 0;
+  for (const auto& [far, deviates] : places)
+    if (far < broken) radius = std::max(radius, far);
+  return std::min(radius, grid.half_width);
 }
 
 std::optional<UniformityMap> uniformity(const CoilSystem& system, const Eigen::VectorXd& currents,

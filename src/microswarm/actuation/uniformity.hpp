@@ -39,8 +39,8 @@ struct UniformityMap {
     return deviation[static_cast<std::size_t>(row) * grid.points + column];
   }
   double largest() const;
-  /// Radius of the widest disc around the centre whose places all deviate by at most `share` [µm],
-  /// to a place.
+  /// Distance of the farthest place up to which all places deviate by at most `share` [µm], at most
+  /// the half width.
   double radius_within(double share) const;
 };
 

@@ -14,6 +14,7 @@ namespace {
 constexpr Colour waiting{0.40, 0.30, 0.65, 1};
 constexpr Colour detection{0.55, 0.35, 0.15, 1};
 constexpr Colour safety{0.90, 0.60, 0.0, 1};
+constexpr Colour then_there{0.35, 0.35, 0.35, 1};
 constexpr Colour prediction{0.80, 0.15, 0.15, 1};
 
 /// Where the swarm's edge was nearest to an obstacle, or to a wall where there are none.
@@ -28,6 +29,14 @@ const Frame& tightest(const Record& record) {
                              const bool b_among = std::isfinite(b.obstacle_clearance);
                              return a_among != b_among ? a_among : gap(a) < gap(b);
                            });
+}
+
+void draw_outline(Picture& picture, const Body& body) {
+  if (const auto* disc = std::get_if<Disc>(&body.shape))
+    return picture.circle(*disc, then_there, 2, false);
+  std::vector<Vec2> outline = std::get<Polygon>(body.shape).outer;
+  outline.push_back(outline.front());
+  picture.line(outline, then_there, 2, false);
 }
 
 void draw_circles(Picture& picture, const Frame& frame, const RadarParams& params) {
@@ -49,7 +58,7 @@ void draw_circles(Picture& picture, const Frame& frame, const RadarParams& param
 
 }  // namespace
 
-void draw_radar_marks(Picture& picture, const Record& record) {
+void draw_radar_marks(Picture& picture, const Record& record, const World& world) {
   const auto* params = std::get_if<RadarParams>(&record.scene.scenario.navigator);
   if (!params || record.frames.empty()) return;
   for (const WaitArea& area : params->wait_areas) {
@@ -60,7 +69,11 @@ void draw_radar_marks(Picture& picture, const Record& record) {
   for (std::size_t i = 0; i < params->waypoints.size(); ++i)
     picture.mark(params->waypoints[i], fmt::format("waypoint {}", i + 1), waiting);
   if (!params->wait_areas.empty()) picture.legend("wait areas", waiting);
-  draw_circles(picture, tightest(record), *params);
+  const Frame& frame = tightest(record);
+  const Snapshot then = world.at(frame.t);
+  for (const Body& body : then.moving().bodies()) draw_outline(picture, body);
+  draw_circles(picture, frame, *params);
+  if (!then.moving().bodies().empty()) picture.legend("obstacles then", then_there);
 }
 
 }  // namespace microswarm

@@ -74,9 +74,9 @@ Plot clearances(const Record& record) {
   plot.y_min = 0;
   // What is near counts; a run that was never near shows at least its nearest.
   const Metrics& m = record.result.metrics;
-  const double nearest = std::min(m.walls.clearance, m.obstacles.clearance);
   plot.y_max = 5 * std::max(margin, radius);
-  if (std::isfinite(nearest)) plot.y_max = std::max(*plot.y_max, 1.5 * nearest);
+  for (const double nearest : {m.walls.clearance, m.obstacles.clearance})
+    if (std::isfinite(nearest)) plot.y_max = std::max(*plot.y_max, 1.5 * nearest);
   return plot;
 }
 

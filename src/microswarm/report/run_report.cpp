@@ -64,7 +64,7 @@ void overview(const RunSubject& s, std::span<const PlanEvent* const> shown,
   }
   picture.bodies(s.world.at(end).moving().bodies());
   picture.line(trail(record, end), colours::path, 3);
-  draw_radar_marks(picture, record);
+  draw_radar_marks(picture, record, s.world);
   picture.swarm(record.frames.back().pose, record.frames.back().radius);
   draw_ends(picture, s);
   for (std::size_t k = 0; k < shown.size(); ++k)
@@ -158,8 +158,9 @@ std::vector<std::vector<std::string>> run_numbers(const Record& record) {
           {"least gap to an obstacle", um(m.avoidance.least_gap)},
           {"time held", fmt::format("{:.1f} s", m.hold_time)},
           {"planning events", fmt::format("{}", m.planning_events)},
-          {"planning time, mean ± sd", fmt::format("{:.3f} ± {:.3f} ms", 1e3 * p.mean, 1e3 * p.sd)},
-          {"planning time, longest", fmt::format("{:.3f} ms", 1e3 * p.max)},
+          {"planning time, mean ± sd",
+           p.count > 0 ? fmt::format("{:.3f} ± {:.3f} ms", 1e3 * p.mean, 1e3 * p.sd) : "–"},
+          {"planning time, longest", p.count > 0 ? fmt::format("{:.3f} ms", 1e3 * p.max) : "–"},
           {"rig", record.rig.empty() ? "none: simulated" : record.rig},
           {"seed, trial", fmt::format("{}, {}", record.scene.scenario.seed, record.trial)},
           {"version", record.version},
@@ -190,14 +191,17 @@ void write_run_report(const Record& record, const std::filesystem::path& folder,
     stills.pictures.emplace_back(name, moment_caption(s, k + 1, *chosen[k]));
   }
   write_plots(run_plots(record), folder / "plots.png");
-  write_page(
-      folder / "index.html", s.title(),
-      {{.text = s.scenario().description,
-        .pictures = {{"overview.png", "The whole run. Also as overview.svg and overview.pdf."}}},
-       {.heading = "Numbers", .table = run_numbers(record)},
-       stills,
-       {.heading = "Over time",
-        .pictures = {{"plots.png", "Planning times are wall-clock times of this machine."}}}});
+  std::vector<PageSection> sections{
+      {.text = s.scenario().description,
+       .pictures = {{"overview.png", "The whole run. Also as overview.svg and overview.pdf."}}},
+      {.heading = "Numbers", .table = run_numbers(record)}};
+  if (shown > 0) sections.push_back(std::move(stills));
+  const bool planned = !record.result.timing.planning.empty();
+  sections.push_back(
+      {.heading = "Over time",
+       .pictures = {
+           {"plots.png", planned ? "Planning times are wall-clock times of this machine." : ""}}});
+  write_page(folder / "index.html", s.title(), sections);
 }
 
 }  // namespace microswarm

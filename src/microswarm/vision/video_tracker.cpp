@@ -70,7 +70,7 @@ TrackSummary summarise(const std::vector<TrackRow>& rows, int frames) {
     }
     last[row.id] = &row;
     if (movers > 0 && (i + 1 == rows.size() || rows[i + 1].frame != row.frame)) {
-      summary.drift += moved / movers;
+      summary.drift = summary.drift.value_or(Vec2{}) + moved / movers;
       moved = {};
       movers = 0;
     }

@@ -88,8 +88,9 @@ struct TrackSummary {
   int features = 0;  ///< robots seen, over all frames
   int tracks = 0;
   int long_tracks = 0;
-  Vec2 drift;             ///< mean displacement of long tracks, summed over the frames [µm]
-  double mean_speed = 0;  ///< of long tracks from frame to frame [µm/s]
+  /// Mean displacement of long tracks, summed over the frames [µm]; nothing without such tracks.
+  std::optional<Vec2> drift{};
+  std::optional<double> mean_speed{};  ///< of long tracks from frame to frame [µm/s]
 };
 
 /// `rows` ascend by frame; `frames` were looked at.
