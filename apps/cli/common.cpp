@@ -105,11 +105,13 @@ OutFolder::OutFolder(const std::string& folder) {
     made_.push_back(at);
   make_folder(folder);
   folder_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder_ >= 0 && ::flock(folder_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+  if (folder_ < 0) return;
+  if (::flock(folder_, LOCK_EX | LOCK_NB) == 0) {
+    clear_temporaries(folder);
+  } else if (errno == EWOULDBLOCK) {
     ::close(folder_);
     throw InputError(folder + ": another command is writing to it");
   }
-  clear_temporaries(folder);
 }
 
 OutFolder::~OutFolder() {

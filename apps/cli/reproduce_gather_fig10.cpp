@@ -137,8 +137,8 @@ struct ThroughRig {
   std::size_t trials;
 };
 
-/// The share that is done of runs beside each other, each taken to need as long as the longest of
-/// the paper's, but for the last twentieth.
+/// The share that is done of runs beside each other, each taken to need 200,000 frames, about what
+/// they do; the last twentieth is done when it has ended.
 class Shares {
  public:
   Shares(std::string label, std::size_t runs) : bar_(std::move(label)), shares_(runs) {}

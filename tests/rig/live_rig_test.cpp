@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cstdio>
 #include <thread>
 
 #include "microswarm/core/error.hpp"
@@ -143,6 +144,7 @@ class LiveRigs : public testing::Test {
     place = bench.swarm().pose.position;
     over = true;
     trouble_maker.join();
+    if (then) std::printf("coils at zero after %.3f s\n", zero_after);
     return result;
   }
 

@@ -66,7 +66,6 @@ Plot clearances(const Record& record) {
     bodies.x.push_back(f.t);
     bodies.y.push_back(f.obstacle_clearance);
   }
-  plot.series = {walls, bodies};
   const double margin = margin_of(scenario.navigator);
   const double radius = limits_of(scenario.swarm).radius;
   plot.levels = {{"swarm's radius", radius}};
@@ -74,9 +73,12 @@ Plot clearances(const Record& record) {
   plot.y_min = 0;
   // What is near counts; a run that was never near shows at least its nearest.
   const Metrics& m = record.result.metrics;
+  const double nearest = std::min(m.walls.clearance, m.obstacles.clearance);
   plot.y_max = 5 * std::max(margin, radius);
-  for (const double nearest : {m.walls.clearance, m.obstacles.clearance})
-    if (std::isfinite(nearest)) plot.y_max = std::max(*plot.y_max, 1.5 * nearest);
+  if (std::isfinite(nearest)) plot.y_max = std::max(*plot.y_max, 1.5 * nearest);
+  for (const Series& series : {walls, bodies})  // a line that lies above has no place in the key
+    if (std::any_of(series.y.begin(), series.y.end(), [&](double y) { return y <= *plot.y_max; }))
+      plot.series.push_back(series);
   return plot;
 }
 
