@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // mega_simulator FIRMWARE.elf: an ATmega2560 in real time whose serial line is a pseudo-terminal.
 // Prints `port PATH`, then `out MS o1 … o6` whenever an output changes (per mille, by the pins'
-// registers; MS on the monotonic clock). Takes lines: `cut`, `join` (the cable), `lose P` and
-// `flip P` (a share of the bytes to the device), `reset`.
+// registers). Takes lines: `cut`, `join` (the cable), `lose P` and `flip P` (a share of the bytes
+// to the device), `reset`, `mark`; answers each with `mark MS`. MS is the device's own time, which
+// stands still while the computer has other work.
 // Ends with its standard input.
 #include <fcntl.h>
 #include <fmt/core.h>
@@ -38,11 +39,6 @@ constexpr double frequency = 16e6;
 constexpr double slice = 0.001;     // [s] simulated between looks at the line
 constexpr double most_late = 0.02;  // [s]
 constexpr int top = 799;
-
-std::int64_t milliseconds() {
-  return std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now().time_since_epoch())
-      .count();
-}
 
 /// What the pins do, by the registers' addresses in the data sheet.
 Outputs outputs_of(const avr_t& avr) {
@@ -116,7 +112,9 @@ class Mega {
     std::exit(1);
   }
 
-  static void show(const Outputs& o) {
+  double milliseconds() const { return 1e3 * static_cast<double>(avr_->cycle) / frequency; }
+
+  void show(const Outputs& o) const {
     fmt::print("out {} {} {} {} {} {} {}\n", milliseconds(), o[0], o[1], o[2], o[3], o[4], o[5]);
     std::fflush(stdout);
   }
@@ -190,6 +188,8 @@ class Mega {
     if (order == "lose") words >> lost_;
     if (order == "flip") words >> flipped_;
     if (order == "reset") avr_reset(avr_);
+    fmt::print("mark {}\n", milliseconds());
+    std::fflush(stdout);
   }
 
   avr_t* avr_ = nullptr;
