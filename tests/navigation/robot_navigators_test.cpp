@@ -70,7 +70,7 @@ TEST(RobotForecast, IsWhatComesUnderDelayAndLag) {
   RobotSwarmParams params = two_robots();
   params.response_lag = robot_tick;
   Rig rig(scenes::global_world(1), params, params.starts, 3);
-  RobotForecast forecast(RobotStepper(rig.map, params.max_speed * robot_tick), params.contact,
+  RobotForecast forecast(rig.map, params.max_speed * robot_tick, params.contact,
                          params.response_lag);
   for (int i = 0; i < 200; ++i) {
     const Robots foretold = forecast.at_effect(rig.observe());
@@ -80,6 +80,41 @@ TEST(RobotForecast, IsWhatComesUnderDelayAndLag) {
     for (std::size_t k = 0; k < 2; ++k)
       ASSERT_LE(distance(foretold.position(k), rig.swarm.robots().position(k)), 1e-3) << i;
   }
+}
+
+// Workspace L: the top of a block is at y = 175 µm, its left side at x = 175 µm.
+TEST(RobotForecast, ARobotSeenJustInAWallDoesNotGoThroughIt) {
+  const RobotSwarmParams params = two_robots();
+  const Rig rig(scenes::global_world(1), params, params.starts, 0);
+  RobotForecast forecast(rig.map, params.max_speed * robot_tick, params.contact, 0);
+  Observation seen = rig.observe();
+  const std::vector<Vec2> places{{260, 174.99}, {330, 200}};
+  seen.robots = places;
+  forecast.issued(0, {radians(-90), 30});
+  seen.now = 0.1;
+  const Robots robots = forecast.at_effect(seen);
+  EXPECT_NEAR(robots.position(0).y, 175, 0.05);
+  EXPECT_NEAR(robots.position(0).x, 260, 0.05);
+  EXPECT_NEAR(robots.position(1).y, 197, 1e-3);
+}
+
+TEST(PlanPlayer, SeenWithErrorsItArrivesWithoutPlanningAnew) {
+  const RobotSwarmParams params = two_robots();
+  Rig rig(scenes::global_world(1), params, params.starts, 1);
+  PlanPlayer player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
+  player.prepare(rig.world);
+  Rng eye(3, Purpose::test);
+  int planned = 0;
+  for (int i = 0; i < 3000 && rig.worst() > 20; ++i) {
+    Observation seen = rig.observe();
+    std::vector<Vec2> places(seen.robots.begin(), seen.robots.end());
+    for (Vec2& place : places) place += 0.2 * Vec2{eye.normal(), eye.normal()};
+    seen.robots = places;
+    rig.apply(player.step(seen, {}));
+    planned += player.view().planned;
+  }
+  EXPECT_LE(rig.worst(), 20);
+  EXPECT_EQ(planned, 1);
 }
 
 TEST(PlanPlayer, WithoutErrorsItPlansOnceAndArrives) {

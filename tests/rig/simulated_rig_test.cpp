@@ -66,7 +66,8 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, Rehearsals,
                          testing::Values(Pair{"papers/radar/single.yaml", "vortex.yaml", coarse},
                                          Pair{"papers/drrt/s_channel.yaml", "ribbon.yaml"},
                                          Pair{"papers/drrt/moving_obstacles.yaml", "ribbon.yaml"},
-                                         Pair{"papers/gather/t_junction.yaml", "rollers.yaml"}),
+                                         Pair{"papers/gather/t_junction.yaml", "rollers.yaml"},
+                                         Pair{"papers/global/two_robots.yaml", "rollers.yaml"}),
                          [](const auto& pair) {
                            return fs::path(pair.param.scenario).stem().string();
                          });

@@ -8,6 +8,13 @@
 #include "microswarm/core/angles.hpp"
 
 namespace microswarm {
+namespace {
+
+// Of a turn's length: what is owed across the heading is made up for on so long a way, as quicker
+// turns would owe more than they make up for, and more than `most_owed` is forgotten.
+constexpr double catch_up_way = 0.25, most_owed = 0.5;
+
+}  // namespace
 
 FieldGenerator::FieldGenerator(const FieldGeneratorParams& params, double heading)
     : params_(params), heading_(heading), wanted_heading_(heading) {
@@ -19,19 +26,49 @@ void FieldGenerator::command(const Command& command) {
   const double speed = std::max(command.speed, 0.0);
   if (speed > 0) wanted_heading_ = command.heading;
   if (params_.kind == FieldKind::rolling)
-    frequency_ = std::min(speed / params_.length_per_turn, params_.frequency);
+    velocity_ =
+        std::min(speed, params_.length_per_turn * params_.frequency) * unit_vector(command.heading);
   else
     wanted_pitch_ = std::min(speed / params_.speed_per_pitch, params_.max_pitch);  // Eq 2 [radar]
 }
 
 const Eigen::Vector3d& FieldGenerator::advance(double dt) {
-  const double turn = params_.max_turn_rate * dt;
-  heading_ = wrap(heading_ + std::clamp(wrap(wanted_heading_ - heading_), -turn, turn));
+  if (params_.kind == FieldKind::rolling) {
+    roll(dt);
+    return field_;
+  }
+  turn_to(wanted_heading_, dt);
   const double lift = params_.max_pitch_rate * dt;
   pitch_ += std::clamp(wanted_pitch_ - pitch_, -lift, lift);
   phase_ = std::fmod(phase_ + 2 * pi * frequency_ * dt, 2 * pi);
   update_field();
   return field_;
+}
+
+void FieldGenerator::turn_to(double heading, double dt) {
+  const double most = params_.max_turn_rate * dt;
+  heading_ = wrap(heading_ + std::clamp(wrap(heading - heading_), -most, most));
+}
+
+// Backwards where that is the shorter turn. What a turn itself moves is owed too.
+void FieldGenerator::roll(double dt) {
+  const double length = params_.length_per_turn;
+  owed_ += dt * velocity_;
+  if (const double most = most_owed * length; norm(owed_) > most)
+    owed_ = most / norm(owed_) * owed_;
+  if (norm(velocity_) > 0) {
+    const Vec2 ahead = catch_up_way * length / norm(velocity_) * velocity_;
+    const double wanted = heading_of(owed_ + ahead);
+    const bool backwards = std::abs(wrap(wanted - heading_)) > pi / 2;
+    turn_to(backwards ? wanted + pi : wanted, dt);
+  }
+  const double most = length * params_.frequency * dt;
+  const double way = std::clamp(dot(owed_, unit_vector(heading_)), -most, most);
+  frequency_ = dt > 0 ? way / length / dt : 0;
+  phase_ = std::fmod(phase_ + 2 * pi * (1 + way / length), 2 * pi);
+  const Eigen::Vector3d before = field_;
+  update_field();
+  owed_ -= rolled_way(before, field_, length);
 }
 
 double FieldGenerator::max_rate() const {

@@ -55,12 +55,15 @@ struct FieldGeneratorParams {
 
 /// Makes the field for a navigator's commands, at 10 Hz or any other rate. Phase, heading and pitch
 /// go on from where they are, so that the field never jumps: it changes by no more than
-/// `max_rate()` · Δt.
+/// `max_rate()` · Δt. A rolling field makes the way that was commanded: what is not rolled while
+/// the heading turns, and what the turn itself rolls, is made up for, and it rolls backwards rather
+/// than turn by more than a right angle.
 class FieldGenerator {
  public:
   FieldGenerator(const FieldGeneratorParams& params, double heading);
 
-  /// The command from now on. Speed 0 takes the pitch or the frequency to 0; the heading stays.
+  /// The command from now on. Speed 0 takes the pitch or the frequency to 0; the heading stays. A
+  /// rolling field then still makes up for what is owed along it, at most half a turn.
   void command(const Command& command);
   /// Lets `dt` seconds pass; the field [mT] then.
   const Eigen::Vector3d& advance(double dt);
@@ -69,11 +72,13 @@ class FieldGenerator {
   double heading() const { return heading_; }      ///< [rad]
   double pitch() const { return pitch_; }          ///< [rad]
   double phase() const { return phase_; }          ///< [rad], in [0, 2π)
-  double frequency() const { return frequency_; }  ///< [Hz]
+  double frequency() const { return frequency_; }  ///< [Hz], less than 0 when it rolls backwards
   /// The fastest that the field can change [mT/s].
   double max_rate() const;
 
  private:
+  void turn_to(double heading, double dt);
+  void roll(double dt);
   void update_field();
 
   FieldGeneratorParams params_;
@@ -83,6 +88,7 @@ class FieldGenerator {
   double wanted_pitch_ = 0;
   double phase_ = 0;
   double frequency_ = 0;
+  Vec2 velocity_, owed_;  // of a rolling body: what is commanded [µm/s], what it is behind [µm]
   Eigen::Vector3d field_;
 };
 

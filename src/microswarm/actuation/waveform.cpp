@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/actuation/waveform.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -21,6 +22,14 @@ Eigen::Vector3d rolling_field(double amplitude, double heading, double phase) {
   const double forward = std::cos(phase);
   return amplitude * Eigen::Vector3d(forward * std::cos(heading), forward * std::sin(heading),
                                      -std::sin(phase));
+}
+
+Vec2 rolled_way(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double length_per_turn) {
+  const Eigen::Vector3d axis = from.cross(to);
+  const double sine = axis.norm();
+  if (sine == 0) return {};
+  const Eigen::Vector3d turn = std::atan2(sine, from.dot(to)) / sine * axis;
+  return length_per_turn / (2 * pi) * Vec2{turn.y(), -turn.x()};
 }
 
 Eigen::Vector3d steering_field(double amplitude, double heading) {

@@ -8,6 +8,7 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/fields.hpp"
+#include "microswarm/geometry/vec2.hpp"
 
 namespace microswarm {
 
@@ -19,6 +20,11 @@ Eigen::Vector3d rotating_field(double amplitude, double pitch, double heading, d
 /// the heading, over the top and forwards. With u across the heading and w up this is Eq 1
 /// [global]; where the phase is a multiple of 2π it points along the heading.
 Eigen::Vector3d rolling_field(double amplitude, double heading, double phase);
+
+/// The way [µm] of a body on the floor whose field turns from one direction to another, of `length`
+/// µm a turn. It turns with the field by the shortest turn, ω, as a field cannot turn it about
+/// itself, and rolls ω × up.
+Vec2 rolled_way(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double length_per_turn);
 
 /// Field in the plane along `heading`: where steering begins and ends, Eq 2 [global].
 Eigen::Vector3d steering_field(double amplitude, double heading);

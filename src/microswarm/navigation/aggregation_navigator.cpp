@@ -23,8 +23,7 @@ void AggregationNavigator::prepare(const Snapshot& world) {
   params_.step = std::min(params_.step, robots_.max_speed * tick_);
   ground_.emplace(world.map(), goal_, params_, rng_);
   gatherer_.emplace(*ground_, params_);
-  forecast_.emplace(RobotStepper(world.map(), robots_.max_speed * tick_), robots_.contact,
-                    robots_.response_lag);
+  forecast_.emplace(world.map(), robots_.max_speed * tick_, robots_.contact, robots_.response_lag);
   if (params_.method == Aggregation::rollout)
     rollout_.emplace(*ground_, forecast_->stepper(), params_, rng_);
 }

@@ -16,8 +16,7 @@ PlanPlayer::PlanPlayer(const PlanPlayerParams& params, const RobotSwarmParams& r
 
 void PlanPlayer::prepare(const Snapshot& world) {
   map_ = world.map();
-  forecast_.emplace(RobotStepper(*map_, swarm_.max_speed * tick_), swarm_.contact,
-                    swarm_.response_lag);
+  forecast_.emplace(*map_, swarm_.max_speed * tick_, swarm_.contact, swarm_.response_lag);
 }
 
 Command PlanPlayer::step(const Observation& seen, const Stop& stop) {

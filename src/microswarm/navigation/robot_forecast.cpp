@@ -2,6 +2,9 @@
 #include "microswarm/navigation/robot_forecast.hpp"
 
 #include <algorithm>
+#include <vector>
+
+#include "microswarm/world/free_place.hpp"
 
 namespace microswarm {
 
@@ -12,11 +15,15 @@ constexpr double remembered = 60;  // [s] frames are never older
 
 }  // namespace
 
-RobotForecast::RobotForecast(RobotStepper stepper, ContactRule contact, double response_lag)
-    : stepper_(std::move(stepper)), contact_(contact), lag_(response_lag) {}
+RobotForecast::RobotForecast(const Map& map, double reach, ContactRule contact, double response_lag)
+    : map_(map), stepper_(map, reach), contact_(contact), lag_(response_lag) {}
 
 Robots RobotForecast::at_effect(const Observation& observation) const {
-  Robots robots = stepper_.place(observation.robots);
+  std::vector<Vec2> places(observation.robots.begin(), observation.robots.end());
+  const double guard = stepper_.guard();
+  for (Vec2& place : places)
+    if (!map_.is_free(place, guard / 2)) place = free_place(map_, place, 2 * guard);
+  Robots robots = stepper_.place(places);
   const double end = observation.now + lag_;
   for (std::size_t i = 0; i < issued_.size(); ++i) {
     const double begins = std::max(issued_[i].time + lag_, observation.seen);

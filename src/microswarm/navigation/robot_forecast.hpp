@@ -13,9 +13,11 @@ namespace microswarm {
 /// that were given since and are still on their way.
 class RobotForecast {
  public:
-  RobotForecast(RobotStepper stepper, ContactRule contact, double response_lag);
+  /// `reach` [µm] is what the robots go in one command.
+  RobotForecast(const Map& map, double reach, ContactRule contact, double response_lag);
 
-  /// The robots at `now` + lag, from where they were `seen`.
+  /// The robots at `now` + lag, from where they were `seen`. A robot seen in a wall, as errors of
+  /// less than a pixel suffice for, is taken to be beside it.
   Robots at_effect(const Observation& observation) const;
   /// Notes that a command was given at `now` [s].
   void issued(double now, const Command& command);
@@ -28,6 +30,7 @@ class RobotForecast {
     double time;
     Command command;
   };
+  Map map_;
   RobotStepper stepper_;
   ContactRule contact_;
   double lag_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "microswarm/actuation/waveform.hpp"
 #include "microswarm/core/angles.hpp"
 
 namespace microswarm {
@@ -33,19 +34,14 @@ Command FieldResponse::step(const Eigen::Vector3d& field, double dt) {
   return {};
 }
 
-/// A body on the floor that turns with the field, ω, rolls ω × z times its radius.
 Command FieldResponse::rolling(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double dt) {
-  const Eigen::Vector3d axis = from.cross(to);
-  const double turned = std::atan2(axis.norm(), from.dot(to));
-  Eigen::Vector3d way = Eigen::Vector3d::Zero();
-  if (turned > 0) way = turned * axis.normalized();
-  const Eigen::Vector3d sum = over({dt, way}, rolling_inertia);
+  const Vec2 way = rolled_way(from, to, params_.length_per_turn);
+  const Eigen::Vector3d sum = over({dt, {way.x, way.y, 0}}, rolling_inertia);
   double time = 0;
   for (const Piece& piece : turn_) time += piece.dt;
-  const Eigen::Vector3d rate = sum / time;
-  const Vec2 velocity = params_.length_per_turn / (2 * pi) * Vec2{rate.y(), -rate.x()};
-  if (norm(velocity) > 0) heading_ = heading_of(velocity);
-  return {heading_, norm(velocity)};
+  const Command driven = command_for({sum.x(), sum.y()}, time);
+  if (driven.speed > 0) heading_ = driven.heading;
+  return {heading_, driven.speed};
 }
 
 /// The normal of the plane that Eq 1 [radar] turns in, downwards where the pitch is 0.

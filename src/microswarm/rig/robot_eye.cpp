@@ -8,6 +8,7 @@
 #include "microswarm/core/angles.hpp"
 #include "microswarm/rig/still_ground.hpp"
 #include "microswarm/rig/walls_in_picture.hpp"
+#include "microswarm/world/free_place.hpp"
 
 namespace microswarm {
 namespace {
@@ -67,7 +68,7 @@ void RobotEye::find_spots(const Image& picture) {
 /// Robots that the command takes on, as far as walls let them.
 void RobotEye::expect(double passed) {
   std::vector<Vec2>& places = sight_.robots;
-  for (Vec2& place : places) place = free_near(place);
+  for (Vec2& place : places) place = free_place(map_, place, 2 * stepper_.guard());
   Robots robots = stepper_.place(places);
   stepper_.step(robots, displacement(command_, passed), contact_);
   places = robots.positions();
@@ -127,18 +128,6 @@ void RobotEye::learn_ground() {
   for (const Vec2 robot : sight_.robots) at_px.push_back(scale_.to_picture(robot));
   for (const Vec2 spot : spots_) at_px.push_back(scale_.to_picture(spot));
   ground_->learn(at_px);
-}
-
-/// A place where a robot can be: that one, or one about a robot's diameter away.
-Vec2 RobotEye::free_near(Vec2 place) const {
-  const double least = 2 * stepper_.guard();
-  if (map_.is_free(place, least)) return place;
-  for (int ring = 1; ring <= 8; ++ring)
-    for (int i = 0; i < 16; ++i) {
-      const Vec2 p = place + diameter_ * ring / 8 * unit_vector(2 * pi * i / 16);
-      if (map_.is_free(p, least)) return p;
-    }
-  return place;
 }
 
 }  // namespace microswarm

@@ -36,7 +36,6 @@ class RobotEye : public Eye {
   void pair(double reach);
   void place_the_unseen();
   void learn_ground();
-  Vec2 free_near(Vec2 place) const;
 
   CameraScale scale_;
   const Map& map_;
