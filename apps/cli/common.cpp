@@ -11,6 +11,7 @@
 
 #include "cli.hpp"
 #include "microswarm/core/error.hpp"
+#include "microswarm/core/file.hpp"
 
 namespace microswarm::cli {
 namespace {
@@ -77,26 +78,6 @@ void make_folder(const std::string& folder) {
     throw InputError(folder + ": cannot write: " + std::generic_category().message(errno));
 }
 
-namespace {
-
-/// Takes away files that StagedFile made for a program that is no more.
-void clear_temporaries(const std::string& folder) {
-  std::error_code none;
-  std::vector<std::filesystem::path> left;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
-    const std::string name = entry.path().filename().string();
-    const auto at = name.find(".tmp-");
-    int program = 0, number = 0;
-    if (at == std::string::npos ||
-        std::sscanf(name.c_str() + at, ".tmp-%d-%d", &program, &number) != 2 || program <= 0)
-      continue;
-    if (::kill(program, 0) != 0 && errno == ESRCH) left.push_back(entry.path());
-  }
-  for (const auto& file : left) std::filesystem::remove(file, none);
-}
-
-}  // namespace
-
 OutFolder::OutFolder(const std::string& folder) {
   if (folder.empty()) return;
   std::error_code none;
@@ -107,7 +88,7 @@ OutFolder::OutFolder(const std::string& folder) {
   folder_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder_ < 0) return;
   if (::flock(folder_, LOCK_EX | LOCK_NB) == 0) {
-    clear_temporaries(folder);
+    clear_staged(folder);
   } else if (errno == EWOULDBLOCK) {
     ::close(folder_);
     throw InputError(folder + ": another command is writing to it");

@@ -47,6 +47,7 @@ std::unique_ptr<FrameSource> open_camera_of(const Rig& rig) {
   if (const auto* camera = std::get_if<CameraParams>(&rig.params.camera))
     return open_camera(*camera);
   const auto& video = std::get<VideoCamera>(rig.params.camera);
+  if (video.file.empty()) throw rig.where.error("camera.file", "which video is missing");
   return std::make_unique<PacedVideo>(open_frames(rig.folder / video.file, video.rate));
 }
 

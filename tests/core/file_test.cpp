@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -105,6 +106,23 @@ TEST_F(FileTest, TwoWritersDoNotShareTheirStage) {
   first.commit();
   EXPECT_EQ(read_file(path), "first");
   EXPECT_EQ(files(), 1);
+}
+
+TEST_F(FileTest, WhatKilledProgramsLeftIsCleared) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const StagedFile left(folder_ / "table.csv");
+    _exit(0);  // as if it was killed
+  }
+  waitpid(child, nullptr, 0);
+  const StagedFile ours(folder_ / "table.csv");
+  write_file_atomically(folder_ / "notes.tmp-old.txt", "not ours");
+  ASSERT_EQ(files(), 3);
+  clear_staged(folder_);
+  EXPECT_EQ(files(), 2);
+  EXPECT_TRUE(fs::exists(ours.path()));
+  EXPECT_TRUE(fs::exists(folder_ / "notes.tmp-old.txt"));
+  clear_staged(folder_ / "nowhere");
 }
 
 TEST(ReadFile, APipeIsRefusedAtOnce) {

@@ -7,8 +7,11 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
+#include <cstdio>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "microswarm/core/error.hpp"
 
@@ -61,6 +64,23 @@ bool is_special(const fs::path& path) {
   return fs::exists(status) && !fs::is_regular_file(status);
 }
 
+/// Where a program makes its nth file for this target.
+fs::path staged_for(const fs::path& target, int n) {
+  fs::path staged = target;
+  return staged.replace_filename(fmt::format("{}.tmp-{}-{}{}", target.stem().string(), ::getpid(),
+                                             n, target.extension().string()));
+}
+
+/// The program that made a file by such a name; 0 for any other name.
+pid_t maker_of(const fs::path& file) {
+  const std::string name = file.filename().string();
+  const auto at = name.rfind(".tmp-");
+  int program = 0, n = 0;
+  const bool is_staged =
+      at != std::string::npos && std::sscanf(name.c_str() + at, ".tmp-%d-%d", &program, &n) == 2;
+  return is_staged ? program : 0;
+}
+
 }  // namespace
 
 std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
@@ -94,9 +114,7 @@ StagedFile::StagedFile(fs::path target) : target_(std::move(target)), direct_(is
     return;
   }
   for (int i = 0; i < 1000; ++i) {
-    staged_ = target_;
-    staged_.replace_filename(fmt::format("{}.tmp-{}-{}{}", target_.stem().string(), ::getpid(), i,
-                                         target_.extension().string()));
+    staged_ = staged_for(target_, i);
     const Descriptor file(staged_, O_WRONLY | O_CREAT | O_EXCL);
     if (!file.error()) return;
     if (file.error() != EEXIST) fail_errno(target_, "write", file.error());
@@ -115,6 +133,15 @@ void StagedFile::commit() {
   if (::fsync(file.get()) != 0 || !file.close()) fail_errno(target_, "write", errno);
   if (::rename(staged_.c_str(), target_.c_str()) != 0) fail_errno(target_, "write", errno);
   committed_ = true;
+}
+
+void clear_staged(const fs::path& folder) {
+  std::error_code none;
+  std::vector<fs::path> left;
+  for (const auto& entry : fs::directory_iterator(folder, none))
+    if (const pid_t program = maker_of(entry.path()); program > 0)
+      if (::kill(program, 0) != 0 && errno == ESRCH) left.push_back(entry.path());
+  for (const fs::path& file : left) fs::remove(file, none);
 }
 
 void write_file_atomically(const fs::path& path, std::string_view bytes) {

@@ -34,6 +34,9 @@ class StagedFile {
   bool committed_ = false;
 };
 
+/// Takes away what StagedFile left in a folder for programs that are no more. Passes over errors.
+void clear_staged(const std::filesystem::path& folder);
+
 /// Writes a whole file by way of a StagedFile. Throws InputError "PATH: cannot write: REASON", for
 /// example "No space left on device".
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
