@@ -19,10 +19,14 @@
 
 namespace microswarm::cli {
 
-Check triple(const char* form) {
-  return {[form](const std::string& text) -> std::string {
-    if (numbers(text).size() == 3) return {};
-    return fmt::format("must be {}, not {}", form, quote(text));
+Check triple(const char* form, double most) {
+  return {[form, most](const std::string& text) -> std::string {
+    const std::vector<double> v = numbers(text);
+    if (v.size() != 3) return fmt::format("must be {}, not {}", form, quote(text));
+    for (const double x : v)
+      if (std::abs(x) > most)
+        return fmt::format("{:.6g} is too much, allowed {:.6g}..{:.6g}", x, -most, most);
+    return {};
   }};
 }
 
@@ -196,12 +200,12 @@ void add_field(Command rig, Action& action) {
   cmd.add_option("system", o->system, "Coil system (YAML)").required().type_name("FILE");
   cmd.add_option("--at", o->at, "Place in µm, x,y,z; the centre when not given")
       .type_name("X,Y,Z")
-      .check(triple("X,Y,Z"));
+      .check(triple("X,Y,Z", most_place));
   const Option currents =
       cmd.add_option("--currents", o->currents, "Current of each coil in A").type_name("A,A,…");
   cmd.add_option("--field", o->field, "Field to make in mT, bx,by,bz")
       .type_name("BX,BY,BZ")
-      .check(triple("BX,BY,BZ"))
+      .check(triple("BX,BY,BZ", most_field))
       .excludes(currents);
   add_json(cmd, o->json);
   cmd.callback([o, &action] { action = [o](const Context&) { return field(*o); }; });

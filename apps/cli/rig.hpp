@@ -11,8 +11,11 @@
 
 namespace microswarm::cli {
 
-/// Allows three numbers; `form` says what is meant.
-Check triple(const char* form);
+inline constexpr double most_place = 1e9;  ///< [µm]
+inline constexpr double most_field = 1e6;  ///< [mT]
+
+/// Allows three numbers up to `most`; `form` says what is meant.
+Check triple(const char* form, double most);
 /// What it allowed.
 Eigen::Vector3d triple_of(const std::string& text);
 

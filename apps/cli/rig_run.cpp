@@ -78,9 +78,9 @@ class CommandLog {
     write(head + ",scale,status,late_s,round_trip_s\n");
   }
   /// Adds when the coils were told to be at zero [s], by steady_seconds(), and brings the log to
-  /// its place; says what keeps it from there.
-  void finish(double zero_at, bool confirmed) noexcept {
-    if (file_.empty()) return;
+  /// its place; false, and says why, when it cannot be there.
+  bool finish(double zero_at, bool confirmed) noexcept {
+    if (file_.empty()) return true;
     if (began_ > 0) {
       out_ << fmt::format("{:.4f},,0,0,0,0", zero_at - began_);
       for (std::size_t i = 0; i < coils_; ++i) out_ << ",0";
@@ -89,8 +89,9 @@ class CommandLog {
     out_.close();
     std::error_code error;
     if (out_) std::filesystem::rename(part_, file_, error);
-    if (!out_ || error)
-      note("microswarm: {}: cannot write; {} is what there is\n", file_.string(), part_.string());
+    if (out_ && !error) return true;
+    note("microswarm: {}: cannot write; {} is what there is\n", file_.string(), part_.string());
+    return false;
   }
   void add(const CoilMoment& m) {
     if (file_.empty()) return;
@@ -145,6 +146,7 @@ nlohmann::ordered_json timing_json(const RigTiming& t) {
           {"missed_deadlines", t.missed_deadlines},
           {"frames_read", t.frames},
           {"frames_dropped", t.dropped_frames},
+          {"fields_not_made", t.unmade},
           {"fields_weakened", t.limited},
           {"least_field_share", t.least_scale},
           {"coils_resumed", t.resumed},
@@ -163,6 +165,11 @@ void note_pace(const RigTiming& t, double seconds, const RigParams& rig) {
 
 /// Where the coils' limits weakened the field, on stderr.
 void note_limits(const RigTiming& t) {
+  if (t.unmade > 0)
+    note(
+        "note: these coils cannot make the field in {} of {} sendings, see `microswarm rig "
+        "check`\n",
+        t.unmade, t.round_trip.count());
   if (t.limited > 0)
     note("note: the coils' limits weakened the field in {} of {} sendings, to {:.0f} % at least\n",
          t.limited, t.round_trip.count(), 100 * t.least_scale);
@@ -194,6 +201,7 @@ int rig_run(const RigRunOptions& o, const Context& context) {
   if (key.is_there()) note("space, e or Esc: coils to zero at once\n");
   const Stop stop = o.seconds ? context.within(*o.seconds) : context.stop;
   double seconds = 0;
+  bool logged = true;
   const RunOutput output{o.out,
                          false,
                          o.json,
@@ -205,7 +213,7 @@ int rig_run(const RigRunOptions& o, const Context& context) {
                               RunResult result = run(scenario, plant, *navigator, listeners, until);
                               plant.stop("the run has ended");
                               seconds = result.metrics.time;
-                              log.finish(plant.zero_at(), plant.zero_is_confirmed());
+                              logged = log.finish(plant.zero_at(), plant.zero_is_confirmed());
                               if (!plant.zero_is_confirmed())
                                 note(
                                     "note: the coil driver did not confirm that the coils are at "
@@ -215,7 +223,7 @@ int rig_run(const RigRunOptions& o, const Context& context) {
                             });
   note_pace(plant.timing(), seconds, on.rig.params);
   if (!o.json) tell(plant.timing());
-  return code;
+  return code == ok && !logged ? bad_input : code;
 }
 
 }  // namespace

@@ -183,9 +183,29 @@ TEST(FieldGenerator, RollsTheWayThatIsCommanded) {
   }
   EXPECT_LE(worst, 2.5);
   EXPECT_LE(mean, 0.6);
-  generator.command({0, 0});  // what is left of it along the heading is still made
-  for (int i = 0; i < 20; ++i) generator.advance(0.01);
-  EXPECT_NEAR(generator.frequency(), 0, 1e-9);
+  generator.command({0, 0});  // holds at once
+  const Eigen::Vector3d held = generator.field();
+  EXPECT_EQ(generator.advance(0.01), held);
+}
+
+// What fast turns owe is neither made up for in haste nor after a hold.
+TEST(FieldGenerator, RollsSlowlyWhenSlownessIsCommanded) {
+  FieldGeneratorParams params;
+  params.kind = FieldKind::rolling;
+  for (const bool hold : {false, true}) {
+    FieldGenerator generator(params, 0);
+    generator.command({pi / 2, 200});
+    for (int i = 0; i < 5; ++i) generator.advance(0.01);
+    if (hold) {
+      generator.command({0, 0});
+      for (int i = 0; i < 5; ++i) generator.advance(0.01);
+    }
+    generator.command({pi / 2, 1});
+    for (int i = 0; i < 100; ++i) {
+      generator.advance(0.01);
+      EXPECT_LE(std::abs(generator.frequency()), 2 / params.length_per_turn * (1 + 1e-9));
+    }
+  }
 }
 
 TEST(FieldGenerator, RollsBackwardsRatherThanTurnRound) {

@@ -89,14 +89,14 @@ TEST_F(Track, NeverWritesOverWhatItReads) {
 TEST_F(Track, WhatAKilledOneLeftIsClearedAway) {
   film("video", 3);
   fs::create_directories(at.folder / "out");
-  const std::string alive = "out/tracks.tmp-" + std::to_string(::getpid()) + "-0.h5";
-  write("out/tracks.tmp-999999999-0.h5", "of a program that is no more");
+  const std::string alive = "out/tracks.tmp-microswarm-" + std::to_string(::getpid()) + "-0.h5";
+  write("out/tracks.tmp-microswarm-999999999-0.h5", "of a program that is no more");
   write(alive, "of one that runs");
-  write("out/mine.tmp-notes.txt", "of the user");
+  write("out/mine.tmp-1999-12-31.csv", "of the user");
   good({"track", "video", "--um-per-px", "1", "--rate", "10", "--out", "out", "--no-overlay"});
-  EXPECT_FALSE(exists("out/tracks.tmp-999999999-0.h5"));
+  EXPECT_FALSE(exists("out/tracks.tmp-microswarm-999999999-0.h5"));
   EXPECT_TRUE(exists(alive));
-  EXPECT_TRUE(exists("out/mine.tmp-notes.txt"));
+  EXPECT_TRUE(exists("out/mine.tmp-1999-12-31.csv"));
 }
 
 TEST_F(Track, TheSameVideoGivesTheSameBytes) {

@@ -116,12 +116,14 @@ TEST_F(FileTest, WhatKilledProgramsLeftIsCleared) {
   }
   waitpid(child, nullptr, 0);
   const StagedFile ours(folder_ / "table.csv");
-  write_file_atomically(folder_ / "notes.tmp-old.txt", "not ours");
-  ASSERT_EQ(files(), 3);
+  const std::vector<std::string> not_ours{"notes.tmp-1999-12.txt", "a.tmp-microswarm-1-2 of mine",
+                                          "b.tmp-microswarm-x.csv"};
+  for (const std::string& name : not_ours) write_file_atomically(folder_ / name, "not ours");
+  ASSERT_EQ(files(), 5);
   clear_staged(folder_);
-  EXPECT_EQ(files(), 2);
+  EXPECT_EQ(files(), 4);
   EXPECT_TRUE(fs::exists(ours.path()));
-  EXPECT_TRUE(fs::exists(folder_ / "notes.tmp-old.txt"));
+  for (const std::string& name : not_ours) EXPECT_TRUE(fs::exists(folder_ / name)) << name;
   clear_staged(folder_ / "nowhere");
 }
 

@@ -305,6 +305,18 @@ TEST_F(LiveRigs, ADeadmanShorterThanATickIsRefused) {
       << error;
 }
 
+TEST_F(LiveRigs, AGoalOutsideThePictureIsRefused) {
+  const Scenario& s = scene.scenario;
+  LiveBench bench(s, world, *rig, std::make_unique<WatchedCoils>(coils));
+  CameraScale near = bench.view().scale;
+  near.um_per_px /= 2;
+  const std::string error =
+      test::error_of([&] { LiveRig(s, world.map, *rig, bench.camera(40), near, bench.coils()); });
+  EXPECT_NE(error.find("µm of the scenario is at pixel ("), std::string::npos) << error;
+  EXPECT_NE(error.find(", outside the picture of "), std::string::npos) << error;
+  EXPECT_EQ(coils->drives, 0);
+}
+
 /// Gives one picture, then fails.
 class OnePicture : public FrameSource {
  public:

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "microswarm/core/angles.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/experiment/run.hpp"
 #include "microswarm/navigation/make.hpp"
@@ -153,6 +154,15 @@ TEST(SimulatedRig, ASwarmMayBeFasterThanTheFieldIsMadeFor) {
   };
   EXPECT_NEAR(way(1) / way(0), 2, 0.05);
   EXPECT_NEAR(way(-0.5) / way(0), 0.5, 0.05);
+}
+
+TEST(SimulatedRig, AFieldThatTurnsTooSlowlyIsNoted) {
+  Rehearsal r("papers/global/two_robots.yaml", "rollers.yaml");
+  EXPECT_EQ(unusual_field(r.rig, r.scene.scenario), "");
+  r.rig.params.field.max_turn_rate = radians(360);
+  EXPECT_EQ(unusual_field(r.rig, r.scene.scenario),
+            "the rolling field takes 0.25 s to turn by 90°, a command lasts 0.1 s: robots lag "
+            "behind at turns, see field.max_turn_rate_deg_per_s");
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ TEST(FreePlace, BesideAWallIsAboutAsNearAsCanBe) {
     const Vec2 seen{150, 200 - in};
     const Vec2 found = free_place(map, seen, 0.002);
     EXPECT_GE(found.y, 200.002);
-    EXPECT_LE(distance(found, seen), 2.1 * (in + 0.002)) << in;
+    EXPECT_LE(distance(found, seen), 1.3 * (in + 0.004)) << in;
   }
   const Vec2 outside{-3, 10};
   const Vec2 found = free_place(map, outside, 1);

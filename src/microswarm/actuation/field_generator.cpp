@@ -11,8 +11,10 @@ namespace microswarm {
 namespace {
 
 // Of a turn's length: what is owed across the heading is made up for on so long a way, as quicker
-// turns would owe more than they make up for, and more than `most_owed` is forgotten.
-constexpr double catch_up_way = 0.25, most_owed = 0.5;
+// turns would owe more than they make up for; more than `most_owed` is forgotten; and no more than
+// `most_rolled` is rolled at once, as half a turn has no direction.
+constexpr double catch_up_way = 0.25, most_owed = 0.5, most_rolled = 0.4;
+constexpr double most_haste = 2;  // times the commanded speed, when something is owed
 
 }  // namespace
 
@@ -25,11 +27,13 @@ FieldGenerator::FieldGenerator(const FieldGeneratorParams& params, double headin
 void FieldGenerator::command(const Command& command) {
   const double speed = std::max(command.speed, 0.0);
   if (speed > 0) wanted_heading_ = command.heading;
-  if (params_.kind == FieldKind::rolling)
-    velocity_ =
-        std::min(speed, params_.length_per_turn * params_.frequency) * unit_vector(command.heading);
-  else
+  if (params_.kind == FieldKind::rolling) {
+    const double fastest = params_.length_per_turn * params_.frequency;
+    velocity_ = std::min(speed, fastest) * unit_vector(command.heading);
+    if (speed == 0) owed_ = {};
+  } else {
     wanted_pitch_ = std::min(speed / params_.speed_per_pitch, params_.max_pitch);  // Eq 2 [radar]
+  }
 }
 
 const Eigen::Vector3d& FieldGenerator::advance(double dt) {
@@ -56,13 +60,14 @@ void FieldGenerator::roll(double dt) {
   owed_ += dt * velocity_;
   if (const double most = most_owed * length; norm(owed_) > most)
     owed_ = most / norm(owed_) * owed_;
-  if (norm(velocity_) > 0) {
-    const Vec2 ahead = catch_up_way * length / norm(velocity_) * velocity_;
-    const double wanted = heading_of(owed_ + ahead);
+  const double speed = norm(velocity_);
+  if (speed > 0) {
+    const double wanted = heading_of(owed_ + catch_up_way * length / speed * velocity_);
     const bool backwards = std::abs(wrap(wanted - heading_)) > pi / 2;
     turn_to(backwards ? wanted + pi : wanted, dt);
   }
-  const double most = length * params_.frequency * dt;
+  const double fastest = std::min(length * params_.frequency, most_haste * speed);
+  const double most = std::min(fastest * dt, most_rolled * length);
   const double way = std::clamp(dot(owed_, unit_vector(heading_)), -most, most);
   frequency_ = dt > 0 ? way / length / dt : 0;
   phase_ = std::fmod(phase_ + 2 * pi * (1 + way / length), 2 * pi);

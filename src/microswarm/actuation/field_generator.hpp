@@ -55,15 +55,17 @@ struct FieldGeneratorParams {
 
 /// Makes the field for a navigator's commands, at 10 Hz or any other rate. Phase, heading and pitch
 /// go on from where they are, so that the field never jumps: it changes by no more than
-/// `max_rate()` · Δt. A rolling field makes the way that was commanded: what is not rolled while
-/// the heading turns, and what the turn itself rolls, is made up for, and it rolls backwards rather
-/// than turn by more than a right angle.
+/// `max_rate()` · Δt. A rolling field makes the way that was commanded, as long as
+/// it turns by 90° in much less time than a command lasts: what is not rolled while the heading
+/// turns, and what the turn itself rolls, is made up for, at up to twice the speed commanded. Half
+/// a turn's length is the most that can be owed. It rolls backwards rather than turn by more than a
+/// right angle.
 class FieldGenerator {
  public:
   FieldGenerator(const FieldGeneratorParams& params, double heading);
 
-  /// The command from now on. Speed 0 takes the pitch or the frequency to 0; the heading stays. A
-  /// rolling field then still makes up for what is owed along it, at most half a turn.
+  /// The command from now on. Speed 0 takes the pitch or the frequency to 0; the heading stays.
+  /// What a rolling field owes is forgotten then.
   void command(const Command& command);
   /// Lets `dt` seconds pass; the field [mT] then.
   const Eigen::Vector3d& advance(double dt);

@@ -64,21 +64,25 @@ bool is_special(const fs::path& path) {
   return fs::exists(status) && !fs::is_regular_file(status);
 }
 
+constexpr std::string_view staged_mark = ".tmp-microswarm-";  // no file of a user's has it
+
 /// Where a program makes its nth file for this target.
 fs::path staged_for(const fs::path& target, int n) {
   fs::path staged = target;
-  return staged.replace_filename(fmt::format("{}.tmp-{}-{}{}", target.stem().string(), ::getpid(),
-                                             n, target.extension().string()));
+  return staged.replace_filename(fmt::format("{}{}{}-{}{}", target.stem().string(), staged_mark,
+                                             ::getpid(), n, target.extension().string()));
 }
 
 /// The program that made a file by such a name; 0 for any other name.
 pid_t maker_of(const fs::path& file) {
   const std::string name = file.filename().string();
-  const auto at = name.rfind(".tmp-");
-  int program = 0, n = 0;
-  const bool is_staged =
-      at != std::string::npos && std::sscanf(name.c_str() + at, ".tmp-%d-%d", &program, &n) == 2;
-  return is_staged ? program : 0;
+  const auto mark = name.rfind(staged_mark);
+  if (mark == std::string::npos) return 0;
+  const std::string rest = name.substr(mark + staged_mark.size());
+  int program = 0, n = 0, read = 0;
+  if (std::sscanf(rest.c_str(), "%d-%d%n", &program, &n, &read) != 2) return 0;
+  const auto after = static_cast<std::size_t>(read);
+  return after == rest.size() || rest[after] == '.' ? program : 0;
 }
 
 }  // namespace
@@ -136,11 +140,15 @@ void StagedFile::commit() {
 }
 
 void clear_staged(const fs::path& folder) {
-  std::error_code none;
+  std::error_code error, none;
   std::vector<fs::path> left;
-  for (const auto& entry : fs::directory_iterator(folder, none))
-    if (const pid_t program = maker_of(entry.path()); program > 0)
-      if (::kill(program, 0) != 0 && errno == ESRCH) left.push_back(entry.path());
+  for (fs::directory_iterator at(folder, error); !error && at != fs::directory_iterator();
+       at.increment(error)) {
+    const pid_t program = maker_of(at->path());
+    const bool is_left = program > 0 && ::kill(program, 0) != 0 && errno == ESRCH;
+    if (is_left && at->symlink_status(none).type() == fs::file_type::regular)
+      left.push_back(at->path());
+  }
   for (const fs::path& file : left) fs::remove(file, none);
 }
 

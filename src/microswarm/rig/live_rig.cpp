@@ -31,6 +31,18 @@ const RigParams& checked(const Rig& rig, const Scenario& scenario) {
   return rig.params;
 }
 
+void check_picture(const Rig& rig, const Scenario& scenario, const CameraScale& scale,
+                   const Image& picture) {
+  for (const Vec2 place : places_of(scenario)) {
+    const Vec2 at = scale.to_picture(place);
+    if (at.x < -0.5 || at.y < -0.5 || at.x > picture.width - 0.5 || at.y > picture.height - 0.5)
+      throw rig.where.error(
+          "scale", fmt::format("the place ({:.6g}, {:.6g}) µm of the scenario is at pixel ({:.6g}, "
+                               "{:.6g}), outside the picture of {} × {}",
+                               place.x, place.y, at.x, at.y, picture.width, picture.height));
+  }
+}
+
 }  // namespace
 
 LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const Rig& rig,
@@ -48,6 +60,7 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
                  const std::lock_guard lock(timing_mutex_);
                  timing_.coil_late.add(moment.late);
                  timing_.round_trip.add(moment.round_trip);
+                 timing_.unmade += !moment.output.reached;
                  timing_.limited += moment.output.scale < 1 - 1e-9;
                  timing_.least_scale = std::min(timing_.least_scale, moment.output.scale);
                  timing_.resumed += moment.output.status == DriveStatus::resumed;
@@ -59,6 +72,7 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
   if (!camera_.wait(frame_, first_frame))
     throw HardwareError(fmt::format("camera: no picture within {} s", first_frame));
   const Image& picture = frame_.frame.picture;
+  check_picture(rig, scenario, scale, picture);
   const std::vector<Vec2> starts = scenario.robots ? scenario.robots->starts : std::vector<Vec2>{};
   eye_ = make_eye(rig.params.eye, scenario, *map_, starts, {scale, picture.width, picture.height});
   start_ = steady_seconds();

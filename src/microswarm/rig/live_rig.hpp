@@ -25,6 +25,7 @@ struct RigTiming {
   Durations coil_late;       ///< currents after they were due
   Durations round_trip;      ///< of the coil driver
   int resumed = 0;           ///< times the coils had been off by themselves
+  int unmade = 0;            ///< fields that these coils cannot make
   int limited = 0;           ///< fields that the coils' limits weakened
   double least_scale = 1;    ///< the weakest of them, as share of what was wanted
   int scaled = 0;            ///< currents that the device's own limits made smaller

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "microswarm/config/yaml.hpp"
+#include "microswarm/core/angles.hpp"
 
 namespace microswarm {
 namespace {
@@ -78,6 +79,12 @@ std::string unusual_field(const Rig& rig, const Scenario& scenario) {
                           : ribbon        ? FieldKind::oscillating
                                           : FieldKind::rotating;
   const FieldKind kind = rig.params.field.kind;
+  const double turn = pi / 2 / rig.params.field.max_turn_rate;
+  if (kind == FieldKind::rolling && turn > scenario.tick)
+    return fmt::format(
+        "the rolling field takes {:.3g} s to turn by 90°, a command lasts {:.3g} s: "
+        "robots lag behind at turns, see field.max_turn_rate_deg_per_s",
+        turn, scenario.tick);
   if (kind == usual) return {};
   const char* swarm = scenario.robots ? "robots" : ribbon ? "a ribbon" : "a vortex";
   return fmt::format("{} under a field that is {}: in the papers it is {}", swarm, enum_name(kind),

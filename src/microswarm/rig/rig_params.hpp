@@ -138,7 +138,7 @@ const SimulatedCamera& simulated_camera(const Rig& rig);
 void check(const Rig& rig, const Scenario& scenario, const Places& where = {});
 
 /// Says it when the scenario's swarm is driven by another kind of field in the papers than this
-/// rig has; empty else.
+/// rig has, or when a rolling field turns too slowly for its commands; empty else.
 std::string unusual_field(const Rig& rig, const Scenario& scenario);
 
 }  // namespace microswarm

@@ -99,7 +99,7 @@ Eigen::Vector3d place_among_coils(const CoilSystem& system, const Map& map, Vec2
   return system.centre() + Eigen::Vector3d(off.x, off.y, 0);
 }
 
-void check_workspace(const Rig& rig, const Scenario& scenario, const Map& map) {
+std::vector<Vec2> places_of(const Scenario& scenario) {
   std::vector<Vec2> places;
   if (scenario.start) places.push_back(scenario.start->position);
   if (scenario.goal) places.push_back(*scenario.goal);
@@ -107,7 +107,11 @@ void check_workspace(const Rig& rig, const Scenario& scenario, const Map& map) {
     places.insert(places.end(), scenario.robots->starts.begin(), scenario.robots->starts.end());
     places.insert(places.end(), scenario.robots->goals.begin(), scenario.robots->goals.end());
   }
-  for (const Vec2 place : places) {
+  return places;
+}
+
+void check_workspace(const Rig& rig, const Scenario& scenario, const Map& map) {
+  for (const Vec2 place : places_of(scenario)) {
     const Eigen::Vector3d among = place_among_coils(rig.system, map, place);
     if (!rig.system.in_workspace(among))
       throw rig.where.error(

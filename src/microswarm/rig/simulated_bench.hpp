@@ -66,6 +66,8 @@ class SimulatedBench {
 
 /// Where a place of the map is among a rig's coils: the middle of the map is above their centre.
 Eigen::Vector3d place_among_coils(const CoilSystem& system, const Map& map, Vec2 place);
+/// The scenario's starts and goals.
+std::vector<Vec2> places_of(const Scenario& scenario);
 /// Throws InputError when the scenario's starts or goals are where nobody knows the coils' field.
 void check_workspace(const Rig& rig, const Scenario& scenario, const Map& map);
 

@@ -7,7 +7,7 @@ namespace microswarm {
 
 /// Where something may be that was seen at `place`, keeping `r` > 0 [µm] from walls: `place` itself
 /// when that is free, else a free place about as near as there is one, looked for in 16 directions
-/// at distances that double. `place` when none is found.
+/// at distances that grow by a quarter. `place` when none is found.
 Vec2 free_place(const Map& map, Vec2 place, double r);
 
 }  // namespace microswarm
