@@ -15,8 +15,7 @@ PlanPlayer::PlanPlayer(const PlanPlayerParams& params, const RobotSwarmParams& r
 }
 
 void PlanPlayer::prepare(const Snapshot& world) {
-  map_ = world.map();
-  forecast_.emplace(*map_, swarm_.max_speed * tick_, swarm_.contact, swarm_.response_lag);
+  forecast_.emplace(world.map(), swarm_.max_speed * tick_, swarm_.contact, swarm_.response_lag);
 }
 
 Command PlanPlayer::step(const Observation& seen, const Stop& stop) {
@@ -85,7 +84,7 @@ void PlanPlayer::find_way(const Robots& robots, double now, const Stop& stop) {
   input_ = plan_.inputs.size();
   if (now < retry_at_) return;
   const std::vector<Vec2> places = robots.positions();
-  plan_ = global_search(*map_, places, swarm_.goals, params_.planner, rng_, stop).plan;
+  plan_ = global_search(forecast_->map(), places, swarm_.goals, params_.planner, rng_, stop).plan;
   if (plan_.status != Status::solved) retry_at_ = now + params_.retry_time;
   input_ = 0;
   on_plan_ = true;

@@ -76,7 +76,6 @@ class PlanPlayer : public Navigator {
   double tick_;
   Rng rng_;
   std::optional<RobotForecast> forecast_;
-  std::optional<Map> map_;
   GlobalPlan plan_;
   std::size_t input_ = 0;  ///< of the plan, being played
   int piece_ = 0;          ///< of that input, which is more than a tick's way

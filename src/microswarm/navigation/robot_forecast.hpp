@@ -22,6 +22,7 @@ class RobotForecast {
   /// Notes that a command was given at `now` [s].
   void issued(double now, const Command& command);
 
+  const Map& map() const { return map_; }
   const RobotStepper& stepper() const { return stepper_; }
   ContactRule contact() const { return contact_; }
 
