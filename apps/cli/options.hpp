@@ -38,13 +38,15 @@ struct PlannerChoice {
   }
 };
 
-/// "11 of 14 aims are met", of rows to reproduce or of a bench.
+/// "11 of 14 aims are met, 3 have no verdict", of rows to reproduce or of a bench.
 template <class Row>
 std::string aims_met(const std::vector<Row>& rows) {
-  const auto aims = std::count_if(rows.begin(), rows.end(), [](const Row& r) { return !!r.aim; });
-  const auto met =
-      std::count_if(rows.begin(), rows.end(), [](const Row& r) { return r.aim && r.ok(); });
-  return fmt::format("{} of {} aims are met\n", met, aims);
+  const auto count = [&](auto&& is) { return std::count_if(rows.begin(), rows.end(), is); };
+  const auto judged = count([](const Row& r) { return r.has_verdict(); });
+  const auto met = count([](const Row& r) { return r.has_verdict() && r.ok(); });
+  const auto open = count([](const Row& r) { return r.aim && !r.has_verdict(); });
+  return fmt::format("{} of {} aims are met{}\n", met, judged,
+                     open == 0 ? "" : fmt::format(", {} have no verdict", open));
 }
 
 /// The numbers in "200,500,-90"; empty when it is no such list.

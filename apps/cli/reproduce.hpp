@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -25,11 +29,37 @@ struct ReproduceOptions {
   int seed_count() const { return quick ? quick_seeds : full_seeds; }
 };
 
-/// A row of a paper's figure.
+// Rows of a paper's figure. An aim is the paper's value with a stated tolerance; a row without one
+// says why in its note.
+
 inline ReproduceRow row_of(std::string figure, std::string quantity, std::string unit,
                            std::optional<double> paper, std::optional<double> ours,
                            std::optional<double> aim = {}, bool at_most = true) {
   return {std::move(figure), std::move(quantity), std::move(unit), paper, ours, aim, at_most, {}};
+}
+
+/// The row with one more note.
+inline ReproduceRow noted(ReproduceRow row, std::string_view note) {
+  row.note += (row.note.empty() || note.empty() ? "" : "; ") + std::string(note);
+  return row;
+}
+
+/// The row with its aim but without a verdict: `why` what was measured cannot judge it.
+inline ReproduceRow unjudged(ReproduceRow row, std::string_view why) {
+  row.judged = false;
+  return noted(std::move(row), why);
+}
+
+/// The row without a verdict under --quick, whose trials are too few for it.
+inline ReproduceRow unjudged_if_quick(ReproduceRow row, const ReproduceOptions& options) {
+  return options.quick ? unjudged(std::move(row), "too few trials") : row;
+}
+
+/// A row that has no aim, and why.
+inline ReproduceRow row_without_aim(std::string_view why, std::string figure, std::string quantity,
+                                    std::string unit, std::optional<double> paper,
+                                    std::optional<double> ours) {
+  return noted(row_of(std::move(figure), std::move(quantity), std::move(unit), paper, ours), why);
 }
 
 /// One whose aim is to be within `share` of the paper's figure, on either side: the bound that is
@@ -39,7 +69,24 @@ inline ReproduceRow row_within(double share, std::string figure, std::string qua
                                std::optional<double> ours) {
   const bool above = !paper || !ours || *ours >= *paper;
   const auto aim = paper ? std::optional(*paper * (above ? 1 + share : 1 - share)) : std::nullopt;
-  return row_of(std::move(figure), std::move(quantity), std::move(unit), paper, ours, aim, above);
+  return noted(
+      row_of(std::move(figure), std::move(quantity), std::move(unit), paper, ours, aim, above),
+      paper ? fmt::format("paper ± {:g} %", 100 * share) : "");
+}
+
+/// One whose aim is on one side only: at most the paper's figure and `share` of it, or at least the
+/// figure less `share` of it.
+inline ReproduceRow row_at_most(double share, std::string figure, std::string quantity,
+                                std::string unit, double paper, std::optional<double> ours) {
+  return noted(row_of(std::move(figure), std::move(quantity), std::move(unit), paper, ours,
+                      paper + share * std::abs(paper)),
+               share == 0 ? "" : fmt::format("paper + {:g} %", 100 * share));
+}
+inline ReproduceRow row_at_least(double share, std::string figure, std::string quantity,
+                                 std::string unit, double paper, std::optional<double> ours) {
+  return noted(row_of(std::move(figure), std::move(quantity), std::move(unit), paper, ours,
+                      paper - share * std::abs(paper), false),
+               share == 0 ? "" : fmt::format("paper − {:g} %", 100 * share));
 }
 
 /// [drrt]: fig3 (S-channel), fig5a (deforming channel), fig5b (moving obstacles), follower (the

@@ -13,10 +13,7 @@ namespace {
 
 std::vector<ReproduceRow> interrupted(std::string_view figure, std::vector<ReproduceRow> rows) {
   if (rows.empty()) rows.push_back({.figure = std::string(figure), .quantity = "interrupted"});
-  for (ReproduceRow& row : rows) {
-    row.aim.reset();
-    row.note = row.note.empty() ? "interrupted" : row.note + ", interrupted";
-  }
+  for (ReproduceRow& row : rows) row = unjudged(std::move(row), "interrupted");
   return rows;
 }
 
@@ -35,6 +32,8 @@ std::vector<ReproduceRow> reproduce_figures(std::string_view paper, std::span<co
     if (stop()) continue;
     auto more = make(options, stop);
     if (stop()) more = interrupted(name, std::move(more));
+    for (ReproduceRow& row : more)
+      if (!row.aim && !row.paper && row.note.empty()) row.note = "not in the paper";
     rows.insert(rows.end(), more.begin(), more.end());
   }
   if (!known)

@@ -17,7 +17,7 @@ struct Figure {
 };
 
 /// Rows of the one that is asked for, or of all when empty; with a folder, as PAPER.csv too. What
-/// there is of a figure that was stopped has no aims to meet. Throws InputError for an unknown one.
+/// there is of a figure that was stopped has no verdicts. Throws InputError for an unknown one.
 std::vector<ReproduceRow> reproduce_figures(std::string_view paper, std::span<const Figure> figures,
                                             const std::string& figure,
                                             const ReproduceOptions& options, const Stop& stop);

@@ -93,6 +93,26 @@ TEST(Rows, SayWhetherTheAimIsMet) {
   EXPECT_FALSE(all_ok(std::vector<BenchRow>{{.ours = 3, .aim = 2}}));
 }
 
+TEST(Rows, WhatCannotBeJudgedKeepsItsAimButHasNoVerdict) {
+  const ReproduceRow few{.ours = 2, .aim = 1, .note = "too few trials", .judged = false};
+  EXPECT_TRUE(few.ok());
+  EXPECT_FALSE(few.has_verdict());
+  EXPECT_TRUE(all_ok(std::vector{few}));
+  const std::string table = rows_table({few});
+  EXPECT_NE(table.find("≤ 1  no verdict  too few trials\n"), std::string::npos) << table;
+  EXPECT_EQ(rows_csv({few}),
+            "figure,quantity,unit,paper,ours,aim,ok,note\n,,,,2,1,,too few trials\n");
+  const std::string json = rows_json({few});
+  EXPECT_NE(json.find("\"ok\": null"), std::string::npos) << json;
+  EXPECT_NE(json.find("\"aim\": 1.0"), std::string::npos) << json;
+}
+
+TEST(Rows, WithoutAnAimThereIsNoVerdict) {
+  EXPECT_NE(rows_json({ReproduceRow{.ours = 2}}).find("\"ok\": null"), std::string::npos);
+  EXPECT_NE(rows_json({ReproduceRow{.ours = 2, .aim = 1}}).find("\"ok\": false"),
+            std::string::npos);
+}
+
 TEST(Rows, RatiosAreAboveOneWhereWeAreFaster) {
   EXPECT_EQ((BenchRow{.ours = 2, .peer = 10}.ratio()), 5);
   EXPECT_EQ((BenchRow{.ours = 10, .peer = 2, .at_most = false}.ratio()), 5);
@@ -101,7 +121,7 @@ TEST(Rows, RatiosAreAboveOneWhereWeAreFaster) {
 
 TEST(Rows, NothingMeasuredIsNoZero) {
   const std::vector<ReproduceRow> rows{{.figure = "f", .quantity = "median", .unit = "s"}};
-  EXPECT_EQ(rows_csv(rows), "figure,quantity,unit,paper,ours,aim,ok,note\nf,median,s,,,,true,\n");
+  EXPECT_EQ(rows_csv(rows), "figure,quantity,unit,paper,ours,aim,ok,note\nf,median,s,,,,,\n");
   EXPECT_NE(rows_json(rows).find("\"ours\": null"), std::string::npos);
   EXPECT_EQ(rows_table(rows).find('0'), std::string::npos);
 }

@@ -24,7 +24,8 @@ std::string aim_text(const std::optional<double>& aim, bool at_most) {
 
 template <class Row>
 std::string verdict(const Row& row) {
-  return row.aim ? (row.ok() ? "ok" : "falls short") : "";
+  if (!row.has_verdict()) return row.aim ? "no verdict" : "";
+  return row.ok() ? "ok" : "falls short";
 }
 
 Json json(const std::optional<double>& v) { return v ? Json(*v) : Json(nullptr); }
@@ -78,10 +79,13 @@ std::optional<double> BenchRow::ratio() const {
 std::string rows_json(const std::vector<ReproduceRow>& rows) {
   Json list = Json::array();
   for (const auto& r : rows) {
-    Json row = {{"figure", r.figure},   {"quantity", r.quantity},
-                {"unit", r.unit},       {"paper", json(r.paper)},
-                {"ours", json(r.ours)}, {"aim", json(r.aim)},
-                {"ok", r.ok()}};
+    Json row = {{"figure", r.figure},
+                {"quantity", r.quantity},
+                {"unit", r.unit},
+                {"paper", json(r.paper)},
+                {"ours", json(r.ours)},
+                {"aim", json(r.aim)},
+                {"ok", r.has_verdict() ? Json(r.ok()) : Json(nullptr)}};
     if (!r.note.empty()) row["note"] = r.note;
     list.push_back(std::move(row));
   }
@@ -123,7 +127,7 @@ std::string rows_csv(const std::vector<ReproduceRow>& rows) {
   std::vector<Cells> lines{{"figure", "quantity", "unit", "paper", "ours", "aim", "ok", "note"}};
   for (const auto& r : rows)
     lines.push_back({r.figure, r.quantity, r.unit, plain(r.paper), plain(r.ours), plain(r.aim),
-                     r.ok() ? "true" : "false", r.note});
+                     r.has_verdict() ? (r.ok() ? "true" : "false") : "", r.note});
   return csv(lines);
 }
 

@@ -8,8 +8,9 @@
 namespace microswarm {
 
 /// One figure of a paper beside ours. `paper` is empty where the paper gives none, `ours` where
-/// there is nothing to tell (a median over nobody), `aim` where we set none; `at_most` says on
-/// which side of the aim ours has to be. Nothing meets no aim.
+/// there is nothing to tell (a median over nobody), `aim` where we set none, for which `note` says
+/// why; `at_most` says on which side of the aim ours has to be. Nothing meets no aim. A row that is
+/// not `judged` keeps its aim but has no verdict: too few trials, or the run was interrupted.
 struct ReproduceRow {
   std::string figure;
   std::string quantity;
@@ -19,8 +20,11 @@ struct ReproduceRow {
   std::optional<double> aim;
   bool at_most = true;
   std::string note;
+  bool judged = true;
 
-  bool ok() const { return !aim || (ours && (at_most ? *ours <= *aim : *ours >= *aim)); }
+  bool has_verdict() const { return aim && judged; }
+  /// False only for a verdict against us.
+  bool ok() const { return !has_verdict() || (ours && (at_most ? *ours <= *aim : *ours >= *aim)); }
 };
 
 /// One measured speed beside its peer's in the same run. `ratio` is peer ÷ ours for times and ours
@@ -35,14 +39,16 @@ struct BenchRow {
   std::optional<double> aim;
   bool at_most = true;
 
+  bool has_verdict() const { return !!aim; }
   bool ok() const { return !aim || (at_most ? ours <= *aim : ours >= *aim); }
   std::optional<double> ratio() const;
 };
 
-/// {"rows": [...]} for machines.
+/// {"rows": [...]} for machines; what is not there is null, a verdict too.
 std::string rows_json(const std::vector<ReproduceRow>& rows);
 std::string rows_json(const std::vector<BenchRow>& rows);
-/// The same rows as an aligned table for people; the last column says "ok" or "falls short".
+/// The same rows as an aligned table for people; a column says "ok", "falls short",
+/// "no verdict" or, without an aim, nothing.
 std::string rows_table(const std::vector<ReproduceRow>& rows);
 std::string rows_table(const std::vector<BenchRow>& rows);
 /// The same rows as CSV with a header line.
