@@ -64,6 +64,22 @@ TEST_F(Report, PlotsAreWrittenAndNothingElseIsLeft) {
   EXPECT_THROW(write_plots({}, folder_ / "missing" / "p.png"), InputError);
 }
 
+TEST_F(Report, EveryStyleIsUnderstoodByGnuplotInEveryKindOfFile) {
+  Plot plot{.title = "styles", .x_ticks = {{"2¹⁰", 2}}, .log_x = true, .log_y = true};
+  for (const PlotStyle style :
+       {PlotStyle::line, PlotStyle::marked, PlotStyle::points, PlotStyle::rings, PlotStyle::bars,
+        PlotStyle::box, PlotStyle::filled, PlotStyle::published})
+    plot.series.push_back({.label = "s",
+                           .x = {1, 2, 3},
+                           .y = {2, 4, 9},
+                           .style = style,
+                           .low = {1, 2, 8},
+                           .high = {3, 6, 10}});
+  write_plots_everywhere({plot}, folder_ / "fig2.5");
+  for (const char* name : {"fig2.5.png", "fig2.5.svg", "fig2.5.pdf"})
+    EXPECT_GT(fs::file_size(folder_ / name), 1000U) << name;
+}
+
 TEST_F(Report, OfARunThatWasStoppedBeforeItsFirstTick) {
   const fs::path file = fs::path(MICROSWARM_SOURCE_DIR) / "scenarios/first_flight.yaml";
   const Scene scene = load_scene(read_scenario(file), file.parent_path());

@@ -333,4 +333,8 @@ void Picture::write(const std::filesystem::path& path) const {
   write_file_atomically(path, bytes);
 }
 
+void Picture::write_everywhere(const std::filesystem::path& stem) const {
+  for (const char* kind : {".png", ".svg", ".pdf"}) write(stem.string() + kind);
+}
+
 }  // namespace microswarm

@@ -80,6 +80,8 @@ class Picture {
   /// Writes the finished picture; extension .png, .svg or .pdf, else InputError. The picture can be
   /// written several times.
   void write(const std::filesystem::path& path) const;
+  /// As stem.png, stem.svg and stem.pdf.
+  void write_everywhere(const std::filesystem::path& stem) const;
 
  private:
   struct Impl;

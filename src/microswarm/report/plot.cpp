@@ -25,6 +25,7 @@ namespace {
 constexpr std::array<const char*, 7> palette{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                              "#E69F00", "#56B4E9", "#333333"};
 
+constexpr std::ptrdiff_t most_upright_letters = 4;  // of a label that is not turned
 constexpr const char* band_colour = "#ececec";
 constexpr std::array<int, 7> markers{7, 5, 9, 11, 13, 8, 4};  // gnuplot's
 
@@ -38,10 +39,17 @@ std::string in_quotes(std::string_view s) {
   return out + "\"";
 }
 
+bool has_intervals(const Series& s) {
+  return !s.low.empty() && s.low.size() == s.y.size() && s.high.size() == s.y.size();
+}
+
 std::string data_block(std::size_t plot, std::size_t series, const Series& s) {
   std::string out = fmt::format("$d{}_{} << EOD\n", plot, series);
-  for (std::size_t i = 0; i < std::min(s.x.size(), s.y.size()); ++i)
-    out += fmt::format("{:.9g} {:.9g}\n", s.x[i], s.y[i]);
+  const bool intervals = has_intervals(s);
+  for (std::size_t i = 0; i < std::min(s.x.size(), s.y.size()); ++i) {
+    out += fmt::format("{:.9g} {:.9g}", s.x[i], s.y[i]);
+    out += intervals ? fmt::format(" {:.9g} {:.9g}\n", s.low[i], s.high[i]) : "\n";
+  }
   return out + "EOD\n";
 }
 
@@ -53,14 +61,25 @@ std::string drawn(std::size_t plot, std::size_t series, const Series& s) {
     case PlotStyle::line:
       return fmt::format("{} using 1:2 with lines lw 2 lc rgb '{}' {}", data, colour, title);
     case PlotStyle::marked:
-      return fmt::format("{} using 1:2 with linespoints lw 2 pt {} ps 0.7 lc rgb '{}' {}", data,
+      return fmt::format("{} using {} lw 2 pt {} ps 0.7 lc rgb '{}' {}", data,
+                         has_intervals(s) ? "1:2:3:4 with yerrorlines" : "1:2 with linespoints",
                          markers[series % markers.size()], colour, title);
     case PlotStyle::rings:
       return fmt::format("{} using 1:2 with points pt 6 ps 1.2 lc rgb '{}' {}", data, colour,
                          title);
     case PlotStyle::points:
-      return fmt::format("{} using 1:2 with points pt 7 ps 0.7 lc rgb '{}' {}", data, colour,
+      return fmt::format("{} using {} pt 7 ps 0.7 lc rgb '{}' {}", data,
+                         has_intervals(s) ? "1:2:3:4 with yerrorbars lw 1.5" : "1:2 with points",
+                         colour, title);
+    case PlotStyle::published:
+      return fmt::format("{} using 1:2 with points pt 12 ps 1.3 lw 2 lc rgb '{}' {}", data, colour,
                          title);
+    case PlotStyle::filled:
+      return fmt::format(
+          "{0} using 1:2 with filledcurves closed fc rgb '{1}' fs transparent solid 0.35 border "
+          "rgb "
+          "'{1}' {2}",
+          data, colour, title);
     case PlotStyle::bars:
       return fmt::format("{} using 1:2 with boxes fs solid 0.7 lc rgb '{}' {}", data, colour,
                          title);
@@ -100,17 +119,27 @@ std::vector<Tick> log_ticks(const Plot& plot) {
   return out;
 }
 
+std::ptrdiff_t letters_of(const std::string& s) {
+  return std::ranges::count_if(s, [](char c) { return (c & 0xC0) != 0x80; });
+}
+
 std::string axes(const Plot& plot) {
   const auto limit = [](std::optional<double> v) { return v ? fmt::format("{:g}", *v) : "*"; };
   std::string out = fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\n", limit(plot.x_min),
                                 limit(plot.x_max), limit(plot.y_min), limit(plot.y_max));
-  out += plot.log_y ? "set logscale y\n" : "unset logscale\n";
+  out += "unset logscale\n";
+  if (plot.log_x) out += "set logscale x\n";
+  if (plot.log_y) out += "set logscale y\n";
   std::vector<Tick> names = plot.x_ticks;
   if (names.empty())
     for (const Series& s : plot.series)
       if (s.style == PlotStyle::box && !s.x.empty()) names.push_back({s.label, s.x[0]});
-  out += names.empty() ? "set xtics norotate autojustify auto\n"
-                       : fmt::format("set xtics rotate by 50 right {}\n", listed(names));
+  const bool wide = std::ranges::any_of(
+      names, [](const Tick& t) { return letters_of(t.label) > most_upright_letters; });
+  out += names.empty()
+             ? "set xtics norotate autojustify auto\n"
+             : fmt::format("set xtics {} {}\n",
+                           wide ? "rotate by 50 right" : "norotate autojustify", listed(names));
   const std::vector<Tick> ticks =
       plot.y_ticks.empty() && plot.log_y ? log_ticks(plot) : plot.y_ticks;
   out += ticks.empty() ? "set ytics auto\n" : fmt::format("set ytics {}\n", listed(ticks));
@@ -139,7 +168,8 @@ std::string panel(const Plot& plot, std::size_t index) {
       fmt::format("set title {}\nset xlabel {} offset 0,{}\nset ylabel {}\n", in_quotes(plot.title),
                   in_quotes(plot.x_label), plot.key_below ? 0.6 : 0.0, in_quotes(plot.y_label));
   out += axes(plot) + ground(plot);
-  out += plot.key_below ? "set key outside below center\n" : "set key inside top right\n";
+  out +=
+      plot.key_below ? "set key outside below center height 0.5\n" : "set key inside top right\n";
   std::vector<std::string> items;
   for (std::size_t i = 0; i < plot.series.size(); ++i)
     if (!plot.series[i].x.empty()) items.push_back(drawn(index, i, plot.series[i]));
@@ -222,6 +252,10 @@ void write_plots(const std::vector<Plot>& plots, const std::filesystem::path& pa
   const std::optional<std::string> picture = drawn_by_gnuplot(script_file.path());
   if (!picture) throw InputError(path.string() + ": cannot plot: gnuplot is missing or failed");
   write_file_atomically(path, *picture);
+}
+
+void write_plots_everywhere(const std::vector<Plot>& plots, const std::filesystem::path& stem) {
+  for (const char* kind : {".png", ".svg", ".pdf"}) write_plots(plots, stem.string() + kind);
 }
 
 }  // namespace microswarm
