@@ -71,7 +71,7 @@ inline ReproduceRow row_within(double share, std::string figure, std::string qua
   const auto aim = paper ? std::optional(*paper * (above ? 1 + share : 1 - share)) : std::nullopt;
   return noted(
       row_of(std::move(figure), std::move(quantity), std::move(unit), paper, ours, aim, above),
-      paper ? fmt::format("paper ± {:g} %", 100 * share) : "");
+      paper ? fmt::format("paper ± {:.3g} %", 100 * share) : "");
 }
 
 /// One whose aim is on one side only: at most the paper's figure and `share` of it, or at least the
@@ -80,13 +80,13 @@ inline ReproduceRow row_at_most(double share, std::string figure, std::string qu
                                 std::string unit, double paper, std::optional<double> ours) {
   return noted(row_of(std::move(figure), std::move(quantity), std::move(unit), paper, ours,
                       paper + share * std::abs(paper)),
-               share == 0 ? "" : fmt::format("paper + {:g} %", 100 * share));
+               share == 0 ? "" : fmt::format("paper + {:.3g} %", 100 * share));
 }
 inline ReproduceRow row_at_least(double share, std::string figure, std::string quantity,
                                  std::string unit, double paper, std::optional<double> ours) {
   return noted(row_of(std::move(figure), std::move(quantity), std::move(unit), paper, ours,
                       paper - share * std::abs(paper), false),
-               share == 0 ? "" : fmt::format("paper − {:g} %", 100 * share));
+               share == 0 ? "" : fmt::format("paper − {:.3g} %", 100 * share));
 }
 
 /// [drrt]: fig3 (S-channel), fig5a (deforming channel), fig5b (moving obstacles), follower (the

@@ -3,6 +3,7 @@
 
 #include <fmt/ranges.h>
 
+#include <cstdlib>
 #include <filesystem>
 
 #include "microswarm/core/error.hpp"
@@ -43,6 +44,17 @@ std::vector<ReproduceRow> reproduce_figures(std::string_view paper, std::span<co
     write_file_atomically(std::filesystem::path(options.out) / fmt::format("{}.csv", paper),
                           rows_csv(rows));
   return rows;
+}
+
+std::optional<std::filesystem::path> data_file(const ReproduceOptions& options,
+                                               std::string_view name, std::string_view what) {
+  const char* given = std::getenv("MICROSWARM_DATA");
+  const std::filesystem::path data =
+      given ? std::filesystem::path(given) : options.scenarios / ".." / ".." / "shared" / "data";
+  const std::filesystem::path file = (data / name).lexically_normal();
+  if (std::filesystem::exists(file)) return file;
+  note("{}: left out, {} is absent\n", what, file.string());
+  return std::nullopt;
 }
 
 }  // namespace microswarm::cli

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,5 +23,10 @@ struct Figure {
 std::vector<ReproduceRow> reproduce_figures(std::string_view paper, std::span<const Figure> figures,
                                             const std::string& figure,
                                             const ReproduceOptions& options, const Stop& stop);
+
+/// A file of real input outside the repository, in the folder that the environment variable
+/// MICROSWARM_DATA names; nothing, and a note that `what` is left out, where it is absent.
+std::optional<std::filesystem::path> data_file(const ReproduceOptions& options,
+                                               std::string_view name, std::string_view what);
 
 }  // namespace microswarm::cli

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "microswarm/planning/global_search.hpp"
 #include "microswarm/planning/global_tree.hpp"
 #include "reproduce.hpp"
+#include "tests/scenes/global_tasks.hpp"
 
 namespace microswarm::cli {
 
@@ -17,12 +17,36 @@ void draw_plan(const ReproduceOptions& options, const std::string& name, const s
                const Map& map, const GlobalPlan& plan, std::span<const Vec2> goals,
                double tolerance = 20);
 
-/// Figures that show robots on maps: three in a vascular network (1) and in a digestive system (8),
-/// four in Env 3 by a tree that is asked again (9, 10), two magnets (12); beyond: six robots.
+/// Least distance between two robots at the ends of a plan's inputs.
+double least_distance(const GlobalPlan& plan);
+
+/// The task of Fig 1 on the network that came with the published program; nothing, and a note,
+/// where that file is absent.
+std::optional<scenes::GlobalTask> leaf_task(const ReproduceOptions& options);
+
+/// A task by the search beyond the paper, with some seeds; the first one's plan is drawn as `name`.
+std::vector<ReproduceRow> search_task(const char* figure, const char* name,
+                                      const scenes::GlobalTask& task, GlobalSearchParams params,
+                                      int seeds, const ReproduceOptions& options, const Stop& stop);
+
+/// Coverage of the configuration space by trees of two robots: against the length of an input and
+/// the number of nodes (3–5), the edge of the hypercubes (6) and the distance between the starts
+/// (7).
+std::vector<ReproduceRow> global_step_lengths(const ReproduceOptions& options, const Stop& stop);
+std::vector<ReproduceRow> global_cell_sizes(const ReproduceOptions& options, const Stop& stop);
+std::vector<ReproduceRow> global_initial_distances(const ReproduceOptions& options,
+                                                   const Stop& stop);
+
+/// Plans by the tree as published, beside those of the search: three robots in vascular networks
+/// (1), four in Env 3 by a tree that is asked again (9, 10), two magnets (12).
 std::vector<ReproduceRow> global_vascular(const ReproduceOptions& options, const Stop& stop);
-std::vector<ReproduceRow> global_digestive(const ReproduceOptions& options, const Stop& stop);
 std::vector<ReproduceRow> global_reuse(const ReproduceOptions& options, const Stop& stop);
 std::vector<ReproduceRow> global_magnets(const ReproduceOptions& options, const Stop& stop);
+
+/// Plans by the search only: three robots in a digestive system (8); beyond: two to four robots in
+/// Env 1–4, and six.
+std::vector<ReproduceRow> global_digestive(const ReproduceOptions& options, const Stop& stop);
+std::vector<ReproduceRow> global_beyond(const ReproduceOptions& options, const Stop& stop);
 std::vector<ReproduceRow> global_six(const ReproduceOptions& options, const Stop& stop);
 
 }  // namespace microswarm::cli

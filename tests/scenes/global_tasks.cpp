@@ -86,7 +86,7 @@ GlobalTask vascular_task() {
 GlobalTask digestive_task() {
   return {"digestive system",
           digestive_map(),
-          {{200, 480}, {200, 450}, {150, 350}},
+          {{200, 480}, {200, 450}, {190, 395}},
           {{150, 350}, {40, 150}, {230, 85}},
           6,
           8};

@@ -237,7 +237,7 @@ void write_plots(const std::vector<Plot>& plots, const std::filesystem::path& pa
     throw InputError(path.string() + ": a plot is .png, .svg or .pdf");
   std::string script = fmt::format("set terminal {}\n", terminal(kind, plots.size()));
   script +=
-      "set grid lc rgb '#dddddd'\nset style boxplot outliers pointtype 7\n"
+      "set grid xtics ytics lt 1 lc rgb '#e4e4e4'\nset style boxplot outliers pointtype 7\n"
       "set boxwidth 0.8 relative\n";
   for (std::size_t i = 0; i < plots.size(); ++i)
     for (std::size_t j = 0; j < plots[i].series.size(); ++j)
