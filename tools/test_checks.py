@@ -8,6 +8,7 @@ from pathlib import Path
 import check_docstrings
 import check_files
 import check_includes
+import check_rows
 
 
 class Includes(unittest.TestCase):
@@ -110,6 +111,49 @@ class Files(unittest.TestCase):
         self.assertEqual([], list(check_files.check_text(
             "dev", f"#!/bin/bash\n# {check_files.LICENCE}\n")))
         self.assertEqual(3, len(list(check_files.check_text("a.hpp", "int x;\n" * 500))))
+
+
+class Rows(unittest.TestCase):
+    def row(self, quantity="q", **values):
+        return {"figure": "fig1", "quantity": quantity, "unit": "µm", "paper": 2.0, "aim": 2.2,
+                "ok": True, "ours": 2.0} | values
+
+    def test_near_is_the_same(self):
+        self.assertEqual([], list(check_rows.differences(
+            [self.row(ours=2.03), self.row("r", unit="%", ours=0.9)],
+            [self.row(), self.row("r", unit="%", ours=0.0)])))
+
+    def test_another_value_aim_or_verdict(self):
+        self.assertEqual(
+            ["fig1: q: aim is 3.0, stored is 2.2", "fig1: q: ok is False, stored is True",
+             "fig1: q: ours is 2.1, stored is 2.0"],
+            sorted(check_rows.differences([self.row(ours=2.1, aim=3.0, ok=False)], [self.row()])))
+
+    def test_nothing_is_no_zero(self):
+        self.assertEqual(["fig1: q: ours is None, stored is 0.0"],
+                         list(check_rows.differences([self.row(ours=None)], [self.row(ours=0.0)])))
+
+    def test_missing_and_new_rows(self):
+        self.assertEqual(
+            ["fig1: new: was measured but is not stored",
+             "fig1: old: is stored but was not measured"],
+            sorted(check_rows.differences([self.row("new")], [self.row("old")])))
+
+    def test_times_are_only_looked_for(self):
+        stored = check_rows.renewed([self.row(), self.row("time", ours=1.0)],
+                                    [self.row(), self.row("time", ours=1.5)])
+        self.assertEqual([], list(check_rows.differences(
+            [self.row(), self.row("time", ours=9.0, ok=False)], stored)))
+        self.assertEqual(2.0, stored[0]["ours"])
+
+    def test_a_row_without_an_aim_says_why(self):
+        self.assertEqual(["fig1: q: has no aim and does not say why"],
+                         list(check_rows.faults_of([self.row(aim=None)])))
+        self.assertEqual([], list(check_rows.faults_of([self.row(aim=None, note="only drawn")])))
+
+    def test_two_rows_of_one_name(self):
+        self.assertEqual(["fig1: q: there are two such rows"],
+                         list(check_rows.faults_of([self.row(), self.row()])))
 
 
 if __name__ == "__main__":

@@ -57,13 +57,14 @@ struct Searches {
     const auto solved = static_cast<double>(found.size());
     std::vector<ReproduceRow> all{
         noted(row(": solved", "%", 100 * solved / std::max(1, tries)),
-              fmt::format("{} of {} tries of {} nodes", found.size(), tries, params.max_nodes)),
-        row(": time, median", "s", median_if_any(seconds)),
-        row(": time, longest", "s",
-            seconds.empty() ? std::nullopt : std::optional(std::ranges::max(seconds))),
-        row(": nodes, median", "1", median_if_any(nodes)),
-        row(": inputs, median", "1", median_if_any(found)),
-        row(": inputs when shortened, median", "1", median_if_any(brief))};
+              fmt::format("{} of {} tries of {} nodes", found.size(), tries, params.max_nodes))};
+    if (!found.empty()) {
+      all.push_back(row(": time, median", "s", median(seconds)));
+      all.push_back(row(": time, longest", "s", std::ranges::max(seconds)));
+      all.push_back(row(": nodes, median", "1", median(nodes)));
+      all.push_back(row(": inputs, median", "1", median(found)));
+      all.push_back(row(": inputs when shortened, median", "1", median(brief)));
+    }
     if (!worst.empty())
       all.push_back(row(": worst robot's distance where not solved, median", "µm", median(worst)));
     if (params.separation > 0 && !apart.empty())

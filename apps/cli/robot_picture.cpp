@@ -3,29 +3,18 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <vector>
 
 #include "microswarm/report/picture.hpp"
 
 namespace microswarm::cli {
-namespace {
-
-constexpr Colour violet{0.42, 0.24, 0.60, 1};
-constexpr Colour sky{0.34, 0.71, 0.91, 1};
-constexpr Colour olive{0.55, 0.50, 0.10, 1};
-constexpr std::array<Colour, 8> robot_colours{
-    colours::path, colours::swarm, colours::obstacle, colours::circle, colours::goal, violet,
-    sky,           olive};
-
-}  // namespace
 
 void draw_robots(const Map& map, const GlobalPlan& plan, std::span<const Vec2> goals,
                  double tolerance, const std::string& title, const std::filesystem::path& file) {
   Picture picture(map.bounds(), title);
   picture.walls(map);
   for (std::size_t robot = 0; robot < goals.size(); ++robot) {
-    const Colour colour = robot_colours[robot % robot_colours.size()];
+    const Colour colour = colours::robots[robot % colours::robots.size()];
     std::vector<Vec2> way;
     for (const auto& places : plan.configurations) way.push_back(places[robot]);
     picture.circle({goals[robot], tolerance}, colour, 2);
