@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <limits>
 
-#include "microswarm/formats/map_file.hpp"
 #include "reproduce_figures.hpp"
 #include "robot_picture.hpp"
 
@@ -26,18 +25,6 @@ double least_distance(const GlobalPlan& plan) {
     for (std::size_t i = 0; i < places.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) least = std::min(least, distance(places[i], places[j]));
   return least;
-}
-
-std::optional<scenes::GlobalTask> leaf_task(const ReproduceOptions& options) {
-  const auto file = data_file(options, "paper_authors/global_leaf.csv", "fig1, veins of a leaf");
-  if (!file) return std::nullopt;
-  // Starts and goals of the published program.
-  return scenes::GlobalTask{"veins of a leaf",
-                            *load_map(guess_map_spec(*file)).map,
-                            {{222, 74}, {227, 104}, {230, 89.2}},
-                            {{113.6, 225}, {236.3, 271}, {186.5, 269.8}},
-                            5,
-                            20};
 }
 
 std::vector<ReproduceRow> reproduce_global(const std::string& figure,

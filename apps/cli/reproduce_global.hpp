@@ -20,10 +20,6 @@ void draw_plan(const ReproduceOptions& options, const std::string& name, const s
 /// Least distance between two robots at the ends of a plan's inputs.
 double least_distance(const GlobalPlan& plan);
 
-/// The task of Fig 1 on the network that came with the published program; nothing, and a note,
-/// where that file is absent.
-std::optional<scenes::GlobalTask> leaf_task(const ReproduceOptions& options);
-
 /// A task by the search beyond the paper, with some seeds; the first one's plan is drawn as `name`.
 std::vector<ReproduceRow> search_task(const char* figure, const char* name,
                                       const scenes::GlobalTask& task, GlobalSearchParams params,

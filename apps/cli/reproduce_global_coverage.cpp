@@ -175,7 +175,9 @@ std::vector<ReproduceRow> global_cell_sizes(const ReproduceOptions& options, con
   write_plot({.title = "Fig 6: two robots in Env 1, 7500 nodes, Robostep 60 µm",
               .x_label = "edge of a hypercube (µm)",
               .y_label = "coverage (%), median and quartiles",
-              .series = {curve.series("")}},
+              .series = {curve.series("")},
+              .x_min = 5,
+              .x_max = 55},
              options, "fig6");
   std::vector<ReproduceRow> rows;
   for (std::size_t k = 0; k < cells.size(); ++k)

@@ -11,7 +11,9 @@
 #include "microswarm/core/statistics.hpp"
 #include "microswarm/core/stop.hpp"
 #include "microswarm/experiment/global_tree_file.hpp"
+#include "microswarm/formats/map_file.hpp"
 #include "microswarm/planning/global_rrt.hpp"
+#include "reproduce_figures.hpp"
 #include "reproduce_global.hpp"
 #include "tests/scenes/global_worlds.hpp"
 
@@ -25,16 +27,18 @@ constexpr int published_nodes = 341'997;
 constexpr const char* map_of_ours =
     "map, starts and goals are ours, the paper's are only in a picture";
 
-/// How a tree is grown: as the paper says, and with the contact rule of its program and the share
-/// of samples at the goals that OMPL's RRT, which the program uses, has by default.
+/// How a tree is grown: as the paper says, with the share of samples at the goals that is the
+/// default of OMPL's RRT, which the paper's program uses, and with that program's contact rule too.
 struct TreeSetting {
   const char* name;
+  const char* file;
   ContactRule contact;
   double goal_bias;
 };
-constexpr std::array<TreeSetting, 2> tree_settings{
-    {{"tree as printed", ContactRule::slide, 0},
-     {"tree with reject and goal bias 5 %", ContactRule::reject, 0.05}}};
+constexpr std::array<TreeSetting, 3> tree_settings{
+    {{"tree as printed", "printed", ContactRule::slide, 0},
+     {"tree with goal bias 5 %", "bias", ContactRule::slide, 0.05},
+     {"tree with goal bias 5 %, reject", "reject", ContactRule::reject, 0.05}}};
 
 GlobalRrtParams parameters(const TreeSetting& setting, int nodes) {
   GlobalRrtParams params;
@@ -115,48 +119,53 @@ void add_costs(const LoadedMap& map, const ReproduceOptions& options, const Stop
   rows.push_back(row_of("fig10", "asking the tree for other goals", "ms", {}, asking));
 }
 
+/// The network that came with the published program, by trees and by the search.
+void add_leaf(const scenes::GlobalTask& leaf, int search_seeds, const ReproduceOptions& options,
+              const Stop& stop, std::vector<ReproduceRow>& rows) {
+  constexpr int nodes = 60'000;
+  const std::size_t seeds = options.quick ? 2 : 10;
+  for (const TreeSetting& setting : tree_settings) {
+    std::vector<TreeAnswer> answers(seeds);
+    for_each_index(seeds, 0, [&](std::size_t seed) {
+      GlobalRrtParams params = parameters(setting, nodes);
+      params.robostep = leaf.robostep;
+      params.goal_tolerance = leaf.tolerance;
+      Rng rng = tree_rng(seed);
+      const GlobalRrt grown = global_rrt(leaf.map, leaf.starts, leaf.goals, params, rng, stop);
+      answers[seed] = {grown.answer, plan_to(grown.tree, grown.answer)};
+    });
+    const auto solved = std::ranges::count(answers, Status::solved,
+                                           [](const TreeAnswer& a) { return a.answer.status; });
+    rows.push_back(noted(row_without_aim("the paper gives no nodes", "fig1",
+                                         fmt::format("{}, 3 robots, {}, {} nodes: solved",
+                                                     leaf.name, setting.name, nodes),
+                                         "%", 100, share_of(solved, seeds)),
+                         fmt::format("{} of {} trees", solved, seeds)));
+    const auto best =
+        std::ranges::min_element(answers, {}, [](const TreeAnswer& a) { return a.answer.worst; });
+    draw_plan(options, fmt::format("fig1-leaf-{}", setting.file),
+              fmt::format("{}, {}, best of {}: worst robot {:.1f} µm off", leaf.name, setting.name,
+                          seeds, best->answer.worst),
+              leaf.map, best->plan, leaf.goals, leaf.tolerance);
+  }
+  scenes::GlobalTask fine = leaf;
+  fine.robostep = 2;
+  fine.tolerance = 4;
+  const auto more = search_task("fig1", "fig1-leaf", fine, {}, search_seeds, options, stop);
+  rows.insert(rows.end(), more.begin(), more.end());
+}
+
 }  // namespace
 
-// The paper's figure and the published program's maps: which of its two networks is shown is not
-// said, and of one there is no file.
+// Which of the published program's two networks the figure shows is not said, and of one there is
+// no file.
 std::vector<ReproduceRow> global_vascular(const ReproduceOptions& options, const Stop& stop) {
+  const int seeds = options.quick ? 1 : 5;
   std::vector<ReproduceRow> rows;
-  const int search_seeds = options.quick ? 1 : 5;
-  if (const auto leaf = leaf_task(options)) {
-    constexpr int nodes = 60'000;
-    const std::size_t seeds = options.quick ? 2 : 10;
-    for (const TreeSetting& setting : tree_settings) {
-      std::vector<TreeAnswer> answers(seeds);
-      for_each_index(seeds, 0, [&](std::size_t seed) {
-        GlobalRrtParams params = parameters(setting, nodes);
-        params.robostep = leaf->robostep;
-        params.goal_tolerance = leaf->tolerance;
-        Rng rng = tree_rng(seed);
-        const GlobalRrt grown = global_rrt(leaf->map, leaf->starts, leaf->goals, params, rng, stop);
-        answers[seed] = {grown.answer, plan_to(grown.tree, grown.answer)};
-      });
-      const auto solved = std::ranges::count(answers, Status::solved,
-                                             [](const TreeAnswer& a) { return a.answer.status; });
-      rows.push_back(noted(row_without_aim("the paper gives no nodes", "fig1",
-                                           fmt::format("{}, 3 robots, {}, {} nodes: solved",
-                                                       leaf->name, setting.name, nodes),
-                                           "%", 100, share_of(solved, seeds)),
-                           fmt::format("{} of {} trees", solved, seeds)));
-      const auto best =
-          std::ranges::min_element(answers, {}, [](const TreeAnswer& a) { return a.answer.worst; });
-      draw_plan(
-          options, setting.goal_bias > 0 ? "fig1-leaf-reject" : "fig1-leaf-printed",
-          fmt::format("Leaf, {}: worst robot {:.1f} µm off", setting.name, best->answer.worst),
-          leaf->map, best->plan, leaf->goals, leaf->tolerance);
-    }
-    scenes::GlobalTask fine = *leaf;
-    fine.robostep = 2;
-    fine.tolerance = 4;
-    const auto more = search_task("fig1", "fig1-leaf", fine, {}, search_seeds, options, stop);
-    rows.insert(rows.end(), more.begin(), more.end());
-  }
-  const auto more =
-      search_task("fig1", "fig1", scenes::vascular_task(), {}, search_seeds, options, stop);
+  if (const auto file =
+          data_file(options, "paper_authors/global_leaf.csv", "fig1, veins of a leaf"))
+    add_leaf(scenes::leaf_task(*load_map(guess_map_spec(*file)).map), seeds, options, stop, rows);
+  const auto more = search_task("fig1", "fig1", scenes::vascular_task(), {}, seeds, options, stop);
   rows.insert(rows.end(), more.begin(), more.end());
   return rows;
 }

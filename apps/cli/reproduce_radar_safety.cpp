@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <memory>
 #include <optional>
 
 #include "microswarm/core/statistics.hpp"
+#include "reproduce_figures.hpp"
 #include "safety_campaign.hpp"
 #include "safety_tables.hpp"
 #include "tests/scenes/avoidance_worlds.hpp"
@@ -16,8 +16,6 @@
 
 namespace microswarm::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr double just_slower = 8;    // of recorded walkers: the fastest makes 50 µm/s of 60
 constexpr double as_fast = 2.9;      // the usual one is as fast as the swarm
@@ -54,15 +52,9 @@ Course generated(std::string name, scenes::AvoidanceOptions options, bool walls)
 
 /// Nothing where the recording is absent.
 std::optional<Course> recorded(std::string name, double slower, const ReproduceOptions& options) {
-  const char* given = std::getenv("MICROSWARM_DATA");
-  const fs::path data =
-      given ? fs::path(given) : options.scenarios / ".." / ".." / "shared" / "data";
-  const fs::path file = scenes::street_file(data);
-  if (!fs::exists(file)) {
-    note("{}: left out, {} is absent\n", name, file.lexically_normal().string());
-    return std::nullopt;
-  }
-  const auto street = std::make_shared<const scenes::Street>(scenes::read_street(file, slower));
+  const auto file = data_file(options, scenes::street_file({}).string(), name);
+  if (!file) return std::nullopt;
+  const auto street = std::make_shared<const scenes::Street>(scenes::read_street(*file, slower));
   return Course{
       .name = std::move(name),
       .walls = false,

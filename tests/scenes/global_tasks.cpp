@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/scenes/global_tasks.hpp"
 
+#include <utility>
+
 #include "tests/scenes/global_worlds.hpp"
 #include "tests/scenes/vascular.hpp"
 #include "tests/scenes/worlds.hpp"
@@ -72,6 +74,13 @@ GlobalTask six_robots(int env) {
 
 std::vector<Vec2> six_goals_apart() {
   return {{213, 175}, {111, 155}, {111, 105}, {128, 55}, {253, 97}, {311, 50}};
+}
+
+GlobalTask leaf_task(Map map) {
+  return {"veins of a leaf",
+          std::move(map),
+          {{222, 74}, {227, 104}, {230, 89.2}},
+          {{113.6, 225}, {236.3, 271}, {186.5, 269.8}}};
 }
 
 GlobalTask vascular_task() {

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// The task that came with the published program of [global].
+#include <gtest/gtest.h>
+
+#include "microswarm/formats/map_file.hpp"
+#include "microswarm/planning/global_search.hpp"
+#include "tests/files.hpp"
+#include "tests/scenes/global_tasks.hpp"
+
+namespace microswarm {
+namespace {
+
+TEST(Global, ThreeRobotsAmongThePublishedVeinsOfALeaf) {
+  const auto data = test::data_folder();
+  if (data.empty()) GTEST_SKIP() << "no folder MICROSWARM_DATA";
+  const auto file = data / "paper_authors" / "global_leaf.csv";
+  const scenes::GlobalTask task = scenes::leaf_task(*load_map(guess_map_spec(file)).map);
+  GlobalSearchParams params;
+  params.robostep = 2;
+  params.goal_tolerance = 4;
+  params.max_nodes = 100'000;
+  Rng rng(1, Purpose::planner);
+  const GlobalPlan plan = global_search(task.map, task.starts, task.goals, params, rng).plan;
+  ASSERT_EQ(plan.status, Status::solved);
+  std::vector<Vec2> places = task.starts;
+  const RobotStepper stepper = input_stepper(task.map, params.robostep);
+  for (const Vec2 input : plan.inputs)
+    for (Vec2& p : places) {
+      const PointF moved =
+          stepper.moved(stepper.relative(p), {float(input.x), float(input.y)}, ContactRule::slide);
+      p = task.map.bounds().centre() +
+          Vec2{static_cast<double>(moved.x), static_cast<double>(moved.y)};
+    }
+  for (std::size_t i = 0; i < places.size(); ++i)
+    EXPECT_LE(distance(places[i], task.goals[i]), params.goal_tolerance + 1e-3) << i;
+}
+
+}  // namespace
+}  // namespace microswarm
