@@ -11,6 +11,7 @@
 #include "microswarm/core/hash.hpp"
 #include "microswarm/planning/planners.hpp"
 #include "microswarm/planning/search_tree.hpp"
+#include "microswarm/planning/turn_edge.hpp"
 #include "tests/scenes/worlds.hpp"
 
 namespace microswarm {
@@ -59,6 +60,13 @@ DrrtStarParams plain_drrt_star() {
   return params;
 }
 
+DrrtStarParams arcs_drrt_star() {
+  DrrtStarParams params = small<DrrtStarParams>();
+  params.arcs = true;
+  params.turn_radius = 15;
+  return params;
+}
+
 std::vector<Case> cases();
 
 void set_clearance(PlannerParams& params, double clearance) {
@@ -67,7 +75,7 @@ void set_clearance(PlannerParams& params, double clearance) {
 
 PathCost cost_of(const PlannerParams& params) {
   if (const auto* drrt = std::get_if<DrrtStarParams>(&params)) {
-    return {drrt->length_weight, drrt->smoothness_weight};
+    return {drrt->length_weight, drrt->smoothness_weight, drrt->arcs ? drrt->turn_radius : 0};
   }
   return {};
 }
@@ -123,9 +131,15 @@ void expect_good_tree(const Query& query, const Plan& plan, double clearance, Pa
     const TreeNode& node = tree[i];
     ASSERT_LT(node.parent, tree.size());
     const TreeNode& parent = tree[node.parent];
-    EXPECT_EQ(node.heading, heading_of(node.position - parent.position));
+    EXPECT_EQ(node.heading, cost.heading_at_end(parent, node.position));
     EXPECT_EQ(node.cost, parent.cost + cost.edge(parent, node.position));
-    expect_free(query.world, {parent.position, node.position}, clearance);
+    std::vector<Vec2> edge{parent.position, node.position};
+    if (cost.turn_radius > 0) {
+      edge.clear();
+      append_edge({parent.position, parent.heading}, node.position, cost.turn_radius, edge);
+    }
+    for (std::size_t k = 1; k < edge.size(); ++k)
+      expect_free(query.world, {edge[k - 1], edge[k]}, clearance);
     std::size_t steps = 0;
     for (std::uint32_t at = i; at != 0 && steps <= tree.size(); at = tree[at].parent) ++steps;
     ASSERT_LE(steps, tree.size()) << "cycle at node " << i;
@@ -315,6 +329,7 @@ std::vector<Case> cases() {
       {"DrrtStar", small<DrrtStarParams>(), 0x2488fe83fd1ece26},
       {"DrrtStarPlain", plain_drrt_star(), 0x82ec4c82ab162e0a},
       {"DrrtStarGrown", grown<DrrtStarParams>(), 0xbf3f0c96c730532f},
+      {"DrrtStarArcs", arcs_drrt_star(), 0x30bbc21488e2a3da},
       {"FmtStar", small<FmtStarParams>(), 0x2c9f62bc94e4eeba},
   };
 }

@@ -6,9 +6,11 @@
 namespace microswarm {
 
 /// The local planner of D-RRT*: Algorithms 2–3, Eq 1–3 and 5–10 [drrt]. Costs are
-/// λ_s · turning + λ_l · length, the turn out of the start's heading included. `straighten` goes
-/// beyond the paper: the path found is pulled straight under the same cost and the same exact
-/// checks (docs/drrt-star.md); without it the path is the tree's.
+/// λ_s · turning + λ_l · length, the turn out of the start's heading included. Beyond the paper:
+/// `straighten` pulls the path found straight under the same cost and the same exact checks;
+/// `arcs` makes every edge a turn of at least `turn_radius` and a straight line, so that a unicycle
+/// can drive the path from the start's heading on. `as_published` leaves both out
+/// (docs/drrt-star.md).
 struct DrrtStarParams : RrtStarParams {
   static constexpr std::string_view type_name = "drrt_star";
   double detection_diameter = 300;  // D_dec
@@ -21,6 +23,11 @@ struct DrrtStarParams : RrtStarParams {
   double smoothness_weight = 100;  // λ_s
   double length_weight = 1;        // λ_l
   bool straighten = true;
+  bool arcs = false;
+  double turn_radius = 20;
+  bool as_published = false;
+
+  DrrtStarParams() { shrinking = false; }  // r_search is fixed in the paper
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     RrtStarParams::fields(self, visit);
@@ -37,6 +44,11 @@ struct DrrtStarParams : RrtStarParams {
     visit(self.length_weight, {"length_weight", Unit::none, {0, 1e6}, "Cost per µm (λ_l)."});
     visit(self.straighten,
           {"straighten", Unit::none, {}, "Pull the path found straight (beyond the paper)."});
+    visit(self.arcs, {"arcs", Unit::none, {}, "Edges of bounded curvature (beyond the paper)."});
+    visit(self.turn_radius,
+          {"turn_radius", Unit::um, {1e-3, 1e6}, "Least radius of a turn, with arcs."});
+    visit(self.as_published,
+          {"as_published", Unit::none, {}, "The paper's method alone: no straightening, no arcs."});
   }
 };
 

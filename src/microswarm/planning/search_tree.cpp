@@ -2,10 +2,22 @@
 #include "microswarm/planning/search_tree.hpp"
 
 #include <cassert>
+#include <cmath>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/planning/turn_edge.hpp"
 
 namespace microswarm {
+
+double PathCost::turned_edge(const TreeNode& node, Vec2 p) const {
+  const TurnEdge edge = turn_edge({node.position, node.heading}, p, turn_radius);
+  return per_length * edge.length + per_turn * std::abs(edge.turn);
+}
+
+double PathCost::heading_at_end(const TreeNode& node, Vec2 p) const {
+  return turn_radius > 0 ? turn_edge({node.position, node.heading}, p, turn_radius).heading
+                         : heading_of(p - node.position);
+}
 
 double PathCost::turn(const TreeNode& node, Vec2 p) {
   return turn_between(node.heading, heading_of(p - node.position));
@@ -24,7 +36,7 @@ void SearchTree::near(Vec2 p, double radius, std::vector<std::uint32_t>& out) co
 std::uint32_t SearchTree::add(std::uint32_t parent, Vec2 p) {
   assert(p != nodes_[parent].position);
   const std::uint32_t node = size();
-  nodes_.push_back({p, heading_of(p - nodes_[parent].position), cost_via(parent, p), parent});
+  nodes_.push_back({p, cost_.heading_at_end(nodes_[parent], p), cost_via(parent, p), parent});
   links_.emplace_back();
   link(node, parent);
   points_.add(p);
@@ -37,7 +49,7 @@ void SearchTree::reparent(std::uint32_t node, std::uint32_t parent) {
   link(node, parent);
   TreeNode& moved = nodes_[node];
   moved.parent = parent;
-  moved.heading = heading_of(moved.position - nodes_[parent].position);
+  moved.heading = cost_.heading_at_end(nodes_[parent], moved.position);
   moved.cost = cost_via(parent, moved.position);
   recost_below(node);
 }

@@ -11,16 +11,24 @@ namespace microswarm {
 
 /// Cost of a path, summed over its edges: length and the turn into each edge. The turn into a
 /// root's first edge starts at the root's heading. Eq 9 [drrt]; for RRT* it is the length alone.
+/// With a turning radius a change of a node's heading changes the edges to its children.
 struct PathCost {
-  double per_length = 1;  ///< λ_l
-  double per_turn = 0;    ///< λ_s [µm/rad]
+  double per_length = 1;   ///< λ_l
+  double per_turn = 0;     ///< λ_s [µm/rad]
+  double turn_radius = 0;  ///< edges are TurnEdges of this radius [µm]; 0: straight, with corners
 
   /// What the edge from `node` to `p` adds.
   double edge(const TreeNode& node, Vec2 p) const {
+    if (turn_radius > 0) return turned_edge(node, p);
     const double length = per_length * distance(node.position, p);
     return per_turn == 0 ? length : length + per_turn * turn(node, p);
   }
+  /// The heading [rad] at `p` on the edge from `node`.
+  double heading_at_end(const TreeNode& node, Vec2 p) const;
   static double turn(const TreeNode& node, Vec2 p);
+
+ private:
+  double turned_edge(const TreeNode& node, Vec2 p) const;
 };
 
 /// Tree of straight edges with exact neighbour queries. Headings and costs of all nodes are right
@@ -32,6 +40,7 @@ class SearchTree {
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(nodes_.size()); }
   const TreeNode& operator[](std::uint32_t node) const { return nodes_[node]; }
+  bool is_leaf(std::uint32_t node) const { return links_[node].first_child == 0; }
   std::uint32_t nearest(Vec2 p) const { return points_.nearest(p); }
   /// Replaces `out` by all nodes within `radius` of `p`, in ascending order.
   void near(Vec2 p, double radius, std::vector<std::uint32_t>& out) const;

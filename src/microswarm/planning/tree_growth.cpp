@@ -6,6 +6,7 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/planning/free_goal.hpp"
+#include "microswarm/planning/turn_edge.hpp"
 
 namespace microswarm {
 namespace {
@@ -32,6 +33,7 @@ TreeGrowth::TreeGrowth(const Snapshot& world, Pose2 start, Vec2 goal, const Tree
       stop_(stop),
       goal_(goal),
       sampled_(world.bounds().grown(-params.clearance)),
+      cost_(cost),
       tree_(world.bounds(), finite(start), cost) {
   ended_ = query_fault(world, start.position, goal, params.goal_tolerance, params.clearance);
   if (ended_) return;
@@ -85,6 +87,15 @@ bool TreeGrowth::is_free(std::span<const Vec2> arc) {
   return world_.is_free(arc, params_.clearance);
 }
 
+bool TreeGrowth::edge_is_free(std::uint32_t node, Vec2 p) {
+  const TreeNode& from = tree_[node];
+  if (cost_.turn_radius <= 0) return is_free(Segment{from.position, p});
+  chords_.clear();
+  append_edge({from.position, from.heading}, p, cost_.turn_radius, chords_);
+  ++counts_.edge_checks;
+  return world_.is_free(chords_, params_.clearance + chord_error(cost_.turn_radius));
+}
+
 std::uint32_t TreeGrowth::add(std::uint32_t parent, Vec2 p) {
   const std::uint32_t node = tree_.add(parent, p);
   if (arrives(p)) arrived_.push_back(node);
@@ -112,7 +123,7 @@ std::uint32_t TreeGrowth::choose_parent(Vec2 p, std::uint32_t nearest) {
   std::make_heap(candidates_.begin(), candidates_.end());
   while (candidates_.front().node != nearest) {
     const std::uint32_t node = candidates_.front().node;
-    if (is_free(Segment{tree_[node].position, p})) return node;
+    if (edge_is_free(node, p)) return node;
     std::pop_heap(candidates_.begin(), candidates_.end());
     candidates_.pop_back();
   }
@@ -123,8 +134,9 @@ void TreeGrowth::rewire(std::uint32_t node) {
   const Vec2 p = tree_[node].position;
   for (const std::uint32_t other : near_) {
     const Vec2 q = tree_[other].position;
+    if (cost_.turn_radius > 0 && !tree_.is_leaf(other)) continue;
     // Costs grow along every path, so a node above this one is never cheaper by way of it.
-    if (q != p && tree_.cost_via(node, q) < tree_[other].cost && is_free(Segment{p, q})) {
+    if (q != p && tree_.cost_via(node, q) < tree_[other].cost && edge_is_free(node, q)) {
       tree_.reparent(other, node);
     }
   }

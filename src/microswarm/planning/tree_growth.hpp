@@ -29,15 +29,18 @@ class TreeGrowth {
   bool arrives(Vec2 p) const { return distance(p, goal_) <= params_.goal_tolerance; }
   bool is_free(Segment edge);
   bool is_free(std::span<const Vec2> arc);
+  /// Is the edge from `node` to `p` free: straight, or with a turn as the cost says?
+  bool edge_is_free(std::uint32_t node, Vec2 p);
 
   /// New leaf; its edge has been checked. Notes when it has arrived at the goal.
   std::uint32_t add(std::uint32_t parent, Vec2 p);
   /// Looks up the nodes within the planner's radius for the two steps below.
   void find_near(Vec2 p, const RrtStarParams& params);
-  /// The node of the neighbourhood with the cheapest free straight edge to `p`; `nearest` belongs
+  /// The node of the neighbourhood with the cheapest free edge to `p`; `nearest` belongs
   /// to it and its edge to `p` has been checked.
   std::uint32_t choose_parent(Vec2 p, std::uint32_t nearest);
-  /// Hangs neighbours under `node` where that is cheaper and the straight edge free.
+  /// Hangs neighbours under `node` where that is cheaper and the edge free; where edges turn, only
+  /// those without children, whose edges would be others then.
   void rewire(std::uint32_t node);
 
   /// The plan; the growth is over after it.
@@ -62,7 +65,9 @@ class TreeGrowth {
   Vec2 goal_;
   bool goal_is_free_ = false;
   Box sampled_;
+  PathCost cost_;
   SearchTree tree_;
+  std::vector<Vec2> chords_;
   PlanCounts counts_;
   std::optional<Status> ended_;
   std::vector<std::uint32_t> arrived_;  ///< nodes within the goal tolerance
