@@ -40,7 +40,6 @@ struct Scene {
     std::vector<Body> bodies;
     for (std::size_t i = 0; i < from.size(); ++i)
       bodies.push_back({.shape = Disc{from[i] + t * velocity[i], radii[i]},
-                        .velocity = velocity[i],
                         .obstacle = static_cast<std::uint32_t>(i)});
     return Snapshot(map, t, std::move(bodies));
   }

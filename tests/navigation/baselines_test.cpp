@@ -194,28 +194,5 @@ TEST(VelocityObstacle, TheRouteLeadsThroughTheGap) {
   EXPECT_GT(drive.least_gap, 0);
 }
 
-TEST(VelocityObstacle, DoesNotReadWhatOnlyASimulationKnows) {
-  const auto map = std::make_shared<const Map>(Box{{0, 0}, {2000, 1000}}, std::vector<Polygon>{});
-  std::vector<Command> given[2];
-  for (const int lies : {0, 1}) {
-    VelocityObstacleNavigator navigator({}, fast_vortex, room_goal, room_tolerance);
-    for (int k = 0; k < 20; ++k) {
-      Body body{.shape = Disc{{600 - 5.0 * k, 480}, 60}};
-      if (lies) body.velocity = {1e4, -1e4}, body.deformation_speed = 1e4;
-      const Snapshot world(map, 0.1 * k, {body});
-      const Observation seen{.now = 0.1 * k,
-                             .seen = 0.1 * k,
-                             .swarm = SwarmPose{{{300, 500}, 0}, 50},
-                             .robots = {},
-                             .world = &world};
-      given[lies].push_back(navigator.step(seen, {}));
-    }
-  }
-  for (std::size_t k = 0; k < given[0].size(); ++k) {
-    EXPECT_EQ(given[0][k].heading, given[1][k].heading);
-    EXPECT_EQ(given[0][k].speed, given[1][k].speed);
-  }
-}
-
 }  // namespace
 }  // namespace microswarm

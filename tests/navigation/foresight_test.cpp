@@ -30,8 +30,6 @@ struct Watched {
       for (std::uint32_t i = 0; i < obstacles.size(); ++i)
         append_bodies(obstacles[i], i, now, bodies);
       for (Body& body : bodies) {
-        body.velocity = {1e9, 1e9};
-        body.deformation_speed = 1e9;
         const double dx = rng.normal(), dy = rng.normal();
         if (auto* disc = std::get_if<Disc>(&body.shape)) disc->centre += noise * Vec2{dx, dy};
       }

@@ -5,6 +5,8 @@
 
 #include <limits>
 
+#include "microswarm/core/angles.hpp"
+#include "microswarm/core/error.hpp"
 #include "microswarm/core/hash.hpp"
 #include "microswarm/navigation/make.hpp"
 #include "microswarm/swarm/swarm_body.hpp"
@@ -82,13 +84,11 @@ TEST(Hierarchical, HoldsWhenEverythingIsBlocked) {
 TEST(Hierarchical, GetsOutOfTheWayOfWhatComesAtIt) {
   double x = 700;
   Pose2 pose{{300, 500}, 0};
-  const Snapshot start =
-      room_with({}, {{.shape = Disc{{x, 500}, 60}, .velocity = {-40, 0}, .obstacle = 0}});
+  const Snapshot start = room_with({}, {{.shape = Disc{{x, 500}, 60}, .obstacle = 0}});
   const auto n = navigator(start);
   double least = 1e9;
   for (int k = 0; k < 200; ++k) {
-    const Snapshot world =
-        room_with({}, {{.shape = Disc{{x, 500}, 60}, .velocity = {-40, 0}, .obstacle = 0}});
+    const Snapshot world = room_with({}, {{.shape = Disc{{x, 500}, 60}, .obstacle = 0}});
     const Command c = n->step(see(world, pose.position, pose.heading, 0.1 * k), {});
     pose = unicycle_step(pose, c, 3, 0.1);
     x -= 4;
@@ -99,8 +99,7 @@ TEST(Hierarchical, GetsOutOfTheWayOfWhatComesAtIt) {
 }
 
 std::uint64_t commands_hash(std::uint64_t seed) {
-  const Snapshot world =
-      room_with({}, {{.shape = Disc{{900, 480}, 120}, .velocity = {}, .obstacle = 0}});
+  const Snapshot world = room_with({}, {{.shape = Disc{{900, 480}, 120}, .obstacle = 0}});
   const auto n = navigator(world, seed);
   Pose2 pose{{300, 500}, 1};
   Hash hash;
@@ -117,6 +116,93 @@ std::uint64_t commands_hash(std::uint64_t seed) {
 TEST(Hierarchical, SameSeedSameBits) {
   EXPECT_EQ(commands_hash(5), commands_hash(5));
   EXPECT_NE(commands_hash(5), commands_hash(6));
+}
+
+/// Drives a ribbon for `seconds` in a world of discs that go straight; what came of it.
+struct Driven {
+  Pose2 pose;
+  double least = 1e9;    ///< from its centre to anything [µm]
+  double turned = 0;     ///< [rad]
+  double arrived = 1e9;  ///< [s]
+};
+
+struct StraightDisc {
+  Vec2 start, velocity;
+  double radius;
+};
+
+Driven drive(Pose2 pose, Vec2 goal, double seconds, const std::vector<StraightDisc>& discs = {},
+             const HierarchicalParams& params = {}) {
+  const auto map = room_with().shared_map();
+  const auto world_at = [&](double t) {
+    std::vector<Body> bodies;
+    for (const StraightDisc& d : discs)
+      bodies.push_back(
+          {Disc{d.start + t * d.velocity, d.radius}, static_cast<std::uint32_t>(bodies.size())});
+    return Snapshot(map, t, std::move(bodies));
+  };
+  const auto made = make_navigator(params,
+                                   Task{.swarm = limits_of(RibbonParams{}),
+                                        .robots = {},
+                                        .goal = goal,
+                                        .goal_tolerance = room_tolerance},
+                                   Rng(1, Purpose::planner));
+  made->prepare(world_at(0));
+  Driven out{.pose = pose};
+  for (double t = 0; t < seconds; t += 0.1) {
+    const Snapshot world = world_at(t);
+    const Command c = made->step(see(world, out.pose.position, out.pose.heading, t), {});
+    const Pose2 next = unicycle_step(out.pose, c, RibbonParams{}.max_turn_rate, 0.1);
+    out.turned += turn_between(out.pose.heading, next.heading);
+    out.pose = next;
+    out.least = std::min(out.least, world_at(t + 0.1).clearance(next.position));
+    if (distance(next.position, goal) > room_tolerance) continue;
+    out.arrived = t;
+    break;
+  }
+  return out;
+}
+
+// The check before a run accepts them: a point within the tolerance keeps the margin.
+TEST(Hierarchical, ReachesGoalsNearerToAWallThanTheMargin) {
+  for (const double y : {89.0, 85.0, 75.0, 66.0})
+    EXPECT_LT(drive({{300, 500}, 0}, {1500, y}, 60).arrived, 40) << y;
+}
+
+// A ribbon turns only while it moves: facing the wall it comes a little nearer at first.
+TEST(Hierarchical, LeavesAStartInsideTheMarginWhateverItFaces) {
+  for (const double short_by : {1.0, 10.0, 25.0})
+    for (const double heading : {-pi / 2, -pi / 3, 0.0, pi / 2, pi}) {
+      const Driven d = drive({{300, 90 - short_by}, heading}, {1500, 500}, 60);
+      EXPECT_LT(d.arrived, 45) << short_by << ", " << heading;
+      EXPECT_GT(d.least, 45) << short_by << ", " << heading;
+    }
+}
+
+// Two discs cross the way: it waits or goes round, but neither circles nor is driven along.
+TEST(Hierarchical, LetsCrossingDiscsPass) {
+  const Driven d = drive({{200, 500}, 0}, {1800, 500}, 80,
+                         {{{900, 980}, {0, -50}, 90}, {{1400, 20}, {0, 40}, 90}});
+  EXPECT_GE(d.least, 90);
+  EXPECT_LT(d.arrived, 50);
+  EXPECT_LT(d.turned, 2 * pi);
+}
+
+TEST(Hierarchical, AsPublishedLooksNotAheadAndPlansOnWhatIsSeen) {
+  const HierarchicalParams published{.as_published = true};
+  EXPECT_EQ(published.in_effect().horizon, 0);
+  EXPECT_TRUE(published.in_effect().planner.as_published);
+  EXPECT_LT(drive({{200, 500}, 0}, {1800, 500}, 80, {}, published).arrived, 40);
+  // Something a little slower than the swarm comes at it: only what is ours gets out of the way.
+  const std::vector<StraightDisc> oncoming{{{1500, 500}, {-55, 0}, 80}};
+  EXPECT_LT(drive({{200, 500}, 0}, {1800, 500}, 80, oncoming, published).least, 90);
+  EXPECT_GE(drive({{200, 500}, 0}, {1800, 500}, 80, oncoming).least, 90);
+}
+
+TEST(Hierarchical, AsPublishedRefusesWhatIsNotThePapers) {
+  EXPECT_NO_THROW(check(HierarchicalParams{.as_published = true}, "f"));
+  const HierarchicalParams both{.horizon = 5, .as_published = true};
+  EXPECT_THROW(check(both, "f"), InputError);
 }
 
 }  // namespace

@@ -11,15 +11,13 @@
 namespace microswarm {
 namespace {
 
-/// Obstacles as a camera sees them: without what only a simulation knows.
+/// Obstacles as a camera sees them.
 Snapshot frame_at(const std::vector<Obstacle>& obstacles, double t, double noise, Rng& rng) {
   static const auto map =
       std::make_shared<const Map>(Box{{-5000, -5000}, {5000, 5000}}, std::vector<Polygon>{});
   std::vector<Body> bodies;
   for (std::uint32_t i = 0; i < obstacles.size(); ++i) append_bodies(obstacles[i], i, t, bodies);
   for (Body& body : bodies) {
-    body.velocity = {1e9, 1e9};
-    body.deformation_speed = 1e9;
     const double dx = rng.normal(), dy = rng.normal();
     if (auto* disc = std::get_if<Disc>(&body.shape)) disc->centre += noise * Vec2{dx, dy};
   }

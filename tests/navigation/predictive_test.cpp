@@ -19,7 +19,7 @@ namespace {
 constexpr SwarmLimits slow_vortex{50, 70, infinity, 0.1};
 constexpr SwarmLimits slow_ribbon{50, 70, 3, 0.1};
 
-/// A swarm that obeys late in a world that is seen late; bodies' true velocities are not shown.
+/// A swarm that obeys late in a world that is seen late.
 struct PredictiveDrive {
   std::vector<Polygon> walls{};
   std::vector<Obstacle> obstacles{};
@@ -37,28 +37,17 @@ struct PredictiveDrive {
     return std::find(states.begin(), states.end(), state) != states.end();
   }
 
-  static Snapshot frame(const World& world, double t) {
-    const Snapshot true_frame = world.at(t);
-    std::vector<Body> bodies(true_frame.moving().bodies().begin(),
-                             true_frame.moving().bodies().end());
-    for (Body& body : bodies) {
-      body.velocity = {1e9, -1e9};
-      body.deformation_speed = 1e9;
-    }
-    return Snapshot(world.map, t, std::move(bodies));
-  }
-
   void run(double seconds) {
     constexpr double substep = 0.01;
     const World world{std::make_shared<const Map>(Box{{0, 0}, {2000, 1000}}, walls), obstacles};
     PredictiveNavigator navigator(params, swarm, room_goal, room_tolerance,
                                   Rng(seed, Purpose::planner));
-    navigator.prepare(frame(world, 0));
+    navigator.prepare(world.at(0));
     std::vector<Pose2> was_there(6, pose);
     std::vector<Command> pending(10);
     while (time < seconds && !arrived) {
       const double seen = std::max(0.0, time - 0.05);
-      const Snapshot now = frame(world, seen);
+      const Snapshot now = world.at(seen);
       const Command command = navigator.step({.now = time,
                                               .seen = seen,
                                               .swarm = SwarmPose{was_there.front(), swarm.radius},

@@ -61,12 +61,16 @@ TEST_P(Rehearsals, TheGoalIsReachedAboutAsFast) {
   EXPECT_EQ(whole.status, Status::solved);
   EXPECT_LT(whole.metrics.time, 1.35 * plain.metrics.time);
   EXPECT_EQ(whole.metrics.contacts, 0);
+  const double margin = margin_of(r.scene.scenario.navigator);
+  EXPECT_GE(plain.metrics.obstacles.clearance, margin);
+  EXPECT_GE(whole.metrics.obstacles.clearance, margin);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenarios, Rehearsals,
                          testing::Values(Pair{"papers/radar/single.yaml", "vortex.yaml", coarse},
                                          Pair{"papers/drrt/s_channel.yaml", "ribbon.yaml"},
                                          Pair{"papers/drrt/moving_obstacles.yaml", "ribbon.yaml"},
+                                         Pair{"oncoming.yaml", "ribbon.yaml"},
                                          Pair{"papers/gather/t_junction.yaml", "rollers.yaml"},
                                          Pair{"papers/global/two_robots.yaml", "rollers.yaml"}),
                          [](const auto& pair) {

@@ -62,26 +62,9 @@ TEST(Obstacle, no_point_of_it_is_faster_than_its_top_speed) {
   }
 }
 
-TEST(Obstacle, bodies_tell_velocity_and_deformation_that_bound_their_near_future) {
-  Rng rng(2, Purpose::test);
-  for (const Obstacle& obstacle : all_obstacles()) {
-    for (int i = 0; i < 300; ++i) {
-      const double t = rng.uniform(0, 30);
-      const double dt = 1e-3;
-      const auto before = at(obstacle, t);
-      const auto after = at(obstacle, t + dt);
-      if (before.size() != after.size()) continue;
-      for (std::size_t k = 0; k < before.size(); ++k) {
-        const Body& body = before[k];
-        EXPECT_EQ(body.obstacle, 4u);
-        const Vec2 p{rng.uniform(-300, 300), rng.uniform(-300, 300)};
-        // In the frame of the body only its deformation brings it nearer.
-        const double was = distance_to({body}, p);
-        const double is = distance_to({after[k]}, p + dt * body.velocity);
-        EXPECT_LE(was - is, body.deformation_speed * dt + 0.1 * dt);
-      }
-    }
-  }
+TEST(Obstacle, bodies_carry_their_number) {
+  for (const Obstacle& obstacle : all_obstacles())
+    for (const Body& body : at(obstacle, 3)) EXPECT_EQ(body.obstacle, 4u);
 }
 
 TEST(Obstacle, boxes_turn_with_their_heading) {
@@ -159,7 +142,6 @@ TEST(World, snapshots_hold_the_bodies_of_their_time) {
   EXPECT_EQ(now.time(), 7);
   ASSERT_EQ(now.moving().bodies().size(), 3u);
   EXPECT_EQ(std::get<Disc>(now.moving().bodies()[0].shape).centre, (Vec2{70, 0}));
-  EXPECT_EQ(now.moving().bodies()[0].velocity, (Vec2{10, 0}));
   EXPECT_EQ(now.moving().bodies()[1].obstacle, 2u);
   EXPECT_EQ(&now.map(), world.map.get());
 }

@@ -1,48 +1,86 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/navigation/hierarchical.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "microswarm/core/angles.hpp"
-#include "microswarm/navigation/forecast.hpp"
 #include "microswarm/navigation/helm.hpp"
+#include "microswarm/planning/free_goal.hpp"
 #include "microswarm/swarm/unicycle.hpp"
 
 namespace microswarm {
 namespace {
 
-constexpr double escape_tick = 0.1;  // of the look-ahead [s]
-constexpr double first_leg = 1.0;    // of an escape [s]
-constexpr double last_weight = 0.1;  // of the clearance at an escape's end beside the least one
+constexpr double escape_tick = 0.1;    // of the look-ahead [s]
+constexpr double longest_sweep = 1.5;  // of obstacles while planning [s]
+constexpr double first_leg = 1.0;      // of an escape [s]
+constexpr double last_weight = 0.1;    // of the clearance at an escape's end beside the least one
+constexpr double inner_goal = 0.9;     // of the tolerance: where the goal is aimed at
+constexpr double no_route = 1e4;       // more than the straight way, where no route is known [µm]
 constexpr std::array<double, 3> eases{1.0, 0.5, 0.25};
 
 }  // namespace
 
+HierarchicalParams HierarchicalParams::in_effect() const {
+  HierarchicalParams p = *this;
+  if (!as_published) return p;
+  p.extra_margin = 0;
+  p.horizon = 0;
+  p.target_horizon = 0;
+  p.guide = Guide::straight;
+  p.planner.as_published = true;
+  return p;
+}
+
+void check(const HierarchicalParams& params, const Places& where) {
+  if (!params.as_published) return;
+  const HierarchicalParams ours;
+  const HierarchicalParams paper = params.in_effect();
+  const auto refuse = [&](const char* key, auto given, auto usual, auto published) {
+    if (given != usual && given != published)
+      throw where.error(key, fmt::format("{} is not the paper's, and as_published is true", key));
+  };
+  refuse("extra_margin_um", params.extra_margin, ours.extra_margin, paper.extra_margin);
+  refuse("horizon_s", params.horizon, ours.horizon, paper.horizon);
+  refuse("target_horizon_s", params.target_horizon, ours.target_horizon, paper.target_horizon);
+  refuse("planner.arcs", params.planner.arcs, false, false);
+}
+
 HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params,
                                              const SwarmLimits& swarm, Vec2 goal,
                                              double goal_tolerance, Rng rng)
-    : params_(params),
+    : params_(params.in_effect()),
       swarm_(swarm),
       goal_(goal),
       goal_tolerance_(goal_tolerance),
       rng_(rng),
       forecast_(swarm),
+      obstacles_(params.tracker),
       follower_(params.follower, swarm) {
   params_.speed = std::min(params.speed, swarm.max_speed);
+  aim_ = goal_;
   // How far the arc of a tick is from its chord; a swarm that turns at once makes none.
   if (std::isfinite(swarm.max_turn_rate))
     slack_ = std::max(1.0, params_.speed * swarm.max_turn_rate * escape_tick * escape_tick / 8);
 }
 
 void HierarchicalNavigator::prepare(const Snapshot& world) {
+  const Snapshot walls(world.shared_map());
+  aim_ = goal_;
+  for (const double clearance : {params_.margin, params_.margin + params_.extra_margin})
+    if (const auto free = free_goal(walls, goal_, inner_goal * goal_tolerance_, clearance))
+      aim_ = *free;
   if (params_.guide == Guide::route)
-    route_ = Route(world.map(), goal_, params_.margin, params_.route_cell);
+    route_ = Route(world.map(), aim_, params_.margin, params_.route_cell);
 }
 
 Command HierarchicalNavigator::step(const Observation& seen, const Stop& stop) {
   view_ = {};
+  obstacles_.see(seen);
   Command command = decide(seen, stop);
   view_.local_target = target_;
   view_.path = path_;
@@ -69,22 +107,27 @@ Command HierarchicalNavigator::decide(const Observation& seen, const Stop& stop)
     return issue(seen.now, hold, "arrived");
   }
 
+  delay_ = seen.age() + swarm_.response_lag;
   const Snapshot& now = *seen.world;
   for (int attempt = 0; attempt < 2; ++attempt) {
-    const bool near_end = path_.size() > 1 && target_ && !(*target_ == goal_) &&
-                          way_left(path_, place_) < std::max(params_.lookahead, 2 * swarm_.radius);
+    const bool near_end =
+        path_.size() > 1 && target_ && !(*target_ == aim_) && way_left(path_, place_) < used_up();
     if (attempt > 0 || near_end || !path_holds(now)) {  // line 4
-      const Snapshot ahead = drawn_out(now, std::min(params_.horizon, 1.5), params_.margin);
-      replan(now, ahead, stop);  // lines 5–11
+      replan(now, stop);                                // lines 5–11
     }
     if (path_.size() < 2) break;
+    if (params_.as_published) {
+      const auto next = follower_.command(path_, place_, pose_, params_.lookahead, params_.speed);
+      return issue(seen.now, next.command, next.handed_over ? "fallback" : "follow");
+    }
     for (const double ease : eases)
       if (const double speed = ease * params_.speed; look_along_path(seen, speed).safe) {
         const auto next = follower_.command(path_, place_, pose_, lookahead_at(speed), speed);
         return issue(seen.now, next.command, next.handed_over ? "fallback" : "follow");
       }
   }
-  if (look_ahead(seen, params_.margin, [&](const Pose2&, double) { return hold; }).safe)
+  if (params_.as_published ||
+      look_ahead(seen, params_.margin, [&](const Pose2&, double) { return hold; }).safe)
     return issue(seen.now, hold, "hold");
   return escape(seen);
 }
@@ -95,18 +138,27 @@ bool HierarchicalNavigator::path_holds(const Snapshot& world) const {
   std::vector<Vec2> rest{point_ahead(path_, place_, 0)};
   rest.insert(rest.end(), path_.begin() + static_cast<std::ptrdiff_t>(place_.piece) + 1,
               path_.end());
-  return world.is_free(rest, std::min(params_.margin, path_clearance_));
+  const double clearance = std::min(params_.margin, path_clearance_);
+  return path_in_time_ ? is_free_in_time(world, obstacles_, rest, params_.speed, delay_,
+                                         params_.target_horizon, clearance)
+                       : world.is_free(rest, clearance);
 }
 
-void HierarchicalNavigator::replan(const Snapshot& seen, const Snapshot& ahead, const Stop& stop) {
+void HierarchicalNavigator::replan(const Snapshot& seen, const Stop& stop) {
   path_.clear();
   place_ = {};
   const double here = seen.clearance(pose_.position);
-  const double wanted = params_.margin + params_.extra_margin;
+  double wanted = params_.margin + params_.extra_margin;
+  if (distance(pose_.position, aim_) <= params_.target.base_distance)  // it may have less
+    wanted = std::clamp(seen.map().clearance(aim_), params_.margin, wanted);
   if (here < params_.margin) {
     target_.reset();
     return;
   }
+  for (const double clearance : {wanted, params_.margin})
+    if (clearance <= here && replan_in_time(seen, clearance, stop)) return;
+  const Snapshot ahead =
+      obstacles_.swept_obstacles(seen, std::min(params_.horizon, longest_sweep), params_.margin);
   for (const double clearance : {wanted, params_.margin}) {
     if (clearance > here) continue;
     if (replan_with(ahead, clearance, stop) || replan_with(seen, clearance, stop)) return;
@@ -114,43 +166,82 @@ void HierarchicalNavigator::replan(const Snapshot& seen, const Snapshot& ahead, 
   target_.reset();
 }
 
+// Where the goal lies: straight, or along the route.
+Vec2 HierarchicalNavigator::towards(const Map& map) const {
+  if (params_.guide == Guide::straight) return aim_;
+  const Vec2 via =
+      route_.ahead(map, pose_.position, 1.5 * params_.target.base_distance, params_.margin);
+  return via == pose_.position ? aim_ : via;
+}
+
+bool HierarchicalNavigator::replan_in_time(const Snapshot& seen, double clearance,
+                                           const Stop& stop) {
+  if (params_.target_horizon <= 0 || obstacles_.all_rest()) return false;
+  const Vec2 from = pose_.position;
+  const auto way_from = [&](Vec2 p) {
+    const double way = params_.guide == Guide::route ? route_.way_from(p) : distance(p, aim_);
+    return std::isfinite(way) ? way : distance(p, aim_) + no_route;
+  };
+  const auto target = select_predicted_target(seen, obstacles_,
+                                              {.swarm = pose_,
+                                               .delay = delay_,
+                                               .speed = params_.speed,
+                                               .goal = aim_,
+                                               .towards = towards(seen.map()),
+                                               .reach = params_.target.base_distance,
+                                               .least_reach = 2 * used_up(),
+                                               .angle_step = params_.target.angle_step,
+                                               .turn_weight = params_.planner.smoothness_weight,
+                                               .clearance = clearance,
+                                               .horizon = params_.target_horizon},
+                                              way_from);
+  if (!target) return false;
+  if (target->wait > 0) return true;  // without a path it holds
+  plan_to(Snapshot(seen.shared_map(), seen.time()), target->position, clearance, stop);
+  path_in_time_ = true;
+  if (!path_holds(seen)) path_ = {from, target->position};
+  return true;
+}
+
 bool HierarchicalNavigator::replan_with(const Snapshot& world, double clearance, const Stop& stop) {
   const Vec2 from = pose_.position;
   if (!world.is_free(from, clearance)) return false;
-  view_.planned = true;
-  Vec2 towards = goal_;
-  if (params_.guide == Guide::route) {
-    const Vec2 via =
-        route_.ahead(world.map(), from, 1.5 * params_.target.base_distance, params_.margin);
-    if (!(via == from)) towards = via;
-  }
-  const double goal_distance = distance(from, goal_);
+  path_in_time_ = false;
+  const LocalTargetQuery query{.swarm = pose_,
+                               .goal_heading = heading_of(towards(world.map()) - from),
+                               .goal_distance = distance(from, aim_),
+                               .previous_target = target_,
+                               .clearance = clearance,
+                               .least_distance = swarm_.radius};
+  const bool near_goal =  // line 6
+      params_.as_published ? query.goal_distance <= target_distance(world, query, params_.target)
+                           : query.goal_distance <= params_.target.base_distance &&
+                                 world.is_free(Segment{from, aim_}, clearance);
   std::optional<Vec2> target;
-  if (goal_distance <= params_.target.base_distance &&
-      world.is_free(Segment{from, goal_}, clearance)) {
-    target = goal_;                                    // line 9
-  } else if (const auto chosen = select_local_target(  // line 7
-                 world,
-                 {.swarm = pose_,
-                  .goal_heading = heading_of(towards - from),
-                  .goal_distance = goal_distance,
-                  .previous_target = target_,
-                  .clearance = clearance,
-                  .least_distance = swarm_.radius},
-                 params_.target)) {
+  if (near_goal) {
+    target = aim_;                                                                     // line 9
+  } else if (const auto chosen = select_local_target(world, query, params_.target)) {  // line 7
     target = chosen->position;
   }
-  if (!target) return false;
+  if (target) plan_to(world, *target, clearance, stop);
+  return target.has_value();
+}
+
+void HierarchicalNavigator::plan_to(const Snapshot& world, Vec2 target, double clearance,
+                                    const Stop& stop) {
+  view_.planned = true;
+  const Vec2 from = pose_.position;
   DrrtStarParams local = params_.planner;
   local.clearance = clearance;
-  local.goal_tolerance =
-      std::min({local.goal_tolerance, goal_tolerance_, 0.25 * distance(from, *target)});
-  plan_ = plan(world, pose_, *target, local, rng_, stop);  // line 11
-  // The straight way there is free, target selection has checked it.
-  path_ = plan_->status == Status::solved ? plan_->path : std::vector<Vec2>{from, *target};
+  local.goal_tolerance = std::min({local.goal_tolerance, goal_tolerance_ - distance(aim_, goal_),
+                                   0.25 * distance(from, target)});
+  plan_ = plan(world, pose_, target, local, rng_, stop);  // line 11
+  if (plan_->status == Status::solved)
+    path_ = plan_->path;
+  else if (!params_.as_published)
+    path_ = {from, target};  // which is free, target selection has checked it
   path_clearance_ = clearance;
   target_ = target;
-  return true;
 }
 
 // Where the swarm goes once the command takes effect, against where the obstacles go.
@@ -174,7 +265,7 @@ HierarchicalNavigator::Outlook HierarchicalNavigator::look_ahead(const Observati
     const Pose2 next = unicycle_step(pose, command, swarm_.max_turn_rate, escape_tick);
     const Segment move{pose.position, next.position};
     const double from = delay + k * escape_tick;
-    const double moving = forecast_clearance(*seen.world, move, from, from + escape_tick, enough);
+    const double moving = obstacles_.clearance(*seen.world, move, from, from + escape_tick, enough);
     out.safe = out.safe && moving >= params_.margin + slack_ && map.is_free(move, params_.margin);
     // The whole move counts, so that no way through a wall is ever the best one.
     out.last = map.is_free(move, 0) ? std::min(moving, map.clearance(next.position)) : 0;
@@ -199,7 +290,7 @@ HierarchicalNavigator::Outlook HierarchicalNavigator::look_along_path(const Obse
 // distance.
 Command HierarchicalNavigator::escape(const Observation& seen) {
   constexpr int directions = 16;
-  const double goal_heading = heading_of(goal_ - pose_.position);
+  const double goal_heading = heading_of(aim_ - pose_.position);
   Command best{pose_.heading, 0};
   double best_score = -1;
   double best_least = 0;
@@ -213,11 +304,14 @@ Command HierarchicalNavigator::escape(const Observation& seen) {
     best_least = o.least;
     best = first;
   };
-  const auto leg = [&](int k) {
-    return Command{wrap(goal_heading + 2 * pi * k / directions), params_.speed};
+  const auto leg = [&](int k, double ease = 1) {
+    return Command{wrap(goal_heading + 2 * pi * k / directions), ease * params_.speed};
   };
   consider(best, best);
   for (int i = 0; i < directions; ++i) consider(leg(i), leg(i));
+  if (best_least < params_.margin + slack_)  // who turns slowly comes less near meanwhile
+    for (int i = 0; i < directions; ++i)
+      for (const double ease : {0.25, 0.1}) consider(leg(i, ease), leg(i));
   if (best_least < params_.margin + slack_)
     for (int i = 0; i < directions; ++i)
       for (int j = 0; j < directions; ++j)

@@ -8,11 +8,14 @@
 #include <vector>
 
 #include "microswarm/core/fields.hpp"
+#include "microswarm/core/places.hpp"
 #include "microswarm/navigation/body_forecast.hpp"
 #include "microswarm/navigation/guide.hpp"
 #include "microswarm/navigation/local_target.hpp"
 #include "microswarm/navigation/navigator.hpp"
+#include "microswarm/navigation/obstacle_predictor.hpp"
 #include "microswarm/navigation/path_follower.hpp"
+#include "microswarm/navigation/predicted_target.hpp"
 #include "microswarm/planning/planners.hpp"
 #include "microswarm/swarm/swarm_limits.hpp"
 
@@ -20,7 +23,8 @@ namespace microswarm {
 
 /// Hierarchical D-RRT* planning framework: Algorithm 4 [drrt] over local target selection
 /// (Algorithm 1) and the local planner (Algorithms 2–3). Ours besides: the guide along the map, and
-/// the look-ahead that screens every command against where the obstacles are going.
+/// the look-ahead that screens every command against where the obstacles are going. With
+/// `as_published` Algorithm 4 is all there is (docs/navigation.md).
 struct HierarchicalParams {
   /// D-RRT* with limits that fit a local target: near, and on a straight free line.
   static DrrtStarParams local_planner() {
@@ -38,11 +42,17 @@ struct HierarchicalParams {
   double lookahead = 60;
   FollowerParams follower;
   double horizon = 3;
+  double target_horizon = 8;
+  bool as_published = false;
   Guide guide = Guide::route;
   double route_cell = 20;
   double frame_timeout = 0.5;
+  ObstacleTrackerParams tracker;
   LocalTargetParams target;
   DrrtStarParams planner = local_planner();
+
+  /// These, or with `as_published` the same without what is ours.
+  HierarchicalParams in_effect() const;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.margin, {"margin", Unit::um, {0, 1e5}, "Least distance from the centre (r_s)."});
@@ -55,14 +65,25 @@ struct HierarchicalParams {
     visit(self.follower, {"follower", Unit::none, {}, "Who follows the path."});
     visit(self.horizon,
           {"horizon", Unit::s, {0, 60}, "How far commands are looked ahead; 0: not."});
+    visit(self.target_horizon, {"target_horizon",
+                                Unit::s,
+                                {0, 60},
+                                "Targets among obstacles predicted so far; 0: as seen."});
+    visit(self.as_published,
+          {"as_published", Unit::none, {}, "Algorithm 4 alone: what is ours is left out."});
     visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight, or route."});
     visit(self.route_cell, {"route_cell", Unit::um, {1e-2, 1e5}, "Grid spacing of the route."});
     visit(self.frame_timeout,
           {"frame_timeout", Unit::s, {0, 60}, "Hold when the newest frame is older than this."});
+    visit(self.tracker, {"tracker", Unit::none, {}, "Estimation of the obstacles' motion."});
     visit(self.target, {"target", Unit::none, {}, "Local target selection."});
     visit(self.planner, {"planner", Unit::none, {}, "Local planner."});
   }
 };
+
+/// Throws InputError when `as_published` stands beside a value that is not the paper's; `where`
+/// knows the keys.
+void check(const HierarchicalParams& params, const Places& where);
 
 /// See HierarchicalParams. States: follow, fallback (the learned follower does not know and hands
 /// over to pure pursuit), hold, escape, arrived, blind.
@@ -86,8 +107,11 @@ class HierarchicalNavigator : public Navigator {
   Command decide(const Observation& seen, const Stop& stop);
   Command issue(double now, Command command, std::string_view state);
   bool path_holds(const Snapshot& world) const;
-  void replan(const Snapshot& seen, const Snapshot& ahead, const Stop& stop);
+  void replan(const Snapshot& seen, const Stop& stop);
   bool replan_with(const Snapshot& world, double clearance, const Stop& stop);
+  bool replan_in_time(const Snapshot& seen, double clearance, const Stop& stop);
+  void plan_to(const Snapshot& world, Vec2 target, double clearance, const Stop& stop);
+  Vec2 towards(const Map& map) const;
   /// Plays `steer(pose, seconds) → command` through for the horizon; ends early, unsafe, once the
   /// clearance falls below `floor`.
   template <class Steer>
@@ -97,6 +121,8 @@ class HierarchicalNavigator : public Navigator {
   double lookahead_at(double speed) const {
     return params_.lookahead * std::max(0.5, speed / params_.speed);
   }
+  /// So little of a path is left when the next one is planned [µm].
+  double used_up() const { return std::max(params_.lookahead, 2 * swarm_.radius); }
   Command escape(const Observation& seen);
 
   HierarchicalParams params_;
@@ -107,14 +133,18 @@ class HierarchicalNavigator : public Navigator {
   Route route_;
   double slack_ = 1;     ///< kept besides the margin, for what happens within a tick [µm]
   double period_ = 0.1;  ///< between the last two commands [s]
+  double delay_ = 0;     ///< from the frame until the command of this step takes effect [s]
+  Vec2 aim_;             ///< the goal, or the point within its tolerance that keeps the margin
 
   std::optional<double> issued_at_;  ///< the last command [s]
   BodyForecast forecast_;
+  ObstaclePredictor obstacles_;
   PathFollower follower_;
   Pose2 pose_;  ///< where the swarm will be when the command of this step takes effect
   std::vector<Vec2> path_;
   PathPlace place_;
   double path_clearance_ = 0;
+  bool path_in_time_ = false;  ///< was the path chosen among predicted obstacles?
   std::optional<Vec2> target_;
   std::optional<Plan> plan_;
   NavigatorView view_;

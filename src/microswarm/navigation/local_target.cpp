@@ -54,7 +54,25 @@ std::optional<double> best_heading(const Snapshot& world, const LocalTargetQuery
   return std::nullopt;
 }
 
+// The circle lies midway to the previous target; for the first one its diameter is ‖s_s − s_g‖.
+Detection detection_of(const Snapshot& world, const LocalTargetQuery& query,
+                       const LocalTargetParams& params) {
+  const Vec2 from = query.swarm.position;
+  const double ahead = query.previous_target
+                           ? std::min(params.base_distance, distance(from, *query.previous_target))
+                           : query.goal_distance;
+  const double towards =
+      query.previous_target ? heading_of(*query.previous_target - from) : query.goal_heading;
+  const double diameter = query.previous_target ? params.detection_diameter : query.goal_distance;
+  return detect(world, {from + 0.5 * ahead * unit_vector(towards), 0.5 * diameter}, params.rho_min);
+}
+
 }  // namespace
+
+double target_distance(const Snapshot& world, const LocalTargetQuery& query,
+                       const LocalTargetParams& params) {
+  return detection_of(world, query, params).rho * params.base_distance;
+}
 
 std::optional<LocalTarget> select_local_target(const Snapshot& world, const LocalTargetQuery& query,
                                                const LocalTargetParams& params) {
@@ -62,15 +80,7 @@ std::optional<LocalTarget> select_local_target(const Snapshot& world, const Loca
   if (!world.is_free(from, query.clearance)) return std::nullopt;
   const double r = std::max(1.0, query.clearance);
   const double range = params.influence_range.value_or(r * r);
-  // The circle lies midway to the previous target; for the first one its diameter is ‖s_s − s_g‖.
-  const double ahead = query.previous_target
-                           ? std::min(params.base_distance, distance(from, *query.previous_target))
-                           : query.goal_distance;
-  const double towards =
-      query.previous_target ? heading_of(*query.previous_target - from) : query.goal_heading;
-  const double diameter = query.previous_target ? params.detection_diameter : query.goal_distance;
-  const Detection detection =
-      detect(world, {from + 0.5 * ahead * unit_vector(towards), 0.5 * diameter}, params.rho_min);
+  const Detection detection = detection_of(world, query, params);
 
   double reach = std::min(detection.rho * params.base_distance, query.goal_distance);
   const double least = std::min(reach, std::max(query.least_distance, 1e-3));

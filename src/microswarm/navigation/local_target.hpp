@@ -59,6 +59,10 @@ struct LocalTargetQuery {
   double least_distance = 0;            ///< the swarm's radius: where halving ends
 };
 
+/// D_ts of the query [µm]: the base distance times ρ of the detection circle (Eq 3 [drrt]).
+double target_distance(const Snapshot& world, const LocalTargetQuery& query,
+                       const LocalTargetParams& params);
+
 /// Algorithm 1 [drrt]. When no candidate is free, the fan widens to the full circle, then D_ts is
 /// halved down to `least_distance`; empty when nothing is free even then. Empty at once when the
 /// swarm itself is not free.

@@ -85,6 +85,9 @@ void check_on(const RadarParams& p, const Task& task, const Map& map, const Plac
       throw where.error(fmt::format("navigator.waypoints_um.{}", i),
                         fmt::format("waypoint {} {}", i + 1, why));
 }
+void check_on(const HierarchicalParams& p, const Task&, const Map&, const Places& where) {
+  check(p, where.within("navigator"));
+}
 template <class Other>
 void check_on(const Other&, const Task&, const Map&, const Places&) {}
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "microswarm/core/infinity.hpp"
+#include "microswarm/geometry/distance.hpp"
 
 namespace microswarm {
 namespace {
@@ -26,6 +27,27 @@ Vec2 centroid(std::span<const Vec2> ring) {
 
 /// Sightings from which the noise is told, in windows of a fit.
 constexpr std::size_t windows = 4;
+
+constexpr double outline_spacing = 0.4;  // between outlines that are kept [s]
+
+/// How far the vertices of `polygon` stand out of the solid `before`, which is given about its
+/// centre, at most.
+double outward_distance(const Polygon& polygon, Vec2 centre, const Polygon& before) {
+  double most = 0;
+  const auto compare = [&](std::span<const Vec2> ring, std::span<const Vec2> then) {
+    const bool alike = ring.size() == then.size();
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vec2 v = ring[i] - centre;
+      if (alike && distance(v, then[i]) <= most) continue;  // a bound without a search
+      most = std::max(most, distance(v, before));
+    }
+  };
+  compare(polygon.outer, before.outer);
+  for (std::size_t k = 0; k < polygon.holes.size(); ++k)
+    compare(polygon.holes[k], k < before.holes.size() ? std::span<const Vec2>(before.holes[k])
+                                                      : std::span<const Vec2>{});
+  return most;
+}
 
 /// Keeps the newest `most`.
 void remember(std::vector<Sighting>& trail, Sighting newest, std::size_t most) {
@@ -105,22 +127,29 @@ void ObstacleTracker::extend(Trail& trail, const Body& body, Disc within) const 
   const auto outdated = [&](const Sighting& s) { return s.t < seen_ - params_.memory; };
   std::erase_if(trail.places, outdated);
   std::erase_if(trail.radii, outdated);
-  const bool again = !trail.places.empty();
-  const double dt = again ? seen_ - trail.places.back().t : 1;
-  trail.outline_speed = again ? std::abs(extent.radius - trail.radii.back().place.x) / dt : 0;
-  if (const auto* outline = outline_of(body)) {
-    const bool comparable = again && trail.outline.size() == outline->size();
-    trail.outline.resize(outline->size());
-    for (std::size_t i = 0; i < outline->size(); ++i) {
-      const Vec2 v = (*outline)[i] - extent.centre;
-      if (comparable)
-        trail.outline_speed = std::max(trail.outline_speed, distance(v, trail.outline[i]) / dt);
-      trail.outline[i] = v;
-    }
-  }
+  if (const auto* polygon = std::get_if<Polygon>(&body.shape))
+    compare_outline(trail, *polygon, extent.centre);
   const std::size_t most = windows * static_cast<std::size_t>(params_.frames);
   remember(trail.places, {seen_, extent.centre}, most);
   remember(trail.radii, {seen_, {extent.radius, 0}}, most);
+}
+
+// Compares with an outline that is a few frames old, since one frame's noise is a large speed.
+// Outlines that are traced anew in every picture have other vertices each time, so a vertex is
+// compared with the solid of old and not with its like.
+void ObstacleTracker::compare_outline(Trail& trail, const Polygon& polygon, Vec2 centre) const {
+  auto& [older, newer] = trail.past;
+  const bool known = trail.places.size() > 0 && !older.shape.outer.empty();
+  trail.outline_speed =
+      known ? outward_distance(polygon, centre, older.shape) / (seen_ - older.t) : 0;
+  if (known && seen_ - newer.t < outline_spacing) return;
+  std::swap(older, newer);
+  newer.t = seen_;
+  newer.shape = polygon;
+  for (Vec2& v : newer.shape.outer) v -= centre;
+  for (auto& hole : newer.shape.holes)
+    for (Vec2& v : hole) v -= centre;
+  if (!known) older = newer;
 }
 
 TrackedBody ObstacleTracker::told_by(const Trail& trail) const {
@@ -134,7 +163,7 @@ TrackedBody ObstacleTracker::told_by(const Trail& trail) const {
           .noise = place.noise,
           .radius = radius.place.x,
           .radius_rate = radius.velocity.x,
-          .outline_speed = trail.outline_speed,
+          .outline_speed = std::max(trail.outline_speed, std::abs(radius.velocity.x)),
           .frames = place.sightings};
 }
 

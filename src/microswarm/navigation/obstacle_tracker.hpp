@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -22,17 +23,17 @@ struct TrackedBody {
   double noise = 0;           ///< with which the centre is seen, of a coordinate [µm]
   double radius = 0;          ///< of the disc, or to the farthest vertex [µm]
   double radius_rate = 0;     ///< [µm/s]
-  double outline_speed = 0;   ///< the outline moved so fast besides the centre [µm/s]
+  double outline_speed = 0;   ///< the outline comes outwards so fast besides the centre [µm/s]
   int frames = 0;             ///< on which this stands
 
   /// Where its centre will be `dt` seconds later at this velocity.
   Vec2 centre_after(double dt) const { return centre + dt * velocity; }
 };
 
-/// Tells every obstacle's motion from what was seen of it: places in frames and their times, never
-/// what a simulation knows (Body::velocity, Body::deformation_speed). Frames may be missed, late or
-/// uneven. A body is known again by its obstacle's number, the leaves of one obstacle by their
-/// order, which follow each other in a frame. Allocates nothing once it has seen the obstacles.
+/// Tells every obstacle's motion from what was seen of it: places in frames and their times. Frames
+/// may be missed, late or uneven. A body is known again by its obstacle's number, the leaves of one
+/// obstacle by their order, which follow each other in a frame. Allocates nothing once it has seen
+/// the obstacles.
 class ObstacleTracker {
  public:
   explicit ObstacleTracker(const ObstacleTrackerParams& params = {}) : params_(params) {}
@@ -51,19 +52,25 @@ class ObstacleTracker {
 
  private:
   using Key = std::pair<std::uint32_t, std::uint32_t>;  ///< obstacle and leaf
+  /// A polygon about its centre, as it once was; without vertices: never yet.
+  struct Outline {
+    double t = 0;
+    Polygon shape;
+  };
   /// What is remembered of one body.
   struct Trail {
     Key key;
     double present = 0;            ///< when it was in a frame [s]
     std::vector<Sighting> places;  ///< of the centre, ascending in time; none when left out
     std::vector<Sighting> radii;   ///< (radius, 0)
-    std::vector<Vec2> outline;     ///< in the newest frame, about the centre
+    std::array<Outline, 2> past;   ///< of a polygon: the older first
     double outline_speed = 0;
   };
 
   void find_trails(std::span<const Body> bodies);
   std::vector<Trail>::iterator lower_bound(const Key& key);
   void extend(Trail& trail, const Body& body, Disc within) const;
+  void compare_outline(Trail& trail, const Polygon& polygon, Vec2 centre) const;
   TrackedBody told_by(const Trail& trail) const;
 
   ObstacleTrackerParams params_;

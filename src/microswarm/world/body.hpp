@@ -9,18 +9,29 @@
 
 namespace microswarm {
 
-/// One solid piece at one moment: a connected wall piece or a moving obstacle.
+/// One solid piece at one moment: a connected wall piece or a moving obstacle. It has no velocity:
+/// a frame does not show one, and what a navigator needs of it ObstacleTracker estimates.
 struct Body {
   std::variant<Disc, Polygon> shape;
-  Vec2 velocity{};               ///< of its centre [µm/s]; zero for walls
-  double deformation_speed = 0;  ///< bound on how fast its outline moves besides [µm/s]
-  std::uint32_t obstacle = 0;    ///< which wall piece or obstacle it is (two leaves share one)
+  std::uint32_t obstacle = 0;  ///< which wall piece or obstacle it is (two leaves share one)
 };
 
 /// The outer ring of a polygon; null for a disc.
 inline const std::vector<Vec2>* outline_of(const Body& body) {
   const auto* polygon = std::get_if<Polygon>(&body.shape);
   return polygon ? &polygon->outer : nullptr;
+}
+
+/// Moves the body by `by` [µm].
+inline void shift(Body& body, Vec2 by) {
+  if (auto* disc = std::get_if<Disc>(&body.shape)) {
+    disc->centre += by;
+    return;
+  }
+  auto& polygon = std::get<Polygon>(body.shape);
+  for (Vec2& v : polygon.outer) v += by;
+  for (auto& hole : polygon.holes)
+    for (Vec2& v : hole) v += by;
 }
 
 }  // namespace microswarm

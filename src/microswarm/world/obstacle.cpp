@@ -13,15 +13,10 @@ namespace microswarm {
 namespace {
 
 /// A quantity that goes between two bounds as a sine of time.
-struct Swing {
-  double value;
-  double rate;
-};
-Swing swing(double least, double greatest, double period, double phase, double t) {
+double swing(double least, double greatest, double period, double phase, double t) {
   const double turns = t / period + phase;
   const double angle = 2 * pi * (turns - std::floor(turns));
-  const double half = 0.5 * (greatest - least);
-  return {least + half * (1 + std::sin(angle)), half * 2 * pi / period * std::cos(angle)};
+  return least + 0.5 * (greatest - least) * (1 + std::sin(angle));
 }
 double top_rate(double least, double greatest, double period) {
   return std::abs(greatest - least) * pi / period;
@@ -43,56 +38,44 @@ std::vector<Vec2> box_ring(const Box& b) {
   return {b.lo, {b.hi.x, b.lo.y}, b.hi, {b.lo.x, b.hi.y}};
 }
 
-/// Puts the bodies of one kind of shape at a placement; `turning` is the bound on the motion's.
+/// Puts the bodies of one kind of shape at a pose.
 class Builder {
  public:
-  Builder(const Placement& at, double turning, std::uint32_t obstacle, double t,
-          std::vector<Body>& out)
-      : at_(at), turning_(turning), obstacle_(obstacle), t_(t), out_(out) {}
+  Builder(const Pose2& at, std::uint32_t obstacle, double t, std::vector<Body>& out)
+      : at_(at), obstacle_(obstacle), t_(t), out_(out) {}
 
   void operator()(const DiscShape& shape) {
-    out_.push_back({Disc{at_.pose.position, shape.radius}, at_.velocity, 0, obstacle_});
+    out_.push_back({Disc{at_.position, shape.radius}, obstacle_});
   }
   void operator()(const BreathingDisc& shape) {
-    const Swing radius =
+    const double radius =
         swing(shape.least_radius, shape.greatest_radius, shape.period, shape.phase, t_);
-    out_.push_back({Disc{at_.pose.position, radius.value}, at_.velocity,
-                    top_rate(shape.least_radius, shape.greatest_radius, shape.period), obstacle_});
+    out_.push_back({Disc{at_.position, radius}, obstacle_});
   }
   void operator()(const BoxShape& shape) {
     const Vec2 half{0.5 * shape.width, 0.5 * shape.height};
-    add({box_ring({-half, half}), {}}, {}, 0);
+    add({box_ring({-half, half}), {}});
   }
-  void operator()(const PolygonShape& shape) { add(normalised({shape.vertices, {}}), {}, 0); }
+  void operator()(const PolygonShape& shape) { add(normalised({shape.vertices, {}})); }
   void operator()(const Valve& shape) {
-    const Swing gap = swing(shape.least_gap, shape.greatest_gap, shape.period, shape.phase, t_);
     const double outer = 0.5 * shape.span;
-    const double inner = 0.5 * gap.value;
+    const double inner =
+        0.5 * swing(shape.least_gap, shape.greatest_gap, shape.period, shape.phase, t_);
     if (inner >= outer) return;
     const double half = 0.5 * shape.thickness;
-    const Vec2 inwards{0, -0.25 * gap.rate};
-    const double deforming = 0.25 * top_rate(shape.least_gap, shape.greatest_gap, shape.period);
-    add({box_ring({{-half, inner}, {half, outer}}), {}}, -inwards, deforming);
-    add({box_ring({{-half, -outer}, {half, -inner}}), {}}, inwards, deforming);
+    add({box_ring({{-half, inner}, {half, outer}}), {}});
+    add({box_ring({{-half, -outer}, {half, -inner}}), {}});
   }
-  void operator()(const DeformingChannel& shape) {
-    add(channel_block(shape, t_), {}, shape.amplitude * 2 * pi / shape.period);
-  }
+  void operator()(const DeformingChannel& shape) { add(channel_block(shape, t_)); }
 
  private:
-  void add(Polygon polygon, Vec2 own_velocity, double deforming) {
+  void add(Polygon polygon) {
     if (polygon.outer.size() < 3) return;
-    double reach = 0;
-    if (turning_ > 0) {
-      for (const Vec2 v : polygon.outer) reach = std::max(reach, norm(v));
-    }
-    place(polygon, at_.pose);
-    out_.push_back({std::move(polygon), at_.velocity + rotated(own_velocity, at_.pose.heading),
-                    deforming + turning_ * reach, obstacle_});
+    place(polygon, at_);
+    out_.push_back({std::move(polygon), obstacle_});
   }
 
-  const Placement& at_;
-  double turning_;
+  const Pose2& at_;
   std::uint32_t obstacle_;
   double t_;
   std::vector<Body>& out_;
@@ -178,7 +161,7 @@ void append_bodies(const Obstacle& obstacle, std::uint32_t index, double t,
                    std::vector<Body>& out) {
   const Placement at = placement(obstacle.motion, t);
   if (!at.present) return;
-  std::visit(Builder(at, top_turning(obstacle.motion), index, t, out), obstacle.shape);
+  std::visit(Builder(at.pose, index, t, out), obstacle.shape);
 }
 
 double top_speed(const Obstacle& obstacle) {
