@@ -56,6 +56,38 @@ TEST(KinematicPlant, DelaysLongerThanATickKeepTheirHistory) {
   }
 }
 
+TEST(KinematicPlant, ObstaclesAreSeenWithTheNoiseAndTheMissesAskedFor) {
+  Scenario scenario = delayed(0);
+  scenario.obstacles.push_back(
+      {Valve{.span = 400, .thickness = 40, .least_gap = 20, .greatest_gap = 200, .period = 8},
+       Still{{800, 300}, 0.7}});
+  scenario.sensing.obstacle_noise = 3;
+  scenario.sensing.obstacle_missed_share = 0.2;
+  const World world = world_of(scenario);
+  KinematicPlant plant(scenario, world);
+  int found = 0;
+  double squares = 0;
+  constexpr int frames = 3000;
+  for (int k = 0; k < frames; ++k) {
+    const Observation seen = plant.observe();
+    ASSERT_TRUE(seen.swarm);  // which is seen all the same
+    EXPECT_EQ(seen.swarm->pose, *scenario.start);
+    const auto bodies = seen.world->moving().bodies();
+    std::size_t leaves = 0;
+    for (const Body& body : bodies) {
+      leaves += body.obstacle == 1;
+      if (body.obstacle != 0) continue;
+      ++found;
+      squares += squared_norm(std::get<Disc>(body.shape).centre - Vec2{500, 700});
+    }
+    EXPECT_TRUE(leaves == 0 || leaves == 2);
+  }
+  EXPECT_NEAR(found, 0.8 * frames, 100);
+  EXPECT_NEAR(std::sqrt(0.5 * squares / found), 3, 0.15);
+  EXPECT_EQ(std::get<Disc>(plant.truth()->world->at(0).moving().bodies()[0].shape).centre,
+            (Vec2{500, 700}));
+}
+
 TEST(KinematicPlant, NoiseAndMissedFramesAreThoseAskedFor) {
   Scenario scenario = delayed(0);
   scenario.sensing.position_noise = 5;

@@ -15,7 +15,8 @@ enum class Purpose : std::uint32_t {
   scene,
   start_goal,
   test,
-  learning
+  learning,
+  obstacle_sensor
 };
 
 /// Counter-based random stream (Philox4x32-10 by Random123), keyed by (seed, purpose, trial): the

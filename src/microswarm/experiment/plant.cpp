@@ -2,6 +2,7 @@
 #include "microswarm/experiment/plant.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/experiment/watch.hpp"
@@ -14,11 +15,12 @@ KinematicPlant::KinematicPlant(const Scenario& scenario, World world, std::uint3
       swarm_(scenario.swarm, *scenario.start),
       drift_(scenario.seed, Purpose::plant, trial),
       noise_(scenario.seed, Purpose::sensor, trial),
+      obstacle_noise_(scenario.seed, Purpose::obstacle_sensor, trial),
       history_{{0, *scenario.start, swarm_.pose().radius}} {}
 
 Observation KinematicPlant::observe() {
   const double seen = std::max(0.0, now_ - sensing_.observation_delay);
-  seen_.emplace(world_.at(seen));
+  seen_.emplace(frame_at(seen));
   Observation observation{.now = now_, .seen = seen, .swarm = {}, .robots = {}, .world = &*seen_};
   // Always the same count of draws, so that one missed frame does not change the noise of the next.
   const bool missed = noise_.uniform() < sensing_.missed_share;
@@ -30,6 +32,28 @@ Observation KinematicPlant::observe() {
   if (sensing_.heading_noise > 0) pose.heading = wrap(pose.heading + sensing_.heading_noise * turn);
   observation.swarm = SwarmPose{pose, was.radius};
   return observation;
+}
+
+// The leaves of a valve are missed together and moved alike: they are one obstacle.
+Snapshot KinematicPlant::frame_at(double t) {
+  Snapshot exact = world_.at(t);
+  if (sensing_.obstacle_noise == 0 && sensing_.obstacle_missed_share == 0) return exact;
+  std::vector<Body> found;
+  std::optional<std::uint32_t> obstacle;
+  bool missed = false;
+  Vec2 error;
+  for (const Body& body : exact.moving().bodies()) {
+    if (obstacle != body.obstacle) {
+      obstacle = body.obstacle;
+      missed = obstacle_noise_.uniform() < sensing_.obstacle_missed_share;
+      const double dx = obstacle_noise_.normal(), dy = obstacle_noise_.normal();
+      error = sensing_.obstacle_noise * Vec2{dx, dy};
+    }
+    if (missed) continue;
+    found.push_back(body);
+    shift(found.back(), error);
+  }
+  return Snapshot(exact.shared_map(), t, std::move(found));
 }
 
 void KinematicPlant::apply(const Command& command, double dt) {

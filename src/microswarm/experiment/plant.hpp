@@ -22,11 +22,14 @@ class KinematicPlant : public Plant {
   std::optional<Truth> truth() const override;
 
  private:
+  Snapshot frame_at(double t);
+
   World world_;
   SensingParams sensing_;
   SwarmBody swarm_;
   Rng drift_;
   Rng noise_;
+  Rng obstacle_noise_;
   double now_ = 0;
   std::vector<TimedPose> history_;  // covers the observation delay
   std::optional<Snapshot> seen_;

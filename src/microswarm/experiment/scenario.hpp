@@ -25,6 +25,8 @@ struct SensingParams {
   double position_noise = 0;
   double heading_noise = 0;
   double missed_share = 0;
+  double obstacle_noise = 0;
+  double obstacle_missed_share = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.observation_delay,
@@ -35,6 +37,12 @@ struct SensingParams {
           {"heading_noise", Unit::deg, {0, 360}, "Standard deviation of the swarm's heading."});
     visit(self.missed_share,
           {"missed_share", Unit::none, {0, 1}, "Share of frames in which no swarm is found."});
+    visit(self.obstacle_noise,
+          {"obstacle_noise", Unit::um, {0, 1e4}, "Standard deviation of an obstacle's position."});
+    visit(self.obstacle_missed_share, {"obstacle_missed_share",
+                                       Unit::none,
+                                       {0, 1},
+                                       "Share of frames in which an obstacle is not found."});
   }
 };
 
