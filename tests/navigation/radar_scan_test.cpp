@@ -167,6 +167,10 @@ Case random_case(Rng& rng) {
   const Vec2 target{rng.uniform(0, 2000), rng.uniform(0, 1400)};
   c.look = look_at(centre, rng.uniform(5, 150), target, p);
   if (rng.below(3) == 0) c.look.approach = rng.uniform(0, 20);
+  if (rng.below(2) == 0) {
+    c.look.course = unit_vector(rng.uniform(-pi, pi));
+    c.look.least_cosine = std::cos(rng.uniform(radians(30), pi));
+  }
   const auto count = rng.below(rng.below(4) == 0 ? 120 : 8);
   for (std::uint64_t i = 0; i < count; ++i) {
     const Vec2 at = centre + rng.uniform(0, 500) * unit_vector(rng.uniform(-pi, pi));
@@ -218,6 +222,37 @@ TEST(RadarScanner, ChoosesAsTheFullScanDoes) {
   EXPECT_GT(straight, test::cases(500));
 }
 
+// φ_i of Eq 9 is normalised over χ_2, whatever the turn limit forbids.
+TEST(RadarScanner, ATurnLimitThatForbidsTheBestOfNothingChangesNothing) {
+  RadarScanner scanner(directions);
+  int within = 0, beyond = 0;
+  for (std::uint32_t trial = 0; trial < 3000; ++trial) {
+    Rng rng(11, Purpose::test, trial);
+    Case c = random_case(rng);
+    const Snapshot world = arena(c.bodies);
+    c.look.course.reset();
+    if (!scanner.detect(c.look, world)) continue;
+    const auto free = scanner.choose(c.look, world);
+    if (!free) continue;
+    c.look.course = unit_vector(*free + rng.uniform(-pi, pi));
+    c.look.least_cosine = std::cos(radians(120));
+    const bool may = keeps_course(c.look, unit_vector(*free));
+    ++(may ? within : beyond);
+    const auto limited = scanner.choose(c.look, world);
+    ASSERT_TRUE(limited) << trial;
+    const RadarScan full = scan(c.look, world, directions);
+    ASSERT_TRUE(full.best) << trial;
+    EXPECT_EQ(full.beams[*full.best].heading, *limited) << trial;
+    if (may) {
+      EXPECT_EQ(*limited, *free) << trial;
+    } else {
+      EXPECT_TRUE(keeps_course(c.look, unit_vector(*limited)) || *limited == *free) << trial;
+    }
+  }
+  EXPECT_GT(within, 200);
+  EXPECT_GT(beyond, 100);
+}
+
 TEST(RadarScanner, KeepsAsTheFullScanDoes) {
   RadarScanner scanner(directions);
   for (std::uint32_t trial = 0; trial < 2000; ++trial) {
@@ -227,8 +262,10 @@ TEST(RadarScanner, KeepsAsTheFullScanDoes) {
     const RadarScan slow = scan(c.look, world, directions);
     scanner.detect(c.look, world);
     const std::vector<bool> kept = scanner.kept(c.look, world);
-    for (std::size_t i = 0; i < kept.size(); ++i)
-      ASSERT_EQ(kept[i], slow.beams[i].fate == BeamFate::kept) << trial << ", beam " << i;
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      const BeamFate fate = slow.beams[i].fate;  // what turns too far is in χ_2 all the same
+      ASSERT_EQ(kept[i], fate == BeamFate::kept || fate == BeamFate::turn) << trial << ", " << i;
+    }
   }
 }
 

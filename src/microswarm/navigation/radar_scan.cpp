@@ -43,6 +43,7 @@ std::optional<std::uint32_t> nearest_body(const RadarLook& look, const Snapshot&
   return nearest;
 }
 
+/// Of χ_2 only what keeps the course is taken where there is such; φ_i is that over all of χ_2.
 void keep_course(RadarScan& out) {
   const auto is_on = [&](const RadarBeam& beam) {
     return beam.fate == BeamFate::kept && keeps_course(out.look, unit_vector(beam.heading));
@@ -52,8 +53,8 @@ void keep_course(RadarScan& out) {
     if (beam.fate == BeamFate::kept && !is_on(beam)) beam.fate = BeamFate::turn;
 }
 
-/// Eq 9, 13
-void choose(RadarScan& out, const Snapshot& world) {
+/// Eq 9
+void rate(RadarScan& out, const Snapshot& world) {
   // N(·) takes away what is the same for all: r_s, r_ob.
   const auto gap = [&](Vec2 p) {
     if (!out.nearest) return 0.0;
@@ -68,12 +69,19 @@ void choose(RadarScan& out, const Snapshot& world) {
     towards.include(nearness(place, out.look.target));
     away.include(gap(place));
   }
-  for (std::size_t i = 0; i < out.beams.size(); ++i) {
-    RadarBeam& beam = out.beams[i];
+  for (RadarBeam& beam : out.beams) {
     if (beam.fate != BeamFate::kept) continue;
     const Vec2 place = place_of(out.look, beam.heading);
     beam.score = out.weights.target * towards.normalised(nearness(place, out.look.target)) +
                  out.weights.avoidance * away.normalised(gap(place));
+  }
+}
+
+/// Eq 13
+void choose(RadarScan& out) {
+  for (std::size_t i = 0; i < out.beams.size(); ++i) {
+    const RadarBeam& beam = out.beams[i];
+    if (beam.fate != BeamFate::kept) continue;
     if (!out.best || beam.score > out.beams[*out.best].score) out.best = i;
   }
 }
@@ -118,8 +126,9 @@ RadarScan scan(const RadarLook& look, const Snapshot& world, int directions) {
     if (world.map().is_free(look.centre + ahead * unit_vector(heading), look.wall_reach()))
       out.straight = heading;
   }
+  rate(out, world);
   keep_course(out);
-  choose(out, world);
+  choose(out);
   return out;
 }
 

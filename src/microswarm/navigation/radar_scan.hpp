@@ -22,7 +22,7 @@ struct RadarLook {
   double approach = 0;         ///< obstacles count as nearer by this
   double target_gain = 0;      ///< k_t ε
   double avoidance_gain = 0;   ///< k_a η
-  std::optional<Vec2> course;  ///< unit vector of the direction last chosen
+  std::optional<Vec2> course;  ///< unit vector of the direction last driven
   double least_cosine = -1;    ///< of the angle to it, where there is a choice
 
   /// Distance that a predictive swarm's centre keeps from obstacles: r_s + d_f, `approach` besides.
@@ -65,10 +65,12 @@ class MinMax {
 
 /// Does a direction keep to the side of the course?
 inline bool keeps_course(const RadarLook& look, Vec2 direction) {
-  return !look.course || dot(direction, *look.course) >= look.least_cosine;
+  return !look.course || look.least_cosine <= -1 ||
+         dot(direction, *look.course) >= look.least_cosine;
 }
 
-/// Why a direction is not among χ_2 of Eq 17 [radar], or turns too far where others are.
+/// Why a direction is not among χ_2 of Eq 17 [radar], or is among them but turns too far where others
+/// do not.
 enum class BeamFate { kept, obstacle, wall, turn };
 
 /// One of the alternative directions, Eq 8 [radar].
@@ -76,7 +78,7 @@ struct RadarBeam {
   double heading = 0;  ///< θ_i
   BeamFate fate = BeamFate::kept;
   std::uint32_t obstacle = 0;  ///< number of the one that screens it, where one does
-  double score = 0;            ///< φ_i of Eq 9, 31; 0 where screened
+  double score = 0;            ///< φ_i of Eq 9, 31, over χ_2; 0 where screened
 };
 
 /// One decision in full, for people: every direction and what became of it.

@@ -117,14 +117,6 @@ void RadarScanner::screen_by_walls(const RadarLook& look, const Snapshot& world)
     if (room_[i] >= 0 && !map.is_free(Vec2{px_[i], py_[i]}, reach)) room_[i] = -1;
 }
 
-void RadarScanner::keep_course(const RadarLook& look) {
-  const auto is_on = [&](std::size_t i) { return keeps_course(look, {ux_[i], uy_[i]}); };
-  bool any = false;
-  for (std::size_t i = 0; i < room_.size() && !any; ++i) any = room_[i] >= 0 && is_on(i);
-  for (std::size_t i = 0; any && i < room_.size(); ++i)
-    if (!is_on(i)) room_[i] = -1;
-}
-
 // 1/‖O_pe O_t‖ of Eq 9.
 void RadarScanner::measure_way(Vec2 target) {
   for (std::size_t i = 0; i < way_.size(); ++i) {
@@ -170,15 +162,20 @@ std::optional<std::size_t> RadarScanner::best(const RadarLook& look, const Snaps
     way.include(way_[i]);
     gap.include(gap_[i]);
   }
+  // N(·) is over all of χ_2; of these, those that keep the course are preferred.
   std::optional<std::size_t> found;
   double most = 0;
+  bool on_course = false;
   for (std::size_t i = 0; i < room_.size(); ++i) {
     if (room_[i] < 0) continue;
+    const bool keeps = keeps_course(look, {ux_[i], uy_[i]});
+    if (on_course && !keeps) continue;
     const double score =
         weights.target * way.normalised(way_[i]) + weights.avoidance * gap.normalised(gap_[i]);
-    if (found && score <= most) continue;
+    if (found && keeps == on_course && score <= most) continue;
     most = score;
     found = i;
+    on_course = keeps;
   }
   return found;
 }
@@ -191,7 +188,6 @@ std::optional<double> RadarScanner::choose(const RadarLook& look, const Snapshot
       return straight;
   }
   screen(look, world);
-  if (look.course && look.least_cosine > -1) keep_course(look);
   const auto found = best(look, world);
   if (!found) return std::nullopt;
   // Walls alone that leave no way nearer to the target: what leads away would only lead back.
