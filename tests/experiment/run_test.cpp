@@ -185,12 +185,45 @@ TEST(TimeSummary, OfKnownNumbers) {
 
 TEST(AvoidanceCost, IsEquationFour) {
   // The examples given with Fig 1 [radar]: 100 of 200 px left at 60°, 130 left at 90°.
-  EXPECT_NEAR(avoidance_cost({100, 0}, pi / 3, true, 200), 0.25, 1e-12);
-  EXPECT_NEAR(avoidance_cost({0, 130}, 0, true, 200), 0.65, 1e-12);
-  EXPECT_EQ(avoidance_cost({100, 0}, 0, true, 200), 0);
-  EXPECT_EQ(avoidance_cost({-100, 0}, 0, true, 200), 1);
-  EXPECT_EQ(avoidance_cost({100, 0}, 0, false, 200), 0.5);  // a hold gets no nearer
-  EXPECT_EQ(avoidance_cost({0, 0}, 1, true, 200), 0);
+  EXPECT_NEAR(avoidance_cost({100, 0}, 100, pi / 3, true, 200), 0.25, 1e-12);
+  EXPECT_NEAR(avoidance_cost({0, 130}, 130, 0, true, 200), 0.65, 1e-12);
+  EXPECT_EQ(avoidance_cost({100, 0}, 100, 0, true, 200), 0);
+  EXPECT_EQ(avoidance_cost({-100, 0}, 100, 0, true, 200), 1);
+  EXPECT_EQ(avoidance_cost({100, 0}, 100, 0, false, 200), 0.5);  // a hold gets no nearer
+  EXPECT_EQ(avoidance_cost({0, 0}, 100, 1, true, 200), 0);
+  // Towards a phased goal l is still what is left to the goal.
+  EXPECT_EQ(avoidance_cost({10, 0}, 100, 0, true, 200), 0);
+  EXPECT_NEAR(avoidance_cost({0, 10}, 100, 0, true, 200), 0.5, 1e-12);
+}
+
+TEST(Run, TheCostIsMeasuredTowardsThePhasedGoal) {
+  // Up to a waypoint at right angles to the goal, beside an obstacle that does not matter.
+  struct Upwards : GoStraight {
+    using GoStraight::GoStraight;
+    Vec2 waypoint{200, 900};
+    bool tells = false;
+    Command step(const Observation&, const Stop&) override { return {0.5 * pi, 60}; }
+    NavigatorView view() const override {
+      NavigatorView view = GoStraight::view();
+      if (tells) view.phased_goal = waypoint;
+      return view;
+    }
+  };
+  Scenario scenario = open_room();
+  scenario.swarm = VortexParams{.radius = 40, .moving_radius = 40, .radius_ripple = 0};
+  scenario.time_limit = 3;
+  scenario.detection_range = 300;
+  scenario.obstacles = {disc(50, Still{{400, 600}, 0})};
+  for (const bool tells : {false, true}) {
+    Upwards navigator(*scenario.goal, 60);
+    navigator.tells = tells;
+    const Metrics m = run_with(scenario, navigator).result.metrics;
+    EXPECT_NEAR(m.avoidance.time, 3, 1e-9);
+    if (tells)
+      EXPECT_LT(m.avoidance.mean_cost, 0.1);  // it stands still for the lag
+    else
+      EXPECT_GT(m.avoidance.mean_cost, 0.9);
+  }
 }
 
 TEST(Run, CountsWhatItAvoidsOnlyWhileSomethingIsNear) {

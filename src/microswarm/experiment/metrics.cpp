@@ -6,11 +6,12 @@
 
 namespace microswarm {
 
-double avoidance_cost(Vec2 left, double heading, bool moves, double start_distance) {
-  const double l = norm(left);
-  if (l == 0 || start_distance <= 0) return 0;
-  const double cosine = moves ? dot(unit_vector(heading), left) / l : 0;
-  return l * (1 - cosine) / start_distance;
+double avoidance_cost(Vec2 towards, double left, double heading, bool moves,
+                      double start_distance) {
+  const double ahead = norm(towards);
+  if (ahead == 0 || start_distance <= 0) return 0;
+  const double cosine = moves ? dot(unit_vector(heading), towards) / ahead : 0;
+  return left * (1 - cosine) / start_distance;
 }
 
 TimeSummary summarise(std::span<const double> seconds) {

@@ -228,8 +228,9 @@ class Run {
     frame.obstacle_clearance =
         one_is_there ? world.moving().clearance(frame.pose.position, none) : none;
     if (is_detected(frame))
-      frame.avoidance_cost = avoidance_cost(*scenario_.goal - frame.pose.position,
-                                            frame.pose.heading, frame.speed > 0, start_distance_);
+      frame.avoidance_cost =
+          avoidance_cost(view.phased_goal.value_or(*scenario_.goal) - frame.pose.position,
+                         frame.goal_distance, frame.pose.heading, frame.speed > 0, start_distance_);
     if (!watch_) {
       Metrics& metrics = result_.metrics;
       if (frame.wall_clearance < metrics.walls.clearance)

@@ -16,6 +16,9 @@ struct NavigatorView {
   bool planned = false;              ///< it called a planner in this step: a planning event
   std::string_view state;            ///< one word: "follow", "escape", "hold", …
   std::optional<Vec2> local_target;  ///< where it heads for now
+  /// The waypoint that it would head for were there no obstacles: v_t of Eq 3 [radar] points there.
+  /// Nothing for the goal.
+  std::optional<Vec2> phased_goal{};
   std::span<const Vec2> path;        ///< the path it follows
   const Plan* plan = nullptr;        ///< the newest plan with its tree; null before the first
 };

@@ -19,6 +19,7 @@ PathNavigator::PathNavigator(const PathNavigatorParams& params, const SwarmLimit
 NavigatorView PathNavigator::view() const {
   NavigatorView view = helm_.view();
   view.path = path_;
+  view.phased_goal = view.local_target;
   return view;
 }
 
