@@ -51,13 +51,9 @@ RadarParams wide_radar() {
   return params;
 }
 
-/// As the paper has it: no retreat, and delays are not made up for.
 RadarParams published_radar() {
   RadarParams params;
-  params.retreat = false;
-  params.guard.active = false;
-  params.most_turn = pi;
-  params.compensate_delay = false;
+  params.as_published = true;
   return params;
 }
 
@@ -96,6 +92,7 @@ Crossing crossed(const Scenario& scenario, const World& world, const Stop& stop)
   out.straight = (distance(scenario.start->position, *scenario.goal) - scenario.goal_tolerance) /
                  limits_of(scenario.swarm).max_speed;
   out.delta = metrics.avoidance.mean_cost;
+  out.turning = metrics.turning;
   out.least_gap = metrics.avoidance.least_gap;
   out.hold_time = metrics.hold_time;
   const std::vector<double>& steps = result.timing.steps;

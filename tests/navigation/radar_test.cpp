@@ -147,6 +147,40 @@ TEST(Radar, WithoutRetreatItHoldsAsPublished) {
   }
 }
 
+TEST(Radar, AsPublishedOverridesWhatIsOurs) {
+  RadarParams by_hand;
+  by_hand.retreat = by_hand.guard.active = by_hand.compensate_delay = false;
+  by_hand.most_turn = pi;
+  RadarParams by_key;
+  by_key.as_published = true;
+  by_key.obstacle_speed_bound = 50;
+  SwarmLimits slow = radar_vortex;
+  slow.response_lag = 0.2;
+  const auto map = radar_room();
+  const auto commands = [&](const RadarParams& params) {
+    RadarNavigator navigator(params, slow, {2700, 720}, 20, Rng(1, Purpose::planner));
+    Pose2 pose{{300, 700}, 0};
+    std::vector<double> out;
+    for (int k = 0; k < 300; ++k) {
+      const double t = radar_tick * k;
+      const Snapshot world(map, t,
+                           {disc_body({1300 - 30 * t, 700}, 150), disc_body({1600, 560}, 100, 1)});
+      const Command c = navigator.step({.now = t,
+                                        .seen = t - 0.05,
+                                        .swarm = SwarmPose{pose, radar_radius},
+                                        .robots = {},
+                                        .world = &world},
+                                       {});
+      out.push_back(c.heading);
+      out.push_back(c.speed);
+      pose = unicycle_step(pose, c, radar_vortex.max_turn_rate, radar_tick);
+    }
+    return out;
+  };
+  EXPECT_EQ(commands(by_key), commands(by_hand));
+  EXPECT_NE(commands(by_key), commands({}));
+}
+
 TEST(Radar, FollowsWaypointsRoundAWall) {
   const auto map = radar_room({scenes::rectangle({{1400, 0}, {1450, 1000}})});
   RadarParams params;
@@ -174,6 +208,106 @@ TEST(Radar, IsStuckWithoutAPlan) {
   const Trip trip = drive(params, {700, 400}, {2300, 400}, map, nothing, 3);
   EXPECT_EQ(trip.states.front(), "stuck");
   EXPECT_FALSE(trip.was("direct"));
+}
+
+/// A room in two halves without a door, and the halves again joined by one.
+std::shared_ptr<const Map> halved_room(double wall_top) {
+  return radar_room({scenes::rectangle({{1400, 0}, {1450, wall_top}})});
+}
+
+TEST(Radar, APlanThatFailedIsTriedAgain) {
+  // The first frames show the swarm where there is no way to the goal: in the other half.
+  const auto map = halved_room(1500);
+  RadarParams params;
+  params.global_plan = true;
+  params.planner.max_nodes = 1000;
+  RadarNavigator navigator(params, radar_vortex, {2300, 400}, 20, Rng(1, Purpose::planner));
+  const Snapshot world(map, 0);
+  int plans = 0;
+  for (int k = 0; k < 40; ++k) {
+    const double now = radar_tick * k;
+    const Vec2 seen_at = k < 5 ? Vec2{700, 400} : Vec2{1800, 400};
+    const Command c = navigator.step({.now = now,
+                                      .seen = now,
+                                      .swarm = SwarmPose{{seen_at, 0}, radar_radius},
+                                      .robots = {},
+                                      .world = &world},
+                                     {});
+    plans += navigator.view().planned;
+    if (now < 1) {
+      EXPECT_EQ(navigator.view().state, "stuck") << now;
+    } else {
+      EXPECT_GT(c.speed, 0) << now;
+    }
+  }
+  EXPECT_EQ(plans, 2);
+}
+
+TEST(Radar, WithoutAWayItPlansEverMoreSeldom) {
+  const Snapshot world(halved_room(1500), 0);
+  RadarParams params;
+  params.global_plan = true;
+  params.planner.max_nodes = 1000;
+  RadarNavigator navigator(params, radar_vortex, {2300, 400}, 20, Rng(1, Purpose::planner));
+  std::vector<double> planned;
+  for (int k = 0; k < 1300; ++k) {
+    const double now = radar_tick * k;
+    navigator.step({.now = now,
+                    .seen = now,
+                    .swarm = SwarmPose{{{700, 400}, 0}, radar_radius},
+                    .robots = {},
+                    .world = &world},
+                   {});
+    if (navigator.view().planned) planned.push_back(now);
+  }
+  ASSERT_EQ(planned.size(), 9u);  // 0, 1, 3, 7, 15, 31, 61, 91 and 121 s
+  EXPECT_NEAR(planned[1], 1, 0.11);
+  EXPECT_NEAR(planned[3], 7, 0.5);
+}
+
+TEST(Radar, PlansFromBesideAWallItIsSeenTooNearTo) {
+  // 3 µm nearer to the wall below than the swarm is wide, as noise may show it.
+  const auto map = halved_room(1000);
+  RadarParams params;
+  params.global_plan = true;
+  RadarNavigator navigator(params, radar_vortex, {2300, 400}, 20, Rng(1, Purpose::planner));
+  const Snapshot world(map, 0);
+  const Command c = navigator.step({.now = 0,
+                                    .seen = 0,
+                                    .swarm = SwarmPose{{{700, radar_radius - 3}, 0}, radar_radius},
+                                    .robots = {},
+                                    .world = &world},
+                                   {});
+  EXPECT_NE(navigator.view().state, "stuck");
+  EXPECT_GT(c.speed, 0);
+}
+
+TEST(Radar, LeavesAWallThatIsNearerThanItsSafetyDistance) {
+  // Every step of 25 µm ends nearer to the border than r_s + d_f.
+  RadarParams params;
+  params.safety_distance = 80;
+  params.detection_range = 120;
+  const Trip trip = drive(params, {700, radar_radius + 5}, {2300, 700}, radar_room(), nothing);
+  EXPECT_TRUE(trip.arrived);
+  EXPECT_TRUE(trip.was("retreat"));
+}
+
+TEST(Radar, TellsItsPhasedGoal) {
+  const Snapshot world(halved_room(1000), 0);
+  RadarParams params;
+  params.waypoints = {{1300, 1250}, {1600, 1250}};
+  RadarNavigator navigator(params, radar_vortex, {2300, 400}, 20, Rng(1, Purpose::planner));
+  Observation seen{.now = 0,
+                   .seen = 0,
+                   .swarm = SwarmPose{{{700, 400}, 0}, radar_radius},
+                   .robots = {},
+                   .world = &world};
+  navigator.step(seen, {});
+  EXPECT_EQ(navigator.view().phased_goal, (Vec2{1300, 1250}));
+  seen.now = seen.seen = 0.1;
+  seen.swarm.reset();  // also while it sees nothing
+  navigator.step(seen, {});
+  EXPECT_EQ(navigator.view().phased_goal, (Vec2{1300, 1250}));
 }
 
 TEST(Radar, WaitsForAValve) {

@@ -25,6 +25,11 @@ constexpr std::array<double, 3> runs{0.5, 1, 2};
 constexpr std::array<double, 2> turns{0.4, 1};
 constexpr double time_to_change = 0.25;  // that another way must be free for longer [s]
 constexpr double gap_to_change = 5;      // or by which its gaps must be greater [µm]
+constexpr int finer = 2;                 // than ways out, of what may be commanded instead
+constexpr double tie = 1e-6;
+constexpr double impatience = 0.25 * pi;  // of a hold, a second [rad/s]
+
+Vec2 velocity_of(const Command& command) { return command.speed * unit_vector(command.heading); }
 
 }  // namespace
 
@@ -45,6 +50,7 @@ Guard::Guard(const GuardParams& params, double speed)
       velocities_(1) {
   for (int k = 0; k < params.directions; ++k)
     velocities_.push_back(speed * unit_vector(wrap(2 * pi * k / params.directions)));
+  choices_.reserve(static_cast<std::size_t>(finer * params.directions) + 1);
 }
 
 void Guard::see(const Observation& observation) {
@@ -59,14 +65,46 @@ std::optional<Command> Guard::overrules(const Command& wanted, const Start& star
                                         double tick) {
   start_ = start;
   look_at_bodies(start);
-  if (bodies_ == 0 && hollow_.empty()) return std::nullopt;
-  wall_keep_ = std::clamp(map.clearance(start.place) - clearance_rounding, 0.0,
-                          start.radius + params_.wall_margin);
-  if (leaves_a_way(map, wanted, tick)) {
-    begun_.reset();
-    return std::nullopt;
+  std::optional<Command> instead;
+  if (bodies_ > 0 || !hollow_.empty()) {
+    wall_keep_ = std::clamp(map.clearance(start.place) - clearance_rounding, 0.0,
+                            start.radius + params_.wall_margin);
+    instead = checked(wanted, map, std::max(tick, params_.commitment));
   }
-  return best_way(map);
+  if (!instead) waited_ = 0;
+  if (instead && instead->speed == 0) waited_ += tick;
+  const Command& driven = instead ? *instead : wanted;
+  if (driven.speed > 0) course_ = driven.heading;
+  return instead;
+}
+
+std::optional<Command> Guard::checked(const Command& wanted, const Map& map, double lasting) {
+  std::optional<Command> instead;
+  if (!leaves_a_way(map, velocity_of(wanted), lasting)) {
+    instead = nearest_safe(map, wanted, lasting);
+    if (!instead) return best_way(map);
+  }
+  begun_.reset();
+  return instead;
+}
+
+// To hold counts as turning across, as it gets no nearer, and as more the longer it lasts: before
+// what stands it would last for ever.
+std::optional<Command> Guard::nearest_safe(const Map& map, const Command& wanted, double lasting) {
+  const double course = course_.value_or(wanted.heading);
+  choices_.assign(1, {0.5 * pi + impatience * waited_, {wanted.heading, 0}});
+  const int count = finer * params_.directions;
+  for (int k = 0; k < count; ++k) {
+    const double heading = wrap(wanted.heading + 2 * pi * k / count);
+    // Between the two all turn the same: then what is nearer to the wanted one comes first.
+    const double turn =
+        (1 + tie) * turn_between(heading, wanted.heading) + turn_between(heading, course);
+    choices_.push_back({turn, {heading, speed_}});
+  }
+  std::sort(choices_.begin(), choices_.end());
+  for (const Choice& choice : choices_)
+    if (leaves_a_way(map, velocity_of(choice.command), lasting)) return choice.command;
+  return std::nullopt;
 }
 
 void Guard::look_at_bodies(const Start& start) {
@@ -156,11 +194,10 @@ Guard::Outcome Guard::outcome(const Map& map, const Way& way, double least_time)
   return out;
 }
 
-bool Guard::leaves_a_way(const Map& map, const Command& wanted, double tick) {
-  const Vec2 begin = wanted.speed * unit_vector(wanted.heading);
-  if (is_free(map, {begin, tick, velocities_[last_]})) return true;
+bool Guard::leaves_a_way(const Map& map, Vec2 begin, double lasting) {
+  if (is_free(map, {begin, lasting, velocities_[last_]})) return true;
   for (std::size_t k = 0; k < velocities_.size(); ++k) {
-    if (!is_free(map, {begin, tick, velocities_[k]})) continue;
+    if (!is_free(map, {begin, lasting, velocities_[k]})) continue;
     last_ = k;
     return true;
   }

@@ -28,10 +28,12 @@ class Guard {
 
   /// Takes a frame; to be told of every one.
   void see(const Observation& observation);
-  /// Nothing when there is a way out after `wanted`, should it last for `tick` [s]. Else how the
-  /// way begins that is free for longest; of those that are for the whole horizon, the one that
-  /// keeps most distance. Then also turns are tried, and a way once begun is kept to unless another
-  /// is clearly better.
+  /// Nothing when there is a way out after `wanted`, should it last for the commitment, or `tick`
+  /// [s] where that is longer. Else, of the commands that leave a way out, the one that turns least
+  /// from what is wanted and from the course that is driven: so it keeps to the side that it has
+  /// begun to pass on. Where none leaves one, how the way begins that is free for longest; of those
+  /// that are for the whole horizon, the one that keeps most distance. Then also turns are tried,
+  /// and a way once begun is kept to unless another is clearly better.
   std::optional<Command> overrules(const Command& wanted, const Start& start, const Map& map,
                                    double tick);
 
@@ -54,6 +56,14 @@ class Guard {
     Way way;
     double time = 0;  ///< [s]
   };
+  /// What may be commanded instead, by how far it is from what is wanted.
+  struct Choice {
+    double turn = 0;  ///< [rad]
+    Command command;
+    friend bool operator<(const Choice& a, const Choice& b) {
+      return a.turn != b.turn ? a.turn < b.turn : a.command.heading < b.command.heading;
+    }
+  };
   /// A body that may be met.
   struct Met {
     ConvexOutline outline;  ///< at the start
@@ -69,7 +79,9 @@ class Guard {
   bool is_free(const Map& map, const Way& way) const;
   /// Incomplete once it is known to be free for less than `least_time` [s].
   Outcome outcome(const Map& map, const Way& way, double least_time) const;
-  bool leaves_a_way(const Map& map, const Command& wanted, double tick);
+  std::optional<Command> checked(const Command& wanted, const Map& map, double lasting);
+  bool leaves_a_way(const Map& map, Vec2 begin, double lasting);
+  std::optional<Command> nearest_safe(const Map& map, const Command& wanted, double lasting);
   Command best_way(const Map& map);
 
   GuardParams params_;
@@ -80,6 +92,9 @@ class Guard {
   std::size_t last_ = 0;          ///< which of them was a way out last time
 
   std::optional<Begun> begun_;
+  std::optional<double> course_;  ///< the heading last driven [rad]
+  double waited_ = 0;             ///< told to hold, since what was wanted was last safe [s]
+  std::vector<Choice> choices_;
   Start start_;
   double wall_keep_ = 0;
   double gap_now_ = 0;  ///< at the start, at most the margin [µm]

@@ -5,14 +5,15 @@
 
 namespace microswarm {
 
-/// Sees to it that a way out is left after every command, ours: to hold, to go straight into some
-/// direction, or one after the other, free of contact as far as is foreseen. Obstacles go on as
-/// they were seen to move.
+/// Safety filter, ours, not in [radar]: a command passes only if it leaves a way out, to hold or to
+/// go straight into some direction, free of contact as far as is foreseen. Else the nearest command
+/// that leaves one is given. Obstacles go on as they were seen to move.
 struct GuardParams {
   bool active = true;
   double horizon = 5;
   double step = 0.2;
   int directions = 36;
+  double commitment = 1;
   double margin = 12;
   double margin_rate = 4;
   double wall_margin = 10;
@@ -23,6 +24,12 @@ struct GuardParams {
     visit(self.horizon, {"horizon", Unit::s, {0.1, 60}, "How long a way out must be free."});
     visit(self.step, {"step", Unit::s, {0.01, 10}, "Of time, between two looks at a way out."});
     visit(self.directions, {"directions", Unit::none, {4, 360}, "Of ways out, evenly spread."});
+    visit(self.commitment,
+          {"commitment",
+           Unit::s,
+           {0, 10},
+           "A command must leave a way out even if it lasts so long: the longer, the less the "
+           "swarm turns to and fro."});
     visit(self.margin, {"margin", Unit::um, {0, 1e5}, "Gap to obstacles that counts as contact."});
     visit(self.margin_rate,
           {"margin_rate", Unit::um_per_s, {0, 1e5}, "It grows so fast for what moves."});

@@ -5,18 +5,20 @@
 #include <cmath>
 
 #include "microswarm/navigation/helm.hpp"
+#include "microswarm/world/free_place.hpp"
 
 namespace microswarm {
 namespace {
 
-constexpr double replan_time = 1;   // least time between two plans [s]
-constexpr double usual_tick = 0.1;  // [s]
+constexpr double replan_time = 1;    // between two plans, at least [s]
+constexpr double longest_wait = 30;  // after plans that failed [s]
+constexpr double usual_tick = 0.1;   // [s]
 
 }  // namespace
 
 RadarNavigator::RadarNavigator(const RadarParams& params, const SwarmLimits& swarm, Vec2 goal,
                                double goal_tolerance, Rng rng)
-    : params_(params),
+    : params_(in_effect(params)),
       swarm_(swarm),
       goal_(goal),
       goal_tolerance_(goal_tolerance),
@@ -35,9 +37,12 @@ Command RadarNavigator::step(const Observation& seen, const Stop& stop) {
   world_ = seen.world;
   Command command = decide(seen, stop);
   if (params_.guard.active && seen.world) command = guarded(command, seen);
+  if (command.speed > 0) course_ = unit_vector(command.heading);
   last_ = seen.now;
   forecast_.note(seen.now, command);
   view_.path = route_.rest();
+  if (!route_.empty()) view_.phased_goal = view_.path.front();
+  if (plan_) view_.plan = &*plan_;
   return command;
 }
 
@@ -60,7 +65,7 @@ Command RadarNavigator::guarded(const Command& command, const Observation& seen)
   const double tick = since > 0 && since < 1 ? since : usual_tick;
   const auto instead = guard_.overrules(command, start, seen.world->map(), tick);
   if (!instead) return command;
-  return issue(*instead, instead->speed > 0 ? "retreat" : "hold");
+  return issue(*instead, instead->speed > 0 ? "guard" : "hold");
 }
 
 Command RadarNavigator::decide(const Observation& seen, const Stop& stop) {
@@ -88,14 +93,14 @@ Command RadarNavigator::decide(const Observation& seen, const Stop& stop) {
   if (const auto heading = scanner_.choose(*look_, *seen.world)) {
     const bool straight =
         !contact_ && turn_between(*heading, heading_of(target - pose_.position)) < 1e-9;
-    course_ = unit_vector(*heading);
     return issue({*heading, params_.speed}, straight ? "direct" : "avoid");
   }
-  if (!contact_) return rest(seen, "stuck");
+  const bool near_wall = !seen.world->map().is_free(pose_.position, look_->wall_reach());
+  if (!contact_ && !near_wall) return rest(seen, "stuck");
   if (params_.retreat)
     if (const auto heading = scanner_.retreat(*look_, *seen.world))
       return issue({*heading, params_.speed}, "retreat");
-  return issue({pose_.heading, 0}, "hold");
+  return issue({pose_.heading, 0}, contact_ ? "hold" : "stuck");
 }
 
 // Waypoints by hand, planned, or just the goal.
@@ -107,25 +112,36 @@ void RadarNavigator::find_route(const Observation& seen, const Stop& stop) {
   } else if (!routed_ && !params_.global_plan) {
     route_ = RadarRoute({goal_}, true);
   } else if (params_.waypoints.empty() && params_.global_plan && seen.now >= plan_again_at_ &&
-             (!routed_ || !route_.in_sight())) {
+             (route_.empty() || !route_.in_sight())) {
     view_.planned = true;
-    plan_again_at_ = seen.now + replan_time;
     const Snapshot walls(seen.world->shared_map());
     const double radius = std::max(swarm_.radius, seen.swarm->radius);
-    if (!plan_route(walls, std::max(params_.planner.clearance, radius), stop))
-      plan_route(walls, radius, stop);
+    const bool found =
+        plan_route(walls, pose_, std::max(params_.planner.clearance, radius), stop) ||
+        plan_route(walls, beside_walls(walls.map(), radius), radius, stop);
+    wait_ = found ? replan_time : std::min(2 * std::max(wait_, 0.5 * replan_time), longest_wait);
+    plan_again_at_ = seen.now + wait_;
   }
   routed_ = true;
 }
 
-bool RadarNavigator::plan_route(const Snapshot& walls, double clearance, const Stop& stop) {
+// A swarm that is seen, or was pushed, a little too near to a wall can plan from beside it.
+Pose2 RadarNavigator::beside_walls(const Map& map, double radius) const {
+  const Vec2 place = free_place(map, pose_.position, radius);
+  const bool in_sight = map.is_free(Segment{pose_.position, place}, 0);
+  return {in_sight ? place : pose_.position, pose_.heading};
+}
+
+bool RadarNavigator::plan_route(const Snapshot& walls, Pose2 from, double clearance,
+                                const Stop& stop) {
   FmtStarParams planner = params_.planner;
   planner.clearance = clearance;
   planner.goal_tolerance = std::min(planner.goal_tolerance, goal_tolerance_);
-  Plan found = plan(walls, pose_, goal_, planner, rng_, stop);
-  if (found.status != Status::solved) return false;
-  if (found.path.size() > 1) found.path.erase(found.path.begin());
-  route_ = RadarRoute(std::move(found.path), true);
+  plan_ = plan(walls, from, goal_, planner, rng_, stop);
+  if (plan_->status != Status::solved) return false;
+  std::vector<Vec2> points = plan_->path;
+  if (points.size() > 1 && from.position == pose_.position) points.erase(points.begin());
+  route_ = RadarRoute(std::move(points), !params_.as_published);
   return true;
 }
 

@@ -19,8 +19,8 @@ namespace microswarm {
 
 /// Navigation by a hierarchical radar [radar], see RadarParams. It knows of obstacles only where
 /// they are and how wide. Made for a swarm that moves into any direction at once. States: direct,
-/// avoid, retreat, hold, wait, arrived, blind, and stuck when there is no plan round the walls or
-/// they leave no way that leads nearer.
+/// avoid, retreat, guard (it does what the guard orders instead), hold, wait, arrived, blind, and
+/// stuck when there is no plan round the walls or they leave no way that leads nearer.
 class RadarNavigator : public Navigator {
  public:
   /// `params` passed `check`; `swarm` is what is known of the swarm.
@@ -41,7 +41,8 @@ class RadarNavigator : public Navigator {
   Command decide(const Observation& seen, const Stop& stop);
   Command guarded(const Command& command, const Observation& seen);
   void find_route(const Observation& seen, const Stop& stop);
-  bool plan_route(const Snapshot& walls, double clearance, const Stop& stop);
+  Pose2 beside_walls(const Map& map, double radius) const;
+  bool plan_route(const Snapshot& walls, Pose2 from, double clearance, const Stop& stop);
   RadarLook look_around(const Observation& seen, Vec2 target) const;
   Command rest(const Observation& seen, std::string_view state);
   Command issue(const Command& command, std::string_view state);
@@ -56,12 +57,14 @@ class RadarNavigator : public Navigator {
   RadarScanner scanner_;
   Guard guard_;
   RadarRoute route_;
+  std::optional<Plan> plan_;  ///< the newest one, found or not
   bool routed_ = false;       ///< has looked for a route
   double plan_again_at_ = 0;  ///< [s]
+  double wait_ = 0;           ///< from the last plan to the next, longer after each failure [s]
   double last_ = -1;          ///< when a step was asked for last [s]
   double sighted_ = 0;        ///< when the swarm was seen last [s]
   std::optional<SwarmPose> sighting_;
-  std::optional<Vec2> course_;  ///< the direction last chosen among safe ones
+  std::optional<Vec2> course_;  ///< the direction last driven
   Pose2 pose_;                  ///< where the swarm is when the command takes effect
   std::optional<RadarLook> look_;
   std::optional<RadarContact> contact_;

@@ -18,6 +18,16 @@ int directions_of(const RadarParams& params) {
   return static_cast<int>(std::lround(2 * pi / params.angle_step));
 }
 
+RadarParams in_effect(RadarParams params) {
+  if (!params.as_published) return params;
+  params.guard.active = false;
+  params.retreat = false;
+  params.most_turn = pi;
+  params.compensate_delay = false;
+  params.obstacle_speed_bound = 0;
+  return params;
+}
+
 void check(const RadarParams& params, const Places& where) {
   const double safety = params.prediction_distance + params.safety_distance;
   if (params.detection_range < safety)

@@ -15,7 +15,7 @@
 namespace microswarm {
 
 /// Radar-based navigation among moving obstacles [radar]. Ours besides: that it keeps to a side,
-/// the retreat, the guard, and that delays are made up for.
+/// the retreat, the guard, and that delays are made up for. `as_published` switches all that off.
 struct RadarParams {
   static constexpr std::string_view type_name = "radar";
   double speed = 85.8;
@@ -26,7 +26,7 @@ struct RadarParams {
   double target_gain = 0.1;         // k_t ε
   double avoidance_gain = 0.9;      // k_a η
   SafetyRadiusParams safety_radius;
-  double most_turn = radians(120);
+  double most_turn = radians(90);
   bool retreat = true;
   GuardParams guard;
   bool compensate_delay = true;
@@ -37,6 +37,7 @@ struct RadarParams {
   bool global_plan = false;
   FmtStarParams planner;
   double frame_timeout = 0.5;
+  bool as_published = false;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Speed asked for."});
@@ -93,6 +94,13 @@ struct RadarParams {
     visit(self.planner, {"planner", Unit::none, {}, "Planner of the waypoints."});
     visit(self.frame_timeout,
           {"frame_timeout", Unit::s, {0, 60}, "Hold when the newest frame is older than this."});
+    visit(self.as_published,
+          {"as_published",
+           Unit::none,
+           {},
+           "As in [radar]: overrides guard.active, retreat, compensate_delay (false), "
+           "most_turn_deg (180) and obstacle_speed_bound_um_per_s (0), and visits every planned "
+           "waypoint."});
   }
 };
 

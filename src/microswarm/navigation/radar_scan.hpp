@@ -69,8 +69,8 @@ inline bool keeps_course(const RadarLook& look, Vec2 direction) {
          dot(direction, *look.course) >= look.least_cosine;
 }
 
-/// Why a direction is not among χ_2 of Eq 17 [radar], or is among them but turns too far where others
-/// do not.
+/// Why a direction is not among χ_2 of Eq 17 [radar], or is among them but turns too far where
+/// others do not.
 enum class BeamFate { kept, obstacle, wall, turn };
 
 /// One of the alternative directions, Eq 8 [radar].
