@@ -96,11 +96,11 @@ Map of_pixels(const Map& map, double pixel) {
 std::vector<BenchRow> swarm(bool quick, const Stop& stop) {
   std::vector<BenchRow> rows;
   add_rows(rows, "T-junction", scenes::t_junction().map(), 1, 200e6, quick, stop);
-  add_rows(rows, "vascular map, 100 × 90", scenes::vascular_network().map(), 1, 65e6, quick, stop);
-  add_rows(rows, "vascular map, 400 × 314", scenes::large_vascular_network().map(), 1, 65e6, quick,
+  add_rows(rows, "vascular map, 100 × 100", scenes::vascular_network().map(), 1, 65e6, quick, stop);
+  add_rows(rows, "vascular map, 400 × 314", scenes::larger_vascular_network().map(), 1, 65e6, quick,
            stop);
   add_rows(rows, "the same of pixels of 0.5 µm",
-           of_pixels(scenes::large_vascular_network().map(), 0.5), 1, 65e6, quick, stop);
+           of_pixels(scenes::larger_vascular_network().map(), 0.5), 1, 65e6, quick, stop);
   return rows;
 }
 

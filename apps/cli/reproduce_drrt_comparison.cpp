@@ -39,11 +39,7 @@ RadarParams radar(const HierarchicalParams& drrt, double prediction_distance, bo
   params.prediction_distance = prediction_distance;
   params.safety_distance = prediction_distance;
   params.detection_range = 3 * prediction_distance;
-  if (!as_published) return params;
-  params.guard.active = false;
-  params.retreat = false;
-  params.most_turn = pi;
-  params.compensate_delay = false;
+  params.as_published = as_published;
   return params;
 }
 

@@ -168,7 +168,7 @@ void gather_fig7(const ReproduceOptions& options, const Stop& stop,
   std::vector<Plot> plots{plot_of_models()};
   for (const auto& [name, scene] :
        {std::pair<std::string, scenes::Vascular>{"100 × 90", scenes::vascular_network()},
-        {"400 × 314", scenes::large_vascular_network()}}) {
+        {"400 × 314", scenes::larger_vascular_network()}}) {
     if (stop()) return;
     const Measured m = measured(scene, trials, stop);
     add_rows(name, m, rows);

@@ -59,7 +59,7 @@ std::array<Ground, 3> grounds() {
         {{{{767, 910}}, {{1243, 1659}}, {{1977, 3709}}}},
         20e6},
        {"400 × 314",
-        scenes::large_vascular_network(),
+        scenes::larger_vascular_network(),
         {{{{4188, 5861}}, {{6204, 11598}}, {{9134, std::nullopt}}}},
         40e6}}};
 }

@@ -117,6 +117,12 @@ void note_assumptions(const Scenario& scenario, const Map& map) {
   const double width = published_channel_width * scale_of(*params, map, rng);
   for (const std::string& unmet : unmet_assumptions(map, *scenario.goal, width))
     note("note: {}\n", unmet);
+  if (params->method != Aggregation::divide_and_conquer) return;
+  Rng planner(scenario.seed, Purpose::planner);
+  const AggregationParams fit = fitted(*params, map, planner);
+  const std::string few =
+      too_few_regions(AggregationMap(map, *scenario.goal, fit, planner).segmentation);
+  if (!few.empty()) note("note: {}\n", few);
 }
 
 void keep(const Record& record, const RunOutput& o, const ReportOptions& report) {

@@ -12,14 +12,20 @@
 namespace microswarm {
 namespace {
 
+AggregationParams plain_params() {
+  AggregationParams params;
+  params.obstacle_weighted = false;
+  return params;
+}
+
 TEST(Aggregation, GathersWithEveryMethod) {
-  const Gathering& t = t_junction();
-  for (const Aggregation method : {Aggregation::heuristic, Aggregation::divide_and_conquer}) {
-    for (const bool weighted : {true, false}) {
+  const Gathering plain(scenes::t_junction(), plain_params(), 1);
+  for (const Gathering* g : {&t_junction(), &plain}) {
+    const Gathering& t = *g;
+    for (const Aggregation method : {Aggregation::heuristic, Aggregation::divide_and_conquer}) {
       for (const int count : {1, 2, 16, 128}) {
         AggregationParams params = t.params;
         params.method = method;
-        params.obstacle_weighted = weighted;
         Robots robots = t.robots(count, 3);
         Gatherer gatherer(t.ground, params);
         const GatherResult result = gather(t.stepper, gatherer, robots, 5000);

@@ -6,23 +6,25 @@
 
 namespace microswarm {
 
-/// A map with its tree, and robots anywhere in it.
+/// A map with a tree of its own seed, and robots anywhere in it.
 struct Gathering {
   scenes::Vascular scene;
   AggregationParams params;
   AggregationMap ground;
   RobotStepper stepper;
 
-  explicit Gathering(const scenes::Vascular& s)
-      : scene(s), params(with_nodes(s.nodes)), ground(grown(s, params)), stepper(ground.map, 1) {}
+  explicit Gathering(const scenes::Vascular& s) : Gathering(s, with_nodes(s.nodes), 1) {}
+  Gathering(const scenes::Vascular& s, const AggregationParams& p, std::uint64_t tree)
+      : scene(s), params(p), ground(grown(s, p, tree)), stepper(ground.map, 1) {}
 
   static AggregationParams with_nodes(int nodes) {
     AggregationParams p;
     p.tree.nodes = nodes;
     return p;
   }
-  static AggregationMap grown(const scenes::Vascular& s, const AggregationParams& p) {
-    Rng rng(1, Purpose::planner);
+  static AggregationMap grown(const scenes::Vascular& s, const AggregationParams& p,
+                              std::uint64_t tree) {
+    Rng rng(tree, Purpose::planner);
     return {s.map(), s.goal, p, rng};
   }
   Robots robots(int count, std::uint32_t trial) const {

@@ -242,5 +242,13 @@ TEST(AggregationGround, KnowsDeadEndsAndWhatIsApart) {
   EXPECT_EQ(unmet_assumptions(apart, {3, 5}, 10).size(), 1u);
 }
 
+TEST(AggregationGround, TellsWhenThereIsLittleToDivide) {
+  MapSegmentation map;
+  map.regions.resize(4);
+  EXPECT_NE(too_few_regions(map), "");
+  map.regions.resize(5);
+  EXPECT_EQ(too_few_regions(map), "");
+}
+
 }  // namespace
 }  // namespace microswarm

@@ -25,7 +25,7 @@ struct Ground {
 std::vector<Ground> grounds() {
   std::vector<Ground> all;
   for (const auto& v :
-       {scenes::t_junction(), scenes::vascular_network(), scenes::large_vascular_network()})
+       {scenes::t_junction(), scenes::vascular_network(), scenes::larger_vascular_network()})
     all.push_back({v.name, v.map(), v.width / 10});
   Rng rng(11, Purpose::scene);
   for (int i = 0; i < 9; ++i) {

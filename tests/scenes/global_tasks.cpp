@@ -85,7 +85,7 @@ GlobalTask leaf_task(Map map) {
 
 GlobalTask vascular_task() {
   return {"vascular network",
-          large_vascular_network().map(),
+          generated_vascular_network().map(),
           {{26, 77}, {24, 97}, {23, 117}},
           {{114, 71}, {201, 105}, {148, 156}},
           4,

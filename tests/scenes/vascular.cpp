@@ -154,47 +154,7 @@ std::vector<Polygon> walls_of(const ChannelGraph& graph) {
   return difference(graph.bounds, channels);
 }
 
-Vascular t_junction() {
-  return {"t_junction",
-          {{0, 50}, {100, 100}},
-          {rectangle({{0, 50}, {45, 90}}), rectangle({{55, 50}, {100, 90}})},
-          {50, 53},
-          4000,
-          10};
-}
-
-Vascular vascular_network() {
-  ChannelGraph graph;
-  graph.bounds = {{0, 0}, {100, 90}};
-  constexpr double half = 4.5;
-  for (const Vec2 p : std::initializer_list<Vec2>{{93, 6},
-                                                  {93, 28},
-                                                  {70, 26},
-                                                  {72, 50},
-                                                  {93, 54},
-                                                  {93, 83},
-                                                  {68, 80},
-                                                  {48, 60},
-                                                  {46, 32},
-                                                  {46, 7},
-                                                  {24, 24},
-                                                  {6, 26},
-                                                  {22, 50},
-                                                  {6, 56},
-                                                  {26, 78},
-                                                  {46, 84},
-                                                  {6, 84},
-                                                  {20, 6},
-                                                  {72, 6}}) {
-    graph.joints.push_back({p, half});
-  }
-  graph.channels = {{0, 1},   {1, 2},  {2, 3},   {3, 4},   {4, 5},   {3, 7},   {7, 8},   {8, 2},
-                    {8, 9},   {8, 10}, {10, 11}, {10, 12}, {12, 13}, {12, 14}, {14, 15}, {14, 16},
-                    {10, 17}, {2, 18}, {5, 6},   {6, 3},   {6, 15},  {17, 9},  {9, 18}};
-  return {"vascular_network", graph.bounds, walls_of(graph), {93, 4.5}, 10'000, 9};
-}
-
-Vascular large_vascular_network() {
+Vascular generated_vascular_network() {
   VascularShape shape;
   shape.width = 400;
   shape.height = 314;
@@ -205,7 +165,7 @@ Vascular large_vascular_network() {
   shape.loops = 0.25;
   Rng rng(24, Purpose::scene);
   Vascular v = random_vascular(shape, rng);
-  v.name = "large_vascular_network";
+  v.name = "generated_vascular_network";
   v.nodes = 40'000;
   return v;
 }

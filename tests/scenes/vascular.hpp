@@ -25,13 +25,14 @@ struct Vascular {
   Map map() const { return Map(bounds, walls); }
 };
 
-/// The T-junction map of Fig 8(a) [gather], as published: a bar 0…100 × 90…100 and a stem 45…55 ×
-/// 50…90; 4,000 nodes, 2 regions.
+/// The maps of Fig 8 [gather], with the coordinates of the authors' program. (a) is a bar with a stem
+/// that hangs from it, 4,000 nodes and 2 regions; (b) is 100 × 100, 10,000 nodes and 9 regions; (c)
+/// is 400 × 314, 40,000 nodes and 31 regions.
 Vascular t_junction();
-/// Maps of the kind and size of Fig 8(b) and (c), which are published as pictures only: 100 × 90
-/// with 9 junction regions and 10,000 nodes, 400 × 314 with 31 and 40,000.
 Vascular vascular_network();
-Vascular large_vascular_network();
+Vascular larger_vascular_network();
+/// A map of ours of the kind and size of Fig 8(c), generated.
+Vascular generated_vascular_network();
 
 /// Channels as a graph: straight ones between joints, each as wide as its two ends.
 struct ChannelGraph {

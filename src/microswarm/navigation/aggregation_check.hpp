@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "microswarm/world/map.hpp"
+#include "microswarm/planning/map_segmentation.hpp"
 
 namespace microswarm {
 
@@ -23,5 +23,9 @@ AggregationGround aggregation_ground(const Map& map, Vec2 goal, double width);
 /// robots that are not connected with the goal stay where they are, and from a goal that is no dead
 /// end robots are pushed out again.
 std::vector<std::string> unmet_assumptions(const Map& map, Vec2 goal, double width);
+
+/// Why HRA may need fewer steps than DCA: the map has too few regions to be divided. Empty where it
+/// has enough.
+std::string too_few_regions(const MapSegmentation& segmentation);
 
 }  // namespace microswarm

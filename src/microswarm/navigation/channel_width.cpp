@@ -28,7 +28,8 @@ double scale_of(const AggregationParams& params, const Map& map, Rng& rng) {
 AggregationParams fitted(AggregationParams params, const Map& map, Rng& rng) {
   const double factor = scale_of(params, map, rng);
   params.tree = scaled(params.tree, factor);
-  for (double* length : {&params.step, &params.sigma, &params.discount_length}) *length *= factor;
+  for (double* length : {&params.step, &params.sigma, &params.discount_length, &params.team_depth})
+    *length *= factor;
   params.scale = 1;
   return params;
 }

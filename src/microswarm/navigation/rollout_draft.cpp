@@ -21,10 +21,7 @@ Robots one_of(const Robots& robots, std::size_t i) {
 
 RolloutSimulator::RolloutSimulator(const AggregationMap& ground, const RobotStepper& stepper,
                                    const AggregationParams& params)
-    : ground_(&ground),
-      stepper_(&stepper),
-      params_(params),
-      routes_(params.obstacle_weighted ? &ground.tree.weighted : &ground.tree.plain) {}
+    : ground_(&ground), stepper_(&stepper), params_(params), routes_(&ground.routes()) {}
 
 void RolloutSimulator::move(RolloutDraft& draft, Vec2 move) {
   constexpr double rest_of_a_step = 20;

@@ -104,8 +104,9 @@ std::uint32_t nearest_direction(const std::vector<double>& directions, double an
 
 class Segmenter {
  public:
-  Segmenter(const Map& map, const ObstacleWeightedRrt& tree, const MapSegmentationParams& params)
-      : map_(map), tree_(tree), params_(params), grid_(map.bounds()) {
+  Segmenter(const Map& map, const ObstacleWeightedRrt& tree, const Routes& routes,
+            const MapSegmentationParams& params)
+      : map_(map), tree_(tree), routes_(routes), params_(params), grid_(map.bounds()) {
     for (std::uint32_t v = 0; v < tree_.nodes.size(); ++v) {
       if (!tree_.medial[v]) continue;
       medial_.push_back(v);
@@ -114,8 +115,8 @@ class Segmenter {
     by_cost_.resize(tree_.nodes.size());
     std::iota(by_cost_.begin(), by_cost_.end(), 0u);
     std::sort(by_cost_.begin(), by_cost_.end(), [&](std::uint32_t a, std::uint32_t b) {
-      const double cost_a = tree_.weighted.cost[a];
-      const double cost_b = tree_.weighted.cost[b];
+      const double cost_a = routes_.cost[a];
+      const double cost_b = routes_.cost[b];
       return cost_a != cost_b ? cost_a < cost_b : a < b;
     });
     cluster_.assign(tree_.nodes.size(), unassigned);
@@ -225,7 +226,7 @@ class Segmenter {
   void grow_regions() {
     std::vector<std::uint32_t> number(clusters_, unassigned);
     for (const std::uint32_t v : by_cost_) {
-      const std::uint32_t onward = out_.region[tree_.weighted.next[v]];
+      const std::uint32_t onward = out_.region[routes_.next[v]];
       out_.region[v] = onward;
       if (cluster_[v] == unassigned) continue;
       std::uint32_t& n = number[cluster_[v]];
@@ -272,11 +273,11 @@ class Segmenter {
   void find_branches() {
     std::vector<std::vector<double>> leaving(out_.regions.size());
     std::vector<std::uint32_t> first(tree_.nodes.size(), unassigned);
-    for (const std::uint32_t v : medial_by_cost()) {
+    for (const std::uint32_t v : by_cost_) {
       if (cluster_[v] != unassigned) continue;
-      const std::uint32_t next = tree_.weighted.next[v];
+      const std::uint32_t next = routes_.next[v];
       first[v] = cluster_[next] != unassigned ? v : first[next];
-      leaving[out_.region[v]].push_back(direction(first[v]));
+      if (tree_.medial[v]) leaving[out_.region[v]].push_back(direction(first[v]));
     }
     std::vector<std::vector<double>> branches;
     for (std::size_t r = 0; r < leaving.size(); ++r) {
@@ -290,20 +291,13 @@ class Segmenter {
       const std::uint32_t from = first[v] == unassigned ? v : first[v];
       out_.branch[v] = tree_.medial[v]
                            ? nearest_direction(branches[out_.region[v]], direction(from))
-                           : out_.branch[tree_.weighted.next[v]];
+                           : out_.branch[routes_.next[v]];
     }
-  }
-
-  std::vector<std::uint32_t> medial_by_cost() const {
-    std::vector<std::uint32_t> nodes;
-    for (const std::uint32_t v : by_cost_) {
-      if (tree_.medial[v]) nodes.push_back(v);
-    }
-    return nodes;
   }
 
   const Map& map_;
   const ObstacleWeightedRrt& tree_;
+  const Routes& routes_;
   const MapSegmentationParams& params_;
   PointGrid grid_;                     ///< V*
   std::vector<std::uint32_t> medial_;  ///< its nodes
@@ -318,9 +312,9 @@ class Segmenter {
 
 }  // namespace
 
-MapSegmentation segment_map(const Map& map, const ObstacleWeightedRrt& tree,
+MapSegmentation segment_map(const Map& map, const ObstacleWeightedRrt& tree, const Routes& routes,
                             const MapSegmentationParams& params) {
-  return Segmenter(map, tree, params).segment();
+  return Segmenter(map, tree, routes, params).segment();
 }
 
 }  // namespace microswarm

@@ -51,8 +51,9 @@ struct MapSegmentation {
   std::vector<std::uint32_t> junction_nodes;  ///< V_J, ascending
 };
 
-/// Alg 4 [gather] over the weighted routes of a tree that has nodes and was not stopped.
-MapSegmentation segment_map(const Map& map, const ObstacleWeightedRrt& tree,
+/// Alg 4 [gather] over routes of a tree that has nodes and was not stopped: regions are what leads to
+/// the goal by way of their junctions along these routes.
+MapSegmentation segment_map(const Map& map, const ObstacleWeightedRrt& tree, const Routes& routes,
                             const MapSegmentationParams& params = {});
 
 }  // namespace microswarm
