@@ -122,7 +122,7 @@ void add_costs(const LoadedMap& map, const ReproduceOptions& options, const Stop
 /// The network that came with the published program, by trees and by the search.
 void add_leaf(const scenes::GlobalTask& leaf, int search_seeds, const ReproduceOptions& options,
               const Stop& stop, std::vector<ReproduceRow>& rows) {
-  constexpr int nodes = 60'000;
+  const int nodes = options.quick ? 20'000 : 60'000;
   const std::size_t seeds = options.quick ? 2 : 10;
   for (const TreeSetting& setting : tree_settings) {
     std::vector<TreeAnswer> answers(seeds);
