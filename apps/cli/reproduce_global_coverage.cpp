@@ -5,6 +5,8 @@
 #include <array>
 #include <filesystem>
 #include <span>
+#include <variant>
+#include <vector>
 
 #include "microswarm/core/parallel.hpp"
 #include "microswarm/core/statistics.hpp"
@@ -91,32 +93,48 @@ void write_plot(Plot plot, const ReproduceOptions& options, const char* name) {
   if (!options.out.empty()) write_plots_everywhere({plot}, fs::path(options.out) / name);
 }
 
-/// Fig 4: trees of two robots by several step lengths, each robot's part in a colour.
+/// Walls farther right.
+std::vector<Body> moved_right(std::span<const Body> walls, double by) {
+  std::vector<Body> moved(walls.begin(), walls.end());
+  for (Body& body : moved)
+    if (auto* polygon = std::get_if<Polygon>(&body.shape))
+      for (Vec2& corner : polygon->outer) corner.x += by;
+  return moved;
+}
+
+/// Fig 4: trees of two robots by several step lengths, each robot's part beside the other's.
 void draw_trees(const Map& map, const ReproduceOptions& options, const Stop& stop) {
   if (options.out.empty()) return;
   // The paper gives 0.5 s; the published program makes 3,900 nodes a second here.
   constexpr int nodes = 2000;
-  constexpr std::array<Colour, 2> tree_colours{{{0.34, 0.71, 0.91, 0.75}, {0.90, 0.62, 0.0, 0.75}}};
+  constexpr double gap = 15;
+  const Box box = map.bounds();
+  const double pitch = box.width() + gap;
   for (const double step : {1., 3., 5., 50., 200.}) {
     const auto starts = std::span(global_starts).first(2);
     const GlobalTree tree = grown(map, starts, step, nodes, 0, stop);
-    Picture picture(map.bounds(), fmt::format("Fig 4: {} nodes, Robostep {:g} µm", nodes, step));
-    picture.walls(map);
+    Picture picture({box.lo, {box.hi.x + pitch, box.hi.y}},
+                    fmt::format("Fig 4: {} nodes, Robostep {:g} µm", nodes, step), 1600);
     for (std::size_t robot = 0; robot < 2; ++robot) {
+      const Vec2 shift{pitch * static_cast<double>(robot), 0};
+      const Colour colour = colours::robots[robot];
+      const Colour faint{colour.red, colour.green, colour.blue, 0.55};
       std::vector<TreeNode> part(tree.size());
       for (std::uint32_t node = 0; node < tree.size(); ++node) {
-        part[node].position = tree.position(node, robot);
+        part[node].position = tree.position(node, robot) + shift;
         part[node].parent = tree.parents[node];
       }
-      picture.tree(part, tree_colours[robot]);
-      picture.legend(fmt::format("tree of robot {}", robot + 1), tree_colours[robot]);
+      const Vec2 lo = box.lo + shift;
+      const Vec2 hi = box.hi + shift;
+      picture.bodies(moved_right(map.walls().bodies(), shift.x), colours::wall);
+      picture.tree(part, faint);
+      picture.line(std::vector<Vec2>{lo, {hi.x, lo.y}, hi, {lo.x, hi.y}, lo}, colours::wall_edge,
+                   1);
+      picture.disc({global_starts[robot] + shift, 5}, colours::ink);
+      picture.circle({global_goals[robot] + shift, 20}, colours::ink, 3, false);
+      picture.legend(fmt::format("tree of robot {}", robot + 1), colour);
     }
-    for (std::size_t robot = 0; robot < 2; ++robot) {
-      picture.disc({global_starts[robot], 5}, colours::robots[robot]);
-      picture.circle({global_goals[robot], 20}, colours::robots[robot], 3, false);
-      picture.legend(fmt::format("robot {}, its goal as a circle", robot + 1),
-                     colours::robots[robot], true);
-    }
+    picture.legend("start; the goal is the circle", colours::ink, true);
     picture.write_everywhere(fs::path(options.out) / fmt::format("fig4-step{:g}", step));
   }
 }

@@ -168,8 +168,8 @@ std::string panel(const Plot& plot, std::size_t index) {
       fmt::format("set title {}\nset xlabel {} offset 0,{}\nset ylabel {}\n", in_quotes(plot.title),
                   in_quotes(plot.x_label), plot.key_below ? 0.6 : 0.0, in_quotes(plot.y_label));
   out += axes(plot) + ground(plot);
-  out +=
-      plot.key_below ? "set key outside below center height 0.5\n" : "set key inside top right\n";
+  out += plot.key_below ? "set key outside below center height 0.5 samplen 2.5\n"
+                        : "set key inside top right height 0 samplen 4\n";
   std::vector<std::string> items;
   for (std::size_t i = 0; i < plot.series.size(); ++i)
     if (!plot.series[i].x.empty()) items.push_back(drawn(index, i, plot.series[i]));
