@@ -40,9 +40,9 @@ struct Avoidance {
 };
 
 /// The avoidance cost δ, Eq 3, 4 [radar], while an obstacle is detected. v_t is the direction that
-/// the swarm would take without obstacles, `towards` [µm]: to the goal, or to the phased goal that it
-/// follows. `left` [µm] is the distance to the goal, `start_distance` [µm] that from the start. A
-/// swarm that stands still is taken to move across: it gets no nearer.
+/// the swarm would take without obstacles, `towards` [µm]: to the goal, or to the phased goal that
+/// it follows. `left` [µm] is the distance to the goal, `start_distance` [µm] that from the start.
+/// A swarm that stands still is taken to move across: it gets no nearer.
 double avoidance_cost(Vec2 towards, double left, double heading, bool moves, double start_distance);
 
 /// What a run amounts to. Physical, hence the same in every repetition.
