@@ -100,10 +100,12 @@ std::vector<ReproduceRow> reproduce_drrt(const std::string& figure, const Reprod
 std::vector<ReproduceRow> reproduce_global(const std::string& figure,
                                            const ReproduceOptions& options, const Stop& stop);
 
-/// [gather]: fig7 (recurrence models beside steps on maps of fewer regions), fig9 (steps of three
-/// methods and the rollout planner on three maps for 2 … 1024 robots), fig10 (frames of a camera
-/// for robots with a real rig's faults), fig10-rig (the same seen by a camera and driven by coils),
-/// fig10-frames (with a command for every frame of the camera), or all when empty.
+/// [gather]: fig3-6 (pictures of the tree, its regions and DCA), fig7 (recurrence models beside
+/// steps on maps of fewer regions), fig9 (steps of the paper's three methods and two of ours on its
+/// maps for 2 … 1024 robots), generated (DCA and HRA on generated maps), fig10 (frames of a camera
+/// for robots with a real rig's faults), fig10-rig (the same seen by a camera and driven by coils;
+/// not with --quick unless asked for), fig10-frames (with a command for every frame of the camera;
+/// only when asked for), or all when empty.
 std::vector<ReproduceRow> reproduce_gather(const std::string& figure,
                                            const ReproduceOptions& options, const Stop& stop);
 

@@ -2,7 +2,10 @@
 #include "reproduce_gather.hpp"
 
 #include <array>
+#include <cmath>
+#include <span>
 
+#include "microswarm/core/statistics.hpp"
 #include "reproduce_figures.hpp"
 
 namespace microswarm::cli {
@@ -14,26 +17,39 @@ AggregationParams gather_params(const scenes::Vascular& scene, Aggregation metho
   return params;
 }
 
-AggregationMap gather_map(const scenes::Vascular& scene) {
+AggregationMap gather_map(const scenes::Vascular& scene, bool obstacle_weighted) {
   Rng rng(1, Purpose::planner);
-  return {scene.map(), scene.goal, gather_params(scene, Aggregation::divide_and_conquer), rng};
+  AggregationParams params = gather_params(scene, Aggregation::divide_and_conquer);
+  params.obstacle_weighted = obstacle_weighted;
+  return {scene.map(), scene.goal, params, rng};
 }
 
-Robots gather_robots(const scenes::Vascular& scene, const Map& map, const RobotStepper& stepper,
-                     int count, std::uint32_t trial) {
+Robots gather_robots(const scenes::Vascular& scene, const AggregationMap& map,
+                     const RobotStepper& stepper, int count, std::uint32_t trial,
+                     double least_cost) {
   Rng rng(1, Purpose::scene, trial);
   std::vector<Vec2> places;
   const Box& box = scene.bounds;
   while (std::ssize(places) < count) {
     const double x = rng.uniform(box.lo.x, box.hi.x);
     const Vec2 p{x, rng.uniform(box.lo.y, box.hi.y)};
-    if (map.is_free(p, 4 * stepper.guard())) places.push_back(p);
+    if (map.map.is_free(p, 4 * stepper.guard()) &&
+        map.tree.cost(map.tree.weighted, p) >= least_cost)
+      places.push_back(p);
   }
   return stepper.place(places);
 }
 
 void write_everywhere(const std::vector<Plot>& plots, const std::filesystem::path& stem) {
-  for (const char* kind : {".png", ".svg", ".pdf"}) write_plots(plots, stem.string() + kind);
+  write_plots_everywhere(plots, stem);
+}
+
+double standard_deviation(const std::vector<double>& values) {
+  if (values.size() < 2) return 0;
+  const double middle = mean(values);
+  double sum = 0;
+  for (const double v : values) sum += (v - middle) * (v - middle);
+  return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 
 namespace {
@@ -49,12 +65,18 @@ std::vector<ReproduceRow> rows_of(const ReproduceOptions& options, const Stop& s
 
 std::vector<ReproduceRow> reproduce_gather(const std::string& figure,
                                            const ReproduceOptions& options, const Stop& stop) {
-  constexpr std::array<Figure, 5> figures{{{"fig7", rows_of<gather_fig7>},
+  constexpr std::array<Figure, 7> figures{{{"fig3-6", rows_of<gather_maps>},
+                                           {"fig7", rows_of<gather_fig7>},
                                            {"fig9", rows_of<gather_fig9>},
+                                           {"generated", rows_of<gather_generated>},
                                            {"fig10", rows_of<gather_fig10>},
                                            {"fig10-rig", rows_of<gather_fig10_rig>},
                                            {"fig10-frames", rows_of<gather_fig10_frames>}}};
-  return reproduce_figures("gather", figures, figure, options, stop);
+  // Through the rig it takes minutes and more: only when asked for.
+  const std::size_t with_all = options.quick ? 5 : 6;
+  const std::span<const Figure> all(figures);
+  return reproduce_figures("gather", figure.empty() ? all.first(with_all) : all, figure, options,
+                           stop);
 }
 
 }  // namespace microswarm::cli

@@ -75,7 +75,7 @@ double mean_steps(const scenes::Vascular& scene, const AggregationMap& map, int 
   std::vector<double> steps(static_cast<std::size_t>(trials));
   for_each_index(steps.size(), 0, [&](std::size_t i) {
     Robots robots =
-        gather_robots(scene, map.map, stepper, robots_measured, static_cast<std::uint32_t>(i));
+        gather_robots(scene, map, stepper, robots_measured, static_cast<std::uint32_t>(i), 0);
     Gatherer gatherer(map, gather_params(scene, Aggregation::divide_and_conquer));
     steps[i] = gather(stepper, gatherer, robots, gather_most_steps, stop).steps;
   });
@@ -83,7 +83,7 @@ double mean_steps(const scenes::Vascular& scene, const AggregationMap& map, int 
 }
 
 Measured measured(const scenes::Vascular& scene, int trials, const Stop& stop) {
-  const AggregationMap whole = gather_map(scene);
+  const AggregationMap whole = gather_map(scene, true);
   const std::size_t all = whole.segmentation.regions.size();
   Measured out;
   for (const std::size_t regions : {1, 2, 3, 5, 7, 9, 13, 18, 24, 31}) {
@@ -109,9 +109,9 @@ double unit_of(const Measured& m, double (*model)(double)) {
 }
 
 template <class Model>
-Series curve(std::string label, Model&& model, double from, double to) {
-  constexpr int points = 200;
-  Series series{.label = std::move(label)};
+Series curve(std::string label, Model&& model, double from, double to, int points = 200,
+             PlotStyle style = PlotStyle::line) {
+  Series series{.label = std::move(label), .style = style};
   for (int i = 0; i <= points; ++i) {
     series.x.push_back(from + (to - from) * i / points);
     series.y.push_back(model(series.x.back()));
@@ -121,12 +121,15 @@ Series curve(std::string label, Model&& model, double from, double to) {
 
 Plot plot_of_models() {
   Plot plot{.title = "models", .x_label = "ξ", .y_label = "T / (k ρ m^2)", .y_min = 0};
-  plot.y_max = 2.6;
-  plot.series.push_back(curve(
-      "Eq 9, m = 100", [](double xi) { return by_factor(xi, map_area); }, 0.01, 0.99));
-  plot.series.push_back(curve("Eq 12", by_area, 0.01, 0.99));
+  plot.y_max = 2.1;
+  plot.key_below = true;
+  constexpr int rings = 40;  // over the curves that they are nearly the same as
   plot.series.push_back(curve("Eq 10", by_factor_smooth, 0.01, 0.99));
   plot.series.push_back(curve("Eq 13", by_area_smooth, 0.01, 0.99));
+  plot.series.push_back(curve(
+      "Eq 9, m = 100", [](double xi) { return by_factor(xi, map_area); }, 0.01, 0.99, rings,
+      PlotStyle::rings));
+  plot.series.push_back(curve("Eq 12", by_area, 0.01, 0.99, rings, PlotStyle::rings));
   return plot;
 }
 
@@ -140,16 +143,15 @@ Plot plot_of(const std::string& name, const Measured& m) {
       "Eq 10, fitted", [&](double xi) { return by_factor_unit * by_factor_smooth(xi); }, 0, last));
   plot.series.push_back(curve(
       "Eq 13, fitted", [&](double xi) { return by_area_unit * by_area_smooth(xi); }, 0, last));
-  plot.y_max = 2.2 * *std::max_element(m.steps.begin(), m.steps.end());
+  plot.key_below = true;
   return plot;
 }
 
 void add_rows(const std::string& name, const Measured& m, std::vector<ReproduceRow>& rows) {
   const auto add = [&](std::size_t i, const char* what, double steps) {
-    rows.push_back({.figure = "fig7",
-                    .quantity = fmt::format("{}, regions {}: {}", name, m.regions[i], what),
-                    .unit = "1",
-                    .ours = steps});
+    rows.push_back(row_without_aim("the model has a free unit", "fig7",
+                                   fmt::format("{}, regions {}: {}", name, m.regions[i], what), "1",
+                                   {}, steps));
   };
   const double by_area_unit = unit_of(m, by_area_smooth);
   const double by_factor_unit = unit_of(m, by_factor_smooth);
@@ -164,18 +166,18 @@ void add_rows(const std::string& name, const Measured& m, std::vector<ReproduceR
 
 void gather_fig7(const ReproduceOptions& options, const Stop& stop,
                  std::vector<ReproduceRow>& rows) {
-  const int trials = options.quick ? 3 : 12;
+  const int trials = options.quick ? 2 : 12;
   std::vector<Plot> plots{plot_of_models()};
   for (const auto& [name, scene] :
-       {std::pair<std::string, scenes::Vascular>{"100 × 90", scenes::vascular_network()},
-        {"400 × 314", scenes::larger_vascular_network()}}) {
+       {std::pair<std::string, scenes::Vascular>{"Fig 8(b)", scenes::vascular_network()},
+        {"Fig 8(c)", scenes::larger_vascular_network()}}) {
     if (stop()) return;
     const Measured m = measured(scene, trials, stop);
     add_rows(name, m, rows);
     plots.push_back(plot_of(name, m));
   }
   if (!options.out.empty() && !stop())
-    write_everywhere(plots, std::filesystem::path(options.out) / "fig7");
+    write_plots_everywhere(plots, std::filesystem::path(options.out) / "fig7");
 }
 
 }  // namespace microswarm::cli
