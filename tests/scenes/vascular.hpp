@@ -25,9 +25,9 @@ struct Vascular {
   Map map() const { return Map(bounds, walls); }
 };
 
-/// The maps of Fig 8 [gather], with the coordinates of the authors' program. (a) is a bar with a stem
-/// that hangs from it, 4,000 nodes and 2 regions; (b) is 100 × 100, 10,000 nodes and 9 regions; (c)
-/// is 400 × 314, 40,000 nodes and 31 regions.
+/// The maps of Fig 8 [gather], with the coordinates of the authors' program. (a) is a bar with a
+/// stem that hangs from it, 4,000 nodes and 2 regions; (b) is 100 × 100, 10,000 nodes and 9
+/// regions; (c) is 400 × 314, 40,000 nodes and 31 regions.
 Vascular t_junction();
 Vascular vascular_network();
 Vascular larger_vascular_network();

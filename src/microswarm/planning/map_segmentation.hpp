@@ -51,8 +51,8 @@ struct MapSegmentation {
   std::vector<std::uint32_t> junction_nodes;  ///< V_J, ascending
 };
 
-/// Alg 4 [gather] over routes of a tree that has nodes and was not stopped: regions are what leads to
-/// the goal by way of their junctions along these routes.
+/// Alg 4 [gather] over routes of a tree that has nodes and was not stopped: regions are what leads
+/// to the goal by way of their junctions along these routes.
 MapSegmentation segment_map(const Map& map, const ObstacleWeightedRrt& tree, const Routes& routes,
                             const MapSegmentationParams& params = {});
 
