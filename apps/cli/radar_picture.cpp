@@ -4,7 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
+#include "microswarm/core/angles.hpp"
+#include "microswarm/core/file.hpp"
+#include "microswarm/navigation/obstacle_tracker.hpp"
 #include "microswarm/report/picture.hpp"
 
 namespace microswarm::cli {
@@ -19,9 +23,17 @@ constexpr Colour detected_colour{0.97, 0.72, 0.66, 0.95};
 constexpr Colour planned{0.8, 0.1, 0.1, 0.6};
 constexpr Colour waiting{0.5, 0.5, 0.5, 1};
 constexpr Colour goal{0.40, 0.25, 0.65, 1};
+constexpr Colour tree_colour{0.35, 0.65, 0.35, 0.5};
+constexpr Colour velocity{0.0, 0.30, 0.60, 1};
+constexpr Colour driven{0.90, 0.45, 0.0, 1};
+constexpr Colour deviation{0.35, 0.35, 0.35, 1};
+constexpr Colour moment_mark{0.13, 0.15, 0.18, 1};
 
 constexpr double pixels = 900;
-constexpr double dot_px = 4.5;  // radius of a waypoint
+constexpr double dot_px = 4.5;        // radius of a waypoint
+constexpr double head_px = 10;        // length of an arrow's head
+constexpr double arrow_length = 2;    // of the swarm's greatest speed, in its radii
+constexpr double least_cost = 0.005;  // δ from which α is drawn
 constexpr int most_pictures = 20;
 
 /// As the navigator had them; before its first look as its parameters say.
@@ -45,20 +57,60 @@ void draw_obstacles(Picture& picture, const Snapshot& world, Disc circle) {
                                    : colours::obstacle);
 }
 
-/// From the start through the waypoints that it did not leave out at once.
-std::vector<Vec2> planned_way(const Record& record) {
-  if (record.paths.empty() || record.paths.front().path.size() < 2) return {};
-  std::vector<Vec2> way{record.scene.scenario.start->position};
-  const auto& path = record.paths.front().path;
-  way.insert(way.end(), path.begin(), path.end());
-  return way;
+void draw_plan(Picture& picture, const Record& record, double um_per_px) {
+  if (record.plans.empty()) return;
+  const Plan& plan = record.plans.front().plan;
+  picture.tree(plan.tree, tree_colour);
+  picture.line(plan.path, planned, 1.5, true);
+  for (std::size_t k = 1; k + 1 < plan.path.size(); ++k)
+    picture.disc({plan.path[k], dot_px * um_per_px}, planned);
 }
 
-void draw_plan(Picture& picture, const std::vector<Vec2>& way, double um_per_px) {
-  if (way.empty()) return;
-  picture.line(way, planned, 1.5, true);
-  for (std::size_t k = 1; k + 1 < way.size(); ++k)
-    picture.disc({way[k], dot_px * um_per_px}, planned);
+void arrow(Picture& picture, Vec2 from, Vec2 way, Colour colour, double head) {
+  if (norm(way) < head) return;
+  const Vec2 tip = from + way;
+  const Vec2 back = (head / norm(way)) * way;
+  const Vec2 aside = 0.45 * Vec2{-back.y, back.x};
+  picture.line(std::array{from, tip}, colour, 2.5);
+  picture.line(std::array{tip - back + aside, tip, tip - back - aside}, colour, 2.5);
+}
+
+/// For so many seconds velocities are drawn.
+double arrow_time(const Scenario& scenario) {
+  const SwarmLimits swarm = limits_of(scenario.swarm);
+  return arrow_length * swarm.radius / swarm.max_speed;
+}
+
+/// Of obstacles and of the swarm, with the direction v_t that it leaves by α.
+void draw_velocities(Picture& picture, const RadarRun& run, const World& world, std::size_t number,
+                     double um_per_px) {
+  const Frame& frame = run.record.frames[number];
+  const double head = head_px * um_per_px;
+  const double seconds = arrow_time(run.record.scene.scenario);
+  const Snapshot then = world.at(frame.t);
+  for (const Body& body : then.moving().bodies())
+    arrow(picture, extent_of(body).centre, seconds * body.velocity, velocity, head);
+  const Vec2 p = frame.pose.position;
+  if (frame.speed > 0)
+    arrow(picture, p, seconds * frame.speed * unit_vector(frame.pose.heading), driven, head);
+  if (frame.avoidance_cost <= least_cost || !run.looks[number]) return;
+  const Vec2 towards = run.looks[number]->target - p;
+  const double reach = 1.2 * run.looks[number]->circles.detection;
+  if (norm(towards) <= 0) return;
+  const Vec2 end = p + (reach / norm(towards)) * towards;
+  picture.line(std::array{p, end}, deviation, 1.5, true);
+  picture.text(
+      end,
+      fmt::format("α = {:.0f}°", degrees(turn_between(frame.pose.heading, heading_of(towards)))),
+      deviation);
+}
+
+/// P0, P1, … with their times on the way, before the moment of this number.
+void mark_moments(Picture& picture, const Record& record, std::span<const double> moments,
+                  std::size_t last) {
+  for (std::size_t k = 0; k < last; ++k)
+    picture.mark(record.frames[frame_at(record, moments[k])].pose.position,
+                 fmt::format("P{}, {:.1f} s", k, moments[k]), moment_mark);
 }
 
 void draw_wait_areas(Picture& picture, const RadarParams& params) {
@@ -69,7 +121,7 @@ void draw_wait_areas(Picture& picture, const RadarParams& params) {
   }
 }
 
-void legend(Picture& picture, const RadarParams& params, bool has_plan) {
+void legend(Picture& picture, const RadarParams& params, const Record& record) {
   picture.legend("swarm", colours::swarm, true);
   picture.legend("its way", colours::path);
   picture.legend("obstacle", colours::obstacle, true);
@@ -77,7 +129,11 @@ void legend(Picture& picture, const RadarParams& params, bool has_plan) {
   picture.legend("detection circle", detection);
   picture.legend("safety circle", safety);
   picture.legend("prediction circle", prediction);
-  if (has_plan) picture.legend("way planned", planned);
+  const double seconds = arrow_time(record.scene.scenario);
+  picture.legend(fmt::format("way in {:.1f} s: swarm", seconds), driven);
+  picture.legend("of obstacles", velocity);
+  if (!record.plans.empty()) picture.legend("way planned", planned);
+  if (!record.plans.empty()) picture.legend("FMT* tree", tree_colour);
   if (!params.wait_areas.empty()) picture.legend("wait area", waiting);
 }
 
@@ -95,10 +151,11 @@ Plot cost_plot(const RadarRun& run, const std::string& title, double paper_mean,
   Plot plot{.title = title,
             .x_label = "time (s)",
             .y_label = "avoidance cost δ",
-            .series = {{.label = "ours", .x = {}, .y = {}}},
-            .levels = {{fmt::format("paper's mean, {:.2f}", paper_mean), paper_mean},
-                       {fmt::format("our mean, {:.2f}", metrics.avoidance.mean_cost),
-                        metrics.avoidance.mean_cost}},
+            .series = {{.label = "measured", .x = {}, .y = {}},
+                       {.label = fmt::format("its mean, {:.3f}", metrics.avoidance.mean_cost),
+                        .x = {0, metrics.time},
+                        .y = {metrics.avoidance.mean_cost, metrics.avoidance.mean_cost}}},
+            .levels = {{fmt::format("paper's mean, {:.2f}", paper_mean), paper_mean}},
             .band_label = "obstacle in the detection circle",
             .key_below = true,
             .x_min = 0,
@@ -142,8 +199,10 @@ void draw_radar_moments(const RadarRun& run, const World& world, std::span<const
   const Record& record = run.record;
   const auto& params = std::get<RadarParams>(record.scene.scenario.navigator);
   const Box view = part.value_or(world.map->bounds());
-  const std::vector<Vec2> plan = planned_way(record);
-  for (int k = 1; k <= most_pictures; ++k) fs::remove(fmt::format("{}-{}.png", stem.string(), k));
+  const double um_per_px = std::max(view.width(), view.height()) / pixels;
+  for (int k = 1; k <= most_pictures; ++k)
+    for (const char* end : {"png", "svg", "pdf"})
+      fs::remove(fmt::format("{}-{}.{}", stem.string(), k, end));
   for (std::size_t k = 0; k < moments.size(); ++k) {
     const std::size_t number = frame_at(record, moments[k]);
     const Frame& frame = record.frames[number];
@@ -152,17 +211,33 @@ void draw_radar_moments(const RadarRun& run, const World& world, std::span<const
     Picture picture(view, title_of(run, title, frame), pixels);
     picture.walls(*world.map);
     draw_wait_areas(picture, params);
+    draw_plan(picture, record, um_per_px);
     draw_obstacles(picture, world.at(frame.t), {p, circles.detection});
-    draw_plan(picture, plan, std::max(view.width(), view.height()) / pixels);
     std::vector<Vec2> way;
     for (std::size_t i = 0; i <= number; ++i) way.push_back(record.frames[i].pose.position);
     picture.line(way, colours::path, 2.5);
     picture.mark(*record.scene.scenario.goal, "goal", goal);
     picture.swarm(frame.pose, frame.radius);
     draw_circles(picture, circles, p);
-    legend(picture, params, !plan.empty());
-    picture.write(fmt::format("{}-{}.png", stem.string(), k + 1));
+    draw_velocities(picture, run, world, number, um_per_px);
+    mark_moments(picture, record, moments, k);
+    legend(picture, params, record);
+    picture.write_everywhere(fmt::format("{}-{}", stem.string(), k + 1));
   }
+}
+
+void write_radar_run(const RadarRun& run, const fs::path& stem) {
+  std::string csv = "t_s,x_um,y_um,delta,gap_um,r_p_um,r_f_um,r_d_um,state\n";
+  for (std::size_t k = 0; k < run.record.frames.size(); ++k) {
+    const Frame& f = run.record.frames[k];
+    const RadarCircles c = circles_at(run, k);
+    csv +=
+        fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{}\n", f.t,
+                    f.pose.position.x, f.pose.position.y, f.avoidance_cost,
+                    f.obstacle_clearance - f.radius, c.prediction, c.safety, c.detection, f.state);
+  }
+  write_file_atomically(stem.string() + ".csv", csv);
+  write_record(run.record, stem.string() + ".h5");
 }
 
 }  // namespace microswarm::cli

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reproduce_radar.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <filesystem>
 
+#include "microswarm/core/statistics.hpp"
 #include "reproduce_figures.hpp"
 #include "reproduce_radar_safety.hpp"
 
@@ -11,9 +14,24 @@ namespace microswarm::cli {
 
 namespace fs = std::filesystem;
 
-RadarSetting load_radar(const ReproduceOptions& options, const char* name) {
+ReproduceRow version_row(const RadarVersion& version, double share, const std::string& figure,
+                         const std::string& quantity, const std::string& unit,
+                         std::optional<double> paper, std::optional<double> ours) {
+  const std::string named = fmt::format("{}, {}", quantity, version.name);
+  if (!paper || version.as_published) return row_within(share, figure, named, unit, paper, ours);
+  return row_without_aim("not the paper's navigator", figure, named, unit, paper, ours);
+}
+
+std::string spread_of(const std::vector<double>& values) {
+  if (values.size() < 4) return "";
+  return fmt::format("quartiles {:.4g} – {:.4g}", quantile(values, 0.25), quantile(values, 0.75));
+}
+
+RadarSetting load_radar(const ReproduceOptions& options, const char* name,
+                        const RadarVersion& version) {
   const fs::path file = options.scenarios / "papers" / "radar" / name;
   Scene scene = load_scene(read_scenario(file), file.parent_path());
+  std::get<RadarParams>(scene.scenario.navigator).as_published = version.as_published;
   World world = build_world(scene);
   check(scene.scenario, world, file.string());
   return {std::move(scene), std::move(world)};

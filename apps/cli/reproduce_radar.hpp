@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,6 +20,23 @@ inline constexpr double radar_um_per_px = 3.75;
 inline constexpr double near_cost = 0.15;
 inline constexpr double near_time = 0.10;
 
+/// What a figure is measured with: the paper's navigator, and ours.
+struct RadarVersion {
+  const char* name;
+  const char* stem;  ///< of file names
+  bool as_published;
+};
+inline constexpr std::array<RadarVersion, 2> radar_versions{
+    {{"as published", "published", true}, {"ours", "ours", false}}};
+
+/// A row of one version. The paper's figure is the aim of what is published; ours has none.
+ReproduceRow version_row(const RadarVersion& version, double share, const std::string& figure,
+                         const std::string& quantity, const std::string& unit,
+                         std::optional<double> paper, std::optional<double> ours);
+
+/// "quartiles 0.12 – 0.31" of some values; nothing for fewer than four.
+std::string spread_of(const std::vector<double>& values);
+
 /// A scenario of [radar], ready to run.
 struct RadarSetting {
   Scene scene;
@@ -27,7 +45,8 @@ struct RadarSetting {
   RadarParams& params() { return std::get<RadarParams>(scene.scenario.navigator); }
 };
 /// Throws InputError as reading a scenario does.
-RadarSetting load_radar(const ReproduceOptions& options, const char* name);
+RadarSetting load_radar(const ReproduceOptions& options, const char* name,
+                        const RadarVersion& version);
 
 /// Figures of [radar], by subject: one obstacle (5, 6, 7, 10), twelve obstacles (8, 11, 12), the
 /// micromaze (13). What is interrupted gives the rows that were done, or none.

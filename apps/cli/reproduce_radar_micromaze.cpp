@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Figure 13 of [radar]: the micromaze.
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 #include <filesystem>
 
+#include "microswarm/core/angles.hpp"
 #include "microswarm/core/statistics.hpp"
 #include "microswarm/experiment/trials.hpp"
 #include "radar_picture.hpp"
@@ -69,29 +71,53 @@ std::vector<double> micromaze_moments(const Record& record) {
 
 std::vector<ReproduceRow> radar_micromaze(const ReproduceOptions& options, const Stop& stop) {
   constexpr const char* figure = "fig13";
-  const RadarSetting s = load_radar(options, "micromaze.yaml");
-  const auto trials =
-      run_trials(s.scene.scenario, s.world,
-                 {.trials = options.quick ? 5 : 20, .progress = {}, .vary = {}}, stop);
-  const RadarRun run = run_radar(s.scene, s.world, stop);
-  if (stop()) return {};
-  if (!options.out.empty())
-    draw_radar_moments(run, s.world, micromaze_moments(run.record), "micromaze",
-                       std::filesystem::path(options.out) / figure);
-  std::vector<double> times;
-  int contacts = 0;
-  for (const TrialResult& t : trials) {
-    contacts += t.result.metrics.contacts;
-    if (t.result.status == Status::solved) times.push_back(t.result.metrics.time);
+  constexpr const char* outline = "the maze is ours, its outline is only in the figure";
+  std::vector<ReproduceRow> rows;
+  for (const RadarVersion& version : radar_versions) {
+    const RadarSetting s = load_radar(options, "micromaze.yaml", version);
+    const auto trials =
+        run_trials(s.scene.scenario, s.world,
+                   {.trials = options.quick ? 5 : 20, .progress = {}, .vary = {}}, stop);
+    const RadarRun run = run_radar(s.scene, s.world, stop);
+    if (stop()) return rows;
+    if (!options.out.empty()) {
+      const auto stem = std::filesystem::path(options.out) / fmt::format("fig13-{}", version.stem);
+      draw_radar_moments(run, s.world, micromaze_moments(run.record),
+                         fmt::format("micromaze, {}", version.name), stem);
+      write_radar_run(run, stem);
+    }
+    std::vector<double> times, turning;
+    int contacts = 0;
+    for (const TrialResult& t : trials) {
+      contacts += t.result.metrics.contacts;
+      turning.push_back(degrees(t.result.metrics.turning));
+      if (t.result.status == Status::solved) times.push_back(t.result.metrics.time);
+    }
+    const double share = static_cast<double>(times.size()) / static_cast<double>(trials.size());
+    const auto name = [&](const char* what) { return fmt::format("{}, {}", what, version.name); };
+    const std::string of = fmt::format("{} runs", trials.size());
+    const auto add = [&](const char* what, const char* unit, std::optional<double> ours) {
+      rows.push_back(noted(version_row(version, 0, figure, what, unit, {}, ours), of));
+    };
+    rows.push_back(unjudged_if_quick(
+        noted(row_at_least(0, figure, name("goal reached without contact"), "%", 100, 100 * share),
+              of),
+        options));
+    rows.push_back(unjudged_if_quick(
+        noted(row_at_most(0, figure, name("contacts"), "1", 0, contacts), of), options));
+    rows.push_back(noted(noted(row_without_aim(outline, figure, name("total time, median"), "s",
+                                               408.2, median_if_any(times)),
+                               of),
+                         spread_of(times)));
+    add("turning, median", "°", median_if_any(turning));
+    rows.push_back(noted(version_row(version, 0, figure, "time spent waiting", "s", {},
+                                     run.record.result.metrics.hold_time),
+                         "the run that is drawn"));
+    rows.push_back(noted(version_row(version, 0, figure, "mean avoidance cost", "1", {},
+                                     run.record.result.metrics.avoidance.mean_cost),
+                         "the run that is drawn"));
   }
-  const double share = static_cast<double>(times.size()) / static_cast<double>(trials.size());
-  return {
-      row_of(figure, "micromaze: goal reached without contact", "%", 100, 100 * share, 100, false),
-      row_of(figure, "micromaze: contacts", "1", 0, contacts, 0),
-      row_within(near_time, figure, "micromaze: total time, median", "s", 408.2,
-                 median_if_any(times)),
-      row_of(figure, "micromaze: time spent waiting, the run that is drawn", "s", {},
-             run.record.result.metrics.hold_time)};
+  return rows;
 }
 
 }  // namespace microswarm::cli

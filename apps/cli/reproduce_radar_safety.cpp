@@ -75,20 +75,19 @@ CourseResult crossed(const Race& race, const ReproduceOptions& options, const St
 }
 
 void add_rows(const std::string& figure, const CourseResult& result,
-              std::vector<ReproduceRow>& rows) {
+              const ReproduceOptions& options, std::vector<ReproduceRow>& rows) {
   for (std::size_t k = 0; k < result.who.size(); ++k) {
     const Tally tally = tally_of(result.crossings[k]);
     if (tally.runs == 0) continue;  // it was told to stop
     const std::string note = tally.runs == 1 ? "1 world" : fmt::format("{} worlds", tally.runs);
     const auto row = [&](const char* what, const char* unit, std::optional<double> ours,
                          std::optional<double> aim = {}) {
-      rows.push_back(
-          {.figure = figure,
-           .quantity = fmt::format("{}, {}: {}", result.course.name, result.who[k].name, what),
-           .unit = unit,
-           .ours = ours,
-           .aim = aim,
-           .note = note});
+      ReproduceRow out = noted(
+          row_of(figure, fmt::format("{}, {}: {}", result.course.name, result.who[k].name, what),
+                 unit, {}, ours, aim),
+          note);
+      rows.push_back(aim ? unjudged_if_quick(noted(std::move(out), "the aim is ours"), options)
+                         : std::move(out));
     };
     row("contacts a run", "1", tally.contacts);
     row("avoidable contacts a run", "1", tally.avoidable,
@@ -96,6 +95,7 @@ void add_rows(const std::string& figure, const CourseResult& result,
     row("arrived", "%", 100 * tally.arrived);
     row("time ÷ straight at full speed, median", "1", tally.slowness);
     row("avoidance cost δ, mean", "1", tally.delta);
+    row("turning, median", "°", tally.turning);
   }
 }
 
@@ -122,17 +122,16 @@ std::optional<double> contact_ratio(const CourseResult& result, std::string_view
 }
 
 void add_ratios(const std::string& figure, const CourseResult& result,
-                std::vector<ReproduceRow>& rows) {
+                const ReproduceOptions& options, std::vector<ReproduceRow>& rows) {
   for (const char* other : {"radar", "radar_as_published", "hierarchical_drrt_star"}) {
     const auto ratio = contact_ratio(result, "predictive", other);
     if (!ratio) continue;
-    rows.push_back(
-        {.figure = figure,
-         .quantity =
-             fmt::format("{}: contacts of predictive ÷ those of {}", result.course.name, other),
-         .unit = "1",
-         .ours = *ratio,
-         .aim = other == std::string_view("radar") ? std::optional(aimed_share) : std::nullopt});
+    const bool is_aim = other == std::string_view("radar");
+    ReproduceRow row = row_of(
+        figure, fmt::format("{}: contacts of predictive ÷ those of {}", result.course.name, other),
+        "1", {}, *ratio, is_aim ? std::optional(aimed_share) : std::nullopt);
+    rows.push_back(is_aim ? unjudged_if_quick(noted(std::move(row), "the aim is ours"), options)
+                          : std::move(row));
   }
 }
 
@@ -143,8 +142,8 @@ std::vector<ReproduceRow> raced(const std::string& figure, const std::vector<Rac
   for (const Race& race : races) {
     if (stop()) break;
     results.push_back(crossed(race, options, stop));
-    add_rows(figure, results.back(), rows);
-    if (figure == "fast") add_ratios(figure, results.back(), rows);
+    add_rows(figure, results.back(), options, rows);
+    if (figure == "fast") add_ratios(figure, results.back(), options, rows);
   }
   if (!options.out.empty() && !stop()) write_safety(results, options.out, figure);
   return rows;

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <numeric>
 
 #include "microswarm/report/plot.hpp"
-#include "reproduce_gather.hpp"
 #include "reproduce_radar.hpp"
 
 namespace microswarm::cli {
@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double swarm_radius = 100, planner_step = 25;  // r_s, d_p [px]
-constexpr double as_good_as_rising = 0.9;                // of a rank correlation
+constexpr double least_fall = 1e-4;                      // of a cost that falls
 
 /// One series: radii of one circle, the other one's fixed [px]. The cases of Fig 5 are ends of
 /// series; `rising_from` is where the paper says that the cost begins to rise (its point A).
@@ -41,11 +41,12 @@ struct SeriesCurve {
   std::vector<int> side;
 };
 
-SeriesCurve measured(const RadarSweep& sweep, const ReproduceOptions& options, const Stop& stop) {
+SeriesCurve measured(const RadarSweep& sweep, const RadarVersion& version,
+                     const ReproduceOptions& options, const Stop& stop) {
   const double between = options.quick ? 20 : 10;
   SeriesCurve curve;
   for (double r = sweep.first; r <= sweep.last && !stop(); r += between) {
-    RadarSetting s = load_radar(options, "single.yaml");
+    RadarSetting s = load_radar(options, "single.yaml", version);
     s.params().safety_distance = sweep.safety.value_or(r) - swarm_radius - planner_step;
     s.params().detection_range = sweep.detection.value_or(r) - swarm_radius;
     const RadarRun run = run_radar(s.scene, s.world, stop);
@@ -89,53 +90,76 @@ std::pair<std::vector<double>, std::vector<double>> from(const SeriesCurve& curv
           {curve.cost.begin() + k, curve.cost.end()}};
 }
 
-void add_rows(const RadarSweep& sweep, const SeriesCurve& curve, std::vector<ReproduceRow>& rows) {
+/// Of the greatest rise between two radii, in the whole rise: near 1 for a step, small for a slope.
+std::optional<double> greatest_step(const std::vector<double>& y) {
+  const double rise = y.back() - y.front();
+  if (y.size() < 2 || rise <= 0) return std::nullopt;
+  double most = 0;
+  for (std::size_t i = 1; i < y.size(); ++i) most = std::max(most, y[i] - y[i - 1]);
+  return most / rise;
+}
+
+void add_rows(const RadarSweep& sweep, const RadarVersion& version, const SeriesCurve& curve,
+              std::vector<ReproduceRow>& rows) {
   const auto name = [&](const std::string& what) {
     return fmt::format("{}: {}", sweep.name, what);
   };
-  rows.push_back(row_within(near_cost, "fig7", name("mean cost at the smallest radius"), "1",
-                            sweep.cost_first, curve.cost.front()));
-  rows.push_back(row_within(near_cost, "fig7", name("mean cost at the greatest"), "1",
-                            sweep.cost_last, curve.cost.back()));
+  const auto add = [&](double share, const std::string& what, const char* unit,
+                       std::optional<double> paper, std::optional<double> ours) {
+    rows.push_back(version_row(version, share, "fig7", name(what), unit, paper, ours));
+  };
+  add(near_cost, "mean cost at the smallest radius", "1", sweep.cost_first, curve.cost.front());
+  add(near_cost, "mean cost at the greatest", "1", sweep.cost_last, curve.cost.back());
   const auto [x, y] = from(curve, sweep.rising_from);
-  rows.push_back(row_of(
-      "fig7",
-      name(fmt::format("rank correlation of cost and radius from {:g} px on", sweep.rising_from)),
-      "1", 1, rank_correlation(x, y), as_good_as_rising, false));
   int rising = 0;
   for (std::size_t i = 1; i < y.size(); ++i) rising += y[i] > y[i - 1];
-  rows.push_back(row_of("fig7", name("steps between radii there that raise the cost"), "%", 100,
-                        100.0 * rising / std::max<double>(1, static_cast<double>(y.size()) - 1)));
-  if (sweep.rising_from > sweep.first)
-    rows.push_back(row_of("fig7",
-                          name(fmt::format("cost falls up to {:g} px by", sweep.rising_from)), "1",
-                          {}, curve.cost.front() - y.front(), 0, false));
-  const auto same = std::count(curve.side.begin(), curve.side.end(), curve.side.back());
+  const double steps = std::max<double>(1, static_cast<double>(y.size()) - 1);
+  const std::string raise =
+      name(fmt::format("steps between radii from {:g} px on that raise the cost, {}",
+                       sweep.rising_from, version.name));
+  const double share = 100.0 * rising / steps;
+  rows.push_back(version.as_published ? row_at_least(0, "fig7", raise, "%", 100, share)
+                                      : row_without_aim("not the paper's navigator", "fig7", raise,
+                                                        "%", 100, share));
+  add(0, "greatest of these steps in the whole rise", "1", {}, greatest_step(y));
   rows.push_back(
-      row_of("fig7", name("runs that pass on the same side as the last"), "%", {},
-             100.0 * static_cast<double>(same) / static_cast<double>(curve.side.size())));
+      row_without_aim("a single step makes it high, too", "fig7",
+                      name(fmt::format("rank correlation of cost and radius, {}", version.name)),
+                      "1", {}, rank_correlation(x, y)));
+  if (sweep.rising_from > sweep.first) {
+    const std::string what =
+        fmt::format("cost falls up to {:g} px by, {}", sweep.rising_from, version.name);
+    const double fall = curve.cost.front() - y.front();
+    rows.push_back(
+        version.as_published
+            ? noted(row_of("fig7", name(what), "1", {}, fall, least_fall, false),
+                    "the paper says that it falls, not by how much")
+            : row_without_aim("not the paper's navigator", "fig7", name(what), "1", {}, fall));
+  }
+  const auto same = std::count(curve.side.begin(), curve.side.end(), curve.side.back());
+  add(0, "runs that pass on the same side as the last", "%", {},
+      100.0 * static_cast<double>(same) / static_cast<double>(curve.side.size()));
 }
 
-Plot plot_of(const RadarSweep& sweep, const SeriesCurve& curve) {
-  Series other{.label = "passes on the other side", .style = PlotStyle::points};
-  for (std::size_t i = 0; i < curve.radius.size(); ++i) {
-    if (curve.side[i] == curve.side.back()) continue;
-    other.x.push_back(curve.radius[i]);
-    other.y.push_back(curve.cost[i]);
-  }
-  Series paper{.label = "paper: cases of Fig 5", .style = PlotStyle::rings};
+Plot plot_of(const RadarSweep& sweep, const std::vector<SeriesCurve>& curves) {
+  Series paper{.label = "paper: cases of Fig 5", .style = PlotStyle::published};
   if (sweep.cost_first) paper.x.push_back(sweep.first), paper.y.push_back(*sweep.cost_first);
   if (sweep.cost_last) paper.x.push_back(sweep.last), paper.y.push_back(*sweep.cost_last);
-  Series ours{.label = "ours", .x = curve.radius, .y = curve.cost, .style = PlotStyle::marked};
-  return {.title = sweep.title,
-          .x_label = "radius (px)",
-          .y_label = "mean avoidance cost",
-          .series = {std::move(ours), std::move(paper), std::move(other)},
-          .key_below = true,
-          .x_min = sweep.first - 10,
-          .x_max = sweep.last + 10,
-          .y_min = 0,
-          .y_max = 0.35};
+  Plot plot{.title = sweep.title,
+            .x_label = "radius (px)",
+            .y_label = "mean avoidance cost",
+            .key_below = true,
+            .x_min = sweep.first - 10,
+            .x_max = sweep.last + 10,
+            .y_min = 0,
+            .y_max = 0.35};
+  for (std::size_t k = 0; k < curves.size(); ++k)
+    plot.series.push_back({.label = radar_versions[k].name,
+                           .x = curves[k].radius,
+                           .y = curves[k].cost,
+                           .style = PlotStyle::marked});
+  plot.series.push_back(std::move(paper));
+  return plot;
 }
 
 }  // namespace
@@ -144,12 +168,15 @@ std::vector<ReproduceRow> radar_series(const ReproduceOptions& options, const St
   std::vector<ReproduceRow> rows;
   std::vector<Plot> plots;
   for (const RadarSweep& sweep : published_series) {
-    const SeriesCurve curve = measured(sweep, options, stop);
-    if (stop()) return rows;
-    add_rows(sweep, curve, rows);
-    plots.push_back(plot_of(sweep, curve));
+    std::vector<SeriesCurve> curves;
+    for (const RadarVersion& version : radar_versions) {
+      curves.push_back(measured(sweep, version, options, stop));
+      if (stop()) return rows;
+      add_rows(sweep, version, curves.back(), rows);
+    }
+    plots.push_back(plot_of(sweep, curves));
   }
-  if (!options.out.empty()) write_everywhere(plots, fs::path(options.out) / "fig7");
+  if (!options.out.empty()) write_plots_everywhere(plots, fs::path(options.out) / "fig7");
   return rows;
 }
 

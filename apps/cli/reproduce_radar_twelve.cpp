@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <span>
 
 #include "microswarm/core/angles.hpp"
@@ -13,17 +15,17 @@
 #include "microswarm/experiment/trials.hpp"
 #include "microswarm/geometry/distance.hpp"
 #include "radar_picture.hpp"
-#include "reproduce_gather.hpp"
 #include "reproduce_radar.hpp"
-#include "safety_campaign.hpp"
 
 namespace microswarm::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_draws = 1000;     // of an obstacle's way
-constexpr int most_runs_again = 10;  // of scenes that may be drawn
+constexpr int most_draws = 1000;      // of an obstacle's way
+constexpr double most_turning = 1.2;  // with the guard, of that without
+constexpr const char* chosen =
+    "one scene, chosen among random ones as its cost was near to the paper's";
 
 /// Twelve obstacles and what the paper gives.
 struct Twelve {
@@ -64,45 +66,15 @@ void scatter(Scenario& scenario, double top_speed, std::uint32_t trial) {
   }
 }
 
-/// The scene with the obstacles of a trial.
-RadarSetting scattered(RadarSetting setting, double top_speed, std::uint32_t trial) {
-  scatter(setting.scene.scenario, top_speed, trial);
-  setting.world.obstacles = setting.scene.scenario.obstacles;
-  return setting;
-}
-
-/// A scene with its run.
-struct Drawn {
-  RadarSetting setting;
-  RadarRun run;
-
-  double cost() const { return run.record.result.metrics.avoidance.mean_cost; }
-};
-
-/// Of the scenes that are crossed without contact the one whose mean avoidance cost is nearest to
-/// the published one: of those scattered, and the shipped one. That one where none is crossed.
-Drawn chosen(const Twelve& f, const RadarSetting& shipped, std::span<const TrialResult> trials,
-             const Stop& stop) {
-  Drawn out{shipped, run_radar(shipped.scene, shipped.world, stop)};
-  const auto off = [&](double cost) { return std::abs(cost - f.cost); };
-  const auto off_of = [&](std::size_t i) {
-    return off(trials[i].result.metrics.avoidance.mean_cost);
-  };
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < trials.size(); ++i)
-    if (trials[i].result.status == Status::solved) order.push_back(i);
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return off_of(a) < off_of(b); });
-  int looked_at = 0;
-  for (const std::size_t i : order) {  // trial i had noise of its own: it is run as trial 0
-    if (stop() || looked_at++ == most_runs_again) break;
-    RadarSetting s = scattered(shipped, f.top_speed, static_cast<std::uint32_t>(i));
-    RadarRun run = run_radar(s.scene, s.world, stop);
-    const double cost = run.record.result.metrics.avoidance.mean_cost;
-    if (run.crossed() && (!out.run.crossed() || off(cost) < off(out.cost())))
-      out = {std::move(s), std::move(run)};
-  }
-  return out;
+/// Runs a scenario with its obstacles anew, trial after trial.
+std::vector<TrialResult> run_all(const Twelve& f, const RadarSetting& s, int trials,
+                                 const std::function<void(int, int)>& progress, const Stop& stop) {
+  return run_trials(s.scene.scenario, s.world,
+                    {.trials = trials,
+                     .progress = progress,
+                     .vary = [&](Scenario& scenario,
+                                 std::uint32_t trial) { scatter(scenario, f.top_speed, trial); }},
+                    stop);
 }
 
 /// The start, when the cost is greatest in each of the longest times of avoiding, and the end.
@@ -126,67 +98,129 @@ std::vector<double> twelve_moments(const Record& record) {
   return out;
 }
 
-void draw(const Twelve& f, const Drawn& drawn, const fs::path& folder) {
-  draw_radar_moments(drawn.run, drawn.setting.world, twelve_moments(drawn.run.record),
-                     "twelve obstacles", folder / f.figure);
+void draw(const Twelve& f, const RadarVersion& version, const RadarSetting& setting,
+          const RadarRun& run, const fs::path& folder) {
+  const std::string title = fmt::format("twelve obstacles, {}", version.name);
+  const fs::path stem = folder / fmt::format("{}-{}", f.figure, version.stem);
+  draw_radar_moments(run, setting.world, twelve_moments(run.record), title, stem);
+  write_radar_run(run, stem);
   double most = 0;
-  for (const Frame& frame : drawn.run.record.frames) most = std::max(most, frame.avoidance_cost);
-  write_everywhere({cost_plot(drawn.run, "twelve obstacles", f.cost, 1.1 * most)},
-                   folder / fmt::format("{}-cost", f.figure));
-  write_scenario(drawn.setting.scene.scenario, folder, fmt::format("{}-scene", f.figure));
+  for (const Frame& frame : run.record.frames) most = std::max(most, frame.avoidance_cost);
+  write_plots_everywhere({cost_plot(run, title, f.cost, 1.1 * most)},
+                         folder / fmt::format("{}-cost-{}", f.figure, version.stem));
 }
 
 /// What all scenes amount to, those that were crossed for costs and times.
-std::vector<ReproduceRow> twelve_rows(const Twelve& f, std::span<const TrialResult> trials) {
-  std::vector<double> costs, totals, gaps;
+struct Totals {
+  std::vector<double> costs, times, gaps;
+  std::vector<double> turning;  ///< of all [°]
   int contacts = 0;
-  for (const TrialResult& t : trials) {
-    const Metrics& m = t.result.metrics;
-    contacts += m.contacts;
-    if (t.result.status != Status::solved) continue;
-    costs.push_back(m.avoidance.mean_cost);
-    totals.push_back(m.time);
-    if (m.avoidance.time > 0) gaps.push_back(m.avoidance.mean_gap);
+
+  explicit Totals(std::span<const TrialResult> trials) {
+    for (const TrialResult& t : trials) {
+      const Metrics& m = t.result.metrics;
+      contacts += m.contacts;
+      turning.push_back(degrees(m.turning));
+      if (t.result.status != Status::solved) continue;
+      costs.push_back(m.avoidance.mean_cost);
+      times.push_back(m.time);
+      if (m.avoidance.time > 0) gaps.push_back(m.avoidance.mean_gap);
+    }
   }
-  const auto share = static_cast<double>(costs.size()) / static_cast<double>(trials.size());
-  const std::string of = fmt::format(", median of {} scenes", costs.size());
-  return {row_of(f.figure, "goal reached without contact", "%", 100, 100 * share, 100, false),
-          row_of(f.figure, "contacts", "1", 0, contacts, 0),
-          row_within(near_cost, f.figure, "mean avoidance cost" + of, "1", f.cost,
-                     median_if_any(costs)),
-          row_within(near_time, f.figure, "total time" + of, "s", f.total, median_if_any(totals)),
-          row_within(near_cost, f.figure, "mean gap while avoiding" + of, "µm", f.gap,
-                     median_if_any(gaps))};
+};
+
+void add_totals(const Twelve& f, const RadarVersion& version, const Totals& totals,
+                const ReproduceOptions& options, std::vector<ReproduceRow>& rows) {
+  const auto all = totals.turning.size();
+  const auto share = static_cast<double>(totals.costs.size()) / static_cast<double>(all);
+  const auto judged = [&](ReproduceRow row) {
+    rows.push_back(row.aim ? unjudged_if_quick(std::move(row), options) : std::move(row));
+  };
+  judged(row_at_least(0, f.figure, fmt::format("goal reached without contact, {}", version.name),
+                      "%", 100, 100 * share));
+  judged(
+      row_at_most(0, f.figure, fmt::format("contacts, {}", version.name), "1", 0, totals.contacts));
+  const std::string of =
+      fmt::format("median of {} random scenes that were crossed", totals.costs.size());
+  const auto add = [&](double within, const char* what, const char* unit,
+                       std::optional<double> paper, const std::vector<double>& values) {
+    judged(noted(
+        noted(version_row(version, within, f.figure, what, unit, paper, median_if_any(values)), of),
+        spread_of(values)));
+  };
+  add(near_cost, "mean avoidance cost, random scenes", "1", f.cost, totals.costs);
+  add(near_time, "total time, random scenes", "s", f.total, totals.times);
+  add(near_cost, "mean gap while avoiding, random scenes", "µm", f.gap, totals.gaps);
+  rows.push_back(noted(noted(version_row(version, 0, f.figure, "turning, random scenes", "°", {},
+                                         median_if_any(totals.turning)),
+                             fmt::format("median of {}", all)),
+                       spread_of(totals.turning)));
+}
+
+void add_drawn(const Twelve& f, const RadarVersion& version, const RadarRun& run,
+               std::vector<ReproduceRow>& rows) {
+  const Metrics& m = run.record.result.metrics;
+  const std::string end =
+      run.crossed() ? ""
+                    : fmt::format("{} at {:.1f} s", to_string(run.record.result.status), m.time);
+  const auto add = [&](const char* what, const char* unit, std::optional<double> paper,
+                       double ours) {
+    rows.push_back(
+        noted(row_without_aim(chosen, f.figure,
+                              fmt::format("{}, the scene that is drawn, {}", what, version.name),
+                              unit, paper, ours),
+              end));
+  };
+  add("contacts", "1", 0, m.contacts);
+  add("mean avoidance cost", "1", f.cost, m.avoidance.mean_cost);
+  add("total time", "s", f.total, m.time);
+  add("mean gap while avoiding", "µm", f.gap, m.avoidance.mean_gap);
+  add("turning", "°", {}, degrees(m.turning));
+}
+
+/// Turning with the guard as a share of that without; runs go on after a touch.
+void add_guard_rows(const Twelve& f, const ReproduceOptions& options, int trials, const Stop& stop,
+                    std::vector<ReproduceRow>& rows) {
+  std::array<double, 2> of_scene{}, of_random{};
+  for (const bool guarded : {false, true}) {
+    RadarSetting s = load_radar(options, f.scenario, radar_versions.back());
+    s.params().guard.active = guarded;
+    s.scene.scenario.stop_at_contact = false;
+    of_scene[guarded] = run_radar(s.scene, s.world, stop).record.result.metrics.turning;
+    of_random[guarded] = median(Totals(run_all(f, s, trials, {}, stop)).turning);
+  }
+  if (stop()) return;
+  const auto add = [&](const char* what, const std::array<double, 2>& turning) {
+    rows.push_back(unjudged_if_quick(
+        noted(row_of(f.figure, fmt::format("turning with the guard ÷ without, {}", what), "1", {},
+                     turning[1] / std::max(turning[0], 1e-9), most_turning),
+              "the aim is ours"),
+        options));
+  };
+  add("the scene that is drawn", of_scene);
+  add("median of random scenes", of_random);
 }
 
 std::vector<ReproduceRow> twelve(const Twelve& f, const ReproduceOptions& options,
                                  const Stop& stop) {
-  const RadarSetting s = load_radar(options, f.scenario);
+  std::vector<ReproduceRow> rows;
+  const int trials = options.quick ? 20 : 100;
   ProgressBar bar(f.figure);
-  const auto trials = run_trials(
-      s.scene.scenario, s.world,
-      {.trials = options.quick ? 20 : 100,
-       .progress = [&](int done, int all) { bar.update(static_cast<double>(done) / all); },
-       .vary = [&](Scenario& scenario,
-                   std::uint32_t trial) { scatter(scenario, f.top_speed, trial); }},
-      stop);
-  if (stop()) return {};
-  std::vector<ReproduceRow> rows = twelve_rows(f, trials);
-  const Drawn drawn = chosen(f, s, trials, stop);
-  if (stop()) return rows;
-  if (!options.out.empty()) draw(f, drawn, options.out);
-  const Metrics& m = drawn.run.record.result.metrics;
-  const bool crossed = drawn.run.crossed();
-  const auto if_crossed = [&](double v) { return crossed ? std::optional(v) : std::nullopt; };
-  const std::size_t first = rows.size();
-  rows.push_back(row_within(near_cost, f.figure, "mean avoidance cost, the scene that is drawn",
-                            "1", f.cost, if_crossed(m.avoidance.mean_cost)));
-  rows.push_back(row_within(near_time, f.figure, "total time, the scene that is drawn", "s",
-                            f.total, if_crossed(m.time)));
-  rows.push_back(row_within(near_cost, f.figure, "mean gap while avoiding, the scene that is drawn",
-                            "µm", f.gap, if_crossed(m.avoidance.mean_gap)));
-  for (std::size_t k = first; k < rows.size(); ++k)
-    if (!crossed) rows[k].note = fmt::format("collided at {:.1f} s", m.time);
+  double before = 0;
+  for (const RadarVersion& version : radar_versions) {
+    const RadarSetting s = load_radar(options, f.scenario, version);
+    const auto progress = [&](int done, int all) {
+      bar.update(before + 0.5 * static_cast<double>(done) / all);
+    };
+    const Totals totals(run_all(f, s, trials, progress, stop));
+    const RadarRun run = run_radar(s.scene, s.world, stop);
+    if (stop()) return rows;
+    before += 0.5;
+    add_totals(f, version, totals, options, rows);
+    add_drawn(f, version, run, rows);
+    if (!options.out.empty()) draw(f, version, s, run, options.out);
+  }
+  add_guard_rows(f, options, std::min(trials, 40), stop, rows);
   return rows;
 }
 

@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "cli.hpp"
+#include "microswarm/core/angles.hpp"
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/statistics.hpp"
 #include "microswarm/report/page.hpp"
@@ -36,14 +37,15 @@ void for_each_run(const std::vector<CourseResult>& results, Visit&& visit) {
 
 std::string runs_csv(const std::vector<CourseResult>& results) {
   std::string out =
-      "course,navigator,seed,status,arrived,obstacles,time_s,straight_s,delta,least_gap_um,hold_s,"
-      "contacts,avoidable\n";
+      "course,navigator,seed,status,arrived,obstacles,time_s,straight_s,delta,turning_deg,"
+      "least_gap_um,hold_s,contacts,avoidable\n";
   for_each_run(
       results, [&](const CourseResult& result, std::size_t k, std::size_t seed, const Crossing& c) {
-        out += fmt::format("{},{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{}\n",
+        out += fmt::format("{},{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{}\n",
                            result.course.name, result.who[k].name, seed, to_string(c.status),
-                           c.arrived ? 1 : 0, c.obstacles, c.time, c.straight, c.delta, c.least_gap,
-                           c.hold_time, c.contacts.size(), c.avoidable());
+                           c.arrived ? 1 : 0, c.obstacles, c.time, c.straight, c.delta,
+                           degrees(c.turning), c.least_gap, c.hold_time, c.contacts.size(),
+                           c.avoidable());
       });
   return out;
 }
@@ -181,16 +183,17 @@ Plot avoidable_plot(const CourseResult& result) {
 }
 
 std::vector<std::vector<std::string>> table_of(const CourseResult& result) {
-  std::vector<std::vector<std::string>> lines{{"navigator", "worlds", "contacts a run",
-                                               "avoidable a run", "runs with contact, %",
-                                               "arrived, %", "time ÷ straight, median", "mean δ"}};
+  std::vector<std::vector<std::string>> lines{
+      {"navigator", "worlds", "contacts a run", "avoidable a run", "runs with contact, %",
+       "arrived, %", "time ÷ straight, median", "mean δ", "turning °, median"}};
   for (std::size_t k = 0; k < result.who.size(); ++k) {
     const Tally t = tally_of(result.crossings[k]);
     lines.push_back({result.who[k].name, std::to_string(t.runs), fmt::format("{:.4f}", t.contacts),
                      fmt::format("{:.4f}", t.avoidable), fmt::format("{:.2f}", 100 * t.touched),
                      fmt::format("{:.2f}", 100 * t.arrived),
                      t.slowness ? fmt::format("{:.3f}", *t.slowness) : "–",
-                     fmt::format("{:.3f}", t.delta)});
+                     fmt::format("{:.3f}", t.delta),
+                     t.turning ? fmt::format("{:.0f}", *t.turning) : "–"});
   }
   return lines;
 }
@@ -199,9 +202,10 @@ std::vector<std::vector<std::string>> table_of(const CourseResult& result) {
 
 Tally tally_of(std::span<const Crossing> crossings) {
   Tally out;
-  std::vector<double> times;
+  std::vector<double> times, turning;
   for (const Crossing& c : crossings) {
     if (!c.ran) continue;
+    turning.push_back(degrees(c.turning));
     ++out.runs;
     out.contacts += static_cast<double>(c.contacts.size());
     out.avoidable += c.avoidable();
@@ -213,6 +217,7 @@ Tally tally_of(std::span<const Crossing> crossings) {
   for (double* sum : {&out.contacts, &out.avoidable, &out.touched, &out.arrived, &out.delta})
     *sum /= std::max(1, out.runs);
   out.slowness = median_if_any(times);
+  out.turning = median_if_any(turning);
   return out;
 }
 

@@ -28,7 +28,8 @@ struct Tally {
   double arrived = 0;    ///< share of the runs
   /// Median of time ÷ straight at full speed, of those that arrived; nothing if none did.
   std::optional<double> slowness;
-  double delta = 0;  ///< mean avoidance cost
+  double delta = 0;               ///< mean avoidance cost
+  std::optional<double> turning;  ///< median [°]
 };
 Tally tally_of(std::span<const Crossing> crossings);
 

@@ -119,7 +119,7 @@ TEST(SimulatedRig, WhatDoesNotGoTogetherIsRefused) {
   EXPECT_PRED2(ends_with, refusal({"drive_rate_hz=100"}),
                ": drive_rate_hz is 100, the field turns 16 times a second and needs at least 160");
   EXPECT_PRED2(ends_with, refusal({"field.max_pitch_deg=1"}),
-               "the swarm is meant to go 36.94 µm/s, this rig's field drives it at most 20 µm/s");
+               "the swarm is meant to go 33.8 µm/s, this rig's field drives it at most 20 µm/s");
   EXPECT_PRED2(ends_with, refusal({"driver.type=simulated", "driver.channels=2"}),
                ": the system has 3 coils, the driver 2 channels");
   EXPECT_PRED2(ends_with, refusal({"camera.type=simulated", "camera.microscope.um_per_px=0.001"}),
@@ -141,7 +141,7 @@ TEST(SimulatedRig, AScenarioBeyondTheGridOfTheFieldIsRefused) {
   const Rig rig = read_rig(folder / "rig.yaml");
   const std::string error = test::error_of([&] { SimulatedRig(r.scene.scenario, r.world, rig); });
   EXPECT_TRUE(
-      error.ends_with("rig.yaml:1:8: the place (600, 300) µm of the scenario is at (-300, -700, 0) "
+      error.ends_with("rig.yaml:1:8: the place (600, 500) µm of the scenario is at (-400, -400, 0) "
                       "µm among the coils, where their field is not known"))
       << error;
 }

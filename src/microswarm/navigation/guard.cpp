@@ -27,6 +27,7 @@ constexpr double time_to_change = 0.25;  // that another way must be free for lo
 constexpr double gap_to_change = 5;      // or by which its gaps must be greater [µm]
 constexpr int finer = 2;                 // than ways out, of what may be commanded instead
 constexpr double tie = 1e-6;
+constexpr int least_ways = 4;             // out, that what is commanded instead leaves
 constexpr double impatience = 0.25 * pi;  // of a hold, a second [rad/s]
 
 Vec2 velocity_of(const Command& command) { return command.speed * unit_vector(command.heading); }
@@ -80,7 +81,7 @@ std::optional<Command> Guard::overrules(const Command& wanted, const Start& star
 
 std::optional<Command> Guard::checked(const Command& wanted, const Map& map, double lasting) {
   std::optional<Command> instead;
-  if (!leaves_a_way(map, velocity_of(wanted), lasting)) {
+  if (!leaves_ways(map, velocity_of(wanted), lasting, 1)) {
     instead = nearest_safe(map, wanted, lasting);
     if (!instead) return best_way(map);
   }
@@ -103,7 +104,7 @@ std::optional<Command> Guard::nearest_safe(const Map& map, const Command& wanted
   }
   std::sort(choices_.begin(), choices_.end());
   for (const Choice& choice : choices_)
-    if (leaves_a_way(map, velocity_of(choice.command), lasting)) return choice.command;
+    if (leaves_ways(map, velocity_of(choice.command), lasting, least_ways)) return choice.command;
   return std::nullopt;
 }
 
@@ -194,14 +195,15 @@ Guard::Outcome Guard::outcome(const Map& map, const Way& way, double least_time)
   return out;
 }
 
-bool Guard::leaves_a_way(const Map& map, Vec2 begin, double lasting) {
-  if (is_free(map, {begin, lasting, velocities_[last_]})) return true;
-  for (std::size_t k = 0; k < velocities_.size(); ++k) {
-    if (!is_free(map, {begin, lasting, velocities_[k]})) continue;
+bool Guard::leaves_ways(const Map& map, Vec2 begin, double lasting, int count) {
+  int found = is_free(map, {begin, lasting, velocities_[last_]}) ? 1 : 0;
+  const std::size_t asked = last_;
+  for (std::size_t k = 0; k < velocities_.size() && found < count; ++k) {
+    if (k == asked || !is_free(map, {begin, lasting, velocities_[k]})) continue;
     last_ = k;
-    return true;
+    ++found;
   }
-  return false;
+  return found >= count;
 }
 
 Command Guard::best_way(const Map& map) {

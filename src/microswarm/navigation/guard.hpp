@@ -29,9 +29,9 @@ class Guard {
   /// Takes a frame; to be told of every one.
   void see(const Observation& observation);
   /// Nothing when there is a way out after `wanted`, should it last for the commitment, or `tick`
-  /// [s] where that is longer. Else, of the commands that leave a way out, the one that turns least
+  /// [s] where that is longer. Else, of the commands that leave several, the one that turns least
   /// from what is wanted and from the course that is driven: so it keeps to the side that it has
-  /// begun to pass on. Where none leaves one, how the way begins that is free for longest; of those
+  /// begun to pass on. Where none does, how the way begins that is free for longest; of those
   /// that are for the whole horizon, the one that keeps most distance. Then also turns are tried,
   /// and a way once begun is kept to unless another is clearly better.
   std::optional<Command> overrules(const Command& wanted, const Start& start, const Map& map,
@@ -80,7 +80,7 @@ class Guard {
   /// Incomplete once it is known to be free for less than `least_time` [s].
   Outcome outcome(const Map& map, const Way& way, double least_time) const;
   std::optional<Command> checked(const Command& wanted, const Map& map, double lasting);
-  bool leaves_a_way(const Map& map, Vec2 begin, double lasting);
+  bool leaves_ways(const Map& map, Vec2 begin, double lasting, int count);
   std::optional<Command> nearest_safe(const Map& map, const Command& wanted, double lasting);
   Command best_way(const Map& map);
 

@@ -13,7 +13,7 @@ struct GuardParams {
   double horizon = 5;
   double step = 0.2;
   int directions = 36;
-  double commitment = 1;
+  double commitment = 0.7;
   double margin = 12;
   double margin_rate = 4;
   double wall_margin = 10;

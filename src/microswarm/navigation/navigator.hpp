@@ -19,8 +19,8 @@ struct NavigatorView {
   /// The waypoint that it would head for were there no obstacles: v_t of Eq 3 [radar] points there.
   /// Nothing for the goal.
   std::optional<Vec2> phased_goal{};
-  std::span<const Vec2> path;        ///< the path it follows
-  const Plan* plan = nullptr;        ///< the newest plan with its tree; null before the first
+  std::span<const Vec2> path;  ///< the path it follows
+  const Plan* plan = nullptr;  ///< the newest plan with its tree; null before the first
 };
 
 /// Turns one observation into one command and keeps what it needs in between. It knows no clock:
