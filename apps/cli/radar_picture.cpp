@@ -8,7 +8,6 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/file.hpp"
-#include "microswarm/navigation/obstacle_tracker.hpp"
 #include "microswarm/report/picture.hpp"
 
 namespace microswarm::cli {
@@ -87,9 +86,9 @@ void draw_velocities(Picture& picture, const RadarRun& run, const World& world, 
   const Frame& frame = run.record.frames[number];
   const double head = head_px * um_per_px;
   const double seconds = arrow_time(run.record.scene.scenario);
-  const Snapshot then = world.at(frame.t);
-  for (const Body& body : then.moving().bodies())
-    arrow(picture, extent_of(body).centre, seconds * body.velocity, velocity, head);
+  for (const Obstacle& obstacle : world.obstacles)
+    if (const Placement at = placement(obstacle.motion, frame.t); at.present)
+      arrow(picture, at.pose.position, seconds * at.velocity, velocity, head);
   const Vec2 p = frame.pose.position;
   if (frame.speed > 0)
     arrow(picture, p, seconds * frame.speed * unit_vector(frame.pose.heading), driven, head);

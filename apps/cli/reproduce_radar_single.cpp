@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr double begun = 0.01;  // an avoidance cost of so much is no rounding of directions
 constexpr double noise = 1;     // [µm] of a place seen
-constexpr const char* fitted =
+constexpr const char* fitted_to =
     "places, speeds, radius and gains fitted to the costs and times of Fig 5 and 6 and to Fig 7";
 
 /// One case, and what the paper gives of it. "The avoidance cost becomes larger than 0" when the
@@ -47,7 +47,7 @@ constexpr CaseFigure simulated{"fig5-6",
                                "single.yaml",
                                1,
                                28,
-                               fitted,
+                               fitted_to,
                                false,
                                {{{"Case I", 25, 70, 12.1, 30.6, 48.8, 18.5, 0.14},
                                  {"Case II", 25, 250, 7.9, 37.3, 51.9, 29.4, 0.18},

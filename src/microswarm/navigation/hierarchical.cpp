@@ -83,6 +83,7 @@ Command HierarchicalNavigator::step(const Observation& seen, const Stop& stop) {
   obstacles_.see(seen);
   Command command = decide(seen, stop);
   view_.local_target = target_;
+  if (params_.guide == Guide::route && seen.world) view_.phased_goal = towards(seen.world->map());
   view_.path = path_;
   view_.plan = plan_ ? &*plan_ : nullptr;
   return command;
