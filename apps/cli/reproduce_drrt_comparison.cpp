@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kept_margin = 90;      // of all, from the centre [µm]
 constexpr double field_amplitude = 10;  // amplitude of the oscillating field [mT]
-// The radar looks a prediction distance ahead and not beside; it keeps the margin about as often as
-// D-RRT* only with this one, of 50, 70, 90, 110 and 130 µm the smallest for which that holds.
+// The radar looks a prediction distance ahead and not beside. Of 50, 70, 90, 110 and 130 µm this is
+// the smallest with which it keeps the margin in four trials of five.
 constexpr double wide_prediction = 130;
 constexpr double sight_noise = 2;      // of an obstacle's position [µm]
 constexpr double sight_missed = 0.02;  // share of the frames
