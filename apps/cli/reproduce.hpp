@@ -89,8 +89,9 @@ inline ReproduceRow row_at_least(double share, std::string figure, std::string q
                share == 0 ? "" : fmt::format("paper − {:.3g} %", 100 * share));
 }
 
-/// [drrt]: fig3 (S-channel), fig5a (deforming channel), fig5b (moving obstacles), follower (the
-/// learned one beside pure pursuit and its expert), or all when empty.
+/// [drrt]: fig3 (S-channel), fig5a (deforming channel), fig5b (moving obstacles), comparison (with
+/// the radar among moving obstacles), follower (the learned one beside pure pursuit and its
+/// expert), or all when empty.
 std::vector<ReproduceRow> reproduce_drrt(const std::string& figure, const ReproduceOptions& options,
                                          const Stop& stop);
 

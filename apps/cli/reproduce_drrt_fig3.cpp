@@ -70,16 +70,10 @@ DrrtStarParams published_planner() {
 }
 
 // Which outcome is whose.
-enum {
-  ours_,
-  published_,
-  rrt_star_,
-  uniform_,
-  a_star_,
-  rrt_star_straight_,
-  a_star_straight_,
-  arcs_
-};
+namespace at {
+constexpr std::size_t ours = 0, published = 1, rrt_star = 2, uniform = 3, a_star = 4,
+                      rrt_star_straight = 5, a_star_straight = 6, arcs = 7;
+}  // namespace at
 
 std::vector<Outcome> try_planners(const DrrtSetting& s, int seeds, const Stop& stop) {
   DrrtStarParams arcs;
@@ -153,15 +147,15 @@ void drrt_rows(const Outcome& o, bool as_published, std::vector<ReproduceRow>& r
 
 std::vector<ReproduceRow> fig3_rows(const std::vector<Outcome>& o) {
   std::vector<ReproduceRow> rows;
-  drrt_rows(o[ours_], false, rows);
-  drrt_rows(o[published_], true, rows);
+  drrt_rows(o[at::ours], false, rows);
+  drrt_rows(o[at::published], true, rows);
   // RRT*'s medians are published only as shares of D-RRT*'s.
-  planner_rows(o[rrt_star_], "r_search is fitted to it",
+  planner_rows(o[at::rrt_star], "r_search is fitted to it",
                published_drrt.length / (1 - shorter_than_rrt / 100),
                published_drrt.turning / (1 - less_turning_than_rrt / 100), {}, rows);
-  planner_rows(o[uniform_], "", {}, {}, {}, rows);
-  planner_rows(o[a_star_], "the channel is fitted to its length", 1702.3, 585, 10, rows);
-  for (const auto which : {rrt_star_straight_, a_star_straight_, arcs_})
+  planner_rows(o[at::uniform], "", {}, {}, {}, rows);
+  planner_rows(o[at::a_star], "the channel is fitted to its length", 1702.3, 585, 10, rows);
+  for (const auto which : {at::rrt_star_straight, at::a_star_straight, at::arcs})
     planner_rows(o[which], "", {}, {}, {}, rows);
 
   const auto less = [&](const Outcome& who, const Outcome& than, const char* what, double paper,
@@ -170,22 +164,22 @@ std::vector<ReproduceRow> fig3_rows(const std::vector<Outcome>& o) {
     rows.push_back(row_at_least(
         0, figure3, fmt::format("{}: {} than {}", who.name, what, than.name), "%", paper, ours));
   };
-  for (const auto who : {published_, ours_}) {
-    less(o[who], o[rrt_star_], "shorter", shorter_than_rrt, length_median);
-    less(o[who], o[rrt_star_], "less turning", less_turning_than_rrt, turning_median);
-    less(o[who], o[a_star_], "shorter", shorter_than_a_star, length_median);
-    less(o[who], o[a_star_], "less turning", less_turning_than_a, turning_median);
+  for (const auto who : {at::published, at::ours}) {
+    less(o[who], o[at::rrt_star], "shorter", shorter_than_rrt, length_median);
+    less(o[who], o[at::rrt_star], "less turning", less_turning_than_rrt, turning_median);
+    less(o[who], o[at::a_star], "shorter", shorter_than_a_star, length_median);
+    less(o[who], o[at::a_star], "less turning", less_turning_than_a, turning_median);
   }
   const auto straightened = [&](const char* what, double (*measure)(const Outcome&)) {
     rows.push_back(
         row_without_aim("both straightened: what is left to the planner", figure3,
                         fmt::format("D-RRT*, ours: {} than RRT*, straightened", what), "%", {},
-                        percent_less(measure(o[ours_]), measure(o[rrt_star_straight_]))));
+                        percent_less(measure(o[at::ours]), measure(o[at::rrt_star_straight]))));
   };
   straightened("shorter", length_median);
   straightened("less turning", turning_median);
   rows.push_back(noted(row_of(figure3, "D-RRT*, ours: planning time, p99", "ms", {},
-                              quantile(o[ours_].time, 0.99), 5),
+                              quantile(o[at::ours].time, 0.99), 5),
                        "aim is ours"));
   return rows;
 }
@@ -203,14 +197,14 @@ void fig3_pictures(const DrrtSetting& s, const std::vector<Outcome>& o, const fs
   };
   constexpr Colour published_path{0.0, 0.45, 0.70, 0.45};
   draw("D-RRT*: tree, detection circles along the path, paths", "fig3a1", [&](Picture& picture) {
-    const Plan& tree = o[published_].first;
+    const Plan& tree = o[at::published].first;
     picture.tree(tree.tree);
     std::size_t n = tree.tree.size() - 1;
     for (std::size_t k = 0; n != 0 && k < tree.tree.size(); n = tree.tree[n].parent, ++k)
       picture.circle(tree.detections[n].circle, colours::circle, 1);
     picture.line(tree.path, published_path, 2.5);
-    picture.line(o[ours_].first.path, colours::path, 3.5);
-    picture.line(o[arcs_].first.path, colours::swarm, 2);
+    picture.line(o[at::ours].first.path, colours::path, 3.5);
+    picture.line(o[at::arcs].first.path, colours::swarm, 2);
     picture.legend("tree", colours::tree);
     picture.legend("detection circle", colours::circle);
     picture.legend("as published", published_path);
@@ -218,11 +212,11 @@ void fig3_pictures(const DrrtSetting& s, const std::vector<Outcome>& o, const fs
     picture.legend("ours with arcs", colours::swarm);
   });
   draw("RRT*, uniform RRT* and A* beside D-RRT*", "fig3a2", [&](Picture& picture) {
-    const std::array<std::pair<std::size_t, Colour>, 5> lines{{{ours_, colours::path},
-                                                               {published_, published_path},
-                                                               {rrt_star_, colours::obstacle},
-                                                               {uniform_, colours::circle},
-                                                               {a_star_, colours::swarm}}};
+    const std::array<std::pair<std::size_t, Colour>, 5> lines{{{at::ours, colours::path},
+                                                               {at::published, published_path},
+                                                               {at::rrt_star, colours::obstacle},
+                                                               {at::uniform, colours::circle},
+                                                               {at::a_star, colours::swarm}}};
     for (const auto& [which, colour] : lines) {
       picture.line(o[which].first.path, colour, 3);
       picture.legend(o[which].name, colour);
@@ -231,7 +225,7 @@ void fig3_pictures(const DrrtSetting& s, const std::vector<Outcome>& o, const fs
 }
 
 void fig3_plots(const std::vector<Outcome>& o, const fs::path& folder) {
-  const Plan& tree = o[published_].first;
+  const Plan& tree = o[at::published].first;
   Series w1{.label = "w1"}, w2{.label = "w2"}, step{.label = "dynamic step"};
   std::vector<std::uint32_t> nodes;
   for (std::uint32_t n = static_cast<std::uint32_t>(tree.tree.size()) - 1;
@@ -267,17 +261,17 @@ void fig3_plots(const std::vector<Outcome>& o, const fs::path& folder) {
   };
   namespace colour = method_colours;
   const std::array<Shown, 5> shown{
-      {{ours_, "D-RRT*, ours", colour::drrt_star, {}, {}, {}},
-       {published_, "as published", colour::drrt_star, published_drrt.length,
+      {{at::ours, "D-RRT*, ours", colour::drrt_star, {}, {}, {}},
+       {at::published, "as published", colour::drrt_star, published_drrt.length,
         published_drrt.turning, published_drrt.time},
-       {rrt_star_,
+       {at::rrt_star,
         "RRT*",
         colour::rrt_star,
         published_drrt.length / (1 - shorter_than_rrt / 100),
         published_drrt.turning / (1 - less_turning_than_rrt / 100),
         {}},
-       {uniform_, "uniform", colour::uniform_rrt_star, {}, {}, {}},
-       {a_star_, "A*", colour::a_star, 1702.3, 585, 10}}};
+       {at::uniform, "uniform", colour::uniform_rrt_star, {}, {}, {}},
+       {at::a_star, "A*", colour::a_star, 1702.3, 585, 10}}};
   std::vector<Plot> c{{.title = "Path length", .y_label = "path length (µm)"},
                       {.title = "Turning", .y_label = "total turning (°)", .y_min = 0},
                       {.title = "Planning time", .y_label = "planning time (ms)", .log_y = true}};

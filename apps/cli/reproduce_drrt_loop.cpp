@@ -88,8 +88,8 @@ std::vector<ReproduceRow> loop_rows(const LoopFigure& f, const std::string& who,
                 "both are ours, of another machine and another channel")};
 }
 
-void loop_pictures(const LoopFigure& f, const std::string& who, Scene scene, const World& world,
-                   const fs::path& out, const Stop& stop) {
+void loop_pictures(const LoopFigure& f, const std::string& who, const Scene& scene,
+                   const World& world, const fs::path& out, const Stop& stop) {
   Recorder recorder(scene);
   RunListener* const listeners[] = {&recorder};
   simulate(scene.scenario, world, 0, listeners, stop);

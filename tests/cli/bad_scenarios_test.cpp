@@ -160,7 +160,8 @@ TEST_F(BadScenarios, PaperFigureGroup) {
   refused({"reproduce", "drtt"},
           "reproduce: unknown paper 'drtt', there are: drrt, global, radar, gather");
   refused({"reproduce", "drrt/fig9"},
-          "reproduce drrt: unknown figure 'fig9', there are: fig3, fig5a, fig5b" + follower);
+          "reproduce drrt: unknown figure 'fig9', there are: fig3, fig5a, fig5b, comparison" +
+              follower);
   refused({"bench", "speed"},
           "bench: unknown group 'speed', there are: planning, swarm, global, radar, vision");
 }

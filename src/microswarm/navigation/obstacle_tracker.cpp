@@ -139,7 +139,7 @@ void ObstacleTracker::extend(Trail& trail, const Body& body, Disc within) const 
 // compared with the solid of old and not with its like.
 void ObstacleTracker::compare_outline(Trail& trail, const Polygon& polygon, Vec2 centre) const {
   auto& [older, newer] = trail.past;
-  const bool known = trail.places.size() > 0 && !older.shape.outer.empty();
+  const bool known = !trail.places.empty() && !older.shape.outer.empty();
   trail.outline_speed =
       known ? outward_distance(polygon, centre, older.shape) / (seen_ - older.t) : 0;
   if (known && seen_ - newer.t < outline_spacing) return;
