@@ -12,6 +12,9 @@ namespace microswarm::cli {
 /// every navigator. Plots, tables of all runs and contacts, and some worlds go to options.out.
 std::vector<ReproduceRow> radar_safety(const ReproduceOptions& options, const Stop& stop);
 
+/// The same worlds with obstacles that are seen with noise and not in every frame.
+std::vector<ReproduceRow> radar_safety_noisy(const ReproduceOptions& options, const Stop& stop);
+
 /// The same with obstacles at 1 to 3 times the swarm's speed, and walkers as fast as it.
 std::vector<ReproduceRow> radar_fast(const ReproduceOptions& options, const Stop& stop);
 

@@ -41,12 +41,28 @@ std::string runs_csv(const std::vector<CourseResult>& results) {
       "least_gap_um,hold_s,contacts,avoidable\n";
   for_each_run(
       results, [&](const CourseResult& result, std::size_t k, std::size_t seed, const Crossing& c) {
-        out += fmt::format("{},{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{}\n",
-                           result.course.name, result.who[k].name, seed, to_string(c.status),
-                           c.arrived ? 1 : 0, c.obstacles, c.time, c.straight, c.delta,
-                           degrees(c.turning), c.least_gap, c.hold_time, c.contacts.size(),
-                           c.avoidable());
+        out += fmt::format(
+            "\"{}\",{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{}\n",
+            result.course.name, result.who[k].name, seed, to_string(c.status), c.arrived ? 1 : 0,
+            c.obstacles, c.time, c.straight, c.delta, degrees(c.turning), c.least_gap, c.hold_time,
+            c.contacts.size(), c.avoidable());
       });
+  return out;
+}
+
+std::string summary_csv(const std::vector<CourseResult>& results) {
+  std::string out =
+      "course,navigator,worlds,contacts_a_run,avoidable_a_run,worlds_avoidable,worlds_arrived,"
+      "slowness_median,delta_mean,turning_median_deg\n";
+  const auto number = [](std::optional<double> x) { return x ? fmt::format("{:.6g}", *x) : ""; };
+  for (const CourseResult& result : results)
+    for (std::size_t k = 0; k < result.who.size(); ++k) {
+      const Tally t = tally_of(result.crossings[k]);
+      if (t.runs == 0) continue;
+      out += fmt::format("\"{}\",{},{},{:.6g},{:.6g},{},{},{},{:.6g},{}\n", result.course.name,
+                         result.who[k].name, t.runs, t.contacts, t.avoidable, t.runs_avoidable,
+                         t.runs_arrived, number(t.slowness), t.delta, number(t.turning));
+    }
   return out;
 }
 
@@ -57,7 +73,7 @@ std::string contacts_csv(const std::vector<CourseResult>& results) {
   for_each_run(
       results, [&](const CourseResult& result, std::size_t k, std::size_t seed, const Crossing& c) {
         for (const ContactVerdict& v : c.contacts)
-          out += fmt::format("{},{},{},{:.6g},{},{},{:.6g},{:.6g},{:.6g},{},{},\"{}\"\n",
+          out += fmt::format("\"{}\",{},{},{:.6g},{},{},{:.6g},{:.6g},{:.6g},{},{},\"{}\"\n",
                              result.course.name, result.who[k].name, seed, v.contact.t,
                              v.contact.kind == EventKind::contact_wall ? "wall" : "obstacle",
                              v.contact.body, v.contact.position.x, v.contact.position.y,
@@ -80,6 +96,7 @@ void write_worlds(const std::vector<CourseResult>& results, const fs::path& fold
         Scenario scenario = result.course.scenario(seed);
         scenario.navigator = result.who[k].params(scenario, result.course.walls);
         std::string stem = fmt::format("{}-{}-{}", result.course.name, result.who[k].name, seed);
+        std::erase(stem, ',');
         std::replace(stem.begin(), stem.end(), ' ', '-');
         write_scenario(std::move(scenario), folder, stem);
       });
@@ -182,15 +199,22 @@ Plot avoidable_plot(const CourseResult& result) {
   return plot;
 }
 
+/// "98.7 (98.4 … 98.9)"
+std::string percent(int some, int all) {
+  const ShareInterval interval = share_interval(some, all);
+  return fmt::format("{:.3g} ({})", 100.0 * some / std::max(1, all), percent_between(interval));
+}
+
 std::vector<std::vector<std::string>> table_of(const CourseResult& result) {
   std::vector<std::vector<std::string>> lines{
-      {"navigator", "worlds", "contacts a run", "avoidable a run", "runs with contact, %",
-       "arrived, %", "time ÷ straight, median", "mean δ", "turning °, median"}};
+      {"navigator", "worlds", "contacts a run", "avoidable a run", "worlds with one, % (95 %)",
+       "runs with contact, %", "arrived, % (95 %)", "time ÷ straight, median", "mean δ",
+       "turning °, median"}};
   for (std::size_t k = 0; k < result.who.size(); ++k) {
     const Tally t = tally_of(result.crossings[k]);
     lines.push_back({result.who[k].name, std::to_string(t.runs), fmt::format("{:.4f}", t.contacts),
-                     fmt::format("{:.4f}", t.avoidable), fmt::format("{:.2f}", 100 * t.touched),
-                     fmt::format("{:.2f}", 100 * t.arrived),
+                     fmt::format("{:.4f}", t.avoidable), percent(t.runs_avoidable, t.runs),
+                     fmt::format("{:.2f}", 100 * t.touched), percent(t.runs_arrived, t.runs),
                      t.slowness ? fmt::format("{:.3f}", *t.slowness) : "–",
                      fmt::format("{:.3f}", t.delta),
                      t.turning ? fmt::format("{:.0f}", *t.turning) : "–"});
@@ -199,6 +223,10 @@ std::vector<std::vector<std::string>> table_of(const CourseResult& result) {
 }
 
 }  // namespace
+
+std::string percent_between(const ShareInterval& interval) {
+  return fmt::format("{:.3g} … {:.3g}", 100 * interval.low, 100 * interval.high);
+}
 
 Tally tally_of(std::span<const Crossing> crossings) {
   Tally out;
@@ -210,6 +238,8 @@ Tally tally_of(std::span<const Crossing> crossings) {
     out.contacts += static_cast<double>(c.contacts.size());
     out.avoidable += c.avoidable();
     out.touched += !c.contacts.empty();
+    out.runs_avoidable += c.avoidable() > 0;
+    out.runs_arrived += c.arrived;
     out.arrived += c.arrived;
     out.delta += c.delta;
     if (c.arrived) times.push_back(slowness(c));
@@ -246,6 +276,7 @@ void write_safety(const std::vector<CourseResult>& results, const fs::path& fold
     avoidable.push_back(avoidable_plot(result));
     sections.push_back({result.course.name, "", table_of(result), {}});
   }
+  write_file_atomically(folder / (stem + ".csv"), summary_csv(results));
   write_file_atomically(folder / (stem + "-runs.csv"), runs_csv(results));
   write_file_atomically(folder / (stem + "-contacts.csv"), contacts_csv(results));
   write_everywhere(contacts, folder / (stem + "-contacts"));

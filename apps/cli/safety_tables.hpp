@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "microswarm/core/statistics.hpp"
 #include "safety_campaign.hpp"
 
 namespace microswarm::cli {
@@ -22,10 +23,12 @@ struct CourseResult {
 /// What some crossings of one navigator amount to.
 struct Tally {
   int runs = 0;
-  double contacts = 0;   ///< a run
-  double avoidable = 0;  ///< a run
-  double touched = 0;    ///< share of the runs with a contact
-  double arrived = 0;    ///< share of the runs
+  double contacts = 0;     ///< a run
+  double avoidable = 0;    ///< a run
+  double touched = 0;      ///< share of the runs with a contact
+  double arrived = 0;      ///< share of the runs
+  int runs_avoidable = 0;  ///< runs with an avoidable contact
+  int runs_arrived = 0;
   /// Median of time ÷ straight at full speed, of those that arrived; nothing if none did.
   std::optional<double> slowness;
   double delta = 0;               ///< mean avoidance cost
@@ -33,10 +36,14 @@ struct Tally {
 };
 Tally tally_of(std::span<const Crossing> crossings);
 
+/// "98.4 … 98.9"
+std::string percent_between(const ShareInterval& interval);
+
 /// The navigators of which no avoidable contact is asked.
 bool is_ours(std::string_view navigator);
 
-/// Writes into `folder`: STEM-runs.csv and STEM-contacts.csv (a line a run, a line a contact),
+/// Writes into `folder`: STEM.csv, STEM-runs.csv and STEM-contacts.csv (a line a navigator and
+/// course, a run, a contact; the first is what tools/safety_page.py takes),
 /// STEM.html with plots and a table a course, and in STEM-worlds/ the first worlds of avoidable
 /// contacts of every navigator as scenarios to run.
 void write_safety(const std::vector<CourseResult>& results, const std::filesystem::path& folder,

@@ -25,5 +25,19 @@ TEST(Statistics, QuantilesOccur) {
   EXPECT_EQ(quantile({4, 1, 3, 2}, 0), 1);
 }
 
+// Worked by hand from Wilson's formula: 0 of 10 and 10 of 10 mirror each other.
+TEST(Statistics, IntervalsOfShares) {
+  const ShareInterval none = share_interval(0, 10);
+  EXPECT_EQ(none.low, 0);
+  EXPECT_NEAR(none.high, 0.27753, 1e-5);
+  const ShareInterval all = share_interval(10, 10);
+  EXPECT_NEAR(all.low, 1 - none.high, 1e-12);
+  EXPECT_EQ(all.high, 1);
+  const ShareInterval half = share_interval(50, 100);
+  EXPECT_NEAR(half.low, 0.40383, 1e-5);
+  EXPECT_NEAR(half.high, 0.59617, 1e-5);
+  EXPECT_EQ(share_interval(0, 0).high, 1);
+}
+
 }  // namespace
 }  // namespace microswarm

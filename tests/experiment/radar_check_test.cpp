@@ -45,6 +45,19 @@ TEST(RadarCheck, WaypointsGivenAndPlanned) {
             "of them can be");
 }
 
+TEST(RadarCheck, AsPublishedRefusesWhatIsNotThePapers) {
+  Scenario s = radar_room();
+  radar(s).as_published = true;
+  EXPECT_EQ(refusal(s), "");
+  radar(s).most_turn = radians(180);
+  EXPECT_EQ(refusal(s), "");
+  radar(s).most_turn = radians(120);
+  EXPECT_EQ(refusal(s), "s.yaml: most_turn_deg is not the paper's, and as_published is true");
+  radar(s).most_turn = RadarParams{}.most_turn;
+  radar(s).obstacle_speed_bound = 50;
+  EXPECT_NE(refusal(s).find("obstacle_speed_bound_um_per_s"), std::string::npos) << refusal(s);
+}
+
 TEST(RadarCheck, FewerNodesThanSamples) {
   Scenario s = radar_room();
   radar(s).planner.samples = 500;

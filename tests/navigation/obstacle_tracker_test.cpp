@@ -134,6 +134,26 @@ TEST(ObstacleTracker, BreathingLeavesAndTurning) {
   EXPECT_NEAR(camera.body(3).outline_speed, turning * std::hypot(100, 20), 1);
 }
 
+// A channel whose upper wall comes down at its right end only.
+TEST(ObstacleTracker, APartThatMovesFarAwayDoesNotCountHere) {
+  ObstacleTracker tracker;
+  Body channel;
+  const auto map = std::make_shared<const Map>(Box{{0, 0}, {3000, 1000}}, std::vector<Polygon>{});
+  for (int k = 0; k < 20; ++k) {
+    const double t = 0.1 * k;
+    Polygon walls{.outer = {{0, 0}, {3000, 0}, {3000, 1000}, {0, 1000}}, .holes = {{}}};
+    walls.holes[0] = {{100, 300},           {100, 700},  {900, 700}, {1800, 700},
+                      {2400, 700 - 50 * t}, {2900, 700}, {2900, 300}};
+    channel = {.shape = walls, .obstacle = 0};
+    const Snapshot world(map, t, {channel});
+    tracker.see({.now = t, .seen = t, .swarm = {}, .robots = {}, .world = &world});
+  }
+  EXPECT_NEAR(tracker.body(0).outline_speed, 50, 3);
+  EXPECT_NEAR(tracker.outline_speed_within(0, channel, {{2500, 500}, 200}), 50, 3);
+  EXPECT_EQ(tracker.outline_speed_within(0, channel, {{500, 500}, 250}), 0);
+  EXPECT_EQ(tracker.outline_speed_within(0, channel, {{500, 500}, 20}), 0) << "nothing is near";
+}
+
 TEST(ObstacleTracker, ObstaclesComeAndGo) {
   Rng rng(1, Purpose::test);
   ObstacleTracker tracker;

@@ -170,6 +170,13 @@ Scenario avoidance_scenario(std::uint64_t seed, const AvoidanceOptions& options)
   return s;
 }
 
+void see_obstacles_with_noise(Scenario& scenario) {
+  constexpr std::uint32_t sight = 1;  // a stream beside the world's
+  Rng rng(scenario.seed, Purpose::scene, sight);
+  scenario.sensing.obstacle_noise = rng.uniform(0, 2);
+  scenario.sensing.obstacle_missed_share = rng.uniform(0, 0.05);
+}
+
 World avoidance_world(const Scenario& scenario) {
   return build_world({scenario, read_map_parts(scenario.map)});
 }

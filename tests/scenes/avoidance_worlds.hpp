@@ -39,6 +39,10 @@ inline constexpr double avoidance_detection_range = 70;
 /// their file is yet to be written.
 Scenario avoidance_scenario(std::uint64_t seed, const AvoidanceOptions& options = {});
 
+/// Obstacles are seen with noise of up to 2 µm and up to 5 % of them are not found in a frame: the
+/// same world, another sight. A pure function of the scenario.
+void see_obstacles_with_noise(Scenario& scenario);
+
 /// The scenario's world. Its map is written down in place.
 World avoidance_world(const Scenario& scenario);
 

@@ -35,4 +35,20 @@ inline std::optional<double> median_if_any(const std::vector<double>& values) {
   return values.empty() ? std::nullopt : std::optional(median(values));
 }
 
+/// A share with the ends of its interval.
+struct ShareInterval {
+  double low = 0, high = 1;
+};
+/// Where the share of successes lies with 95 % confidence when `successes` of `trials` were seen:
+/// Wilson's score interval. All of 0 … 1 without trials.
+inline ShareInterval share_interval(int successes, int trials) {
+  if (trials <= 0) return {};
+  constexpr double z = 1.959963984540054;  // 97.5 % of a normal distribution lie below
+  const double n = trials;
+  const double p = successes / n;
+  const double middle = (p + z * z / (2 * n)) / (1 + z * z / n);
+  const double half = z / (1 + z * z / n) * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
+  return {successes == 0 ? 0 : middle - half, successes == trials ? 1 : middle + half};
+}
+
 }  // namespace microswarm

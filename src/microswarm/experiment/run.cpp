@@ -12,6 +12,7 @@
 #include "microswarm/experiment/robot_plant.hpp"
 #include "microswarm/experiment/robot_task.hpp"
 #include "microswarm/experiment/watch.hpp"
+#include "microswarm/navigation/obstacle_memory.hpp"
 
 namespace microswarm {
 
@@ -33,7 +34,11 @@ class Run {
  public:
   Run(const Scenario& scenario, Plant& plant, Navigator& navigator,
       std::span<RunListener* const> listeners)
-      : scenario_(scenario), plant_(plant), navigator_(navigator), listeners_(listeners) {
+      : scenario_(scenario),
+        plant_(plant),
+        navigator_(navigator),
+        listeners_(listeners),
+        obstacles_(scenario.sensing.obstacle_memory) {
     if (scenario.start) present_.pose = *scenario.start;
     detection_range_ = scenario.detection_range.value_or(detection_range_of(scenario.navigator));
     if (scenario.goal) start_distance_ = distance(present_.pose.position, *scenario.goal);
@@ -51,7 +56,7 @@ class Run {
 
  private:
   std::optional<Status> tick(const Stop& stop) {
-    const Observation seen = plant_.observe();
+    const Observation seen = obstacles_.complete(plant_.observe());
     was_seen_ = was_seen_ || seen.swarm || plant_.truth();
     if (scenario_.robots && !task_) begin_with_robots(seen);
     move_to(present(seen));
@@ -256,6 +261,7 @@ class Run {
   Plant& plant_;
   Navigator& navigator_;
   std::span<RunListener* const> listeners_;
+  ObstacleMemory obstacles_;
   std::optional<Watch> watch_;
   std::optional<RobotTask> task_;  // of robots that are told apart
   Present present_;

@@ -27,6 +27,7 @@ struct SensingParams {
   double missed_share = 0;
   double obstacle_noise = 0;
   double obstacle_missed_share = 0;
+  double obstacle_memory = 0.5;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.observation_delay,
@@ -43,6 +44,10 @@ struct SensingParams {
                                        Unit::none,
                                        {0, 1},
                                        "Share of frames in which an obstacle is not found."});
+    visit(self.obstacle_memory, {"obstacle_memory",
+                                 Unit::s,
+                                 {0, 60},
+                                 "An obstacle that is not found goes on as seen for so long."});
   }
 };
 

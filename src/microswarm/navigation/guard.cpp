@@ -127,7 +127,9 @@ void Guard::look_at_bodies(const Start& start) {
     outliner_.take(bodies[i], met.outline);
     if (outliner_.misleads(met.outline, std::array{start.place})) {
       hollow_bodies_.push_back(bodies[i]);
-      closing_ = std::max(closing_, widening + norm(motion.velocity));
+      const Disc reach{start.place, start.radius + speed_ * (dead_time + widening_time)};
+      closing_ = std::max(
+          closing_, tracker_.outline_speed_within(i, bodies[i], reach) + norm(motion.velocity));
       continue;
     }
     met.velocity = motion.velocity;
@@ -155,7 +157,8 @@ double Guard::gap(Vec2 p, double t, double limit, double error_rate) const {
       least = std::min(least, met.outline.distance_at(off) - touch);
   }
   if (hollow_.empty()) return least;
-  const double touch = start_.radius + closing_ * widened + std::min(error_rate, closing_) * t;
+  const double moved = closing_ * std::min(widening_time, start_.time - tracker_.seen());
+  const double touch = start_.radius + moved + std::min(error_rate, closing_) * t;
   return std::min(least, hollow_.clearance(p, touch + limit) - touch);
 }
 

@@ -102,8 +102,10 @@ class Guard {
   std::vector<Met> met_;
   std::size_t bodies_ = 0;  ///< how many of met_
   std::vector<Body> hollow_bodies_;
-  BodySet hollow_;      ///< bodies that the swarm is within the hull of: taken as they stand
-  double closing_ = 0;  ///< how fast those come nearer [µm/s]
+  /// Bodies that the swarm is within the hull of: as they stand when the command takes effect,
+  /// since their parts move apart from one another.
+  BodySet hollow_;
+  double closing_ = 0;               ///< how fast those near the swarm come nearer [µm/s]
   const Snapshot* world_ = nullptr;  ///< of the frame last taken
 };
 

@@ -9,6 +9,7 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/navigation/helm.hpp"
+#include "microswarm/navigation/published.hpp"
 #include "microswarm/planning/free_goal.hpp"
 #include "microswarm/swarm/unicycle.hpp"
 
@@ -20,6 +21,7 @@ constexpr double longest_sweep = 1.5;  // of obstacles while planning [s]
 constexpr double first_leg = 1.0;      // of an escape [s]
 constexpr double last_weight = 0.1;    // of the clearance at an escape's end beside the least one
 constexpr double inner_goal = 0.9;     // of the tolerance: where the goal is aimed at
+constexpr double outer_goal = 0.98;    // where it is not free nearer
 constexpr double no_route = 1e4;       // more than the straight way, where no route is known [µm]
 constexpr std::array<double, 3> eases{1.0, 0.5, 0.25};
 
@@ -40,14 +42,12 @@ void check(const HierarchicalParams& params, const Places& where) {
   if (!params.as_published) return;
   const HierarchicalParams ours;
   const HierarchicalParams paper = params.in_effect();
-  const auto refuse = [&](const char* key, auto given, auto usual, auto published) {
-    if (given != usual && given != published)
-      throw where.error(key, fmt::format("{} is not the paper's, and as_published is true", key));
-  };
-  refuse("extra_margin_um", params.extra_margin, ours.extra_margin, paper.extra_margin);
-  refuse("horizon_s", params.horizon, ours.horizon, paper.horizon);
-  refuse("target_horizon_s", params.target_horizon, ours.target_horizon, paper.target_horizon);
-  refuse("planner.arcs", params.planner.arcs, false, false);
+  check_published(where, "extra_margin_um", params.extra_margin, ours.extra_margin,
+                  paper.extra_margin);
+  check_published(where, "horizon_s", params.horizon, ours.horizon, paper.horizon);
+  check_published(where, "target_horizon_s", params.target_horizon, ours.target_horizon,
+                  paper.target_horizon);
+  check_published(where, "planner.arcs", params.planner.arcs, false, false);
 }
 
 HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params,
@@ -71,9 +71,12 @@ HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params,
 void HierarchicalNavigator::prepare(const Snapshot& world) {
   const Snapshot walls(world.shared_map());
   aim_ = goal_;
-  for (const double clearance : {params_.margin, params_.margin + params_.extra_margin})
-    if (const auto free = free_goal(walls, goal_, inner_goal * goal_tolerance_, clearance))
-      aim_ = *free;
+  const auto aim_within = [&](double share, double clearance) {
+    if (const auto free = free_goal(walls, goal_, share * goal_tolerance_, clearance)) aim_ = *free;
+  };
+  aim_within(outer_goal, params_.margin);
+  aim_within(inner_goal, params_.margin);
+  aim_within(inner_goal, params_.margin + params_.extra_margin);
   if (params_.guide == Guide::route)
     route_ = Route(world.map(), aim_, params_.margin, params_.route_cell);
 }

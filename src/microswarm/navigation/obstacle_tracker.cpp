@@ -31,12 +31,15 @@ constexpr std::size_t windows = 4;
 constexpr double outline_spacing = 0.4;  // between outlines that are kept [s]
 
 /// How far the vertices of `polygon` stand out of the solid `before`, which is given about its
-/// centre, at most.
-double outward_distance(const Polygon& polygon, Vec2 centre, const Polygon& before) {
+/// centre, at most; those that `counts(ring, i)`.
+template <class Counts>
+double outward_distance(const Polygon& polygon, Vec2 centre, const Polygon& before,
+                        Counts&& counts) {
   double most = 0;
   const auto compare = [&](std::span<const Vec2> ring, std::span<const Vec2> then) {
     const bool alike = ring.size() == then.size();
     for (std::size_t i = 0; i < ring.size(); ++i) {
+      if (!counts(ring, i)) continue;
       const Vec2 v = ring[i] - centre;
       if (alike && distance(v, then[i]) <= most) continue;  // a bound without a search
       most = std::max(most, distance(v, before));
@@ -48,6 +51,8 @@ double outward_distance(const Polygon& polygon, Vec2 centre, const Polygon& befo
                                                       : std::span<const Vec2>{});
   return most;
 }
+
+constexpr auto every_vertex = [](std::span<const Vec2>, std::size_t) { return true; };
 
 /// Keeps the newest `most`.
 void remember(std::vector<Sighting>& trail, Sighting newest, std::size_t most) {
@@ -141,7 +146,7 @@ void ObstacleTracker::compare_outline(Trail& trail, const Polygon& polygon, Vec2
   auto& [older, newer] = trail.past;
   const bool known = !trail.places.empty() && !older.shape.outer.empty();
   trail.outline_speed =
-      known ? outward_distance(polygon, centre, older.shape) / (seen_ - older.t) : 0;
+      known ? outward_distance(polygon, centre, older.shape, every_vertex) / (seen_ - older.t) : 0;
   if (known && seen_ - newer.t < outline_spacing) return;
   std::swap(older, newer);
   newer.t = seen_;
@@ -150,6 +155,23 @@ void ObstacleTracker::compare_outline(Trail& trail, const Polygon& polygon, Vec2
   for (auto& hole : newer.shape.holes)
     for (Vec2& v : hole) v -= centre;
   if (!known) older = newer;
+}
+
+double ObstacleTracker::outline_speed_within(std::size_t body, const Body& shape,
+                                             Disc within) const {
+  const Trail& trail = trails_[trail_of_[body]];
+  const Outline& before = trail.past[0];
+  const auto* polygon = std::get_if<Polygon>(&shape.shape);
+  if (!polygon || trail.places.empty() || before.shape.outer.empty() || before.t >= seen_) return 0;
+  const auto edge_reaches = [&](Vec2 a, Vec2 b) {
+    return distance(within.centre, Segment{a, b}) <= within.radius;
+  };
+  const auto near = [&](std::span<const Vec2> ring, std::size_t i) {
+    const std::size_t n = ring.size();
+    return edge_reaches(ring[i], ring[(i + 1) % n]) || edge_reaches(ring[i], ring[(i + n - 1) % n]);
+  };
+  return outward_distance(*polygon, extent_of(shape).centre, before.shape, near) /
+         (seen_ - before.t);
 }
 
 TrackedBody ObstacleTracker::told_by(const Trail& trail) const {

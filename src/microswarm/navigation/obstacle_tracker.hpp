@@ -47,6 +47,9 @@ class ObstacleTracker {
   /// How the body at this place in the newest frame's moving().bodies() moves; what was left out
   /// rests, with an infinite velocity error.
   TrackedBody body(std::size_t body) const { return told_by(trails_[trail_of_[body]]); }
+  /// Its outline speed, told from those edges alone that come into the disc [µm/s]: parts of a
+  /// large body may move that are far away. `shape` is that body in the newest frame.
+  double outline_speed_within(std::size_t body, const Body& shape, Disc within) const;
   /// When the newest frame was taken [s]; -infinity before the first.
   double seen() const { return seen_; }
 

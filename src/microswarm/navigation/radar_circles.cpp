@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "microswarm/navigation/published.hpp"
+
 namespace microswarm {
 
 RadarCircles circles_of(const RadarParams& params, double swarm_radius) {
@@ -22,7 +24,7 @@ RadarParams in_effect(RadarParams params) {
   if (!params.as_published) return params;
   params.guard.active = false;
   params.retreat = false;
-  params.most_turn = pi;
+  params.most_turn = radians(180);
   params.compensate_delay = false;
   params.obstacle_speed_bound = 0;
   return params;
@@ -52,6 +54,13 @@ void check(const RadarParams& params, const Places& where) {
                       "navigator.global_plan is true and navigator.waypoints_um are given: only "
                       "one of them can be");
   check(params.planner, where.within("navigator.planner", "navigator.planner"));
+  if (!params.as_published) return;
+  const RadarParams ours;
+  const RadarParams paper = in_effect(params);
+  const Places keys = where.within("navigator");
+  check_published(keys, "most_turn_deg", params.most_turn, ours.most_turn, paper.most_turn);
+  check_published(keys, "obstacle_speed_bound_um_per_s", params.obstacle_speed_bound,
+                  ours.obstacle_speed_bound, paper.obstacle_speed_bound);
 }
 
 void check_step(const RadarParams& params, const SwarmLimits& swarm, const Places& where) {

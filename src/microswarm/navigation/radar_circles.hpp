@@ -20,13 +20,13 @@ RadarCircles circles_of(const RadarParams& params, double swarm_radius);
 /// 360° / β: the number of directions.
 int directions_of(const RadarParams& params);
 
-/// What is driven with: the same, and with `as_published` what is ours switched off, whatever its
-/// keys say.
+/// What is driven with: the same, and with `as_published` what is ours switched off.
 RadarParams in_effect(RadarParams params);
 
 /// Throws InputError, one line, when the safety circle is not within the detection circle, β does
 /// not divide 360°, the speed is none, waypoints are both given and to be planned, or the planner's
-/// parameters do not fit together; `where` knows the keys of a scenario.
+/// parameters do not fit together, or when `as_published` stands beside a value that is not the
+/// paper's; `where` knows the keys of a scenario.
 void check(const RadarParams& params, const Places& where);
 
 /// The same when d_p is more than the swarm's least diameter and, where r_f is not controlled, d_f:

@@ -98,9 +98,8 @@ struct RadarParams {
           {"as_published",
            Unit::none,
            {},
-           "As in [radar]: overrides guard.active, retreat, compensate_delay (false), "
-           "most_turn_deg (180) and obstacle_speed_bound_um_per_s (0), and visits every planned "
-           "waypoint."});
+           "As in [radar]: no guard, no retreat, delays not made up for, turns as it likes, and "
+           "every planned waypoint is visited."});
   }
 };
 
