@@ -9,6 +9,7 @@ import check_docstrings
 import check_files
 import check_includes
 import check_rows
+import safety_page
 
 
 class Includes(unittest.TestCase):
@@ -154,6 +155,33 @@ class Rows(unittest.TestCase):
     def test_two_rows_of_one_name(self):
         self.assertEqual(["fig1: q: there are two such rows"],
                          list(check_rows.faults_of([self.row(), self.row()])))
+
+
+class SafetyPage(unittest.TestCase):
+    @staticmethod
+    def row(course="open", navigator="radar", avoidable="1"):
+        return {"course": course, "navigator": navigator, "worlds": "1000",
+                "contacts_a_run": "0.002", "avoidable_a_run": "0.001",
+                "worlds_avoidable": avoidable, "worlds_arrived": "1000",
+                "slowness_median": "", "delta_mean": "0.0213", "turning_median_deg": "123.4"}
+
+    def test_tables_are_printed_between_their_marks(self):
+        page = "a\n<!-- safety: open -->\nold\n<!-- end -->\nb\n"
+        text, missing = safety_page.printed(page, [self.row(), self.row(course="walls")])
+        self.assertEqual([], missing)
+        self.assertIn("| radar | 1,000 | 0.002 | 0.001 | 0.1 (0.0177–0.564) | 100 (99.6–100) | – |",
+                      text)
+        self.assertNotIn("old", text)
+        self.assertEqual((text, []), safety_page.printed(text, [self.row()]))
+
+    def test_a_table_without_rows(self):
+        page = "<!-- safety: fast -->\n<!-- end -->"
+        self.assertEqual(["fast"], safety_page.printed(page, [self.row()])[1])
+
+    def test_taken_rows_replace_those_of_their_name(self):
+        rows = safety_page.taken([self.row(), self.row(navigator="predictive")],
+                                 [self.row(avoidable="3")])
+        self.assertEqual(["3", "1"], [row["worlds_avoidable"] for row in rows])
 
 
 if __name__ == "__main__":

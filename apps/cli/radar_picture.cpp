@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/file.hpp"
@@ -199,6 +200,7 @@ void draw_radar_moments(const RadarRun& run, const World& world, std::span<const
   const auto& params = std::get<RadarParams>(record.scene.scenario.navigator);
   const Box view = part.value_or(world.map->bounds());
   const double um_per_px = std::max(view.width(), view.height()) / pixels;
+  std::vector<std::unique_ptr<Picture>> pictures;
   for (int k = 1; k <= most_pictures; ++k)
     for (const char* end : {"png", "svg", "pdf"})
       fs::remove(fmt::format("{}-{}.{}", stem.string(), k, end));
@@ -207,7 +209,8 @@ void draw_radar_moments(const RadarRun& run, const World& world, std::span<const
     const Frame& frame = record.frames[number];
     const RadarCircles circles = circles_at(run, number);
     const Vec2 p = frame.pose.position;
-    Picture picture(view, title_of(run, title, frame), pixels);
+    pictures.push_back(std::make_unique<Picture>(view, title_of(run, title, frame), pixels));
+    Picture& picture = *pictures.back();
     picture.walls(*world.map);
     draw_wait_areas(picture, params);
     draw_plan(picture, record, um_per_px);
@@ -223,6 +226,9 @@ void draw_radar_moments(const RadarRun& run, const World& world, std::span<const
     legend(picture, params, record);
     picture.write_everywhere(fmt::format("{}-{}", stem.string(), k + 1));
   }
+  const int columns = view.height() > view.width() ? 4 : 2;
+  for (const char* end : {".png", ".svg", ".pdf"})
+    write_sheet(pictures, columns, stem.string() + "-moments" + end);
 }
 
 void write_radar_run(const RadarRun& run, const fs::path& stem) {

@@ -24,7 +24,7 @@ Box part_that_matters(const RadarRun& run, const World& world, std::span<const d
 /// deviation α while something is avoided, the way so far with the moments before as P0, P1, …, the
 /// way planned with its tree, and where valves are waited for. Titles say when the run ended in a
 /// contact. `stem` is the path of the pictures without "-1.png", "-1.svg", "-1.pdf", …; older ones
-/// of that name are removed.
+/// of that name are removed. All of them on one sheet are stem-moments.
 void draw_radar_moments(const RadarRun& run, const World& world, std::span<const double> moments,
                         const std::string& title, const std::filesystem::path& stem,
                         std::optional<Box> part = {});

@@ -110,10 +110,10 @@ std::vector<ReproduceRow> reproduce_global(const std::string& figure,
 std::vector<ReproduceRow> reproduce_gather(const std::string& figure,
                                            const ReproduceOptions& options, const Stop& stop);
 
-/// [radar]: fig5-6 (three cases of one obstacle), fig7 (series of radii), fig8 (twelve obstacles),
-/// fig10 (the cases as an experiment), fig11-12 (twelve obstacles as an experiment), fig13
-/// (micromaze), safety (generated worlds), safety-noisy (seen with noise), fast (obstacles faster
-/// than the swarm), or all when empty.
+/// [radar]: fig1 (avoidance cost), fig5-6 (three cases of one obstacle), fig7 (series of radii),
+/// fig8 (twelve obstacles), fig10 (the cases as an experiment), fig11-12 (twelve obstacles as an
+/// experiment), fig13 (micromaze), safety (generated worlds), safety-noisy (seen with noise), fast
+/// (obstacles faster than the swarm), or all when empty.
 std::vector<ReproduceRow> reproduce_radar(const std::string& figure,
                                           const ReproduceOptions& options, const Stop& stop);
 

@@ -39,15 +39,16 @@ RadarSetting load_radar(const ReproduceOptions& options, const char* name,
 
 std::vector<ReproduceRow> reproduce_radar(const std::string& figure,
                                           const ReproduceOptions& options, const Stop& stop) {
-  constexpr std::array<Figure, 9> figures{{{"fig5-6", radar_single},
-                                           {"fig7", radar_series},
-                                           {"fig8", radar_twelve},
-                                           {"fig10", radar_experiment},
-                                           {"fig11-12", radar_twelve_experiment},
-                                           {"fig13", radar_micromaze},
-                                           {"safety", radar_safety},
-                                           {"safety-noisy", radar_safety_noisy},
-                                           {"fast", radar_fast}}};
+  constexpr std::array<Figure, 10> figures{{{"fig1", radar_cost},
+                                            {"fig5-6", radar_single},
+                                            {"fig7", radar_series},
+                                            {"fig8", radar_twelve},
+                                            {"fig10", radar_experiment},
+                                            {"fig11-12", radar_twelve_experiment},
+                                            {"fig13", radar_micromaze},
+                                            {"safety", radar_safety},
+                                            {"safety-noisy", radar_safety_noisy},
+                                            {"fast", radar_fast}}};
   return reproduce_figures("radar", figures, figure, options, stop);
 }
 

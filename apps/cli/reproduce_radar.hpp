@@ -50,6 +50,7 @@ RadarSetting load_radar(const ReproduceOptions& options, const char* name,
 
 /// Figures of [radar], by subject: one obstacle (5, 6, 7, 10), twelve obstacles (8, 11, 12), the
 /// micromaze (13). What is interrupted gives the rows that were done, or none.
+std::vector<ReproduceRow> radar_cost(const ReproduceOptions& options, const Stop& stop);
 std::vector<ReproduceRow> radar_single(const ReproduceOptions& options, const Stop& stop);
 std::vector<ReproduceRow> radar_series(const ReproduceOptions& options, const Stop& stop);
 std::vector<ReproduceRow> radar_twelve(const ReproduceOptions& options, const Stop& stop);

@@ -52,6 +52,30 @@ TEST_F(Report, ThePixelOfADiscHasItsColour) {
   EXPECT_EQ(image.pixels[i + 1], 0);
 }
 
+TEST_F(Report, ASheetHoldsItsPicturesRowByRow) {
+  std::vector<std::unique_ptr<Picture>> pictures;
+  for (const Colour& colour : {Colour{1, 0, 0, 1}, Colour{0, 1, 0, 1}, Colour{0, 0, 1, 1}}) {
+    pictures.push_back(std::make_unique<Picture>(Box{{0, 0}, {100, 100}}, "", 100));
+    pictures.back()->disc({{50, 50}, 20}, colour);
+    pictures.back()->write(folder_ / "one.png");
+  }
+  const Image one = read_image(folder_ / "one.png");
+  write_sheet(pictures, 2, folder_ / "sheet.png");
+  const Image sheet = read_image(folder_ / "sheet.png");
+  EXPECT_EQ(sheet.width, 2 * one.width);
+  EXPECT_EQ(sheet.height, 2 * one.height);
+  const auto channel_at = [&](int across, int down, std::size_t channel) {
+    return sheet.pixels[sheet.index(across * one.width + 74, down * one.height + 74) + channel];
+  };
+  EXPECT_EQ(channel_at(0, 0, 0), 255);
+  EXPECT_EQ(channel_at(1, 0, 1), 255);
+  EXPECT_EQ(channel_at(0, 1, 2), 255);
+  EXPECT_EQ(channel_at(1, 1, 0), 255) << "white";
+  EXPECT_EQ(channel_at(1, 1, 2), 255) << "white";
+  write_sheet({}, 2, folder_ / "none.png");
+  EXPECT_FALSE(fs::exists(folder_ / "none.png"));
+}
+
 TEST_F(Report, PlotsAreWrittenAndNothingElseIsLeft) {
   write_plots({{.title = "a \"quoted\" title",
                 .x_label = "x",

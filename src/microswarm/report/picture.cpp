@@ -36,6 +36,32 @@ double round_length(double most) {
   return power;
 }
 
+/// What `draw` draws on white, `size` pixels large.
+template <class Draw>
+void write_drawing(const std::filesystem::path& path, Vec2 size, Draw&& draw) {
+  const std::string kind = path.extension().string();
+  std::string bytes;
+  cairo_surface_t* surface = nullptr;
+  if (kind == ".png")
+    surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(size.x),
+                                         static_cast<int>(size.y));
+  else if (kind == ".svg")
+    surface = cairo_svg_surface_create_for_stream(append, &bytes, size.x, size.y);
+  else if (kind == ".pdf")
+    surface = cairo_pdf_surface_create_for_stream(append, &bytes, size.x, size.y);
+  else
+    throw InputError(path.string() + ": a picture is .png, .svg or .pdf");
+  cairo_t* out = cairo_create(surface);
+  cairo_set_source_rgba(out, 1, 1, 1, 1);
+  cairo_paint(out);
+  draw(out);
+  cairo_destroy(out);
+  if (kind == ".png") cairo_surface_write_to_png_stream(surface, append, &bytes);
+  cairo_surface_finish(surface);
+  cairo_surface_destroy(surface);
+  write_file_atomically(path, bytes);
+}
+
 }  // namespace
 
 struct Picture::Impl {
@@ -114,7 +140,8 @@ struct Picture::Impl {
     cairo_stroke(cr);
   }
 
-  void finish(cairo_surface_t* target) const;
+  Vec2 size() const { return {std::ceil(width), std::ceil(height + key_down)}; }
+  void finish(cairo_t* out) const;
   void frame(cairo_t* out) const;
   void scale_bar(cairo_t* out) const;
   void key(cairo_t* out) const;
@@ -181,14 +208,10 @@ void Picture::Impl::frame(cairo_t* out) const {
   key(out);
 }
 
-void Picture::Impl::finish(cairo_surface_t* target) const {
-  cairo_t* out = cairo_create(target);
-  cairo_set_source_rgba(out, 1, 1, 1, 1);
-  cairo_paint(out);
+void Picture::Impl::finish(cairo_t* out) const {
   cairo_set_source_surface(out, recording, 0, 0);
   cairo_paint(out);
   frame(out);
-  cairo_destroy(out);
 }
 
 Picture::Picture(const Box& view, std::string_view title, double pixels)
@@ -312,25 +335,29 @@ void Picture::legend(std::string_view label, Colour colour, bool round) {
 }
 
 void Picture::write(const std::filesystem::path& path) const {
-  const auto width = std::ceil(impl_->width);
-  const auto height = std::ceil(impl_->height + impl_->key_down);
-  const std::string kind = path.extension().string();
-  std::string bytes;
-  cairo_surface_t* surface = nullptr;
-  if (kind == ".png")
-    surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width),
-                                         static_cast<int>(height));
-  else if (kind == ".svg")
-    surface = cairo_svg_surface_create_for_stream(append, &bytes, width, height);
-  else if (kind == ".pdf")
-    surface = cairo_pdf_surface_create_for_stream(append, &bytes, width, height);
-  else
-    throw InputError(path.string() + ": a picture is .png, .svg or .pdf");
-  impl_->finish(surface);
-  if (kind == ".png") cairo_surface_write_to_png_stream(surface, append, &bytes);
-  cairo_surface_finish(surface);
-  cairo_surface_destroy(surface);
-  write_file_atomically(path, bytes);
+  write_drawing(path, impl_->size(), [&](cairo_t* out) { impl_->finish(out); });
+}
+
+void write_sheet(std::span<const std::unique_ptr<Picture>> pictures, int columns,
+                 const std::filesystem::path& path) {
+  if (pictures.empty()) return;
+  Vec2 cell;
+  for (const auto& picture : pictures) {
+    const Vec2 size = picture->impl_->size();
+    cell = {std::max(cell.x, size.x), std::max(cell.y, size.y)};
+  }
+  const auto across = std::min(pictures.size(), static_cast<std::size_t>(std::max(1, columns)));
+  const std::size_t down = (pictures.size() + across - 1) / across;
+  const Vec2 size{cell.x * static_cast<double>(across), cell.y * static_cast<double>(down)};
+  write_drawing(path, size, [&](cairo_t* out) {
+    for (std::size_t k = 0; k < pictures.size(); ++k) {
+      cairo_save(out);
+      cairo_translate(out, cell.x * static_cast<double>(k % across),
+                      cell.y * static_cast<double>(k / across));
+      pictures[k]->impl_->finish(out);
+      cairo_restore(out);
+    }
+  });
 }
 
 void Picture::write_everywhere(const std::filesystem::path& stem) const {

@@ -84,8 +84,15 @@ class Picture {
   void write_everywhere(const std::filesystem::path& stem) const;
 
  private:
+  friend void write_sheet(std::span<const std::unique_ptr<Picture>>, int,
+                          const std::filesystem::path&);
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Writes pictures as one, row by row with at most so many columns; .png, .svg or .pdf as above.
+/// Nothing without pictures.
+void write_sheet(std::span<const std::unique_ptr<Picture>> pictures, int columns,
+                 const std::filesystem::path& path);
 
 }  // namespace microswarm

@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Prints the tables of docs/avoidance-safety.md from the rows in docs/results/safety.csv.
+
+    tools/safety_page.py                          prints them into the page
+    tools/safety_page.py --check                  complains where the page says something else
+    tools/safety_page.py --take out/safety.csv…   stores rows that `reproduce radar/safety --out`
+                                                  wrote, in place of those of the same name, first
+
+A table stands between `<!-- safety: COURSE -->` and `<!-- end -->`.
+"""
+
+import argparse
+import csv
+import math
+import os
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PAGE = ROOT / "docs" / "avoidance-safety.md"
+STORED = ROOT / "docs" / "results" / "safety.csv"
+TABLE = re.compile(r"(<!-- safety: ([^>]+) -->\n).*?(<!-- end -->)", re.S)
+HEAD = (
+    "navigator", "worlds", "contacts a run", "avoidable a run", "worlds with an avoidable one, %",
+    "arrived, %", "time ÷ straight", "δ̄", "turning °",
+)
+
+
+def interval(some, trials):
+    """Wilson's 95 % interval of a share."""
+    z = 1.959963984540054
+    p = some / trials
+    middle = (p + z * z / (2 * trials)) / (1 + z * z / trials)
+    half = z / (1 + z * z / trials) * math.sqrt(p * (1 - p) / trials + z * z / (4 * trials**2))
+    return (0 if some == 0 else middle - half, 1 if some == trials else middle + half)
+
+
+def percent(some, trials):
+    low, high = interval(some, trials)
+    return f"{100 * some / trials:.3g} ({100 * low:.3g}–{100 * high:.3g})"
+
+
+def number(text, digits):
+    return f"{float(text):.{digits}g}" if text else "–"
+
+
+def cells(row):
+    trials = int(row["worlds"])
+    return (
+        row["navigator"], f"{trials:,}", number(row["contacts_a_run"], 3),
+        number(row["avoidable_a_run"], 3), percent(int(row["worlds_avoidable"]), trials),
+        percent(int(row["worlds_arrived"]), trials), number(row["slowness_median"], 4),
+        number(row["delta_mean"], 3), number(row["turning_median_deg"], 4),
+    )
+
+
+def table(rows):
+    lines = [HEAD, ("---",) * len(HEAD), *map(cells, rows)]
+    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+
+def printed(page, rows):
+    """The page with the tables of these rows; says which it has no rows for."""
+    missing = []
+
+    def replace(match):
+        chosen = [row for row in rows if row["course"] == match[2]]
+        if not chosen:
+            missing.append(match[2])
+        return match[1] + table(chosen) + match[3]
+
+    return TABLE.sub(replace, page), missing
+
+
+def taken(stored, new):
+    """The stored rows, those of the same course and navigator replaced."""
+    rows = {(row["course"], row["navigator"]): row for row in stored}
+    rows.update({(row["course"], row["navigator"]): row for row in new})
+    return list(rows.values())
+
+
+def read(path):
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def write(path, text):
+    part = path.with_name(path.name + ".part")
+    part.write_text(text, encoding="utf-8")
+    os.replace(part, path)
+
+
+def store(rows):
+    lines = [",".join(rows[0])]
+    for row in rows:
+        lines.append(",".join(f'"{v}"' if "," in v else v for v in row.values()))
+    STORED.parent.mkdir(exist_ok=True)
+    write(STORED, "\n".join(lines) + "\n")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("--check", action="store_true", help="complain instead of printing")
+    parser.add_argument("--take", nargs="+", metavar="CSV", default=[], help="store these rows first")
+    options = parser.parse_args()
+    rows = read(STORED) if STORED.exists() else []
+    for path in options.take:
+        rows = taken(rows, read(path))
+    page = PAGE.read_text(encoding="utf-8")
+    text, missing = printed(page, rows)
+    for course in missing:
+        print(f"{STORED}: no rows of {course}", file=sys.stderr)
+    if options.check:
+        if text != page:
+            print(f"{PAGE}: not as {STORED} has it; run tools/safety_page.py", file=sys.stderr)
+        return 1 if missing or text != page else 0
+    if missing:
+        return 1
+    if options.take:
+        store(rows)
+    write(PAGE, text)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
