@@ -54,6 +54,7 @@ void draw_costs(const std::filesystem::path& folder) {
 
 std::vector<ReproduceRow> radar_cost(const ReproduceOptions& options, const Stop&) {
   std::vector<ReproduceRow> rows;
+  rows.reserve(published_costs.size());
   for (const PublishedCost& p : published_costs)
     rows.push_back(row_within(
         0.01, "fig1",

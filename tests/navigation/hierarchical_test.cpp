@@ -136,6 +136,7 @@ Driven drive(Pose2 pose, Vec2 goal, double seconds, const std::vector<StraightDi
   const auto map = room_with().shared_map();
   const auto world_at = [&](double t) {
     std::vector<Body> bodies;
+    bodies.reserve(discs.size());
     for (const StraightDisc& d : discs)
       bodies.push_back(
           {Disc{d.start + t * d.velocity, d.radius}, static_cast<std::uint32_t>(bodies.size())});

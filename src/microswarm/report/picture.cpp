@@ -351,9 +351,9 @@ void write_sheet(std::span<const std::unique_ptr<Picture>> pictures, int columns
   const Vec2 size{cell.x * static_cast<double>(across), cell.y * static_cast<double>(down)};
   write_drawing(path, size, [&](cairo_t* out) {
     for (std::size_t k = 0; k < pictures.size(); ++k) {
+      const std::size_t row = k / across, column = k % across;
       cairo_save(out);
-      cairo_translate(out, cell.x * static_cast<double>(k % across),
-                      cell.y * static_cast<double>(k / across));
+      cairo_translate(out, cell.x * static_cast<double>(column), cell.y * static_cast<double>(row));
       pictures[k]->impl_->finish(out);
       cairo_restore(out);
     }
