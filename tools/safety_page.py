@@ -74,6 +74,15 @@ def printed(page, rows):
     return TABLE.sub(replace, page), missing
 
 
+def whole(path, rows):
+    """The rows without their last column, which must say that the campaign ran to its end."""
+    for row in rows:
+        extent = row.pop("extent", "unknown")
+        if extent != "full":
+            sys.exit(f"{path}: {row['course']}, {row['navigator']}: not of a whole campaign: {extent}")
+    return rows
+
+
 def taken(stored, new):
     """The stored rows, those of the same course and navigator replaced."""
     rows = {(row["course"], row["navigator"]): row for row in stored}
@@ -107,7 +116,7 @@ def main():
     options = parser.parse_args()
     rows = read(STORED) if STORED.exists() else []
     for path in options.take:
-        rows = taken(rows, read(path))
+        rows = taken(rows, whole(path, read(path)))
     page = PAGE.read_text(encoding="utf-8")
     text, missing = printed(page, rows)
     for course in missing:

@@ -96,8 +96,9 @@ void show(const Plan& made, double start_heading, double ms, bool json) {
 
 /// Throws InputError when the planner's parameters do not fit together.
 void check_planner(const PlannerParams& planner) {
-  if (const auto* fmt_star = std::get_if<FmtStarParams>(&planner))
-    check(*fmt_star, Places("plan").within("planner", "planner"));
+  const Places where = Places("plan").within("planner", "planner");
+  if (const auto* fmt_star = std::get_if<FmtStarParams>(&planner)) check(*fmt_star, where);
+  if (const auto* drrt_star = std::get_if<DrrtStarParams>(&planner)) check(*drrt_star, where);
 }
 
 int plan_command(const PlanOptions& o, const Context& context) {

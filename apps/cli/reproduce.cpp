@@ -37,6 +37,9 @@ int reproduce_command(const std::string& key, ReproduceOptions options, bool jso
   const std::string paper = key.substr(0, key.find('/'));
   const std::string figure = key.size() > paper.size() ? key.substr(paper.size() + 1) : "";
   const Reproduce reproduce = reproduce_of(paper);
+  if (figure.empty() && key != paper)
+    throw InputError(
+        fmt::format("reproduce: '{}' names no figure; all of them are '{}'", key, paper));
   const OutFolder hold(options.out);
   const std::vector<ReproduceRow> rows = reproduce(figure, options, context.stop);
   if (options.quick) note("quick: fewer seeds\n");

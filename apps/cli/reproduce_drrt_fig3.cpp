@@ -140,8 +140,9 @@ void drrt_rows(const Outcome& o, bool as_published, std::vector<ReproduceRow>& r
   row("turning, median", "°", published_drrt.turning, turning_median(o));
   rows.push_back(row_without_aim("", figure3, o.name + ": turning with the start's, median", "°",
                                  {}, median(o.turning_in_full)));
-  rows.push_back(row_at_most(0, figure3, o.name + ": planning time, median", "ms",
-                             published_drrt.time, median(o.time)));
+  rows.push_back(row_without_aim("wall clock of another machine", figure3,
+                                 o.name + ": planning time, median", "ms", published_drrt.time,
+                                 median(o.time)));
   solved_row(o, rows);
 }
 

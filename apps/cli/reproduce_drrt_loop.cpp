@@ -69,6 +69,7 @@ std::vector<ReproduceRow> loop_rows(const LoopFigure& f, const std::string& who,
                          std::optional<double> ours, const char* why = "") {
     return row_without_aim(why, fig, named(what), unit, paper, ours);
   };
+  constexpr const char* other_machine = "wall clock of another machine";
   return {row_at_least(0, fig, named("goal reached"), "%", 100, 100 * l.reached / n),
           row_at_least(0, fig, named("least distance, centre to obstacles"), "µm", published_margin,
                        l.least),
@@ -79,10 +80,10 @@ std::vector<ReproduceRow> loop_rows(const LoopFigure& f, const std::string& who,
           plain("time, median of runs that arrive", "s", {}, median_if_any(l.time)),
           plain("planning events per run, median", "1", f.events, median_if_any(l.events),
                 "the obstacles' places are ours"),
-          row_at_most(0, fig, named("planning time, mean"), "ms", f.mean, sum.mean),
-          row_at_most(0, fig, named("planning time, sd"), "ms", f.sd, sum.sd),
+          plain("planning time, mean", "ms", f.mean, sum.mean, other_machine),
+          plain("planning time, sd", "ms", f.sd, sum.sd, other_machine),
           plain("planning time, p99", "ms", {}, sum.p99),
-          row_at_most(0, fig, named("planning time, max"), "ms", f.max, sum.max),
+          plain("planning time, max", "ms", f.max, sum.max, other_machine),
           plain("mean planning time less than Fig 3's median", "%", f.less_than_global,
                 percent_less(sum.mean, global_time),
                 "both are ours, of another machine and another channel")};

@@ -132,6 +132,10 @@ class Trials {
     }
     return out;
   }
+  /// Has every trial of this method and population run?
+  bool all_ran(std::size_t method, std::size_t population) const {
+    return has(population) && steps(method, population).size() == count_;
+  }
   double mean_steps(std::size_t method, std::size_t population) const {
     const std::vector<double> all = steps(method, population);
     const double sum = std::accumulate(all.begin(), all.end(), 0.0);
@@ -209,7 +213,7 @@ void add_means(const Ground& ground, const Trials& trials, std::vector<Reproduce
   constexpr double tolerance = 0.15;
   for (std::size_t m = 0; m < gather_methods.size(); ++m) {
     for (std::size_t k = 0; k < populations; ++k) {
-      if (!trials.has(k)) continue;
+      if (!trials.all_ran(m, k)) continue;
       const std::string what = fmt::format("{}, {}, n = {}: mean steps", ground.name,
                                            gather_methods[m].name, population(k));
       const double steps = trials.mean_steps(m, k);
@@ -224,6 +228,7 @@ void add_means(const Ground& ground, const Trials& trials, std::vector<Reproduce
         rows.push_back(trials.quick() ? unjudged(std::move(row), "too few trials") : row);
       }
     }
+    if (!trials.all_ran(m, of_8)) continue;  // the last to run
     const auto add_share = [&](const char* what, const char* why, auto&& is,
                                std::optional<double> aim) {
       rows.push_back(
@@ -245,7 +250,8 @@ void add_order(const Ground& ground, const Trials& trials, std::vector<Reproduce
   for (const std::size_t m : {of_dca, of_ours}) {
     const char* name = gather_methods[m].name;
     for (std::size_t k = of_8; k < populations; ++k) {
-      if (!trials.has(k)) continue;
+      if (!trials.all_ran(m, k) || !trials.all_ran(of_hra, k) || !trials.all_ran(of_plain, k))
+        continue;
       const double others = std::min(trials.mean_steps(of_hra, k), trials.mean_steps(of_plain, k));
       std::optional<double> paper;
       if (const auto plain = published(ground, of_plain, k); m == of_dca)
@@ -259,6 +265,7 @@ void add_order(const Ground& ground, const Trials& trials, std::vector<Reproduce
                 "the paper: DCA is the best");
       rows.push_back(trials.quick() ? unjudged(std::move(row), "too few trials") : row);
     }
+    if (!trials.all_ran(m, of_64) || !trials.all_ran(m, of_1024)) continue;
     const double paper = *ground.published[of_dca][of_1024] / *ground.published[of_dca][of_64];
     const double ours = trials.mean_steps(m, of_1024) / std::max(1.0, trials.mean_steps(m, of_64));
     ReproduceRow row =
@@ -275,6 +282,7 @@ void add_order(const Ground& ground, const Trials& trials, std::vector<Reproduce
 
 /// What the rollout planner is for: it begins with our DCA.
 void add_rollout(const Ground& ground, const Trials& trials, std::vector<ReproduceRow>& rows) {
+  if (!trials.all_ran(of_rollout, of_1024) || !trials.all_ran(of_ours, of_1024)) return;
   const double share =
       trials.mean_steps(of_rollout, of_1024) / std::max(1.0, trials.mean_steps(of_ours, of_1024));
   const std::string what =
@@ -359,7 +367,7 @@ Plot plot_of(const Ground& ground, const Trials& trials) {
         paper.x.push_back(at(m, k));
         paper.y.push_back(*steps);
       }
-      if (!trials.has(k)) continue;
+      if (trials.steps(m, k).empty()) continue;
       add_violin(trials.steps(m, k), at(m, k), 0.45 * apart, violins);
       means.x.push_back(at(m, k));
       means.y.push_back(trials.mean_steps(m, k));
@@ -385,24 +393,25 @@ std::vector<std::vector<std::string>> table_of(const Ground& ground, const Trial
     if (!trials.has(k)) line.resize(lines[0].size());
     if (!trials.has(k)) continue;
     for (std::size_t m = 0; m < gather_methods.size(); ++m) {
-      line.push_back(fmt::format("{:.0f}", trials.mean_steps(m, k)));
+      line.push_back(trials.steps(m, k).empty() ? "–"
+                                                : fmt::format("{:.0f}", trials.mean_steps(m, k)));
       if (const auto steps = published(ground, m, k)) line.back() += fmt::format(" ({})", *steps);
     }
   }
   return lines;
 }
 
-void write_figure(const std::vector<Ground>& maps, std::vector<Trials>& trials,
+void write_figure(const std::vector<Ground>& maps, std::vector<Trials>& trials, bool interrupted,
                   const fs::path& out) {
   std::vector<Plot> plots;
   std::vector<PageSection> sections{
       {"",
        fmt::format("Steps until n robots are gathered, {} trials each: violins, and lines through "
-                   "the means. In brackets and as diamonds what the paper gives.",
-                   trials[0].count()),
+                   "the means. In brackets and as diamonds what the paper gives.{}",
+                   trials[0].count(), interrupted ? " Interrupted: not all trials have run." : ""),
        {},
        {{"fig9.svg", "DCA, HRA and the rollout planner"}}}};
-  for (std::size_t g = 0; g < maps.size(); ++g) {
+  for (std::size_t g = 0; g < trials.size(); ++g) {
     if (g != of_anywhere)  // a second time the first map
       plots.push_back(plot_of(maps[g], trials[g]));
     sections.push_back({maps[g].name, "Mean steps.", table_of(maps[g], trials[g]), {}});
@@ -421,6 +430,7 @@ void gather_fig9(const ReproduceOptions& options, const Stop& stop,
   const std::vector<Ground> maps = grounds();
   std::vector<Trials> trials;
   for (const Ground& map : maps) {
+    if (stop()) break;
     ProgressBar bar(map.name);
     trials.push_back(
         gather_on(map, options.quick ? quick_trials : full_trials, options.quick, bar, stop));
@@ -428,7 +438,7 @@ void gather_fig9(const ReproduceOptions& options, const Stop& stop,
     add_order(map, trials.back(), rows);
     add_rollout(map, trials.back(), rows);
   }
-  if (!options.quick) {  // whose rows are the same on every machine
+  if (!options.quick && !stop()) {  // whose rows are the same on every machine
     rows.push_back(noted(row_of("fig9", "(c), DCA+OWRRT, ours, n = 1024: processor time of a run",
                                 "s", {}, time_of_a_run(maps.back(), stop), 0.2),
                          "aim is ours"));
@@ -437,7 +447,7 @@ void gather_fig9(const ReproduceOptions& options, const Stop& stop,
                      {}, longest_decision(maps.back(), stop), 0.2),
               "aim is ours"));
   }
-  if (!options.out.empty() && !stop()) write_figure(maps, trials, options.out);
+  if (!options.out.empty() && !trials.empty()) write_figure(maps, trials, stop(), options.out);
 }
 
 }  // namespace microswarm::cli

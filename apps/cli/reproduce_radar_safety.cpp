@@ -82,6 +82,8 @@ CourseResult crossed(const Race& race, const ReproduceOptions& options, const St
   ProgressBar bar(course.name);
   const auto progress = [&](double share) { bar.update(share); };
   out.crossings = cross(course, out.who, worlds, progress, stop);
+  if (options.quick) out.extent = "quick";
+  if (stop()) out.extent = "interrupted";
   return out;
 }
 

@@ -25,6 +25,23 @@ constexpr std::size_t obstacles_a_bin = 10;
 constexpr int enough_worlds = 10;       // in a bin, to be joined with the next
 constexpr double least_percent = 0.01;  // of time beyond the straight way; the axis has no zero
 
+/// One colour a method in all figures.
+std::size_t colour_of(std::string_view navigator) {
+  using namespace method_colours;  // NOLINT(google-build-using-namespace)
+  constexpr std::array<std::pair<std::string_view, std::size_t>, 8> colours{
+      {{"hierarchical_drrt_star", drrt_star},
+       {"radar", method_colours::radar},
+       {"radar_as_published", radar_as_published},
+       {"predictive", method_colours::predictive},
+       {"straight_stop", straight_stop},
+       {"potential_field", potential_field},
+       {"velocity_obstacle", velocity_obstacle},
+       {"follow_path", follow_path}}};
+  for (const auto& [name, colour] : colours)
+    if (name == navigator) return colour;
+  return other;
+}
+
 double slowness(const Crossing& c) { return c.time / c.straight; }
 
 template <class Visit>
@@ -53,15 +70,16 @@ std::string runs_csv(const std::vector<CourseResult>& results) {
 std::string summary_csv(const std::vector<CourseResult>& results) {
   std::string out =
       "course,navigator,worlds,contacts_a_run,avoidable_a_run,worlds_avoidable,worlds_arrived,"
-      "slowness_median,delta_mean,turning_median_deg\n";
+      "slowness_median,delta_mean,turning_median_deg,extent\n";
   const auto number = [](std::optional<double> x) { return x ? fmt::format("{:.6g}", *x) : ""; };
   for (const CourseResult& result : results)
     for (std::size_t k = 0; k < result.who.size(); ++k) {
       const Tally t = tally_of(result.crossings[k]);
       if (t.runs == 0) continue;
-      out += fmt::format("\"{}\",{},{},{:.6g},{:.6g},{},{},{},{:.6g},{}\n", result.course.name,
+      out += fmt::format("\"{}\",{},{},{:.6g},{:.6g},{},{},{},{:.6g},{},{}\n", result.course.name,
                          result.who[k].name, t.runs, t.contacts, t.avoidable, t.runs_avoidable,
-                         t.runs_arrived, number(t.slowness), t.delta, number(t.turning));
+                         t.runs_arrived, number(t.slowness), t.delta, number(t.turning),
+                         result.extent);
     }
   return out;
 }
@@ -121,8 +139,11 @@ Plot contacts_plot(const CourseResult& result) {
       contacts[bin] += static_cast<double>(c.contacts.size());
       ++runs[bin];
     }
-    plot.series.push_back(
-        {.label = result.who[k].name, .x = {}, .y = {}, .style = PlotStyle::marked});
+    plot.series.push_back({.label = result.who[k].name,
+                           .x = {},
+                           .y = {},
+                           .style = PlotStyle::marked,
+                           .colour = colour_of(result.who[k].name)});
     few.push_back({.label = "", .x = {}, .y = {}, .style = PlotStyle::rings});
     for (std::size_t bin = 0; bin < runs.size(); ++bin) {
       if (runs[bin] == 0) continue;
@@ -141,7 +162,7 @@ Plot contacts_plot(const CourseResult& result) {
   plot.x_min = 0;
   plot.x_max = longest + 0.5 * static_cast<double>(obstacles_a_bin);
   plot.y_max = std::max(0.1, 1.1 * most);
-  for (std::size_t k = 0; k < few.size(); ++k) few[k].colour = k;
+  for (std::size_t k = 0; k < few.size(); ++k) few[k].colour = plot.series[k].colour;
   std::move(few.begin(), few.end(), std::back_inserter(plot.series));
   return plot;
 }
@@ -158,7 +179,11 @@ Plot times_plot(const CourseResult& result) {
   Plot plot{.title = result.course.name, .y_label = "time lost (%)", .log_y = true};
   name_columns(result, plot);
   for (std::size_t k = 0; k < result.who.size(); ++k) {
-    Series series{.label = result.who[k].name, .x = {}, .y = {}, .style = PlotStyle::box};
+    Series series{.label = result.who[k].name,
+                  .x = {},
+                  .y = {},
+                  .style = PlotStyle::box,
+                  .colour = colour_of(result.who[k].name)};
     for (const Crossing& c : result.crossings[k])
       if (c.ran && c.arrived) series.y.push_back(std::max(least_percent, 100 * (slowness(c) - 1)));
     series.x.assign(series.y.size(), static_cast<double>(k + 1));
@@ -194,7 +219,7 @@ Plot avoidable_plot(const CourseResult& result) {
                            .x = {static_cast<double>(k + 1)},
                            .y = {some ? tally.avoidable : none},
                            .style = some ? PlotStyle::points : PlotStyle::rings,
-                           .colour = k});
+                           .colour = colour_of(result.who[k].name)});
   }
   return plot;
 }
@@ -274,7 +299,11 @@ void write_safety(const std::vector<CourseResult>& results, const fs::path& fold
     contacts.push_back(contacts_plot(result));
     times.push_back(times_plot(result));
     avoidable.push_back(avoidable_plot(result));
-    sections.push_back({result.course.name, "", table_of(result), {}});
+    sections.push_back(
+        {result.course.name,
+         result.extent == "full" ? "" : fmt::format("Not the whole campaign: {}.", result.extent),
+         table_of(result),
+         {}});
   }
   write_file_atomically(folder / (stem + ".csv"), summary_csv(results));
   write_file_atomically(folder / (stem + "-runs.csv"), runs_csv(results));

@@ -18,6 +18,7 @@ struct CourseResult {
   Course course;
   std::vector<Contestant> who;
   Crossings crossings;
+  std::string extent = "full";  ///< or quick, or interrupted: fewer worlds
 };
 
 /// What some crossings of one navigator amount to.

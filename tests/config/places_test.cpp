@@ -53,6 +53,17 @@ TEST(Places, WhatWasSetStandsThere) {
   EXPECT_EQ(said(places({"navigator.type=radar"}), "navigator.speed_um_per_s"), "a.yaml:4:19: no");
 }
 
+TEST(Places, GivenIsWhatIsWrittenItself) {
+  EXPECT_TRUE(places().given("navigator.speed_um_per_s"));
+  EXPECT_TRUE(places().within("navigator").given("waypoints_um"));
+  EXPECT_FALSE(places().given("navigator.retreat"));
+  EXPECT_TRUE(places({"navigator.retreat=true"}).given("navigator.retreat"));
+  // Another type brings its own values.
+  EXPECT_FALSE(places({"navigator.type=predictive"}).given("navigator.speed_um_per_s"));
+  EXPECT_TRUE(places({"navigator.type=radar"}).given("navigator.speed_um_per_s"));
+  EXPECT_FALSE(Places("a").given("x"));
+}
+
 TEST(Places, WithinAKey) {
   const Places inner = places().within("navigator", "the navigator");
   EXPECT_EQ(said(inner, "speed_um_per_s"), "a.yaml:4:19: the navigator: no");

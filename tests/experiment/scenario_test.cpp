@@ -30,6 +30,45 @@ TEST(Scenario, TheFirstFlightIsFlown) {
   EXPECT_TRUE(replay(record).identical);
 }
 
+TEST(Scenario, AsPublishedLeavesNothingOfOursUnsaid) {
+  const auto folder = empty_folder("scenario_published");
+  const auto refusal = [&](const std::string& keys, const std::vector<std::string>& set = {}) {
+    const std::string room =
+        "map: {type: polygons, hi_um: [2000, 1000]}\ngoal_um: [1800, 500]\n"
+        "start: {x_um: 200, y_um: 500}\nnavigator:\n";
+    write_file_atomically(folder / "s.yaml", room + keys);
+    const std::string what = error_of([&] {
+      Places places;
+      const Scene scene = load_scene(read_scenario(folder / "s.yaml", set, places), folder, places);
+      check(scene.scenario, build_world(scene), places);
+      // What a record holds reads back, and is the same.
+      const std::string text = scenario_text(scene.scenario);
+      write_file_atomically(folder / "back.yaml", text);
+      const Scenario back = read_scenario(folder / "back.yaml", {}, places);
+      check(back, build_world(scene), places);
+      EXPECT_EQ(scenario_text(back), text);
+    });
+    return what.substr(what.starts_with("--set") ? 0 : std::min(what.size(), what.find("s.yaml")));
+  };
+  const std::string radar = "  type: radar\n  as_published: true\n";
+  EXPECT_EQ(refusal(radar), "");
+  EXPECT_EQ(refusal(radar + "  retreat: false\n  guard: {active: false}\n"), "");
+  const std::string not_the_papers = " is not the paper's, and as_published is true";
+  EXPECT_EQ(refusal(radar + "  retreat: true\n"), "s.yaml:7:12: retreat" + not_the_papers);
+  EXPECT_EQ(refusal(radar + "  guard: {active: true}\n"),
+            "s.yaml:7:19: guard.active" + not_the_papers);
+  EXPECT_EQ(refusal(radar + "  guard: {horizon_s: 4}\n"),
+            "s.yaml:7:22: guard.horizon_s" + not_the_papers);
+  EXPECT_EQ(refusal(radar, {"navigator.compensate_delay=true"}),
+            "--set navigator.compensate_delay: compensate_delay" + not_the_papers);
+  const std::string drrt = "  type: hierarchical_drrt_star\n  as_published: true\n";
+  EXPECT_EQ(refusal(drrt), "");
+  EXPECT_EQ(refusal(drrt + "  guide: straight\n"), "");
+  EXPECT_EQ(refusal(drrt + "  guide: route\n"), "s.yaml:7:10: guide" + not_the_papers);
+  EXPECT_EQ(refusal(drrt + "  planner: {straighten: true}\n"),
+            "s.yaml:7:25: planner.straighten" + not_the_papers);
+}
+
 TEST(Scenario, SettingsComeAfterTheFile) {
   const auto folder = empty_folder("scenario_set");
   write_file_atomically(folder / "s.yaml", scenario_text(open_room()));

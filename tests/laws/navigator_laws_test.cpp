@@ -135,6 +135,36 @@ TEST_P(NavigatorLaws, GetsThereInTheOpen) {
   EXPECT_TRUE(arrived);
 }
 
+/// What a navigator keeps from walls at the least, besides the swarm's radius [µm].
+double wall_gap(const NavigatorParams& params) {
+  if (const auto* radar = std::get_if<RadarParams>(&params)) return radar->safety_distance;
+  return std::max(margin_of(params) - radius, 0.0);
+}
+
+// The goal itself is too near to the border, a point within its tolerance is not.
+TEST_P(NavigatorLaws, GetsNearAGoalBesideAWall) {
+  if (std::holds_alternative<PathNavigatorParams>(GetParam().params))
+    GTEST_SKIP() << "goes where its path leads";
+  for (const double share : {0.3, 0.6, 0.9, 0.97}) {
+    const bool stops_short = GetParam().name.starts_with("Radar") ||
+                             std::holds_alternative<PotentialFieldParams>(GetParam().params) ||
+                             std::holds_alternative<PredictiveParams>(GetParam().params);
+    if (stops_short && share > 0.6) continue;
+    Scene scene = random_scene(0, 0);
+    scene.map = std::make_shared<const Map>(Box{{0, 0}, {1200, 800}}, std::vector<Polygon>{});
+    scene.goal = {800, radius + wall_gap(GetParam().params) - share * 20};
+    bool arrived = false;
+    Vec2 last;
+    drive(scene, 400, [&](const Snapshot& world, const Pose2& pose, auto&, const Navigator& n) {
+      arrived |= n.view().state == "arrived";
+      last = pose.position;
+      ASSERT_TRUE(world.is_free(pose.position, radius - 1e-6));
+    });
+    EXPECT_TRUE(arrived) << share << ", goal " << scene.goal.y << ", stopped at " << last.x << ", "
+                         << last.y;
+  }
+}
+
 TEST_P(NavigatorLaws, HoldsWithoutAGoodLook) {
   const Scene scene = random_scene(1, 0);
   const Snapshot world = scene.at(0);

@@ -41,6 +41,22 @@ TEST(FreeGoal, IsAFreePointWithinTheToleranceAndAboutTheNearest) {
   EXPECT_GT(found, 30);
 }
 
+TEST(FreeGoal, IsFoundInASpotThinnerThanTheSearch) {
+  scenes::RawWorld world;  // its border is at y = 0
+  const Snapshot snapshot = world.snapshot();
+  for (const double thin : {1.0, 0.1, 1e-3, 1e-6}) {
+    const Vec2 goal{500, 40 - 30 + thin};
+    const auto aim = free_goal(snapshot, goal, 30, 40);
+    ASSERT_TRUE(aim) << thin;
+    EXPECT_LE(distance(*aim, goal), 30);
+    EXPECT_TRUE(snapshot.is_free(*aim, 40));
+  }
+  EXPECT_FALSE(free_goal(snapshot, {500, 9.99}, 30, 40));
+  // In a corner of two walls the spot is a tip.
+  EXPECT_TRUE(free_goal(snapshot, Vec2{40, 40} - 29.9 * unit_vector(0.8), 30, 40));
+  EXPECT_FALSE(free_goal(snapshot, Vec2{40, 40} - 30.1 * unit_vector(0.8), 30, 40));
+}
+
 TEST(FreeGoal, NamesTheFault) {
   scenes::RawWorld world;
   world.discs = {{{500, 350}, 200}};

@@ -76,14 +76,5 @@ std::string range_text(const Range& range, Unit unit) {
   return "";
 }
 
-namespace detail {
-
-std::string key_of(const FieldInfo& info) {
-  const std::string_view suffix = unit_suffix(info.unit);
-  std::string key(info.name);
-  if (!suffix.empty()) key.append("_").append(suffix);
-  return key;
-}
-
-}  // namespace detail
+namespace detail {}  // namespace detail
 }  // namespace microswarm

@@ -130,8 +130,6 @@ void visit_fields(const Pose2& pose, Visitor&& visit) {
   visit(pose.heading, {"heading", Unit::deg, {}, "Heading, from x towards y."});
 }
 
-std::string key_of(const FieldInfo& info);
-
 template <class T>
 requires HasFields<T> || std::is_same_v<T, Pose2>
 struct Describe<T> {

@@ -46,11 +46,13 @@ struct Document {
   std::string name;
   Settings assignments;  // the last one first
 
-  std::optional<std::string> operator()(std::string_view key, bool about_all) const {
+  std::optional<std::string> operator()(std::string_view key, Places::Seek seek) const {
+    const bool itself = seek == Places::Seek::itself;
     for (const std::string_view assignment : assignments.texts) {
       const std::string_view path = assignment.substr(0, assignment.find('='));
-      if (sets(path, assignment.substr(path.size() + 1), key) ||
-          (about_all && is_or_holds(key, path)))
+      const bool found = sets(path, assignment.substr(path.size() + 1), key);
+      if (itself && found && path != key) return std::nullopt;
+      if (found || (seek == Places::Seek::all_of_it && is_or_holds(key, path)))
         return fmt::format("{} {}", assignments.option, one_line(path));
     }
     const YamlNode* node = node_at(root, key);
@@ -75,7 +77,7 @@ Places places_of(YamlNode document, const std::string& name, Settings assignment
   std::reverse(assignments.texts.begin(), assignments.texts.end());
   const auto found =
       std::make_shared<const Document>(Document{std::move(document), name, std::move(assignments)});
-  return {name, [found](std::string_view key, bool about_all) { return (*found)(key, about_all); }};
+  return {name, [found](std::string_view key, Places::Seek seek) { return (*found)(key, seek); }};
 }
 
 }  // namespace microswarm

@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -27,6 +28,9 @@ struct FieldInfo {
   std::string_view doc;
   bool required = false;  ///< must be given: there is no sensible default
 };
+
+/// Key of a field: its name with the unit's suffix.
+std::string key_of(const FieldInfo& info);
 
 /// Visits fields and does nothing: what the concept below is asked with.
 struct NullVisitor {

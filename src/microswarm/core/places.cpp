@@ -16,13 +16,17 @@ std::string Places::before(std::initializer_list<std::string_view> keys) const {
   };
   if (!find_) return begun(name_);
   for (const std::string_view key : keys)
-    if (const auto place = find_(prefix_ + std::string(key), true)) return begun(*place);
+    if (const auto place = find_(prefix_ + std::string(key), Seek::all_of_it)) return begun(*place);
   std::string key = prefix_ + std::string(*keys.begin());
   for (std::size_t dot = key.rfind('.'); dot != std::string::npos; dot = key.rfind('.')) {
     key.resize(dot);
-    if (const auto place = find_(key, false)) return begun(*place);
+    if (const auto place = find_(key, Seek::missing_in_it)) return begun(*place);
   }
   return begun(name_);
+}
+
+bool Places::given(std::string_view key) const {
+  return find_ && find_(prefix_ + std::string(key), Seek::itself);
 }
 
 InputError Places::error(std::initializer_list<std::string_view> keys,

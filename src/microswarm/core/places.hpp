@@ -17,9 +17,11 @@ namespace microswarm {
 /// "obstacles.3.shape.radius_um".
 class Places {
  public:
-  /// What a complaint about a key, or else about something missing in it, begins with:
-  /// "flight.yaml:12:3"; nothing for a key that is not given.
-  using Find = std::function<std::optional<std::string>(std::string_view key, bool about_all)>;
+  /// What is looked for: where to complain about a key and all in it; where about something missing
+  /// in it; whether the key itself is written there.
+  enum class Seek { all_of_it, missing_in_it, itself };
+  /// What a complaint begins with: "flight.yaml:12:3"; nothing for a key that is not given.
+  using Find = std::function<std::optional<std::string>(std::string_view key, Seek seek)>;
 
   /// Complaints begin with nothing.
   Places() = default;
@@ -32,6 +34,8 @@ class Places {
   /// "obstacle 4".
   Places within(std::string_view key, const std::string& words = {}) const;
 
+  /// Whether a key is written there, not only by way of what it stands in.
+  bool given(std::string_view key) const;
   /// "flight.yaml:12:3: obstacle 4: WHAT", at the first of the keys that is given; else at what the
   /// first would stand in.
   InputError error(std::initializer_list<std::string_view> keys, const std::string& what) const;

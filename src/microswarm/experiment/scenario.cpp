@@ -14,7 +14,7 @@
 #include "microswarm/experiment/radar_check.hpp"
 #include "microswarm/experiment/robot_check.hpp"
 #include "microswarm/formats/tracks.hpp"
-#include "microswarm/planning/free_goal.hpp"
+#include "microswarm/navigation/aim.hpp"
 #include "microswarm/world/passage.hpp"
 
 namespace microswarm {
@@ -89,7 +89,11 @@ Scenario read_scenario(const std::filesystem::path& file,
   return read_scenario(file, settings, places);
 }
 
-std::string scenario_text(const Scenario& scenario) { return to_yaml(scenario); }
+std::string scenario_text(const Scenario& scenario) {
+  Scenario out = scenario;
+  out.navigator = in_effect(out.navigator);
+  return to_yaml(out);
+}
 
 std::string Scene::hash() const {
   Hash hash;
@@ -154,7 +158,7 @@ void check_sensing(const Scenario& scenario, const Places& where) {
 void check_margin(const Scenario& scenario, const World& world, const Places& where) {
   const double margin = margin_of(scenario.navigator);
   const Snapshot walls(world.map);
-  const auto target = free_goal(walls, *scenario.goal, scenario.goal_tolerance, margin);
+  const auto target = reachable_goal(walls, *scenario.goal, scenario.goal_tolerance, margin);
   if (!target)
     throw where.error("goal_um", fmt::format("goal {} (navigator.margin_um)",
                                              walls.why_blocked(*scenario.goal, margin)));
@@ -182,7 +186,7 @@ void check_body(const Scenario& scenario, const World& world, const Places& wher
     throw where.error("start", fmt::format("start {}", why));
   // The swarm's centre may stop anywhere within the tolerance.
   const Snapshot walls(world.map);
-  const auto target = free_goal(walls, *scenario.goal, scenario.goal_tolerance, radius);
+  const auto target = reachable_goal(walls, *scenario.goal, scenario.goal_tolerance, radius);
   if (!target)
     throw where.error("goal_um", fmt::format("goal {}", walls.why_blocked(*scenario.goal, radius)));
   check_way(*world.map, scenario.start->position, *target, radius, where);

@@ -11,7 +11,8 @@ constexpr double route_reach = 400;  // along a route [µm]
 
 }  // namespace
 
-void GoalGuide::prepare(const Map& map, double clearance, double least) {
+void GoalGuide::prepare(const Map& map, Vec2 goal, double clearance, double least) {
+  goal_ = goal;
   if (kind_ == Guide::straight) return;
   ways_ = {Way{Route(map, goal_, clearance, cell), clearance},
            Way{Route(map, goal_, least, cell), least}};

@@ -25,9 +25,9 @@ class GoalGuide {
  public:
   GoalGuide(Guide kind, Vec2 goal) : kind_(kind), goal_(goal) {}
 
-  /// Makes the routes: one that keeps `clearance` [µm], and one that keeps `least` for places to
-  /// which the first leads no way.
-  void prepare(const Map& map, double clearance, double least);
+  /// Makes the routes to `goal`: one that keeps `clearance` [µm], and one that keeps `least` for
+  /// places to which the first leads no way.
+  void prepare(const Map& map, Vec2 goal, double clearance, double least);
   /// What to head for from `from`: the goal or a point of the route that is in sight.
   Vec2 target(const Map& map, Vec2 from) const;
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "microswarm/navigation/aim.hpp"
+
 namespace microswarm {
 
 bool sees_swarm(const Observation& seen, double frame_timeout) {
@@ -17,9 +19,21 @@ Helm::Helm(const SwarmLimits& swarm, double speed, Vec2 goal, double goal_tolera
     : swarm_(swarm),
       speed_(std::min(speed, swarm.max_speed)),
       goal_(goal),
+      aim_(goal),
       goal_tolerance_(goal_tolerance),
       frame_timeout_(frame_timeout),
       forecast_(swarm) {}
+
+void Helm::prepare(const Snapshot& world, double least, double wanted) {
+  aim_ = aim_at(Snapshot(world.shared_map()), goal_, goal_tolerance_, least, wanted);
+  aim_clearance_ = world.map().clearance(aim_);
+}
+
+double Helm::wall_clearance(double wanted, Vec2 p, double reach) const {
+  constexpr double rounding = 1e-9;
+  if (aim_clearance_ >= wanted || distance(p, aim_) > reach + wanted) return wanted;
+  return std::max(swarm_.radius, (1 - rounding) * aim_clearance_);
+}
 
 const Pose2* Helm::begin(const Observation& seen) {
   view_ = {};

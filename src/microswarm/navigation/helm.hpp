@@ -4,6 +4,7 @@
 #include <optional>
 #include <string_view>
 
+#include "microswarm/core/infinity.hpp"
 #include "microswarm/navigation/body_forecast.hpp"
 #include "microswarm/navigation/navigator.hpp"
 
@@ -24,6 +25,9 @@ class Helm {
   Helm(const SwarmLimits& swarm, double speed, Vec2 goal, double goal_tolerance,
        double frame_timeout);
 
+  /// Once, before the first step: where to head for, `least` and if it can `wanted` [µm] away from
+  /// the map's walls (see aim_at).
+  void prepare(const Snapshot& world, double least, double wanted);
   /// Where the swarm will be when the command of this step takes effect; null when it is to rest:
   /// there is none to see ("blind"), or it will be at the goal ("arrived").
   const Pose2* begin(const Observation& seen);
@@ -36,6 +40,11 @@ class Helm {
   /// As fast as it is wanted and can [µm/s].
   double speed() const { return speed_; }
   Vec2 goal() const { return goal_; }
+  /// What to head for: the goal, or a point within its tolerance that is free.
+  Vec2 aim() const { return aim_; }
+  /// How far to stay from walls on the next `reach` µm from `p`: `wanted` [µm], or where they come
+  /// near to an aim that is nearer to a wall than that, what the aim has.
+  double wall_clearance(double wanted, Vec2 p, double reach) const;
   /// From the frame to the effect of the command of this step [s].
   double delay() const { return delay_; }
   NavigatorView view() const { return view_; }
@@ -47,6 +56,8 @@ class Helm {
   SwarmLimits swarm_;
   double speed_;
   Vec2 goal_;
+  Vec2 aim_;
+  double aim_clearance_ = infinity;  ///< to walls [µm]
   double goal_tolerance_;
   double frame_timeout_;
   BodyForecast forecast_;

@@ -8,9 +8,9 @@
 #include <cmath>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/published.hpp"
+#include "microswarm/navigation/aim.hpp"
 #include "microswarm/navigation/helm.hpp"
-#include "microswarm/navigation/published.hpp"
-#include "microswarm/planning/free_goal.hpp"
 #include "microswarm/swarm/unicycle.hpp"
 
 namespace microswarm {
@@ -20,8 +20,6 @@ constexpr double escape_tick = 0.1;    // of the look-ahead [s]
 constexpr double longest_sweep = 1.5;  // of obstacles while planning [s]
 constexpr double first_leg = 1.0;      // of an escape [s]
 constexpr double last_weight = 0.1;    // of the clearance at an escape's end beside the least one
-constexpr double inner_goal = 0.9;     // of the tolerance: where the goal is aimed at
-constexpr double outer_goal = 0.98;    // where it is not free nearer
 constexpr double no_route = 1e4;       // more than the straight way, where no route is known [µm]
 constexpr std::array<double, 3> eases{1.0, 0.5, 0.25};
 
@@ -35,19 +33,13 @@ HierarchicalParams HierarchicalParams::in_effect() const {
   p.target_horizon = 0;
   p.guide = Guide::straight;
   p.planner.as_published = true;
+  p.planner = p.planner.in_effect();
   return p;
 }
 
 void check(const HierarchicalParams& params, const Places& where) {
   if (!params.as_published) return;
-  const HierarchicalParams ours;
-  const HierarchicalParams paper = params.in_effect();
-  check_published(where, "extra_margin_um", params.extra_margin, ours.extra_margin,
-                  paper.extra_margin);
-  check_published(where, "horizon_s", params.horizon, ours.horizon, paper.horizon);
-  check_published(where, "target_horizon_s", params.target_horizon, ours.target_horizon,
-                  paper.target_horizon);
-  check_published(where, "planner.arcs", params.planner.arcs, false, false);
+  check_published(where, params, params.in_effect(), HierarchicalParams{});
 }
 
 HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params,
@@ -70,13 +62,8 @@ HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params,
 
 void HierarchicalNavigator::prepare(const Snapshot& world) {
   const Snapshot walls(world.shared_map());
-  aim_ = goal_;
-  const auto aim_within = [&](double share, double clearance) {
-    if (const auto free = free_goal(walls, goal_, share * goal_tolerance_, clearance)) aim_ = *free;
-  };
-  aim_within(outer_goal, params_.margin);
-  aim_within(inner_goal, params_.margin);
-  aim_within(inner_goal, params_.margin + params_.extra_margin);
+  aim_ =
+      aim_at(walls, goal_, goal_tolerance_, params_.margin, params_.margin + params_.extra_margin);
   if (params_.guide == Guide::route)
     route_ = Route(world.map(), aim_, params_.margin, params_.route_cell);
 }
@@ -121,12 +108,12 @@ Command HierarchicalNavigator::decide(const Observation& seen, const Stop& stop)
     }
     if (path_.size() < 2) break;
     if (params_.as_published) {
-      const auto next = follower_.command(path_, place_, pose_, params_.lookahead, params_.speed);
+      const auto next = follow(place_, pose_, params_.speed);
       return issue(seen.now, next.command, next.handed_over ? "fallback" : "follow");
     }
     for (const double ease : eases)
       if (const double speed = ease * params_.speed; look_along_path(seen, speed).safe) {
-        const auto next = follower_.command(path_, place_, pose_, lookahead_at(speed), speed);
+        const auto next = follow(place_, pose_, speed);
         return issue(seen.now, next.command, next.handed_over ? "fallback" : "follow");
       }
   }
@@ -280,12 +267,20 @@ HierarchicalNavigator::Outlook HierarchicalNavigator::look_ahead(const Observati
   return out;
 }
 
+// A learned follower goes round a goal that is small: the last bit is left to pure pursuit.
+PathFollower::Answer HierarchicalNavigator::follow(PathPlace& place, const Pose2& pose,
+                                                   double speed) const {
+  const double lookahead = params_.as_published ? params_.lookahead : lookahead_at(speed);
+  if (*target_ == aim_ && distance(pose.position, aim_) < lookahead)
+    return {pursue(path_, place, pose, lookahead, speed)};
+  return follower_.command(path_, place, pose, lookahead, speed);
+}
+
 HierarchicalNavigator::Outlook HierarchicalNavigator::look_along_path(const Observation& seen,
                                                                       double speed) const {
   PathPlace place = place_;
-  const double lookahead = lookahead_at(speed);
   return look_ahead(seen, params_.margin, [&](const Pose2& pose, double) {
-    const Command command = follower_.command(path_, place, pose, lookahead, speed).command;
+    const Command command = follow(place, pose, speed).command;
     return way_left(path_, place) < 1 ? Command{pose.heading, 0} : command;
   });
 }

@@ -117,6 +117,7 @@ class HierarchicalNavigator : public Navigator {
   template <class Steer>
   Outlook look_ahead(const Observation& seen, double floor, Steer&& steer) const;
   double far_enough() const { return 2 * params_.margin + params_.extra_margin; }
+  PathFollower::Answer follow(PathPlace& place, const Pose2& pose, double speed) const;
   Outlook look_along_path(const Observation& seen, double speed) const;
   double lookahead_at(double speed) const {
     return params_.lookahead * std::max(0.5, speed / params_.speed);

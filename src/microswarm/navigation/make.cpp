@@ -108,6 +108,15 @@ void check_navigator(const NavigatorParams& params, const Task& task, const Map&
   std::visit([&](const auto& p) { check_on(p, task, map, where); }, params);
 }
 
+NavigatorParams in_effect(const NavigatorParams& params) {
+  return std::visit(
+      [](const auto& p) -> NavigatorParams {
+        if constexpr (requires { p.in_effect(); }) return p.in_effect();
+        return p;
+      },
+      params);
+}
+
 double margin_of(const NavigatorParams& params) {
   return std::visit([](const auto& p) { return margin(p); }, params);
 }

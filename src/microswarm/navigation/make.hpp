@@ -42,6 +42,10 @@ std::string_view what_it_lacks(const NavigatorParams& params, const Task& task);
 void check_navigator(const NavigatorParams& params, const Task& task, const Map& map,
                      const Places& where);
 
+/// The parameters, without what is ours where `as_published` says so: they read back without a
+/// contradiction.
+NavigatorParams in_effect(const NavigatorParams& params);
+
 /// Least distance [µm] from its centre that the navigator keeps for a swarm seen as one body.
 double margin_of(const NavigatorParams& params);
 

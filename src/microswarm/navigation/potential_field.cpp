@@ -45,7 +45,8 @@ PotentialFieldNavigator::PotentialFieldNavigator(const PotentialFieldParams& par
 
 void PotentialFieldNavigator::prepare(const Snapshot& world) {
   const double radius = helm_.swarm().radius;
-  guide_.prepare(world.map(), radius + params_.margin, radius);
+  helm_.prepare(world, radius, radius + params_.margin);
+  guide_.prepare(world.map(), helm_.aim(), radius + params_.margin, radius);
 }
 
 Command PotentialFieldNavigator::step(const Observation& seen, const Stop&) {
@@ -78,7 +79,7 @@ double PotentialFieldNavigator::push(double gap, double influence) const {
 
 /// What stands pushes less near the goal, or a goal beside a wall could not be reached (GNRON).
 double PotentialFieldNavigator::calm_near_goal(Vec2 p) const {
-  return std::min(1.0, distance(p, helm_.goal()) / params_.influence);
+  return std::min(1.0, distance(p, helm_.aim()) / params_.influence);
 }
 
 /// The gradient of the clearance points away from the nearest wall; between two walls its central

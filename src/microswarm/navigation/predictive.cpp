@@ -47,6 +47,7 @@ PredictiveNavigator::PredictiveNavigator(const PredictiveParams& params, const S
     : params_(params),
       helm_(swarm, params.speed, goal, goal_tolerance, params.frame_timeout),
       goal_tolerance_(goal_tolerance),
+      reached_{goal, inner_goal * goal_tolerance},
       radius_(swarm.radius + params.margin),
       foresight_(params.foresight),
       field_(helm_.speed(), params.horizon, params.step) {
@@ -54,8 +55,12 @@ PredictiveNavigator::PredictiveNavigator(const PredictiveParams& params, const S
 }
 
 void PredictiveNavigator::prepare(const Snapshot& world) {
+  helm_.prepare(world, helm_.swarm().radius, helm_.swarm().radius + params_.wall_margin);
+  const double left = goal_tolerance_ - distance(helm_.aim(), helm_.goal());
+  reached_ = {helm_.aim(), inner_goal * left};
   if (params_.guide == Guide::route)
-    route_ = Route(world.map(), helm_.goal(), helm_.swarm().radius + params_.wall_margin,
+    route_ = Route(world.map(), helm_.aim(),
+                   helm_.wall_clearance(helm_.swarm().radius + params_.wall_margin, helm_.aim(), 0),
                    params_.route_cell);
 }
 
@@ -78,12 +83,12 @@ Command PredictiveNavigator::step(const Observation& seen, const Stop&) {
   look_at_bodies(seen, pose.position);
   look_ahead(seen.seen + helm_.delay());
   in_sight_ = params_.guide == Guide::straight ||
-              map.is_free(Segment{pose.position, helm_.goal()}, helm_.swarm().radius);
+              map.is_free(Segment{pose.position, helm_.aim()}, helm_.swarm().radius);
   path_.push_back(pose.position);
   if (goal_is_clear(map, pose)) {
-    helm_.show_target(helm_.goal());
-    path_.push_back(helm_.goal());
-    return helm_.issue({heading_of(helm_.goal() - pose.position), helm_.speed()}, "follow");
+    helm_.show_target(helm_.aim());
+    path_.push_back(helm_.aim());
+    return helm_.issue({heading_of(helm_.aim() - pose.position), helm_.speed()}, "follow");
   }
   planned_ = true;
   solve(map, pose.position);
@@ -124,7 +129,7 @@ void PredictiveNavigator::look_at_bodies(const Observation& seen, Vec2 from) {
 bool PredictiveNavigator::stands_hollow(const ConvexOutline& outline, const TrackedBody& motion,
                                         Vec2 from) const {
   if (norm(motion.velocity) > slow_share * helm_.speed()) return false;
-  return outliner_.misleads(outline, std::array{from, helm_.goal()});
+  return outliner_.misleads(outline, std::array{from, helm_.aim()});
 }
 
 /// Where the bodies will be, from when this step's command takes effect.
@@ -142,7 +147,7 @@ void PredictiveNavigator::look_ahead(double effect) {
 /// Is nothing near to the straight way to the goal, as far as the horizon reaches? Between the
 /// samples, what is met may have come nearer by half the way that both of them made.
 bool PredictiveNavigator::goal_is_clear(const Map& map, const Pose2& pose) const {
-  const Vec2 way = helm_.goal() - pose.position;
+  const Vec2 way = helm_.aim() - pose.position;
   const double heading = heading_of(way);
   constexpr double turned = 0.02;  // [rad]
   const bool turns = std::isfinite(helm_.swarm().max_turn_rate);
@@ -167,15 +172,14 @@ bool PredictiveNavigator::goal_is_clear(const Map& map, const Pose2& pose) const
 
 void PredictiveNavigator::solve(const Map& map, Vec2 from) {
   field_.begin(
-      from, {helm_.goal(), inner_goal * goal_tolerance_},
-      [&](Vec2 p) { return standing_risk(map, p); },
+      from, reached_, [&](Vec2 p) { return standing_risk(map, p); },
       [&](Vec2 p) { return static_cast<float>(left_from(p)); });
   field_.solve(std::span(outlines_).first(bodies_), ahead_, radius_, params_.risk);
 }
 
 /// Time to the goal over free ground [s].
 double PredictiveNavigator::left_from(Vec2 p) const {
-  const double straight = distance(p, helm_.goal()) - inner_goal * goal_tolerance_;
+  const double straight = distance(p, helm_.aim()) - reached_.radius;
   if (in_sight_) return std::max(0.0, straight) / helm_.speed();
   const double way = route_.way_from(p);
   return std::isfinite(way) ? way / helm_.speed() : no_way;
@@ -197,7 +201,7 @@ float PredictiveNavigator::standing_risk(const Map& map, Vec2 p) const {
 
 PredictiveNavigator::Leg PredictiveNavigator::best_leg(const Map& map, const Pose2& pose) {
   Leg best = tried(map, pose, {pose.heading, 0}, std::numeric_limits<double>::infinity());
-  const double straight = heading_of(helm_.goal() - pose.position);
+  const double straight = heading_of(helm_.aim() - pose.position);
   for (const double share : speed_shares)
     for (int k = 0; k < params_.directions; ++k) {
       const Command command{wrap(straight + 2 * pi * k / params_.directions),
@@ -212,9 +216,9 @@ PredictiveNavigator::Leg PredictiveNavigator::best_leg(const Map& map, const Pos
 PredictiveNavigator::Leg PredictiveNavigator::tried(const Map& map, const Pose2& from,
                                                     const Command& command, double bound) const {
   const double dt = field_.step() / leg_pieces;
-  const double needed = std::min(helm_.swarm().radius + params_.wall_margin,
+  const double needed = std::min(helm_.wall_clearance(helm_.swarm().radius + params_.wall_margin,
+                                                      from.position, field_.step() * helm_.speed()),
                                  (1 - leg_rounding) * map.clearance(from.position));
-  const Disc goal{helm_.goal(), inner_goal * goal_tolerance_};
   Leg leg{command, field_.cost(1, from.position), std::numeric_limits<double>::infinity()};
   leg.cost = 0;
   Pose2 pose = from;
@@ -228,7 +232,7 @@ PredictiveNavigator::Leg PredictiveNavigator::tried(const Map& map, const Pose2&
     if (command.speed > 0 && !map.is_free(way, needed)) leg.cost = no_way + bound;
     if (leg.cost > bound) return leg;
     pose = next;
-    if (distance(pose.position, goal.centre) < goal.radius) return leg;
+    if (distance(pose.position, reached_.centre) < reached_.radius) return leg;
   }
   leg.cost += field_.cost(1, pose.position);
   return leg;

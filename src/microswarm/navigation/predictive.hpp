@@ -90,6 +90,7 @@ class PredictiveNavigator : public Navigator {
   PredictiveParams params_;
   Helm helm_;
   double goal_tolerance_;
+  Disc reached_;   ///< from where on the goal counts as reached
   double radius_;  ///< with the margin [µm]
   Foresight foresight_;
   TimeField field_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "microswarm/navigation/aim.hpp"
 #include "microswarm/navigation/helm.hpp"
 #include "microswarm/world/free_place.hpp"
 
@@ -18,9 +19,10 @@ constexpr double usual_tick = 0.1;   // [s]
 
 RadarNavigator::RadarNavigator(const RadarParams& params, const SwarmLimits& swarm, Vec2 goal,
                                double goal_tolerance, Rng rng)
-    : params_(in_effect(params)),
+    : params_(params.in_effect()),
       swarm_(swarm),
       goal_(goal),
+      aim_(goal),
       goal_tolerance_(goal_tolerance),
       rng_(rng),
       safety_radius_(params.safety_radius),
@@ -28,6 +30,12 @@ RadarNavigator::RadarNavigator(const RadarParams& params, const SwarmLimits& swa
       scanner_(directions_of(params)),
       guard_(params.guard, std::min(params.speed, swarm.max_speed)) {
   params_.speed = std::min(params.speed, swarm.max_speed);
+}
+
+void RadarNavigator::prepare(const Snapshot& world) {
+  if (params_.as_published) return;
+  aim_ = aim_at(Snapshot(world.shared_map()), goal_, goal_tolerance_, swarm_.radius,
+                swarm_.radius + params_.safety_distance);
 }
 
 Command RadarNavigator::step(const Observation& seen, const Stop& stop) {
@@ -77,7 +85,7 @@ Command RadarNavigator::decide(const Observation& seen, const Stop& stop) {
   const bool has_plan = !route_.empty();
   const Vec2 target = has_plan ? route_.target(seen.world->map(), pose_.position,
                                                seen.swarm->radius, params_.waypoint_tolerance)
-                               : goal_;
+                               : aim_;
   look_ = look_around(seen, target);
   contact_ = scanner_.detect(*look_, *seen.world);
   if (contact_)
@@ -107,10 +115,10 @@ Command RadarNavigator::decide(const Observation& seen, const Stop& stop) {
 void RadarNavigator::find_route(const Observation& seen, const Stop& stop) {
   if (!routed_ && !params_.waypoints.empty()) {
     std::vector<Vec2> points = params_.waypoints;
-    points.push_back(goal_);
+    points.push_back(aim_);
     route_ = RadarRoute(std::move(points), false);
   } else if (!routed_ && !params_.global_plan) {
-    route_ = RadarRoute({goal_}, true);
+    route_ = RadarRoute({aim_}, true);
   } else if (params_.waypoints.empty() && params_.global_plan && seen.now >= plan_again_at_ &&
              (route_.empty() || !route_.in_sight())) {
     view_.planned = true;
@@ -136,8 +144,9 @@ bool RadarNavigator::plan_route(const Snapshot& walls, Pose2 from, double cleara
                                 const Stop& stop) {
   FmtStarParams planner = params_.planner;
   planner.clearance = clearance;
-  planner.goal_tolerance = std::min(planner.goal_tolerance, goal_tolerance_);
-  plan_ = plan(walls, from, goal_, planner, rng_, stop);
+  planner.goal_tolerance =
+      std::min(planner.goal_tolerance, goal_tolerance_ - distance(aim_, goal_));
+  plan_ = plan(walls, from, aim_, planner, rng_, stop);
   if (plan_->status != Status::solved) return false;
   std::vector<Vec2> points = plan_->path;
   if (points.size() > 1 && from.position == pose_.position) points.erase(points.begin());

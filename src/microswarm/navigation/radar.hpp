@@ -27,6 +27,7 @@ class RadarNavigator : public Navigator {
   RadarNavigator(const RadarParams& params, const SwarmLimits& swarm, Vec2 goal,
                  double goal_tolerance, Rng rng);
 
+  void prepare(const Snapshot& world) override;
   Command step(const Observation& observation, const Stop& stop) override;
   NavigatorView view() const override { return view_; }
 
@@ -50,6 +51,7 @@ class RadarNavigator : public Navigator {
   RadarParams params_;
   SwarmLimits swarm_;
   Vec2 goal_;
+  Vec2 aim_;  ///< the goal, or the point within its tolerance that keeps the safety distance
   double goal_tolerance_;
   Rng rng_;
   SafetyRadius safety_radius_;

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "microswarm/navigation/published.hpp"
+#include "microswarm/core/published.hpp"
 
 namespace microswarm {
 
@@ -20,14 +20,15 @@ int directions_of(const RadarParams& params) {
   return static_cast<int>(std::lround(2 * pi / params.angle_step));
 }
 
-RadarParams in_effect(RadarParams params) {
-  if (!params.as_published) return params;
-  params.guard.active = false;
-  params.retreat = false;
-  params.most_turn = radians(180);
-  params.compensate_delay = false;
-  params.obstacle_speed_bound = 0;
-  return params;
+RadarParams RadarParams::in_effect() const {
+  RadarParams p = *this;
+  if (!as_published) return p;
+  p.guard = {.active = false};
+  p.retreat = false;
+  p.most_turn = radians(180);
+  p.compensate_delay = false;
+  p.obstacle_speed_bound = 0;
+  return p;
 }
 
 void check(const RadarParams& params, const Places& where) {
@@ -55,12 +56,7 @@ void check(const RadarParams& params, const Places& where) {
                       "one of them can be");
   check(params.planner, where.within("navigator.planner", "navigator.planner"));
   if (!params.as_published) return;
-  const RadarParams ours;
-  const RadarParams paper = in_effect(params);
-  const Places keys = where.within("navigator");
-  check_published(keys, "most_turn_deg", params.most_turn, ours.most_turn, paper.most_turn);
-  check_published(keys, "obstacle_speed_bound_um_per_s", params.obstacle_speed_bound,
-                  ours.obstacle_speed_bound, paper.obstacle_speed_bound);
+  check_published(where.within("navigator"), params, params.in_effect(), RadarParams{});
 }
 
 void check_step(const RadarParams& params, const SwarmLimits& swarm, const Places& where) {

@@ -20,9 +20,6 @@ RadarCircles circles_of(const RadarParams& params, double swarm_radius);
 /// 360° / β: the number of directions.
 int directions_of(const RadarParams& params);
 
-/// What is driven with: the same, and with `as_published` what is ours switched off.
-RadarParams in_effect(RadarParams params);
-
 /// Throws InputError, one line, when the safety circle is not within the detection circle, β does
 /// not divide 360°, the speed is none, waypoints are both given and to be planned, or the planner's
 /// parameters do not fit together, or when `as_published` stands beside a value that is not the

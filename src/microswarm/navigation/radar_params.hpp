@@ -38,6 +38,9 @@ struct RadarParams {
   FmtStarParams planner;
   double frame_timeout = 0.5;
   bool as_published = false;
+
+  /// These, or with `as_published` the same without what is ours.
+  RadarParams in_effect() const;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Speed asked for."});

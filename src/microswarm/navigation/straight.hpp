@@ -37,6 +37,7 @@ class StraightNavigator : public Navigator {
                     double goal_tolerance)
       : params_(params), helm_(swarm, params.speed, goal, goal_tolerance, params.frame_timeout) {}
 
+  void prepare(const Snapshot& world) override;
   Command step(const Observation& observation, const Stop& stop) override;
   NavigatorView view() const override { return helm_.view(); }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace microswarm {
 namespace {
@@ -11,6 +12,7 @@ constexpr double longest_way = 3.25;  // cells
 constexpr double long_way = 2.4;
 constexpr double short_way = 1.5;
 constexpr double cells_a_step = 3.1;  // the mean of the long ways
+constexpr float not_ended = std::numeric_limits<float>::infinity();
 
 }  // namespace
 
@@ -36,7 +38,7 @@ TimeField::TimeField(double speed, double horizon, double step)
   standing_.resize(cells);
   risk_.resize(cells);
   after_.resize(cells);
-  at_goal_.resize(cells);
+  ended_.resize(cells);
   row_.resize(static_cast<std::size_t>(width_));
   cost_.assign(static_cast<std::size_t>(steps_) + 1, std::vector<float>(cells));
 }
@@ -52,13 +54,18 @@ void TimeField::begin(Vec2 centre, Disc goal, const std::function<float(Vec2)>& 
                       const std::function<float(Vec2)>& left) {
   centre_ = centre;
   auto& last = cost_.back();
+  constexpr double half_diagonal = 0.75;  // of a cell, a little more
+  const double at_goal = std::max(goal.radius, half_diagonal * cell_);
+  const double speed = cells_a_step * cell_ / step_;
   for (int row = 0; row < width_; ++row)
     for (int column = 0; column < width_; ++column) {
       const std::size_t c = cell_of(column, row);
       const Vec2 p = place(column, row);
       standing_[c] = standing(p);
-      at_goal_[c] = distance(p, goal.centre) < goal.radius;
-      last[c] = at_goal_[c] ? 0 : left(p);
+      const double away = distance(p, goal.centre);
+      const bool ends = away < at_goal;
+      ended_[c] = ends ? static_cast<float>(std::max(0.0, away - goal.radius) / speed) : not_ended;
+      last[c] = ends ? ended_[c] : left(p);
     }
 }
 
@@ -96,9 +103,10 @@ void TimeField::step_back(int k, std::span<const ConvexOutline> outlines,
       for (int i = 0; i < count; ++i) least[i] = std::min(least[i], there[i] + move.extra);
     }
     const float* const near = &risk_[first];
-    const unsigned char* const done = &at_goal_[first];
+    const float* const ended = &ended_[first];
     float* const out = &here[first];
-    for (int i = 0; i < count; ++i) out[i] = done[i] ? 0 : least[i] + half_step * (2 + near[i]);
+    for (int i = 0; i < count; ++i)
+      out[i] = ended[i] < not_ended ? ended[i] : least[i] + half_step * (2 + near[i]);
   }
 }
 

@@ -56,7 +56,8 @@ class TimeField {
   /// Obstacles are asked for twice a step: `sample` counts from 0 to 2 steps() − 1.
   double time_of(int sample) const { return 0.5 * step_ * (sample + 0.5); }
 
-  /// Begins a field around `centre`. `standing` is the risk of a place that never changes, `left`
+  /// Begins a field around `centre`. At a goal smaller than a cell count the cells next to it, at
+  /// the cost of the way that is left. `standing` is the risk of a place that never changes, `left`
   /// the time to go from it [s].
   void begin(Vec2 centre, Disc goal, const std::function<float(Vec2)>& standing,
              const std::function<float(Vec2)>& left);
@@ -101,7 +102,7 @@ class TimeField {
   std::vector<float> risk_;
   std::vector<float> after_;  ///< cost of being at a cell for the second half of a step, and on
   std::vector<float> row_;
-  std::vector<unsigned char> at_goal_;
+  std::vector<float> ended_;              ///< cost of a cell at the goal [s]; infinity elsewhere
   std::vector<std::vector<float>> cost_;  ///< after 0, 1, … steps
 };
 

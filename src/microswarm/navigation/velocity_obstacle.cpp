@@ -75,7 +75,8 @@ void VelocityObstacleNavigator::rank_choices() {
 
 void VelocityObstacleNavigator::prepare(const Snapshot& world) {
   const double radius = helm_.swarm().radius;
-  guide_.prepare(world.map(), radius + params_.margin, radius);
+  helm_.prepare(world, radius, radius + params_.margin);
+  guide_.prepare(world.map(), helm_.aim(), radius + params_.margin, radius);
 }
 
 Command VelocityObstacleNavigator::step(const Observation& seen, const Stop&) {
@@ -132,10 +133,12 @@ void VelocityObstacleNavigator::find_threats(const Snapshot& world, Vec2 p) {
 bool VelocityObstacleNavigator::clear_of_walls(const Map& map, const Pose2& pose,
                                                const Command& command) const {
   if (command.speed == 0) return true;
-  const double r = std::min(helm_.swarm().radius + params_.margin,
+  const double reach = params_.wall_horizon * command.speed;
+  const double wanted = helm_.swarm().radius + params_.margin;
+  const double r = std::min(helm_.wall_clearance(wanted, pose.position, reach),
                             (1 - choice_rounding) * map.clearance(pose.position));
   const double time =
-      std::min(params_.wall_horizon, distance(pose.position, helm_.goal()) / command.speed);
+      std::min(params_.wall_horizon, distance(pose.position, helm_.aim()) / command.speed);
   return along_the_way(pose, command, helm_.swarm().max_turn_rate, time,
                        [&](Segment way, double, double) { return map.is_free(way, r); });
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/published.hpp"
 #include "microswarm/planning/detection.hpp"
 #include "microswarm/planning/straighten.hpp"
 #include "microswarm/planning/tree_growth.hpp"
@@ -88,8 +89,8 @@ class DrrtStar {
            const Stop& stop)
       : world_(world),
         start_(start),
-        params_(params),
-        arcs_(params.arcs && !params.as_published),
+        params_(params.in_effect()),
+        arcs_(params_.arcs),
         cost_{params.length_weight, params.smoothness_weight, arcs_ ? params.turn_radius : 0},
         growth_(world, start, goal, params, cost_, rng, stop) {}
 
@@ -157,7 +158,7 @@ class DrrtStar {
     plan.detections = std::move(detections_);
     if (arcs_) {
       plan.path = turned_path(world_, start_, plan.path, cost_, params_, plan.counts.edge_checks);
-    } else if (params_.straighten && !params_.as_published) {
+    } else if (params_.straighten) {
       straighten(world_, params_.clearance, start_.heading, cost_, straighten_rounds, plan.path,
                  plan.counts.edge_checks);
     }
@@ -166,7 +167,7 @@ class DrrtStar {
 
   const Snapshot& world_;
   Pose2 start_;
-  const DrrtStarParams& params_;
+  DrrtStarParams params_;
   bool arcs_;
   PathCost cost_;
   TreeGrowth growth_;
@@ -175,6 +176,18 @@ class DrrtStar {
 };
 
 }  // namespace
+
+DrrtStarParams DrrtStarParams::in_effect() const {
+  DrrtStarParams p = *this;
+  if (!as_published) return p;
+  p.straighten = false;
+  p.arcs = false;
+  return p;
+}
+
+void check(const DrrtStarParams& params, const Places& where) {
+  if (params.as_published) check_published(where, params, params.in_effect(), DrrtStarParams{});
+}
 
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const DrrtStarParams& params, Rng& rng,
           const Stop& stop) {

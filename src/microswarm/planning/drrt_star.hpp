@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "microswarm/core/places.hpp"
 #include "microswarm/planning/rrt_star.hpp"
 
 namespace microswarm {
@@ -28,6 +29,8 @@ struct DrrtStarParams : RrtStarParams {
   bool as_published = false;
 
   DrrtStarParams() { shrinking = false; }  // r_search is fixed in the paper
+  /// These, or with `as_published` the same without what is ours.
+  DrrtStarParams in_effect() const;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     RrtStarParams::fields(self, visit);
@@ -51,6 +54,10 @@ struct DrrtStarParams : RrtStarParams {
           {"as_published", Unit::none, {}, "The paper's method alone: no straightening, no arcs."});
   }
 };
+
+/// Throws InputError when `as_published` stands beside a value of what it leaves out; `where` knows
+/// the keys.
+void check(const DrrtStarParams& params, const Places& where);
 
 /// Plans with D-RRT*; see planners.hpp for the form that all planners share.
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const DrrtStarParams& params, Rng& rng,

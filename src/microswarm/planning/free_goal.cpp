@@ -26,18 +26,30 @@ struct Square {
   }
 };
 
+/// From a blocked point away from what is near to it until it is free; nothing where that fails.
+std::optional<Vec2> pushed_free(const Snapshot& world, Vec2 p, double clearance) {
+  constexpr double step = 1e-3;  // of the slope [µm]
+  constexpr int most_pushes = 4;
+  for (int push = 0; push < most_pushes; ++push) {
+    const double lacking = clearance - world.clearance(p);
+    if (lacking <= 0) return p;
+    const Vec2 slope{world.clearance(p + Vec2{step, 0}) - world.clearance(p - Vec2{step, 0}),
+                     world.clearance(p + Vec2{0, step}) - world.clearance(p - Vec2{0, step})};
+    if (norm(slope) < step) return std::nullopt;
+    p += (lacking + 1e-9) / norm(slope) * slope;
+  }
+  return world.is_free(p, clearance) ? std::optional(p) : std::nullopt;
+}
+
 double least_distance(Vec2 goal, Vec2 centre, double half) {
   const double dx = std::max(0.0, std::abs(goal.x - centre.x) - half);
   const double dy = std::max(0.0, std::abs(goal.y - centre.y) - half);
   return norm({dx, dy});
 }
 
-}  // namespace
-
-std::optional<Vec2> free_goal(const Snapshot& world, Vec2 goal, double tolerance,
-                              double clearance) {
-  if (!is_finite(goal)) return std::nullopt;
-  if (world.is_free(goal, clearance)) return goal;
+/// The nearest free point among the centres of the squares or, with `pushing`, beside them too.
+std::optional<Vec2> search(const Snapshot& world, Vec2 goal, double tolerance, double clearance,
+                           bool pushing) {
   std::optional<Vec2> best;
   double best_distance = tolerance;
   std::priority_queue<Square> squares;
@@ -50,9 +62,12 @@ std::optional<Vec2> free_goal(const Snapshot& world, Vec2 goal, double tolerance
     // Clearance changes by at most 1 µm per µm: no point of the square can have enough.
     const double reach = square.half * std::numbers::sqrt2;
     if (world.clearance(square.centre) + reach < clearance) continue;
-    const double to_goal = distance(square.centre, goal);
-    if (to_goal <= best_distance && world.is_free(square.centre, clearance)) {
-      best = square.centre;
+    const Vec2 place = pushing
+                           ? pushed_free(world, square.centre, clearance).value_or(square.centre)
+                           : square.centre;
+    const double to_goal = distance(place, goal);
+    if (to_goal <= best_distance && world.is_free(place, clearance)) {
+      best = place;
       best_distance = to_goal;
     }
     if (square.level == finest_level) continue;
@@ -63,6 +78,16 @@ std::optional<Vec2> free_goal(const Snapshot& world, Vec2 goal, double tolerance
     }
   }
   return best;
+}
+
+}  // namespace
+
+std::optional<Vec2> free_goal(const Snapshot& world, Vec2 goal, double tolerance,
+                              double clearance) {
+  if (!is_finite(goal)) return std::nullopt;
+  if (world.is_free(goal, clearance)) return goal;
+  if (const auto found = search(world, goal, tolerance, clearance, false)) return found;
+  return search(world, goal, tolerance, clearance, true);
 }
 
 std::optional<Status> query_fault(const Snapshot& world, Vec2 start, Vec2 goal, double tolerance,

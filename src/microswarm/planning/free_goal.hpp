@@ -9,8 +9,8 @@
 namespace microswarm {
 
 /// The goal when it is free with the clearance, else about the nearest free point within
-/// `tolerance` [µm] of it. Nothing when no free point is found in
-/// a search of squares that ends at tolerance / 64, so a free spot smaller than that may be missed.
+/// `tolerance` [µm] of it. A free spot smaller than tolerance / 64 is found only by going from its
+/// surroundings away from what is near, so one between several walls may be missed.
 std::optional<Vec2> free_goal(const Snapshot& world, Vec2 goal, double tolerance, double clearance);
 
 /// What is wrong with the query before any planning: start_blocked, goal_blocked or nothing.

@@ -83,6 +83,7 @@ struct Picture::Impl {
   cairo_surface_t* recording;
   cairo_t* cr;
   std::vector<LegendEntry> entries;
+  std::vector<Box> texts;  // where they stand [px]
 
   Impl(const Box& v, std::string_view t, double pixels)
       : view(v), title(t), scale(pixels / std::max(v.width(), v.height())) {
@@ -101,6 +102,32 @@ struct Picture::Impl {
   }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
+
+  /// Where a text is to begin: as asked for, or a few lines lower or higher where none stands yet.
+  Vec2 place_for_text(Vec2 wanted, double text_width, double size) {
+    constexpr int most_lines = 6;
+    constexpr double gap = 3;  // [px]
+    const double highest = top() + size + 2;
+    const double lowest = std::max(highest, top() + view.height() * scale - gap);
+    const auto box_at = [&](double y) {
+      return Box{{wanted.x - gap, y - size}, {wanted.x + text_width + gap, y + gap}};
+    };
+    double y = std::clamp(wanted.y, highest, lowest);
+    for (int k = 0; k <= 2 * most_lines; ++k) {
+      const int lines = k % 2 == 1 ? (k + 1) / 2 : -k / 2;
+      const double tried = std::clamp(wanted.y + lines * (size + gap), highest, lowest);
+      const Box box = box_at(tried);
+      const bool is_free = std::none_of(texts.begin(), texts.end(), [&](const Box& other) {
+        return box.lo.x < other.hi.x && other.lo.x < box.hi.x && box.lo.y < other.hi.y &&
+               other.lo.y < box.hi.y;
+      });
+      if (!is_free) continue;
+      y = tried;
+      break;
+    }
+    texts.push_back(box_at(y));
+    return {wanted.x, y};
+  }
 
   double top() const { return title.empty() ? picture_margin : picture_margin + title_height; }
   Vec2 at(Vec2 p) const {
@@ -321,7 +348,8 @@ void Picture::text(Vec2 at, std::string_view text, Colour colour, double size_px
   cairo_text_extents_t extents;
   cairo_text_extents(cr, std::string(text).c_str(), &extents);
   const double right = picture_margin + impl_->view.width() * impl_->scale - extents.x_advance - 6;
-  cairo_move_to(cr, std::min(p.x, right), std::max(p.y, impl_->top() + size_px + 2));
+  const Vec2 place = impl_->place_for_text({std::min(p.x, right), p.y}, extents.x_advance, size_px);
+  cairo_move_to(cr, place.x, place.y);
   cairo_text_path(cr, std::string(text).c_str());
   impl_->colour({1, 1, 1, 0.85});
   cairo_set_line_width(cr, 4);

@@ -22,8 +22,8 @@ extern char** environ;
 namespace microswarm {
 namespace {
 
-constexpr std::array<const char*, 7> palette{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
-                                             "#E69F00", "#56B4E9", "#333333"};
+constexpr std::array<const char*, 8> palette{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                             "#E69F00", "#56B4E9", "#333333", "#7A5C3E"};
 
 constexpr std::ptrdiff_t most_upright_letters = 4;  // of a label that is not turned
 constexpr const char* band_colour = "#ececec";

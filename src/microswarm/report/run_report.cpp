@@ -75,8 +75,7 @@ void overview(const RunSubject& s, std::span<const PlanEvent* const> shown,
   if (!shown.empty()) picture.legend("moments of the report", colours::path, true);
   if (!s.world.obstacles.empty())
     picture.legend("moving obstacles, earlier places faint", colours::obstacle, true);
-  for (const char* kind : {".png", ".svg", ".pdf"})
-    picture.write(folder / (std::string("overview") + kind));
+  picture.write_everywhere(folder / "overview");
 }
 
 /// The whole map, or what is near the swarm where the map is much larger.
@@ -90,7 +89,7 @@ Box around(const RunSubject& s, const Frame& frame, const PlanEvent& event) {
   return {frame.pose.position - half, frame.pose.position + half};
 }
 
-void moment(const RunSubject& s, const PlanEvent& event, const std::filesystem::path& file) {
+void moment(const RunSubject& s, const PlanEvent& event, const std::filesystem::path& stem) {
   const Frame& frame = frame_at(s.record, event.t);
   Picture picture(around(s, frame, event),
                   fmt::format("{} at {:.1f} s: local target, tree and path", s.title(), event.t));
@@ -108,7 +107,7 @@ void moment(const RunSubject& s, const PlanEvent& event, const std::filesystem::
   picture.legend("tree", colours::tree);
   picture.legend("detection circles", colours::circle);
   if (!s.world.obstacles.empty()) picture.legend("moving obstacles", colours::obstacle, true);
-  picture.write(file);
+  picture.write_everywhere(stem);
 }
 
 std::string moment_caption(const RunSubject& s, std::size_t number, const PlanEvent& event) {
@@ -178,7 +177,7 @@ void write_run_report(const Record& record, const std::filesystem::path& folder,
   PageSection stills{.heading = "Moments",
                      .text =
                          "In each third of the run the planning event at which an obstacle was "
-                         "nearest; numbered in the picture above."};
+                         "nearest; numbered in the picture above. Also as .svg and .pdf."};
   const std::size_t events = record.plans.size();
   const std::size_t shown = std::min<std::size_t>(moments, events);
   std::vector<const PlanEvent*> chosen;
@@ -186,9 +185,9 @@ void write_run_report(const Record& record, const std::filesystem::path& folder,
     chosen.push_back(&tightest(record, k * events / shown, (k + 1) * events / shown));
   overview(s, chosen, folder);
   for (std::size_t k = 0; k < shown; ++k) {
-    const std::string name = fmt::format("moment-{}.png", k + 1);
-    moment(s, *chosen[k], folder / name);
-    stills.pictures.emplace_back(name, moment_caption(s, k + 1, *chosen[k]));
+    const std::string stem = fmt::format("moment-{}", k + 1);
+    moment(s, *chosen[k], folder / stem);
+    stills.pictures.emplace_back(stem + ".png", moment_caption(s, k + 1, *chosen[k]));
   }
   write_plots(run_plots(record), folder / "plots.png");
   std::vector<PageSection> sections{
