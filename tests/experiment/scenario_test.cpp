@@ -230,8 +230,9 @@ TEST(ScenarioCheck, GoalNearerToAWallThanTheMargin) {
   scenario.goal = Vec2{1700, 60};
   scenario.goal_tolerance = 20;
   EXPECT_EQ(check_error(scenario),
-            "s.yaml: goal is 60 µm from the border, needs 90 µm (navigator.margin_um)");
-  scenario.goal_tolerance = 31;
+            "s.yaml: goal is 60 µm from the border, needs 90 µm (navigator.margin_um), and 0.9 of "
+            "goal_tolerance_um is only 18 µm");
+  scenario.goal_tolerance = 34;
   EXPECT_EQ(check_error(scenario), "");
 }
 

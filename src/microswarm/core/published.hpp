@@ -5,19 +5,12 @@
 
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "microswarm/core/fields.hpp"
 #include "microswarm/core/places.hpp"
 
 namespace microswarm {
-
-/// For parameters with `as_published`: throws InputError when a key of ours is given, in the file
-/// or after it, with a value that is not the one in effect, since it would have no effect. `given`
-/// are the parameters as read, `paper` the same in effect, `usual` their defaults: what no file
-/// gives must be the default or the paper's. `prefix` is that of the keys within `where`.
-template <HasFields T>
-void check_published(const Places& where, const T& given, const T& paper, const T& usual,
-                     const std::string& prefix = {});
 
 namespace published_detail {
 
@@ -26,8 +19,8 @@ template <class T>
 class Comparison {
  public:
   Comparison(const Places& where, const T& given, const T& paper, const T& usual,
-             const std::string& prefix)
-      : where_(where), given_(given), paper_(paper), usual_(usual), prefix_(prefix) {}
+             std::string prefix = {})
+      : where_(where), given_(given), paper_(paper), usual_(usual), prefix_(std::move(prefix)) {}
 
   template <class V>
   void operator()(const V& value, const FieldInfo& info) {
@@ -37,7 +30,7 @@ class Comparison {
     const V& usual = at<V>(usual_, offset);
     const std::string key = prefix_ + key_of(info);
     if constexpr (HasFields<V>) {
-      check_published(where_, value, paper, usual, key + ".");
+      V::fields(value, Comparison<V>(where_, value, paper, usual, key + "."));
     } else if constexpr (std::is_arithmetic_v<V> || std::is_enum_v<V>) {
       if (value == paper || (value == usual && !where_.given(key))) return;
       throw where_.error(key, fmt::format("{} is not the paper's, and as_published is true", key));
@@ -54,15 +47,18 @@ class Comparison {
   const T& given_;
   const T& paper_;
   const T& usual_;
-  const std::string& prefix_;
+  std::string prefix_;
 };
 
 }  // namespace published_detail
 
+/// For parameters with `as_published`: throws InputError when a key of ours is given, in the file
+/// or after it, with a value that is not the one in effect, since it would have no effect. `given`
+/// are the parameters as read, `paper` the same in effect, `usual` their defaults: what no file
+/// gives must be the default or the paper's.
 template <HasFields T>
-void check_published(const Places& where, const T& given, const T& paper, const T& usual,
-                     const std::string& prefix) {
-  T::fields(given, published_detail::Comparison<T>(where, given, paper, usual, prefix));
+void check_published(const Places& where, const T& given, const T& paper, const T& usual) {
+  T::fields(given, published_detail::Comparison<T>(where, given, paper, usual));
 }
 
 }  // namespace microswarm

@@ -160,8 +160,12 @@ void check_margin(const Scenario& scenario, const World& world, const Places& wh
   const Snapshot walls(world.map);
   const auto target = reachable_goal(walls, *scenario.goal, scenario.goal_tolerance, margin);
   if (!target)
-    throw where.error("goal_um", fmt::format("goal {} (navigator.margin_um)",
-                                             walls.why_blocked(*scenario.goal, margin)));
+    throw where.error(
+        "goal_um",
+        fmt::format(
+            "goal {} (navigator.margin_um), and {:.3g} of goal_tolerance_um is only {:.4g} µm",
+            walls.why_blocked(*scenario.goal, margin), aim_share,
+            aim_share * scenario.goal_tolerance));
   const WidestPath way = widest_path(*world.map, scenario.start->position, *target, margin);
   // A start that is nearer to a wall is let go: the navigator leads away from there.
   const double needed = std::min(margin, world.map->clearance(scenario.start->position));

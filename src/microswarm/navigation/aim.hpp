@@ -7,15 +7,17 @@
 
 namespace microswarm {
 
+/// Share of a goal's tolerance within which it is headed for: the rest is for following a path.
+inline constexpr double aim_share = 0.9;
+
 /// The point that a swarm heads for when it must stay `clearance` [µm] away from `walls`: the goal,
-/// or about the nearest free point within 0.98 of the tolerance [µm] of it, so that it gets there
-/// although it does not keep to a point exactly. Nothing when there is none. The check of a
+/// or about the nearest free point within `aim_share` of the tolerance [µm] of it, so that it gets
+/// there although it does not keep to a point exactly. Nothing when there is none. The check of a
 /// scenario and the navigators ask here, so what passes the one is what the others head for.
 std::optional<Vec2> reachable_goal(const Snapshot& walls, Vec2 goal, double tolerance,
                                    double clearance);
 
-/// The same, farther from walls where that leaves a tenth of the tolerance: at `wanted` clearance,
-/// else at `least`, else the goal itself.
+/// The same at `wanted` clearance, else at `least`, else the goal itself.
 Vec2 aim_at(const Snapshot& walls, Vec2 goal, double tolerance, double least, double wanted);
 
 }  // namespace microswarm
