@@ -77,7 +77,9 @@ def printed(page, rows):
 def whole(path, rows):
     """The rows without their last column, which must say that the campaign ran to its end."""
     for row in rows:
-        extent = row.pop("extent", "unknown")
+        if "course" not in row or "navigator" not in row:
+            sys.exit(f"{path}: no table of a campaign: it has no columns course and navigator")
+        extent = row.pop("extent", None) or "unknown"
         if extent != "full":
             sys.exit(f"{path}: {row['course']}, {row['navigator']}: not of a whole campaign: {extent}")
     return rows
