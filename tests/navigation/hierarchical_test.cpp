@@ -164,7 +164,8 @@ Driven drive(Pose2 pose, Vec2 goal, double seconds, const std::vector<StraightDi
   return out;
 }
 
-// The check before a run accepts them: a point within nine tenths of the tolerance keeps the margin.
+// The check before a run accepts them: a point within nine tenths of the tolerance keeps the
+// margin.
 TEST(Hierarchical, ReachesGoalsNearerToAWallThanTheMargin) {
   for (const double y : {89.0, 85.0, 75.0, 66.0, 63.5})
     EXPECT_LT(drive({{300, 500}, 0}, {1500, y}, 60).arrived, 40) << y;
