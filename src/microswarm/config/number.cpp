@@ -76,5 +76,4 @@ std::string range_text(const Range& range, Unit unit) {
   return "";
 }
 
-namespace detail {}  // namespace detail
 }  // namespace microswarm
