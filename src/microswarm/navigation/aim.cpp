@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/navigation/aim.hpp"
 
+#include <algorithm>
+
 #include "microswarm/planning/free_goal.hpp"
 
 namespace microswarm {
@@ -12,7 +14,22 @@ std::optional<Vec2> reachable_goal(const Snapshot& walls, Vec2 goal, double tole
 
 Vec2 aim_at(const Snapshot& walls, Vec2 goal, double tolerance, double least, double wanted) {
   if (const auto aim = reachable_goal(walls, goal, tolerance, wanted)) return *aim;
-  return reachable_goal(walls, goal, tolerance, least).value_or(goal);
+  if (!reachable_goal(walls, goal, tolerance, least)) return goal;
+  constexpr int halvings = 8;
+  double enough = least;
+  double too_much = wanted;
+  for (int k = 0; k < halvings; ++k) {
+    const double middle = 0.5 * (enough + too_much);
+    (reachable_goal(walls, goal, tolerance, middle) ? enough : too_much) = middle;
+  }
+  return reachable_goal(walls, goal, tolerance, 0.5 * (least + enough)).value_or(goal);
+}
+
+double wall_clearance_near(Vec2 aim, double aim_clearance, double least, double wanted, Vec2 p,
+                           double reach) {
+  constexpr double rounding = 1e-9;
+  if (aim_clearance >= wanted || distance(p, aim) > reach + wanted) return wanted;
+  return std::max(least, (1 - rounding) * aim_clearance);
 }
 
 }  // namespace microswarm

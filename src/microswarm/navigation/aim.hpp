@@ -17,7 +17,15 @@ inline constexpr double aim_share = 0.9;
 std::optional<Vec2> reachable_goal(const Snapshot& walls, Vec2 goal, double tolerance,
                                    double clearance);
 
-/// The same at `wanted` clearance, else at `least`, else the goal itself.
+/// The same at `wanted` clearance. Where that is too much, half of what can be had besides `least`
+/// is kept: the swarm strays from its way, and has some room to the walls and in the tolerance. The
+/// goal itself when there is no such point.
 Vec2 aim_at(const Snapshot& walls, Vec2 goal, double tolerance, double least, double wanted);
+
+/// How far to stay from walls [µm] on the next `reach` µm from `p`: `wanted`, or where they come
+/// near to an aim that is `aim_clearance` from a wall, less than that, what the aim has; `least` at
+/// least.
+double wall_clearance_near(Vec2 aim, double aim_clearance, double least, double wanted, Vec2 p,
+                           double reach);
 
 }  // namespace microswarm

@@ -30,9 +30,7 @@ void Helm::prepare(const Snapshot& world, double least, double wanted) {
 }
 
 double Helm::wall_clearance(double wanted, Vec2 p, double reach) const {
-  constexpr double rounding = 1e-9;
-  if (aim_clearance_ >= wanted || distance(p, aim_) > reach + wanted) return wanted;
-  return std::max(swarm_.radius, (1 - rounding) * aim_clearance_);
+  return wall_clearance_near(aim_, aim_clearance_, swarm_.radius, wanted, p, reach);
 }
 
 const Pose2* Helm::begin(const Observation& seen) {
@@ -44,7 +42,7 @@ const Pose2* Helm::begin(const Observation& seen) {
   }
   delay_ = seen.age() + swarm_.response_lag;
   pose_ = forecast_.at_effect(seen);
-  if (distance(pose_.position, goal_) > goal_tolerance_) return &pose_;
+  if (!arrives(pose_.position)) return &pose_;
   why_rest_ = "arrived";
   return nullptr;
 }

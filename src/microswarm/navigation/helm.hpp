@@ -42,8 +42,9 @@ class Helm {
   Vec2 goal() const { return goal_; }
   /// What to head for: the goal, or a point within its tolerance that is free.
   Vec2 aim() const { return aim_; }
-  /// How far to stay from walls on the next `reach` µm from `p`: `wanted` [µm], or where they come
-  /// near to an aim that is nearer to a wall than that, what the aim has.
+  /// Is `p` within the goal's tolerance?
+  bool arrives(Vec2 p) const { return distance(p, goal_) <= goal_tolerance_; }
+  /// How far to stay from walls on the next `reach` µm from `p`, see wall_clearance_near [µm].
   double wall_clearance(double wanted, Vec2 p, double reach) const;
   /// From the frame to the effect of the command of this step [s].
   double delay() const { return delay_; }

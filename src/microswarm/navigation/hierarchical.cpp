@@ -281,7 +281,8 @@ HierarchicalNavigator::Outlook HierarchicalNavigator::look_along_path(const Obse
   PathPlace place = place_;
   return look_ahead(seen, params_.margin, [&](const Pose2& pose, double) {
     const Command command = follow(place, pose, speed).command;
-    return way_left(path_, place) < 1 ? Command{pose.heading, 0} : command;
+    const bool there = distance(pose.position, goal_) <= goal_tolerance_;
+    return there || way_left(path_, place) < 1 ? Command{pose.heading, 0} : command;
   });
 }
 

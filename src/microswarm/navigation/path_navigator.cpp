@@ -16,6 +16,11 @@ PathNavigator::PathNavigator(const PathNavigatorParams& params, const SwarmLimit
   path_.reserve(2);
 }
 
+void PathNavigator::prepare(const Snapshot& world) {
+  helm_.prepare(world, helm_.swarm().radius, helm_.swarm().radius + params_.margin);
+  path_.back() = helm_.aim();
+}
+
 NavigatorView PathNavigator::view() const {
   NavigatorView view = helm_.view();
   view.path = path_;
@@ -38,10 +43,11 @@ Command PathNavigator::step(const Observation& seen, const Stop&) {
 bool PathNavigator::way_is_clear(const Snapshot& world, Pose2 pose) const {
   constexpr double tick = 0.1;  // [s]
   constexpr double rounding = 1e-9;
-  const double wanted = helm_.swarm().radius + params_.margin;
+  const double wanted = helm_.wall_clearance(helm_.swarm().radius + params_.margin, pose.position,
+                                             helm_.speed() * params_.horizon);
   const double r = std::min(wanted, (1 - rounding) * world.clearance(pose.position));
   PathPlace place = place_;
-  for (double t = 0; t < params_.horizon && distance(pose.position, helm_.goal()) > 1; t += tick) {
+  for (double t = 0; t < params_.horizon && !helm_.arrives(pose.position); t += tick) {
     const auto next =
         follower_.command(path_, place, pose, params_.lookahead, helm_.speed()).command;
     const Pose2 moved = unicycle_step(pose, next, helm_.swarm().max_turn_rate, tick);

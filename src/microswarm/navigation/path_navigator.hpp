@@ -44,6 +44,7 @@ class PathNavigator : public Navigator {
   PathNavigator(const PathNavigatorParams& params, const SwarmLimits& swarm, Vec2 goal,
                 double goal_tolerance);
 
+  void prepare(const Snapshot& world) override;
   Command step(const Observation& observation, const Stop& stop) override;
   NavigatorView view() const override;
 

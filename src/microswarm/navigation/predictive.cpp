@@ -20,7 +20,7 @@ constexpr double inner_goal = 0.9;     // of the tolerance: where it counts as r
 constexpr double slow_share = 0.1;     // of the swarm's speed
 constexpr double closing_time = 1;     // for which a hollow body is taken to close in [s]
 constexpr double leg_rounding = 1e-9;
-constexpr std::array<double, 2> speed_shares{1, 0.5};
+constexpr std::array<double, 3> speed_shares{1, 0.5, 0.25};  // the last to turn in little room
 
 /// Least distance from the outline to a point that runs straight from a to b, both seen from the
 /// outline's centre and turned back with it. The distance is a convex function of the way.
@@ -200,9 +200,19 @@ float PredictiveNavigator::standing_risk(const Map& map, Vec2 p) const {
 }
 
 PredictiveNavigator::Leg PredictiveNavigator::best_leg(const Map& map, const Pose2& pose) {
+  const bool turns_slowly = std::isfinite(helm_.swarm().max_turn_rate);
+  ending_ = false;
+  wanted_ = turns_slowly ? best_heading(pose.position) : std::nullopt;
   Leg best = tried(map, pose, {pose.heading, 0}, std::numeric_limits<double>::infinity());
+  const bool alone = std::isinf(best.least_gap);
+  ending_ = alone && in_sight_ &&
+            distance(pose.position, helm_.aim()) < 2 * field_.step() * helm_.speed();
+  // Where nothing moves, waiting leads nowhere: who turns slowly does not turn at rest, and the
+  // last bit is finer than the field's cells.
+  if (alone && (turns_slowly || ending_)) best.cost = std::numeric_limits<double>::infinity();
   const double straight = heading_of(helm_.aim() - pose.position);
-  for (const double share : speed_shares)
+  const std::span shares(speed_shares);
+  for (const double share : turns_slowly ? shares : shares.first(2))
     for (int k = 0; k < params_.directions; ++k) {
       const Command command{wrap(straight + 2 * pi * k / params_.directions),
                             share * helm_.speed()};
@@ -234,8 +244,28 @@ PredictiveNavigator::Leg PredictiveNavigator::tried(const Map& map, const Pose2&
     pose = next;
     if (distance(pose.position, reached_.centre) < reached_.radius) return leg;
   }
-  leg.cost += field_.cost(1, pose.position);
+  leg.cost += ending_ ? left_from(pose.position) : field_.cost(1, pose.position);
+  leg.cost += turning_time(pose);
   return leg;
+}
+
+/// Where the field leads to from `p`, over steps enough to smooth the grid; where it waits,
+/// nothing.
+std::optional<double> PredictiveNavigator::best_heading(Vec2 p) const {
+  constexpr int steps_ahead = 3;
+  const Vec2 from = p;
+  for (int k = 1; k < std::min(steps_ahead + 1, field_.steps()); ++k) p = field_.next(k, p);
+  if (p == from) return std::nullopt;
+  return heading_of(p - from);
+}
+
+/// What the field leaves out: the time lost to turning into the best way on [s]. While the swarm
+/// turns by an angle at its full rate, it gets on by that angle's sine alone.
+double PredictiveNavigator::turning_time(const Pose2& pose) const {
+  if (!wanted_) return 0;
+  const double wanted = ending_ ? heading_of(helm_.aim() - pose.position) : *wanted_;
+  const double turn = turn_between(wanted, pose.heading);
+  return (turn - std::sin(turn)) / helm_.swarm().max_turn_rate;
 }
 
 /// What the bodies mean to the swarm while it goes along a piece of the first leg.
@@ -273,7 +303,7 @@ double PredictiveNavigator::follow_field(Vec2 from) {
       const Vec2 off = rotated(p - body.centre, -body.turn);
       least = std::min(least, outlines_[i].distance_at(off) - body.growth - radius_);
     }
-    if (distance(p, helm_.goal()) < goal_tolerance_) break;
+    if (helm_.arrives(p)) break;
     p = field_.next(k, p);
     path_.push_back(p);
   }

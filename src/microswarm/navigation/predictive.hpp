@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -84,6 +85,8 @@ class PredictiveNavigator : public Navigator {
   float standing_risk(const Map& map, Vec2 p) const;
   Leg best_leg(const Map& map, const Pose2& pose);
   Leg tried(const Map& map, const Pose2& pose, const Command& command, double bound) const;
+  std::optional<double> best_heading(Vec2 p) const;
+  double turning_time(const Pose2& pose) const;
   Meeting meeting(int piece, Segment way) const;
   double follow_field(Vec2 from);
 
@@ -95,7 +98,9 @@ class PredictiveNavigator : public Navigator {
   Foresight foresight_;
   TimeField field_;
   Route route_;
-  bool in_sight_ = true;  ///< is the goal?
+  bool in_sight_ = true;          ///< is the goal?
+  std::optional<double> wanted_;  ///< heading to turn to, of a swarm that turns slowly [rad]
+  bool ending_ = false;           ///< is it at the last bit, finer than the field's cells?
 
   ConvexOutliner outliner_;
   std::vector<ConvexOutline> outlines_;  ///< of the bodies that are foreseen

@@ -36,6 +36,7 @@ void RadarNavigator::prepare(const Snapshot& world) {
   if (params_.as_published) return;
   aim_ = aim_at(Snapshot(world.shared_map()), goal_, goal_tolerance_, swarm_.radius,
                 swarm_.radius + params_.safety_distance);
+  aim_clearance_ = world.map().clearance(aim_);
 }
 
 Command RadarNavigator::step(const Observation& seen, const Stop& stop) {
@@ -157,12 +158,15 @@ bool RadarNavigator::plan_route(const Snapshot& walls, Pose2 from, double cleara
 RadarLook RadarNavigator::look_around(const Observation& seen, Vec2 target) const {
   const double radius = seen.swarm->radius;
   const double dead_time = seen.age() + swarm_.response_lag;
+  const double from_walls =
+      wall_clearance_near(aim_, aim_clearance_, radius, radius + params_.safety_distance,
+                          pose_.position, params_.prediction_distance);
   return {.centre = pose_.position,
           .radius = radius,
           .target = target,
           .circles = circles_of(params_, radius),
           .step = params_.prediction_distance,
-          .wall_distance = params_.safety_distance,
+          .wall_distance = from_walls - radius,
           .approach = params_.compensate_delay ? params_.obstacle_speed_bound * dead_time : 0,
           .target_gain = params_.target_gain,
           .avoidance_gain = params_.avoidance_gain,

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "microswarm/core/infinity.hpp"
 #include "microswarm/core/rng.hpp"
 #include "microswarm/navigation/body_forecast.hpp"
 #include "microswarm/navigation/guard.hpp"
@@ -52,6 +53,7 @@ class RadarNavigator : public Navigator {
   SwarmLimits swarm_;
   Vec2 goal_;
   Vec2 aim_;  ///< the goal, or the point within its tolerance that keeps the safety distance
+  double aim_clearance_ = infinity;  ///< to walls [µm]
   double goal_tolerance_;
   Rng rng_;
   SafetyRadius safety_radius_;
