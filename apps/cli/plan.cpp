@@ -95,8 +95,8 @@ void show(const Plan& made, double start_heading, double ms, bool json) {
 }
 
 /// Throws InputError when the planner's parameters do not fit together.
-void check_planner(const PlannerParams& planner) {
-  const Places where = Places("plan").within("planner", "planner");
+void check_planner(const PlannerParams& planner, const Settings& settings) {
+  const Places where = places_of({}, "plan", settings).within("planner", "planner");
   if (const auto* fmt_star = std::get_if<FmtStarParams>(&planner)) check(*fmt_star, where);
   if (const auto* drrt_star = std::get_if<DrrtStarParams>(&planner)) check(*drrt_star, where);
 }
@@ -105,7 +105,7 @@ int plan_command(const PlanOptions& o, const Context& context) {
   keep_input(o.picture, o.map);
   PathChoice choice;
   set_values(choice, o.settings);
-  check_planner(choice.planner);
+  check_planner(choice.planner, o.settings);
   const std::vector<double> from = numbers(o.start);
   const std::vector<double> to = numbers(o.goal);
   const Pose2 start{{from[0], from[1]}, from.size() > 2 ? radians(from[2]) : 0.0};

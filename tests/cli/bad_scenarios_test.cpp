@@ -41,6 +41,14 @@ TEST_F(BadScenarios, GoalCutOff) {
   run_refused(two_rooms(0), "flight.yaml:12:10: goal is cut off from the start by walls");
 }
 
+TEST_F(BadScenarios, APlannerAsPublishedBesideAKeyOfOurs) {
+  write("room.csv", "x_um,y_um,width_um,height_um\n400,400,100,100\n");
+  refused({"plan", "room.csv", "--start", "100,100", "--goal", "800,800", "--set",
+           "planner.as_published=true", "--set", "planner.straighten=true"},
+          "--set planner.straighten: planner: straighten is not the paper's, and as_published is "
+          "true");
+}
+
 TEST_F(BadScenarios, KeysThatDoNotFitTogether) {
   const std::string radar = two_rooms() + "navigator:\n  type: radar\n";
   run_refused(radar + "  angle_step_deg: 7\n",

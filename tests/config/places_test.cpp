@@ -62,6 +62,16 @@ TEST(Places, GivenIsWhatIsWrittenItself) {
   EXPECT_FALSE(places({"navigator.type=predictive"}).given("navigator.speed_um_per_s"));
   EXPECT_TRUE(places({"navigator.type=radar"}).given("navigator.speed_um_per_s"));
   EXPECT_FALSE(Places("a").given("x"));
+  // A map brings the keys that it holds.
+  const Places map = places({"navigator={type: radar, retreat: true, guard: {active: true}}"});
+  EXPECT_TRUE(map.given("navigator.retreat"));
+  EXPECT_TRUE(map.given("navigator.guard.active"));
+  EXPECT_FALSE(map.given("navigator.speed_um_per_s"));
+  EXPECT_FALSE(map.given("navigator.guard.horizon_s"));
+  // One without a type leaves the others as they were.
+  const Places merged = places({"navigator.guard.horizon_s=2", "navigator.guard={active: true}"});
+  EXPECT_TRUE(merged.given("navigator.guard.horizon_s"));
+  EXPECT_TRUE(merged.given("navigator.guard.active"));
 }
 
 TEST(Places, WithinAKey) {

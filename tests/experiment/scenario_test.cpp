@@ -67,6 +67,13 @@ TEST(Scenario, AsPublishedLeavesNothingOfOursUnsaid) {
   EXPECT_EQ(refusal(drrt + "  guide: route\n"), "s.yaml:7:10: guide" + not_the_papers);
   EXPECT_EQ(refusal(drrt + "  planner: {straighten: true}\n"),
             "s.yaml:7:25: planner.straighten" + not_the_papers);
+  EXPECT_EQ(refusal("  type: radar\n", {"navigator={type: radar, as_published: true, "
+                                        "retreat: true}"}),
+            "--set navigator: retreat" + not_the_papers);
+  // The planner alone as published, within a navigator that is ours.
+  EXPECT_EQ(refusal("  type: hierarchical_drrt_star\n"
+                    "  planner: {as_published: true, straighten: true}\n"),
+            "s.yaml:6:45: straighten" + not_the_papers);
 }
 
 TEST(Scenario, SettingsComeAfterTheFile) {

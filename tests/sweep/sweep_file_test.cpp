@@ -100,6 +100,22 @@ TEST(SweepPlan, BadSettingsNameWhereTheyStand) {
                                "goal "));
 }
 
+TEST(SweepPlan, AsPublishedBesideAKeyOfOursIsRefused) {
+  const auto refused = [](const std::string& set) {
+    std::string text = sweep_text();
+    const std::string from = "navigator.guide=straight";
+    text.replace(text.find(from), from.size(), set);
+    const auto folder = sweep_folder("sweep_published", text);
+    return error_of([&] { check(load_sweep(folder / "sweep.yaml", 2), 2); });
+  };
+  const std::string published = "\"navigator={type: hierarchical_drrt_star, as_published: true";
+  EXPECT_EQ(refused(published + "}\""), "");
+  const std::string complaint =
+      "method 'straight on': extra_margin_um is not the paper's, and as_published is true";
+  EXPECT_TRUE(refused(published + ", extra_margin_um: 10}\"").ends_with(complaint));
+  EXPECT_TRUE(refused("navigator.as_published=true").ends_with(complaint));  // it is in the file
+}
+
 TEST(SweepPlan, ATrialIsTheTrialOfRun) {
   const auto folder = sweep_folder("sweep_trial", sweep_text());
   const SweepPlan plan = load_sweep(folder / "sweep.yaml", 1);

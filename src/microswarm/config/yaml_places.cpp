@@ -51,13 +51,30 @@ struct Document {
     for (const std::string_view assignment : assignments.texts) {
       const std::string_view path = assignment.substr(0, assignment.find('='));
       const bool found = sets(path, assignment.substr(path.size() + 1), key);
-      if (itself && found && path != key) return std::nullopt;
+      if (itself && found && path != key) {
+        const Change change = change_of(path, assignment, key);
+        if (change == Change::dropped) return std::nullopt;
+        if (change == Change::none) continue;
+      }
       if (found || (seek == Places::Seek::all_of_it && is_or_holds(key, path)))
         return fmt::format("{} {}", assignments.option, one_line(path));
     }
     const YamlNode* node = node_at(root, key);
     if (!node) return std::nullopt;
     return fmt::format("{}:{}:{}", name, node->line, node->column);
+  }
+
+  enum class Change { none, written, dropped };
+
+  /// What an assignment to something that the key is in does to the key: a map may hold it, and a
+  /// map with a type drops what it does not hold.
+  static Change change_of(std::string_view path, std::string_view assignment,
+                          std::string_view key) {
+    if (!key.starts_with(path)) return Change::dropped;  // by a type
+    const YamlNode value = parse_yaml(assignment.substr(path.size() + 1), path);
+    if (node_at(value, key.substr(path.size() + 1))) return Change::written;
+    return value.kind == YamlNode::Kind::map && !child(value, "type") ? Change::none
+                                                                      : Change::dropped;
   }
 
   /// A type that is another than the document's brings all keys beside it anew.

@@ -38,6 +38,7 @@ HierarchicalParams HierarchicalParams::in_effect() const {
 }
 
 void check(const HierarchicalParams& params, const Places& where) {
+  check(params.planner, where.within("planner"));
   if (!params.as_published) return;
   check_published(where, params, params.in_effect(), HierarchicalParams{});
 }

@@ -60,6 +60,16 @@ std::string cell_name(const SweepPlan& plan, const SweepCell& cell) {
   return fmt::format("{}: {}method '{}'", plan.file, name, cell.method);
 }
 
+/// Complaints begin with the cell's name; what is given is known.
+Places places_of(const SweepPlan& plan, const SweepCell& cell) {
+  const std::string name = cell_name(plan, cell);
+  const Places written = places_of(plan.scenario_document, name, cell.settings);
+  return {name, [written](std::string_view key, Places::Seek seek) -> std::optional<std::string> {
+            if (seek != Places::Seek::itself || !written.given(key)) return std::nullopt;
+            return "";
+          }};
+}
+
 struct Loader {
   const SweepPlan& plan;
   const Scenario& base;
@@ -74,14 +84,17 @@ struct Loader {
     }
   }
 
-  /// In the order in which they are applied.
-  void check_order(const SweepCell& cell, const SweepMethod& method) const {
+  std::vector<std::string> settings_of(const SweepCell& cell, const SweepMethod& method) const {
     std::vector<std::string> all = plan.sweep.set;
     all.insert(all.end(), method.set.begin(), method.set.end());
     for (std::size_t i = 0; i < cell.values.size(); ++i)
       all.push_back(plan.sweep.grid[i].key + "=" + cell.values[i]);
+    return all;
+  }
+
+  void check_order(const SweepCell& cell, const SweepMethod& method) const {
     try {
-      check_types_first(all);
+      check_types_first(cell.settings);
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}: method '{}': {}", plan.file, method.name, error.what()));
     }
@@ -110,6 +123,7 @@ struct Loader {
       cell.values[i] = values[index % values.size()];
       index /= values.size();
     }
+    cell.settings = settings_of(cell, method);
     const Scene scene = load_scene(scenario_of(cell, method), folder, cell_name(plan, cell));
     cell.input_hash = scene.hash();
     cell.world = maps.world_of(scene);
@@ -129,10 +143,11 @@ std::string SweepPlan::hash() const {
 }
 
 SweepPlan load_sweep(const std::filesystem::path& file, int jobs) {
-  SweepPlan plan{
-      .sweep = read_sweep(file), .file = file.string(), .scenario_text = {}, .cells = {}};
+  SweepPlan plan{.sweep = read_sweep(file), .file = file.string()};
   const std::filesystem::path scenario_file = file.parent_path() / plan.sweep.scenario;
   const Scenario base = read_scenario(scenario_file);
+  plan.scenario_document =
+      parse_yaml(read_file(scenario_file, max_yaml_bytes), scenario_file.string());
   plan.scenario_text = scenario_text(base);
   MapShelf maps;
   const Loader loader{plan, base, scenario_file.parent_path(), maps};
@@ -147,7 +162,7 @@ SweepPlan load_sweep(const std::filesystem::path& file, int jobs) {
 void check(const SweepPlan& plan, int jobs) {
   for_each_in_order(plan.cells.size(), jobs, [&](std::size_t i) {
     const SweepCell& cell = plan.cells[i];
-    check(cell.scenario, cell.world, cell_name(plan, cell));
+    check(cell.scenario, cell.world, places_of(plan, cell));
   });
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "microswarm/config/yaml_node.hpp"
 #include "microswarm/experiment/scenario.hpp"
 #include "microswarm/sweep/sweep_file.hpp"
 
@@ -14,9 +15,10 @@ namespace microswarm {
 struct SweepCell {
   std::vector<std::string> values;  ///< one for each parameter of the grid
   std::string method;
-  Scenario scenario;       ///< the tracks of its obstacles have their samples
-  World world;             ///< cells of the same walls share their map
-  std::string input_hash;  ///< of scenario, map and tracks, as Scene::hash()
+  std::vector<std::string> settings;  ///< all, in the order in which they are applied
+  Scenario scenario;                  ///< the tracks of its obstacles have their samples
+  World world;                        ///< cells of the same walls share their map
+  std::string input_hash;             ///< of scenario, map and tracks, as Scene::hash()
 };
 
 /// A sweep with all that the files it names held. The last parameter of the grid changes before the
@@ -25,6 +27,7 @@ struct SweepPlan {
   Sweep sweep;
   std::string file;           ///< as given
   std::string scenario_text;  ///< of the scenario that all cells begin with
+  YamlNode scenario_document;
   std::vector<SweepCell> cells;
 
   /// Fingerprint of everything that results depend on.
