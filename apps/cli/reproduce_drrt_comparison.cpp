@@ -72,15 +72,13 @@ std::vector<Contestant> contestants_of(const Scenario& scenario) {
 struct Study {
   std::vector<double> turning, length, time, energy;  // [°, µm, s, mT²·s]
   std::vector<double> least;                          // of every trial [µm]
-  int ran = 0, arrived = 0, kept = 0;
+  int arrived = 0, kept = 0;
 };
 
 Study study(const std::vector<TrialResult>& trials) {
   Study out;
   for (const TrialResult& t : trials) {
-    if (!t.ran) continue;
     const Metrics& m = t.result.metrics;
-    ++out.ran;
     out.least.push_back(m.obstacles.clearance);
     out.kept += m.obstacles.clearance >= kept_margin;
     if (t.result.status != Status::solved) continue;
@@ -106,7 +104,7 @@ void add_rows(const char* name, const Study& s, bool aimed, std::vector<Reproduc
     rows.back().at_most = at_most;
     rows.back() = noted(std::move(rows.back()), "aim is ours");
   };
-  const double n = std::max(1, s.ran);
+  const auto n = static_cast<double>(s.least.size());
   add("arrived without contact", "%", 100 * s.arrived / n);
   aim(100, false);
   add("margin of 90 µm kept", "%", 100 * s.kept / n);
@@ -134,7 +132,7 @@ ReproduceRow claim(const char* what, const Contestant& drrt, const Study& of_drr
       noted(row_of("comparison", fmt::format("{} {} than {}", drrt.name, what, radar.name), "%", {},
                    less, 0, false),
             "claimed without a figure");
-  const auto share = [](const Study& s) { return 1.0 * s.arrived / std::max(1, s.ran); };
+  const auto share = [](const Study& s) { return s.arrived / static_cast<double>(s.least.size()); };
   if (std::min(share(of_drrt), share(of_radar)) >= enough) return row;
   return unjudged(std::move(row), "medians of too few that arrive");
 }
@@ -182,6 +180,7 @@ std::vector<ReproduceRow> drrt_comparison(const ReproduceOptions& options, const
          .progress = [&](int done, int all) { bar.update(static_cast<double>(done) / all); },
          .vary = vary_phases},
         stop);
+    if (stop()) return rows;  // what was cut off is not told
     studies.push_back(study(trials));
     add_rows(contestant.name, studies.back(), &contestant == &who[1], rows);
   }
@@ -194,7 +193,7 @@ std::vector<ReproduceRow> drrt_comparison(const ReproduceOptions& options, const
   }
   for (ReproduceRow& row : rows)
     if (row.aim) row = unjudged_if_quick(std::move(row), options);
-  if (!options.out.empty() && !stop()) plot_study(who, studies, options.out);
+  if (!options.out.empty()) plot_study(who, studies, options.out);
   return rows;
 }
 

@@ -303,7 +303,8 @@ double drrt_global_planning_time(const ReproduceOptions& options, const Stop& st
 std::vector<ReproduceRow> drrt_fig3(const ReproduceOptions& options, const Stop& stop) {
   const DrrtSetting s = load_drrt(options, "s_channel.yaml");
   const std::vector<Outcome> outcomes = try_planners(s, options.seed_count(), stop);
-  if (!options.out.empty() && !stop()) {
+  if (stop()) return {};
+  if (!options.out.empty()) {
     fig3_pictures(s, outcomes, options.out);
     fig3_plots(outcomes, options.out);
   }

@@ -36,15 +36,13 @@ struct Loops {
   std::vector<double> events, turning, length, time;            // a run; [1, °, µm, s]
   double least = std::numeric_limits<double>::infinity();       // [µm]
   double least_wall = std::numeric_limits<double>::infinity();  // [µm]
-  int ran = 0, reached = 0, below = 0;
+  int reached = 0, below = 0;
 };
 
 Loops summed(const std::vector<TrialResult>& trials) {
   Loops out;
   for (const TrialResult& t : trials) {
-    if (!t.ran) continue;
     const Metrics& m = t.result.metrics;
-    ++out.ran;
     out.reached += t.result.status == Status::solved;
     out.below += m.obstacles.clearance < published_margin;
     out.least = std::min(out.least, m.obstacles.clearance);
@@ -64,7 +62,7 @@ std::vector<ReproduceRow> loop_rows(const LoopFigure& f, const std::string& who,
   const std::string fig = f.figure;
   const auto named = [&](const char* what) { return who + ": " + what; };
   const TimeSummary sum = summarise(l.planning);  // of milliseconds
-  const double n = std::max(1, l.ran);
+  const auto n = static_cast<double>(l.events.size());
   const auto plain = [&](const char* what, const char* unit, std::optional<double> paper,
                          std::optional<double> ours, const char* why = "") {
     return row_without_aim(why, fig, named(what), unit, paper, ours);
@@ -117,7 +115,8 @@ std::vector<ReproduceRow> loop_figure(const LoopFigure& f, const ReproduceOption
          .progress = [&](int done, int all) { bar.update(static_cast<double>(done) / all); },
          .vary = vary_phases},
         stop);
-    if (!options.out.empty() && !stop())
+    if (stop()) return rows;  // what was cut off is not told
+    if (!options.out.empty())
       loop_pictures(f, as_published ? "-as-published" : "", s.scene, s.world, options.out, stop);
     for (ReproduceRow& row : loop_rows(f, who, summed(trials), global_time))
       rows.push_back(std::move(row));

@@ -155,6 +155,7 @@ std::vector<ReproduceRow> global_step_lengths(const ReproduceOptions& options, c
       curves[size].shares[k][trial] =
           100 * coverage(map, first_nodes(tree, std::size_t(tree_sizes[size])), grid_cell).share;
   });
+  if (stop()) return {};
   Plot plot{.title = "Fig 3, 5: two robots in Env 1; dashed: the paper's best Robostep",
             .x_label = "Robostep (µm)",
             .y_label = "coverage (%), median and quartiles",
@@ -190,6 +191,7 @@ std::vector<ReproduceRow> global_cell_sizes(const ReproduceOptions& options, con
     for (std::size_t k = 0; k < cells.size(); ++k)
       curve.shares[k][trial] = 100 * coverage(map, tree, cells[k]).share;
   });
+  if (stop()) return {};
   write_plot({.title = "Fig 6: two robots in Env 1, 7500 nodes, Robostep 60 µm",
               .x_label = "edge of a hypercube (µm)",
               .y_label = "coverage (%), median and quartiles",
@@ -230,6 +232,7 @@ std::vector<ReproduceRow> global_initial_distances(const ReproduceOptions& optio
         curves[size].shares[k][trial] =
             100 * coverage(map, first_nodes(tree, std::size_t(tree_sizes[size])), grid_cell).share;
     });
+    if (stop()) return rows;
     Plot& plot =
         plots.emplace_back(Plot{.title = fmt::format("Fig 7: Env 1, Robostep {:g} µm", step),
                                 .x_label = "distance between the starts (µm)",

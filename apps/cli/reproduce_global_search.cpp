@@ -19,7 +19,6 @@ constexpr const char* by_the_search = "the search is beyond the paper";
 
 /// What searches with several seeds came to.
 struct Searches {
-  int tries = 0;
   std::vector<double> seconds, nodes, found, brief, apart;  // of those that solved it
   std::vector<double> worst;                                // of those that did not
 
@@ -29,7 +28,7 @@ struct Searches {
     const auto began = Stop::Clock::now();
     GlobalSearch search = global_search(task.map, task.starts, task.goals, params, rng, stop);
     GlobalPlan& plan = search.plan;
-    ++tries;
+    if (stop()) return;
     if (plan.status == Status::solved) {
       seconds.push_back(seconds_since(began));
       nodes.push_back(static_cast<double>(search.counts.samples));
@@ -54,9 +53,10 @@ struct Searches {
     const auto row = [&](const char* what, const char* unit, std::optional<double> ours) {
       return row_without_aim(by_the_search, figure, who + what, unit, {}, ours);
     };
-    const auto solved = static_cast<double>(found.size());
+    const std::size_t tries = found.size() + worst.size();
+    const double solved = 100.0 * static_cast<double>(found.size()) / static_cast<double>(tries);
     std::vector<ReproduceRow> all{
-        noted(row(": solved", "%", 100 * solved / std::max(1, tries)),
+        noted(row(": solved", "%", solved),
               fmt::format("{} of {} tries of {} nodes", found.size(), tries, params.max_nodes))};
     if (!found.empty()) {
       all.push_back(row(": time, median", "s", median(seconds)));
@@ -92,6 +92,7 @@ std::vector<ReproduceRow> search_task(const char* figure, const char* name,
   Searches searches;
   for (int seed = 0; seed < seeds && !stop(); ++seed)
     searches.add(task, params, seed, options, name, stop);
+  if (stop()) return {};
   return searches.rows(
       figure,
       fmt::format("search, {}, {} robots, {:g} µm", task.name, task.starts.size(), task.tolerance),
@@ -114,6 +115,7 @@ std::vector<ReproduceRow> global_beyond(const ReproduceOptions& options, const S
       for (int seed = 0; seed < seeds && !stop(); ++seed)
         searches.add(task_of_env(env, robots), params, seed, options,
                      fmt::format("env{}-n{}", env, robots), stop);
+    if (stop()) return rows;
     const auto more =
         searches.rows("beyond", fmt::format("search, Env 1–4, {} robots", robots), params);
     rows.insert(rows.end(), more.begin(), more.end());

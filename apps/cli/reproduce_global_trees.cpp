@@ -100,6 +100,7 @@ void add_costs(const LoadedMap& map, const ReproduceOptions& options, const Stop
                                      parameters(tree_settings[0], published_nodes), rng, stop)
                               .tree;
   const double growing = seconds_since(began);
+  if (stop()) return;
   const fs::path file = options.out.empty() ? fs::temp_directory_path() /
                                                   fmt::format("microswarm_tree_{}.h5", ::getpid())
                                             : fs::path(options.out) / "fig9-tree.h5";
@@ -134,6 +135,7 @@ void add_leaf(const scenes::GlobalTask& leaf, int search_seeds, const ReproduceO
       const GlobalRrt grown = global_rrt(leaf.map, leaf.starts, leaf.goals, params, rng, stop);
       answers[seed] = {grown.answer, plan_to(grown.tree, grown.answer)};
     });
+    if (stop()) return;
     const auto solved = std::ranges::count(answers, Status::solved,
                                            [](const TreeAnswer& a) { return a.answer.status; });
     rows.push_back(noted(row_without_aim("the paper gives no nodes", "fig1",
@@ -180,6 +182,7 @@ std::vector<ReproduceRow> global_reuse(const ReproduceOptions& options, const St
   for (TreeAnswer& a : best) a.answer.worst = std::numeric_limits<double>::infinity();
   for (const TreeSetting& setting : tree_settings) {
     const TreeAnswers answers = answers_of(*map.map, setting, seeds, stop);
+    if (stop()) return rows;
     for (std::size_t k = 0; k < goal_sets.size(); ++k) {
       std::vector<double> worst;
       for (const auto& of_tree : answers) {
@@ -242,6 +245,7 @@ std::vector<ReproduceRow> global_magnets(const ReproduceOptions& options, const 
     ++solved;
     apart = std::min(apart, least_distance(plan));
   }
+  if (stop()) return {};
   const std::string what = fmt::format("two magnets, tree of {} nodes: ", nodes);
   std::vector<ReproduceRow> rows{
       noted(row_without_aim(map_of_ours, "fig12", what + "solved", "%", 100,
