@@ -26,6 +26,10 @@ HEAD = (
     "navigator", "worlds", "contacts a run", "avoidable a run", "worlds with an avoidable one, %",
     "arrived, %", "time ÷ straight", "δ̄", "turning °",
 )
+COLUMNS = (
+    "course", "navigator", "worlds", "contacts_a_run", "avoidable_a_run", "worlds_avoidable",
+    "worlds_arrived", "slowness_median", "delta_mean", "turning_median_deg",
+)
 
 
 def interval(some, trials):
@@ -74,14 +78,23 @@ def printed(page, rows):
     return TABLE.sub(replace, page), missing
 
 
-def whole(path, rows):
-    """The rows without their last column, which must say that the campaign ran to its end."""
-    for row in rows:
-        if "course" not in row or "navigator" not in row:
-            sys.exit(f"{path}: no table of a campaign: it has no columns course and navigator")
-        extent = row.pop("extent", None) or "unknown"
+def whole(path, rows, courses):
+    """The rows of a whole campaign without their last column, which must say so."""
+    if not rows:
+        sys.exit(f"{path}: has no rows")
+    for line, row in enumerate(rows, start=2):
+        if set(row) != {*COLUMNS, "extent"} or None in row.values():
+            sys.exit(f"{path}:{line}: no table of a campaign: must have {', '.join(COLUMNS)}, extent")
+        of = f"{path}:{line}: {row['course']}, {row['navigator']}"
+        if row["course"] not in courses:
+            sys.exit(f"{of}: the page has no table of that course, only {', '.join(courses)}")
+        extent = row.pop("extent") or "unknown"
         if extent != "full":
-            sys.exit(f"{path}: {row['course']}, {row['navigator']}: not of a whole campaign: {extent}")
+            sys.exit(f"{of}: not of a whole campaign: {extent}")
+        try:
+            cells(row)
+        except (ValueError, ZeroDivisionError) as error:
+            sys.exit(f"{of}: {error}")
     return rows
 
 
@@ -93,8 +106,11 @@ def taken(stored, new):
 
 
 def read(path):
-    with open(path, encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
+    try:
+        with open(path, encoding="utf-8-sig", newline="") as file:
+            return list(csv.DictReader(file))
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        sys.exit(f"{path}: {getattr(error, 'strerror', None) or 'no table as CSV'}")
 
 
 def write(path, text):
@@ -117,9 +133,9 @@ def main():
     parser.add_argument("--take", nargs="+", metavar="CSV", default=[], help="store these rows first")
     options = parser.parse_args()
     rows = read(STORED) if STORED.exists() else []
-    for path in options.take:
-        rows = taken(rows, whole(path, read(path)))
     page = PAGE.read_text(encoding="utf-8")
+    for path in options.take:
+        rows = taken(rows, whole(path, read(path), [found[2] for found in TABLE.finditer(page)]))
     text, missing = printed(page, rows)
     for course in missing:
         print(f"{STORED}: no rows of {course}", file=sys.stderr)

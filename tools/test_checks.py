@@ -183,6 +183,21 @@ class SafetyPage(unittest.TestCase):
                                  [self.row(avoidable="3")])
         self.assertEqual(["3", "1"], [row["worlds_avoidable"] for row in rows])
 
+    def test_what_is_no_whole_campaign_is_refused(self):
+        def refused(row):
+            with self.assertRaises(SystemExit) as caught:
+                safety_page.whole("f.csv", [row] if row else [], ["open"])
+            return str(caught.exception)
+
+        whole = {**self.row(), "extent": "full"}
+        self.assertEqual([self.row()], safety_page.whole("f.csv", [dict(whole)], ["open"]))
+        self.assertEqual("f.csv: has no rows", refused(None))
+        self.assertIn("f.csv:2: no table of a campaign", refused({"a": "b"}))
+        self.assertIn("f.csv:2: no table of a campaign", refused({**whole, None: ["more"]}))
+        self.assertIn("not of a whole campaign: quick", refused({**whole, "extent": "quick"}))
+        self.assertIn("no table of that course", refused({**whole, "course": "sea"}))
+        self.assertIn("f.csv:2: open, radar: ", refused({**whole, "worlds_arrived": "many"}))
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -106,9 +108,12 @@ std::filesystem::path scenario_folder() {
   std::error_code error;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
   const auto bin = program.parent_path();
-  for (const auto& folder : {bin / "../../../scenarios", bin / "../share/microswarm/scenarios"})
-    if (std::filesystem::is_directory(folder, error)) return folder.lexically_normal();
-  throw InputError(bin.string() + ": the scenarios that belong to the program are not found");
+  const std::array folders{(bin / "../../../scenarios").lexically_normal(),
+                           (bin / "../share/microswarm/scenarios").lexically_normal()};
+  for (const auto& folder : folders)
+    if (std::filesystem::is_directory(folder, error)) return folder;
+  throw InputError(fmt::format("the program's scenarios are neither in {} nor in {}",
+                               folders[0].string(), folders[1].string()));
 }
 
 }  // namespace microswarm::cli

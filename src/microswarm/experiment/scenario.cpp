@@ -154,18 +154,20 @@ void check_sensing(const Scenario& scenario, const Places& where) {
                   delay, timeout));
 }
 
+InputError goal_error(const std::string& why, const Scenario& scenario, const Places& where) {
+  return where.error("goal_um",
+                     fmt::format("goal {}, and {:.3g} of goal_tolerance_um is only {:.4g} µm", why,
+                                 aim_share, aim_share * scenario.goal_tolerance));
+}
+
 // What the swarm fits through, its navigator may still refuse.
 void check_margin(const Scenario& scenario, const World& world, const Places& where) {
   const double margin = margin_of(scenario.navigator);
   const Snapshot walls(world.map);
   const auto target = reachable_goal(walls, *scenario.goal, scenario.goal_tolerance, margin);
   if (!target)
-    throw where.error(
-        "goal_um",
-        fmt::format(
-            "goal {} (navigator.margin_um), and {:.3g} of goal_tolerance_um is only {:.4g} µm",
-            walls.why_blocked(*scenario.goal, margin), aim_share,
-            aim_share * scenario.goal_tolerance));
+    throw goal_error(walls.why_blocked(*scenario.goal, margin) + " (navigator.margin_um)", scenario,
+                     where);
   const WidestPath way = widest_path(*world.map, scenario.start->position, *target, margin);
   // A start that is nearer to a wall is let go: the navigator leads away from there.
   const double needed = std::min(margin, world.map->clearance(scenario.start->position));
@@ -192,7 +194,7 @@ void check_body(const Scenario& scenario, const World& world, const Places& wher
   const Snapshot walls(world.map);
   const auto target = reachable_goal(walls, *scenario.goal, scenario.goal_tolerance, radius);
   if (!target)
-    throw where.error("goal_um", fmt::format("goal {}", walls.why_blocked(*scenario.goal, radius)));
+    throw goal_error(walls.why_blocked(*scenario.goal, radius), scenario, where);
   check_way(*world.map, scenario.start->position, *target, radius, where);
   check_margin(scenario, world, where);
 }
