@@ -22,10 +22,9 @@ constexpr Colour prediction{0.80, 0.15, 0.15, 1};
 constexpr Colour detected_colour{0.97, 0.72, 0.66, 0.95};
 constexpr Colour planned{0.8, 0.1, 0.1, 0.6};
 constexpr Colour waiting{0.5, 0.5, 0.5, 1};
-constexpr Colour goal{0.40, 0.25, 0.65, 1};
 constexpr Colour tree_colour{0.35, 0.65, 0.35, 0.5};
 constexpr Colour velocity{0.0, 0.30, 0.60, 1};
-constexpr Colour driven{0.90, 0.45, 0.0, 1};
+constexpr Colour driven{0.0, 0.38, 0.27, 1};
 constexpr Colour deviation{0.35, 0.35, 0.35, 1};
 constexpr Colour moment_mark{0.13, 0.15, 0.18, 1};
 
@@ -218,7 +217,7 @@ void draw_radar_moments(const RadarRun& run, const World& world, std::span<const
     std::vector<Vec2> way;
     for (std::size_t i = 0; i <= number; ++i) way.push_back(record.frames[i].pose.position);
     picture.line(way, colours::path, 2.5);
-    picture.mark(*record.scene.scenario.goal, "goal", goal);
+    picture.mark(*record.scene.scenario.goal, "goal", colours::goal);
     picture.swarm(frame.pose, frame.radius);
     draw_circles(picture, circles, p);
     draw_velocities(picture, run, world, number, um_per_px);

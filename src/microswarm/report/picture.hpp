@@ -35,7 +35,7 @@ inline constexpr Colour path{0.0, 0.45, 0.70, 1};
 inline constexpr Colour tree{0.55, 0.70, 0.85, 0.9};
 inline constexpr Colour circle{0.80, 0.47, 0.65, 0.9};
 inline constexpr Colour swarm{0.0, 0.62, 0.45, 1};
-inline constexpr Colour goal{0.90, 0.62, 0.0, 1};
+inline constexpr Colour goal{0.40, 0.25, 0.65, 1};
 /// Robots that are told apart, one after the other.
 inline constexpr std::array<Colour, 8> robots{{{0.0, 0.45, 0.70, 1},
                                                {0.84, 0.37, 0.0, 1},
