@@ -12,6 +12,7 @@ A table stands between `<!-- safety: COURSE -->` and `<!-- end -->`.
 
 import argparse
 import csv
+import io
 import math
 import os
 import pathlib
@@ -83,7 +84,7 @@ def whole(path, rows, courses):
     if not rows:
         sys.exit(f"{path}: has no rows")
     for line, row in enumerate(rows, start=2):
-        if set(row) != {*COLUMNS, "extent"} or None in row.values():
+        if list(row) != [*COLUMNS, "extent"] or None in row.values():
             sys.exit(f"{path}:{line}: no table of a campaign: must have {', '.join(COLUMNS)}, extent")
         of = f"{path}:{line}: {row['course']}, {row['navigator']}"
         if row["course"] not in courses:
@@ -91,10 +92,20 @@ def whole(path, rows, courses):
         extent = row.pop("extent") or "unknown"
         if extent != "full":
             sys.exit(f"{of}: not of a whole campaign: {extent}")
-        try:
-            cells(row)
-        except (ValueError, ZeroDivisionError) as error:
-            sys.exit(f"{of}: {error}")
+        if not re.fullmatch(r"[\w *,()-]+", row["navigator"]):
+            sys.exit(f"{of}: navigator must be a name")
+        for key in ("worlds", "worlds_avoidable", "worlds_arrived"):
+            if not row[key].isascii() or not row[key].isdigit() or int(row[key]) > int(row["worlds"]):
+                sys.exit(f"{of}: {key} is '{row[key]}', must be a count of at most worlds")
+        if int(row["worlds"]) == 0:
+            sys.exit(f"{of}: worlds is 0")
+        for key in COLUMNS[3:5] + COLUMNS[7:]:
+            if row[key] and not re.fullmatch(r"\d+(\.\d+)?(e[+-]?\d+)?", row[key]):
+                sys.exit(f"{of}: {key} is '{row[key]}', must be a number, at least 0")
+    names = [(row["course"], row["navigator"]) for row in rows]
+    for course, navigator in names:
+        if names.count((course, navigator)) > 1:
+            sys.exit(f"{path}: {course}, {navigator}: there are two such rows")
     return rows
 
 
@@ -120,11 +131,12 @@ def write(path, text):
 
 
 def store(rows):
-    lines = [",".join(rows[0])]
-    for row in rows:
-        lines.append(",".join(f'"{v}"' if "," in v else v for v in row.values()))
+    text = io.StringIO()
+    table_of = csv.DictWriter(text, COLUMNS, lineterminator="\n")
+    table_of.writeheader()
+    table_of.writerows(rows)
     STORED.parent.mkdir(exist_ok=True)
-    write(STORED, "\n".join(lines) + "\n")
+    write(STORED, text.getvalue())
 
 
 def main():

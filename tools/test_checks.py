@@ -196,7 +196,13 @@ class SafetyPage(unittest.TestCase):
         self.assertIn("f.csv:2: no table of a campaign", refused({**whole, None: ["more"]}))
         self.assertIn("not of a whole campaign: quick", refused({**whole, "extent": "quick"}))
         self.assertIn("no table of that course", refused({**whole, "course": "sea"}))
-        self.assertIn("f.csv:2: open, radar: ", refused({**whole, "worlds_arrived": "many"}))
+        for bad in ("many", "-5", "1_0", "1001"):
+            self.assertIn("f.csv:2: open, radar: worlds_arrived", refused({**whole, "worlds_arrived": bad}))
+        self.assertIn("delta_mean is 'nan'", refused({**whole, "delta_mean": "nan"}))
+        self.assertIn("must be a name", refused({**whole, "navigator": "a | b"}))
+        self.assertIn("no table of a campaign", refused(dict(reversed(whole.items()))))
+        with self.assertRaises(SystemExit):
+            safety_page.whole("f.csv", [dict(whole), dict(whole)], ["open"])
 
 
 if __name__ == "__main__":
