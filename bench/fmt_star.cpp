@@ -7,7 +7,7 @@
 #include "bench/ompl_peer.hpp"
 #include "bench/planning.hpp"
 #include "microswarm/core/statistics.hpp"
-#include "microswarm/experiment/scenario.hpp"
+#include "microswarm/experiment/scene.hpp"
 
 namespace microswarm::bench {
 

@@ -10,7 +10,7 @@
 #include "bench/ompl_peer.hpp"
 #include "microswarm/core/statistics.hpp"
 #include "microswarm/core/stop.hpp"
-#include "microswarm/experiment/scenario.hpp"
+#include "microswarm/experiment/scene.hpp"
 #include "microswarm/geometry/distance.hpp"
 #include "microswarm/planning/planners.hpp"
 #include "tests/scenes/worlds.hpp"

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Fails on an include that climbs from a floor to one above it, and on a cycle between files."""
+"""Fails on an include that climbs from a floor to one above it, on a cycle between files, and on an
+algorithm in a header of parameters."""
 
 import os
 import re
@@ -31,6 +32,14 @@ FLOORS = [
 ]
 # These never see each other: only src/microswarm/rig and what is above it joins them.
 APART = {f"src/microswarm/{name}" for name in ("navigation", "actuation", "vision")}
+
+# Headers of parameters, up to a scenario's, and what they may include: no algorithm, so that a change
+# in a navigator does not compile whoever reads a scenario.
+PARAMETERS = re.compile(
+    r"src/microswarm/((planning|navigation|swarm)/(\w+_)?params|formats/map_spec|experiment/scenario)\.hpp")
+PLAIN = re.compile(
+    r"src/microswarm/(core/.*|geometry/(vec2|shapes)\.hpp|config/type\.hpp|world/(motion|obstacle)\.hpp"
+    r"|swarm/(contact_rule|swarm_limits)\.hpp|navigation/guide_kind\.hpp)")
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]')
 
@@ -96,10 +105,18 @@ def cycles(includes):
             yield from visit(file)
 
 
+def algorithms(includes):
+    """One line for each include of more than parameters in a header of parameters."""
+    for file, targets in includes.items():
+        for line, target in targets if PARAMETERS.fullmatch(file) else []:
+            if not PARAMETERS.fullmatch(target) and not PLAIN.fullmatch(target):
+                yield f"{file}:{line}: {target} is more than parameters"
+
+
 def check(root):
     """All complaints about the tree at `root`."""
     includes = read_includes(Path(root))
-    return [*climbing(includes), *cycles(includes)]
+    return [*climbing(includes), *cycles(includes), *algorithms(includes)]
 
 
 if __name__ == "__main__":

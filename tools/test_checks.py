@@ -64,6 +64,15 @@ class Includes(unittest.TestCase):
         self.assertEqual(1, len(complaints))
         self.assertIn("src/microswarm/core/c.hpp:1: cycle", complaints[0])
 
+    def test_an_algorithm_among_parameters(self):
+        self.assertEqual(["src/microswarm/navigation/a_params.hpp:1: "
+                          "src/microswarm/navigation/b.hpp is more than parameters"], self.check({
+            "src/microswarm/navigation/a_params.hpp":
+                '#include "microswarm/navigation/b.hpp"\n#include "microswarm/core/c.hpp"\n',
+            "src/microswarm/navigation/b.hpp": "",
+            "src/microswarm/core/c.hpp": "",
+        }))
+
 
 class Docstrings(unittest.TestCase):
     def lines(self, text):

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "microswarm/core/stop.hpp"
 #include "microswarm/learning/follower_comparison.hpp"
 #include "microswarm/report/rows.hpp"
 

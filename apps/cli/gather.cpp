@@ -4,6 +4,7 @@
 
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/error.hpp"
+#include "microswarm/experiment/scene.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/navigation/channel_width.hpp"
 #include "run_output.hpp"

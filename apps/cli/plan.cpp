@@ -7,7 +7,7 @@
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/error.hpp"
-#include "microswarm/experiment/scenario.hpp"
+#include "microswarm/experiment/scene.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/planning/free_goal.hpp"
 #include "microswarm/planning/planners.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "radar_run.hpp"
+#include "microswarm/experiment/scene.hpp"
 
 #include <algorithm>
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "microswarm/experiment/record.hpp"
+#include "microswarm/experiment/scene.hpp"
 #include "microswarm/navigation/radar_scan.hpp"
 
 namespace microswarm::cli {

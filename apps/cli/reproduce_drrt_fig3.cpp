@@ -7,6 +7,8 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/statistics.hpp"
+#include "microswarm/planning/detection.hpp"
+#include "microswarm/planning/planners.hpp"
 #include "microswarm/planning/straighten.hpp"
 #include "microswarm/report/picture.hpp"
 #include "microswarm/report/plot.hpp"

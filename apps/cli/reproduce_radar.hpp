@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "microswarm/experiment/scene.hpp"
 #include "radar_run.hpp"
 #include "reproduce.hpp"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run_output.hpp"
+#include "microswarm/experiment/scene.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

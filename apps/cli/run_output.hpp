@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "microswarm/experiment/run.hpp"
+#include "microswarm/experiment/scene.hpp"
 #include "microswarm/report/run_report.hpp"
 #include "options.hpp"
 

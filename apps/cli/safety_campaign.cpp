@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "safety_campaign.hpp"
+#include "microswarm/experiment/scene.hpp"
+#include "microswarm/navigation/make.hpp"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 #include "global_choice.hpp"
 #include "microswarm/config/help.hpp"
 #include "microswarm/config/schema.hpp"
-#include "microswarm/experiment/scenario.hpp"
+#include "microswarm/experiment/scene.hpp"
 #include "microswarm/rig/rig_params.hpp"
 #include "microswarm/sweep/sweep_file.hpp"
 #include "microswarm/vision/video_tracker.hpp"

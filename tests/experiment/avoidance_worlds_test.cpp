@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/scenes/avoidance_worlds.hpp"
+#include "microswarm/experiment/scene.hpp"
+#include "microswarm/formats/map_file.hpp"
+#include "microswarm/formats/map_parts.hpp"
+#include "microswarm/world/world.hpp"
 
 #include <gtest/gtest.h>
 

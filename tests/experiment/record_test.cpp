@@ -10,6 +10,8 @@
 #include "microswarm/core/file.hpp"
 #include "microswarm/experiment/hdf5_image.hpp"
 #include "microswarm/experiment/record_layout.hpp"
+#include "microswarm/experiment/scene.hpp"
+#include "microswarm/planning/detection.hpp"
 #include "tests/experiment/scenes.hpp"
 
 namespace microswarm {

@@ -4,6 +4,7 @@
 #include "microswarm/core/error.hpp"
 #include "microswarm/experiment/record.hpp"
 #include "microswarm/experiment/robot_plant.hpp"
+#include "microswarm/experiment/scene.hpp"
 #include "tests/experiment/scenes.hpp"
 
 namespace microswarm {

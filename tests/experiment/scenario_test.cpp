@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/scenario.hpp"
+#include "microswarm/experiment/scene.hpp"
 
 #include <gtest/gtest.h>
 
@@ -188,7 +188,8 @@ TEST(ScenarioCheck, StartTooNearToAnObstacleOrOutside) {
 TEST(ScenarioCheck, GoalInAWall) {
   Scenario scenario = open_room();
   std::get<PolygonsMap>(scenario.map).walls = {bar(1700, 400, 200, 200).outer};
-  EXPECT_EQ(check_error(scenario), "s.yaml: goal is 100 µm inside wall 1, and 0.9 of goal_tolerance_um is only 45 µm");
+  EXPECT_EQ(check_error(scenario),
+            "s.yaml: goal is 100 µm inside wall 1, and 0.9 of goal_tolerance_um is only 45 µm");
 }
 
 TEST(ScenarioCheck, GoalCutOff) {

@@ -12,6 +12,7 @@
 #include "microswarm/core/error.hpp"
 #include "microswarm/experiment/plant.hpp"
 #include "microswarm/experiment/record.hpp"
+#include "microswarm/experiment/scene.hpp"
 
 namespace microswarm {
 

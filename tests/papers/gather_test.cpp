@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "microswarm/experiment/run.hpp"
+#include "microswarm/experiment/scene.hpp"
+#include "microswarm/formats/map_file.hpp"
 #include "tests/cases.hpp"
 #include "tests/files.hpp"
 

@@ -6,6 +6,7 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/experiment/run.hpp"
+#include "microswarm/experiment/scene.hpp"
 
 namespace microswarm {
 namespace {

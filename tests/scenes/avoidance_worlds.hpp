@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "microswarm/experiment/scenario.hpp"
+#include "microswarm/world/world.hpp"
 
 namespace microswarm::scenes {
 

@@ -7,6 +7,7 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/experiment/watch.hpp"
+#include "microswarm/swarm/swarm_body.hpp"
 
 namespace microswarm {
 

@@ -6,6 +6,8 @@
 
 #include "microswarm/experiment/scenario.hpp"
 #include "microswarm/swarm/contracts.hpp"
+#include "microswarm/swarm/robot_swarm.hpp"
+#include "microswarm/swarm/swarm_body.hpp"
 
 namespace microswarm {
 

@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include "microswarm/navigation/wait_area.hpp"
+#include "microswarm/world/map.hpp"
+#include "microswarm/world/world.hpp"
+
 namespace microswarm {
 namespace {
 

@@ -3,6 +3,7 @@
 
 #include "microswarm/core/places.hpp"
 #include "microswarm/experiment/scenario.hpp"
+#include "microswarm/world/world.hpp"
 
 namespace microswarm {
 

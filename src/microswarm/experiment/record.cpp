@@ -6,6 +6,7 @@
 #include "microswarm/core/hash.hpp"
 #include "microswarm/core/version.hpp"
 #include "microswarm/experiment/record_layout.hpp"
+#include "microswarm/experiment/scene.hpp"
 
 namespace microswarm {
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "microswarm/experiment/run.hpp"
+#include "microswarm/experiment/scene.hpp"
 
 namespace microswarm {
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "microswarm/planning/detection.hpp"
+
 namespace microswarm {
 
 namespace {

@@ -10,6 +10,7 @@
 
 #include "microswarm/core/units.hpp"
 #include "microswarm/experiment/record.hpp"
+#include "microswarm/planning/detection.hpp"
 
 namespace microswarm {
 

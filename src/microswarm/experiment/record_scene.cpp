@@ -6,6 +6,7 @@
 
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/error.hpp"
+#include "microswarm/navigation/follower_model.hpp"
 
 namespace microswarm {
 

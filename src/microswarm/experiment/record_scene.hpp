@@ -2,7 +2,7 @@
 #pragma once
 
 #include "microswarm/experiment/hdf5_image.hpp"
-#include "microswarm/experiment/scenario.hpp"
+#include "microswarm/experiment/scene.hpp"
 
 namespace microswarm {
 

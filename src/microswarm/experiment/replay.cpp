@@ -6,6 +6,7 @@
 #include "microswarm/core/text.hpp"
 #include "microswarm/experiment/record.hpp"
 #include "microswarm/experiment/record_layout.hpp"
+#include "microswarm/experiment/scene.hpp"
 
 namespace microswarm {
 

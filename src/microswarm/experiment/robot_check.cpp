@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include "microswarm/config/write.hpp"
+#include "microswarm/swarm/robot_stepper.hpp"
 #include "microswarm/world/passage.hpp"
+#include "microswarm/world/snapshot.hpp"
 
 namespace microswarm {
 

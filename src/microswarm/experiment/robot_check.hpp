@@ -5,6 +5,7 @@
 
 #include "microswarm/core/places.hpp"
 #include "microswarm/experiment/scenario.hpp"
+#include "microswarm/world/map.hpp"
 
 namespace microswarm {
 

@@ -11,7 +11,9 @@
 #include "microswarm/experiment/plant.hpp"
 #include "microswarm/experiment/robot_plant.hpp"
 #include "microswarm/experiment/robot_task.hpp"
+#include "microswarm/experiment/scene.hpp"
 #include "microswarm/experiment/watch.hpp"
+#include "microswarm/navigation/make.hpp"
 #include "microswarm/navigation/obstacle_memory.hpp"
 
 namespace microswarm {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/scenario.hpp"
+#include "microswarm/experiment/scene.hpp"
 
 #include <fmt/format.h>
 
@@ -13,8 +13,10 @@
 #include "microswarm/core/hash.hpp"
 #include "microswarm/experiment/radar_check.hpp"
 #include "microswarm/experiment/robot_check.hpp"
+#include "microswarm/formats/map_file.hpp"
 #include "microswarm/formats/tracks.hpp"
 #include "microswarm/navigation/aim.hpp"
+#include "microswarm/navigation/follower_model.hpp"
 #include "microswarm/world/passage.hpp"
 
 namespace microswarm {
@@ -193,8 +195,7 @@ void check_body(const Scenario& scenario, const World& world, const Places& wher
   // The swarm's centre may stop anywhere within the tolerance.
   const Snapshot walls(world.map);
   const auto target = reachable_goal(walls, *scenario.goal, scenario.goal_tolerance, radius);
-  if (!target)
-    throw goal_error(walls.why_blocked(*scenario.goal, radius), scenario, where);
+  if (!target) throw goal_error(walls.why_blocked(*scenario.goal, radius), scenario, where);
   check_way(*world.map, scenario.start->position, *target, radius, where);
   check_margin(scenario, world, where);
 }

@@ -10,12 +10,11 @@
 #include "microswarm/config/type.hpp"
 #include "microswarm/core/fields.hpp"
 #include "microswarm/core/places.hpp"
-#include "microswarm/formats/map_file.hpp"
-#include "microswarm/formats/map_parts.hpp"
-#include "microswarm/navigation/make.hpp"
-#include "microswarm/swarm/robot_swarm.hpp"
-#include "microswarm/swarm/swarm_body.hpp"
-#include "microswarm/world/world.hpp"
+#include "microswarm/formats/map_spec.hpp"
+#include "microswarm/navigation/params.hpp"
+#include "microswarm/swarm/robot_swarm_params.hpp"
+#include "microswarm/swarm/swarm_params.hpp"
+#include "microswarm/world/obstacle.hpp"
 
 namespace microswarm {
 
@@ -120,35 +119,6 @@ Scenario read_scenario(const std::filesystem::path& file,
 
 /// The scenario as YAML with every key written out; reading it gives the same fields back.
 std::string scenario_text(const Scenario& scenario);
-
-/// A scenario and what the files that it names held: all that a run depends on.
-struct Scene {
-  Scenario scenario;  ///< the tracks of its obstacles have their samples
-  MapParts map;
-
-  /// Fingerprint of all of it.
-  std::string hash() const;
-};
-
-/// Reads the scenario's map, tracks and learned follower, relative to the folder `base`. Throws
-/// InputError for a file or an obstacle that makes no sense; `where` knows the scenario's keys.
-Scene load_scene(Scenario scenario, const std::filesystem::path& base, const Places& where = {});
-
-/// What a scenario tells its navigator.
-Task task_of(const Scenario& scenario);
-
-/// Builds the world of a scene. Throws InputError as Map does.
-World build_world(const Scene& scene);
-
-/// Throws InputError, one line, when the run cannot be meant so: the start or the goal in a wall
-/// ("start is 12 µm inside wall 3"), the swarm wider than every passage, the goal cut off from the
-/// start, no way that keeps the navigator's margin, or a navigator that would never get on. `where`
-/// knows the scenario's keys, or is a name for it. Robots and their goals are looked at one by one.
-void check(const Scenario& scenario, const World& world, const Places& where);
-
-/// The last two of these complaints alone: between two free points of a map, for a swarm of
-/// `radius` [µm].
-void check_way(const Map& map, Vec2 start, Vec2 goal, double radius, const Places& where);
 
 /// Compiled once, in scenario.cpp: it describes all that a scenario may hold.
 extern template const Type& type_of<Scenario>();

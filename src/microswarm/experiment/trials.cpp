@@ -5,6 +5,7 @@
 
 #include "microswarm/core/parallel.hpp"
 #include "microswarm/experiment/record.hpp"
+#include "microswarm/experiment/scene.hpp"
 
 namespace microswarm {
 

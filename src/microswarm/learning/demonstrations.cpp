@@ -5,6 +5,9 @@
 #include "microswarm/experiment/plant.hpp"
 #include "microswarm/experiment/run.hpp"
 #include "microswarm/learning/follower_expert.hpp"
+#include "microswarm/navigation/follower_model.hpp"
+#include "microswarm/navigation/helm.hpp"
+#include "microswarm/navigation/path_follower.hpp"
 
 namespace microswarm {
 namespace {

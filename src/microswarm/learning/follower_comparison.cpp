@@ -10,7 +10,9 @@
 #include "microswarm/core/parallel.hpp"
 #include "microswarm/experiment/plant.hpp"
 #include "microswarm/experiment/run.hpp"
+#include "microswarm/experiment/scene.hpp"
 #include "microswarm/learning/follower_expert.hpp"
+#include "microswarm/navigation/make.hpp"
 
 namespace microswarm {
 namespace {

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "microswarm/core/stop.hpp"
 #include "microswarm/learning/follower_tasks.hpp"
+#include "microswarm/navigation/follower_model.hpp"
 
 namespace microswarm {
 

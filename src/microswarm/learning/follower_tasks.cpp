@@ -5,6 +5,11 @@
 #include <cmath>
 #include <memory>
 
+#include "microswarm/core/rng.hpp"
+#include "microswarm/navigation/follower.hpp"
+#include "microswarm/world/map.hpp"
+#include "microswarm/world/world.hpp"
+
 namespace microswarm {
 namespace {
 

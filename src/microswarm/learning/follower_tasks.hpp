@@ -5,6 +5,7 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/experiment/scenario.hpp"
+#include "microswarm/world/world.hpp"
 
 namespace microswarm {
 

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "microswarm/learning/demonstrations.hpp"
+#include "microswarm/navigation/follower_model.hpp"
 
 namespace microswarm {
 

@@ -5,6 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "microswarm/core/rng.hpp"
+#include "microswarm/core/status.hpp"
+#include "microswarm/core/stop.hpp"
 #include "microswarm/navigation/crowd.hpp"
 #include "microswarm/navigation/divide_and_conquer.hpp"
 #include "microswarm/swarm/robot_stepper.hpp"

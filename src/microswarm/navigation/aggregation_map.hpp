@@ -4,7 +4,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "microswarm/core/rng.hpp"
 #include "microswarm/navigation/aggregation_params.hpp"
+#include "microswarm/planning/map_segmentation.hpp"
+#include "microswarm/planning/obstacle_weighted_rrt.hpp"
 #include "microswarm/world/map.hpp"
 
 namespace microswarm {

@@ -7,7 +7,8 @@
 
 #include "microswarm/core/fields.hpp"
 #include "microswarm/navigation/rollout_params.hpp"
-#include "microswarm/planning/map_segmentation.hpp"
+#include "microswarm/planning/map_segmentation_params.hpp"
+#include "microswarm/planning/obstacle_weighted_rrt_params.hpp"
 
 namespace microswarm {
 

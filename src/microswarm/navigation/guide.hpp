@@ -5,19 +5,10 @@
 #include <string_view>
 #include <utility>
 
+#include "microswarm/navigation/guide_kind.hpp"
 #include "microswarm/navigation/route.hpp"
 
 namespace microswarm {
-
-/// Which way the goal is taken to lie.
-enum class Guide {
-  straight,  ///< the straight direction, as Eq 4e [drrt] has it
-  route,     ///< along the free space of the static map
-};
-constexpr auto enum_names(Guide) {
-  return std::array<std::pair<Guide, std::string_view>, 2>{
-      {{Guide::straight, "straight"}, {Guide::route, "route"}}};
-}
 
 /// Shows a navigator that looks no further than its surroundings where to head for: at the goal, or
 /// where walls hide it along the route to it.

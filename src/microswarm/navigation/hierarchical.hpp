@@ -7,10 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "microswarm/core/fields.hpp"
-#include "microswarm/core/places.hpp"
 #include "microswarm/navigation/body_forecast.hpp"
 #include "microswarm/navigation/guide.hpp"
+#include "microswarm/navigation/hierarchical_params.hpp"
 #include "microswarm/navigation/local_target.hpp"
 #include "microswarm/navigation/navigator.hpp"
 #include "microswarm/navigation/obstacle_predictor.hpp"
@@ -20,70 +19,6 @@
 #include "microswarm/swarm/swarm_limits.hpp"
 
 namespace microswarm {
-
-/// Hierarchical D-RRT* planning framework: Algorithm 4 [drrt] over local target selection
-/// (Algorithm 1) and the local planner (Algorithms 2–3). Ours besides: the guide along the map, and
-/// the look-ahead that screens every command against where the obstacles are going. With
-/// `as_published` Algorithm 4 is all there is (docs/navigation.md).
-struct HierarchicalParams {
-  /// D-RRT* with limits that fit a local target: near, and on a straight free line.
-  static DrrtStarParams local_planner() {
-    DrrtStarParams p;
-    p.goal_bias = 0.5;
-    p.max_nodes = 200;
-    p.max_iterations = 50;
-    return p;
-  }
-
-  static constexpr std::string_view type_name = "hierarchical_drrt_star";
-  double margin = 90;  // r_s
-  double extra_margin = 10;
-  double speed = 60;
-  double lookahead = 60;
-  FollowerParams follower;
-  double horizon = 3;
-  double target_horizon = 8;
-  bool as_published = false;
-  Guide guide = Guide::route;
-  double route_cell = 20;
-  double frame_timeout = 0.5;
-  ObstacleTrackerParams tracker;
-  LocalTargetParams target;
-  DrrtStarParams planner = local_planner();
-
-  /// These, or with `as_published` the same without what is ours.
-  HierarchicalParams in_effect() const;
-  template <class Self, class V>
-  static void fields(Self& self, V&& visit) {
-    visit(self.margin, {"margin", Unit::um, {0, 1e5}, "Least distance from the centre (r_s)."});
-    visit(
-        self.extra_margin,
-        {"extra_margin", Unit::um, {0, 1e5}, "Added to the margin while planning, where it fits."});
-    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Speed asked for."});
-    visit(self.lookahead,
-          {"lookahead", Unit::um, {1e-3, 1e5}, "How far ahead the path is pursued."});
-    visit(self.follower, {"follower", Unit::none, {}, "Who follows the path."});
-    visit(self.horizon,
-          {"horizon", Unit::s, {0, 60}, "How far commands are looked ahead; 0: not."});
-    visit(self.target_horizon, {"target_horizon",
-                                Unit::s,
-                                {0, 60},
-                                "Targets among obstacles predicted so far; 0: as seen."});
-    visit(self.as_published,
-          {"as_published", Unit::none, {}, "Algorithm 4 alone: what is ours is left out."});
-    visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight, or route."});
-    visit(self.route_cell, {"route_cell", Unit::um, {1e-2, 1e5}, "Grid spacing of the route."});
-    visit(self.frame_timeout,
-          {"frame_timeout", Unit::s, {0, 60}, "Hold when the newest frame is older than this."});
-    visit(self.tracker, {"tracker", Unit::none, {}, "Estimation of the obstacles' motion."});
-    visit(self.target, {"target", Unit::none, {}, "Local target selection."});
-    visit(self.planner, {"planner", Unit::none, {}, "Local planner."});
-  }
-};
-
-/// Throws InputError when `as_published` stands beside a value that is not the paper's; `where`
-/// knows the keys.
-void check(const HierarchicalParams& params, const Places& where);
 
 /// See HierarchicalParams. States: follow, fallback (the learned follower does not know and hands
 /// over to pure pursuit), hold, escape, arrived, blind.

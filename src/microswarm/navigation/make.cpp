@@ -4,14 +4,20 @@
 #include <fmt/format.h>
 
 #include "microswarm/navigation/aggregation_navigator.hpp"
+#include "microswarm/navigation/hierarchical.hpp"
+#include "microswarm/navigation/path_navigator.hpp"
+#include "microswarm/navigation/plan_player.hpp"
+#include "microswarm/navigation/potential_field.hpp"
+#include "microswarm/navigation/predictive.hpp"
+#include "microswarm/navigation/radar.hpp"
+#include "microswarm/navigation/straight.hpp"
+#include "microswarm/navigation/velocity_obstacle.hpp"
 
 namespace microswarm {
 
 namespace {
 
 using Made = std::unique_ptr<Navigator>;
-
-constexpr double range_of_others = 50;  // [µm]; see detection_range_of
 
 Made make(const HierarchicalParams& p, const Task& task, Rng rng) {
   return std::make_unique<HierarchicalNavigator>(p, task.swarm, *task.goal, task.goal_tolerance,
@@ -91,12 +97,6 @@ void check_on(const HierarchicalParams& p, const Task&, const Map&, const Places
 template <class Other>
 void check_on(const Other&, const Task&, const Map&, const Places&) {}
 
-double margin(const HierarchicalParams& p) { return p.margin; }
-template <class OfRobots>
-double margin(const OfRobots&) {
-  return 0;
-}
-
 }  // namespace
 
 std::string_view what_it_lacks(const NavigatorParams& params, const Task& task) {
@@ -107,51 +107,6 @@ void check_navigator(const NavigatorParams& params, const Task& task, const Map&
                      const Places& where) {
   std::visit([&](const auto& p) { check_on(p, task, map, where); }, params);
 }
-
-NavigatorParams in_effect(const NavigatorParams& params) {
-  return std::visit(
-      [](const auto& p) -> NavigatorParams {
-        if constexpr (requires { p.in_effect(); }) return p.in_effect();
-        return p;
-      },
-      params);
-}
-
-double margin_of(const NavigatorParams& params) {
-  return std::visit([](const auto& p) { return margin(p); }, params);
-}
-
-double detection_range_of(const NavigatorParams& params) {
-  return std::visit(
-      [](const auto& p) {
-        if constexpr (requires { p.detection_range; }) return p.detection_range;
-        return range_of_others;
-      },
-      params);
-}
-
-double frame_timeout_of(const NavigatorParams& params) {
-  return std::visit([](const auto& p) { return p.frame_timeout; }, params);
-}
-
-namespace {
-
-template <class Params>
-auto* follower_in(Params& params) {
-  using Follower =
-      std::conditional_t<std::is_const_v<Params>, const FollowerParams, FollowerParams>;
-  return std::visit(
-      [](auto& p) -> Follower* {
-        if constexpr (requires { p.follower; }) return &p.follower;
-        return nullptr;
-      },
-      params);
-}
-
-}  // namespace
-
-const FollowerParams* follower_of(const NavigatorParams& params) { return follower_in(params); }
-FollowerParams* follower_of(NavigatorParams& params) { return follower_in(params); }
 
 std::unique_ptr<Navigator> make_navigator(const NavigatorParams& params, const Task& task,
                                           Rng rng) {

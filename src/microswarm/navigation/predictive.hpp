@@ -6,49 +6,15 @@
 #include <string_view>
 #include <vector>
 
-#include "microswarm/core/fields.hpp"
 #include "microswarm/core/rng.hpp"
 #include "microswarm/navigation/convex_outline.hpp"
 #include "microswarm/navigation/foresight.hpp"
 #include "microswarm/navigation/guide.hpp"
 #include "microswarm/navigation/helm.hpp"
+#include "microswarm/navigation/predictive_params.hpp"
 #include "microswarm/navigation/time_field.hpp"
 
 namespace microswarm {
-
-/// Navigation that looks ahead in time, ours: obstacles faster than the swarm cannot be outrun, but
-/// they can be foreseen. Where they will be is told from what was seen (Foresight); the best way
-/// through the seconds to come is found among all (TimeField); its first leg is chosen by exact
-/// distances, and commanded until the next frame.
-struct PredictiveParams {
-  static constexpr std::string_view type_name = "predictive";
-  double speed = 80;
-  double margin = 3;
-  double wall_margin = 4;
-  double horizon = 6;
-  double step = 0.5;
-  int directions = 48;
-  RiskParams risk;
-  ForesightParams foresight;
-  Guide guide = Guide::route;
-  double route_cell = 20;
-  double frame_timeout = 0.5;
-  template <class Self, class V>
-  static void fields(Self& self, V&& visit) {
-    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Speed asked for."});
-    visit(self.margin, {"margin", Unit::um, {0, 1e5}, "Gap that counts as contact still."});
-    visit(self.wall_margin, {"wall_margin", Unit::um, {0, 1e5}, "Gap that is kept to walls."});
-    visit(self.horizon, {"horizon", Unit::s, {0.2, 60}, "How far it looks ahead."});
-    visit(self.step, {"step", Unit::s, {0.05, 10}, "Of time, between two places of a way ahead."});
-    visit(self.directions, {"directions", Unit::none, {4, 720}, "Of the first leg."});
-    visit(self.risk, {"risk", Unit::none, {}, "What nearness to obstacles costs."});
-    visit(self.foresight, {"foresight", Unit::none, {}, "How obstacles are foreseen."});
-    visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight, or route."});
-    visit(self.route_cell, {"route_cell", Unit::um, {1e-2, 1e5}, "Grid spacing of the route."});
-    visit(self.frame_timeout,
-          {"frame_timeout", Unit::s, {0, 60}, "Hold when the newest frame is older than this."});
-  }
-};
 
 /// See PredictiveParams. States: follow (no obstacle is foreseen near to the way), avoid, escape
 /// (contact is foreseen on the best way even), hold, arrived, blind.

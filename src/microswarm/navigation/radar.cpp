@@ -6,6 +6,8 @@
 
 #include "microswarm/navigation/aim.hpp"
 #include "microswarm/navigation/helm.hpp"
+#include "microswarm/navigation/wait_area.hpp"
+#include "microswarm/planning/fmt_star.hpp"
 #include "microswarm/world/free_place.hpp"
 
 namespace microswarm {

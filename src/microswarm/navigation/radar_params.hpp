@@ -8,9 +8,9 @@
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/fields.hpp"
 #include "microswarm/navigation/guard_params.hpp"
-#include "microswarm/navigation/safety_radius.hpp"
-#include "microswarm/navigation/wait_area.hpp"
-#include "microswarm/planning/fmt_star.hpp"
+#include "microswarm/navigation/safety_radius_params.hpp"
+#include "microswarm/navigation/wait_area_params.hpp"
+#include "microswarm/planning/fmt_star_params.hpp"
 
 namespace microswarm {
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "microswarm/navigation/aggregation.hpp"
+#include "microswarm/planning/obstacle_weighted_rrt.hpp"
 
 namespace microswarm {
 

@@ -6,29 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "microswarm/core/fields.hpp"
 #include "microswarm/navigation/convex_outline.hpp"
 #include "microswarm/navigation/foresight.hpp"
+#include "microswarm/navigation/predictive_params.hpp"
 
 namespace microswarm {
-
-/// What it costs to be near an obstacle, in seconds a second.
-struct RiskParams {
-  double contact = 30;
-  double depth = 30;
-  double nearness = 2;
-  double reach = 40;
-  double softness = 6;
-  template <class Self, class V>
-  static void fields(Self& self, V&& visit) {
-    visit(self.contact, {"contact", Unit::none, {0, 1e6}, "In contact."});
-    visit(self.depth, {"depth", Unit::none, {0, 1e6}, "Besides, a reach deep in an obstacle."});
-    visit(self.nearness, {"nearness", Unit::none, {0, 1e6}, "Besides, at contact; 0 at reach."});
-    visit(self.reach, {"reach", Unit::um, {1, 1e5}, "How far from an obstacle it is felt."});
-    visit(self.softness,
-          {"softness", Unit::um, {1e-3, 1e4}, "Contact is half as bad that far from its edge."});
-  }
-};
 
 /// The cost of a gap [µm] that is known up to `doubt` [µm].
 inline float risk_of(const RiskParams& p, float gap, float doubt) {

@@ -3,28 +3,10 @@
 
 #include <string_view>
 
-#include "microswarm/core/fields.hpp"
+#include "microswarm/planning/a_star_params.hpp"
 #include "microswarm/planning/plan.hpp"
 
 namespace microswarm {
-
-/// A* on a grid of 8 neighbours whose origin is the start; no corner is cut and every edge is
-/// checked with the clearance. Its path is the shortest of its grid to any cell within the goal
-/// tolerance; with the goal between the cells, a tolerance below cell / √2 may hold none.
-struct AStarParams {
-  static constexpr std::string_view type_name = "a_star";
-  double clearance = 40;
-  double goal_tolerance = 50;
-  double cell = 20;
-  int max_nodes = 4'000'000;
-  template <class Self, class V>
-  static void fields(Self& self, V&& visit) {
-    visit(self.clearance, {"clearance", Unit::um, {0, 1e6}, "Least distance to walls."});
-    visit(self.goal_tolerance, {"goal_tolerance", Unit::um, {0, 1e6}, "How near counts."});
-    visit(self.cell, {"cell", Unit::um, {1e-3, 1e6}, "Grid spacing."});
-    visit(self.max_nodes, {"max_nodes", Unit::none, {1, 1e8}, "Cells to open at most."});
-  }
-};
 
 /// Plans with A*; see planners.hpp for the form that all planners share.
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const AStarParams& params, Rng& rng,

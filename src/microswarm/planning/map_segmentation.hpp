@@ -5,32 +5,10 @@
 #include <vector>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/planning/map_segmentation_params.hpp"
 #include "microswarm/planning/obstacle_weighted_rrt.hpp"
 
 namespace microswarm {
-
-/// Lengths are in widths of the local channel, so that they fit every map.
-struct MapSegmentationParams {
-  static constexpr std::string_view type_name = "map_segmentation";
-  double eccentricity = 0.97;
-  double range = 1;
-  int arms = 3;
-  double arm_gap = radians(20);
-  double merge_distance = 0.4;
-  double fill = 0.5;
-  int most_branches = 4;
-  template <class Self, class V>
-  static void fields(Self& self, V&& visit) {
-    visit(self.eccentricity, {"eccentricity", Unit::none, {0, 1}, "delta_e: junctions have less."});
-    visit(self.range, {"range", Unit::none, {0.1, 10}, "Reach of a node, in channel widths."});
-    visit(self.arms, {"arms", Unit::none, {0, 10}, "Channels that meet in a junction, at least."});
-    visit(self.arm_gap, {"arm_gap", Unit::deg, {0, 120}, "Least angle between two channels."});
-    visit(self.merge_distance,
-          {"merge_distance", Unit::none, {0, 10}, "Junction nodes nearer are one junction."});
-    visit(self.fill, {"fill", Unit::none, {0, 1}, "Share of junction nodes in its middle."});
-    visit(self.most_branches, {"most_branches", Unit::none, {1, 10}, "Branches of a region."});
-  }
-};
 
 /// A junction and the channels that lead to the goal by way of it.
 struct Region {

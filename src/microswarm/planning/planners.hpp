@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <variant>
-
 #include "microswarm/planning/a_star.hpp"
 #include "microswarm/planning/detection.hpp"
 #include "microswarm/planning/drrt_star.hpp"
 #include "microswarm/planning/fmt_star.hpp"
+#include "microswarm/planning/planner_params.hpp"
 #include "microswarm/planning/rrt.hpp"
 #include "microswarm/planning/rrt_star.hpp"
 
@@ -16,9 +15,7 @@ namespace microswarm {
 /// same arguments and random stream give the same bits. A bad start or goal is a status, never an
 /// exception; `stop` is asked at least once a millisecond.
 
-/// Any planner, chosen at run time by its `type`.
-using PlannerParams = std::variant<DrrtStarParams, RrtStarParams, UniformRrtStarParams, RrtParams,
-                                   AStarParams, FmtStarParams>;
+/// Plans with any of them.
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const PlannerParams& params, Rng& rng,
           const Stop& stop = {});
 

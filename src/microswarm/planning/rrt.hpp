@@ -3,38 +3,10 @@
 
 #include <string_view>
 
-#include "microswarm/core/fields.hpp"
 #include "microswarm/planning/plan.hpp"
+#include "microswarm/planning/rrt_params.hpp"
 
 namespace microswarm {
-
-/// What every sampling planner here has. One stopping rule for all: the first node within
-/// `goal_tolerance` of the goal ends the path; nothing is joined on unchecked.
-struct TreeParams {
-  double clearance = 40;
-  double goal_tolerance = 50;
-  double step = 80;
-  double goal_bias = 0.1;
-  int max_nodes = 5000;
-  int max_iterations = 100'000;
-  bool stop_at_first = true;
-  template <class Self, class V>
-  static void fields(Self& self, V&& visit) {
-    visit(self.clearance, {"clearance", Unit::um, {0, 1e6}, "Least distance to obstacles."});
-    visit(self.goal_tolerance, {"goal_tolerance", Unit::um, {1e-3, 1e6}, "How near counts."});
-    visit(self.step, {"step", Unit::um, {1e-3, 1e6}, "Base length of one extension."});
-    visit(self.goal_bias, {"goal_bias", Unit::none, {0, 1}, "Share of samples at the goal."});
-    visit(self.max_nodes, {"max_nodes", Unit::none, {1, 1e7}, "Nodes to grow at most."});
-    visit(self.max_iterations, {"max_iterations", Unit::none, {1, 1e8}, "Tries at most."});
-    visit(self.stop_at_first,
-          {"stop_at_first", Unit::none, {}, "Stop at the first path, or grow to the limits."});
-  }
-};
-
-/// RRT (LaValle): nearest node, fixed step.
-struct RrtParams : TreeParams {
-  static constexpr std::string_view type_name = "rrt";
-};
 
 /// Plans with RRT; see planners.hpp for the form that all planners share.
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const RrtParams& params, Rng& rng,

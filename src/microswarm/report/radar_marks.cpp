@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "microswarm/navigation/radar_circles.hpp"
+#include "microswarm/navigation/safety_radius.hpp"
+#include "microswarm/navigation/wait_area.hpp"
 
 namespace microswarm {
 namespace {

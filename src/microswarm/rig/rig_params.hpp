@@ -14,7 +14,7 @@
 #include "microswarm/config/settings.hpp"
 #include "microswarm/core/fields.hpp"
 #include "microswarm/core/places.hpp"
-#include "microswarm/experiment/scenario.hpp"
+#include "microswarm/experiment/scene.hpp"
 #include "microswarm/rig/eye_params.hpp"
 #include "microswarm/rig/microscope.hpp"
 #include "microswarm/vision/camera.hpp"

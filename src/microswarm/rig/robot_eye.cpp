@@ -8,6 +8,7 @@
 #include "microswarm/core/angles.hpp"
 #include "microswarm/rig/still_ground.hpp"
 #include "microswarm/rig/walls_in_picture.hpp"
+#include "microswarm/swarm/robot_swarm.hpp"
 #include "microswarm/world/free_place.hpp"
 
 namespace microswarm {

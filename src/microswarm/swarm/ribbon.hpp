@@ -5,44 +5,12 @@
 #include <string_view>
 #include <vector>
 
-#include "microswarm/core/fields.hpp"
 #include "microswarm/core/rng.hpp"
 #include "microswarm/swarm/contracts.hpp"
 #include "microswarm/swarm/lagging_commands.hpp"
+#include "microswarm/swarm/ribbon_params.hpp"
 
 namespace microswarm {
-
-/// Ribbon-like swarm under an oscillating field, as a unicycle [drrt]: it turns towards the
-/// commanded heading at a limited rate and moves along its own heading.
-struct RibbonParams {
-  static constexpr std::string_view type_name = "ribbon";
-  double radius = 40;
-  double max_speed = 80;
-  double max_turn_rate = 3;
-  double response_lag = 0.1;
-  double position_noise = 0;
-  double heading_noise = 0;
-  Vec2 drift{};
-  double speed_factor = 1;
-  template <class Self, class V>
-  static void fields(Self& self, V&& visit) {
-    visit(self.radius, {"radius", Unit::um, {1e-3, 1e5}, "Radius of the swarm's body."});
-    visit(self.max_speed, {"max_speed", Unit::um_per_s, {1e-3, 1e5}, "Fastest speed."});
-    visit(self.max_turn_rate, {"max_turn_rate", Unit::deg_per_s, {1e-3, 36000}, "Fastest turn."});
-    visit(self.response_lag,
-          {"response_lag", Unit::s, {0, 10}, "Dead time from a command to its effect."});
-    visit(self.position_noise,
-          {"position_noise", Unit::um, {0, 1e4}, "Random drift, standard deviation after 1 s."});
-    visit(self.heading_noise,
-          {"heading_noise", Unit::deg, {0, 360}, "Random turning, standard deviation after 1 s."});
-    visit(self.drift,
-          {"drift", Unit::um_per_s, {-1e5, 1e5}, "Flow that carries it; no navigator is told."});
-    visit(self.speed_factor, {"speed_factor",
-                              Unit::none,
-                              {0, 10},
-                              "Its speed beside the one commanded; no navigator is told."});
-  }
-};
 
 /// Longest piece of time over which the ribbon is integrated at once [s].
 inline constexpr double ribbon_substep = 0.01;

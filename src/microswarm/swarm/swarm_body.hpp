@@ -5,15 +5,10 @@
 
 #include "microswarm/swarm/ribbon.hpp"
 #include "microswarm/swarm/swarm_limits.hpp"
+#include "microswarm/swarm/swarm_params.hpp"
 #include "microswarm/swarm/vortex.hpp"
 
 namespace microswarm {
-
-/// Any swarm that is seen as one body, chosen at run time by its `type`.
-using SwarmParams = std::variant<RibbonParams, VortexParams>;
-
-/// What a navigator is told of such a swarm.
-SwarmLimits limits_of(const SwarmParams& params);
 
 /// Its moving part.
 class SwarmBody {

@@ -7,51 +7,12 @@
 #include <vector>
 
 #include "microswarm/core/angles.hpp"
-#include "microswarm/core/fields.hpp"
 #include "microswarm/core/rng.hpp"
 #include "microswarm/swarm/contracts.hpp"
 #include "microswarm/swarm/lagging_commands.hpp"
+#include "microswarm/swarm/vortex_params.hpp"
 
 namespace microswarm {
-
-/// Vortex-like swarm under a rotating field [radar]: it moves into any direction at once, as fast
-/// as the field is pitched (Eq 2), and its body widens or narrows while it moves. A command's speed
-/// is turned into the pitch φ = speed / c with c = max_speed / max_pitch.
-struct VortexParams {
-  static constexpr std::string_view type_name = "vortex";
-  double radius = 350;
-  double moving_radius = 350;
-  double radius_lag = 2;
-  double radius_ripple = 0;
-  double max_speed = 100;
-  double max_pitch = radians(5);
-  double response_lag = 0.1;
-  double position_noise = 0;
-  double field_amplitude = 8;
-  double field_frequency = 16;
-  template <class Self, class V>
-  static void fields(Self& self, V&& visit) {
-    visit(self.radius, {"radius", Unit::um, {1e-3, 1e5}, "Radius of the swarm at rest."});
-    visit(self.moving_radius,
-          {"moving_radius", Unit::um, {1e-3, 1e5}, "Radius at the fastest speed."});
-    visit(self.radius_lag,
-          {"radius_lag", Unit::s, {1e-3, 1e3}, "Time constant with which the radius changes."});
-    visit(self.radius_ripple,
-          {"radius_ripple",
-           Unit::um,
-           {0, 1e4},
-           "Random change of the radius, standard deviation; never more than twice that."});
-    visit(self.max_speed, {"max_speed", Unit::um_per_s, {1e-3, 1e5}, "Speed at the full pitch."});
-    visit(self.max_pitch, {"max_pitch", Unit::deg, {1e-3, 90}, "Pitch up to which it is stable."});
-    visit(self.response_lag,
-          {"response_lag", Unit::s, {0, 10}, "Dead time from a command to its effect."});
-    visit(self.position_noise,
-          {"position_noise", Unit::um, {0, 1e4}, "Random drift, standard deviation after 1 s."});
-    visit(self.field_amplitude, {"field_amplitude", Unit::mt, {0, 1e3}, "Amplitude of the field."});
-    visit(self.field_frequency,
-          {"field_frequency", Unit::hz, {1e-3, 1e4}, "Turns of the field in a second."});
-  }
-};
 
 /// The widest it gets [µm].
 double greatest_radius(const VortexParams& params);

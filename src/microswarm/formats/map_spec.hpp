@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/geometry/vec2.hpp"
+
+namespace microswarm {
+
+/// Which pixels of a picture are free.
+enum class FreePixels { bright, dark };
+constexpr auto enum_names(FreePixels) {
+  return std::array<std::pair<FreePixels, std::string_view>, 2>{
+      {{FreePixels::bright, "bright"}, {FreePixels::dark, "dark"}}};
+}
+
+/// A picture whose pixels are free or walls; (0, 0) is its lower left corner.
+struct ImageMap {
+  static constexpr std::string_view type_name = "image";
+  std::string file;
+  double um_per_px = 1;
+  int threshold = 128;
+  FreePixels free = FreePixels::bright;
+  double simplify = 0;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.file, {"file", Unit::none, {}, "PNG, JPEG, BMP, PGM or PPM picture.", true});
+    visit(self.um_per_px, {"um_per_px",
+                           Unit::none,
+                           {1e-6, 1e6},
+                           "Side of a pixel in µm: the picture's scale.",
+                           true});
+    visit(self.threshold,
+          {"threshold", Unit::none, {0, 255}, "Grey from which on a pixel counts as bright."});
+    visit(self.free, {"free", Unit::none, {}, "Which pixels are free: bright or dark."});
+    visit(self.simplify, {"simplify", Unit::um, {0, 1e6}, "Tolerance of the outlines; 0: exact."});
+  }
+};
+
+/// A map of ROS' map_server: YAML and picture. Occupied and unknown cells are walls.
+struct RosMap {
+  static constexpr std::string_view type_name = "ros";
+  std::string file;
+  double um_per_m = 1e6;
+  bool unknown_free = false;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.file, {"file", Unit::none, {}, "YAML file with the key `image`.", true});
+    visit(
+        self.um_per_m,
+        {"um_per_m", Unit::none, {1e-3, 1e9}, "µm that a metre of the file becomes; 1e6: as is."});
+    visit(self.unknown_free,
+          {"unknown_free", Unit::none, {}, "Unknown cells are free, not walls."});
+  }
+};
+
+/// A grid map of the MovingAI benchmarks; (0, 0) is its lower left corner.
+struct MovingAiMap {
+  static constexpr std::string_view type_name = "moving_ai";
+  std::string file;
+  double um_per_cell = 1;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.file, {"file", Unit::none, {}, "MovingAI .map file.", true});
+    visit(self.um_per_cell, {"um_per_cell", Unit::none, {1e-6, 1e6}, "Side of a cell in µm."});
+  }
+};
+
+/// Polygons and discs in GeoJSON.
+struct GeoJsonMap {
+  static constexpr std::string_view type_name = "geojson";
+  std::string file;
+  double um_per_unit = 1;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.file, {"file", Unit::none, {}, "GeoJSON file in plane coordinates.", true});
+    visit(self.um_per_unit,
+          {"um_per_unit", Unit::none, {1e-9, 1e9}, "µm that a unit of the file becomes."});
+  }
+};
+
+/// Rectangular walls, in a list or in a CSV file of rows x,y,width,height [µm].
+struct RectanglesMap {
+  static constexpr std::string_view type_name = "rectangles";
+  std::optional<Vec2> lo = std::nullopt;
+  std::optional<Vec2> hi = std::nullopt;
+  std::vector<std::vector<double>> rectangles{};
+  std::string file;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.lo, {"lo", Unit::um, {}, "Lower left corner of the map; missing: of the walls."});
+    visit(self.hi, {"hi", Unit::um, {}, "Upper right corner of the map; missing: of the walls."});
+    visit(self.rectangles,
+          {"rectangles", Unit::um, {}, "Walls: lower left x, y, width, height of each."});
+    visit(self.file, {"file", Unit::none, {}, "CSV of more walls: x,y,width,height in µm."});
+  }
+};
+
+/// One round wall.
+struct DiscWall {
+  Vec2 centre{};
+  double radius = 1;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.centre, {"centre", Unit::um, {}, "Its centre.", true});
+    visit(self.radius, {"radius", Unit::um, {1e-3, 1e6}, "Its radius.", true});
+  }
+};
+
+/// Walls written down as polygons and discs.
+struct PolygonsMap {
+  static constexpr std::string_view type_name = "polygons";
+  Vec2 lo{};
+  Vec2 hi{};
+  std::vector<std::vector<Vec2>> walls;
+  std::vector<DiscWall> discs;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.lo, {"lo", Unit::um, {}, "Lower left corner of the map."});
+    visit(self.hi, {"hi", Unit::um, {}, "Upper right corner of the map.", true});
+    visit(self.walls, {"walls", Unit::um, {}, "Outline of each wall: a list of points."});
+    visit(self.discs, {"discs", Unit::none, {}, "Round walls."});
+  }
+};
+
+/// A channel cut into a solid block from (0, 0) to (width, height): DeformingChannel at rest.
+struct ChannelMap {
+  static constexpr std::string_view type_name = "channel";
+  double width = 2000;
+  double height = 1000;
+  std::vector<Vec2> centre_line;
+  double half_width = 200;
+  double end_half_width = 200;
+  double end_length = 300;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.width, {"width", Unit::um, {1, 1e6}, "Width of the map.", true});
+    visit(self.height, {"height", Unit::um, {1, 1e6}, "Height of the map.", true});
+    visit(self.centre_line,
+          {"centre_line", Unit::um, {}, "Middle of the channel; smoothed.", true});
+    visit(self.half_width, {"half_width", Unit::um, {1, 1e6}, "Half width of the channel."});
+    visit(self.end_half_width, {"end_half_width", Unit::um, {1, 1e6}, "Half width at the ends."});
+    visit(self.end_length, {"end_length", Unit::um, {0, 1e6}, "Over which an end widens."});
+  }
+};
+
+/// Where a map comes from: a file in one of the forms read, or written down in place.
+using MapSpec =
+    std::variant<PolygonsMap, RectanglesMap, ChannelMap, ImageMap, RosMap, MovingAiMap, GeoJsonMap>;
+
+}  // namespace microswarm

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <variant>
+
+#include "microswarm/navigation/aggregation_params.hpp"
+#include "microswarm/navigation/hierarchical_params.hpp"
+#include "microswarm/navigation/path_navigator_params.hpp"
+#include "microswarm/navigation/plan_player_params.hpp"
+#include "microswarm/navigation/potential_field_params.hpp"
+#include "microswarm/navigation/predictive_params.hpp"
+#include "microswarm/navigation/radar_params.hpp"
+#include "microswarm/navigation/straight_params.hpp"
+#include "microswarm/navigation/velocity_obstacle_params.hpp"
+
+namespace microswarm {
+
+/// Any navigator, chosen at run time by its `type`.
+using NavigatorParams = std::variant<HierarchicalParams, PlanPlayerParams, AggregationParams,
+                                     RadarParams, StraightParams, PotentialFieldParams,
+                                     VelocityObstacleParams, PredictiveParams, PathNavigatorParams>;
+
+/// The parameters, without what is ours where `as_published` says so: they read back without a
+/// contradiction.
+NavigatorParams in_effect(const NavigatorParams& params);
+
+/// Least distance [µm] from its centre that the navigator keeps for a swarm seen as one body.
+double margin_of(const NavigatorParams& params);
+
+/// How near [µm] to the swarm's edge an obstacle is when it begins to be avoided, for metrics: the
+/// detection range d_r of the radar, and 50 µm of those that have none.
+double detection_range_of(const NavigatorParams& params);
+
+/// Age [s] from which on the navigator holds a frame for too old.
+double frame_timeout_of(const NavigatorParams& params);
+
+/// The follower's parameters of a navigator that follows a path; null for others.
+const FollowerParams* follower_of(const NavigatorParams& params);
+FollowerParams* follower_of(NavigatorParams& params);
+
+}  // namespace microswarm

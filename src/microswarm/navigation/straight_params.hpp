@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "microswarm/core/fields.hpp"
+
+namespace microswarm {
+
+/// The simplest baseline: straight at the goal, and stop while something stands in the way.
+struct StraightParams {
+  static constexpr std::string_view type_name = "straight_stop";
+  double speed = 60;
+  double stop_distance = 100;
+  double margin = 10;
+  double frame_timeout = 0.5;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Speed asked for."});
+    visit(self.stop_distance,
+          {"stop_distance",
+           Unit::um,
+           {0, 1e5},
+           "Stop while a wall or an obstacle is so near ahead, from edge to edge."});
+    visit(self.margin, {"margin", Unit::um, {0, 1e5}, "Kept beside the swarm's edge."});
+    visit(self.frame_timeout,
+          {"frame_timeout", Unit::s, {0, 60}, "Hold when the newest frame is older than this."});
+  }
+};
+
+}  // namespace microswarm

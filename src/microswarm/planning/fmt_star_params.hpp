@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/core/places.hpp"
+
+namespace microswarm {
+
+/// FMT*, the Fast Marching Tree (Janson et al. 2015, reference 46 of [radar]): a tree marches from
+/// the start, in the order of cost-to-come, over a set of free samples. Every sample and every edge
+/// keeps at least the clearance, as Eq 28 [radar] means. The first node within the goal tolerance
+/// that is the cheapest of the open ones ends the path. A set of samples in which the tree ends
+/// before the goal is doubled, up to `max_nodes`; where that equals `samples` the set is one and
+/// the same, as published.
+struct FmtStarParams {
+  static constexpr std::string_view type_name = "fmt_star";
+  double clearance = 40;
+  double goal_tolerance = 50;
+  int samples = 1000;          // n
+  double radius_factor = 1.1;  // 1 + η
+  int max_nodes = 64'000;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.clearance, {"clearance", Unit::um, {0, 1e6}, "Least distance to obstacles."});
+    visit(self.goal_tolerance, {"goal_tolerance", Unit::um, {1e-3, 1e6}, "How near counts."});
+    visit(self.samples, {"samples", Unit::none, {1, 1e7}, "Free samples to begin with (n)."});
+    visit(self.radius_factor,
+          {"radius_factor",
+           Unit::none,
+           {1, 100},
+           "Neighbours lie within this times the least radius that the theory allows."});
+    visit(self.max_nodes,
+          {"max_nodes", Unit::none, {1, 1e7}, "Samples at most, doubled while there is no path."});
+  }
+};
+
+/// Throws InputError when `max_nodes` is less than `samples`; `where` knows the keys.
+void check(const FmtStarParams& params, const Places& where);
+
+}  // namespace microswarm

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "microswarm/core/fields.hpp"
+
+namespace microswarm {
+
+/// What every sampling planner here has. One stopping rule for all: the first node within
+/// `goal_tolerance` of the goal ends the path; nothing is joined on unchecked.
+struct TreeParams {
+  double clearance = 40;
+  double goal_tolerance = 50;
+  double step = 80;
+  double goal_bias = 0.1;
+  int max_nodes = 5000;
+  int max_iterations = 100'000;
+  bool stop_at_first = true;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.clearance, {"clearance", Unit::um, {0, 1e6}, "Least distance to obstacles."});
+    visit(self.goal_tolerance, {"goal_tolerance", Unit::um, {1e-3, 1e6}, "How near counts."});
+    visit(self.step, {"step", Unit::um, {1e-3, 1e6}, "Base length of one extension."});
+    visit(self.goal_bias, {"goal_bias", Unit::none, {0, 1}, "Share of samples at the goal."});
+    visit(self.max_nodes, {"max_nodes", Unit::none, {1, 1e7}, "Nodes to grow at most."});
+    visit(self.max_iterations, {"max_iterations", Unit::none, {1, 1e8}, "Tries at most."});
+    visit(self.stop_at_first,
+          {"stop_at_first", Unit::none, {}, "Stop at the first path, or grow to the limits."});
+  }
+};
+
+/// RRT (LaValle): nearest node, fixed step.
+struct RrtParams : TreeParams {
+  static constexpr std::string_view type_name = "rrt";
+};
+
+/// RRT* (Karaman & Frazzoli): choose parent and rewire within a radius, by length.
+struct RrtStarParams : TreeParams {
+  static constexpr std::string_view type_name = "rrt_star";
+  double search_radius = 120;
+  bool shrinking = true;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    TreeParams::fields(self, visit);
+    visit(self.search_radius,
+          {"search_radius", Unit::um, {1e-3, 1e6}, "Neighbours for choose-parent and rewire."});
+    visit(self.shrinking,
+          {"shrinking",
+           Unit::none,
+           {},
+           "Shrink the radius as sqrt(log n / n) once that is below search_radius."});
+  }
+};
+
+/// Uniform RRT*: a node is accepted only at least `spacing` away from every other, so that the tree
+/// fills free space evenly. Nodes at the goal are exempt; a spacing beyond the step counts as the
+/// step, since else nothing could grow.
+struct UniformRrtStarParams : RrtStarParams {
+  static constexpr std::string_view type_name = "uniform_rrt_star";
+  double spacing = 30;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    RrtStarParams::fields(self, visit);
+    visit(self.spacing, {"spacing", Unit::um, {0, 1e6}, "Least distance between nodes."});
+  }
+};
+
+}  // namespace microswarm
