@@ -49,6 +49,33 @@ TEST(Run, StraightToTheGoal) {
   EXPECT_EQ(told.events[0].kind, EventKind::goal_reached);
 }
 
+// Whatever it faces in a narrow channel, it rather holds.
+TEST(Run, ASwarmThatTurnsSlowlyTouchesNoWall) {
+  Scenario scenario = open_room();
+  std::get<PolygonsMap>(scenario.map).walls = {{{0, 0}, {2000, 0}, {2000, 430}, {0, 430}},
+                                               {{0, 570}, {2000, 570}, {2000, 1000}, {0, 1000}}};
+  RibbonParams swarm{.radius = 40, .max_speed = 80};
+  scenario.goal_tolerance = 5;
+  scenario.hold_limit = 2;
+  HierarchicalParams drrt;
+  drrt.margin = 40;
+  PredictiveParams predictive;
+  Rng rng(3, Purpose::scene, 0);
+  for (int trial = 0; trial < 24; ++trial) {
+    swarm.max_turn_rate = radians(trial % 2 == 0 ? 20 : 60);
+    scenario.swarm = swarm;
+    scenario.start = Pose2{{rng.uniform(300, 1700), rng.uniform(475, 525)}, rng.uniform(-pi, pi)};
+    scenario.goal = Vec2{scenario.start->position.x + rng.uniform(-150, 150),
+                         rng.uniform(0, 1) < 0.5 ? 466.0 : 534.0};
+    for (const NavigatorParams& navigator : {NavigatorParams{drrt}, NavigatorParams{predictive}}) {
+      scenario.navigator = navigator;
+      const RunResult result = simulate(scenario, world_of(scenario), 0);
+      EXPECT_NE(result.status, Status::collided)
+          << trial << ", navigator " << navigator.index() << ", " << result.metrics.time;
+    }
+  }
+}
+
 TEST(Run, AlreadyThere) {
   Scenario scenario = open_room();
   scenario.goal = Vec2{210, 500};

@@ -65,6 +65,8 @@ TEST(Scenario, AsPublishedLeavesNothingOfOursUnsaid) {
   EXPECT_EQ(refusal(drrt), "");
   EXPECT_EQ(refusal(drrt + "  guide: straight\n"), "");
   EXPECT_EQ(refusal(drrt + "  guide: route\n"), "s.yaml:7:10: guide" + not_the_papers);
+  EXPECT_EQ(refusal(drrt + "  follower: {kind: learned}\n"),
+            "s.yaml:7:20: follower.kind" + not_the_papers);
   EXPECT_EQ(refusal(drrt + "  planner: {straighten: true}\n"),
             "s.yaml:7:25: planner.straighten" + not_the_papers);
   EXPECT_EQ(refusal("  type: radar\n", {"navigator={type: radar, as_published: true, "

@@ -32,6 +32,8 @@ HierarchicalParams HierarchicalParams::in_effect() const {
   p.horizon = 0;
   p.target_horizon = 0;
   p.guide = Guide::straight;
+  p.follower.kind = FollowerKind::pure_pursuit;
+  p.follower.correct_flow = false;
   p.planner.as_published = true;
   p.planner = p.planner.in_effect();
   return p;
@@ -65,6 +67,7 @@ void HierarchicalNavigator::prepare(const Snapshot& world) {
   const Snapshot walls(world.shared_map());
   aim_ =
       aim_at(walls, goal_, goal_tolerance_, params_.margin, params_.margin + params_.extra_margin);
+  aim_clearance_ = walls.map().clearance(aim_);
   if (params_.guide == Guide::route)
     route_ = Route(world.map(), aim_, params_.margin, params_.route_cell);
 }
@@ -102,10 +105,8 @@ Command HierarchicalNavigator::decide(const Observation& seen, const Stop& stop)
   delay_ = seen.age() + swarm_.response_lag;
   const Snapshot& now = *seen.world;
   for (int attempt = 0; attempt < 2; ++attempt) {
-    const bool near_end =
-        path_.size() > 1 && target_ && !(*target_ == aim_) && way_left(path_, place_) < used_up();
-    if (attempt > 0 || near_end || !path_holds(now)) {  // line 4
-      replan(now, stop);                                // lines 5–11
+    if (attempt > 0 || is_used_up() || !path_holds(now)) {  // line 4
+      replan(now, stop);                                    // lines 5–11
     }
     if (path_.size() < 2) break;
     if (params_.as_published) {
@@ -122,6 +123,15 @@ Command HierarchicalNavigator::decide(const Observation& seen, const Stop& stop)
       look_ahead(seen, params_.margin, [&](const Pose2&, double) { return hold; }).safe)
     return issue(seen.now, hold, "hold");
   return escape(seen);
+}
+
+// What is left of a path on the way is not worth following, of the last one nothing is left.
+bool HierarchicalNavigator::is_used_up() {
+  if (path_.size() < 2 || !target_) return false;
+  if (!(*target_ == aim_)) return way_left(path_, place_) < used_up();
+  if (params_.as_published) return false;
+  place_ = nearest_place(path_, pose_.position, place_);
+  return way_left(path_, place_) < path_end();
 }
 
 // Path Safety, P_clt Unsafe: the rest of the path against what is seen now.
@@ -236,6 +246,16 @@ void HierarchicalNavigator::plan_to(const Snapshot& world, Vec2 target, double c
   target_ = target;
 }
 
+// The margin from walls or, where that is hardly more than the swarm, so much more that what
+// happens within a tick is no contact; less where the swarm is, or the aim on the next `reach` µm.
+double HierarchicalNavigator::wall_floor(const Map& map, double reach) const {
+  const double wanted = swarm_.radius + slack_;
+  if (params_.margin >= wanted) return params_.margin;
+  const double near_aim =
+      wall_clearance_near(aim_, aim_clearance_, params_.margin, wanted, pose_.position, reach);
+  return std::max(params_.margin, std::min(near_aim, map.clearance(pose_.position)));
+}
+
 // Where the swarm goes once the command takes effect, against where the obstacles go.
 template <class Steer>
 HierarchicalNavigator::Outlook HierarchicalNavigator::look_ahead(const Observation& seen,
@@ -245,6 +265,7 @@ HierarchicalNavigator::Outlook HierarchicalNavigator::look_ahead(const Observati
   const double delay = params_.horizon > 0 ? seen.age() + swarm_.response_lag : 0;
   const int ticks = std::max(1, static_cast<int>(std::lround(params_.horizon / escape_tick)));
   const Map& map = seen.world->map();
+  const double from_walls = wall_floor(map, enough);
   Pose2 pose = pose_;
   Outlook out{.safe = true, .least = enough, .last = enough};
   Command command;
@@ -258,7 +279,7 @@ HierarchicalNavigator::Outlook HierarchicalNavigator::look_ahead(const Observati
     const Segment move{pose.position, next.position};
     const double from = delay + k * escape_tick;
     const double moving = obstacles_.clearance(*seen.world, move, from, from + escape_tick, enough);
-    out.safe = out.safe && moving >= params_.margin + slack_ && map.is_free(move, params_.margin);
+    out.safe = out.safe && moving >= params_.margin + slack_ && map.is_free(move, from_walls);
     // The whole move counts, so that no way through a wall is ever the best one.
     out.last = map.is_free(move, 0) ? std::min(moving, map.clearance(next.position)) : 0;
     out.least = std::min(out.least, out.last);
@@ -268,23 +289,29 @@ HierarchicalNavigator::Outlook HierarchicalNavigator::look_ahead(const Observati
   return out;
 }
 
-// A learned follower goes round a goal that is small: the last bit is left to pure pursuit.
+// A learned follower goes round a goal that is small: the last bit is left to pure pursuit. At the
+// goal and where the path ends it holds, and it does not go past the aim within a tick: what is
+// looked ahead to is what is done.
 PathFollower::Answer HierarchicalNavigator::follow(PathPlace& place, const Pose2& pose,
                                                    double speed) const {
   const double lookahead = params_.as_published ? params_.lookahead : lookahead_at(speed);
-  if (*target_ == aim_ && distance(pose.position, aim_) < lookahead)
-    return {pursue(path_, place, pose, lookahead, speed)};
-  return follower_.command(path_, place, pose, lookahead, speed);
+  const bool last_bit = *target_ == aim_ && distance(pose.position, aim_) < lookahead;
+  PathFollower::Answer answer =
+      last_bit ? PathFollower::Answer{pursue(path_, place, pose, lookahead, speed)}
+               : follower_.command(path_, place, pose, lookahead, speed);
+  if (params_.as_published) return answer;
+  const double left = way_left(path_, place);
+  if (left < path_end() || distance(pose.position, goal_) <= goal_tolerance_)
+    return {{pose.heading, 0}};
+  if (last_bit) answer.command.speed = std::min(answer.command.speed, left / period_);
+  return answer;
 }
 
 HierarchicalNavigator::Outlook HierarchicalNavigator::look_along_path(const Observation& seen,
                                                                       double speed) const {
   PathPlace place = place_;
-  return look_ahead(seen, params_.margin, [&](const Pose2& pose, double) {
-    const Command command = follow(place, pose, speed).command;
-    const bool there = distance(pose.position, goal_) <= goal_tolerance_;
-    return there || way_left(path_, place) < 1 ? Command{pose.heading, 0} : command;
-  });
+  return look_ahead(seen, params_.margin,
+                    [&](const Pose2& pose, double) { return follow(place, pose, speed).command; });
 }
 
 // Of the hold and the ways of one leg, or two where one will not do, the one that keeps the most

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "microswarm/core/infinity.hpp"
+#include "microswarm/core/rng.hpp"
 #include "microswarm/navigation/body_forecast.hpp"
 #include "microswarm/navigation/guide.hpp"
 #include "microswarm/navigation/hierarchical_params.hpp"
@@ -51,6 +53,7 @@ class HierarchicalNavigator : public Navigator {
   /// clearance falls below `floor`.
   template <class Steer>
   Outlook look_ahead(const Observation& seen, double floor, Steer&& steer) const;
+  double wall_floor(const Map& map, double reach) const;
   double far_enough() const { return 2 * params_.margin + params_.extra_margin; }
   PathFollower::Answer follow(PathPlace& place, const Pose2& pose, double speed) const;
   Outlook look_along_path(const Observation& seen, double speed) const;
@@ -59,6 +62,11 @@ class HierarchicalNavigator : public Navigator {
   }
   /// So little of a path is left when the next one is planned [µm].
   double used_up() const { return std::max(params_.lookahead, 2 * swarm_.radius); }
+  /// So little that it counts as nothing [µm].
+  double path_end() const {
+    return std::min(1.0, 0.25 * (goal_tolerance_ - distance(aim_, goal_)));
+  }
+  bool is_used_up();
   Command escape(const Observation& seen);
 
   HierarchicalParams params_;
@@ -70,7 +78,8 @@ class HierarchicalNavigator : public Navigator {
   double slack_ = 1;     ///< kept besides the margin, for what happens within a tick [µm]
   double period_ = 0.1;  ///< between the last two commands [s]
   double delay_ = 0;     ///< from the frame until the command of this step takes effect [s]
-  Vec2 aim_;             ///< the goal, or the point within its tolerance that keeps the margin
+  double aim_clearance_ = infinity;  ///< to walls [µm]
+  Vec2 aim_;  ///< the goal, or the point within its tolerance that keeps the margin
 
   std::optional<double> issued_at_;  ///< the last command [s]
   BodyForecast forecast_;

@@ -58,6 +58,7 @@ void PredictiveNavigator::prepare(const Snapshot& world) {
   helm_.prepare(world, helm_.swarm().radius, helm_.swarm().radius + params_.wall_margin);
   const double left = goal_tolerance_ - distance(helm_.aim(), helm_.goal());
   reached_ = {helm_.aim(), inner_goal * left};
+  ends_within_ = goal_tolerance_ - (1 - inner_goal) * left;
   if (params_.guide == Guide::route)
     route_ = Route(world.map(), helm_.aim(),
                    helm_.wall_clearance(helm_.swarm().radius + params_.wall_margin, helm_.aim(), 0),
@@ -242,7 +243,9 @@ PredictiveNavigator::Leg PredictiveNavigator::tried(const Map& map, const Pose2&
     if (command.speed > 0 && !map.is_free(way, needed)) leg.cost = no_way + bound;
     if (leg.cost > bound) return leg;
     pose = next;
-    if (distance(pose.position, reached_.centre) < reached_.radius) return leg;
+    if (ending_ ? distance(helm_.goal(), way) < ends_within_
+                : distance(pose.position, reached_.centre) < reached_.radius)
+      return leg;
   }
   leg.cost += ending_ ? left_from(pose.position) : field_.cost(1, pose.position);
   leg.cost += turning_time(pose);

@@ -59,8 +59,9 @@ class PredictiveNavigator : public Navigator {
   PredictiveParams params_;
   Helm helm_;
   double goal_tolerance_;
-  Disc reached_;   ///< from where on the goal counts as reached
-  double radius_;  ///< with the margin [µm]
+  Disc reached_;            ///< from where on the goal counts as reached
+  double ends_within_ = 0;  ///< of the goal, on the last bit [µm]
+  double radius_;           ///< with the margin [µm]
   Foresight foresight_;
   TimeField field_;
   Route route_;
