@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/fmt_star.hpp"
+#include "microswarm/planning/path/fmt_star.hpp"
 
 #include <chrono>
 #include <stdexcept>
@@ -7,7 +7,7 @@
 #include "bench/ompl_peer.hpp"
 #include "bench/planning.hpp"
 #include "microswarm/core/statistics.hpp"
-#include "microswarm/experiment/scene.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
 
 namespace microswarm::bench {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "microswarm/world/map.hpp"
+#include "microswarm/world/map/map.hpp"
 
 namespace microswarm::bench {
 

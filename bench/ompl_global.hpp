@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "microswarm/planning/global_rrt.hpp"
+#include "microswarm/planning/global_input/global_rrt.hpp"
 
 namespace microswarm::bench {
 

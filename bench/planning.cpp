@@ -10,9 +10,9 @@
 #include "bench/ompl_peer.hpp"
 #include "microswarm/core/statistics.hpp"
 #include "microswarm/core/stop.hpp"
-#include "microswarm/experiment/scene.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/geometry/distance.hpp"
-#include "microswarm/planning/planners.hpp"
+#include "microswarm/planning/path/planners.hpp"
 #include "tests/scenes/worlds.hpp"
 
 namespace microswarm::bench {

@@ -10,7 +10,7 @@
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/rng.hpp"
 #include "microswarm/core/statistics.hpp"
-#include "microswarm/navigation/radar.hpp"
+#include "microswarm/navigation/radar/radar.hpp"
 #include "tests/scenes/worlds.hpp"
 
 namespace microswarm::bench {

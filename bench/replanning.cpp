@@ -3,7 +3,7 @@
 
 #include "bench/ompl_peer.hpp"
 #include "bench/planning.hpp"
-#include "microswarm/experiment/scene.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/experiment/trials.hpp"
 
 namespace microswarm::bench {

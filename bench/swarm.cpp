@@ -8,9 +8,9 @@
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/rng.hpp"
 #include "microswarm/core/statistics.hpp"
-#include "microswarm/formats/mask.hpp"
-#include "microswarm/formats/rasterise.hpp"
-#include "microswarm/swarm/robot_stepper.hpp"
+#include "microswarm/formats/images/mask.hpp"
+#include "microswarm/formats/images/rasterise.hpp"
+#include "microswarm/swarm/robots/robot_stepper.hpp"
 #include "tests/scenes/vascular.hpp"
 
 namespace microswarm::bench {

@@ -9,9 +9,9 @@
 
 #include "microswarm/core/rng.hpp"
 #include "microswarm/core/statistics.hpp"
-#include "microswarm/vision/mat.hpp"
-#include "microswarm/vision/scene_finder.hpp"
-#include "microswarm/vision/video_tracker.hpp"
+#include "microswarm/vision/image/mat.hpp"
+#include "microswarm/vision/scene/scene_finder.hpp"
+#include "microswarm/vision/tracking/video_tracker.hpp"
 
 namespace microswarm::bench {
 namespace {

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The checks complain about what they are for, and about nothing else."""
 
+import shutil
 import tempfile
 import unittest
 from pathlib import Path
@@ -19,6 +20,8 @@ class Includes(unittest.TestCase):
                 path = Path(folder) / name
                 path.parent.mkdir(parents=True, exist_ok=True)
                 path.write_text(text, encoding="utf-8")
+            floors = Path(__file__).resolve().parent.parent / "CMakeLists.txt"
+            shutil.copy(floors, folder)
             return check_includes.check(folder)
 
     def test_lower_floors_and_foreign_headers_are_welcome(self):
@@ -63,6 +66,16 @@ class Includes(unittest.TestCase):
         })
         self.assertEqual(1, len(complaints))
         self.assertIn("src/microswarm/core/c.hpp:1: cycle", complaints[0])
+
+    def test_cycle_of_folders(self):
+        complaints = self.check({
+            "src/microswarm/world/map/a.hpp": '#include "microswarm/world/body/b.hpp"\n',
+            "src/microswarm/world/map/c.hpp": "",
+            "src/microswarm/world/body/b.hpp": "",
+            "src/microswarm/world/body/d.hpp": '\n#include "microswarm/world/map/c.hpp"\n',
+        })
+        self.assertEqual(1, len(complaints))
+        self.assertIn("cycle src/microswarm/world/", complaints[0])
 
     def test_an_algorithm_among_parameters(self):
         self.assertEqual(["src/microswarm/navigation/a_params.hpp:1: "

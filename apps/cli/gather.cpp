@@ -4,9 +4,9 @@
 
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/error.hpp"
-#include "microswarm/experiment/scene.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/formats/map_file.hpp"
-#include "microswarm/navigation/channel_width.hpp"
+#include "microswarm/navigation/gathering/channel_width.hpp"
 #include "run_output.hpp"
 
 namespace microswarm::cli {

@@ -12,10 +12,10 @@
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/stop.hpp"
 #include "microswarm/core/text.hpp"
-#include "microswarm/experiment/global_tree_file.hpp"
-#include "microswarm/experiment/robot_check.hpp"
+#include "microswarm/experiment/record/global_tree_file.hpp"
+#include "microswarm/experiment/scenario/robot_check.hpp"
 #include "microswarm/formats/map_file.hpp"
-#include "microswarm/planning/global_shorten.hpp"
+#include "microswarm/planning/global_input/global_shorten.hpp"
 #include "robot_picture.hpp"
 
 namespace microswarm::cli {

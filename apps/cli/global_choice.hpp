@@ -3,8 +3,8 @@
 
 #include <variant>
 
-#include "microswarm/planning/global_rrt.hpp"
-#include "microswarm/planning/global_search.hpp"
+#include "microswarm/planning/global_input/global_rrt.hpp"
+#include "microswarm/planning/global_input/global_search.hpp"
 #include "options.hpp"
 
 namespace microswarm::cli {

@@ -11,7 +11,7 @@
 #include "microswarm/core/hash.hpp"
 #include "microswarm/core/version.hpp"
 #include "microswarm/learning/follower_training.hpp"
-#include "microswarm/navigation/follower_model.hpp"
+#include "microswarm/navigation/following/follower_model.hpp"
 #include "options.hpp"
 
 namespace microswarm::cli {

@@ -7,11 +7,11 @@
 #include "microswarm/core/error.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/formats/write_map.hpp"
-#include "microswarm/vision/agreement.hpp"
-#include "microswarm/vision/outline.hpp"
-#include "microswarm/vision/overlay.hpp"
-#include "microswarm/vision/vessels.hpp"
-#include "microswarm/world/passage.hpp"
+#include "microswarm/vision/image/overlay.hpp"
+#include "microswarm/vision/vessels/agreement.hpp"
+#include "microswarm/vision/vessels/outline.hpp"
+#include "microswarm/vision/vessels/vessels.hpp"
+#include "microswarm/world/connectivity/passage.hpp"
 #include "options.hpp"
 
 namespace microswarm::cli {

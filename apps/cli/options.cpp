@@ -5,7 +5,7 @@
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/text.hpp"
-#include "microswarm/formats/image.hpp"
+#include "microswarm/formats/images/image.hpp"
 
 namespace microswarm::cli {
 

@@ -7,10 +7,10 @@
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/error.hpp"
-#include "microswarm/experiment/scene.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/formats/map_file.hpp"
-#include "microswarm/planning/free_goal.hpp"
-#include "microswarm/planning/planners.hpp"
+#include "microswarm/planning/common/free_goal.hpp"
+#include "microswarm/planning/path/planners.hpp"
 #include "microswarm/report/picture.hpp"
 #include "options.hpp"
 

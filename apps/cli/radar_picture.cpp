@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "radar_picture.hpp"
-#include "microswarm/navigation/wait_area.hpp"
+#include "microswarm/navigation/radar/wait_area.hpp"
 
 #include <fmt/format.h>
 

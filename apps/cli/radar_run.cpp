@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "radar_run.hpp"
-#include "microswarm/experiment/scene.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
 
 #include <algorithm>
 
-#include "microswarm/experiment/plant.hpp"
-#include "microswarm/navigation/radar.hpp"
+#include "microswarm/experiment/run/plant.hpp"
+#include "microswarm/navigation/radar/radar.hpp"
 
 namespace microswarm::cli {
 namespace {

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "microswarm/experiment/record.hpp"
-#include "microswarm/experiment/scene.hpp"
-#include "microswarm/navigation/radar_scan.hpp"
+#include "microswarm/experiment/record/record.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/navigation/radar/radar_scan.hpp"
 
 namespace microswarm::cli {
 

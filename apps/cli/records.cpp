@@ -2,7 +2,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "microswarm/experiment/record.hpp"
+#include "microswarm/experiment/record/record.hpp"
 #include "options.hpp"
 
 namespace microswarm::cli {

@@ -7,9 +7,9 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/statistics.hpp"
-#include "microswarm/planning/detection.hpp"
-#include "microswarm/planning/planners.hpp"
-#include "microswarm/planning/straighten.hpp"
+#include "microswarm/planning/common/detection.hpp"
+#include "microswarm/planning/path/planners.hpp"
+#include "microswarm/planning/path/straighten.hpp"
 #include "microswarm/report/picture.hpp"
 #include "microswarm/report/plot.hpp"
 #include "reproduce_drrt.hpp"

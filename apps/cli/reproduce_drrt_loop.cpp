@@ -8,7 +8,7 @@
 
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/statistics.hpp"
-#include "microswarm/experiment/record.hpp"
+#include "microswarm/experiment/record/record.hpp"
 #include "microswarm/experiment/trials.hpp"
 #include "microswarm/report/run_report.hpp"
 #include "reproduce_drrt.hpp"

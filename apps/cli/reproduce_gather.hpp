@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "microswarm/navigation/aggregation.hpp"
+#include "microswarm/navigation/gathering/aggregation.hpp"
 #include "microswarm/report/plot.hpp"
 #include "reproduce.hpp"
 #include "tests/scenes/vascular.hpp"

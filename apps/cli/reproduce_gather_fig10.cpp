@@ -9,9 +9,9 @@
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/parallel.hpp"
 #include "microswarm/core/statistics.hpp"
-#include "microswarm/experiment/progress.hpp"
-#include "microswarm/experiment/run.hpp"
-#include "microswarm/rig/simulated_rig.hpp"
+#include "microswarm/experiment/run/progress.hpp"
+#include "microswarm/experiment/run/run.hpp"
+#include "microswarm/rig/simulation/simulated_rig.hpp"
 #include "reproduce_gather.hpp"
 
 namespace microswarm::cli {

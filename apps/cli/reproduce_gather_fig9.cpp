@@ -13,7 +13,7 @@
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/parallel.hpp"
 #include "microswarm/core/statistics.hpp"
-#include "microswarm/navigation/rollout.hpp"
+#include "microswarm/navigation/gathering/rollout.hpp"
 #include "microswarm/report/page.hpp"
 #include "reproduce_gather.hpp"
 #include "reproduce_gather_fig9.hpp"

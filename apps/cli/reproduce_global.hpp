@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "microswarm/planning/global_search.hpp"
-#include "microswarm/planning/global_tree.hpp"
+#include "microswarm/planning/global_input/global_search.hpp"
+#include "microswarm/planning/global_input/global_tree.hpp"
 #include "reproduce.hpp"
 #include "tests/scenes/global_tasks.hpp"
 

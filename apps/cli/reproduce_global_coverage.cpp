@@ -10,8 +10,8 @@
 
 #include "microswarm/core/parallel.hpp"
 #include "microswarm/core/statistics.hpp"
-#include "microswarm/planning/coverage.hpp"
-#include "microswarm/planning/global_rrt.hpp"
+#include "microswarm/planning/global_input/coverage.hpp"
+#include "microswarm/planning/global_input/global_rrt.hpp"
 #include "microswarm/report/picture.hpp"
 #include "microswarm/report/plot.hpp"
 #include "reproduce_global.hpp"

@@ -6,8 +6,8 @@
 
 #include "microswarm/core/statistics.hpp"
 #include "microswarm/core/stop.hpp"
-#include "microswarm/planning/global_search.hpp"
-#include "microswarm/planning/global_shorten.hpp"
+#include "microswarm/planning/global_input/global_search.hpp"
+#include "microswarm/planning/global_input/global_shorten.hpp"
 #include "reproduce_global.hpp"
 #include "tests/scenes/global_worlds.hpp"
 

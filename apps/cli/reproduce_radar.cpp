@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reproduce_radar.hpp"
-#include "microswarm/experiment/scene.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
 
 #include <fmt/format.h>
 

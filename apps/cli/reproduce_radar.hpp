@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "microswarm/experiment/scene.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
 #include "radar_run.hpp"
 #include "reproduce.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/statistics.hpp"
-#include "microswarm/experiment/progress.hpp"
+#include "microswarm/experiment/run/progress.hpp"
 #include "microswarm/experiment/trials.hpp"
 #include "microswarm/geometry/distance.hpp"
 #include "radar_picture.hpp"

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "microswarm/actuation/calibration.hpp"
-#include "microswarm/actuation/coil_drive.hpp"
-#include "microswarm/actuation/coil_system.hpp"
-#include "microswarm/actuation/currents.hpp"
+#include "microswarm/actuation/coils/calibration.hpp"
+#include "microswarm/actuation/coils/coil_system.hpp"
+#include "microswarm/actuation/coils/currents.hpp"
+#include "microswarm/actuation/drivers/coil_drive.hpp"
 #include "microswarm/config/write.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"

@@ -7,7 +7,7 @@
 
 #include "cli.hpp"
 #include "command.hpp"
-#include "microswarm/actuation/coil_system.hpp"
+#include "microswarm/actuation/coils/coil_system.hpp"
 
 namespace microswarm::cli {
 

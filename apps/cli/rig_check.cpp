@@ -4,10 +4,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "microswarm/actuation/coil_controller.hpp"
+#include "microswarm/actuation/coils/coil_controller.hpp"
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/durations.hpp"
-#include "microswarm/vision/newest_frame.hpp"
+#include "microswarm/vision/camera/newest_frame.hpp"
 #include "options.hpp"
 #include "rig.hpp"
 #include "rig_devices.hpp"

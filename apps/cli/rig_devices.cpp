@@ -8,8 +8,8 @@
 
 #include "cli.hpp"
 #include "microswarm/core/error.hpp"
-#include "microswarm/rig/simulated_rig.hpp"
-#include "microswarm/vision/newest_frame.hpp"
+#include "microswarm/rig/simulation/simulated_rig.hpp"
+#include "microswarm/vision/camera/newest_frame.hpp"
 
 namespace microswarm::cli {
 namespace {

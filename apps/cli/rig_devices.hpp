@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "microswarm/core/durations.hpp"
-#include "microswarm/rig/live_bench.hpp"
-#include "microswarm/rig/rig_params.hpp"
+#include "microswarm/rig/params/rig_params.hpp"
+#include "microswarm/rig/runtime/live_bench.hpp"
 
 namespace microswarm::cli {
 

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "microswarm/actuation/coil_drive.hpp"
-#include "microswarm/actuation/currents.hpp"
-#include "microswarm/actuation/uniformity.hpp"
+#include "microswarm/actuation/coils/currents.hpp"
+#include "microswarm/actuation/coils/uniformity.hpp"
+#include "microswarm/actuation/drivers/coil_drive.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/text.hpp"

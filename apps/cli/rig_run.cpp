@@ -11,9 +11,9 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/error.hpp"
-#include "microswarm/experiment/run.hpp"
+#include "microswarm/experiment/run/run.hpp"
 #include "microswarm/navigation/make.hpp"
-#include "microswarm/rig/live_rig.hpp"
+#include "microswarm/rig/runtime/live_rig.hpp"
 #include "rig.hpp"
 #include "rig_devices.hpp"
 #include "run_output.hpp"

@@ -8,8 +8,8 @@
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/text.hpp"
-#include "microswarm/formats/image.hpp"
-#include "microswarm/vision/calibration_grid.hpp"
+#include "microswarm/formats/images/image.hpp"
+#include "microswarm/vision/calibration/calibration_grid.hpp"
 #include "options.hpp"
 #include "rig.hpp"
 

@@ -5,10 +5,10 @@
 
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/error.hpp"
-#include "microswarm/rig/rig_params.hpp"
-#include "microswarm/vision/camera.hpp"
-#include "microswarm/vision/scene_overlay.hpp"
-#include "microswarm/vision/wall_finder.hpp"
+#include "microswarm/rig/params/rig_params.hpp"
+#include "microswarm/vision/camera/camera.hpp"
+#include "microswarm/vision/scene/scene_overlay.hpp"
+#include "microswarm/vision/scene/wall_finder.hpp"
 #include "options.hpp"
 #include "rig.hpp"
 

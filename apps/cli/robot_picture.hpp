@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
-#include "microswarm/planning/global_tree.hpp"
-#include "microswarm/world/map.hpp"
+#include "microswarm/planning/global_input/global_tree.hpp"
+#include "microswarm/world/map/map.hpp"
 
 namespace microswarm::cli {
 

@@ -8,7 +8,7 @@
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/text.hpp"
 #include "microswarm/experiment/trials.hpp"
-#include "microswarm/rig/simulated_rig.hpp"
+#include "microswarm/rig/simulation/simulated_rig.hpp"
 #include "rig_devices.hpp"
 #include "run_output.hpp"
 

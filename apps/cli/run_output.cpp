@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run_output.hpp"
-#include "microswarm/experiment/scene.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -9,10 +9,10 @@
 #include "microswarm/config/write.hpp"
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/error.hpp"
-#include "microswarm/experiment/progress.hpp"
-#include "microswarm/experiment/record.hpp"
-#include "microswarm/navigation/aggregation_check.hpp"
-#include "microswarm/navigation/channel_width.hpp"
+#include "microswarm/experiment/record/record.hpp"
+#include "microswarm/experiment/run/progress.hpp"
+#include "microswarm/navigation/gathering/aggregation_check.hpp"
+#include "microswarm/navigation/gathering/channel_width.hpp"
 
 namespace microswarm::cli {
 

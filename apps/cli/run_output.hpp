@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "microswarm/experiment/run.hpp"
-#include "microswarm/experiment/scene.hpp"
+#include "microswarm/experiment/run/run.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/report/run_report.hpp"
 #include "options.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "safety_campaign.hpp"
-#include "microswarm/experiment/scene.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/navigation/make.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@
 
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/parallel.hpp"
-#include "microswarm/experiment/plant.hpp"
+#include "microswarm/experiment/run/plant.hpp"
 #include "tests/scenes/avoidance_worlds.hpp"
 
 namespace microswarm::cli {

@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "microswarm/experiment/contact_judge.hpp"
+#include "microswarm/experiment/run/contact_judge.hpp"
+#include "microswarm/world/world.hpp"
 
 namespace microswarm::cli {
 

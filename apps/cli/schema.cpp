@@ -7,10 +7,10 @@
 #include "global_choice.hpp"
 #include "microswarm/config/help.hpp"
 #include "microswarm/config/schema.hpp"
-#include "microswarm/experiment/scene.hpp"
-#include "microswarm/rig/rig_params.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/rig/params/rig_params.hpp"
 #include "microswarm/sweep/sweep_file.hpp"
-#include "microswarm/vision/video_tracker.hpp"
+#include "microswarm/vision/tracking/video_tracker.hpp"
 
 namespace microswarm::cli {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/error.hpp"
-#include "microswarm/vision/track_overlay.hpp"
+#include "microswarm/vision/tracking/track_overlay.hpp"
 #include "options.hpp"
 #include "track_output.hpp"
 

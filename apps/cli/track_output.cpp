@@ -12,7 +12,7 @@
 #include "microswarm/config/write.hpp"
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/version.hpp"
-#include "microswarm/experiment/hdf5_image.hpp"
+#include "microswarm/experiment/record/hdf5_image.hpp"
 
 namespace microswarm::cli {
 namespace {

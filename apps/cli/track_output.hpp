@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "microswarm/vision/video_tracker.hpp"
+#include "microswarm/vision/tracking/video_tracker.hpp"
 
 namespace microswarm::cli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/actuation/coil_drive.hpp"
+#include "microswarm/actuation/drivers/coil_drive.hpp"
 
 #include <gtest/gtest.h>
 #include <algorithm>

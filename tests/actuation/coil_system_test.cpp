@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/actuation/coil_system.hpp"
+#include "microswarm/actuation/coils/coil_system.hpp"
 
 #include <gtest/gtest.h>
 #include <Eigen/LU>
 #include <cmath>
 
-#include "microswarm/actuation/currents.hpp"
-#include "microswarm/actuation/uniformity.hpp"
+#include "microswarm/actuation/coils/currents.hpp"
+#include "microswarm/actuation/coils/uniformity.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "tests/actuation/support.hpp"
 #include "tests/files.hpp"

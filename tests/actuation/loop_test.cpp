@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/actuation/loop.hpp"
+#include "microswarm/actuation/coils/loop.hpp"
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "microswarm/actuation/winding.hpp"
+#include "microswarm/actuation/coils/winding.hpp"
 #include "microswarm/core/angles.hpp"
 #include "tests/actuation/support.hpp"
 #include "tests/files.hpp"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/actuation/mpem.hpp"
+#include "microswarm/actuation/coils/mpem.hpp"
 
 #include <gtest/gtest.h>
 #include <cmath>
 #include <map>
 
-#include "microswarm/actuation/coil_system.hpp"
-#include "microswarm/actuation/text_rows.hpp"
+#include "microswarm/actuation/coils/coil_system.hpp"
+#include "microswarm/actuation/coils/text_rows.hpp"
 #include "microswarm/core/text.hpp"
 #include "tests/actuation/support.hpp"
 #include "tests/files.hpp"

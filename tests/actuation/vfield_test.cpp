@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/actuation/vfield.hpp"
+#include "microswarm/actuation/coils/vfield.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/actuation/waveform.hpp"
+#include "microswarm/actuation/field/waveform.hpp"
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "microswarm/actuation/field_generator.hpp"
+#include "microswarm/actuation/field/field_generator.hpp"
 #include "microswarm/core/angles.hpp"
-#include "microswarm/swarm/vortex.hpp"
+#include "microswarm/swarm/body/vortex.hpp"
 #include "tests/actuation/support.hpp"
 
 namespace microswarm {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/scenes/avoidance_worlds.hpp"
-#include "microswarm/experiment/scene.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/formats/map_parts.hpp"
 #include "microswarm/world/world.hpp"
@@ -11,7 +11,7 @@
 #include <set>
 #include <string>
 
-#include "microswarm/world/passage.hpp"
+#include "microswarm/world/connectivity/passage.hpp"
 
 namespace microswarm {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/contact_judge.hpp"
+#include "microswarm/experiment/run/contact_judge.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/global_tree_file.hpp"
+#include "microswarm/experiment/record/global_tree_file.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
-#include "microswarm/planning/global_rrt.hpp"
+#include "microswarm/planning/global_input/global_rrt.hpp"
 
 namespace microswarm {
 namespace {

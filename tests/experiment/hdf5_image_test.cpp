@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/hdf5_image.hpp"
+#include "microswarm/experiment/record/hdf5_image.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/record.hpp"
+#include "microswarm/experiment/record/record.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <sstream>
 
 #include "microswarm/core/file.hpp"
-#include "microswarm/experiment/hdf5_image.hpp"
-#include "microswarm/experiment/record_layout.hpp"
-#include "microswarm/experiment/scene.hpp"
-#include "microswarm/planning/detection.hpp"
+#include "microswarm/experiment/record/hdf5_image.hpp"
+#include "microswarm/experiment/record/record_layout.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/planning/common/detection.hpp"
 #include "tests/experiment/scenes.hpp"
 
 namespace microswarm {

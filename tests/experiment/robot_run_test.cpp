@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "microswarm/core/error.hpp"
-#include "microswarm/experiment/record.hpp"
-#include "microswarm/experiment/robot_plant.hpp"
-#include "microswarm/experiment/scene.hpp"
+#include "microswarm/experiment/record/record.hpp"
+#include "microswarm/experiment/run/robot_plant.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
 #include "tests/experiment/scenes.hpp"
 
 namespace microswarm {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/run.hpp"
+#include "microswarm/experiment/run/run.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/scene.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,9 +10,9 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/error.hpp"
-#include "microswarm/experiment/plant.hpp"
-#include "microswarm/experiment/record.hpp"
-#include "microswarm/experiment/scene.hpp"
+#include "microswarm/experiment/record/record.hpp"
+#include "microswarm/experiment/run/plant.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
 
 namespace microswarm {
 

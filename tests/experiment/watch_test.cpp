@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/watch.hpp"
+#include "microswarm/experiment/run/watch.hpp"
 
 #include <gtest/gtest.h>
 

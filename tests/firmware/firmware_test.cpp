@@ -18,7 +18,7 @@
 #include <thread>
 #include <vector>
 
-#include "microswarm/actuation/serial_coil_driver.hpp"
+#include "microswarm/actuation/drivers/serial_coil_driver.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/rng.hpp"
 

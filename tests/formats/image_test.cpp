@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/formats/image.hpp"
+#include "microswarm/formats/images/image.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "microswarm/formats/pnm.hpp"
+#include "microswarm/formats/images/pnm.hpp"
 #include "tests/files.hpp"
 #include "tests/formats/png.hpp"
 

@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "microswarm/formats/image.hpp"
-#include "microswarm/formats/pnm.hpp"
+#include "microswarm/formats/images/image.hpp"
+#include "microswarm/formats/images/pnm.hpp"
 #include "microswarm/formats/rectangles.hpp"
 #include "tests/files.hpp"
 

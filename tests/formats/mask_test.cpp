@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/formats/mask.hpp"
+#include "microswarm/formats/images/mask.hpp"
 
 #include <gtest/gtest.h>
 

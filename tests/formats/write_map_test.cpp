@@ -6,8 +6,8 @@
 #include <string>
 
 #include "microswarm/core/rng.hpp"
+#include "microswarm/formats/images/rasterise.hpp"
 #include "microswarm/formats/map_file.hpp"
-#include "microswarm/formats/rasterise.hpp"
 #include "tests/files.hpp"
 
 namespace microswarm {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "microswarm/actuation/coil_link.hpp"
+#include "microswarm/actuation/drivers/coil_link.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   microswarm::CoilReplyReader reader;

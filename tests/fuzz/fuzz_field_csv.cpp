@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "microswarm/actuation/calibration.hpp"
+#include "microswarm/actuation/coils/calibration.hpp"
 #include "microswarm/core/error.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "microswarm/core/error.hpp"
-#include "microswarm/navigation/follower_model.hpp"
+#include "microswarm/navigation/following/follower_model.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace microswarm;

@@ -7,9 +7,9 @@
 #include <string_view>
 
 #include "microswarm/core/error.hpp"
-#include "microswarm/formats/image.hpp"
-#include "microswarm/formats/mask.hpp"
-#include "microswarm/formats/pnm.hpp"
+#include "microswarm/formats/images/image.hpp"
+#include "microswarm/formats/images/mask.hpp"
+#include "microswarm/formats/images/pnm.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace microswarm;

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "microswarm/actuation/vfield.hpp"
+#include "microswarm/actuation/coils/vfield.hpp"
 #include "microswarm/core/error.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -8,8 +8,8 @@
 #include "microswarm/core/hash.hpp"
 #include "microswarm/core/infinity.hpp"
 #include "microswarm/navigation/make.hpp"
-#include "microswarm/navigation/radar.hpp"
-#include "microswarm/swarm/unicycle.hpp"
+#include "microswarm/navigation/radar/radar.hpp"
+#include "microswarm/swarm/body/unicycle.hpp"
 #include "tests/laws/allocations.hpp"
 #include "tests/scenes/worlds.hpp"
 

@@ -9,9 +9,9 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/hash.hpp"
-#include "microswarm/planning/planners.hpp"
-#include "microswarm/planning/search_tree.hpp"
-#include "microswarm/planning/turn_edge.hpp"
+#include "microswarm/planning/path/planners.hpp"
+#include "microswarm/planning/path/search_tree.hpp"
+#include "microswarm/planning/path/turn_edge.hpp"
 #include "tests/scenes/worlds.hpp"
 
 namespace microswarm {

@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "microswarm/navigation/network.hpp"
+#include "microswarm/navigation/following/network.hpp"
 
 namespace microswarm::test {
 

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "microswarm/learning/follower_comparison.hpp"
-#include "microswarm/navigation/follower_model.hpp"
+#include "microswarm/navigation/following/follower_model.hpp"
 
 namespace microswarm {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/aggregation.hpp"
+#include "microswarm/navigation/gathering/aggregation.hpp"
 
 #include <gtest/gtest.h>
 

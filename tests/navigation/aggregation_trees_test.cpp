@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "microswarm/navigation/rollout.hpp"
+#include "microswarm/navigation/gathering/rollout.hpp"
 #include "tests/cases.hpp"
 #include "tests/navigation/gathering.hpp"
 

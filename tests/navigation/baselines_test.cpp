@@ -6,10 +6,11 @@
 #include <limits>
 
 #include "microswarm/core/angles.hpp"
-#include "microswarm/navigation/potential_field.hpp"
-#include "microswarm/navigation/straight.hpp"
-#include "microswarm/navigation/velocity_obstacle.hpp"
-#include "microswarm/world/obstacle.hpp"
+#include "microswarm/navigation/baselines/potential_field.hpp"
+#include "microswarm/navigation/baselines/straight.hpp"
+#include "microswarm/navigation/baselines/velocity_obstacle.hpp"
+#include "microswarm/world/obstacles/obstacle.hpp"
+#include "microswarm/world/world.hpp"
 #include "tests/navigation/room.hpp"
 
 namespace microswarm {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/convex_outline.hpp"
+#include "microswarm/navigation/prediction/convex_outline.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/crowd.hpp"
+#include "microswarm/navigation/gathering/crowd.hpp"
 
 #include <gtest/gtest.h>
 

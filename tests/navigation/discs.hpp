@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <utility>
 
-#include "microswarm/world/body.hpp"
-#include "microswarm/world/obstacle.hpp"
+#include "microswarm/world/obstacles/body.hpp"
+#include "microswarm/world/obstacles/obstacle.hpp"
 
 namespace microswarm {
 

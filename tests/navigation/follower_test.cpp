@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/follower.hpp"
+#include "microswarm/navigation/following/follower.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
 #include "microswarm/core/angles.hpp"
-#include "microswarm/swarm/unicycle.hpp"
+#include "microswarm/swarm/body/unicycle.hpp"
 
 namespace microswarm {
 namespace {

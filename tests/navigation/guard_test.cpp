@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/guard.hpp"
+#include "microswarm/navigation/radar/guard.hpp"
 
 #include <gtest/gtest.h>
 
 #include "microswarm/core/rng.hpp"
-#include "microswarm/swarm/unicycle.hpp"
+#include "microswarm/swarm/body/unicycle.hpp"
 #include "tests/scenes/worlds.hpp"
 
 namespace microswarm {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/hierarchical.hpp"
+#include "microswarm/navigation/hierarchical/hierarchical.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/hash.hpp"
 #include "microswarm/navigation/make.hpp"
-#include "microswarm/swarm/swarm_body.hpp"
-#include "microswarm/swarm/unicycle.hpp"
+#include "microswarm/swarm/body/swarm_body.hpp"
+#include "microswarm/swarm/body/unicycle.hpp"
 #include "tests/navigation/room.hpp"
 
 namespace microswarm {

@@ -6,8 +6,8 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/error.hpp"
-#include "microswarm/navigation/path_navigator.hpp"
-#include "microswarm/swarm/ribbon.hpp"
+#include "microswarm/navigation/following/path_navigator.hpp"
+#include "microswarm/swarm/body/ribbon.hpp"
 
 namespace microswarm {
 namespace {

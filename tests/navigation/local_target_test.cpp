@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/local_target.hpp"
+#include "microswarm/navigation/hierarchical/local_target.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/obstacle_predictor.hpp"
+#include "microswarm/navigation/prediction/obstacle_predictor.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/obstacle_tracker.hpp"
+#include "microswarm/navigation/prediction/obstacle_tracker.hpp"
 
 #include <gtest/gtest.h>
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/rng.hpp"
-#include "microswarm/world/obstacle.hpp"
+#include "microswarm/world/obstacles/obstacle.hpp"
 #include "tests/navigation/discs.hpp"
 
 namespace microswarm {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/predictive.hpp"
+#include "microswarm/navigation/predictive/predictive.hpp"
 #include "microswarm/core/infinity.hpp"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/hash.hpp"
-#include "microswarm/swarm/unicycle.hpp"
+#include "microswarm/swarm/body/unicycle.hpp"
 #include "microswarm/world/world.hpp"
 #include "tests/navigation/room.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/radar_scan.hpp"
+#include "microswarm/navigation/radar/radar_scan.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/geometry/distance.hpp"
-#include "microswarm/navigation/radar_scanner.hpp"
+#include "microswarm/navigation/radar/radar_scanner.hpp"
 #include "tests/cases.hpp"
 #include "tests/navigation/discs.hpp"
 #include "tests/scenes/worlds.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/radar.hpp"
+#include "microswarm/navigation/radar/radar.hpp"
 
 #include <gtest/gtest.h>
 

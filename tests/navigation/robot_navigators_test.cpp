@@ -3,9 +3,9 @@
 
 #include <deque>
 
-#include "microswarm/navigation/aggregation_check.hpp"
-#include "microswarm/navigation/aggregation_navigator.hpp"
-#include "microswarm/navigation/plan_player.hpp"
+#include "microswarm/navigation/gathering/aggregation_check.hpp"
+#include "microswarm/navigation/gathering/aggregation_navigator.hpp"
+#include "microswarm/navigation/global_input/plan_player.hpp"
 #include "tests/scenes/global_worlds.hpp"
 #include "tests/scenes/vascular.hpp"
 #include "tests/scenes/worlds.hpp"

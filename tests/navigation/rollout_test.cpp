@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/rollout.hpp"
+#include "microswarm/navigation/gathering/rollout.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/route.hpp"
+#include "microswarm/navigation/steering/route.hpp"
 
 #include <gtest/gtest.h>
 

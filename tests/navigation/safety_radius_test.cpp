@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/safety_radius.hpp"
+#include "microswarm/navigation/radar/safety_radius.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/time_field.hpp"
+#include "microswarm/navigation/predictive/time_field.hpp"
 
 #include <gtest/gtest.h>
 

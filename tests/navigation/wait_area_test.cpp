@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/wait_area.hpp"
+#include "microswarm/navigation/radar/wait_area.hpp"
 
 #include <gtest/gtest.h>
 
 #include "microswarm/core/angles.hpp"
-#include "microswarm/world/obstacle.hpp"
+#include "microswarm/world/obstacles/obstacle.hpp"
 #include "tests/scenes/worlds.hpp"
 
 namespace microswarm {

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "microswarm/experiment/scene.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/experiment/trials.hpp"
 
 namespace microswarm {

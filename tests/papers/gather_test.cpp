@@ -2,8 +2,8 @@
 // Aggregation [gather] on the vessel masks of CHASE_DB1, which are not part of the project.
 #include <gtest/gtest.h>
 
-#include "microswarm/experiment/run.hpp"
-#include "microswarm/experiment/scene.hpp"
+#include "microswarm/experiment/run/run.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "tests/cases.hpp"
 #include "tests/files.hpp"

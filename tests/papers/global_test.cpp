@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "microswarm/formats/map_file.hpp"
-#include "microswarm/planning/global_search.hpp"
+#include "microswarm/planning/global_input/global_search.hpp"
 #include "tests/files.hpp"
 #include "tests/scenes/global_tasks.hpp"
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "microswarm/core/angles.hpp"
-#include "microswarm/experiment/run.hpp"
-#include "microswarm/experiment/scene.hpp"
+#include "microswarm/experiment/run/run.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
 
 namespace microswarm {
 namespace {

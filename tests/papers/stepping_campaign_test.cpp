@@ -5,7 +5,7 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/formats/map_file.hpp"
-#include "microswarm/swarm/robot_stepper.hpp"
+#include "microswarm/swarm/robots/robot_stepper.hpp"
 #include "tests/files.hpp"
 #include "tests/scenes/vascular.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/a_star.hpp"
+#include "microswarm/planning/path/a_star.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/detection.hpp"
+#include "microswarm/planning/common/detection.hpp"
 
 #include <gtest/gtest.h>
 

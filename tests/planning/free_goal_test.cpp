@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/free_goal.hpp"
+#include "microswarm/planning/common/free_goal.hpp"
 
 #include <gtest/gtest.h>
 

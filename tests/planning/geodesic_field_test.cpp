@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/geodesic_field.hpp"
+#include "microswarm/planning/common/geodesic_field.hpp"
 
 #include <gtest/gtest.h>
 

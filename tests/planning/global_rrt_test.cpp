@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/global_rrt.hpp"
+#include "microswarm/planning/global_input/global_rrt.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <set>
 
 #include "microswarm/core/error.hpp"
-#include "microswarm/planning/coverage.hpp"
+#include "microswarm/planning/global_input/coverage.hpp"
 #include "tests/planning/global_ends.hpp"
 #include "tests/scenes/global_worlds.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/global_search.hpp"
+#include "microswarm/planning/global_input/global_search.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/global_separation.hpp"
+#include "microswarm/planning/global_input/global_separation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "microswarm/planning/global_rrt.hpp"
-#include "microswarm/planning/global_search.hpp"
-#include "microswarm/planning/global_shorten.hpp"
+#include "microswarm/planning/global_input/global_rrt.hpp"
+#include "microswarm/planning/global_input/global_search.hpp"
+#include "microswarm/planning/global_input/global_shorten.hpp"
 #include "tests/cases.hpp"
 #include "tests/planning/global_ends.hpp"
 #include "tests/scenes/global_worlds.hpp"

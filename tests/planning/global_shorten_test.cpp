@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/global_shorten.hpp"
+#include "microswarm/planning/global_input/global_shorten.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "microswarm/planning/global_search.hpp"
+#include "microswarm/planning/global_input/global_search.hpp"
 #include "tests/planning/global_ends.hpp"
 #include "tests/scenes/global_worlds.hpp"
 

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "microswarm/formats/moving_ai.hpp"
-#include "microswarm/planning/a_star.hpp"
+#include "microswarm/planning/path/a_star.hpp"
 #include "tests/files.hpp"
 
 namespace microswarm {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/map_segmentation.hpp"
+#include "microswarm/planning/gathering/map_segmentation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/obstacle_weighted_rrt.hpp"
+#include "microswarm/planning/gathering/obstacle_weighted_rrt.hpp"
 #include "microswarm/core/infinity.hpp"
 
 #include <gtest/gtest.h>

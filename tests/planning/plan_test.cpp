@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/plan.hpp"
+#include "microswarm/contracts/plan.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/straighten.hpp"
+#include "microswarm/planning/path/straighten.hpp"
 
 #include <gtest/gtest.h>
 
 #include "microswarm/core/angles.hpp"
-#include "microswarm/planning/rrt.hpp"
+#include "microswarm/planning/path/rrt.hpp"
 #include "tests/scenes/worlds.hpp"
 
 namespace microswarm {

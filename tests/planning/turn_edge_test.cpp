@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/turn_edge.hpp"
+#include "microswarm/planning/path/turn_edge.hpp"
 
 #include <gtest/gtest.h>
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/rng.hpp"
-#include "microswarm/planning/planners.hpp"
+#include "microswarm/planning/path/planners.hpp"
 #include "tests/scenes/worlds.hpp"
 
 namespace microswarm {

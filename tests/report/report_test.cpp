@@ -6,8 +6,8 @@
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
-#include "microswarm/experiment/run.hpp"
-#include "microswarm/experiment/scene.hpp"
+#include "microswarm/experiment/run/run.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/report/page.hpp"
 #include "microswarm/report/picture.hpp"
 #include "microswarm/report/plot.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a rig makes of pictures, against what was drawn.
-#include "microswarm/rig/eye.hpp"
+#include "microswarm/rig/perception/eye.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/rng.hpp"
-#include "microswarm/rig/body_numbers.hpp"
-#include "microswarm/rig/microscope.hpp"
-#include "microswarm/rig/robot_eye.hpp"
-#include "microswarm/rig/swarm_eye.hpp"
+#include "microswarm/rig/perception/body_numbers.hpp"
+#include "microswarm/rig/perception/robot_eye.hpp"
+#include "microswarm/rig/perception/swarm_eye.hpp"
+#include "microswarm/rig/simulation/microscope.hpp"
 
 namespace microswarm {
 namespace {

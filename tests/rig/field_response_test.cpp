@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A field that was made for a command drives a swarm by that command.
-#include "microswarm/rig/field_response.hpp"
+#include "microswarm/rig/simulation/field_response.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs in real time against a simulated bench, and what happens when something fails.
-#include "microswarm/rig/live_rig.hpp"
+#include "microswarm/rig/runtime/live_rig.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <thread>
 
 #include "microswarm/core/error.hpp"
-#include "microswarm/experiment/run.hpp"
+#include "microswarm/experiment/run/run.hpp"
 #include "microswarm/navigation/make.hpp"
-#include "microswarm/rig/live_bench.hpp"
-#include "microswarm/rig/simulated_rig.hpp"
+#include "microswarm/rig/runtime/live_bench.hpp"
+#include "microswarm/rig/simulation/simulated_rig.hpp"
 #include "tests/cases.hpp"
 #include "tests/files.hpp"
 

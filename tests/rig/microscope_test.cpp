@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/rig/microscope.hpp"
+#include "microswarm/rig/simulation/microscope.hpp"
 
 #include <gtest/gtest.h>
 

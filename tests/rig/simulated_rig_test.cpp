@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole scenarios through camera, coils and field, beside the simulation without them.
-#include "microswarm/rig/simulated_rig.hpp"
+#include "microswarm/rig/simulation/simulated_rig.hpp"
 
 #include <gtest/gtest.h>
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/error.hpp"
-#include "microswarm/experiment/run.hpp"
+#include "microswarm/experiment/run/run.hpp"
 #include "microswarm/navigation/make.hpp"
 #include "tests/files.hpp"
 

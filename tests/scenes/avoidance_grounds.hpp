@@ -5,7 +5,7 @@
 
 #include "microswarm/core/rng.hpp"
 #include "microswarm/formats/map_file.hpp"
-#include "microswarm/world/obstacle.hpp"
+#include "microswarm/world/obstacles/obstacle.hpp"
 
 namespace microswarm::scenes {
 

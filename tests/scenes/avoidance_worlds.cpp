@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/scenes/avoidance_worlds.hpp"
-#include "microswarm/experiment/scene.hpp"
-#include "microswarm/swarm/vortex.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/swarm/body/vortex.hpp"
 #include "microswarm/world/world.hpp"
 
 #include <algorithm>

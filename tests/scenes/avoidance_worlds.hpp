@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "microswarm/experiment/scenario.hpp"
+#include "microswarm/experiment/scenario/scenario.hpp"
 #include "microswarm/world/world.hpp"
 
 namespace microswarm::scenes {

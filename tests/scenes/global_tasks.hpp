@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "microswarm/world/map.hpp"
+#include "microswarm/world/map/map.hpp"
 
 namespace microswarm::scenes {
 

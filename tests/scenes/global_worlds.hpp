@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "microswarm/world/map.hpp"
+#include "microswarm/world/map/map.hpp"
 
 namespace microswarm::scenes {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "microswarm/experiment/scenario.hpp"
+#include "microswarm/experiment/scenario/scenario.hpp"
 #include "microswarm/formats/tracks.hpp"
 
 namespace microswarm::scenes {

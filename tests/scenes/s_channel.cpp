@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/scenes/s_channel.hpp"
 
-#include "microswarm/world/channel.hpp"
+#include "microswarm/world/obstacles/channel.hpp"
 
 namespace microswarm::scenes {
 

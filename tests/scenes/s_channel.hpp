@@ -2,7 +2,7 @@
 #pragma once
 
 #include "microswarm/core/angles.hpp"
-#include "microswarm/world/obstacle.hpp"
+#include "microswarm/world/obstacles/obstacle.hpp"
 #include "microswarm/world/snapshot.hpp"
 
 namespace microswarm::scenes {

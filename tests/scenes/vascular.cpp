@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "microswarm/core/angles.hpp"
-#include "microswarm/world/clip.hpp"
+#include "microswarm/world/obstacles/clip.hpp"
 #include "tests/scenes/worlds.hpp"
 
 namespace microswarm::scenes {

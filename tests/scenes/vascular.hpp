@@ -8,7 +8,7 @@
 
 #include "microswarm/core/rng.hpp"
 #include "microswarm/geometry/shapes.hpp"
-#include "microswarm/world/map.hpp"
+#include "microswarm/world/map/map.hpp"
 
 namespace microswarm::scenes {
 

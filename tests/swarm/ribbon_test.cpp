@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/swarm/ribbon.hpp"
+#include "microswarm/swarm/body/ribbon.hpp"
 
 #include <gtest/gtest.h>
 

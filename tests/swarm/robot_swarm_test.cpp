@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/swarm/robot_swarm.hpp"
+#include "microswarm/swarm/robots/robot_swarm.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/swarm/vortex.hpp"
+#include "microswarm/swarm/body/vortex.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "microswarm/core/angles.hpp"
-#include "microswarm/swarm/swarm_body.hpp"
+#include "microswarm/swarm/body/swarm_body.hpp"
 
 namespace microswarm {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/vision/assignment.hpp"
+#include "microswarm/vision/tracking/assignment.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/vision/camera_scale.hpp"
+#include "microswarm/vision/camera/camera_scale.hpp"
 #include "microswarm/core/angles.hpp"
 
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 #include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/rng.hpp"
-#include "microswarm/vision/calibration_grid.hpp"
-#include "microswarm/vision/video_tracker.hpp"
+#include "microswarm/vision/calibration/calibration_grid.hpp"
+#include "microswarm/vision/tracking/video_tracker.hpp"
 #include "tests/cases.hpp"
 #include "tests/files.hpp"
 #include "tests/vision/microscope.hpp"

@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "microswarm/vision/video_tracker.hpp"
+#include "microswarm/vision/tracking/video_tracker.hpp"
 #include "tests/cases.hpp"
 #include "tests/vision/spots.hpp"
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "microswarm/core/rng.hpp"
-#include "microswarm/formats/image.hpp"
-#include "microswarm/formats/mask.hpp"
+#include "microswarm/formats/images/image.hpp"
+#include "microswarm/formats/images/mask.hpp"
 #include "microswarm/geometry/vec2.hpp"
 
 namespace microswarm::test {

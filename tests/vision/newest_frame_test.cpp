@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/vision/newest_frame.hpp"
+#include "microswarm/vision/camera/newest_frame.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "microswarm/core/error.hpp"
-#include "microswarm/vision/camera.hpp"
+#include "microswarm/vision/camera/camera.hpp"
 #include "tests/files.hpp"
 
 namespace microswarm {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/vision/particles.hpp"
+#include "microswarm/vision/tracking/particles.hpp"
 
 #include <gtest/gtest.h>
 
 #include <optional>
 
 #include "microswarm/core/error.hpp"
-#include "microswarm/vision/ring_fit.hpp"
-#include "microswarm/vision/running_max.hpp"
+#include "microswarm/vision/image/running_max.hpp"
+#include "microswarm/vision/tracking/ring_fit.hpp"
 #include "tests/vision/spots.hpp"
 
 namespace microswarm {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/vision/robot_tracker.hpp"
+#include "microswarm/vision/tracking/robot_tracker.hpp"
 
 #include <gtest/gtest.h>
 

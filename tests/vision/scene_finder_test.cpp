@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/vision/scene_finder.hpp"
+#include "microswarm/vision/scene/scene_finder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/statistics.hpp"
-#include "microswarm/vision/scene_overlay.hpp"
-#include "microswarm/vision/wall_finder.hpp"
+#include "microswarm/vision/scene/scene_overlay.hpp"
+#include "microswarm/vision/scene/wall_finder.hpp"
 #include "tests/cases.hpp"
 #include "tests/files.hpp"
 #include "tests/vision/microscope.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "microswarm/core/rng.hpp"
-#include "microswarm/formats/image.hpp"
+#include "microswarm/formats/images/image.hpp"
 #include "microswarm/geometry/vec2.hpp"
 
 namespace microswarm::test {

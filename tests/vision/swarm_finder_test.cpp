@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/vision/swarm_finder.hpp"
+#include "microswarm/vision/scene/swarm_finder.hpp"
 #include "microswarm/core/angles.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/vision/vessels.hpp"
+#include "microswarm/vision/vessels/vessels.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <filesystem>
 
 #include "microswarm/core/rng.hpp"
-#include "microswarm/vision/agreement.hpp"
-#include "microswarm/vision/outline.hpp"
-#include "microswarm/vision/overlay.hpp"
-#include "microswarm/world/passage.hpp"
+#include "microswarm/vision/image/overlay.hpp"
+#include "microswarm/vision/vessels/agreement.hpp"
+#include "microswarm/vision/vessels/outline.hpp"
+#include "microswarm/world/connectivity/passage.hpp"
 #include "tests/cases.hpp"
 #include "tests/files.hpp"
 

@@ -12,8 +12,8 @@
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
-#include "microswarm/vision/track_overlay.hpp"
-#include "microswarm/vision/video_tracker.hpp"
+#include "microswarm/vision/tracking/track_overlay.hpp"
+#include "microswarm/vision/tracking/video_tracker.hpp"
 #include "tests/files.hpp"
 #include "tests/vision/spots.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/world/body_set.hpp"
+#include "microswarm/world/obstacles/body_set.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/world/channel.hpp"
+#include "microswarm/world/obstacles/channel.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/world/clearance_field.hpp"
+#include "microswarm/world/map/clearance_field.hpp"
 
 #include <gtest/gtest.h>
 

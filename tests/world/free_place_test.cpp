@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/world/free_place.hpp"
+#include "microswarm/world/connectivity/free_place.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/world/map.hpp"
+#include "microswarm/world/map/map.hpp"
 
 #include <gtest/gtest.h>
 

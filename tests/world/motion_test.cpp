@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/world/motion.hpp"
+#include "microswarm/world/obstacles/motion.hpp"
 
 #include <gtest/gtest.h>
 

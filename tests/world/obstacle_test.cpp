@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/world/obstacle.hpp"
+#include "microswarm/world/obstacles/obstacle.hpp"
 
 #include <gtest/gtest.h>
 

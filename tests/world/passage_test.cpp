@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/world/passage.hpp"
+#include "microswarm/world/connectivity/passage.hpp"
 
 #include <gtest/gtest.h>
 

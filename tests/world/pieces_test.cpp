@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/world/pieces.hpp"
+#include "microswarm/world/map/pieces.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "microswarm/world/clip.hpp"
+#include "microswarm/world/obstacles/clip.hpp"
 #include "tests/world/random_worlds.hpp"
 
 namespace microswarm {

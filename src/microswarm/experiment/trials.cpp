@@ -4,8 +4,8 @@
 #include <mutex>
 
 #include "microswarm/core/parallel.hpp"
-#include "microswarm/experiment/record.hpp"
-#include "microswarm/experiment/scene.hpp"
+#include "microswarm/experiment/record/record.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
 
 namespace microswarm {
 

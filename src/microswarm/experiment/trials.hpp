@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "microswarm/experiment/run.hpp"
+#include "microswarm/experiment/run/run.hpp"
 
 namespace microswarm {
 

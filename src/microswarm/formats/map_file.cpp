@@ -8,13 +8,13 @@
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/text.hpp"
 #include "microswarm/formats/geojson.hpp"
-#include "microswarm/formats/image.hpp"
-#include "microswarm/formats/mask.hpp"
+#include "microswarm/formats/images/image.hpp"
+#include "microswarm/formats/images/mask.hpp"
 #include "microswarm/formats/moving_ai.hpp"
 #include "microswarm/formats/rectangles.hpp"
 #include "microswarm/formats/ros.hpp"
-#include "microswarm/world/channel.hpp"
-#include "microswarm/world/obstacle.hpp"
+#include "microswarm/world/obstacles/channel.hpp"
+#include "microswarm/world/obstacles/obstacle.hpp"
 
 namespace microswarm {
 namespace {

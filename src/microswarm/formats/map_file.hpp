@@ -16,7 +16,7 @@
 #include "microswarm/core/places.hpp"
 #include "microswarm/formats/map_parts.hpp"
 #include "microswarm/formats/map_spec.hpp"
-#include "microswarm/world/map.hpp"
+#include "microswarm/world/map/map.hpp"
 
 namespace microswarm {
 

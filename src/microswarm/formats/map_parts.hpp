@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "microswarm/geometry/shapes.hpp"
-#include "microswarm/world/motion.hpp"
+#include "microswarm/world/obstacles/motion.hpp"
 
 namespace microswarm {
 

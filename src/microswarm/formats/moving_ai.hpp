@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "microswarm/formats/mask.hpp"
+#include "microswarm/formats/images/mask.hpp"
 
 namespace microswarm {
 

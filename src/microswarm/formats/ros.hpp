@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "microswarm/core/fields.hpp"
-#include "microswarm/formats/mask.hpp"
+#include "microswarm/formats/images/mask.hpp"
 
 namespace microswarm {
 

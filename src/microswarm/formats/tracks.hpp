@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "microswarm/world/motion.hpp"
+#include "microswarm/world/obstacles/motion.hpp"
 
 namespace microswarm {
 

@@ -6,10 +6,10 @@
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
 #include "microswarm/formats/geojson.hpp"
-#include "microswarm/formats/image.hpp"
+#include "microswarm/formats/images/image.hpp"
+#include "microswarm/formats/images/pnm.hpp"
+#include "microswarm/formats/images/rasterise.hpp"
 #include "microswarm/formats/moving_ai.hpp"
-#include "microswarm/formats/pnm.hpp"
-#include "microswarm/formats/rasterise.hpp"
 #include "microswarm/formats/ros.hpp"
 
 namespace microswarm {

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "microswarm/formats/map_parts.hpp"
-#include "microswarm/world/map.hpp"
+#include "microswarm/world/map/map.hpp"
 
 namespace microswarm {
 

@@ -2,12 +2,12 @@
 #include "microswarm/learning/demonstrations.hpp"
 
 #include "microswarm/core/angles.hpp"
-#include "microswarm/experiment/plant.hpp"
-#include "microswarm/experiment/run.hpp"
+#include "microswarm/experiment/run/plant.hpp"
+#include "microswarm/experiment/run/run.hpp"
 #include "microswarm/learning/follower_expert.hpp"
-#include "microswarm/navigation/follower_model.hpp"
-#include "microswarm/navigation/helm.hpp"
-#include "microswarm/navigation/path_follower.hpp"
+#include "microswarm/navigation/following/follower_model.hpp"
+#include "microswarm/navigation/following/path_follower.hpp"
+#include "microswarm/navigation/steering/helm.hpp"
 
 namespace microswarm {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "microswarm/core/rng.hpp"
 #include "microswarm/core/stop.hpp"
-#include "microswarm/navigation/network.hpp"
+#include "microswarm/navigation/following/network.hpp"
 
 namespace microswarm {
 

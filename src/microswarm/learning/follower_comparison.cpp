@@ -8,9 +8,9 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/parallel.hpp"
-#include "microswarm/experiment/plant.hpp"
-#include "microswarm/experiment/run.hpp"
-#include "microswarm/experiment/scene.hpp"
+#include "microswarm/experiment/run/plant.hpp"
+#include "microswarm/experiment/run/run.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/learning/follower_expert.hpp"
 #include "microswarm/navigation/make.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "microswarm/core/stop.hpp"
 #include "microswarm/learning/follower_tasks.hpp"
-#include "microswarm/navigation/follower_model.hpp"
+#include "microswarm/navigation/following/follower_model.hpp"
 
 namespace microswarm {
 

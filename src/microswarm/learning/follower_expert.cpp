@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "microswarm/core/angles.hpp"
-#include "microswarm/navigation/path_follower.hpp"
+#include "microswarm/navigation/following/path_follower.hpp"
 
 namespace microswarm {
 namespace {

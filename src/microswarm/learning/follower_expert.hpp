@@ -3,9 +3,9 @@
 
 #include <span>
 
-#include "microswarm/navigation/body_forecast.hpp"
-#include "microswarm/navigation/follower.hpp"
-#include "microswarm/swarm/ribbon.hpp"
+#include "microswarm/navigation/following/follower.hpp"
+#include "microswarm/navigation/steering/body_forecast.hpp"
+#include "microswarm/swarm/body/ribbon.hpp"
 
 namespace microswarm {
 

@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "microswarm/core/rng.hpp"
-#include "microswarm/navigation/follower.hpp"
-#include "microswarm/world/map.hpp"
+#include "microswarm/navigation/following/follower.hpp"
+#include "microswarm/world/map/map.hpp"
 #include "microswarm/world/world.hpp"
 
 namespace microswarm {

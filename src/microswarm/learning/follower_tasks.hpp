@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "microswarm/core/angles.hpp"
-#include "microswarm/experiment/scenario.hpp"
+#include "microswarm/experiment/scenario/scenario.hpp"
 #include "microswarm/world/world.hpp"
 
 namespace microswarm {

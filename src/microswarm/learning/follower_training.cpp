@@ -11,7 +11,7 @@
 #include "microswarm/core/parallel.hpp"
 #include "microswarm/core/statistics.hpp"
 #include "microswarm/learning/fit.hpp"
-#include "microswarm/navigation/follower_model.hpp"
+#include "microswarm/navigation/following/follower_model.hpp"
 
 namespace microswarm {
 namespace {

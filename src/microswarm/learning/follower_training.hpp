@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "microswarm/learning/demonstrations.hpp"
-#include "microswarm/navigation/follower_model.hpp"
+#include "microswarm/navigation/following/follower_model.hpp"
 
 namespace microswarm {
 

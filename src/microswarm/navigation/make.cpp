@@ -3,15 +3,15 @@
 
 #include <fmt/format.h>
 
-#include "microswarm/navigation/aggregation_navigator.hpp"
-#include "microswarm/navigation/hierarchical.hpp"
-#include "microswarm/navigation/path_navigator.hpp"
-#include "microswarm/navigation/plan_player.hpp"
-#include "microswarm/navigation/potential_field.hpp"
-#include "microswarm/navigation/predictive.hpp"
-#include "microswarm/navigation/radar.hpp"
-#include "microswarm/navigation/straight.hpp"
-#include "microswarm/navigation/velocity_obstacle.hpp"
+#include "microswarm/navigation/baselines/potential_field.hpp"
+#include "microswarm/navigation/baselines/straight.hpp"
+#include "microswarm/navigation/baselines/velocity_obstacle.hpp"
+#include "microswarm/navigation/following/path_navigator.hpp"
+#include "microswarm/navigation/gathering/aggregation_navigator.hpp"
+#include "microswarm/navigation/global_input/plan_player.hpp"
+#include "microswarm/navigation/hierarchical/hierarchical.hpp"
+#include "microswarm/navigation/predictive/predictive.hpp"
+#include "microswarm/navigation/radar/radar.hpp"
 
 namespace microswarm {
 

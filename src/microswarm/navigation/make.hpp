@@ -5,12 +5,12 @@
 #include <optional>
 #include <string_view>
 
+#include "microswarm/contracts/navigator.hpp"
 #include "microswarm/core/places.hpp"
 #include "microswarm/core/rng.hpp"
-#include "microswarm/navigation/navigator.hpp"
 #include "microswarm/navigation/params.hpp"
-#include "microswarm/swarm/robot_swarm_params.hpp"
-#include "microswarm/swarm/swarm_limits.hpp"
+#include "microswarm/swarm/body/swarm_limits.hpp"
+#include "microswarm/swarm/robots/robot_swarm_params.hpp"
 
 namespace microswarm {
 

@@ -3,15 +3,15 @@
 
 #include <variant>
 
-#include "microswarm/navigation/aggregation_params.hpp"
-#include "microswarm/navigation/hierarchical_params.hpp"
-#include "microswarm/navigation/path_navigator_params.hpp"
-#include "microswarm/navigation/plan_player_params.hpp"
-#include "microswarm/navigation/potential_field_params.hpp"
-#include "microswarm/navigation/predictive_params.hpp"
-#include "microswarm/navigation/radar_params.hpp"
-#include "microswarm/navigation/straight_params.hpp"
-#include "microswarm/navigation/velocity_obstacle_params.hpp"
+#include "microswarm/navigation/baselines/potential_field_params.hpp"
+#include "microswarm/navigation/baselines/straight_params.hpp"
+#include "microswarm/navigation/baselines/velocity_obstacle_params.hpp"
+#include "microswarm/navigation/following/path_navigator_params.hpp"
+#include "microswarm/navigation/gathering/aggregation_params.hpp"
+#include "microswarm/navigation/global_input/plan_player_params.hpp"
+#include "microswarm/navigation/hierarchical/hierarchical_params.hpp"
+#include "microswarm/navigation/predictive/predictive_params.hpp"
+#include "microswarm/navigation/radar/radar_params.hpp"
 
 namespace microswarm {
 

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "microswarm/formats/image.hpp"
-#include "microswarm/planning/plan.hpp"
+#include "microswarm/contracts/plan.hpp"
+#include "microswarm/formats/images/image.hpp"
 #include "microswarm/world/snapshot.hpp"
 
 namespace microswarm {

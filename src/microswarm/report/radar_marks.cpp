@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "microswarm/navigation/radar_circles.hpp"
-#include "microswarm/navigation/safety_radius.hpp"
-#include "microswarm/navigation/wait_area.hpp"
+#include "microswarm/navigation/radar/radar_circles.hpp"
+#include "microswarm/navigation/radar/safety_radius.hpp"
+#include "microswarm/navigation/radar/wait_area.hpp"
 
 namespace microswarm {
 namespace {

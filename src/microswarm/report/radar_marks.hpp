@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "microswarm/experiment/record.hpp"
+#include "microswarm/experiment/record/record.hpp"
 #include "microswarm/report/picture.hpp"
 #include "microswarm/world/world.hpp"
 

@@ -9,7 +9,7 @@
 #include <map>
 #include <utility>
 
-#include "microswarm/experiment/scene.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/report/ground.hpp"
 #include "microswarm/report/page.hpp"
 #include "microswarm/report/plot.hpp"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "microswarm/experiment/record.hpp"
+#include "microswarm/experiment/record/record.hpp"
 #include "microswarm/report/plot.hpp"
 
 namespace microswarm {

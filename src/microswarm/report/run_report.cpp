@@ -8,8 +8,8 @@
 #include <span>
 
 #include "microswarm/core/angles.hpp"
-#include "microswarm/experiment/scene.hpp"
-#include "microswarm/planning/detection.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/planning/common/detection.hpp"
 #include "microswarm/report/ground.hpp"
 #include "microswarm/report/page.hpp"
 #include "microswarm/report/radar_marks.hpp"

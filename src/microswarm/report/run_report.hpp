@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "microswarm/experiment/record.hpp"
-#include "microswarm/formats/image.hpp"
+#include "microswarm/experiment/record/record.hpp"
+#include "microswarm/formats/images/image.hpp"
 
 namespace microswarm {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "microswarm/core/parallel.hpp"
-#include "microswarm/experiment/record.hpp"
+#include "microswarm/experiment/record/record.hpp"
 
 namespace microswarm {
 

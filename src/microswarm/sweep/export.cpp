@@ -9,8 +9,8 @@
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/text.hpp"
-#include "microswarm/experiment/hdf5_image.hpp"
-#include "microswarm/experiment/record_layout.hpp"
+#include "microswarm/experiment/record/hdf5_image.hpp"
+#include "microswarm/experiment/record/record_layout.hpp"
 
 namespace microswarm {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "microswarm/experiment/record.hpp"
+#include "microswarm/experiment/record/record.hpp"
 #include "microswarm/sweep/sweep_database.hpp"
 
 namespace microswarm {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "microswarm/config/yaml_node.hpp"
-#include "microswarm/experiment/scene.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/sweep/sweep_file.hpp"
 
 namespace microswarm {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "microswarm/world/map.hpp"
+#include "microswarm/world/map/map.hpp"
 
 namespace microswarm {
 

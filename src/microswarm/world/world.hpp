@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "microswarm/world/obstacle.hpp"
+#include "microswarm/world/obstacles/obstacle.hpp"
 #include "microswarm/world/snapshot.hpp"
 
 namespace microswarm {

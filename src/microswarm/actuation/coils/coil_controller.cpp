@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/actuation/coils/coil_controller.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "microswarm/actuation/coils/currents.hpp"
+#include "microswarm/core/error.hpp"
+
+namespace microswarm {
+
+CoilController::CoilController(const CoilSystem& system, const FieldGeneratorParams& field,
+                               CoilDriver& driver, double heading)
+    : system_(system),
+      driver_(driver),
+      generator_(field, heading),
+      drive_(system.drives()),
+      place_(system.centre()),
+      actuation_(system.at(place_)),
+      channels_(static_cast<std::size_t>(driver.channels())) {
+  if (system.size() > channels_.size())
+    throw InputError(fmt::format("the system has {} coils, the driver {} channels", system.size(),
+                                 channels_.size()));
+  output_.currents = drive_.currents();
+}
+
+CoilController::~CoilController() { stop(); }
+
+void CoilController::aim(const Eigen::Vector3d& place) {
+  constexpr double same_place = 50;  // [µm]; no coil's field changes over so short a way
+  if ((place - place_).norm() < same_place) return;
+  place_ = place;
+  actuation_ = system_.at(place);
+}
+
+const CoilOutput& CoilController::advance(double dt) {
+  output_.wanted = generator_.advance(dt);
+  const CurrentsForField found = currents_for(actuation_, output_.wanted);
+  const DrivenCurrents driven = drive_.step(found.currents, dt);
+  output_.currents = driven.currents;
+  output_.scale = driven.scale;
+  output_.reached = found.reached;
+  std::copy(driven.currents.begin(), driven.currents.end(), channels_.begin());
+  output_.status = driver_.drive(channels_);
+  return output_;
+}
+
+bool CoilController::stop() noexcept {
+  drive_.cut();
+  output_.currents.setZero();
+  return driver_.stop();
+}
+
+}  // namespace microswarm

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/actuation/coils/coil_system.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "microswarm/config/yaml.hpp"
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/text.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr std::array<const char*, 3> axis_names{"x", "y", "z"};
+constexpr std::size_t max_coils_of_set = 64;
+
+WindingParams winding(const Eigen::Vector3d& centre, int axis, double radius, double turns,
+                      double length, double thickness) {
+  WindingParams w;
+  w.centre = {centre[0], centre[1], centre[2]};
+  w.axis = {0, 0, 0};
+  w.axis[static_cast<std::size_t>(axis)] = 1;
+  w.radius = radius;
+  w.turns = turns;
+  w.length = length;
+  w.thickness = thickness;
+  return w;
+}
+
+void append(std::vector<Loop>& loops, const std::vector<Loop>& more) {
+  loops.insert(loops.end(), more.begin(), more.end());
+}
+
+std::string place_text(const Eigen::Vector3d& v) {
+  return fmt::format("({}, {}, {}) µm", number_text(v[0]), number_text(v[1]), number_text(v[2]));
+}
+
+}  // namespace
+
+CoilSystem::CoilSystem(const CoilSystemParams& params, const Places& where,
+                       const std::filesystem::path& folder)
+    : folder_(folder), name_(params.name) {
+  const Places coils = where.within("coils");
+  std::visit([&](const auto& kind) { add(kind, coils); }, params.coils);
+  check_names(coils);
+  const std::size_t given = params.drives.size();
+  if (given > 1 && given != size())
+    throw where.error("drives",
+                      fmt::format("drives has {} entries, must have one, or {}, one for each coil",
+                                  given, size()));
+  for (std::size_t i = 0; i < size(); ++i)
+    drives_.push_back(given == 0 ? DriveParams{} : params.drives[given == 1 ? 0 : i]);
+}
+
+void CoilSystem::limit_current(double most) {
+  for (DriveParams& drive : drives_)
+    drive.max_current = std::min(most, drive.max_current.value_or(most));
+}
+
+void CoilSystem::check_names(const Places& where) const {
+  if (names_.empty() || names_.size() > max_coils_of_set)
+    throw where.error("", fmt::format("{} coils, allowed 1..{}", names_.size(), max_coils_of_set));
+  for (std::size_t i = 0; i < names_.size(); ++i)
+    if (std::find(names_.begin() + static_cast<std::ptrdiff_t>(i) + 1, names_.end(), names_[i]) !=
+        names_.end())
+      throw where.error("", fmt::format("two coils are called {}", quote(names_[i])));
+}
+
+void CoilSystem::add(const HelmholtzCoils& params, const Places& where) {
+  centre_ = vector_of(params.centre, "centre_um", where);
+  const Eigen::Vector3d radius = vector_of(params.radius, "radius_um", where);
+  const Eigen::Vector3d turns = vector_of(params.turns, "turns", where);
+  std::vector<LoopCoil> pairs;
+  for (int axis = 0; axis < 3; ++axis) {
+    LoopCoil pair{axis_names[static_cast<std::size_t>(axis)], {}};
+    for (const double side : {-0.5, 0.5}) {
+      const Eigen::Vector3d middle = centre_ + side * radius[axis] * Eigen::Vector3d::Unit(axis);
+      append(pair.loops, loops_of(winding(middle, axis, radius[axis], turns[axis], params.length,
+                                          params.thickness),
+                                  where));
+    }
+    names_.push_back(pair.name);
+    pairs.push_back(std::move(pair));
+  }
+  model_ = std::move(pairs);
+}
+
+void CoilSystem::add(const CubeCoils& params, const Places& where) {
+  centre_ = vector_of(params.centre, "centre_um", where);
+  std::vector<LoopCoil> coils;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const int side : {-1, 1}) {
+      const Eigen::Vector3d middle = centre_ + side * params.distance * Eigen::Vector3d::Unit(axis);
+      LoopCoil coil{axis_names[static_cast<std::size_t>(axis)] + std::string(side < 0 ? "-" : "+"),
+                    loops_of(winding(middle, axis, params.radius, params.turns, params.length,
+                                     params.thickness),
+                             where)};
+      names_.push_back(coil.name);
+      coils.push_back(std::move(coil));
+    }
+  model_ = std::move(coils);
+}
+
+void CoilSystem::add(const LoopCoils& params, const Places& where) {
+  std::vector<LoopCoil> coils;
+  std::size_t windings = 0;
+  for (std::size_t i = 0; i < params.coils.size(); ++i) {
+    const CoilParams& given = params.coils[i];
+    const Places at = where.within("coils." + std::to_string(i));
+    if (given.name.empty()) throw at.error("name", "name is empty");
+    if (given.windings.empty())
+      throw at.error("windings", fmt::format("coil {} has no windings", quote(given.name)));
+    LoopCoil coil{given.name, {}};
+    for (std::size_t k = 0; k < given.windings.size(); ++k) {
+      const Places at_winding = at.within("windings." + std::to_string(k));
+      append(coil.loops, loops_of(given.windings[k], at_winding));
+      centre_ += vector_of(given.windings[k].centre, "centre_um", at_winding);
+      ++windings;
+    }
+    names_.push_back(coil.name);
+    coils.push_back(std::move(coil));
+  }
+  if (windings > 0) centre_ /= static_cast<double>(windings);
+  model_ = std::move(coils);
+}
+
+std::string CoilSystem::beside(const std::string& file, std::string_view key,
+                               const Places& where) const {
+  if (file.empty()) throw where.error(key, fmt::format("{} is empty", key));
+  return (folder_ / file).string();
+}
+
+void CoilSystem::add(const MpemCoils& params, const Places& where) {
+  MpemSystem system = read_mpem(beside(params.file, "file", where));
+  if (name_.empty()) name_ = system.name;
+  for (const MpemCoil& coil : system.coils) names_.push_back(coil.name);
+  const Eigen::Vector3d middle = 0.5 * (system.lo + system.hi);
+  if (middle.allFinite()) centre_ = middle;
+  model_ = std::move(system);
+}
+
+void CoilSystem::add(const VfieldCoils& params, const Places& where) {
+  std::vector<FieldGrid> grids;
+  for (const std::string& file : params.files) {
+    grids.push_back(read_vfield(beside(file, "files", where)));
+    names_.push_back(std::filesystem::path(file).stem().string());
+  }
+  if (!grids.empty()) centre_ = 0.5 * (grids[0].lo() + grids[0].hi());
+  model_ = std::move(grids);
+}
+
+void CoilSystem::add(const MatrixCoils& params, const Places& where) {
+  names_ = params.names;
+  if (params.field.size() != 3)
+    throw where.error("field_mt_per_a",
+                      fmt::format("field_mt_per_a has {} rows, must have 3", params.field.size()));
+  Eigen::Matrix3Xd matrix(3, static_cast<Eigen::Index>(names_.size()));
+  for (std::size_t row = 0; row < 3; ++row) {
+    if (params.field[row].size() != names_.size())
+      throw where.error("field_mt_per_a",
+                        fmt::format("row {} of field_mt_per_a has {} numbers, there are {} names",
+                                    row + 1, params.field[row].size(), names_.size()));
+    for (std::size_t i = 0; i < names_.size(); ++i)
+      matrix(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(i)) = params.field[row][i];
+  }
+  offset_.field = vector_of(params.offset, "offset_mt", where);
+  model_ = std::move(matrix);
+}
+
+bool CoilSystem::in_workspace(const Eigen::Vector3d& place) const {
+  if (const auto* mpem = std::get_if<MpemSystem>(&model_)) return mpem->in_workspace(place);
+  if (const auto* grids = std::get_if<std::vector<FieldGrid>>(&model_))
+    return std::all_of(grids->begin(), grids->end(),
+                       [&](const FieldGrid& grid) { return grid.contains(place); });
+  return true;
+}
+
+Actuation CoilSystem::at(const Eigen::Vector3d& place) const {
+  const auto n = static_cast<Eigen::Index>(size());
+  Actuation result{Eigen::Matrix3Xd::Zero(3, n),
+                   Eigen::Matrix<double, 5, Eigen::Dynamic>::Zero(5, n), offset_};
+  const auto put = [&](std::size_t i, const FieldGradient& one) {
+    result.field.col(static_cast<Eigen::Index>(i)) = one.field;
+    result.gradients.col(static_cast<Eigen::Index>(i)) = five_gradients(one.gradient);
+  };
+  if (const auto* coils = std::get_if<std::vector<LoopCoil>>(&model_)) {
+    for (std::size_t i = 0; i < size(); ++i) put(i, field_of((*coils)[i].loops, place));
+  } else if (const auto* mpem = std::get_if<MpemSystem>(&model_)) {
+    for (std::size_t i = 0; i < size(); ++i)
+      put(i, microswarm::field_of(mpem->coils[i].sources, place));
+    result.offset += microswarm::field_of(mpem->offset, place);
+  } else if (const auto* grids = std::get_if<std::vector<FieldGrid>>(&model_)) {
+    for (std::size_t i = 0; i < size(); ++i) {
+      const FieldGrid& grid = (*grids)[i];
+      if (!grid.contains(place))
+        throw InputError(fmt::format("place {} is outside of the grid of {}, {} to {}",
+                                     place_text(place), names_[i], place_text(grid.lo()),
+                                     place_text(grid.hi())));
+      put(i, grid.at(place));
+    }
+  } else {
+    result.field = std::get<Eigen::Matrix3Xd>(model_);
+  }
+  return result;
+}
+
+CoilSystem read_coil_system(const std::filesystem::path& path) {
+  Places places;
+  const auto params = read_yaml_file<CoilSystemParams>(path, {}, places);
+  return CoilSystem(params, places, path.parent_path());
+}
+
+}  // namespace microswarm

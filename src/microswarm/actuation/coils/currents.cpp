@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/actuation/coils/currents.hpp"
+
+#include <Eigen/SVD>
+
+namespace microswarm {
+namespace {
+
+// Less than this share of the strongest direction is rounding, no field.
+constexpr double weakest_direction = 1e-9;
+constexpr double current_rounding = 1e-9;
+
+}  // namespace
+
+CurrentsForField currents_for(const Actuation& at, const Eigen::Vector3d& field) {
+  // With A = U S Vᵀ the least-norm currents Aᵀ(AAᵀ)⁻¹B are V S⁻¹ Uᵀ B, and directions that no coil
+  // drives are told by S.
+  const Eigen::MatrixXd A = at.field;
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeFullU | Eigen::ComputeThinV);
+  const Eigen::VectorXd& strength = svd.singularValues();
+  CurrentsForField result;
+  while (result.rank < strength.size() && strength[result.rank] > weakest_direction * strength[0])
+    ++result.rank;
+  const Eigen::Vector3d wanted = field - at.offset.field;
+  result.currents = Eigen::VectorXd::Zero(A.cols());
+  for (int k = 0; k < result.rank; ++k)
+    result.currents += svd.matrixU().col(k).dot(wanted) / strength[k] * svd.matrixV().col(k);
+  result.missing = svd.matrixU().rightCols(3 - result.rank);
+  result.field = at.field_of(result.currents);
+  result.short_by = (result.field - field).norm();
+  result.reached = result.short_by <= current_rounding * (field.norm() + at.offset.field.norm());
+  return result;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "microswarm/actuation/coils/coil_system.hpp"
+
+namespace microswarm {
+
+/// A plane through two axes.
+enum class Plane { xy, xz, yz };
+constexpr auto enum_names(Plane) {
+  return std::array<std::pair<Plane, std::string_view>, 3>{
+      {{Plane::xy, "xy"}, {Plane::xz, "xz"}, {Plane::yz, "yz"}}};
+}
+
+/// Where a uniformity map looks: a square of `points` × `points` places around `centre`.
+struct UniformityGrid {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [µm]
+  Plane plane = Plane::xy;
+  double half_width = 10000;  ///< [µm]
+  int points = 101;           ///< odd or even, at least 2
+};
+
+/// How the field differs from that at the centre. Row by row, the plane's first axis fastest.
+struct UniformityMap {
+  UniformityGrid grid;
+  Eigen::Vector3d centre_field;        ///< B0 [mT]
+  std::vector<Eigen::Vector3d> field;  ///< B [mT]
+  std::vector<double> deviation;       ///< |B − B0| / |B0|
+
+  Eigen::Vector3d place(int column, int row) const;  ///< [µm]
+  double at(int column, int row) const {
+    return deviation[static_cast<std::size_t>(row) * grid.points + column];
+  }
+  double largest() const;
+  /// Distance of the farthest place up to which all places deviate by at most `share` [µm], at most
+  /// the half width.
+  double radius_within(double share) const;
+};
+
+/// The map under constant currents [A]. Throws InputError when the field at the centre is 0. After
+/// each row `go_on` hears the share that is done; when it says no there is no map.
+std::optional<UniformityMap> uniformity(const CoilSystem& system, const Eigen::VectorXd& currents,
+                                        const UniformityGrid& grid,
+                                        const std::function<bool(double share)>& go_on = {});
+
+}  // namespace microswarm

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "microswarm/actuation/field/field.hpp"
+
+namespace microswarm {
+
+/// The field of one coil for one ampere, known on an even grid and interpolated between its nodes
+/// in each direction by straight lines.
+class FieldGrid {
+ public:
+  /// Values [mT/A] node by node, z fastest, x slowest; at least two nodes in each direction.
+  FieldGrid(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi, std::array<int, 3> nodes,
+            std::vector<Eigen::Vector3d> values);
+
+  const Eigen::Vector3d& lo() const { return lo_; }  ///< [µm]
+  const Eigen::Vector3d& hi() const { return hi_; }  ///< [µm]
+  bool contains(const Eigen::Vector3d& place) const;
+  /// Field and gradient at a place within; the gradient is that of the straight lines, and only
+  /// about symmetric.
+  FieldGradient at(const Eigen::Vector3d& place) const;
+
+ private:
+  const Eigen::Vector3d& node(int i, int j, int k) const;
+
+  Eigen::Vector3d lo_, hi_;
+  std::array<int, 3> nodes_;
+  Eigen::Vector3d step_;
+  std::vector<Eigen::Vector3d> values_;
+};
+
+/// Reads a grid of measured or computed fields for one ampere. As text: the number of nodes, nodes
+/// in x, y, z, three lines "LEAST MOST" [m], then a line "x y z Bx By Bz" [m, T] for each node, z
+/// fastest. As YAML (`.yaml`): dim_x, min_x, max_x, … and the list `data` of [Bx, By, Bz] in the
+/// same order. Throws InputError "NAME:LINE: WHY".
+FieldGrid read_vfield(const std::filesystem::path& path);
+/// The text form alone.
+FieldGrid parse_vfield_text(std::string_view text, std::string_view name);
+/// The YAML form alone.
+FieldGrid parse_vfield_yaml(std::string_view text, std::string_view name);
+
+}  // namespace microswarm

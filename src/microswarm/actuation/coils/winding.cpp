@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/actuation/coils/winding.hpp"
+
+#include <fmt/format.h>
+
+#include <boost/math/quadrature/gauss.hpp>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/text.hpp"
+
+namespace microswarm {
+namespace {
+
+struct Node {
+  double at = 0;      ///< in [-1, 1]
+  double weight = 1;  ///< all together 1
+};
+
+/// Nodes of Gauss–Legendre, by which turns that lie close together are summed; one in the middle
+/// of no length.
+template <unsigned points>
+std::vector<Node> nodes(bool extended) {
+  if (!extended) return {Node{}};
+  using Rule = boost::math::quadrature::gauss<double, points>;
+  std::vector<Node> all;
+  for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
+    const double x = Rule::abscissa()[i];
+    const double w = 0.5 * Rule::weights()[i];
+    all.push_back({x, w});
+    if (x > 0) all.push_back({-x, w});
+  }
+  return all;
+}
+
+}  // namespace
+
+Eigen::Vector3d vector_of(const std::vector<double>& numbers, std::string_view key,
+                          const Places& where) {
+  if (numbers.size() != 3)
+    throw where.error(key,
+                      fmt::format("{} has {} numbers, must be [x, y, z]", key, numbers.size()));
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+std::vector<Loop> loops_of(const WindingParams& winding, const Places& where) {
+  const Eigen::Vector3d centre = vector_of(winding.centre, "centre_um", where);
+  const Eigen::Vector3d axis = vector_of(winding.axis, "axis", where);
+  if (!(axis.norm() > 0)) throw where.error("axis", "axis is [0, 0, 0], must have a direction");
+  if (winding.thickness >= 2 * winding.radius)
+    throw where.error("thickness_um",
+                      fmt::format("thickness_um is {} µm, must be less than twice the radius, "
+                                  "{} µm",
+                                  number_text(winding.thickness), number_text(2 * winding.radius)));
+  const Eigen::Vector3d unit = axis.normalized();
+  std::vector<Loop> loops;
+  for (const Node& along : nodes<20>(winding.length > 0))
+    for (const Node& out : nodes<10>(winding.thickness > 0))
+      loops.push_back({centre + 0.5 * winding.length * along.at * unit, unit,
+                       winding.radius + 0.5 * winding.thickness * out.at,
+                       winding.turns * along.weight * out.weight});
+  return loops;
+}
+
+FieldGradient field_of(const std::vector<Loop>& loops, const Eigen::Vector3d& place) {
+  FieldGradient sum;
+  for (const Loop& loop : loops) sum += loop_field(loop, place);
+  return sum;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "microswarm/actuation/coils/loop.hpp"
+#include "microswarm/core/fields.hpp"
+#include "microswarm/core/places.hpp"
+
+namespace microswarm {
+
+/// Turns of wire around one axis: a thin loop, or with length and thickness a solenoid whose turns
+/// fill its cross-section evenly. Its middle turn has `radius`.
+struct WindingParams {
+  std::vector<double> centre{0, 0, 0};
+  std::vector<double> axis{0, 0, 1};
+  double radius = 50000;
+  double turns = 1;
+  double length = 0;
+  double thickness = 0;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.centre, {"centre", Unit::um, {-1e8, 1e8}, "Middle of the winding, [x, y, z]."});
+    visit(self.axis, {"axis",
+                      Unit::none,
+                      {-1e6, 1e6},
+                      "Direction of the field within for a positive current, [x, y, z]."});
+    visit(self.radius, {"radius", Unit::um, {1, 1e8}, "Radius of the middle turn.", true});
+    visit(self.turns, {"turns", Unit::none, {1e-3, 1e6}, "Number of turns."});
+    visit(self.length, {"length", Unit::um, {0, 1e8}, "Length along the axis; 0: a thin loop."});
+    visit(self.thickness,
+          {"thickness", Unit::um, {0, 1e8}, "Outer less inner radius; 0: a thin layer."});
+  }
+};
+
+/// A coil is fed by one current, which flows through all its windings.
+struct CoilParams {
+  std::string name;
+  std::vector<WindingParams> windings;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.name, {"name", Unit::none, {}, "Name of the coil.", true});
+    visit(self.windings, {"windings", Unit::none, {}, "Windings in series.", true});
+  }
+};
+
+/// The loops that stand for a winding: as many as make its field exact to about 1e-9 where the
+/// winding is farther away than half its length and thickness. Throws InputError at `where`.
+std::vector<Loop> loops_of(const WindingParams& winding, const Places& where = {});
+
+/// Field of several loops for one ampere.
+FieldGradient field_of(const std::vector<Loop>& loops, const Eigen::Vector3d& place);
+
+/// Three numbers of a list as a vector; InputError "KEY has 2 numbers, must be [x, y, z]".
+Eigen::Vector3d vector_of(const std::vector<double>& numbers, std::string_view key,
+                          const Places& where);
+
+}  // namespace microswarm

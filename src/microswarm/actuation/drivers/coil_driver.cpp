@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/actuation/drivers/coil_driver.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+namespace microswarm {
+
+std::string_view to_string(DriveStatus status) {
+  constexpr std::array<std::string_view, 6> names{"driven",  "scaled",    "resumed",
+                                                  "refused", "not_armed", "no_answer"};
+  return names[static_cast<std::size_t>(status)];
+}
+
+SimulatedCoilDriver::SimulatedCoilDriver(int channels, double full_scale)
+    : currents_(static_cast<std::size_t>(channels)), full_scale_(full_scale) {}
+
+DriveStatus SimulatedCoilDriver::drive(std::span<const double> currents) {
+  assert(currents.size() == currents_.size());
+  const bool possible = std::all_of(currents.begin(), currents.end(), [&](double i) {
+    return std::abs(i) <= full_scale_ * (1 + full_scale_slack);
+  });
+  if (!possible) return DriveStatus::refused;
+  std::copy(currents.begin(), currents.end(), currents_.begin());
+  return DriveStatus::driven;
+}
+
+bool SimulatedCoilDriver::stop() noexcept {
+  std::fill(currents_.begin(), currents_.end(), 0.0);
+  return true;
+}
+
+}  // namespace microswarm

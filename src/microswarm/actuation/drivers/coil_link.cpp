@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/actuation/drivers/coil_link.hpp"
+
+#include <cstddef>
+
+namespace microswarm {
+namespace {
+
+constexpr std::uint8_t reply_bit = 0x80;
+constexpr std::size_t longest_frame = 44;
+constexpr std::size_t reply_size = 26;
+
+void append16(std::vector<std::uint8_t>& to, int value) {
+  const auto bits = static_cast<std::uint16_t>(value);
+  to.push_back(static_cast<std::uint8_t>(bits & 0xFF));
+  to.push_back(static_cast<std::uint8_t>(bits >> 8));
+}
+
+int unsigned16(std::span<const std::uint8_t> bytes, std::size_t at) {
+  return bytes[at] | bytes[at + 1] << 8;
+}
+int signed16(std::span<const std::uint8_t> bytes, std::size_t at) {
+  return static_cast<std::int16_t>(unsigned16(bytes, at));
+}
+
+// Consistent overhead byte stuffing (Cheshire and Baker 1999): no 0 but at the end.
+std::vector<std::uint8_t> frame_of(std::vector<std::uint8_t> packet) {
+  append16(packet, crc16(packet));
+  std::vector<std::uint8_t> frame{0};
+  std::size_t mark = 0;
+  const auto close = [&] { frame[mark] = static_cast<std::uint8_t>(frame.size() - mark); };
+  for (const std::uint8_t byte : packet) {
+    if (byte != 0) {
+      frame.push_back(byte);
+      continue;
+    }
+    close();
+    mark = frame.size();
+    frame.push_back(0);
+  }
+  close();
+  frame.push_back(0);
+  return frame;
+}
+
+/// Without its check sum; nothing when it is no frame.
+std::optional<std::vector<std::uint8_t>> packet_of(std::span<const std::uint8_t> frame) {
+  std::vector<std::uint8_t> packet;
+  for (std::size_t at = 0; at < frame.size();) {
+    const std::size_t next = at + frame[at];
+    if (next > frame.size()) return std::nullopt;
+    packet.insert(packet.end(), frame.begin() + static_cast<std::ptrdiff_t>(at) + 1,
+                  frame.begin() + static_cast<std::ptrdiff_t>(next));
+    if (next < frame.size()) packet.push_back(0);
+    at = next;
+  }
+  if (packet.size() < 4) return std::nullopt;
+  const std::size_t size = packet.size() - 2;
+  if (crc16(std::span(packet).first(size)) != unsigned16(packet, size)) return std::nullopt;
+  packet.resize(size);
+  return packet;
+}
+
+std::optional<CoilReply> reply_of(std::span<const std::uint8_t> p) {
+  if (p.size() != reply_size - 2 || !(p[0] & reply_bit)) return std::nullopt;
+  CoilReply reply{.to = CoilMessage{static_cast<std::uint8_t>(p[0] & ~reply_bit)},
+                  .sequence = p[1],
+                  .version = p[2],
+                  .result = CoilResult{p[3]},
+                  .state = CoilState{p[4]},
+                  .limited = p[5],
+                  .good = unsigned16(p, 6),
+                  .bad = unsigned16(p, 8),
+                  .trips = unsigned16(p, 10)};
+  for (std::size_t c = 0; c < reply.outputs.size(); ++c) reply.outputs[c] = signed16(p, 12 + 2 * c);
+  return reply;
+}
+
+}  // namespace
+
+std::uint16_t crc16(std::span<const std::uint8_t> bytes) {
+  unsigned crc = 0xFFFF;
+  for (const std::uint8_t byte : bytes) {
+    crc ^= static_cast<unsigned>(byte) << 8;
+    for (int bit = 0; bit < 8; ++bit) crc = (crc & 0x8000) ? (crc << 1) ^ 0x1021 : crc << 1;
+    crc &= 0xFFFF;
+  }
+  return static_cast<std::uint16_t>(crc);
+}
+
+std::vector<std::uint8_t> encode(CoilMessage message, std::uint8_t sequence,
+                                 std::span<const std::uint8_t> payload) {
+  std::vector<std::uint8_t> packet{static_cast<std::uint8_t>(message), sequence};
+  packet.insert(packet.end(), payload.begin(), payload.end());
+  return frame_of(std::move(packet));
+}
+
+std::vector<std::uint8_t> encode_set(std::uint8_t sequence,
+                                     const std::array<int, coil_link_channels>& outputs) {
+  std::vector<std::uint8_t> payload;
+  for (const int output : outputs) append16(payload, output);
+  return encode(CoilMessage::set, sequence, payload);
+}
+
+std::vector<std::uint8_t> encode_hello(std::uint8_t sequence) {
+  const std::array<std::uint8_t, 1> payload{coil_link_version};
+  return encode(CoilMessage::hello, sequence, payload);
+}
+
+std::vector<std::uint8_t> encode(const CoilReply& reply) {
+  std::vector<std::uint8_t> packet{
+      static_cast<std::uint8_t>(static_cast<std::uint8_t>(reply.to) | reply_bit),
+      reply.sequence,
+      static_cast<std::uint8_t>(reply.version),
+      static_cast<std::uint8_t>(reply.result),
+      static_cast<std::uint8_t>(reply.state),
+      reply.limited};
+  for (const int count : {reply.good, reply.bad, reply.trips}) append16(packet, count);
+  for (const int output : reply.outputs) append16(packet, output);
+  return frame_of(std::move(packet));
+}
+
+std::optional<CoilReply> CoilReplyReader::take(std::uint8_t byte) {
+  if (byte != 0) {
+    if (frame_.size() <= longest_frame) frame_.push_back(byte);
+    return std::nullopt;
+  }
+  if (frame_.empty()) return std::nullopt;
+  std::optional<CoilReply> reply;
+  if (frame_.size() <= longest_frame)
+    if (const auto packet = packet_of(frame_)) reply = reply_of(*packet);
+  if (!reply) ++bad_;
+  frame_.clear();
+  return reply;
+}
+
+}  // namespace microswarm

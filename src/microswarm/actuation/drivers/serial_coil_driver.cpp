@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/actuation/drivers/serial_coil_driver.hpp"
+
+#include <fmt/core.h>
+#include <poll.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/serial_port.hpp>
+#include <cassert>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/stop.hpp"
+
+namespace microswarm {
+namespace {
+
+namespace asio = boost::asio;
+using Clock = std::chrono::steady_clock;
+
+constexpr unsigned baud = 115200;
+
+}  // namespace
+
+/// Bytes in and out. Never waits for a device that does not take or give any.
+class SerialCoilDriver::Port {
+ public:
+  explicit Port(const std::string& path) : port_(context_) {
+    boost::system::error_code error;
+    port_.open(path, error);
+    if (error) throw HardwareError(fmt::format("{}: cannot open: {}", path, error.message()));
+    if (::flock(port_.native_handle(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+      throw HardwareError(path + ": another program drives coils there");
+    using Base = asio::serial_port_base;
+    const auto set = [&](const auto& option) {
+      port_.set_option(option, error);
+      if (error) throw HardwareError(fmt::format("{}: no serial line: {}", path, error.message()));
+    };
+    set(Base::baud_rate(baud));
+    set(Base::character_size(8));
+    set(Base::parity(Base::parity::none));
+    set(Base::stop_bits(Base::stop_bits::one));
+    set(Base::flow_control(Base::flow_control::none));
+  }
+
+  /// False when they did not all go out in time.
+  bool put(std::span<const std::uint8_t> bytes, double timeout) {
+    const auto began = Clock::now();
+    while (!bytes.empty()) {
+      const double left = timeout - seconds_since(began);
+      if (left <= 0 || !ready(POLLOUT, left)) return false;
+      const auto n = ::write(port_.native_handle(), bytes.data(), bytes.size());
+      if (n < 0 && errno != EAGAIN && errno != EINTR) return false;
+      if (n > 0) bytes = bytes.subspan(static_cast<std::size_t>(n));
+    }
+    return true;
+  }
+
+  /// Nothing when there is none in time.
+  std::optional<std::uint8_t> get(double timeout) {
+    if (next_ == filled_) {
+      if (!ready(POLLIN, timeout)) return std::nullopt;
+      const auto n = ::read(port_.native_handle(), bytes_.data(), bytes_.size());
+      if (n <= 0) return std::nullopt;
+      next_ = 0;
+      filled_ = static_cast<std::size_t>(n);
+    }
+    return bytes_[next_++];
+  }
+
+ private:
+  bool ready(short what, double timeout) {
+    pollfd port{port_.native_handle(), what, 0};
+    const int ms = static_cast<int>(std::ceil(1e3 * std::max(timeout, 0.0)));
+    return ::poll(&port, 1, ms) > 0 && (port.revents & what) != 0;
+  }
+
+  asio::io_context context_;
+  asio::serial_port port_;
+  std::array<std::uint8_t, 256> bytes_{};
+  std::size_t next_ = 0, filled_ = 0;
+};
+
+SerialCoilDriver::SerialCoilDriver(const SerialCoilParams& params)
+    : params_(params), port_(std::make_unique<Port>(params.port)) {
+  const std::array<std::uint8_t, 1> end{0};  // of whatever was half said before
+  port_->put(end, params_.reply_timeout);
+  const auto began = Clock::now();
+  std::optional<CoilReply> reply;
+  while (!reply && seconds_since(began) < params_.connect_timeout)
+    reply = exchange(CoilMessage::hello);
+  if (!reply)
+    throw HardwareError(
+        fmt::format("{}: no answer within {} s", params_.port, params_.connect_timeout));
+  if (reply->version != coil_link_version || reply->result != CoilResult::ok)
+    throw HardwareError(fmt::format("{}: the device speaks version {} of the protocol, this is {}",
+                                    params_.port, reply->version, coil_link_version));
+}
+
+SerialCoilDriver::~SerialCoilDriver() { stop(); }
+
+DriveStatus SerialCoilDriver::drive(std::span<const double> currents) {
+  assert(currents.size() == coil_link_channels);
+  std::array<int, coil_link_channels> outputs{};
+  for (std::size_t c = 0; c < outputs.size(); ++c) {
+    const double share = currents[c] / params_.full_scale;
+    if (!(std::abs(share) <= 1 + full_scale_slack)) return DriveStatus::refused;
+    outputs[c] = static_cast<int>(std::lround(share * coil_link_full_scale));
+  }
+  DriveStatus status = DriveStatus::driven;
+  if (!armed_) armed_ = arm();  // only now: its watchdog does not wait for the first currents
+  auto reply = exchange(CoilMessage::set, outputs);
+  if (!reply) return DriveStatus::no_answer;
+  if (reply->result == CoilResult::not_armed) {
+    if (!arm() || !(reply = exchange(CoilMessage::set, outputs))) return DriveStatus::no_answer;
+    if (reply->result == CoilResult::not_armed) return DriveStatus::not_armed;
+    status = DriveStatus::resumed;
+  }
+  if (reply->result == CoilResult::limited) return DriveStatus::scaled;
+  return reply->result == CoilResult::ok ? status : DriveStatus::no_answer;
+}
+
+bool SerialCoilDriver::stop() noexcept {
+  try {
+    const auto reply = exchange(CoilMessage::stop);
+    const bool at_zero = reply && std::all_of(reply->outputs.begin(), reply->outputs.end(),
+                                              [](int output) { return output == 0; });
+    armed_ = armed_ && !at_zero;
+    return at_zero;
+  } catch (...) {
+    return false;  // no memory; the device's watchdog does it
+  }
+}
+
+std::optional<CoilReply> SerialCoilDriver::ask_status() { return exchange(CoilMessage::status); }
+
+bool SerialCoilDriver::arm() {
+  const auto reply = exchange(CoilMessage::arm);
+  return reply && reply->result == CoilResult::ok && reply->state == CoilState::armed;
+}
+
+// The same message with the same number until it is answered: the device obeys it once.
+std::optional<CoilReply> SerialCoilDriver::exchange(
+    CoilMessage message, const std::array<int, coil_link_channels>& outputs) {
+  ++sequence_;
+  const auto bytes = message == CoilMessage::set     ? encode_set(sequence_, outputs)
+                     : message == CoilMessage::hello ? encode_hello(sequence_)
+                                                     : encode(message, sequence_);
+  for (int k = 0; k < params_.attempts; ++k) {
+    const auto began = Clock::now();
+    if (!port_->put(bytes, params_.reply_timeout)) continue;
+    if (auto reply = answer_to(message, params_.reply_timeout)) {
+      round_trip_ = seconds_since(began);
+      for (std::size_t c = 0; c < currents_.size(); ++c)
+        currents_[c] = params_.full_scale * reply->outputs[c] / coil_link_full_scale;
+      return reply;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<CoilReply> SerialCoilDriver::answer_to(CoilMessage message, double timeout) {
+  const auto began = Clock::now();
+  for (;;) {
+    const double left = timeout - seconds_since(began);
+    if (left <= 0) return std::nullopt;
+    const auto byte = port_->get(left);
+    if (!byte) continue;
+    auto reply = reader_.take(*byte);
+    if (reply && reply->to == message && reply->sequence == sequence_) return reply;
+  }
+}
+
+}  // namespace microswarm

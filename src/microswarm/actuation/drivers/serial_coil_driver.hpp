@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "microswarm/actuation/drivers/coil_driver.hpp"
+#include "microswarm/actuation/drivers/coil_link.hpp"
+#include "microswarm/core/fields.hpp"
+
+namespace microswarm {
+
+/// Where the device is and how long it is waited for.
+struct SerialCoilParams {
+  static constexpr std::string_view type_name = "serial";
+  std::string port = "/dev/ttyACM0";
+  double full_scale = 20;
+  double reply_timeout = 0.02;
+  int attempts = 3;
+  double connect_timeout = 5;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.port, {"port", Unit::none, {}, "The serial line to the device."});
+    visit(self.full_scale,
+          {"full_scale", Unit::a, {1e-6, 1000}, "Current of a channel that is fully on."});
+    visit(self.reply_timeout,
+          {"reply_timeout", Unit::s, {0.001, 1}, "How long an answer is waited for."});
+    visit(self.attempts, {"attempts", Unit::none, {1, 20}, "At telling it the same."});
+    visit(self.connect_timeout,
+          {"connect_timeout", Unit::s, {0.1, 60}, "A Mega restarts when its port is opened."});
+  }
+};
+
+/// Six coils behind an Arduino Mega 2560 with firmware/coil_driver (docs/protocol.md).
+class SerialCoilDriver final : public CoilDriver {
+ public:
+  /// Opens the port and greets the device; it is armed when the first currents come. Throws
+  /// HardwareError when there is no such port, another program has it, nothing answers in time, or
+  /// the device speaks another version.
+  explicit SerialCoilDriver(const SerialCoilParams& params);
+  ~SerialCoilDriver() override;
+  SerialCoilDriver(const SerialCoilDriver&) = delete;
+  SerialCoilDriver& operator=(const SerialCoilDriver&) = delete;
+
+  int channels() const override { return coil_link_channels; }
+  std::span<const double> currents() const override { return currents_; }
+  DriveStatus drive(std::span<const double> currents) override;
+  bool stop() noexcept override;
+
+  /// What the device says of itself; nothing when it does not answer.
+  std::optional<CoilReply> ask_status();
+  /// Time of the last exchange [s].
+  double round_trip() const { return round_trip_; }
+
+ private:
+  class Port;
+
+  std::optional<CoilReply> exchange(CoilMessage message,
+                                    const std::array<int, coil_link_channels>& outputs = {});
+  std::optional<CoilReply> answer_to(CoilMessage message, double timeout);
+  bool arm();
+
+  SerialCoilParams params_;
+  std::unique_ptr<Port> port_;
+  CoilReplyReader reader_;
+  std::uint8_t sequence_ = 0;
+  double round_trip_ = 0;
+  bool armed_ = false;                                 // by us, and not stopped since
+  std::array<double, coil_link_channels> currents_{};  // as the last answer says [A]
+};
+
+}  // namespace microswarm

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/actuation/field/field_generator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "microswarm/actuation/field/waveform.hpp"
+#include "microswarm/core/angles.hpp"
+
+namespace microswarm {
+namespace {
+
+// Of a turn's length: what is owed across the heading is made up for on so long a way, as quicker
+// turns would owe more than they make up for; more than `most_owed` is forgotten; and no more than
+// `most_rolled` is rolled at once, as half a turn has no direction.
+constexpr double catch_up_way = 0.25, most_owed = 0.5, most_rolled = 0.4;
+constexpr double most_haste = 2;  // times the commanded speed, when something is owed
+
+}  // namespace
+
+FieldGenerator::FieldGenerator(const FieldGeneratorParams& params, double heading)
+    : params_(params), heading_(heading), wanted_heading_(heading) {
+  if (params.kind != FieldKind::rolling) frequency_ = params.frequency;
+  update_field();
+}
+
+void FieldGenerator::command(const Command& command) {
+  const double speed = std::max(command.speed, 0.0);
+  if (speed > 0) wanted_heading_ = command.heading;
+  if (params_.kind == FieldKind::rolling) {
+    const double fastest = params_.length_per_turn * params_.frequency;
+    velocity_ = std::min(speed, fastest) * unit_vector(command.heading);
+    if (speed == 0) owed_ = {};
+  } else {
+    wanted_pitch_ = std::min(speed / params_.speed_per_pitch, params_.max_pitch);  // Eq 2 [radar]
+  }
+}
+
+const Eigen::Vector3d& FieldGenerator::advance(double dt) {
+  if (params_.kind == FieldKind::rolling) {
+    roll(dt);
+    return field_;
+  }
+  turn_to(wanted_heading_, dt);
+  const double lift = params_.max_pitch_rate * dt;
+  pitch_ += std::clamp(wanted_pitch_ - pitch_, -lift, lift);
+  phase_ = std::fmod(phase_ + 2 * pi * frequency_ * dt, 2 * pi);
+  update_field();
+  return field_;
+}
+
+void FieldGenerator::turn_to(double heading, double dt) {
+  const double most = params_.max_turn_rate * dt;
+  heading_ = wrap(heading_ + std::clamp(wrap(heading - heading_), -most, most));
+}
+
+// Backwards where that is the shorter turn. What a turn itself moves is owed too.
+void FieldGenerator::roll(double dt) {
+  const double length = params_.length_per_turn;
+  owed_ += dt * velocity_;
+  if (const double most = most_owed * length; norm(owed_) > most)
+    owed_ = most / norm(owed_) * owed_;
+  const double speed = norm(velocity_);
+  if (speed > 0) {
+    const double wanted = heading_of(owed_ + catch_up_way * length / speed * velocity_);
+    const bool backwards = std::abs(wrap(wanted - heading_)) > pi / 2;
+    turn_to(backwards ? wanted + pi : wanted, dt);
+  }
+  const double fastest = std::min(length * params_.frequency, most_haste * speed);
+  const double most = std::min(fastest * dt, most_rolled * length);
+  const double way = std::clamp(dot(owed_, unit_vector(heading_)), -most, most);
+  frequency_ = dt > 0 ? way / length / dt : 0;
+  phase_ = std::fmod(phase_ + 2 * pi * (1 + way / length), 2 * pi);
+  const Eigen::Vector3d before = field_;
+  update_field();
+  owed_ -= rolled_way(before, field_, length);
+}
+
+double FieldGenerator::max_rate() const {
+  return params_.amplitude *
+         (2 * pi * params_.frequency + params_.max_turn_rate + params_.max_pitch_rate);
+}
+
+void FieldGenerator::update_field() {
+  switch (params_.kind) {
+    case FieldKind::rotating:
+      field_ = rotating_field(params_.amplitude, pitch_, heading_, phase_);
+      return;
+    case FieldKind::rolling:
+      field_ = rolling_field(params_.amplitude, heading_, phase_);
+      return;
+    case FieldKind::oscillating:
+      field_ = oscillating_field(params_.amplitude, pitch_, heading_, phase_);
+      return;
+  }
+}
+
+}  // namespace microswarm

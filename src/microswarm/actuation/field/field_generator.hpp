@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "microswarm/contracts/command.hpp"
+#include "microswarm/core/angles.hpp"
+#include "microswarm/core/fields.hpp"
+
+namespace microswarm {
+
+/// How a field drives a swarm: pitched and rotating [radar], rolling [gather], or oscillating
+/// [drrt].
+enum class FieldKind { rotating, rolling, oscillating };
+constexpr auto enum_names(FieldKind) {
+  return std::array<std::pair<FieldKind, std::string_view>, 3>{
+      {{FieldKind::rotating, "rotating"},
+       {FieldKind::rolling, "rolling"},
+       {FieldKind::oscillating, "oscillating"}}};
+}
+
+/// How commands become a field. A speed becomes a pitch, speed = c · pitch (Eq 2 [radar]), or with
+/// rolling fields a frequency, speed = length_per_turn · f.
+struct FieldGeneratorParams {
+  FieldKind kind = FieldKind::rotating;
+  double amplitude = 8;
+  double frequency = 16;
+  double speed_per_pitch = 20 / radians(1);
+  double max_pitch = radians(5);
+  double length_per_turn = 20;
+  double max_turn_rate = radians(360);
+  double max_pitch_rate = radians(30);
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.kind, {"kind", Unit::none, {}, "How the field drives the swarm."});
+    visit(self.amplitude, {"amplitude", Unit::mt, {0, 1e4}, "Flux density."});
+    visit(self.frequency,
+          {"frequency", Unit::hz, {1e-6, 1e4}, "Turns a second; of rolling fields the most."});
+    visit(self.speed_per_pitch, {"speed_per_pitch",
+                                 Unit::um_per_s,
+                                 {1e-6, 1e9},
+                                 "Speed for a pitch of 1 rad, the constant c of Eq 2 [radar]."});
+    visit(self.max_pitch, {"max_pitch", Unit::deg, {0, 90}, "Pitch up to which it is stable."});
+    visit(self.length_per_turn,
+          {"length_per_turn", Unit::um, {1e-6, 1e6}, "Way of one turn of a rolling field."});
+    visit(self.max_turn_rate,
+          {"max_turn_rate", Unit::deg_per_s, {1e-3, 1e6}, "Fastest change of the heading."});
+    visit(self.max_pitch_rate,
+          {"max_pitch_rate", Unit::deg_per_s, {1e-3, 1e6}, "Fastest change of the pitch."});
+  }
+};
+
+/// Makes the field for a navigator's commands, at 10 Hz or any other rate. Phase, heading and pitch
+/// go on from where they are, so that the field never jumps: it changes by no more than
+/// `max_rate()` · Δt. A rolling field makes the way that was commanded, as long as
+/// it turns by 90° in much less time than a command lasts: what is not rolled while the heading
+/// turns, and what the turn itself rolls, is made up for, at up to twice the speed commanded. Half
+/// a turn's length is the most that can be owed. It rolls backwards rather than turn by more than a
+/// right angle.
+class FieldGenerator {
+ public:
+  FieldGenerator(const FieldGeneratorParams& params, double heading);
+
+  /// The command from now on. Speed 0 takes the pitch or the frequency to 0; the heading stays.
+  /// What a rolling field owes is forgotten then.
+  void command(const Command& command);
+  /// Lets `dt` seconds pass; the field [mT] then.
+  const Eigen::Vector3d& advance(double dt);
+
+  const Eigen::Vector3d& field() const { return field_; }
+  double heading() const { return heading_; }      ///< [rad]
+  double pitch() const { return pitch_; }          ///< [rad]
+  double phase() const { return phase_; }          ///< [rad], in [0, 2π)
+  double frequency() const { return frequency_; }  ///< [Hz], less than 0 when it rolls backwards
+  /// The fastest that the field can change [mT/s].
+  double max_rate() const;
+
+ private:
+  void turn_to(double heading, double dt);
+  void roll(double dt);
+  void update_field();
+
+  FieldGeneratorParams params_;
+  double heading_;
+  double wanted_heading_;
+  double pitch_ = 0;
+  double wanted_pitch_ = 0;
+  double phase_ = 0;
+  double frequency_ = 0;
+  Vec2 velocity_, owed_;  // of a rolling body: what is commanded [µm/s], what it is behind [µm]
+  Eigen::Vector3d field_;
+};
+
+}  // namespace microswarm

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "microswarm/geometry/vec2.hpp"
+#include "microswarm/world/snapshot.hpp"
+
+namespace microswarm {
+
+/// The swarm as one body: centre, heading, radius [µm].
+struct SwarmPose {
+  Pose2 pose;
+  double radius = 0;
+};
+
+/// Where a swarm was, how wide [µm], and when [s].
+struct TimedPose {
+  double t = 0;
+  Pose2 pose;
+  double radius = 0;
+};
+
+/// What is seen: the newest frame, which is `age()` old when the navigator gets it. `swarm` is
+/// empty when no swarm was found in the frame. `robots` are its robots one by one, where they are
+/// told apart: robot i is the same in every observation; `swarm` is then their middle. `world`
+/// holds the map and the obstacles as seen then. Both live at least until the next observation.
+struct Observation {
+  double now = 0;   ///< time at which the navigator is asked [s]
+  double seen = 0;  ///< time at which the frame was taken [s]
+  std::optional<SwarmPose> swarm;
+  std::span<const Vec2> robots;  ///< [µm]
+  const Snapshot* world = nullptr;
+
+  double age() const { return now - seen; }
+};
+
+}  // namespace microswarm

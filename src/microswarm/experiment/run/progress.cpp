@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/run/progress.hpp"
+
+#include <algorithm>
+
+namespace microswarm {
+
+ProgressListener::ProgressListener(const Scenario& scenario,
+                                   std::function<void(const RunProgress&)> report, double period)
+    : time_limit_(std::max(scenario.time_limit, 1e-9)),
+      report_(std::move(report)),
+      period_(period) {}
+
+void ProgressListener::on_frame(const Frame& frame, const NavigatorView&, const Snapshot&) {
+  if (start_distance_ < 0) start_distance_ = std::max(frame.goal_distance, 1e-9);
+  if (frame.t < next_) return;
+  next_ = frame.t + period_;
+  const double way_done = 1 - frame.goal_distance / start_distance_;
+  report_({.t = frame.t,
+           .way_done = std::clamp(way_done, 0.0, 1.0),
+           .time_spent = std::clamp(frame.t / time_limit_, 0.0, 1.0)});
+}
+
+}  // namespace microswarm

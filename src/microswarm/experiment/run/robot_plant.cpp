@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/run/robot_plant.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/planning/common/geodesic_field.hpp"
+
+namespace microswarm {
+
+namespace {
+
+RobotSwarm make_swarm(const Scenario& scenario, const Map& map, std::uint32_t trial, Rng& rng) {
+  const std::vector<Vec2> starts = robot_starts(scenario, map, trial);
+  return {*scenario.robots, RobotStepper(map, scenario.robots->max_speed * scenario.tick), starts,
+          rng};
+}
+
+}  // namespace
+
+std::vector<Vec2> robot_starts(const Scenario& scenario, const Map& map, std::uint32_t trial) {
+  if (scenario.robots->count == 0) return scenario.robots->starts;
+  const auto count = static_cast<std::size_t>(scenario.robots->count);
+  const GeodesicField way(map, *scenario.goal, 512);
+  const double guard = RobotStepper(map, scenario.robots->max_speed * scenario.tick).guard();
+  const Box& box = map.bounds();
+  Rng rng(scenario.seed, Purpose::scene, trial);
+  std::vector<Vec2> places;
+  for (std::size_t draw = 0; draw < 100'000 + 1000 * count && places.size() < count; ++draw) {
+    const double x = rng.uniform(box.lo.x, box.hi.x);
+    const Vec2 p{x, rng.uniform(box.lo.y, box.hi.y)};
+    if (way.reaches(p) && map.is_free(p, 4 * guard)) places.push_back(p);
+  }
+  if (places.size() < count)
+    throw InputError(fmt::format("found {} places from which the goal is reached, for {} robots",
+                                 places.size(), count));
+  return places;
+}
+
+RobotPlant::RobotPlant(const Scenario& scenario, World world, std::uint32_t trial)
+    : world_(std::move(world)),
+      walls_(world_.at(0)),
+      sensing_(scenario.sensing),
+      motion_(scenario.seed, Purpose::plant, trial),
+      noise_(scenario.seed, Purpose::sensor, trial),
+      swarm_(make_swarm(scenario, *world_.map, trial, motion_)) {
+  history_.push_back({0, swarm_.robots().positions()});
+}
+
+Observation RobotPlant::observe() {
+  const double seen = std::max(0.0, now_ - sensing_.observation_delay);
+  Observation observation{.now = now_, .seen = seen, .swarm = {}, .robots = {}, .world = &walls_};
+  const bool missed = noise_.uniform() < sensing_.missed_share;
+  if (missed) return observation;
+  seen_ = robots_at(seen);
+  if (sensing_.position_noise > 0)
+    for (Vec2& p : seen_) {
+      const double dx = noise_.normal();
+      p += sensing_.position_noise * Vec2{dx, noise_.normal()};
+    }
+  observation.robots = seen_;
+  observation.swarm = body_of(seen_, command_.heading);
+  return observation;
+}
+
+void RobotPlant::apply(const Command& command, double dt) {
+  swarm_.step(command, dt, motion_);
+  command_ = command;
+  now_ += dt;
+  history_.push_back({now_, swarm_.robots().positions()});
+  while (history_.size() > 1 && history_[1].t <= now_ - sensing_.observation_delay)
+    history_.pop_front();
+}
+
+std::optional<Truth> RobotPlant::truth() const {
+  const std::vector<Vec2>& robots = history_.back().robots;
+  return Truth{.now = now_,
+               .swarm = body_of(robots, command_.heading),
+               .speed = command_.speed,
+               .swept = {},
+               .robots = robots,
+               .world = &world_};
+}
+
+std::vector<Vec2> RobotPlant::robots_at(double t) const {
+  const auto after = std::find_if(history_.begin(), history_.end(),
+                                  [t](const Moment& moment) { return moment.t >= t; });
+  if (after == history_.end()) return history_.back().robots;
+  if (after == history_.begin() || after->t == t) return after->robots;
+  const Moment& before = *std::prev(after);
+  const double share = (t - before.t) / (after->t - before.t);
+  std::vector<Vec2> robots = before.robots;
+  for (std::size_t i = 0; i < robots.size(); ++i)
+    robots[i] += share * (after->robots[i] - robots[i]);
+  return robots;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/run/watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/core/infinity.hpp"
+#include "microswarm/geometry/distance.hpp"
+
+namespace microswarm {
+
+namespace {
+
+constexpr int most_samples = 20'000;  // of one obstacle in one way
+
+double top_speed_of(std::span<const TimedPose> way) {
+  double speed = 0;
+  for (std::size_t i = 1; i < way.size(); ++i)
+    speed = std::max(speed, distance(way[i - 1].pose.position, way[i].pose.position) /
+                                (way[i].t - way[i - 1].t));
+  return speed;
+}
+
+/// Of the radius [µm/s].
+double top_growth_of(std::span<const TimedPose> way) {
+  double growth = 0;
+  for (std::size_t i = 1; i < way.size(); ++i)
+    if (way[i].radius != way[i - 1].radius)
+      growth =
+          std::max(growth, std::abs(way[i].radius - way[i - 1].radius) / (way[i].t - way[i - 1].t));
+  return growth;
+}
+
+double clearance_of(Vec2 p, const Body& body) {
+  return std::visit([p](const auto& shape) { return distance(p, shape); }, body.shape);
+}
+
+/// The least a distance can have been between two moments when it changes by `reach` at most.
+double least_between(double at_first, double at_last, double reach) {
+  const double sum = at_first + at_last;
+  return sum < infinity ? (sum - reach) / 2 : std::min(at_first, at_last) - reach;
+}
+
+double speed_at(std::span<const TimedPose> way, double t) {
+  for (std::size_t i = 1; i < way.size(); ++i)
+    if (way[i].t >= t)
+      return distance(way[i - 1].pose.position, way[i].pose.position) / (way[i].t - way[i - 1].t);
+  return 0;
+}
+
+}  // namespace
+
+struct Watch::Way {
+  double t0;
+  std::span<const TimedPose> poses;
+  double top_speed;
+  double top_growth;
+};
+
+Watch::Watch(const World& world) : world_(&world), touching_(world.obstacles.size(), false) {
+  for (const Obstacle& obstacle : world.obstacles) top_speeds_.push_back(top_speed(obstacle));
+}
+
+std::vector<RunEvent> Watch::follow(double t0, std::span<const TimedPose> swept) {
+  std::vector<RunEvent> events;
+  if (swept.empty()) return events;
+  const Way way{t0, swept, top_speed_of(swept), top_growth_of(swept)};
+  if (const auto touch = wall_touch(way)) events.push_back(*touch);
+  for (std::uint32_t i = 0; i < world_->obstacles.size(); ++i) {
+    const std::optional<Sample> touch = first_touch(way, i);
+    if (touch && !touching_[i])
+      events.push_back({.t = t0 + touch->t,
+                        .kind = EventKind::contact_obstacle,
+                        .position = moment_on(swept, touch->t).pose.position,
+                        .clearance = touch->clearance,
+                        .speed = speed_at(swept, touch->t),
+                        .body = i});
+    touching_[i] = touch && sample(way, i, swept.back().t).gap < 0;
+  }
+  std::stable_sort(events.begin(), events.end(),
+                   [](const RunEvent& a, const RunEvent& b) { return a.t < b.t; });
+  return events;
+}
+
+Watch::Sample Watch::sample(const Way& way, std::uint32_t obstacle, double t) {
+  bodies_.clear();
+  append_bodies(world_->obstacles[obstacle], obstacle, way.t0 + t, bodies_);
+  const TimedPose swarm = moment_on(way.poses, t);
+  double clearance = infinity;
+  for (const Body& body : bodies_)
+    clearance = std::min(clearance, clearance_of(swarm.pose.position, body));
+  if (clearance < obstacles_.clearance) obstacles_ = {clearance, way.t0 + t};
+  const double gap = clearance - swarm.radius;
+  least_gap_ = std::min(least_gap_, gap);
+  return {t, clearance, gap};
+}
+
+// Bisects the way, earlier half first, wherever the obstacle could touch or be nearer than ever.
+std::optional<Watch::Sample> Watch::first_touch(const Way& way, std::uint32_t obstacle) {
+  const double rate = way.top_speed + top_speeds_[obstacle];
+  const double gap_rate = rate + way.top_growth;
+  std::optional<Sample> touch;
+  std::vector<std::pair<Sample, Sample>> open{
+      {sample(way, obstacle, 0), sample(way, obstacle, way.poses.back().t)}};
+  if (open.back().first.gap < 0) touch = open.back().first;
+  for (int n = 0; n < most_samples && !open.empty(); ++n) {
+    const auto [a, b] = open.back();
+    open.pop_back();
+    if (std::min(a.clearance, b.clearance) == infinity) continue;  // absent at both ends
+    const double least = least_between(a.clearance, b.clearance, rate * (b.t - a.t));
+    const double least_gap = least_between(a.gap, b.gap, gap_rate * (b.t - a.t));
+    const bool may_touch =
+        !touch && least_gap < 0 && std::min(a.gap, b.gap) - least_gap > resolution;
+    const bool may_be_nearest =
+        least < obstacles_.clearance - resolution || least_gap < least_gap_ - resolution;
+    if (may_touch || may_be_nearest) {
+      const Sample middle = sample(way, obstacle, (a.t + b.t) / 2);
+      open.push_back({middle, b});
+      open.push_back({a, middle});
+    } else if (!touch && b.gap < 0) {
+      // Here the gap falls as fast as it can, hence evenly.
+      const double share = a.gap / (a.gap - b.gap);
+      touch = sample(way, obstacle, a.t + share * (b.t - a.t));
+    }
+  }
+  return touch;
+}
+
+std::optional<RunEvent> Watch::wall_touch(const Way& way) {
+  const Map& map = *world_->map;
+  std::optional<RunEvent> event;
+  bool touching = touching_wall_;
+  for (std::size_t i = 0; i < way.poses.size(); ++i) {
+    const TimedPose& here = way.poses[i];
+    const TimedPose& before = way.poses[i > 0 ? i - 1 : 0];
+    const Segment piece{before.pose.position, here.pose.position};
+    const double radius = std::max(before.radius, here.radius);
+    const double way_length = distance(piece.a, piece.b);
+    if (map.field().lower(piece.b) - way_length >= std::max(walls_.clearance, radius)) {
+      touching = false;
+      continue;
+    }
+    // Inside the border its distance is concave along the piece: least at an end.
+    const double border = std::min(map.border_clearance(piece.a), map.border_clearance(piece.b));
+    const double clearance = map.walls().clearance(piece, border);
+    if (clearance < walls_.clearance) walls_ = {clearance, way.t0 + here.t};
+    const bool touches = clearance < radius;
+    if (touches && !touching && !event) {
+      const std::size_t body = map.walls().nearest(piece.b, clearance + way_length);
+      event = {.t = way.t0 + here.t,
+               .kind = EventKind::contact_wall,
+               .position = piece.b,
+               .clearance = clearance,
+               .speed = i > 0 ? way_length / (here.t - before.t) : 0,
+               .body = body < map.walls().bodies().size() && clearance < border
+                           ? map.walls().bodies()[body].obstacle
+                           : border_body};
+    }
+    touching = touches;
+  }
+  touching_wall_ = touching;
+  return event;
+}
+
+std::optional<double> first_arrival(std::span<const TimedPose> swept, Vec2 goal, double tolerance) {
+  for (std::size_t i = 0; i < swept.size(); ++i) {
+    const TimedPose& a = swept[i > 0 ? i - 1 : 0];
+    const TimedPose& b = swept[i];
+    const double share =
+        first_contact(Segment{a.pose.position, b.pose.position}, tolerance, Disc{goal, 0});
+    if (share <= 1) return a.t + share * (b.t - a.t);
+  }
+  return std::nullopt;
+}
+
+TimedPose moment_on(std::span<const TimedPose> swept, double t) {
+  const auto after =
+      std::find_if(swept.begin(), swept.end(), [t](const TimedPose& pose) { return pose.t >= t; });
+  if (after == swept.end()) return swept.back();
+  if (after == swept.begin()) return *after;
+  const TimedPose& a = *std::prev(after);
+  const double share = (t - a.t) / (after->t - a.t);
+  return {t,
+          {a.pose.position + share * (after->pose.position - a.pose.position),
+           wrap(a.pose.heading + share * wrap(after->pose.heading - a.pose.heading))},
+          a.radius + share * (after->radius - a.radius)};
+}
+
+}  // namespace microswarm

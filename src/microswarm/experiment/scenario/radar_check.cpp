@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/scenario/radar_check.hpp"
+
+#include <fmt/format.h>
+
+#include "microswarm/navigation/radar/wait_area.hpp"
+#include "microswarm/world/map/map.hpp"
+#include "microswarm/world/world.hpp"
+
+namespace microswarm {
+namespace {
+
+/// A phased goal, what it is called, and its key.
+struct Stage {
+  Vec2 place;
+  std::string name;
+  std::string key;
+};
+
+std::vector<Stage> stages_of(const Scenario& scenario, const RadarParams& radar) {
+  std::vector<Stage> stages{{scenario.start->position, "start", "start"}};
+  for (std::size_t i = 0; i < radar.waypoints.size(); ++i)
+    stages.push_back({radar.waypoints[i], fmt::format("waypoint {}", i + 1),
+                      fmt::format("navigator.waypoints_um.{}", i)});
+  stages.push_back({*scenario.goal, "goal", "goal_um"});
+  return stages;
+}
+
+void check_legs(const std::vector<Stage>& stages, const Map& map, const Places& where) {
+  for (std::size_t i = 1; i < stages.size(); ++i) {
+    const Stage &a = stages[i - 1], &b = stages[i];
+    if (map.is_free(Segment{a.place, b.place}, 0)) continue;
+    throw where.error(
+        {b.key, a.key},
+        fmt::format("the way from {} ({:.6g}, {:.6g}) to {} ({:.6g}, {:.6g}) µm crosses a wall",
+                    a.name, a.place.x, a.place.y, b.name, b.place.x, b.place.y));
+  }
+}
+
+/// Why the swarm would never get past a valve in the area, or nothing.
+std::string never_opens(const WaitArea& area, const Valve& valve) {
+  const bool opens = valve.greatest_gap >= valve.span ||   // then nothing stands there
+                     valve.least_gap >= area.least_gap ||  // it is never too narrow
+                     valve.greatest_gap > area.least_gap;
+  if (opens) return {};
+  return fmt::format("least_gap_um is {:.6g}, the valve in it opens to {:.6g} µm", area.least_gap,
+                     valve.greatest_gap);
+}
+
+void check_area(const WaitArea& area, const Scenario& scenario, const Map& map,
+                const Places& where) {
+  const Box b = map.bounds();
+  const Body ground{Polygon{{b.lo, {b.hi.x, b.lo.y}, b.hi, {b.lo.x, b.hi.y}}, {}}};
+  if (gap_between(Body{outline_of(area)}, ground) > 0)
+    throw where.error("centre_um", fmt::format("at ({:.6g}, {:.6g}) µm it is outside the map",
+                                               area.centre.x, area.centre.y));
+  bool has_valve = false;
+  for (std::size_t i = 0; i < scenario.obstacles.size(); ++i) {
+    const auto* valve = std::get_if<Valve>(&scenario.obstacles[i].shape);
+    const auto* still = std::get_if<Still>(&scenario.obstacles[i].motion);
+    if (!valve || (still && !is_in(area, still->position))) continue;
+    has_valve = true;
+    if (const std::string why = never_opens(area, *valve); still && !why.empty())
+      throw where.error("least_gap_um", fmt::format("{} (obstacle {})", why, i + 1));
+  }
+  if (!has_valve) throw where.error("centre_um", "the middle of no valve is in it");
+}
+
+}  // namespace
+
+void check_radar(const Scenario& scenario, const World& world, const Places& where) {
+  const auto* radar = std::get_if<RadarParams>(&scenario.navigator);
+  if (!radar || !scenario.start || !scenario.goal) return;
+  if (!radar->waypoints.empty()) check_legs(stages_of(scenario, *radar), *world.map, where);
+  for (std::size_t i = 0; i < radar->wait_areas.size(); ++i)
+    check_area(radar->wait_areas[i], scenario, *world.map,
+               where.within(fmt::format("navigator.wait_areas.{}", i),
+                            fmt::format("wait area {}", i + 1)));
+}
+
+}  // namespace microswarm

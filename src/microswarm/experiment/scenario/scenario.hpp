@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "microswarm/config/type.hpp"
+#include "microswarm/core/fields.hpp"
+#include "microswarm/core/places.hpp"
+#include "microswarm/formats/map_spec.hpp"
+#include "microswarm/navigation/params.hpp"
+#include "microswarm/swarm/body/swarm_params.hpp"
+#include "microswarm/swarm/robots/robot_swarm_params.hpp"
+#include "microswarm/world/obstacles/obstacle.hpp"
+
+namespace microswarm {
+
+/// What the camera and the image processing give of the world, and when.
+struct SensingParams {
+  double observation_delay = 0.05;
+  double position_noise = 0;
+  double heading_noise = 0;
+  double missed_share = 0;
+  double obstacle_noise = 0;
+  double obstacle_missed_share = 0;
+  double obstacle_memory = 0.5;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.observation_delay,
+          {"observation_delay", Unit::s, {0, 10}, "Age of a frame when the navigator gets it."});
+    visit(self.position_noise,
+          {"position_noise", Unit::um, {0, 1e4}, "Standard deviation of the swarm's position."});
+    visit(self.heading_noise,
+          {"heading_noise", Unit::deg, {0, 360}, "Standard deviation of the swarm's heading."});
+    visit(self.missed_share,
+          {"missed_share", Unit::none, {0, 1}, "Share of frames in which no swarm is found."});
+    visit(self.obstacle_noise,
+          {"obstacle_noise", Unit::um, {0, 1e4}, "Standard deviation of an obstacle's position."});
+    visit(self.obstacle_missed_share, {"obstacle_missed_share",
+                                       Unit::none,
+                                       {0, 1},
+                                       "Share of frames in which an obstacle is not found."});
+    visit(self.obstacle_memory, {"obstacle_memory",
+                                 Unit::s,
+                                 {0, 60},
+                                 "An obstacle that is not found goes on as seen for so long."});
+  }
+};
+
+/// One experiment as data: the world, the swarm, where from, where to, and who steers. A swarm seen
+/// as one body has a start and a goal; robots that are told apart have starts and either one goal,
+/// at which they gather, or a goal each. `check` sees to that.
+struct Scenario {
+  std::string name;
+  std::string description;
+  MapSpec map;
+  std::vector<Obstacle> obstacles;
+  SwarmParams swarm;
+  std::optional<RobotSwarmParams> robots;
+  SensingParams sensing;
+  std::optional<Pose2> start;
+  std::optional<Vec2> goal;
+  double goal_tolerance = 50;
+  NavigatorParams navigator;
+  double tick = 0.1;
+  double time_limit = 300;
+  double hold_limit = 60;
+  bool stop_at_contact = true;
+  std::optional<double> detection_range;
+  std::uint64_t seed = 1;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.name, {"name", Unit::none, {}, "What the run is called."});
+    visit(self.description, {"description", Unit::none, {}, "What it shows, for people."});
+    visit(self.map, {"map", Unit::none, {}, "The walls.", true});
+    visit(self.obstacles, {"obstacles", Unit::none, {}, "What moves or changes."});
+    visit(self.swarm, {"swarm", Unit::none, {}, "The swarm's body and motion, seen as one."});
+    visit(self.robots,
+          {"robots", Unit::none, {}, "Robots that are told apart, in place of `swarm`."});
+    visit(self.sensing, {"sensing", Unit::none, {}, "What the camera sees, and when."});
+    visit(self.start,
+          {"start", Unit::none, {}, "Where the swarm stands at t = 0; not for robots."});
+    visit(self.goal, {"goal", Unit::um, {}, "Where it has to go, or where robots have to gather."});
+    visit(self.goal_tolerance,
+          {"goal_tolerance",
+           Unit::um,
+           {1e-3, 1e6},
+           "How near to the goal counts as there; of robots that gather their mean way, F."});
+    visit(self.navigator, {"navigator", Unit::none, {}, "Who steers."});
+    visit(self.tick, {"tick", Unit::s, {1e-3, 10}, "Time between two commands."});
+    visit(self.time_limit,
+          {"time_limit", Unit::s, {0, 1e5}, "Simulated time after which it ends."});
+    visit(self.hold_limit,
+          {"hold_limit", Unit::s, {0, 1e5}, "Ends after holding this long without a break."});
+    visit(self.stop_at_contact,
+          {"stop_at_contact",
+           Unit::none,
+           {},
+           "End at the first touch, or count it and go on; it ends collided."});
+    visit(self.detection_range,
+          {"detection_range",
+           Unit::um,
+           {0, 1e6},
+           "Obstacles nearer to the swarm's edge count as being avoided, in the metrics; none: the "
+           "radar's own range (d_r), of other navigators 50 µm."});
+    visit(self.seed, {"seed", Unit::none, {}, "Seed of every random stream."});
+  }
+};
+
+/// Reads a scenario; `settings` are `key.path=value` texts, as from --set, applied after the file.
+/// Throws InputError, naming file, line and column. `places` then tells where its keys stand.
+Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& settings,
+                       Places& places);
+Scenario read_scenario(const std::filesystem::path& file,
+                       const std::vector<std::string>& settings = {});
+
+/// The scenario as YAML with every key written out; reading it gives the same fields back.
+std::string scenario_text(const Scenario& scenario);
+
+/// Compiled once, in scenario.cpp: it describes all that a scenario may hold.
+extern template const Type& type_of<Scenario>();
+
+}  // namespace microswarm

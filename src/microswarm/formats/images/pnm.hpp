@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "microswarm/formats/images/image.hpp"
+
+namespace microswarm {
+
+/// Reads a Netpbm picture P1 to P6 (PBM, PGM, PPM, plain or raw; maximum up to 65535, scaled to 8
+/// bits). Throws InputError "NAME: WHY".
+Image decode_pnm(std::span<const std::byte> bytes, std::string_view name);
+
+/// Raw PGM (grey) or PPM (colour) of an 8-bit picture.
+std::string encode_pnm(const Image& image);
+
+}  // namespace microswarm

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/formats/images/rasterise.hpp"
+
+#include <cmath>
+#include <cstdint>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/text.hpp"
+#include "microswarm/formats/images/image_header.hpp"
+
+namespace microswarm {
+namespace {
+
+/// Cells along a length; one that overhangs by less than a millionth is not begun.
+std::int64_t cells_along(double length, double cell) {
+  const double cells = std::ceil(length / cell - 1e-6);
+  return cells < 1 ? 1 : static_cast<std::int64_t>(std::min(cells, 1e15));
+}
+
+}  // namespace
+
+Mask rasterise(const Map& map, double cell) {
+  if (!(cell > 0) || !std::isfinite(cell))
+    throw InputError("cell of " + number_text(cell) + " µm: must be above 0");
+  const std::int64_t width = cells_along(map.bounds().width(), cell);
+  const std::int64_t height = cells_along(map.bounds().height(), cell);
+  check_image_size(width, height, "map in cells of " + number_text(cell) + " µm", "cells");
+  Mask mask(static_cast<int>(width), static_cast<int>(height));
+  for (int row = 0; row < mask.height; ++row) {
+    for (int column = 0; column < mask.width; ++column) {
+      const Vec2 centre = cell_centre(mask, column, row, cell, map.bounds().lo);
+      mask.at(column, row) = !map.is_free(centre, 0);
+    }
+  }
+  return mask;
+}
+
+}  // namespace microswarm

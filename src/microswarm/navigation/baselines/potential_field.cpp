@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/baselines/potential_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/geometry/distance.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double most_nearness = 20;  // of influence / gap: what pushes at a touch
+constexpr double stencil = 5;         // of the gradient of the walls' push [µm]
+constexpr double resting = 2;         // slower is taken to stand [µm/s]
+constexpr double guarded_time = 0.2;  // a command lasts no longer [s]
+
+/// Nearest point of the body's outline to `p`.
+Vec2 nearest_of(const Body& body, Vec2 p) {
+  if (const auto* disc = std::get_if<Disc>(&body.shape)) {
+    const Vec2 away = p - disc->centre;
+    const double d = norm(away);
+    return d > 0 ? disc->centre + (disc->radius / d) * away : disc->centre;
+  }
+  Vec2 nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for_each_edge(std::get<Polygon>(body.shape), [&](Vec2 a, Vec2 b) {
+    const Vec2 q = nearest_point(p, Segment{a, b});
+    if (squared_norm(q - p) >= least) return;
+    least = squared_norm(q - p);
+    nearest = q;
+  });
+  return nearest;
+}
+
+}  // namespace
+
+PotentialFieldNavigator::PotentialFieldNavigator(const PotentialFieldParams& params,
+                                                 const SwarmLimits& swarm, Vec2 goal,
+                                                 double goal_tolerance)
+    : params_(params),
+      helm_(swarm, params.speed, goal, goal_tolerance, params.frame_timeout),
+      guide_(params.guide, goal),
+      tracker_(params.tracker) {}
+
+void PotentialFieldNavigator::prepare(const Snapshot& world) {
+  const double radius = helm_.swarm().radius;
+  helm_.prepare(world, radius, radius + params_.margin);
+  guide_.prepare(world.map(), helm_.aim(), radius + params_.margin, radius);
+}
+
+Command PotentialFieldNavigator::step(const Observation& seen, const Stop&) {
+  tracker_.see(seen);
+  const Pose2* pose = helm_.begin(seen);
+  if (!pose) return helm_.rest();
+  const Snapshot& world = *seen.world;
+  const Vec2 p = pose->position;
+  const Vec2 target = guide_.target(world.map(), p);
+  helm_.show_target(target);
+  const Vec2 draw = unit_vector(heading_of(target - p));
+  Vec2 pushes = push_of_walls(world.map(), p);
+  const auto bodies = world.moving().bodies();
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    pushes += push_of(bodies[i], tracker_.body(i), p, helm_.speed() * draw);
+  const Vec2 force = draw + pushes;
+  const Command hold{pose->heading, 0};
+  if (norm(force) < params_.least_force) return helm_.issue(hold, "stuck");
+  if (const auto command = clear_of_walls(world.map(), *pose, force))
+    return helm_.issue(*command, pushes == Vec2{} ? "follow" : "avoid");
+  return helm_.issue(hold, "hold");
+}
+
+/// Strength of a push at a gap [µm].
+double PotentialFieldNavigator::push(double gap, double influence) const {
+  if (gap >= influence) return 0;
+  const double x = std::min(most_nearness, influence / std::max(gap, 1e-9));
+  return params_.repulsion * (x - 1) * x * x;
+}
+
+/// What stands pushes less near the goal, or a goal beside a wall could not be reached (GNRON).
+double PotentialFieldNavigator::calm_near_goal(Vec2 p) const {
+  return std::min(1.0, distance(p, helm_.aim()) / params_.influence);
+}
+
+/// The gradient of the clearance points away from the nearest wall; between two walls its central
+/// differences cancel out.
+Vec2 PotentialFieldNavigator::push_of_walls(const Map& map, Vec2 p) const {
+  const double edge = helm_.swarm().radius + params_.margin;
+  const double gap = map.clearance(p) - edge;
+  if (gap >= params_.wall_influence) return {};
+  const auto slope = [&](Vec2 d) {
+    return (map.clearance(p + d) - map.clearance(p - d)) / (2 * stencil);
+  };
+  return calm_near_goal(p) * push(gap, params_.wall_influence) *
+         Vec2{slope({stencil, 0}), slope({0, stencil})};
+}
+
+/// −∇ of ½ k g₀ (g₀ / g − 1)² with g = gap − reaction time · closing speed: away from the nearest
+/// point, and sideways the way the two pass each other already. `wanted` is the swarm's velocity
+/// without obstacles: pushed by its present one, it would go back and forth before what stands.
+Vec2 PotentialFieldNavigator::push_of(const Body& body, const TrackedBody& motion, Vec2 p,
+                                      Vec2 wanted) const {
+  const Vec2 at = p - helm_.delay() * motion.velocity;  // in the frame of the body as it was seen
+  const bool inside = depth_in(body, at) >= 0;
+  const Vec2 way = (inside ? motion.centre : nearest_of(body, at)) - at;
+  const double d = norm(way);
+  if (d == 0) return {};
+  const Vec2 n = (1 / d) * way;
+  const Vec2 relative = wanted - motion.velocity;
+  const double growth = outward_speed(body, motion);
+  const double closing = std::max(0.0, dot(relative, n)) + growth;
+  const double gap = (inside ? 0 : d) - helm_.swarm().radius - params_.margin -
+                     helm_.delay() * growth - params_.reaction_time * closing;
+  const Vec2 across = relative - dot(relative, n) * n;
+  const double spoke = std::max(helm_.swarm().radius, distance(at, motion.centre));
+  const double calm = norm(motion.velocity) < resting ? calm_near_goal(p) : 1;
+  return calm * push(gap, params_.influence) * ((params_.reaction_time / spoke) * across - n);
+}
+
+/// The command that follows the force, or the nearest direction beside it, and into no wall.
+std::optional<Command> PotentialFieldNavigator::clear_of_walls(const Map& map, const Pose2& pose,
+                                                               Vec2 force) const {
+  constexpr int most_aside = 5;
+  constexpr double step_aside = pi / 10;
+  const double turn_rate = helm_.swarm().max_turn_rate;
+  const double r = std::min(helm_.swarm().radius, (1 - 1e-9) * map.clearance(pose.position));
+  const double speed = helm_.speed() * std::min(1.0, norm(force));
+  for (int k = 0; k <= 2 * most_aside; ++k) {
+    const int steps = k % 2 == 0 ? -k / 2 : (k + 1) / 2;
+    const double aside = steps * step_aside;
+    Command command{wrap(heading_of(force) + aside), speed};
+    const double turn = std::isinf(turn_rate) ? 0 : wrap(command.heading - pose.heading);
+    if (std::abs(turn) > pi / 2) command.speed *= 0.5;
+    const Pose2 next = unicycle_step(pose, command, turn_rate, guarded_time / 2);
+    const Pose2 last = unicycle_step(next, command, turn_rate, guarded_time / 2);
+    if (map.is_free(Segment{pose.position, next.position}, r) &&
+        map.is_free(Segment{next.position, last.position}, r))
+      return command;
+  }
+  return std::nullopt;
+}
+
+}  // namespace microswarm

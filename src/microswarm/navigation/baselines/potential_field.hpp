@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "microswarm/navigation/baselines/potential_field_params.hpp"
+#include "microswarm/navigation/prediction/obstacle_tracker.hpp"
+#include "microswarm/navigation/steering/guide.hpp"
+#include "microswarm/navigation/steering/helm.hpp"
+
+namespace microswarm {
+
+/// See PotentialFieldParams. No command leads into a wall: where the force does, the nearest
+/// direction beside it that does not. States: follow (nothing pushes), avoid, stuck (the forces
+/// cancel out: a local minimum), hold, arrived, blind.
+class PotentialFieldNavigator : public Navigator {
+ public:
+  PotentialFieldNavigator(const PotentialFieldParams& params, const SwarmLimits& swarm, Vec2 goal,
+                          double goal_tolerance);
+
+  void prepare(const Snapshot& world) override;
+  Command step(const Observation& observation, const Stop& stop) override;
+  NavigatorView view() const override { return helm_.view(); }
+
+ private:
+  double push(double gap, double influence) const;
+  Vec2 push_of_walls(const Map& map, Vec2 p) const;
+  Vec2 push_of(const Body& body, const TrackedBody& motion, Vec2 p, Vec2 wanted) const;
+  double calm_near_goal(Vec2 p) const;
+  std::optional<Command> clear_of_walls(const Map& map, const Pose2& pose, Vec2 force) const;
+
+  PotentialFieldParams params_;
+  Helm helm_;
+  GoalGuide guide_;
+  ObstacleTracker tracker_;
+};
+
+}  // namespace microswarm

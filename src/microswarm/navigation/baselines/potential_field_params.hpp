@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/navigation/prediction/obstacle_tracker_params.hpp"
+#include "microswarm/navigation/steering/guide_kind.hpp"
+
+namespace microswarm {
+
+/// Baseline: artificial potential field for moving obstacles after Ge and Cui (Autonomous Robots
+/// 13, 2002). The target draws with a force of 1; a wall, border or obstacle at the gap g pushes
+/// with k (x − 1) x², x = influence / g, the negative gradient of ½ k g₀ (x − 1)². The gap to what
+/// moves is less what the two come nearer within the reaction time.
+struct PotentialFieldParams {
+  static constexpr std::string_view type_name = "potential_field";
+  double speed = 60;
+  double repulsion = 0.1;  // k
+  double influence = 150;  // g₀
+  double wall_influence = 20;
+  double reaction_time = 0.5;
+  double least_force = 0.05;
+  double margin = 10;
+  Guide guide = Guide::route;
+  double frame_timeout = 0.5;
+  ObstacleTrackerParams tracker;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Speed asked for."});
+    visit(self.repulsion,
+          {"repulsion", Unit::none, {0, 1e6}, "Gain of the push, beside a draw of 1."});
+    visit(self.influence,
+          {"influence", Unit::um, {1e-3, 1e6}, "Gap from which on no obstacle pushes."});
+    visit(self.wall_influence,
+          {"wall_influence", Unit::um, {1e-3, 1e6}, "Gap from which on no wall pushes."});
+    visit(self.reaction_time,
+          {"reaction_time", Unit::s, {0, 60}, "What comes nearer counts as so much nearer."});
+    visit(self.least_force,
+          {"least_force", Unit::none, {0, 1}, "Stuck, and at rest, under a lesser force."});
+    visit(self.margin, {"margin", Unit::um, {0, 1e5}, "Gaps begin so far from the swarm's edge."});
+    visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight, or route."});
+    visit(self.frame_timeout,
+          {"frame_timeout", Unit::s, {0, 60}, "Hold when the newest frame is older than this."});
+    visit(self.tracker, {"tracker", Unit::none, {}, "How the obstacles' motion is told."});
+  }
+};
+
+}  // namespace microswarm

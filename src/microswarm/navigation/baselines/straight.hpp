@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "microswarm/navigation/baselines/straight_params.hpp"
+#include "microswarm/navigation/steering/helm.hpp"
+
+namespace microswarm {
+
+/// See StraightParams. What is near, but not nearer further on, does not stop it. States: follow,
+/// hold, arrived, blind.
+class StraightNavigator : public Navigator {
+ public:
+  StraightNavigator(const StraightParams& params, const SwarmLimits& swarm, Vec2 goal,
+                    double goal_tolerance)
+      : params_(params), helm_(swarm, params.speed, goal, goal_tolerance, params.frame_timeout) {}
+
+  void prepare(const Snapshot& world) override;
+  Command step(const Observation& observation, const Stop& stop) override;
+  NavigatorView view() const override { return helm_.view(); }
+
+ private:
+  bool way_is_clear(const Snapshot& world, Pose2 pose) const;
+
+  StraightParams params_;
+  Helm helm_;
+};
+
+}  // namespace microswarm

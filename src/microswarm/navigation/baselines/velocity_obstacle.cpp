@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/baselines/velocity_obstacle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/geometry/distance.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double deforming_time = 1;  // for which polygons are taken to go on deforming [s]
+constexpr double choice_rounding = 1e-9;
+constexpr int turning_pieces = 4;
+
+/// When, in [0, t], a point at `d` from a disc's centre that moves with `v` meets its rim, which
+/// begins at `reach` and grows: the least root of |d + v t| = reach + growth t.
+double rim_contact(Vec2 d, Vec2 v, double reach, double growth, double t) {
+  const double c = squared_norm(d) - reach * reach;
+  if (c <= 0) return 0;
+  const double a = squared_norm(v) - growth * growth;
+  const double b = dot(d, v) - reach * growth;  // half of the linear term
+  const double discriminant = b * b - a * c;
+  if (discriminant < 0) return never;
+  const double root = c / (-b + std::sqrt(discriminant));
+  return root >= 0 && root <= t ? root : never;
+}
+
+/// Calls visit(way, t0, t1) for the straight pieces of the way of the next `time` seconds, turning
+/// first, until one says false; says whether none did.
+template <class Visit>
+bool along_the_way(Pose2 pose, const Command& command, double turn_rate, double time,
+                   Visit&& visit) {
+  double t = 0;
+  const double turn = std::abs(wrap(command.heading - pose.heading));
+  if (command.speed > 0 && std::isfinite(turn_rate) && turn > choice_rounding) {
+    const double piece = std::min(time, turn / turn_rate) / turning_pieces;
+    for (int k = 0; k < turning_pieces; ++k, t += piece) {
+      const Pose2 next = unicycle_step(pose, command, turn_rate, piece);
+      if (!visit(Segment{pose.position, next.position}, t, t + piece)) return false;
+      pose = next;
+    }
+  }
+  const Vec2 way = std::max(0.0, time - t) * command.speed * unit_vector(command.heading);
+  return visit(Segment{pose.position, pose.position + way}, t, time);
+}
+
+}  // namespace
+
+VelocityObstacleNavigator::VelocityObstacleNavigator(const VelocityObstacleParams& params,
+                                                     const SwarmLimits& swarm, Vec2 goal,
+                                                     double goal_tolerance)
+    : params_(params),
+      helm_(swarm, params.speed, goal, goal_tolerance, params.frame_timeout),
+      guide_(params.guide, goal),
+      tracker_(params.tracker) {
+  rank_choices();
+}
+
+void VelocityObstacleNavigator::rank_choices() {
+  const Vec2 preferred{helm_.speed(), 0};
+  choices_.push_back({0, 0, helm_.speed()});
+  for (int s = params_.speeds; s > 0; --s)
+    for (int k = 0; k < params_.directions; ++k) {
+      const double turn = wrap(2 * pi * k / params_.directions);
+      const double speed = helm_.speed() * s / params_.speeds;
+      choices_.push_back({turn, speed, distance(speed * unit_vector(turn), preferred)});
+    }
+  std::stable_sort(choices_.begin(), choices_.end(),
+                   [](const Choice& a, const Choice& b) { return a.off < b.off; });
+}
+
+void VelocityObstacleNavigator::prepare(const Snapshot& world) {
+  const double radius = helm_.swarm().radius;
+  helm_.prepare(world, radius, radius + params_.margin);
+  guide_.prepare(world.map(), helm_.aim(), radius + params_.margin, radius);
+}
+
+Command VelocityObstacleNavigator::step(const Observation& seen, const Stop&) {
+  tracker_.see(seen);
+  const Pose2* pose = helm_.begin(seen);
+  if (!pose) return helm_.rest();
+  const Map& map = seen.world->map();
+  const Vec2 target = guide_.target(map, pose->position);
+  helm_.show_target(target);
+  find_threats(*seen.world, pose->position);
+  const double preferred = heading_of(target - pose->position);
+  Command best{pose->heading, 0};
+  double least_penalty = never;
+  for (const Choice& choice : choices_) {
+    const Command command{wrap(preferred + choice.turn), choice.speed};
+    if (!clear_of_walls(map, *pose, command)) continue;
+    const double time = time_to_contact(*pose, command);
+    if (time >= params_.horizon) {
+      if (choice.speed == 0) return helm_.issue({pose->heading, 0}, "hold");
+      return helm_.issue(command, choice.off == 0 ? "follow" : "avoid");
+    }
+    const double penalty = choice.off + params_.urgency / std::max(time, choice_rounding);
+    if (penalty >= least_penalty) continue;
+    least_penalty = penalty;
+    best = command;
+  }
+  if (best.speed == 0) return helm_.issue({pose->heading, 0}, "hold");
+  return helm_.issue(best, "escape");
+}
+
+/// The bodies that can be met within the horizon. What is nearer than the margin already may be
+/// left behind, but not come nearer.
+void VelocityObstacleNavigator::find_threats(const Snapshot& world, Vec2 p) {
+  threats_.clear();
+  const auto bodies = world.moving().bodies();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const TrackedBody motion = tracker_.body(i);
+    const bool round = std::holds_alternative<Disc>(bodies[i].shape);
+    const double speed = outward_speed(bodies[i], motion);
+    const Vec2 at = p - helm_.delay() * motion.velocity;
+    const double away =
+        std::visit([&](const auto& shape) { return distance(at, shape); }, bodies[i].shape);
+    const double wanted = helm_.swarm().radius + params_.margin +
+                          speed * (helm_.delay() + (round ? 0 : deforming_time));
+    const double top = helm_.speed() + norm(motion.velocity) + speed;
+    if (away - wanted > top * params_.horizon) continue;
+    threats_.push_back({.body = &bodies[i],
+                        .velocity = motion.velocity,
+                        .reach = std::min(wanted, (1 - choice_rounding) * away),
+                        .growth = round ? speed : 0});
+  }
+}
+
+bool VelocityObstacleNavigator::clear_of_walls(const Map& map, const Pose2& pose,
+                                               const Command& command) const {
+  if (command.speed == 0) return true;
+  const double reach = params_.wall_horizon * command.speed;
+  const double wanted = helm_.swarm().radius + params_.margin;
+  const double r = std::min(helm_.wall_clearance(wanted, pose.position, reach),
+                            (1 - choice_rounding) * map.clearance(pose.position));
+  const double time =
+      std::min(params_.wall_horizon, distance(pose.position, helm_.aim()) / command.speed);
+  return along_the_way(pose, command, helm_.swarm().max_turn_rate, time,
+                       [&](Segment way, double, double) { return map.is_free(way, r); });
+}
+
+/// When the command leads into a body; infinity when not within the horizon.
+double VelocityObstacleNavigator::time_to_contact(const Pose2& pose, const Command& command) const {
+  double first = never;
+  along_the_way(pose, command, helm_.swarm().max_turn_rate, params_.horizon,
+                [&](Segment way, double t0, double t1) {
+                  for (const Threat& threat : threats_)
+                    first = std::min(first, time_to_contact(threat, way, t0, t1));
+                  return first == never;
+                });
+  return first;
+}
+
+double VelocityObstacleNavigator::time_to_contact(const Threat& threat, Segment way, double t0,
+                                                  double t1) const {
+  const Segment own_frame{way.a - (helm_.delay() + t0) * threat.velocity,
+                          way.b - (helm_.delay() + t1) * threat.velocity};
+  if (const auto* disc = std::get_if<Disc>(&threat.body->shape)) {
+    if (t1 <= t0) return never;
+    const Vec2 velocity = (1 / (t1 - t0)) * (own_frame.b - own_frame.a);
+    const double reach = disc->radius + threat.reach + threat.growth * t0;
+    return t0 + rim_contact(own_frame.a - disc->centre, velocity, reach, threat.growth, t1 - t0);
+  }
+  const double share =
+      first_contact(own_frame, threat.reach, std::get<Polygon>(threat.body->shape));
+  return share <= 1 ? t0 + share * (t1 - t0) : never;
+}
+
+}  // namespace microswarm

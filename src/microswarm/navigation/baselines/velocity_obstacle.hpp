@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "microswarm/navigation/baselines/velocity_obstacle_params.hpp"
+#include "microswarm/navigation/prediction/obstacle_tracker.hpp"
+#include "microswarm/navigation/steering/guide.hpp"
+#include "microswarm/navigation/steering/helm.hpp"
+
+namespace microswarm {
+
+/// See VelocityObstacleParams. States: follow (the preferred velocity), avoid, escape (none will
+/// do), hold, arrived, blind.
+class VelocityObstacleNavigator : public Navigator {
+ public:
+  VelocityObstacleNavigator(const VelocityObstacleParams& params, const SwarmLimits& swarm,
+                            Vec2 goal, double goal_tolerance);
+
+  void prepare(const Snapshot& world) override;
+  Command step(const Observation& observation, const Stop& stop) override;
+  NavigatorView view() const override { return helm_.view(); }
+
+ private:
+  /// A body that may be met.
+  struct Threat {
+    const Body* body = nullptr;
+    Vec2 velocity;
+    double reach = 0;   ///< so near to it counts as contact [µm]
+    double growth = 0;  ///< of a disc's reach [µm/s]
+  };
+  struct Choice {
+    double turn = 0;  ///< from the preferred heading [rad]
+    double speed = 0;
+    double off = 0;  ///< from the preferred velocity [µm/s]
+  };
+
+  void rank_choices();
+  void find_threats(const Snapshot& world, Vec2 p);
+  bool clear_of_walls(const Map& map, const Pose2& pose, const Command& command) const;
+  double time_to_contact(const Pose2& pose, const Command& command) const;
+  double time_to_contact(const Threat& threat, Segment way, double t0, double t1) const;
+
+  VelocityObstacleParams params_;
+  Helm helm_;
+  GoalGuide guide_;
+  ObstacleTracker tracker_;
+  std::vector<Threat> threats_;
+  std::vector<Choice> choices_;  ///< nearest to the preferred one first
+};
+
+}  // namespace microswarm

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/following/follower.hpp"
+
+#include <algorithm>
+
+#include "microswarm/core/angles.hpp"
+
+namespace microswarm {
+namespace {
+
+double share_of(Segment s, Vec2 p) {
+  const Vec2 way = s.b - s.a;
+  const double length2 = squared_norm(way);
+  return length2 > 0 ? std::clamp(dot(p - s.a, way) / length2, 0.0, 1.0) : 1.0;
+}
+
+}  // namespace
+
+PathPlace nearest_place(std::span<const Vec2> path, Vec2 p, PathPlace from) {
+  PathPlace best = from;
+  double best_distance = std::numeric_limits<double>::infinity();
+  for (std::size_t i = from.piece; i + 1 < path.size(); ++i) {
+    double share = share_of({path[i], path[i + 1]}, p);
+    if (i == from.piece) share = std::max(share, from.share);
+    const double d = distance(p, path[i] + share * (path[i + 1] - path[i]));
+    if (d < best_distance) {
+      best_distance = d;
+      best = {i, share};
+    }
+  }
+  return best;
+}
+
+Vec2 point_ahead(std::span<const Vec2> path, PathPlace place, double ahead) {
+  for (std::size_t i = place.piece; i + 1 < path.size(); ++i) {
+    const double length = distance(path[i], path[i + 1]);
+    const double start = i == place.piece ? place.share * length : 0;
+    if (start + ahead <= length && length > 0)
+      return path[i] + ((start + ahead) / length) * (path[i + 1] - path[i]);
+    ahead -= length - start;
+  }
+  return path.back();
+}
+
+double way_left(std::span<const Vec2> path, PathPlace place) {
+  double left = 0;
+  for (std::size_t i = place.piece; i + 1 < path.size(); ++i) {
+    const double length = distance(path[i], path[i + 1]);
+    left += i == place.piece ? (1 - place.share) * length : length;
+  }
+  return left;
+}
+
+Command pursue(std::span<const Vec2> path, PathPlace& place, const Pose2& pose, double lookahead,
+               double speed) {
+  place = nearest_place(path, pose.position, place);
+  const Vec2 to = point_ahead(path, place, lookahead) - pose.position;
+  const double heading = squared_norm(to) > 0 ? heading_of(to) : pose.heading;
+  const double off = turn_between(heading, pose.heading);
+  const double ease = off > pi / 2 ? 0.25 : 1.0;
+  return {heading, ease * speed};
+}
+
+}  // namespace microswarm

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/following/path_follower.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "microswarm/core/angles.hpp"
+
+namespace microswarm {
+
+PathFollower::PathFollower(const FollowerParams& params, const SwarmLimits& swarm)
+    : loaded_(params.loaded),
+      correct_flow_(params.correct_flow),
+      max_turn_rate_(swarm.max_turn_rate),
+      lag_(swarm.response_lag) {
+  assert(params.model.empty() || loaded_);
+  if (params.kind == FollowerKind::learned)
+    learned_ = loaded_ ? loaded_.get() : &default_follower_model();
+}
+
+void PathFollower::see(const Observation& seen, const BodyForecast& forecast) {
+  if (!knows_flow()) return;
+  delay_ = seen.age() + lag_;
+  flow_.see(seen, forecast);
+}
+
+FollowerQuery PathFollower::query(std::span<const Vec2> path, PathPlace& place, const Pose2& pose,
+                                  double speed) const {
+  // The forecast of the pose knows of no flow.
+  const Pose2 carried{pose.position + delay_ * flow(), pose.heading};
+  place = nearest_place(path, carried.position, place);
+  return {path, place, carried, speed, flow(), max_turn_rate_};
+}
+
+PathFollower::Answer PathFollower::command(std::span<const Vec2> path, PathPlace& place,
+                                           const Pose2& pose, double lookahead,
+                                           double speed) const {
+  if (!knows_flow()) return {pursue(path, place, pose, lookahead, speed)};
+  const FollowerQuery asked = query(path, place, pose, speed);
+  if (learned_)
+    if (const auto command = learned_->command(asked)) return {*command};
+  return {pursue_in_flow(path, place, asked.pose, lookahead, speed, asked.flow),
+          learned_ != nullptr};
+}
+
+Command pursue_in_flow(std::span<const Vec2> path, PathPlace& place, const Pose2& pose,
+                       double lookahead, double speed, Vec2 flow) {
+  Command command = pursue(path, place, pose, lookahead, speed);
+  const Vec2 way = unit_vector(command.heading);
+  const double across = way.x * flow.y - way.y * flow.x;
+  // No heading holds the line in a flow that is as fast as the swarm.
+  const double crab = -std::asin(std::clamp(across / speed, -0.9, 0.9));
+  command.heading = wrap(command.heading + crab);
+  return command;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "microswarm/navigation/following/path_follower.hpp"
+#include "microswarm/navigation/following/path_navigator_params.hpp"
+#include "microswarm/navigation/steering/helm.hpp"
+
+namespace microswarm {
+
+/// See PathNavigatorParams. States: follow, fallback (the learned follower does not know and hands
+/// over to pure pursuit), hold, arrived, blind.
+class PathNavigator : public Navigator {
+ public:
+  PathNavigator(const PathNavigatorParams& params, const SwarmLimits& swarm, Vec2 goal,
+                double goal_tolerance);
+
+  void prepare(const Snapshot& world) override;
+  Command step(const Observation& observation, const Stop& stop) override;
+  NavigatorView view() const override;
+
+ private:
+  bool way_is_clear(const Snapshot& world, Pose2 pose) const;
+
+  PathNavigatorParams params_;
+  Helm helm_;
+  PathFollower follower_;
+  std::vector<Vec2> path_;  ///< to the goal
+  PathPlace place_;
+};
+
+}  // namespace microswarm

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/gathering/aggregation_map.hpp"
+
+#include "microswarm/core/error.hpp"
+
+namespace microswarm {
+
+AggregationMap::AggregationMap(Map m, Vec2 goal, const AggregationParams& params, Rng& rng)
+    : map(std::move(m)),
+      tree(obstacle_weighted_rrt(map, goal, params.tree, rng)),
+      obstacle_weighted(params.obstacle_weighted) {
+  if (tree.status == Status::goal_blocked) throw InputError("goal is not free");
+  if (tree.status != Status::solved)
+    throw InputError("the tree has " + std::to_string(tree.nodes.size()) + " nodes after " +
+                     std::to_string(params.tree.max_iterations) + " samples, " +
+                     std::to_string(params.tree.nodes) + " were asked for");
+  segmentation = segment_map(map, tree, routes(), params.segmentation);
+}
+
+}  // namespace microswarm

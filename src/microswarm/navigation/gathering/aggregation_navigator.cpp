@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/gathering/aggregation_navigator.hpp"
+
+#include <algorithm>
+
+#include "microswarm/navigation/gathering/channel_width.hpp"
+
+namespace microswarm {
+
+AggregationNavigator::AggregationNavigator(const AggregationParams& params,
+                                           const RobotSwarmParams& robots, Vec2 goal,
+                                           double goal_tolerance, double tick, Rng rng)
+    : params_(params),
+      robots_(robots),
+      goal_(goal),
+      goal_tolerance_(goal_tolerance),
+      tick_(tick),
+      rng_(rng) {}
+
+void AggregationNavigator::prepare(const Snapshot& world) {
+  params_ = fitted(params_, world.map(), rng_);
+  params_.sigma = std::min(params_.sigma, 0.5 * goal_tolerance_);
+  params_.step = std::min(params_.step, robots_.max_speed * tick_);
+  ground_.emplace(world.map(), goal_, params_, rng_);
+  gatherer_.emplace(*ground_, params_);
+  forecast_.emplace(world.map(), robots_.max_speed * tick_, robots_.contact, robots_.response_lag);
+  if (params_.method == Aggregation::rollout)
+    rollout_.emplace(*ground_, forecast_->stepper(), params_, rng_);
+}
+
+Command AggregationNavigator::step(const Observation& seen, const Stop& stop) {
+  view_ = {};
+  if (seen.robots.empty() || seen.age() > params_.frame_timeout)
+    return issue(seen.now, {}, "blind");
+  const Robots robots = forecast_->at_effect(seen);
+  const std::optional<Vec2> move =
+      rollout_ ? rollout_->next(robots, stop) : gatherer_->next(robots);
+  if (!move) return issue(seen.now, {}, "arrived");
+  if (!rollout_) view_.local_target = gatherer_->waypoint();
+  return issue(seen.now, command_for(*move, tick_), "gather");
+}
+
+Command AggregationNavigator::issue(double now, Command command, std::string_view state) {
+  forecast_->issued(now, command);
+  view_.state = state;
+  return command;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "microswarm/contracts/navigator.hpp"
+#include "microswarm/navigation/gathering/aggregation.hpp"
+#include "microswarm/navigation/gathering/rollout.hpp"
+#include "microswarm/navigation/global_input/robot_forecast.hpp"
+
+namespace microswarm {
+
+/// HRA and DCA, Alg 3 and 5 [gather], and the rollout planner as a navigator: looks at where the
+/// robots will be when its command takes effect, and gives the gatherer's move, or as much of it as
+/// a tick allows. States: gather, arrived, blind.
+class AggregationNavigator : public Navigator {
+ public:
+  /// `robots`: what is known of them; `tick` [s] between two commands. It goes on until the mean
+  /// way is at most half of the task's `goal_tolerance` [µm], however that is measured there.
+  AggregationNavigator(const AggregationParams& params, const RobotSwarmParams& robots, Vec2 goal,
+                       double goal_tolerance, double tick, Rng rng);
+
+  /// Grows the tree. Throws InputError as AggregationMap does.
+  void prepare(const Snapshot& world) override;
+  Command step(const Observation& observation, const Stop& stop) override;
+  NavigatorView view() const override { return view_; }
+  /// After prepare(): null before.
+  const Gatherer* gatherer() const { return gatherer_ ? &*gatherer_ : nullptr; }
+
+ private:
+  Command issue(double now, Command command, std::string_view state);
+
+  AggregationParams params_;
+  RobotSwarmParams robots_;
+  Vec2 goal_;
+  double goal_tolerance_;
+  double tick_;
+  Rng rng_;
+  std::optional<RobotForecast> forecast_;
+  std::optional<AggregationMap> ground_;
+  std::optional<Gatherer> gatherer_;
+  std::optional<RolloutGatherer> rollout_;
+  NavigatorView view_;
+};
+
+}  // namespace microswarm

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/navigation/gathering/rollout_params.hpp"
+#include "microswarm/planning/gathering/map_segmentation_params.hpp"
+#include "microswarm/planning/gathering/obstacle_weighted_rrt_params.hpp"
+
+namespace microswarm {
+
+/// Who leads the robots to the goal.
+enum class Aggregation {
+  heuristic,           ///< the robot farthest from the goal: Alg 3 [gather], HRA
+  divide_and_conquer,  ///< region after region, branch after branch: Alg 5 [gather], DCA
+  rollout,             ///< a plan to the end, made better in simulations of both: RolloutGatherer
+};
+constexpr auto enum_names(Aggregation) {
+  return std::array<std::pair<Aggregation, std::string_view>, 3>{
+      {{Aggregation::heuristic, "heuristic"},
+       {Aggregation::divide_and_conquer, "divide_and_conquer"},
+       {Aggregation::rollout, "rollout"}}};
+}
+
+/// Which region is next in Alg 5 [gather] when a team is not followed any more.
+enum class DcaReading {
+  rounds,     ///< ours: the farthest of this round; who is pushed back waits for the next round
+  published,  ///< as the authors' program: the farthest that holds robots
+};
+constexpr auto enum_names(DcaReading) {
+  return std::array<std::pair<DcaReading, std::string_view>, 2>{
+      {{DcaReading::rounds, "rounds"}, {DcaReading::published, "published"}}};
+}
+
+/// Parameters of an aggregation [gather]. The lengths are for channels that are 10 µm wide;
+/// `fitted` makes them as large as a map's channels.
+struct AggregationParams {
+  static constexpr std::string_view type_name = "aggregation";
+  Aggregation method = Aggregation::divide_and_conquer;
+  DcaReading reading = DcaReading::rounds;
+  int followed_regions = 3;
+  int last_regions = 1;
+  double team_depth = 10;
+  bool obstacle_weighted = true;
+  double scale = 1;
+  double step = 1;
+  double sigma = 10;
+  double discount = 0.3;
+  double discount_length = 5;
+  int patience = 2;
+  double frame_timeout = 0.5;
+  RolloutParams rollout;
+  ObstacleWeightedRrtParams tree;
+  MapSegmentationParams segmentation;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.method,
+          {"method", Unit::none, {}, "Who leads: heuristic, divide_and_conquer or rollout."});
+    visit(self.reading,
+          {"reading",
+           Unit::none,
+           {},
+           "Next region of DCA: rounds (the farthest of this round) or published (the "
+           "farthest that holds robots)."});
+    visit(self.followed_regions,
+          {"followed_regions",
+           Unit::none,
+           {0, 1000},
+           "Regions into which DCA follows the robots it has led out of one."});
+    visit(self.last_regions, {"last_regions",
+                              Unit::none,
+                              {1, 1000},
+                              "Regions next to the goal, the goal's included, in which DCA leads "
+                              "the farthest robot to the goal."});
+    visit(self.team_depth,
+          {"team_depth", Unit::um, {0, 1e6}, "How far DCA leads a robot into the next region."});
+    visit(self.obstacle_weighted,
+          {"obstacle_weighted", Unit::none, {}, "Ways along the middle; false: along the RRT."});
+    visit(self.scale, {"scale",
+                       Unit::none,
+                       {0, 1e6},
+                       "Factor on all lengths here, which are for channels of 10 µm; 0: the usual "
+                       "width of the map's channels / 10 µm."});
+    visit(self.step, {"step", Unit::um, {1e-6, 1e6}, "Length of a move."});
+    visit(self.sigma, {"sigma", Unit::um, {0, 1e6}, "Done when the mean way is shorter (F)."});
+    visit(self.discount, {"discount", Unit::none, {0, 1}, "Discount of far robots in Eq 6."});
+    visit(self.discount_length,
+          {"discount_length", Unit::um, {1e-6, 1e6}, "Way over which it is applied once."});
+    visit(self.patience, {"patience",
+                          Unit::none,
+                          {1, 1000},
+                          "Longest ways without progress after which any robot may lead."});
+    visit(self.frame_timeout,
+          {"frame_timeout", Unit::s, {0, 60}, "Hold when the newest frame is older than this."});
+    visit(self.rollout, {"rollout", Unit::none, {}, "How a plan is made better."});
+    visit(self.tree, {"tree", Unit::none, {}, "Tree and weights."});
+    visit(self.segmentation, {"segmentation", Unit::none, {}, "Regions and branches."});
+  }
+};
+
+}  // namespace microswarm

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "microswarm/navigation/gathering/aggregation_map.hpp"
+
+namespace microswarm {
+
+/// Who leads in Alg 5 [gather]: region after region, branch after branch. Keeps what it is about
+/// between two decisions.
+class DivideAndConquer {
+ public:
+  /// The map must outlive it.
+  DivideAndConquer(const AggregationMap& ground, const AggregationParams& params)
+      : ground_(&ground), params_(params) {}
+
+  /// The place that leads; `last` did until now. There must be robots.
+  std::size_t leader(const RobotsOnMap& robots, std::size_t last);
+
+ private:
+  std::uint32_t last_regions() const { return static_cast<std::uint32_t>(params_.last_regions); }
+  bool is_led_on(const RobotsOnMap& robots, std::size_t robot);
+  std::uint32_t next_region(const RobotsOnMap& robots) const;
+  bool is_empty(const RobotsOnMap& robots, std::uint32_t region) const;
+  std::uint32_t richest_branch(const RobotsOnMap& robots) const;
+  std::size_t nearest_to_gate(const RobotsOnMap& robots) const;
+  std::size_t farthest_in_region(const RobotsOnMap& robots) const;
+  double way_to_gate(const RobotsOnMap& robots, std::size_t robot) const;
+
+  const AggregationMap* ground_;
+  AggregationParams params_;
+  std::uint32_t region_ = 0;
+  std::uint32_t branch_ = 0;
+  std::uint32_t round_ = 0;  ///< farthest region of what is left of the map in this round
+  bool leads_ = false;
+  double target_way_ = 0;      ///< to which the leader is led; infinity: out of its region
+  std::uint32_t entered_ = 0;  ///< region into which the last robot was led
+  int followed_ = 0;           ///< how often the team was followed
+};
+
+}  // namespace microswarm

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/global_input/plan_player.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace microswarm {
+
+PlanPlayer::PlanPlayer(const PlanPlayerParams& params, const RobotSwarmParams& robots,
+                       double goal_tolerance, double tick, Rng rng)
+    : params_(params), swarm_(robots), tick_(tick), rng_(rng) {
+  params_.planner.goal_tolerance = goal_tolerance;
+  params_.planner.contact = robots.contact;
+}
+
+void PlanPlayer::prepare(const Snapshot& world) {
+  forecast_.emplace(world.map(), swarm_.max_speed * tick_, swarm_.contact, swarm_.response_lag);
+}
+
+Command PlanPlayer::step(const Observation& seen, const Stop& stop) {
+  view_ = {};
+  if (seen.robots.size() != swarm_.goals.size() || seen.age() > params_.frame_timeout)
+    return issue(seen.now, {}, "blind");
+  const Robots robots = forecast_->at_effect(seen);
+  if (met(robots)) {
+    on_plan_ = false;
+    return issue(seen.now, {}, "arrived");
+  }
+  view_.state = "play";
+  if (!on_plan_ || input_ == plan_.inputs.size() || off(robots) > params_.stray)
+    find_way(robots, seen.now, stop);
+  if (input_ == plan_.inputs.size()) return issue(seen.now, {}, "stuck");
+  return issue(seen.now, next_piece(), view_.state);
+}
+
+bool PlanPlayer::met(const Robots& robots) const {
+  for (std::size_t i = 0; i < robots.size(); ++i)
+    if (distance(robots.position(i), swarm_.goals[i]) > params_.planner.goal_tolerance)
+      return false;
+  return true;
+}
+
+double PlanPlayer::off(const Robots& robots) const {
+  double worst = 0;
+  for (std::size_t i = 0; i < robots.size(); ++i)
+    worst = std::max(worst, distance(robots.position(i), expected_.position(i)));
+  return worst;
+}
+
+bool PlanPlayer::leads_home(Robots robots, std::size_t from) const {
+  for (std::size_t k = from; k < plan_.inputs.size(); ++k)
+    forecast_->stepper().step(robots, plan_.inputs[k], swarm_.contact);
+  return met(robots);
+}
+
+// The nearest configurations of the plan first; of two as near, the later one.
+std::optional<std::size_t> PlanPlayer::place_to_join(const Robots& robots) const {
+  std::vector<std::size_t> order(plan_.inputs.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::vector<double> off(order.size(), 0);
+  for (const std::size_t k : order)
+    for (std::size_t i = 0; i < robots.size(); ++i)
+      off[k] = std::max(off[k], distance(robots.position(i), plan_.configurations[k][i]));
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return off[a] < off[b]; });
+  order.resize(std::min(order.size(), static_cast<std::size_t>(params_.rejoin_candidates)));
+  for (const std::size_t k : order)
+    if (leads_home(robots, k)) return k;
+  return std::nullopt;
+}
+
+void PlanPlayer::find_way(const Robots& robots, double now, const Stop& stop) {
+  expected_ = robots;
+  if (on_plan_ && piece_ == 0 && leads_home(robots, input_) && input_ < plan_.inputs.size()) return;
+  piece_ = 0;
+  if (const auto k = place_to_join(robots)) {
+    input_ = *k;
+    if (on_plan_) view_.state = "rejoin";
+    on_plan_ = true;
+    return;
+  }
+  on_plan_ = false;
+  input_ = plan_.inputs.size();
+  if (now < retry_at_) return;
+  const std::vector<Vec2> places = robots.positions();
+  plan_ = global_search(forecast_->map(), places, swarm_.goals, params_.planner, rng_, stop).plan;
+  if (plan_.status != Status::solved) retry_at_ = now + params_.retry_time;
+  input_ = 0;
+  on_plan_ = true;
+  view_.state = "replan";
+  view_.planned = true;
+}
+
+Command PlanPlayer::next_piece() {
+  const Vec2 input = plan_.inputs[input_];
+  const int pieces =
+      std::max(1, static_cast<int>(std::ceil(norm(input) / (swarm_.max_speed * tick_) - 1e-9)));
+  if (++piece_ >= pieces) {
+    piece_ = 0;
+    ++input_;
+  }
+  const Command command = command_for(input / pieces, tick_);
+  forecast_->stepper().step(expected_, displacement(command, tick_), swarm_.contact);
+  return command;
+}
+
+Command PlanPlayer::issue(double now, Command command, std::string_view state) {
+  forecast_->issued(now, command);
+  view_.state = state;
+  return command;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/core/fields.hpp"
+#include "microswarm/core/places.hpp"
+#include "microswarm/navigation/following/follower_params.hpp"
+#include "microswarm/navigation/prediction/obstacle_tracker_params.hpp"
+#include "microswarm/navigation/steering/guide_kind.hpp"
+#include "microswarm/planning/path/drrt_star_params.hpp"
+
+namespace microswarm {
+
+/// Autonomous local target selection: Algorithm 1, Eq 4 [drrt].
+struct LocalTargetParams {
+  double base_distance = 320;       // D_base, four times the swarm's width
+  double detection_diameter = 320;  // D_dec
+  double rho_min = 0.2;
+  double half_angle = pi / 2;   // α_search
+  double angle_step = pi / 18;  // δα
+  double obstacle_weight = 1;   // α_1
+  double border_weight = 1;     // α_2
+  double goal_weight = 8;       // α_3
+  double direction_weight = 2;  // α_4
+  std::optional<double> influence_range;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.base_distance,
+          {"base_distance", Unit::um, {1e-3, 1e6}, "Farthest target (D_base)."});
+    visit(self.detection_diameter,
+          {"detection_diameter", Unit::um, {1e-3, 1e6}, "Detection circle (D_dec)."});
+    visit(self.rho_min, {"rho_min", Unit::none, {1e-3, 1}, "Floor of the adjust factor."});
+    visit(self.half_angle, {"half_angle", Unit::deg, {1, 180}, "Half of the fan (alpha_search)."});
+    visit(self.angle_step,
+          {"angle_step", Unit::deg, {0.5, 90}, "Between directions (delta alpha)."});
+    visit(self.obstacle_weight, {"obstacle_weight", Unit::none, {0, 1e6}, "alpha_1, Eq 4c."});
+    visit(self.border_weight, {"border_weight", Unit::none, {0, 1e6}, "alpha_2, Eq 4d."});
+    visit(self.goal_weight, {"goal_weight", Unit::none, {0, 1e6}, "alpha_3, Eq 4e."});
+    visit(self.direction_weight, {"direction_weight", Unit::none, {0, 1e6}, "alpha_4, Eq 4f."});
+    visit(self.influence_range, {"influence_range",
+                                 Unit::um,
+                                 {1e-3, 1e9},
+                                 "R of Eq 4c, 4d; r_s² as a number when left out."});
+  }
+};
+
+/// Hierarchical D-RRT* planning framework: Algorithm 4 [drrt] over local target selection
+/// (Algorithm 1) and the local planner (Algorithms 2–3). Ours besides: the guide along the map, and
+/// the look-ahead that screens every command against where the obstacles are going. With
+/// `as_published` Algorithm 4 is all there is (docs/navigation.md).
+struct HierarchicalParams {
+  /// D-RRT* with limits that fit a local target: near, and on a straight free line.
+  static DrrtStarParams local_planner() {
+    DrrtStarParams p;
+    p.goal_bias = 0.5;
+    p.max_nodes = 200;
+    p.max_iterations = 50;
+    return p;
+  }
+
+  static constexpr std::string_view type_name = "hierarchical_drrt_star";
+  double margin = 90;  // r_s
+  double extra_margin = 10;
+  double speed = 60;
+  double lookahead = 60;
+  FollowerParams follower;
+  double horizon = 3;
+  double target_horizon = 8;
+  bool as_published = false;
+  Guide guide = Guide::route;
+  double route_cell = 20;
+  double frame_timeout = 0.5;
+  ObstacleTrackerParams tracker;
+  LocalTargetParams target;
+  DrrtStarParams planner = local_planner();
+
+  /// These, or with `as_published` the same without what is ours.
+  HierarchicalParams in_effect() const;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.margin, {"margin", Unit::um, {0, 1e5}, "Least distance from the centre (r_s)."});
+    visit(
+        self.extra_margin,
+        {"extra_margin", Unit::um, {0, 1e5}, "Added to the margin while planning, where it fits."});
+    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Speed asked for."});
+    visit(self.lookahead,
+          {"lookahead", Unit::um, {1e-3, 1e5}, "How far ahead the path is pursued."});
+    visit(self.follower, {"follower", Unit::none, {}, "Who follows the path."});
+    visit(self.horizon,
+          {"horizon", Unit::s, {0, 60}, "How far commands are looked ahead; 0: not."});
+    visit(self.target_horizon, {"target_horizon",
+                                Unit::s,
+                                {0, 60},
+                                "Targets among obstacles predicted so far; 0: as seen."});
+    visit(self.as_published,
+          {"as_published", Unit::none, {}, "Algorithm 4 alone: what is ours is left out."});
+    visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight, or route."});
+    visit(self.route_cell, {"route_cell", Unit::um, {1e-2, 1e5}, "Grid spacing of the route."});
+    visit(self.frame_timeout,
+          {"frame_timeout", Unit::s, {0, 60}, "Hold when the newest frame is older than this."});
+    visit(self.tracker, {"tracker", Unit::none, {}, "Estimation of the obstacles' motion."});
+    visit(self.target, {"target", Unit::none, {}, "Local target selection."});
+    visit(self.planner, {"planner", Unit::none, {}, "Local planner."});
+  }
+};
+
+/// Throws InputError when `as_published` stands beside a value that is not the paper's; `where`
+/// knows the keys.
+void check(const HierarchicalParams& params, const Places& where);
+
+}  // namespace microswarm

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/hierarchical/predicted_target.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "microswarm/core/angles.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double same_place = 1;      // [µm]
+constexpr double piece_time = 1;      // of a way that is searched for its first contact [s]
+constexpr double wait_weight = 2;     // of the way that could be made while waiting
+constexpr double contact_weight = 3;  // of the way that is left within the horizon at a contact
+constexpr std::array<double, 5> waits{0, 1, 2, 4, 8};  // before going [s]
+
+/// How long the straight way stays free among obstacles [s], at most `most` and what it takes.
+double free_time(const Snapshot& frame, const ObstaclePredictor& obstacles, Segment way,
+                 double speed, double start, double most, double clearance) {
+  const double time = std::min(most, distance(way.a, way.b) / speed);
+  const Vec2 velocity = speed * unit_vector(heading_of(way.b - way.a));
+  for (double t = 0; t < time; t += piece_time) {
+    const double end = std::min(time, t + piece_time);
+    const Segment piece{way.a + t * velocity, way.a + end * velocity};
+    if (obstacles.clearance(frame, piece, start + t, start + end, clearance + 1) < clearance)
+      return t;
+  }
+  return time;
+}
+
+class PredictedChoice {
+ public:
+  PredictedChoice(const Snapshot& frame, const ObstaclePredictor& obstacles,
+                  const PredictedTargetQuery& query, const std::function<double(Vec2)>& way_from)
+      : frame_(frame), obstacles_(obstacles), q_(query), way_from_(way_from) {}
+
+  /// Takes the target, gone to after a wait [s], when nothing has cost less.
+  void consider(Vec2 target, double wait) {
+    const Vec2 from = q_.swarm.position;
+    const double length = distance(from, target);
+    const double heading = heading_of(target - from);
+    double cost = length + way_from_(target) + wait_weight * q_.speed * wait +
+                  q_.turn_weight * turn_between(heading, q_.swarm.heading);
+    if (!(cost < best_cost_) || !frame_.map().is_free(Segment{from, target}, q_.clearance)) return;
+    const double time = length / q_.speed;
+    if (!rests_freely(wait) || free_time({from, target}, wait, time) < time) return;
+    const Vec2 next = distance(target, q_.towards) > same_place ? q_.towards : q_.goal;
+    const double left = std::min(q_.horizon - wait - time, distance(target, next) / q_.speed);
+    if (left > 0) {
+      cost += q_.turn_weight * turn_between(heading_of(next - target), heading);
+      cost += contact_weight * q_.speed * (left - free_time({target, next}, wait + time, left));
+    }
+    if (cost >= best_cost_) return;
+    best_cost_ = cost;
+    best_ = PredictedTarget{target, wait};
+  }
+  const std::optional<PredictedTarget>& best() const { return best_; }
+
+ private:
+  double free_time(Segment way, double start, double most) const {
+    return microswarm::free_time(frame_, obstacles_, way, q_.speed, q_.delay + start, most,
+                                 q_.clearance);
+  }
+  bool rests_freely(double wait) const {
+    const Segment here{q_.swarm.position, q_.swarm.position};
+    for (double t = 0; t < wait; t += piece_time)
+      if (obstacles_.clearance(frame_, here, q_.delay + t, q_.delay + t + piece_time,
+                               q_.clearance + 1) < q_.clearance)
+        return false;
+    return true;
+  }
+
+  const Snapshot& frame_;
+  const ObstaclePredictor& obstacles_;
+  const PredictedTargetQuery& q_;
+  const std::function<double(Vec2)>& way_from_;
+  std::optional<PredictedTarget> best_;
+  double best_cost_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+std::optional<PredictedTarget> select_predicted_target(
+    const Snapshot& frame, const ObstaclePredictor& obstacles, const PredictedTargetQuery& q,
+    const std::function<double(Vec2)>& way_from) {
+  const Vec2 from = q.swarm.position;
+  const double straight = heading_of(q.towards - from);
+  const double goal_distance = distance(from, q.goal);
+  const int directions = std::max(4, static_cast<int>(std::lround(2 * pi / q.angle_step)));
+  PredictedChoice choice(frame, obstacles, q, way_from);
+  for (const double wait : waits) {
+    if (goal_distance <= q.reach) choice.consider(q.goal, wait);
+    for (double reach = std::min(q.reach, goal_distance); reach >= q.least_reach; reach /= 2)
+      for (int k = 0; k < directions; ++k)
+        choice.consider(from + reach * unit_vector(straight + 2 * pi * k / directions), wait);
+  }
+  return choice.best();
+}
+
+bool is_free_in_time(const Snapshot& frame, const ObstaclePredictor& obstacles,
+                     std::span<const Vec2> path, double speed, double delay, double horizon,
+                     double clearance) {
+  double t = 0;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const Segment way{path[i], path[i + 1]};
+    if (!frame.map().is_free(way, clearance)) return false;
+    const double time = std::min(horizon - t, distance(way.a, way.b) / speed);
+    if (time <= 0) continue;
+    if (free_time(frame, obstacles, way, speed, delay + t, time, clearance) < time) return false;
+    t += time;
+  }
+  return true;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/prediction/foresight.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "microswarm/core/angles.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double longest_gap = 1;          // without a sighting, after which a body is as new [s]
+constexpr double forecast_spacing = 0.08;  // [s]
+constexpr std::size_t most_open = 24;      // forecasts that are not due
+constexpr double worst_error = 300;        // that counts [µm]
+constexpr double proved = 0.5;             // and twice the noise: who errs no more is right [µm]
+constexpr double prior_weight = 2;         // of the errors below, in forecasts
+constexpr double growing_time = 1.5;       // for which an outline goes on as never seen before [s]
+
+/// Errors that are expected of a model before it has shown any, in shares of the way of its span.
+constexpr std::array<double, MotionModels::count> prior_errors{0.20, 0.17, 0.20, 0.20, 0.20,
+                                                               0.20, 0.20, 0.20, 0.14};
+
+/// How far `now` is turned against `then`, both about the centre, vertex by vertex [rad].
+double turn_against(std::span<const Vec2> then, std::span<const Vec2> now, Vec2 centre) {
+  double sine = 0;
+  double cosine = 0;
+  for (std::size_t i = 0; i < then.size(); ++i) {
+    sine += cross(then[i], now[i] - centre);
+    cosine += dot(then[i], now[i] - centre);
+  }
+  return std::atan2(sine, cosine);
+}
+
+}  // namespace
+
+Foresight::Foresight(const ForesightParams& params)
+    : params_(params), tracker_(params.tracker), now_(-std::numeric_limits<double>::infinity()) {
+  sightings_.reserve(MotionTrail::most_points);
+  radii_.reserve(MotionTrail::most_points);
+}
+
+void Foresight::see(const Observation& observation) {
+  tracker_.see(observation);
+  if (tracker_.seen() == now_ && tracker_.size() == seen_bodies_.size()) return;
+  if (tracker_.seen() < now_) {
+    books_.clear();
+    oscillations_ = OscillationFit();
+  }
+  if (tracker_.seen() != now_ || books_.empty()) oscillations_.begin(tracker_.seen());
+  now_ = tracker_.seen();
+  if (observation.world) take(*observation.world);
+}
+
+void Foresight::take(const Snapshot& frame) {
+  seen_bodies_.clear();
+  const auto bodies = frame.moving().bodies();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const auto same = [&](const Body& b) { return b.obstacle == bodies[i].obstacle; };
+    const auto leaf = std::count_if(bodies.begin(), bodies.begin() + static_cast<long>(i), same);
+    const std::size_t at = book_of(bodies[i].obstacle, static_cast<std::uint32_t>(leaf));
+    Book& book = books_[at];
+    const TrackedBody& motion = book.motion = tracker_.body(i);
+    note(book, bodies[i], motion);
+    prove(book);
+    model(book, motion);
+    believe(book, norm(motion.velocity));
+    forecast(book);
+    seen_bodies_.push_back(at);
+  }
+}
+
+std::size_t Foresight::book_of(std::uint32_t obstacle, std::uint32_t leaf) {
+  const auto at = std::find_if(books_.begin(), books_.end(), [&](const Book& b) {
+    return b.obstacle == obstacle && b.leaf == leaf;
+  });
+  if (at != books_.end()) return static_cast<std::size_t>(at - books_.begin());
+  Book& fresh = books_.emplace_back();
+  fresh.obstacle = obstacle;
+  fresh.leaf = leaf;
+  for (auto& open : fresh.open) open.reserve(most_open);
+  return books_.size() - 1;
+}
+
+void Foresight::note(Book& book, const Body& body, const TrackedBody& motion) {
+  if (!book.trail.empty() && now_ - book.trail.back().t > longest_gap) {
+    book.trail.clear();
+    for (auto& open : book.open) open.clear();
+  }
+  const Disc extent = extent_of(body);
+  double turn = book.trail.empty() ? 0 : book.trail.back().turn;
+  if (const auto* outline = outline_of(body)) {
+    if (book.trail.empty() || book.outline.size() != outline->size()) {
+      book.outline.assign(outline->begin(), outline->end());
+      for (Vec2& v : book.outline) v -= extent.centre;
+      turn = 0;
+    } else {
+      turn += wrap(turn_against(book.outline, *outline, extent.centre) - turn);
+    }
+  }
+  book.trail.add({now_, extent.centre, motion.velocity, extent.radius, turn}, params_.memory);
+}
+
+// Looks up what was said of the time that has come.
+void Foresight::prove(Book& book) const {
+  const double kept = std::exp(-0.1 / params_.proof_time);
+  for (std::size_t k = 0; k < spans.size(); ++k) {
+    auto& open = book.open[k];
+    std::size_t done = 0;
+    for (; done < open.size() && open[done].due <= now_; ++done) {
+      const Forecast& told = open[done];
+      const Vec2 was = book.trail.at(told.due).place;
+      for (std::size_t m = 0; m < MotionModels::count; ++m) {
+        Record& record = book.records[m][k];
+        record.errors *= kept;
+        record.weight *= kept;
+        if (!told.holds[m]) continue;
+        record.errors += std::min(worst_error, distance(told.places[m], was));
+        record.weight += 1;
+      }
+    }
+    open.erase(open.begin(), open.begin() + static_cast<std::ptrdiff_t>(done));
+  }
+}
+
+void Foresight::model(Book& book, const TrackedBody& motion) {
+  sightings_.clear();
+  radii_.clear();
+  double least = std::numeric_limits<double>::infinity();
+  double greatest = 0;
+  for (const TrailPoint& p : book.trail.points()) {
+    if (p.t < now_ - OscillationFit::windows.back()) continue;
+    sightings_.push_back({p.t, p.place});
+    radii_.push_back({p.t, {p.radius, 0}});
+    least = std::min(least, p.radius);
+    greatest = std::max(greatest, p.radius);
+  }
+  const Record& straight = book.records[MotionModels::straight].back();
+  const bool is_straight = straight.weight > prior_weight &&
+                           straight.errors < (proved + 2 * motion.noise) * straight.weight;
+  book.models.fit(book.trail, motion, is_straight ? std::span<const Sighting>{} : sightings_,
+                  oscillations_);
+  book.breath.reset();
+  book.radius_spread = greatest - least;
+  if (book.radius_spread < proved) return;
+  const auto breaths = oscillations_.fit(radii_);
+  for (const auto& breath : breaths)
+    if (breath && std::abs(breath->at(0).x - book.trail.back().radius) < proved)
+      book.breath = breath;
+}
+
+void Foresight::believe(Book& book, double speed) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t m = 0; m < MotionModels::count; ++m) {
+    if (!book.models.holds(m)) continue;
+    double sum = 0;
+    double last = 0;
+    for (std::size_t k = 0; k < spans.size(); ++k) {
+      const Record& record = book.records[m][k];
+      const double prior = prior_errors[m] * speed * spans[k] * prior_weight;
+      last = (record.errors + prior) / (record.weight + prior_weight);
+      sum += last / spans[k];
+    }
+    if (sum >= least) continue;
+    least = sum;
+    book.believed = m;
+    book.error = last;
+  }
+}
+
+void Foresight::forecast(Book& book) const {
+  for (std::size_t k = 0; k < spans.size(); ++k) {
+    auto& open = book.open[k];
+    const double due = now_ + spans[k];
+    if (open.size() == most_open) continue;
+    if (!open.empty() && due - open.back().due < forecast_spacing) continue;
+    Forecast& told = open.emplace_back();
+    told.due = due;
+    for (std::size_t m = 0; m < MotionModels::count; ++m) {
+      told.holds[m] = book.models.holds(m);
+      if (told.holds[m]) told.places[m] = book.models.place(m, book.trail, spans[k]);
+    }
+  }
+}
+
+BodyAhead Foresight::at(std::size_t body, double t) const {
+  const Book& book = books_[seen_bodies_[body]];
+  const TrackedBody& motion = book.motion;
+  const double s = t - now_;
+  BodyAhead out;
+  out.centre = book.models.place(book.believed, book.trail, s);
+  out.turn = book.models.turn(book.believed, book.trail, s);
+  const double unseen = growing_time * std::abs(motion.radius_rate) + book.radius_spread;
+  const double growth = book.breath ? book.breath->at(s).x - book.breath->at(0).x
+                                    : motion.radius_rate * std::min(s, growing_time);
+  out.growth = std::clamp(growth, -unseen, unseen);
+  out.doubt = std::min(params_.most_doubt, params_.doubt * book.error * s / spans.back());
+  return out;
+}
+
+}  // namespace microswarm

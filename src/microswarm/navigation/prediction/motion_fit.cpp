@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/prediction/motion_fit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace microswarm {
+namespace {
+
+constexpr double least_noise = 0.02;  // [µm], above what rounding makes
+constexpr double first_noise = 0.5;   // [µm], while too few sightings tell
+constexpr double most_off = 3;        // root mean square residual of a fit, in noises
+constexpr std::size_t most_differences = 64;
+
+/// Third difference of four sightings, in standard deviations of one coordinate's noise.
+double third_difference(std::span<const Sighting, 4> s) {
+  const double dt = s[1].t - s[0].t;
+  const double uneven = std::abs(s[2].t - s[1].t - dt) + std::abs(s[3].t - s[2].t - dt);
+  if (uneven < 1e-6 * dt)
+    return norm(s[3].place - s[0].place + 3 * (s[1].place - s[2].place)) / std::sqrt(20.0);
+  Vec2 sum;
+  double variance = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    double weight = 1;
+    for (std::size_t j = 0; j < 4; ++j)
+      if (j != i) weight /= s[i].t - s[j].t;
+    sum += weight * s[i].place;
+    variance += weight * weight;
+  }
+  return norm(sum) / std::sqrt(variance);
+}
+
+double noise_of(std::span<const Sighting> sightings) {
+  constexpr double rayleigh_median = 1.1774100225154747;  // √(2 ln 2)
+  constexpr std::size_t enough = 7;
+  if (sightings.size() < enough) return first_noise;
+  std::array<double, most_differences> differences{};
+  const std::size_t count = std::min(sightings.size() - 3, most_differences);
+  const auto newest = sightings.last(count + 3);
+  for (std::size_t i = 0; i < count; ++i)
+    differences[i] = third_difference(newest.subspan(i).first<4>());
+  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(differences.begin(), middle,
+                   differences.begin() + static_cast<std::ptrdiff_t>(count));
+  return std::max(least_noise, *middle / rayleigh_median);
+}
+
+/// Sums over sightings, relative to the newest.
+struct Moments {
+  std::array<double, 5> t{};  ///< Σ tᵏ
+  std::array<Vec2, 3> p{};    ///< Σ tᵏ · place
+  double squares = 0;         ///< Σ |place|²
+
+  void add(double time, Vec2 place) {
+    double power = 1;
+    for (std::size_t k = 0; k < t.size(); ++k, power *= time) {
+      t[k] += power;
+      if (k < p.size()) p[k] += power * place;
+    }
+    squares += squared_norm(place);
+  }
+};
+
+/// place(t) = c₀ + c₁ t + c₂ t²
+struct Curve {
+  std::array<Vec2, 3> c{};
+  double residual = 0;       ///< Σ of squares
+  double rate_variance = 0;  ///< of c₁, for a noise of 1
+};
+
+double residual_of(const Moments& m, const std::array<Vec2, 3>& c) {
+  double sum = m.squares;
+  for (std::size_t k = 0; k < 3; ++k) sum -= dot(c[k], m.p[k]);
+  return std::max(0.0, sum);
+}
+
+Curve straight_through(const Moments& m) {
+  const double det = m.t[0] * m.t[2] - m.t[1] * m.t[1];
+  Curve out;
+  out.c[0] = (m.t[2] * m.p[0] - m.t[1] * m.p[1]) / det;
+  out.c[1] = (m.t[0] * m.p[1] - m.t[1] * m.p[0]) / det;
+  out.residual = residual_of(m, out.c);
+  out.rate_variance = m.t[0] / det;
+  return out;
+}
+
+/// By the cofactors of the symmetric matrix of the normal equations.
+Curve curved_through(const Moments& m) {
+  const auto& t = m.t;
+  const double a = t[2] * t[4] - t[3] * t[3];
+  const double b = t[2] * t[3] - t[1] * t[4];
+  const double c = t[1] * t[3] - t[2] * t[2];
+  const double d = t[0] * t[4] - t[2] * t[2];
+  const double e = t[1] * t[2] - t[0] * t[3];
+  const double f = t[0] * t[2] - t[1] * t[1];
+  const double det = t[0] * a + t[1] * b + t[2] * c;
+  Curve out;
+  out.c[0] = (a * m.p[0] + b * m.p[1] + c * m.p[2]) / det;
+  out.c[1] = (b * m.p[0] + d * m.p[1] + e * m.p[2]) / det;
+  out.c[2] = (c * m.p[0] + e * m.p[1] + f * m.p[2]) / det;
+  out.residual = residual_of(m, out.c);
+  out.rate_variance = d / det;
+  return out;
+}
+
+struct Window {
+  Curve curve;
+  int sightings = 0;
+};
+
+/// The longest window, from the newest sighting back, that a curve of `order` + 1 terms fits.
+Window longest(std::span<const Sighting> sightings, std::size_t order, double noise) {
+  const Sighting newest = sightings.back();
+  Moments m;
+  Window out;
+  for (std::size_t n = 1; n <= sightings.size(); ++n) {
+    const Sighting& s = sightings[sightings.size() - n];
+    m.add(s.t - newest.t, s.place - newest.place);
+    if (n <= order) continue;
+    const Curve curve = order == 1 ? straight_through(m) : curved_through(m);
+    const double freedom = 2.0 * static_cast<double>(n - order - 1);
+    if (n > order + 1 && curve.residual > freedom * most_off * most_off * noise * noise) break;
+    out = {curve, static_cast<int>(n)};
+  }
+  return out;
+}
+
+}  // namespace
+
+MotionFit fit_motion(std::span<const Sighting> sightings, int most) {
+  if (sightings.empty()) return {};
+  MotionFit out;
+  out.place = sightings.back().place;
+  out.noise = noise_of(sightings);
+  out.velocity_error = std::numeric_limits<double>::infinity();
+  out.sightings = 1;
+  if (sightings.size() < 2) return out;
+  const auto newest = sightings.last(std::min(sightings.size(), static_cast<std::size_t>(most)));
+  Window best = longest(newest, 1, out.noise);
+  if (newest.size() > 3) {
+    const Window curved = longest(newest, 2, out.noise);
+    if (curved.curve.rate_variance < best.curve.rate_variance) best = curved;
+  }
+  out.place += best.curve.c[0];
+  out.velocity = best.curve.c[1];
+  out.acceleration = 2 * best.curve.c[2];
+  out.velocity_error = out.noise * std::sqrt(best.curve.rate_variance);
+  out.sightings = best.sightings;
+  return out;
+}
+
+}  // namespace microswarm

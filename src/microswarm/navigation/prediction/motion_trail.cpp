@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/prediction/motion_trail.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace microswarm {
+namespace {
+
+constexpr double at_rest = 5;            // slower bodies rest [µm/s]
+constexpr double least_age = 1;          // of a recurrence [s]
+constexpr double least_way_back = 3;     // that is remembered, of a reversed one [s]
+constexpr double most_off_time = 0.12;   // of a point from the recurrence [s]
+constexpr double place_off = 2;          // and 3 times the noise [µm]
+constexpr double velocity_off = 0.05;    // share of the speed
+constexpr double velocity_noise = 20;    // of a velocity, for a noise of 1 µm [1/s]
+constexpr double velocity_weight = 0.3;  // [s]
+constexpr double much_better = 0.5;      // than a newer recurrence [µm]
+
+TrailPoint moved(const TrailPoint& p, double t) {
+  TrailPoint out = p;
+  out.t = t;
+  out.place += (t - p.t) * p.velocity;
+  return out;
+}
+
+}  // namespace
+
+void MotionTrail::add(const TrailPoint& point, double memory) {
+  if (points_.size() == most_points)  // seldom, and many at once
+    points_.erase(points_.begin(), points_.begin() + most_points / 4);
+  const auto kept = std::find_if(points_.begin(), points_.end(),
+                                 [&](const TrailPoint& p) { return p.t >= point.t - memory; });
+  if (static_cast<std::size_t>(kept - points_.begin()) > points_.size() / 4)
+    points_.erase(points_.begin(), kept);
+  points_.push_back(point);
+}
+
+TrailPoint MotionTrail::at(double t) const {
+  const auto after = std::lower_bound(points_.begin(), points_.end(), t,
+                                      [](const TrailPoint& p, double time) { return p.t < time; });
+  if (after == points_.begin()) return moved(points_.front(), t);
+  if (after == points_.end()) return moved(points_.back(), t);
+  const TrailPoint& a = *(after - 1);
+  const TrailPoint& b = *after;
+  const double dt = b.t - a.t;
+  const double f = (t - a.t) / dt;
+  const double g = 1 - f;
+  // Hermite's cubic.
+  const Vec2 place = (g * g * (1 + 2 * f)) * a.place + (f * f * (1 + 2 * g)) * b.place +
+                     (f * g * dt) * (g * a.velocity - f * b.velocity);
+  return {t, place, g * a.velocity + f * b.velocity, g * a.radius + f * b.radius,
+          g * a.turn + f * b.turn};
+}
+
+std::optional<Recurrence> MotionTrail::recurrence(double noise) const {
+  if (points_.empty()) return std::nullopt;
+  const TrailPoint now = points_.back();
+  const double speed = norm(now.velocity);
+  if (speed < at_rest) return std::nullopt;
+  const double near = most_off_time * speed + place_off + 3 * noise;
+  const double most_place_off = place_off + 3 * noise;
+  const double most_velocity_off = velocity_off * speed + velocity_noise * noise;
+  std::optional<Recurrence> best;
+  double least_off = std::numeric_limits<double>::infinity();
+  for (std::size_t i = points_.size(); i-- > 0;) {
+    const TrailPoint& p = points_[i];
+    if (p.t > now.t - least_age) continue;
+    const Vec2 off = now.place - p.place;
+    const double speed2 = squared_norm(p.velocity);
+    if (squared_norm(off) > near * near || speed2 < 1) continue;
+    const double shift = dot(off, p.velocity) / speed2;
+    if (std::abs(shift) > most_off_time || p.t + shift < points_.front().t) continue;
+    const TrailPoint was = at(p.t + shift);
+    const double place = distance(was.place, now.place);
+    if (place > most_place_off) continue;
+    for (const bool reversed : {false, true}) {
+      if (reversed && was.t < points_.front().t + least_way_back) continue;
+      const double velocity =
+          norm(reversed ? was.velocity + now.velocity : was.velocity - now.velocity);
+      const double sum = place + velocity_weight * velocity;
+      if (velocity > most_velocity_off || sum > least_off - much_better) continue;
+      least_off = sum;
+      best = Recurrence{was.t, reversed};
+    }
+  }
+  return best;
+}
+
+TrailPoint MotionTrail::after(const Recurrence& recurrence, double s) const {
+  if (recurrence.reversed) return at(recurrence.t - s);
+  const double period = points_.back().t - recurrence.t;
+  return at(recurrence.t + std::fmod(s, period));
+}
+
+}  // namespace microswarm

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/prediction/obstacle_predictor.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "microswarm/geometry/distance.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double rest_speed = 1e-6;  // less is rounding [µm/s]
+constexpr double sure = 2;           // standard errors: a velocity that is none is smaller
+constexpr double swept_growing_time = 2;   // for which an outline goes on growing [s]
+
+double inradius_bound(const Body& body) {
+  if (const auto* disc = std::get_if<Disc>(&body.shape)) return disc->radius;
+  const Box box = bounding_box(std::get<Polygon>(body.shape));
+  return 0.5 * std::min(box.width(), box.height());
+}
+
+}  // namespace
+
+void ObstaclePredictor::see(const Observation& observation) {
+  if (!observation.world) return;
+  tracker_.see(observation);
+  const auto bodies = observation.world->moving().bodies();
+  motions_.assign(bodies.size(), {});
+  all_rest_ = true;
+  for (std::size_t i = 0; i < bodies.size() && i < tracker_.size(); ++i) {
+    const TrackedBody tracked = tracker_.body(i);
+    const bool moves = norm(tracked.velocity) > std::max(rest_speed, sure * tracked.velocity_error);
+    motions_[i] = {moves ? tracked.velocity : Vec2{}, outward_speed(bodies[i], tracked)};
+    all_rest_ = all_rest_ && !moves;
+  }
+}
+
+double ObstaclePredictor::clearance(const Snapshot& frame, Segment s, double t0, double t1,
+                                    double limit) const {
+  const auto bodies = frame.moving().bodies();
+  assert(bodies.size() == motions_.size());
+  if (all_rest_) {  // the indexed query serves
+    double growth = 0;
+    for (const Motion& m : motions_) growth = std::max(growth, m.growth);
+    growth *= std::min(t1, swept_growing_time);
+    return std::min(limit, frame.moving().clearance(s, limit + growth) - growth);
+  }
+  double least = limit;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Motion& motion = motions_[i];
+    const Segment own_frame{s.a - t0 * motion.velocity, s.b - t1 * motion.velocity};
+    const double d =
+        std::visit([&](const auto& shape) { return distance(own_frame, shape); }, bodies[i].shape);
+    least = std::min(least, d - motion.growth * std::min(t1, swept_growing_time));
+  }
+  return least;
+}
+
+Snapshot ObstaclePredictor::swept_obstacles(const Snapshot& frame, double horizon, double r) const {
+  constexpr double enough_copies = 8;
+  constexpr double most_copies = 100;
+  const auto bodies = frame.moving().bodies();
+  assert(bodies.size() == motions_.size());
+  std::vector<Body> swept;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Motion& motion = motions_[i];
+    const double way = norm(motion.velocity) * horizon;
+    const double size = std::max(1.0, inradius_bound(bodies[i]));
+    // Copies that close up; of a small and fast body fewer, but no path fits between two of them.
+    const double without_gap = std::max(enough_copies, std::ceil(way / (size + r)));
+    const int copies =
+        static_cast<int>(std::min({std::ceil(way / size), without_gap, most_copies}));
+    for (int k = 0; k <= copies; ++k) {
+      swept.push_back(bodies[i]);
+      if (copies == 0) continue;
+      const double t = horizon * k / copies;
+      shift(swept.back(), t * motion.velocity);
+      if (auto* disc = std::get_if<Disc>(&swept.back().shape)) disc->radius += t * motion.growth;
+    }
+  }
+  return Snapshot(frame.shared_map(), frame.time(), std::move(swept));
+}
+
+}  // namespace microswarm

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/prediction/obstacle_tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "microswarm/core/infinity.hpp"
+#include "microswarm/geometry/distance.hpp"
+
+namespace microswarm {
+namespace {
+
+Vec2 centroid(std::span<const Vec2> ring) {
+  const Vec2 origin = ring.front();
+  Vec2 sum;
+  double twice_area = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vec2 a = ring[i] - origin;
+    const Vec2 b = ring[(i + 1) % ring.size()] - origin;
+    sum += cross(a, b) * (a + b);
+    twice_area += cross(a, b);
+  }
+  if (twice_area == 0) return bounding_box(ring).centre();
+  return origin + sum / (3 * twice_area);
+}
+
+/// Sightings from which the noise is told, in windows of a fit.
+constexpr std::size_t windows = 4;
+
+constexpr double outline_spacing = 0.4;  // between outlines that are kept [s]
+
+/// How far the vertices of `polygon` stand out of the solid `before`, which is given about its
+/// centre, at most; those that `counts(ring, i)`.
+template <class Counts>
+double outward_distance(const Polygon& polygon, Vec2 centre, const Polygon& before,
+                        Counts&& counts) {
+  double most = 0;
+  const auto compare = [&](std::span<const Vec2> ring, std::span<const Vec2> then) {
+    const bool alike = ring.size() == then.size();
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      if (!counts(ring, i)) continue;
+      const Vec2 v = ring[i] - centre;
+      if (alike && distance(v, then[i]) <= most) continue;  // a bound without a search
+      most = std::max(most, distance(v, before));
+    }
+  };
+  compare(polygon.outer, before.outer);
+  for (std::size_t k = 0; k < polygon.holes.size(); ++k)
+    compare(polygon.holes[k], k < before.holes.size() ? std::span<const Vec2>(before.holes[k])
+                                                      : std::span<const Vec2>{});
+  return most;
+}
+
+constexpr auto every_vertex = [](std::span<const Vec2>, std::size_t) { return true; };
+
+/// Keeps the newest `most`.
+void remember(std::vector<Sighting>& trail, Sighting newest, std::size_t most) {
+  if (trail.size() >= most) trail.erase(trail.begin());
+  trail.push_back(newest);
+}
+
+}  // namespace
+
+double outward_speed(const Body& body, const TrackedBody& motion) {
+  return std::holds_alternative<Disc>(body.shape) ? std::max(0.0, motion.radius_rate)
+                                                  : motion.outline_speed;
+}
+
+Disc extent_of(const Body& body) {
+  if (const auto* disc = std::get_if<Disc>(&body.shape)) return *disc;
+  const std::vector<Vec2>& outline = *outline_of(body);
+  Disc extent{centroid(outline), 0};
+  for (const Vec2 v : outline) extent.radius = std::max(extent.radius, distance(extent.centre, v));
+  return extent;
+}
+
+void ObstacleTracker::see(const Observation& observation, double range) {
+  if (!observation.world || !std::isfinite(observation.seen)) return;
+  const auto bodies = observation.world->moving().bodies();
+  if (observation.seen == seen_ && bodies.size() == trail_of_.size()) return;
+  if (observation.seen <= seen_) trails_.clear();
+  seen_ = observation.seen;
+  find_trails(bodies);
+  const Vec2 centre = observation.swarm ? observation.swarm->pose.position : Vec2{};
+  const Disc within{centre, observation.swarm ? range : infinity};
+  for (std::size_t i = 0; i < bodies.size(); ++i) extend(trails_[trail_of_[i]], bodies[i], within);
+}
+
+std::vector<ObstacleTracker::Trail>::iterator ObstacleTracker::lower_bound(const Key& key) {
+  return std::lower_bound(trails_.begin(), trails_.end(), key,
+                          [](const Trail& t, const Key& k) { return t.key < k; });
+}
+
+// Frames mostly show the same bodies in the same order.
+void ObstacleTracker::find_trails(std::span<const Body> bodies) {
+  std::erase_if(trails_, [&](const Trail& t) { return t.present < seen_ - params_.memory; });
+  const auto for_each_key = [&](auto&& visit) {
+    Key key{0, 0};
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const bool next = i > 0 && bodies[i].obstacle == bodies[i - 1].obstacle;
+      key = {bodies[i].obstacle, next ? key.second + 1 : 0};
+      visit(i, key);
+    }
+  };
+  for_each_key([&](std::size_t i, const Key& key) {
+    if (i < trail_of_.size() && trail_of_[i] < trails_.size() && trails_[trail_of_[i]].key == key)
+      return;
+    const auto at = lower_bound(key);
+    if (at != trails_.end() && at->key == key) return;
+    Trail& fresh = *trails_.insert(at, Trail{});
+    fresh.key = key;
+    const std::size_t most = windows * static_cast<std::size_t>(params_.frames);
+    fresh.places.reserve(most);
+    fresh.radii.reserve(most);
+  });
+  trail_of_.resize(bodies.size(), 0);
+  for_each_key([&](std::size_t i, const Key& key) {
+    if (trail_of_[i] < trails_.size() && trails_[trail_of_[i]].key == key) return;
+    trail_of_[i] = static_cast<std::size_t>(lower_bound(key) - trails_.begin());
+  });
+}
+
+void ObstacleTracker::extend(Trail& trail, const Body& body, Disc within) const {
+  trail.present = seen_;
+  const Disc extent = extent_of(body);
+  if (distance(extent.centre, within.centre) - extent.radius > within.radius) {
+    trail.places.clear();
+    trail.radii.clear();
+    return;
+  }
+  const auto outdated = [&](const Sighting& s) { return s.t < seen_ - params_.memory; };
+  std::erase_if(trail.places, outdated);
+  std::erase_if(trail.radii, outdated);
+  if (const auto* polygon = std::get_if<Polygon>(&body.shape))
+    compare_outline(trail, *polygon, extent.centre);
+  const std::size_t most = windows * static_cast<std::size_t>(params_.frames);
+  remember(trail.places, {seen_, extent.centre}, most);
+  remember(trail.radii, {seen_, {extent.radius, 0}}, most);
+}
+
+// Compares with an outline that is a few frames old, since one frame's noise is a large speed.
+// Outlines that are traced anew in every picture have other vertices each time, so a vertex is
+// compared with the solid of old and not with its like.
+void ObstacleTracker::compare_outline(Trail& trail, const Polygon& polygon, Vec2 centre) const {
+  auto& [older, newer] = trail.past;
+  const bool known = !trail.places.empty() && !older.shape.outer.empty();
+  trail.outline_speed =
+      known ? outward_distance(polygon, centre, older.shape, every_vertex) / (seen_ - older.t) : 0;
+  if (known && seen_ - newer.t < outline_spacing) return;
+  std::swap(older, newer);
+  newer.t = seen_;
+  newer.shape = polygon;
+  for (Vec2& v : newer.shape.outer) v -= centre;
+  for (auto& hole : newer.shape.holes)
+    for (Vec2& v : hole) v -= centre;
+  if (!known) older = newer;
+}
+
+double ObstacleTracker::outline_speed_within(std::size_t body, const Body& shape,
+                                             Disc within) const {
+  const Trail& trail = trails_[trail_of_[body]];
+  const Outline& before = trail.past[0];
+  const auto* polygon = std::get_if<Polygon>(&shape.shape);
+  if (!polygon || trail.places.empty() || before.shape.outer.empty() || before.t >= seen_) return 0;
+  const auto edge_reaches = [&](Vec2 a, Vec2 b) {
+    return distance(within.centre, Segment{a, b}) <= within.radius;
+  };
+  const auto near = [&](std::span<const Vec2> ring, std::size_t i) {
+    const std::size_t n = ring.size();
+    return edge_reaches(ring[i], ring[(i + 1) % n]) || edge_reaches(ring[i], ring[(i + n - 1) % n]);
+  };
+  return outward_distance(*polygon, extent_of(shape).centre, before.shape, near) /
+         (seen_ - before.t);
+}
+
+TrackedBody ObstacleTracker::told_by(const Trail& trail) const {
+  if (trail.places.empty()) return {.velocity_error = std::numeric_limits<double>::infinity()};
+  const MotionFit place = fit_motion(trail.places, params_.frames);
+  const MotionFit radius = fit_motion(trail.radii, params_.frames);
+  return {.centre = place.place,
+          .velocity = place.velocity,
+          .acceleration = place.acceleration,
+          .velocity_error = place.velocity_error,
+          .noise = place.noise,
+          .radius = radius.place.x,
+          .radius_rate = radius.velocity.x,
+          .outline_speed = std::max(trail.outline_speed, std::abs(radius.velocity.x)),
+          .frames = place.sightings};
+}
+
+}  // namespace microswarm

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/prediction/oscillation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace microswarm {
+namespace {
+
+constexpr double slowest = 0.08;  // [rad/s]
+constexpr double fastest = 3.5;   // [rad/s]
+constexpr double spacing = 0.08;  // between the frames that are used [s]
+constexpr int least_sightings = 6;
+constexpr double same_time = 1e-9;  // [s]
+
+/// Coefficients of the three terms, and what is left over of Σ |place|².
+struct Terms {
+  std::array<Vec2, 3> c{};
+  double residual = 0;
+};
+
+}  // namespace
+
+Vec2 Oscillation::at(double t) const {
+  const double half = 0.5 * frequency * t;
+  if (std::abs(half) < 1e-6) return value + t * rate + (0.5 * t * t) * curve;
+  const double sine = std::sin(half);
+  return value + (2 * sine * std::cos(half) / frequency) * rate +
+         (2 * sine * sine / (frequency * frequency)) * curve;
+}
+
+/// Normal equations of every rung: matrix and right-hand side.
+struct OscillationFit::Sums {
+  int count = 0;
+  double squares = 0;
+  Vec2 places;
+  std::array<double, rungs> s{}, c{}, ss{}, sc{}, cc{};
+  std::array<double, rungs> sx{}, sy{}, cx{}, cy{};
+
+  void add(const Row& row, Vec2 place) {
+    ++count;
+    squares += squared_norm(place);
+    places += place;
+    for (std::size_t k = 0; k < rungs; ++k) {
+      const double sine = row.sine[k];
+      const double cosine = row.cosine[k];
+      s[k] += sine;
+      c[k] += cosine;
+      ss[k] += sine * sine;
+      sc[k] += sine * cosine;
+      cc[k] += cosine * cosine;
+      sx[k] += sine * place.x;
+      sy[k] += sine * place.y;
+      cx[k] += cosine * place.x;
+      cy[k] += cosine * place.y;
+    }
+  }
+
+  /// By the cofactors of the symmetric matrix; none when it is singular.
+  std::optional<Terms> solve(std::size_t k) const {
+    const double n = count;
+    const double a = ss[k] * cc[k] - sc[k] * sc[k];
+    const double b = c[k] * sc[k] - s[k] * cc[k];
+    const double d = s[k] * sc[k] - c[k] * ss[k];
+    const double e = n * cc[k] - c[k] * c[k];
+    const double f = s[k] * c[k] - n * sc[k];
+    const double g = n * ss[k] - s[k] * s[k];
+    const double determinant = n * a + s[k] * b + c[k] * d;
+    if (!(determinant > 0)) return std::nullopt;
+    const Vec2 by_sine{sx[k], sy[k]};
+    const Vec2 by_cosine{cx[k], cy[k]};
+    Terms out;
+    out.c[0] = (a * places + b * by_sine + d * by_cosine) / determinant;
+    out.c[1] = (b * places + e * by_sine + f * by_cosine) / determinant;
+    out.c[2] = (d * places + f * by_sine + g * by_cosine) / determinant;
+    out.residual =
+        squares - dot(out.c[0], places) - dot(out.c[1], by_sine) - dot(out.c[2], by_cosine);
+    return out;
+  }
+};
+
+OscillationFit::OscillationFit() {
+  const double step = std::log(fastest / slowest) / (rungs - 1);
+  for (std::size_t k = 0; k < rungs; ++k)
+    frequencies_[k] = slowest * std::exp(step * static_cast<double>(k));
+  rows_.reserve(most_rows);
+}
+
+void OscillationFit::begin(double now) {
+  now_ = now;
+  if (rows_.size() > 1 && rows_.back().t - rows_[rows_.size() - 2].t < spacing) rows_.pop_back();
+  std::erase_if(rows_, [&](const Row& row) { return row.t < now - windows.back(); });
+  if (rows_.size() == most_rows) rows_.erase(rows_.begin());
+  rows_.emplace_back().t = now;
+  for (Row& row : rows_) fill(row);
+}
+
+void OscillationFit::fill(Row& row) const {
+  for (std::size_t k = 0; k < rungs; ++k) {
+    const double w = frequencies_[k];
+    const double half = 0.5 * w * (row.t - now_);
+    const double sine = std::sin(half);
+    row.sine[k] = 2 * sine * std::cos(half) / w;
+    row.cosine[k] = 2 * sine * sine / (w * w);
+  }
+}
+
+OscillationFit::Fits OscillationFit::fit(std::span<const Sighting> sightings) {
+  Fits out;
+  if (sightings.empty() || rows_.empty()) return out;
+  const Vec2 origin = sightings.back().place;
+  Sums sums;
+  std::size_t window = 0;
+  std::size_t row = rows_.size();
+  for (std::size_t i = sightings.size(); i-- > 0;) {
+    const Sighting& seen = sightings[i];
+    while (row > 0 && rows_[row - 1].t > seen.t + same_time) --row;
+    if (row == 0) break;
+    if (rows_[row - 1].t < seen.t - same_time) continue;
+    for (; window < windows.size() && now_ - seen.t > windows[window]; ++window)
+      out[window] = best_of(sums, origin);
+    if (window == windows.size()) return out;
+    sums.add(rows_[row - 1], seen.place - origin);
+  }
+  if (window < windows.size()) out[window] = best_of(sums, origin);
+  return out;
+}
+
+std::optional<Oscillation> OscillationFit::best_of(const Sums& sums, Vec2 origin) const {
+  if (sums.count < least_sightings) return std::nullopt;
+  std::array<std::optional<Terms>, rungs> terms;
+  std::size_t best = rungs;
+  for (std::size_t k = 0; k < rungs; ++k) {
+    terms[k] = sums.solve(k);
+    if (terms[k] && (best == rungs || terms[k]->residual < terms[best]->residual)) best = k;
+  }
+  if (best == rungs) return std::nullopt;
+  Terms found = *terms[best];
+  double frequency = frequencies_[best];
+  if (best > 0 && best + 1 < rungs && terms[best - 1] && terms[best + 1]) {
+    const Terms& before = *terms[best - 1];
+    const Terms& after = *terms[best + 1];
+    const double bend = before.residual - 2 * found.residual + after.residual;
+    if (bend > 0) {
+      const double off = std::clamp(0.5 * (before.residual - after.residual) / bend, -0.5, 0.5);
+      for (std::size_t i = 0; i < found.c.size(); ++i)
+        found.c[i] += (0.5 * off) * (after.c[i] - before.c[i]) +
+                      (0.5 * off * off) * (before.c[i] - 2 * found.c[i] + after.c[i]);
+      frequency *= std::pow(frequencies_[1] / frequencies_[0], off);
+    }
+  }
+  return Oscillation{frequency, origin + found.c[0], found.c[1], found.c[2]};
+}
+
+}  // namespace microswarm

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "microswarm/core/rng.hpp"
+#include "microswarm/navigation/prediction/convex_outline.hpp"
+#include "microswarm/navigation/prediction/foresight.hpp"
+#include "microswarm/navigation/predictive/predictive_params.hpp"
+#include "microswarm/navigation/predictive/time_field.hpp"
+#include "microswarm/navigation/steering/guide.hpp"
+#include "microswarm/navigation/steering/helm.hpp"
+
+namespace microswarm {
+
+/// See PredictiveParams. States: follow (no obstacle is foreseen near to the way), avoid, escape
+/// (contact is foreseen on the best way even), hold, arrived, blind.
+class PredictiveNavigator : public Navigator {
+ public:
+  PredictiveNavigator(const PredictiveParams& params, const SwarmLimits& swarm, Vec2 goal,
+                      double goal_tolerance, Rng rng);
+
+  void prepare(const Snapshot& world) override;
+  Command step(const Observation& observation, const Stop& stop) override;
+  NavigatorView view() const override;
+
+  const Foresight& foresight() const { return foresight_; }
+
+ private:
+  static constexpr int leg_pieces = 5;
+  struct Leg {
+    Command command;
+    double cost = 0;
+    double least_gap = 0;  ///< to obstacles [µm]
+  };
+
+  struct Meeting {
+    double gap = std::numeric_limits<double>::infinity();  ///< least, where it is near [µm]
+    double risk = 0;                                       ///< greatest, seconds a second
+  };
+
+  void look_at_bodies(const Observation& seen, Vec2 from);
+  bool stands_hollow(const ConvexOutline& outline, const TrackedBody& motion, Vec2 from) const;
+  void look_ahead(double effect);
+  bool goal_is_clear(const Map& map, const Pose2& pose) const;
+  void solve(const Map& map, Vec2 from);
+  double left_from(Vec2 p) const;
+  float standing_risk(const Map& map, Vec2 p) const;
+  Leg best_leg(const Map& map, const Pose2& pose);
+  Leg tried(const Map& map, const Pose2& pose, const Command& command, double bound) const;
+  std::optional<double> best_heading(Vec2 p) const;
+  double turning_time(const Pose2& pose) const;
+  Meeting meeting(int piece, Segment way) const;
+  double follow_field(Vec2 from);
+
+  PredictiveParams params_;
+  Helm helm_;
+  double goal_tolerance_;
+  Disc reached_;            ///< from where on the goal counts as reached
+  double ends_within_ = 0;  ///< of the goal, on the last bit [µm]
+  double radius_;           ///< with the margin [µm]
+  Foresight foresight_;
+  TimeField field_;
+  Route route_;
+  bool in_sight_ = true;          ///< is the goal?
+  std::optional<double> wanted_;  ///< heading to turn to, of a swarm that turns slowly [rad]
+  bool ending_ = false;           ///< is it at the last bit, finer than the field's cells?
+
+  ConvexOutliner outliner_;
+  std::vector<ConvexOutline> outlines_;  ///< of the bodies that are foreseen
+  std::vector<std::size_t> body_of_;
+  std::size_t bodies_ = 0;
+  std::vector<BodyAhead> ahead_;      ///< at the samples of the field
+  std::vector<BodyAhead> leg_ahead_;  ///< at the ends of the pieces of the first leg
+  std::vector<Body> hollow_bodies_;
+  BodySet hollow_;      ///< bodies that the swarm is within the hull of: taken as they stand
+  double closing_ = 0;  ///< what those may come nearer meanwhile [µm]
+  std::vector<Vec2> path_;
+  bool planned_ = false;
+};
+
+}  // namespace microswarm

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/radar/radar_circles.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "microswarm/core/published.hpp"
+
+namespace microswarm {
+
+RadarCircles circles_of(const RadarParams& params, double swarm_radius) {
+  const double prediction = swarm_radius + params.prediction_distance;  // Eq 6
+  return {.prediction = prediction,
+          .safety = prediction + params.safety_distance,        // Eq 7
+          .detection = swarm_radius + params.detection_range};  // Eq 7
+}
+
+int directions_of(const RadarParams& params) {
+  return static_cast<int>(std::lround(2 * pi / params.angle_step));
+}
+
+RadarParams RadarParams::in_effect() const {
+  RadarParams p = *this;
+  if (!as_published) return p;
+  p.guard = {.active = false};
+  p.retreat = false;
+  p.most_turn = radians(180);
+  p.compensate_delay = false;
+  p.obstacle_speed_bound = 0;
+  return p;
+}
+
+void check(const RadarParams& params, const Places& where) {
+  const double safety = params.prediction_distance + params.safety_distance;
+  if (params.detection_range < safety)
+    throw where.error(
+        {"navigator.detection_range_um", "navigator.prediction_distance_um",
+         "navigator.safety_distance_um"},
+        fmt::format(
+            "navigator.detection_range_um is {:.4g}, less than prediction_distance_um + "
+            "safety_distance_um, {:.4g}: the safety circle must lie within the detection circle",
+            params.detection_range, safety));
+  const double count = 2 * pi / params.angle_step;
+  if (std::abs(count - std::round(count)) > 1e-9 * count || std::round(count) < 3)
+    throw where.error("navigator.angle_step_deg",
+                      fmt::format("navigator.angle_step_deg is {:.6g}, must divide 360",
+                                  degrees(params.angle_step)));
+  if (!(params.speed > 0))
+    throw where.error(
+        "navigator.speed_um_per_s",
+        fmt::format("navigator.speed_um_per_s is {:.4g}, must be above 0", params.speed));
+  if (params.global_plan && !params.waypoints.empty())
+    throw where.error({"navigator.global_plan", "navigator.waypoints_um"},
+                      "navigator.global_plan is true and navigator.waypoints_um are given: only "
+                      "one of them can be");
+  check(params.planner, where.within("navigator.planner", "navigator.planner"));
+  if (!params.as_published) return;
+  check_published(where.within("navigator"), params, params.in_effect(), RadarParams{});
+}
+
+void check_step(const RadarParams& params, const SwarmLimits& swarm, const Places& where) {
+  const double kept = params.safety_radius.adaptive ? 0 : params.safety_distance;
+  const double most = 2 * (swarm.radius - swarm.radius_variation) + kept;
+  if (params.prediction_distance <= most) return;
+  throw where.error(
+      {"navigator.prediction_distance_um", "navigator.safety_distance_um"},
+      fmt::format("navigator.prediction_distance_um is {:.4g}, more than the swarm's least "
+                  "diameter{}, {:.4g}: it could step over a wall",
+                  params.prediction_distance, kept > 0 ? " + safety_distance_um" : "", most));
+}
+
+}  // namespace microswarm

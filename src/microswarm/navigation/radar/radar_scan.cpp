@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/radar/radar_scan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "microswarm/geometry/distance.hpp"
+#include "microswarm/navigation/prediction/obstacle_tracker.hpp"
+
+namespace microswarm {
+namespace {
+
+double nearness(Vec2 place, Vec2 target) {
+  return 1 / std::max(distance(place, target), least_way);
+}
+
+Vec2 place_of(const RadarLook& look, double heading) {
+  return look.centre + look.step * unit_vector(heading);
+}
+
+/// Eq 17, 30
+void screen(RadarBeam& beam, const RadarLook& look, const Snapshot& world) {
+  const Vec2 place = place_of(look, beam.heading);
+  for (const Body& body : world.moving().bodies()) {
+    if (edge_distance(body, place) >= look.obstacle_reach()) continue;
+    beam.fate = BeamFate::obstacle;
+    beam.obstacle = body.obstacle;
+    return;
+  }
+  if (!world.map().is_free(place, look.wall_reach())) beam.fate = BeamFate::wall;
+}
+
+std::optional<std::uint32_t> nearest_body(const RadarLook& look, const Snapshot& world) {
+  std::optional<std::uint32_t> nearest;
+  double least = look.circles.detection + look.approach;
+  const auto bodies = world.moving().bodies();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const double d = edge_distance(bodies[i], look.centre);
+    if (d >= least) continue;
+    least = d;
+    nearest = static_cast<std::uint32_t>(i);
+  }
+  return nearest;
+}
+
+/// Of χ_2 only what keeps the course is taken where there is such; φ_i is that over all of χ_2.
+void keep_course(RadarScan& out) {
+  const auto is_on = [&](const RadarBeam& beam) {
+    return beam.fate == BeamFate::kept && keeps_course(out.look, unit_vector(beam.heading));
+  };
+  if (std::none_of(out.beams.begin(), out.beams.end(), is_on)) return;
+  for (RadarBeam& beam : out.beams)
+    if (beam.fate == BeamFate::kept && !is_on(beam)) beam.fate = BeamFate::turn;
+}
+
+/// Eq 9
+void rate(RadarScan& out, const Snapshot& world) {
+  // N(·) takes away what is the same for all: r_s, r_ob.
+  const auto gap = [&](Vec2 p) {
+    if (!out.nearest) return 0.0;
+    const Body& body = world.moving().bodies()[*out.nearest];
+    const auto centre = centre_of(body);
+    return centre ? distance(*centre, p) : edge_distance(body, p);
+  };
+  MinMax towards, away;
+  for (const RadarBeam& beam : out.beams) {
+    if (beam.fate != BeamFate::kept) continue;
+    const Vec2 place = place_of(out.look, beam.heading);
+    towards.include(nearness(place, out.look.target));
+    away.include(gap(place));
+  }
+  for (RadarBeam& beam : out.beams) {
+    if (beam.fate != BeamFate::kept) continue;
+    const Vec2 place = place_of(out.look, beam.heading);
+    beam.score = out.weights.target * towards.normalised(nearness(place, out.look.target)) +
+                 out.weights.avoidance * away.normalised(gap(place));
+  }
+}
+
+/// Eq 13
+void choose(RadarScan& out) {
+  for (std::size_t i = 0; i < out.beams.size(); ++i) {
+    const RadarBeam& beam = out.beams[i];
+    if (beam.fate != BeamFate::kept) continue;
+    if (!out.best || beam.score > out.beams[*out.best].score) out.best = i;
+  }
+}
+
+}  // namespace
+
+double edge_distance(const Body& body, Vec2 p) {
+  return std::visit([&](const auto& shape) { return distance(p, shape); }, body.shape);
+}
+
+std::optional<Vec2> centre_of(const Body& body) {
+  const Vec2 centre = extent_of(body).centre;
+  return edge_distance(body, centre) > 0 ? std::nullopt : std::optional(centre);
+}
+
+RadarWeights radar_weights(const RadarLook& look, double distance_to_edge) {
+  const double r_s = look.radius;
+  const double r_d = look.circles.detection;
+  const double s = std::clamp(distance_to_edge, r_s, r_d);
+  const double way = distance(look.centre, look.target) / r_d;
+  const double near = (1 / s - 1 / r_d) / (1 / r_s - 1 / r_d);
+  return {.target = 1 + look.target_gain * way * way,
+          .avoidance = 0.5 + look.avoidance_gain / 2 * near * near};
+}
+
+RadarScan scan(const RadarLook& look, const Snapshot& world, int directions) {
+  RadarScan out;
+  out.look = look;
+  out.nearest = nearest_body(look, world);
+  for (int i = 0; i < directions; ++i) {
+    out.beams.push_back({.heading = wrap(2 * pi * i / directions)});
+    screen(out.beams.back(), look, world);
+  }
+  if (out.nearest) {
+    const Body& body = world.moving().bodies()[*out.nearest];
+    out.weights = radar_weights(look, edge_distance(body, look.centre) - look.approach);
+  } else {
+    out.weights = {radar_weights(look, look.circles.detection).target, 0};
+    // Eq 14–16; no farther than the target, which may lie before a wall.
+    const double heading = heading_of(look.target - look.centre);
+    const double ahead = std::min(look.step, distance(look.centre, look.target));
+    if (world.map().is_free(look.centre + ahead * unit_vector(heading), look.wall_reach()))
+      out.straight = heading;
+  }
+  rate(out, world);
+  keep_course(out);
+  choose(out);
+  return out;
+}
+
+}  // namespace microswarm

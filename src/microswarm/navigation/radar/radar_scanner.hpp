@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "microswarm/navigation/radar/radar_scan.hpp"
+
+namespace microswarm {
+
+/// The nearest body in the detection circle.
+struct RadarContact {
+  std::uint32_t body = 0;
+  double distance = 0;  ///< from the swarm's centre to its edge, `approach` taken off [µm]
+};
+
+/// What `scan` would choose, quickly: what is near is gathered once, then asked for all directions
+/// in flat loops. Allocates nothing once its buffers have grown.
+class RadarScanner {
+ public:
+  explicit RadarScanner(int directions);
+
+  int directions() const { return static_cast<int>(ux_.size()); }
+
+  /// Gathers what is in the detection circle; of its nearest body tells which it is.
+  std::optional<RadarContact> detect(const RadarLook& look, const Snapshot& world);
+  /// Heading of the best direction by Eq 9–17, 30, 31 [radar] among what was detected for the same
+  /// look, whose safety circle may have changed since; nothing where all are screened.
+  std::optional<double> choose(const RadarLook& look, const Snapshot& world);
+  /// Heading of the best way out where no direction is safe, ours: of some directions, one step or
+  /// three long, the one with the greatest sum of the least distance to anything on its way and
+  /// that at its end; nothing where holding is as good.
+  std::optional<double> retreat(const RadarLook& look, const Snapshot& world) const;
+  /// The directions that are not screened, χ_2 of Eq 17 [radar], among what was detected.
+  std::vector<bool> kept(const RadarLook& look, const Snapshot& world);
+
+ private:
+  struct NearDisc {
+    Disc disc;
+    double distance;
+  };
+  struct NearEdge {
+    Segment edge;
+    std::uint32_t body;
+  };
+  /// Distances from the swarm's centre to whatever is nearest, at most r_d [µm].
+  struct Outcome {
+    double on_way = 0;  ///< least of them
+    double at_end = 0;
+    double worth() const { return on_way + at_end; }
+  };
+
+  void note(RadarContact contact);
+  void place(const RadarLook& look);
+  void screen(const RadarLook& look, const Snapshot& world);
+  void screen_by_obstacles(const RadarLook& look, const Snapshot& world);
+  void screen_by_walls(const RadarLook& look, const Snapshot& world);
+  void measure_way(Vec2 target);
+  void measure_gap(const Snapshot& world);
+  std::optional<std::size_t> best(const RadarLook& look, const Snapshot& world);
+  Outcome outcome(const RadarLook& look, const Snapshot& world, Vec2 to) const;
+  double heading(std::size_t i) const;
+
+  std::vector<double> ux_, uy_;    ///< directions
+  std::vector<double> px_, py_;    ///< predictive swarms
+  std::vector<double> room_;       ///< squared distance beyond the reach; negative: screened
+  std::vector<double> way_, gap_;  ///< terms of Eq 9
+  std::optional<RadarContact> nearest_;
+  std::vector<NearDisc> discs_;
+  std::vector<NearEdge> edges_;
+  std::vector<std::uint32_t> bodies_;  ///< that are near, each once
+};
+
+}  // namespace microswarm

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "microswarm/navigation/steering/guide_kind.hpp"
+#include "microswarm/navigation/steering/route.hpp"
+
+namespace microswarm {
+
+/// Shows a navigator that looks no further than its surroundings where to head for: at the goal, or
+/// where walls hide it along the route to it.
+class GoalGuide {
+ public:
+  GoalGuide(Guide kind, Vec2 goal) : kind_(kind), goal_(goal) {}
+
+  /// Makes the routes to `goal`: one that keeps `clearance` [µm], and one that keeps `least` for
+  /// places to which the first leads no way.
+  void prepare(const Map& map, Vec2 goal, double clearance, double least);
+  /// What to head for from `from`: the goal or a point of the route that is in sight.
+  Vec2 target(const Map& map, Vec2 from) const;
+
+ private:
+  struct Way {
+    Route route;
+    double clearance = 0;
+  };
+  Guide kind_;
+  Vec2 goal_;
+  std::array<Way, 2> ways_;
+};
+
+}  // namespace microswarm

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/steering/helm.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "microswarm/navigation/steering/aim.hpp"
+
+namespace microswarm {
+
+bool sees_swarm(const Observation& seen, double frame_timeout) {
+  return seen.swarm && seen.world && is_finite(seen.swarm->pose.position) &&
+         std::isfinite(seen.swarm->pose.heading) && std::isfinite(seen.swarm->radius) &&
+         seen.age() <= frame_timeout && seen.world->map().is_free(seen.swarm->pose.position, 0);
+}
+
+Helm::Helm(const SwarmLimits& swarm, double speed, Vec2 goal, double goal_tolerance,
+           double frame_timeout)
+    : swarm_(swarm),
+      speed_(std::min(speed, swarm.max_speed)),
+      goal_(goal),
+      aim_(goal),
+      goal_tolerance_(goal_tolerance),
+      frame_timeout_(frame_timeout),
+      forecast_(swarm) {}
+
+void Helm::prepare(const Snapshot& world, double least, double wanted) {
+  aim_ = aim_at(Snapshot(world.shared_map()), goal_, goal_tolerance_, least, wanted);
+  aim_clearance_ = world.map().clearance(aim_);
+}
+
+double Helm::wall_clearance(double wanted, Vec2 p, double reach) const {
+  return wall_clearance_near(aim_, aim_clearance_, swarm_.radius, wanted, p, reach);
+}
+
+const Pose2* Helm::begin(const Observation& seen) {
+  view_ = {};
+  now_ = seen.now;
+  if (!sees_swarm(seen, frame_timeout_)) {
+    why_rest_ = "blind";
+    return nullptr;
+  }
+  delay_ = seen.age() + swarm_.response_lag;
+  pose_ = forecast_.at_effect(seen);
+  if (!arrives(pose_.position)) return &pose_;
+  why_rest_ = "arrived";
+  return nullptr;
+}
+
+Command Helm::issue(const Command& command, std::string_view state) {
+  view_.state = state;
+  forecast_.note(now_, command);
+  return command;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/planning/common/free_goal.hpp"
+
+#include <numbers>
+#include <queue>
+#include <vector>
+
+namespace microswarm {
+namespace {
+
+constexpr int finest_level = 6;
+constexpr int most_squares = 5'000;
+
+/// Square of a quadtree around the goal; the order makes the queue give the one nearest to the goal
+/// first, and the coarser and earlier one among equals.
+struct Square {
+  Vec2 centre;
+  double half = 0;
+  double nearest = 0;  ///< least distance of any of its points from the goal
+  int level = 0;
+  int number = 0;
+
+  friend bool operator<(const Square& a, const Square& b) {
+    if (a.nearest != b.nearest) return a.nearest > b.nearest;
+    return a.number > b.number;
+  }
+};
+
+/// From a blocked point away from what is near to it until it is free; nothing where that fails.
+std::optional<Vec2> pushed_free(const Snapshot& world, Vec2 p, double clearance) {
+  constexpr double step = 1e-3;  // of the slope [µm]
+  constexpr int most_pushes = 4;
+  for (int push = 0; push < most_pushes; ++push) {
+    const double lacking = clearance - world.clearance(p);
+    if (lacking <= 0) return p;
+    const Vec2 slope{world.clearance(p + Vec2{step, 0}) - world.clearance(p - Vec2{step, 0}),
+                     world.clearance(p + Vec2{0, step}) - world.clearance(p - Vec2{0, step})};
+    if (norm(slope) < step) return std::nullopt;
+    p += (lacking + 1e-9) / norm(slope) * slope;
+  }
+  return world.is_free(p, clearance) ? std::optional(p) : std::nullopt;
+}
+
+double least_distance(Vec2 goal, Vec2 centre, double half) {
+  const double dx = std::max(0.0, std::abs(goal.x - centre.x) - half);
+  const double dy = std::max(0.0, std::abs(goal.y - centre.y) - half);
+  return norm({dx, dy});
+}
+
+/// The nearest free point among the centres of the squares or, with `pushing`, beside them too.
+std::optional<Vec2> search(const Snapshot& world, Vec2 goal, double tolerance, double clearance,
+                           bool pushing) {
+  std::optional<Vec2> best;
+  double best_distance = tolerance;
+  std::priority_queue<Square> squares;
+  int number = 0;
+  squares.push({goal, tolerance, 0, 0, number++});
+  while (!squares.empty() && number < most_squares) {
+    const Square square = squares.top();
+    squares.pop();
+    if (square.nearest > best_distance || (best && square.nearest == best_distance)) break;
+    // Clearance changes by at most 1 µm per µm: no point of the square can have enough.
+    const double reach = square.half * std::numbers::sqrt2;
+    if (world.clearance(square.centre) + reach < clearance) continue;
+    const Vec2 place = pushing
+                           ? pushed_free(world, square.centre, clearance).value_or(square.centre)
+                           : square.centre;
+    const double to_goal = distance(place, goal);
+    if (to_goal <= best_distance && world.is_free(place, clearance)) {
+      best = place;
+      best_distance = to_goal;
+    }
+    if (square.level == finest_level) continue;
+    const double half = square.half / 2;
+    for (const Vec2 corner : {Vec2{-1, -1}, Vec2{1, -1}, Vec2{-1, 1}, Vec2{1, 1}}) {
+      const Vec2 centre = square.centre + half * corner;
+      squares.push({centre, half, least_distance(goal, centre, half), square.level + 1, number++});
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<Vec2> free_goal(const Snapshot& world, Vec2 goal, double tolerance,
+                              double clearance) {
+  if (!is_finite(goal)) return std::nullopt;
+  if (world.is_free(goal, clearance)) return goal;
+  if (const auto found = search(world, goal, tolerance, clearance, false)) return found;
+  return search(world, goal, tolerance, clearance, true);
+}
+
+std::optional<Status> query_fault(const Snapshot& world, Vec2 start, Vec2 goal, double tolerance,
+                                  double clearance) {
+  if (!is_finite(start) || !world.is_free(start, clearance)) return Status::start_blocked;
+  if (!free_goal(world, goal, tolerance, clearance)) return Status::goal_blocked;
+  return std::nullopt;
+}
+
+}  // namespace microswarm

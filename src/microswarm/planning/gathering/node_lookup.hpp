@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "microswarm/geometry/point_grid.hpp"
+#include "microswarm/world/map/map.hpp"
+
+namespace microswarm {
+
+/// Answers which of a fixed set of nodes is nearest to a point of a map, for a thousand robots a
+/// step: a raster whose cells list the few nodes that can be the answer. A node that cannot be seen
+/// from a cell (from its centre and corners, as far as these are free) is not listed unless none
+/// can, so that nobody is sent through a wall. Queries allocate nothing and are safe to share.
+class NodeLookup {
+ public:
+  NodeLookup() = default;
+  /// `grid` holds the nodes, at least one.
+  NodeLookup(const Map& map, const PointGrid& grid);
+
+  /// The nearest of the nodes that its cell sees; the lowest of equals. Points outside the bounds
+  /// are answered by the nearest cell. `nodes` are those of the constructor.
+  std::uint32_t nearest(Vec2 p, std::span<const Vec2> nodes) const {
+    const std::span<const std::uint32_t> some = listed(column_of(p.x), row_of(p.y));
+    std::uint32_t best = some[0];
+    double least = squared_norm(nodes[best] - p);
+    for (const std::uint32_t node : some.subspan(1)) {
+      const double squared = squared_norm(nodes[node] - p);
+      if (squared < least) {
+        least = squared;
+        best = node;
+      }
+    }
+    return best;
+  }
+  /// The nearest node that `p` itself sees, exactly; nothing when none is seen within about six
+  /// times the usual distance between nodes. Slower: for one robot a step, not for all.
+  std::optional<std::uint32_t> nearest_visible(const Map& map, Vec2 p,
+                                               std::span<const Vec2> nodes) const;
+
+ private:
+  int column_of(double x) const { return clamped((x - origin_.x) * per_cell_.x, columns_); }
+  int row_of(double y) const { return clamped((y - origin_.y) * per_cell_.y, rows_); }
+  static int clamped(double i, int count) {
+    return static_cast<int>(i > 0 ? (i < count - 1 ? i : count - 1) : 0);
+  }
+  std::size_t cell(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
+  }
+  std::span<const std::uint32_t> listed(int column, int row) const {
+    const std::size_t i = cell(column, row);
+    return {listed_.data() + first_[i], listed_.data() + first_[i + 1]};
+  }
+
+  Vec2 origin_;
+  Vec2 per_cell_{1, 1};
+  int columns_ = 1;
+  int rows_ = 1;
+  std::vector<std::uint32_t> first_;   ///< one a cell, and the end
+  std::vector<std::uint32_t> listed_;  ///< nodes that can be nearest in the cell, ascending
+};
+
+}  // namespace microswarm

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/swarm/robots/contact_rule.hpp"
+
+namespace microswarm {
+
+/// `goal_bias` and `separation` go beyond the paper, whose tree knows no goal.
+struct GlobalRrtParams {
+  static constexpr std::string_view type_name = "global_rrt";
+  double robostep = 5;
+  int directions = 16;  // k
+  ContactRule contact = ContactRule::slide;
+  double goal_tolerance = 20;
+  double goal_bias = 0;
+  double separation = 0;
+  int max_nodes = 40'000;  // K
+  int max_iterations = 100'000'000;
+  bool stop_at_first = true;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.robostep, {"robostep", Unit::um, {1e-3, 1e6}, "Length of one input."});
+    visit(self.directions,
+          {"directions", Unit::none, {3, 256}, "Directions of inputs, from the x axis on (k)."});
+    visit(self.contact, {"contact", Unit::none, {}, "What a robot does that meets a wall."});
+    visit(self.goal_tolerance,
+          {"goal_tolerance", Unit::um, {1e-3, 1e6}, "How near every robot must come to its goal."});
+    visit(self.goal_bias, {"goal_bias", Unit::none, {0, 1}, "Share of samples at the goals."});
+    visit(self.separation,
+          {"separation", Unit::um, {0, 1e6}, "Least distance between robots; 0: none."});
+    visit(self.max_nodes, {"max_nodes", Unit::none, {1, 1e8}, "Nodes to grow at most (K)."});
+    visit(self.max_iterations, {"max_iterations", Unit::none, {1, 1e9}, "Tries at most."});
+    visit(self.stop_at_first,
+          {"stop_at_first", Unit::none, {}, "Stop at the first solution, or grow to the limits."});
+  }
+};
+
+}  // namespace microswarm

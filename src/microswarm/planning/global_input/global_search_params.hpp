@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/swarm/robots/contact_rule.hpp"
+
+namespace microswarm {
+
+/// Parameters of the search beyond [global]. One set does for two to four robots.
+struct GlobalSearchParams {
+  static constexpr std::string_view type_name = "global_search";
+  double robostep = 5;
+  int directions = 8;
+  ContactRule contact = ContactRule::slide;
+  double goal_tolerance = 20;
+  double cell = 0;
+  double noise = 0.8;
+  double travel_weight = 0.2;
+  double separation = 0;
+  int round_nodes = 15'000;
+  int max_nodes = 100'000'000;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.robostep, {"robostep", Unit::um, {1e-3, 1e6}, "Length of one input."});
+    visit(self.directions,
+          {"directions", Unit::none, {3, 256}, "Directions of inputs, from the x axis on."});
+    visit(self.contact, {"contact", Unit::none, {}, "What a robot does that meets a wall."});
+    visit(self.goal_tolerance,
+          {"goal_tolerance", Unit::um, {1e-3, 1e6}, "How near every robot must come to its goal."});
+    visit(self.cell,
+          {"cell", Unit::um, {0, 1e6}, "Edge of the hypercubes; 0 chooses 2.25 goal tolerances."});
+    visit(self.noise, {"noise", Unit::none, {0, 10}, "Random share added to a node's cost."});
+    visit(self.travel_weight, {"travel_weight",
+                               Unit::none,
+                               {0, 1e3},
+                               "Cost of the way the swarm has to go as a whole, "
+                               "against that of a wrong formation."});
+    visit(self.separation,
+          {"separation", Unit::um, {0, 1e6}, "Least distance between robots; 0: none."});
+    visit(self.round_nodes,
+          {"round_nodes", Unit::none, {1, 1e8}, "Nodes after which the first round starts anew."});
+    visit(self.max_nodes, {"max_nodes", Unit::none, {1, 2e9}, "Nodes of all rounds at most."});
+  }
+};
+
+}  // namespace microswarm

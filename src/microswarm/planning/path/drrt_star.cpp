@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/planning/path/drrt_star.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/core/published.hpp"
+#include "microswarm/planning/common/detection.hpp"
+#include "microswarm/planning/path/straighten.hpp"
+#include "microswarm/planning/path/tree_growth.hpp"
+#include "microswarm/planning/path/turn_edge.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr int most_time_steps = 10'000;
+
+/// X_new and the node it was steered from, as Algorithm 3 returns them.
+struct Extension {
+  std::uint32_t nearest;
+  Vec2 end;
+};
+
+/// The unicycle under heading control: the points of the swept arc, the node's position first. It
+/// goes on for `length` µm in equal steps of at most dt. Eq 6, 7 [drrt].
+void steer_arc(const TreeNode& node, double heading_wanted, double length,
+               const DrrtStarParams& params, std::vector<Vec2>& arc) {
+  const double duration = length / params.speed;  // T_d
+  const double count =
+      std::clamp(std::ceil(duration / params.time_step), 1.0, 1.0 * most_time_steps);
+  const double dt = duration / count;
+  const double gain = std::min(1.0, dt * params.heading_gain);  // no step turns past what is wanted
+  Vec2 p = node.position;
+  double heading = node.heading;
+  arc.assign(1, p);
+  for (int j = 0; j < static_cast<int>(count); ++j) {
+    heading += gain * wrap(heading_wanted - heading);  // Eq 7 [drrt]
+    p += dt * params.speed * unit_vector(heading);     // Eq 6 [drrt]
+    arc.push_back(p);
+  }
+}
+
+/// A chain of turn edges through points of a path, as chords, and its cost.
+struct TurnedPath {
+  std::vector<Vec2> chords;
+  double cost = 0;
+};
+
+/// Edge by edge through the points; with `shortcuts` each edge goes to the farthest point that it
+/// reaches freely. Empty when some point is not reached.
+TurnedPath chain(const Snapshot& world, Pose2 start, std::span<const Vec2> points, PathCost cost,
+                 double clearance, bool shortcuts, std::uint64_t& checks) {
+  const double radius = cost.turn_radius;
+  TurnedPath out{.chords = {start.position}};
+  TreeNode at{.position = start.position, .heading = start.heading};
+  std::vector<Vec2> chords;
+  for (std::size_t i = 0; i + 1 < points.size();) {
+    std::size_t next = shortcuts ? points.size() - 1 : i + 1;
+    for (; next > i; --next) {
+      if (points[next] == at.position) continue;
+      chords.clear();
+      append_edge({at.position, at.heading}, points[next], radius, chords);
+      ++checks;
+      if (!shortcuts || world.is_free(chords, clearance + chord_error(radius))) break;
+    }
+    if (next == i) return {};
+    out.cost += cost.edge(at, points[next]);
+    at.heading = cost.heading_at_end(at, points[next]);
+    at.position = points[next];
+    out.chords.insert(out.chords.end(), chords.begin() + 1, chords.end());
+    i = next;
+  }
+  return out;
+}
+
+/// The tree's path as it is driven, or a cheaper one through some of its points.
+std::vector<Vec2> turned_path(const Snapshot& world, Pose2 start, std::span<const Vec2> points,
+                              PathCost cost, const DrrtStarParams& params, std::uint64_t& checks) {
+  TurnedPath path = chain(world, start, points, cost, params.clearance, false, checks);
+  if (!params.straighten) return path.chords;
+  TurnedPath shorter = chain(world, start, points, cost, params.clearance, true, checks);
+  return !shorter.chords.empty() && shorter.cost < path.cost ? shorter.chords : path.chords;
+}
+
+class DrrtStar {
+ public:
+  DrrtStar(const Snapshot& world, Pose2 start, Vec2 goal, const DrrtStarParams& params, Rng& rng,
+           const Stop& stop)
+      : world_(world),
+        start_(start),
+        params_(params.in_effect()),
+        arcs_(params_.arcs),
+        cost_{params.length_weight, params.smoothness_weight, arcs_ ? params.turn_radius : 0},
+        growth_(world, start, goal, params, cost_, rng, stop) {}
+
+  /// Algorithm 2 [drrt].
+  Plan run() {
+    detections_.push_back(detect_at(position(0)));
+    while (growth_.goes_on()) {                                                   // line 2
+      const std::optional<Extension> x_new = sample_by_cost();                    // line 3
+      if (!x_new || !growth_.edge_is_free(x_new->nearest, x_new->end)) continue;  // line 4
+      growth_.find_near(x_new->end, params_);                                     // line 5
+      const auto parent = growth_.choose_parent(x_new->end, x_new->nearest);      // line 6, Eq 9
+      const Vec2 centre = 0.5 * (position(x_new->nearest) + x_new->end);
+      const std::uint32_t node = growth_.add(parent, x_new->end);  // line 7
+      detections_.push_back(detect_at(centre));
+      growth_.rewire(node);  // line 8, Eq 10
+    }
+    return finish();  // lines 9–12
+  }
+
+ private:
+  Vec2 position(std::uint32_t node) const { return growth_.tree()[node].position; }
+  Detection detect_at(Vec2 centre) const {
+    return detect(world_, {centre, 0.5 * params_.detection_diameter}, params_.rho_min);
+  }
+
+  /// Algorithm 3 [drrt].
+  std::optional<Extension> sample_by_cost() {
+    std::optional<Extension> best;
+    double best_cost = std::numeric_limits<double>::infinity();
+    int found = 0;
+    for (int i = 0; i < params_.max_attempts && found < params_.candidates; ++i) {  // line 2
+      const std::optional<Vec2> x_rand = growth_.sample();                          // line 3
+      if (!x_rand) continue;
+      const std::uint32_t nearest = growth_.tree().nearest(*x_rand);  // line 4
+      const TreeNode& node = growth_.tree()[nearest];
+      if (*x_rand == node.position || !growth_.is_free(Segment{node.position, *x_rand}))
+        continue;                                                  // 7
+      const double heading = heading_of(*x_rand - node.position);  // Eq 5 [drrt]
+      const double step = detections_[nearest].rho * params_.step;
+      if (arcs_)
+        steer_turn(node, *x_rand, step);
+      else
+        steer_arc(node, heading, std::min(step, distance(node.position, *x_rand)), params_, arc_);
+      if (arc_.back() == node.position || !growth_.is_free(arc_)) continue;  // line 11
+      ++found;                                                               // line 14
+      const double cost = params_.smoothness_weight * turn_between(heading, node.heading);  // Eq 8
+      if (cost < best_cost) {  // lines 16–17
+        best_cost = cost;
+        best = Extension{nearest, arc_.back()};
+      }
+    }
+    return best;
+  }
+
+  /// The first `step` µm of the edge to the sample.
+  void steer_turn(const TreeNode& node, Vec2 sample, double step) {
+    const Pose2 from{node.position, node.heading};
+    const TurnEdge edge = turn_edge(from, sample, params_.turn_radius);
+    arc_.clear();
+    append_chords(from, edge, params_.turn_radius, std::min(step, edge.length), arc_);
+  }
+
+  Plan finish() {
+    Plan plan = growth_.finish();
+    plan.detections = std::move(detections_);
+    if (arcs_) {
+      plan.path = turned_path(world_, start_, plan.path, cost_, params_, plan.counts.edge_checks);
+    } else if (params_.straighten) {
+      straighten(world_, params_.clearance, start_.heading, cost_, straighten_rounds, plan.path,
+                 plan.counts.edge_checks);
+    }
+    return plan;
+  }
+
+  const Snapshot& world_;
+  Pose2 start_;
+  DrrtStarParams params_;
+  bool arcs_;
+  PathCost cost_;
+  TreeGrowth growth_;
+  std::vector<Detection> detections_;  ///< of each node: its ρ scales the steps from it
+  std::vector<Vec2> arc_;
+};
+
+}  // namespace
+
+DrrtStarParams DrrtStarParams::in_effect() const {
+  DrrtStarParams p = *this;
+  if (!as_published) return p;
+  p.straighten = false;
+  p.arcs = false;
+  return p;
+}
+
+void check(const DrrtStarParams& params, const Places& where) {
+  if (params.as_published) check_published(where, params, params.in_effect(), DrrtStarParams{});
+}
+
+Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const DrrtStarParams& params, Rng& rng,
+          const Stop& stop) {
+  return DrrtStar(world, start, goal, params, rng, stop).run();
+}
+
+}  // namespace microswarm

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "microswarm/planning/path/drrt_star_params.hpp"
+#include "microswarm/planning/path/rrt_star.hpp"
+
+namespace microswarm {
+
+/// Plans with D-RRT*; see planners.hpp for the form that all planners share.
+Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const DrrtStarParams& params, Rng& rng,
+          const Stop& stop = {});
+
+}  // namespace microswarm

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/core/places.hpp"
+#include "microswarm/planning/path/rrt_params.hpp"
+
+namespace microswarm {
+
+/// The local planner of D-RRT*: Algorithms 2–3, Eq 1–3 and 5–10 [drrt]. Costs are
+/// λ_s · turning + λ_l · length, the turn out of the start's heading included. Beyond the paper:
+/// `straighten` pulls the path found straight under the same cost and the same exact checks;
+/// `arcs` makes every edge a turn of at least `turn_radius` and a straight line, so that a unicycle
+/// can drive the path from the start's heading on. `as_published` leaves both out
+/// (docs/drrt-star.md).
+struct DrrtStarParams : RrtStarParams {
+  static constexpr std::string_view type_name = "drrt_star";
+  double detection_diameter = 300;  // D_dec
+  double rho_min = 0.2;
+  int candidates = 5;              // M
+  int max_attempts = 15;           // N_attempts
+  double speed = 40;               // v; step = T_base · v with T_base = 2 s
+  double time_step = 0.1;          // dt
+  double heading_gain = 4;         // k_p
+  double smoothness_weight = 100;  // λ_s
+  double length_weight = 1;        // λ_l
+  bool straighten = true;
+  bool arcs = false;
+  double turn_radius = 20;
+  bool as_published = false;
+
+  DrrtStarParams() { shrinking = false; }  // r_search is fixed in the paper
+  /// These, or with `as_published` the same without what is ours.
+  DrrtStarParams in_effect() const;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    RrtStarParams::fields(self, visit);
+    visit(self.detection_diameter,
+          {"detection_diameter", Unit::um, {1e-3, 1e6}, "Diameter of the detection circle."});
+    visit(self.rho_min, {"rho_min", Unit::none, {1e-3, 1}, "Floor of the adjust factor."});
+    visit(self.candidates, {"candidates", Unit::none, {1, 1000}, "Candidates per extension (M)."});
+    visit(self.max_attempts, {"max_attempts", Unit::none, {1, 1000}, "Samples per extension."});
+    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e6}, "Forward speed while steering."});
+    visit(self.time_step, {"time_step", Unit::s, {1e-4, 10}, "Step of the unicycle (dt)."});
+    visit(self.heading_gain, {"heading_gain", Unit::per_s, {0, 1e3}, "Gain of Eq 7 (k_p)."});
+    visit(self.smoothness_weight,
+          {"smoothness_weight", Unit::none, {0, 1e6}, "Cost of turning, µm per rad (λ_s)."});
+    visit(self.length_weight, {"length_weight", Unit::none, {0, 1e6}, "Cost per µm (λ_l)."});
+    visit(self.straighten,
+          {"straighten", Unit::none, {}, "Pull the path found straight (beyond the paper)."});
+    visit(self.arcs, {"arcs", Unit::none, {}, "Edges of bounded curvature (beyond the paper)."});
+    visit(self.turn_radius,
+          {"turn_radius", Unit::um, {1e-3, 1e6}, "Least radius of a turn, with arcs."});
+    visit(self.as_published,
+          {"as_published", Unit::none, {}, "The paper's method alone: no straightening, no arcs."});
+  }
+};
+
+/// Throws InputError when `as_published` stands beside a value of what it leaves out; `where` knows
+/// the keys.
+void check(const DrrtStarParams& params, const Places& where);
+
+}  // namespace microswarm

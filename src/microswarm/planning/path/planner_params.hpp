@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <variant>
+
+#include "microswarm/planning/path/a_star_params.hpp"
+#include "microswarm/planning/path/drrt_star_params.hpp"
+#include "microswarm/planning/path/fmt_star_params.hpp"
+#include "microswarm/planning/path/rrt_params.hpp"
+
+namespace microswarm {
+
+/// Any planner, chosen at run time by its `type`.
+using PlannerParams = std::variant<DrrtStarParams, RrtStarParams, UniformRrtStarParams, RrtParams,
+                                   AStarParams, FmtStarParams>;
+
+}  // namespace microswarm

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/planning/path/planners.hpp"
+
+namespace microswarm {
+
+Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const PlannerParams& params, Rng& rng,
+          const Stop& stop) {
+  return std::visit([&](const auto& chosen) { return plan(world, start, goal, chosen, rng, stop); },
+                    params);
+}
+
+}  // namespace microswarm

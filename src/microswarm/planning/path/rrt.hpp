@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "microswarm/contracts/plan.hpp"
+#include "microswarm/planning/path/rrt_params.hpp"
+
+namespace microswarm {
+
+/// Plans with RRT; see planners.hpp for the form that all planners share.
+Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const RrtParams& params, Rng& rng,
+          const Stop& stop = {});
+
+}  // namespace microswarm

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/planning/path/tree_growth.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/planning/common/free_goal.hpp"
+#include "microswarm/planning/path/turn_edge.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr int most_sample_draws = 200;
+
+/// A root at a place that is no number would harm the tree's grid; it is reported as blocked.
+Pose2 finite(Pose2 pose) { return is_finite(pose.position) ? pose : Pose2{}; }
+
+/// The radius of RRT*, γ √(log n / n), with γ above the bound 2 √(1 + 1/2) √(area / π) of Karaman
+/// and Frazzoli, Theorem 38; the area of the bounds stands for that of the free space.
+double shrinking_radius(double area, std::uint32_t nodes) {
+  const double n = std::max(2u, nodes);
+  return 2.0 * std::sqrt(1.5 * area / pi * std::log(n) / n);
+}
+
+}  // namespace
+
+TreeGrowth::TreeGrowth(const Snapshot& world, Pose2 start, Vec2 goal, const TreeParams& params,
+                       PathCost cost, Rng& rng, const Stop& stop)
+    : world_(world),
+      params_(params),
+      rng_(rng),
+      stop_(stop),
+      goal_(goal),
+      sampled_(world.bounds().grown(-params.clearance)),
+      cost_(cost),
+      tree_(world.bounds(), finite(start), cost) {
+  ended_ = query_fault(world, start.position, goal, params.goal_tolerance, params.clearance);
+  if (ended_) return;
+  goal_is_free_ = world.is_free(goal, params.clearance);
+  if (arrives(start.position)) arrived_.push_back(0);
+}
+
+std::optional<Status> TreeGrowth::reason_to_end() const {
+  if (solved() && params_.stop_at_first) return Status::solved;
+  if (tree_.size() >= static_cast<std::uint32_t>(params_.max_nodes) ||
+      counts_.iterations >= static_cast<std::uint64_t>(params_.max_iterations)) {
+    return Status::node_limit;
+  }
+  if (stop_.requested()) return Status::stopped;
+  if (stop_.expired()) return Status::time_limit;
+  return std::nullopt;
+}
+
+bool TreeGrowth::goes_on() {
+  if (!ended_) ended_ = reason_to_end();
+  if (ended_) return false;
+  ++counts_.iterations;
+  return true;
+}
+
+std::optional<Vec2> TreeGrowth::draw(const Box& box, double most_from_goal) {
+  for (int i = 0; i < most_sample_draws; ++i) {
+    const double x = rng_.uniform(box.lo.x, box.hi.x);
+    const Vec2 p{x, rng_.uniform(box.lo.y, box.hi.y)};
+    if (distance(p, goal_) <= most_from_goal && world_.is_free(p, params_.clearance)) return p;
+  }
+  return std::nullopt;
+}
+
+std::optional<Vec2> TreeGrowth::sample() {
+  ++counts_.samples;
+  constexpr double anywhere = std::numeric_limits<double>::infinity();
+  if (rng_.uniform() >= params_.goal_bias) return draw(sampled_, anywhere);
+  if (goal_is_free_) return goal_;
+  const Vec2 reach{params_.goal_tolerance, params_.goal_tolerance};
+  return draw({goal_ - reach, goal_ + reach}, params_.goal_tolerance);
+}
+
+bool TreeGrowth::is_free(Segment edge) {
+  ++counts_.edge_checks;
+  return world_.is_free(edge, params_.clearance);
+}
+
+bool TreeGrowth::is_free(std::span<const Vec2> arc) {
+  ++counts_.edge_checks;
+  return world_.is_free(arc, params_.clearance);
+}
+
+bool TreeGrowth::edge_is_free(std::uint32_t node, Vec2 p) {
+  const TreeNode& from = tree_[node];
+  if (cost_.turn_radius <= 0) return is_free(Segment{from.position, p});
+  chords_.clear();
+  append_edge({from.position, from.heading}, p, cost_.turn_radius, chords_);
+  ++counts_.edge_checks;
+  return world_.is_free(chords_, params_.clearance + chord_error(cost_.turn_radius));
+}
+
+std::uint32_t TreeGrowth::add(std::uint32_t parent, Vec2 p) {
+  const std::uint32_t node = tree_.add(parent, p);
+  if (arrives(p)) arrived_.push_back(node);
+  return node;
+}
+
+void TreeGrowth::find_near(Vec2 p, const RrtStarParams& params) {
+  double radius = params.search_radius;
+  if (params.shrinking) {
+    const Box& bounds = world_.bounds();
+    radius = std::min(radius, shrinking_radius(bounds.width() * bounds.height(), tree_.size()));
+  }
+  tree_.near(p, radius, near_);
+}
+
+std::uint32_t TreeGrowth::choose_parent(Vec2 p, std::uint32_t nearest) {
+  candidates_.clear();
+  candidates_.push_back({tree_.cost_via(nearest, p), nearest});
+  for (const std::uint32_t node : near_) {
+    if (node == nearest || tree_[node].position == p) continue;
+    // Dearer than the edge that is known to be free: no need to look at it.
+    const double cost = tree_.cost_via(node, p);
+    if (cost < candidates_.front().cost) candidates_.push_back({cost, node});
+  }
+  std::make_heap(candidates_.begin(), candidates_.end());
+  while (candidates_.front().node != nearest) {
+    const std::uint32_t node = candidates_.front().node;
+    if (edge_is_free(node, p)) return node;
+    std::pop_heap(candidates_.begin(), candidates_.end());
+    candidates_.pop_back();
+  }
+  return nearest;
+}
+
+void TreeGrowth::rewire(std::uint32_t node) {
+  const Vec2 p = tree_[node].position;
+  for (const std::uint32_t other : near_) {
+    const Vec2 q = tree_[other].position;
+    if (cost_.turn_radius > 0 && !tree_.is_leaf(other)) continue;
+    // Costs grow along every path, so a node above this one is never cheaper by way of it.
+    if (q != p && tree_.cost_via(node, q) < tree_[other].cost && edge_is_free(node, q)) {
+      tree_.reparent(other, node);
+    }
+  }
+}
+
+Plan TreeGrowth::finish() {
+  Plan plan;
+  const auto cheaper = [&](std::uint32_t a, std::uint32_t b) {
+    return tree_[a].cost < tree_[b].cost;
+  };
+  std::uint32_t last = 0;
+  if (solved()) {
+    plan.status = Status::solved;
+    last = *std::min_element(arrived_.begin(), arrived_.end(), cheaper);
+  } else {
+    plan.status = ended_.value_or(Status::stopped);
+    if (is_finite(goal_)) last = tree_.nearest(goal_);
+  }
+  plan.counts = counts_;
+  plan.tree = tree_.take_nodes();
+  plan.path = path_to(plan.tree, last);
+  return plan;
+}
+
+Vec2 steer(Vec2 from, Vec2 to, double step) {
+  const double length = distance(from, to);
+  return length <= step ? to : from + (step / length) * (to - from);
+}
+
+}  // namespace microswarm

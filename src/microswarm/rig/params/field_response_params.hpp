@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/core/fields.hpp"
+
+namespace microswarm {
+
+/// What a simulated swarm makes of the field around it: the inverse of FieldGenerator, told by the
+/// field alone. A field weaker than `least_amplitude` [mT] moves nothing.
+struct FieldResponseParams {
+  FieldKind kind = FieldKind::rotating;
+  double frequency = 16;                     ///< of the field [Hz]
+  double speed_per_pitch = 20 / radians(1);  ///< [µm/s] a rad, c of Eq 2 [radar]
+  double length_per_turn = 20;               ///< of a rolling field [µm]
+  double least_amplitude = 0.5;              ///< [mT]
+};
+
+}  // namespace microswarm

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/rig/params/rig_params.hpp"
+
+#include <fmt/core.h>
+
+#include "microswarm/config/yaml.hpp"
+#include "microswarm/core/angles.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double least_sends = 10;  // in a turn of the field
+
+int channels_of(const RigParams& rig) {
+  const auto* simulated = std::get_if<SimulatedCoils>(&rig.driver);
+  return simulated ? simulated->channels : coil_link_channels;
+}
+
+double full_scale_of(const RigParams& rig) {
+  return std::visit([](const auto& driver) { return driver.full_scale; }, rig.driver);
+}
+
+void check(const RigParams& rig, const CoilSystem& system, const Places& where) {
+  const double least_rate = least_sends * rig.field.frequency;
+  if (rig.drive_rate < least_rate)
+    throw where.error({"drive_rate_hz", "field.frequency_hz"},
+                      fmt::format("drive_rate_hz is {:.6g}, the field turns {:.6g} times a second "
+                                  "and needs at least {:.6g}",
+                                  rig.drive_rate, rig.field.frequency, least_rate));
+  check(rig.eye.scene.swarm.look, where.within("eye.scene.swarm.look"));
+  check(rig.eye.scene.obstacles, where.within("eye.scene.obstacles"));
+  const int channels = channels_of(rig);
+  if (static_cast<int>(system.size()) > channels)
+    throw where.error(
+        {"driver.channels", "driver"},
+        fmt::format("the system has {} coils, the driver {} channels", system.size(), channels));
+}
+
+}  // namespace
+
+Rig read_rig(const std::filesystem::path& file, const Settings& settings) {
+  Places places;
+  auto params = read_yaml_file<RigParams>(file, settings, places);
+  CoilSystem system = read_coil_system(file.parent_path() / params.coils);
+  check(params, system, places);
+  system.limit_current(full_scale_of(params));
+  return {std::move(params), std::move(system), file.parent_path(), places};
+}
+
+std::string name_of(const Rig& rig) {
+  return rig.params.name.empty() ? "unnamed rig" : rig.params.name;
+}
+
+const SimulatedCamera& simulated_camera(const Rig& rig) {
+  const auto* camera = std::get_if<SimulatedCamera>(&rig.params.camera);
+  if (!camera)
+    throw rig.where.error("camera",
+                          "the camera is no simulated one, as a rehearsal needs: set camera.type");
+  return *camera;
+}
+
+void check(const Rig& rig, const Scenario& scenario, const Places& where) {
+  const FieldGeneratorParams& field = rig.params.field;
+  const bool rolls = field.kind == FieldKind::rolling;
+  const double reach =
+      rolls ? field.length_per_turn * field.frequency : field.speed_per_pitch * field.max_pitch;
+  const double wanted =
+      scenario.robots ? scenario.robots->max_speed : limits_of(scenario.swarm).max_speed;
+  if (wanted > reach * (1 + 1e-9))
+    throw where.error({"robots.max_speed_um_per_s", "swarm.max_speed_um_per_s"},
+                      fmt::format("the swarm is meant to go {:.6g} µm/s, this rig's field drives "
+                                  "it at most {:.6g} µm/s",
+                                  wanted, reach));
+}
+
+std::string unusual_field(const Rig& rig, const Scenario& scenario) {
+  const bool ribbon = std::holds_alternative<RibbonParams>(scenario.swarm);
+  const FieldKind usual = scenario.robots ? FieldKind::rolling
+                          : ribbon        ? FieldKind::oscillating
+                                          : FieldKind::rotating;
+  const FieldKind kind = rig.params.field.kind;
+  const double turn = pi / 2 / rig.params.field.max_turn_rate;
+  if (kind == FieldKind::rolling && turn > scenario.tick)
+    return fmt::format(
+        "the rolling field takes {:.3g} s to turn by 90°, a command lasts {:.3g} s: "
+        "robots lag behind at turns, see field.max_turn_rate_deg_per_s",
+        turn, scenario.tick);
+  if (kind == usual) return {};
+  const char* swarm = scenario.robots ? "robots" : ribbon ? "a ribbon" : "a vortex";
+  return fmt::format("{} under a field that is {}: in the papers it is {}", swarm, enum_name(kind),
+                     enum_name(usual));
+}
+
+}  // namespace microswarm

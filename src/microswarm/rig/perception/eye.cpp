@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/rig/perception/eye.hpp"
+
+#include "microswarm/rig/perception/robot_eye.hpp"
+#include "microswarm/rig/perception/swarm_eye.hpp"
+
+namespace microswarm {
+
+Observation observation_of(const Sight& sight, const Snapshot& world, double now, double seen) {
+  Observation observation{
+      .now = now, .seen = seen, .swarm = sight.swarm, .robots = {}, .world = &world};
+  if (sight.swarm) observation.robots = sight.robots;
+  return observation;
+}
+
+std::unique_ptr<Eye> make_eye(const EyeParams& params, const Scenario& scenario, const Map& map,
+                              std::span<const Vec2> starts, const CameraView& view) {
+  if (scenario.robots)
+    return std::make_unique<RobotEye>(params, *scenario.robots, map, starts, view);
+  return std::make_unique<SwarmEye>(params, map, *scenario.start, view);
+}
+
+}  // namespace microswarm

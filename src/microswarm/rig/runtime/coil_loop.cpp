@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/rig/runtime/coil_loop.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <utility>
+
+#include "microswarm/vision/camera/newest_frame.hpp"
+
+namespace microswarm {
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+
+constexpr int most_misses = 3;  // of the driver in a row; each is tried again by itself
+
+}  // namespace
+
+CoilLoop::CoilLoop(CoilController& controller, double rate, double deadman,
+                   std::function<void(const CoilMoment&)> heard)
+    : controller_(controller),
+      period_(1 / rate),
+      deadman_(deadman),
+      heard_(std::move(heard)),
+      place_(controller.place()),
+      thread_([this] { run(); }) {}
+
+CoilLoop::~CoilLoop() {
+  stop("ended");
+  thread_.join();
+}
+
+void CoilLoop::command(const Command& command, const Eigen::Vector3d& place) {
+  const std::lock_guard lock(mutex_);
+  command_ = command;
+  place_ = place;
+  commanded_ = steady_seconds();
+}
+
+void CoilLoop::stop(const std::string& why) {
+  std::unique_lock lock(mutex_);
+  if (why_.empty()) why_ = why;
+  changed_.notify_all();
+  changed_.wait(lock, [this] { return at_zero_; });
+}
+
+void CoilLoop::wait(double seconds) {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, Seconds(std::max(0.0, seconds)), [this] { return !why_.empty(); });
+}
+
+bool CoilLoop::zero_is_confirmed() const {
+  const std::lock_guard lock(mutex_);
+  return confirmed_;
+}
+
+double CoilLoop::zero_at() const {
+  const std::lock_guard lock(mutex_);
+  return zero_at_;
+}
+
+std::string CoilLoop::failure() const {
+  const std::lock_guard lock(mutex_);
+  return why_;
+}
+
+void CoilLoop::run() {
+  using Clock = std::chrono::steady_clock;
+  const auto period = std::chrono::duration_cast<Clock::duration>(Seconds(period_));
+  auto due = Clock::now();
+  auto last = due;
+  int misses = 0;
+  std::unique_lock lock(mutex_);
+  while (why_.empty()) {
+    due += period;
+    if (changed_.wait_until(lock, due, [this] { return !why_.empty(); })) break;
+    const auto now = Clock::now();
+    if (!commanded_) {
+      due = last = now;
+      continue;
+    }
+    CoilMoment moment;
+    moment.t = steady_seconds();
+    moment.command = command_;
+    moment.late = Seconds(now - due).count();
+    const Eigen::Vector3d place = place_;
+    if (moment.t - *commanded_ > deadman_) {
+      why_ = fmt::format("no command for {:.2g} s", moment.t - *commanded_);
+      break;
+    }
+    lock.unlock();
+    const std::string trouble = send(moment, place, Seconds(now - last).count());
+    last = now;
+    if (now > due + period) due = now;  // what was missed is not made up for
+    lock.lock();
+    misses = moment.output.status == DriveStatus::no_answer ? misses + 1 : 0;
+    if (!trouble.empty() && why_.empty()) why_ = trouble;
+    if (misses >= most_misses && why_.empty()) why_ = "the coil driver does not answer";
+  }
+  lock.unlock();
+  const bool confirmed = controller_.stop();
+  const double at_zero_at = steady_seconds();
+  lock.lock();
+  zero_at_ = at_zero_at;
+  confirmed_ = confirmed;
+  at_zero_ = true;
+  changed_.notify_all();
+}
+
+/// What is wrong, or nothing.
+std::string CoilLoop::send(CoilMoment& moment, const Eigen::Vector3d& place, double dt) {
+  try {
+    controller_.aim(place);
+    controller_.command(moment.command);
+    const double began = steady_seconds();
+    moment.output = controller_.advance(dt);
+    moment.round_trip = steady_seconds() - began;
+    if (moment.output.status == DriveStatus::refused) return "the coil driver refuses the currents";
+    if (moment.output.status == DriveStatus::not_armed)
+      return "the coils' device is off and does not let itself be armed";
+    if (heard_) heard_(moment);
+    return {};
+  } catch (const std::exception& e) {
+    return e.what();
+  }
+}
+
+}  // namespace microswarm

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/rig/runtime/live_rig.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <opencv2/core/utility.hpp>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/rig/simulation/simulated_bench.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double first_frame = 5;  // [s] that a camera may take to begin
+
+/// OpenCV's threads would take the cores that the coils' thread and the camera's need.
+const Rig& on_one_core(const Rig& rig) {
+  cv::setNumThreads(1);
+  return rig;
+}
+
+const RigParams& checked(const Rig& rig, const Scenario& scenario) {
+  check(rig, scenario);
+  if (rig.params.safety.deadman < 2 * scenario.tick)
+    throw rig.where.error(
+        "safety.deadman_s",
+        fmt::format("safety.deadman_s is {:.6g}, a tick of the scenario {:.6g} s: it must be at "
+                    "least twice that",
+                    rig.params.safety.deadman, scenario.tick));
+  return rig.params;
+}
+
+void check_picture(const Rig& rig, const Scenario& scenario, const CameraScale& scale,
+                   const Image& picture) {
+  for (const Vec2 place : places_of(scenario)) {
+    const Vec2 at = scale.to_picture(place);
+    if (at.x < -0.5 || at.y < -0.5 || at.x > picture.width - 0.5 || at.y > picture.height - 0.5)
+      throw rig.where.error(
+          "scale", fmt::format("the place ({:.6g}, {:.6g}) µm of the scenario is at pixel ({:.6g}, "
+                               "{:.6g}), outside the picture of {} × {}",
+                               place.x, place.y, at.x, at.y, picture.width, picture.height));
+  }
+}
+
+}  // namespace
+
+LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const Rig& rig,
+                 std::unique_ptr<FrameSource> camera, const CameraScale& scale, CoilDriver& driver,
+                 std::function<void(const CoilMoment&)> heard)
+    : rig_(on_one_core(rig)),
+      map_(std::move(map)),
+      camera_(std::move(camera), "camera"),
+      controller_(rig.system, checked(rig, scenario).field, driver,
+                  scenario.start ? scenario.start->heading : 0),
+      start_(steady_seconds()),
+      coils_(controller_, rig.params.drive_rate, rig.params.safety.deadman,
+             [this, heard = std::move(heard)](const CoilMoment& moment) {
+               {
+                 const std::lock_guard lock(timing_mutex_);
+                 timing_.coil_late.add(moment.late);
+                 timing_.round_trip.add(moment.round_trip);
+                 timing_.unmade += !moment.output.reached;
+                 timing_.limited += moment.output.scale < 1 - 1e-9;
+                 timing_.least_scale = std::min(timing_.least_scale, moment.output.scale);
+                 timing_.resumed += moment.output.status == DriveStatus::resumed;
+                 timing_.scaled += moment.output.status == DriveStatus::scaled;
+               }
+               if (heard) heard(moment);
+             }) {
+  check_workspace(rig, scenario, *map_);
+  if (!camera_.wait(frame_, first_frame))
+    throw HardwareError(fmt::format("camera: no picture within {} s", first_frame));
+  const Image& picture = frame_.frame.picture;
+  check_picture(rig, scenario, scale, picture);
+  const std::vector<Vec2> starts = scenario.robots ? scenario.robots->starts : std::vector<Vec2>{};
+  eye_ = make_eye(rig.params.eye, scenario, *map_, starts, {scale, picture.width, picture.height});
+  start_ = steady_seconds();
+  read_frame();
+}
+
+Observation LiveRig::observe() {
+  begun_ = since_start();
+  if (fault_.empty()) take_frame();
+  const double now = since_start();
+  look_for_faults(now);
+  seen_world_.emplace(map_, seen_, sight_->moving);
+  return observation_of(*sight_, *seen_world_, now, seen_);
+}
+
+void LiveRig::take_frame() {
+  try {
+    if (camera_.take(frame_)) read_frame();
+  } catch (const HardwareError& e) {
+    fail(e.what());
+  }
+}
+
+void LiveRig::read_frame() {
+  seen_ = frame_.taken - start_;
+  const double began = steady_seconds();
+  take_channel(frame_.frame.picture, VideoChannel::grey, grey_);
+  sight_ = &eye_->see(grey_, seen_);
+  const double took = steady_seconds() - began;
+  if (sight_->swarm) found_ = seen_;
+  const std::lock_guard lock(timing_mutex_);
+  timing_.vision.add(took);
+}
+
+void LiveRig::look_for_faults(double now) {
+  const SafetyParams& safety = rig_.params.safety;
+  if (const std::string why = coils_.failure(); !why.empty()) return fail(why);
+  const CameraStatus camera = camera_.status();
+  if (camera.state == CameraState::frozen || camera.state == CameraState::black)
+    return fail(fmt::format("the camera's pictures are {}", enum_name(camera.state)));
+  if (camera.state == CameraState::ended) return fail("the camera has no more pictures");
+  const double age = now - seen_;
+  if (age > safety.oldest_frame)
+    return fail(
+        fmt::format("the newest picture is {:.2f} s old, allowed {} s", age, safety.oldest_frame));
+  if (now - found_ > safety.lost_swarm)
+    return fail(fmt::format("the swarm was not found for {:.2f} s{}, allowed {} s", now - found_,
+                            sight_->trouble == "several" ? " (there are several)" : "",
+                            safety.lost_swarm));
+  if (missed_in_a_row_ >= safety.missed_deadlines)
+    return fail(fmt::format("{} ticks in a row ended too late", missed_in_a_row_));
+  const std::lock_guard lock(timing_mutex_);
+  timing_.frame_age.add(age);
+}
+
+void LiveRig::apply(const Command& command, double dt) {
+  const double now = since_start();
+  if (next_ == 0) next_ = begun_;  // the first one
+  next_ += dt;
+  const bool missed = now > next_;
+  {
+    const std::lock_guard lock(timing_mutex_);
+    timing_.tick.add(now - begun_);
+    timing_.missed_deadlines += missed;
+  }
+  missed_in_a_row_ = missed ? missed_in_a_row_ + 1 : 0;
+  if (missed) next_ = now;
+  eye_->commanded(command, now);
+  const Vec2 place = sight_->swarm ? sight_->swarm->pose.position : map_->bounds().centre();
+  coils_.command(command, place_among_coils(rig_.system, *map_, place));
+  coils_.wait(next_ - since_start());
+}
+
+void LiveRig::fail(const std::string& why) {
+  stop(why);
+  if (fault_.empty()) fault_ = why;
+}
+
+void LiveRig::stop(const std::string& why) { coils_.stop(why); }
+
+RigTiming LiveRig::timing() const {
+  const std::lock_guard lock(timing_mutex_);
+  RigTiming timing = timing_;
+  const CameraStatus camera = camera_.status();
+  timing.frames = static_cast<int>(timing.vision.count());
+  timing.dropped_frames = camera.dropped;
+  return timing;
+}
+
+}  // namespace microswarm

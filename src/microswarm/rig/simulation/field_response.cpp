@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/rig/simulation/field_response.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "microswarm/actuation/field/waveform.hpp"
+#include "microswarm/core/angles.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double rolling_inertia = 0.02;  // [s] in which a body follows the field
+constexpr double flat_pitch = 1e-3;       // [rad]: less points nowhere
+
+}  // namespace
+
+Command FieldResponse::step(const Eigen::Vector3d& field, double dt) {
+  const Eigen::Vector3d from = before_;
+  before_ = field;
+  if (from.norm() < params_.least_amplitude || field.norm() < params_.least_amplitude) {
+    turn_.clear();
+    return {heading_, 0};
+  }
+  switch (params_.kind) {
+    case FieldKind::rolling:
+      return rolling(from, field, dt);
+    case FieldKind::rotating:
+      return rotating(from, field, dt);
+    case FieldKind::oscillating:
+      return oscillating(field, dt);
+  }
+  return {};
+}
+
+Command FieldResponse::rolling(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double dt) {
+  const Vec2 way = rolled_way(from, to, params_.length_per_turn);
+  const Eigen::Vector3d sum = over({dt, {way.x, way.y, 0}}, rolling_inertia);
+  double time = 0;
+  for (const Piece& piece : turn_) time += piece.dt;
+  const Command driven = command_for({sum.x(), sum.y()}, time);
+  if (driven.speed > 0) heading_ = driven.heading;
+  return {heading_, driven.speed};
+}
+
+/// The normal of the plane that Eq 1 [radar] turns in, downwards where the pitch is 0.
+Command FieldResponse::rotating(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double dt) {
+  return pitched(-over({dt, from.cross(to)}, 1 / params_.frequency));
+}
+
+Command FieldResponse::oscillating(const Eigen::Vector3d& field, double dt) {
+  const Eigen::Vector3d along =
+      over({dt, field.dot(axis_) < 0 ? -field : field}, 1 / params_.frequency);
+  axis_ = along.normalized();
+  const Vec2 flat{axis_.x(), axis_.y()};
+  const double pitch = std::asin(std::clamp(axis_.z(), -1.0, 1.0));
+  const double sign = pitch < 0 ? -1 : 1;  // forwards is where the axis rises
+  if (std::abs(pitch) > flat_pitch) heading_ = heading_of(sign * flat);
+  return {heading_, params_.speed_per_pitch * std::abs(pitch)};
+}
+
+/// `raised` points upwards, and by the pitch towards the heading.
+Command FieldResponse::pitched(const Eigen::Vector3d& raised) {
+  const Vec2 flat{raised.x(), raised.y()};
+  const double pitch = std::atan2(norm(flat), std::abs(raised.z()));
+  if (pitch > flat_pitch) heading_ = heading_of(flat);
+  return {heading_, params_.speed_per_pitch * pitch};
+}
+
+Eigen::Vector3d FieldResponse::over(const Piece& piece, double last) {
+  turn_.push_back(piece);
+  double time = 0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Piece& p : turn_) {
+    time += p.dt;
+    sum += p.sum;
+  }
+  for (; turn_.size() > 1 && time > last + 1e-9; turn_.pop_front()) {
+    time -= turn_.front().dt;
+    sum -= turn_.front().sum;
+  }
+  return sum;
+}
+
+}  // namespace microswarm

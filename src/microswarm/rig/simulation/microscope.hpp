@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "microswarm/contracts/observation.hpp"
+#include "microswarm/core/fields.hpp"
+#include "microswarm/core/rng.hpp"
+#include "microswarm/formats/images/image.hpp"
+#include "microswarm/rig/params/microscope_params.hpp"
+#include "microswarm/vision/camera/camera_scale.hpp"
+
+namespace microswarm {
+
+/// Draws microscope pictures of a simulated world: grey, y down, the map with a margin around it.
+class Microscope {
+ public:
+  /// `seed` draws a swarm's particles and the noise.
+  Microscope(const MicroscopeParams& params, const Map& map, std::uint64_t seed,
+             std::uint32_t trial);
+
+  const CameraScale& scale() const { return scale_; }
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+  /// The picture of a swarm, of robots, or of both, at the snapshot's time. Valid until the next
+  /// call.
+  const Image& look(const Snapshot& world, const std::optional<SwarmPose>& swarm,
+                    std::span<const Vec2> robots);
+
+ private:
+  void draw_body(const Body& body);
+  void draw_swarm(const SwarmPose& swarm);
+  void draw_disc(Vec2 at_px, double radius_px, double depth);
+  void expose(double t);
+
+  MicroscopeParams params_;
+  CameraScale scale_;
+  int width_;
+  int height_;
+  Rng rng_;
+  std::vector<float> ground_;    // share of the light that walls let through
+  std::vector<float> lamp_;      // grey without anything in the way
+  std::vector<float> grain_;     // noise, of which every picture takes another part
+  std::vector<Vec2> particles_;  // in a swarm of radius 1
+  std::vector<float> view_;
+  Image picture_;
+};
+
+}  // namespace microswarm

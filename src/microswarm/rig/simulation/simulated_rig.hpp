@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "microswarm/actuation/coils/coil_controller.hpp"
+#include "microswarm/experiment/run/run.hpp"
+#include "microswarm/rig/perception/eye.hpp"
+#include "microswarm/rig/simulation/simulated_bench.hpp"
+
+namespace microswarm {
+
+/// A whole rig in simulation, as fast as the computer can: a command becomes a field, the field
+/// currents, the bench does what it does with them, and the navigator is told what is seen in the
+/// microscope's picture.
+class SimulatedRig : public Plant {
+ public:
+  /// The rig and, when given, the driver outlive it; without one the coils are simulated. `trial`
+  /// chooses the streams. Throws InputError when rig and scenario do not go together.
+  SimulatedRig(const Scenario& scenario, const World& world, const Rig& rig,
+               std::uint32_t trial = 0, CoilDriver* driver = nullptr);
+
+  Observation observe() override;
+  void apply(const Command& command, double dt) override;
+  std::optional<Truth> truth() const override { return bench_.truth(); }
+
+  /// The picture of the last observation.
+  const Image& picture() const { return *picture_; }
+  const Sight& sight() const { return *sight_; }
+  const CoilOutput& coils() const { return controller_.output(); }
+
+ private:
+  const Rig& rig_;
+  std::unique_ptr<CoilDriver> simulated_coils_;
+  CoilDriver& driver_;
+  CoilController controller_;
+  SimulatedBench bench_;
+  std::shared_ptr<const Map> map_;
+  std::unique_ptr<Eye> eye_;
+  const Image* picture_ = nullptr;
+  const Sight* sight_ = nullptr;
+  std::optional<Snapshot> seen_world_;
+};
+
+/// Builds plant and navigator for one trial of a scenario and runs it through the rig, as
+/// simulate() does without one.
+RunResult rehearse(const Scenario& scenario, const World& world, const Rig& rig,
+                   std::uint32_t trial = 0, std::span<RunListener* const> listeners = {},
+                   const Stop& stop = {});
+
+/// Coils that are not there, as the rig describes them.
+std::unique_ptr<CoilDriver> simulated_coils(const RigParams& rig);
+
+}  // namespace microswarm

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <variant>
+
+#include "microswarm/swarm/body/ribbon_params.hpp"
+#include "microswarm/swarm/body/swarm_limits.hpp"
+#include "microswarm/swarm/body/vortex_params.hpp"
+
+namespace microswarm {
+
+/// Any swarm that is seen as one body, chosen at run time by its `type`.
+using SwarmParams = std::variant<RibbonParams, VortexParams>;
+
+/// What a navigator is told of such a swarm.
+SwarmLimits limits_of(const SwarmParams& params);
+
+}  // namespace microswarm

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/swarm/body/vortex.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "microswarm/swarm/body/unicycle.hpp"
+
+namespace microswarm {
+
+namespace {
+
+constexpr double substep = 0.01;      // longest piece that is integrated at once [s]
+constexpr double most_ripples = 2;    // standard deviations
+constexpr double least_share = 1e-3;  // of the radius, however strong the ripple
+
+}  // namespace
+
+double greatest_radius(const VortexParams& p) {
+  return std::max(p.radius, p.moving_radius) + most_ripples * p.radius_ripple;
+}
+
+double least_radius(const VortexParams& p) {
+  const double least = std::min(p.radius, p.moving_radius);
+  return std::max(least_share * least, least - most_ripples * p.radius_ripple);
+}
+
+double pitch_of(const VortexParams& params, const Command& command) {
+  return params.max_pitch * std::clamp(command.speed / params.max_speed, 0.0, 1.0);
+}
+
+std::array<double, 3> rotating_field(const VortexParams& params, const Command& command, double t) {
+  const double pitch = pitch_of(params, command);
+  const double turn = 2 * pi * params.field_frequency * t;
+  const Vec2 ahead = unit_vector(command.heading);
+  return {params.field_amplitude *
+              (-std::cos(pitch) * ahead.x * std::cos(turn) - ahead.y * std::sin(turn)),
+          params.field_amplitude *
+              (-std::cos(pitch) * ahead.y * std::cos(turn) + ahead.x * std::sin(turn)),
+          params.field_amplitude * std::sin(pitch) * std::cos(turn)};
+}
+
+Vortex::Vortex(const VortexParams& params, Pose2 start)
+    : params_(params), pose_(start), radius_(params.radius), commands_(params.response_lag) {}
+
+void Vortex::step(const Command& command, double dt, Rng& rng) {
+  swept_.assign(1, {0, pose_, radius_});
+  double passed = 0;
+  commands_.pass(command, dt, substep, [&](const Command& active, double piece) {
+    active_ = {active.heading, pitch_of(params_, active) / params_.max_pitch * params_.max_speed};
+    advance(piece, rng);
+    breathe(piece, rng);
+    passed += piece;
+    swept_.push_back({passed, pose_, radius_});
+  });
+  swept_.back().t = dt;
+}
+
+void Vortex::advance(double dt, Rng& rng) {
+  pose_ = unicycle_step(pose_, active_, std::numeric_limits<double>::infinity(), dt);
+  if (params_.position_noise <= 0) return;
+  const double spread = params_.position_noise * std::sqrt(dt);
+  const double x = rng.normal();
+  pose_.position += spread * Vec2{x, rng.normal()};
+}
+
+/// Follows the radius of the present speed, with a random change that has a limit.
+void Vortex::breathe(double dt, Rng& rng) {
+  const double share = active_.speed / params_.max_speed;
+  const double aim = params_.radius + share * (params_.moving_radius - params_.radius);
+  const double kept = std::exp(-dt / params_.radius_lag);
+  radius_ = aim + kept * (radius_ - aim);
+  if (params_.radius_ripple <= 0) return;
+  radius_ += params_.radius_ripple * std::sqrt(1 - kept * kept) * rng.normal();
+  radius_ = std::clamp(radius_, least_radius(params_), greatest_radius(params_));
+}
+
+}  // namespace microswarm

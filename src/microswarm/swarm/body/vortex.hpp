@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "microswarm/contracts/command.hpp"
+#include "microswarm/contracts/observation.hpp"
+#include "microswarm/core/angles.hpp"
+#include "microswarm/core/rng.hpp"
+#include "microswarm/swarm/body/lagging_commands.hpp"
+#include "microswarm/swarm/body/vortex_params.hpp"
+
+namespace microswarm {
+
+/// The widest it gets [µm].
+double greatest_radius(const VortexParams& params);
+/// The narrowest it gets [µm].
+double least_radius(const VortexParams& params);
+
+/// The pitch φ [rad] that a command asks for, at most max_pitch: Eq 2 [radar].
+double pitch_of(const VortexParams& params, const Command& command);
+
+/// The rotating field [mT] at time t [s] under a command: Eq 1 [radar]. x and y lie in the plane of
+/// the swarm, z stands on it.
+std::array<double, 3> rotating_field(const VortexParams& params, const Command& command, double t);
+
+/// The moving part of the model. Before the first command takes effect it holds.
+class Vortex {
+ public:
+  Vortex(const VortexParams& params, Pose2 start);
+
+  const Pose2& pose() const { return pose_; }
+  double radius() const { return radius_; }
+  double speed() const { return active_.speed; }
+  /// Lets `dt` seconds pass under `command`, which takes effect exactly `response_lag` later; noise
+  /// is drawn from `rng`.
+  void step(const Command& command, double dt, Rng& rng);
+  /// The way of the last step as in Ribbon::swept.
+  std::span<const TimedPose> swept() const { return swept_; }
+
+ private:
+  void advance(double dt, Rng& rng);
+  void breathe(double dt, Rng& rng);
+
+  VortexParams params_;
+  Pose2 pose_;
+  double radius_;
+  Command active_;
+  LaggingCommands commands_;
+  std::vector<TimedPose> swept_;
+};
+
+}  // namespace microswarm

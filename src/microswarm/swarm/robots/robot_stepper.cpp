@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/swarm/robots/robot_stepper.hpp"
+
+#include "microswarm/swarm/robots/contact_moves.hpp"
+#include "microswarm/swarm/robots/step_lanes.hpp"
+
+namespace microswarm {
+
+RobotStepper::RobotStepper(const Map& map, double reach) : faces_(map, reach) {}
+
+PointF RobotStepper::relative(Vec2 p) const {
+  const Vec2 q = p - faces_.origin();
+  return {static_cast<float>(q.x), static_cast<float>(q.y)};
+}
+
+Robots RobotStepper::place(std::span<const Vec2> places) const {
+  Robots robots{faces_.origin(), {}, {}};
+  for (const Vec2 p : places) {
+    const PointF q = relative(p);
+    robots.x.push_back(q.x);
+    robots.y.push_back(q.y);
+  }
+  return robots;
+}
+
+PointF RobotStepper::moved(PointF p, PointF move, ContactRule rule) const {
+  const auto contact = [this](PointF q, PointF piece) { return faces_.first_contact(q, piece); };
+  return ContactMoves(faces_.reach(), faces_.guard(), contact).moved(p, move, rule);
+}
+
+void RobotStepper::step(Robots& robots, Vec2 move, ContactRule rule) const {
+  const PointF m{static_cast<float>(move.x), static_cast<float>(move.y)};
+  step_lanes(faces_, m, rule, robots.x, robots.y);
+}
+
+}  // namespace microswarm

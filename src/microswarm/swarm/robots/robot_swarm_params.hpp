@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/geometry/vec2.hpp"
+#include "microswarm/swarm/robots/contact_rule.hpp"
+
+namespace microswarm {
+
+/// Robots that are told apart: points that all get the same input and do not block each other
+/// [global, gather]. On a real rig they are not alike: each has a speed of its own, wavers, and
+/// sticks to the floor now and then.
+struct RobotSwarmParams {
+  int count = 0;
+  std::vector<Vec2> starts;
+  std::vector<Vec2> goals;
+  ContactRule contact = ContactRule::stop;
+  double max_speed = 80;
+  double speed_spread = 0;
+  double heading_noise = 0;
+  double position_noise = 0;
+  double sticking_interval = 0;
+  double sticking_time = 5;
+  double response_lag = 0.1;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.count, {"count",
+                       Unit::none,
+                       {0, 1e6},
+                       "Robots at random places from which the goal is reached; "
+                       "0: those of `starts_um`."});
+    visit(self.starts, {"starts", Unit::um, {}, "Where each robot starts."});
+    visit(self.goals, {"goals", Unit::um, {}, "A goal for each robot, in place of one for all."});
+    visit(self.contact, {"contact", Unit::none, {}, "What a robot does that meets a wall."});
+    visit(self.max_speed,
+          {"max_speed", Unit::um_per_s, {1e-3, 1e5}, "Fastest speed, of an ordinary robot."});
+    visit(self.speed_spread, {"speed_spread",
+                              Unit::none,
+                              {0, 1},
+                              "Spread of the robots' own speeds: standard deviation / mean."});
+    visit(self.heading_noise, {"heading_noise",
+                               Unit::deg,
+                               {0, 360},
+                               "Standard deviation of each robot's direction, drawn anew for "
+                               "every command."});
+    visit(self.position_noise, {"position_noise",
+                                Unit::um,
+                                {0, 1e4},
+                                "Random drift of each robot, standard deviation after 1 s."});
+    visit(self.sticking_interval,
+          {"sticking_interval", Unit::s, {0, 1e6}, "Mean time until a robot sticks; 0: never."});
+    visit(self.sticking_time,
+          {"sticking_time", Unit::s, {0, 1e6}, "Mean time for which it sticks."});
+    visit(self.response_lag,
+          {"response_lag", Unit::s, {0, 10}, "Dead time from a command to its effect."});
+  }
+};
+
+}  // namespace microswarm

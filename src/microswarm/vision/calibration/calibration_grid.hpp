@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/formats/images/image.hpp"
+#include "microswarm/vision/camera/camera_scale.hpp"
+
+namespace microswarm {
+
+/// What marks the points of a calibration slide.
+enum class GridPattern { dots, chessboard };
+constexpr auto enum_names(GridPattern) {
+  return std::array<std::pair<GridPattern, std::string_view>, 2>{
+      {{GridPattern::dots, "dots"}, {GridPattern::chessboard, "chessboard"}}};
+}
+
+/// A grid of points with square cells. A chessboard's points are its inner corners.
+struct GridParams {
+  GridPattern pattern = GridPattern::dots;
+  int columns = 9;
+  int rows = 6;
+  double pitch = 100;  ///< between neighbours [µm]
+
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.pattern, {"pattern", Unit::none, {}, "Dots, or inner corners of a chessboard."});
+    visit(self.columns, {"columns", Unit::none, {2, 1000}, "Points in a row."});
+    visit(self.rows, {"rows", Unit::none, {2, 1000}, "Points in a column."});
+    visit(self.pitch, {"pitch", Unit::um, {1e-3, 1e6}, "Distance of neighbours."});
+  }
+};
+
+/// The grid's points in a picture, row by row from the lower left as maps lie: its columns go along
+/// the direction that is nearest to the picture's x axis and fits the numbers of columns and rows.
+/// Their places are multiples of the pitch from the first. It may be turned, but not seen at a
+/// slant. Throws InputError when the picture does not show exactly such a grid.
+std::vector<ScalePoint> find_grid(const Image& picture, const GridParams& params);
+
+}  // namespace microswarm

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/vision/camera/frames.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <opencv2/core.hpp>
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+#include <vector>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/vision/image/mat.hpp"
+
+namespace microswarm {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& source, const std::string& why) {
+  throw InputError(source.string() + ": " + why);
+}
+
+std::string lower_extension(const fs::path& file) {
+  std::string text = file.extension().string();
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+bool is_picture(const fs::path& file) {
+  constexpr std::array<std::string_view, 7> known{".png", ".jpg", ".jpeg", ".bmp",
+                                                  ".pgm", ".ppm", ".pbm"};
+  return std::find(known.begin(), known.end(), lower_extension(file)) != known.end();
+}
+
+/// What all sources do alike: indices, times, one size.
+class Source : public FrameSource {
+ public:
+  Source(fs::path name, std::optional<double> rate) : name_(std::move(name)), rate_(rate) {}
+  std::optional<double> rate() const override { return rate_; }
+
+ protected:
+  const fs::path& name() const { return name_; }
+  void set_rate(double rate) {
+    if (!rate_ && std::isfinite(rate) && rate > 0 && rate < 1e6) rate_ = rate;
+  }
+  /// Numbers a picture and checks its size; `file` is where it came from.
+  void number(VideoFrame& frame, const fs::path& file) {
+    const Image& p = frame.picture;
+    if (next_ == 0) {
+      width_ = p.width;
+      height_ = p.height;
+    }
+    if (p.width != width_ || p.height != height_)
+      fail(file, size_text(p.width, p.height) + " pixels, the first picture has " +
+                     size_text(width_, height_));
+    frame.index = next_++;
+    frame.t = frame.index / rate_.value_or(1);
+  }
+  int given() const { return next_; }
+
+ private:
+  static std::string size_text(int width, int height) {
+    return std::to_string(width) + "x" + std::to_string(height);
+  }
+
+  fs::path name_;
+  std::optional<double> rate_;
+  int next_ = 0;
+  int width_ = 0;
+  int height_ = 0;
+};
+
+/// The last run of digits in a name, without leading zeros; "" without digits.
+std::string last_number(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
+  const auto end = std::find_if(stem.rbegin(), stem.rend(), is_digit);
+  const auto begin = std::find_if_not(end, stem.rend(), is_digit);
+  std::string digits(begin.base(), end.base());
+  digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size()));
+  return digits;
+}
+
+class Pictures : public Source {
+ public:
+  Pictures(const fs::path& name, std::vector<fs::path> files, std::optional<double> rate,
+           std::optional<int> depth)
+      : Source(name, rate), files_(std::move(files)), depth_(depth) {}
+  bool next(VideoFrame& frame) override {
+    const auto at = static_cast<std::size_t>(given());
+    if (at >= files_.size()) return false;
+    if (!depth_) depth_ = sample_depth(files_[at]).value_or(16);
+    frame.picture = read_image(files_[at], *depth_);
+    number(frame, files_[at]);
+    return true;
+  }
+  std::optional<int> count() const override { return static_cast<int>(files_.size()); }
+
+ private:
+  std::vector<fs::path> files_;
+  std::optional<int> depth_;
+};
+
+std::vector<fs::path> pictures_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (is_picture(entry.path()) && entry.path().filename().string()[0] != '.')
+      files.push_back(entry.path());
+  if (files.empty()) fail(folder, "no pictures in this folder (PNG, JPEG, BMP, PGM or PPM)");
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    const std::string p = last_number(a);
+    const std::string q = last_number(b);
+    if (p.size() != q.size()) return p.size() < q.size();
+    return p != q ? p < q : a < b;
+  });
+  return files;
+}
+
+bool fits(const cv::Size& size) {
+  return size.width >= 1 && size.height >= 1 && size.width <= max_image_side &&
+         size.height <= max_image_side &&
+         std::int64_t{size.width} * size.height <= max_image_pixels;
+}
+
+void require_fit(const fs::path& source, const cv::Size& size) {
+  if (!fits(size))
+    fail(source, std::to_string(size.width) + "x" + std::to_string(size.height) +
+                     " pixels, allowed up to " + std::to_string(max_image_side) + " a side and " +
+                     std::to_string(max_image_pixels) + " in all");
+}
+
+/// Bits, 8 to 16, that the largest sample needs.
+int bits_of(const cv::Mat& mat) {
+  double largest = 0;
+  cv::minMaxIdx(mat.reshape(1), nullptr, &largest);
+  return std::clamp(static_cast<int>(std::bit_width(static_cast<unsigned>(largest))), 8, 16);
+}
+
+class TiffStack : public Source {
+ public:
+  TiffStack(const fs::path& file, std::optional<double> rate, std::optional<int> depth)
+      : Source(file, rate), count_(pages(file)), depth_(depth) {}
+  bool next(VideoFrame& frame) override {
+    if (given() >= count_) return false;
+    std::vector<cv::Mat> page;
+    try {
+      cv::imreadmulti(name().string(), page, given(), 1, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
+    } catch (const cv::Exception&) {
+      page.clear();
+    }
+    if (page.empty() || page[0].empty())
+      fail(name(), "picture " + std::to_string(given()) + " cannot be read");
+    require_fit(name(), page[0].size());
+    if (page[0].depth() == CV_16U) {
+      if (!depth_) depth_ = bits_of(page[0]);
+      page[0].convertTo(page[0], CV_8U, 255.0 / ((1 << *depth_) - 1));
+    }
+    if (page[0].depth() != CV_8U)
+      fail(name(), "picture " + std::to_string(given()) + " has neither 8 nor 16 bits a sample");
+    take_picture(page[0], frame.picture);
+    number(frame, name());
+    return true;
+  }
+  std::optional<int> count() const override { return count_; }
+
+ private:
+  static int pages(const fs::path& file) {
+    std::size_t found = 0;
+    try {
+      found = cv::imcount(file.string(), cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
+    } catch (const cv::Exception&) {
+      found = 0;
+    }
+    if (found == 0) fail(file, "is no TIFF that can be read");
+    return static_cast<int>(found);
+  }
+
+  int count_;
+  std::optional<int> depth_;
+};
+
+class VideoFile : public Source {
+ public:
+  VideoFile(const fs::path& file, std::optional<double> rate) : Source(file, rate) {
+    ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // FFmpeg keeps its own words to itself
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    if (!video_.open(fs::absolute(file).string(), cv::CAP_FFMPEG))
+      fail(file, "is no video that can be read");
+    require_fit(file, {static_cast<int>(video_.get(cv::CAP_PROP_FRAME_WIDTH)),
+                       static_cast<int>(video_.get(cv::CAP_PROP_FRAME_HEIGHT))});
+    set_rate(video_.get(cv::CAP_PROP_FPS));
+  }
+  bool next(VideoFrame& frame) override {
+    if (!video_.read(mat_) || mat_.empty()) {
+      if (given() == 0) fail(name(), "holds no picture that can be read");
+      return false;
+    }
+    take_picture(mat_, frame.picture);
+    number(frame, name());
+    return true;
+  }
+  std::optional<int> count() const override {
+    const double told = video_.get(cv::CAP_PROP_FRAME_COUNT);
+    if (!(told >= 1 && told < 1e9)) return std::nullopt;
+    return static_cast<int>(told);
+  }
+
+ private:
+  cv::VideoCapture video_;
+  cv::Mat mat_;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSource> open_frames(const fs::path& source, std::optional<double> rate,
+                                         std::optional<int> depth) {
+  std::error_code error;
+  const fs::file_status status = fs::status(source, error);
+  if (!fs::exists(status)) fail(source, "cannot read: No such file or directory");
+  if (fs::is_directory(status))
+    return std::make_unique<Pictures>(source, pictures_in(source), rate, depth);
+  if (!fs::is_regular_file(status)) fail(source, "is neither a file nor a folder");
+  if (fs::file_size(source) == 0) fail(source, "is empty");
+  if (is_picture(source))
+    return std::make_unique<Pictures>(source, std::vector<fs::path>{source}, rate, depth);
+  const std::string extension = lower_extension(source);
+  if (extension == ".tif" || extension == ".tiff")
+    return std::make_unique<TiffStack>(source, rate, depth);
+  return std::make_unique<VideoFile>(source, rate);
+}
+
+void take_channel(const Image& picture, VideoChannel channel, Image& grey) {
+  grey.width = picture.width;
+  grey.height = picture.height;
+  grey.channels = 1;
+  grey.pixels.resize(static_cast<std::size_t>(picture.width) * picture.height);
+  const cv::Mat in = as_mat(picture);
+  cv::Mat out = as_mat(grey);
+  if (picture.channels == 1)
+    in.copyTo(out);
+  else if (channel == VideoChannel::grey)
+    cv::cvtColor(in, out, cv::COLOR_RGB2GRAY);
+  else
+    cv::extractChannel(in, out, static_cast<int>(channel) - static_cast<int>(VideoChannel::red));
+}
+
+}  // namespace microswarm

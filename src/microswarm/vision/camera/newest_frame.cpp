@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/vision/camera/newest_frame.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/text.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr auto longest_close = std::chrono::milliseconds(900);
+
+using Pixels = std::vector<std::uint8_t>;
+
+bool is_black(const Pixels& pixels, int below) {
+  return std::all_of(pixels.begin(), pixels.end(), [&](std::uint8_t g) { return g < below; });
+}
+
+}  // namespace
+
+double steady_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// What the thread and its owner share; it lives as long as either.
+struct NewestFrame::Shared {
+  mutable std::mutex mutex;
+  std::condition_variable changed;
+  bool closing = false;
+  bool done = false;   ///< the thread is about to end
+  bool ended = false;  ///< the source has no more
+  std::string error;   ///< why it failed
+  double began = steady_seconds();
+  LiveFrame newest;
+  bool fresh = false;  ///< nobody took the newest yet
+  int frames = 0;
+  int dropped = 0;
+  int same = 0;  ///< pictures in a row that are like the newest
+  bool black = false;
+
+  /// The mutex is held.
+  CameraStatus status(const std::string& name, const NewestFrameParams& p) const {
+    CameraStatus s{.frames = frames,
+                   .dropped = dropped,
+                   .age = steady_seconds() - (frames > 0 ? newest.taken : began)};
+    if (!error.empty()) {
+      s.state = CameraState::failed;
+      s.why = error;
+    } else if (ended) {
+      s.state = CameraState::ended;
+    } else if (s.age > p.silent_after) {
+      s.state = CameraState::silent;
+      s.why = name + ": no picture for " + number_text(p.silent_after) + " s";
+    } else if (frames == 0) {
+      s.state = CameraState::opening;
+    } else {
+      s.state = same >= p.frozen_after ? CameraState::frozen
+                : black                ? CameraState::black
+                                       : CameraState::live;
+    }
+    return s;
+  }
+
+  void publish(VideoFrame& frame, bool is_same, bool is_dark) {
+    const std::lock_guard lock(mutex);
+    dropped += fresh;
+    std::swap(newest.frame, frame);
+    newest.taken = steady_seconds();
+    fresh = true;
+    ++frames;
+    same = is_same ? same + 1 : 1;
+    black = is_dark;
+    changed.notify_all();
+  }
+
+  bool is_closing() const {
+    const std::lock_guard lock(mutex);
+    return closing;
+  }
+
+  void fetch_all(FrameSource& source, int black_below) {
+    VideoFrame frame;
+    Pixels before;
+    while (!is_closing()) {
+      if (!source.next(frame)) {
+        const std::lock_guard lock(mutex);
+        ended = true;
+        return;
+      }
+      const bool is_same = frame.picture.pixels == before;
+      before = frame.picture.pixels;
+      publish(frame, is_same, is_black(before, black_below));
+    }
+  }
+
+  void run(std::unique_ptr<FrameSource> source, int black_below) {
+    std::string why;
+    try {
+      fetch_all(*source, black_below);
+    } catch (const std::exception& e) {
+      why = one_line(e.what());
+      if (why.empty()) why = "cannot be read";
+    }
+    {
+      const std::lock_guard lock(mutex);
+      error = why;
+      changed.notify_all();
+    }
+    source.reset();  // may take long, as a camera's close
+    const std::lock_guard lock(mutex);
+    done = true;
+    changed.notify_all();
+  }
+};
+
+NewestFrame::NewestFrame(std::unique_ptr<FrameSource> source, std::string name,
+                         const NewestFrameParams& params)
+    : name_(std::move(name)), params_(params), shared_(std::make_shared<Shared>()) {
+  // Detached, because a device that hangs must not hang its owner: the thread keeps what it needs.
+  std::thread([shared = shared_, source = std::move(source), below = params.black_below]() mutable {
+    shared->run(std::move(source), below);
+  }).detach();
+}
+
+NewestFrame::~NewestFrame() {
+  std::unique_lock lock(shared_->mutex);
+  shared_->closing = true;
+  shared_->changed.wait_for(lock, longest_close, [&] { return shared_->done; });
+}
+
+bool NewestFrame::wait(LiveFrame& frame, double seconds) {
+  std::unique_lock lock(shared_->mutex);
+  Shared& s = *shared_;
+  s.changed.wait_for(lock, std::chrono::duration<double>(seconds),
+                     [&] { return s.fresh || s.ended || !s.error.empty(); });
+  if (s.fresh) {
+    std::swap(frame, s.newest);
+    s.newest.taken = frame.taken;
+    s.fresh = false;
+    return true;
+  }
+  const CameraStatus now = s.status(name_, params_);
+  if (!now.why.empty()) throw HardwareError(now.why);
+  return false;
+}
+
+CameraStatus NewestFrame::status() const {
+  const std::lock_guard lock(shared_->mutex);
+  return shared_->status(name_, params_);
+}
+
+}  // namespace microswarm

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/vision/camera/frames.hpp"
+
+namespace microswarm {
+
+/// What comes from a camera by now.
+enum class CameraState {
+  opening,  ///< no picture yet
+  live,
+  black,   ///< pictures without light
+  frozen,  ///< the same picture again and again
+  silent,  ///< no picture for too long
+  ended,   ///< the source has no more, as a file at its end
+  failed,  ///< unplugged, or it cannot be read any more
+};
+constexpr auto enum_names(CameraState) {
+  return std::array<std::pair<CameraState, std::string_view>, 7>{{{CameraState::opening, "opening"},
+                                                                  {CameraState::live, "live"},
+                                                                  {CameraState::black, "black"},
+                                                                  {CameraState::frozen, "frozen"},
+                                                                  {CameraState::silent, "silent"},
+                                                                  {CameraState::ended, "ended"},
+                                                                  {CameraState::failed, "failed"}}};
+}
+
+/// Settings of NewestFrame.
+struct NewestFrameParams {
+  double silent_after = 1;
+  int frozen_after = 5;
+  int black_below = 8;
+
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.silent_after,
+          {"silent_after", Unit::s, {1e-3, 3600}, "Without a picture for longer, it is silent."});
+    visit(self.frozen_after, {"frozen_after",
+                              Unit::none,
+                              {2, 1e6},
+                              "Of so many pictures in a row that are the same, it is frozen."});
+    visit(self.black_below, {"black_below",
+                             Unit::none,
+                             {0, 255},
+                             "A picture in which all greys are below this is black."});
+  }
+};
+
+/// A frame and when it came.
+struct LiveFrame {
+  VideoFrame frame;
+  double taken = 0;  ///< when it reached the program [s], by steady_seconds()
+};
+
+/// How a camera does.
+struct CameraStatus {
+  CameraState state = CameraState::opening;
+  int frames = 0;   ///< that came so far
+  int dropped = 0;  ///< of these, that nobody took before the next one came
+  double age = 0;   ///< of the newest [s], before the first since the start
+  std::string why;  ///< one line for people, when silent or failed
+};
+
+/// Now, by the clock that never jumps [s].
+double steady_seconds();
+
+/// Fetches frames in a thread of its own, so that whoever needs one gets the newest at once: older
+/// ones are dropped and counted. Safe to use from several threads.
+class NewestFrame {
+ public:
+  /// `name` stands before the complaint that it is silent; what the source throws names it itself.
+  NewestFrame(std::unique_ptr<FrameSource> source, std::string name,
+              const NewestFrameParams& params = {});
+  /// Returns within a second, even when the source never does; it is then given up when it does.
+  ~NewestFrame();
+  NewestFrame(const NewestFrame&) = delete;
+  NewestFrame& operator=(const NewestFrame&) = delete;
+
+  /// The newest frame into `frame`, whose memory is used again; false when it was taken already, or
+  /// none has come. Throws HardwareError "NAME: WHY" when the source failed, and while it is
+  /// silent.
+  bool take(LiveFrame& frame) { return wait(frame, 0); }
+  /// The same, after waiting for up to `seconds` for a frame to come.
+  bool wait(LiveFrame& frame, double seconds);
+
+  CameraStatus status() const;
+
+ private:
+  struct Shared;
+
+  std::string name_;
+  NewestFrameParams params_;
+  std::shared_ptr<Shared> shared_;
+};
+
+}  // namespace microswarm

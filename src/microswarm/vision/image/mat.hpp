@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "microswarm/formats/images/image.hpp"
+#include "microswarm/formats/images/mask.hpp"
+
+namespace microswarm {
+
+/// The picture as OpenCV sees it, 8-bit with 1 or 3 channels; it shares the pixels, read only.
+inline cv::Mat as_mat(const Image& image) {
+  return {image.height, image.width, CV_8UC(image.channels),
+          const_cast<std::uint8_t*>(image.pixels.data())};
+}
+
+/// The mask as an 8-bit matrix of 0 and 255, a copy.
+inline cv::Mat to_mat(const Mask& mask) {
+  return cv::Mat(mask.height, mask.width, CV_8U, const_cast<std::uint8_t*>(mask.cells.data())) != 0;
+}
+
+/// The mask of the elements that are not 0; `mat` is 8-bit, one channel.
+inline Mask to_mask(const cv::Mat& mat) {
+  Mask mask(mat.cols, mat.rows);
+  for (int y = 0; y < mat.rows; ++y)
+    for (int x = 0; x < mat.cols; ++x) mask.at(x, y) = mat.at<std::uint8_t>(y, x) != 0;
+  return mask;
+}
+
+/// OpenCV's picture, 8-bit with 1, 3 or 4 channels, blue first, into ours, whose memory is used
+/// again.
+inline void take_picture(const cv::Mat& mat, Image& picture) {
+  const int channels = mat.channels() == 1 ? 1 : 3;
+  picture.width = mat.cols;
+  picture.height = mat.rows;
+  picture.channels = channels;
+  picture.pixels.resize(mat.total() * static_cast<std::size_t>(channels));
+  cv::Mat ours = as_mat(picture);
+  if (channels == 1)
+    mat.copyTo(ours);
+  else
+    cv::cvtColor(mat, ours, mat.channels() == 4 ? cv::COLOR_BGRA2RGB : cv::COLOR_BGR2RGB);
+}
+
+}  // namespace microswarm

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "microswarm/formats/images/image.hpp"
+#include "microswarm/formats/images/mask.hpp"
+
+namespace microswarm {
+
+/// The picture in colour with the outline of the mask drawn over it, just outside the mask, so
+/// thick that it shows on the whole picture scaled to a screen. Throws InputError when the sizes
+/// differ.
+Image overlay(const Image& picture, const Mask& mask,
+              std::array<std::uint8_t, 3> rgb = {0, 255, 255});
+
+}  // namespace microswarm

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/vision/scene/blobs.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+#include <span>
+#include <string>
+
+#include "microswarm/core/each_cpu.hpp"
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/statistics.hpp"
+#include "microswarm/vision/image/mat.hpp"
+#include "microswarm/vision/scene/ground.hpp"
+#include "microswarm/vision/scene/level_line.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr int smooth_side = 5;     // working pixels over which a smooth part must reach
+constexpr int ground_rows = 4;     // one working row in so many tells the noise of the ground
+constexpr double noise_limit = 5;  // spreads of the ground that something must stand out
+
+/// Pixels of the picture along a side of a working pixel: the coarser, the less noise and time.
+int coarseness(const BlobParams& p) {
+  const double fine = std::min(p.min_radius / 3, p.gap / 2);
+  return fine >= 4 ? 4 : fine >= 2 ? 2 : 1;
+}
+
+/// Means of squares of `side` pixels; the border is repeated to fill the last ones.
+cv::Mat coarse(const cv::Mat& mat, int side) {
+  if (side == 1) return mat;
+  const int right = (side - mat.cols % side) % side;
+  const int below = (side - mat.rows % side) % side;
+  cv::Mat padded = mat;
+  if (right + below > 0) cv::copyMakeBorder(mat, padded, 0, below, 0, right, cv::BORDER_REPLICATE);
+  cv::Mat small;
+  cv::resize(padded, small, {padded.cols / side, padded.rows / side}, 0, 0, cv::INTER_AREA);
+  return small;
+}
+
+/// Pixels that are looked at as 255, or an empty matrix when that is all.
+cv::Mat seen_of(const Image& picture, const Mask* walls, int side) {
+  if (!walls) return {};
+  if (walls->width != picture.width || walls->height != picture.height)
+    throw InputError("walls: " + std::to_string(walls->width) + "x" +
+                     std::to_string(walls->height) + " pixels, the picture has " +
+                     std::to_string(picture.width) + "x" + std::to_string(picture.height));
+  cv::Mat hidden;
+  cv::dilate(coarse(to_mat(*walls), side) > 0, hidden, cv::Mat::ones(3, 3, CV_8U));
+  return ~hidden;
+}
+
+/// What rises above the ground, or sinks below it with sign -1, where something is seen.
+MICROSWARM_EACH_CPU void take_ground(std::span<const std::uint8_t> grey, const std::uint8_t* seen,
+                                     float sign, float* ground) {
+  for (std::size_t i = 0; i < grey.size(); ++i) {
+    const float rise = sign * (static_cast<float>(grey[i]) - ground[i]);
+    ground[i] = seen[i] ? rise : 0.0F;
+  }
+}
+
+/// Means over what is seen from means over all.
+MICROSWARM_EACH_CPU void make_up(std::span<const float> share, const std::uint8_t* seen,
+                                 float* rise) {
+  for (std::size_t i = 0; i < share.size(); ++i) {
+    const float mean = rise[i] / (share[i] > 0.1F ? share[i] : 0.1F);
+    rise[i] = seen[i] ? mean : 0.0F;
+  }
+}
+
+/// How far each pixel stands out of the ground, smoothed; 0 where nothing is seen.
+cv::Mat rise_of(const cv::Mat& grey, const cv::Mat& seen, bool dark, double spread) {
+  assert(grey.isContinuous());
+  const cv::Mat all = seen.empty() ? cv::Mat(grey.size(), CV_8U, cv::Scalar(255)) : seen;
+  cv::Mat rise = ground_of(grey, seen);
+  take_ground({grey.ptr<std::uint8_t>(), grey.total()}, all.ptr<std::uint8_t>(), dark ? -1 : 1,
+              rise.ptr<float>());
+  const int side = 2 * static_cast<int>(std::ceil(2.5 * spread)) + 1;
+  cv::GaussianBlur(rise, rise, {side, side}, spread, spread, cv::BORDER_REFLECT);
+  if (seen.empty()) return rise;
+  cv::Mat share;
+  seen.convertTo(share, CV_32F, 1.0 / 255);
+  cv::GaussianBlur(share, share, {side, side}, spread, spread, cv::BORDER_REFLECT);
+  make_up({share.ptr<float>(), share.total()}, seen.ptr<std::uint8_t>(), rise.ptr<float>());
+  return rise;
+}
+
+/// Spread of the ground around its surface, by the median of some ten thousand pixels.
+double ground_spread(const cv::Mat& rise, const cv::Mat& seen) {
+  constexpr std::size_t enough = 10'000;
+  const std::size_t step = 2 * (rise.total() / enough / 2) + 7;  // odd: no column again and again
+  std::vector<double> off;
+  off.reserve(rise.total() / step + 1);
+  for (std::size_t i = 0; i < rise.total(); i += step)
+    if (seen.empty() || seen.ptr<std::uint8_t>()[i]) off.push_back(std::abs(rise.ptr<float>()[i]));
+  return 1.4826 * median(std::move(off));
+}
+
+/// A connected set of working pixels.
+struct Piece {
+  cv::Rect box;
+  cv::Mat in;  ///< 255 in it, over the box
+
+  cv::Point first() const {
+    cv::Point at = box.tl();
+    while (!in.at<std::uint8_t>(at - box.tl())) ++at.x;
+    return at;
+  }
+};
+
+/// Those of at least `least_area` pixels in a set, of which `corner` is the first pixel.
+std::vector<Piece> pieces_of(const cv::Mat& set, cv::Point corner, double least_area) {
+  struct Extent {
+    int left, top, right, bottom, area;
+  };
+  cv::Mat labels;
+  const int count = cv::connectedComponents(set, labels, 4, CV_32S);
+  // OpenCV's statistics take three times as long as its labels: they sum up the ground too.
+  std::vector<Extent> extents(static_cast<std::size_t>(count), {set.cols, set.rows, -1, -1, 0});
+  for (int y = 0; y < labels.rows; ++y) {
+    const int* row = labels.ptr<int>(y);
+    for (int x = 0; x < labels.cols; ++x) {
+      if (row[x] == 0) continue;
+      Extent& e = extents[static_cast<std::size_t>(row[x])];
+      e.left = std::min(e.left, x);
+      e.right = std::max(e.right, x);
+      e.top = std::min(e.top, y);
+      e.bottom = y;
+      ++e.area;
+    }
+  }
+  std::vector<Piece> pieces;
+  for (int k = 1; k < count; ++k) {
+    const Extent& e = extents[static_cast<std::size_t>(k)];
+    if (e.area < least_area) continue;
+    const cv::Rect box(e.left, e.top, e.right - e.left + 1, e.bottom - e.top + 1);
+    pieces.push_back({box + corner, labels(box) == k});
+  }
+  return pieces;
+}
+
+float median_within(const cv::Mat& rise, const Piece& piece) {
+  std::vector<double> values;
+  values.reserve(piece.in.total());
+  for (int y = 0; y < piece.box.height; ++y) {
+    const auto* in = piece.in.ptr<std::uint8_t>(y);
+    const auto* row = rise.ptr<float>(piece.box.y + y) + piece.box.x;
+    for (int x = 0; x < piece.box.width; ++x)
+      if (in[x]) values.push_back(row[x]);
+  }
+  return static_cast<float>(median(std::move(values)));
+}
+
+/// Area, middle and ellipse of what the outline encloses; false for a line without area.
+bool measure(Blob& blob) {
+  std::vector<cv::Point2f> ring;
+  ring.reserve(blob.outline_px.size());
+  for (const Vec2 p : blob.outline_px)
+    ring.emplace_back(static_cast<float>(p.x), static_cast<float>(p.y));
+  const cv::Moments m = cv::moments(ring);
+  if (!(m.m00 > 0)) return false;
+  blob.centre_px = {m.m10 / m.m00, m.m01 / m.m00};
+  blob.radius_px = std::sqrt(m.m00 / std::numbers::pi);
+  const double mean = 0.5 * (m.mu20 + m.mu02) / m.m00;
+  const double half = 0.5 * (m.mu20 - m.mu02) / m.m00;
+  const double mixed = m.mu11 / m.m00;
+  const double spread = std::hypot(half, mixed);
+  blob.semi_major_px = 2 * std::sqrt(mean + spread);
+  blob.semi_minor_px = 2 * std::sqrt(std::max(0.0, mean - spread));
+  blob.angle = 0.5 * std::atan2(mixed, half);
+  return true;
+}
+
+/// What is searched: the picture, the pixels that are looked at and how far they stand out of the
+/// ground, the latter two in working pixels.
+struct Field {
+  int side = 1;  ///< of a working pixel
+  cv::Mat fine;
+  cv::Mat seen;
+  cv::Mat rise;
+};
+
+/// Mean square of the differences between neighbours in a row of the picture, in every `step`th row
+/// of the working pixels that `chosen` (over `box`) sets.
+double roughness(const Field& field, const cv::Rect& box, const cv::Mat& chosen, int step) {
+  const int side = field.side;
+  double squares = 0;
+  double count = 0;
+  for (int y = 0; y < box.height; y += step) {
+    const auto* row =
+        field.fine.ptr<std::uint8_t>(std::min(side * (box.y + y), field.fine.rows - 1));
+    const auto* in = chosen.ptr<std::uint8_t>(y);
+    const int end = std::min(side * box.br().x, field.fine.cols - 1);
+    for (int x = side * box.x; x < end; ++x) {
+      if (!in[x / side - box.x]) continue;
+      const int rise = row[x + 1] - row[x];
+      squares += rise * rise;
+      ++count;
+    }
+  }
+  return count > 0 ? squares / count : 0;
+}
+
+bool is_cut(const Piece& piece, const cv::Mat& seen, const cv::Size& size) {
+  const cv::Rect inner(1, 1, size.width - 2, size.height - 2);
+  if ((piece.box & inner) != piece.box) return true;
+  if (seen.empty()) return false;
+  const cv::Rect around = piece.box + cv::Size(2, 2) - cv::Point(1, 1);
+  cv::Mat grown;
+  cv::copyMakeBorder(piece.in, grown, 1, 1, 1, 1, cv::BORDER_CONSTANT);
+  cv::dilate(grown, grown, cv::Mat::ones(3, 3, CV_8U));
+  return cv::countNonZero(grown & ~seen(around)) > 0;
+}
+
+/// Mean difference of neighbours whose greys spread by `grain` beyond a noise of this roughness.
+double mean_step(double noise, double grain) {
+  return std::sqrt((noise + 2 * grain * grain) * 2 / std::numbers::pi);
+}
+
+/// The parts of a piece that are smooth over more than `smooth_side` working pixels. A pixel's
+/// grain is a median over its surroundings, so that the edge of a smooth thing is no grain.
+cv::Mat smooth_parts(const Field& field, const Piece& piece, double least) {
+  const int side = field.side;
+  const cv::Rect all(0, 0, field.fine.cols, field.fine.rows);
+  const cv::Mat fine = field.fine(cv::Rect(side * piece.box.tl(), side * piece.box.br()) & all);
+  cv::Mat steps;  // mean of the differences to the neighbours on the right and below
+  cv::Mat next;
+  cv::copyMakeBorder(fine, next, 0, 1, 0, 1, cv::BORDER_REPLICATE);
+  const cv::Rect same(0, 0, fine.cols, fine.rows);
+  cv::Mat right;
+  cv::Mat below;
+  cv::absdiff(fine, next(same + cv::Point(1, 0)), right);
+  cv::absdiff(fine, next(same + cv::Point(0, 1)), below);
+  cv::addWeighted(right, 0.5, below, 0.5, 0, steps);
+  steps = coarse(steps, side);
+  cv::medianBlur(steps, steps, 5);
+  cv::Mat smooth = piece.in & (steps <= least);
+  cv::Mat core;
+  const cv::Mat square = cv::Mat::ones(smooth_side, smooth_side, CV_8U);
+  cv::erode(smooth, core, square, {-1, -1}, 1, cv::BORDER_CONSTANT, 0);
+  cv::dilate(core, core, cv::Mat::ones(smooth_side + 4, smooth_side + 4, CV_8U));
+  return core & smooth;
+}
+
+/// The blob that a piece is, whose outline runs at `level`; `noise` is the roughness of the ground.
+std::optional<Blob> blob_of(const Field& field, const Piece& piece, float level, double noise) {
+  Blob blob;
+  blob.outline_px = level_line(field.rise, level, piece.first());
+  for (Vec2& q : blob.outline_px) q = field.side * q + 0.5 * (field.side - 1) * Vec2{1, 1};
+  if (!measure(blob)) return std::nullopt;
+  blob.contrast = median_within(field.rise, piece);
+  cv::Mat inner;  // the edge tells nothing of the grain
+  cv::erode(piece.in, inner, cv::Mat::ones(5, 5, CV_8U), {-1, -1}, 1, cv::BORDER_CONSTANT, 0);
+  blob.grain = std::sqrt(std::max(0.0, roughness(field, piece.box, inner, 1) - noise) / 2);
+  blob.is_cut = is_cut(piece, field.seen, field.rise.size());
+  return blob;
+}
+
+}  // namespace
+
+void check(const BlobParams& p, const Places& where) {
+  if (p.max_radius < p.min_radius)
+    throw where.error({"max_radius_px", "min_radius_px"},
+                      fmt::format("max_radius_px is {:.6g}, min_radius_px {:.6g}: nothing is found",
+                                  p.max_radius, p.min_radius));
+}
+
+std::vector<Blob> find_blobs(const Image& picture, const BlobParams& p, const Mask* walls) {
+  Field field{.side = coarseness(p)};
+  field.seen = seen_of(picture, walls, field.side);
+  if (picture.pixels.empty()) return {};
+  const Image one = picture.channels == 1 ? Image{} : to_grey(picture);
+  field.fine = as_mat(picture.channels == 1 ? picture : one);
+  field.rise = rise_of(coarse(field.fine, field.side), field.seen, p.tone == ParticleTone::dark,
+                       p.gap / 2 / field.side);
+  const auto least = static_cast<float>(
+      std::max(p.min_contrast, noise_limit * ground_spread(field.rise, field.seen)));
+  const cv::Mat high = field.rise > least;
+  const cv::Mat ground = field.seen.empty() ? cv::Mat(~high) : cv::Mat(~high & field.seen);
+  const double noise = roughness(field, {0, 0, ground.cols, ground.rows}, ground, ground_rows);
+
+  // What stands out, then what of each piece does so by half as much as its middle.
+  const double least_area = std::numbers::pi * std::pow(0.5 * p.min_radius / field.side, 2);
+  std::vector<Blob> blobs;
+  for (Piece& piece : pieces_of(high, {}, least_area)) {
+    if (p.min_grain > 0) {
+      const cv::Mat smooth = smooth_parts(field, piece, mean_step(noise, p.min_grain));
+      piece.in &= ~smooth;
+      field.rise(piece.box).setTo(0, smooth);
+      if (cv::countNonZero(piece.in) < least_area) continue;
+    }
+    const float level = std::max(least, median_within(field.rise, piece) / 2);
+    const cv::Mat half_up = piece.in & (field.rise(piece.box) > level);
+    for (const Piece& part : pieces_of(half_up, piece.box.tl(), least_area)) {
+      std::optional<Blob> blob = blob_of(field, part, level, noise);
+      if (blob && blob->radius_px >= p.min_radius && blob->radius_px <= p.max_radius &&
+          blob->grain >= p.min_grain)
+        blobs.push_back(std::move(*blob));
+    }
+  }
+  std::stable_sort(blobs.begin(), blobs.end(),
+                   [](const Blob& a, const Blob& b) { return a.radius_px > b.radius_px; });
+  return blobs;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/vision/scene/scene_finder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+
+namespace microswarm {
+namespace {
+
+constexpr double hull_tolerance = 0.5;  // [px]
+constexpr double least_gap = 8;  // [px] between points of an outline with something hidden between
+constexpr int soft_edge = 2;     // [px]
+
+cv::Point2f point_of(Vec2 p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
+
+std::vector<cv::Point2f> points_of(const std::vector<Vec2>& ring) {
+  std::vector<cv::Point2f> points;
+  points.reserve(ring.size());
+  for (const Vec2 p : ring) points.push_back(point_of(p));
+  return points;
+}
+
+/// The walls and what a blob covers, a little more than its outline.
+Mask hidden_by(const Blob& blob, const Image& picture, const Mask* walls, double margin) {
+  Mask hidden = walls ? *walls : Mask(picture.width, picture.height);
+  std::vector<cv::Point> ring;
+  ring.reserve(blob.outline_px.size());
+  for (const Vec2 p : blob.outline_px)
+    ring.emplace_back(static_cast<int>(std::lround(p.x)), static_cast<int>(std::lround(p.y)));
+  cv::Mat cells(hidden.height, hidden.width, CV_8U, hidden.cells.data());
+  cv::fillPoly(cells, std::vector{ring}, 1);
+  cv::polylines(cells, ring, true, 1, 1 + 2 * static_cast<int>(std::ceil(margin)));
+  return hidden;
+}
+
+/// The outline without what runs along something hidden or the picture's edge.
+std::vector<Vec2> own_outline(const Blob& blob, const cv::Size& size, const Mask* hidden) {
+  constexpr int margin = 9;  // [px] as far as what is hidden bends the outline
+  std::vector<Vec2> own;
+  for (const Vec2 p : blob.outline_px) {
+    const cv::Rect all(0, 0, size.width, size.height);
+    const cv::Point at(static_cast<int>(std::lround(p.x)), static_cast<int>(std::lround(p.y)));
+    bool is_own = true;
+    for (const cv::Point way : {cv::Point(-margin, 0), {margin, 0}, {0, -margin}, {0, margin}})
+      is_own =
+          is_own && all.contains(at + way) && !(hidden && hidden->at(at.x + way.x, at.y + way.y));
+    if (is_own) own.push_back(p);
+  }
+  return own;
+}
+
+/// The circle that the outline is, as far as it is its own, of which a third must be seen.
+std::optional<Ring> disc_of(const Blob& blob, const std::vector<Vec2>& own, double roundness) {
+  const auto ring = blob.is_cut ? circle_through(own) : Ring{blob.centre_px, blob.radius_px};
+  if (!ring) return std::nullopt;
+  double arc = 0;  // of the circle, by the share of the outline that is seen
+  for (std::size_t i = 1; i < own.size(); ++i)
+    if (const double step = distance(own[i - 1], own[i]); step < least_gap) arc += step;
+  if (3 * arc < 2 * std::numbers::pi * ring->radius_px) return std::nullopt;
+  const double allowed = std::max(1.0, roundness * ring->radius_px);
+  const bool is_round = std::all_of(own.begin(), own.end(), [&](Vec2 p) {
+    return std::abs(distance(p, ring->centre_px) - ring->radius_px) <= allowed;
+  });
+  return is_round ? ring : std::nullopt;
+}
+
+SeenObstacle obstacle_of(Blob blob, const cv::Size& size, const Mask* hidden, double roundness) {
+  SeenObstacle obstacle;
+  obstacle.disc =
+      disc_of(blob, blob.is_cut ? own_outline(blob, size, hidden) : blob.outline_px, roundness);
+  std::vector<cv::Point2f> hull;
+  cv::convexHull(points_of(blob.outline_px), hull);
+  std::vector<cv::Point2f> thin;
+  cv::approxPolyDP(hull, thin, hull_tolerance, true);
+  obstacle.hull_px.reserve(thin.size());
+  for (const cv::Point2f p : thin.size() >= 3 ? thin : hull) obstacle.hull_px.push_back({p.x, p.y});
+  obstacle.blob = std::move(blob);
+  return obstacle;
+}
+
+}  // namespace
+
+std::variant<Disc, Polygon> SeenObstacle::shape(const CameraScale& scale) const {
+  if (disc) return Disc{scale.to_world(disc->centre_px), scale.um_per_px * disc->radius_px};
+  return polygon_in_world({.outer = hull_px, .holes = {}}, scale);
+}
+
+SeenScene find_scene(const Image& picture, const SceneParams& params, std::optional<Vec2> before_px,
+                     const Mask* walls) {
+  SeenScene scene{.swarm = find_swarm(picture, params.swarm, before_px, walls), .obstacles = {}};
+  Mask hidden;
+  if (scene.swarm.swarm) {
+    hidden = hidden_by(*scene.swarm.swarm, picture, walls, params.swarm.look.gap);
+    walls = &hidden;
+  }
+  for (Blob& blob : find_blobs(picture, params.obstacles, walls))
+    scene.obstacles.push_back(
+        obstacle_of(std::move(blob), {picture.width, picture.height}, walls, params.roundness));
+  return scene;
+}
+
+}  // namespace microswarm

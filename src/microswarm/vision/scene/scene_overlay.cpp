@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/vision/scene/scene_overlay.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+
+#include "microswarm/vision/image/mat.hpp"
+#include "microswarm/vision/image/overlay.hpp"
+#include "microswarm/vision/image/strokes.hpp"
+
+namespace microswarm {
+namespace {
+
+// Of Okabe & Ito's colours, which the colour-blind can tell apart.
+const cv::Scalar swarm_green(0, 158, 115);
+const cv::Scalar yellow(240, 228, 66);
+const cv::Scalar orange(230, 159, 0);
+constexpr std::array<std::uint8_t, 3> blue{86, 180, 233};
+
+void draw_ring(cv::Mat& picture, const std::vector<Vec2>& ring, const cv::Scalar& colour,
+               int thickness) {
+  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
+    cv::line(picture, fine(ring[j]), fine(ring[i]), colour, thickness, cv::LINE_AA, fraction_bits);
+}
+
+std::vector<Vec2> ellipse_of(const Blob& blob) {
+  constexpr int corners = 90;
+  std::vector<Vec2> ring;
+  ring.reserve(corners);
+  for (int k = 0; k < corners; ++k) {
+    const Vec2 u = unit_vector(2 * std::numbers::pi * k / corners);
+    ring.push_back(blob.centre_px +
+                   rotated({blob.semi_major_px * u.x, blob.semi_minor_px * u.y}, blob.angle));
+  }
+  return ring;
+}
+
+void draw_blob(cv::Mat& picture, const Blob& blob, const cv::Scalar& colour) {
+  draw_ring(picture, blob.outline_px, colour, 2);
+  draw_ring(picture, ellipse_of(blob), white, 1);
+  for (const Vec2 axis : {Vec2{blob.semi_major_px, 0}, Vec2{0, blob.semi_minor_px}}) {
+    const Vec2 way = rotated(axis, blob.angle);
+    cv::line(picture, fine(blob.centre_px - way), fine(blob.centre_px + way), white, 1, cv::LINE_AA,
+             fraction_bits);
+  }
+}
+
+}  // namespace
+
+Image draw_scene(const Image& picture, const SeenScene& scene, const Mask* walls) {
+  Image shown = overlay(picture, walls ? *walls : Mask(picture.width, picture.height), blue);
+  cv::Mat canvas = as_mat(shown);
+  for (const SeenObstacle& o : scene.obstacles) {
+    if (o.disc)
+      cv::circle(canvas, fine(o.disc->centre_px),
+                 static_cast<int>(std::lround(o.disc->radius_px * (1 << fraction_bits))), orange, 2,
+                 cv::LINE_AA, fraction_bits);
+    else
+      draw_ring(canvas, o.hull_px, orange, 2);
+  }
+  if (scene.swarm.swarm)
+    draw_blob(canvas, *scene.swarm.swarm, swarm_green);
+  else
+    for (const Blob& blob : scene.swarm.candidates) draw_blob(canvas, blob, yellow);
+  return shown;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "microswarm/formats/images/image.hpp"
+#include "microswarm/formats/images/mask.hpp"
+#include "microswarm/vision/scene/scene_finder.hpp"
+
+namespace microswarm {
+
+/// The picture in colours with what was seen in it: the swarm's outline in green (of several that
+/// may be it, each in yellow) with ellipse and axes in white, obstacles as discs or hulls in
+/// orange, walls in blue.
+Image draw_scene(const Image& picture, const SeenScene& scene, const Mask* walls = nullptr);
+
+}  // namespace microswarm

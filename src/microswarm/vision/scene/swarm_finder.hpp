@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/vision/scene/blobs.hpp"
+
+namespace microswarm {
+
+/// Settings of `find_swarm`.
+struct SwarmFinderParams {
+  BlobParams look;
+  double jump = 60;
+  double rival = 0.3;
+
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.look, {"look", Unit::none, {}, "How the swarm looks."});
+    visit(self.jump, {"jump", Unit::px, {0, 1e5}, "Farthest from where it was seen before."});
+    visit(self.rival,
+          {"rival",
+           Unit::none,
+           {0, 1},
+           "Something with this share of the largest one's area may be the swarm too."});
+  }
+};
+
+/// What came of the search for one swarm.
+enum class SwarmSight {
+  found,    ///< exactly one
+  none,     ///< nothing that may be it, or not where it can be by now
+  several,  ///< more than one, and nothing tells them apart
+};
+constexpr auto enum_names(SwarmSight) {
+  return std::array<std::pair<SwarmSight, std::string_view>, 3>{
+      {{SwarmSight::found, "found"}, {SwarmSight::none, "none"}, {SwarmSight::several, "several"}}};
+}
+
+/// One swarm as a picture shows it.
+struct SwarmSighting {
+  SwarmSight sight = SwarmSight::none;
+  std::optional<Blob> swarm;     ///< when found
+  std::vector<Blob> candidates;  ///< all that may be it, the one of the most area first
+};
+
+/// Looks for one swarm, a cloud of particles or clumps, in a microscope picture. With `before_px`,
+/// where it was seen last, only what is within `jump` of that may be it. `walls`, pictures and
+/// errors as for `find_blobs`.
+SwarmSighting find_swarm(const Image& picture, const SwarmFinderParams& params = {},
+                         std::optional<Vec2> before_px = std::nullopt, const Mask* walls = nullptr);
+
+}  // namespace microswarm

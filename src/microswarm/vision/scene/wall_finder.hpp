@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/formats/images/image.hpp"
+#include "microswarm/formats/images/mask.hpp"
+#include "microswarm/geometry/shapes.hpp"
+#include "microswarm/vision/camera/camera_scale.hpp"
+#include "microswarm/vision/tracking/particles.hpp"
+
+namespace microswarm {
+
+/// Settings of `find_walls`.
+struct WallParams {
+  ParticleTone tone = ParticleTone::dark;
+  double min_contrast = 15;
+  double smooth = 2;
+  double min_area = 200;
+
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.tone, {"tone", Unit::none, {}, "Walls are dark or bright against the channels."});
+    visit(self.min_contrast,
+          {"min_contrast", Unit::none, {1, 255}, "Least difference to the channels, in greys."});
+    visit(self.smooth,
+          {"smooth", Unit::px, {0, 100}, "Spread of the Gaussian that takes the noise away."});
+    visit(self.min_area, {"min_area",
+                          Unit::none,
+                          {0, 1e8},
+                          "Smaller walls, and smaller holes in them, are none; "
+                          "in square px."});
+  }
+};
+
+/// What stands still: each pixel's median over the pictures. Throws InputError when there is none
+/// or their sizes differ.
+Image still_background(std::span<const Image> pictures);
+
+/// The walls in a picture without swarm and obstacles, 1 = wall: one of two greys. Uneven light is
+/// taken away before; as the light changes slowly and walls have edges, it is told by how the greys
+/// rise and fall everywhere but at edges, so that walls may be most of the picture. No walls where
+/// there is one grey, or the two differ by less than `min_contrast`.
+Mask find_walls(const Image& background, const WallParams& params = {});
+
+/// Smooth outlines [µm] of walls, for a Map, within `tolerance` [µm] of the mask's.
+std::vector<Polygon> walls_in_world(const Mask& walls, const CameraScale& scale, double tolerance);
+
+}  // namespace microswarm

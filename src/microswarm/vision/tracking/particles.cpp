@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/vision/tracking/particles.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <span>
+#include <string>
+
+#include "microswarm/core/each_cpu.hpp"
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/text.hpp"
+#include "microswarm/vision/tracking/ring_fit.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double move_from = 0.6;  // [px] a mask farther off its centroid moves
+
+int odd(int diameter) { return diameter | 1; }
+
+BandPassParams band_of(const ParticleParams& p) {
+  if (p.noise >= odd(p.diameter))
+    throw InputError("noise_px: is " + number_text(p.noise) + ", must be below the diameter, " +
+                     std::to_string(odd(p.diameter)));
+  return {p.noise, odd(p.diameter), p.least_rise, p.tone == ParticleTone::dark};
+}
+
+/// Side of the largest square in the circle of radius `separation`.
+int square_in(int separation) {
+  return std::max(1, static_cast<int>(2 * separation / std::numbers::sqrt2));
+}
+
+MICROSWARM_EACH_CPU float highest_of(std::span<const float> values) {
+  std::array<float, 16> lanes{};  // each looks at every sixteenth, so that none waits
+  std::size_t i = 0;
+  for (; i + lanes.size() <= values.size(); i += lanes.size())
+    for (std::size_t k = 0; k < lanes.size(); ++k) lanes[k] = std::max(lanes[k], values[i + k]);
+  for (; i < values.size(); ++i) lanes[0] = std::max(lanes[0], values[i]);
+  return *std::max_element(lanes.begin(), lanes.end());
+}
+
+MICROSWARM_EACH_CPU void scale_down(std::span<const float> values, float scale,
+                                    std::uint8_t* bytes) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    bytes[i] = static_cast<std::uint8_t>(static_cast<int>(scale * values[i]));
+}
+
+/// Whether any of `count` values is above the threshold and the highest around it.
+MICROSWARM_EACH_CPU bool has_peak(const std::uint8_t* values, const std::uint8_t* highest,
+                                  std::uint8_t threshold, int count) {
+  std::uint8_t any = 0;
+  for (int i = 0; i < count; ++i)
+    any |= static_cast<std::uint8_t>((values[i] > threshold) & (values[i] == highest[i]));
+  return any != 0;
+}
+
+}  // namespace
+
+ParticleFinder::ParticleFinder(const ParticleParams& params)
+    : params_(params),
+      radius_(odd(params.diameter) / 2),
+      separation_(params.separation > 0 ? params.separation : odd(params.diameter) + 1),
+      band_pass_(band_of(params)),
+      surroundings_(square_in(separation_)) {
+  for (int dy = -radius_; dy <= radius_; ++dy)
+    for (int dx = -radius_; dx <= radius_; ++dx) {
+      if (dx * dx + dy * dy > radius_ * radius_) continue;
+      const double twice = 2 * std::atan2(dy, dx);
+      mask_.push_back({dx, dy, std::cos(twice), std::sin(twice)});
+    }
+}
+
+const std::vector<Particle>& ParticleFinder::find(const Image& grey) {
+  width_ = grey.width;
+  height_ = grey.height;
+  scale_to_bytes(band_pass_.filter(grey));
+  find_peaks();
+  particles_.clear();
+  for (const Peak& peak : peaks_) particles_.push_back(refine(peak));
+  drop_close();
+  std::erase_if(particles_, [&](const Particle& p) { return p.mass <= params_.min_mass; });
+  if (params_.shape == ParticleShape::ring) fit_rings(grey);
+  return particles_;
+}
+
+void ParticleFinder::scale_to_bytes(const std::vector<float>& rise) {
+  const float highest = highest_of(rise);
+  const float scale = highest > 0 ? 255.0F / highest : 0.0F;
+  greys_per_byte_ = highest / 255.0;
+  bytes_.resize(rise.size());
+  scale_down(rise, scale, bytes_.data());
+}
+
+int ParticleFinder::peak_threshold() const {
+  std::array<std::array<int, 256>, 4> counts{};  // four, so that equal neighbours do not wait
+  for (std::size_t i = 0; i < bytes_.size(); ++i) ++counts[i % 4][bytes_[i]];
+  std::array<int, 256> count{};
+  for (const auto& part : counts)
+    for (std::size_t v = 1; v < count.size(); ++v) count[v] += part[v];
+  const double above = std::accumulate(count.begin(), count.end(), 0.0);
+  const double rank = params_.percentile / 100 * (above - 1);
+  double sum = 0;
+  for (int v = 0; v < 256; ++v)
+    if ((sum += count[v]) > rank) return v;
+  return 255;
+}
+
+void ParticleFinder::find_peaks() {
+  peaks_.clear();
+  constexpr int stretch = 64;  // of a row, looked at as one
+  const auto threshold = static_cast<std::uint8_t>(peak_threshold());
+  const int margin = std::max(radius_, separation_ / 2 - 1);
+  surroundings_.run(bytes_, width_, height_, highest_);
+  for (int row = margin; row < height_ - margin; ++row) {
+    const std::uint8_t* values = bytes_.data() + static_cast<std::size_t>(row) * width_;
+    const std::uint8_t* highest = highest_.data() + static_cast<std::size_t>(row) * width_;
+    for (int from = margin; from < width_ - margin; from += stretch) {
+      const int to = std::min(from + stretch, width_ - margin);
+      if (!has_peak(values + from, highest + from, threshold, to - from)) continue;
+      for (int column = from; column < to; ++column)
+        if (values[column] > threshold && values[column] == highest[column])
+          peaks_.push_back({column, row});
+    }
+  }
+}
+
+Particle ParticleFinder::refine(Peak at) const {
+  Particle particle;
+  for (int move = 0;; ++move) {
+    const std::uint8_t* middle =
+        bytes_.data() + static_cast<std::size_t>(at.row) * width_ + at.column;
+    int mass = 0;
+    int along_x = 0;
+    int along_y = 0;
+    for (const MaskPixel& m : mask_) {
+      const int value = middle[m.offset(width_)];
+      mass += value;
+      along_x += value * m.dx;
+      along_y += value * m.dy;
+    }
+    const Vec2 off{static_cast<double>(along_x) / mass, static_cast<double>(along_y) / mass};
+    particle.at_px = Vec2{static_cast<double>(at.column), static_cast<double>(at.row)} + off;
+    const auto step = [](double d) { return d > move_from ? 1 : d < -move_from ? -1 : 0; };
+    const Peak next{std::clamp(at.column + step(off.x), radius_, width_ - 1 - radius_),
+                    std::clamp(at.row + step(off.y), radius_, height_ - 1 - radius_)};
+    if (move + 1 >= params_.max_moves || next == at) break;
+    at = next;
+  }
+  describe(particle, at);
+  return particle;
+}
+
+void ParticleFinder::describe(Particle& particle, Peak at) const {
+  const std::uint8_t* middle =
+      bytes_.data() + static_cast<std::size_t>(at.row) * width_ + at.column;
+  double mass = 0;
+  double second_moment = 0;
+  double cosine = 0;
+  double sine = 0;
+  int highest = 0;
+  for (const MaskPixel& m : mask_) {
+    const int value = middle[m.offset(width_)];
+    highest = std::max(highest, value);
+    mass += value;
+    second_moment += value * (m.dx * m.dx + m.dy * m.dy);
+    cosine += value * m.cosine;
+    sine += value * m.sine;
+  }
+  particle.mass = greys_per_byte_ * mass;
+  particle.signal = greys_per_byte_ * highest;
+  particle.gyration_px = std::sqrt(second_moment / mass);
+  particle.radius_px = std::numbers::sqrt2 * particle.gyration_px;
+  particle.eccentricity = std::hypot(cosine, sine) / std::max(1.0, mass - *middle);
+}
+
+void ParticleFinder::fit_rings(const Image& grey) {
+  for (Particle& particle : particles_) {
+    const auto ring = fit_ring(grey, particle.at_px, radius_, params_.tone == ParticleTone::bright);
+    if (!ring) continue;
+    particle.at_px = ring->centre_px;
+    particle.radius_px = ring->radius_px;
+  }
+}
+
+void ParticleFinder::drop_close() {
+  std::vector<std::size_t> order(particles_.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto y = [&](std::size_t i) { return particles_[i].at_px.y; };
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return y(a) < y(b); });
+  std::vector<bool> dropped(particles_.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    for (std::size_t k = i + 1; k < order.size(); ++k) {
+      const Particle& a = particles_[order[i]];
+      const Particle& b = particles_[order[k]];
+      if (b.at_px.y - a.at_px.y >= separation_) break;
+      if (squared_norm(b.at_px - a.at_px) >= separation_ * separation_) continue;
+      dropped[order[a.mass < b.mass ? i : k]] = true;
+    }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < particles_.size(); ++i)
+    if (!dropped[i]) particles_[kept++] = particles_[i];
+  particles_.resize(kept);
+}
+
+}  // namespace microswarm

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/geometry/vec2.hpp"
+#include "microswarm/vision/tracking/assignment.hpp"
+#include "microswarm/vision/tracking/robot_filter.hpp"
+
+namespace microswarm {
+
+/// Settings of RobotTracker. What is not given follows from the robots' diameter and the time
+/// between frames.
+struct TrackerParams {
+  int memory = 3;
+  int lasting = 4;
+  double gate = 4;
+  std::optional<double> search_range;
+  std::optional<double> measurement;
+  std::optional<double> jitter;
+  std::optional<double> speed_change;
+  std::optional<double> start_speed;
+  std::optional<double> touch;
+
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.memory,
+          {"memory", Unit::none, {0, 10000}, "Frames a robot may be missing and go on."});
+    visit(self.lasting, {"lasting",
+                         Unit::none,
+                         {1, 10000},
+                         "Frames that a robot is seen before and gone after it merges, or seen "
+                         "after it splits off; less is flicker."});
+    visit(self.gate, {"gate",
+                      Unit::none,
+                      {0.1, 100},
+                      "Mahalanobis distance from where it is expected at which a robot is looked "
+                      "for."});
+    visit(self.search_range,
+          {"search_range",
+           Unit::um,
+           {0, 1e6},
+           "Farthest from where it is expected; not given: 5/11 of the diameter."});
+    visit(self.measurement, {"measurement",
+                             Unit::um,
+                             {1e-9, 1e6},
+                             "Spread of a seen place; not given: 1/50 of the diameter."});
+    visit(self.jitter, {"jitter",
+                        Unit::um,
+                        {0, 1e6},
+                        "Spread of random displacement between frames; not given: 1/10 of the "
+                        "diameter."});
+    visit(self.speed_change, {"speed_change",
+                              Unit::um_per_s,
+                              {0, 1e9},
+                              "Spread of the velocity's change between frames; not given: 1/100 of "
+                              "the diameter a frame."});
+    visit(self.start_speed, {"start_speed",
+                             Unit::um_per_s,
+                             {0, 1e9},
+                             "Spread of a new robot's velocity; not given: 1/20 of the diameter a "
+                             "frame."});
+    visit(self.touch, {"touch",
+                       Unit::um,
+                       {0, 1e6},
+                       "Distance at which two robots may merge or split; not given: "
+                       "1.2 diameters."});
+  }
+};
+
+/// A robot that was seen in a frame.
+struct SeenRobot {
+  int id = 0;     ///< of the robot, from 0 in the order of birth
+  Vec2 place;     ///< filtered [µm]
+  Vec2 velocity;  ///< filtered [µm/s]
+};
+
+/// What happens to robots as a camera sees them.
+enum class TrackChange { birth, death, merge, split };
+constexpr auto enum_names(TrackChange) {
+  return std::array<std::pair<TrackChange, std::string_view>, 4>{{{TrackChange::birth, "birth"},
+                                                                  {TrackChange::death, "death"},
+                                                                  {TrackChange::merge, "merge"},
+                                                                  {TrackChange::split, "split"}}};
+}
+
+/// A birth; a death, noted for the frame in which the robot was last seen; a merge: `id` vanished
+/// where it touched `other`; a split: `id` was born or came back where it touched `other`. Merges
+/// and splits are noted when they have lasted, for the frame in which they were; a robot that is
+/// born of a split has its birth too, one that does not come back from a merge its death.
+struct TrackEvent {
+  int frame = 0;
+  TrackChange change = TrackChange::birth;
+  int id = 0;
+  std::optional<int> other;
+};
+
+/// Follows robots through the frames of a video: each is foreseen by a RobotFilter, those within
+/// its gate are candidates, and of all ways to pair robots with seen places the likeliest is taken.
+/// A robot that is not seen goes on unseen for a while. The same places give the same tracks.
+class RobotTracker {
+ public:
+  /// `diameter` [µm] of the robots and `frame_time` [s] between frames, both above 0.
+  RobotTracker(const TrackerParams& params, double diameter, double frame_time);
+
+  /// The next frame: where robots are seen [µm]. Gives the robot of each place, in the order of
+  /// the places. Valid until the next call.
+  const std::vector<SeenRobot>& step(int frame, std::span<const Vec2> seen);
+
+  /// No more frames: those not yet dead die.
+  void finish();
+
+  /// All that has happened so far; all but births come when they are certain.
+  const std::vector<TrackEvent>& events() const { return events_; }
+  /// Robots ever seen.
+  int births() const { return next_id_; }
+
+ private:
+  /// Where a robot vanished or appeared beside another.
+  struct Touch {
+    int frame;
+    int other;
+  };
+  struct Robot {
+    int id;
+    int last_frame;
+    int missed = 0;
+    int run = 1;                      ///< frames in a row that it has been seen
+    bool merged = false;              ///< it is gone in another
+    std::optional<Touch> vanished{};  ///< by the other, when it had been there for long enough
+    std::optional<Touch> appeared{};  ///< likewise; it is not yet there for long enough
+    RobotFilter filter;
+  };
+
+  void find_candidates(std::span<const Vec2> seen);
+  void match(int frame, std::span<const Vec2> seen);
+  void miss(Robot& robot, int frame, std::span<const Vec2> seen);
+  void meet(Robot& robot, int frame, Vec2 place, std::span<const Vec2> seen);
+  void note_split(Robot& robot);
+  std::optional<Touch> touched(Vec2 place, int of, int frame, std::span<const Vec2> seen) const;
+  void give_birth(int frame, std::span<const Vec2> seen);
+  void bury();
+
+  RobotNoise noise_;
+  double gate_;
+  double search_range_;
+  double touch_;
+  double frame_time_;
+  int memory_;
+  int lasting_;
+  int next_id_ = 0;
+  std::optional<int> frame_;  ///< the last one
+  std::vector<Robot> robots_;
+  std::vector<int> by_height_;                ///< the seen places in the order of y
+  std::vector<std::optional<int>> robot_at_;  ///< index of the robot at each of them
+  std::vector<AssignmentEdge> edges_;
+  Assignment assignment_;
+  std::vector<SeenRobot> sightings_;
+  std::vector<TrackEvent> events_;
+};
+
+}  // namespace microswarm

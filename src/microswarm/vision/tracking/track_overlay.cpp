@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/vision/tracking/track_overlay.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <opencv2/core.hpp>
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+#include <string>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/file.hpp"
+#include "microswarm/vision/image/mat.hpp"
+#include "microswarm/vision/image/strokes.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr std::size_t trail_length = 20;  // frames
+constexpr int forgotten_after = 20;       // frames unseen
+constexpr int most_numbered = 100;        // robots; of more, no numbers are shown
+
+const cv::Scalar black(0, 0, 0);
+
+/// One of six colours that the colour-blind can tell apart (after Okabe & Ito), by number.
+cv::Scalar colour_of(int id) {
+  static const std::array<cv::Scalar, 6> colours{
+      {{230, 159, 0}, {86, 180, 233}, {0, 158, 115}, {240, 228, 66}, {0, 114, 178}, {213, 94, 0}}};
+  return colours[static_cast<std::size_t>(id) % colours.size()];
+}
+
+void write(cv::Mat& picture, const std::string& text, cv::Point at, double size) {
+  const int thin = std::max(1, static_cast<int>(std::lround(2 * size)));
+  cv::putText(picture, text, at, cv::FONT_HERSHEY_SIMPLEX, size, black, 3 * thin, cv::LINE_AA);
+  cv::putText(picture, text, at, cv::FONT_HERSHEY_SIMPLEX, size, white, thin, cv::LINE_AA);
+}
+
+std::string short_number(const char* form, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, form, value);
+  return text;
+}
+
+void take_in_colour(const Image& picture, Image& colour) {
+  colour.width = picture.width;
+  colour.height = picture.height;
+  colour.channels = 3;
+  colour.pixels.resize(3 * static_cast<std::size_t>(picture.width) * picture.height);
+  cv::Mat out = as_mat(colour);
+  if (picture.channels == 3)
+    as_mat(picture).copyTo(out);
+  else
+    cv::cvtColor(as_mat(picture), out, cv::COLOR_GRAY2RGB);
+}
+
+/// Bar and label at the lower left, time and count at the upper left.
+void draw_legend(cv::Mat& picture, double um_per_px, double t, std::size_t robots) {
+  const double size = std::clamp(picture.cols / 1200.0, 0.35, 2.0);
+  const int step = static_cast<int>(30 * size);
+  const double bar = scale_bar_length(picture.cols * um_per_px);
+  const int length = static_cast<int>(std::lround(bar / um_per_px));
+  const cv::Rect box(step, picture.rows - step - step / 4, length, std::max(2, step / 5));
+  cv::rectangle(picture, box + cv::Size(2, 2) - cv::Point(1, 1), black, cv::FILLED);
+  cv::rectangle(picture, box, white, cv::FILLED);
+  write(picture, short_number("%g um", bar), {step, box.y - step / 3}, size);
+  write(picture, short_number("%.2f s", t) + ", " + std::to_string(robots) + " robots",
+        {step, step + step / 4}, size);
+}
+
+}  // namespace
+
+double scale_bar_length(double width) {
+  const double about = width / 5;
+  const double ten = std::pow(10, std::floor(std::log10(about)));
+  for (const double times : {5.0, 2.0})
+    if (times * ten <= about) return times * ten;
+  return ten;
+}
+
+void TrackOverlay::follow(const std::vector<TrackRow>& rows, int frame, int height) {
+  for (const TrackRow& row : rows) {
+    if (static_cast<std::size_t>(row.id) >= trails_.size()) trails_.resize(row.id + 1);
+    auto& trail = trails_[row.id];
+    if (!trail) trail.emplace();
+    trail->last_frame = frame;
+    trail->places_px.push_back(place_in_picture(row.place, height, um_per_px_));
+    if (trail->places_px.size() > trail_length) trail->places_px.pop_front();
+  }
+  for (auto& trail : trails_)
+    if (trail && trail->last_frame + forgotten_after < frame) trail.reset();
+}
+
+const Image& TrackOverlay::draw(const VideoFrame& frame, const std::vector<TrackRow>& rows) {
+  follow(rows, frame.index, frame.picture.height);
+  take_in_colour(frame.picture, shown_);
+  cv::Mat picture = as_mat(shown_);
+  for (const TrackRow& row : rows) {
+    const Trail& trail = *trails_[row.id];
+    const cv::Scalar colour = colour_of(row.id);
+    for (std::size_t i = 1; i < trail.places_px.size(); ++i)
+      cv::line(picture, fine(trail.places_px[i - 1]), fine(trail.places_px[i]), colour, 1,
+               cv::LINE_AA, fraction_bits);
+    const int radius =
+        static_cast<int>(std::lround((row.radius / um_per_px_ + 2) * (1 << fraction_bits)));
+    cv::circle(picture, fine(trail.places_px.back()), radius, colour, 1, cv::LINE_AA,
+               fraction_bits);
+  }
+  const double size = std::clamp(picture.cols / 1600.0, 0.3, 1.5);
+  if (rows.size() <= most_numbered)
+    for (const TrackRow& row : rows) {
+      const Vec2 at = trails_[row.id]->places_px.back();
+      const double beside = row.radius / um_per_px_ + 3;
+      write(picture, std::to_string(row.id),
+            {static_cast<int>(at.x + beside), static_cast<int>(at.y - beside)}, size);
+    }
+  draw_legend(picture, um_per_px_, frame.t, rows.size());
+  return shown_;
+}
+
+struct VideoFileWriter::Parts {
+  Parts(std::filesystem::path path, double pictures_a_second)
+      : file(std::move(path)), rate(pictures_a_second), staged(std::in_place, file) {}
+
+  std::filesystem::path file;
+  double rate;
+  std::optional<StagedFile> staged;  ///< nothing when there is no codec
+  cv::VideoWriter video;
+  cv::Mat bgr;
+  int pictures = 0;
+};
+
+VideoFileWriter::VideoFileWriter(std::filesystem::path file, double rate)
+    : parts_(std::make_unique<Parts>(std::move(file), rate)) {}
+
+VideoFileWriter::~VideoFileWriter() { parts_->video.release(); }
+
+void VideoFileWriter::add(const Image& picture) {
+  Parts& p = *parts_;
+  std::filesystem::path folder = p.file;
+  folder.replace_extension();
+  if (p.pictures == 0) {
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    const int codec = cv::VideoWriter::fourcc('m', 'p', '4', 'v');
+    if (!p.video.open(p.staged->path().string(), cv::CAP_FFMPEG, codec, p.rate,
+                      {picture.width, picture.height})) {
+      p.staged.reset();
+      std::filesystem::create_directories(folder);
+    }
+  }
+  if (p.staged) {
+    cv::cvtColor(as_mat(picture), p.bgr, cv::COLOR_RGB2BGR);
+    p.video.write(p.bgr);
+  } else {
+    char name[32];
+    std::snprintf(name, sizeof name, "%06d.png", p.pictures);
+    write_png(folder / name, picture);
+  }
+  ++p.pictures;
+}
+
+std::optional<std::filesystem::path> VideoFileWriter::commit() {
+  Parts& p = *parts_;
+  if (p.pictures == 0) return std::nullopt;
+  std::filesystem::path folder = p.file;
+  if (!p.staged) return folder.replace_extension();
+  p.video.release();
+  if (std::filesystem::file_size(p.staged->path()) == 0)
+    throw InputError(p.file.string() + ": cannot write: the video stayed empty");
+  p.staged->commit();
+  return p.file;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/vision/tracking/video_tracker.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+#include "microswarm/core/error.hpp"
+
+namespace microswarm {
+namespace {
+
+double scale_of(const TrackSettings& settings) {
+  if (!settings.um_per_px) throw InputError("um_per_px: is missing");
+  return *settings.um_per_px;
+}
+
+}  // namespace
+
+VideoTracker::VideoTracker(const TrackSettings& settings, double frame_time)
+    : channel_(settings.channel),
+      um_per_px_(scale_of(settings)),
+      finder_(settings.find),
+      tracker_(settings.track, settings.find.diameter * um_per_px_, frame_time) {}
+
+const std::vector<TrackRow>& VideoTracker::step(const VideoFrame& frame) {
+  take_channel(frame.picture, channel_, grey_);
+  const std::vector<Particle>& found = finder_.find(grey_);
+  places_.clear();
+  for (const Particle& particle : found)
+    places_.push_back(place_in_world(particle.at_px, grey_.height, um_per_px_));
+  const std::vector<SeenRobot>& sightings = tracker_.step(frame.index, places_);
+  rows_.clear();
+  for (std::size_t i = 0; i < found.size(); ++i)
+    rows_.push_back({.frame = frame.index,
+                     .t = frame.t,
+                     .id = sightings[i].id,
+                     .place = places_[i],
+                     .velocity = sightings[i].velocity,
+                     .radius = um_per_px_ * found[i].radius_px,
+                     .mass = found[i].mass,
+                     .signal = found[i].signal,
+                     .eccentricity = found[i].eccentricity});
+  return rows_;
+}
+
+TrackSummary summarise(const std::vector<TrackRow>& rows, int frames) {
+  TrackSummary summary{.frames = frames, .features = static_cast<int>(rows.size())};
+  int ids = 0;
+  for (const TrackRow& row : rows) ids = std::max(ids, row.id + 1);
+  std::vector<int> length(static_cast<std::size_t>(ids), 0);
+  for (const TrackRow& row : rows) ++length[row.id];
+  for (const int n : length) {
+    summary.tracks += n > 0;
+    summary.long_tracks += n >= TrackSummary::long_track;
+  }
+
+  std::vector<const TrackRow*> last(static_cast<std::size_t>(ids), nullptr);
+  double way = 0;
+  double time = 0;
+  Vec2 moved;  // in this frame, by `movers`
+  int movers = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const TrackRow& row = rows[i];
+    if (const TrackRow* before = last[row.id];
+        before && before->frame + 1 == row.frame && length[row.id] >= TrackSummary::long_track) {
+      moved += row.place - before->place;
+      ++movers;
+      way += distance(before->place, row.place);
+      time += row.t - before->t;
+    }
+    last[row.id] = &row;
+    if (movers > 0 && (i + 1 == rows.size() || rows[i + 1].frame != row.frame)) {
+      summary.drift = summary.drift.value_or(Vec2{}) + moved / movers;
+      moved = {};
+      movers = 0;
+    }
+  }
+  if (time > 0) summary.mean_speed = way / time;
+  return summary;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/vision/camera/frames.hpp"
+#include "microswarm/vision/tracking/particles.hpp"
+#include "microswarm/vision/tracking/robot_tracker.hpp"
+
+namespace microswarm {
+
+/// All that tracking of a video needs to know, as in a file for `microswarm track --config`.
+struct TrackSettings {
+  std::optional<double> um_per_px;  ///< must be given before anything is tracked
+  std::optional<double> rate;
+  std::optional<int> depth;
+  VideoChannel channel = VideoChannel::grey;
+  ParticleParams find;
+  TrackerParams track;
+
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.um_per_px, {"um_per_px", Unit::none, {1e-6, 1e6}, "µm that a pixel shows."});
+    visit(self.rate,
+          {"rate", Unit::hz, {1e-6, 1e6}, "Pictures a second; not given: as the video says."});
+    visit(self.depth, {"depth",
+                       Unit::none,
+                       {8, 16},
+                       "Bits that samples of 16 bits use; not given: as the first picture needs."});
+    visit(self.channel, {"channel", Unit::none, {}, "Channel of colour that is looked at."});
+    visit(self.find, {"find", Unit::none, {}, "How robots are found in a picture."});
+    visit(self.track, {"track", Unit::none, {}, "How they are followed through the pictures."});
+  }
+};
+
+/// A robot seen in a frame. The world's origin is the picture's lower left corner, y goes up.
+struct TrackRow {
+  int frame = 0;
+  double t = 0;  ///< [s]
+  int id = 0;
+  Vec2 place;         ///< where it was seen [µm]
+  Vec2 velocity;      ///< by the filter [µm/s]
+  double radius = 0;  ///< [µm]
+  double mass = 0;    ///< [grey]
+  double signal = 0;  ///< [grey]
+  double eccentricity = 0;
+};
+
+/// Finds and follows the robots of a video, picture by picture.
+class VideoTracker {
+ public:
+  /// `frame_time` [s] between pictures. Throws InputError for settings that do not go together.
+  VideoTracker(const TrackSettings& settings, double frame_time);
+
+  /// The next picture; the rows of the robots seen in it, valid until the next call.
+  const std::vector<TrackRow>& step(const VideoFrame& frame);
+  /// No more pictures.
+  void finish() { tracker_.finish(); }
+  const std::vector<TrackEvent>& events() const { return tracker_.events(); }
+
+ private:
+  VideoChannel channel_;
+  double um_per_px_;
+  ParticleFinder finder_;
+  RobotTracker tracker_;
+  Image grey_;
+  std::vector<Vec2> places_;
+  std::vector<TrackRow> rows_;
+};
+
+/// World place [µm] of a point in a picture of `height` pixels, where (0, 0) is the middle of the
+/// first pixel and y goes down; as cells of a map lie (formats/mask.hpp).
+inline Vec2 place_in_world(Vec2 at_px, int height, double um_per_px) {
+  return um_per_px * Vec2{at_px.x + 0.5, height - 0.5 - at_px.y};
+}
+/// The point in the picture of a world place.
+inline Vec2 place_in_picture(Vec2 place, int height, double um_per_px) {
+  return {place.x / um_per_px - 0.5, height - 0.5 - place.y / um_per_px};
+}
+
+/// What tracks say as a whole. Long tracks are those of at least `long_track` frames.
+struct TrackSummary {
+  static constexpr int long_track = 10;
+
+  int frames = 0;
+  int features = 0;  ///< robots seen, over all frames
+  int tracks = 0;
+  int long_tracks = 0;
+  /// Mean displacement of long tracks, summed over the frames [µm]; nothing without such tracks.
+  std::optional<Vec2> drift{};
+  std::optional<double> mean_speed{};  ///< of long tracks from frame to frame [µm/s]
+};
+
+/// `rows` ascend by frame; `frames` were looked at.
+TrackSummary summarise(const std::vector<TrackRow>& rows, int frames);
+
+}  // namespace microswarm

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/vision/vessels/field_of_view.hpp"
+
+#include <opencv2/imgproc.hpp>
+
+#include "microswarm/vision/image/mask_ops.hpp"
+#include "microswarm/vision/image/mat.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr int darkest_view = 20;         // of 255: a surround is darker in every channel
+constexpr double least_surround = 0.02;  // share of the picture
+constexpr double least_view = 0.2;
+constexpr double least_of_bright = 0.98;  // share of the bright pixels that are one piece
+constexpr double least_solidity = 0.95;   // of that piece in its convex hull
+
+cv::Mat brightest_channel(const cv::Mat& picture) {
+  if (picture.channels() == 1) return picture.clone();
+  std::vector<cv::Mat> channels;
+  cv::split(picture, channels);
+  cv::Mat brightest = channels[0];
+  for (const cv::Mat& channel : channels) cv::max(brightest, channel, brightest);
+  return brightest;
+}
+
+double solidity(const cv::Mat& piece) {
+  std::vector<cv::Point> points, hull;
+  cv::findNonZero(piece, points);
+  cv::convexHull(points, hull);
+  return static_cast<double>(points.size()) / (cv::contourArea(hull) + 1);
+}
+
+}  // namespace
+
+Mask field_of_view(const Image& image) {
+  const cv::Mat picture = as_mat(image);
+  const cv::Mat whole(picture.size(), CV_8U, cv::Scalar(255));
+  cv::Mat bright = brightest_channel(picture);
+  cv::medianBlur(bright, bright, 5);
+  bright = bright > darkest_view;
+
+  const double total = static_cast<double>(picture.total());
+  const double bright_count = cv::countNonZero(bright);
+  cv::Mat view = largest_piece(bright);
+  const double view_count = cv::countNonZero(view);
+  if (bright_count > (1 - least_surround) * total || view_count < least_view * total ||
+      view_count < least_of_bright * bright_count)
+    return to_mask(whole);
+  fill_holes(view, total);
+  return to_mask(solidity(view) < least_solidity ? whole : view);
+}
+
+}  // namespace microswarm

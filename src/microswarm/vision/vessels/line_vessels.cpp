@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/vision/vessels/line_vessels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "microswarm/vision/image/mask_ops.hpp"
+#include "microswarm/vision/vessels/bridges.hpp"
+#include "microswarm/vision/vessels/line_filter.hpp"
+#include "microswarm/vision/vessels/walls.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double working_radius = 4.3;      // [px] of the wide vessels, where the filter works best
+constexpr double first_diameter = 900;      // [px] of the view when the widths are first measured
+constexpr double most_diameter = 2000;      // [px] of the view at work
+constexpr double wide_line_quantile = 0.8;  // of the depths of vessel pixels ...
+constexpr double wide_factor = 1.35;        // ... times this is the wide radius
+constexpr double first_blur = 2.2;          // [px] by which the first look widens vessels
+constexpr double soft_rim = 0.01;           // of the view's diameter
+constexpr double dark_noise = 15;           // [grey levels] below which absorbance means little
+constexpr double opening = 8;               // wide radii across the disc of the opening
+constexpr double least_disc = 10;           // [px] to which that disc may be shrunk
+constexpr double sure_margin = 0.5;         // spreads above the threshold
+constexpr double small_piece = 0.2;         // of the least piece: too small to be bridged
+constexpr double reflex = 0.3;  // squares of the wide width: holes that light reflexes leave
+
+/// The picture at working resolution.
+struct Working {
+  cv::Mat absorbance;  ///< bright where vessels are
+  cv::Mat view;
+  double scale = 1;
+};
+
+struct Lines {
+  cv::Mat fitted;  ///< as wide as the picture has them
+  cv::Mat sure;    ///< what is hardly anything else, so that fitted walls do not cut it
+  cv::Mat score;   ///< in spreads above the median
+};
+
+bool is_whole(const cv::Mat& view) {
+  return cv::countNonZero(view) == static_cast<int>(view.total());
+}
+
+double diameter_of(const cv::Mat& view) {
+  return 2 * std::sqrt(cv::countNonZero(view) / std::numbers::pi);
+}
+
+/// Every pixel outside `view` takes the value of the nearest one inside, so that vessels run on.
+void continue_outside(cv::Mat& picture, const cv::Mat& view) {
+  if (is_whole(view) || cv::countNonZero(view) == 0) return;
+  cv::Mat distance, labels;
+  cv::distanceTransform(~view, distance, labels, cv::DIST_L2, 5, cv::DIST_LABEL_PIXEL);
+  std::vector<float> values(view.total() + 1, 0.0F);
+  for (int y = 0; y < view.rows; ++y)
+    for (int x = 0; x < view.cols; ++x)
+      if (view.at<std::uint8_t>(y, x)) values[labels.at<int>(y, x)] = picture.at<float>(y, x);
+  for (int y = 0; y < view.rows; ++y)
+    for (int x = 0; x < view.cols; ++x)
+      if (!view.at<std::uint8_t>(y, x)) picture.at<float>(y, x) = values[labels.at<int>(y, x)];
+}
+
+cv::Size shrunk(cv::Size size, double scale) {
+  return {std::max(1, cvRound(size.width * scale)), std::max(1, cvRound(size.height * scale))};
+}
+
+/// What stands out of its surroundings: the picture less its grey-scale opening by a disc wider
+/// than any vessel. A step stands out on neither side, so the bright disc of the eye gets no rim.
+cv::Mat standing_out(const cv::Mat& picture, double wide_radius) {
+  const double diameter = opening * wide_radius;
+  const int shrink = std::max(1, cvFloor(diameter / least_disc));
+  cv::Mat ground;
+  cv::GaussianBlur(picture, ground, {}, std::max(0.5, shrink / 2.0));
+  if (shrink > 1)
+    cv::resize(ground, ground, shrunk(picture.size(), 1.0 / shrink), 0, 0, cv::INTER_AREA);
+  const int side = 2 * cvRound(diameter / shrink / 2) + 1;
+  cv::morphologyEx(ground, ground, cv::MORPH_OPEN,
+                   cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side}));
+  cv::GaussianBlur(ground, ground, {}, 1);
+  if (shrink > 1) cv::resize(ground, ground, picture.size(), 0, 0, cv::INTER_LINEAR);
+  return picture - ground;
+}
+
+Working at_scale(const cv::Mat& grey, const cv::Mat& view, double scale, double wide_radius,
+                 bool bright) {
+  Working w{grey, view, scale};
+  if (scale < 1) {
+    const cv::Size size = shrunk(grey.size(), scale);
+    cv::resize(grey, w.absorbance, size, 0, 0, cv::INTER_AREA);
+    cv::resize(view, w.view, size, 0, 0, cv::INTER_AREA);
+    w.view = w.view > 250;
+  }
+  w.absorbance.convertTo(w.absorbance, CV_32F, 1, dark_noise);
+  cv::log(w.absorbance, w.absorbance);
+  if (!bright) w.absorbance = -w.absorbance;
+  if (!is_whole(w.view))
+    continue_outside(w.absorbance, depth_in(w.view) > soft_rim * diameter_of(w.view));
+  w.absorbance = standing_out(w.absorbance, wide_radius);
+  return w;
+}
+
+/// Quantile of the values where `where` is set; 0 where nothing is.
+double quantile(const cv::Mat& values, const cv::Mat& where, double q) {
+  std::vector<float> list;
+  for (int y = 0; y < values.rows; ++y)
+    for (int x = 0; x < values.cols; ++x)
+      if (where.at<std::uint8_t>(y, x)) list.push_back(values.at<float>(y, x));
+  if (list.empty()) return 0;
+  const auto nth = list.begin() + std::lround(q * static_cast<double>(list.size() - 1));
+  std::nth_element(list.begin(), nth, list.end());
+  return *nth;
+}
+
+/// Hysteresis on the line score, then walls where the picture has them.
+Lines find_lines(const Working& w, double wide_radius, const VesselParams& params) {
+  cv::Mat score = line_score(w.absorbance, w.view, {.wide_radius = wide_radius});
+  const double median = quantile(score, w.view, 0.5);
+  const double spread = quantile(score, w.view, 0.75) - quantile(score, w.view, 0.25);
+  if (spread <= 0) {
+    const cv::Mat none = cv::Mat::zeros(w.view.size(), CV_8U);
+    return {none, none, score};
+  }
+  score = (score - median) / spread;
+  const cv::Mat rough = pieces_with((score > params.threshold) & w.view,
+                                    (score > std::max(params.threshold, params.seed_threshold)));
+  const cv::Mat fitted = fitted_walls(w.absorbance, rough, w.view, wide_radius, params.wall_level);
+  return {fitted, rough & (score > params.threshold + sure_margin), score};
+}
+
+/// Radius of the wide vessels in pixels of the picture, from a first look at a coarse one.
+double measured_radius(const cv::Mat& grey, const cv::Mat& view, bool bright,
+                       const VesselParams& params) {
+  const double scale = std::min(1.0, first_diameter / diameter_of(view));
+  const Working w = at_scale(grey, view, scale, working_radius, bright);
+  const cv::Mat vessels = find_lines(w, working_radius, params).fitted;
+  const double seen = quantile(depth_in(vessels), vessels, wide_line_quantile);
+  if (seen == 0) return working_radius / scale;
+  return wide_factor * std::sqrt(std::max(1.0, seen * seen - first_blur * first_blur)) / scale;
+}
+
+}  // namespace
+
+FoundVessels line_vessels(const cv::Mat& grey, const cv::Mat& view, bool bright,
+                          const VesselParams& params) {
+  const double radius =
+      params.wide_width > 0 ? params.wide_width / 2 : measured_radius(grey, view, bright, params);
+  FoundVessels found;
+  found.wide_width_px = 2 * radius;
+  found.scale = std::min({1.0, most_diameter / diameter_of(view), working_radius / radius});
+  const double wide_radius = radius * found.scale;
+  const double wide_area = 4 * wide_radius * wide_radius;
+
+  const Working w = at_scale(grey, view, found.scale, wide_radius, bright);
+  const Lines lines = find_lines(w, wide_radius, params);
+  found.vessels =
+      without_small_pieces(lines.fitted | lines.sure, small_piece * params.least_piece * wide_area);
+  fill_holes(found.vessels, reflex * wide_area);
+  if (params.gap > 0) {
+    const cv::Mat cost = cv::max(0.3, 1 - lines.score / std::max(0.1, params.threshold)) + 0.2;
+    found.bridges = bridge_gaps(found.vessels, cost, params.gap * 2 * wide_radius);
+  }
+  found.vessels = without_small_pieces(found.vessels, params.least_piece * wide_area);
+  if (found.scale < 1) {
+    cv::resize(found.vessels, found.vessels, view.size(), 0, 0, cv::INTER_LINEAR);
+    found.vessels = found.vessels > 127;
+  }
+  found.vessels &= view;
+  return found;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/vision/vessels/region_vessels.hpp"
+
+#include <algorithm>
+#include <array>
+#include <opencv2/imgproc.hpp>
+
+#include "microswarm/vision/image/mask_ops.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr int bad_pixels = 5;   // [px] window of the medians
+constexpr double speck = 0.05;  // squares of the wide width
+constexpr double wide_region_quantile = 0.8;
+
+std::array<double, 256> histogram(const cv::Mat& grey, const cv::Mat& view) {
+  std::array<double, 256> counts{};
+  for (int y = 0; y < grey.rows; ++y)
+    for (int x = 0; x < grey.cols; ++x)
+      if (view.at<std::uint8_t>(y, x)) ++counts[grey.at<std::uint8_t>(y, x)];
+  return counts;
+}
+
+double largest_share(const cv::Mat& set) {
+  return static_cast<double>(cv::countNonZero(largest_piece(set))) /
+         std::max(1, cv::countNonZero(set));
+}
+
+double wide_width_of(const cv::Mat& set) {
+  const cv::Mat depth = depth_in(set);
+  std::vector<float> depths;
+  for (int y = 0; y < set.rows; ++y)
+    for (int x = 0; x < set.cols; ++x)
+      if (set.at<std::uint8_t>(y, x)) depths.push_back(depth.at<float>(y, x));
+  if (depths.empty()) return 0;
+  const auto nth =
+      depths.begin() +
+      static_cast<std::ptrdiff_t>(wide_region_quantile * static_cast<double>(depths.size() - 1));
+  std::nth_element(depths.begin(), nth, depths.end());
+  return 2 * *nth;
+}
+
+}  // namespace
+
+TwoGreys two_greys(const cv::Mat& grey, const cv::Mat& view) {
+  cv::Mat clean;
+  cv::medianBlur(grey, clean, bad_pixels);
+  const auto counts = histogram(clean, view);
+  double total = 0, sum = 0, squares = 0;
+  for (int g = 0; g < 256; ++g) {
+    total += counts[g];
+    sum += counts[g] * g;
+    squares += counts[g] * g * g;
+  }
+  TwoGreys result;
+  const double variance = total > 0 ? squares / total - (sum / total) * (sum / total) : 0;
+  double best = 0, below = 0, below_sum = 0;
+  int level = 255;
+  for (int g = 0; g < 255; ++g) {
+    below += counts[g];
+    below_sum += counts[g] * g;
+    const double above = total - below;
+    if (below == 0 || above == 0) continue;
+    const double step = below_sum / below - (sum - below_sum) / above;
+    const double between = below * above / (total * total) * step * step;
+    if (between > best) best = between, level = g;
+  }
+  result.bright = (clean > level) & view;
+  if (variance > 0) result.separability = best / variance;
+  return result;
+}
+
+bool bright_is_network(const TwoGreys& greys, const cv::Mat& view) {
+  return largest_share(greys.bright) > largest_share(view & ~greys.bright);
+}
+
+FoundVessels region_vessels(const TwoGreys& greys, const cv::Mat& view, bool bright,
+                            const VesselParams& params) {
+  FoundVessels found;
+  found.vessels = bright ? greys.bright.clone() : cv::Mat(view & ~greys.bright);
+  cv::medianBlur(found.vessels, found.vessels, bad_pixels);
+  found.wide_width_px = params.wide_width > 0 ? params.wide_width : wide_width_of(found.vessels);
+  const double wide_area = found.wide_width_px * found.wide_width_px;
+  fill_holes(found.vessels, speck * wide_area);
+  found.vessels = without_small_pieces(found.vessels, speck * params.least_piece * wide_area);
+  found.vessels &= view;
+  return found;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/formats/images/image.hpp"
+#include "microswarm/formats/images/mask.hpp"
+
+namespace microswarm {
+
+/// How vessels are told from tissue.
+enum class VesselMethod {
+  automatic,  ///< regions when the picture has two clearly different greys, else lines
+  lines,      ///< dark lines of a few widths on uneven ground: a fundus photograph
+  regions,    ///< one threshold: a stained or filled network
+};
+constexpr auto enum_names(VesselMethod) {
+  return std::array<std::pair<VesselMethod, std::string_view>, 3>{
+      {{VesselMethod::automatic, "automatic"},
+       {VesselMethod::lines, "lines"},
+       {VesselMethod::regions, "regions"}}};
+}
+
+/// How vessels differ from what is beside them.
+enum class Polarity {
+  automatic,  ///< lines are dark; of two greys, the one that hangs together better
+  dark,
+  bright,
+};
+constexpr auto enum_names(Polarity) {
+  return std::array<std::pair<Polarity, std::string_view>, 3>{
+      {{Polarity::automatic, "automatic"}, {Polarity::dark, "dark"}, {Polarity::bright, "bright"}}};
+}
+
+/// Which pieces of the network remain.
+enum class KeepPieces { largest, all };
+constexpr auto enum_names(KeepPieces) {
+  return std::array<std::pair<KeepPieces, std::string_view>, 2>{
+      {{KeepPieces::largest, "largest"}, {KeepPieces::all, "all"}}};
+}
+
+/// Settings of `segment_vessels`. Thresholds are in spreads (interquartile ranges of the line
+/// score over the picture) above its median.
+struct VesselParams {
+  VesselMethod method = VesselMethod::automatic;
+  Polarity polarity = Polarity::automatic;
+  double wide_width = 0;
+  double threshold = 2.2;
+  double seed_threshold = 2.8;
+  double wall_level = 0.5;
+  double gap = 3;
+  double least_piece = 8;
+  double min_width = 0;
+  KeepPieces keep = KeepPieces::largest;
+
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.method, {"method", Unit::none, {}, "Lines on uneven ground, or regions."});
+    visit(self.polarity, {"polarity", Unit::none, {}, "Vessels are dark, bright, or automatic."});
+    visit(self.wide_width,
+          {"wide_width", Unit::px, {0, 1000}, "Width of the wide vessels; 0: measured."});
+    visit(self.threshold,
+          {"threshold", Unit::none, {0, 100}, "Line score in spreads that a vessel must have."});
+    visit(self.seed_threshold,
+          {"seed_threshold", Unit::none, {0, 100}, "Score that it must reach somewhere."});
+    visit(self.wall_level,
+          {"wall_level", Unit::none, {0, 1}, "Walls between ground (0) and vessel (1)."});
+    visit(self.gap, {"gap", Unit::none, {0, 20}, "Widest gap bridged, in wide widths."});
+    visit(self.least_piece,
+          {"least_piece", Unit::none, {0, 1e4}, "Least piece, in squares of the wide width."});
+    visit(self.min_width,
+          {"min_width", Unit::px, {0, 1000}, "Narrower vessels are left out; 0: none."});
+    visit(self.keep, {"keep", Unit::none, {}, "The largest connected network, or all pieces."});
+  }
+};
+
+/// What `segment_vessels` found.
+struct VesselSegmentation {
+  Mask vessels;        ///< 1 = vessel
+  Mask field_of_view;  ///< 1 = shown by the optics
+  VesselMethod method = VesselMethod::lines;
+  double wide_width_px = 0;  ///< measured, or as given
+  double scale = 1;          ///< working pixels per picture pixel
+  int bridges = 0;           ///< gaps that were closed
+  int pieces = 0;            ///< connected networks before the choice of `keep`
+  double kept_share = 0;     ///< of the vessel area, by the choice of `keep`; 0 when there is none
+  double view_share = 0;     ///< vessel area in the field of view
+};
+
+/// Finds dark vessels in a fundus or microscope picture (green channel of colours), without
+/// anything learned and without chance: absorbance, line detectors over widths and orientations,
+/// hysteresis threshold, walls fitted to the local contrast, gaps bridged, and of the pieces the
+/// largest kept. Works at the resolution at which the wide vessels are as wide as the detectors
+/// were made for, so that the same settings hold for pictures of any size. Throws InputError when
+/// the picture has no pixels or neither 1 nor 3 channels.
+VesselSegmentation segment_vessels(const Image& image, const VesselParams& params = {});
+
+}  // namespace microswarm

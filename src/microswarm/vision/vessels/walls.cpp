@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/vision/vessels/walls.hpp"
+
+#include <opencv2/imgproc.hpp>
+
+#include "microswarm/vision/image/mask_ops.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double outward = 1.0 / 3;  // of the wide radius, how far a wall may move
+constexpr double around = 3;         // of the wide radius, over which the surroundings are averaged
+constexpr double along = 1;          // the same for the line itself
+constexpr double noise_blur = 1;     // [px]
+
+/// Gaussian mean of the picture over the pixels of `where` only; 0 far from all of them.
+cv::Mat mean_over(const cv::Mat& picture, const cv::Mat& where, double sigma) {
+  cv::Mat weight, sum;
+  where.convertTo(weight, CV_32F, 1.0 / 255);
+  cv::GaussianBlur(picture.mul(weight), sum, {}, sigma);
+  cv::GaussianBlur(weight, weight, {}, sigma);
+  return sum / cv::max(weight, 1e-6);
+}
+
+}  // namespace
+
+cv::Mat fitted_walls(const cv::Mat& picture, const cv::Mat& lines, const cv::Mat& view,
+                     double wide_radius, double level) {
+  const cv::Mat reach = grown(lines, outward * wide_radius) & view;
+  const cv::Mat within = mean_over(picture, lines, along * wide_radius);
+  const cv::Mat outside = mean_over(picture, view & ~reach, around * wide_radius);
+  cv::Mat smooth;
+  cv::GaussianBlur(picture, smooth, {}, noise_blur);
+  return (smooth > outside + level * (within - outside)) & reach;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <memory_resource>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "microswarm/geometry/area.hpp"
+#include "microswarm/geometry/predicates.hpp"
+#include "microswarm/geometry/slab_area.hpp"
+#include "microswarm/world/obstacles/body_set.hpp"
+
+namespace microswarm {
+namespace {
+
+/// A body that meets the circle, and its distance from the circle's centre.
+struct Met {
+  std::uint32_t body;
+  double distance;
+};
+using MetBodies = std::pmr::vector<Met>;
+
+/// Room on the stack for what a survey collects; more comes from the heap.
+struct Scratch {
+  std::array<std::byte, 8192> bytes;
+  std::pmr::monotonic_buffer_resource memory{bytes.data(), bytes.size()};
+};
+
+const Disc* as_disc(const Body& body) { return std::get_if<Disc>(&body.shape); }
+
+void note(std::uint32_t body, double distance, MetBodies& met) {
+  for (Met& m : met) {
+    if (m.body != body) continue;
+    m.distance = std::min(m.distance, distance);
+    return;
+  }
+  met.push_back({body, distance});
+}
+
+void find_met(const BodySet& set, Disc circle, MetBodies& met) {
+  const DiscSet& discs = set.discs();
+  const Box box = bounding_box(circle);
+  discs.for_each_in(box, [&](std::size_t i) {
+    const double d = distance(circle.centre, discs.disc(i));
+    if (d <= circle.radius) met.push_back({discs.body_of(i), d});
+  });
+  const PolygonSet& polygons = set.polygons();
+  if (polygons.empty()) return;
+  const double squared_radius = circle.radius * circle.radius;
+  polygons.for_each_edge_in(box, [&](std::uint32_t body, const Segment& edge) {
+    const double d2 = squared_distance(circle.centre, edge);
+    if (d2 <= squared_radius) note(body, std::sqrt(d2), met);
+  });
+  if (!polygons.holds(circle.centre)) return;
+  for (std::uint32_t i = 0; i < set.bodies().size(); ++i) {
+    const auto* polygon = std::get_if<Polygon>(&set.bodies()[i].shape);
+    if (polygon && locate(*polygon, circle.centre) != Side::outside) note(i, 0, met);
+  }
+}
+
+void count(std::span<const Body> bodies, const MetBodies& met, Survey& survey) {
+  for (std::size_t i = 0; i < met.size(); ++i) {
+    const std::uint32_t obstacle = bodies[met[i].body].obstacle;
+    double least = met[i].distance;
+    bool is_first = true;
+    for (std::size_t j = 0; j < met.size(); ++j) {
+      if (bodies[met[j].body].obstacle != obstacle) continue;
+      is_first = is_first && j >= i;
+      least = std::min(least, met[j].distance);
+    }
+    if (!is_first) continue;
+    ++survey.obstacles;
+    survey.distance_sum += least;
+  }
+}
+
+/// Obstacles near the circle for the union's area. A set whose polygons are apart is one obstacle.
+class Collection {
+ public:
+  Collection(Disc circle, std::pmr::memory_resource& memory)
+      : circle_(circle), memory_(memory), edges_(&memory), obstacles_(&memory), ends_(&memory) {}
+
+  void add(const BodySet& set, const MetBodies& met) {
+    const bool as_one = set.polygons_apart();
+    bool is_added = false;
+    for (const Met& m : met) {
+      const Body& body = set.bodies()[m.body];
+      if (const Disc* disc = as_disc(body)) {
+        obstacles_.push_back({true, {disc->centre - circle_.centre, disc->radius}, {}, 0});
+        ends_.push_back(edges_.size());
+      } else if (!as_one) {
+        int winding = 0;
+        for_each_edge(std::get<Polygon>(body.shape), [&](Vec2 a, Vec2 b) {
+          winding += winding_of_edge(a, b, circle_.centre);
+          add_edge({a, b});
+        });
+        add_polygon(winding);
+      } else if (!is_added) {
+        is_added = true;
+        set.polygons().for_each_edge_in(
+            bounding_box(circle_), [&](std::uint32_t, const Segment& edge) { add_edge(edge); });
+        add_polygon(set.polygons().winding(circle_.centre));
+      }
+    }
+  }
+
+  double area_of_union() {
+    for (std::size_t i = 0; i < obstacles_.size(); ++i) {
+      const std::size_t first = i == 0 ? 0 : ends_[i - 1];
+      obstacles_[i].edges = {edges_.data() + first, ends_[i] - first};
+    }
+    return union_area(circle_.radius, obstacles_, memory_);
+  }
+
+ private:
+  void add_edge(const Segment& edge) {
+    const Segment e{edge.a - circle_.centre, edge.b - circle_.centre};
+    const double r = circle_.radius;
+    if (std::min(e.a.x, e.b.x) > r || std::max(e.a.x, e.b.x) < -r || std::min(e.a.y, e.b.y) > r ||
+        std::max(e.a.y, e.b.y) < -r) {
+      return;
+    }
+    edges_.push_back(e);
+  }
+  void add_polygon(int winding) {
+    obstacles_.push_back({false, {}, {}, winding});
+    ends_.push_back(edges_.size());
+  }
+
+  Disc circle_;
+  std::pmr::memory_resource& memory_;
+  std::pmr::vector<Segment> edges_;
+  std::pmr::vector<NearObstacle> obstacles_;
+  std::pmr::vector<std::size_t> ends_;
+};
+
+bool overlaps(const PolygonSet& polygons, const Disc& disc) {
+  return polygons.edge_distance(disc.centre, disc.radius) < disc.radius ||
+         polygons.holds(disc.centre);
+}
+
+/// Do the met discs overlap the polygons or one another?
+bool discs_overlap(const BodySet& set, const MetBodies& met) {
+  for (std::size_t i = 0; i < met.size(); ++i) {
+    const Disc* a = as_disc(set.bodies()[met[i].body]);
+    if (!a) continue;
+    if (!set.polygons().empty() && overlaps(set.polygons(), *a)) return true;
+    for (std::size_t j = 0; j < i; ++j) {
+      const Disc* b = as_disc(set.bodies()[met[j].body]);
+      if (b && distance(a->centre, b->centre) < a->radius + b->radius) return true;
+    }
+  }
+  return false;
+}
+
+double area_covered(Disc circle, const BodySet& set, const MetBodies& met,
+                    std::pmr::memory_resource& memory) {
+  const EdgeGrid& grid = set.polygons().grid();
+  if (!set.polygons_apart() || grid.empty()) {
+    std::pmr::vector<const Polygon*> polygons(&memory);
+    std::pmr::vector<Disc> discs(&memory);
+    for (const Met& m : met) {
+      const Body& body = set.bodies()[m.body];
+      if (const Disc* disc = as_disc(body)) {
+        discs.push_back(*disc);
+      } else {
+        polygons.push_back(&std::get<Polygon>(body.shape));
+      }
+    }
+    return covered_area(circle, polygons, discs);
+  }
+  if (discs_overlap(set, met)) {
+    Collection all(circle, memory);
+    all.add(set, met);
+    return all.area_of_union();
+  }
+  double sum = 0;
+  bool meets_polygon = false;
+  for (const Met& m : met) {
+    const Disc* disc = as_disc(set.bodies()[m.body]);
+    if (disc) sum += intersection_area(circle, *disc);
+    meets_polygon = meets_polygon || !disc;
+  }
+  return sum + (meets_polygon ? covered_area(circle, grid) : 0);
+}
+
+/// May a moving body that meets the circle overlap a wall that does? Exact for discs.
+bool may_overlap(const BodySet& walls, const MetBodies& met_walls, const Body& moving) {
+  if (const Disc* disc = as_disc(moving)) {
+    return walls.clearance(disc->centre, disc->radius) < disc->radius;
+  }
+  const auto& polygon = std::get<Polygon>(moving.shape);
+  bool free = true;
+  for_each_edge(polygon, [&](Vec2 a, Vec2 b) { free = free && walls.is_free(Segment{a, b}, 0); });
+  return !free || std::any_of(met_walls.begin(), met_walls.end(), [&](const Met& m) {
+    const Body& wall = walls.bodies()[m.body];
+    const Disc* disc = as_disc(wall);
+    const Vec2 p = disc ? disc->centre : std::get<Polygon>(wall.shape).outer[0];
+    return locate(polygon, p) != Side::outside;
+  });
+}
+
+}  // namespace
+
+void BodySet::survey(Disc circle, Survey& survey) const {
+  Scratch scratch;
+  MetBodies met(&scratch.memory);
+  find_met(*this, circle, met);
+  if (met.empty()) return;
+  count(bodies_, met, survey);
+  survey.covered_area += area_covered(circle, *this, met, scratch.memory);
+}
+
+Survey survey(Disc circle, const BodySet& walls, const BodySet& moving) {
+  Scratch scratch;
+  MetBodies met_walls(&scratch.memory);
+  MetBodies met_moving(&scratch.memory);
+  find_met(walls, circle, met_walls);
+  find_met(moving, circle, met_moving);
+  Survey out;
+  count(walls.bodies(), met_walls, out);
+  count(moving.bodies(), met_moving, out);
+  const bool overlapping =
+      !met_walls.empty() && std::any_of(met_moving.begin(), met_moving.end(), [&](const Met& m) {
+        return may_overlap(walls, met_walls, moving.bodies()[m.body]);
+      });
+  if (overlapping) {
+    Collection all(circle, scratch.memory);
+    all.add(walls, met_walls);
+    all.add(moving, met_moving);
+    out.covered_area = all.area_of_union();
+    return out;
+  }
+  for (const auto& [set, met] : {std::pair{&walls, &met_walls}, {&moving, &met_moving}}) {
+    if (!met->empty()) out.covered_area += area_covered(circle, *set, *met, scratch.memory);
+  }
+  return out;
+}
+
+}  // namespace microswarm

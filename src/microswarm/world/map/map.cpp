@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/world/map/map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/infinity.hpp"
+#include "microswarm/core/text.hpp"
+#include "microswarm/world/map/pieces.hpp"
+
+namespace microswarm {
+namespace {
+
+std::string place_text(Vec2 v) { return "(" + number_text(v.x) + ", " + number_text(v.y) + ")"; }
+
+void check(const Box& bounds) {
+  const bool finite = is_finite(bounds.lo) && is_finite(bounds.hi) &&
+                      std::isfinite(bounds.width()) && std::isfinite(bounds.height());
+  if (finite && bounds.width() > 0 && bounds.height() > 0) return;
+  throw InputError("map: bounds " + place_text(bounds.lo) + " to " + place_text(bounds.hi) +
+                   " µm are " + (finite ? "empty" : "not finite"));
+}
+
+void check(const std::vector<Polygon>& walls) {
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    for_each_edge(walls[i], [&](Vec2, Vec2 v) {
+      if (is_finite(v)) return;
+      throw InputError("map: polygon " + std::to_string(i + 1) + ": vertex " + place_text(v) +
+                       " is not finite");
+    });
+  }
+}
+
+void check(const std::vector<Disc>& discs) {
+  for (std::size_t i = 0; i < discs.size(); ++i) {
+    const Disc& d = discs[i];
+    if (is_finite(d.centre) && std::isfinite(d.radius) && d.radius >= 0) continue;
+    throw InputError("map: disc " + std::to_string(i + 1) + ": centre " + place_text(d.centre) +
+                     ", radius " + number_text(d.radius) + " µm: must be finite, radius >= 0");
+  }
+}
+
+}  // namespace
+
+Map::Map(const Box& bounds, std::vector<Polygon> walls, const std::vector<Disc>& discs,
+         double field_cell)
+    : bounds_(bounds) {
+  check(bounds);
+  check(walls);
+  check(discs);
+  for (Polygon& wall : walls) wall = normalised(std::move(wall));
+  std::erase_if(walls, [](const Polygon& wall) { return wall.outer.empty(); });
+  walls_ = BodySet(connected_pieces(std::move(walls), discs), true);
+  for (const Body& body : walls_.bodies()) {
+    pieces_ = std::max(pieces_, static_cast<int>(body.obstacle) + 1);
+  }
+  field_ = ClearanceField(bounds_, walls_, field_cell);
+}
+
+double Map::border_clearance(Vec2 p) const {
+  const double least =
+      std::min({p.x - bounds_.lo.x, bounds_.hi.x - p.x, p.y - bounds_.lo.y, bounds_.hi.y - p.y});
+  return std::max(0.0, least);
+}
+
+double Map::clearance(Vec2 p) const { return clearance_beyond(p, field_.lower(p)); }
+
+/// The same when the field's lower bound is known: most points need not be asked whether they are
+/// in a wall.
+double Map::clearance_beyond(Vec2 p, double lower) const {
+  if (lower + field_.spread() < 0) return 0;
+  const double least = std::min(border_clearance(p), field_.wall_distance(p));
+  return lower > 0 || !(least > 0) || !walls_.polygons().holds(p) ? least : 0;
+}
+
+double Map::wall_clearance(Vec2 p) const {
+  if (!bounds_.contains(p)) return walls_.clearance(p, infinity);
+  return field_.lower(p) > 0 || !walls_.polygons().holds(p) ? field_.wall_distance(p) : 0;
+}
+
+double Map::clearance(Segment s, double limit) const {
+  const double nearest = std::min({limit, border_clearance(s.a), border_clearance(s.b)});
+  return nearest > 0 ? walls_.clearance(s, nearest) : 0;
+}
+
+bool Map::is_free_exactly(Vec2 p, double r) const {
+  const double least = std::min(border_clearance(p), field_.wall_distance(p));
+  if (!(least >= r && least > 0)) return false;
+  return field_.lower(p) > 0 || !walls_.polygons().holds(p);
+}
+
+/// Clearance at `p` of use to cover `length` µm around it: the lower bound where it tells enough,
+/// else exactly.
+double Map::useful_clearance(Vec2 p, double lower, double r, double length) const {
+  if (lower - r >= std::min(length, field_.spread())) return lower;
+  return lower + field_.spread() < r ? lower : clearance_beyond(p, lower);
+}
+
+bool Map::is_free(Segment s, double r) const {
+  const double length = distance(s.a, s.b) * (1 + 1e-12);
+  const double middle = field_.lower(s.a + 0.5 * (s.b - s.a));
+  if (middle - r >= 0.5 * length) return true;
+  const double lower_a = field_.lower(s.a);
+  const double lower_b = field_.lower(s.b);
+  const double least = r - field_.spread();
+  if (middle < least || lower_a < least || lower_b < least) return false;
+  const double from_a = useful_clearance(s.a, lower_a, r, length);
+  if (!(from_a >= r && from_a > 0)) return false;
+  const double from_b = useful_clearance(s.b, lower_b, r, length);
+  return from_b >= r && from_b > 0 && piece_is_free(s, from_a, from_b, r, 4);
+}
+
+// Two balls of known clearance at the ends cover a piece, or it is halved, or it passes so near
+// that the whole capsule has to be asked. Both ends are free.
+bool Map::piece_is_free(Segment s, double from_a, double from_b, double r, int halvings) const {
+  const double length = distance(s.a, s.b) * (1 + 1e-12);
+  if (from_a - r + from_b - r >= length) return true;
+  if (halvings == 0) return walls_.is_free_from_outside(s, r);
+  const Vec2 middle = s.a + 0.5 * (s.b - s.a);
+  const double clear = useful_clearance(middle, field_.lower(middle), r, 0.5 * length);
+  return clear >= r && clear > 0 && piece_is_free({s.a, middle}, from_a, clear, r, halvings - 1) &&
+         piece_is_free({middle, s.b}, clear, from_b, r, halvings - 1);
+}
+
+}  // namespace microswarm

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/world/obstacles/body_set.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "microswarm/geometry/predicates.hpp"
+
+namespace microswarm {
+
+BodySet::BodySet(std::vector<Body> bodies, bool apart) : bodies_(std::move(bodies)), apart_(apart) {
+  index();
+}
+
+void BodySet::assign(std::span<const Body> bodies) {
+  bodies_.assign(bodies.begin(), bodies.end());
+  apart_ = false;
+  index();
+}
+
+void BodySet::index() {
+  discs_.assign(bodies_);
+  polygons_.assign(bodies_);
+}
+
+bool BodySet::holds(Vec2 p) const { return !discs_.is_free(p, 0) || polygons_.holds(p); }
+
+double BodySet::clearance(Vec2 p, double limit) const {
+  const double to_disc = discs_.empty() ? limit : discs_.clearance(p, limit);
+  if (polygons_.empty()) return to_disc;
+  const double d = polygons_.edge_distance(p, to_disc);
+  return d > 0 && polygons_.holds(p) ? 0 : d;
+}
+
+double BodySet::clearance(Segment s, double limit) const {
+  const double to_disc = discs_.empty() ? limit : discs_.clearance(s, limit);
+  if (polygons_.empty()) return to_disc;
+  const double d = polygons_.edge_distance(s, to_disc);
+  return d > 0 && polygons_.holds(s.a) ? 0 : d;
+}
+
+bool BodySet::is_free(Vec2 p, double r) const { return is_free(Segment{p, p}, r); }
+
+bool BodySet::is_free(Segment s, double r) const {
+  return is_free_from_outside(s, r) && (polygons_.empty() || !polygons_.holds(s.a));
+}
+
+bool BodySet::is_free_from_outside(Segment s, double r) const {
+  return (discs_.empty() || (s.a == s.b ? discs_.is_free(s.a, r) : discs_.is_free(s, r))) &&
+         (polygons_.empty() || polygons_.edges_free(s, r));
+}
+
+std::size_t BodySet::nearest(Vec2 p, double limit) const {
+  const std::size_t disc = discs_.nearest(p, limit);
+  const std::uint32_t edge = polygons_.nearest(p, limit);
+  const bool some_disc = disc < discs_.size();
+  const bool some_edge = edge != PolygonSet::none;
+  if (some_disc && distance(p, discs_.disc(disc)) == 0) return discs_.body_of(disc);
+  if (!polygons_.empty() && polygons_.holds(p)) {
+    if (some_edge && depth_in(bodies_[edge], p) >= 0) return edge;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const auto* polygon = std::get_if<Polygon>(&bodies_[i].shape);
+      if (polygon && locate(*polygon, p) != Side::outside) return i;
+    }
+  }
+  if (some_disc && some_edge) {
+    return distance(p, discs_.disc(disc)) <= polygons_.edge_distance(p, limit)
+               ? discs_.body_of(disc)
+               : edge;
+  }
+  if (some_disc) return discs_.body_of(disc);
+  return some_edge ? edge : bodies_.size();
+}
+
+double depth_in(const Body& body, Vec2 p) {
+  if (const auto* disc = std::get_if<Disc>(&body.shape)) {
+    return disc->radius - distance(p, disc->centre);
+  }
+  return -signed_distance(p, std::get<Polygon>(body.shape));
+}
+
+}  // namespace microswarm

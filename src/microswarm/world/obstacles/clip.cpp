@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/world/obstacles/clip.hpp"
+
+#include <algorithm>
+#include <clipper.hpp>
+#include <cmath>
+#include <utility>
+
+namespace microswarm {
+namespace {
+
+using ClipperLib::IntPoint;
+using ClipperLib::Path;
+using ClipperLib::Paths;
+
+/// Coordinates reach at most this far on the clipper's integer grid.
+constexpr int bits_of_extent = 40;
+
+/// The plane on the clipper's grid and back; remembers which vertex each grid point came from.
+class Lattice {
+ public:
+  explicit Lattice(const Box& box) : origin_(box.centre()) {
+    const double extent = std::max({box.width(), box.height(), 1e-300});
+    per_unit_ = std::ldexp(1.0, bits_of_extent - std::ilogb(extent));
+  }
+
+  Path to_path(std::span<const Vec2> ring) {
+    Path path;
+    path.reserve(ring.size());
+    for (const Vec2 v : ring) {
+      path.emplace_back(std::llround((v.x - origin_.x) * per_unit_),
+                        std::llround((v.y - origin_.y) * per_unit_));
+      known_.push_back({path.back(), v});
+    }
+    return path;
+  }
+
+  Paths to_paths(std::span<const Polygon> polygons) {
+    Paths paths;
+    for (const Polygon& polygon : polygons) {
+      paths.push_back(to_path(polygon.outer));
+      for (const auto& hole : polygon.holes) paths.push_back(to_path(hole));
+    }
+    return paths;
+  }
+
+  std::vector<Polygon> to_polygons(const ClipperLib::PolyTree& tree) {
+    std::stable_sort(known_.begin(), known_.end(), before);
+    std::vector<Polygon> out;
+    for (const ClipperLib::PolyNode* node = tree.GetFirst(); node; node = node->GetNext()) {
+      if (node->IsHole()) continue;
+      Polygon polygon{to_ring(node->Contour), {}};
+      for (const ClipperLib::PolyNode* hole : node->Childs) {
+        polygon.holes.push_back(to_ring(hole->Contour));
+      }
+      polygon = normalised(std::move(polygon));
+      if (!polygon.outer.empty()) out.push_back(std::move(polygon));
+    }
+    return out;
+  }
+
+ private:
+  struct Known {
+    IntPoint at;
+    Vec2 vertex;
+  };
+  static bool before(const Known& a, const Known& b) {
+    return std::pair(a.at.X, a.at.Y) < std::pair(b.at.X, b.at.Y);
+  }
+
+  std::vector<Vec2> to_ring(const Path& path) const {
+    std::vector<Vec2> ring;
+    ring.reserve(path.size());
+    for (const IntPoint& p : path) {
+      const auto found = std::lower_bound(known_.begin(), known_.end(), Known{p, {}}, before);
+      const bool is_known = found != known_.end() && found->at == p;
+      ring.push_back(is_known ? found->vertex
+                              : origin_ + Vec2{static_cast<double>(p.X) / per_unit_,
+                                               static_cast<double>(p.Y) / per_unit_});
+    }
+    return ring;
+  }
+
+  Vec2 origin_;
+  double per_unit_;
+  std::vector<Known> known_;
+};
+
+Box extent_of(std::span<const Polygon> polygons) {
+  Box box;
+  for (const Polygon& polygon : polygons) {
+    for (const Vec2 v : polygon.outer) box.include(v);
+  }
+  return box;
+}
+
+}  // namespace
+
+std::vector<Polygon> united(std::span<const Polygon> polygons) {
+  Lattice lattice(extent_of(polygons));
+  ClipperLib::Clipper clipper;
+  clipper.AddPaths(lattice.to_paths(polygons), ClipperLib::ptSubject, true);
+  ClipperLib::PolyTree tree;
+  clipper.Execute(ClipperLib::ctUnion, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+  return lattice.to_polygons(tree);
+}
+
+std::vector<Polygon> difference(const Box& box, std::span<const Polygon> polygons) {
+  Box extent = extent_of(polygons);
+  extent.include(box.lo);
+  extent.include(box.hi);
+  Lattice lattice(extent);
+  const std::vector<Vec2> frame{box.lo, {box.hi.x, box.lo.y}, box.hi, {box.lo.x, box.hi.y}};
+  ClipperLib::Clipper clipper;
+  clipper.AddPath(lattice.to_path(frame), ClipperLib::ptSubject, true);
+  clipper.AddPaths(lattice.to_paths(polygons), ClipperLib::ptClip, true);
+  ClipperLib::PolyTree tree;
+  clipper.Execute(ClipperLib::ctDifference, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+  return lattice.to_polygons(tree);
+}
+
+}  // namespace microswarm

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/world/obstacles/obstacle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/core/text.hpp"
+#include "microswarm/world/obstacles/channel.hpp"
+
+namespace microswarm {
+namespace {
+
+/// A quantity that goes between two bounds as a sine of time.
+double swing(double least, double greatest, double period, double phase, double t) {
+  const double turns = t / period + phase;
+  const double angle = 2 * pi * (turns - std::floor(turns));
+  return least + 0.5 * (greatest - least) * (1 + std::sin(angle));
+}
+double top_rate(double least, double greatest, double period) {
+  return std::abs(greatest - least) * pi / period;
+}
+
+void place(std::vector<Vec2>& ring, const Pose2& pose) {
+  const Vec2 u = unit_vector(pose.heading);
+  for (Vec2& v : ring) {
+    v = pose.position + Vec2{u.x * v.x - u.y * v.y, u.y * v.x + u.x * v.y};
+  }
+}
+
+void place(Polygon& polygon, const Pose2& pose) {
+  place(polygon.outer, pose);
+  for (auto& hole : polygon.holes) place(hole, pose);
+}
+
+std::vector<Vec2> box_ring(const Box& b) {
+  return {b.lo, {b.hi.x, b.lo.y}, b.hi, {b.lo.x, b.hi.y}};
+}
+
+/// Puts the bodies of one kind of shape at a pose.
+class Builder {
+ public:
+  Builder(const Pose2& at, std::uint32_t obstacle, double t, std::vector<Body>& out)
+      : at_(at), obstacle_(obstacle), t_(t), out_(out) {}
+
+  void operator()(const DiscShape& shape) {
+    out_.push_back({Disc{at_.position, shape.radius}, obstacle_});
+  }
+  void operator()(const BreathingDisc& shape) {
+    const double radius =
+        swing(shape.least_radius, shape.greatest_radius, shape.period, shape.phase, t_);
+    out_.push_back({Disc{at_.position, radius}, obstacle_});
+  }
+  void operator()(const BoxShape& shape) {
+    const Vec2 half{0.5 * shape.width, 0.5 * shape.height};
+    add({box_ring({-half, half}), {}});
+  }
+  void operator()(const PolygonShape& shape) { add(normalised({shape.vertices, {}})); }
+  void operator()(const Valve& shape) {
+    const double outer = 0.5 * shape.span;
+    const double inner =
+        0.5 * swing(shape.least_gap, shape.greatest_gap, shape.period, shape.phase, t_);
+    if (inner >= outer) return;
+    const double half = 0.5 * shape.thickness;
+    add({box_ring({{-half, inner}, {half, outer}}), {}});
+    add({box_ring({{-half, -outer}, {half, -inner}}), {}});
+  }
+  void operator()(const DeformingChannel& shape) { add(channel_block(shape, t_)); }
+
+ private:
+  void add(Polygon polygon) {
+    if (polygon.outer.size() < 3) return;
+    place(polygon, at_);
+    out_.push_back({std::move(polygon), obstacle_});
+  }
+
+  const Pose2& at_;
+  std::uint32_t obstacle_;
+  double t_;
+  std::vector<Body>& out_;
+};
+
+struct Extent {
+  double operator()(const DiscShape& s) const { return s.radius; }
+  double operator()(const BreathingDisc& s) const { return s.greatest_radius; }
+  double operator()(const BoxShape& s) const { return 0.5 * std::hypot(s.width, s.height); }
+  double operator()(const PolygonShape& s) const {
+    double extent = 0;
+    for (const Vec2 v : s.vertices) extent = std::max(extent, norm(v));
+    return extent;
+  }
+  double operator()(const Valve& s) const { return 0.5 * std::hypot(s.span, s.thickness); }
+  double operator()(const DeformingChannel& s) const {
+    return norm(s.block_centre) + 0.5 * std::hypot(s.block_width, s.block_height);
+  }
+};
+
+struct OwnSpeed {
+  double operator()(const BreathingDisc& s) const {
+    return top_rate(s.least_radius, s.greatest_radius, s.period);
+  }
+  double operator()(const Valve& s) const {
+    return 0.5 * top_rate(s.least_gap, s.greatest_gap, s.period);
+  }
+  double operator()(const DeformingChannel& s) const { return s.amplitude * 2 * pi / s.period; }
+  template <class Rigid>
+  double operator()(const Rigid&) const {
+    return 0;
+  }
+};
+
+void check_order(double least, double greatest, const std::string& what, const Places& where) {
+  if (least <= greatest) return;
+  const std::string low = "least_" + what, high = "greatest_" + what;
+  throw where.error({low, high}, low + " is " + number_text(least) + ", more than " + high + ", " +
+                                     number_text(greatest));
+}
+
+struct Checker {
+  const Places& where;
+
+  void operator()(const BreathingDisc& s) const {
+    check_order(s.least_radius, s.greatest_radius, "radius_um", where);
+  }
+  void operator()(const Valve& s) const {
+    check_order(s.least_gap, s.greatest_gap, "gap_um", where);
+    if (s.least_gap < s.span) return;
+    throw where.error({"least_gap_um", "span_um"}, "least_gap_um is " + number_text(s.least_gap) +
+                                                       ", leaves no leaf in span_um, " +
+                                                       number_text(s.span));
+  }
+  void operator()(const PolygonShape& s) const {
+    const Polygon ring = normalised({s.vertices, {}});
+    if (ring.outer.size() < 3)
+      throw where.error("vertices_um", "vertices_um needs three different points at least");
+    if (signed_area(ring.outer) == 0)
+      throw where.error("vertices_um", "vertices_um has no area between its points");
+  }
+  void operator()(const DeformingChannel& s) const { check(s, where); }
+  void operator()(const Waypoints& m) const {
+    if (m.points.empty()) throw where.error("points_um", "points_um is empty");
+  }
+  void operator()(const Track& m) const {
+    if (!m.samples || m.samples->times.empty())
+      throw where.error("id", m.file + ": no samples of id '" + m.id + "'");
+    const auto& times = m.samples->times;
+    for (std::size_t i = 1; i < times.size(); ++i) {
+      if (times[i] > times[i - 1]) continue;
+      throw where.error("id", m.file + ": times of id '" + m.id + "' do not ascend at " +
+                                  number_text(times[i]) + " s");
+    }
+  }
+  template <class Other>
+  void operator()(const Other&) const {}
+};
+
+}  // namespace
+
+void append_bodies(const Obstacle& obstacle, std::uint32_t index, double t,
+                   std::vector<Body>& out) {
+  const Placement at = placement(obstacle.motion, t);
+  if (!at.present) return;
+  std::visit(Builder(at.pose, index, t, out), obstacle.shape);
+}
+
+double top_speed(const Obstacle& obstacle) {
+  const double turning = top_turning(obstacle.motion);
+  return top_speed(obstacle.motion) + std::visit(OwnSpeed{}, obstacle.shape) +
+         (turning > 0 ? turning * std::visit(Extent{}, obstacle.shape) : 0);
+}
+
+void check(const Obstacle& obstacle, const Places& where) {
+  std::visit(Checker{where.within("shape")}, obstacle.shape);
+  std::visit(Checker{where.within("motion")}, obstacle.motion);
+}
+
+}  // namespace microswarm

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "microswarm/core/places.hpp"
+#include "microswarm/world/obstacles/body.hpp"
+#include "microswarm/world/obstacles/motion.hpp"
+
+namespace microswarm {
+
+/// Disc around the mover's position.
+struct DiscShape {
+  static constexpr std::string_view type_name = "disc";
+  double radius = 50;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.radius, {"radius", Unit::um, {1e-3, 1e6}, "Radius.", true});
+  }
+};
+
+/// Disc that breathes: the radius goes between its bounds as a sine of time.
+struct BreathingDisc {
+  static constexpr std::string_view type_name = "breathing_disc";
+  double least_radius = 50;
+  double greatest_radius = 100;
+  double period = 20;
+  double phase = 0;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.least_radius, {"least_radius", Unit::um, {0, 1e6}, "Smallest radius.", true});
+    visit(self.greatest_radius, {"greatest_radius", Unit::um, {0, 1e6}, "Largest radius.", true});
+    visit(self.period, {"period", Unit::s, {1e-2, 1e6}, "Time of one breath."});
+    visit(self.phase, {"phase", Unit::none, {-1, 1}, "Share of the period at t = 0."});
+  }
+};
+
+/// Rectangle around the mover's position, turned with its heading.
+struct BoxShape {
+  static constexpr std::string_view type_name = "box";
+  double width = 100;
+  double height = 50;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.width, {"width", Unit::um, {1e-3, 1e6}, "Along its heading.", true});
+    visit(self.height, {"height", Unit::um, {1e-3, 1e6}, "Across its heading.", true});
+  }
+};
+
+/// Polygon in the mover's frame.
+struct PolygonShape {
+  static constexpr std::string_view type_name = "polygon";
+  std::vector<Vec2> vertices;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.vertices, {"vertices", Unit::um, coordinates, "Outline around its position.", true});
+  }
+};
+
+/// Two leaves that close a passage from both sides: they lie across the mover's heading and leave a
+/// gap that goes between its bounds as a sine of time. A leaf is what stands in the passage, from
+/// half a span beside the position to the gap: its inner end moves, its outer end rests. At a gap
+/// of the span or more the leaves are drawn in, and nothing stands in the passage.
+struct Valve {
+  static constexpr std::string_view type_name = "valve";
+  double span = 400;
+  double thickness = 40;
+  double least_gap = 0;
+  double greatest_gap = 300;
+  double period = 20;
+  double phase = 0;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.span, {"span", Unit::um, {1, 1e6}, "Width of the passage.", true});
+    visit(self.thickness, {"thickness", Unit::um, {1e-3, 1e6}, "Thickness of the leaves."});
+    visit(self.least_gap, {"least_gap", Unit::um, {0, 1e6}, "Gap when closed."});
+    visit(self.greatest_gap, {"greatest_gap", Unit::um, {0, 1e6}, "Gap when open."});
+    visit(self.period, {"period", Unit::s, {1e-2, 1e6}, "Time of one opening and closing."});
+    visit(self.phase, {"phase", Unit::none, {-1, 1}, "Share of the period at t = 0."});
+  }
+};
+
+/// A channel cut into a solid block, whose walls deform over time: a wave of the half width,
+/// w(s, t) = half width + amplitude · sin(2π(s / wavelength − t / period)), runs along the centre
+/// line, a smooth curve (cubic spline) through the points. Both ends are round and may be wider.
+/// The block's outline is a box. Centre line and block are given in the mover's frame.
+struct DeformingChannel {
+  static constexpr std::string_view type_name = "deforming_channel";
+  std::vector<Vec2> centre_line;
+  double half_width = 200;
+  double end_half_width = 200;
+  double end_length = 300;
+  double amplitude = 30;
+  double wavelength = 600;
+  double period = 20;
+  Vec2 block_centre{};
+  double block_width = 2200;
+  double block_height = 1600;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.centre_line,
+          {"centre_line", Unit::um, coordinates, "Middle of the channel; smoothed.", true});
+    visit(self.half_width, {"half_width", Unit::um, {1, 1e6}, "Half width at rest."});
+    visit(self.end_half_width, {"end_half_width", Unit::um, {1, 1e6}, "Half width at the ends."});
+    visit(self.end_length, {"end_length", Unit::um, {0, 1e6}, "Over which an end widens."});
+    visit(self.amplitude, {"amplitude", Unit::um, {0, 1e6}, "Amplitude of the wave."});
+    visit(self.wavelength, {"wavelength", Unit::um, {1, 1e7}, "Wavelength along the channel."});
+    visit(self.period, {"period", Unit::s, {1e-2, 1e6}, "Period of the wave."});
+    visit(self.block_centre, {"block_centre", Unit::um, coordinates, "Centre of the solid block."});
+    visit(self.block_width, {"block_width", Unit::um, {1, 1e6}, "Width of the solid block."});
+    visit(self.block_height, {"block_height", Unit::um, {1, 1e6}, "Height of the solid block."});
+  }
+};
+
+using Shape =
+    std::variant<DiscShape, BreathingDisc, BoxShape, PolygonShape, Valve, DeformingChannel>;
+
+/// Something in the world that moves or changes.
+struct Obstacle {
+  Shape shape;
+  Motion motion;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.shape, {"shape", Unit::none, {}, "What it is.", true});
+    visit(self.motion, {"motion", Unit::none, {}, "How it moves.", true});
+  }
+};
+
+/// Appends the bodies of obstacle number `index` at time t [s] to `out`: none when it is absent,
+/// two for a valve. Pure in t.
+void append_bodies(const Obstacle& obstacle, std::uint32_t index, double t, std::vector<Body>& out);
+
+/// Upper bound of the speed of any of its points [µm/s].
+double top_speed(const Obstacle& obstacle);
+
+/// Throws InputError when a field makes no sense with another (fewer than three vertices, least
+/// above greatest radius, a channel that runs into itself, …); `where` knows its keys.
+void check(const Obstacle& obstacle, const Places& where);
+
+}  // namespace microswarm
