@@ -13,7 +13,9 @@ namespace {
 class PeerListener : public RunListener {
  public:
   PeerListener(Vec2 goal, double clearance) : goal_(goal), clearance_(clearance) {}
-  void on_frame(const Frame& frame, const NavigatorView&, const Snapshot& world) override {
+  void on_tick(const Tick& tick) override {
+    const Frame& frame = tick.frame;
+    const Snapshot& world = *tick.world;
     if (!frame.planned || !world.is_free(frame.pose.position, clearance_)) return;
     const OmplResult r = run_ompl(OmplPlanner::rrt_connect, {.world = world,
                                                              .start = frame.pose.position,

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "radar_run.hpp"
-#include "microswarm/experiment/scenario/scene.hpp"
 
 #include <algorithm>
 
@@ -14,9 +13,7 @@ namespace {
 class LookListener : public RunListener {
  public:
   explicit LookListener(const RadarNavigator& navigator) : navigator_(navigator) {}
-  void on_frame(const Frame&, const NavigatorView&, const Snapshot&) override {
-    looks_.push_back(navigator_.last_look());
-  }
+  void on_tick(const Tick&) override { looks_.push_back(navigator_.last_look()); }
   std::vector<std::optional<RadarLook>> take() { return std::move(looks_); }
 
  private:

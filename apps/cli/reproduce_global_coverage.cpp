@@ -216,7 +216,7 @@ std::vector<ReproduceRow> global_initial_distances(const ReproduceOptions& optio
   constexpr std::size_t at_1 = distances.size() - 1;
   constexpr double least_plateau = 90;  // [%]
   constexpr double most_left = 60;      // [%]
-  std::vector<Tick> ticks;
+  std::vector<AxisTick> ticks;
   for (const double d : distances)
     if (d != 150) ticks.push_back({fmt::format("{:g}", d), d});  // its label would touch 200's
   const Map map = scenes::global_world(1);

@@ -133,7 +133,7 @@ TEST(Record, ARunThatWasStoppedIsWhole) {
   struct StopAt : RunListener {
     std::atomic<bool> flag{false};
     int frames = 0;
-    void on_frame(const Frame&, const NavigatorView&, const Snapshot&) override {
+    void on_tick(const Tick&) override {
       if (++frames == 20) flag = true;
     }
   } stop_at;

@@ -14,10 +14,10 @@ struct Told : RunListener {
   std::vector<RunEvent> events;
   RunResult result;
 
-  void on_frame(const Frame& frame, const NavigatorView&, const Snapshot&) override {
-    frames.push_back(frame);
+  void on_tick(const Tick& tick) override {
+    frames.push_back(tick.frame);
+    events.insert(events.end(), tick.events.begin(), tick.events.end());
   }
-  void on_event(const RunEvent& event) override { events.push_back(event); }
 };
 
 Told run_with(const Scenario& scenario, Navigator& navigator, const Stop& stop = {}) {

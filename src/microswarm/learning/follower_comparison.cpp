@@ -47,8 +47,9 @@ class Gauge : public RunListener {
  public:
   explicit Gauge(const std::vector<Vec2>& path) : path_(path) {}
 
-  void on_frame(const Frame& frame, const NavigatorView&, const Snapshot&) override {
-    if (frame.state == "end") return;
+  void on_tick(const Tick& tick) override {
+    if (tick.end) return;
+    const Frame& frame = tick.frame;
     place_ = nearest_place(path_, frame.pose.position, place_);
     const double off = distance(frame.pose.position, point_ahead(path_, place_, 0));
     sum_ += off * off;

@@ -90,16 +90,16 @@ std::string drawn(std::size_t plot, std::size_t series, const Series& s) {
   return {};
 }
 
-std::string listed(const std::vector<Tick>& ticks) {
+std::string listed(const std::vector<AxisTick>& ticks) {
   std::vector<std::string> out;
   out.reserve(ticks.size());
-  for (const Tick& tick : ticks)
+  for (const AxisTick& tick : ticks)
     out.push_back(fmt::format("{} {:.9g}", in_quotes(tick.label), tick.at));
   return fmt::format("({})", fmt::join(out, ", "));
 }
 
 /// 1, 2, 5, 10, … over what is drawn; none where it is too much or nothing.
-std::vector<Tick> log_ticks(const Plot& plot) {
+std::vector<AxisTick> log_ticks(const Plot& plot) {
   double least = plot.y_min.value_or(std::numeric_limits<double>::infinity());
   double most = plot.y_max.value_or(0);
   for (const Series& s : plot.series)
@@ -108,7 +108,7 @@ std::vector<Tick> log_ticks(const Plot& plot) {
       if (!plot.y_min) least = std::min(least, y);
       if (!plot.y_max) most = std::max(most, y);
     }
-  std::vector<Tick> out;
+  std::vector<AxisTick> out;
   if (!(least > 0) || !(most < 1e3 * least)) return out;
   const int last = static_cast<int>(std::ceil(std::log10(most)));
   for (int power = static_cast<int>(std::floor(std::log10(least))); power <= last; ++power)
@@ -130,17 +130,17 @@ std::string axes(const Plot& plot) {
   out += "unset logscale\n";
   if (plot.log_x) out += "set logscale x\n";
   if (plot.log_y) out += "set logscale y\n";
-  std::vector<Tick> names = plot.x_ticks;
+  std::vector<AxisTick> names = plot.x_ticks;
   if (names.empty())
     for (const Series& s : plot.series)
       if (s.style == PlotStyle::box && !s.x.empty()) names.push_back({s.label, s.x[0]});
   const bool wide = std::ranges::any_of(
-      names, [](const Tick& t) { return letters_of(t.label) > most_upright_letters; });
+      names, [](const AxisTick& t) { return letters_of(t.label) > most_upright_letters; });
   out += names.empty()
              ? "set xtics norotate autojustify auto\n"
              : fmt::format("set xtics {} {}\n",
                            wide ? "rotate by 50 right" : "norotate autojustify", listed(names));
-  const std::vector<Tick> ticks =
+  const std::vector<AxisTick> ticks =
       plot.y_ticks.empty() && plot.log_y ? log_ticks(plot) : plot.y_ticks;
   out += ticks.empty() ? "set ytics auto\n" : fmt::format("set ytics {}\n", listed(ticks));
   return out;

@@ -55,7 +55,7 @@ struct Band {
 };
 
 /// A label of an axis.
-struct Tick {
+struct AxisTick {
   std::string label;
   double at = 0;
 };
@@ -71,8 +71,8 @@ struct Plot {
   std::vector<Mark> marks;
   std::vector<Band> bands;
   std::string band_label;
-  std::vector<Tick> x_ticks;
-  std::vector<Tick> y_ticks;
+  std::vector<AxisTick> x_ticks;
+  std::vector<AxisTick> y_ticks;
   bool log_x = false;
   bool log_y = false;
   bool key_below = false;  ///< the legend stands below, not in the diagram

@@ -60,16 +60,20 @@ Recorder::Recorder(Scene scene, std::uint32_t trial, std::string rig) {
   record_.rig = std::move(rig);
 }
 
-void Recorder::on_frame(const Frame& frame, const NavigatorView& view, const Snapshot&) {
+void Recorder::on_tick(const Tick& tick) {
+  const Frame& frame = tick.frame;
+  const NavigatorView& view = tick.view;
   record_.frames.push_back(frame);
   if (frame.planned && view.plan) record_.plans.push_back({frame.t, *view.plan});
   const bool same = record_.paths.empty()
                         ? view.path.empty()
                         : std::ranges::equal(record_.paths.back().path, view.path);
   if (!same) record_.paths.push_back({frame.t, {view.path.begin(), view.path.end()}});
+  if (tick.robots) keep_robots(frame.t, *tick.robots);
+  record_.events.insert(record_.events.end(), tick.events.begin(), tick.events.end());
 }
 
-void Recorder::on_robots(double t, std::span<const Vec2> robots) {
+void Recorder::keep_robots(double t, std::span<const Vec2> robots) {
   constexpr std::size_t most_moments = 128;
   last_robots_ = {t, {robots.begin(), robots.end()}};
   if (robot_frames_++ % robot_period_ != 0) return;

@@ -34,15 +34,15 @@ struct Record {
 class Recorder : public RunListener {
  public:
   explicit Recorder(Scene scene, std::uint32_t trial = 0, std::string rig = {});
-  void on_frame(const Frame& frame, const NavigatorView& view, const Snapshot& world) override;
-  void on_robots(double t, std::span<const Vec2> robots) override;
-  void on_event(const RunEvent& event) override { record_.events.push_back(event); }
+  void on_tick(const Tick& tick) override;
   void on_end(const RunResult& result) override;
 
   const Record& record() const { return record_; }
   Record take() { return std::move(record_); }
 
  private:
+  void keep_robots(double t, std::span<const Vec2> robots);
+
   Record record_;
   std::size_t robot_period_ = 1;  // frames
   std::size_t robot_frames_ = 0;

@@ -88,7 +88,7 @@ class Ending : public RunListener {
       : stop_(stop), left_(record.result.status == Status::stopped ? record.frames.size() : 0) {
     over_ = left_ == 1;
   }
-  void on_frame(const Frame&, const NavigatorView&, const Snapshot&) override {
+  void on_tick(const Tick&) override {
     stopped_ = stopped_ || stop_();
     if (left_ > 1) --left_;
     over_ = left_ == 1 || stopped_;

@@ -6,7 +6,7 @@
 #include <cassert>
 
 #include "microswarm/core/angles.hpp"
-#include "microswarm/experiment/run/watch.hpp"
+#include "microswarm/experiment/run/contact_monitor.hpp"
 #include "microswarm/swarm/body/swarm_body.hpp"
 
 namespace microswarm {
@@ -100,10 +100,10 @@ World within_reach(const World& world, const State& from, double until, const Sw
   return near;
 }
 
-bool stays_free(const Watch& fresh, const State& from, const Answer& answer, double until,
+bool stays_free(const ContactMonitor& fresh, const State& from, const Answer& answer, double until,
                 double tick) {
   State now = from;
-  Watch watch = fresh;
+  ContactMonitor watch = fresh;
   while (now.t < until) {
     const bool begins = now.t - from.t < answer.until - 1e-9;
     now.body.step(begins ? answer.first : answer.second, tick, now.drift);
@@ -148,7 +148,7 @@ class Judge {
 
   const Answer* find(const State& state, double until) const {
     const World near = within_reach(world_, state, until, limits_);
-    const Watch fresh(near);
+    const ContactMonitor fresh(near);
     const auto answer = std::find_if(answers_.begin(), answers_.end(), [&](const Answer& a) {
       return stays_free(fresh, state, a, until, scenario_.tick);
     });
@@ -164,13 +164,11 @@ class Judge {
 
 }  // namespace
 
-void ContactLog::on_frame(const Frame& frame, const NavigatorView&, const Snapshot&) {
-  if (frame.state != "end") commands_.push_back(frame.command);
-}
-
-void ContactLog::on_event(const RunEvent& event) {
-  if (event.kind == EventKind::contact_wall || event.kind == EventKind::contact_obstacle)
-    contacts_.push_back(event);
+void ContactLog::on_tick(const Tick& tick) {
+  if (!tick.end) commands_.push_back(tick.frame.command);
+  for (const RunEvent& event : tick.events)
+    if (event.kind == EventKind::contact_wall || event.kind == EventKind::contact_obstacle)
+      contacts_.push_back(event);
 }
 
 std::vector<ContactVerdict> judge_contacts(const Scenario& scenario, const World& world,

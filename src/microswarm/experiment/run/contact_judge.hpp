@@ -27,8 +27,7 @@ struct JudgeParams {
 /// Hears a run and keeps what a judge asks for: every command, and the contacts.
 class ContactLog : public RunListener {
  public:
-  void on_frame(const Frame& frame, const NavigatorView& view, const Snapshot& world) override;
-  void on_event(const RunEvent& event) override;
+  void on_tick(const Tick& tick) override;
 
   const std::vector<Command>& commands() const { return commands_; }  ///< one a tick
   const std::vector<RunEvent>& contacts() const { return contacts_; }

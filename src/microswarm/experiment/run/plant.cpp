@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "microswarm/core/angles.hpp"
-#include "microswarm/experiment/run/watch.hpp"
+#include "microswarm/experiment/run/contact_monitor.hpp"
 
 namespace microswarm {
 

@@ -11,7 +11,8 @@ ProgressListener::ProgressListener(const Scenario& scenario,
       report_(std::move(report)),
       period_(period) {}
 
-void ProgressListener::on_frame(const Frame& frame, const NavigatorView&, const Snapshot&) {
+void ProgressListener::on_tick(const Tick& tick) {
+  const Frame& frame = tick.frame;
   if (start_distance_ < 0) start_distance_ = std::max(frame.goal_distance, 1e-9);
   if (frame.t < next_) return;
   next_ = frame.t + period_;

@@ -20,7 +20,7 @@ class ProgressListener : public RunListener {
  public:
   ProgressListener(const Scenario& scenario, std::function<void(const RunProgress&)> report,
                    double period = 1);
-  void on_frame(const Frame& frame, const NavigatorView& view, const Snapshot& world) override;
+  void on_tick(const Tick& tick) override;
 
  private:
   double start_distance_ = -1;  // until the first frame

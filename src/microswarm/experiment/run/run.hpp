@@ -6,8 +6,8 @@
 
 #include "microswarm/contracts/navigator.hpp"
 #include "microswarm/contracts/plant.hpp"
-#include "microswarm/experiment/run/frame.hpp"
 #include "microswarm/experiment/run/metrics.hpp"
+#include "microswarm/experiment/run/tick.hpp"
 #include "microswarm/experiment/scenario/scenario.hpp"
 #include "microswarm/world/world.hpp"
 
@@ -25,23 +25,13 @@ struct RunResult {
 class RunListener {
  public:
   virtual ~RunListener() = default;
-  /// After the command was chosen and before it is applied. `view` tells what the navigator did,
-  /// `world` is the world at the frame's time.
-  virtual void on_frame(const Frame& frame, const NavigatorView& view, const Snapshot& world) {
-    (void)frame, (void)view, (void)world;
-  }
-  /// Besides on_frame, at the same time: where robots are that are told apart.
-  virtual void on_robots(double t, std::span<const Vec2> robots) { (void)t, (void)robots; }
-  virtual void on_event(const RunEvent& event) { (void)event; }
+  /// After every tick; the last one has `end`.
+  virtual void on_tick(const Tick& tick) = 0;
   virtual void on_end(const RunResult& result) { (void)result; }
 };
 
-/// The only loop: at every tick it observes, asks the navigator, applies the command, and watches,
-/// in continuous time, for contact and for the goal; whether robots that are told apart have done
-/// their task it looks up at every tick, and walls are no danger to them. Ends with `solved`,
-/// `collided`, `held` (the navigator stood still for the scenario's hold limit, or up to its time
-/// limit), `time_limit`, `stopped`, or `fault`, with the plant's reason as the result's state.
-/// Without the plant's truth, clearances and contacts are those of what was seen.
+/// Steps an Episode to its end and tells every tick to the listeners; with `fault`, the plant's
+/// reason is the result's state.
 RunResult run(const Scenario& scenario, Plant& plant, Navigator& navigator,
               std::span<RunListener* const> listeners = {}, const Stop& stop = {});
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/geometry/distance.hpp"
 
 namespace microswarm {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/run/watch.hpp"
+#include "microswarm/experiment/run/contact_monitor.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -52,18 +52,19 @@ double speed_at(std::span<const TimedPose> way, double t) {
 
 }  // namespace
 
-struct Watch::Way {
+struct ContactMonitor::Way {
   double t0;
   std::span<const TimedPose> poses;
   double top_speed;
   double top_growth;
 };
 
-Watch::Watch(const World& world) : world_(&world), touching_(world.obstacles.size(), false) {
+ContactMonitor::ContactMonitor(const World& world)
+    : world_(&world), touching_(world.obstacles.size(), false) {
   for (const Obstacle& obstacle : world.obstacles) top_speeds_.push_back(top_speed(obstacle));
 }
 
-std::vector<RunEvent> Watch::follow(double t0, std::span<const TimedPose> swept) {
+std::vector<RunEvent> ContactMonitor::follow(double t0, std::span<const TimedPose> swept) {
   std::vector<RunEvent> events;
   if (swept.empty()) return events;
   const Way way{t0, swept, top_speed_of(swept), top_growth_of(swept)};
@@ -84,7 +85,7 @@ std::vector<RunEvent> Watch::follow(double t0, std::span<const TimedPose> swept)
   return events;
 }
 
-Watch::Sample Watch::sample(const Way& way, std::uint32_t obstacle, double t) {
+ContactMonitor::Sample ContactMonitor::sample(const Way& way, std::uint32_t obstacle, double t) {
   bodies_.clear();
   append_bodies(world_->obstacles[obstacle], obstacle, way.t0 + t, bodies_);
   const TimedPose swarm = moment_on(way.poses, t);
@@ -98,7 +99,8 @@ Watch::Sample Watch::sample(const Way& way, std::uint32_t obstacle, double t) {
 }
 
 // Bisects the way, earlier half first, wherever the obstacle could touch or be nearer than ever.
-std::optional<Watch::Sample> Watch::first_touch(const Way& way, std::uint32_t obstacle) {
+std::optional<ContactMonitor::Sample> ContactMonitor::first_touch(const Way& way,
+                                                                  std::uint32_t obstacle) {
   const double rate = way.top_speed + top_speeds_[obstacle];
   const double gap_rate = rate + way.top_growth;
   std::optional<Sample> touch;
@@ -128,7 +130,7 @@ std::optional<Watch::Sample> Watch::first_touch(const Way& way, std::uint32_t ob
   return touch;
 }
 
-std::optional<RunEvent> Watch::wall_touch(const Way& way) {
+std::optional<RunEvent> ContactMonitor::wall_touch(const Way& way) {
   const Map& map = *world_->map;
   std::optional<RunEvent> event;
   bool touching = touching_wall_;

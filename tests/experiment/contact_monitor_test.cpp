@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/run/watch.hpp"
+#include "microswarm/experiment/run/contact_monitor.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,12 +10,12 @@ namespace {
 
 using Way = std::vector<TimedPose>;
 
-TEST(Watch, SeesADiscThatFliesThroughTheSwarmBetweenTwoTicks) {
+TEST(ContactMonitor, SeesADiscThatFliesThroughTheSwarmBetweenTwoTicks) {
   Scenario scenario = open_room();
   // At 100 µm per ms it is far away on both sides at the ticks.
   scenario.obstacles = {disc(10, Straight{.start = {1000, -4000}, .velocity = {0, 90000}})};
   const World world = world_of(scenario);
-  Watch watch(world);
+  ContactMonitor watch(world);
   const Way way{{0, {{1000, 500}, 0}, 40}, {0.1, {{1000, 500}, 0}, 40}};
   const auto touches = watch.follow(0, way);
   ASSERT_EQ(touches.size(), 1u);
@@ -26,7 +26,7 @@ TEST(Watch, SeesADiscThatFliesThroughTheSwarmBetweenTwoTicks) {
   EXPECT_EQ(watch.obstacles().clearance, 0);
 }
 
-TEST(Watch, LeastDistanceIsThatOfTheClosedForm) {
+TEST(ContactMonitor, LeastDistanceIsThatOfTheClosedForm) {
   Rng rng(3, Purpose::test);
   World world = world_of(open_room());
   for (int i = 0; i < 300; ++i) {
@@ -35,7 +35,7 @@ TEST(Watch, LeastDistanceIsThatOfTheClosedForm) {
     const Vec2 from{rng.uniform(300, 1700), rng.uniform(300, 700)};
     const Vec2 swarm_velocity{rng.uniform(-80, 80), rng.uniform(-80, 80)};
     world.obstacles = {disc(30, Straight{start, velocity})};
-    Watch watch(world);
+    ContactMonitor watch(world);
     double least = 1e9;
     Vec2 p = from;
     bool touched = false;
@@ -47,30 +47,30 @@ TEST(Watch, LeastDistanceIsThatOfTheClosedForm) {
     const Vec2 gap = start - from, closing = velocity - swarm_velocity;
     const double when = std::clamp(-dot(gap, closing) / squared_norm(closing), 0.0, 1.0);
     least = std::max(0.0, norm(gap + when * closing) - 30);
-    EXPECT_NEAR(watch.obstacles().clearance, least, 2 * Watch::resolution);
+    EXPECT_NEAR(watch.obstacles().clearance, least, 2 * ContactMonitor::resolution);
     if (std::abs(least - 20) > 0.1) {
       EXPECT_EQ(touched, least < 20) << i;
     }
   }
 }
 
-TEST(Watch, LeastDistanceToABreathingDisc) {
+TEST(ContactMonitor, LeastDistanceToABreathingDisc) {
   Scenario scenario = open_room();
   scenario.obstacles = {{BreathingDisc{.least_radius = 50, .greatest_radius = 150, .period = 0.4},
                          Still{{1000, 500}, 0}}};
   const World world = world_of(scenario);
-  Watch watch(world);
+  ContactMonitor watch(world);
   for (int tick = 0; tick < 8; ++tick)
     watch.follow(0.1 * tick, Way{{0, {{1200, 500}, 0}, 40}, {0.1, {{1200, 500}, 0}, 40}});
   EXPECT_NEAR(watch.obstacles().clearance, 50, 0.05);
 }
 
-TEST(Watch, ATouchThatLastsIsOneEvent) {
+TEST(ContactMonitor, ATouchThatLastsIsOneEvent) {
   Scenario scenario = open_room();
   scenario.obstacles = {
       disc(50, HarmonicLine{.centre = {1000, 500}, .amplitude = {0, 200}, .period = 10})};
   const World world = world_of(scenario);
-  Watch watch(world);
+  ContactMonitor watch(world);
   std::size_t touches = 0;
   for (int tick = 0; tick < 200; ++tick)
     touches += watch.follow(0.1 * tick, Way{{0, {{1000, 500}, 0}, 40}, {0.1, {{1000, 500}, 0}, 40}})
@@ -78,11 +78,11 @@ TEST(Watch, ATouchThatLastsIsOneEvent) {
   EXPECT_EQ(touches, 5u);  // it begins on the swarm and comes back every half period
 }
 
-TEST(Watch, WallsAndBorder) {
+TEST(ContactMonitor, WallsAndBorder) {
   Scenario scenario = open_room();
   std::get<PolygonsMap>(scenario.map).walls = {{{999, 0}, {1000, 0}, {1000, 900}, {999, 900}}};
   const World world = world_of(scenario);
-  Watch watch(world);
+  ContactMonitor watch(world);
   // One jump over a wall of 1 µm: both ends are clear.
   auto touches = watch.follow(0, Way{{0, {{900, 500}, 0}, 40}, {0.1, {{1100, 500}, 0}, 40}});
   ASSERT_EQ(touches.size(), 1u);
@@ -90,7 +90,7 @@ TEST(Watch, WallsAndBorder) {
   EXPECT_EQ(touches[0].body, 0u);
   EXPECT_EQ(watch.walls().clearance, 0);
 
-  Watch other(world);
+  ContactMonitor other(world);
   EXPECT_TRUE(other.follow(0, Way{{0, {{1200, 100}, 0}, 40}, {0.1, {{1200, 50}, 0}, 40}}).empty());
   touches = other.follow(0.1, Way{{0, {{1200, 50}, 0}, 40}, {0.1, {{1200, 30}, 0}, 40}});
   ASSERT_EQ(touches.size(), 1u);
@@ -98,11 +98,11 @@ TEST(Watch, WallsAndBorder) {
   EXPECT_EQ(other.walls().clearance, 30);
 }
 
-TEST(Watch, ASwarmThatWidensTouchesWhatItDidNotReach) {
+TEST(ContactMonitor, ASwarmThatWidensTouchesWhatItDidNotReach) {
   Scenario scenario = open_room();
   scenario.obstacles = {disc(50, Still{{1000, 500}, 0})};
   const World world = world_of(scenario);
-  Watch watch(world);
+  ContactMonitor watch(world);
   EXPECT_TRUE(watch.follow(0, Way{{0, {{1100, 500}, 0}, 40}, {0.1, {{1100, 500}, 0}, 40}}).empty());
   EXPECT_NEAR(watch.least_gap(), 10, 1e-9);
   const auto touches =
@@ -113,7 +113,7 @@ TEST(Watch, ASwarmThatWidensTouchesWhatItDidNotReach) {
   EXPECT_NEAR(watch.obstacles().clearance, 50, 1e-9);
 }
 
-TEST(Watch, ArrivalIsTheFirstMomentWithinTheTolerance) {
+TEST(ContactMonitor, ArrivalIsTheFirstMomentWithinTheTolerance) {
   const Way way{{0, {{0, 0}, 0}}, {0.1, {{10, 0}, 0}}, {0.2, {{20, 0}, 0}}};
   EXPECT_NEAR(first_arrival(way, {30, 0}, 15).value(), 0.15, 1e-12);
   EXPECT_EQ(first_arrival(way, {3, 0}, 5).value(), 0);

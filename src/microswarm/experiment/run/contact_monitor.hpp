@@ -19,12 +19,12 @@ inline constexpr std::uint32_t border_body = 0xffffffff;
 /// Watches how near a moving swarm comes to walls and to moving obstacles, between the ticks too:
 /// distances change by at most the speeds' sum, so that the times at which something could be
 /// nearer than anything before are bisected until the least distance is known to `resolution`.
-class Watch {
+class ContactMonitor {
  public:
   static constexpr double resolution = 0.02;  ///< [µm]
 
   /// The world must outlive the watch. Closer to the centre than the swarm is wide is a touch.
-  explicit Watch(const World& world);
+  explicit ContactMonitor(const World& world);
 
   /// Follows the way `swept`, which begins at time t0, and returns the touches that begin in it, in
   /// order of time. Obstacles that were touched at the end of the last way do not begin anew.

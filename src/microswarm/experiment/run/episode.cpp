@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/run/episode.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "microswarm/experiment/run/metrics.hpp"
+
+namespace microswarm {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Ends a way at time t.
+void cut(std::vector<TimedPose>& way, double t) {
+  TimedPose end = moment_on(way, t);
+  end.t = t;
+  std::erase_if(way, [t](const TimedPose& pose) { return pose.t >= t && pose.t > 0; });
+  if (t > 0) way.push_back(end);
+}
+
+}  // namespace
+
+Episode::Episode(const Scenario& scenario, Plant& plant, Navigator& navigator)
+    : scenario_(scenario),
+      plant_(plant),
+      navigator_(navigator),
+      obstacles_(scenario.sensing.obstacle_memory),
+      detection_range_(scenario.detection_range.value_or(detection_range_of(scenario.navigator))),
+      ticks_(std::ceil(scenario.time_limit / scenario.tick - 1e-9)) {
+  if (scenario.start) present_.pose = *scenario.start;
+  if (scenario.goal) start_distance_ = distance(present_.pose.position, *scenario.goal);
+  const auto truth = plant.truth();
+  if (truth && !scenario.robots) contacts_.emplace(*truth->world);
+}
+
+const Tick* Episode::step(const Stop& stop) {
+  if (tick_.end) return nullptr;
+  tick_ = {};
+  events_.clear();
+  swept_.clear();
+  if (!ending_ && done_++ >= ticks_) ending_ = hold_time_ > 0 ? Status::held : Status::time_limit;
+  if (!ending_ && stop()) ending_ = Status::stopped;
+  if (ending_ || !advance(stop)) end();
+  tick_.events = events_;
+  tick_.swept = swept_;
+  if (contacts_) tick_.contacts = &*contacts_;
+  return &tick_;
+}
+
+/// False where the episode is over before the tick has begun.
+bool Episode::advance(const Stop& stop) {
+  const Observation seen = obstacles_.complete(plant_.observe());
+  was_seen_ = was_seen_ || seen.swarm || plant_.truth();
+  if (scenario_.robots && !task_) begin_with_robots(seen);
+  present_ = present(seen);
+  if (!plant_.fault().empty()) {
+    fault_ = plant_.fault();
+    ending_ = Status::fault;
+  } else if (present_.goal_distance <= scenario_.goal_tolerance) {
+    ending_ = arrived();
+  }
+  if (ending_) return false;
+  if (!prepared_) navigator_.prepare(*seen.world);
+  prepared_ = true;
+
+  const Clock::time_point begin = Clock::now();
+  const Command command = navigator_.step(seen, stop);
+  const double took = std::chrono::duration<double>(Clock::now() - begin).count();
+  // A step that was told to stop half-way is none: the record must repeat without the telling.
+  if (stop()) {
+    ending_ = Status::stopped;
+    return false;
+  }
+
+  tick_.step_time = took;
+  tick_.view = navigator_.view();
+  tick_.frame.command = command;
+  tick_.frame.target = tick_.view.local_target;
+  tick_.frame.state = tick_.view.state;
+  tick_.frame.planned = tick_.view.planned;
+  fill(seen);
+  const double held = hold(command);
+  if (held > 0 && held >= scenario_.hold_limit - 1e-9) {
+    ending_ = Status::held;
+    return true;
+  }
+  plant_.apply(command, scenario_.tick);
+  if (contacts_) ending_ = follow(*plant_.truth());
+  return true;
+}
+
+void Episode::begin_with_robots(const Observation& seen) {
+  task_.emplace(scenario_, seen.world->map());
+  const auto truth = plant_.truth();
+  if (truth || seen.swarm) present_.pose = truth ? truth->swarm.pose : seen.swarm->pose;
+}
+
+Episode::Present Episode::present(const Observation& seen) {
+  if (const auto truth = plant_.truth())
+    return {truth->now, truth->swarm.pose, scenario_.robots ? 0 : truth->swarm.radius, truth->speed,
+            left(truth->swarm.pose.position, truth->robots)};
+  if (!seen.swarm)
+    return {seen.now, present_.pose, present_.radius, present_.speed, present_.goal_distance};
+  const double passed = seen.now - present_.t;
+  const double way = distance(present_.pose.position, seen.swarm->pose.position);
+  return {seen.now, seen.swarm->pose, scenario_.robots ? 0 : seen.swarm->radius,
+          passed > 0 ? way / passed : 0, left(seen.swarm->pose.position, seen.robots)};
+}
+
+/// How far it is to the end of the task [µm].
+double Episode::left(Vec2 centre, std::span<const Vec2> robots) {
+  return task_ ? task_->left(robots) : distance(centre, *scenario_.goal);
+}
+
+/// How long the swarm has been told to hold by now.
+double Episode::hold(const Command& command) {
+  const bool holds = command.speed <= 0;
+  if (holds != (hold_time_ > 0)) note(holds ? EventKind::hold_begins : EventKind::hold_ends);
+  hold_time_ = holds ? hold_time_ + scenario_.tick : 0;
+  return hold_time_;
+}
+
+/// Contact and arrival on the way just made, in the order in which they came.
+std::optional<Status> Episode::follow(const Truth& truth) {
+  const double t0 = present_.t;
+  swept_.assign(truth.swept.begin(), truth.swept.end());
+  const auto arrival = first_arrival(swept_, *scenario_.goal, scenario_.goal_tolerance);
+  if (arrival) cut(swept_, *arrival);
+  const ContactMonitor before = *contacts_;
+  const std::vector<RunEvent> touches = contacts_->follow(t0, swept_);
+  const bool ends = !touches.empty() && scenario_.stop_at_contact;
+  if (ends) {
+    cut(swept_, touches.front().t - t0);
+    *contacts_ = before;  // what would have come after the touch is none of its clearances
+    contacts_->follow(t0, swept_);
+  }
+  touched_ = touched_ || !touches.empty();
+  events_.insert(events_.end(), touches.begin(), ends ? touches.begin() + 1 : touches.end());
+  if (!swept_.empty()) {
+    const TimedPose& last = swept_.back();
+    present_ = {t0 + last.t, last.pose, last.radius, ends ? touches.front().speed : truth.speed,
+                left(last.pose.position, {})};
+  }
+  if (ends) return Status::collided;
+  if (!arrival) return std::nullopt;
+  return arrived();
+}
+
+Status Episode::arrived() {
+  note(EventKind::goal_reached);
+  return Status::solved;
+}
+
+/// The last tick: what it is like at the end.
+void Episode::end() {
+  const Observation seen = plant_.observe();
+  if (scenario_.robots && !task_) begin_with_robots(seen);
+  if (*ending_ != Status::solved && *ending_ != Status::collided) present_ = present(seen);
+  tick_.frame.state = "end";
+  fill(seen);
+  tick_.end = touched_ && *ending_ != Status::stopped ? Status::collided : *ending_;
+  tick_.fault = fault_;
+}
+
+/// Fills in what the world is like at the present.
+void Episode::fill(const Observation& seen) {
+  const auto truth = plant_.truth();
+  world_ = truth ? truth->world->at(present_.t) : *seen.world;
+  tick_.world = &*world_;
+  if (task_) {
+    const std::span<const Vec2> robots = truth ? truth->robots : seen.robots;
+    robots_.assign(robots.begin(), robots.end());
+    tick_.robots = robots_;
+  }
+  Frame& frame = tick_.frame;
+  frame.t = present_.t;
+  frame.pose = present_.pose;
+  frame.radius = present_.radius;
+  frame.speed = present_.speed;
+  frame.seen = seen.seen;
+  if (seen.swarm) frame.observed = seen.swarm->pose;
+  frame.goal_distance = present_.goal_distance;
+  const bool one_is_there = !task_ && was_seen_;
+  frame.wall_clearance = one_is_there ? world_->map().clearance(frame.pose.position) : infinity;
+  frame.obstacle_clearance =
+      one_is_there ? world_->moving().clearance(frame.pose.position, infinity) : infinity;
+  if (!task_ && frame.obstacle_clearance - frame.radius < detection_range_)
+    frame.avoidance_cost =
+        avoidance_cost(tick_.view.phased_goal.value_or(*scenario_.goal) - frame.pose.position,
+                       frame.goal_distance, frame.pose.heading, frame.speed > 0, start_distance_);
+}
+
+void Episode::note(EventKind kind) {
+  events_.push_back(
+      {.t = present_.t, .kind = kind, .position = present_.pose.position, .speed = present_.speed});
+}
+
+}  // namespace microswarm

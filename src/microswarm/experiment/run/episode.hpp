@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "microswarm/contracts/navigator.hpp"
+#include "microswarm/contracts/plant.hpp"
+#include "microswarm/core/infinity.hpp"
+#include "microswarm/experiment/run/contact_monitor.hpp"
+#include "microswarm/experiment/run/robot_task.hpp"
+#include "microswarm/experiment/run/tick.hpp"
+#include "microswarm/experiment/scenario/scenario.hpp"
+#include "microswarm/navigation/prediction/obstacle_memory.hpp"
+
+namespace microswarm {
+
+/// The only loop, tick by tick: observe, decide, apply. Contacts and arrival are detected in
+/// continuous time; for individually tracked robots the goal is tested once per tick and walls are
+/// no contact.
+///
+///     Episode episode(scenario, plant, navigator);
+///     while (const Tick* tick = episode.step()) listener.on_tick(*tick);
+class Episode {
+ public:
+  /// All three must outlive the episode.
+  Episode(const Scenario& scenario, Plant& plant, Navigator& navigator);
+
+  /// The next tick; null after the last one, whose `end` says why it is the last: `solved`,
+  /// `collided`, `held` (the navigator stood still for the scenario's hold limit, or up to its time
+  /// limit), `time_limit`, `stopped`, or `fault`.
+  const Tick* step(const Stop& stop = {});
+
+ private:
+  /// The swarm at the present: as it is when the plant knows, else as it was last seen.
+  struct Present {
+    double t = 0;
+    Pose2 pose;
+    double radius = 0;
+    double speed = 0;
+    double goal_distance = infinity;
+  };
+
+  bool advance(const Stop& stop);
+  void end();
+  void begin_with_robots(const Observation& seen);
+  Present present(const Observation& seen);
+  double left(Vec2 centre, std::span<const Vec2> robots);
+  double hold(const Command& command);
+  std::optional<Status> follow(const Truth& truth);
+  void fill(const Observation& seen);
+  Status arrived();
+  void note(EventKind kind);
+
+  const Scenario& scenario_;
+  Plant& plant_;
+  Navigator& navigator_;
+  ObstacleMemory obstacles_;
+  std::optional<ContactMonitor> contacts_;
+  std::optional<RobotTask> task_;  ///< of individually tracked robots
+  Present present_;
+  bool was_seen_ = false;       ///< the swarm, at least once
+  double detection_range_ = 0;  ///< [µm]
+  double start_distance_ = 0;   ///< from the goal [µm]
+  double hold_time_ = 0;        ///< without a break [s]
+  double ticks_ = 0;            ///< at most
+  double done_ = 0;             ///< ticks
+  bool touched_ = false;
+  bool prepared_ = false;         ///< the navigator
+  std::optional<Status> ending_;  ///< the next tick is the last one
+
+  Tick tick_;
+  std::optional<Snapshot> world_;
+  std::vector<Vec2> robots_;
+  std::vector<RunEvent> events_;
+  std::vector<TimedPose> swept_;
+  std::string fault_;
+};
+
+}  // namespace microswarm

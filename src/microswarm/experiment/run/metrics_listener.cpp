@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/run/metrics_listener.hpp"
+
+#include <algorithm>
+
+#include "microswarm/core/angles.hpp"
+
+namespace microswarm {
+
+MetricsListener::MetricsListener(const Scenario& scenario)
+    : tick_(scenario.tick),
+      detection_range_(scenario.detection_range.value_or(detection_range_of(scenario.navigator))) {
+  if (!scenario.robots) at_ = scenario.start;
+}
+
+void MetricsListener::on_tick(const Tick& tick) {
+  move_to(tick.frame.pose);
+  for (const TimedPose& pose : tick.swept) move_to(pose.pose);
+  for (const RunEvent& event : tick.events) {
+    const bool touch =
+        event.kind == EventKind::contact_wall || event.kind == EventKind::contact_obstacle;
+    result_.metrics.contacts += touch;
+    result_.metrics.avoidable_contacts += touch && event.speed > 0;
+  }
+  note_clearances(tick);
+  if (tick.end)
+    note_end(tick);
+  else
+    note_step(tick);
+}
+
+void MetricsListener::move_to(const Pose2& pose) {
+  if (at_) {
+    result_.metrics.length += distance(at_->position, pose.position);
+    result_.metrics.turning += turn_between(at_->heading, pose.heading);
+  }
+  at_ = pose;
+}
+
+/// Each tick counts as it begins.
+void MetricsListener::note_step(const Tick& tick) {
+  Metrics& metrics = result_.metrics;
+  result_.state = tick.frame.state;
+  result_.timing.steps.push_back(tick.step_time);
+  if (tick.frame.planned) result_.timing.planning.push_back(tick.step_time);
+  metrics.planning_events += tick.frame.planned;
+  if (tick.frame.command.speed <= 0) metrics.hold_time += tick_;
+  const double gap = tick.frame.obstacle_clearance - tick.frame.radius;
+  if (tick.robots || gap >= detection_range_) return;
+  cost_sum_ += tick.frame.avoidance_cost;
+  gap_sum_ += gap;
+  ++detected_ticks_;
+}
+
+void MetricsListener::note_clearances(const Tick& tick) {
+  Metrics& metrics = result_.metrics;
+  if (tick.contacts) {
+    metrics.walls = tick.contacts->walls();
+    metrics.obstacles = tick.contacts->obstacles();
+    metrics.avoidance.least_gap = tick.contacts->least_gap();
+    return;
+  }
+  const Frame& frame = tick.frame;
+  if (frame.wall_clearance < metrics.walls.clearance)
+    metrics.walls = {frame.wall_clearance, frame.t};
+  if (frame.obstacle_clearance < metrics.obstacles.clearance)
+    metrics.obstacles = {frame.obstacle_clearance, frame.t};
+  metrics.avoidance.least_gap =
+      std::min(metrics.avoidance.least_gap, frame.obstacle_clearance - frame.radius);
+}
+
+void MetricsListener::note_end(const Tick& tick) {
+  Metrics& metrics = result_.metrics;
+  result_.status = *tick.end;
+  if (!tick.fault.empty()) result_.state = tick.fault;
+  metrics.time = tick.frame.t;
+  metrics.goal_distance = tick.frame.goal_distance;
+  if (detected_ticks_ == 0) return;
+  metrics.avoidance.mean_cost = cost_sum_ / static_cast<double>(result_.timing.steps.size());
+  metrics.avoidance.time = detected_ticks_ * tick_;
+  metrics.avoidance.mean_gap = gap_sum_ / detected_ticks_;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "microswarm/experiment/run/run.hpp"
+
+namespace microswarm {
+
+/// Sums up a run: its metrics, and how long the navigator took. Without the plant's truth,
+/// clearances are those of what was seen.
+class MetricsListener : public RunListener {
+ public:
+  explicit MetricsListener(const Scenario& scenario);
+  void on_tick(const Tick& tick) override;
+
+  /// After the last tick.
+  const RunResult& result() const { return result_; }
+
+ private:
+  void move_to(const Pose2& pose);
+  void note_step(const Tick& tick);
+  void note_clearances(const Tick& tick);
+  void note_end(const Tick& tick);
+
+  double tick_;             ///< [s]
+  double detection_range_;  ///< [µm]
+  std::optional<Pose2> at_;
+  double cost_sum_ = 0;
+  double gap_sum_ = 0;  ///< [µm]
+  int detected_ticks_ = 0;
+  RunResult result_;
+};
+
+}  // namespace microswarm

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/run/episode.hpp"
+
+#include <gtest/gtest.h>
+
+#include "microswarm/experiment/run/metrics_listener.hpp"
+#include "microswarm/navigation/make.hpp"
+#include "tests/experiment/scenes.hpp"
+
+namespace microswarm {
+namespace {
+
+std::unique_ptr<Navigator> navigator_of(const Scenario& scenario) {
+  return make_navigator(scenario.navigator, task_of(scenario),
+                        Rng(scenario.seed, Purpose::planner, 0));
+}
+
+TEST(Episode, SteppedByHandIsTheRun) {
+  const Scenario scenario = small_flight();
+  const World world = world_of(scenario);
+  Recorder stepped(load_scene(scenario, {})), ran(load_scene(scenario, {}));
+  RunListener* const listeners[] = {&ran};
+  simulate(scenario, world, 0, listeners);
+
+  KinematicPlant plant(scenario, world);
+  const auto navigator = navigator_of(scenario);
+  Episode episode(scenario, plant, *navigator);
+  MetricsListener metrics(scenario);
+  int ends = 0;
+  while (const Tick* tick = episode.step()) {
+    metrics.on_tick(*tick);
+    stepped.on_tick(*tick);
+    ends += tick->end.has_value();
+  }
+  stepped.on_end(metrics.result());
+  EXPECT_EQ(ends, 1);
+  EXPECT_EQ(episode.step(), nullptr);
+  EXPECT_EQ(stepped.record().hash(), ran.record().hash());
+}
+
+TEST(Episode, ATickSaysWhatHappenedInIt) {
+  Scenario scenario = open_room();
+  scenario.obstacles = {disc(60, Still{.position = {500, 500}})};
+  KinematicPlant plant(scenario, world_of(scenario));
+  GoStraight navigator(*scenario.goal, 60);
+  Episode episode(scenario, plant, navigator);
+  double t = 0;
+  std::vector<RunEvent> events;
+  const Tick* tick = nullptr;
+  for (tick = episode.step(); tick && !tick->end; tick = episode.step()) {
+    EXPECT_NEAR(tick->frame.t, t, 1e-9);
+    t += scenario.tick;
+    EXPECT_EQ(tick->view.state, "follow");
+    EXPECT_EQ(tick->world->time(), tick->frame.t);
+    EXPECT_FALSE(tick->robots);
+    ASSERT_FALSE(tick->swept.empty());
+    EXPECT_EQ(tick->swept.front().pose.position, tick->frame.pose.position);
+    events.assign(tick->events.begin(), tick->events.end());
+  }
+  ASSERT_TRUE(tick);
+  EXPECT_EQ(tick->end, Status::collided);
+  EXPECT_EQ(tick->frame.state, "end");
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, EventKind::contact_obstacle);
+  EXPECT_NEAR(tick->frame.t, events[0].t, 1e-12);
+  // Centre to centre less the radii: 100 µm are left.
+  EXPECT_NEAR(tick->frame.obstacle_clearance, 40, 0.1);
+}
+
+TEST(Episode, StopsWhenTold) {
+  const Scenario scenario = open_room();
+  KinematicPlant plant(scenario, world_of(scenario));
+  GoStraight navigator(*scenario.goal, 60);
+  Episode episode(scenario, plant, navigator);
+  ASSERT_FALSE(episode.step()->end);
+  std::atomic<bool> flag{true};
+  EXPECT_EQ(episode.step(Stop(&flag))->end, Status::stopped);
+  EXPECT_EQ(episode.step(), nullptr);
+}
+
+}  // namespace
+}  // namespace microswarm
