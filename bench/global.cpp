@@ -15,8 +15,8 @@
 #include "microswarm/experiment/record/global_tree_file.hpp"
 #include "microswarm/formats/images/mask.hpp"
 #include "microswarm/geometry/bucket_kd_tree.hpp"
-#include "tests/scenes/global_tasks.hpp"
-#include "tests/scenes/global_worlds.hpp"
+#include "microswarm/scenes/global_tasks.hpp"
+#include "microswarm/scenes/global_worlds.hpp"
 
 namespace microswarm::bench {
 namespace {

@@ -13,7 +13,7 @@
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/geometry/distance.hpp"
 #include "microswarm/planning/path/planners.hpp"
-#include "tests/scenes/worlds.hpp"
+#include "microswarm/scenes/worlds.hpp"
 
 namespace microswarm::bench {
 namespace {

@@ -11,7 +11,7 @@
 #include "microswarm/core/rng.hpp"
 #include "microswarm/core/statistics.hpp"
 #include "microswarm/navigation/radar/radar.hpp"
-#include "tests/scenes/worlds.hpp"
+#include "microswarm/scenes/worlds.hpp"
 
 namespace microswarm::bench {
 namespace {

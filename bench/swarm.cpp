@@ -10,8 +10,8 @@
 #include "microswarm/core/statistics.hpp"
 #include "microswarm/formats/images/mask.hpp"
 #include "microswarm/formats/images/rasterise.hpp"
+#include "microswarm/scenes/vascular.hpp"
 #include "microswarm/swarm/robots/robot_stepper.hpp"
-#include "tests/scenes/vascular.hpp"
 
 namespace microswarm::bench {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "microswarm/navigation/gathering/aggregation.hpp"
 #include "microswarm/report/plot.hpp"
+#include "microswarm/scenes/vascular.hpp"
 #include "reproduce.hpp"
-#include "tests/scenes/vascular.hpp"
 
 namespace microswarm::cli {
 

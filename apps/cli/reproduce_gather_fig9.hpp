@@ -7,7 +7,7 @@
 
 #include "microswarm/navigation/gathering/aggregation_params.hpp"
 #include "microswarm/report/plot.hpp"
-#include "tests/scenes/vascular.hpp"
+#include "microswarm/scenes/vascular.hpp"
 
 // Fig 9 [gather]: its maps, its methods and its means.
 namespace microswarm::cli {

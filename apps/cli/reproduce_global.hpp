@@ -7,8 +7,8 @@
 
 #include "microswarm/planning/global_input/global_search.hpp"
 #include "microswarm/planning/global_input/global_tree.hpp"
+#include "microswarm/scenes/global_tasks.hpp"
 #include "reproduce.hpp"
-#include "tests/scenes/global_tasks.hpp"
 
 namespace microswarm::cli {
 

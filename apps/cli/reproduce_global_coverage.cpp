@@ -14,8 +14,8 @@
 #include "microswarm/planning/global_input/global_rrt.hpp"
 #include "microswarm/report/picture.hpp"
 #include "microswarm/report/plot.hpp"
+#include "microswarm/scenes/global_worlds.hpp"
 #include "reproduce_global.hpp"
-#include "tests/scenes/global_worlds.hpp"
 
 namespace microswarm::cli {
 namespace {

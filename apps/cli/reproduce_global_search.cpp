@@ -8,8 +8,8 @@
 #include "microswarm/core/stop.hpp"
 #include "microswarm/planning/global_input/global_search.hpp"
 #include "microswarm/planning/global_input/global_shorten.hpp"
+#include "microswarm/scenes/global_worlds.hpp"
 #include "reproduce_global.hpp"
-#include "tests/scenes/global_worlds.hpp"
 
 namespace microswarm::cli {
 namespace {

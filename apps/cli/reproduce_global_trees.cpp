@@ -13,9 +13,9 @@
 #include "microswarm/experiment/record/global_tree_file.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/planning/global_input/global_rrt.hpp"
+#include "microswarm/scenes/global_worlds.hpp"
 #include "reproduce_figures.hpp"
 #include "reproduce_global.hpp"
-#include "tests/scenes/global_worlds.hpp"
 
 namespace microswarm::cli {
 namespace {

@@ -8,11 +8,11 @@
 #include <optional>
 
 #include "microswarm/core/statistics.hpp"
+#include "microswarm/scenes/avoidance_worlds.hpp"
+#include "microswarm/scenes/pedestrians.hpp"
 #include "reproduce_figures.hpp"
 #include "safety_campaign.hpp"
 #include "safety_tables.hpp"
-#include "tests/scenes/avoidance_worlds.hpp"
-#include "tests/scenes/pedestrians.hpp"
 
 namespace microswarm::cli {
 namespace {

@@ -14,7 +14,7 @@
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/parallel.hpp"
 #include "microswarm/experiment/run/plant.hpp"
-#include "tests/scenes/avoidance_worlds.hpp"
+#include "microswarm/scenes/avoidance_worlds.hpp"
 
 namespace microswarm::cli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/scenes/avoidance_worlds.hpp"
+#include "microswarm/scenes/avoidance_worlds.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/formats/map_parts.hpp"

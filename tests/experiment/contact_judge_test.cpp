@@ -5,8 +5,8 @@
 
 #include <memory>
 
+#include "microswarm/scenes/avoidance_worlds.hpp"
 #include "tests/experiment/scenes.hpp"
-#include "tests/scenes/avoidance_worlds.hpp"
 
 namespace microswarm {
 namespace {

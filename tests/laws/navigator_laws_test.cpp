@@ -9,9 +9,9 @@
 #include "microswarm/core/infinity.hpp"
 #include "microswarm/navigation/make.hpp"
 #include "microswarm/navigation/radar/radar.hpp"
+#include "microswarm/scenes/worlds.hpp"
 #include "microswarm/swarm/body/unicycle.hpp"
 #include "tests/laws/allocations.hpp"
-#include "tests/scenes/worlds.hpp"
 
 namespace microswarm {
 namespace {

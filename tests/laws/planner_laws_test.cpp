@@ -12,7 +12,7 @@
 #include "microswarm/planning/path/planners.hpp"
 #include "microswarm/planning/path/search_tree.hpp"
 #include "microswarm/planning/path/turn_edge.hpp"
-#include "tests/scenes/worlds.hpp"
+#include "microswarm/scenes/worlds.hpp"
 
 namespace microswarm {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "microswarm/navigation/gathering/aggregation.hpp"
-#include "tests/scenes/vascular.hpp"
+#include "microswarm/scenes/vascular.hpp"
 
 namespace microswarm {
 

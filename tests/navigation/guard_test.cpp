@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "microswarm/core/rng.hpp"
+#include "microswarm/scenes/worlds.hpp"
 #include "microswarm/swarm/body/unicycle.hpp"
-#include "tests/scenes/worlds.hpp"
 
 namespace microswarm {
 namespace {

@@ -8,9 +8,9 @@
 #include "microswarm/core/error.hpp"
 #include "microswarm/geometry/distance.hpp"
 #include "microswarm/navigation/radar/radar_scanner.hpp"
+#include "microswarm/scenes/worlds.hpp"
 #include "tests/cases.hpp"
 #include "tests/navigation/discs.hpp"
-#include "tests/scenes/worlds.hpp"
 
 namespace microswarm {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/navigation/make.hpp"
+#include "microswarm/scenes/worlds.hpp"
 #include "tests/navigation/discs.hpp"
-#include "tests/scenes/worlds.hpp"
 
 namespace microswarm {
 namespace {

@@ -6,9 +6,9 @@
 #include "microswarm/navigation/gathering/aggregation_check.hpp"
 #include "microswarm/navigation/gathering/aggregation_navigator.hpp"
 #include "microswarm/navigation/global_input/plan_player.hpp"
-#include "tests/scenes/global_worlds.hpp"
-#include "tests/scenes/vascular.hpp"
-#include "tests/scenes/worlds.hpp"
+#include "microswarm/scenes/global_worlds.hpp"
+#include "microswarm/scenes/vascular.hpp"
+#include "microswarm/scenes/worlds.hpp"
 
 namespace microswarm {
 namespace {

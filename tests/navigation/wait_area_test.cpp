@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/scenes/worlds.hpp"
 #include "microswarm/world/obstacles/obstacle.hpp"
-#include "tests/scenes/worlds.hpp"
 
 namespace microswarm {
 namespace {

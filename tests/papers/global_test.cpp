@@ -4,8 +4,8 @@
 
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/planning/global_input/global_search.hpp"
+#include "microswarm/scenes/global_tasks.hpp"
 #include "tests/files.hpp"
-#include "tests/scenes/global_tasks.hpp"
 
 namespace microswarm {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/formats/map_file.hpp"
+#include "microswarm/scenes/vascular.hpp"
 #include "microswarm/swarm/robots/robot_stepper.hpp"
 #include "tests/files.hpp"
-#include "tests/scenes/vascular.hpp"
 
 namespace microswarm {
 namespace {

@@ -7,7 +7,7 @@
 #include <queue>
 #include <set>
 
-#include "tests/scenes/worlds.hpp"
+#include "microswarm/scenes/worlds.hpp"
 
 namespace microswarm {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "microswarm/core/angles.hpp"
-#include "tests/scenes/worlds.hpp"
+#include "microswarm/scenes/worlds.hpp"
 
 namespace microswarm {
 namespace {

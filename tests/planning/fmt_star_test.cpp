@@ -6,7 +6,7 @@
 #include <map>
 
 #include "microswarm/core/angles.hpp"
-#include "tests/scenes/worlds.hpp"
+#include "microswarm/scenes/worlds.hpp"
 
 namespace microswarm {
 namespace {

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "microswarm/core/rng.hpp"
-#include "tests/scenes/global_worlds.hpp"
-#include "tests/scenes/worlds.hpp"
+#include "microswarm/scenes/global_worlds.hpp"
+#include "microswarm/scenes/worlds.hpp"
 
 namespace microswarm {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "tests/scenes/global_worlds.hpp"
+#include "microswarm/scenes/global_worlds.hpp"
 
 namespace microswarm {
 

@@ -8,8 +8,8 @@
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/planning/global_input/coverage.hpp"
+#include "microswarm/scenes/global_worlds.hpp"
 #include "tests/planning/global_ends.hpp"
-#include "tests/scenes/global_worlds.hpp"
 
 namespace microswarm {
 namespace {

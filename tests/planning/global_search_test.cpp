@@ -6,10 +6,10 @@
 #include <algorithm>
 
 #include "microswarm/core/error.hpp"
+#include "microswarm/scenes/global_worlds.hpp"
+#include "microswarm/scenes/worlds.hpp"
 #include "tests/cases.hpp"
 #include "tests/planning/global_ends.hpp"
-#include "tests/scenes/global_worlds.hpp"
-#include "tests/scenes/worlds.hpp"
 
 namespace microswarm {
 namespace {

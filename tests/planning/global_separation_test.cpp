@@ -10,10 +10,10 @@
 #include "microswarm/planning/global_input/global_rrt.hpp"
 #include "microswarm/planning/global_input/global_search.hpp"
 #include "microswarm/planning/global_input/global_shorten.hpp"
+#include "microswarm/scenes/global_worlds.hpp"
+#include "microswarm/scenes/worlds.hpp"
 #include "tests/cases.hpp"
 #include "tests/planning/global_ends.hpp"
-#include "tests/scenes/global_worlds.hpp"
-#include "tests/scenes/worlds.hpp"
 
 namespace microswarm {
 namespace {

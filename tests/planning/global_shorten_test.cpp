@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "microswarm/planning/global_input/global_search.hpp"
+#include "microswarm/scenes/global_worlds.hpp"
 #include "tests/planning/global_ends.hpp"
-#include "tests/scenes/global_worlds.hpp"
 
 namespace microswarm {
 namespace {

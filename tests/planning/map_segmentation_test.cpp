@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <set>
 
+#include "microswarm/scenes/vascular.hpp"
+#include "microswarm/scenes/worlds.hpp"
 #include "tests/cases.hpp"
-#include "tests/scenes/vascular.hpp"
-#include "tests/scenes/worlds.hpp"
 
 namespace microswarm {
 namespace {

@@ -7,8 +7,8 @@
 #include <atomic>
 
 #include "microswarm/core/hash.hpp"
-#include "tests/scenes/vascular.hpp"
-#include "tests/scenes/worlds.hpp"
+#include "microswarm/scenes/vascular.hpp"
+#include "microswarm/scenes/worlds.hpp"
 
 namespace microswarm {
 namespace {

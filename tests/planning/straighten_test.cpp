@@ -5,7 +5,7 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/planning/path/rrt.hpp"
-#include "tests/scenes/worlds.hpp"
+#include "microswarm/scenes/worlds.hpp"
 
 namespace microswarm {
 namespace {

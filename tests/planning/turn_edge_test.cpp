@@ -6,7 +6,7 @@
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/rng.hpp"
 #include "microswarm/planning/path/planners.hpp"
-#include "tests/scenes/worlds.hpp"
+#include "microswarm/scenes/worlds.hpp"
 
 namespace microswarm {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/scenes/avoidance_grounds.hpp"
+#include "microswarm/scenes/avoidance_grounds.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/scenes/vascular.hpp"
+#include "microswarm/scenes/worlds.hpp"
 #include "microswarm/world/obstacles/clip.hpp"
-#include "tests/scenes/vascular.hpp"
-#include "tests/scenes/worlds.hpp"
 
 namespace microswarm::scenes {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/scenes/avoidance_movers.hpp"
+#include "microswarm/scenes/avoidance_movers.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -24,7 +24,9 @@ struct RawWorld {
   double clearance(Vec2 p) const { return clearance(Segment{p, p}); }
 };
 
+/// The outline of a box.
 Polygon rectangle(Box box);
+/// A rectangle turned by `angle` [rad] about its centre.
 Polygon turned_rectangle(Vec2 centre, double width, double height, double angle);
 
 /// Kinds of random worlds: scattered discs, boxes, walls of 1 µm with gaps, winding channels, and

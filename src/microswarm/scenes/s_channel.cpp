@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/scenes/s_channel.hpp"
+#include "microswarm/scenes/s_channel.hpp"
 
 #include "microswarm/world/obstacles/channel.hpp"
 

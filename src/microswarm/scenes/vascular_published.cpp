@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/scenes/vascular.hpp"
-#include "tests/scenes/worlds.hpp"
+#include "microswarm/scenes/vascular.hpp"
+#include "microswarm/scenes/worlds.hpp"
 
 namespace microswarm::scenes {
 

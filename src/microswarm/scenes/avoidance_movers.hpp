@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "tests/scenes/avoidance_grounds.hpp"
+#include "microswarm/scenes/avoidance_grounds.hpp"
 
 namespace microswarm::scenes {
 

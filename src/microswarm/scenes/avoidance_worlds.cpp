@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/scenes/avoidance_worlds.hpp"
+#include "microswarm/scenes/avoidance_worlds.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/swarm/body/vortex.hpp"
 #include "microswarm/world/world.hpp"
@@ -10,7 +10,7 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/geometry/distance.hpp"
-#include "tests/scenes/avoidance_movers.hpp"
+#include "microswarm/scenes/avoidance_movers.hpp"
 
 namespace microswarm::scenes {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/scenes/vascular.hpp"
+#include "microswarm/scenes/vascular.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/scenes/worlds.hpp"
 #include "microswarm/world/obstacles/clip.hpp"
-#include "tests/scenes/worlds.hpp"
 
 namespace microswarm::scenes {
 namespace {

@@ -33,7 +33,7 @@ Ground open_ground(const Crosser& swarm, int obstacles, Rng& rng);
 Ground scattered_ground(const Crosser& swarm, int obstacles, Rng& rng);
 /// Walls across with two gates each, some of them closed by valves at times.
 Ground gated_ground(const Crosser& swarm, double speed_ratio, Rng& rng);
-/// Vessels as tests/scenes/vascular draws them.
+/// Vessels as src/microswarm/scenes/vascular draws them.
 Ground vessel_ground(const Crosser& swarm, Rng& rng);
 /// A channel whose walls are moving.
 Ground channel_ground(const Crosser& swarm, double speed_ratio, Rng& rng);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/scenes/global_tasks.hpp"
+#include "microswarm/scenes/global_tasks.hpp"
 
 #include <utility>
 
-#include "tests/scenes/global_worlds.hpp"
-#include "tests/scenes/vascular.hpp"
-#include "tests/scenes/worlds.hpp"
+#include "microswarm/scenes/global_worlds.hpp"
+#include "microswarm/scenes/vascular.hpp"
+#include "microswarm/scenes/worlds.hpp"
 
 namespace microswarm::scenes {
 namespace {

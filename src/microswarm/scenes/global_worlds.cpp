@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/scenes/global_worlds.hpp"
+#include "microswarm/scenes/global_worlds.hpp"
 
 #include <cassert>
 #include <vector>

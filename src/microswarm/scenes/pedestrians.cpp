@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/scenes/pedestrians.hpp"
+#include "microswarm/scenes/pedestrians.hpp"
 
 #include <algorithm>
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/rng.hpp"
-#include "tests/scenes/avoidance_worlds.hpp"
+#include "microswarm/scenes/avoidance_worlds.hpp"
 
 namespace microswarm::scenes {
 namespace {
