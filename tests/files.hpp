@@ -61,10 +61,10 @@ std::string error_of(Action&& action) {
   return "nothing was thrown";
 }
 
-/// Real input outside the repository; empty when it is not there.
+/// Real input outside the repository: the folder that MICROSWARM_DATA names; empty without one.
 inline std::filesystem::path data_folder() {
   const char* given = std::getenv("MICROSWARM_DATA");
-  const std::filesystem::path folder = given ? given : MICROSWARM_SOURCE_DIR "/../shared/data";
+  const std::filesystem::path folder = given ? given : "";
   return std::filesystem::is_directory(folder) ? folder : std::filesystem::path();
 }
 

@@ -19,7 +19,7 @@ ABOVE = [("bench", "speeds beside a peer in the same run"), ("apps", "the comman
 GROUPS = [
     ("navigation", "#dbe9f6", "#2f5d8a", "the algorithms"),
     ("vision", "#e6f2e3", "#3f7a3a", "devices; navigation, actuation and vision never see each other"),
-    ("scenes", "#fbeedb", "#96631d", "the loop and its results"),
+    ("reproduce", "#fbeedb", "#96631d", "the loop and its results"),
     ("apps", "#eee7f5", "#63478c", "programs"),
 ]
 ROW, BOX, TOP, WIDTH = 46, 38, 56, 900

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "microswarm/core/progress.hpp"
 #include "microswarm/core/stop.hpp"
 
 namespace microswarm::cli {
@@ -95,9 +96,8 @@ class ProgressBar {
   std::string note_;
 };
 
-/// Makes the folder, with its parents, and tries whether files can be written there. Throws
-/// InputError "FOLDER: cannot make the folder: REASON" or "…: cannot write: REASON".
-void make_folder(const std::string& folder);
+/// Progress of library code on such bars, one after the other.
+BeginProgress progress_bars();
 
 /// A folder that one command at a time fills, so that two do not mix. The hold goes with the
 /// process, however that ends; where a file system has no locks there is none.

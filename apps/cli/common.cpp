@@ -68,18 +68,6 @@ void keep_input(const std::string& out, const std::string& in) {
     throw InputError(out + ": is the input, which would be lost");
 }
 
-void make_folder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error)
-    throw InputError(fmt::format("{}: cannot make the folder: {}", folder, error.message()));
-  const int nameless = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
-  if (nameless >= 0)
-    ::close(nameless);
-  else if (errno != EOPNOTSUPP && errno != EISDIR)  // else it shows only when a file is written
-    throw InputError(folder + ": cannot write: " + std::generic_category().message(errno));
-}
-
 OutFolder::OutFolder(const std::string& folder) {
   if (folder.empty()) return;
   std::error_code none;
@@ -102,6 +90,14 @@ OutFolder::~OutFolder() {
   for (const std::filesystem::path& folder : made_)
     if (::rmdir(folder.c_str()) != 0 && errno != ENOENT) break;
   ::close(folder_);
+}
+
+BeginProgress progress_bars() {
+  return [](const std::string& label) {
+    return [bar = std::make_shared<ProgressBar>(label)](double share, const std::string& doing) {
+      bar->update(share, doing);
+    };
+  };
 }
 
 std::filesystem::path scenario_folder() {

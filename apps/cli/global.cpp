@@ -16,7 +16,7 @@
 #include "microswarm/experiment/scenario/robot_check.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/planning/global_input/global_shorten.hpp"
-#include "robot_picture.hpp"
+#include "microswarm/report/robot_picture.hpp"
 
 namespace microswarm::cli {
 namespace {

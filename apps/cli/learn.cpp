@@ -5,13 +5,13 @@
 #include <memory>
 
 #include "cli.hpp"
-#include "follower_rows.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/hash.hpp"
 #include "microswarm/core/version.hpp"
 #include "microswarm/learning/follower_training.hpp"
 #include "microswarm/navigation/following/follower_model.hpp"
+#include "microswarm/reproduce/drrt/follower_rows.hpp"
 #include "options.hpp"
 
 namespace microswarm::cli {
@@ -98,13 +98,13 @@ int learn_command(const LearnOptions& o, const Context& context) {
                                      .model = std::make_shared<const FollowerModel>(trained.model),
                                      .jobs = o.jobs,
                                      .progress = {}};
-  const auto outcomes = compare_with_progress(comparison, context.stop);
+  const auto outcomes = reproduce::compare_with_progress(comparison, progress_bars(), context.stop);
   if (context.stop.requested()) {
     note("interrupted: follower.yaml is written, and not compared\n");
     return not_reached;
   }
-  const auto rows = follower_rows(outcomes);
-  write_follower_figures(outcomes, comparison, folder);
+  const auto rows = reproduce::follower_rows(outcomes);
+  reproduce::write_follower_figures(outcomes, comparison, folder);
   write_file_atomically(folder / "follower.md", card(trained, model, o, rows));
   if (o.quick) note("quick: less training, fewer paths\n");
   put(o.json ? rows_json(rows) : rows_table(rows) + aims_met(rows));

@@ -161,4 +161,16 @@ void write_file_atomically(const fs::path& path, std::string_view bytes) {
   staged.commit();
 }
 
+void make_folder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw InputError(fmt::format("{}: cannot make the folder: {}", folder, error.message()));
+  const int nameless = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+  if (nameless >= 0)
+    ::close(nameless);
+  else if (errno != EOPNOTSUPP && errno != EISDIR)  // else it shows only when a file is written
+    throw InputError(folder + ": cannot write: " + std::generic_category().message(errno));
+}
+
 }  // namespace microswarm

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "microswarm/core/error.hpp"
+
 namespace microswarm {
 
 /// All bytes of a file. Throws InputError "PATH: cannot read: REASON", also for a folder and for a
@@ -40,5 +42,9 @@ void clear_staged(const std::filesystem::path& folder);
 /// Writes a whole file by way of a StagedFile. Throws InputError "PATH: cannot write: REASON", for
 /// example "No space left on device".
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
+
+/// Makes the folder, with its parents, and tries whether files can be written there. Throws
+/// InputError "FOLDER: cannot make the folder: REASON" or "…: cannot write: REASON".
+void make_folder(const std::string& folder);
 
 }  // namespace microswarm

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "microswarm/planning/global_input/global_tree.hpp"
+#include "microswarm/world/map/map.hpp"
+
+namespace microswarm {
+
+/// Draws the robots' ways by a plan, each robot in a colour with its start and, dashed, its goal
+/// with the tolerance [µm]. The file's extension says how: .png, .svg or .pdf.
+void draw_robots(const Map& map, const GlobalPlan& plan, std::span<const Vec2> goals,
+                 double tolerance, const std::string& title, const std::filesystem::path& file);
+
+}  // namespace microswarm

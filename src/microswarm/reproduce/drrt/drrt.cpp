@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/reproduce/drrt/drrt.hpp"
+
+#include <filesystem>
+
+#include "microswarm/reproduce/figures.hpp"
+#ifdef MICROSWARM_HAS_LEARNING
+#include "microswarm/reproduce/drrt/follower_rows.hpp"
+#endif
+
+namespace microswarm::reproduce {
+
+DrrtSetting load_drrt(const ReproduceOptions& options, const char* name) {
+  const std::filesystem::path file = options.scenarios / "papers" / "drrt" / name;
+  Scene scene = load_scene(read_scenario(file), file.parent_path());
+  World world = build_world(scene);
+  return {std::move(scene), std::move(world)};
+}
+
+void vary_phases(Scenario& scenario, std::uint32_t trial) {
+  Rng rng(scenario.seed, Purpose::scene, trial);
+  for (Obstacle& o : scenario.obstacles) {
+    const double phase = rng.uniform();
+    if (auto* line = std::get_if<HarmonicLine>(&o.motion)) line->phase = phase;
+    if (auto* arc = std::get_if<HarmonicArc>(&o.motion)) arc->phase = phase;
+  }
+}
+
+namespace {
+
+#ifdef MICROSWARM_HAS_LEARNING
+// The learned controller, of which the paper gives no figures.
+std::vector<ReproduceRow> follower(const ReproduceOptions& options, const Stop& stop) {
+  const ComparisonOptions comparison{.tasks = options.quick ? 60 : 200};
+  const auto outcomes = compare_with_progress(comparison, options.progress, stop);
+  if (stop()) return {};
+  if (!options.out.empty()) write_follower_figures(outcomes, comparison, options.out);
+  return follower_rows(outcomes);
+}
+#endif
+
+}  // namespace
+
+std::vector<ReproduceRow> drrt_figures(const std::string& figure, const ReproduceOptions& options,
+                                       const Stop& stop) {
+  static constexpr Figure figures[] = {
+      {"fig3", drrt_fig3},    {"fig5a", drrt_fig5a},
+      {"fig5b", drrt_fig5b},  {"comparison", drrt_comparison},
+#ifdef MICROSWARM_HAS_LEARNING
+      {"follower", follower},
+#endif
+  };
+  return reproduce_figures("drrt", figures, figure, options, stop);
+}
+
+}  // namespace microswarm::reproduce

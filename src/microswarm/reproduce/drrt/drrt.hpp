@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/reproduce/reproduce.hpp"
+
+namespace microswarm::reproduce {
+
+/// A shipped scenario of [drrt] and its world.
+struct DrrtSetting {
+  Scene scene;
+  World world;
+};
+DrrtSetting load_drrt(const ReproduceOptions& options, const char* name);
+
+/// By how much less `ours` is than `theirs` [%].
+inline double percent_less(double ours, double theirs) {
+  return theirs == 0 ? 0 : 100 * (1 - ours / theirs);
+}
+
+// The figures of [drrt], each in a file of its own.
+
+/// The S-channel: D-RRT* as published and ours beside RRT*, uniform RRT* and A*.
+std::vector<ReproduceRow> drrt_fig3(const ReproduceOptions& options, const Stop& stop);
+/// Median planning time [ms] of the published planner through the whole S-channel, for Fig 6.
+double drrt_global_planning_time(const ReproduceOptions& options, const Stop& stop);
+/// The deforming channel and the moving obstacles, as published and ours.
+std::vector<ReproduceRow> drrt_fig5a(const ReproduceOptions& options, const Stop& stop);
+std::vector<ReproduceRow> drrt_fig5b(const ReproduceOptions& options, const Stop& stop);
+/// D-RRT* and the radar of [radar] among the moving obstacles of Fig 5(b), with the same start,
+/// goal and margin, each as published and ours.
+std::vector<ReproduceRow> drrt_comparison(const ReproduceOptions& options, const Stop& stop);
+
+/// Obstacles that each trial meets at another phase of their motion.
+void vary_phases(Scenario& scenario, std::uint32_t trial);
+
+}  // namespace microswarm::reproduce

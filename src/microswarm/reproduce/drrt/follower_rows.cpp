@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/reproduce/drrt/follower_rows.hpp"
+
+#include <array>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/core/file.hpp"
+#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/text.hpp"
+#include "microswarm/report/plot.hpp"
+#include "microswarm/reproduce/reproduce.hpp"
+
+namespace microswarm::reproduce {
+namespace {
+
+/// One value of each path that was followed to its end.
+template <class Value>
+std::vector<double> values_of(const FollowerOutcome& outcome, Value&& value) {
+  std::vector<double> values;
+  values.reserve(outcome.paths.size());
+  for (const FollowedPath& path : outcome.paths)
+    if (path.arrived) values.push_back(value(path));
+  return values;
+}
+
+double rms_off(const FollowedPath& p) { return p.rms_off; }
+double turning(const FollowedPath& p) { return degrees(p.field_turning); }
+double relative_time(const FollowedPath& p) { return 100 * p.time / p.fair_time; }
+
+double arrived_share(const FollowerOutcome& o) {
+  return 100 * static_cast<double>(values_of(o, rms_off).size()) /
+         std::max<double>(1, static_cast<double>(o.paths.size()));
+}
+
+}  // namespace
+
+std::vector<ReproduceRow> follower_rows(const std::vector<FollowerOutcome>& outcomes) {
+  std::vector<ReproduceRow> rows;
+  const auto row = [&](std::string what, const char* unit, double ours,
+                       std::optional<double> aim = {}, bool at_most = true) {
+    rows.push_back(row_of("follower", std::move(what), unit, {}, ours, aim, at_most));
+  };
+  for (const FollowerOutcome& o : outcomes) {
+    const bool learned = o.name == "learned";
+    row(o.name + ": arrived", "%", arrived_share(o), learned ? std::optional(100.0) : std::nullopt,
+        false);
+    row(o.name + ": RMS off the path, median", "µm", median(values_of(o, rms_off)));
+    row(o.name + ": RMS off the path, mean", "µm", mean(values_of(o, rms_off)));
+    row(o.name + ": most off the path, p95", "µm",
+        quantile(values_of(o, [](const FollowedPath& p) { return p.most_off; }), 0.95));
+    row(o.name + ": turning of the field, median", "°/s", median(values_of(o, turning)));
+    row(o.name + ": time beside way ÷ speed, median", "%", median(values_of(o, relative_time)));
+  }
+  const auto off = [&](std::size_t i) { return mean(values_of(outcomes[i], rms_off)); };
+  row("learned nearer to the path than pure pursuit", "%", 100 * (1 - off(2) / off(0)), 20, false);
+  row("learned nearer than pure pursuit against the flow", "%", 100 * (1 - off(2) / off(1)), 0,
+      false);
+  row("learned: steps handed over, mean", "%",
+      100 * mean(values_of(outcomes[2], [](const FollowedPath& p) { return p.fallback_share; })));
+  return rows;
+}
+
+std::string follower_csv(const std::vector<FollowerOutcome>& outcomes) {
+  std::string csv =
+      "follower,task,arrived,time_s,way_over_speed_s,rms_off_um,most_off_um,"
+      "field_turning_deg_per_s,fallback_share\n";
+  for (const FollowerOutcome& o : outcomes)
+    for (std::size_t i = 0; i < o.paths.size(); ++i) {
+      const FollowedPath& p = o.paths[i];
+      csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", o.name, i, p.arrived ? 1 : 0,
+                         number_text(p.time), number_text(p.fair_time), number_text(p.rms_off),
+                         number_text(p.most_off), number_text(turning(p)),
+                         number_text(p.fallback_share));
+    }
+  return csv;
+}
+
+void write_follower_figures(const std::vector<FollowerOutcome>& outcomes,
+                            const ComparisonOptions& options, const std::filesystem::path& folder) {
+  write_file_atomically(folder / "follower.csv", follower_csv(outcomes));
+  const std::array<const char*, 4> names{"pursuit", "+ flow", "learned", "expert"};
+  std::vector<Plot> boxes{{.title = "Off the path, RMS", .y_label = "µm", .y_min = 0},
+                          {.title = "Turning of the field", .y_label = "°/s", .y_min = 0},
+                          {.title = "Time beside way ÷ speed", .y_label = "%"}};
+  const std::array<double (*)(const FollowedPath&), 3> values{rms_off, turning, relative_time};
+  for (std::size_t i = 0; i < outcomes.size(); ++i)
+    for (std::size_t k = 0; k < boxes.size(); ++k) {
+      std::vector<double> y = values_of(outcomes[i], values[k]);
+      std::vector<double> x(y.size(), static_cast<double>(i + 1));
+      boxes[k].series.push_back({names[i], std::move(x), std::move(y), PlotStyle::box});
+    }
+  Plot trace{.title = "On one of the paths",
+             .x_label = "t (s)",
+             .y_label = "off the path (µm)",
+             .key_below = true};
+  for (const FollowerTrace& follower : follow_one(options, first_unseen_task)) {
+    Series series{.label = follower.name, .x = {}, .y = follower.off};
+    series.x.reserve(series.y.size());
+    for (std::size_t i = 0; i < series.y.size(); ++i)
+      series.x.push_back(0.1 * static_cast<double>(i));
+    trace.series.push_back(std::move(series));
+  }
+  for (const char* kind : {".png", ".svg", ".pdf"}) {
+    write_plots(boxes, folder / (std::string("follower") + kind));
+    write_plots({trace}, folder / (std::string("follower-trace") + kind));
+  }
+}
+
+std::vector<FollowerOutcome> compare_with_progress(ComparisonOptions options,
+                                                   const BeginProgress& progress,
+                                                   const Stop& stop) {
+  const Progress bar(progress, "compare");
+  options.progress = [&](double share) { bar.update(share); };
+  return compare_followers(options, stop);
+}
+
+}  // namespace microswarm::reproduce

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/reproduce/gather/gather.hpp"
+
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "microswarm/core/statistics.hpp"
+#include "microswarm/reproduce/figures.hpp"
+
+namespace microswarm::reproduce {
+
+AggregationParams gather_params(const scenes::Vascular& scene, Aggregation method) {
+  AggregationParams params;
+  params.tree.nodes = scene.nodes;
+  params.method = method;
+  return params;
+}
+
+AggregationMap gather_map(const scenes::Vascular& scene, bool obstacle_weighted) {
+  Rng rng(1, Purpose::planner);
+  AggregationParams params = gather_params(scene, Aggregation::divide_and_conquer);
+  params.obstacle_weighted = obstacle_weighted;
+  return {scene.map(), scene.goal, params, rng};
+}
+
+Robots gather_robots(const scenes::Vascular& scene, const AggregationMap& map,
+                     const RobotStepper& stepper, int count, std::uint32_t trial,
+                     double least_cost) {
+  Rng rng(1, Purpose::scene, trial);
+  std::vector<Vec2> places;
+  const Box& box = scene.bounds;
+  while (std::ssize(places) < count) {
+    const double x = rng.uniform(box.lo.x, box.hi.x);
+    const Vec2 p{x, rng.uniform(box.lo.y, box.hi.y)};
+    if (map.map.is_free(p, 4 * stepper.guard()) &&
+        map.tree.cost(map.tree.weighted, p) >= least_cost)
+      places.push_back(p);
+  }
+  return stepper.place(places);
+}
+
+void write_everywhere(const std::vector<Plot>& plots, const std::filesystem::path& stem) {
+  write_plots_everywhere(plots, stem);
+}
+
+double standard_deviation(const std::vector<double>& values) {
+  if (values.size() < 2) return 0;
+  const double middle = mean(values);
+  double sum = 0;
+  for (const double v : values) sum += (v - middle) * (v - middle);
+  return std::sqrt(sum / static_cast<double>(values.size() - 1));
+}
+
+namespace {
+
+template <auto add>
+std::vector<ReproduceRow> rows_of(const ReproduceOptions& options, const Stop& stop) {
+  std::vector<ReproduceRow> rows;
+  add(options, stop, rows);
+  return rows;
+}
+
+}  // namespace
+
+std::vector<ReproduceRow> gather_figures(const std::string& figure, const ReproduceOptions& options,
+                                         const Stop& stop) {
+  constexpr std::array<Figure, 7> figures{{{"fig3-6", rows_of<gather_maps>},
+                                           {"fig7", rows_of<gather_fig7>},
+                                           {"fig9", rows_of<gather_fig9>},
+                                           {"generated", rows_of<gather_generated>},
+                                           {"fig10", rows_of<gather_fig10>},
+                                           {"fig10-rig", rows_of<gather_fig10_rig>},
+                                           {"fig10-frames", rows_of<gather_fig10_frames>}}};
+  // Through the rig it takes minutes and more: only when asked for.
+  const std::size_t with_all = options.quick ? 5 : 6;
+  const std::span<const Figure> all(figures);
+  return reproduce_figures("gather", figure.empty() ? all.first(with_all) : all, figure, options,
+                           stop);
+}
+
+}  // namespace microswarm::reproduce

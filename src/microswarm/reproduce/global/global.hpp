@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "microswarm/planning/global_input/global_search.hpp"
+#include "microswarm/planning/global_input/global_tree.hpp"
+#include "microswarm/reproduce/reproduce.hpp"
+#include "microswarm/scenes/global_tasks.hpp"
+
+namespace microswarm::reproduce {
+
+/// Draws the plan in all forms of pictures; not at all without a folder to draw in.
+void draw_plan(const ReproduceOptions& options, const std::string& name, const std::string& title,
+               const Map& map, const GlobalPlan& plan, std::span<const Vec2> goals,
+               double tolerance = 20);
+
+/// Least distance between two robots at the ends of a plan's inputs.
+double least_distance(const GlobalPlan& plan);
+
+/// A task by the search beyond the paper, with some seeds; the first one's plan is drawn as `name`.
+std::vector<ReproduceRow> search_task(const char* figure, const char* name,
+                                      const scenes::GlobalTask& task, GlobalSearchParams params,
+                                      int seeds, const ReproduceOptions& options, const Stop& stop);
+
+/// Coverage of the configuration space by trees of two robots: against the length of an input and
+/// the number of nodes (3–5), the edge of the hypercubes (6) and the distance between the starts
+/// (7).
+std::vector<ReproduceRow> global_step_lengths(const ReproduceOptions& options, const Stop& stop);
+std::vector<ReproduceRow> global_cell_sizes(const ReproduceOptions& options, const Stop& stop);
+std::vector<ReproduceRow> global_initial_distances(const ReproduceOptions& options,
+                                                   const Stop& stop);
+
+/// Plans by the tree as published, beside those of the search: three robots in vascular networks
+/// (1), four in Env 3 by a tree that is asked again (9, 10), two magnets (12).
+std::vector<ReproduceRow> global_vascular(const ReproduceOptions& options, const Stop& stop);
+std::vector<ReproduceRow> global_reuse(const ReproduceOptions& options, const Stop& stop);
+std::vector<ReproduceRow> global_magnets(const ReproduceOptions& options, const Stop& stop);
+
+/// Plans by the search only: three robots in a digestive system (8); beyond: two to four robots in
+/// Env 1–4, and six.
+std::vector<ReproduceRow> global_digestive(const ReproduceOptions& options, const Stop& stop);
+std::vector<ReproduceRow> global_beyond(const ReproduceOptions& options, const Stop& stop);
+std::vector<ReproduceRow> global_six(const ReproduceOptions& options, const Stop& stop);
+
+}  // namespace microswarm::reproduce

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/reproduce/radar/radar.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+
+#include "microswarm/core/statistics.hpp"
+#include "microswarm/reproduce/figures.hpp"
+#include "microswarm/reproduce/radar/safety.hpp"
+
+namespace microswarm::reproduce {
+
+namespace fs = std::filesystem;
+
+ReproduceRow version_row(const RadarVersion& version, double share, const std::string& figure,
+                         const std::string& quantity, const std::string& unit,
+                         std::optional<double> paper, std::optional<double> ours) {
+  const std::string named = fmt::format("{}, {}", quantity, version.name);
+  if (!paper || version.as_published) return row_within(share, figure, named, unit, paper, ours);
+  return row_without_aim("not the paper's navigator", figure, named, unit, paper, ours);
+}
+
+std::string spread_of(const std::vector<double>& values) {
+  if (values.size() < 4) return "";
+  return fmt::format("quartiles {:.4g} – {:.4g}", quantile(values, 0.25), quantile(values, 0.75));
+}
+
+RadarSetting load_radar(const ReproduceOptions& options, const char* name,
+                        const RadarVersion& version) {
+  const fs::path file = options.scenarios / "papers" / "radar" / name;
+  Scene scene = load_scene(read_scenario(file), file.parent_path());
+  std::get<RadarParams>(scene.scenario.navigator).as_published = version.as_published;
+  World world = build_world(scene);
+  check(scene.scenario, world, file.string());
+  return {std::move(scene), std::move(world)};
+}
+
+std::vector<ReproduceRow> radar_figures(const std::string& figure, const ReproduceOptions& options,
+                                        const Stop& stop) {
+  constexpr std::array<Figure, 10> figures{{{"fig1", radar_cost},
+                                            {"fig5-6", radar_single},
+                                            {"fig7", radar_series},
+                                            {"fig8", radar_twelve},
+                                            {"fig10", radar_experiment},
+                                            {"fig11-12", radar_twelve_experiment},
+                                            {"fig13", radar_micromaze},
+                                            {"safety", radar_safety},
+                                            {"safety-noisy", radar_safety_noisy},
+                                            {"fast", radar_fast}}};
+  return reproduce_figures("radar", figures, figure, options, stop);
+}
+
+}  // namespace microswarm::reproduce

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/reproduce/radar/safety.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "microswarm/core/statistics.hpp"
+#include "microswarm/reproduce/figures.hpp"
+#include "microswarm/reproduce/radar/safety_campaign.hpp"
+#include "microswarm/reproduce/radar/safety_tables.hpp"
+#include "microswarm/scenes/avoidance_worlds.hpp"
+#include "microswarm/scenes/pedestrians.hpp"
+
+namespace microswarm::reproduce {
+namespace {
+
+constexpr double just_slower = 8;    // of recorded walkers: the fastest makes 50 µm/s of 60
+constexpr double as_fast = 2.9;      // the usual one is as fast as the swarm
+constexpr double aimed_share = 0.2;  // of the radar's contacts, for whoever looks ahead
+
+/// How many worlds each crosses: the more, the quicker its decisions are.
+struct Counts {
+  int radar;
+  int baseline;
+  int planner;  ///< D-RRT* and the one that looks ahead
+
+  int of(std::string_view navigator) const {
+    if (navigator == RadarParams::type_name) return radar;
+    const bool is_baseline = !is_ours(navigator);
+    return is_baseline ? baseline : planner;
+  }
+};
+
+/// A course with how many of its worlds are crossed, quick or in full.
+struct Race {
+  Course course;
+  Counts quick;
+  Counts full;
+};
+
+Course generated(std::string name, scenes::AvoidanceOptions options, bool walls) {
+  options.walls = walls;
+  return {.name = std::move(name),
+          .walls = walls,
+          .scenario =
+              [options](std::uint64_t seed) { return scenes::avoidance_scenario(seed, options); },
+          .world = scenes::avoidance_world};
+}
+
+/// Nothing where the recording is absent.
+std::optional<Course> recorded(std::string name, double slower, const ReproduceOptions& options) {
+  const auto file = data_file(options, scenes::street_file({}).string(), name);
+  if (!file) return std::nullopt;
+  const auto street = std::make_shared<const scenes::Street>(scenes::read_street(*file, slower));
+  return Course{
+      .name = std::move(name),
+      .walls = false,
+      .scenario = [street](std::uint64_t seed) { return scenes::street_scenario(*street, seed); },
+      .world = scenes::avoidance_world};
+}
+
+/// The course with obstacles that are seen with noise and not always.
+Race noisy(Race race) {
+  race.course.name += ", noisy";
+  race.course.scenario = [exact = race.course.scenario](std::uint64_t seed) {
+    Scenario scenario = exact(seed);
+    scenes::see_obstacles_with_noise(scenario);
+    return scenario;
+  };
+  return race;
+}
+
+CourseResult crossed(const Race& race, const ReproduceOptions& options, const Stop& stop) {
+  const Course& course = race.course;
+  const Counts& counts = options.quick ? race.quick : race.full;
+  CourseResult out{.course = course, .who = contestants(course.scenario(0)), .crossings = {}};
+  std::vector<int> worlds;
+  for (const Contestant& who : out.who) worlds.push_back(counts.of(who.name));
+  const Progress bar(options.progress, course.name);
+  const auto progress = [&](double share) { bar.update(share); };
+  out.crossings = cross(course, out.who, worlds, progress, stop);
+  if (options.quick) out.extent = "quick";
+  if (stop()) out.extent = "interrupted";
+  return out;
+}
+
+void add_rows(const std::string& figure, const CourseResult& result,
+              const ReproduceOptions& options, std::vector<ReproduceRow>& rows) {
+  for (std::size_t k = 0; k < result.who.size(); ++k) {
+    const Tally tally = tally_of(result.crossings[k]);
+    if (tally.runs == 0) continue;  // it was told to stop
+    const std::string note = tally.runs == 1 ? "1 world" : fmt::format("{} worlds", tally.runs);
+    const auto row = [&](const char* what, const char* unit, std::optional<double> ours,
+                         std::optional<double> aim = {}, std::optional<int> share = {}) {
+      ReproduceRow out = noted(
+          row_of(figure, fmt::format("{}, {}: {}", result.course.name, result.who[k].name, what),
+                 unit, {}, ours, aim),
+          note);
+      if (share)
+        out = noted(std::move(out),
+                    fmt::format("95 %: {}", percent_between(share_interval(*share, tally.runs))));
+      rows.push_back(aim ? unjudged_if_quick(noted(std::move(out), "the aim is ours"), options)
+                         : std::move(out));
+    };
+    row("contacts a run", "1", tally.contacts);
+    row("avoidable contacts a run", "1", tally.avoidable,
+        figure == "safety" && is_ours(result.who[k].name) ? std::optional(0.0) : std::nullopt);
+    row("worlds with an avoidable contact", "%", 100.0 * tally.runs_avoidable / tally.runs, {},
+        tally.runs_avoidable);
+    row("arrived", "%", 100 * tally.arrived, {}, tally.runs_arrived);
+    row("time ÷ straight at full speed, median", "1", tally.slowness);
+    row("avoidance cost δ, mean", "1", tally.delta);
+    row("turning, median", "°", tally.turning);
+  }
+}
+
+/// Of two navigators over the worlds that both have crossed.
+std::optional<double> contact_ratio(const CourseResult& result, std::string_view ours,
+                                    std::string_view other) {
+  const auto find = [&](std::string_view name) -> const std::vector<Crossing>* {
+    for (std::size_t k = 0; k < result.who.size(); ++k)
+      if (result.who[k].name == name) return &result.crossings[k];
+    return nullptr;
+  };
+  const auto* a = find(ours);
+  const auto* b = find(other);
+  if (!a || !b) return std::nullopt;
+  std::vector<Crossing> mine, theirs;
+  for (std::size_t seed = 0; seed < std::min(a->size(), b->size()); ++seed) {
+    if (!(*a)[seed].ran || !(*b)[seed].ran) continue;
+    mine.push_back((*a)[seed]);
+    theirs.push_back((*b)[seed]);
+  }
+  const double of_theirs = tally_of(theirs).contacts;
+  if (of_theirs <= 0) return std::nullopt;
+  return tally_of(mine).contacts / of_theirs;
+}
+
+void add_ratios(const std::string& figure, const CourseResult& result,
+                const ReproduceOptions& options, std::vector<ReproduceRow>& rows) {
+  for (const char* other : {"radar", "radar_as_published", "hierarchical_drrt_star"}) {
+    const auto ratio = contact_ratio(result, "predictive", other);
+    if (!ratio) continue;
+    const bool is_aim = other == std::string_view("radar");
+    ReproduceRow row = row_of(
+        figure, fmt::format("{}: contacts of predictive ÷ those of {}", result.course.name, other),
+        "1", {}, *ratio, is_aim ? std::optional(aimed_share) : std::nullopt);
+    rows.push_back(is_aim ? unjudged_if_quick(noted(std::move(row), "the aim is ours"), options)
+                          : std::move(row));
+  }
+}
+
+std::vector<ReproduceRow> raced(const std::string& figure, const std::vector<Race>& races,
+                                const ReproduceOptions& options, const Stop& stop) {
+  std::vector<ReproduceRow> rows;
+  std::vector<CourseResult> results;
+  for (const Race& race : races) {
+    if (stop()) break;
+    results.push_back(crossed(race, options, stop));
+    add_rows(figure, results.back(), options, rows);
+    if (figure == "fast") add_ratios(figure, results.back(), options, rows);
+  }
+  if (!options.out.empty()) write_safety(results, options.out, figure);
+  return rows;
+}
+
+std::vector<Race> slow_races(const ReproduceOptions& options) {
+  std::vector<Race> races{
+      {generated("open", scenes::slow_obstacles, false), {10, 5, 3}, {10'000, 500, 100}},
+      {generated("walls", scenes::slow_obstacles, true), {5, 3, 1}, {10'000, 500, 40}}};
+  if (auto street = recorded("walkers", just_slower, options))
+    races.push_back({*street, {20, 20, 20}, {300, 300, 300}});
+  return races;
+}
+
+}  // namespace
+
+std::vector<ReproduceRow> radar_safety(const ReproduceOptions& options, const Stop& stop) {
+  return raced("safety", slow_races(options), options, stop);
+}
+
+std::vector<ReproduceRow> radar_safety_noisy(const ReproduceOptions& options, const Stop& stop) {
+  std::vector<Race> races;
+  for (Race& race : slow_races(options)) races.push_back(noisy(std::move(race)));
+  return raced("safety-noisy", races, options, stop);
+}
+
+std::vector<ReproduceRow> radar_fast(const ReproduceOptions& options, const Stop& stop) {
+  std::vector<Race> races{
+      {generated("fast", scenes::fast_obstacles, false), {12, 8, 8}, {1000, 1000, 1000}}};
+  if (auto street = recorded("fast walkers", as_fast, options))
+    races.push_back({*street, {20, 20, 20}, {300, 300, 300}});
+  return raced("fast", races, options, stop);
+}
+
+}  // namespace microswarm::reproduce

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/reproduce/radar/safety_campaign.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/navigation/make.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <concepts>
+#include <mutex>
+#include <numeric>
+#include <utility>
+
+#include "microswarm/core/file.hpp"
+#include "microswarm/core/parallel.hpp"
+#include "microswarm/experiment/run/plant.hpp"
+#include "microswarm/scenes/avoidance_worlds.hpp"
+
+namespace microswarm::reproduce {
+namespace {
+
+/// Sets what navigators have in common, where they have it.
+template <class Params>
+Params suited(Params params, const Scenario& scenario, bool walls) {
+  const SwarmLimits swarm = limits_of(scenario.swarm);
+  const double margin = swarm.radius + 0.8 * scenes::avoidance_passage_gap;
+  if constexpr (requires { params.speed; }) params.speed = swarm.max_speed;
+  if constexpr (std::same_as<Params, HierarchicalParams>) params.margin = margin;
+  if constexpr (std::same_as<Params, RadarParams>)
+    if (walls) params.safety_distance = std::min(params.safety_distance, 40.0);
+  if constexpr (requires {
+                  params.global_plan;
+                  params.planner.clearance;
+                }) {
+    params.global_plan = walls;
+    params.planner.clearance = margin;
+  }
+  return params;
+}
+
+template <class Params>
+Contestant contestant(std::string name, Params params) {
+  return {std::move(name), [params](const Scenario& scenario, bool walls) -> NavigatorParams {
+            return suited(params, scenario, walls);
+          }};
+}
+
+/// Circles that leave time to decide; the paper's own are for obstacles much slower than the swarm.
+RadarParams wide_radar() {
+  RadarParams params;
+  params.safety_distance = 100;
+  params.detection_range = 170;
+  return params;
+}
+
+RadarParams published_radar() {
+  RadarParams params;
+  params.as_published = true;
+  return params;
+}
+
+/// One for the alternative of NavigatorParams, if it can do the task; two for the radar.
+template <class Params>
+void add(const Task& task, std::vector<Contestant>& out) {
+  if (!what_it_lacks(NavigatorParams(Params{}), task).empty()) return;
+  const std::string name(Params::type_name);
+  if constexpr (std::same_as<Params, RadarParams>) {
+    out.push_back(contestant(name, wide_radar()));
+    out.push_back(contestant(name + "_as_published", published_radar()));
+  } else {
+    out.push_back(contestant(name, Params{}));
+  }
+}
+
+template <std::size_t... I>
+void add_all(const Task& task, std::vector<Contestant>& out, std::index_sequence<I...>) {
+  (add<std::variant_alternative_t<I, NavigatorParams>>(task, out), ...);
+}
+
+Crossing crossed(const Scenario& scenario, const World& world, const Stop& stop) {
+  KinematicPlant plant(scenario, world);
+  const auto navigator =
+      make_navigator(scenario.navigator, task_of(scenario), Rng(scenario.seed, Purpose::planner));
+  ContactLog log;
+  RunListener* const listeners[] = {&log};
+  const RunResult result = run(scenario, plant, *navigator, listeners, stop);
+  Crossing out;
+  out.ran = result.status != Status::stopped;
+  out.status = result.status;
+  const Metrics& metrics = result.metrics;
+  out.arrived = metrics.goal_distance <= scenario.goal_tolerance + 1e-6;
+  out.obstacles = scenario.obstacles.size();
+  out.time = metrics.time;
+  out.straight = (distance(scenario.start->position, *scenario.goal) - scenario.goal_tolerance) /
+                 limits_of(scenario.swarm).max_speed;
+  out.delta = metrics.avoidance.mean_cost;
+  out.turning = metrics.turning;
+  out.least_gap = metrics.avoidance.least_gap;
+  out.hold_time = metrics.hold_time;
+  const std::vector<double>& steps = result.timing.steps;
+  out.step = std::accumulate(steps.begin(), steps.end(), 0.0) /
+             std::max(1.0, static_cast<double>(steps.size()));
+  if (out.ran) out.contacts = judge_contacts(scenario, world, 0, log);
+  return out;
+}
+
+}  // namespace
+
+int Crossing::avoidable() const {
+  return static_cast<int>(std::count_if(contacts.begin(), contacts.end(),
+                                        [](const ContactVerdict& v) { return v.avoidable; }));
+}
+
+std::vector<Contestant> contestants(const Scenario& example) {
+  std::vector<Contestant> out;
+  add_all(task_of(example), out, std::make_index_sequence<std::variant_size_v<NavigatorParams>>{});
+  return out;
+}
+
+Crossings cross(const Course& course, const std::vector<Contestant>& who,
+                const std::vector<int>& counts, const std::function<void(double)>& progress,
+                const Stop& stop) {
+  Crossings out(who.size());
+  for (std::size_t k = 0; k < who.size(); ++k)
+    out[k].resize(static_cast<std::size_t>(std::max(0, counts[k])));
+  const int most = counts.empty() ? 0 : *std::max_element(counts.begin(), counts.end());
+  const double all = std::max(1.0, std::accumulate(counts.begin(), counts.end(), 0.0));
+  int done = 0;
+  std::mutex mutex;
+  for_each_index(static_cast<std::size_t>(std::max(0, most)), 0, [&](std::size_t seed) {
+    if (stop()) return;
+    Scenario scenario = course.scenario(seed);
+    const World world = course.world(scenario);
+    int crossings = 0;
+    for (std::size_t k = 0; k < who.size() && !stop(); ++k) {
+      if (seed >= out[k].size()) continue;
+      scenario.navigator = who[k].params(scenario, course.walls);
+      out[k][seed] = crossed(scenario, world, stop);
+      ++crossings;
+    }
+    const std::lock_guard lock(mutex);
+    done += crossings;
+    progress(done / all);
+  });
+  return out;
+}
+
+void write_scenario(Scenario scenario, const std::filesystem::path& folder,
+                    const std::string& stem) {
+  const std::string file = stem + "-tracks.csv";
+  std::string tracks = "id,t_s,x_um,y_um\n";
+  bool some = false;
+  for (std::size_t i = 0; i < scenario.obstacles.size(); ++i) {
+    auto* track = std::get_if<Track>(&scenario.obstacles[i].motion);
+    if (!track || !track->samples) continue;
+    some = true;
+    track->file = file;
+    track->id = std::to_string(i + 1);
+    const Samples& samples = *track->samples;
+    for (std::size_t k = 0; k < samples.times.size(); ++k)
+      tracks += fmt::format("{},{},{},{}\n", track->id, samples.times[k], samples.points[k].x,
+                            samples.points[k].y);
+  }
+  scenario.name = stem;
+  if (some) write_file_atomically(folder / file, tracks);
+  write_file_atomically(folder / (stem + ".yaml"), scenario_text(scenario));
+}
+
+}  // namespace microswarm::reproduce

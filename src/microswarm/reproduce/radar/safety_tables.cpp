@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/reproduce/radar/safety_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/core/file.hpp"
+#include "microswarm/core/statistics.hpp"
+#include "microswarm/report/page.hpp"
+#include "microswarm/reproduce/gather/gather.hpp"
+
+namespace microswarm::reproduce {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int worlds_written = 3;  // a navigator and course
+constexpr std::size_t obstacles_a_bin = 10;
+constexpr int enough_worlds = 10;       // in a bin, to be joined with the next
+constexpr double least_percent = 0.01;  // of time beyond the straight way; the axis has no zero
+
+/// One colour a method in all figures.
+std::size_t colour_of(std::string_view navigator) {
+  using namespace method_colours;  // NOLINT(google-build-using-namespace)
+  constexpr std::array<std::pair<std::string_view, std::size_t>, 8> colours{
+      {{"hierarchical_drrt_star", drrt_star},
+       {"radar", method_colours::radar},
+       {"radar_as_published", radar_as_published},
+       {"predictive", method_colours::predictive},
+       {"straight_stop", straight_stop},
+       {"potential_field", potential_field},
+       {"velocity_obstacle", velocity_obstacle},
+       {"follow_path", follow_path}}};
+  for (const auto& [name, colour] : colours)
+    if (name == navigator) return colour;
+  return other;
+}
+
+double slowness(const Crossing& c) { return c.time / c.straight; }
+
+template <class Visit>
+void for_each_run(const std::vector<CourseResult>& results, Visit&& visit) {
+  for (const CourseResult& result : results)
+    for (std::size_t k = 0; k < result.who.size(); ++k)
+      for (std::size_t seed = 0; seed < result.crossings[k].size(); ++seed)
+        if (result.crossings[k][seed].ran) visit(result, k, seed, result.crossings[k][seed]);
+}
+
+std::string runs_csv(const std::vector<CourseResult>& results) {
+  std::string out =
+      "course,navigator,seed,status,arrived,obstacles,time_s,straight_s,delta,turning_deg,"
+      "least_gap_um,hold_s,contacts,avoidable\n";
+  for_each_run(
+      results, [&](const CourseResult& result, std::size_t k, std::size_t seed, const Crossing& c) {
+        out += fmt::format(
+            "\"{}\",{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{}\n",
+            result.course.name, result.who[k].name, seed, to_string(c.status), c.arrived ? 1 : 0,
+            c.obstacles, c.time, c.straight, c.delta, degrees(c.turning), c.least_gap, c.hold_time,
+            c.contacts.size(), c.avoidable());
+      });
+  return out;
+}
+
+std::string summary_csv(const std::vector<CourseResult>& results) {
+  std::string out =
+      "course,navigator,worlds,contacts_a_run,avoidable_a_run,worlds_avoidable,worlds_arrived,"
+      "slowness_median,delta_mean,turning_median_deg,extent\n";
+  const auto number = [](std::optional<double> x) { return x ? fmt::format("{:.6g}", *x) : ""; };
+  for (const CourseResult& result : results)
+    for (std::size_t k = 0; k < result.who.size(); ++k) {
+      const Tally t = tally_of(result.crossings[k]);
+      if (t.runs == 0) continue;
+      out += fmt::format("\"{}\",{},{},{:.6g},{:.6g},{},{},{},{:.6g},{},{}\n", result.course.name,
+                         result.who[k].name, t.runs, t.contacts, t.avoidable, t.runs_avoidable,
+                         t.runs_arrived, number(t.slowness), t.delta, number(t.turning),
+                         result.extent);
+    }
+  return out;
+}
+
+std::string contacts_csv(const std::vector<CourseResult>& results) {
+  std::string out =
+      "course,navigator,seed,t_s,kind,body,x_um,y_um,speed_um_per_s,avoidable,"
+      "decided_s,way\n";
+  for_each_run(
+      results, [&](const CourseResult& result, std::size_t k, std::size_t seed, const Crossing& c) {
+        for (const ContactVerdict& v : c.contacts)
+          out += fmt::format("\"{}\",{},{},{:.6g},{},{},{:.6g},{:.6g},{:.6g},{},{},\"{}\"\n",
+                             result.course.name, result.who[k].name, seed, v.contact.t,
+                             v.contact.kind == EventKind::contact_wall ? "wall" : "obstacle",
+                             v.contact.body, v.contact.position.x, v.contact.position.y,
+                             v.contact.speed, v.avoidable ? 1 : 0,
+                             v.avoidable ? fmt::format("{:.6g}", v.decided) : "", v.way);
+      });
+  return out;
+}
+
+void write_worlds(const std::vector<CourseResult>& results, const fs::path& folder) {
+  make_folder(folder.string());
+  const CourseResult* course = nullptr;
+  std::size_t of = 0;
+  int written = 0;
+  for_each_run(
+      results, [&](const CourseResult& result, std::size_t k, std::size_t seed, const Crossing& c) {
+        if (course != &result || of != k) course = &result, of = k, written = 0;
+        if (c.avoidable() == 0 || written == worlds_written) return;
+        ++written;
+        Scenario scenario = result.course.scenario(seed);
+        scenario.navigator = result.who[k].params(scenario, result.course.walls);
+        std::string stem = fmt::format("{}-{}-{}", result.course.name, result.who[k].name, seed);
+        std::erase(stem, ',');
+        std::replace(stem.begin(), stem.end(), ' ', '-');
+        write_scenario(std::move(scenario), folder, stem);
+      });
+}
+
+/// Mean contacts of the runs among so and so many obstacles: joined where there are enough of them,
+/// rings else.
+Plot contacts_plot(const CourseResult& result) {
+  Plot plot{.title = result.course.name,
+            .x_label = fmt::format("obstacles (rings: fewer than {} worlds)", enough_worlds),
+            .y_label = "contacts a run",
+            .key_below = true,
+            .y_min = 0};
+  std::vector<Series> few;
+  for (std::size_t k = 0; k < result.who.size(); ++k) {
+    std::vector<double> contacts;
+    std::vector<int> runs;
+    for (const Crossing& c : result.crossings[k]) {
+      if (!c.ran) continue;
+      const std::size_t bin = c.obstacles / obstacles_a_bin;
+      if (runs.size() <= bin) contacts.resize(bin + 1), runs.resize(bin + 1);
+      contacts[bin] += static_cast<double>(c.contacts.size());
+      ++runs[bin];
+    }
+    plot.series.push_back({.label = result.who[k].name,
+                           .x = {},
+                           .y = {},
+                           .style = PlotStyle::marked,
+                           .colour = colour_of(result.who[k].name)});
+    few.push_back({.label = "", .x = {}, .y = {}, .style = PlotStyle::rings});
+    for (std::size_t bin = 0; bin < runs.size(); ++bin) {
+      if (runs[bin] == 0) continue;
+      Series& series = runs[bin] < enough_worlds ? few.back() : plot.series.back();
+      series.x.push_back(static_cast<double>(obstacles_a_bin) * (static_cast<double>(bin) + 0.5));
+      series.y.push_back(contacts[bin] / runs[bin]);
+    }
+    if (plot.series.back().x.empty()) std::swap(few.back().label, plot.series.back().label);
+  }
+  double most = 0, longest = 0;
+  for (const std::vector<Series>* all : {&plot.series, &few})
+    for (const Series& series : *all) {
+      for (const double x : series.x) longest = std::max(longest, x);
+      for (const double y : series.y) most = std::max(most, y);
+    }
+  plot.x_min = 0;
+  plot.x_max = longest + 0.5 * static_cast<double>(obstacles_a_bin);
+  plot.y_max = std::max(0.1, 1.1 * most);
+  for (std::size_t k = 0; k < few.size(); ++k) few[k].colour = plot.series[k].colour;
+  std::move(few.begin(), few.end(), std::back_inserter(plot.series));
+  return plot;
+}
+
+/// A column a navigator, also for one that has nothing to show.
+void name_columns(const CourseResult& result, Plot& plot) {
+  plot.x_min = 0.5;
+  plot.x_max = static_cast<double>(result.who.size()) + 0.5;
+  for (std::size_t k = 0; k < result.who.size(); ++k)
+    plot.x_ticks.push_back({result.who[k].name, static_cast<double>(k + 1)});
+}
+
+Plot times_plot(const CourseResult& result) {
+  Plot plot{.title = result.course.name, .y_label = "time lost (%)", .log_y = true};
+  name_columns(result, plot);
+  for (std::size_t k = 0; k < result.who.size(); ++k) {
+    Series series{.label = result.who[k].name,
+                  .x = {},
+                  .y = {},
+                  .style = PlotStyle::box,
+                  .colour = colour_of(result.who[k].name)};
+    for (const Crossing& c : result.crossings[k])
+      if (c.ran && c.arrived) series.y.push_back(std::max(least_percent, 100 * (slowness(c) - 1)));
+    series.x.assign(series.y.size(), static_cast<double>(k + 1));
+    plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
+/// Avoidable contacts a run on a scale of powers, with a place of its own for none.
+Plot avoidable_plot(const CourseResult& result) {
+  Plot plot{.title = result.course.name, .y_label = "avoidable contacts a run", .log_y = true};
+  name_columns(result, plot);
+  double least = 1, most = 1;
+  for (const auto& crossings : result.crossings) {
+    const double avoidable = tally_of(crossings).avoidable;
+    if (avoidable > 0) least = std::min(least, avoidable);
+    most = std::max(most, avoidable);
+  }
+  const double first = std::floor(std::log10(least)), last = std::ceil(std::log10(most));
+  const double none = std::pow(10, first - 0.7);  // below the first power
+  plot.y_ticks.push_back({"none", none});
+  for (double power = first; power <= last; ++power) {
+    const double at = std::pow(10, power);
+    plot.y_ticks.push_back({fmt::format("{:g}", at), at});
+  }
+  plot.y_min = 0.5 * none;
+  plot.y_max = 2 * std::pow(10, last);
+  for (std::size_t k = 0; k < result.who.size(); ++k) {
+    const Tally tally = tally_of(result.crossings[k]);
+    if (tally.runs == 0) continue;
+    const bool some = tally.avoidable > 0;
+    plot.series.push_back({.label = "",
+                           .x = {static_cast<double>(k + 1)},
+                           .y = {some ? tally.avoidable : none},
+                           .style = some ? PlotStyle::points : PlotStyle::rings,
+                           .colour = colour_of(result.who[k].name)});
+  }
+  return plot;
+}
+
+/// "98.7 (98.4 … 98.9)"
+std::string percent(int some, int all) {
+  const ShareInterval interval = share_interval(some, all);
+  return fmt::format("{:.3g} ({})", 100.0 * some / std::max(1, all), percent_between(interval));
+}
+
+std::vector<std::vector<std::string>> table_of(const CourseResult& result) {
+  std::vector<std::vector<std::string>> lines{
+      {"navigator", "worlds", "contacts a run", "avoidable a run", "worlds with one, % (95 %)",
+       "runs with contact, %", "arrived, % (95 %)", "time ÷ straight, median", "mean δ",
+       "turning °, median"}};
+  for (std::size_t k = 0; k < result.who.size(); ++k) {
+    const Tally t = tally_of(result.crossings[k]);
+    lines.push_back({result.who[k].name, std::to_string(t.runs), fmt::format("{:.4f}", t.contacts),
+                     fmt::format("{:.4f}", t.avoidable), percent(t.runs_avoidable, t.runs),
+                     fmt::format("{:.2f}", 100 * t.touched), percent(t.runs_arrived, t.runs),
+                     t.slowness ? fmt::format("{:.3f}", *t.slowness) : "–",
+                     fmt::format("{:.3f}", t.delta),
+                     t.turning ? fmt::format("{:.0f}", *t.turning) : "–"});
+  }
+  return lines;
+}
+
+}  // namespace
+
+std::string percent_between(const ShareInterval& interval) {
+  return fmt::format("{:.3g} … {:.3g}", 100 * interval.low, 100 * interval.high);
+}
+
+Tally tally_of(std::span<const Crossing> crossings) {
+  Tally out;
+  std::vector<double> times, turning;
+  for (const Crossing& c : crossings) {
+    if (!c.ran) continue;
+    turning.push_back(degrees(c.turning));
+    ++out.runs;
+    out.contacts += static_cast<double>(c.contacts.size());
+    out.avoidable += c.avoidable();
+    out.touched += !c.contacts.empty();
+    out.runs_avoidable += c.avoidable() > 0;
+    out.runs_arrived += c.arrived;
+    out.arrived += c.arrived;
+    out.delta += c.delta;
+    if (c.arrived) times.push_back(slowness(c));
+  }
+  for (double* sum : {&out.contacts, &out.avoidable, &out.touched, &out.arrived, &out.delta})
+    *sum /= std::max(1, out.runs);
+  out.slowness = median_if_any(times);
+  out.turning = median_if_any(turning);
+  return out;
+}
+
+bool is_ours(std::string_view navigator) {
+  constexpr std::array<std::string_view, 3> ours{"hierarchical_drrt_star", "radar", "predictive"};
+  return std::find(ours.begin(), ours.end(), navigator) != ours.end();
+}
+
+void write_safety(const std::vector<CourseResult>& results, const fs::path& folder,
+                  const std::string& stem) {
+  std::vector<Plot> contacts;
+  std::vector<Plot> times;
+  std::vector<Plot> avoidable;
+  std::vector<PageSection> sections{
+      {"",
+       "Contacts by the number of obstacles, and how long the crossing took. A contact counts as "
+       "avoidable when holding or retreating could have avoided it. Time lost is that beyond the "
+       "straight way at full speed.",
+       {},
+       {{stem + "-avoidable.svg", "Avoidable contacts a run"},
+        {stem + "-contacts.svg", "Contacts a run"},
+        {stem + "-times.svg", "Times"}}}};
+  for (const CourseResult& result : results) {
+    contacts.push_back(contacts_plot(result));
+    times.push_back(times_plot(result));
+    avoidable.push_back(avoidable_plot(result));
+    sections.push_back(
+        {result.course.name,
+         result.extent == "full" ? "" : fmt::format("Not the whole campaign: {}.", result.extent),
+         table_of(result),
+         {}});
+  }
+  write_file_atomically(folder / (stem + ".csv"), summary_csv(results));
+  write_file_atomically(folder / (stem + "-runs.csv"), runs_csv(results));
+  write_file_atomically(folder / (stem + "-contacts.csv"), contacts_csv(results));
+  write_everywhere(contacts, folder / (stem + "-contacts"));
+  write_everywhere(avoidable, folder / (stem + "-avoidable"));
+  write_everywhere(times, folder / (stem + "-times"));
+  write_page(folder / (stem + ".html"), "Crossing among obstacles", sections);
+  write_worlds(results, folder / (stem + "-worlds"));
+}
+
+}  // namespace microswarm::reproduce
