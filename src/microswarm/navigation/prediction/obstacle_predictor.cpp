@@ -10,9 +10,9 @@
 namespace microswarm {
 namespace {
 
-constexpr double rest_speed = 1e-6;  // less is rounding [µm/s]
-constexpr double sure = 2;           // standard errors: a velocity that is none is smaller
-constexpr double swept_growing_time = 2;   // for which an outline goes on growing [s]
+constexpr double rest_speed = 1e-6;       // less is rounding [µm/s]
+constexpr double sure = 2;                // standard errors: a velocity that is none is smaller
+constexpr double swept_growing_time = 2;  // for which an outline goes on growing [s]
 
 double inradius_bound(const Body& body) {
   if (const auto* disc = std::get_if<Disc>(&body.shape)) return disc->radius;
