@@ -91,7 +91,7 @@ void add_rows(std::vector<BenchRow>& rows, const std::string& name, int obstacle
                       .seen = now,
                       .swarm = SwarmPose{{place.swarm, 0}, swarm_radius},
                       .robots = {},
-                      .world = place.world.get()},
+                      .world = borrowed(*place.world)},
                      {})
                .heading;
   });
@@ -100,7 +100,7 @@ void add_rows(std::vector<BenchRow>& rows, const std::string& name, int obstacle
                     .seen = now,
                     .swarm = SwarmPose{{place.swarm, 0}, swarm_radius},
                     .robots = {},
-                    .world = place.world.get()},
+                    .world = borrowed(*place.world)},
                    {});
     if (navigator.last_look())
       sum += scan(*navigator.last_look(), *place.world, 360).weights.target;

@@ -70,7 +70,7 @@ Observation see(const Snapshot& world, const Pose2& pose, double now) {
           .seen = now - 0.05,
           .swarm = SwarmPose{pose, radius},
           .robots = {},
-          .world = &world};
+          .world = borrowed(world)};
 }
 
 class NavigatorLaws : public testing::TestWithParam<Case> {

@@ -53,7 +53,7 @@ struct BaselineDrive {
                                     .seen = seen,
                                     .swarm = SwarmPose{was.front(), swarm.radius},
                                     .robots = {},
-                                    .world = &frame};
+                                    .world = borrowed(frame)};
       const Command command = navigator.step(observation, {});
       states.emplace_back(navigator.view().state);
       for (int k = 0; k < 10; ++k, time += substep) {

@@ -34,7 +34,7 @@ struct Watched {
         if (auto* disc = std::get_if<Disc>(&body.shape)) disc->centre += noise * Vec2{dx, dy};
       }
       const Snapshot frame(map, now, std::move(bodies));
-      foresight.see({.now = now, .seen = now, .swarm = {}, .robots = {}, .world = &frame});
+      foresight.see({.now = now, .seen = now, .swarm = {}, .robots = {}, .world = borrowed(frame)});
     }
   }
   /// How far off the forecast of an obstacle's centre is [µm].

@@ -58,10 +58,10 @@ Drive drive(const std::vector<Mover>& movers, Vec2 start, double seconds, Wants&
                .seen = t,
                .swarm = SwarmPose{pose, guard_radius},
                .robots = {},
-               .world = &world});
+               .world = borrowed(world)});
     Command command = wants(t, pose.position);
     if (const auto instead =
-            guard.overrules(command, {pose.position, guard_radius, t}, world.map(), guard_tick)) {
+            guard.overrules(command, {pose.position, guard_radius, t}, world, guard_tick)) {
       command = *instead;
       ++out.overruled;
     }

@@ -28,7 +28,7 @@ std::unique_ptr<Navigator> navigator(const Snapshot& world, std::uint64_t seed =
 }
 
 Observation see(const Snapshot& world, Vec2 at, double heading = 0, double now = 0) {
-  return {.now = now, .seen = now, .swarm = SwarmPose{{at, heading}, 40}, .world = &world};
+  return {.now = now, .seen = now, .swarm = SwarmPose{{at, heading}, 40}, .world = borrowed(world)};
 }
 
 TEST(Hierarchical, DrivesInTheOpen) {

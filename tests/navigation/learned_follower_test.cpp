@@ -118,7 +118,7 @@ std::string drive(const FollowerParams& follower, const RibbonParams& params, do
                            .seen = 0.1 * ticks,
                            .swarm = SwarmPose{pose, 20},
                            .robots = {},
-                           .world = &world};
+                           .world = borrowed(world)};
     place = nearest_place(long_corner, pose.position, place);
     sum += squared_norm(pose.position - point_ahead(long_corner, place, 0));
     ribbon.step(navigator.step(seen, {}), 0.1, rng);
@@ -144,7 +144,8 @@ TEST(PathNavigator, SaysThatItHandsOver) {
     PathNavigator navigator(
         {.path = {long_corner[0], long_corner[1]}, .follower = {.kind = FollowerKind::learned}},
         swarm_of(turn_rate), long_corner[2], 10);
-    navigator.step({.now = 0, .seen = 0, .swarm = SwarmPose{{{0, 0}, 0}, 20}, .world = &world}, {});
+    navigator.step(
+        {.now = 0, .seen = 0, .swarm = SwarmPose{{{0, 0}, 0}, 20}, .world = borrowed(world)}, {});
     EXPECT_EQ(navigator.view().state, turn_rate == 3.0 ? "follow" : "fallback");
   }
 }

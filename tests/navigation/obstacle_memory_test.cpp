@@ -31,7 +31,8 @@ struct Film {
       if (std::find(lost.begin(), lost.end(), i) == lost.end())
         append_bodies(obstacles[i], i, t, bodies);
     frame = Snapshot(map, t, std::move(bodies));
-    return memory.complete({.now = t, .seen = t, .swarm = {}, .robots = {}, .world = &frame});
+    return memory.complete(
+        {.now = t, .seen = t, .swarm = {}, .robots = {}, .world = borrowed(frame)});
   }
 };
 
@@ -44,7 +45,7 @@ std::vector<const Body*> of(const Observation& seen, std::uint32_t obstacle) {
 
 TEST(ObstacleMemory, LeavesCompleteFramesAsTheyAre) {
   Film film;
-  for (int k = 0; k < 20; ++k) EXPECT_EQ(film.see(0.1 * k).world, &film.frame);
+  for (int k = 0; k < 20; ++k) EXPECT_EQ(film.see(0.1 * k).world.get(), &film.frame);
 }
 
 TEST(ObstacleMemory, AnObstacleThatIsNotFoundGoesOnAsItMovedForAWhile) {
@@ -67,7 +68,7 @@ TEST(ObstacleMemory, AnObstacleThatIsFoundAgainIsThereOnce) {
   for (int k = 0; k < 20; ++k)
     film.see(0.1 * k, k % 3 == 2 ? std::vector{0u, 1u} : std::vector{2u});
   const Observation seen = film.see(2);
-  EXPECT_EQ(seen.world, &film.frame);
+  EXPECT_EQ(seen.world.get(), &film.frame);
 }
 
 TEST(ObstacleMemory, BothLeavesOfAValveAreRemembered) {
@@ -82,14 +83,14 @@ TEST(ObstacleMemory, TheSameFrameTwiceAndOneFromBeforeAreNoTrouble) {
   const Vec2 once = std::get<Disc>(of(film.see(2, {0}), 0).front()->shape).centre;
   const Vec2 twice = std::get<Disc>(of(film.see(2, {0}), 0).front()->shape).centre;
   EXPECT_EQ(once, twice);
-  EXPECT_EQ(film.see(1, {0, 1, 2}).world, &film.frame);
+  EXPECT_EQ(film.see(1, {0, 1, 2}).world.get(), &film.frame);
 }
 
 TEST(ObstacleMemory, RemembersNothingWhenAskedTo) {
   Film film;
   film.memory = ObstacleMemory(0);
   for (int k = 0; k < 20; ++k) film.see(0.1 * k);
-  EXPECT_EQ(film.see(2, {0}).world, &film.frame);
+  EXPECT_EQ(film.see(2, {0}).world.get(), &film.frame);
 }
 
 }  // namespace

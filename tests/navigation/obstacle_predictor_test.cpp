@@ -44,7 +44,8 @@ struct PredictedScene {
   void watch() {
     for (int k = -6; k <= 0; ++k) {
       const Snapshot frame = at(0.1 * k);
-      predictor.see({.now = 0.1 * k, .seen = 0.1 * k, .swarm = {}, .robots = {}, .world = &frame});
+      predictor.see(
+          {.now = 0.1 * k, .seen = 0.1 * k, .swarm = {}, .robots = {}, .world = borrowed(frame)});
     }
     newest = at(0);
   }
@@ -115,7 +116,8 @@ TEST(ObstaclePredictor, WallsOfAHoleThatComeNearerAreSeen) {
   };
   for (int k = 0; k <= 5; ++k) {
     const Snapshot seen = frame(0.1 * k);
-    predictor.see({.now = 0.1 * k, .seen = 0.1 * k, .swarm = {}, .robots = {}, .world = &seen});
+    predictor.see(
+        {.now = 0.1 * k, .seen = 0.1 * k, .swarm = {}, .robots = {}, .world = borrowed(seen)});
   }
   const double true_distance = 200 - 20 * 2.5;
   const Segment middle{{500, 500}, {500, 500}};

@@ -37,7 +37,8 @@ struct Camera {
     for (const double end = now + seconds; now < end; now += tick) {
       if (rng.uniform() < missed_share) continue;
       const Snapshot world = frame_at(obstacles, now - delay, noise, rng);
-      tracker.see({.now = now, .seen = now - delay, .swarm = {}, .robots = {}, .world = &world});
+      tracker.see(
+          {.now = now, .seen = now - delay, .swarm = {}, .robots = {}, .world = borrowed(world)});
     }
   }
   TrackedBody body(std::size_t i = 0) const { return tracker.body(i); }
@@ -146,7 +147,7 @@ TEST(ObstacleTracker, APartThatMovesFarAwayDoesNotCountHere) {
                       {2400, 700 - 50 * t}, {2900, 700}, {2900, 300}};
     channel = {.shape = walls, .obstacle = 0};
     const Snapshot world(map, t, {channel});
-    tracker.see({.now = t, .seen = t, .swarm = {}, .robots = {}, .world = &world});
+    tracker.see({.now = t, .seen = t, .swarm = {}, .robots = {}, .world = borrowed(world)});
   }
   EXPECT_NEAR(tracker.body(0).outline_speed, 50, 3);
   EXPECT_NEAR(tracker.outline_speed_within(0, channel, {{2500, 500}, 200}), 50, 3);
@@ -159,7 +160,7 @@ TEST(ObstacleTracker, ObstaclesComeAndGo) {
   ObstacleTracker tracker;
   const auto see = [&](double t, const std::vector<Body>& bodies) {
     const Snapshot world(frame_at({}, t, 0, rng).shared_map(), t, bodies);
-    tracker.see({.now = t, .seen = t, .swarm = {}, .robots = {}, .world = &world});
+    tracker.see({.now = t, .seen = t, .swarm = {}, .robots = {}, .world = borrowed(world)});
   };
   const auto at = [](double x, std::uint32_t obstacle) {
     return Body{.shape = Disc{{x, 0}, 10}, .obstacle = obstacle};

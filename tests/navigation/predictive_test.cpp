@@ -52,7 +52,7 @@ struct PredictiveDrive {
                                               .seen = seen,
                                               .swarm = SwarmPose{was_there.front(), swarm.radius},
                                               .robots = {},
-                                              .world = &now},
+                                              .world = borrowed(now)},
                                              {});
       states.emplace_back(navigator.view().state);
       hash.value(command.heading);
@@ -173,8 +173,11 @@ TEST(Predictive, HoldsWhenBlindAndGoesOn) {
                                 Rng(1, Purpose::planner));
   const Snapshot frame = world.at(0);
   navigator.prepare(frame);
-  const Observation good{
-      .now = 0, .seen = 0, .swarm = SwarmPose{{{200, 500}, 0}, 50}, .robots = {}, .world = &frame};
+  const Observation good{.now = 0,
+                         .seen = 0,
+                         .swarm = SwarmPose{{{200, 500}, 0}, 50},
+                         .robots = {},
+                         .world = borrowed(frame)};
   EXPECT_GT(navigator.step(good, {}).speed, 0);
   Observation bad = good;
   bad.now = 0.1;
@@ -192,7 +195,7 @@ TEST(Predictive, HoldsWhenBlindAndGoesOn) {
   const Snapshot later = world.at(3.1);
   Observation again = good;
   again.now = again.seen = 3.1;
-  again.world = &later;
+  again.world = borrowed(later);
   EXPECT_GT(navigator.step(again, {}).speed, 0);
   again.swarm->pose.position = room_goal;
   EXPECT_EQ(navigator.step(again, {}).speed, 0);

@@ -52,7 +52,7 @@ Trip drive(const RadarParams& params, Vec2 start, Vec2 goal, std::shared_ptr<con
                                       .seen = trip.time,
                                       .swarm = SwarmPose{pose, radar_radius},
                                       .robots = {},
-                                      .world = &world},
+                                      .world = borrowed(world)},
                                      {});
     trip.states.emplace_back(navigator.view().state);
     pose = unicycle_step(pose, c, radar_vortex.max_turn_rate, radar_tick);
@@ -117,7 +117,7 @@ TEST(Radar, GivesWayWhereItWaits) {
                                       .seen = t,
                                       .swarm = SwarmPose{pose, radar_radius},
                                       .robots = {},
-                                      .world = &world},
+                                      .world = borrowed(world)},
                                      {});
     pose = unicycle_step(pose, c, radar_vortex.max_turn_rate, radar_tick);
     least = std::min(least, world.clearance(pose.position) - radar_radius);
@@ -140,7 +140,7 @@ TEST(Radar, WithoutRetreatItHoldsAsPublished) {
                                       .seen = 0,
                                       .swarm = SwarmPose{{{1500, 700}, 0}, radar_radius},
                                       .robots = {},
-                                      .world = &world},
+                                      .world = borrowed(world)},
                                      {});
     EXPECT_EQ(c.speed > 0, retreat);
     EXPECT_EQ(navigator.view().state, retreat ? "retreat" : "hold");
@@ -169,7 +169,7 @@ TEST(Radar, AsPublishedOverridesWhatIsOurs) {
                                         .seen = t - 0.05,
                                         .swarm = SwarmPose{pose, radar_radius},
                                         .robots = {},
-                                        .world = &world},
+                                        .world = borrowed(world)},
                                        {});
       out.push_back(c.heading);
       out.push_back(c.speed);
@@ -231,7 +231,7 @@ TEST(Radar, APlanThatFailedIsTriedAgain) {
                                       .seen = now,
                                       .swarm = SwarmPose{{seen_at, 0}, radar_radius},
                                       .robots = {},
-                                      .world = &world},
+                                      .world = borrowed(world)},
                                      {});
     plans += navigator.view().planned;
     if (now < 1) {
@@ -256,7 +256,7 @@ TEST(Radar, WithoutAWayItPlansEverMoreSeldom) {
                     .seen = now,
                     .swarm = SwarmPose{{{700, 400}, 0}, radar_radius},
                     .robots = {},
-                    .world = &world},
+                    .world = borrowed(world)},
                    {});
     if (navigator.view().planned) planned.push_back(now);
   }
@@ -276,7 +276,7 @@ TEST(Radar, PlansFromBesideAWallItIsSeenTooNearTo) {
                                     .seen = 0,
                                     .swarm = SwarmPose{{{700, radar_radius - 3}, 0}, radar_radius},
                                     .robots = {},
-                                    .world = &world},
+                                    .world = borrowed(world)},
                                    {});
   EXPECT_NE(navigator.view().state, "stuck");
   EXPECT_GT(c.speed, 0);
@@ -301,7 +301,7 @@ TEST(Radar, TellsItsPhasedGoal) {
                    .seen = 0,
                    .swarm = SwarmPose{{{700, 400}, 0}, radar_radius},
                    .robots = {},
-                   .world = &world};
+                   .world = borrowed(world)};
   navigator.step(seen, {});
   EXPECT_EQ(navigator.view().phased_goal, (Vec2{1300, 1250}));
   seen.now = seen.seen = 0.1;
@@ -344,30 +344,30 @@ TEST(Radar, MakesUpForDelays) {
                     .seen = now - 0.2,
                     .swarm = SwarmPose{{{500, 700}, 0}, radar_radius},
                     .robots = {},
-                    .world = &world},
+                    .world = borrowed(world)},
                    {});
   }
   ASSERT_TRUE(navigator.last_look());
   EXPECT_NEAR(navigator.last_look()->centre.x, 500 + 0.5 * 85, 1e-9);
 }
 
-TEST(Radar, LastScanIsOfTheLastStep) {
+TEST(Radar, LastLookGivesTheDecisionInFull) {
   const Snapshot world(radar_room(), 0, {disc_body({1700, 700}, 80, 3)});
   RadarNavigator navigator({}, radar_vortex, {2700, 700}, 20, Rng(1, Purpose::planner));
-  EXPECT_FALSE(navigator.last_scan());
+  EXPECT_FALSE(navigator.last_look());
   const Command c = navigator.step({.now = 0,
                                     .seen = 0,
                                     .swarm = SwarmPose{{{1500, 700}, 0}, radar_radius},
                                     .robots = {},
-                                    .world = &world},
+                                    .world = borrowed(world)},
                                    {});
-  const auto scan = navigator.last_scan();
-  ASSERT_TRUE(scan);
-  ASSERT_TRUE(scan->best);
-  EXPECT_EQ(scan->beams.size(), 360u);
-  EXPECT_EQ(scan->beams[*scan->best].heading, c.heading);
-  EXPECT_EQ(scan->beams[0].fate, BeamFate::obstacle);
-  EXPECT_EQ(scan->beams[0].obstacle, 3u);
+  ASSERT_TRUE(navigator.last_look());
+  const RadarScan decision = scan(*navigator.last_look(), world, 360);
+  ASSERT_TRUE(decision.best);
+  EXPECT_EQ(decision.beams.size(), 360u);
+  EXPECT_EQ(decision.beams[*decision.best].heading, c.heading);
+  EXPECT_EQ(decision.beams[0].fate, BeamFate::obstacle);
+  EXPECT_EQ(decision.beams[0].obstacle, 3u);
 }
 
 TEST(Radar, WaypointsInAWallAreRefused) {

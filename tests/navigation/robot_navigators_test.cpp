@@ -41,7 +41,7 @@ struct Rig {
             .seen = now - ticks * robot_tick,
             .swarm = SwarmPose{},
             .robots = history.front(),
-            .world = &world};
+            .world = borrowed(world)};
   }
   void apply(const Command& command) {
     swarm.step(command, robot_tick, rng);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -25,15 +26,21 @@ struct TimedPose {
 /// What is seen: the newest frame, which is `age()` old when the navigator gets it. `swarm` is
 /// empty when no swarm was found in the frame. `robots` are its robots one by one, where they are
 /// told apart: robot i is the same in every observation; `swarm` is then their middle. `world`
-/// holds the map and the obstacles as seen then. Both live at least until the next observation.
+/// holds the map and the obstacles as seen then. `robots` lives at least until the next
+/// observation; who keeps the world shares it.
 struct Observation {
   double now = 0;   ///< time at which the navigator is asked [s]
   double seen = 0;  ///< time at which the frame was taken [s]
   std::optional<SwarmPose> swarm;
   std::span<const Vec2> robots;  ///< [µm]
-  const Snapshot* world = nullptr;
+  std::shared_ptr<const Snapshot> world;
 
   double age() const { return now - seen; }
 };
+
+/// A world that is not owned, for an Observation that it outlives.
+inline std::shared_ptr<const Snapshot> borrowed(const Snapshot& world) {
+  return {std::shared_ptr<const Snapshot>(), &world};
+}
 
 }  // namespace microswarm

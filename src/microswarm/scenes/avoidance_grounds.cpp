@@ -31,6 +31,7 @@ std::vector<Vec2> star(Vec2 centre, double radius, Rng& rng) {
   const int corners = 3 + static_cast<int>(rng.below(6));
   const double turn = rng.uniform(-pi, pi);
   std::vector<Vec2> ring;
+  ring.reserve(static_cast<std::size_t>(corners));
   for (int k = 0; k < corners; ++k)
     ring.push_back(centre +
                    radius * rng.uniform(0.5, 1) * unit_vector(turn + 2 * pi * k / corners));

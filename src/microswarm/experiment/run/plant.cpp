@@ -20,8 +20,11 @@ KinematicPlant::KinematicPlant(const Scenario& scenario, World world, std::uint3
 
 Observation KinematicPlant::observe() {
   const double seen = std::max(0.0, now_ - sensing_.observation_delay);
-  seen_.emplace(frame_at(seen));
-  Observation observation{.now = now_, .seen = seen, .swarm = {}, .robots = {}, .world = &*seen_};
+  Observation observation{.now = now_,
+                          .seen = seen,
+                          .swarm = {},
+                          .robots = {},
+                          .world = std::make_shared<const Snapshot>(frame_at(seen))};
   // Always the same count of draws, so that one missed frame does not change the noise of the next.
   const bool missed = noise_.uniform() < sensing_.missed_share;
   const double dx = noise_.normal(), dy = noise_.normal(), turn = noise_.normal();

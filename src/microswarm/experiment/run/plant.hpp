@@ -34,7 +34,6 @@ class KinematicPlant : public Plant {
   Rng obstacle_noise_;
   double now_ = 0;
   std::vector<TimedPose> history_;  // covers the observation delay
-  std::optional<Snapshot> seen_;
 };
 
 }  // namespace microswarm

@@ -42,7 +42,7 @@ std::vector<Vec2> robot_starts(const Scenario& scenario, const Map& map, std::ui
 
 RobotPlant::RobotPlant(const Scenario& scenario, World world, std::uint32_t trial)
     : world_(std::move(world)),
-      walls_(world_.at(0)),
+      walls_(std::make_shared<const Snapshot>(world_.at(0))),
       sensing_(scenario.sensing),
       motion_(scenario.seed, Purpose::plant, trial),
       noise_(scenario.seed, Purpose::sensor, trial),
@@ -52,7 +52,7 @@ RobotPlant::RobotPlant(const Scenario& scenario, World world, std::uint32_t tria
 
 Observation RobotPlant::observe() {
   const double seen = std::max(0.0, now_ - sensing_.observation_delay);
-  Observation observation{.now = now_, .seen = seen, .swarm = {}, .robots = {}, .world = &walls_};
+  Observation observation{.now = now_, .seen = seen, .swarm = {}, .robots = {}, .world = walls_};
   const bool missed = noise_.uniform() < sensing_.missed_share;
   if (missed) return observation;
   seen_ = robots_at(seen);

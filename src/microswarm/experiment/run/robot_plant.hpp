@@ -33,7 +33,7 @@ class RobotPlant : public Plant {
   std::vector<Vec2> robots_at(double t) const;
 
   World world_;
-  Snapshot walls_;
+  std::shared_ptr<const Snapshot> walls_;
   SensingParams sensing_;
   Rng motion_;
   Rng noise_;

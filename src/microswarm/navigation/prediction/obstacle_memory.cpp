@@ -31,9 +31,9 @@ Observation ObstacleMemory::complete(const Observation& observation) {
     all.push_back(lost.body);
     shift(all.back(), (observation.seen - lost.seen) * lost.velocity);
   }
-  completed_.emplace(observation.world->shared_map(), observation.world->time(), std::move(all));
   Observation out = observation;
-  out.world = &*completed_;
+  out.world = std::make_shared<const Snapshot>(observation.world->shared_map(),
+                                               observation.world->time(), std::move(all));
   return out;
 }
 

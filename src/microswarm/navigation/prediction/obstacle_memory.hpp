@@ -35,7 +35,6 @@ class ObstacleMemory {
   ObstacleTracker tracker_;
   std::vector<Body> found_;  ///< in the newest frame
   std::vector<Lost> lost_;   ///< before it
-  std::optional<Snapshot> completed_;
 };
 
 }  // namespace microswarm

@@ -58,14 +58,14 @@ void Guard::see(const Observation& observation) {
   // What is farther cannot come near within the horizon unless it is much faster than the swarm.
   const double range = 3 * speed_ * (params_.horizon + dead_time);
   tracker_.see(observation, range + (observation.swarm ? observation.swarm->radius : 0));
-  world_ = observation.world;
   if (met_.size() < tracker_.size()) met_.resize(tracker_.size());
 }
 
-std::optional<Command> Guard::overrules(const Command& wanted, const Start& start, const Map& map,
-                                        double tick) {
+std::optional<Command> Guard::overrules(const Command& wanted, const Start& start,
+                                        const Snapshot& world, double tick) {
+  const Map& map = world.map();
   start_ = start;
-  look_at_bodies(start);
+  look_at_bodies(start, world);
   std::optional<Command> instead;
   if (bodies_ > 0 || !hollow_.empty()) {
     wall_keep_ = std::clamp(map.clearance(start.place) - clearance_rounding, 0.0,
@@ -108,11 +108,11 @@ std::optional<Command> Guard::nearest_safe(const Map& map, const Command& wanted
   return std::nullopt;
 }
 
-void Guard::look_at_bodies(const Start& start) {
+void Guard::look_at_bodies(const Start& start, const Snapshot& world) {
   bodies_ = 0;
   hollow_bodies_.clear();
   closing_ = 0;
-  const auto bodies = world_->moving().bodies();
+  const auto bodies = world.moving().bodies();
   const double ahead = start.time - tracker_.seen();
   for (std::size_t i = 0; i < bodies.size() && i < tracker_.size(); ++i) {
     const Disc extent = extent_of(bodies[i]);

@@ -27,7 +27,7 @@ class Guard {
   /// `speed` is that of a way out [µm/s].
   Guard(const GuardParams& params, double speed);
 
-  /// Takes a frame; to be told of every one.
+  /// Takes a frame: every one, before overrules() is asked about it.
   void see(const Observation& observation);
   /// Nothing when there is a way out after `wanted`, should it last for the commitment, or `tick`
   /// [s] where that is longer. Else, of the commands that leave several, the one that turns least
@@ -35,7 +35,7 @@ class Guard {
   /// begun to pass on. Where none does, how the way begins that is free for longest; of those
   /// that are for the whole horizon, the one that keeps most distance. Then also turns are tried,
   /// and a way once begun is kept to unless another is clearly better.
-  std::optional<Command> overrules(const Command& wanted, const Start& start, const Map& map,
+  std::optional<Command> overrules(const Command& wanted, const Start& start, const Snapshot& world,
                                    double tick);
 
  private:
@@ -73,7 +73,7 @@ class Guard {
     double speed = 0;     ///< of its outline, at most [µm/s]
   };
 
-  void look_at_bodies(const Start& start);
+  void look_at_bodies(const Start& start, const Snapshot& world);
   double gap(Vec2 p, double t, double limit, double error_rate) const;
   template <class Visit>
   bool follow(const Way& way, Visit&& visit) const;
@@ -106,8 +106,7 @@ class Guard {
   /// Bodies that the swarm is within the hull of: as they stand when the command takes effect,
   /// since their parts move apart from one another.
   BodySet hollow_;
-  double closing_ = 0;               ///< how fast those near the swarm come nearer [µm/s]
-  const Snapshot* world_ = nullptr;  ///< of the frame last taken
+  double closing_ = 0;  ///< how fast those near the swarm come nearer [µm/s]
 };
 
 }  // namespace microswarm

@@ -45,7 +45,6 @@ Command RadarNavigator::step(const Observation& seen, const Stop& stop) {
   view_ = {};
   look_.reset();
   contact_.reset();
-  world_ = seen.world;
   Command command = decide(seen, stop);
   if (params_.guard.active && seen.world) command = guarded(command, seen);
   if (command.speed > 0) course_ = unit_vector(command.heading);
@@ -74,7 +73,7 @@ Command RadarNavigator::guarded(const Command& command, const Observation& seen)
                            .time = seen.now + swarm_.response_lag};
   const double since = seen.now - last_;
   const double tick = since > 0 && since < 1 ? since : usual_tick;
-  const auto instead = guard_.overrules(command, start, seen.world->map(), tick);
+  const auto instead = guard_.overrules(command, start, *seen.world, tick);
   if (!instead) return command;
   return issue(*instead, instead->speed > 0 ? "guard" : "hold");
 }
@@ -187,11 +186,6 @@ Command RadarNavigator::rest(const Observation& seen, std::string_view state) {
 Command RadarNavigator::issue(const Command& command, std::string_view state) {
   view_.state = state;
   return command;
-}
-
-std::optional<RadarScan> RadarNavigator::last_scan() const {
-  if (!look_ || !world_) return std::nullopt;
-  return scan(*look_, *world_, scanner_.directions());
 }
 
 }  // namespace microswarm

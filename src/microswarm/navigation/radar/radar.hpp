@@ -32,11 +32,8 @@ class RadarNavigator : public Navigator {
   Command step(const Observation& observation, const Stop& stop) override;
   NavigatorView view() const override { return view_; }
 
-  /// The last decision by Eq 9–17 in full, made up when it is asked for, while the observation's
-  /// world is still there; empty when the last step looked at nothing: blind, or inside a body. In
-  /// the states direct and avoid its best direction is the one that was commanded.
-  std::optional<RadarScan> last_scan() const;
-  /// What that decision rests on, at no cost.
+  /// What the last decision by Eq 9–17 rests on, for `scan`; empty when the last step looked at
+  /// nothing: blind, or inside a body.
   const std::optional<RadarLook>& last_look() const { return look_; }
 
  private:
@@ -72,7 +69,6 @@ class RadarNavigator : public Navigator {
   Pose2 pose_;                  ///< where the swarm is when the command takes effect
   std::optional<RadarLook> look_;
   std::optional<RadarContact> contact_;
-  const Snapshot* world_ = nullptr;  ///< of the last observation
   NavigatorView view_;
 };
 

@@ -6,9 +6,10 @@
 
 namespace microswarm {
 
-Observation observation_of(const Sight& sight, const Snapshot& world, double now, double seen) {
+Observation observation_of(const Sight& sight, std::shared_ptr<const Snapshot> world, double now,
+                           double seen) {
   Observation observation{
-      .now = now, .seen = seen, .swarm = sight.swarm, .robots = {}, .world = &world};
+      .now = now, .seen = seen, .swarm = sight.swarm, .robots = {}, .world = std::move(world)};
   if (sight.swarm) observation.robots = sight.robots;
   return observation;
 }

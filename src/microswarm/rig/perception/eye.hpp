@@ -42,7 +42,8 @@ class Eye {
 };
 
 /// What a navigator is told of a sight, which outlives the observation, as the world does.
-Observation observation_of(const Sight& sight, const Snapshot& world, double now, double seen);
+Observation observation_of(const Sight& sight, std::shared_ptr<const Snapshot> world, double now,
+                           double seen);
 
 /// The eye that a scenario needs: for one swarm among obstacles, or for robots.
 std::unique_ptr<Eye> make_eye(const EyeParams& params, const Scenario& scenario, const Map& map,

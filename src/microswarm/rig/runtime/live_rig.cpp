@@ -84,8 +84,8 @@ Observation LiveRig::observe() {
   if (fault_.empty()) take_frame();
   const double now = since_start();
   look_for_faults(now);
-  seen_world_.emplace(map_, seen_, sight_->moving);
-  return observation_of(*sight_, *seen_world_, now, seen_);
+  return observation_of(*sight_, std::make_shared<const Snapshot>(map_, seen_, sight_->moving), now,
+                        seen_);
 }
 
 void LiveRig::take_frame() {

@@ -79,7 +79,6 @@ class LiveRig : public Plant {
   Image grey_;
   Sight unseen_;  // before the first picture
   const Sight* sight_ = &unseen_;
-  std::optional<Snapshot> seen_world_;
   double start_;      // [s], by steady_seconds()
   double seen_ = 0;   // when the newest frame was taken [s]
   double found_ = 0;  // when the swarm was seen last [s]

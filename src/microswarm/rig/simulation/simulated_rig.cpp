@@ -22,8 +22,8 @@ Observation SimulatedRig::observe() {
   const SimulatedBench::Shot shot = bench_.shoot();
   picture_ = &bench_.develop(shot);
   sight_ = &eye_->see(*picture_, shot.seen);
-  seen_world_.emplace(map_, shot.seen, sight_->moving);
-  return observation_of(*sight_, *seen_world_, shot.now, shot.seen);
+  return observation_of(*sight_, std::make_shared<const Snapshot>(map_, shot.seen, sight_->moving),
+                        shot.now, shot.seen);
 }
 
 void SimulatedRig::apply(const Command& command, double dt) {

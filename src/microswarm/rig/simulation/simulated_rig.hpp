@@ -40,7 +40,6 @@ class SimulatedRig : public Plant {
   std::unique_ptr<Eye> eye_;
   const Image* picture_ = nullptr;
   const Sight* sight_ = nullptr;
-  std::optional<Snapshot> seen_world_;
 };
 
 /// Builds plant and navigator for one trial of a scenario and runs it through the rig, as
