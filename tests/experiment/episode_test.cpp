@@ -50,7 +50,7 @@ TEST(Episode, ATickSaysWhatHappenedInIt) {
   for (tick = episode.step(); tick && !tick->end; tick = episode.step()) {
     EXPECT_NEAR(tick->frame.t, t, 1e-9);
     t += scenario.tick;
-    EXPECT_EQ(tick->view.state, "follow");
+    EXPECT_EQ(tick->view.state, NavigatorState::follow);
     EXPECT_EQ(tick->world->time(), tick->frame.t);
     EXPECT_FALSE(tick->robots);
     ASSERT_FALSE(tick->swept.empty());
@@ -59,7 +59,7 @@ TEST(Episode, ATickSaysWhatHappenedInIt) {
   }
   ASSERT_TRUE(tick);
   EXPECT_EQ(tick->end, Status::collided);
-  EXPECT_EQ(tick->frame.state, "end");
+  EXPECT_EQ(tick->frame.state, NavigatorState::end);
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].kind, EventKind::contact_obstacle);
   EXPECT_NEAR(tick->frame.t, events[0].t, 1e-12);

@@ -42,7 +42,7 @@ TEST(Run, StraightToTheGoal) {
   EXPECT_NEAR(m.walls.clearance, 200, 1e-9);
   EXPECT_EQ(m.obstacles.clearance, std::numeric_limits<double>::infinity());
   EXPECT_EQ(m.contacts, 0);
-  EXPECT_EQ(told.frames.back().state, "end");
+  EXPECT_EQ(told.frames.back().state, NavigatorState::end);
   EXPECT_EQ(told.frames.back().t, m.time);
   EXPECT_EQ(told.frames.size(), told.result.timing.steps.size() + 1);
   ASSERT_EQ(told.events.size(), 1u);

@@ -26,7 +26,11 @@ class GoStraight : public Navigator {
     return {heading_of(goal_ - seen.swarm->pose.position), speed_};
   }
   NavigatorView view() const override {
-    return {.planned = false, .state = "follow", .local_target = goal_, .path = path_, .plan = {}};
+    return {.planned = false,
+            .state = NavigatorState::follow,
+            .local_target = goal_,
+            .path = path_,
+            .plan = {}};
   }
 
  private:
@@ -41,7 +45,11 @@ class Steady : public Navigator {
   explicit Steady(Command command) : command_(command) {}
   Command step(const Observation&, const Stop&) override { return command_; }
   NavigatorView view() const override {
-    return {.planned = false, .state = "steady", .local_target = {}, .path = {}, .plan = nullptr};
+    return {.planned = false,
+            .state = NavigatorState::follow,
+            .local_target = {},
+            .path = {},
+            .plan = nullptr};
   }
 
  private:

@@ -33,9 +33,9 @@ struct BaselineDrive {
   double least_gap = std::numeric_limits<double>::infinity();  ///< from edge to edge
   double time = 0;
   bool arrived = false;
-  std::vector<std::string> states{};
+  std::vector<NavigatorState> states{};
 
-  bool was(std::string_view state) const {
+  bool was(NavigatorState state) const {
     return std::find(states.begin(), states.end(), state) != states.end();
   }
 
@@ -55,7 +55,7 @@ struct BaselineDrive {
                                     .robots = {},
                                     .world = borrowed(frame)};
       const Command command = navigator.step(observation, {});
-      states.emplace_back(navigator.view().state);
+      states.push_back(navigator.view().state);
       for (int k = 0; k < 10; ++k, time += substep) {
         pending.push_back(command);
         pose = unicycle_step(pose, pending.front(), swarm.max_turn_rate, substep);
@@ -85,7 +85,7 @@ TEST(Straight, StopsBeforeWhatStandsAheadAndGoesOnAfterIt) {
   StraightNavigator navigator({}, fast_vortex, room_goal, room_tolerance);
   drive.run(navigator, 100);
   EXPECT_TRUE(drive.arrived);
-  EXPECT_TRUE(drive.was("hold"));
+  EXPECT_TRUE(drive.was(NavigatorState::hold));
   EXPECT_GT(drive.least_gap, 0);
 }
 
@@ -95,7 +95,7 @@ TEST(Straight, StopsBeforeAWallAtItsDistance) {
   drive.run(navigator, 60);
   EXPECT_FALSE(drive.arrived);
   EXPECT_NEAR(drive.pose.position.x, 1000 - 100 - 10 - 50, 8);
-  EXPECT_EQ(drive.states.back(), "hold");
+  EXPECT_EQ(drive.states.back(), NavigatorState::hold);
 }
 
 TEST(Straight, MayLeaveWhatIsNearBehindIt) {
@@ -111,7 +111,7 @@ TEST(PotentialField, GoesRoundADiscThatStandsAside) {
     PotentialFieldNavigator navigator({}, swarm, room_goal, room_tolerance);
     drive.run(navigator, 80);
     EXPECT_TRUE(drive.arrived);
-    EXPECT_TRUE(drive.was("avoid"));
+    EXPECT_TRUE(drive.was(NavigatorState::avoid));
     EXPECT_GT(drive.least_gap, 10);
   }
 }
@@ -121,7 +121,7 @@ TEST(PotentialField, IsStuckWhereForcesCancelOut) {
   PotentialFieldNavigator navigator({}, fast_vortex, room_goal, room_tolerance);
   drive.run(navigator, 60);
   EXPECT_FALSE(drive.arrived);
-  EXPECT_EQ(drive.states.back(), "stuck");
+  EXPECT_EQ(drive.states.back(), NavigatorState::stuck);
   EXPECT_GT(drive.least_gap, 20);
 }
 
@@ -160,7 +160,7 @@ TEST(VelocityObstacle, KeepsToThePreferredVelocityInTheOpen) {
   drive.run(navigator, 60);
   EXPECT_TRUE(drive.arrived);
   EXPECT_LT(drive.time, 1600 / 60.0 + 1);
-  EXPECT_FALSE(drive.was("avoid"));
+  EXPECT_FALSE(drive.was(NavigatorState::avoid));
 }
 
 TEST(VelocityObstacle, AvoidsWhatCrossesOrComesHeadOn) {
@@ -171,7 +171,7 @@ TEST(VelocityObstacle, AvoidsWhatCrossesOrComesHeadOn) {
       VelocityObstacleNavigator navigator({}, swarm, room_goal, room_tolerance);
       drive.run(navigator, 80);
       EXPECT_TRUE(drive.arrived);
-      EXPECT_TRUE(drive.was("avoid"));
+      EXPECT_TRUE(drive.was(NavigatorState::avoid));
       EXPECT_GT(drive.least_gap, 0) << motion.start.x << " " << swarm.max_turn_rate;
     }
 }

@@ -36,7 +36,7 @@ TEST(Hierarchical, DrivesInTheOpen) {
   const auto n = navigator(world);
   const Command c = n->step(see(world, {300, 500}), {});
   EXPECT_GT(c.speed, 0);
-  EXPECT_EQ(n->view().state, "follow");
+  EXPECT_EQ(n->view().state, NavigatorState::follow);
   EXPECT_TRUE(n->view().planned);
   ASSERT_TRUE(n->view().local_target);
 }
@@ -47,7 +47,7 @@ TEST(Hierarchical, HoldsWhenBlind) {
   Observation none = see(world, {300, 500});
   none.swarm.reset();
   EXPECT_EQ(n->step(none, {}).speed, 0);
-  EXPECT_EQ(n->view().state, "blind");
+  EXPECT_EQ(n->view().state, NavigatorState::blind);
   Observation stale = see(world, {300, 500}, 0, 5);
   stale.seen = 4;
   EXPECT_EQ(n->step(stale, {}).speed, 0);
@@ -62,7 +62,7 @@ TEST(Hierarchical, HoldsAtTheGoal) {
   const Snapshot world = room_with();
   const auto n = navigator(world);
   EXPECT_EQ(n->step(see(world, {1790, 500}), {}).speed, 0);
-  EXPECT_EQ(n->view().state, "arrived");
+  EXPECT_EQ(n->view().state, NavigatorState::arrived);
 }
 
 TEST(Hierarchical, HoldsWhenEverythingIsBlocked) {

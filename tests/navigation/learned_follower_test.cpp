@@ -112,7 +112,7 @@ std::string drive(const FollowerParams& follower, const RibbonParams& params, do
   PathPlace place;
   double sum = 0;
   int ticks = 0;
-  for (; ticks < 300 && navigator.view().state != "arrived"; ++ticks) {
+  for (; ticks < 300 && navigator.view().state != NavigatorState::arrived; ++ticks) {
     const Pose2 pose = ribbon.pose();
     const Observation seen{.now = 0.1 * ticks,
                            .seen = 0.1 * ticks,
@@ -124,7 +124,7 @@ std::string drive(const FollowerParams& follower, const RibbonParams& params, do
     ribbon.step(navigator.step(seen, {}), 0.1, rng);
   }
   rms = std::sqrt(sum / ticks);
-  return std::string(navigator.view().state);
+  return std::string(enum_name(navigator.view().state));
 }
 
 TEST(PathNavigator, TheLearnedFollowerIsNearerToThePathInAFlow) {
@@ -146,7 +146,8 @@ TEST(PathNavigator, SaysThatItHandsOver) {
         swarm_of(turn_rate), long_corner[2], 10);
     navigator.step(
         {.now = 0, .seen = 0, .swarm = SwarmPose{{{0, 0}, 0}, 20}, .world = borrowed(world)}, {});
-    EXPECT_EQ(navigator.view().state, turn_rate == 3.0 ? "follow" : "fallback");
+    EXPECT_EQ(navigator.view().state,
+              turn_rate == 3.0 ? NavigatorState::follow : NavigatorState::fallback);
   }
 }
 

@@ -30,10 +30,10 @@ struct PredictiveDrive {
   double least_gap = infinity;  ///< from edge to edge [µm]
   double time = 0;
   bool arrived = false;
-  std::vector<std::string> states{};
+  std::vector<NavigatorState> states{};
   Hash hash{};
 
-  bool was(std::string_view state) const {
+  bool was(NavigatorState state) const {
     return std::find(states.begin(), states.end(), state) != states.end();
   }
 
@@ -54,7 +54,7 @@ struct PredictiveDrive {
                                               .robots = {},
                                               .world = borrowed(now)},
                                              {});
-      states.emplace_back(navigator.view().state);
+      states.push_back(navigator.view().state);
       hash.value(command.heading);
       hash.value(command.speed);
       for (int k = 0; k < 10; ++k, time += substep) {
@@ -77,7 +77,8 @@ TEST(Predictive, GoesStraightInTheOpen) {
     drive.run(40);
     EXPECT_TRUE(drive.arrived);
     EXPECT_LT(drive.time, 1600 / 70.0 + 1);
-    EXPECT_FALSE(drive.was("avoid") || drive.was("escape") || drive.was("hold"));
+    EXPECT_FALSE(drive.was(NavigatorState::avoid) || drive.was(NavigatorState::escape) ||
+                 drive.was(NavigatorState::hold));
   }
 }
 
@@ -129,7 +130,7 @@ TEST(Predictive, HoldsOrLeavesRatherThanBeRunOver) {
   drive.run(120);
   EXPECT_TRUE(drive.arrived);
   EXPECT_GT(drive.least_gap, 0);
-  EXPECT_TRUE(drive.was("avoid"));
+  EXPECT_TRUE(drive.was(NavigatorState::avoid));
 }
 
 TEST(Predictive, GivesWayBeforeItsGoal) {
@@ -184,7 +185,7 @@ TEST(Predictive, HoldsWhenBlindAndGoesOn) {
   bad.seen = 0.1;
   bad.swarm.reset();
   EXPECT_EQ(navigator.step(bad, {}).speed, 0);
-  EXPECT_EQ(navigator.view().state, "blind");
+  EXPECT_EQ(navigator.view().state, NavigatorState::blind);
   EXPECT_TRUE(navigator.view().path.empty());
   bad = good;
   bad.now = 3;
@@ -199,7 +200,7 @@ TEST(Predictive, HoldsWhenBlindAndGoesOn) {
   EXPECT_GT(navigator.step(again, {}).speed, 0);
   again.swarm->pose.position = room_goal;
   EXPECT_EQ(navigator.step(again, {}).speed, 0);
-  EXPECT_EQ(navigator.view().state, "arrived");
+  EXPECT_EQ(navigator.view().state, NavigatorState::arrived);
 }
 
 }  // namespace

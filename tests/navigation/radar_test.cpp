@@ -29,9 +29,9 @@ struct Trip {
   bool arrived = false;
   double least_gap = 1e9;  ///< from its edge to obstacles, walls and border
   double time = 0;
-  std::vector<std::string> states;
+  std::vector<NavigatorState> states;
 
-  bool was(std::string_view state) const {
+  bool was(NavigatorState state) const {
     return std::find(states.begin(), states.end(), state) != states.end();
   }
 };
@@ -54,7 +54,7 @@ Trip drive(const RadarParams& params, Vec2 start, Vec2 goal, std::shared_ptr<con
                                       .robots = {},
                                       .world = borrowed(world)},
                                      {});
-    trip.states.emplace_back(navigator.view().state);
+    trip.states.push_back(navigator.view().state);
     pose = unicycle_step(pose, c, radar_vortex.max_turn_rate, radar_tick);
   }
   return trip;
@@ -65,7 +65,7 @@ std::vector<Body> nothing(double) { return {}; }
 TEST(Radar, GoesStraightWhereNothingIs) {
   const Trip trip = drive({}, {300, 700}, {2700, 800}, radar_room(), nothing);
   EXPECT_TRUE(trip.arrived);
-  EXPECT_FALSE(trip.was("avoid"));
+  EXPECT_FALSE(trip.was(NavigatorState::avoid));
   EXPECT_NEAR(trip.time, (distance(Vec2{300, 700}, Vec2{2700, 800}) - 20) / 85, 2 * radar_tick);
 }
 
@@ -74,7 +74,7 @@ TEST(Radar, AvoidsWhatStandsInTheWay) {
     return std::vector{disc_body({1500, 690}, 150)};
   });
   EXPECT_TRUE(trip.arrived);
-  EXPECT_TRUE(trip.was("avoid"));
+  EXPECT_TRUE(trip.was(NavigatorState::avoid));
   EXPECT_GT(trip.least_gap, 15);  // d_f less what a tick and the step take
 }
 
@@ -143,7 +143,7 @@ TEST(Radar, WithoutRetreatItHoldsAsPublished) {
                                       .world = borrowed(world)},
                                      {});
     EXPECT_EQ(c.speed > 0, retreat);
-    EXPECT_EQ(navigator.view().state, retreat ? "retreat" : "hold");
+    EXPECT_EQ(navigator.view().state, retreat ? NavigatorState::retreat : NavigatorState::hold);
   }
 }
 
@@ -186,7 +186,7 @@ TEST(Radar, FollowsWaypointsRoundAWall) {
   RadarParams params;
   const Trip blind = drive(params, {700, 400}, {2300, 400}, map, nothing);
   EXPECT_FALSE(blind.arrived);
-  EXPECT_TRUE(blind.was("stuck"));
+  EXPECT_TRUE(blind.was(NavigatorState::stuck));
   EXPECT_GT(blind.least_gap, 0);
   params.waypoints = {{1300, 1250}, {1600, 1250}};
   const Trip by_hand = drive(params, {700, 400}, {2300, 400}, map, nothing);
@@ -206,8 +206,8 @@ TEST(Radar, IsStuckWithoutAPlan) {
   params.global_plan = true;
   params.planner.max_nodes = 2000;
   const Trip trip = drive(params, {700, 400}, {2300, 400}, map, nothing, 3);
-  EXPECT_EQ(trip.states.front(), "stuck");
-  EXPECT_FALSE(trip.was("direct"));
+  EXPECT_EQ(trip.states.front(), NavigatorState::stuck);
+  EXPECT_FALSE(trip.was(NavigatorState::direct));
 }
 
 /// A room in two halves without a door, and the halves again joined by one.
@@ -235,7 +235,7 @@ TEST(Radar, APlanThatFailedIsTriedAgain) {
                                      {});
     plans += navigator.view().planned;
     if (now < 1) {
-      EXPECT_EQ(navigator.view().state, "stuck") << now;
+      EXPECT_EQ(navigator.view().state, NavigatorState::stuck) << now;
     } else {
       EXPECT_GT(c.speed, 0) << now;
     }
@@ -278,7 +278,7 @@ TEST(Radar, PlansFromBesideAWallItIsSeenTooNearTo) {
                                     .robots = {},
                                     .world = borrowed(world)},
                                    {});
-  EXPECT_NE(navigator.view().state, "stuck");
+  EXPECT_NE(navigator.view().state, NavigatorState::stuck);
   EXPECT_GT(c.speed, 0);
 }
 
@@ -289,7 +289,7 @@ TEST(Radar, LeavesAWallThatIsNearerThanItsSafetyDistance) {
   params.detection_range = 120;
   const Trip trip = drive(params, {700, radar_radius + 5}, {2300, 700}, radar_room(), nothing);
   EXPECT_TRUE(trip.arrived);
-  EXPECT_TRUE(trip.was("retreat"));
+  EXPECT_TRUE(trip.was(NavigatorState::retreat));
 }
 
 TEST(Radar, TellsItsPhasedGoal) {

@@ -144,7 +144,8 @@ TEST(PlanPlayer, WithErrorsItFindsItsWayAgain) {
   int found_again = 0;
   for (int i = 0; i < 6000 && rig.worst() > 20; ++i) {
     rig.apply(player.step(rig.observe(), {}));
-    found_again += player.view().state == "replan" || player.view().state == "rejoin";
+    found_again += player.view().state == NavigatorState::replan ||
+                   player.view().state == NavigatorState::rejoin;
   }
   EXPECT_LE(rig.worst(), 20);
   EXPECT_GT(found_again, 1);
@@ -160,7 +161,7 @@ TEST(PlanPlayer, RobotsThatWereCarriedAwayJoinThePlanAgain) {
   // Back to the start: the first place of the plan is joined, nothing is planned.
   rig.history = {params.starts};
   player.step(rig.observe(), {});
-  EXPECT_EQ(player.view().state, "rejoin");
+  EXPECT_EQ(player.view().state, NavigatorState::rejoin);
   EXPECT_FALSE(player.view().planned);
 }
 
@@ -176,7 +177,7 @@ TEST(PlanPlayer, WithoutAPlanItHoldsAndTriesAgainLater) {
   for (int i = 0; i < 250; ++i) {
     rig.apply(player.step(rig.observe(), {}));
     planned += player.view().planned;
-    stuck += player.view().state == "stuck";
+    stuck += player.view().state == NavigatorState::stuck;
   }
   EXPECT_GE(planned, 2);
   EXPECT_LE(planned, 3);
@@ -191,7 +192,7 @@ TEST(PlanPlayer, HoldsWhenItSeesTooFewTooOldOrIsThere) {
   Observation seen = rig.observe();
   seen.robots = seen.robots.first(1);
   EXPECT_EQ(player.step(seen, {}).speed, 0);
-  EXPECT_EQ(player.view().state, "blind");
+  EXPECT_EQ(player.view().state, NavigatorState::blind);
   seen = rig.observe();
   seen.now = 10;
   EXPECT_EQ(player.step(seen, {}).speed, 0);
@@ -199,7 +200,7 @@ TEST(PlanPlayer, HoldsWhenItSeesTooFewTooOldOrIsThere) {
   seen = rig.observe();
   seen.robots = there;
   EXPECT_EQ(player.step(seen, {}).speed, 0);
-  EXPECT_EQ(player.view().state, "arrived");
+  EXPECT_EQ(player.view().state, NavigatorState::arrived);
 }
 
 TEST(AggregationNavigator, GathersUnderLagAndDelayAndHoldsThen) {
@@ -215,7 +216,7 @@ TEST(AggregationNavigator, GathersUnderLagAndDelayAndHoldsThen) {
   int steps = 0;
   while (steps < 2000) {
     const Command command = navigator.step(rig.observe(), {});
-    if (navigator.view().state == "arrived") break;
+    if (navigator.view().state == NavigatorState::arrived) break;
     EXPECT_NEAR(command.speed, 10, 1e-9);
     rig.apply(command);
     ++steps;
@@ -225,7 +226,7 @@ TEST(AggregationNavigator, GathersUnderLagAndDelayAndHoldsThen) {
   Observation nothing = rig.observe();
   nothing.robots = {};
   EXPECT_EQ(navigator.step(nothing, {}).speed, 0);
-  EXPECT_EQ(navigator.view().state, "blind");
+  EXPECT_EQ(navigator.view().state, NavigatorState::blind);
 }
 
 TEST(AggregationGround, KnowsDeadEndsAndWhatIsApart) {

@@ -3,10 +3,10 @@
 
 #include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "microswarm/contracts/command.hpp"
+#include "microswarm/contracts/navigator_state.hpp"
 #include "microswarm/contracts/observation.hpp"
 #include "microswarm/contracts/plan.hpp"
 
@@ -14,8 +14,8 @@ namespace microswarm {
 
 /// What a navigator did in its last step, for records and pictures.
 struct NavigatorView {
-  bool planned = false;              ///< it called a planner in this step: a planning event
-  std::string_view state;            ///< one word: "follow", "escape", "hold", …
+  bool planned = false;  ///< it called a planner in this step: a planning event
+  NavigatorState state = NavigatorState::hold;
   std::optional<Vec2> local_target;  ///< where it heads for now
   /// The waypoint that it would head for were there no obstacles: v_t of Eq 3 [radar] points there.
   /// Nothing for the goal.

@@ -47,10 +47,10 @@ class Demonstrator : public Navigator {
     const double off = wrap(wanted.heading - sight.bearing);
     if (std::abs(off) < most_off_path)
       shown.push_back({sight.features, {off, wanted.speed / params_.speed}});
-    if (expert_drives_) return helm_.issue(wanted, "follow");
+    if (expert_drives_) return helm_.issue(wanted, NavigatorState::follow);
     const auto next =
         follower_.command(path_, place_, pose, params_.lookahead, params_.speed).command;
-    return helm_.issue(next, "follow");
+    return helm_.issue(next, NavigatorState::follow);
   }
 
   const Plant& plant_;

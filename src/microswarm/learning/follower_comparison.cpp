@@ -35,7 +35,9 @@ class ExpertNavigator : public Navigator {
     expert_.note(seen.now, command);
     return command;
   }
-  NavigatorView view() const override { return {.planned = false, .state = "follow"}; }
+  NavigatorView view() const override {
+    return {.planned = false, .state = NavigatorState::follow};
+  }
 
  private:
   const Plant& plant_;
@@ -56,7 +58,7 @@ class Gauge : public RunListener {
     trace.push_back(off);
     most_ = std::max(most_, off);
     ++ticks_;
-    fallbacks_ += frame.state == "fallback";
+    fallbacks_ += frame.state == NavigatorState::fallback;
     if (frame.command.speed <= 0) return;
     if (driven_) turning_ += turn_between(frame.command.heading, heading_);
     heading_ = frame.command.heading;

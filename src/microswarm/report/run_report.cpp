@@ -137,7 +137,7 @@ std::string ended(const Record& record) {
   std::string text(to_string(record.result.status));
   const std::size_t frames = record.frames.size();
   if (record.result.status == Status::held && frames > 1)
-    text += fmt::format(" ({})", record.frames[frames - 2].state);
+    text += fmt::format(" ({})", enum_name(record.frames[frames - 2].state));
   return text;
 }
 

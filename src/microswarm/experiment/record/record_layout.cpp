@@ -141,9 +141,13 @@ std::vector<Column<Frame>> columns_of(const Frame*) {
           "target_y", Unit::um, "The navigator's local target.", target,
           [](auto& p) -> auto& { return p.y; }),
       word_column<Frame>(
-          "state", "The navigator's word for what it does; end in the last frame.",
-          [](const Frame& f) { return f.state; },
-          [](Frame& f, const std::string& word) { return f.state = word, true; }),
+          "state", "What the navigator does, in one word; end in the last frame.",
+          [](const Frame& f) { return std::string(enum_name(f.state)); },
+          [](Frame& f, const std::string& word) {
+            const auto state = enum_value<NavigatorState>(word);
+            if (state) f.state = *state;
+            return state.has_value();
+          }),
       column<Frame>(
           "planned", Unit::none, "1 for a planning event, else 0.",
           [](auto& f) -> auto& { return f.planned; }),

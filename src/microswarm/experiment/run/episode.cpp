@@ -158,7 +158,7 @@ void Episode::end() {
   const Observation seen = plant_.observe();
   if (scenario_.robots && !task_) begin_with_robots(seen);
   if (*ending_ != Status::solved && *ending_ != Status::collided) present_ = present(seen);
-  tick_.frame.state = "end";
+  tick_.frame.state = NavigatorState::end;
   fill(seen);
   tick_.end = touched_ && *ending_ != Status::stopped ? Status::collided : *ending_;
   tick_.fault = fault_;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "microswarm/contracts/command.hpp"
+#include "microswarm/contracts/navigator_state.hpp"
 #include "microswarm/contracts/plan.hpp"
 #include "microswarm/core/fields.hpp"
 
@@ -29,8 +30,8 @@ struct Frame {
   double obstacle_clearance = 0;  ///< from the centre at t to moving bodies [µm]; inf without any
   double avoidance_cost = 0;      ///< δ at t, Eq 4 [radar]
   std::optional<Vec2> target;     ///< the navigator's local target
-  std::string state;              ///< the navigator's word for what it does
-  bool planned = false;           ///< a planning event
+  NavigatorState state = NavigatorState::hold;  ///< what the navigator does
+  bool planned = false;                         ///< a planning event
 };
 
 /// A path that the navigator began to follow; it follows it until the next one.

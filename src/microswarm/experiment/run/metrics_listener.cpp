@@ -40,7 +40,7 @@ void MetricsListener::move_to(const Pose2& pose) {
 /// Each tick counts as it begins.
 void MetricsListener::note_step(const Tick& tick) {
   Metrics& metrics = result_.metrics;
-  result_.state = tick.frame.state;
+  result_.state = enum_name(tick.frame.state);
   result_.timing.steps.push_back(tick.step_time);
   if (tick.frame.planned) result_.timing.planning.push_back(tick.step_time);
   metrics.planning_events += tick.frame.planned;

@@ -64,10 +64,10 @@ Command PotentialFieldNavigator::step(const Observation& seen, const Stop&) {
     pushes += push_of(bodies[i], tracker_.body(i), p, helm_.speed() * draw);
   const Vec2 force = draw + pushes;
   const Command hold{pose->heading, 0};
-  if (norm(force) < params_.least_force) return helm_.issue(hold, "stuck");
+  if (norm(force) < params_.least_force) return helm_.issue(hold, NavigatorState::stuck);
   if (const auto command = clear_of_walls(world.map(), *pose, force))
-    return helm_.issue(*command, pushes == Vec2{} ? "follow" : "avoid");
-  return helm_.issue(hold, "hold");
+    return helm_.issue(*command, pushes == Vec2{} ? NavigatorState::follow : NavigatorState::avoid);
+  return helm_.issue(hold, NavigatorState::hold);
 }
 
 /// Strength of a push at a gap [µm].

@@ -19,8 +19,10 @@ Command StraightNavigator::step(const Observation& seen, const Stop&) {
   const Pose2* pose = helm_.begin(seen);
   if (!pose) return helm_.rest();
   helm_.show_target(helm_.aim());
-  if (!way_is_clear(*seen.world, *pose)) return helm_.issue({pose->heading, 0}, "hold");
-  return helm_.issue({heading_of(helm_.aim() - pose->position), helm_.speed()}, "follow");
+  if (!way_is_clear(*seen.world, *pose))
+    return helm_.issue({pose->heading, 0}, NavigatorState::hold);
+  return helm_.issue({heading_of(helm_.aim() - pose->position), helm_.speed()},
+                     NavigatorState::follow);
 }
 
 /// The way to the goal as the swarm turns into it, up to the stop distance.

@@ -95,16 +95,16 @@ Command VelocityObstacleNavigator::step(const Observation& seen, const Stop&) {
     if (!clear_of_walls(map, *pose, command)) continue;
     const double time = time_to_contact(*pose, command);
     if (time >= params_.horizon) {
-      if (choice.speed == 0) return helm_.issue({pose->heading, 0}, "hold");
-      return helm_.issue(command, choice.off == 0 ? "follow" : "avoid");
+      if (choice.speed == 0) return helm_.issue({pose->heading, 0}, NavigatorState::hold);
+      return helm_.issue(command, choice.off == 0 ? NavigatorState::follow : NavigatorState::avoid);
     }
     const double penalty = choice.off + params_.urgency / std::max(time, choice_rounding);
     if (penalty >= least_penalty) continue;
     least_penalty = penalty;
     best = command;
   }
-  if (best.speed == 0) return helm_.issue({pose->heading, 0}, "hold");
-  return helm_.issue(best, "escape");
+  if (best.speed == 0) return helm_.issue({pose->heading, 0}, NavigatorState::hold);
+  return helm_.issue(best, NavigatorState::escape);
 }
 
 /// The bodies that can be met within the horizon. What is nearer than the margin already may be

@@ -35,8 +35,10 @@ Command PathNavigator::step(const Observation& seen, const Stop&) {
   if (path_.size() < 2) path_.insert(path_.begin(), seen.swarm->pose.position);
   const auto next = follower_.command(path_, place_, *pose, params_.lookahead, helm_.speed());
   helm_.show_target(point_ahead(path_, place_, params_.lookahead));
-  if (!way_is_clear(*seen.world, *pose)) return helm_.issue({pose->heading, 0}, "hold");
-  return helm_.issue(next.command, next.handed_over ? "fallback" : "follow");
+  if (!way_is_clear(*seen.world, *pose))
+    return helm_.issue({pose->heading, 0}, NavigatorState::hold);
+  return helm_.issue(next.command,
+                     next.handed_over ? NavigatorState::fallback : NavigatorState::follow);
 }
 
 /// The way that the follower will lead in the next `horizon` seconds, or to the goal.

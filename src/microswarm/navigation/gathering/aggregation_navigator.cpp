@@ -31,16 +31,16 @@ void AggregationNavigator::prepare(const Snapshot& world) {
 Command AggregationNavigator::step(const Observation& seen, const Stop& stop) {
   view_ = {};
   if (seen.robots.empty() || seen.age() > params_.frame_timeout)
-    return issue(seen.now, {}, "blind");
+    return issue(seen.now, {}, NavigatorState::blind);
   const Robots robots = forecast_->at_effect(seen);
   const std::optional<Vec2> move =
       rollout_ ? rollout_->next(robots, stop) : gatherer_->next(robots);
-  if (!move) return issue(seen.now, {}, "arrived");
+  if (!move) return issue(seen.now, {}, NavigatorState::arrived);
   if (!rollout_) view_.local_target = gatherer_->waypoint();
-  return issue(seen.now, command_for(*move, tick_), "gather");
+  return issue(seen.now, command_for(*move, tick_), NavigatorState::gather);
 }
 
-Command AggregationNavigator::issue(double now, Command command, std::string_view state) {
+Command AggregationNavigator::issue(double now, Command command, NavigatorState state) {
   forecast_->issued(now, command);
   view_.state = state;
   return command;

@@ -28,7 +28,7 @@ class AggregationNavigator : public Navigator {
   const Gatherer* gatherer() const { return gatherer_ ? &*gatherer_ : nullptr; }
 
  private:
-  Command issue(double now, Command command, std::string_view state);
+  Command issue(double now, Command command, NavigatorState state);
 
   AggregationParams params_;
   RobotSwarmParams robots_;

@@ -21,16 +21,16 @@ void PlanPlayer::prepare(const Snapshot& world) {
 Command PlanPlayer::step(const Observation& seen, const Stop& stop) {
   view_ = {};
   if (seen.robots.size() != swarm_.goals.size() || seen.age() > params_.frame_timeout)
-    return issue(seen.now, {}, "blind");
+    return issue(seen.now, {}, NavigatorState::blind);
   const Robots robots = forecast_->at_effect(seen);
   if (met(robots)) {
     on_plan_ = false;
-    return issue(seen.now, {}, "arrived");
+    return issue(seen.now, {}, NavigatorState::arrived);
   }
-  view_.state = "play";
+  view_.state = NavigatorState::play;
   if (!on_plan_ || input_ == plan_.inputs.size() || off(robots) > params_.stray)
     find_way(robots, seen.now, stop);
-  if (input_ == plan_.inputs.size()) return issue(seen.now, {}, "stuck");
+  if (input_ == plan_.inputs.size()) return issue(seen.now, {}, NavigatorState::stuck);
   return issue(seen.now, next_piece(), view_.state);
 }
 
@@ -76,7 +76,7 @@ void PlanPlayer::find_way(const Robots& robots, double now, const Stop& stop) {
   piece_ = 0;
   if (const auto k = place_to_join(robots)) {
     input_ = *k;
-    if (on_plan_) view_.state = "rejoin";
+    if (on_plan_) view_.state = NavigatorState::rejoin;
     on_plan_ = true;
     return;
   }
@@ -88,7 +88,7 @@ void PlanPlayer::find_way(const Robots& robots, double now, const Stop& stop) {
   if (plan_.status != Status::solved) retry_at_ = now + params_.retry_time;
   input_ = 0;
   on_plan_ = true;
-  view_.state = "replan";
+  view_.state = NavigatorState::replan;
   view_.planned = true;
 }
 
@@ -105,7 +105,7 @@ Command PlanPlayer::next_piece() {
   return command;
 }
 
-Command PlanPlayer::issue(double now, Command command, std::string_view state) {
+Command PlanPlayer::issue(double now, Command command, NavigatorState state) {
   forecast_->issued(now, command);
   view_.state = state;
   return command;

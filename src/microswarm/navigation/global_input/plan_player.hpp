@@ -36,7 +36,7 @@ class PlanPlayer : public Navigator {
   std::optional<std::size_t> place_to_join(const Robots& robots) const;
   void find_way(const Robots& robots, double now, const Stop& stop);
   Command next_piece();
-  Command issue(double now, Command command, std::string_view state);
+  Command issue(double now, Command command, NavigatorState state);
 
   PlanPlayerParams params_;
   RobotSwarmParams swarm_;

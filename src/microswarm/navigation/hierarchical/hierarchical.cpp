@@ -83,7 +83,7 @@ Command HierarchicalNavigator::step(const Observation& seen, const Stop& stop) {
   return command;
 }
 
-Command HierarchicalNavigator::issue(double now, Command command, std::string_view state) {
+Command HierarchicalNavigator::issue(double now, Command command, NavigatorState state) {
   view_.state = state;
   if (issued_at_) period_ = std::clamp(now - *issued_at_, escape_tick, 1.0);
   issued_at_ = now;
@@ -93,13 +93,13 @@ Command HierarchicalNavigator::issue(double now, Command command, std::string_vi
 
 // Algorithm 4 [drrt], one pass of its loop
 Command HierarchicalNavigator::decide(const Observation& seen, const Stop& stop) {
-  if (!sees_swarm(seen, params_.frame_timeout)) return issue(seen.now, {}, "blind");
+  if (!sees_swarm(seen, params_.frame_timeout)) return issue(seen.now, {}, NavigatorState::blind);
   follower_.see(seen, forecast_);
   pose_ = forecast_.at_effect(seen);
   const Command hold{pose_.heading, 0};
   if (distance(pose_.position, goal_) <= goal_tolerance_) {  // line 2
     path_.clear();
-    return issue(seen.now, hold, "arrived");
+    return issue(seen.now, hold, NavigatorState::arrived);
   }
 
   delay_ = seen.age() + swarm_.response_lag;
@@ -111,17 +111,19 @@ Command HierarchicalNavigator::decide(const Observation& seen, const Stop& stop)
     if (path_.size() < 2) break;
     if (params_.as_published) {
       const auto next = follow(place_, pose_, params_.speed);
-      return issue(seen.now, next.command, next.handed_over ? "fallback" : "follow");
+      return issue(seen.now, next.command,
+                   next.handed_over ? NavigatorState::fallback : NavigatorState::follow);
     }
     for (const double ease : eases)
       if (const double speed = ease * params_.speed; look_along_path(seen, speed).safe) {
         const auto next = follow(place_, pose_, speed);
-        return issue(seen.now, next.command, next.handed_over ? "fallback" : "follow");
+        return issue(seen.now, next.command,
+                     next.handed_over ? NavigatorState::fallback : NavigatorState::follow);
       }
   }
   if (params_.as_published ||
       look_ahead(seen, params_.margin, [&](const Pose2&, double) { return hold; }).safe)
-    return issue(seen.now, hold, "hold");
+    return issue(seen.now, hold, NavigatorState::hold);
   return escape(seen);
 }
 
@@ -345,7 +347,7 @@ Command HierarchicalNavigator::escape(const Observation& seen) {
       for (int j = 0; j < directions; ++j)
         if (i != j) consider(leg(i), leg(j));
   path_.clear();
-  return issue(seen.now, best, best.speed > 0 ? "escape" : "hold");
+  return issue(seen.now, best, best.speed > 0 ? NavigatorState::escape : NavigatorState::hold);
 }
 
 }  // namespace microswarm

@@ -42,7 +42,7 @@ class HierarchicalNavigator : public Navigator {
   };
 
   Command decide(const Observation& seen, const Stop& stop);
-  Command issue(double now, Command command, std::string_view state);
+  Command issue(double now, Command command, NavigatorState state);
   bool path_holds(const Snapshot& world) const;
   void replan(const Snapshot& seen, const Stop& stop);
   bool replan_with(const Snapshot& world, double clearance, const Stop& stop);

@@ -89,7 +89,8 @@ Command PredictiveNavigator::step(const Observation& seen, const Stop&) {
   if (goal_is_clear(map, pose)) {
     helm_.show_target(helm_.aim());
     path_.push_back(helm_.aim());
-    return helm_.issue({heading_of(helm_.aim() - pose.position), helm_.speed()}, "follow");
+    return helm_.issue({heading_of(helm_.aim() - pose.position), helm_.speed()},
+                       NavigatorState::follow);
   }
   planned_ = true;
   solve(map, pose.position);
@@ -99,9 +100,12 @@ Command PredictiveNavigator::step(const Observation& seen, const Stop&) {
   helm_.show_target(end);
   const double gap = std::min(leg.least_gap, follow_field(end));
   const bool meets = gap < -params_.margin;
-  if (leg.command.speed == 0) return helm_.issue({pose.heading, 0}, meets ? "escape" : "hold");
+  if (leg.command.speed == 0)
+    return helm_.issue({pose.heading, 0}, meets ? NavigatorState::escape : NavigatorState::hold);
   const bool alone = gap > 2 * params_.risk.reach;
-  return helm_.issue(leg.command, meets ? "escape" : alone ? "follow" : "avoid");
+  return helm_.issue(leg.command, meets   ? NavigatorState::escape
+                                  : alone ? NavigatorState::follow
+                                          : NavigatorState::avoid);
 }
 
 /// Takes the outlines of all bodies. Of one that is hollow and hardly moves, such as a channel with

@@ -75,14 +75,14 @@ Command RadarNavigator::guarded(const Command& command, const Observation& seen)
   const double tick = since > 0 && since < 1 ? since : usual_tick;
   const auto instead = guard_.overrules(command, start, *seen.world, tick);
   if (!instead) return command;
-  return issue(*instead, instead->speed > 0 ? "guard" : "hold");
+  return issue(*instead, instead->speed > 0 ? NavigatorState::guard : NavigatorState::hold);
 }
 
 Command RadarNavigator::decide(const Observation& seen, const Stop& stop) {
   if (!sees_swarm(seen, params_.frame_timeout) || !(seen.swarm->radius > 0))
-    return issue({}, "blind");
+    return issue({}, NavigatorState::blind);
   pose_ = params_.compensate_delay ? forecast_.at_effect(seen) : seen.swarm->pose;
-  if (!seen.world->is_free(pose_.position, 0)) return issue({}, "hold");
+  if (!seen.world->is_free(pose_.position, 0)) return issue({}, NavigatorState::hold);
   find_route(seen, stop);
   const bool has_plan = !route_.empty();
   const Vec2 target = has_plan ? route_.target(seen.world->map(), pose_.position,
@@ -95,22 +95,25 @@ Command RadarNavigator::decide(const Observation& seen, const Stop& stop) {
                                                   contact_->distance - look_->radius);
   view_.local_target = target;
 
-  if (distance(pose_.position, goal_) <= goal_tolerance_) return rest(seen, "arrived");
-  if (!has_plan) return rest(seen, "stuck");
+  if (distance(pose_.position, goal_) <= goal_tolerance_)
+    return rest(seen, NavigatorState::arrived);
+  if (!has_plan) return rest(seen, NavigatorState::stuck);
   const Waiting waiting{pose_.position, look_->radius, look_->circles.prediction, target};
   for (const WaitArea& area : params_.wait_areas)  // Eq 29
-    if (must_wait(area, seen.world->moving().bodies(), waiting)) return rest(seen, "wait");
+    if (must_wait(area, seen.world->moving().bodies(), waiting))
+      return rest(seen, NavigatorState::wait);
   if (const auto heading = scanner_.choose(*look_, *seen.world)) {
     const bool straight =
         !contact_ && turn_between(*heading, heading_of(target - pose_.position)) < 1e-9;
-    return issue({*heading, params_.speed}, straight ? "direct" : "avoid");
+    return issue({*heading, params_.speed},
+                 straight ? NavigatorState::direct : NavigatorState::avoid);
   }
   const bool near_wall = !seen.world->map().is_free(pose_.position, look_->wall_reach());
-  if (!contact_ && !near_wall) return rest(seen, "stuck");
+  if (!contact_ && !near_wall) return rest(seen, NavigatorState::stuck);
   if (params_.retreat)
     if (const auto heading = scanner_.retreat(*look_, *seen.world))
-      return issue({*heading, params_.speed}, "retreat");
-  return issue({pose_.heading, 0}, contact_ ? "hold" : "stuck");
+      return issue({*heading, params_.speed}, NavigatorState::retreat);
+  return issue({pose_.heading, 0}, contact_ ? NavigatorState::hold : NavigatorState::stuck);
 }
 
 // Waypoints by hand, planned, or just the goal.
@@ -175,15 +178,15 @@ RadarLook RadarNavigator::look_around(const Observation& seen, Vec2 target) cons
           .least_cosine = std::cos(params_.most_turn)};
 }
 
-Command RadarNavigator::rest(const Observation& seen, std::string_view state) {
+Command RadarNavigator::rest(const Observation& seen, NavigatorState state) {
   const bool pressed = contact_ && contact_->distance < look_->circles.prediction;
   if (pressed && params_.retreat)
     if (const auto heading = scanner_.retreat(*look_, *seen.world))
-      return issue({*heading, params_.speed}, "retreat");
+      return issue({*heading, params_.speed}, NavigatorState::retreat);
   return issue({pose_.heading, 0}, state);
 }
 
-Command RadarNavigator::issue(const Command& command, std::string_view state) {
+Command RadarNavigator::issue(const Command& command, NavigatorState state) {
   view_.state = state;
   return command;
 }

@@ -43,8 +43,8 @@ class RadarNavigator : public Navigator {
   Pose2 beside_walls(const Map& map, double radius) const;
   bool plan_route(const Snapshot& walls, Pose2 from, double clearance, const Stop& stop);
   RadarLook look_around(const Observation& seen, Vec2 target) const;
-  Command rest(const Observation& seen, std::string_view state);
-  Command issue(const Command& command, std::string_view state);
+  Command rest(const Observation& seen, NavigatorState state);
+  Command issue(const Command& command, NavigatorState state);
 
   RadarParams params_;
   SwarmLimits swarm_;

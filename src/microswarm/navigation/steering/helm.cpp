@@ -37,17 +37,17 @@ const Pose2* Helm::begin(const Observation& seen) {
   view_ = {};
   now_ = seen.now;
   if (!sees_swarm(seen, frame_timeout_)) {
-    why_rest_ = "blind";
+    why_rest_ = NavigatorState::blind;
     return nullptr;
   }
   delay_ = seen.age() + swarm_.response_lag;
   pose_ = forecast_.at_effect(seen);
   if (!arrives(pose_.position)) return &pose_;
-  why_rest_ = "arrived";
+  why_rest_ = NavigatorState::arrived;
   return nullptr;
 }
 
-Command Helm::issue(const Command& command, std::string_view state) {
+Command Helm::issue(const Command& command, NavigatorState state) {
   view_.state = state;
   forecast_.note(now_, command);
   return command;

@@ -34,7 +34,7 @@ class Helm {
   /// The hold with which a step ends that began with null.
   Command rest() { return issue({pose_.heading, 0}, why_rest_); }
   /// The command of this step and what it is for, in one word.
-  Command issue(const Command& command, std::string_view state);
+  Command issue(const Command& command, NavigatorState state);
 
   const SwarmLimits& swarm() const { return swarm_; }
   /// As fast as it is wanted and can [µm/s].
@@ -65,7 +65,7 @@ class Helm {
   double now_ = 0;
   double delay_ = 0;
   Pose2 pose_;
-  std::string_view why_rest_ = "blind";
+  NavigatorState why_rest_ = NavigatorState::blind;
   NavigatorView view_;
 };
 

@@ -26,7 +26,7 @@ double nearest(const Record& record, Distance&& distance_of) {
 /// The middle of the first time in which it waits for a valve, from t0 [s] on; none when it does
 /// not.
 std::optional<double> middle_of_wait(const Record& record, double t0) {
-  const auto waits = [](const Frame& f) { return f.state == "wait"; };
+  const auto waits = [](const Frame& f) { return f.state == NavigatorState::wait; };
   const auto from = record.frames.begin() + static_cast<std::ptrdiff_t>(frame_at(record, t0));
   const auto begin = std::find_if(from, record.frames.end(), waits);
   if (begin == record.frames.end()) return std::nullopt;

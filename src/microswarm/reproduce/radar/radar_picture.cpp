@@ -236,10 +236,10 @@ void write_radar_run(const RadarRun& run, const fs::path& stem) {
   for (std::size_t k = 0; k < run.record.frames.size(); ++k) {
     const Frame& f = run.record.frames[k];
     const RadarCircles c = circles_at(run, k);
-    csv +=
-        fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{}\n", f.t,
-                    f.pose.position.x, f.pose.position.y, f.avoidance_cost,
-                    f.obstacle_clearance - f.radius, c.prediction, c.safety, c.detection, f.state);
+    csv += fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{}\n", f.t,
+                       f.pose.position.x, f.pose.position.y, f.avoidance_cost,
+                       f.obstacle_clearance - f.radius, c.prediction, c.safety, c.detection,
+                       enum_name(f.state));
   }
   write_file_atomically(stem.string() + ".csv", csv);
   write_record(run.record, stem.string() + ".h5");
