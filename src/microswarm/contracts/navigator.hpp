@@ -3,7 +3,6 @@
 
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "microswarm/contracts/command.hpp"
 #include "microswarm/contracts/navigator_state.hpp"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string_view>
-
 #include "microswarm/navigation/baselines/straight_params.hpp"
 #include "microswarm/navigation/steering/helm.hpp"
 

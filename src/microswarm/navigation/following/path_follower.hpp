@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <memory>
-#include <string>
-#include <utility>
 
 #include "microswarm/navigation/following/flow_estimate.hpp"
 #include "microswarm/navigation/following/follower.hpp"

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <string_view>
-#include <vector>
 
 #include "microswarm/contracts/navigator.hpp"
 #include "microswarm/navigation/global_input/plan_player_params.hpp"

@@ -9,7 +9,6 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/published.hpp"
-#include "microswarm/navigation/steering/aim.hpp"
 #include "microswarm/navigation/steering/helm.hpp"
 #include "microswarm/swarm/body/unicycle.hpp"
 
@@ -52,12 +51,12 @@ HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params,
       swarm_(swarm),
       goal_(goal),
       goal_tolerance_(goal_tolerance),
+      aim_{.position = goal, .tolerance = goal_tolerance},
       rng_(rng),
       forecast_(swarm),
       obstacles_(params.tracker),
       follower_(params.follower, swarm) {
   params_.speed = std::min(params.speed, swarm.max_speed);
-  aim_ = goal_;
   // How far the arc of a tick is from its chord; a swarm that turns at once makes none.
   if (std::isfinite(swarm.max_turn_rate))
     slack_ = std::max(1.0, params_.speed * swarm.max_turn_rate * escape_tick * escape_tick / 8);
@@ -67,9 +66,8 @@ void HierarchicalNavigator::prepare(const Snapshot& world) {
   const Snapshot walls(world.shared_map());
   aim_ =
       aim_at(walls, goal_, goal_tolerance_, params_.margin, params_.margin + params_.extra_margin);
-  aim_clearance_ = walls.map().clearance(aim_);
   if (params_.guide == Guide::route)
-    route_ = Route(world.map(), aim_, params_.margin, params_.route_cell);
+    route_ = Route(world.map(), aim_.position, params_.margin, params_.route_cell);
 }
 
 Command HierarchicalNavigator::step(const Observation& seen, const Stop& stop) {
@@ -127,10 +125,10 @@ Command HierarchicalNavigator::decide(const Observation& seen, const Stop& stop)
   return escape(seen);
 }
 
-// What is left of a path on the way is not worth following, of the last one nothing is left.
+// A path to a local target is replaced before its end, the one to the aim at its end.
 bool HierarchicalNavigator::is_used_up() {
   if (path_.size() < 2 || !target_) return false;
-  if (!(*target_ == aim_)) return way_left(path_, place_) < used_up();
+  if (!(*target_ == aim_.position)) return way_left(path_, place_) < used_up();
   if (params_.as_published) return false;
   place_ = nearest_place(path_, pose_.position, place_);
   return way_left(path_, place_) < path_end();
@@ -153,8 +151,8 @@ void HierarchicalNavigator::replan(const Snapshot& seen, const Stop& stop) {
   place_ = {};
   const double here = seen.clearance(pose_.position);
   double wanted = params_.margin + params_.extra_margin;
-  if (distance(pose_.position, aim_) <= params_.target.base_distance)  // it may have less
-    wanted = std::clamp(seen.map().clearance(aim_), params_.margin, wanted);
+  if (distance(pose_.position, aim_.position) <= params_.target.base_distance)  // it may have less
+    wanted = std::clamp(aim_.clearance, params_.margin, wanted);
   if (here < params_.margin) {
     target_.reset();
     return;
@@ -172,10 +170,10 @@ void HierarchicalNavigator::replan(const Snapshot& seen, const Stop& stop) {
 
 // Where the goal lies: straight, or along the route.
 Vec2 HierarchicalNavigator::towards(const Map& map) const {
-  if (params_.guide == Guide::straight) return aim_;
+  if (params_.guide == Guide::straight) return aim_.position;
   const Vec2 via =
       route_.ahead(map, pose_.position, 1.5 * params_.target.base_distance, params_.margin);
-  return via == pose_.position ? aim_ : via;
+  return via == pose_.position ? aim_.position : via;
 }
 
 bool HierarchicalNavigator::replan_in_time(const Snapshot& seen, double clearance,
@@ -183,14 +181,15 @@ bool HierarchicalNavigator::replan_in_time(const Snapshot& seen, double clearanc
   if (params_.target_horizon <= 0 || obstacles_.all_rest()) return false;
   const Vec2 from = pose_.position;
   const auto way_from = [&](Vec2 p) {
-    const double way = params_.guide == Guide::route ? route_.way_from(p) : distance(p, aim_);
-    return std::isfinite(way) ? way : distance(p, aim_) + no_route;
+    const double way =
+        params_.guide == Guide::route ? route_.way_from(p) : distance(p, aim_.position);
+    return std::isfinite(way) ? way : distance(p, aim_.position) + no_route;
   };
   const auto target = select_predicted_target(seen, obstacles_,
                                               {.swarm = pose_,
                                                .delay = delay_,
                                                .speed = params_.speed,
-                                               .goal = aim_,
+                                               .goal = aim_.position,
                                                .towards = towards(seen.map()),
                                                .reach = params_.target.base_distance,
                                                .least_reach = 2 * used_up(),
@@ -213,17 +212,17 @@ bool HierarchicalNavigator::replan_with(const Snapshot& world, double clearance,
   path_in_time_ = false;
   const LocalTargetQuery query{.swarm = pose_,
                                .goal_heading = heading_of(towards(world.map()) - from),
-                               .goal_distance = distance(from, aim_),
+                               .goal_distance = distance(from, aim_.position),
                                .previous_target = target_,
                                .clearance = clearance,
                                .least_distance = swarm_.radius};
   const bool near_goal =  // line 6
       params_.as_published ? query.goal_distance <= target_distance(world, query, params_.target)
                            : query.goal_distance <= params_.target.base_distance &&
-                                 world.is_free(Segment{from, aim_}, clearance);
+                                 world.is_free(Segment{from, aim_.position}, clearance);
   std::optional<Vec2> target;
   if (near_goal) {
-    target = aim_;                                                                     // line 9
+    target = aim_.position;                                                            // line 9
   } else if (const auto chosen = select_local_target(world, query, params_.target)) {  // line 7
     target = chosen->position;
   }
@@ -237,8 +236,8 @@ void HierarchicalNavigator::plan_to(const Snapshot& world, Vec2 target, double c
   const Vec2 from = pose_.position;
   DrrtStarParams local = params_.planner;
   local.clearance = clearance;
-  local.goal_tolerance = std::min({local.goal_tolerance, goal_tolerance_ - distance(aim_, goal_),
-                                   0.25 * distance(from, target)});
+  local.goal_tolerance =
+      std::min({local.goal_tolerance, aim_.tolerance, 0.25 * distance(from, target)});
   plan_ = plan(world, pose_, target, local, rng_, stop);  // line 11
   if (plan_->status == Status::solved)
     path_ = plan_->path;
@@ -253,8 +252,7 @@ void HierarchicalNavigator::plan_to(const Snapshot& world, Vec2 target, double c
 double HierarchicalNavigator::wall_floor(const Map& map, double reach) const {
   const double wanted = swarm_.radius + slack_;
   if (params_.margin >= wanted) return params_.margin;
-  const double near_aim =
-      wall_clearance_near(aim_, aim_clearance_, params_.margin, wanted, pose_.position, reach);
+  const double near_aim = aim_.wall_clearance(params_.margin, wanted, pose_.position, reach);
   return std::max(params_.margin, std::min(near_aim, map.clearance(pose_.position)));
 }
 
@@ -297,7 +295,8 @@ HierarchicalNavigator::Outlook HierarchicalNavigator::look_ahead(const Observati
 PathFollower::Answer HierarchicalNavigator::follow(PathPlace& place, const Pose2& pose,
                                                    double speed) const {
   const double lookahead = params_.as_published ? params_.lookahead : lookahead_at(speed);
-  const bool last_bit = *target_ == aim_ && distance(pose.position, aim_) < lookahead;
+  const bool last_bit =
+      *target_ == aim_.position && distance(pose.position, aim_.position) < lookahead;
   PathFollower::Answer answer =
       last_bit ? PathFollower::Answer{pursue(path_, place, pose, lookahead, speed)}
                : follower_.command(path_, place, pose, lookahead, speed);
@@ -320,7 +319,7 @@ HierarchicalNavigator::Outlook HierarchicalNavigator::look_along_path(const Obse
 // distance.
 Command HierarchicalNavigator::escape(const Observation& seen) {
   constexpr int directions = 16;
-  const double goal_heading = heading_of(aim_ - pose_.position);
+  const double goal_heading = heading_of(aim_.position - pose_.position);
   Command best{pose_.heading, 0};
   double best_score = -1;
   double best_least = 0;

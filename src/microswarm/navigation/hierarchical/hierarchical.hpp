@@ -2,9 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <memory>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "microswarm/contracts/navigator.hpp"
@@ -15,6 +13,7 @@
 #include "microswarm/navigation/hierarchical/local_target.hpp"
 #include "microswarm/navigation/hierarchical/predicted_target.hpp"
 #include "microswarm/navigation/prediction/obstacle_predictor.hpp"
+#include "microswarm/navigation/steering/aim.hpp"
 #include "microswarm/navigation/steering/body_forecast.hpp"
 #include "microswarm/navigation/steering/guide.hpp"
 #include "microswarm/planning/path/planners.hpp"
@@ -63,9 +62,7 @@ class HierarchicalNavigator : public Navigator {
   /// So little of a path is left when the next one is planned [µm].
   double used_up() const { return std::max(params_.lookahead, 2 * swarm_.radius); }
   /// So little that it counts as nothing [µm].
-  double path_end() const {
-    return std::min(1.0, 0.25 * (goal_tolerance_ - distance(aim_, goal_)));
-  }
+  double path_end() const { return std::min(1.0, 0.25 * aim_.tolerance); }
   bool is_used_up();
   Command escape(const Observation& seen);
 
@@ -73,13 +70,12 @@ class HierarchicalNavigator : public Navigator {
   SwarmLimits swarm_;
   Vec2 goal_;
   double goal_tolerance_;
+  Aim aim_;  ///< the goal, or the point within its tolerance that keeps the margin
   Rng rng_;
   Route route_;
   double slack_ = 1;     ///< kept besides the margin, for what happens within a tick [µm]
   double period_ = 0.1;  ///< between the last two commands [s]
   double delay_ = 0;     ///< from the frame until the command of this step takes effect [s]
-  double aim_clearance_ = infinity;  ///< to walls [µm]
-  Vec2 aim_;  ///< the goal, or the point within its tolerance that keeps the margin
 
   std::optional<double> issued_at_;  ///< the last command [s]
   BodyForecast forecast_;

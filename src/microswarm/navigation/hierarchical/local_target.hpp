@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/navigation/hierarchical/hierarchical_params.hpp"

@@ -56,7 +56,7 @@ PredictiveNavigator::PredictiveNavigator(const PredictiveParams& params, const S
 
 void PredictiveNavigator::prepare(const Snapshot& world) {
   helm_.prepare(world, helm_.swarm().radius, helm_.swarm().radius + params_.wall_margin);
-  const double left = goal_tolerance_ - distance(helm_.aim(), helm_.goal());
+  const double left = helm_.aim_tolerance();
   reached_ = {helm_.aim(), inner_goal * left};
   ends_within_ = goal_tolerance_ - (1 - inner_goal) * left;
   if (params_.guide == Guide::route)

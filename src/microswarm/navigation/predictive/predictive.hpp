@@ -3,7 +3,6 @@
 
 #include <limits>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "microswarm/core/rng.hpp"

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "microswarm/navigation/radar/wait_area.hpp"
-#include "microswarm/navigation/steering/aim.hpp"
 #include "microswarm/navigation/steering/helm.hpp"
 #include "microswarm/planning/path/fmt_star.hpp"
 #include "microswarm/world/connectivity/free_place.hpp"
@@ -24,7 +23,7 @@ RadarNavigator::RadarNavigator(const RadarParams& params, const SwarmLimits& swa
     : params_(params.in_effect()),
       swarm_(swarm),
       goal_(goal),
-      aim_(goal),
+      aim_{.position = goal, .tolerance = goal_tolerance},
       goal_tolerance_(goal_tolerance),
       rng_(rng),
       safety_radius_(params.safety_radius),
@@ -38,7 +37,6 @@ void RadarNavigator::prepare(const Snapshot& world) {
   if (params_.as_published) return;
   aim_ = aim_at(Snapshot(world.shared_map()), goal_, goal_tolerance_, swarm_.radius,
                 swarm_.radius + params_.safety_distance);
-  aim_clearance_ = world.map().clearance(aim_);
 }
 
 Command RadarNavigator::step(const Observation& seen, const Stop& stop) {
@@ -87,7 +85,7 @@ Command RadarNavigator::decide(const Observation& seen, const Stop& stop) {
   const bool has_plan = !route_.empty();
   const Vec2 target = has_plan ? route_.target(seen.world->map(), pose_.position,
                                                seen.swarm->radius, params_.waypoint_tolerance)
-                               : aim_;
+                               : aim_.position;
   look_ = look_around(seen, target);
   contact_ = scanner_.detect(*look_, *seen.world);
   if (contact_)
@@ -120,10 +118,10 @@ Command RadarNavigator::decide(const Observation& seen, const Stop& stop) {
 void RadarNavigator::find_route(const Observation& seen, const Stop& stop) {
   if (!routed_ && !params_.waypoints.empty()) {
     std::vector<Vec2> points = params_.waypoints;
-    points.push_back(aim_);
+    points.push_back(aim_.position);
     route_ = RadarRoute(std::move(points), false);
   } else if (!routed_ && !params_.global_plan) {
-    route_ = RadarRoute({aim_}, true);
+    route_ = RadarRoute({aim_.position}, true);
   } else if (params_.waypoints.empty() && params_.global_plan && seen.now >= plan_again_at_ &&
              (route_.empty() || !route_.in_sight())) {
     view_.planned = true;
@@ -149,9 +147,8 @@ bool RadarNavigator::plan_route(const Snapshot& walls, Pose2 from, double cleara
                                 const Stop& stop) {
   FmtStarParams planner = params_.planner;
   planner.clearance = clearance;
-  planner.goal_tolerance =
-      std::min(planner.goal_tolerance, goal_tolerance_ - distance(aim_, goal_));
-  plan_ = plan(walls, from, aim_, planner, rng_, stop);
+  planner.goal_tolerance = std::min(planner.goal_tolerance, aim_.tolerance);
+  plan_ = plan(walls, from, aim_.position, planner, rng_, stop);
   if (plan_->status != Status::solved) return false;
   std::vector<Vec2> points = plan_->path;
   if (points.size() > 1 && from.position == pose_.position) points.erase(points.begin());
@@ -162,9 +159,8 @@ bool RadarNavigator::plan_route(const Snapshot& walls, Pose2 from, double cleara
 RadarLook RadarNavigator::look_around(const Observation& seen, Vec2 target) const {
   const double radius = seen.swarm->radius;
   const double dead_time = seen.age() + swarm_.response_lag;
-  const double from_walls =
-      wall_clearance_near(aim_, aim_clearance_, radius, radius + params_.safety_distance,
-                          pose_.position, params_.prediction_distance);
+  const double from_walls = aim_.wall_clearance(radius, radius + params_.safety_distance,
+                                                pose_.position, params_.prediction_distance);
   return {.centre = pose_.position,
           .radius = radius,
           .target = target,

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "microswarm/contracts/navigator.hpp"
 #include "microswarm/core/infinity.hpp"
@@ -13,6 +12,7 @@
 #include "microswarm/navigation/radar/radar_scan.hpp"
 #include "microswarm/navigation/radar/radar_scanner.hpp"
 #include "microswarm/navigation/radar/safety_radius.hpp"
+#include "microswarm/navigation/steering/aim.hpp"
 #include "microswarm/navigation/steering/body_forecast.hpp"
 #include "microswarm/swarm/body/swarm_limits.hpp"
 
@@ -49,8 +49,7 @@ class RadarNavigator : public Navigator {
   RadarParams params_;
   SwarmLimits swarm_;
   Vec2 goal_;
-  Vec2 aim_;  ///< the goal, or the point within its tolerance that keeps the safety distance
-  double aim_clearance_ = infinity;  ///< to walls [µm]
+  Aim aim_;  ///< the goal, or the point within its tolerance that keeps the safety distance
   double goal_tolerance_;
   Rng rng_;
   SafetyRadius safety_radius_;

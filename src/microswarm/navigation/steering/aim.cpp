@@ -12,7 +12,9 @@ std::optional<Vec2> reachable_goal(const Snapshot& walls, Vec2 goal, double tole
   return free_goal(walls, goal, aim_share * tolerance, clearance);
 }
 
-Vec2 aim_at(const Snapshot& walls, Vec2 goal, double tolerance, double least, double wanted) {
+namespace {
+
+Vec2 aim_position(const Snapshot& walls, Vec2 goal, double tolerance, double least, double wanted) {
   if (const auto aim = reachable_goal(walls, goal, tolerance, wanted)) return *aim;
   if (!reachable_goal(walls, goal, tolerance, least)) return goal;
   constexpr int halvings = 8;
@@ -25,11 +27,17 @@ Vec2 aim_at(const Snapshot& walls, Vec2 goal, double tolerance, double least, do
   return reachable_goal(walls, goal, tolerance, 0.5 * (least + enough)).value_or(goal);
 }
 
-double wall_clearance_near(Vec2 aim, double aim_clearance, double least, double wanted, Vec2 p,
-                           double reach) {
+}  // namespace
+
+Aim aim_at(const Snapshot& walls, Vec2 goal, double tolerance, double least, double wanted) {
+  const Vec2 position = aim_position(walls, goal, tolerance, least, wanted);
+  return {position, walls.map().clearance(position), tolerance - distance(position, goal)};
+}
+
+double Aim::wall_clearance(double least, double wanted, Vec2 p, double reach) const {
   constexpr double rounding = 1e-9;
-  if (aim_clearance >= wanted || distance(p, aim) > reach + wanted) return wanted;
-  return std::max(least, (1 - rounding) * aim_clearance);
+  if (clearance >= wanted || distance(p, position) > reach + wanted) return wanted;
+  return std::max(least, (1 - rounding) * clearance);
 }
 
 }  // namespace microswarm

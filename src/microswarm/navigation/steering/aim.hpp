@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "microswarm/core/infinity.hpp"
 #include "microswarm/world/snapshot.hpp"
 
 namespace microswarm {
@@ -17,15 +18,20 @@ inline constexpr double aim_share = 0.9;
 std::optional<Vec2> reachable_goal(const Snapshot& walls, Vec2 goal, double tolerance,
                                    double clearance);
 
-/// The same at `wanted` clearance. Where that is too much, half of what can be had besides `least`
-/// is kept: the swarm strays from its way, and has some room to the walls and in the tolerance. The
-/// goal itself when there is no such point.
-Vec2 aim_at(const Snapshot& walls, Vec2 goal, double tolerance, double least, double wanted);
+/// The point that a swarm heads for: the goal, or a point within its tolerance.
+struct Aim {
+  Vec2 position;                ///< [µm]
+  double clearance = infinity;  ///< of it, to walls [µm]
+  double tolerance = 0;         ///< what it leaves of the goal's [µm]
 
-/// How far to stay from walls [µm] on the next `reach` µm from `p`: `wanted`, or where they come
-/// near to an aim that is `aim_clearance` from a wall, less than that, what the aim has; `least` at
-/// least.
-double wall_clearance_near(Vec2 aim, double aim_clearance, double least, double wanted, Vec2 p,
-                           double reach);
+  /// How far to stay from walls [µm] on the next `reach` µm from `p`: `wanted`; where they come
+  /// near to an aim that has less, its clearance, but `least` at least.
+  double wall_clearance(double least, double wanted, Vec2 p, double reach) const;
+};
+
+/// An aim with `wanted` clearance from `walls`. Where that is too much, half of what can be had
+/// besides `least` is kept: a swarm strays from its path, and has some room to the walls and in the
+/// tolerance. The goal itself when no point keeps `least`.
+Aim aim_at(const Snapshot& walls, Vec2 goal, double tolerance, double least, double wanted);
 
 }  // namespace microswarm

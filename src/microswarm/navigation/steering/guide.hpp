@@ -2,8 +2,6 @@
 #pragma once
 
 #include <array>
-#include <string_view>
-#include <utility>
 
 #include "microswarm/navigation/steering/guide_kind.hpp"
 #include "microswarm/navigation/steering/route.hpp"

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "microswarm/navigation/steering/aim.hpp"
-
 namespace microswarm {
 
 bool sees_swarm(const Observation& seen, double frame_timeout) {
@@ -19,18 +17,17 @@ Helm::Helm(const SwarmLimits& swarm, double speed, Vec2 goal, double goal_tolera
     : swarm_(swarm),
       speed_(std::min(speed, swarm.max_speed)),
       goal_(goal),
-      aim_(goal),
+      aim_{.position = goal, .tolerance = goal_tolerance},
       goal_tolerance_(goal_tolerance),
       frame_timeout_(frame_timeout),
       forecast_(swarm) {}
 
 void Helm::prepare(const Snapshot& world, double least, double wanted) {
   aim_ = aim_at(Snapshot(world.shared_map()), goal_, goal_tolerance_, least, wanted);
-  aim_clearance_ = world.map().clearance(aim_);
 }
 
 double Helm::wall_clearance(double wanted, Vec2 p, double reach) const {
-  return wall_clearance_near(aim_, aim_clearance_, swarm_.radius, wanted, p, reach);
+  return aim_.wall_clearance(swarm_.radius, wanted, p, reach);
 }
 
 const Pose2* Helm::begin(const Observation& seen) {

@@ -6,6 +6,7 @@
 
 #include "microswarm/contracts/navigator.hpp"
 #include "microswarm/core/infinity.hpp"
+#include "microswarm/navigation/steering/aim.hpp"
 #include "microswarm/navigation/steering/body_forecast.hpp"
 
 namespace microswarm {
@@ -41,10 +42,12 @@ class Helm {
   double speed() const { return speed_; }
   Vec2 goal() const { return goal_; }
   /// What to head for: the goal, or a point within its tolerance that is free.
-  Vec2 aim() const { return aim_; }
+  Vec2 aim() const { return aim_.position; }
+  /// What it leaves of the goal's tolerance [µm].
+  double aim_tolerance() const { return aim_.tolerance; }
   /// Is `p` within the goal's tolerance?
   bool arrives(Vec2 p) const { return distance(p, goal_) <= goal_tolerance_; }
-  /// How far to stay from walls on the next `reach` µm from `p`, see wall_clearance_near [µm].
+  /// How far to stay from walls on the next `reach` µm from `p`, see Aim::wall_clearance [µm].
   double wall_clearance(double wanted, Vec2 p, double reach) const;
   /// From the frame to the effect of the command of this step [s].
   double delay() const { return delay_; }
@@ -57,8 +60,7 @@ class Helm {
   SwarmLimits swarm_;
   double speed_;
   Vec2 goal_;
-  Vec2 aim_;
-  double aim_clearance_ = infinity;  ///< to walls [µm]
+  Aim aim_;
   double goal_tolerance_;
   double frame_timeout_;
   BodyForecast forecast_;

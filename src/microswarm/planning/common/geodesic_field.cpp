@@ -10,7 +10,7 @@
 namespace microswarm {
 namespace {
 
-constexpr float unknown = std::numeric_limits<float>::infinity();
+constexpr float unreached = std::numeric_limits<float>::infinity();
 
 struct OpenCell {
   float distance;
@@ -29,7 +29,8 @@ GeodesicField::GeodesicField(const Map& map, Vec2 goal, int cells) : goal_(goal)
   detour_ = bounds.width() + bounds.height();
   columns_ = std::max(1, static_cast<int>(std::ceil(bounds.width() / cell_)));
   rows_ = std::max(1, static_cast<int>(std::ceil(bounds.height() / cell_)));
-  distances_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), unknown);
+  distances_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_),
+                    unreached);
   std::priority_queue<OpenCell> open;
   const auto reach = [&](std::size_t cell, double distance) {
     const auto d = static_cast<float>(distance);
@@ -70,10 +71,10 @@ Vec2 GeodesicField::centre(std::size_t cell) const {
 
 double GeodesicField::at(Vec2 p) const {
   const float found = distances_[index(p)];
-  return found < unknown ? static_cast<double>(found) : distance(p, goal_) + detour_;
+  return found < unreached ? static_cast<double>(found) : distance(p, goal_) + detour_;
 }
 
-bool GeodesicField::reaches(Vec2 p) const { return distances_[index(p)] < unknown; }
+bool GeodesicField::reaches(Vec2 p) const { return distances_[index(p)] < unreached; }
 
 double GeodesicField::seen_from(const Map& map, Vec2 p) const {
   const Vec2 own = centre(index(p));

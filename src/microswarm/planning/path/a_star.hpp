@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string_view>
-
 #include "microswarm/contracts/plan.hpp"
 #include "microswarm/planning/path/a_star_params.hpp"
 

@@ -4,9 +4,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "microswarm/actuation/coils/coil_controller.hpp"
 #include "microswarm/contracts/plant.hpp"
