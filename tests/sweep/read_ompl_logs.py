@@ -4,6 +4,7 @@
 compares what arrived with the sweep's CSV: read_ompl_logs.py FILE.csv LOG..."""
 
 import csv
+import math
 import sqlite3
 import sys
 
@@ -100,6 +101,11 @@ def read_planner(database, log, experiment, runs_per_planner):
     assert log.line().strip() == "."
 
 
+def same(stored, text):
+    """SQLite's own reading of a decimal fraction may differ from the nearest double in the last bit."""
+    return math.isclose(stored, float(text), rel_tol=1e-15)
+
+
 def main():
     database = sqlite3.connect(":memory:")
     database.execute("CREATE TABLE experiments (id INTEGER PRIMARY KEY, name TEXT)")
@@ -115,9 +121,9 @@ def main():
         assert run["planner"] == row["method"]
         assert statuses[run["status"]] == row["status"]
         assert str(run["solved"]) == row["arrived"]
-        assert run["length_um"] == float(row["length_um"])
-        assert run["time"] == float(row["compute_s"])
-        assert run["navigator_margin_um"] == float(row["navigator_margin_um"])
+        assert same(run["length_um"], row["length_um"])
+        assert same(run["time"], row["compute_s"])
+        assert same(run["navigator_margin_um"], row["navigator_margin_um"])
         assert run["goal_um"] == row["goal_um"]
 
 
