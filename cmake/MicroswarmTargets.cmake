@@ -3,23 +3,20 @@
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()
 find_program(MICROSWARM_CCACHE ccache)
 if(MICROSWARM_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # What a precompiled header defines is known to ccache by the header's own hash.
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
-      CCACHE_SLOPPINESS=pch_defines,time_macros ${MICROSWARM_CCACHE})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${MICROSWARM_CCACHE})
 endif()
 
 add_library(microswarm_options INTERFACE)
 # The same bits in every build: no contraction to fused multiply-add, no fast math.
 target_compile_options(microswarm_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
-                       -Wno-sign-conversion -Wno-missing-field-initializers -ffp-contract=off
-                       # libraries and programs alike, so that they share precompiled headers
-                       -fPIC)
+                       -Wno-sign-conversion -Wno-missing-field-initializers -ffp-contract=off)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # gcc 12 sees an overlap that is not there wherever two strings are joined.
   target_compile_options(microswarm_options INTERFACE -Wno-restrict)
@@ -42,23 +39,6 @@ if(MICROSWARM_FUZZ)
   target_compile_options(microswarm_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
-# The standard library and fmt are half of what most sources cost: read once a set of options.
-find_package(fmt REQUIRED)
-target_link_libraries(microswarm_options INTERFACE fmt::fmt)
-file(WRITE ${PROJECT_BINARY_DIR}/generated/precompiled.cpp "")
-# microswarm_precompiled(NAME HEADERS...): with these besides.
-function(microswarm_precompiled name)
-  add_library(${name} OBJECT ${PROJECT_BINARY_DIR}/generated/precompiled.cpp)
-  target_link_libraries(${name} PRIVATE microswarm_options)
-  target_precompile_headers(${name} PRIVATE
-    <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory>
-    <numbers> <optional> <span> <string> <string_view> <utility> <variant> <vector>
-    <fmt/format.h> ${ARGN})
-endfunction()
-microswarm_precompiled(microswarm_precompiled)
-microswarm_precompiled(microswarm_precompiled_glue)
-target_compile_options(microswarm_precompiled_glue PRIVATE ${microswarm_glue_options})
-
 # microswarm_floor(NAME SOURCES ... FLOORS ... PUBLIC ... PRIVATE ...): the library of one floor.
 function(microswarm_floor name)
   cmake_parse_arguments(arg "" "" "SOURCES;FLOORS;PUBLIC;PRIVATE" ${ARGN})
@@ -70,7 +50,6 @@ function(microswarm_floor name)
                              $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
                              $<INSTALL_INTERFACE:include>)
   target_compile_features(${target} PUBLIC cxx_std_20)
-  target_precompile_headers(${target} REUSE_FROM microswarm_precompiled)
   list(TRANSFORM arg_FLOORS PREPEND microswarm::)
   target_link_libraries(${target} PUBLIC ${arg_FLOORS} ${arg_PUBLIC}
                         PRIVATE $<BUILD_INTERFACE:microswarm_options> ${arg_PRIVATE})

@@ -2,9 +2,11 @@
 #include <memory>
 #include <optional>
 
+#include "microswarm/config/key_locations.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/experiment/scenario/validate.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/navigation/gathering/channel_width.hpp"
 #include "run_output.hpp"
@@ -79,9 +81,11 @@ int gather_command(const GatherOptions& o, const Context& context) {
     throw InputError(fmt::format("{}: goal {}", o.map, why));
   fit(scene.scenario, width_of(o, *world.map), o.most_steps);
   set_values(scene.scenario, o.settings);
-  check(scene.scenario, world, o.map);
+  KeyLocations(o.map).require_none(validate(scene.scenario, world));
   const OutFolder hold(o.out);
-  return run_once(scene, world, {o.out, false, o.json}, report, context.stop);
+  Session session(Experiment{std::move(scene), world, o.map});
+  finish_run(session, context.stop);
+  return tell_run(session, {o.out, false, o.json}, report);
 }
 
 }  // namespace

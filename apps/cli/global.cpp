@@ -7,13 +7,14 @@
 #include <variant>
 
 #include "global_choice.hpp"
+#include "microswarm/config/key_locations.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/stop.hpp"
 #include "microswarm/core/text.hpp"
 #include "microswarm/experiment/record/global_tree_file.hpp"
-#include "microswarm/experiment/scenario/robot_check.hpp"
+#include "microswarm/experiment/scenario/validate_robots.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/planning/global_input/global_shorten.hpp"
 #include "microswarm/report/robot_picture.hpp"
@@ -70,7 +71,9 @@ struct Found {
 /// That the planner says itself when there are not as many goals as robots.
 void check_ends(const GlobalOptions& o, const Map& map, std::span<const Vec2> starts,
                 std::span<const Vec2> goals, const GlobalPlay& play) {
-  if (goals.size() == starts.size()) check_ways(map, starts, goals, play.goal_tolerance, 0, o.map);
+  if (goals.size() != starts.size()) return;
+  KeyLocations(o.map).require_none(
+      validate_robot_paths(map, starts, goals, play.goal_tolerance, 0));
 }
 
 /// Throws InputError when no planner could have brought the robots there.

@@ -7,6 +7,8 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <string>
+#include <string_view>
 
 #include "cli.hpp"
 #include "command.hpp"
@@ -34,8 +36,14 @@ constexpr const char* footer =
     "Ctrl-C ends at once, by its signal;\n"
     "4 a device is not there or does not answer; 1 anything else.";
 
-int complain(const char* what, int code) {
-  std::fprintf(stderr, "microswarm: %s\n", what);
+/// Every line of a complaint begins with the program's name.
+int complain(std::string_view what, int code) {
+  for (bool more = true; more;) {
+    const std::size_t end = what.find('\n');
+    std::fprintf(stderr, "microswarm: %s\n", std::string(what.substr(0, end)).c_str());
+    more = end != std::string_view::npos;
+    if (more) what.remove_prefix(end + 1);
+  }
   return code;
 }
 

@@ -4,10 +4,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "microswarm/config/key_locations.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/experiment/scenario/validate.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/planning/common/free_goal.hpp"
 #include "microswarm/planning/path/planners.hpp"
@@ -66,7 +68,7 @@ void explain(const PlanOptions& o, const Snapshot& world, Vec2 start, Vec2 goal,
     throw InputError(fmt::format("{}: goal {}", o.map, world.why_blocked(goal, clearance)));
   if (status != Status::no_path && status != Status::node_limit) return;
   if (const auto target = free_goal(world, goal, tolerance, clearance))
-    check_way(world.map(), start, *target, clearance, o.map);
+    KeyLocations(o.map).require_none(validate_path(world.map(), start, *target, clearance));
 }
 
 void show(const Plan& made, double start_heading, double ms, bool json) {
@@ -96,9 +98,14 @@ void show(const Plan& made, double start_heading, double ms, bool json) {
 
 /// Throws InputError when the planner's parameters do not fit together.
 void check_planner(const PlannerParams& planner, const Settings& settings) {
-  const Places where = places_of({}, "plan", settings).within("planner", "planner");
-  if (const auto* fmt_star = std::get_if<FmtStarParams>(&planner)) check(*fmt_star, where);
-  if (const auto* drrt_star = std::get_if<DrrtStarParams>(&planner)) check(*drrt_star, where);
+  const KeyLocations keys = locations_of({}, "plan", settings);
+  Issues issues;
+  if (const auto* fmt_star = std::get_if<FmtStarParams>(&planner)) issues = validate(*fmt_star);
+  if (const auto* drrt_star = std::get_if<DrrtStarParams>(&planner))
+    issues = validate(*drrt_star, given_within(keys.is_given(), "planner"));
+  Issues of_planner;
+  of_planner.add_within("planner", issues, "planner");
+  keys.require_none(of_planner);
 }
 
 int plan_command(const PlanOptions& o, const Context& context) {

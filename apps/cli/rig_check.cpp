@@ -6,11 +6,13 @@
 
 #include "microswarm/actuation/coils/coil_controller.hpp"
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/clock.hpp"
 #include "microswarm/core/durations.hpp"
+#include "microswarm/rig/runtime/devices.hpp"
 #include "microswarm/vision/camera/newest_frame.hpp"
 #include "options.hpp"
 #include "rig.hpp"
-#include "rig_devices.hpp"
+#include "rig_notes.hpp"
 
 namespace microswarm::cli {
 namespace {

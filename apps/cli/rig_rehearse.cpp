@@ -13,10 +13,11 @@
 #include "microswarm/core/statistics.hpp"
 #include "microswarm/core/text.hpp"
 #include "microswarm/experiment/run/run.hpp"
+#include "microswarm/rig/runtime/devices.hpp"
 #include "microswarm/rig/simulation/simulated_rig.hpp"
 #include "options.hpp"
 #include "rig.hpp"
-#include "rig_devices.hpp"
+#include "rig_notes.hpp"
 
 namespace microswarm::cli {
 namespace {
@@ -79,11 +80,15 @@ int rehearse_trials(const RehearseOptions& o, const Context& context) {
   const std::vector<Pair> pairs =
       o.scenario.empty() ? usual_pairs()
                          : std::vector<Pair>{{o.scenario, o.rig, o.settings, o.rig_settings}};
-  std::vector<RigScene> scenes;  // all of them first: what cannot begin is told at once
+  std::vector<RigExperiment> scenes;  // all of them first: what cannot begin is told at once
   scenes.reserve(pairs.size());
   for (const Pair& pair : pairs)
-    scenes.push_back(load_rig_scene(pair.scenario, pair.settings, pair.rig, pair.rig_settings));
-  for (const RigScene& on : scenes) simulated_camera(on.rig);
+    scenes.push_back(
+        open_rig_experiment(pair.scenario, pair.settings, pair.rig, pair.rig_settings));
+  for (const RigExperiment& on : scenes) {
+    note_field(on.rig, on.scenario());
+    simulated_camera(on.rig);
+  }
   const OutFolder hold(o.out);
   std::string csv = "scenario,settings,trial,plant,status,time_s,contacts,goal_distance_um\n";
   print("{:<42} {:>7}  {:^24}  {:^24}\n", "", "", "without a rig", "through the rig");
@@ -92,9 +97,10 @@ int rehearse_trials(const RehearseOptions& o, const Context& context) {
   bool all = true;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const Pair& pair = pairs[k];
-    const RigScene& on = scenes[k];
+    const RigExperiment& on = scenes[k];
     const std::filesystem::path file = pair.scenario;
-    const Scenario& scenario = on.scene.scenario;
+    const Scenario& scenario = on.scenario();
+    const World& world = on.experiment.world;
     const auto trials = static_cast<std::size_t>(o.trials);
     std::vector<std::optional<std::array<RunResult, 2>>> results(trials);
     {
@@ -105,8 +111,8 @@ int rehearse_trials(const RehearseOptions& o, const Context& context) {
         const auto trial = static_cast<std::uint32_t>(i);
         if (context.stop()) return;
         const std::array<RunResult, 2> both{
-            simulate(scenario, on.world, trial, {}, context.stop),
-            microswarm::rehearse(scenario, on.world, on.rig, trial, {}, context.stop)};
+            simulate(scenario, world, trial, {}, context.stop),
+            microswarm::rehearse(scenario, world, on.rig, trial, {}, context.stop)};
         if (context.stop()) return;
         results[i] = both;
         const std::lock_guard lock(mutex);

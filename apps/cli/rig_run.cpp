@@ -4,18 +4,14 @@
 #include <termios.h>
 #include <unistd.h>
 
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/error.hpp"
-#include "microswarm/experiment/run/run.hpp"
-#include "microswarm/navigation/make.hpp"
-#include "microswarm/rig/runtime/live_rig.hpp"
+#include "microswarm/session/live_session.hpp"
+#include "microswarm/vision/image/threads.hpp"
 #include "rig.hpp"
-#include "rig_devices.hpp"
+#include "rig_notes.hpp"
 #include "run_output.hpp"
 
 namespace microswarm::cli {
@@ -60,62 +56,6 @@ class EmergencyKey {
   termios before_{};
   std::atomic<bool> over_ = false;
   std::thread thread_;
-};
-
-/// commands.csv: what went to the coils. While the run lasts it is commands.csv.part, written as it
-/// goes.
-class CommandLog {
- public:
-  /// In this folder; nothing is kept without one. A dry run's rows say so.
-  CommandLog(const std::string& folder, const CoilSystem& system, bool dry)
-      : coils_(system.size()), dry_(dry) {
-    if (folder.empty()) return;
-    file_ = std::filesystem::path(folder) / "commands.csv";
-    part_ = file_.string() + ".part";
-    out_.open(part_);
-    std::string head = "t_s,heading_deg,speed_um_per_s,bx_mt,by_mt,bz_mt";
-    for (const std::string& coil : system.coil_names()) head += ",i_" + coil + "_a";
-    write(head + ",scale,status,late_s,round_trip_s\n");
-  }
-  /// Adds when the coils were told to be at zero [s], by steady_seconds(), and brings the log to
-  /// its place; false, and says why, when it cannot be there.
-  bool finish(double zero_at, bool confirmed) noexcept {
-    if (file_.empty()) return true;
-    if (began_ > 0) {
-      out_ << fmt::format("{:.4f},,0,0,0,0", zero_at - began_);
-      for (std::size_t i = 0; i < coils_; ++i) out_ << ",0";
-      out_ << (dry_ ? ",1,dry,,\n" : confirmed ? ",1,zero,,\n" : ",1,zero_not_confirmed,,\n");
-    }
-    out_.close();
-    std::error_code error;
-    if (out_) std::filesystem::rename(part_, file_, error);
-    if (out_ && !error) return true;
-    note("microswarm: {}: cannot write; {} is what there is\n", file_.string(), part_.string());
-    return false;
-  }
-  void add(const CoilMoment& m) {
-    if (file_.empty()) return;
-    if (began_ == 0) began_ = m.t;
-    std::string row = fmt::format("{:.4f},{:.3f},{:.3f},{:.5f},{:.5f},{:.5f}", m.t - began_,
-                                  degrees(m.command.heading), m.command.speed, m.output.wanted.x(),
-                                  m.output.wanted.y(), m.output.wanted.z());
-    for (const double i : m.output.currents) row += fmt::format(",{:.5f}", i);
-    row += fmt::format(",{:.4f},{},{:.6f},{:.6f}\n", m.output.scale,
-                       dry_ ? "dry" : to_string(m.output.status), m.late, m.round_trip);
-    write(row);
-  }
-
- private:
-  void write(const std::string& text) {
-    out_ << text;
-    if (!out_) throw InputError(part_.string() + ": cannot write");
-  }
-  std::filesystem::path file_;
-  std::filesystem::path part_;
-  std::ofstream out_;
-  std::size_t coils_;
-  bool dry_;
-  double began_ = 0;
 };
 
 void tell(const RigTiming& t) {
@@ -187,43 +127,30 @@ struct RigRunOptions {
 };
 
 int rig_run(const RigRunOptions& o, const Context& context) {
-  const RigScene on = load_rig_scene(o.scenario, o.settings, o.rig, o.rig_settings);
-  const Scenario& scenario = on.scene.scenario;
+  const RigExperiment on = open_rig_experiment(o.scenario, o.settings, o.rig, o.rig_settings);
+  note_field(on.rig, on.scenario());
   const OutFolder hold(o.out);
-  Devices devices = open_devices(on, o.dry_run);
+  set_picture_threads(1);
+  const auto opened = LiveSession::open(on, o.dry_run, o.out);
+  LiveSession& session = *opened;
   if (o.dry_run) note("dry run: nothing goes to the coils\n");
-  CommandLog log(o.out, on.rig.system, o.dry_run);
-  LiveRig plant(scenario, on.world.map, on.rig, std::move(devices.camera), devices.scale,
-                devices.driver(), [&](const CoilMoment& m) { log.add(m); });
-  const auto navigator =
-      make_navigator(scenario.navigator, task_of(scenario), Rng(scenario.seed, Purpose::planner));
-  const EmergencyKey key([&] { plant.stop("the emergency key was pressed"); }, context.stop);
+  const EmergencyKey key([&] { session.stop("the emergency key was pressed"); }, context.stop);
   if (key.is_there()) note("space, e or Esc: coils to zero at once\n");
-  const Stop stop = o.seconds ? context.within(*o.seconds) : context.stop;
-  double seconds = 0;
-  bool logged = true;
-  const RunOutput output{o.out,
-                         false,
-                         o.json,
-                         name_of(on.rig) + (o.dry_run ? ", dry run" : ""),
-                         [&] { return timing_json(plant.timing()); },
-                         o.seconds};
-  const int code = run_once(on.scene, on.world, output, {}, stop,
-                            [&](std::span<RunListener* const> listeners, const Stop& until) {
-                              RunResult result = run(scenario, plant, *navigator, listeners, until);
-                              plant.stop("the run has ended");
-                              seconds = result.metrics.time;
-                              logged = log.finish(plant.zero_at(), plant.zero_is_confirmed());
-                              if (!plant.zero_is_confirmed())
-                                note(
-                                    "note: the coil driver did not confirm that the coils are at "
-                                    "zero; its own watchdog must do it\n");
-                              note_limits(plant.timing());
-                              return result;
-                            });
-  note_pace(plant.timing(), seconds, on.rig.params);
-  if (!o.json) tell(plant.timing());
-  return code == ok && !logged ? bad_input : code;
+  finish_run(session, o.seconds ? context.within(*o.seconds) : context.stop, o.seconds);
+  const std::string log_lost = session.close();
+  const RigTiming timing = session.timing();
+  if (!log_lost.empty()) note("microswarm: {}\n", log_lost);
+  if (!session.zero_is_confirmed())
+    note(
+        "note: the coil driver did not confirm that the coils are at zero; its own watchdog must "
+        "do "
+        "it\n");
+  note_limits(timing);
+  const int code =
+      tell_run(session, {o.out, false, o.json, [&] { return timing_json(timing); }}, {});
+  note_pace(timing, session.result().metrics.time, on.rig.params);
+  if (!o.json) tell(timing);
+  return code == ok && !log_lost.empty() ? bad_input : code;
 }
 
 }  // namespace

@@ -3,7 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <variant>
 
+#include "microswarm/config/key_locations.hpp"
 #include "microswarm/config/yaml.hpp"
+#include "microswarm/core/clock.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/rig/params/rig_params.hpp"
 #include "microswarm/vision/camera/camera.hpp"
@@ -96,8 +98,9 @@ SeeSettings settings_of(const SeeOptions& o) {
 int see(const SeeOptions& o) {
   for (const std::string& input : {o.picture, o.still, o.config, o.rig}) keep_input(o.out, input);
   const SeeSettings settings = settings_of(o);
-  check(settings.scene.swarm.look, {});
-  check(settings.scene.obstacles, {});
+  Issues issues = validate(settings.scene.swarm.look);
+  issues.add(validate(settings.scene.obstacles));
+  KeyLocations().require_none(issues);
   const Image picture = picture_of(o.picture, settings.camera);
   std::optional<Mask> walls;
   if (!o.still.empty()) walls = find_walls(still_of(o.still, picture), settings.walls);

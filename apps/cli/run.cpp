@@ -8,8 +8,8 @@
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/text.hpp"
 #include "microswarm/experiment/trials.hpp"
-#include "microswarm/rig/simulation/simulated_rig.hpp"
-#include "rig_devices.hpp"
+#include "microswarm/session/session.hpp"
+#include "rig_notes.hpp"
 #include "run_output.hpp"
 
 namespace microswarm::cli {
@@ -87,31 +87,25 @@ int many_runs(const RunOptions& o, const Scene& scene, const World& world, const
   return solved == o.trials ? ok : not_reached;
 }
 
-/// The same through a rig in simulation: camera, coils and field.
-int rehearse_run(const RunOptions& o, const Scene& scene, const World& world, const Places& places,
-                 const ReportOptions& report, const Stop& stop) {
-  const Rig rig = read_rig(o.rig, {o.rig_settings, "--set-rig"});
-  check(rig, scene.scenario, places);
-  note_field(rig, scene.scenario);
-  return run_once(scene, world, {o.out, o.no_report, o.json, name_of(rig)}, report, stop,
-                  [&](std::span<RunListener* const> listeners, const Stop& until) {
-                    return microswarm::rehearse(scene.scenario, world, rig, 0, listeners, until);
-                  });
+/// Through a rig in simulation: camera, coils and field.
+std::unique_ptr<Session> open_on_rig(const RunOptions& o) {
+  if (o.rig.empty()) return nullptr;
+  const RigExperiment on =
+      open_rig_experiment(o.scenario, o.settings, o.rig, o.rig_settings, o.seed);
+  note_field(on.rig, on.scenario());
+  return rig_session(on);
 }
 
 int run_command(const RunOptions& o, const Context& context) {
-  const std::filesystem::path file = o.scenario;
-  Places places;
-  Scenario scenario = read_scenario(file, o.settings, places);
-  if (o.seed) scenario.seed = *o.seed;
-  const Scene scene = load_scene(std::move(scenario), file.parent_path(), places);
-  const World world = build_world(scene);
-  check(scene.scenario, world, places);
+  std::unique_ptr<Session> session = open_on_rig(o);
+  std::optional<Experiment> experiment;
+  if (!session) experiment = open_experiment(o.scenario, o.settings, o.seed);
   const ReportOptions report = report_options(o.photo);
   const OutFolder hold(o.out);
-  if (!o.rig.empty()) return rehearse_run(o, scene, world, places, report, context.stop);
-  return o.trials > 1 ? many_runs(o, scene, world, context.stop)
-                      : run_once(scene, world, {o.out, o.no_report, o.json}, report, context.stop);
+  if (o.trials > 1) return many_runs(o, experiment->scene, experiment->world, context.stop);
+  if (!session) session = std::make_unique<Session>(std::move(*experiment));
+  finish_run(*session, context.stop);
+  return tell_run(*session, {o.out, o.no_report, o.json}, report);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run_output.hpp"
-#include "microswarm/experiment/scenario/scene.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -134,22 +133,21 @@ void keep(const Record& record, const RunOutput& o, const ReportOptions& report)
 
 }  // namespace
 
-int run_once(const Scene& scene, const World& world, const RunOutput& o,
-             const ReportOptions& report, const Stop& stop, const Runner& runner) {
-  note_oddities(scene.scenario);
-  note_assumptions(scene.scenario, *world.map);
-  Recorder recorder(scene, 0, o.rig);
-  RunResult result;
-  {
-    ProgressBar bar(scene.scenario.name.empty() ? "run" : scene.scenario.name);
-    ProgressListener progress(scene.scenario, [&](const RunProgress& p) {
-      const double spent = o.seconds ? p.t / *o.seconds : p.time_spent;
-      bar.update(std::max(p.way_done, spent));
-    });
-    RunListener* const listeners[] = {&recorder, &progress};
-    result = runner ? runner(listeners, stop) : simulate(scene.scenario, world, 0, listeners, stop);
-  }
-  const Record& record = recorder.record();
+void finish_run(Session& session, const Stop& stop, std::optional<double> seconds) {
+  const Scenario& scenario = session.scenario();
+  note_oddities(scenario);
+  note_assumptions(scenario, session.map());
+  ProgressBar bar(scenario.name.empty() ? "run" : scenario.name);
+  ProgressListener progress(scenario, [&](const RunProgress& p) {
+    const double spent = seconds ? p.t / *seconds : p.time_spent;
+    bar.update(std::max(p.way_done, spent));
+  });
+  while (const Tick* tick = session.step(stop)) progress.on_tick(*tick);
+}
+
+int tell_run(const Session& session, const RunOutput& o, const ReportOptions& report) {
+  const Record& record = session.record();
+  const RunResult& result = session.result();
   const std::string hash = record.hash();
   // A result that cannot be kept is told all the same, and the other way round.
   std::optional<InputError> lost;
@@ -163,7 +161,7 @@ int run_once(const Scene& scene, const World& world, const RunOutput& o,
     if (o.rig_timing) json["rig_timing"] = o.rig_timing();
     print("{}\n", json.dump(2));
   } else {
-    const auto& robots = scene.scenario.robots;
+    const auto& robots = session.scenario().robots;
     print("{}  record    {}\n", robots ? robots_summary(result, *robots) : summary(result), hash);
     if (!o.out.empty() && !lost)
       print("wrote {}\n",

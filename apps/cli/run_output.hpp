@@ -4,13 +4,12 @@
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 
-#include "microswarm/experiment/run/run.hpp"
-#include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/core/stop.hpp"
 #include "microswarm/report/run_report.hpp"
+#include "microswarm/session/session.hpp"
 #include "options.hpp"
 
 namespace microswarm::cli {
@@ -20,18 +19,14 @@ struct RunOutput {
   std::string out;  ///< folder for run.h5 and the report; empty: nothing is kept
   bool no_report = false;
   bool json = false;
-  std::string rig{};  ///< name of the rig it runs on; empty for a simulation
-  std::function<nlohmann::ordered_json()> rig_timing{};  ///< of that rig, when the run is over
-  std::optional<double> seconds{};  ///< after which it is ended, though the goal is not reached
+  std::function<nlohmann::ordered_json()> rig_timing{};  ///< of a real rig
 };
 
-/// Runs a scene, with these listening.
-using Runner = std::function<RunResult(std::span<RunListener* const>, const Stop&)>;
+/// Steps a session to its end, with a progress bar: of `seconds`, when it is ended then.
+void finish_run(Session& session, const Stop& stop, std::optional<double> seconds = std::nullopt);
 
-/// Runs a scene once, with a progress bar, keeps its record and report, says how it went. The exit
-/// code. Without a runner it is simulated.
-int run_once(const Scene& scene, const World& world, const RunOutput& output,
-             const ReportOptions& report, const Stop& stop, const Runner& runner = {});
+/// Keeps the record and report of a session that has ended, and says how it went. The exit code.
+int tell_run(const Session& session, const RunOutput& output, const ReportOptions& report);
 
 nlohmann::ordered_json to_json(const RunResult& result, const std::string& hash);
 

@@ -136,7 +136,9 @@ TEST(Read, WrongTypes) {
       {"tip: fan", "s.yaml:1:6: tip must be a mapping with the key 'type', not 'fan'"},
       {"times_s: 3", "s.yaml:1:10: times_s must be a list, not '3'"},
       {"times_s: [1, a]", "s.yaml:1:14: times_s must be a number, not 'a'"},
-      {"rings_um: [[1, 2]]", "s.yaml:1:13: rings_um must be [x, y], not '1'"},
+      {"rings_um: [[1, 2]]",
+       "s.yaml:1:13: rings_um must be [x, y], not '1'\n"
+       "s.yaml:1:16: rings_um must be [x, y], not '2'"},
       {"goal_um: 3", "s.yaml:1:10: goal_um must be [x, y], not '3'"},
       {"goal_um: [1, 2, 3]", "s.yaml:1:10: goal_um must be [x, y], not a list of 3"},
       {"goal_um: [1]", "s.yaml:1:10: goal_um must be [x, y], not a list of 1"},

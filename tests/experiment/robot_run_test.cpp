@@ -128,7 +128,9 @@ TEST(RobotCheck, WhatCannotBeMeant) {
             "s.yaml: 65 robots with goals of their own, at most 64 can be planned for");
   s = two_robots();
   std::get<PolygonsMap>(s.map).walls = {{{200, 50}, {210, 50}, {210, 350}, {200, 350}}};
-  EXPECT_EQ(check_error(s), "s.yaml: robot 1 is cut off from its goal by walls");
+  EXPECT_EQ(check_error(s),
+            "s.yaml: robot 1 is cut off from its goal by walls\n"
+            "s.yaml: robot 2 is cut off from its goal by walls");
 }
 
 TEST(RobotPlant, ShowsTheRobotsAsTheyWere) {

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/scenario/experiment.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "microswarm/core/file.hpp"
+#include "microswarm/experiment/scenario/validate.hpp"
 #include "tests/experiment/scenes.hpp"
 
 namespace microswarm {
@@ -23,7 +27,7 @@ TEST(Scenario, TextReadsBackToTheSameFields) {
 TEST(Scenario, TheFirstFlightIsFlown) {
   const std::filesystem::path folder = std::string(MICROSWARM_SOURCE_DIR) + "/scenarios";
   const Scenario scenario = read_scenario(folder / "first_flight.yaml");
-  check(scenario, world_of(scenario), "first_flight.yaml");
+  EXPECT_TRUE(validate(scenario, world_of(scenario)).empty());
   const Record record = record_of(scenario);
   EXPECT_EQ(record.result.status, Status::solved);
   EXPECT_GE(record.result.metrics.obstacles.clearance, 90);
@@ -38,15 +42,10 @@ TEST(Scenario, AsPublishedLeavesNothingOfOursUnsaid) {
         "start: {x_um: 200, y_um: 500}\nnavigator:\n";
     write_file_atomically(folder / "s.yaml", room + keys);
     const std::string what = error_of([&] {
-      Places places;
-      const Scene scene = load_scene(read_scenario(folder / "s.yaml", set, places), folder, places);
-      check(scene.scenario, build_world(scene), places);
       // What a record holds reads back, and is the same.
-      const std::string text = scenario_text(scene.scenario);
+      const std::string text = scenario_text(open_experiment(folder / "s.yaml", set).scenario());
       write_file_atomically(folder / "back.yaml", text);
-      const Scenario back = read_scenario(folder / "back.yaml", {}, places);
-      check(back, build_world(scene), places);
-      EXPECT_EQ(scenario_text(back), text);
+      EXPECT_EQ(scenario_text(open_experiment(folder / "back.yaml").scenario()), text);
     });
     return what.substr(what.starts_with("--set") ? 0 : std::min(what.size(), what.find("s.yaml")));
   };
@@ -124,15 +123,53 @@ TEST(Scenario, AnObstacleThatMakesNoSenseIsNamed) {
   EXPECT_NE(error_of([&] { load_scene(scenario, {}); }).find("obstacle 1"), std::string::npos);
 }
 
+TEST(Scenario, EveryMistakeHasItsLine) {
+  const auto folder = empty_folder("scenario_mistakes");
+  const auto mistakes = [&](const std::string& text, const std::vector<std::string>& set = {}) {
+    write_file_atomically(folder / "s.yaml", text);
+    std::istringstream what(error_of([&] { open_experiment(folder / "s.yaml", set); }));
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(what, line);) {
+      const auto name = line.find("s.yaml");
+      lines.push_back(name == std::string::npos ? line : line.substr(name));
+    }
+    return lines;
+  };
+  // In keys and values, of the file and of --set.
+  EXPECT_EQ(mistakes("map: {type: polygons, hi_um: [2000, 1000]}\n"
+                     "start: {x_um: 200, y_um: 500}\n"
+                     "goal_um: [1800, 500]\n"
+                     "tick_s: 0\n"
+                     "time_limt_s: 3\n"
+                     "navigator: {type: radar, speed_um_per_s: fast, guard: {activ: true}}\n",
+                     {"hold_limit_s=-1"}),
+            (std::vector<std::string>{
+                "s.yaml:4:9: tick_s is 0 s, allowed 0.001..10 s",
+                "s.yaml:5:1: unknown key 'time_limt_s', did you mean 'time_limit_s'?",
+                "s.yaml:6:42: speed_um_per_s must be a number, not 'fast'",
+                "s.yaml:6:56: unknown key 'activ', did you mean 'active'?",
+                "--set hold_limit_s: hold_limit_s is -1 s, allowed 0..1e5 s"}));
+  // In what values mean together, beside one that was misread.
+  EXPECT_EQ(mistakes("map: {type: polygons, hi_um: [2000, 1000]}\n"
+                     "start: {x_um: 200, y_um: 5000}\n"
+                     "goal_um: [-1800, 500]\n"
+                     "seed: -1\n"
+                     "sensing: {observation_delay_s: 9}\n"
+                     "navigator: {type: radar, angle_step_deg: 7}\n")
+                .size(),
+            5u);
+  // Nothing is said of a world that was not read.
+  EXPECT_EQ(mistakes("map: {type: polygons, hi_um: 2}\nstart: {x_um: -9, y_um: 9}\n"
+                     "goal_um: [-1800, 500]\n")
+                .size(),
+            1u);
+}
+
 TEST(Scenario, WhatComesOutLaterHasItsPlaceToo) {
   const auto folder = empty_folder("scenario_places");
   const auto message = [&](const std::string& text, const std::vector<std::string>& set = {}) {
     write_file_atomically(folder / "s.yaml", text);
-    const std::string what = error_of([&] {
-      Places places;
-      const Scene scene = load_scene(read_scenario(folder / "s.yaml", set, places), folder, places);
-      check(scene.scenario, build_world(scene), places);
-    });
+    const std::string what = error_of([&] { open_experiment(folder / "s.yaml", set); });
     return what.substr(what.starts_with("--set") ? 0 : std::min(what.size(), what.find("s.yaml")));
   };
   const std::string room =

@@ -13,6 +13,7 @@
 #include "microswarm/experiment/record/record.hpp"
 #include "microswarm/experiment/run/plant.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/experiment/scenario/validate.hpp"
 
 namespace microswarm {
 
@@ -118,7 +119,8 @@ std::string error_of(Action action) {
 
 /// What is wrong with a scenario by its file's name; empty when nothing is.
 inline std::string check_error(const Scenario& scenario) {
-  return error_of([&] { check(scenario, world_of(scenario), "s.yaml"); });
+  return error_of(
+      [&] { KeyLocations("s.yaml").require_none(validate(scenario, world_of(scenario))); });
 }
 
 }  // namespace microswarm

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "microswarm/navigation/gathering/rollout.hpp"
 #include "tests/cases.hpp"
 #include "tests/navigation/gathering.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "microswarm/navigation/gathering/aggregation.hpp"
+#include "microswarm/navigation/gathering/gather.hpp"
 #include "microswarm/scenes/vascular.hpp"
 
 namespace microswarm {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/navigation/radar/radar_scan.hpp"
+#include "microswarm/config/key_locations.hpp"
 
 #include <gtest/gtest.h>
 
@@ -52,7 +53,7 @@ TEST(RadarCircles, AreThoseOfThePaper) {
 TEST(RadarCircles, BadOnesAreRefused) {
   const auto complaint = [](const RadarParams& p) -> std::string {
     try {
-      check(p, "x.yaml");
+      KeyLocations("x.yaml").require_none(validate(p));
     } catch (const InputError& e) {
       return e.what();
     }

@@ -376,14 +376,12 @@ TEST(Radar, WaypointsInAWallAreRefused) {
   params.waypoints = {{500, 500}, {1420, 500}};
   const Task task{
       .swarm = radar_vortex, .robots = {}, .goal = Vec2{2300, 400}, .goal_tolerance = 20};
-  try {
-    check_navigator(params, task, *map, "x.yaml");
-    FAIL();
-  } catch (const InputError& e) {
-    EXPECT_STREQ(e.what(), "x.yaml: waypoint 2 is 20 µm inside wall 1");
-  }
+  const Issues issues = validate(params, task, *map);
+  ASSERT_EQ(issues.size(), 1u);
+  EXPECT_EQ(issues.begin()->keys.front(), "waypoints_um.1");
+  EXPECT_EQ(issues.begin()->text, "waypoint 2 is 20 µm inside wall 1");
   params.waypoints.pop_back();
-  check_navigator(params, task, *map, "x.yaml");
+  EXPECT_TRUE(validate(params, task, *map).empty());
 }
 
 TEST(RadarRoute, GivenWaypointsAreVisitedInOrder) {

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <thread>
 
+#include "microswarm/core/clock.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/experiment/run/run.hpp"
 #include "microswarm/navigation/make.hpp"

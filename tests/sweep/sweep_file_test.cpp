@@ -113,7 +113,8 @@ TEST(SweepPlan, AsPublishedBesideAKeyOfOursIsRefused) {
   const std::string complaint =
       "method 'straight on': extra_margin_um is not the paper's, and as_published is true";
   EXPECT_TRUE(refused(published + ", extra_margin_um: 10}\"").ends_with(complaint));
-  EXPECT_TRUE(refused("navigator.as_published=true").ends_with(complaint));  // it is in the file
+  EXPECT_NE(refused("navigator.as_published=true").find(complaint),
+            std::string::npos);  // it is in the file
 }
 
 TEST(SweepPlan, ATrialIsTheTrialOfRun) {

@@ -8,6 +8,7 @@
 #include <functional>
 #include <thread>
 
+#include "microswarm/core/clock.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/vision/camera/camera.hpp"
 #include "tests/files.hpp"

@@ -82,11 +82,30 @@ const Field* nearest_field(const Type& record, std::string_view key) {
 
 }  // namespace
 
+void Mistakes::add(const std::string& key, const std::string& line) {
+  constexpr std::size_t most = 1000;
+  if (lines.size() < most) lines.push_back(line);
+  if (std::ranges::find(keys, key) == keys.end()) keys.push_back(key);
+}
+
+void Mistakes::require_none() const {
+  if (!lines.empty()) throw InputError(lines);
+}
+
 void ValueReader::fail(const YamlNode& node, const std::string& what) const {
   throw InputError(std::string(name_), places_ ? node.line : 0, node.column, what);
 }
 
-void ValueReader::fail_kind(const Type& type, std::string_view label, const YamlNode& node) const {
+template <class Body>
+void ValueReader::attempt(Body&& body) {
+  try {
+    body();
+  } catch (const InputError& error) {
+    mistakes_.add(key_, error.what());
+  }
+}
+
+void ValueReader::fail_kind(const Type& type, std::string_view label, const YamlNode& node) {
   fail(node, fmt::format("{} must be {}, not {}", label.empty() ? "the document" : label,
                          expected(type), found(node)));
 }
@@ -100,7 +119,7 @@ void ValueReader::fail_unknown_key(const Type& record, const YamlNode& key) cons
 }
 
 long double ValueReader::checked_number(const Type& type, const FieldInfo& info, const Range& range,
-                                        std::string_view label, const YamlNode& node) const {
+                                        std::string_view label, const YamlNode& node) {
   if (!node.is_plain()) fail_kind(type, label, node);
   const std::optional<long double> number = exact_number(node.text);
   if (!number && spells_no_finite_number(node.text))
@@ -116,14 +135,14 @@ long double ValueReader::checked_number(const Type& type, const FieldInfo& info,
 }
 
 void ValueReader::read_number(const FieldInfo& info, std::string_view label, double& value,
-                              const YamlNode& node) const {
+                              const YamlNode& node) {
   checked_number(type_of<double>(), info, info.range, label, node);
   value = *stored_number(node.text, info.unit);
 }
 
 template <class Int>
 void ValueReader::read_whole(const FieldInfo& info, std::string_view label, Int& value,
-                             const YamlNode& node) const {
+                             const YamlNode& node) {
   constexpr Int least = std::numeric_limits<Int>::min(), most = std::numeric_limits<Int>::max();
   const Range range{std::max(info.range.min, static_cast<double>(least)), info.range.max};
   const long double number = checked_number(type_of<Int>(), info, range, label, node);
@@ -133,35 +152,43 @@ void ValueReader::read_whole(const FieldInfo& info, std::string_view label, Int&
 }
 
 void ValueReader::read_list(const Type& type, const FieldInfo& info, std::string_view label,
-                            void* value, const YamlNode& node) const {
+                            void* value, const YamlNode& node) {
   if (node.kind != Kind::list) fail_kind(type, label, node);
   type.set_count(value, 0);
   type.set_count(value, node.items.size());
   for (std::size_t i = 0; i < node.items.size(); ++i)
-    read(*type.parts[0], info, label, type.part(value, i), node.items[i]);
+    attempt([&] { read(*type.parts[0], info, label, type.part(value, i), node.items[i]); });
 }
 
 void ValueReader::read_record(const Type& type, std::string_view label, void* value,
-                              const YamlNode& node, bool has_type_key) const {
+                              const YamlNode& node, bool has_type_key) {
   const bool empty_document = node.kind == Kind::null && label.empty();
   if (node.kind != Kind::map && !empty_document) fail_kind(type, label, node);
   std::vector<const Field*> given;
   for (std::size_t i = 0; i < node.items.size(); i += 2) {
     const YamlNode& key = node.items[i];
     if (has_type_key && key.text == "type") continue;
-    const Field* field = type.field(key.text);
-    if (!field) fail_unknown_key(type, key);
-    read(*field->type, field->info, field->key, field->in(value), node.items[i + 1]);
-    given.push_back(field);
+    if (label.empty()) key_ = key.text;
+    attempt([&] {
+      const Field* field = type.field(key.text);
+      if (!field) fail_unknown_key(type, key);
+      given.push_back(field);
+      read(*field->type, field->info, field->key, field->in(value), node.items[i + 1]);
+    });
   }
-  for (const Field& field : type.fields)
-    if (field.info.required && std::find(given.begin(), given.end(), &field) == given.end())
+  for (const Field& field : type.fields) {
+    if (!field.info.required || std::find(given.begin(), given.end(), &field) != given.end())
+      continue;
+    if (label.empty()) key_ = field.key;
+    attempt([&] {
       fail(node,
            fmt::format("missing key '{}'{}{}", field.key, label.empty() ? "" : " in ", label));
+    });
+  }
 }
 
 void ValueReader::choose(const Type& type, std::string_view label, void* value,
-                         const YamlNode& node) const {
+                         const YamlNode& node) {
   const auto word = std::find(type.words.begin(), type.words.end(), node.text);
   if (node.kind != Kind::scalar || word == type.words.end())
     fail(node,
@@ -170,7 +197,7 @@ void ValueReader::choose(const Type& type, std::string_view label, void* value,
 }
 
 void ValueReader::read_variant(const Type& type, std::string_view label, void* value,
-                               const YamlNode& node) const {
+                               const YamlNode& node) {
   if (node.kind != Kind::map) fail_kind(type, label, node);
   const YamlNode* chosen = nullptr;
   for (std::size_t i = 0; i < node.items.size(); i += 2)
@@ -183,7 +210,7 @@ void ValueReader::read_variant(const Type& type, std::string_view label, void* v
 }
 
 void ValueReader::read(const Type& type, const FieldInfo& info, std::string_view label, void* value,
-                       const YamlNode& node) const {
+                       const YamlNode& node) {
   switch (type.kind) {
     case TypeKind::boolean:
       if (!node.is_plain() || (node.text != "true" && node.text != "false"))

@@ -81,10 +81,20 @@ YamlNode value_node(const Type& type, std::string_view text, std::string_view na
 
 }  // namespace
 
-YamlNode read_yaml(const Type& type, void* value, std::string_view text, std::string_view name) {
+YamlNode read_yaml(const Type& type, void* value, std::string_view text, std::string_view name,
+                   Mistakes& mistakes) {
   YamlNode node = parse_yaml(text, name);
   if (node.line == 0) node.line = node.column = 1;  // an empty document
-  ValueReader(name, true).read(type, {}, "", value, node);
+  ValueReader reader(name, true);
+  reader.read(type, {}, "", value, node);
+  mistakes = reader.mistakes();
+  return node;
+}
+
+YamlNode read_yaml(const Type& type, void* value, std::string_view text, std::string_view name) {
+  Mistakes mistakes;
+  YamlNode node = read_yaml(type, value, text, name, mistakes);
+  mistakes.require_none();
   return node;
 }
 
@@ -96,7 +106,7 @@ void set_value(const Type& type, void* value, std::string_view assignment,
   std::string_view path = assignment.substr(0, equals);
   const std::string_view text = assignment.substr(equals + 1);
   const std::string name = fmt::format("{} {}", option, one_line(path));
-  const ValueReader reader(name, false);
+  ValueReader reader(name, false);
 
   Place place{&type, {}, "", value};
   for (bool more = true; more;) {
@@ -118,6 +128,7 @@ void set_value(const Type& type, void* value, std::string_view assignment,
   }
   reader.read(*place.type, place.info, place.label, place.value,
               value_node(*place.type, text, name));
+  reader.mistakes().require_none();
 }
 
 void check_types_first(const Settings& given) {

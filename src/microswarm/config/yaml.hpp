@@ -8,9 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "microswarm/config/key_locations.hpp"
 #include "microswarm/config/settings.hpp"
 #include "microswarm/config/type.hpp"
-#include "microswarm/config/yaml_places.hpp"
+#include "microswarm/config/value_reader.hpp"
 #include "microswarm/core/file.hpp"
 
 namespace microswarm {
@@ -18,15 +19,19 @@ namespace microswarm {
 inline constexpr std::size_t max_yaml_bytes = 16 << 20;
 
 /// Reads the YAML text into the value, which keeps what the text does not give, and returns the
-/// document. On an error the value may be half read.
+/// document. Throws InputError for text that is no YAML; what is wrong with keys and values goes
+/// into `mistakes`, or, without them, is thrown with a line for each. What is wrong keeps what it
+/// had, or is half read.
+YamlNode read_yaml(const Type& type, void* value, std::string_view text, std::string_view name,
+                   Mistakes& mistakes);
 YamlNode read_yaml(const Type& type, void* value, std::string_view text, std::string_view name);
 
 /// What `set_value` does, on a described value.
 void set_value(const Type& type, void* value, std::string_view assignment, std::string_view option);
 
 /// A parameter struct from YAML text; `name` stands for the file in messages. Strict: an unknown or
-/// missing key, a wrong type, a number out of its range or not finite, an unknown word is an
-/// InputError in one line, "NAME:LINE:COLUMN: unknown key 'stpe_um', did you mean 'step_um'?".
+/// missing key, a wrong type, a number out of its range or not finite, an unknown word is a line of
+/// an InputError, "NAME:LINE:COLUMN: unknown key 'stpe_um', did you mean 'step_um'?".
 template <HasFields T>
 T read_yaml_text(std::string_view text, std::string_view name) {
   T value{};
@@ -63,15 +68,34 @@ void set_values(T& value, const Settings& assignments) {
   for (const std::string& text : assignments.texts) set_value(value, text, assignments.option);
 }
 
-/// A parameter struct from a YAML file with assignments applied after it; `places` then tells where
-/// each key stands.
+/// A parameter struct from a YAML file with assignments applied after it. What is wrong with keys
+/// and values goes into `mistakes`; `locations` then tells where each key stands.
 template <HasFields T>
-T read_yaml_file(const std::filesystem::path& path, const Settings& assignments, Places& places) {
+T read_yaml_file(const std::filesystem::path& path, const Settings& assignments,
+                 KeyLocations& locations, Mistakes& mistakes) {
   T value{};
   const std::string name = path.string();
-  YamlNode document = read_yaml(type_of<T>(), &value, read_file(path, max_yaml_bytes), name);
-  set_values(value, assignments);
-  places = places_of(std::move(document), name, assignments);
+  YamlNode document =
+      read_yaml(type_of<T>(), &value, read_file(path, max_yaml_bytes), name, mistakes);
+  check_types_first(assignments);
+  for (const std::string& text : assignments.texts) {
+    try {
+      set_value(value, text, assignments.option);
+    } catch (const InputError& error) {
+      mistakes.add(text.substr(0, text.find_first_of(".=")), error.what());
+    }
+  }
+  locations = locations_of(std::move(document), name, assignments);
+  return value;
+}
+
+/// The same; throws InputError with a line for each mistake.
+template <HasFields T>
+T read_yaml_file(const std::filesystem::path& path, const Settings& assignments,
+                 KeyLocations& locations) {
+  Mistakes mistakes;
+  T value = read_yaml_file<T>(path, assignments, locations, mistakes);
+  mistakes.require_none();
   return value;
 }
 

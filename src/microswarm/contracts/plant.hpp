@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "microswarm/contracts/command.hpp"
 #include "microswarm/contracts/observation.hpp"
@@ -29,6 +30,8 @@ class Plant {
   virtual Observation observe() = 0;
   /// Applies the command for `dt` seconds and lets them pass.
   virtual void apply(const Command& command, double dt) = 0;
+  /// Has these obstacles from now on; false where it cannot.
+  virtual bool set_obstacles(const std::vector<Obstacle>&) { return false; }
   /// Why it cannot go on, in words; empty while it can. Valid until the next observe().
   virtual std::string_view fault() const { return {}; }
   /// Valid until the next apply(); empty when nobody knows.

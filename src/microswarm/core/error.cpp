@@ -2,6 +2,7 @@
 #include "microswarm/core/error.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace microswarm {
 namespace {
@@ -16,5 +17,14 @@ std::string located(const std::string& file, int line, int column, const std::st
 
 InputError::InputError(const std::string& file, int line, int column, const std::string& what)
     : InputError(located(file, line, column, what)) {}
+
+InputError::InputError(std::vector<std::string> lines)
+    : InputError([&] {
+        constexpr std::size_t most = 20;
+        const std::size_t more = lines.size() > most ? lines.size() - most : 0;
+        lines.resize(lines.size() - more);
+        if (more > 0) lines.push_back(fmt::format("and {} more", more));
+        return fmt::format("{}", fmt::join(lines, "\n"));
+      }()) {}
 
 }  // namespace microswarm

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "microswarm/core/fields.hpp"
-#include "microswarm/core/places.hpp"
+#include "microswarm/core/issue.hpp"
 
 namespace microswarm {
 
@@ -18,9 +18,14 @@ namespace published_detail {
 template <class T>
 class Comparison {
  public:
-  Comparison(const Places& where, const T& given, const T& paper, const T& usual,
-             std::string prefix = {})
-      : where_(where), given_(given), paper_(paper), usual_(usual), prefix_(std::move(prefix)) {}
+  Comparison(Issues& issues, const IsGiven& is_given, const T& given, const T& paper,
+             const T& usual, std::string prefix = {})
+      : issues_(issues),
+        is_given_(is_given),
+        given_(given),
+        paper_(paper),
+        usual_(usual),
+        prefix_(std::move(prefix)) {}
 
   template <class V>
   void operator()(const V& value, const FieldInfo& info) {
@@ -30,10 +35,11 @@ class Comparison {
     const V& usual = at<V>(usual_, offset);
     const std::string key = prefix_ + key_of(info);
     if constexpr (HasFields<V>) {
-      V::fields(value, Comparison<V>(where_, value, paper, usual, key + "."));
+      V::fields(value, Comparison<V>(issues_, is_given_, value, paper, usual, key + "."));
     } else if constexpr (std::is_arithmetic_v<V> || std::is_enum_v<V>) {
-      if (value == paper || (value == usual && !where_.given(key))) return;
-      throw where_.error(key, fmt::format("{} is not the paper's, and as_published is true", key));
+      const bool written = is_given_ && is_given_(key);
+      if (value == paper || (value == usual && !written)) return;
+      issues_.add(key, fmt::format("{} is not the paper's, and as_published is true", key));
     }
   }
 
@@ -43,7 +49,8 @@ class Comparison {
     return *reinterpret_cast<const V*>(reinterpret_cast<const char*>(&params) + offset);  // NOLINT
   }
 
-  const Places& where_;
+  Issues& issues_;
+  const IsGiven& is_given_;
   const T& given_;
   const T& paper_;
   const T& usual_;
@@ -52,13 +59,15 @@ class Comparison {
 
 }  // namespace published_detail
 
-/// For parameters with `as_published`: throws InputError when a key of ours is given, in the file
-/// or after it, with a value that is not the one in effect, since it would have no effect. `given`
-/// are the parameters as read, `paper` the same in effect, `usual` their defaults: what no file
-/// gives must be the default or the paper's.
+/// For parameters with `as_published`: an issue for each key of ours that is given, in the file or
+/// after it, with a value that is not the one in effect, since it would have no effect. `given` are
+/// the parameters as read, `paper` the same in effect, `usual` their defaults: what no file gives
+/// must be the default or the paper's.
 template <HasFields T>
-void check_published(const Places& where, const T& given, const T& paper, const T& usual) {
-  T::fields(given, published_detail::Comparison<T>(where, given, paper, usual));
+Issues validate_published(const IsGiven& is_given, const T& given, const T& paper, const T& usual) {
+  Issues issues;
+  T::fields(given, published_detail::Comparison<T>(issues, is_given, given, paper, usual));
+  return issues;
 }
 
 }  // namespace microswarm

@@ -25,23 +25,29 @@ MapParts parts_of(const Mask& blocked, double cell, Vec2 lo = {}) {
   return {cell_bounds(blocked, cell, lo), mask_walls(blocked, cell, lo), {}};
 }
 
-/// Where the map's file is; a map type that was chosen by --set may have none.
-template <class Spec>
-fs::path named(const Spec& spec, const fs::path& base, const Places& where) {
-  if (spec.file.empty()) throw where.error("map.file", "missing key map.file");
-  return base / spec.file;
+/// Calls `read`, whose InputError is one more issue with that key, or with none.
+template <class Read>
+void attempt(Issues& issues, const std::string& key, Read&& read) {
+  try {
+    read();
+  } catch (const InputError& error) {
+    if (key.empty())
+      issues.add({}, error.what());
+    else
+      issues.add(key, error.what());
+  }
 }
 
-MapParts read(const ImageMap& spec, const fs::path& base, const Places& where) {
-  const Image image = read_image(named(spec, base, where));
+MapParts read(const ImageMap& spec, const fs::path& base, Issues&) {
+  const Image image = read_image(base / spec.file);
   const bool dark_is_wall = spec.free == FreePixels::bright;
   MapParts parts = parts_of(threshold(image, spec.threshold, dark_is_wall), spec.um_per_px);
   simplify(parts.walls, spec.simplify);
   return parts;
 }
 
-MapParts read(const RosMap& spec, const fs::path& base, const Places& where) {
-  const fs::path yaml = named(spec, base, where);
+MapParts read(const RosMap& spec, const fs::path& base, Issues&) {
+  const fs::path yaml = base / spec.file;
   const RosHeader header = read_ros_header(yaml);
   const Image image = read_image(yaml.parent_path() / header.image);
   const Vec2 origin{header.origin[0], header.origin[1]};
@@ -49,22 +55,21 @@ MapParts read(const RosMap& spec, const fs::path& base, const Places& where) {
                   spec.um_per_m * origin);
 }
 
-MapParts read(const MovingAiMap& spec, const fs::path& base, const Places& where) {
-  return parts_of(read_moving_ai(named(spec, base, where)), spec.um_per_cell);
+MapParts read(const MovingAiMap& spec, const fs::path& base, Issues&) {
+  return parts_of(read_moving_ai(base / spec.file), spec.um_per_cell);
 }
 
-MapParts read(const GeoJsonMap& spec, const fs::path& base, const Places& where) {
-  return read_geojson(named(spec, base, where), spec.um_per_unit);
+MapParts read(const GeoJsonMap& spec, const fs::path& base, Issues&) {
+  return read_geojson(base / spec.file, spec.um_per_unit);
 }
 
-MapParts read(const RectanglesMap& spec, const fs::path& base, const Places& where) {
+MapParts read(const RectanglesMap& spec, const fs::path& base, Issues& issues) {
   MapParts parts;
-  for (std::size_t i = 0; i < spec.rectangles.size(); ++i) {
-    const std::string number = std::to_string(i);
-    parts.walls.push_back(rectangle(
-        spec.rectangles[i],
-        where.before({"map.rectangles_um." + number}) + "map.rectangles_um[" + number + "]"));
-  }
+  for (std::size_t i = 0; i < spec.rectangles.size(); ++i)
+    attempt(issues, "map.rectangles_um." + std::to_string(i), [&] {
+      parts.walls.push_back(
+          rectangle(spec.rectangles[i], "map.rectangles_um[" + std::to_string(i) + "]"));
+    });
   if (!spec.file.empty()) {
     std::vector<Polygon> more = read_rectangles(base / spec.file);
     std::move(more.begin(), more.end(), std::back_inserter(parts.walls));
@@ -74,21 +79,21 @@ MapParts read(const RectanglesMap& spec, const fs::path& base, const Places& whe
   return parts;
 }
 
-MapParts read(const PolygonsMap& spec, const fs::path&, const Places& where) {
+MapParts read(const PolygonsMap& spec, const fs::path&, Issues& issues) {
   MapParts parts{{spec.lo, spec.hi}, {}, {}};
   for (std::size_t i = 0; i < spec.walls.size(); ++i) {
     Polygon wall = normalised({spec.walls[i], {}});
     if (wall.outer.empty() || signed_area(wall.outer) == 0)
-      throw where.error("map.walls_um." + std::to_string(i),
-                        "map.walls_um[" + std::to_string(i) +
-                            "]: at least 3 points with an area between them expected");
+      issues.add("map.walls_um." + std::to_string(i),
+                 "map.walls_um[" + std::to_string(i) +
+                     "]: at least 3 points with an area between them expected");
     parts.walls.push_back(std::move(wall));
   }
   for (const DiscWall& disc : spec.discs) parts.discs.push_back({disc.centre, disc.radius});
   return parts;
 }
 
-MapParts read(const ChannelMap& spec, const fs::path&, const Places& where) {
+MapParts read(const ChannelMap& spec, const fs::path&, Issues& issues) {
   const Vec2 middle{spec.width / 2, spec.height / 2};
   DeformingChannel channel;
   for (const Vec2 p : spec.centre_line) channel.centre_line.push_back(p - middle);
@@ -98,7 +103,8 @@ MapParts read(const ChannelMap& spec, const fs::path&, const Places& where) {
   channel.amplitude = 0;
   channel.block_width = spec.width;
   channel.block_height = spec.height;
-  check(channel, where.within("map", "map"));
+  issues.add_within("map", validate(channel), "map");
+  if (!issues.empty()) return {};
   const Obstacle block{channel, Still{middle}};
   std::vector<Body> bodies;
   append_bodies(block, 0, 0, bodies);
@@ -109,13 +115,14 @@ MapParts read(const ChannelMap& spec, const fs::path&, const Places& where) {
   return parts;
 }
 
-/// What stands before a message about the map as a whole.
-std::string name_of(const MapSpec& spec, const fs::path& base, const Places& where) {
+/// The file of the map, where it has one.
+const std::string* file_of(const MapSpec& spec) {
   return std::visit(
-      [&](const auto& s) {
+      [](const auto& s) -> const std::string* {
         if constexpr (requires { s.file; })
-          if (!s.file.empty()) return (base / s.file).string();
-        return where.before({"map"}) + "map";
+          return &s.file;
+        else
+          return nullptr;
       },
       spec);
 }
@@ -138,9 +145,27 @@ RosMap guess_ros(const fs::path& path, std::optional<double> um_per_px) {
 
 }  // namespace
 
-MapParts read_map_parts(const MapSpec& spec, const fs::path& base, const Places& where) {
-  MapParts parts = std::visit([&](const auto& s) { return read(s, base, where); }, spec);
-  check(parts, name_of(spec, base, where));
+MapParts read_map_parts(const MapSpec& spec, const fs::path& base, Issues& issues) {
+  const std::string* file = file_of(spec);
+  const bool from_file = file && !file->empty();
+  Issues of_map;
+  MapParts parts;
+  // A map type that was chosen by --set may have no file.
+  if (file && file->empty() && !std::holds_alternative<RectanglesMap>(spec))
+    of_map.add("map.file", "missing key map.file");
+  else
+    attempt(of_map, from_file ? "" : "map", [&] {
+      parts = std::visit([&](const auto& s) { return read(s, base, of_map); }, spec);
+      if (of_map.empty()) check(parts, from_file ? (base / *file).string() : "map");
+    });
+  issues.add(of_map);
+  return parts;
+}
+
+MapParts read_map_parts(const MapSpec& spec, const fs::path& base, const KeyLocations& keys) {
+  Issues issues;
+  MapParts parts = read_map_parts(spec, base, issues);
+  keys.require_none(issues);
   return parts;
 }
 

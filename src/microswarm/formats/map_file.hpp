@@ -6,18 +6,21 @@
 #include <memory>
 #include <optional>
 
+#include "microswarm/config/key_locations.hpp"
 #include "microswarm/core/fields.hpp"
-#include "microswarm/core/places.hpp"
 #include "microswarm/formats/map_parts.hpp"
 #include "microswarm/formats/map_spec.hpp"
 #include "microswarm/world/map/map.hpp"
 
 namespace microswarm {
 
-/// Reads what the spec names, files relative to the folder `base`. Throws InputError, one line that
-/// names file, place, value and limit; `where` knows the key `map` of a scenario.
+/// Reads what the spec names, files relative to the folder `base`. What is wrong goes into
+/// `issues`, with the keys of a scenario; what is wrong in a file has no key and begins with the
+/// file's name. Then the parts are of no use.
+MapParts read_map_parts(const MapSpec& spec, const std::filesystem::path& base, Issues& issues);
+/// The same; throws InputError with a line for each issue.
 MapParts read_map_parts(const MapSpec& spec, const std::filesystem::path& base = {},
-                        const Places& where = {});
+                        const KeyLocations& keys = {});
 
 /// A map ready for planning, and the fingerprint of the parts it was built from.
 struct LoadedMap {

@@ -82,20 +82,22 @@ std::string_view lacks(const AggregationParams&, const Task& task) {
 }
 
 // Waypoints must be where the swarm can be.
-void check_on(const RadarParams& p, const Task& task, const Map& map, const Places& where) {
-  check(p, where);
-  check_step(p, task.swarm, where);
+Issues validate(const RadarParams& p, const Task& task, const Map& map, const IsGiven& is_given) {
+  Issues issues = validate(p, is_given);
+  issues.add(validate_step(p, task.swarm));
   const Snapshot walls(std::shared_ptr<const Map>(std::shared_ptr<void>(), &map));
   for (std::size_t i = 0; i < p.waypoints.size(); ++i)
     if (const auto why = walls.why_blocked(p.waypoints[i], task.swarm.radius); !why.empty())
-      throw where.error(fmt::format("navigator.waypoints_um.{}", i),
-                        fmt::format("waypoint {} {}", i + 1, why));
+      issues.add(fmt::format("waypoints_um.{}", i), fmt::format("waypoint {} {}", i + 1, why));
+  return issues;
 }
-void check_on(const HierarchicalParams& p, const Task&, const Map&, const Places& where) {
-  check(p, where.within("navigator"));
+Issues validate(const HierarchicalParams& p, const Task&, const Map&, const IsGiven& is_given) {
+  return validate(p, is_given);
 }
 template <class Other>
-void check_on(const Other&, const Task&, const Map&, const Places&) {}
+Issues validate(const Other&, const Task&, const Map&, const IsGiven&) {
+  return {};
+}
 
 }  // namespace
 
@@ -103,9 +105,9 @@ std::string_view what_it_lacks(const NavigatorParams& params, const Task& task) 
   return std::visit([&](const auto& p) { return lacks(p, task); }, params);
 }
 
-void check_navigator(const NavigatorParams& params, const Task& task, const Map& map,
-                     const Places& where) {
-  std::visit([&](const auto& p) { check_on(p, task, map, where); }, params);
+Issues validate(const NavigatorParams& params, const Task& task, const Map& map,
+                const IsGiven& is_given) {
+  return std::visit([&](const auto& p) { return validate(p, task, map, is_given); }, params);
 }
 
 std::unique_ptr<Navigator> make_navigator(const NavigatorParams& params, const Task& task,

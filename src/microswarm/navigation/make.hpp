@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "microswarm/contracts/navigator.hpp"
-#include "microswarm/core/places.hpp"
+#include "microswarm/core/issue.hpp"
 #include "microswarm/core/rng.hpp"
 #include "microswarm/navigation/params.hpp"
 #include "microswarm/swarm/body/swarm_limits.hpp"
@@ -26,10 +26,9 @@ struct Task {
 /// What a navigator can steer: nothing when it can do the task, else what it lacks.
 std::string_view what_it_lacks(const NavigatorParams& params, const Task& task);
 
-/// Throws InputError, one line, when the navigator's parameters make no sense together, for this
-/// swarm or on this map; `where` knows the keys of a scenario.
-void check_navigator(const NavigatorParams& params, const Task& task, const Map& map,
-                     const Places& where);
+/// Issues when the navigator's parameters make no sense together, for this swarm or on this map.
+Issues validate(const NavigatorParams& params, const Task& task, const Map& map,
+                const IsGiven& is_given = {});
 
 /// The navigator with these parameters; it lacks nothing for the task.
 std::unique_ptr<Navigator> make_navigator(const NavigatorParams& params, const Task& task, Rng rng);

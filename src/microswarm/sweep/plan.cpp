@@ -13,6 +13,7 @@
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/hash.hpp"
 #include "microswarm/core/parallel.hpp"
+#include "microswarm/experiment/scenario/validate.hpp"
 
 namespace microswarm {
 namespace {
@@ -61,11 +62,12 @@ std::string cell_name(const SweepPlan& plan, const SweepCell& cell) {
 }
 
 /// Complaints begin with the cell's name; what is given is known.
-Places places_of(const SweepPlan& plan, const SweepCell& cell) {
+KeyLocations locations_of(const SweepPlan& plan, const SweepCell& cell) {
+  using Seek = KeyLocations::Seek;
   const std::string name = cell_name(plan, cell);
-  const Places written = places_of(plan.scenario_document, name, cell.settings);
-  return {name, [written](std::string_view key, Places::Seek seek) -> std::optional<std::string> {
-            if (seek != Places::Seek::itself || !written.given(key)) return std::nullopt;
+  const KeyLocations written = locations_of(plan.scenario_document, name, cell.settings);
+  return {name, [written](std::string_view key, Seek seek) -> std::optional<std::string> {
+            if (seek != Seek::itself || !written.given(key)) return std::nullopt;
             return "";
           }};
 }
@@ -162,7 +164,8 @@ SweepPlan load_sweep(const std::filesystem::path& file, int jobs) {
 void check(const SweepPlan& plan, int jobs) {
   for_each_in_order(plan.cells.size(), jobs, [&](std::size_t i) {
     const SweepCell& cell = plan.cells[i];
-    check(cell.scenario, cell.world, places_of(plan, cell));
+    const KeyLocations keys = locations_of(plan, cell);
+    keys.require_none(validate(cell.scenario, cell.world, keys.is_given()));
   });
 }
 

@@ -38,17 +38,20 @@ std::string place_text(const Eigen::Vector3d& v) {
 
 }  // namespace
 
-CoilSystem::CoilSystem(const CoilSystemParams& params, const Places& where,
+CoilSystem::CoilSystem(const CoilSystemParams& params, const KeyLocations& keys,
                        const std::filesystem::path& folder)
     : folder_(folder), name_(params.name) {
-  const Places coils = where.within("coils");
+  Issues coils;
   std::visit([&](const auto& kind) { add(kind, coils); }, params.coils);
-  check_names(coils);
+  if (coils.empty()) check_names(coils);
+  Issues issues;
+  issues.add_within("coils", coils);
   const std::size_t given = params.drives.size();
-  if (given > 1 && given != size())
-    throw where.error("drives",
-                      fmt::format("drives has {} entries, must have one, or {}, one for each coil",
-                                  given, size()));
+  if (coils.empty() && given > 1 && given != size())
+    issues.add("drives",
+               fmt::format("drives has {} entries, must have one, or {}, one for each coil", given,
+                           size()));
+  keys.require_none(issues);
   for (std::size_t i = 0; i < size(); ++i)
     drives_.push_back(given == 0 ? DriveParams{} : params.drives[given == 1 ? 0 : i]);
 }
@@ -58,27 +61,28 @@ void CoilSystem::limit_current(double most) {
     drive.max_current = std::min(most, drive.max_current.value_or(most));
 }
 
-void CoilSystem::check_names(const Places& where) const {
+void CoilSystem::check_names(Issues& issues) const {
   if (names_.empty() || names_.size() > max_coils_of_set)
-    throw where.error("", fmt::format("{} coils, allowed 1..{}", names_.size(), max_coils_of_set));
+    issues.add("", fmt::format("{} coils, allowed 1..{}", names_.size(), max_coils_of_set));
   for (std::size_t i = 0; i < names_.size(); ++i)
     if (std::find(names_.begin() + static_cast<std::ptrdiff_t>(i) + 1, names_.end(), names_[i]) !=
         names_.end())
-      throw where.error("", fmt::format("two coils are called {}", quote(names_[i])));
+      issues.add("", fmt::format("two coils are called {}", quote(names_[i])));
 }
 
-void CoilSystem::add(const HelmholtzCoils& params, const Places& where) {
-  centre_ = vector_of(params.centre, "centre_um", where);
-  const Eigen::Vector3d radius = vector_of(params.radius, "radius_um", where);
-  const Eigen::Vector3d turns = vector_of(params.turns, "turns", where);
+void CoilSystem::add(const HelmholtzCoils& params, Issues& issues) {
+  centre_ = vector_of(params.centre, "centre_um", issues);
+  const Eigen::Vector3d radius = vector_of(params.radius, "radius_um", issues);
+  const Eigen::Vector3d turns = vector_of(params.turns, "turns", issues);
   std::vector<LoopCoil> pairs;
-  for (int axis = 0; axis < 3; ++axis) {
+  for (int axis = 0; axis < 3 && issues.empty(); ++axis) {
     LoopCoil pair{axis_names[static_cast<std::size_t>(axis)], {}};
     for (const double side : {-0.5, 0.5}) {
+      if (!issues.empty()) return;
       const Eigen::Vector3d middle = centre_ + side * radius[axis] * Eigen::Vector3d::Unit(axis);
       append(pair.loops, loops_of(winding(middle, axis, radius[axis], turns[axis], params.length,
                                           params.thickness),
-                                  where));
+                                  issues));
     }
     names_.push_back(pair.name);
     pairs.push_back(std::move(pair));
@@ -86,38 +90,41 @@ void CoilSystem::add(const HelmholtzCoils& params, const Places& where) {
   model_ = std::move(pairs);
 }
 
-void CoilSystem::add(const CubeCoils& params, const Places& where) {
-  centre_ = vector_of(params.centre, "centre_um", where);
+void CoilSystem::add(const CubeCoils& params, Issues& issues) {
+  centre_ = vector_of(params.centre, "centre_um", issues);
   std::vector<LoopCoil> coils;
   for (int axis = 0; axis < 3; ++axis)
     for (const int side : {-1, 1}) {
+      if (!issues.empty()) return;
       const Eigen::Vector3d middle = centre_ + side * params.distance * Eigen::Vector3d::Unit(axis);
       LoopCoil coil{axis_names[static_cast<std::size_t>(axis)] + std::string(side < 0 ? "-" : "+"),
                     loops_of(winding(middle, axis, params.radius, params.turns, params.length,
                                      params.thickness),
-                             where)};
+                             issues)};
       names_.push_back(coil.name);
       coils.push_back(std::move(coil));
     }
   model_ = std::move(coils);
 }
 
-void CoilSystem::add(const LoopCoils& params, const Places& where) {
+void CoilSystem::add(const LoopCoils& params, Issues& issues) {
   std::vector<LoopCoil> coils;
   std::size_t windings = 0;
   for (std::size_t i = 0; i < params.coils.size(); ++i) {
     const CoilParams& given = params.coils[i];
-    const Places at = where.within("coils." + std::to_string(i));
-    if (given.name.empty()) throw at.error("name", "name is empty");
+    Issues of_coil;
+    if (given.name.empty()) of_coil.add("name", "name is empty");
     if (given.windings.empty())
-      throw at.error("windings", fmt::format("coil {} has no windings", quote(given.name)));
+      of_coil.add("windings", fmt::format("coil {} has no windings", quote(given.name)));
     LoopCoil coil{given.name, {}};
     for (std::size_t k = 0; k < given.windings.size(); ++k) {
-      const Places at_winding = at.within("windings." + std::to_string(k));
-      append(coil.loops, loops_of(given.windings[k], at_winding));
-      centre_ += vector_of(given.windings[k].centre, "centre_um", at_winding);
+      Issues of_winding;
+      append(coil.loops, loops_of(given.windings[k], of_winding));
+      if (of_winding.empty()) centre_ += vector_of(given.windings[k].centre, "", of_winding);
+      of_coil.add_within(fmt::format("windings.{}", k), of_winding);
       ++windings;
     }
+    issues.add_within(fmt::format("coils.{}", i), of_coil);
     names_.push_back(coil.name);
     coils.push_back(std::move(coil));
   }
@@ -125,14 +132,17 @@ void CoilSystem::add(const LoopCoils& params, const Places& where) {
   model_ = std::move(coils);
 }
 
-std::string CoilSystem::beside(const std::string& file, std::string_view key,
-                               const Places& where) const {
-  if (file.empty()) throw where.error(key, fmt::format("{} is empty", key));
-  return (folder_ / file).string();
+std::optional<std::string> CoilSystem::beside(const std::string& file, std::string_view key,
+                                              Issues& issues) const {
+  if (!file.empty()) return (folder_ / file).string();
+  issues.add(key, fmt::format("{} is empty", key));
+  return std::nullopt;
 }
 
-void CoilSystem::add(const MpemCoils& params, const Places& where) {
-  MpemSystem system = read_mpem(beside(params.file, "file", where));
+void CoilSystem::add(const MpemCoils& params, Issues& issues) {
+  const auto file = beside(params.file, "file", issues);
+  if (!file) return;
+  MpemSystem system = read_mpem(*file);
   if (name_.empty()) name_ = system.name;
   for (const MpemCoil& coil : system.coils) names_.push_back(coil.name);
   const Eigen::Vector3d middle = 0.5 * (system.lo + system.hi);
@@ -140,31 +150,33 @@ void CoilSystem::add(const MpemCoils& params, const Places& where) {
   model_ = std::move(system);
 }
 
-void CoilSystem::add(const VfieldCoils& params, const Places& where) {
+void CoilSystem::add(const VfieldCoils& params, Issues& issues) {
   std::vector<FieldGrid> grids;
-  for (const std::string& file : params.files) {
-    grids.push_back(read_vfield(beside(file, "files", where)));
-    names_.push_back(std::filesystem::path(file).stem().string());
+  for (const std::string& name : params.files) {
+    const auto file = beside(name, "files", issues);
+    if (!file) return;
+    grids.push_back(read_vfield(*file));
+    names_.push_back(std::filesystem::path(name).stem().string());
   }
   if (!grids.empty()) centre_ = 0.5 * (grids[0].lo() + grids[0].hi());
   model_ = std::move(grids);
 }
 
-void CoilSystem::add(const MatrixCoils& params, const Places& where) {
+void CoilSystem::add(const MatrixCoils& params, Issues& issues) {
   names_ = params.names;
+  offset_.field = vector_of(params.offset, "offset_mt", issues);
   if (params.field.size() != 3)
-    throw where.error("field_mt_per_a",
+    return issues.add("field_mt_per_a",
                       fmt::format("field_mt_per_a has {} rows, must have 3", params.field.size()));
   Eigen::Matrix3Xd matrix(3, static_cast<Eigen::Index>(names_.size()));
   for (std::size_t row = 0; row < 3; ++row) {
     if (params.field[row].size() != names_.size())
-      throw where.error("field_mt_per_a",
+      return issues.add("field_mt_per_a",
                         fmt::format("row {} of field_mt_per_a has {} numbers, there are {} names",
                                     row + 1, params.field[row].size(), names_.size()));
     for (std::size_t i = 0; i < names_.size(); ++i)
       matrix(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(i)) = params.field[row][i];
   }
-  offset_.field = vector_of(params.offset, "offset_mt", where);
   model_ = std::move(matrix);
 }
 
@@ -206,9 +218,9 @@ Actuation CoilSystem::at(const Eigen::Vector3d& place) const {
 }
 
 CoilSystem read_coil_system(const std::filesystem::path& path) {
-  Places places;
-  const auto params = read_yaml_file<CoilSystemParams>(path, {}, places);
-  return CoilSystem(params, places, path.parent_path());
+  KeyLocations keys;
+  const auto params = read_yaml_file<CoilSystemParams>(path, {}, keys);
+  return CoilSystem(params, keys, path.parent_path());
 }
 
 }  // namespace microswarm

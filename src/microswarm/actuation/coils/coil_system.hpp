@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -12,6 +13,7 @@
 #include "microswarm/actuation/coils/winding.hpp"
 #include "microswarm/actuation/field/drive_params.hpp"
 #include "microswarm/actuation/field/field.hpp"
+#include "microswarm/config/key_locations.hpp"
 
 namespace microswarm {
 
@@ -145,8 +147,9 @@ struct LoopCoil {
 /// A system of coils: what field each makes where, and what their amplifiers bear.
 class CoilSystem {
  public:
-  /// Reads the files that the parameters name, beside `folder`. Throws InputError at `where`.
-  explicit CoilSystem(const CoilSystemParams& params, const Places& where = {},
+  /// Reads the files that the parameters name, beside `folder`. Throws InputError where `keys`
+  /// stand.
+  explicit CoilSystem(const CoilSystemParams& params, const KeyLocations& keys = {},
                       const std::filesystem::path& folder = {});
 
   const std::string& name() const { return name_; }
@@ -167,14 +170,15 @@ class CoilSystem {
   using Model =
       std::variant<std::vector<LoopCoil>, MpemSystem, std::vector<FieldGrid>, Eigen::Matrix3Xd>;
 
-  void add(const HelmholtzCoils& params, const Places& where);
-  void add(const CubeCoils& params, const Places& where);
-  void add(const LoopCoils& params, const Places& where);
-  void add(const MpemCoils& params, const Places& where);
-  void add(const VfieldCoils& params, const Places& where);
-  void add(const MatrixCoils& params, const Places& where);
-  void check_names(const Places& where) const;
-  std::string beside(const std::string& file, std::string_view key, const Places& where) const;
+  void add(const HelmholtzCoils& params, Issues& issues);
+  void add(const CubeCoils& params, Issues& issues);
+  void add(const LoopCoils& params, Issues& issues);
+  void add(const MpemCoils& params, Issues& issues);
+  void add(const VfieldCoils& params, Issues& issues);
+  void add(const MatrixCoils& params, Issues& issues);
+  void check_names(Issues& issues) const;
+  std::optional<std::string> beside(const std::string& file, std::string_view key,
+                                    Issues& issues) const;
 
   std::filesystem::path folder_;
   std::string name_;

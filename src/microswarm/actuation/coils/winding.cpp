@@ -35,22 +35,23 @@ std::vector<Node> nodes(bool extended) {
 }  // namespace
 
 Eigen::Vector3d vector_of(const std::vector<double>& numbers, std::string_view key,
-                          const Places& where) {
-  if (numbers.size() != 3)
-    throw where.error(key,
-                      fmt::format("{} has {} numbers, must be [x, y, z]", key, numbers.size()));
-  return {numbers[0], numbers[1], numbers[2]};
+                          Issues& issues) {
+  if (numbers.size() == 3) return {numbers[0], numbers[1], numbers[2]};
+  issues.add(key, fmt::format("{} has {} numbers, must be [x, y, z]", key, numbers.size()));
+  return Eigen::Vector3d::Zero();
 }
 
-std::vector<Loop> loops_of(const WindingParams& winding, const Places& where) {
-  const Eigen::Vector3d centre = vector_of(winding.centre, "centre_um", where);
-  const Eigen::Vector3d axis = vector_of(winding.axis, "axis", where);
-  if (!(axis.norm() > 0)) throw where.error("axis", "axis is [0, 0, 0], must have a direction");
+std::vector<Loop> loops_of(const WindingParams& winding, Issues& issues) {
+  const std::size_t before = issues.size();
+  const Eigen::Vector3d centre = vector_of(winding.centre, "centre_um", issues);
+  const Eigen::Vector3d axis = vector_of(winding.axis, "axis", issues);
+  if (winding.axis.size() == 3 && !(axis.norm() > 0))
+    issues.add("axis", "axis is [0, 0, 0], must have a direction");
   if (winding.thickness >= 2 * winding.radius)
-    throw where.error("thickness_um",
-                      fmt::format("thickness_um is {} µm, must be less than twice the radius, "
-                                  "{} µm",
-                                  number_text(winding.thickness), number_text(2 * winding.radius)));
+    issues.add("thickness_um",
+               fmt::format("thickness_um is {} µm, must be less than twice the radius, {} µm",
+                           number_text(winding.thickness), number_text(2 * winding.radius)));
+  if (issues.size() > before) return {};
   const Eigen::Vector3d unit = axis.normalized();
   std::vector<Loop> loops;
   for (const Node& along : nodes<20>(winding.length > 0))

@@ -50,6 +50,7 @@ std::string Record::hash() const {
   FieldHasher fields{hash};
   Metrics::fields(result.metrics, fields);
   visit_tables(*this, TableHasher{hash});
+  for (const Change& change : changes) hash.value(change.frame), hash.text(change.setting);
   return hash.hex();
 }
 
@@ -63,6 +64,8 @@ Recorder::Recorder(Scene scene, std::uint32_t trial, std::string rig) {
 void Recorder::on_tick(const Tick& tick) {
   const Frame& frame = tick.frame;
   const NavigatorView& view = tick.view;
+  for (const std::string& setting : tick.changes)
+    record_.changes.push_back({frame.t, record_.frames.size(), setting});
   record_.frames.push_back(frame);
   if (frame.planned && view.plan) record_.plans.push_back({frame.t, *view.plan});
   const bool same = record_.paths.empty()

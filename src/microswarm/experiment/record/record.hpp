@@ -22,10 +22,12 @@ struct Record {
   std::vector<PathChange> paths;
   std::vector<PlanEvent> plans;
   std::vector<RunEvent> events;
+  std::vector<Change> changes;      ///< what was changed while it ran; the scene is as it began
   std::vector<RobotMoment> robots;  ///< of robots that are told apart: a part of the frames
   std::string stated_hash;  ///< what the file it was read from says it is; empty for a new one
 
-  /// Fingerprint of all that is physical: frames, paths, plans, events, status and metrics.
+  /// Fingerprint of all that is physical: frames, paths, plans, events, status and metrics, and of
+  /// the changes, where there are any.
   std::string hash() const;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/error.hpp"
@@ -15,8 +16,9 @@ namespace microswarm {
 namespace {
 
 constexpr std::string_view record_format_name = "microswarm record";
-constexpr std::int64_t record_format_version = 3;
-constexpr const char* words_attribute = "words";  // joined by spaces, indexed from 0
+constexpr std::int64_t record_format_version = 4;
+constexpr std::int64_t unchanged_format_version = 3;  // of a record in which nothing was changed
+constexpr const char* words_attribute = "words";      // joined by spaces, indexed from 0
 
 std::vector<std::string> split(std::string_view words) {
   std::vector<std::string> list;
@@ -216,7 +218,8 @@ struct MetricsReader {
 
 void write_root(Hdf5Writer& out, const Record& record) {
   out.attribute("/", "format", record_format_name);
-  out.attribute("/", "format_version", record_format_version);
+  out.attribute("/", "format_version",
+                record.changes.empty() ? unchanged_format_version : record_format_version);
   out.attribute("/", "version", record.version);
   out.attribute("/", "name", record.scene.scenario.name);
   out.attribute("/", "status", to_string(record.result.status));
@@ -240,12 +243,50 @@ Status status_of(const Hdf5Reader& in, const std::string& word) {
   in.fail("attribute status is the unknown word '" + word + "'");
 }
 
-void check_format(const Hdf5Reader& in) {
+void write_changes(Hdf5Writer& out, const std::vector<Change>& changes) {
+  if (changes.empty()) return;
+  std::vector<double> times;
+  std::vector<std::int64_t> frames;
+  std::string settings;
+  for (const Change& change : changes) {
+    times.push_back(change.t);
+    frames.push_back(static_cast<std::int64_t>(change.frame));
+    settings += change.setting + "\n";
+  }
+  out.dataset("/changes/t_s", times);
+  out.attribute("/changes/t_s", "unit", "s");
+  out.attribute("/changes/t_s", "description", "Time of the frame that the change comes before.");
+  out.dataset("/changes/frame", frames);
+  out.attribute("/changes/frame", "description", "That frame, counted from 0.");
+  out.text("/changes/settings", settings);
+  out.attribute("/changes/settings", "description", "KEY=VALUE of the scenario, a line a change.");
+}
+
+std::vector<Change> read_changes(const Hdf5Reader& in) {
+  const std::vector<double> times = in.numbers("/changes/t_s");
+  const std::vector<std::int64_t> frames = in.integers("/changes/frame");
+  std::istringstream settings(in.text("/changes/settings"));
+  if (times.size() != frames.size()) in.fail("/changes/frame is not as long as its table");
+  std::vector<Change> changes;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    Change change{times[i], static_cast<std::uint64_t>(frames[i]), {}};
+    if (frames[i] < 0 || (i > 0 && frames[i] < frames[i - 1]))
+      in.fail("/changes/frame does not ascend from 0");
+    if (!std::getline(settings, change.setting))
+      in.fail("/changes/settings is not as long as its table");
+    changes.push_back(std::move(change));
+  }
+  return changes;
+}
+
+std::int64_t check_format(const Hdf5Reader& in) {
   if (in.text_attribute("/", "format") != record_format_name) in.fail("is no microswarm record");
   const std::int64_t written = in.integer_attribute("/", "format_version");
-  if (written != record_format_version)
-    in.fail("has record format " + std::to_string(written) + ", this program reads format " +
+  if (written != record_format_version && written != unchanged_format_version)
+    in.fail("has record format " + std::to_string(written) + ", this program reads formats " +
+            std::to_string(unchanged_format_version) + " and " +
             std::to_string(record_format_version));
+  return written;
 }
 
 }  // namespace
@@ -255,6 +296,7 @@ void write_record(const Record& record, const std::filesystem::path& file) {
   write_root(out, record);
   write_scene(out, record.scene);
   visit_tables(record, TableWriter{out});
+  write_changes(out, record.changes);
   out.group("/metrics");
   Metrics::fields(record.result.metrics, MetricsWriter{out, ""});
   write_times(out, "/timing/step_s", record.result.timing.steps,
@@ -266,7 +308,7 @@ void write_record(const Record& record, const std::filesystem::path& file) {
 
 Record read_record(const std::filesystem::path& file) {
   const Hdf5Reader in(read_file(file), file.string());
-  check_format(in);
+  const std::int64_t format = check_format(in);
   Record record;
   record.version = in.text_attribute("/", "version");
   const std::int64_t trial = in.integer_attribute("/", "trial");
@@ -275,6 +317,7 @@ Record read_record(const std::filesystem::path& file) {
   if (in.has_attribute("/", "rig")) record.rig = in.text_attribute("/", "rig");
   record.scene = read_scene(in);
   visit_tables(record, TableReader{in});
+  if (format == record_format_version) record.changes = read_changes(in);
   record.result.status = status_of(in, in.text_attribute("/", "status"));
   Metrics::fields(record.result.metrics, MetricsReader{in, ""});
   record.stated_hash = in.text_attribute("/", "record_hash");

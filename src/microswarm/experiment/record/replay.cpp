@@ -6,6 +6,7 @@
 #include "microswarm/core/text.hpp"
 #include "microswarm/experiment/record/record.hpp"
 #include "microswarm/experiment/record/record_layout.hpp"
+#include "microswarm/experiment/run/open_run.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 
 namespace microswarm {
@@ -103,6 +104,36 @@ class Ending : public RunListener {
   std::atomic<bool> over_;
 };
 
+/// Changes an experiment when the record did.
+class Changes : public RunListener {
+ public:
+  Changes(const std::vector<Change>& changes, OpenRun& open) : changes_(changes), open_(open) {
+    apply();
+  }
+  void on_tick(const Tick&) override {
+    ++frame_;
+    apply();
+  }
+  /// Why one could not be made; empty while all could.
+  const std::string& refused() const { return refused_; }
+
+ private:
+  void apply() {
+    for (; next_ < changes_.size() && changes_[next_].frame == frame_; ++next_) {
+      const Issues issues = open_.change(changes_[next_].setting);
+      if (!issues.empty() && refused_.empty())
+        refused_ = "change '" + changes_[next_].setting + "' before frame " +
+                   std::to_string(frame_) + " is refused: " + issues.begin()->text;
+    }
+  }
+
+  const std::vector<Change>& changes_;
+  OpenRun& open_;
+  std::uint64_t frame_ = 0;
+  std::size_t next_ = 0;
+  std::string refused_;
+};
+
 using Numbers = std::vector<std::pair<std::string, double>>;
 
 struct NumbersOf {
@@ -136,13 +167,14 @@ ReplayResult replay(const Record& record, const Stop& stop) {
     throw InputError("a run on a rig (" + record.rig + ") cannot be repeated");
   Recorder recorder(record.scene, record.trial);
   Ending ending(record, stop);
-  RunListener* const listeners[] = {&recorder, &ending};
-  simulate(record.scene.scenario, build_world(record.scene), record.trial, listeners,
-           Stop(&ending.over()));
+  OpenRun open(record.scene.scenario, build_world(record.scene), record.trial);
+  Changes changes(record.changes, open);
+  RunListener* const listeners[] = {&recorder, &ending, &changes};
+  finish(open, listeners, Stop(&ending.over()));
   const Record now = recorder.take();
   if (ending.stopped()) return {.identical = false, .stopped = true, .difference = {}};
 
-  Comparison comparison{now, {}};
+  Comparison comparison{now, changes.refused()};
   visit_tables(record, comparison);
   std::string difference = std::move(comparison.difference);
   if (difference.empty() && record.result.status != now.result.status)

@@ -59,9 +59,12 @@ struct ContactMonitor::Way {
   double top_growth;
 };
 
-ContactMonitor::ContactMonitor(const World& world)
-    : world_(&world), touching_(world.obstacles.size(), false) {
-  for (const Obstacle& obstacle : world.obstacles) top_speeds_.push_back(top_speed(obstacle));
+ContactMonitor::ContactMonitor(const World& world) : world_(&world) { take_obstacles(); }
+
+void ContactMonitor::take_obstacles() {
+  top_speeds_.clear();
+  for (const Obstacle& obstacle : world_->obstacles) top_speeds_.push_back(top_speed(obstacle));
+  touching_.resize(world_->obstacles.size(), false);
 }
 
 std::vector<RunEvent> ContactMonitor::follow(double t0, std::span<const TimedPose> swept) {

@@ -26,6 +26,9 @@ class ContactMonitor {
   /// The world must outlive the watch. Closer to the centre than the swarm is wide is a touch.
   explicit ContactMonitor(const World& world);
 
+  /// To be called when the world's obstacles are others than before.
+  void take_obstacles();
+
   /// Follows the way `swept`, which begins at time t0, and returns the touches that begin in it, in
   /// order of time. Obstacles that were touched at the end of the last way do not begin anew.
   std::vector<RunEvent> follow(double t0, std::span<const TimedPose> swept);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "microswarm/experiment/run/metrics.hpp"
 
@@ -25,14 +26,27 @@ void cut(std::vector<TimedPose>& way, double t) {
 Episode::Episode(const Scenario& scenario, Plant& plant, Navigator& navigator)
     : scenario_(scenario),
       plant_(plant),
-      navigator_(navigator),
+      navigator_(&navigator),
       obstacles_(scenario.sensing.obstacle_memory),
-      detection_range_(scenario.detection_range.value_or(detection_range_of(scenario.navigator))),
-      ticks_(std::ceil(scenario.time_limit / scenario.tick - 1e-9)) {
+      detection_range_(scenario.detection_range.value_or(detection_range_of(scenario.navigator))) {
   if (scenario.start) present_.pose = *scenario.start;
-  if (scenario.goal) start_distance_ = distance(present_.pose.position, *scenario.goal);
+  take_goal();
   const auto truth = plant.truth();
   if (truth && !scenario.robots) contacts_.emplace(*truth->world);
+}
+
+void Episode::take_goal() {
+  goal_ = scenario_.goal;
+  if (goal_) start_distance_ = distance(present_.pose.position, *goal_);
+}
+
+void Episode::change(const std::string& setting, Navigator& navigator) {
+  coming_changes_.push_back(setting);
+  prepared_ = prepared_ && navigator_ == &navigator;
+  navigator_ = &navigator;
+  if (goal_ != scenario_.goal) take_goal();
+  if (contacts_) contacts_->take_obstacles();
+  task_.reset();
 }
 
 const Tick* Episode::step(const Stop& stop) {
@@ -40,7 +54,10 @@ const Tick* Episode::step(const Stop& stop) {
   tick_ = {};
   events_.clear();
   swept_.clear();
-  if (!ending_ && done_++ >= ticks_) ending_ = hold_time_ > 0 ? Status::held : Status::time_limit;
+  changes_ = std::exchange(coming_changes_, {});
+  tick_.changes = changes_;
+  const double ticks = std::ceil(scenario_.time_limit / scenario_.tick - 1e-9);
+  if (!ending_ && done_++ >= ticks) ending_ = hold_time_ > 0 ? Status::held : Status::time_limit;
   if (!ending_ && stop()) ending_ = Status::stopped;
   if (ending_ || !advance(stop)) end();
   tick_.events = events_;
@@ -62,11 +79,11 @@ bool Episode::advance(const Stop& stop) {
     ending_ = arrived();
   }
   if (ending_) return false;
-  if (!prepared_) navigator_.prepare(*seen.world);
+  if (!prepared_) navigator_->prepare(*seen.world);
   prepared_ = true;
 
   const Clock::time_point begin = Clock::now();
-  const Command command = navigator_.step(seen, stop);
+  const Command command = navigator_->step(seen, stop);
   const double took = std::chrono::duration<double>(Clock::now() - begin).count();
   // A step that was told to stop half-way is none: the record must repeat without the telling.
   if (stop()) {
@@ -75,7 +92,7 @@ bool Episode::advance(const Stop& stop) {
   }
 
   tick_.step_time = took;
-  tick_.view = navigator_.view();
+  tick_.view = navigator_->view();
   tick_.frame.command = command;
   tick_.frame.target = tick_.view.local_target;
   tick_.frame.state = tick_.view.state;

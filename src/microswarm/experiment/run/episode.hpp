@@ -33,6 +33,13 @@ class Episode {
   /// limit), `time_limit`, `stopped`, or `fault`.
   const Tick* step(const Stop& stop = {});
 
+  /// Goes on with the scenario and the plant's obstacles as they are by now and with this
+  /// navigator, which may be the one it has. `setting` is what the next tick says of it.
+  void change(const std::string& setting, Navigator& navigator);
+
+  /// Where the swarm is, or was last seen.
+  const Pose2& pose() const { return present_.pose; }
+
  private:
   /// The swarm at the present: as it is when the plant knows, else as it was last seen.
   struct Present {
@@ -43,6 +50,7 @@ class Episode {
     double goal_distance = infinity;
   };
 
+  void take_goal();
   bool advance(const Stop& stop);
   void end();
   void begin_with_robots(const Observation& seen);
@@ -56,16 +64,16 @@ class Episode {
 
   const Scenario& scenario_;
   Plant& plant_;
-  Navigator& navigator_;
+  Navigator* navigator_;
   ObstacleMemory obstacles_;
   std::optional<ContactMonitor> contacts_;
   std::optional<RobotTask> task_;  ///< of individually tracked robots
   Present present_;
   bool was_seen_ = false;       ///< the swarm, at least once
   double detection_range_ = 0;  ///< [µm]
+  std::optional<Vec2> goal_;    ///< as it was when its distance was taken
   double start_distance_ = 0;   ///< from the goal [µm]
   double hold_time_ = 0;        ///< without a break [s]
-  double ticks_ = 0;            ///< at most
   double done_ = 0;             ///< ticks
   bool touched_ = false;
   bool prepared_ = false;         ///< the navigator
@@ -74,6 +82,8 @@ class Episode {
   Tick tick_;
   std::optional<Snapshot> world_;
   std::vector<Vec2> robots_;
+  std::vector<std::string> coming_changes_;
+  std::vector<std::string> changes_;
   std::vector<RunEvent> events_;
   std::vector<TimedPose> swept_;
   std::string fault_;

@@ -51,6 +51,13 @@ struct PlanEvent {
   Plan plan;
 };
 
+/// A value of the scenario that was changed between two ticks.
+struct Change {
+  double t = 0;             ///< of the frame that it comes before [s]
+  std::uint64_t frame = 0;  ///< that frame, from 0
+  std::string setting;      ///< "navigator.speed_um_per_s=60"
+};
+
 /// What can happen to a swarm.
 enum class EventKind { contact_wall, contact_obstacle, goal_reached, hold_begins, hold_ends };
 constexpr auto enum_names(EventKind) {

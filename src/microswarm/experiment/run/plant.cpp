@@ -70,6 +70,11 @@ void KinematicPlant::apply(const Command& command, double dt) {
   if (still_seen - history_.begin() > 1) history_.erase(history_.begin(), still_seen - 1);
 }
 
+bool KinematicPlant::set_obstacles(const std::vector<Obstacle>& obstacles) {
+  world_.obstacles = obstacles;
+  return true;
+}
+
 std::optional<Truth> KinematicPlant::truth() const {
   return Truth{.now = now_,
                .swarm = swarm_.pose(),

@@ -21,6 +21,7 @@ class KinematicPlant : public Plant {
 
   Observation observe() override;
   void apply(const Command& command, double dt) override;
+  bool set_obstacles(const std::vector<Obstacle>& obstacles) override;
   std::optional<Truth> truth() const override;
 
  private:

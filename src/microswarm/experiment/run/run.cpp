@@ -3,16 +3,14 @@
 
 #include "microswarm/experiment/run/episode.hpp"
 #include "microswarm/experiment/run/metrics_listener.hpp"
+#include "microswarm/experiment/run/open_run.hpp"
 #include "microswarm/experiment/run/plant.hpp"
 #include "microswarm/experiment/run/robot_plant.hpp"
-#include "microswarm/experiment/scenario/scene.hpp"
-#include "microswarm/navigation/make.hpp"
 
 namespace microswarm {
 
-RunResult run(const Scenario& scenario, Plant& plant, Navigator& navigator,
-              std::span<RunListener* const> listeners, const Stop& stop) {
-  Episode episode(scenario, plant, navigator);
+RunResult run(Episode& episode, const Scenario& scenario, std::span<RunListener* const> listeners,
+              const Stop& stop) {
   MetricsListener metrics(scenario);
   while (const Tick* tick = episode.step(stop)) {
     metrics.on_tick(*tick);
@@ -20,6 +18,12 @@ RunResult run(const Scenario& scenario, Plant& plant, Navigator& navigator,
   }
   for (RunListener* listener : listeners) listener->on_end(metrics.result());
   return metrics.result();
+}
+
+RunResult run(const Scenario& scenario, Plant& plant, Navigator& navigator,
+              std::span<RunListener* const> listeners, const Stop& stop) {
+  Episode episode(scenario, plant, navigator);
+  return run(episode, scenario, listeners, stop);
 }
 
 std::unique_ptr<Plant> make_kinematic_plant(const Scenario& scenario, const World& world,
@@ -30,10 +34,8 @@ std::unique_ptr<Plant> make_kinematic_plant(const Scenario& scenario, const Worl
 
 RunResult simulate(const Scenario& scenario, const World& world, std::uint32_t trial,
                    std::span<RunListener* const> listeners, const Stop& stop) {
-  const std::unique_ptr<Plant> plant = make_kinematic_plant(scenario, world, trial);
-  const auto navigator = make_navigator(scenario.navigator, task_of(scenario),
-                                        Rng(scenario.seed, Purpose::planner, trial));
-  return run(scenario, *plant, *navigator, listeners, stop);
+  OpenRun open(scenario, world, trial);
+  return finish(open, listeners, stop);
 }
 
 }  // namespace microswarm

@@ -30,8 +30,12 @@ class RunListener {
   virtual void on_end(const RunResult& result) { (void)result; }
 };
 
-/// Steps an Episode to its end and tells every tick to the listeners; with `fault`, the plant's
+class Episode;
+
+/// Steps an episode to its end and tells every tick to the listeners; with `fault`, the plant's
 /// reason is the result's state.
+RunResult run(Episode& episode, const Scenario& scenario,
+              std::span<RunListener* const> listeners = {}, const Stop& stop = {});
 RunResult run(const Scenario& scenario, Plant& plant, Navigator& navigator,
               std::span<RunListener* const> listeners = {}, const Stop& stop = {});
 

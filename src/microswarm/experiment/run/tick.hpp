@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "microswarm/contracts/navigator.hpp"
@@ -21,6 +22,8 @@ struct Tick {
   const Snapshot* world = nullptr;  ///< at the frame's time
   /// Positions at the frame's time [µm] of robots that are tracked one by one.
   std::optional<std::span<const Vec2>> robots;
+  /// What was changed since the last tick, "navigator.speed_um_per_s=60", in its order.
+  std::span<const std::string> changes;
   std::span<const RunEvent> events;
   std::span<const TimedPose> swept;          ///< the swarm's way in the tick, where it is known
   const ContactMonitor* contacts = nullptr;  ///< up to the tick's end; null where nobody knows

@@ -9,7 +9,6 @@
 
 #include "microswarm/config/type.hpp"
 #include "microswarm/core/fields.hpp"
-#include "microswarm/core/places.hpp"
 #include "microswarm/formats/map_spec.hpp"
 #include "microswarm/navigation/params.hpp"
 #include "microswarm/swarm/body/swarm_params.hpp"
@@ -17,6 +16,8 @@
 #include "microswarm/world/obstacles/obstacle.hpp"
 
 namespace microswarm {
+
+class KeyLocations;
 
 /// What the camera and the image processing give of the world, and when.
 struct SensingParams {
@@ -52,7 +53,7 @@ struct SensingParams {
 
 /// One experiment as data: the world, the swarm, where from, where to, and who steers. A swarm seen
 /// as one body has a start and a goal; robots that are told apart have starts and either one goal,
-/// at which they gather, or a goal each. `check` sees to that.
+/// at which they gather, or a goal each. `validate` sees to that.
 struct Scenario {
   std::string name;
   std::string description;
@@ -111,9 +112,10 @@ struct Scenario {
 };
 
 /// Reads a scenario; `settings` are `key.path=value` texts, as from --set, applied after the file.
-/// Throws InputError, naming file, line and column. `places` then tells where its keys stand.
+/// Throws InputError, a line for each mistake with file, line and column. `keys` then tells where
+/// its keys stand.
 Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& settings,
-                       Places& places);
+                       KeyLocations& keys);
 Scenario read_scenario(const std::filesystem::path& file,
                        const std::vector<std::string>& settings = {});
 

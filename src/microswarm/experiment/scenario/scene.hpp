@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "microswarm/core/places.hpp"
+#include "microswarm/config/key_locations.hpp"
 #include "microswarm/experiment/scenario/scenario.hpp"
 #include "microswarm/formats/map_parts.hpp"
 #include "microswarm/navigation/make.hpp"
@@ -21,24 +21,17 @@ struct Scene {
   std::string hash() const;
 };
 
-/// Reads the scenario's map, tracks and learned follower, relative to the folder `base`. Throws
-/// InputError for a file or an obstacle that makes no sense; `where` knows the scenario's keys.
-Scene load_scene(Scenario scenario, const std::filesystem::path& base, const Places& where = {});
+/// Reads the scenario's map, tracks and learned follower, relative to the folder `base`. What is
+/// wrong with them or with an obstacle goes into `issues`; then the scene is of no use.
+Scene load_scene(Scenario scenario, const std::filesystem::path& base, Issues& issues);
+/// The same; throws InputError with a line for each issue.
+Scene load_scene(Scenario scenario, const std::filesystem::path& base,
+                 const KeyLocations& keys = {});
 
 /// What a scenario tells its navigator.
 Task task_of(const Scenario& scenario);
 
 /// Builds the world of a scene. Throws InputError as Map does.
 World build_world(const Scene& scene);
-
-/// Throws InputError, one line, when the run cannot be meant so: the start or the goal in a wall
-/// ("start is 12 µm inside wall 3"), the swarm wider than every passage, the goal cut off from the
-/// start, no way that keeps the navigator's margin, or a navigator that would never get on. `where`
-/// knows the scenario's keys, or is a name for it. Robots and their goals are looked at one by one.
-void check(const Scenario& scenario, const World& world, const Places& where);
-
-/// The last two of these complaints alone: between two free points of a map, for a swarm of
-/// `radius` [µm].
-void check_way(const Map& map, Vec2 start, Vec2 goal, double radius, const Places& where);
 
 }  // namespace microswarm

@@ -144,29 +144,4 @@ Vec2 Gatherer::waypoint_of(std::size_t robot, Vec2 p) {
   return tree.nodes[node];
 }
 
-GatherResult gather(const RobotStepper& stepper, Gatherer& gatherer, Robots& robots, int most_steps,
-                    const Stop& stop) {
-  constexpr int steps_between_joins = 16;
-  GatherResult result;
-  Crowd crowd(robots);
-  for (;; ++result.steps) {
-    if (result.steps % steps_between_joins == 0) {
-      if (const auto new_places = crowd.join(); !new_places.empty()) gatherer.joined(new_places);
-    }
-    const std::optional<Vec2> move = gatherer.next(crowd.places(), crowd.counts());
-    if (!move) {
-      result.status = Status::solved;
-    } else if (stop()) {
-      result.status = Status::stopped;
-    } else if (result.steps < most_steps) {
-      stepper.step(crowd.places(), *move, ContactRule::stop);
-      continue;
-    }
-    result.mean_way = gatherer.mean_way();
-    result.guard_count = gatherer.guard_count();
-    robots = crowd.robots();
-    return result;
-  }
-}
-
 }  // namespace microswarm

@@ -70,16 +70,4 @@ class Gatherer {
   bool breaks_ = false;  ///< a livelock: any robot leads
 };
 
-/// How a gathering ended.
-struct GatherResult {
-  Status status = Status::time_limit;  ///< solved, time_limit (the steps ran out) or stopped
-  int steps = 0;
-  double mean_way = 0;  ///< F at the end [µm]
-  int guard_count = 0;
-};
-
-/// Gathers robots in a simulation under the rule "stop"; they end where they were gathered.
-GatherResult gather(const RobotStepper& stepper, Gatherer& gatherer, Robots& robots, int most_steps,
-                    const Stop& stop = {});
-
 }  // namespace microswarm

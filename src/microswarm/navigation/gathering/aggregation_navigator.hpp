@@ -26,6 +26,8 @@ class AggregationNavigator : public Navigator {
   NavigatorView view() const override { return view_; }
   /// After prepare(): null before.
   const Gatherer* gatherer() const { return gatherer_ ? &*gatherer_ : nullptr; }
+  /// What it gathers by; null before prepare().
+  const AggregationMap* map() const { return ground_ ? &*ground_ : nullptr; }
 
  private:
   Command issue(double now, Command command, NavigatorState state);

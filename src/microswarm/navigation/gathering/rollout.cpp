@@ -242,23 +242,4 @@ void RolloutGatherer::adopt(RolloutDraft&& draft) {
   ++improvements_;
 }
 
-GatherResult gather(const RobotStepper& stepper, RolloutGatherer& gatherer, Robots& robots,
-                    int most_steps, const Stop& stop) {
-  GatherResult result;
-  for (;; ++result.steps) {
-    const std::optional<Vec2> move = gatherer.next(robots, stop);
-    if (!move) {
-      result.status = Status::solved;
-    } else if (stop()) {
-      result.status = Status::stopped;
-    } else if (result.steps < most_steps) {
-      stepper.step(robots, *move, ContactRule::stop);
-      continue;
-    }
-    result.mean_way = gatherer.mean_way();
-    result.guard_count = gatherer.guard_count();
-    return result;
-  }
-}
-
 }  // namespace microswarm

@@ -75,8 +75,4 @@ class RolloutGatherer {
   int improvements_ = 0;
 };
 
-/// Gathers robots in a simulation under the rule "stop", as `gather` with a Gatherer.
-GatherResult gather(const RobotStepper& stepper, RolloutGatherer& gatherer, Robots& robots,
-                    int most_steps, const Stop& stop = {});
-
 }  // namespace microswarm

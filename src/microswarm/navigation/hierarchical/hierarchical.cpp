@@ -38,10 +38,12 @@ HierarchicalParams HierarchicalParams::in_effect() const {
   return p;
 }
 
-void check(const HierarchicalParams& params, const Places& where) {
-  check(params.planner, where.within("planner"));
-  if (!params.as_published) return;
-  check_published(where, params, params.in_effect(), HierarchicalParams{});
+Issues validate(const HierarchicalParams& params, const IsGiven& is_given) {
+  Issues issues;
+  issues.add_within("planner", validate(params.planner, given_within(is_given, "planner")));
+  if (params.as_published)
+    issues.add(validate_published(is_given, params, params.in_effect(), HierarchicalParams{}));
+  return issues;
 }
 
 HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params,

@@ -6,7 +6,7 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/fields.hpp"
-#include "microswarm/core/places.hpp"
+#include "microswarm/core/issue.hpp"
 #include "microswarm/navigation/following/follower_params.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker_params.hpp"
 #include "microswarm/navigation/steering/guide_kind.hpp"
@@ -107,8 +107,7 @@ struct HierarchicalParams {
   }
 };
 
-/// Throws InputError when `as_published` stands beside a value that is not the paper's; `where`
-/// knows the keys.
-void check(const HierarchicalParams& params, const Places& where);
+/// Issues when `as_published` stands beside given values that are not the paper's.
+Issues validate(const HierarchicalParams& params, const IsGiven& is_given);
 
 }  // namespace microswarm

@@ -35,6 +35,8 @@ class RadarNavigator : public Navigator {
   /// What the last decision by Eq 9–17 rests on, for `scan`; empty when the last step looked at
   /// nothing: blind, or inside a body.
   const std::optional<RadarLook>& last_look() const { return look_; }
+  /// How many it chooses from.
+  int directions() const { return directions_of(params_); }
 
  private:
   Command decide(const Observation& seen, const Stop& stop);

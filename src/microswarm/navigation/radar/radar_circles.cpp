@@ -31,43 +31,44 @@ RadarParams RadarParams::in_effect() const {
   return p;
 }
 
-void check(const RadarParams& params, const Places& where) {
+Issues validate(const RadarParams& params, const IsGiven& is_given) {
+  Issues issues;
   const double safety = params.prediction_distance + params.safety_distance;
   if (params.detection_range < safety)
-    throw where.error(
-        {"navigator.detection_range_um", "navigator.prediction_distance_um",
-         "navigator.safety_distance_um"},
+    issues.add(
+        {"detection_range_um", "prediction_distance_um", "safety_distance_um"},
         fmt::format(
             "navigator.detection_range_um is {:.4g}, less than prediction_distance_um + "
             "safety_distance_um, {:.4g}: the safety circle must lie within the detection circle",
             params.detection_range, safety));
   const double count = 2 * pi / params.angle_step;
   if (std::abs(count - std::round(count)) > 1e-9 * count || std::round(count) < 3)
-    throw where.error("navigator.angle_step_deg",
-                      fmt::format("navigator.angle_step_deg is {:.6g}, must divide 360",
-                                  degrees(params.angle_step)));
+    issues.add("angle_step_deg", fmt::format("navigator.angle_step_deg is {:.6g}, must divide 360",
+                                             degrees(params.angle_step)));
   if (!(params.speed > 0))
-    throw where.error(
-        "navigator.speed_um_per_s",
-        fmt::format("navigator.speed_um_per_s is {:.4g}, must be above 0", params.speed));
+    issues.add("speed_um_per_s",
+               fmt::format("navigator.speed_um_per_s is {:.4g}, must be above 0", params.speed));
   if (params.global_plan && !params.waypoints.empty())
-    throw where.error({"navigator.global_plan", "navigator.waypoints_um"},
-                      "navigator.global_plan is true and navigator.waypoints_um are given: only "
-                      "one of them can be");
-  check(params.planner, where.within("navigator.planner", "navigator.planner"));
-  if (!params.as_published) return;
-  check_published(where.within("navigator"), params, params.in_effect(), RadarParams{});
+    issues.add({"global_plan", "waypoints_um"},
+               "navigator.global_plan is true and navigator.waypoints_um are given: only one of "
+               "them can be");
+  issues.add_within("planner", validate(params.planner), "navigator.planner");
+  if (params.as_published)
+    issues.add(validate_published(is_given, params, params.in_effect(), RadarParams{}));
+  return issues;
 }
 
-void check_step(const RadarParams& params, const SwarmLimits& swarm, const Places& where) {
+Issues validate_step(const RadarParams& params, const SwarmLimits& swarm) {
+  Issues issues;
   const double kept = params.safety_radius.adaptive ? 0 : params.safety_distance;
   const double most = 2 * (swarm.radius - swarm.radius_variation) + kept;
-  if (params.prediction_distance <= most) return;
-  throw where.error(
-      {"navigator.prediction_distance_um", "navigator.safety_distance_um"},
-      fmt::format("navigator.prediction_distance_um is {:.4g}, more than the swarm's least "
-                  "diameter{}, {:.4g}: it could step over a wall",
-                  params.prediction_distance, kept > 0 ? " + safety_distance_um" : "", most));
+  if (params.prediction_distance > most)
+    issues.add(
+        {"prediction_distance_um", "safety_distance_um"},
+        fmt::format("navigator.prediction_distance_um is {:.4g}, more than the swarm's "
+                    "least diameter{}, {:.4g}: it could step over a wall",
+                    params.prediction_distance, kept > 0 ? " + safety_distance_um" : "", most));
+  return issues;
 }
 
 }  // namespace microswarm

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "microswarm/core/places.hpp"
+#include "microswarm/core/issue.hpp"
 #include "microswarm/navigation/radar/radar_params.hpp"
 #include "microswarm/swarm/body/swarm_limits.hpp"
 
@@ -20,15 +20,14 @@ RadarCircles circles_of(const RadarParams& params, double swarm_radius);
 /// 360° / β: the number of directions.
 int directions_of(const RadarParams& params);
 
-/// Throws InputError, one line, when the safety circle is not within the detection circle, β does
-/// not divide 360°, the speed is none, waypoints are both given and to be planned, or the planner's
-/// parameters do not fit together, or when `as_published` stands beside a value that is not the
-/// paper's; `where` knows the keys of a scenario.
-void check(const RadarParams& params, const Places& where);
+/// Issues when the safety circle is not within the detection circle, β does not divide 360°, the
+/// speed is none, waypoints are both given and to be planned, the planner's parameters do not fit
+/// together, or `as_published` stands beside given values that are not the paper's.
+Issues validate(const RadarParams& params, const IsGiven& is_given = {});
 
-/// The same when d_p is more than the swarm's least diameter and, where r_f is not controlled, d_f:
+/// An issue when d_p is more than the swarm's least diameter and, where r_f is not controlled, d_f:
 /// then a thin wall could lie between a swarm and its predictive swarm, and neither would touch it.
 /// The published d_p is at most an eighth of a body length [radar].
-void check_step(const RadarParams& params, const SwarmLimits& swarm, const Places& where);
+Issues validate_step(const RadarParams& params, const SwarmLimits& swarm);
 
 }  // namespace microswarm

@@ -185,8 +185,9 @@ DrrtStarParams DrrtStarParams::in_effect() const {
   return p;
 }
 
-void check(const DrrtStarParams& params, const Places& where) {
-  if (params.as_published) check_published(where, params, params.in_effect(), DrrtStarParams{});
+Issues validate(const DrrtStarParams& params, const IsGiven& is_given) {
+  if (!params.as_published) return {};
+  return validate_published(is_given, params, params.in_effect(), DrrtStarParams{});
 }
 
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const DrrtStarParams& params, Rng& rng,

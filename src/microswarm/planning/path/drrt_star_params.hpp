@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "microswarm/core/fields.hpp"
-#include "microswarm/core/places.hpp"
+#include "microswarm/core/issue.hpp"
 #include "microswarm/planning/path/rrt_params.hpp"
 
 namespace microswarm {
@@ -58,8 +58,7 @@ struct DrrtStarParams : RrtStarParams {
   }
 };
 
-/// Throws InputError when `as_published` stands beside a value of what it leaves out; `where` knows
-/// the keys.
-void check(const DrrtStarParams& params, const Places& where);
+/// Issues when `as_published` stands beside given values of what it leaves out.
+Issues validate(const DrrtStarParams& params, const IsGiven& is_given);
 
 }  // namespace microswarm

@@ -219,11 +219,13 @@ March::Run March::neighbours(std::uint32_t sample) {
 
 }  // namespace
 
-void check(const FmtStarParams& params, const Places& where) {
-  if (params.max_nodes >= params.samples) return;
-  throw where.error({"max_nodes", "samples"}, "max_nodes is " + std::to_string(params.max_nodes) +
-                                                  ", less than samples, " +
-                                                  std::to_string(params.samples));
+Issues validate(const FmtStarParams& params) {
+  Issues issues;
+  if (params.max_nodes < params.samples)
+    issues.add({"max_nodes", "samples"}, "max_nodes is " + std::to_string(params.max_nodes) +
+                                             ", less than samples, " +
+                                             std::to_string(params.samples));
+  return issues;
 }
 
 double fmt_radius(double radius_factor, double area, std::size_t n) {

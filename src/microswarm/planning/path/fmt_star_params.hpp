@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "microswarm/core/fields.hpp"
-#include "microswarm/core/places.hpp"
+#include "microswarm/core/issue.hpp"
 
 namespace microswarm {
 
@@ -36,7 +36,7 @@ struct FmtStarParams {
   }
 };
 
-/// Throws InputError when `max_nodes` is less than `samples`; `where` knows the keys.
-void check(const FmtStarParams& params, const Places& where);
+/// An issue when `max_nodes` is less than `samples`.
+Issues validate(const FmtStarParams& params);
 
 }  // namespace microswarm

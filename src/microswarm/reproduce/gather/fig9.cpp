@@ -13,7 +13,6 @@
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/parallel.hpp"
 #include "microswarm/core/statistics.hpp"
-#include "microswarm/navigation/gathering/rollout.hpp"
 #include "microswarm/report/page.hpp"
 #include "microswarm/reproduce/gather/fig9.hpp"
 #include "microswarm/reproduce/gather/gather.hpp"

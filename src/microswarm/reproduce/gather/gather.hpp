@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "microswarm/navigation/gathering/aggregation.hpp"
+#include "microswarm/navigation/gathering/gather.hpp"
 #include "microswarm/report/plot.hpp"
 #include "microswarm/reproduce/reproduce.hpp"
 #include "microswarm/scenes/vascular.hpp"

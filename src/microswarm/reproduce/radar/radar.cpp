@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/reproduce/radar/radar.hpp"
+#include "microswarm/experiment/scenario/experiment.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 
 #include <fmt/format.h>
@@ -31,11 +32,10 @@ std::string spread_of(const std::vector<double>& values) {
 RadarSetting load_radar(const ReproduceOptions& options, const char* name,
                         const RadarVersion& version) {
   const fs::path file = options.scenarios / "papers" / "radar" / name;
-  Scene scene = load_scene(read_scenario(file), file.parent_path());
-  std::get<RadarParams>(scene.scenario.navigator).as_published = version.as_published;
-  World world = build_world(scene);
-  check(scene.scenario, world, file.string());
-  return {std::move(scene), std::move(world)};
+  Scenario scenario = read_scenario(file);
+  std::get<RadarParams>(scenario.navigator).as_published = version.as_published;
+  Experiment opened = open_experiment(std::move(scenario), file.parent_path(), file.string());
+  return {std::move(opened.scene), std::move(opened.world)};
 }
 
 std::vector<ReproduceRow> radar_figures(const std::string& figure, const ReproduceOptions& options,

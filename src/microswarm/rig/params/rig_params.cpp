@@ -20,31 +20,33 @@ double full_scale_of(const RigParams& rig) {
   return std::visit([](const auto& driver) { return driver.full_scale; }, rig.driver);
 }
 
-void check(const RigParams& rig, const CoilSystem& system, const Places& where) {
+Issues validate(const RigParams& rig, const CoilSystem& system) {
+  Issues issues;
   const double least_rate = least_sends * rig.field.frequency;
   if (rig.drive_rate < least_rate)
-    throw where.error({"drive_rate_hz", "field.frequency_hz"},
-                      fmt::format("drive_rate_hz is {:.6g}, the field turns {:.6g} times a second "
-                                  "and needs at least {:.6g}",
-                                  rig.drive_rate, rig.field.frequency, least_rate));
-  check(rig.eye.scene.swarm.look, where.within("eye.scene.swarm.look"));
-  check(rig.eye.scene.obstacles, where.within("eye.scene.obstacles"));
+    issues.add({"drive_rate_hz", "field.frequency_hz"},
+               fmt::format("drive_rate_hz is {:.6g}, the field turns {:.6g} times a second and "
+                           "needs at least {:.6g}",
+                           rig.drive_rate, rig.field.frequency, least_rate));
+  issues.add_within("eye.scene.swarm.look", validate(rig.eye.scene.swarm.look));
+  issues.add_within("eye.scene.obstacles", validate(rig.eye.scene.obstacles));
   const int channels = channels_of(rig);
   if (static_cast<int>(system.size()) > channels)
-    throw where.error(
+    issues.add(
         {"driver.channels", "driver"},
         fmt::format("the system has {} coils, the driver {} channels", system.size(), channels));
+  return issues;
 }
 
 }  // namespace
 
 Rig read_rig(const std::filesystem::path& file, const Settings& settings) {
-  Places places;
-  auto params = read_yaml_file<RigParams>(file, settings, places);
+  KeyLocations keys;
+  auto params = read_yaml_file<RigParams>(file, settings, keys);
   CoilSystem system = read_coil_system(file.parent_path() / params.coils);
-  check(params, system, places);
+  keys.require_none(validate(params, system));
   system.limit_current(full_scale_of(params));
-  return {std::move(params), std::move(system), file.parent_path(), places};
+  return {std::move(params), std::move(system), file.parent_path(), keys};
 }
 
 std::string name_of(const Rig& rig) {
@@ -54,12 +56,13 @@ std::string name_of(const Rig& rig) {
 const SimulatedCamera& simulated_camera(const Rig& rig) {
   const auto* camera = std::get_if<SimulatedCamera>(&rig.params.camera);
   if (!camera)
-    throw rig.where.error("camera",
-                          "the camera is no simulated one, as a rehearsal needs: set camera.type");
+    throw rig.keys.error("camera",
+                         "the camera is no simulated one, as a rehearsal needs: set camera.type");
   return *camera;
 }
 
-void check(const Rig& rig, const Scenario& scenario, const Places& where) {
+Issues validate(const Rig& rig, const Scenario& scenario) {
+  Issues issues;
   const FieldGeneratorParams& field = rig.params.field;
   const bool rolls = field.kind == FieldKind::rolling;
   const double reach =
@@ -67,10 +70,11 @@ void check(const Rig& rig, const Scenario& scenario, const Places& where) {
   const double wanted =
       scenario.robots ? scenario.robots->max_speed : limits_of(scenario.swarm).max_speed;
   if (wanted > reach * (1 + 1e-9))
-    throw where.error({"robots.max_speed_um_per_s", "swarm.max_speed_um_per_s"},
-                      fmt::format("the swarm is meant to go {:.6g} µm/s, this rig's field drives "
-                                  "it at most {:.6g} µm/s",
-                                  wanted, reach));
+    issues.add({"robots.max_speed_um_per_s", "swarm.max_speed_um_per_s"},
+               fmt::format("the swarm is meant to go {:.6g} µm/s, this rig's field drives it at "
+                           "most {:.6g} µm/s",
+                           wanted, reach));
+  return issues;
 }
 
 std::string unusual_field(const Rig& rig, const Scenario& scenario) {

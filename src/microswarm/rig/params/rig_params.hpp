@@ -11,9 +11,10 @@
 #include "microswarm/actuation/coils/coil_system.hpp"
 #include "microswarm/actuation/drivers/serial_coil_driver.hpp"
 #include "microswarm/actuation/field/field_generator.hpp"
+#include "microswarm/config/key_locations.hpp"
 #include "microswarm/config/settings.hpp"
 #include "microswarm/core/fields.hpp"
-#include "microswarm/core/places.hpp"
+#include "microswarm/core/issue.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/rig/params/eye_params.hpp"
 #include "microswarm/rig/params/microscope_params.hpp"
@@ -118,7 +119,7 @@ struct Rig {
   RigParams params;
   CoilSystem system;
   std::filesystem::path folder;  ///< of the file
-  Places where;                  ///< its keys
+  KeyLocations keys;             ///< of the file
 };
 
 /// What it is called in records.
@@ -133,9 +134,9 @@ Rig read_rig(const std::filesystem::path& file, const Settings& settings = {});
 /// The rig's camera, for a rehearsal. Throws InputError when it is no simulated one.
 const SimulatedCamera& simulated_camera(const Rig& rig);
 
-/// Throws InputError when the rig cannot drive the scenario's swarm as fast as it is meant to go;
-/// `where` knows the scenario's keys.
-void check(const Rig& rig, const Scenario& scenario, const Places& where = {});
+/// An issue when the rig cannot drive the scenario's swarm as fast as it is meant to go; keys are
+/// the scenario's.
+Issues validate(const Rig& rig, const Scenario& scenario);
 
 /// Says it when the scenario's swarm is driven by another kind of field in the papers than this
 /// rig has, or when a rolling field turns too slowly for its commands; empty else.

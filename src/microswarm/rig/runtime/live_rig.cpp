@@ -4,8 +4,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <opencv2/core/utility.hpp>
 
+#include "microswarm/core/clock.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/rig/simulation/simulated_bench.hpp"
 
@@ -14,16 +14,10 @@ namespace {
 
 constexpr double first_frame = 5;  // [s] that a camera may take to begin
 
-/// OpenCV's threads would take the cores that the coils' thread and the camera's need.
-const Rig& on_one_core(const Rig& rig) {
-  cv::setNumThreads(1);
-  return rig;
-}
-
 const RigParams& checked(const Rig& rig, const Scenario& scenario) {
-  check(rig, scenario);
+  KeyLocations().require_none(validate(rig, scenario));
   if (rig.params.safety.deadman < 2 * scenario.tick)
-    throw rig.where.error(
+    throw rig.keys.error(
         "safety.deadman_s",
         fmt::format("safety.deadman_s is {:.6g}, a tick of the scenario {:.6g} s: it must be at "
                     "least twice that",
@@ -36,7 +30,7 @@ void check_picture(const Rig& rig, const Scenario& scenario, const CameraScale& 
   for (const Vec2 place : places_of(scenario)) {
     const Vec2 at = scale.to_picture(place);
     if (at.x < -0.5 || at.y < -0.5 || at.x > picture.width - 0.5 || at.y > picture.height - 0.5)
-      throw rig.where.error(
+      throw rig.keys.error(
           "scale", fmt::format("the place ({:.6g}, {:.6g}) µm of the scenario is at pixel ({:.6g}, "
                                "{:.6g}), outside the picture of {} × {}",
                                place.x, place.y, at.x, at.y, picture.width, picture.height));
@@ -48,7 +42,7 @@ void check_picture(const Rig& rig, const Scenario& scenario, const CameraScale& 
 LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const Rig& rig,
                  std::unique_ptr<FrameSource> camera, const CameraScale& scale, CoilDriver& driver,
                  std::function<void(const CoilMoment&)> heard)
-    : rig_(on_one_core(rig)),
+    : rig_(rig),
       map_(std::move(map)),
       camera_(std::move(camera), "camera"),
       controller_(rig.system, checked(rig, scenario).field, driver,

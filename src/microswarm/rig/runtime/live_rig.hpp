@@ -8,6 +8,7 @@
 
 #include "microswarm/actuation/coils/coil_controller.hpp"
 #include "microswarm/contracts/plant.hpp"
+#include "microswarm/core/clock.hpp"
 #include "microswarm/core/durations.hpp"
 #include "microswarm/rig/params/rig_params.hpp"
 #include "microswarm/rig/perception/eye.hpp"

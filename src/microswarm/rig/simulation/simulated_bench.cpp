@@ -17,7 +17,7 @@ constexpr double same_place = 20;  // [µm]; no coil's field changes over so sho
 /// The scenario for the swarm as it is: its noise is in the pictures, and it may be faster than the
 /// field is made for.
 Scenario true_scenario(Scenario scenario, const Rig& rig) {
-  check(rig, scenario);
+  KeyLocations().require_none(validate(rig, scenario));
   const double faster = std::max(1.0, 1 + simulated_camera(rig).speed_error);
   std::visit([&](auto& swarm) { swarm.max_speed *= faster; }, scenario.swarm);
   if (scenario.robots) scenario.robots->max_speed *= faster;
@@ -114,7 +114,7 @@ void check_workspace(const Rig& rig, const Scenario& scenario, const Map& map) {
   for (const Vec2 place : places_of(scenario)) {
     const Eigen::Vector3d among = place_among_coils(rig.system, map, place);
     if (!rig.system.in_workspace(among))
-      throw rig.where.error(
+      throw rig.keys.error(
           "coils", fmt::format("the place ({:.6g}, {:.6g}) µm of the scenario is at ({:.6g}, "
                                "{:.6g}, {:.6g}) µm among the coils, where their field is not known",
                                place.x, place.y, among.x(), among.y(), among.z()));

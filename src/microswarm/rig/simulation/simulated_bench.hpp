@@ -41,6 +41,10 @@ class SimulatedBench {
     return microscope_.look(shot.world, shot.swarm, shot.robots);
   }
 
+  /// As Plant::set_obstacles.
+  bool set_obstacles(const std::vector<Obstacle>& obstacles) {
+    return physics_->set_obstacles(obstacles);
+  }
   /// The truth; its way is that since `begin_way`.
   Truth truth() const;
   void begin_way() { way_.clear(); }

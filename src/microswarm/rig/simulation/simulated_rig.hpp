@@ -23,6 +23,9 @@ class SimulatedRig : public Plant {
 
   Observation observe() override;
   void apply(const Command& command, double dt) override;
+  bool set_obstacles(const std::vector<Obstacle>& obstacles) override {
+    return bench_.set_obstacles(obstacles);
+  }
   std::optional<Truth> truth() const override { return bench_.truth(); }
 
   /// The picture of the last observation.

@@ -10,6 +10,7 @@
 #include <opencv2/videoio.hpp>
 #include <system_error>
 
+#include "microswarm/core/clock.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/vision/image/mat.hpp"
 

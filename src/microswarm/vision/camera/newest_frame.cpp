@@ -7,6 +7,7 @@
 #include <mutex>
 #include <thread>
 
+#include "microswarm/core/clock.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/text.hpp"
 
@@ -22,10 +23,6 @@ bool is_black(const Pixels& pixels, int below) {
 }
 
 }  // namespace
-
-double steady_seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// What the thread and its owner share; it lives as long as either.
 struct NewestFrame::Shared {

@@ -68,9 +68,6 @@ struct CameraStatus {
   std::string why;  ///< one line for people, when silent or failed
 };
 
-/// Now, by the clock that never jumps [s].
-double steady_seconds();
-
 /// Fetches frames in a thread of its own, so that whoever needs one gets the newest at once: older
 /// ones are dropped and counted. Safe to use from several threads.
 class NewestFrame {

@@ -264,11 +264,13 @@ std::optional<Blob> blob_of(const Field& field, const Piece& piece, float level,
 
 }  // namespace
 
-void check(const BlobParams& p, const Places& where) {
+Issues validate(const BlobParams& p) {
+  Issues issues;
   if (p.max_radius < p.min_radius)
-    throw where.error({"max_radius_px", "min_radius_px"},
-                      fmt::format("max_radius_px is {:.6g}, min_radius_px {:.6g}: nothing is found",
-                                  p.max_radius, p.min_radius));
+    issues.add({"max_radius_px", "min_radius_px"},
+               fmt::format("max_radius_px is {:.6g}, min_radius_px {:.6g}: nothing is found",
+                           p.max_radius, p.min_radius));
+  return issues;
 }
 
 std::vector<Blob> find_blobs(const Image& picture, const BlobParams& p, const Mask* walls) {

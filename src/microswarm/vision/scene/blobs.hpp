@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "microswarm/core/fields.hpp"
-#include "microswarm/core/places.hpp"
+#include "microswarm/core/issue.hpp"
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/formats/images/mask.hpp"
 #include "microswarm/geometry/vec2.hpp"
@@ -44,8 +44,8 @@ struct BlobParams {
   }
 };
 
-/// Throws InputError at `where` when its keys do not go together.
-void check(const BlobParams& params, const Places& where);
+/// An issue when the radii leave nothing to be found.
+Issues validate(const BlobParams& params);
 
 /// Something compact in a picture. All in pixels: x right, y down, (0, 0) is the middle of the
 /// first pixel.

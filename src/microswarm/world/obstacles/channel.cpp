@@ -183,31 +183,36 @@ Polygon channel_block(const DeformingChannel& channel, double t) {
 
 // A channel as wide as it ever gets that neither folds nor meets itself is a mesh of convex pieces,
 // in which every narrower outline is simple too.
-void check(const DeformingChannel& channel, const Places& where) {
+Issues validate(const DeformingChannel& channel) {
+  Issues issues;
+  const auto is_wrong = [&](std::string_view key, std::string text) {
+    issues.add(key, std::move(text));
+    return issues;
+  };
   const std::vector<Station> line = stations(channel);
   if (line.empty())
-    throw where.error("centre_line_um", "centre_line_um needs two different points at least");
+    return is_wrong("centre_line_um", "centre_line_um needs two different points at least");
   const double narrowest = std::min(channel.half_width, channel.end_half_width);
-  if (channel.amplitude >= narrowest) {
-    throw where.error("amplitude_um", "amplitude_um is " + number_text(channel.amplitude) +
-                                          ", closes the channel, whose half width is " +
-                                          number_text(narrowest) + " µm");
-  }
+  if (channel.amplitude >= narrowest)
+    return is_wrong("amplitude_um", "amplitude_um is " + number_text(channel.amplitude) +
+                                        ", closes the channel, whose half width is " +
+                                        number_text(narrowest) + " µm");
   const double length = line.back().s;
   auto widest = [&](double s) { return half_width_at(channel, s, length) + channel.amplitude; };
   for (std::size_t i = 1; i < line.size(); ++i) {
     if (!folds(line[i - 1], line[i], widest(line[i - 1].s), widest(line[i].s))) continue;
-    throw where.error("centre_line_um", "the bend at " + rounded_text(line[i].position) +
-                                            " is too tight for a half width of " +
-                                            number_text(std::round(widest(line[i].s))) + " µm");
+    return is_wrong("centre_line_um", "the bend at " + rounded_text(line[i].position) +
+                                          " is too tight for a half width of " +
+                                          number_text(std::round(widest(line[i].s))) + " µm");
   }
   const std::vector<Vec2> ring = outline(line, widest);
-  if (crosses_itself(ring)) throw where.error("centre_line_um", "the channel runs into itself");
+  if (crosses_itself(ring)) return is_wrong("centre_line_um", "the channel runs into itself");
   const Box block = block_of(channel);
   for (const Vec2 v : ring) {
     if (v.x > block.lo.x && v.x < block.hi.x && v.y > block.lo.y && v.y < block.hi.y) continue;
-    throw where.error("centre_line_um", "the channel leaves its block at " + rounded_text(v));
+    return is_wrong("centre_line_um", "the channel leaves its block at " + rounded_text(v));
   }
+  return issues;
 }
 
 }  // namespace microswarm

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "microswarm/core/angles.hpp"
@@ -110,49 +111,59 @@ struct OwnSpeed {
   }
 };
 
-void check_order(double least, double greatest, const std::string& what, const Places& where) {
-  if (least <= greatest) return;
+Issues validate_order(double least, double greatest, const std::string& what) {
+  Issues issues;
   const std::string low = "least_" + what, high = "greatest_" + what;
-  throw where.error({low, high}, low + " is " + number_text(least) + ", more than " + high + ", " +
-                                     number_text(greatest));
+  if (least > greatest)
+    issues.add({low, high}, low + " is " + number_text(least) + ", more than " + high + ", " +
+                                number_text(greatest));
+  return issues;
 }
 
-struct Checker {
-  const Places& where;
-
-  void operator()(const BreathingDisc& s) const {
-    check_order(s.least_radius, s.greatest_radius, "radius_um", where);
+struct Validator {
+  Issues operator()(const BreathingDisc& s) const {
+    return validate_order(s.least_radius, s.greatest_radius, "radius_um");
   }
-  void operator()(const Valve& s) const {
-    check_order(s.least_gap, s.greatest_gap, "gap_um", where);
-    if (s.least_gap < s.span) return;
-    throw where.error({"least_gap_um", "span_um"}, "least_gap_um is " + number_text(s.least_gap) +
-                                                       ", leaves no leaf in span_um, " +
-                                                       number_text(s.span));
+  Issues operator()(const Valve& s) const {
+    Issues issues = validate_order(s.least_gap, s.greatest_gap, "gap_um");
+    if (s.least_gap >= s.span)
+      issues.add({"least_gap_um", "span_um"}, "least_gap_um is " + number_text(s.least_gap) +
+                                                  ", leaves no leaf in span_um, " +
+                                                  number_text(s.span));
+    return issues;
   }
-  void operator()(const PolygonShape& s) const {
+  Issues operator()(const PolygonShape& s) const {
+    Issues issues;
     const Polygon ring = normalised({s.vertices, {}});
     if (ring.outer.size() < 3)
-      throw where.error("vertices_um", "vertices_um needs three different points at least");
-    if (signed_area(ring.outer) == 0)
-      throw where.error("vertices_um", "vertices_um has no area between its points");
+      issues.add("vertices_um", "vertices_um needs three different points at least");
+    else if (signed_area(ring.outer) == 0)
+      issues.add("vertices_um", "vertices_um has no area between its points");
+    return issues;
   }
-  void operator()(const DeformingChannel& s) const { check(s, where); }
-  void operator()(const Waypoints& m) const {
-    if (m.points.empty()) throw where.error("points_um", "points_um is empty");
+  Issues operator()(const DeformingChannel& s) const { return validate(s); }
+  Issues operator()(const Waypoints& m) const {
+    Issues issues;
+    if (m.points.empty()) issues.add("points_um", "points_um is empty");
+    return issues;
   }
-  void operator()(const Track& m) const {
-    if (!m.samples || m.samples->times.empty())
-      throw where.error("id", m.file + ": no samples of id '" + m.id + "'");
-    const auto& times = m.samples->times;
-    for (std::size_t i = 1; i < times.size(); ++i) {
-      if (times[i] > times[i - 1]) continue;
-      throw where.error("id", m.file + ": times of id '" + m.id + "' do not ascend at " +
-                                  number_text(times[i]) + " s");
+  Issues operator()(const Track& m) const {
+    Issues issues;
+    if (!m.samples || m.samples->times.empty()) {
+      issues.add("id", m.file + ": no samples of id '" + m.id + "'");
+      return issues;
     }
+    const auto& times = m.samples->times;
+    const auto bad = std::ranges::adjacent_find(times, std::greater_equal{});
+    if (bad != times.end())
+      issues.add("id", m.file + ": times of id '" + m.id + "' do not ascend at " +
+                           number_text(bad[1]) + " s");
+    return issues;
   }
   template <class Other>
-  void operator()(const Other&) const {}
+  Issues operator()(const Other&) const {
+    return {};
+  }
 };
 
 }  // namespace
@@ -170,9 +181,11 @@ double top_speed(const Obstacle& obstacle) {
          (turning > 0 ? turning * std::visit(Extent{}, obstacle.shape) : 0);
 }
 
-void check(const Obstacle& obstacle, const Places& where) {
-  std::visit(Checker{where.within("shape")}, obstacle.shape);
-  std::visit(Checker{where.within("motion")}, obstacle.motion);
+Issues validate(const Obstacle& obstacle) {
+  Issues issues;
+  issues.add_within("shape", std::visit(Validator{}, obstacle.shape));
+  issues.add_within("motion", std::visit(Validator{}, obstacle.motion));
+  return issues;
 }
 
 }  // namespace microswarm

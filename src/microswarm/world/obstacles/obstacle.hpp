@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "microswarm/core/places.hpp"
+#include "microswarm/core/issue.hpp"
 #include "microswarm/world/obstacles/body.hpp"
 #include "microswarm/world/obstacles/motion.hpp"
 
@@ -137,8 +137,8 @@ void append_bodies(const Obstacle& obstacle, std::uint32_t index, double t, std:
 /// Upper bound of the speed of any of its points [µm/s].
 double top_speed(const Obstacle& obstacle);
 
-/// Throws InputError when a field makes no sense with another (fewer than three vertices, least
-/// above greatest radius, a channel that runs into itself, …); `where` knows its keys.
-void check(const Obstacle& obstacle, const Places& where);
+/// Issues when a field makes no sense with another: fewer than three vertices, least above greatest
+/// radius, a channel that runs into itself, …
+Issues validate(const Obstacle& obstacle);
 
 }  // namespace microswarm

@@ -2,6 +2,7 @@
 // What is refused of a radar's parameters, its route and its wait areas.
 #include <gtest/gtest.h>
 
+#include "microswarm/experiment/scenario/validate.hpp"
 #include "tests/experiment/scenes.hpp"
 
 namespace microswarm {
@@ -20,7 +21,7 @@ Scenario radar_room() {
 RadarParams& radar(Scenario& s) { return std::get<RadarParams>(s.navigator); }
 
 std::string refusal(const Scenario& s) {
-  return error_of([&] { check(s, world_of(s), "s.yaml"); });
+  return error_of([&] { KeyLocations("s.yaml").require_none(validate(s, world_of(s))); });
 }
 
 TEST(RadarCheck, StepsThatCouldLeapOverAWall) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/scenario/radar_check.hpp"
+#include "microswarm/experiment/scenario/validate_radar.hpp"
 
 #include <fmt/format.h>
 
@@ -26,15 +26,18 @@ std::vector<Stage> stages_of(const Scenario& scenario, const RadarParams& radar)
   return stages;
 }
 
-void check_legs(const std::vector<Stage>& stages, const Map& map, const Places& where) {
+Issues validate_legs(const std::vector<Stage>& stages, const Map& map) {
+  Issues issues;
   for (std::size_t i = 1; i < stages.size(); ++i) {
     const Stage &a = stages[i - 1], &b = stages[i];
+    if (!map.is_free(a.place, 0) || !map.is_free(b.place, 0)) continue;  // told by others
     if (map.is_free(Segment{a.place, b.place}, 0)) continue;
-    throw where.error(
+    issues.add(
         {b.key, a.key},
         fmt::format("the way from {} ({:.6g}, {:.6g}) to {} ({:.6g}, {:.6g}) µm crosses a wall",
                     a.name, a.place.x, a.place.y, b.name, b.place.x, b.place.y));
   }
+  return issues;
 }
 
 /// Why the swarm would never get past a valve in the area, or nothing.
@@ -47,13 +50,15 @@ std::string never_opens(const WaitArea& area, const Valve& valve) {
                      valve.greatest_gap);
 }
 
-void check_area(const WaitArea& area, const Scenario& scenario, const Map& map,
-                const Places& where) {
+Issues validate_area(const WaitArea& area, const Scenario& scenario, const Map& map) {
+  Issues issues;
   const Box b = map.bounds();
   const Body ground{Polygon{{b.lo, {b.hi.x, b.lo.y}, b.hi, {b.lo.x, b.hi.y}}, {}}};
-  if (gap_between(Body{outline_of(area)}, ground) > 0)
-    throw where.error("centre_um", fmt::format("at ({:.6g}, {:.6g}) µm it is outside the map",
-                                               area.centre.x, area.centre.y));
+  if (gap_between(Body{outline_of(area)}, ground) > 0) {
+    issues.add("centre_um", fmt::format("at ({:.6g}, {:.6g}) µm it is outside the map",
+                                        area.centre.x, area.centre.y));
+    return issues;
+  }
   bool has_valve = false;
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i) {
     const auto* valve = std::get_if<Valve>(&scenario.obstacles[i].shape);
@@ -61,21 +66,24 @@ void check_area(const WaitArea& area, const Scenario& scenario, const Map& map,
     if (!valve || (still && !is_in(area, still->position))) continue;
     has_valve = true;
     if (const std::string why = never_opens(area, *valve); still && !why.empty())
-      throw where.error("least_gap_um", fmt::format("{} (obstacle {})", why, i + 1));
+      issues.add("least_gap_um", fmt::format("{} (obstacle {})", why, i + 1));
   }
-  if (!has_valve) throw where.error("centre_um", "the middle of no valve is in it");
+  if (!has_valve) issues.add("centre_um", "the middle of no valve is in it");
+  return issues;
 }
 
 }  // namespace
 
-void check_radar(const Scenario& scenario, const World& world, const Places& where) {
+Issues validate_radar(const Scenario& scenario, const World& world) {
+  Issues issues;
   const auto* radar = std::get_if<RadarParams>(&scenario.navigator);
-  if (!radar || !scenario.start || !scenario.goal) return;
-  if (!radar->waypoints.empty()) check_legs(stages_of(scenario, *radar), *world.map, where);
+  if (!radar || !scenario.start || !scenario.goal) return issues;
+  if (!radar->waypoints.empty()) issues.add(validate_legs(stages_of(scenario, *radar), *world.map));
   for (std::size_t i = 0; i < radar->wait_areas.size(); ++i)
-    check_area(radar->wait_areas[i], scenario, *world.map,
-               where.within(fmt::format("navigator.wait_areas.{}", i),
-                            fmt::format("wait area {}", i + 1)));
+    issues.add_within(fmt::format("navigator.wait_areas.{}", i),
+                      validate_area(radar->wait_areas[i], scenario, *world.map),
+                      fmt::format("wait area {}", i + 1));
+  return issues;
 }
 
 }  // namespace microswarm

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/config/yaml_places.hpp"
+#include "microswarm/config/key_locations.hpp"
 
 #include <fmt/format.h>
 
@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "microswarm/core/issue.hpp"
 #include "microswarm/core/text.hpp"
 
 namespace microswarm {
@@ -37,17 +38,13 @@ const YamlNode* node_at(const YamlNode& document, std::string_view key) {
   return node;
 }
 
-bool is_or_holds(std::string_view outer, std::string_view key) {
-  return key.starts_with(outer) && (key.size() == outer.size() || key[outer.size()] == '.');
-}
-
 struct Document {
   YamlNode root;
   std::string name;
   Settings assignments;  // the last one first
 
-  std::optional<std::string> operator()(std::string_view key, Places::Seek seek) const {
-    const bool itself = seek == Places::Seek::itself;
+  std::optional<std::string> operator()(std::string_view key, KeyLocations::Seek seek) const {
+    const bool itself = seek == KeyLocations::Seek::itself;
     for (const std::string_view assignment : assignments.texts) {
       const std::string_view path = assignment.substr(0, assignment.find('='));
       const bool found = sets(path, assignment.substr(path.size() + 1), key);
@@ -56,7 +53,7 @@ struct Document {
         if (change == Change::dropped) return std::nullopt;
         if (change == Change::none) continue;
       }
-      if (found || (seek == Places::Seek::all_of_it && is_or_holds(key, path)))
+      if (found || (seek == KeyLocations::Seek::all_of_it && is_in_key(path, key)))
         return fmt::format("{} {}", assignments.option, one_line(path));
     }
     const YamlNode* node = node_at(root, key);
@@ -79,9 +76,9 @@ struct Document {
 
   /// A type that is another than the document's brings all keys beside it anew.
   bool sets(std::string_view path, std::string_view value, std::string_view key) const {
-    if (is_or_holds(path, key)) return true;
+    if (is_in_key(key, path)) return true;
     constexpr std::string_view type = ".type";
-    if (!path.ends_with(type) || !is_or_holds(path.substr(0, path.size() - type.size()), key))
+    if (!path.ends_with(type) || !is_in_key(key, path.substr(0, path.size() - type.size())))
       return false;
     const YamlNode* node = node_at(root, path);
     return !node || node->text != value;
@@ -90,11 +87,45 @@ struct Document {
 
 }  // namespace
 
-Places places_of(YamlNode document, const std::string& name, Settings assignments) {
+bool KeyLocations::given(std::string_view key) const { return find_ && find_(key, Seek::itself); }
+
+IsGiven KeyLocations::is_given() const {
+  return [keys = *this](std::string_view key) { return keys.given(key); };
+}
+
+std::string KeyLocations::line(const Issue& issue) const {
+  const auto at = [&](const std::string& location) {
+    return location.empty() ? issue.text : location + ": " + issue.text;
+  };
+  if (issue.keys.empty()) return issue.text;
+  if (!find_) return at(name_);
+  for (const std::string& key : issue.keys)
+    if (const auto location = find_(key, Seek::all_of_it)) return at(*location);
+  std::string key = issue.keys.front();
+  for (std::size_t dot = key.rfind('.'); dot != std::string::npos; dot = key.rfind('.')) {
+    key.resize(dot);
+    if (const auto location = find_(key, Seek::missing_in_it)) return at(*location);
+  }
+  return at(name_);
+}
+
+void KeyLocations::require_none(const Issues& issues) const {
+  if (issues.empty()) return;
+  std::vector<std::string> lines;
+  for (const Issue& issue : issues) lines.push_back(line(issue));
+  throw InputError(std::move(lines));
+}
+
+InputError KeyLocations::error(std::string_view key, const std::string& what) const {
+  return InputError(line({{std::string(key)}, what}));
+}
+
+KeyLocations locations_of(YamlNode document, const std::string& name, Settings assignments) {
   std::reverse(assignments.texts.begin(), assignments.texts.end());
   const auto found =
       std::make_shared<const Document>(Document{std::move(document), name, std::move(assignments)});
-  return {name, [found](std::string_view key, Places::Seek seek) { return (*found)(key, seek); }};
+  return {name,
+          [found](std::string_view key, KeyLocations::Seek seek) { return (*found)(key, seek); }};
 }
 
 }  // namespace microswarm

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/run/open_run.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "microswarm/config/yaml.hpp"
+#include "microswarm/core/error.hpp"
+#include "microswarm/experiment/scenario/validate.hpp"
+#include "microswarm/navigation/make.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr std::array<std::string_view, 7> changeable{
+    "navigator",    "goal_um",      "goal_tolerance_um", "obstacles",
+    "time_limit_s", "hold_limit_s", "stop_at_contact"};
+
+/// A model is a file, which is read when the scenario is opened.
+bool names_another_model(const Scenario& a, const Scenario& b) {
+  const FollowerParams* first = follower_of(a.navigator);
+  const FollowerParams* second = follower_of(b.navigator);
+  return second && !second->model.empty() && (!first || first->model != second->model);
+}
+
+/// What is wrong with a scenario that was changed in `key` while the swarm is at `pose`.
+Issues validate_change(Scenario scenario, const World& world, std::string_view key, Pose2 pose) {
+  Issues issues;
+  for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)
+    issues.add_within("obstacles." + std::to_string(i), validate(scenario.obstacles[i]),
+                      "obstacle " + std::to_string(i + 1));
+  if (scenario.start) scenario.start = pose;
+  const World walls{world.map, {}};
+  Issues found;
+  for (const Issue& issue : validate(scenario, walls))
+    if (std::ranges::any_of(issue.keys, [&](const auto& k) { return is_in_key(k, key); }))
+      found.add(key, issue.text);
+  issues.add(found);
+  return issues;
+}
+
+}  // namespace
+
+OpenRun::OpenRun(Scenario scenario, World world, std::unique_ptr<Plant> plant, std::uint32_t trial,
+                 std::unique_ptr<Navigator> navigator)
+    : scenario_(std::move(scenario)),
+      world_(std::move(world)),
+      trial_(trial),
+      plant_(std::move(plant)),
+      navigator_is_theirs_(navigator != nullptr),
+      navigator_(navigator ? std::move(navigator) : made()),
+      episode_(scenario_, *plant_, *navigator_) {}
+
+OpenRun::OpenRun(Scenario scenario, World world, std::uint32_t trial)
+    : OpenRun(scenario, world, make_kinematic_plant(scenario, world, trial), trial) {}
+
+std::unique_ptr<Navigator> OpenRun::made() const {
+  return make_navigator(scenario_.navigator, task_of(scenario_),
+                        Rng(scenario_.seed, Purpose::planner, trial_));
+}
+
+Issues OpenRun::change(const std::string& setting) {
+  Issues issues;
+  const std::string key = setting.substr(0, setting.find_first_of(".="));
+  if (std::ranges::find(changeable, key) == changeable.end())
+    issues.add(key, key + " cannot be changed while the experiment runs");
+  if (setting.find_first_of("\n\r") != std::string::npos)
+    issues.add(key, key + " is set in more than one line");
+  if (key == "navigator" && navigator_is_theirs_)
+    issues.add(key, "the navigator is not the scenario's");
+  if (!issues.empty()) return issues;
+
+  Scenario changed = scenario_;
+  try {
+    set_value(changed, setting, "set");
+  } catch (const InputError& error) {
+    issues.add({}, error.what());
+    return issues;
+  }
+  if (names_another_model(scenario_, changed))
+    issues.add(key, "a model of a learned follower cannot be read while the experiment runs");
+  else
+    issues = validate_change(changed, world_, key, episode_.pose());
+  if (key == "obstacles" && issues.empty() && !plant_->set_obstacles(changed.obstacles))
+    issues.add(key, "the obstacles of this plant cannot be changed");
+  if (!issues.empty()) return issues;
+
+  const bool steers_anew = key == "navigator" || key == "goal_um" || key == "goal_tolerance_um";
+  scenario_ = std::move(changed);
+  world_.obstacles = scenario_.obstacles;
+  if (steers_anew && !navigator_is_theirs_) {
+    std::unique_ptr<Navigator> next = made();
+    episode_.change(setting, *next);
+    navigator_ = std::move(next);
+  } else {
+    episode_.change(setting, *navigator_);
+  }
+  return issues;
+}
+
+RunResult finish(OpenRun& open, std::span<RunListener* const> listeners, const Stop& stop) {
+  return run(open.episode_, open.scenario_, listeners, stop);
+}
+
+}  // namespace microswarm

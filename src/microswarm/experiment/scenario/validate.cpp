@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/scenario/validate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "microswarm/experiment/scenario/validate_radar.hpp"
+#include "microswarm/experiment/scenario/validate_robots.hpp"
+#include "microswarm/navigation/steering/aim.hpp"
+#include "microswarm/world/connectivity/passage.hpp"
+
+namespace microswarm {
+namespace {
+
+// A navigator that takes what it sees for too old holds for ever.
+Issues validate_sensing(const Scenario& scenario) {
+  Issues issues;
+  const double timeout = frame_timeout_of(scenario.navigator);
+  const double delay = scenario.sensing.observation_delay;
+  if (delay > timeout)
+    issues.add({"sensing.observation_delay_s", "navigator.frame_timeout_s"},
+               fmt::format("sensing.observation_delay_s is {:.4g}, more than "
+                           "navigator.frame_timeout_s, {:.4g}: every frame would be too old",
+                           delay, timeout));
+  return issues;
+}
+
+std::string goal_text(const std::string& why, const Scenario& scenario) {
+  return fmt::format("goal {}, and {:.3g} of goal_tolerance_um is only {:.4g} µm", why, aim_share,
+                     aim_share * scenario.goal_tolerance);
+}
+
+// What the swarm fits through, its navigator may still refuse.
+Issues validate_margin(const Scenario& scenario, const World& world) {
+  Issues issues;
+  const double margin = margin_of(scenario.navigator);
+  const Snapshot walls(world.map);
+  const auto target = reachable_goal(walls, *scenario.goal, scenario.goal_tolerance, margin);
+  if (!target) {
+    issues.add(
+        {"goal_um", "navigator.margin_um"},
+        goal_text(walls.why_blocked(*scenario.goal, margin) + " (navigator.margin_um)", scenario));
+    return issues;
+  }
+  const WidestPath way = widest_path(*world.map, scenario.start->position, *target, margin);
+  // A start that is nearer to a wall is let go: the navigator leads away from there.
+  const double needed = std::min(margin, world.map->clearance(scenario.start->position));
+  if (way.clearance + 1.5 * way.resolution >= needed) return issues;
+  const std::string left = way.found
+                               ? fmt::format(": about {:.3g} µm are left at ({:.4g}, {:.4g}) µm",
+                                             way.clearance, way.tightest.x, way.tightest.y)
+                               : "";
+  issues.add("navigator.margin_um",
+             fmt::format("navigator.margin_um is {:.4g}, wider than the passages to the goal "
+                         "allow{}",
+                         margin, left));
+  return issues;
+}
+
+Issues validate_body(const Scenario& scenario, const World& world) {
+  Issues issues;
+  const double radius = limits_of(scenario.swarm).radius;
+  if (!scenario.start)
+    issues.add("start", "missing key 'start'");
+  else if (const auto why = world.at(0).why_blocked(scenario.start->position, radius); !why.empty())
+    issues.add("start", fmt::format("start {}", why));
+  if (!scenario.goal) {
+    issues.add("goal_um", "missing key 'goal_um'");
+    return issues;
+  }
+  // The swarm's centre may stop anywhere within the tolerance.
+  const Snapshot walls(world.map);
+  const auto target = reachable_goal(walls, *scenario.goal, scenario.goal_tolerance, radius);
+  if (!target)
+    issues.add("goal_um", goal_text(walls.why_blocked(*scenario.goal, radius), scenario));
+  if (!issues.empty()) return issues;
+  issues = validate_path(*world.map, scenario.start->position, *target, radius);
+  if (issues.empty()) issues = validate_margin(scenario, world);
+  return issues;
+}
+
+}  // namespace
+
+Issues validate_path(const Map& map, Vec2 start, Vec2 goal, double radius) {
+  Issues issues;
+  const WidestPath way = widest_path(map, start, goal, radius);
+  if (!way.found && !connected(map, start, goal)) {
+    issues.add("goal_um", "goal is cut off from the start by walls");
+    return issues;
+  }
+  // A way that the search may have missed for its resolution is not denied.
+  if (way.clearance + 1.5 * way.resolution >= radius) return issues;
+  issues.add({"swarm.radius_um", "swarm", "goal_um"},
+             fmt::format("swarm is {:.4g} µm wide, wider than every passage to the goal: the "
+                         "widest is about {:.3g} µm, at ({:.4g}, {:.4g}) µm",
+                         2 * radius, 2 * way.clearance, way.tightest.x, way.tightest.y));
+  return issues;
+}
+
+Issues validate(const Scenario& scenario, const World& world, const IsGiven& is_given) {
+  Issues issues = validate_sensing(scenario);
+  if (scenario.robots) issues.add(validate_robots(scenario));
+  const bool is_complete = issues.empty() && (scenario.robots || scenario.goal);
+  const auto lack = what_it_lacks(scenario.navigator, task_of(scenario));
+  if (is_complete && !lack.empty())
+    issues.add({"navigator.type", "navigator"}, fmt::format("this navigator needs {}", lack));
+  issues.add_within("navigator", validate(scenario.navigator, task_of(scenario), *world.map,
+                                          given_within(is_given, "navigator")));
+  if (!scenario.robots)
+    issues.add(validate_body(scenario, world));
+  else if (issues.empty())
+    issues.add(validate_robot_positions(scenario, *world.map));
+  issues.add(validate_radar(scenario, world));
+  return issues;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/run/open_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include "microswarm/experiment/run/metrics_listener.hpp"
+#include "tests/experiment/scenes.hpp"
+
+namespace microswarm {
+namespace {
+
+/// A run that is recorded tick by tick.
+struct Recorded {
+  Recorded(const Scenario& scenario, std::unique_ptr<Navigator> theirs = nullptr)
+      : open(scenario, world_of(scenario), make_kinematic_plant(scenario, world_of(scenario)), 0,
+             std::move(theirs)),
+        recorder(load_scene(scenario, {})),
+        metrics(scenario) {}
+  bool step() {
+    const Tick* tick = open.step();
+    if (!tick) return false;
+    recorder.on_tick(*tick);
+    metrics.on_tick(*tick);
+    return true;
+  }
+  void step(int ticks) {
+    for (int i = 0; i < ticks; ++i) ASSERT_TRUE(step());
+  }
+  Record finish() {
+    while (step()) {
+    }
+    recorder.on_end(metrics.result());
+    return recorder.record();
+  }
+
+  OpenRun open;
+  Recorder recorder;
+  MetricsListener metrics;
+};
+
+std::string first(const Issues& issues) { return issues.empty() ? "" : issues.begin()->text; }
+
+TEST(OpenRun, WhatIsChangedHoldsFromTheNextTickOnAndIsRepeated) {
+  const Scenario scenario = small_flight();
+  Recorded run(scenario);
+  run.step(5);
+  EXPECT_EQ(first(run.open.change("navigator.speed_um_per_s=31")), "");
+  run.step(5);
+  EXPECT_EQ(first(run.open.change("goal_tolerance_um=77")), "");
+  EXPECT_EQ(first(run.open.change("hold_limit_s=7")), "");
+  const Record record = run.finish();
+  ASSERT_GT(record.frames.size(), 12u);
+  EXPECT_NE(record.frames[4].command.speed, 31);
+  EXPECT_EQ(record.frames[5].command.speed, 31);
+  ASSERT_EQ(record.changes.size(), 3u);
+  EXPECT_EQ(record.changes[0].frame, 5u);
+  EXPECT_EQ(record.changes[0].t, record.frames[5].t);
+  EXPECT_EQ(record.changes[1].setting, "goal_tolerance_um=77");
+  EXPECT_EQ(record.result.status, Status::solved);
+  EXPECT_LE(record.result.metrics.goal_distance, 77);
+
+  const ReplayResult again = replay(record);
+  EXPECT_TRUE(again.identical) << again.difference;
+  Record unchanged = record;
+  unchanged.changes.clear();
+  EXPECT_FALSE(replay(unchanged).identical);
+  EXPECT_NE(unchanged.hash(), record.hash());
+  Record refused = record;
+  refused.changes[0].setting = "tick_s=1";
+  EXPECT_NE(replay(refused).difference.find("tick_s"), std::string::npos);
+}
+
+TEST(OpenRun, ARecordKeepsItsChanges) {
+  Recorded run(small_flight());
+  EXPECT_EQ(first(run.open.change("hold_limit_s=9")), "");  // before the first tick
+  run.step(3);
+  EXPECT_EQ(first(run.open.change("navigator.speed_um_per_s=25")), "");
+  const Record record = run.finish();
+  const auto file = empty_folder("changed_record") / "run.h5";
+  write_record(record, file);
+  const Record read = read_record(file);
+  ASSERT_EQ(read.changes.size(), 2u);
+  EXPECT_EQ(read.changes[0].frame, 0u);
+  EXPECT_EQ(read.changes[1].setting, "navigator.speed_um_per_s=25");
+  EXPECT_EQ(read.hash(), record.hash());
+  EXPECT_TRUE(replay(read).identical);
+}
+
+TEST(OpenRun, AnObstacleThatIsPutInTheWayIsMet) {
+  Scenario scenario = open_room();
+  scenario.obstacles = {disc(60, Still{.position = {500, 900}})};
+  Recorded run(scenario, std::make_unique<GoStraight>(*scenario.goal, 60));
+  run.step(3);
+  EXPECT_EQ(first(run.open.change("obstacles.0.motion.position_um=[600, 500]")), "");
+  const Record record = run.finish();
+  EXPECT_EQ(record.result.status, Status::collided);
+  ASSERT_FALSE(record.events.empty());
+  EXPECT_EQ(record.events.back().kind, EventKind::contact_obstacle);
+}
+
+TEST(OpenRun, WhatCannotBeChangedIsSaidAndNothingChanges) {
+  Recorded run(small_flight());
+  run.step(2);
+  const std::string before = scenario_text(run.open.scenario());
+  for (const char* setting :
+       {"tick_s=1", "swarm.radius_um=20", "map.hi_um=[1, 1]", "seed=3", "no_key=1", "goal_um=[1",
+        "goal_um=[-500, 20]", "navigator.speed_um_per_s=fast", "navigator.margin_um=5000",
+        "obstacles=[{shape: {type: polygon, vertices_um: [[0, 0]]}, motion: {type: still}}]",
+        "hold_limit_s=1\ntick_s=3", "navigator.follower={kind: learned, model: m.yaml}", ""})
+    EXPECT_FALSE(run.open.change(setting).empty()) << setting;
+  EXPECT_EQ(scenario_text(run.open.scenario()), before);
+  EXPECT_TRUE(run.finish().changes.empty());
+
+  Recorded theirs(open_room(), std::make_unique<GoStraight>(Vec2{1, 1}, 5));
+  EXPECT_FALSE(theirs.open.change("navigator.speed_um_per_s=3").empty());
+}
+
+}  // namespace
+}  // namespace microswarm

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/session/session.hpp"
+
+#include <gtest/gtest.h>
+
+#include "microswarm/experiment/run/progress.hpp"
+#include "tests/experiment/scenes.hpp"
+#include "tests/files.hpp"
+
+namespace microswarm {
+namespace {
+
+const std::filesystem::path scenarios = std::filesystem::path(MICROSWARM_SOURCE_DIR) / "scenarios";
+
+Experiment flight() { return open_experiment(small_flight(), {}); }
+
+std::string hash_of(Session& session) {
+  session.finish();
+  return session.record().hash();
+}
+
+TEST(Session, IsTheSameRun) {
+  const Scenario scenario = small_flight();
+  Recorder recorder(load_scene(scenario, {}));
+  RunListener* const listeners[] = {&recorder};
+  const RunResult result = simulate(scenario, world_of(scenario), 0, listeners);
+
+  Session session(flight());
+  EXPECT_EQ(hash_of(session), recorder.record().hash());
+  EXPECT_EQ(session.result().status, result.status);
+  EXPECT_EQ(session.step(), nullptr);
+}
+
+TEST(Session, AShippedScenarioOpensThroughARigToo) {
+  const auto file = scenarios / "papers/drrt/s_channel.yaml";
+  const SessionOptions on_rig{.settings = {"time_limit_s=1"},
+                              .rig = scenarios / "rigs/ribbon.yaml"};
+  const auto plain = open_session(file, {.settings = {"time_limit_s=1"}, .seed = 4});
+  const auto rig = open_session(file, on_rig);
+  EXPECT_EQ(plain->scenario().seed, 4u);
+  EXPECT_NE(hash_of(*plain), hash_of(*rig));
+  EXPECT_FALSE(rig->record().rig.empty());
+  EXPECT_THROW(open_session(file, {.settings = {"tick_s=0"}}), InputError);
+  EXPECT_THROW(open_session(scenarios / "no.yaml"), InputError);
+}
+
+TEST(Session, TheViewIsWhatTheTickSays) {
+  Session session(flight());
+  EXPECT_EQ(session.view().frame.pose.position, small_flight().start->position);
+  bool planned = false;
+  while (const Tick* tick = session.step()) {
+    const SessionView view = session.view();
+    EXPECT_EQ(view.frame.t, tick->frame.t);
+    EXPECT_EQ(view.bodies.size(), session.scenario().obstacles.size());
+    EXPECT_EQ(view.path.size(), tick->view.path.size());
+    if (view.plans > 0) planned = planned || !view.tree.empty();
+    EXPECT_EQ(view.end, tick->end);
+  }
+  EXPECT_TRUE(planned);
+}
+
+TEST(Session, ShowsTheRadarAndTheRegions) {
+  const auto radar = open_session(scenarios / "papers/radar/twelve.yaml");
+  while (!radar->view().radar) ASSERT_TRUE(radar->step());
+  const SessionView view = radar->view();
+  EXPECT_GE(view.radar->look.circles.detection, view.radar->look.circles.safety);
+  EXPECT_GT(view.radar->beams.size(), 30u);
+
+  const auto gather = open_session(scenarios / "papers/gather/t_junction.yaml");
+  EXPECT_FALSE(gather->aggregation());
+  ASSERT_TRUE(gather->step());
+  const auto regions = gather->aggregation();
+  ASSERT_TRUE(regions);
+  EXPECT_EQ(regions->nodes.size(), regions->segmentation.region.size());
+  EXPECT_EQ(regions->nodes.size(), regions->next.size());
+  EXPECT_FALSE(gather->view().robots.empty());
+}
+
+TEST(Session, WhatIsSetIsRecordedAndPlayedBack) {
+  Session session(flight());
+  for (int i = 0; i < 10; ++i) session.step();
+  EXPECT_TRUE(session.set("obstacles.0.shape.radius_um", "20").empty());
+  EXPECT_EQ(session.set("seed", "4").size(), 1u);
+  session.finish();
+  const test::Folder folder;
+  const auto file = folder / "run.h5";
+  session.record_to(file);
+
+  const auto playback = open_session(file);
+  EXPECT_TRUE(playback->is_playback());
+  EXPECT_EQ(playback->result().status, session.result().status);
+  std::size_t frames = 0;
+  for (; const Tick* tick = playback->step(); ++frames) {
+    const Frame& was = session.record().frames[frames];
+    EXPECT_EQ(tick->frame.pose.position, was.pose.position);
+    const SessionView view = playback->view();
+    EXPECT_EQ(std::get<Disc>(view.bodies[0].shape).radius, frames < 10 ? 60 : 20);
+    EXPECT_EQ(view.frame.state, was.state);
+  }
+  EXPECT_EQ(frames, session.record().frames.size());
+  EXPECT_FALSE(playback->set("hold_limit_s", "3").empty());
+
+  ASSERT_TRUE(playback->seek(4));
+  ASSERT_TRUE(playback->step());
+  EXPECT_EQ(playback->view().number, 4u);
+  EXPECT_EQ(std::get<Disc>(playback->view().bodies[0].shape).radius, 60);
+  ASSERT_TRUE(playback->seek(1'000'000));
+  ASSERT_TRUE(playback->step());
+  EXPECT_TRUE(playback->view().end);
+  EXPECT_EQ(playback->step(), nullptr);
+  EXPECT_FALSE(session.seek(0));
+}
+
+TEST(Session, ListenersHearEveryTickAndTheEnd) {
+  struct Count : RunListener {
+    void on_tick(const Tick&) override { ++ticks; }
+    void on_end(const RunResult&) override { ++ends; }
+    std::size_t ticks = 0, ends = 0;
+  } count;
+  Session session(flight());
+  session.listen(count);
+  session.finish();
+  EXPECT_EQ(count.ticks, session.record().frames.size());
+  EXPECT_EQ(count.ends, 1u);
+}
+
+TEST(Session, TheSchemaNamesEveryKey) {
+  EXPECT_NE(session_schema().find("\"goal_tolerance_um\""), std::string::npos);
+}
+
+}  // namespace
+}  // namespace microswarm
