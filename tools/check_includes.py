@@ -10,7 +10,7 @@ from pathlib import Path
 
 # Above the floors that CMakeLists.txt lists, lowest first. A file includes its own floor and those
 # before it, nothing else.
-ABOVE = ["bench", "apps", "tests"]
+ABOVE = ["apps/support", "apps/microswarm", "apps/bench", "tests"]
 FLOOR = re.compile(r"^\s*add_subdirectory\((src/microswarm/\w+)\)", re.M)
 # These never see each other: only src/microswarm/rig and what is above it joins them.
 APART = {f"src/microswarm/{name}" for name in ("navigation", "actuation", "vision")}
@@ -39,7 +39,9 @@ def floor_of(path, floors):
 
 def resolve(root, file, name):
     """The project's file that `name` means in `file`, as a path from the root; None if foreign."""
-    for candidate in (f"src/{name}", name, f"{Path(file).parent}/{name}"):
+    program = "/".join(file.split("/")[:2])
+    for candidate in (f"src/{name}", name, f"apps/{name}", f"{program}/{name}",
+                      f"{Path(file).parent}/{name}"):
         if (root / candidate).is_file():
             return os.path.normpath(candidate)
     return f"src/{name}" if name.startswith("microswarm/") else None

@@ -14,7 +14,7 @@ from xml.sax.saxutils import escape
 ROOT = Path(__file__).resolve().parent.parent
 PICTURE = ROOT / "docs" / "pictures" / "floors.svg"
 FLOOR = re.compile(r"^\s*add_subdirectory\(src/microswarm/(\w+)\)(?:\s*# (.*))?$", re.M)
-ABOVE = [("bench", "speeds beside a peer in the same run"), ("apps", "the command-line tool")]
+ABOVE = [("apps", "the command-line tool, and the benches with their peers")]
 # Fill and edge of the boxes up to and with this floor, and what they have in common.
 GROUPS = [
     ("navigation", "#dbe9f6", "#2f5d8a", "the algorithms"),

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// microswarm-bench: speeds beside those of peers, which only this program links.
+#include <memory>
+
+#include "bench/global.hpp"
+#include "bench/planning.hpp"
+#include "bench/radar.hpp"
+#include "bench/swarm.hpp"
+#include "bench/vision.hpp"
+#include "microswarm/core/file.hpp"
+#include "microswarm/core/version.hpp"
+#include "microswarm/report/rows.hpp"
+#include "support/options.hpp"
+#include "support/program.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+using Rows = std::vector<BenchRow>;
+
+struct BenchOptions {
+  std::string csv;
+  bool quick = false;
+  bool json = false;
+};
+
+struct Group {
+  const char* name;
+  const char* doc;
+  std::function<Rows(bool quick, const Stop&)> measure;
+};
+
+int measure(const Group& group, const BenchOptions& o, const Context& context) {
+  if (!o.csv.empty()) const StagedFile can_be_written(o.csv);
+  const Rows rows = group.measure(o.quick, context.stop);
+  if (!o.csv.empty() && !context.stop.requested())
+    write_file_atomically(o.csv, "# " + bench::machine_line() + "\n" + rows_csv(rows));
+  if (o.quick) note("quick: fewer repetitions\n");
+  put(o.json ? rows_json(rows) : bench::machine_line() + "\n" + rows_table(rows) + aims_met(rows));
+  if (context.stop.requested()) return not_reached;
+  return all_ok(rows) ? ok : not_reached;
+}
+
+void add_group(Command app, const Group& group, Action& action) {
+  auto o = std::make_shared<BenchOptions>();
+  const std::string example = fmt::format("bench {0} --quick --csv {0}.csv", group.name);
+  Command cmd = app.add_command(group.name, group.doc, example.c_str());
+  cmd.add_option("--csv", o->csv, "Write the rows to this file too").type_name("FILE");
+  cmd.add_flag("--quick", o->quick, "Fewer repetitions: ends within 50 s");
+  add_json(cmd, o->json);
+  cmd.callback([=, &action] {
+    action = [=](const Context& context) { return measure(group, *o, context); };
+  });
+}
+
+}  // namespace
+}  // namespace microswarm::cli
+
+int main(int argc, char** argv) {
+  using namespace microswarm;
+  cli::CommandLine line("microswarm-bench", "Measures speeds beside a peer's in the same run.",
+                        std::string(version), "Exit code 3 when a row falls short.");
+  const cli::Command app = line.root();
+  cli::Action action;
+  const cli::Group groups[] = {
+      {"planning", "Planners, replanning, clearance queries",
+       [](bool quick, const Stop& stop) {
+         return bench::planning(cli::scenario_folder(), quick, stop);
+       }},
+      {"swarm", "Stepping of robots under one input", bench::swarm},
+      {"global", "Planning for several robots under one input", bench::global},
+      {"radar", "Decisions of the radar", bench::radar},
+      {"vision", "Finding and following swarms and robots", bench::vision}};
+  for (const cli::Group& group : groups) cli::add_group(app, group, action);
+  return cli::run_program("microswarm-bench", line, action, argc, argv);
+}

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "support/cli.hpp"
+#include "support/command.hpp"
+
+namespace microswarm::cli {
+
+void add_run(Command app, Action& action);
+void add_plan(Command app, Action& action);
+void add_gather(Command app, Action& action);
+void add_global(Command app, Action& action);
+void add_replay(Command app, Action& action);
+void add_report(Command app, Action& action);
+void add_schema(Command app, Action& action);
+void add_sweep(Command app, Action& action);
+void add_export(Command app, Action& action);
+void add_map(Command app, Action& action);
+void add_track(Command app, Action& action);
+void add_rig(Command app, Action& action);
+void add_learn(Command app, Action& action);
+void add_reproduce(Command app, Action& action);
+void add_bench(Command app, Action& action);
+
+}  // namespace microswarm::cli

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+#include <optional>
+
+#include "commands/run_output.hpp"
+#include "microswarm/config/key_locations.hpp"
+#include "microswarm/config/yaml.hpp"
+#include "microswarm/core/error.hpp"
+#include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/experiment/scenario/validate.hpp"
+#include "microswarm/formats/map_file.hpp"
+#include "microswarm/navigation/gathering/channel_width.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+struct GatherOptions {
+  std::string map;
+  std::optional<double> um_per_px;
+  std::string goal;
+  int robots = 256;
+  std::optional<double> channel_width;
+  int most_steps = 100'000;
+  std::vector<std::string> settings;
+  std::string out;
+  std::uint64_t seed = 1;
+  PhotoOptions photo;
+  bool json = false;
+};
+
+/// The published lengths and speed [gather], for channels of 10 µm, made as large as this map's
+/// channels: a step a tick, gathered when the mean way is as short as a channel is wide.
+void fit(Scenario& scenario, double width, int most_steps) {
+  constexpr double speed = 80;  // [µm/s]
+  auto& params = std::get<AggregationParams>(scenario.navigator);
+  params.scale = width / published_channel_width;
+  scenario.robots->max_speed = speed;
+  scenario.tick = params.step * params.scale / speed;
+  scenario.time_limit = most_steps * scenario.tick;
+  scenario.goal_tolerance = width;
+}
+
+/// The usual width of the map's channels: as given, with a note on stderr where that is far from
+/// what is measured, else measured.
+double width_of(const GatherOptions& o, const Map& map) {
+  constexpr double far = 5;
+  Rng rng(o.seed, Purpose::planner);
+  const double measured = channel_width(map, rng);
+  if (!o.channel_width) return measured;
+  if (*o.channel_width > far * measured || far * *o.channel_width < measured)
+    note("note: --channel-width is {:.4g} µm, the map's channels are about {:.4g} µm\n",
+         *o.channel_width, measured);
+  return *o.channel_width;
+}
+
+/// Its --um-per-px is that of the photograph.
+MapSpec map_spec(const GatherOptions& o) {
+  try {
+    return guess_map_spec(o.map, o.um_per_px);
+  } catch (const InputError& error) {
+    std::string what = error.what();
+    if (const auto at = what.find("--um-per-px"); at != std::string::npos)
+      what.replace(at, 2, "--map-");
+    throw InputError(what);
+  }
+}
+
+int gather_command(const GatherOptions& o, const Context& context) {
+  const std::vector<double> to = numbers(o.goal);
+  const ReportOptions report = report_options(o.photo);
+  Scenario scenario;
+  scenario.name = std::filesystem::path(o.map).stem().string();
+  scenario.map = map_spec(o);
+  scenario.robots.emplace().count = o.robots;
+  scenario.goal = Vec2{to[0], to[1]};
+  scenario.navigator = AggregationParams{};
+  scenario.seed = o.seed;
+  Scene scene = load_scene(std::move(scenario), {});
+  const World world = build_world(scene);
+  if (const std::string why = world.at(0).why_blocked(*scene.scenario.goal, 0); !why.empty())
+    throw InputError(fmt::format("{}: goal {}", o.map, why));
+  fit(scene.scenario, width_of(o, *world.map), o.most_steps);
+  set_values(scene.scenario, o.settings);
+  KeyLocations(o.map).require_none(validate(scene.scenario, world));
+  const OutFolder hold(o.out);
+  Session session(Experiment{std::move(scene), world, o.map});
+  finish_run(session, context.stop);
+  return tell_run(session, {o.out, false, o.json}, report);
+}
+
+}  // namespace
+
+void add_gather(Command app, Action& action) {
+  auto o = std::make_shared<GatherOptions>();
+  Command cmd = app.add_command(
+      "gather", "Gather many robots at a goal with one input for all, in a simulation",
+      "gather vessels.geojson --goal 11103,2397 --robots 512 --out out/gather");
+  cmd.add_option("map", o->map, "Picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles")
+      .required()
+      .type_name("FILE");
+  cmd.add_option("--map-um-per-px", o->um_per_px, "µm per pixel or cell of the map, 1e-6..1e6")
+      .type_name("NUMBER")
+      .check(number(1e-6, 1e6));
+  cmd.add_option("--goal", o->goal, "x,y in µm; in a dead end")
+      .required()
+      .type_name("X,Y")
+      .check(place(2, "x,y in µm"));
+  cmd.add_option("--robots", o->robots, "How many, at random places; 256 when not given")
+      .type_name("NUMBER")
+      .check(whole(1, 1'000'000));
+  cmd.add_option("--channel-width", o->channel_width,
+                 "Usual width of a channel in µm, which all lengths go by; measured when not given")
+      .type_name("NUMBER")
+      .check(number(1e-3, 1e6));
+  cmd.add_option("--most-steps", o->most_steps, "Give up after so many; 100000 when not given")
+      .type_name("NUMBER")
+      .check(whole(1, 100'000'000));
+  add_settings(cmd, o->settings,
+               "Change a value of the scenario that is run, as navigator.method=heuristic");
+  cmd.add_option("--seed", o->seed, "Seed of the random streams; 1 when not given")
+      .type_name("NUMBER")
+      .check(whole(0, UINT64_MAX));
+  cmd.add_option("--out", o->out, "Folder for run.h5, pictures and index.html").type_name("FOLDER");
+  add_photo(cmd, o->photo);
+  cmd.option("--photo").needs("--out");
+  add_json(cmd, o->json);
+  cmd.callback([o, &action] {
+    action = [o](const Context& context) { return gather_command(*o, context); };
+  });
+}
+
+}  // namespace microswarm::cli

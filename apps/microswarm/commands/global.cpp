@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+#include <variant>
+
+#include "commands/global_choice.hpp"
+#include "microswarm/config/key_locations.hpp"
+#include "microswarm/config/yaml.hpp"
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/file.hpp"
+#include "microswarm/core/stop.hpp"
+#include "microswarm/core/text.hpp"
+#include "microswarm/experiment/record/global_tree_file.hpp"
+#include "microswarm/experiment/scenario/validate_robots.hpp"
+#include "microswarm/formats/map_file.hpp"
+#include "microswarm/planning/global_input/global_shorten.hpp"
+#include "microswarm/report/robot_picture.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct GlobalOptions {
+  std::string map;
+  std::optional<double> um_per_px;
+  std::string robots;
+  std::string goals;
+  std::string tree;
+  std::string save_tree;
+  std::optional<double> time_limit;
+  std::vector<std::string> settings;
+  std::string picture;
+  std::uint64_t seed = 1;
+  bool as_found = false;
+  bool json = false;
+};
+
+/// "60,300;60,250"; empty when it is no such list.
+std::vector<Vec2> places(const std::string& text) {
+  std::vector<Vec2> all;
+  std::istringstream words(text);
+  for (std::string word; std::getline(words, word, ';');) {
+    const std::vector<double> p = numbers(word);
+    if (p.size() != 2) return {};
+    all.push_back({p[0], p[1]});
+  }
+  return all;
+}
+
+Check place_list() {
+  return {[](const std::string& text) -> std::string {
+    const std::size_t count = places(text).size();
+    if (count == 0) return "must be places as 60,300;60,250 in µm, not " + quote(text);
+    if (count <= most_global_robots) return {};
+    return fmt::format("has {} places, allowed are 1 to {}", count, most_global_robots);
+  }};
+}
+
+/// What was found, and what it took.
+struct Found {
+  GlobalPlan plan;
+  std::uint64_t nodes = 0;
+  std::size_t inputs = 0;  ///< before some were dropped
+  double seconds = 0;
+};
+
+/// That the planner says itself when there are not as many goals as robots.
+void check_ends(const GlobalOptions& o, const Map& map, std::span<const Vec2> starts,
+                std::span<const Vec2> goals, const GlobalPlay& play) {
+  if (goals.size() != starts.size()) return;
+  KeyLocations(o.map).require_none(
+      validate_robot_paths(map, starts, goals, play.goal_tolerance, 0));
+}
+
+/// Throws InputError when no planner could have brought the robots there.
+void explain(const GlobalOptions& o, const Map& map, std::span<const Vec2> starts,
+             std::span<const Vec2> goals, const GlobalPlay& play, Status status) {
+  const Snapshot world(std::shared_ptr<const Map>(std::shared_ptr<void>(), &map));
+  const bool starts_wrong = status == Status::start_blocked;
+  if (!starts_wrong && status != Status::goal_blocked) return;
+  const std::span<const Vec2> wrong = starts_wrong ? starts : goals;
+  const char* what = starts_wrong ? "start" : "goal";
+  for (std::size_t i = 0; i < wrong.size(); ++i)
+    if (const std::string why = world.why_blocked(wrong[i], 0); !why.empty())
+      throw InputError(fmt::format("{}: robot {}: {} {}", o.map, i + 1, what, why));
+  if (play.separation > 0)
+    throw InputError(fmt::format("{}: two {}s are nearer to each other than separation_um {:g}{}",
+                                 o.map, what, play.separation,
+                                 starts_wrong ? "" : " and the tolerance allow"));
+  throw InputError(fmt::format("{}: a {} is too near a wall", o.map, what));
+}
+
+GlobalPlay play_of(const std::variant<GlobalSearchParams, GlobalRrtParams>& planner) {
+  return std::visit(
+      [](const auto& p) {
+        return GlobalPlay{p.robostep, p.contact, p.separation, p.goal_tolerance};
+      },
+      planner);
+}
+
+/// The parameters a tree was grown with; what --set changes of them would not fit the tree.
+GlobalRrtParams parameters_of(const GlobalOptions& o, const GlobalTree& tree) {
+  GlobalChoice choice;
+  GlobalRrtParams grown;
+  grown.robostep = tree.robostep;
+  grown.directions = static_cast<int>(tree.moves.size());
+  grown.contact = tree.contact;
+  grown.separation = tree.separation;
+  choice.planner = grown;
+  set_values(choice, o.settings);
+  const auto* set = std::get_if<GlobalRrtParams>(&choice.planner);
+  const auto differs = [&](const char* key, const auto& was, const auto& is) {
+    if (was != is)
+      throw InputError(fmt::format("{}: was grown with {} {}, not {}", o.tree, key, was, is));
+  };
+  if (!set) throw InputError(o.tree + ": a tree is asked by planner.type=global_rrt only");
+  differs("robostep_um", grown.robostep, set->robostep);
+  differs("directions", grown.directions, set->directions);
+  differs("separation_um", grown.separation, set->separation);
+  differs("contact", enum_name(grown.contact), enum_name(set->contact));
+  return *set;
+}
+
+Found search_inputs(const Map& map, std::span<const Vec2> starts, std::span<const Vec2> goals,
+                    const GlobalSearchParams& params, Rng& rng, const Stop& stop) {
+  GlobalSearch found = global_search(map, starts, goals, params, rng, stop);
+  return {std::move(found.plan), found.counts.samples};
+}
+
+/// Grows a tree, keeps it where it is to be kept, and asks it.
+Found grow(const GlobalOptions& o, const LoadedMap& map, std::span<const Vec2> starts,
+           std::span<const Vec2> goals, const GlobalRrtParams& params, Rng& rng, const Stop& stop) {
+  const GlobalRrt grown = global_rrt(*map.map, starts, goals, params, rng, stop);
+  Found found{{grown.answer.status}, grown.tree.size()};
+  if (grown.tree.size() == 0 || grown.answer.status == Status::goal_blocked) return found;
+  if (!o.save_tree.empty()) write_global_tree(grown.tree, map, o.save_tree);
+  if (!goals.empty()) found.plan = plan_to(grown.tree, grown.answer);
+  return found;
+}
+
+Json runs_of(const std::vector<Vec2>& inputs) {
+  Json runs = Json::array();
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    if (k > 0 && inputs[k] == inputs[k - 1])
+      runs.back()["times"] = runs.back()["times"].get<int>() + 1;
+    else
+      runs.push_back({{"x_um", inputs[k].x}, {"y_um", inputs[k].y}, {"times", 1}});
+  }
+  return runs;
+}
+
+Json ways_of(const GlobalPlan& plan) {
+  Json ways = Json::array();
+  for (std::size_t robot = 0; robot < plan.configurations.at(0).size(); ++robot) {
+    Json way = Json::array();
+    for (const auto& places : plan.configurations)
+      way.push_back({places[robot].x, places[robot].y});
+    ways.push_back(way);
+  }
+  return ways;
+}
+
+void show_json(const Found& found, bool has_goals) {
+  Json json{
+      {"status", to_string(found.plan.status)}, {"nodes", found.nodes}, {"time_s", found.seconds}};
+  if (has_goals) {
+    json["worst_um"] = found.plan.worst;
+    json["input_count"] = found.plan.inputs.size();
+    json["input_count_found"] = found.inputs;
+    json["inputs"] = runs_of(found.plan.inputs);
+    json["ways_um"] = ways_of(found.plan);
+  }
+  print("{}\n", json.dump(2));
+}
+
+void show(const GlobalOptions& o, const Found& found) {
+  const GlobalPlan& plan = found.plan;
+  if (o.goals.empty()) {
+    print("tree of {} nodes, {:.2f} s\n", found.nodes, found.seconds);
+  } else {
+    print("{} of {} inputs",
+          plan.status == Status::solved
+              ? "plan"
+              : fmt::format("no plan ({}), only the nearest one,", to_string(plan.status)),
+          plan.inputs.size());
+    if (found.inputs != plan.inputs.size()) print(" (found with {})", found.inputs);
+    print(", the worst robot ends {:.1f} µm from its goal; {} nodes, {:.3f} s\n", plan.worst,
+          found.nodes, found.seconds);
+    print("input_x_um,input_y_um,times\n");
+    for (const Json& run : runs_of(plan.inputs))
+      print("{:.6g},{:.6g},{}\n", run["x_um"].get<double>(), run["y_um"].get<double>(),
+            run["times"].get<int>());
+  }
+  if (!o.save_tree.empty()) print("wrote {}\n", o.save_tree);
+  if (!o.picture.empty()) print("wrote {}\n", o.picture);
+}
+
+void check_options(const GlobalOptions& o) {
+  if (o.robots.empty() == o.tree.empty())
+    throw InputError("global: give either --robots, where they start, or --tree, which knows");
+  if (o.goals.empty() && o.save_tree.empty())
+    throw InputError("global: give --goals, or --save-tree to grow a tree for later");
+  if (o.goals.empty() && !o.picture.empty()) throw InputError("global: --picture needs --goals");
+}
+
+/// The plan, from a tree that is there already or by a planner.
+Found found_plan(const GlobalOptions& o, const LoadedMap& map, std::span<const Vec2> goals,
+                 GlobalPlay& play, const Stop& stop) {
+  if (!o.tree.empty()) {
+    const GlobalTree tree = read_global_tree(o.tree, map);
+    const GlobalRrtParams params = parameters_of(o, tree);
+    play = play_of(params);
+    check_ends(o, *map.map, tree.positions(0), goals, play);
+    const auto began = Stop::Clock::now();
+    Found found{plan_to(tree, ask(tree, goals, params.goal_tolerance)), tree.size()};
+    found.seconds = seconds_since(began);
+    return found;
+  }
+  GlobalChoice choice;
+  if (!o.save_tree.empty()) {
+    GlobalRrtParams to_be_kept;
+    to_be_kept.stop_at_first = false;
+    choice.planner = to_be_kept;
+  }
+  set_values(choice, o.settings);
+  play = play_of(choice.planner);
+  const std::vector<Vec2> starts = places(o.robots);
+  check_ends(o, *map.map, starts, goals, play);
+  Rng rng(o.seed, Purpose::planner);
+  const auto began = Stop::Clock::now();
+  const auto* rrt = std::get_if<GlobalRrtParams>(&choice.planner);
+  if (!rrt && !o.save_tree.empty())
+    throw InputError("global: --save-tree keeps trees of planner.type=global_rrt only");
+  Found found = rrt ? grow(o, map, starts, goals, *rrt, rng, stop)
+                    : search_inputs(*map.map, starts, goals,
+                                    std::get<GlobalSearchParams>(choice.planner), rng, stop);
+  found.seconds = seconds_since(began);
+  explain(o, *map.map, starts, goals, play, found.plan.status);
+  return found;
+}
+
+int global_command(const GlobalOptions& o, const Context& context) {
+  check_options(o);
+  for (const std::string& out : {o.save_tree, o.picture})
+    for (const std::string& in : {o.map, o.tree}) keep_input(out, in);
+  const Stop stop = o.time_limit ? context.within(*o.time_limit) : context.stop;
+  const LoadedMap map = load_map(guess_map_spec(o.map, o.um_per_px));
+  const std::vector<Vec2> goals = places(o.goals);
+  GlobalPlay play;
+  Found found = found_plan(o, map, goals, play, stop);
+  found.inputs = found.plan.inputs.size();
+  if (!o.as_found) found.plan = shortened(*map.map, found.plan, goals, play, stop);
+  if (!o.picture.empty())
+    draw_robots(*map.map, found.plan, goals, play.goal_tolerance,
+                fmt::format("{}: {}, {} inputs", o.map, to_string(found.plan.status),
+                            found.plan.inputs.size()),
+                o.picture);
+  if (o.json)
+    show_json(found, !goals.empty());
+  else
+    show(o, found);
+  const bool grew = goals.empty() && found.plan.status == Status::node_limit;
+  return grew || found.plan.status == Status::solved ? ok : not_reached;
+}
+
+}  // namespace
+
+void add_global(Command app, Action& action) {
+  auto o = std::make_shared<GlobalOptions>();
+  Command cmd = app.add_command(
+      "global",
+      "Plan inputs that bring each of several robots, which all get the same, to its goal",
+      "global map.csv --robots \"60,300;60,250\" --goals \"330,300;330,200\" --picture ways.png\n"
+      "  microswarm global map.csv --robots \"60,300;60,250\" --save-tree tree.h5 \\\n"
+      "      --set planner.max_nodes=300000\n"
+      "  microswarm global map.csv --tree tree.h5 --goals \"330,100;280,200\"");
+  cmd.add_option("map", o->map, "Picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles")
+      .required()
+      .type_name("FILE");
+  add_um_per_px(cmd, o->um_per_px, "µm per pixel or cell of the map, 1e-6..1e6");
+  cmd.add_option("--robots", o->robots, "Where the robots start, in µm; y points up")
+      .type_name("X,Y;X,Y…")
+      .check(place_list());
+  cmd.add_option("--goals", o->goals, "Each robot's goal, in the same order")
+      .type_name("X,Y;X,Y…")
+      .check(place_list());
+  cmd.add_option("--tree", o->tree, "Ask this tree, grown before on the same map")
+      .type_name("FILE");
+  Option save = cmd.add_option("--save-tree", o->save_tree,
+                               "Grow a tree to planner.max_nodes and keep it in this HDF5 file");
+  save.type_name("FILE").excludes("--tree");
+  add_settings(cmd, o->settings,
+               "Choose planner.type, global_search or global_rrt, and change its values");
+  cmd.add_option("--time-limit", o->time_limit, "Give up after so many seconds; none when missing")
+      .type_name("NUMBER")
+      .check(number(0, 1e6));
+  cmd.add_flag("--as-found", o->as_found, "Do not leave out inputs that are not needed");
+  cmd.add_option("--seed", o->seed, "Seed of the random stream; 1 when not given")
+      .type_name("NUMBER")
+      .check(whole(0, UINT64_MAX));
+  cmd.add_option("--picture", o->picture, "Draw the robots' ways: .png, .svg or .pdf")
+      .type_name("FILE");
+  add_json(cmd, o->json);
+  cmd.callback([o, &action] {
+    action = [o](const Context& context) { return global_command(*o, context); };
+  });
+}
+
+}  // namespace microswarm::cli

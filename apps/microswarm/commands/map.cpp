@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "microswarm/config/yaml.hpp"
+#include "microswarm/core/error.hpp"
+#include "microswarm/formats/map_file.hpp"
+#include "microswarm/formats/write_map.hpp"
+#include "microswarm/vision/image/overlay.hpp"
+#include "microswarm/vision/vessels/agreement.hpp"
+#include "microswarm/vision/vessels/outline.hpp"
+#include "microswarm/vision/vessels/vessels.hpp"
+#include "microswarm/world/connectivity/passage.hpp"
+#include "support/options.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct MapOptions {
+  std::string map;
+  std::optional<double> um_per_px;
+  bool json = false;
+};
+
+void add_input(Command cmd, const std::shared_ptr<MapOptions>& o) {
+  cmd.add_option("map", o->map, "Picture, ROS YAML, MovingAI .map, GeoJSON or CSV of rectangles")
+      .required()
+      .type_name("FILE");
+  add_um_per_px(cmd, o->um_per_px, "µm per pixel or cell of the map, 1e-6..1e6");
+}
+
+LoadedMap load(const MapOptions& o) { return load_map(guess_map_spec(o.map, o.um_per_px)); }
+
+int info(const MapOptions& o) {
+  const LoadedMap loaded = load(o);
+  const Box& b = loaded.map->bounds();
+  const auto bodies = loaded.map->walls().bodies();
+  std::size_t vertices = 0;
+  std::size_t discs = 0;
+  for (const Body& body : bodies) {
+    if (const auto* polygon = std::get_if<Polygon>(&body.shape)) {
+      vertices += polygon->outer.size();
+      for (const auto& hole : polygon->holes) vertices += hole.size();
+    } else {
+      ++discs;
+    }
+  }
+  if (o.json)
+    print("{}\n", Json{{"lo_um", {b.lo.x, b.lo.y}},
+                       {"hi_um", {b.hi.x, b.hi.y}},
+                       {"walls", bodies.size()},
+                       {"discs", discs},
+                       {"vertices", vertices},
+                       {"hash", fmt::format("{:016x}", loaded.input_hash)}}
+                      .dump(2));
+  else
+    print(
+        "{}: {:g} × {:g} µm (x {:g}..{:g}, y {:g}..{:g}), {} walls ({} of them discs, {} "
+        "vertices), "
+        "hash {:016x}\n",
+        o.map, b.width(), b.height(), b.lo.x, b.hi.x, b.lo.y, b.hi.y, bodies.size(), discs,
+        vertices, loaded.input_hash);
+  return ok;
+}
+
+int check(const MapOptions& o, double resolution) {
+  const MapReport r = check_map(*load(o).map, resolution);
+  if (r.free_pieces == 0) throw InputError(o.map + ": all of the map is blocked");
+  if (o.json) {
+    print("{}\n", Json{{"wall_pieces", r.wall_pieces},
+                       {"free_area_um2", r.free_area},
+                       {"free_pieces", r.free_pieces},
+                       {"region_areas_um2", r.region_areas},
+                       {"widest_um", r.widest},
+                       {"narrowest_passage_um", r.narrowest_passage},
+                       {"resolution_um", r.resolution}}
+                      .dump(2));
+    return ok;
+  }
+  print("wall pieces: {}\nfree pieces: {}, {:.0f} µm² in all, the largest has {:.1f} % of it\n",
+        r.wall_pieces, r.free_pieces, r.free_area, 100 * r.region_areas[0] / r.free_area);
+  print("narrowest passage of the largest piece: {:.1f} µm, or up to {:.1f} µm more",
+        r.narrowest_passage, 1.5 * r.resolution);
+  if (r.passages.empty())
+    print(" (it is one room)\n");
+  else
+    print(", at ({:.0f}, {:.0f}) µm\n", r.passages[0].place.x, r.passages[0].place.y);
+  print(
+      "a swarm of up to {:.1f} µm radius gets from room to room there (ends that taper off are no "
+      "rooms), up to {:.1f} µm fits somewhere\n",
+      0.5 * r.narrowest_passage, 0.5 * r.widest);
+  return ok;
+}
+
+int convert(const MapOptions& o, const std::string& out, const std::optional<double>& cell) {
+  write_map(out, *load(o).map, cell ? *cell : o.um_per_px.value_or(0));
+  print("wrote {}\n", out);
+  return ok;
+}
+
+struct SegmentOptions {
+  std::string photo;
+  std::string out = "vessels.geojson";
+  std::string truth;
+  std::vector<std::string> settings;
+  std::optional<double> um_per_px;
+  double smooth = 1.0;
+  bool json = false;
+};
+
+std::string share(const std::optional<double>& v) { return v ? fmt::format("{:.3f}", *v) : "–"; }
+Json json_share(const std::optional<double>& v) { return v ? Json(*v) : Json(nullptr); }
+
+/// The observer's mask, nothing without a file.
+std::optional<Mask> read_truth(const std::string& file, const Image& photo) {
+  if (file.empty()) return std::nullopt;
+  Mask mask = threshold(read_image(file), 128, false);
+  if (mask.width != photo.width || mask.height != photo.height)
+    throw InputError(fmt::format("{}: {}x{} pixels, the photograph has {}x{}", file, mask.width,
+                                 mask.height, photo.width, photo.height));
+  return mask;
+}
+
+int segment(const SegmentOptions& o) {
+  VesselParams params;
+  set_values(params, o.settings);
+  const Image photo = read_photograph(o.photo);
+  if (!o.um_per_px) throw InputError(o.photo + ": µm per px is missing: give --um-per-px");
+  const std::optional<Mask> truth = read_truth(o.truth, photo);
+  const double cell = *o.um_per_px;
+  const VesselSegmentation found = segment_vessels(photo, params);
+  if (found.kept_share == 0) throw InputError(o.photo + ": no vessels found");
+  const Map map(cell_bounds(found.vessels, cell),
+                walls_around(found.vessels, cell, o.smooth * cell));
+  const std::filesystem::path out = o.out;
+  std::filesystem::path picture = out;
+  picture.replace_filename(out.stem().string() + "-overlay.png");
+  if (!out.parent_path().empty()) make_folder(out.parent_path().string());
+  write_map(out, map, cell);
+  write_png(picture, overlay(photo, found.vessels));
+
+  Json json{{"vessel_share", found.view_share},
+            {"pieces", found.pieces},
+            {"kept_share", found.kept_share},
+            {"bridges", found.bridges},
+            {"wide_width_um", found.wide_width_px * cell},
+            {"map", out.string()},
+            {"overlay", picture.string()}};
+  std::string text = fmt::format(
+      "vessels cover {:.1f} % of the view, wide ones {:.0f} µm; {} gaps bridged; kept {:.0f} % of "
+      "{} "
+      "pieces\n",
+      100 * found.view_share, found.wide_width_px * cell, found.bridges, 100 * found.kept_share,
+      found.pieces);
+  if (truth) {
+    const Agreement a = compare(*truth, found.vessels, &found.field_of_view);
+    json["sensitivity"] = json_share(a.sensitivity());
+    json["specificity"] = json_share(a.specificity());
+    json["dice"] = json_share(a.dice());
+    text +=
+        fmt::format("against {}: sensitivity {}, specificity {}, Dice {} in the field of view\n",
+                    o.truth, share(a.sensitivity()), share(a.specificity()), share(a.dice()));
+  }
+  if (o.json)
+    print("{}\n", json.dump(2));
+  else
+    print("{}wrote {} and {}\n", text, out.string(), picture.string());
+  return ok;
+}
+
+void add_segment(Command map, Action& action) {
+  auto o = std::make_shared<SegmentOptions>();
+  Command cmd = map.add_command(
+      "segment", "Find the dark vessels of a photograph: writes a map and an overlay picture",
+      "map segment fundus.jpg --um-per-px 6 --out vessels.geojson");
+  cmd.add_option("photo", o->photo, "Photograph of vessels darker than what is around them")
+      .required()
+      .type_name("FILE");
+  add_um_per_px(cmd, o->um_per_px, "µm per pixel of the photograph, 1e-6..1e6");
+  cmd.add_option("--out", o->out,
+                 "Map to write, vessels.geojson when not given; NAME-overlay.png is put beside it")
+      .type_name("FILE");
+  cmd.add_option("--smooth", o->smooth, "Tolerance of the outlines in pixels, 0..100")
+      .type_name("NUMBER")
+      .check(number(0, 100));
+  cmd.add_option("--truth", o->truth, "Mask drawn by an observer (white vessels) to compare with")
+      .type_name("FILE");
+  add_settings(cmd, o->settings, "Change a value, for example min_width_px=6 (again and again)");
+  add_json(cmd, o->json);
+  cmd.callback([o, &action] { action = [o](const Context&) { return segment(*o); }; });
+}
+
+}  // namespace
+
+void add_map(Command app, Action& action) {
+  Command map = app.add_group("map", "Look at maps, check, convert and make them");
+
+  auto o = std::make_shared<MapOptions>();
+  Command info_cmd = map.add_command("info", "Size, walls, hash", "map info map.png --um-per-px 5");
+  add_input(info_cmd, o);
+  add_json(info_cmd, o->json);
+  info_cmd.callback([o, &action] { action = [o](const Context&) { return info(*o); }; });
+
+  auto resolution = std::make_shared<double>(0);
+  Command check_cmd =
+      map.add_command("check", "Pieces, narrowest passage, what fits", "map check vessels.geojson");
+  add_input(check_cmd, o);
+  check_cmd
+      .add_option("--resolution", *resolution,
+                  "Grid spacing of the search in µm; 0: chosen for the map")
+      .type_name("NUMBER")
+      .check(number(0, 1e6));
+  add_json(check_cmd, o->json);
+  check_cmd.callback(
+      [=, &action] { action = [=](const Context&) { return check(*o, *resolution); }; });
+
+  auto out = std::make_shared<std::string>();
+  auto cell = std::make_shared<std::optional<double>>();
+  Command convert_cmd = map.add_command("convert", "Write the map in another form",
+                                        "map convert vessels.geojson vessels.png --cell 5");
+  add_input(convert_cmd, o);
+  convert_cmd
+      .add_option("out", *out, "File to write: .geojson, .png, .map (MovingAI) or .yaml (ROS)")
+      .required()
+      .type_name("FILE");
+  convert_cmd
+      .add_option("--cell", *cell, "Side of a pixel or cell to write in µm; else as --um-per-px")
+      .type_name("NUMBER")
+      .check(number(1e-6, 1e6));
+  convert_cmd.callback(
+      [=, &action] { action = [=](const Context&) { return convert(*o, *out, *cell); }; });
+
+  add_segment(map, action);
+}
+
+}  // namespace microswarm::cli

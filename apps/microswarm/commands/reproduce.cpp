@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/reproduce/reproduce.hpp"
+
+#include <fmt/ranges.h>
+
+#include <array>
+#include <memory>
+
+#include "microswarm/core/error.hpp"
+#include "support/options.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+using Reproduce = std::vector<ReproduceRow> (*)(const std::string& figure,
+                                                const reproduce::ReproduceOptions& options,
+                                                const Stop& stop);
+
+constexpr std::array<std::pair<std::string_view, Reproduce>, 4> reproduced_papers{
+    {{"drrt", reproduce::drrt_figures},
+     {"global", reproduce::global_figures},
+     {"radar", reproduce::radar_figures},
+     {"gather", reproduce::gather_figures}}};
+
+Reproduce reproduce_of(const std::string& paper) {
+  std::vector<std::string_view> names;
+  for (const auto& [name, figures] : reproduced_papers) {
+    if (name == paper) return figures;
+    names.push_back(name);
+  }
+  throw InputError(
+      fmt::format("reproduce: unknown paper '{}', there are: {}", paper, fmt::join(names, ", ")));
+}
+
+int reproduce_command(const std::string& key, reproduce::ReproduceOptions options, bool json,
+                      const Context& context) {
+  options.scenarios = scenario_folder();
+  options.progress = progress_bars();
+  options.note = [](const std::string& what) { note("{}\n", what); };
+  const std::string paper = key.substr(0, key.find('/'));
+  const std::string figure = key.size() > paper.size() ? key.substr(paper.size() + 1) : "";
+  const Reproduce figures = reproduce_of(paper);
+  if (figure.empty() && key != paper)
+    throw InputError(
+        fmt::format("reproduce: '{}' names no figure; all of them are '{}'", key, paper));
+  const OutFolder hold(options.out);
+  const std::vector<ReproduceRow> rows = figures(figure, options, context.stop);
+  if (options.quick) note("quick: fewer seeds\n");
+  put(json ? rows_json(rows) : rows_table(rows) + aims_met(rows));
+  if (context.stop.requested()) return not_reached;
+  return all_ok(rows) ? ok : not_reached;
+}
+
+}  // namespace
+
+void add_reproduce(Command app, Action& action) {
+  auto key = std::make_shared<std::string>();
+  auto o = std::make_shared<reproduce::ReproduceOptions>();
+  auto json = std::make_shared<bool>(false);
+  Command cmd = app.add_command("reproduce",
+                                "A paper's figures beside ours: exit code 3 when one falls short",
+                                "reproduce drrt/fig5a --quick --out out/drrt");
+  cmd.add_option(
+         "key", *key,
+         "Paper, or one of its figures: drrt, drrt/fig3, global, global/fig7, radar, gather …")
+      .required()
+      .type_name("KEY");
+  cmd.add_option("--out", o->out, "Folder for plots, pictures and the table as CSV")
+      .type_name("FOLDER");
+  cmd.add_flag("--quick", o->quick, "Fewer seeds: ends within 50 s");
+  add_json(cmd, *json);
+  cmd.callback([=, &action] {
+    action = [=](const Context& context) { return reproduce_command(*key, *o, *json, context); };
+  });
+}
+
+}  // namespace microswarm::cli

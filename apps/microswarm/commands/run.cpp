@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "commands/run_output.hpp"
+#include "microswarm/core/angles.hpp"
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/file.hpp"
+#include "microswarm/core/text.hpp"
+#include "microswarm/experiment/trials.hpp"
+#include "microswarm/session/session.hpp"
+#include "rig/rig_notes.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct RunOptions {
+  std::string scenario;
+  std::string out;
+  std::string rig;
+  std::vector<std::string> rig_settings;
+  std::vector<std::string> settings;
+  std::optional<std::uint64_t> seed;
+  int trials = 1;
+  int jobs = 0;
+  bool json = false;
+  bool no_report = false;
+  PhotoOptions photo;
+};
+
+std::string trials_csv(const std::vector<TrialResult>& trials) {
+  std::string text =
+      "trial,status,time_s,length_um,turning_deg,goal_distance_um,hold_time_s,least_wall_um,"
+      "least_obstacle_um,contacts,planning_events,planning_mean_s,planning_max_s,record_hash\n";
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    if (!trials[i].ran) continue;
+    const RunResult& r = trials[i].result;
+    const Metrics& m = r.metrics;
+    const TimeSummary p = summarise(r.timing.planning);
+    text += fmt::format("{},{}", i, to_string(r.status));
+    for (const double v : {m.time, m.length, degrees(m.turning), m.goal_distance, m.hold_time,
+                           m.walls.clearance, m.obstacles.clearance})
+      text += "," + number_text(v);
+    text += fmt::format(",{},{},{:.6g},{:.6g},{}\n", m.contacts, m.planning_events, p.mean, p.max,
+                        trials[i].hash);
+  }
+  return text;
+}
+
+int many_runs(const RunOptions& o, const Scene& scene, const World& world, const Stop& stop) {
+  std::vector<TrialResult> results;
+  {
+    ProgressBar bar("trials");
+    results = run_trials(
+        scene.scenario, world,
+        {.trials = o.trials,
+         .jobs = o.jobs,
+         .progress = [&](int done, int all) { bar.update(static_cast<double>(done) / all); }},
+        stop);
+  }
+  const std::filesystem::path csv = std::filesystem::path(o.out) / "trials.csv";
+  if (!o.out.empty()) write_file_atomically(csv, trials_csv(results));
+  Json list = Json::array();
+  int solved = 0;
+  int ran = 0;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    if (!results[i].ran) continue;
+    const RunResult& r = results[i].result;
+    ++ran;
+    solved += r.status == Status::solved;
+    Json row{{"trial", i}};
+    row.update(to_json(r, results[i].hash));
+    list.push_back(std::move(row));
+    if (!o.json)
+      print("trial {:3}: {} after {:.1f} s, {:.0f} µm long, record {}\n", i, ending(r),
+            r.metrics.time, r.metrics.length, results[i].hash);
+  }
+  if (o.json)
+    print("{}\n", Json{{"trials", list}}.dump(2));
+  else
+    print("{} of {} trials reached the goal{}\n", solved, ran,
+          ran < o.trials ? fmt::format(", {} were not begun", o.trials - ran) : "");
+  if (!o.json && !o.out.empty()) print("wrote {}\n", csv.string());
+  return solved == o.trials ? ok : not_reached;
+}
+
+/// Through a rig in simulation: camera, coils and field.
+std::unique_ptr<Session> open_on_rig(const RunOptions& o) {
+  if (o.rig.empty()) return nullptr;
+  const RigExperiment on =
+      open_rig_experiment(o.scenario, o.settings, o.rig, o.rig_settings, o.seed);
+  note_field(on.rig, on.scenario());
+  return rig_session(on);
+}
+
+int run_command(const RunOptions& o, const Context& context) {
+  std::unique_ptr<Session> session = open_on_rig(o);
+  std::optional<Experiment> experiment;
+  if (!session) experiment = open_experiment(o.scenario, o.settings, o.seed);
+  const ReportOptions report = report_options(o.photo);
+  const OutFolder hold(o.out);
+  if (o.trials > 1) return many_runs(o, experiment->scene, experiment->world, context.stop);
+  if (!session) session = std::make_unique<Session>(std::move(*experiment));
+  finish_run(*session, context.stop);
+  return tell_run(*session, {o.out, o.no_report, o.json}, report);
+}
+
+}  // namespace
+
+void add_run(Command app, Action& action) {
+  auto o = std::make_shared<RunOptions>();
+  Command cmd = app.add_command("run", "Run a scenario: simulate, record, report",
+                                "run scenarios/first_flight.yaml --out out/first --set "
+                                "swarm.radius_um=50");
+  cmd.add_option("scenario", o->scenario, "Scenario file (YAML); `schema --keys` lists its keys")
+      .required()
+      .type_name("FILE");
+  cmd.add_option("--out", o->out,
+                 "Folder for run.h5, pictures and index.html; with --trials for trials.csv")
+      .type_name("FOLDER");
+  add_settings(cmd, o->settings, "Change a value of the scenario (again and again)");
+  cmd.add_option("--rig", o->rig,
+                 "Rig file (YAML): rehearse it with simulated camera, coils and field")
+      .type_name("FILE");
+  cmd.add_option("--set-rig", o->rig_settings, "Change a value of the rig (again and again)")
+      .type_name("KEY=VALUE")
+      .needs("--rig");
+  cmd.add_option("--seed", o->seed, "Seed of all random streams, in place of the scenario's")
+      .type_name("NUMBER")
+      .check(whole(0, UINT64_MAX));
+  cmd.add_option("--trials", o->trials, "Run this often, each time with other random streams")
+      .type_name("NUMBER")
+      .excludes("--rig")
+      .check(whole(1, 1'000'000));
+  cmd.add_option("--jobs", o->jobs, "Threads for --trials; 0: one a core")
+      .type_name("NUMBER")
+      .needs("--trials")
+      .check(whole(0, 1024));
+  add_photo(cmd, o->photo);
+  cmd.option("--photo").needs("--out");
+  cmd.add_flag("--no-report", o->no_report, "Write run.h5 only");
+  add_json(cmd, o->json);
+  cmd.callback(
+      [o, &action] { action = [o](const Context& context) { return run_command(*o, context); }; });
+}
+
+}  // namespace microswarm::cli

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/run_output.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "microswarm/config/write.hpp"
+#include "microswarm/core/angles.hpp"
+#include "microswarm/core/error.hpp"
+#include "microswarm/experiment/record/record.hpp"
+#include "microswarm/experiment/run/progress.hpp"
+#include "microswarm/navigation/gathering/aggregation_check.hpp"
+#include "microswarm/navigation/gathering/channel_width.hpp"
+
+namespace microswarm::cli {
+
+nlohmann::ordered_json to_json(const RunResult& result, const std::string& hash) {
+  return {
+      {"status", to_string(result.status)},
+      {"state", result.state},
+      {"metrics", nlohmann::ordered_json::parse(to_json_text(result.metrics))},
+      {"planning", nlohmann::ordered_json::parse(to_json_text(summarise(result.timing.planning)))},
+      {"record_hash", hash}};
+}
+
+namespace {
+
+/// Why a navigator stood still, by its state.
+std::string reason(std::string_view state) {
+  if (state == "stuck") return "it found no way";
+  if (state == "wait") return "it waited for a valve";
+  if (state == "blind") return "it saw no swarm, or too late";
+  if (state == "hold") return "no move was safe";
+  if (state == "arrived") return "it saw the swarm at the goal";
+  return fmt::format("its state was '{}'", state);
+}
+
+}  // namespace
+
+std::string ending(const RunResult& result) {
+  switch (result.status) {
+    case Status::solved:
+      return "goal reached";
+    case Status::time_limit:
+      return "time limit";
+    case Status::held:
+      return fmt::format("held: {},", reason(result.state));
+    case Status::collided:
+      return "touched a wall or an obstacle";
+    case Status::fault:
+      return fmt::format("fault: {},", result.state);
+    default:
+      return std::string(to_string(result.status));
+  }
+}
+
+namespace {
+
+std::string um(double length) {
+  return std::isfinite(length) ? fmt::format("{:.1f} µm", length) : "–";
+}
+
+std::string robots_summary(const RunResult& result, const RobotSwarmParams& robots) {
+  const Metrics& m = result.metrics;
+  const bool gathered = result.status == Status::solved && robots.goals.empty();
+  const std::string planning =
+      robots.goals.empty() ? "" : fmt::format("  planning  {} times\n", m.planning_events);
+  return fmt::format("{} after {:.1f} s and {} commands\n  {} {:.1f} µm\n{}",
+                     gathered ? "gathered" : ending(result), m.time, result.timing.steps.size(),
+                     robots.goals.empty() ? "goal      the mean way to it is"
+                                          : "goals     the robot farthest from its own is off by",
+                     m.goal_distance, planning);
+}
+
+std::string avoidance_text(const Avoidance& a) {
+  if (!std::isfinite(a.least_gap)) return {};
+  const std::string mean = a.time > 0 ? fmt::format(", {} on average", um(a.mean_gap)) : "";
+  return fmt::format(
+      "  avoiding  {:.1f} s, mean avoidance cost {:.3g}; gap to obstacles {} at least{}\n", a.time,
+      a.mean_cost, um(a.least_gap), mean);
+}
+
+std::string summary(const RunResult& result) {
+  const Metrics& m = result.metrics;
+  const TimeSummary p = summarise(result.timing.planning);
+  std::string text = fmt::format("{} after {:.1f} s", ending(result), m.time);
+  if (result.status != Status::solved)
+    text += fmt::format(", {} from the goal", um(m.goal_distance));
+  text += fmt::format("\n  way       {:.0f} µm long, turned {:.0f}° in all, held for {:.1f} s\n",
+                      m.length, degrees(m.turning), m.hold_time);
+  text += fmt::format("  nearest   wall {}, moving obstacle {} (from the swarm's centre)\n",
+                      um(m.walls.clearance), um(m.obstacles.clearance));
+  text += avoidance_text(m.avoidance);
+  if (p.count == 0) return text + fmt::format("  planning  {} times\n", m.planning_events);
+  return text + fmt::format("  planning  {} times, {:.3f} ms on average, {:.3f} ms the longest\n",
+                            m.planning_events, 1e3 * p.mean, 1e3 * p.max);
+}
+
+/// Settings that are allowed, but hardly meant, on stderr.
+void note_oddities(const Scenario& scenario) {
+  if (scenario.robots) return;
+  const SwarmLimits swarm = limits_of(scenario.swarm);
+  const double way = swarm.max_speed * scenario.tick;
+  if (way <= 2 * swarm.radius) return;
+  note(
+      "note: tick_s is {:.4g}: between two commands the swarm drives up to {:.4g} µm, more "
+      "than it is wide, {:.4g} µm\n",
+      scenario.tick, way, 2 * swarm.radius);
+}
+
+/// What [gather] assumes of the ground, on stderr where it does not hold.
+void note_assumptions(const Scenario& scenario, const Map& map) {
+  const auto* params = std::get_if<AggregationParams>(&scenario.navigator);
+  if (!params) return;
+  Rng rng(scenario.seed, Purpose::scene);
+  const double width = published_channel_width * scale_of(*params, map, rng);
+  for (const std::string& unmet : unmet_assumptions(map, *scenario.goal, width))
+    note("note: {}\n", unmet);
+  if (params->method != Aggregation::divide_and_conquer) return;
+  Rng planner(scenario.seed, Purpose::planner);
+  const AggregationParams fit = fitted(*params, map, planner);
+  const std::string few =
+      too_few_regions(AggregationMap(map, *scenario.goal, fit, planner).segmentation);
+  if (!few.empty()) note("note: {}\n", few);
+}
+
+void keep(const Record& record, const RunOutput& o, const ReportOptions& report) {
+  const std::filesystem::path folder = o.out;
+  write_record(record, folder / "run.h5");
+  if (!o.no_report) write_run_report(record, folder, report);
+}
+
+}  // namespace
+
+void finish_run(Session& session, const Stop& stop, std::optional<double> seconds) {
+  const Scenario& scenario = session.scenario();
+  note_oddities(scenario);
+  note_assumptions(scenario, session.map());
+  ProgressBar bar(scenario.name.empty() ? "run" : scenario.name);
+  ProgressListener progress(scenario, [&](const RunProgress& p) {
+    const double spent = seconds ? p.t / *seconds : p.time_spent;
+    bar.update(std::max(p.way_done, spent));
+  });
+  while (const Tick* tick = session.step(stop)) progress.on_tick(*tick);
+}
+
+int tell_run(const Session& session, const RunOutput& o, const ReportOptions& report) {
+  const Record& record = session.record();
+  const RunResult& result = session.result();
+  const std::string hash = record.hash();
+  // A result that cannot be kept is told all the same, and the other way round.
+  std::optional<InputError> lost;
+  try {
+    if (!o.out.empty()) keep(record, o, report);
+  } catch (const InputError& e) {
+    lost = e;
+  }
+  if (o.json) {
+    nlohmann::ordered_json json = to_json(result, hash);
+    if (o.rig_timing) json["rig_timing"] = o.rig_timing();
+    print("{}\n", json.dump(2));
+  } else {
+    const auto& robots = session.scenario().robots;
+    print("{}  record    {}\n", robots ? robots_summary(result, *robots) : summary(result), hash);
+    if (!o.out.empty() && !lost)
+      print("wrote {}\n",
+            (std::filesystem::path(o.out) / (o.no_report ? "run.h5" : "index.html")).string());
+  }
+  if (lost && result.status != Status::fault) throw InputError(lost->what());
+  if (lost) note("microswarm: {}\n", lost->what());  // the fault is the worse
+  if (result.status == Status::fault) return hardware;
+  return result.status == Status::solved ? ok : not_reached;
+}
+
+}  // namespace microswarm::cli

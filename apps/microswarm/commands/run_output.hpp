@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "microswarm/core/stop.hpp"
+#include "microswarm/report/run_report.hpp"
+#include "microswarm/session/session.hpp"
+#include "support/options.hpp"
+
+namespace microswarm::cli {
+
+/// What is kept and said of a run.
+struct RunOutput {
+  std::string out;  ///< folder for run.h5 and the report; empty: nothing is kept
+  bool no_report = false;
+  bool json = false;
+  std::function<nlohmann::ordered_json()> rig_timing{};  ///< of a real rig
+};
+
+/// Steps a session to its end, with a progress bar: of `seconds`, when it is ended then.
+void finish_run(Session& session, const Stop& stop, std::optional<double> seconds = std::nullopt);
+
+/// Keeps the record and report of a session that has ended, and says how it went. The exit code.
+int tell_run(const Session& session, const RunOutput& output, const ReportOptions& report);
+
+nlohmann::ordered_json to_json(const RunResult& result, const std::string& hash);
+
+/// How a run ended, for people: "goal reached", "held: waited for a valve,".
+std::string ending(const RunResult& result);
+
+}  // namespace microswarm::cli

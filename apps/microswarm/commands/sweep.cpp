@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/sweep/sweep.hpp"
+
+#include <fmt/chrono.h>
+#include <unistd.h>
+
+#include <array>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/file.hpp"
+#include "microswarm/core/text.hpp"
+#include "microswarm/sweep/export.hpp"
+#include "microswarm/sweep/summary.hpp"
+#include "support/options.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct SweepOptions {
+  std::string sweep;
+  std::string out;
+  std::string csv;
+  int jobs = 0;
+  bool json = false;
+};
+
+/// Progress with rate and estimate: a bar on a terminal, a line now and then from under mpirun,
+/// which has no terminal.
+class Meter {
+ public:
+  explicit Meter(bool lines) : lines_(lines), bar_("sweep") {}
+
+  void show(const SweepProgress& p) {
+    const auto now = Stop::Clock::now();
+    if (now - shown_ < std::chrono::milliseconds(500) && p.left > 0) return;
+    shown_ = now;
+    const double seconds = std::chrono::duration<double>(now - began_).count();
+    const double rate = static_cast<double>(p.added) / std::max(seconds, 1e-3);
+    const std::string done = fmt::format("{} of {} trials, {:.3g}/s", p.before + p.added,
+                                         p.before + p.added + p.left, rate);
+    bar_.update(static_cast<double>(p.added) /
+                    static_cast<double>(std::max<std::size_t>(1, p.added + p.left)),
+                done);
+    if (!lines_ || now - written_ < std::chrono::seconds(30)) return;
+    written_ = now;
+    note("sweep: {}, {:.0f} s left\n", done, static_cast<double>(p.left) / std::max(rate, 1e-6));
+  }
+
+ private:
+  bool lines_;
+  ProgressBar bar_;
+  Stop::Clock::time_point began_ = Stop::Clock::now(), shown_{}, written_ = began_;
+};
+
+SweepOrigin origin() {
+  std::array<char, 256> host{};
+  ::gethostname(host.data(), host.size() - 1);
+  return {host.data(), fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::gmtime(std::time(nullptr)))};
+}
+
+Json json_of(const SqlValue& value) {
+  return std::visit(
+      [](const auto& held) -> Json {
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(held)>, std::monostate>)
+          return nullptr;
+        else
+          return held;
+      },
+      value);
+}
+
+Json json_of(const SweepReader& sweep, const CellSummary& cell) {
+  Json parameters = Json::object(), medians = Json::object();
+  std::size_t next = 0;
+  for (const SweepColumn& column : sweep.columns()) {
+    if (column.role == SweepColumn::Role::parameter && next < cell.parameters.size())
+      parameters[column.name] = json_of(cell.parameters[next++]);
+    if (const auto found = cell.medians.find(column.name); found != cell.medians.end())
+      medians[column.name] = found->second;
+  }
+  return {{"cell", cell.cell},        {"method", cell.method},
+          {"parameters", parameters}, {"trials", cell.trials},
+          {"arrived", cell.arrived},  {"share_arrived", cell.share_arrived()},
+          {"status", cell.endings},   {"medians", medians}};
+}
+
+using Lines = std::vector<std::vector<std::string>>;
+
+/// Columns as wide as they must be; texts to the left, numbers to the right.
+std::string aligned(const Lines& lines) {
+  std::vector<std::size_t> widths(lines.front().size());
+  for (const auto& line : lines)
+    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+  std::string text;
+  for (const auto& line : lines) {
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      const bool is_number = parse_number(lines.back()[i]).has_value() || lines.back()[i] == "-";
+      text += is_number ? fmt::format("{:>{}}  ", line[i], widths[i])
+                        : fmt::format("{:<{}}  ", line[i], widths[i]);
+    }
+    text.erase(text.find_last_not_of(' ') + 1) += '\n';
+  }
+  return text;
+}
+
+std::string table(const SweepReader& sweep, const std::vector<CellSummary>& cells) {
+  Lines lines(1);
+  for (const SweepColumn& column : sweep.columns())
+    if (column.role == SweepColumn::Role::parameter) lines[0].push_back(column.name);
+  for (const char* name :
+       {"method", "trials", "arrived_%", "time_s", "length_um", "planning_mean_ms"})
+    lines[0].emplace_back(name);
+  for (const CellSummary& cell : cells) {
+    if (cell.trials == 0) continue;
+    std::vector<std::string> line;
+    for (const SqlValue& value : cell.parameters) {
+      const auto* text = std::get_if<std::string>(&value);
+      line.push_back(text ? *text : json_of(value).dump());
+    }
+    line.insert(line.end(), {cell.method, std::to_string(cell.trials),
+                             fmt::format("{:.1f}", 100 * cell.share_arrived())});
+    const auto add = [&](const char* name, double factor) {
+      const auto found = cell.medians.find(name);
+      line.push_back(found == cell.medians.end() ? "-"
+                                                 : fmt::format("{:.5g}", factor * found->second));
+    };
+    add("time_s", 1), add("length_um", 1), add("planning_mean_s", 1e3);
+    lines.push_back(std::move(line));
+  }
+  return aligned(lines);
+}
+
+void tell(const SweepOptions& o, const SweepProgress& progress) {
+  const SweepReader sweep(o.out);
+  const std::vector<CellSummary> cells = summarise(sweep);
+  if (!o.csv.empty()) write_file_atomically(o.csv, sweep_csv(sweep));
+  const std::size_t there = progress.before + progress.added;
+  if (o.json) {
+    Json list = Json::array();
+    for (const CellSummary& cell : cells) list.push_back(json_of(sweep, cell));
+    print("{}\n", Json{{"database", o.out},
+                       {"trials", there},
+                       {"added", progress.added},
+                       {"left", progress.left},
+                       {"cells", list}}
+                      .dump(2));
+    return;
+  }
+  print("{}medians are of the trials that arrived\n", table(sweep, cells));
+  print("{} of {} trials are in {}, {} of them new{}\n", there, there + progress.left, o.out,
+        progress.added, progress.left > 0 ? "; the same command goes on" : "");
+}
+
+int sweep_command(SweepOptions o, const Context& context) {
+  const Ranks ranks;
+  if (o.jobs == 0 && ranks.count() > 1) o.jobs = 1;
+  if (ranks.rank() > 0) {
+    help_sweep(ranks, o.sweep, o.jobs, context.stop);
+    return ok;  // mpirun ends all when one fails; the first rank tells how it went
+  }
+  SweepHelpers helpers(ranks);
+  const std::filesystem::path file = o.sweep;
+  const SweepPlan plan = load_sweep(file, o.jobs);
+  check(plan, o.jobs);
+  if (o.out.empty()) o.out = file.stem().string() + ".db";
+  keep_input(o.out, o.sweep);
+  keep_input(o.csv, o.sweep);
+  keep_input(o.csv, o.out);
+  const std::filesystem::path folder = std::filesystem::path(o.out).parent_path();
+  if (!folder.empty()) make_folder(folder.string());
+  SweepProgress progress;
+  {
+    SweepDatabase database(o.out, plan, origin());
+    Meter meter(ranks.count() > 1);
+    progress = run_sweep(
+        plan, database, helpers,
+        {.jobs = o.jobs, .progress = [&](const SweepProgress& p) { meter.show(p); }}, context.stop);
+  }
+  tell(o, progress);
+  flush_output();
+  return progress.left == 0 ? ok : not_reached;
+}
+
+}  // namespace
+
+void add_sweep(Command app, Action& action) {
+  auto o = std::make_shared<SweepOptions>();
+  Command cmd = app.add_command(
+      "sweep",
+      "Run a scenario for every combination of parameters and methods, many trials each, into a "
+      "database",
+      "sweep scenarios/sweeps/first_flight.yaml --out out/first_flight.db");
+  cmd.add_option("sweep", o->sweep, "Sweep file (YAML); docs/sweeps.md tells its keys")
+      .required()
+      .type_name("FILE");
+  cmd.add_option("--out", o->out,
+                 "SQLite database, which a sweep that was ended goes on with; when not given, the "
+                 "sweep's name with .db in this folder")
+      .type_name("FILE");
+  cmd.add_option("--jobs", o->jobs, "Threads; when not given one a core, under mpirun one a rank")
+      .type_name("NUMBER")
+      .check(whole(0, 1024));
+  cmd.add_option("--csv", o->csv, "Write the table of trials as CSV too").type_name("FILE");
+  add_json(cmd, o->json);
+  cmd.callback([o, &action] {
+    action = [o](const Context& context) { return sweep_command(*o, context); };
+  });
+}
+
+}  // namespace microswarm::cli

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands/track_output.hpp"
+#include "microswarm/config/yaml.hpp"
+#include "microswarm/core/error.hpp"
+#include "microswarm/vision/tracking/track_overlay.hpp"
+#include "support/options.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+struct TrackOptions {
+  std::string video;
+  std::string out;
+  std::string config;
+  std::optional<double> um_per_px;
+  std::optional<double> rate;
+  std::vector<std::string> settings;
+  bool no_overlay = false;
+  bool json = false;
+};
+
+TrackSettings settings_of(const TrackOptions& o) {
+  TrackSettings settings;
+  if (!o.config.empty()) settings = read_yaml_file<TrackSettings>(o.config);
+  set_values(settings, o.settings);
+  if (o.um_per_px) settings.um_per_px = o.um_per_px;
+  if (o.rate) settings.rate = o.rate;
+  if (!settings.um_per_px) throw InputError(o.video + ": µm per px is missing: give --um-per-px");
+  return settings;
+}
+
+/// The pictures one by one until the end or Ctrl-C; `overlay` may be none.
+void follow(FrameSource& source, TrackResult& result, VideoFileWriter* overlay, const Stop& stop) {
+  VideoTracker tracker(result.settings, result.frame_time);
+  TrackOverlay drawing(*result.settings.um_per_px);
+  ProgressBar bar("track");
+  VideoFrame frame;
+  while (!stop() && source.next(frame)) {
+    const std::vector<TrackRow>& rows = tracker.step(frame);
+    result.rows.insert(result.rows.end(), rows.begin(), rows.end());
+    result.frames = frame.index + 1;
+    if (overlay) overlay->add(drawing.draw(frame, rows));
+    const double all = source.count().value_or(0);
+    bar.update(all > 0 ? result.frames / all : 0, fmt::format("{} robots", rows.size()));
+  }
+  tracker.finish();
+  result.events = tracker.events();
+}
+
+int track(const TrackOptions& o, const Context& context) {
+  TrackResult result{.source = o.video, .settings = settings_of(o)};
+  const std::unique_ptr<FrameSource> source =
+      open_frames(o.video, result.settings.rate, result.settings.depth);
+  if (!source->rate())
+    note("note: {} tells no times, one picture a second is assumed: give --rate\n", o.video);
+  const double rate = source->rate().value_or(1);
+  result.frame_time = 1 / rate;
+  const OutFolder hold(o.out);
+  const std::filesystem::path folder = o.out;
+  keep_track_input(folder, o.video);
+  keep_track_input(folder, o.config);
+  std::optional<VideoFileWriter> overlay;
+  if (!o.no_overlay) overlay.emplace(folder / "overlay.mp4", rate);
+  result.promised = source->count();
+  follow(*source, result, overlay ? &*overlay : nullptr, context.stop);
+  if (!context.stop.requested() && result.frames + 1 < result.promised.value_or(0))
+    note("note: {} says that it has {} pictures, after {} no more could be read\n", o.video,
+         *result.promised, result.frames);
+
+  write_tracks(result, folder);
+  const auto shown = overlay ? overlay->commit() : std::nullopt;
+  std::error_code none;  // an older overlay shows other tracks
+  if (!shown || shown->extension() != ".mp4") std::filesystem::remove(folder / "overlay.mp4", none);
+  if (o.json)
+    print("{}\n", to_json(result).dump(2));
+  else
+    print("{}{}wrote {}{}\n", context.stop.requested() ? "stopped after " : "",
+          track_summary(result), (folder / "tracks.csv").string(),
+          shown ? ", tracks.h5, events.csv and " + shown->filename().string()
+                : ", tracks.h5 and events.csv");
+  return context.stop.requested() ? not_reached : ok;
+}
+
+}  // namespace
+
+void add_track(Command app, Action& action) {
+  auto o = std::make_shared<TrackOptions>();
+  Command cmd = app.add_command("track", "Find and follow the robots of a video",
+                                "track swarm.mp4 --um-per-px 0.35 --set find.diameter_px=11 --out "
+                                "out/tracks");
+  cmd.add_option("video", o->video,
+                 "Video file, folder of pictures (PNG, JPEG, BMP, PGM, PPM) or TIFF of many")
+      .required()
+      .type_name("VIDEO");
+  cmd.add_option("--out", o->out, "Folder for tracks.csv, tracks.h5, events.csv and overlay.mp4")
+      .required()
+      .type_name("FOLDER");
+  add_um_per_px(cmd, o->um_per_px, "µm per pixel of the video, 1e-6..1e6");
+  cmd.add_option("--rate", o->rate, "Pictures a second, in place of what the video says")
+      .type_name("NUMBER")
+      .check(number(1e-6, 1e6));
+  cmd.add_option("--config", o->config, "Settings (YAML); the other options come after it")
+      .type_name("FILE");
+  add_settings(cmd, o->settings, "Change a value, for example find.tone=bright (again and again)");
+  cmd.add_flag("--no-overlay", o->no_overlay, "Draw no video");
+  add_json(cmd, o->json);
+  cmd.callback(
+      [o, &action] { action = [o](const Context& context) { return track(*o, context); }; });
+}
+
+}  // namespace microswarm::cli

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/commands.hpp"
+#include "microswarm/core/version.hpp"
+#include "support/program.hpp"
+
+namespace {
+
+constexpr const char* footer =
+    "microswarm COMMAND --help says more about a command.\n"
+    "Exit codes: 0 done; 2 bad input or command line, told in one line; 3 ran, but the goal was "
+    "not\n"
+    "reached, a row falls short or Ctrl-C came once, which ends with what there is; a second\n"
+    "Ctrl-C ends at once, by its signal;\n"
+    "4 a device is not there or does not answer; 1 anything else.";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace microswarm;
+  cli::CommandLine line("microswarm",
+                        "Plans, steers, gathers and measures magnetic microrobot swarms.",
+                        std::string(version), footer);
+  const cli::Command app = line.root();
+  cli::Action action;
+  cli::add_run(app, action);
+  cli::add_plan(app, action);
+  cli::add_global(app, action);
+  cli::add_gather(app, action);
+  cli::add_sweep(app, action);
+  cli::add_export(app, action);
+  cli::add_map(app, action);
+  cli::add_track(app, action);
+  cli::add_replay(app, action);
+  cli::add_report(app, action);
+  cli::add_rig(app, action);
+#ifdef MICROSWARM_HAS_LEARNING
+  cli::add_learn(app, action);
+#endif
+  cli::add_reproduce(app, action);
+  cli::add_bench(app, action);
+  cli::add_schema(app, action);
+  return cli::run_program("microswarm", line, action, argc, argv);
+}

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/ranges.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "microswarm/actuation/coils/calibration.hpp"
+#include "microswarm/actuation/coils/coil_system.hpp"
+#include "microswarm/actuation/coils/currents.hpp"
+#include "microswarm/actuation/drivers/coil_drive.hpp"
+#include "microswarm/config/write.hpp"
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/file.hpp"
+#include "microswarm/core/text.hpp"
+#include "rig/rig.hpp"
+#include "support/options.hpp"
+
+namespace microswarm::cli {
+
+Check triple(const char* form, double most) {
+  return {[form, most](const std::string& text) -> std::string {
+    const std::vector<double> v = numbers(text);
+    if (v.size() != 3) return fmt::format("must be {}, not {}", form, quote(text));
+    for (const double x : v)
+      if (std::abs(x) > most)
+        return fmt::format("{:.6g} is too much, allowed {:.6g}..{:.6g}", x, -most, most);
+    return {};
+  }};
+}
+
+Eigen::Vector3d triple_of(const std::string& text) {
+  const std::vector<double> v = numbers(text);
+  return {v[0], v[1], v[2]};
+}
+
+Eigen::VectorXd currents_of(const std::string& text, const CoilSystem& system) {
+  const std::vector<double> given = numbers(text);
+  if (given.empty()) throw InputError("--currents: must be A,A,…, not " + quote(text));
+  if (given.size() != system.size())
+    throw InputError(fmt::format("--currents has {} numbers, the system has {} coils: {}",
+                                 given.size(), system.size(),
+                                 fmt::join(system.coil_names(), ", ")));
+  return Eigen::Map<const Eigen::VectorXd>(given.data(), static_cast<Eigen::Index>(given.size()));
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct FieldOptions {
+  std::string system;
+  std::string at;
+  std::string currents;
+  std::string field;
+  bool json = false;
+};
+
+Json json_of(const Eigen::VectorXd& v) {
+  Json list = Json::array();
+  for (const double x : v) list.push_back(x);
+  return list;
+}
+
+std::string text_of(const Eigen::Vector3d& v) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", v[0], v[1], v[2]);
+}
+
+std::string text_of(const LimitHit& hit, const CoilSystem& system) {
+  const std::string_view unit = unit_symbol(unit_of(hit.limit));
+  return fmt::format("{} of coil {}: {:.6g} {}, allowed {:.6g} {}: {:.6g} {} too much",
+                     enum_name(hit.limit), system.coil_names()[hit.coil], hit.asked, unit,
+                     hit.allowed, unit, hit.asked - hit.allowed, unit);
+}
+
+Json json_of(const LimitHit& hit, const CoilSystem& system) {
+  return {{"limit", enum_name(hit.limit)},
+          {"coil", system.coil_names()[hit.coil]},
+          {"unit", unit_suffix(unit_of(hit.limit))},
+          {"asked", hit.asked},
+          {"allowed", hit.allowed}};
+}
+
+std::string why_not(const CurrentsForField& found) {
+  if (found.rank == 0) return "the coils make no field there";
+  std::string ways;
+  for (const Eigen::Vector3d way : found.missing.colwise())
+    ways += (ways.empty() ? "" : " and ") + text_of(way);
+  return fmt::format("the coils make no field along {}: {:.6g} mT are missing", ways,
+                     found.short_by);
+}
+
+int field(const FieldOptions& o) {
+  if (o.currents.empty() == o.field.empty())
+    throw InputError("rig field: give either --currents or --field");
+  const CoilSystem system = read_coil_system(o.system);
+  const Eigen::Vector3d place = o.at.empty() ? system.centre() : triple_of(o.at);
+  const Actuation at = system.at(place);
+  std::optional<CurrentsForField> found;
+  if (!o.field.empty()) found = currents_for(at, triple_of(o.field));
+  const Eigen::VectorXd wanted = found ? found->currents : currents_of(o.currents, system);
+  const DrivenCurrents held = CoilDrive(system.drives()).steady(wanted);
+  const Eigen::Vector3d made = at.field_of(held.currents);
+  const FiveGradients slope = five_gradients(at.gradient_of(held.currents)) / mt_per_um_of_t_per_m;
+  const bool unmade = found && !found->reached;
+  if (o.json) {
+    Json hits = Json::array();
+    for (const LimitHit& hit : held.hits) hits.push_back(json_of(hit, system));
+    Json json{{"system", system.name()},
+              {"at_um", json_of(place)},
+              {"in_workspace", system.in_workspace(place)},
+              {"coils", system.coil_names()},
+              {"currents_a", json_of(held.currents)},
+              {"field_mt", json_of(made)},
+              {"field_abs_mt", made.norm()},
+              {"gradients_t_per_m", json_of(slope)},
+              {"scale", held.scale},
+              {"limits", hits}};
+    if (found) {
+      json["rank"] = found->rank;
+      json["reached"] = found->reached;
+      json["short_by_mt"] = found->short_by;
+    }
+    print("{}\n", json.dump(2));
+  } else {
+    print("{} at {} µm{}\n", system.name().empty() ? o.system : system.name(), text_of(place),
+          system.in_workspace(place) ? "" : ", outside of the calibrated workspace");
+    const Eigen::Vector3d clean = made.unaryExpr([&](double b) { return tidy(b, made.norm()); });
+    print("field {} mT, {:.6g} mT in all\n", text_of(clean), made.norm());
+    // In T/m as if the field were gone a metre away, which it is far sooner.
+    const auto of_slope = [&](Eigen::Index i) { return tidy(slope[i], made.norm() / 1e3); };
+    print(
+        "gradients dBx/dx {:.6g}, dBx/dy {:.6g}, dBx/dz {:.6g}, dBy/dy {:.6g}, dBy/dz {:.6g} "
+        "T/m\n",
+        of_slope(0), of_slope(1), of_slope(2), of_slope(3), of_slope(4));
+    for (std::size_t i = 0; i < system.size(); ++i)
+      print("  {:<10} {:12.6g} A\n", system.coil_names()[i],
+            held.currents[static_cast<Eigen::Index>(i)]);
+    if (unmade) print("{}\n", why_not(*found));
+    for (const LimitHit& hit : held.hits) print("{}\n", text_of(hit, system));
+    if (!held.hits.empty()) print("scaled to {:.1f} % of what was asked for\n", 100 * held.scale);
+  }
+  return unmade || !held.hits.empty() ? not_reached : ok;
+}
+
+struct CalibrateOptions {
+  std::string measured;
+  std::string out;
+  bool offset = false;
+  bool json = false;
+};
+
+int calibrate(const CalibrateOptions& o) {
+  keep_input(o.out, o.measured);
+  const FieldMeasurements measured = read_measurements(o.measured);
+  const FittedMatrix fit = fit_matrix(measured, o.offset);
+  CoilSystemParams system;
+  system.name = std::filesystem::path(o.measured).stem().string();
+  system.coils = fit.coils;
+  if (!o.out.empty()) {
+    write_file_atomically(o.out, to_yaml(system));
+    note("note: {} names no limits of the coils: add its `drives`\n", o.out);
+  }
+  const std::size_t unknowns = measured.coils.size() + (o.offset ? 1 : 0);
+  if (measured.rows.size() <= unknowns)
+    note("note: {} measurements for {} unknowns: the residuals tell nothing\n",
+         measured.rows.size(), unknowns);
+  const FieldMeasurement& worst = measured.rows[fit.worst_row];
+  if (o.json) {
+    print("{}\n", Json{{"measurements", measured.rows.size()},
+                       {"coils", fit.coils.names},
+                       {"field_mt_per_a", fit.coils.field},
+                       {"offset_mt", fit.coils.offset},
+                       {"rms_mt", json_of(fit.rms)},
+                       {"rms_abs_mt", fit.total_rms},
+                       {"worst_mt", fit.worst},
+                       {"worst_line", worst.line},
+                       {"worst_at_um", json_of(worst.place)}}
+                      .dump(2));
+    return ok;
+  }
+  cli::print("{} measurements of {} coils: {}\n", measured.rows.size(), measured.coils.size(),
+             fmt::join(measured.coils, ", "));
+  for (std::size_t k = 0; k < 3; ++k)
+    cli::print("  B{} = {:.6g} mT/A, without current {:.6g} mT; RMS residual {:.4g} mT\n", "xyz"[k],
+               fmt::join(fit.coils.field[k], ", "), fit.coils.offset[k],
+               fit.rms[static_cast<Eigen::Index>(k)]);
+  print("RMS residual {:.4g} mT; the worst is {:.4g} mT, line {}, at {} µm\n", fit.total_rms,
+        fit.worst, worst.line, text_of(worst.place));
+  if (!o.out.empty()) print("wrote {}\n", o.out);
+  return ok;
+}
+
+void add_field(Command rig, Action& action) {
+  auto o = std::make_shared<FieldOptions>();
+  Command cmd = rig.add_command(
+      "field", "The field that currents make at a place, or the currents for a field",
+      "rig field scenarios/rigs/cube.yaml --at 0,0,0 --field 3,0,0");
+  cmd.add_option("system", o->system, "Coil system (YAML)").required().type_name("FILE");
+  cmd.add_option("--at", o->at, "Place in µm, x,y,z; the centre when not given")
+      .type_name("X,Y,Z")
+      .check(triple("X,Y,Z", most_place));
+  const Option currents =
+      cmd.add_option("--currents", o->currents, "Current of each coil in A").type_name("A,A,…");
+  cmd.add_option("--field", o->field, "Field to make in mT, bx,by,bz")
+      .type_name("BX,BY,BZ")
+      .check(triple("BX,BY,BZ", most_field))
+      .excludes(currents);
+  add_json(cmd, o->json);
+  cmd.callback([o, &action] { action = [o](const Context&) { return field(*o); }; });
+}
+
+void add_calibrate(Command rig, Action& action) {
+  auto o = std::make_shared<CalibrateOptions>();
+  Command cmd = rig.add_command("calibrate", "Fit an actuation matrix to measured fields (CSV)",
+                                "rig calibrate measured.csv --out rig.yaml");
+  cmd.add_option("measured", o->measured,
+                 "CSV with i_NAME_a for each coil, bx_mt, by_mt, bz_mt and x_um, y_um, z_um")
+      .required()
+      .type_name("FILE");
+  cmd.add_option("--out", o->out, "Coil system to write (YAML)").type_name("FILE");
+  cmd.add_flag("--offset", o->offset, "Fit the field without current too");
+  add_json(cmd, o->json);
+  cmd.callback([o, &action] { action = [o](const Context&) { return calibrate(*o); }; });
+}
+
+}  // namespace
+
+void add_rig(Command app, Action& action) {
+  Command rig = app.add_group("rig", "A bench: coils, camera, checks, runs in real time");
+  add_field(rig, action);
+  add_rig_map(rig, action);
+  add_rig_scale(rig, action);
+  add_rig_see(rig, action);
+  add_rig_check(rig, action);
+  add_rig_rehearse(rig, action);
+  add_rig_run(rig, action);
+  add_calibrate(rig, action);
+}
+
+}  // namespace microswarm::cli

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "microswarm/config/write.hpp"
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/file.hpp"
+#include "microswarm/core/text.hpp"
+#include "microswarm/formats/images/image.hpp"
+#include "microswarm/vision/calibration/calibration_grid.hpp"
+#include "rig/rig.hpp"
+#include "support/options.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct ScaleOptions {
+  std::string picture;
+  std::string points;
+  std::optional<double> distance;
+  std::string grid;
+  std::optional<double> pitch;
+  std::string pattern = "dots";
+  std::string origin;
+  bool mirrored = false;
+  std::string out;
+  bool json = false;
+};
+
+/// What stands in a rig's file under `scale`.
+struct ScalePiece {
+  CameraScale scale;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.scale, {"scale", Unit::none, {}, "Where the camera sees the world."});
+  }
+};
+
+std::optional<Vec2> origin_of(const ScaleOptions& o) {
+  if (o.origin.empty()) return std::nullopt;
+  constexpr double farthest = 1e6;  // [px], as in a rig's file
+  const std::vector<double> v = numbers(o.origin);
+  for (const double x : v)
+    if (std::abs(x) > farthest)
+      throw InputError(
+          fmt::format("--origin: is {} px, allowed -{:g}..{:g}", o.origin, farthest, farthest));
+  return Vec2{v[0], v[1]};
+}
+
+FittedScale from_points(const ScaleOptions& o, const Image& picture) {
+  if (!o.distance) throw InputError("rig scale: --points needs --distance");
+  const std::vector<double> v = numbers(o.points);
+  const Vec2 a{v[0], v[1]}, b{v[2], v[3]};
+  for (const Vec2 p : {a, b})
+    if (p.x < -0.5 || p.y < -0.5 || p.x > picture.width - 0.5 || p.y > picture.height - 0.5)
+      throw InputError(fmt::format("--points: {:.6g},{:.6g} is outside {}, which is {} × {} px",
+                                   p.x, p.y, o.picture, picture.width, picture.height));
+  const CameraScale scale =
+      scale_of_distance(a, b, *o.distance, picture.height, origin_of(o), !o.mirrored);
+  return {.scale = scale, .residuals = {}};
+}
+
+FittedScale from_grid(const ScaleOptions& o, const Image& picture) {
+  if (!o.pitch) throw InputError("rig scale: --grid needs --pitch");
+  GridParams params{.pattern = *enum_value<GridPattern>(o.pattern), .pitch = *o.pitch};
+  int used = 0;
+  if (std::sscanf(o.grid.c_str(), "%dx%d%n", &params.columns, &params.rows, &used) != 2 ||
+      used != std::ssize(o.grid) || params.columns < 2 || params.rows < 2 ||
+      params.columns > 1000 || params.rows > 1000)
+    throw InputError("--grid: must be COLUMNSxROWS, 2 to 1000 each, not " + quote(o.grid));
+  std::vector<ScalePoint> points;
+  try {
+    points = find_grid(picture, params);
+  } catch (const InputError& error) {
+    throw InputError(o.picture + ": " + error.what());
+  }
+  if (o.mirrored)  // the grid too is seen in the mirror
+    for (ScalePoint& p : points) p.place.y = (params.rows - 1) * params.pitch - p.place.y;
+  FittedScale fit = fit_scale(points, !o.mirrored);
+  if (fit.worst > 0.25 * params.pitch)
+    throw InputError(fmt::format("{}: a point is {:.3g} µm off a grid of {:.6g} µm", o.picture,
+                                 fit.worst, params.pitch));
+  if (const auto origin = origin_of(o)) fit.scale.origin_px = *origin;
+  return fit;
+}
+
+int scale(const ScaleOptions& o) {
+  keep_input(o.out, o.picture);
+  if (o.points.empty() == o.grid.empty())
+    throw InputError("rig scale: give either --points or --grid");
+  const Image picture = read_photograph(o.picture);
+  const FittedScale fit = o.grid.empty() ? from_points(o, picture) : from_grid(o, picture);
+  const CameraScale& s = fit.scale;
+  const std::string yaml = to_yaml(ScalePiece{s});
+  if (!o.out.empty()) write_file_atomically(o.out, yaml);
+  if (o.json) {
+    Json json{{"scale",
+               {{"um_per_px", s.um_per_px},
+                {"rotation_deg", s.rotation * 180 / std::numbers::pi},
+                {"y_up", s.y_up},
+                {"origin_px", {s.origin_px.x, s.origin_px.y}}}},
+              {"points", fit.residuals.size()}};
+    if (!fit.residuals.empty()) {
+      json["rms_um"] = fit.rms;
+      json["worst_um"] = fit.worst;
+    }
+    print("{}\n", json.dump(2));
+    return ok;
+  }
+  print("{}", yaml);
+  print("# the picture shows {:.1f} × {:.1f} µm\n", picture.width * s.um_per_px,
+        picture.height * s.um_per_px);
+  if (!fit.residuals.empty())
+    print("# {} points, RMS residual {:.3g} µm ({:.3g} px), the worst {:.3g} µm\n",
+          fit.residuals.size(), fit.rms, fit.rms / s.um_per_px, fit.worst);
+  if (!o.out.empty()) print("# wrote {}\n", o.out);
+  return ok;
+}
+
+}  // namespace
+
+void add_rig_scale(Command rig, Action& action) {
+  auto o = std::make_shared<ScaleOptions>();
+  Command cmd = rig.add_command("scale", "µm per pixel of a camera, from points or a grid",
+                                "rig scale slide.png --grid 9x6 --pitch 100 --out scale.yaml");
+  cmd.add_option("picture", o->picture, "Picture by the camera").required().type_name("FILE");
+  const Option points =
+      cmd.add_option("--points", o->points, "Two points in the picture, px, y down")
+          .type_name("X1,Y1,X2,Y2")
+          .check({[](const std::string& text) -> std::string {
+            if (numbers(text).size() == 4) return {};
+            return "must be X1,Y1,X2,Y2, not " + quote(text);
+          }});
+  cmd.add_option("--distance", o->distance, "µm between the two points")
+      .type_name("NUMBER")
+      .check(number(1e-3, 1e7))
+      .needs(points);
+  const Option grid = cmd.add_option("--grid", o->grid,
+                                     "Points of a calibration slide, as 9x6; a chessboard's are "
+                                     "its inner corners")
+                          .type_name("COLUMNSxROWS")
+                          .excludes(points);
+  cmd.add_option("--pitch", o->pitch, "µm between neighbours of the grid")
+      .type_name("NUMBER")
+      .check(number(1e-3, 1e6))
+      .needs(grid);
+  cmd.add_option("--pattern", o->pattern, "What the points are")
+      .type_name("WORD")
+      .check(one_of({"dots", "chessboard"}))
+      .shows_default()
+      .needs(grid);
+  cmd.add_option("--origin", o->origin,
+                 "The world's origin in the picture, px, y down; not given: the lower left corner, "
+                 "mirrored the upper left one, or the grid's first point")
+      .type_name("X,Y")
+      .check(place(2, "X,Y"));
+  cmd.add_flag("--mirrored", o->mirrored, "The world's y goes down in the picture");
+  cmd.add_option("--out", o->out, "File to write (YAML), a piece of a rig's file")
+      .type_name("FILE");
+  add_json(cmd, o->json);
+  cmd.callback([o, &action] { action = [o](const Context&) { return scale(*o); }; });
+}
+
+}  // namespace microswarm::cli

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <variant>
+
+#include "microswarm/config/key_locations.hpp"
+#include "microswarm/config/yaml.hpp"
+#include "microswarm/core/clock.hpp"
+#include "microswarm/core/error.hpp"
+#include "microswarm/rig/params/rig_params.hpp"
+#include "microswarm/vision/camera/camera.hpp"
+#include "microswarm/vision/scene/scene_overlay.hpp"
+#include "microswarm/vision/scene/wall_finder.hpp"
+#include "rig/rig.hpp"
+#include "support/options.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What `--config` and `--set` may say.
+struct SeeSettings {
+  CameraParams camera;
+  SceneParams scene;
+  WallParams walls;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.camera, {"camera", Unit::none, {}, "The camera, when a picture is taken."});
+    visit(self.scene, {"scene", Unit::none, {}, "How swarm and obstacles are found."});
+    visit(self.walls, {"walls", Unit::none, {}, "How walls are found in the still picture."});
+  }
+};
+
+struct SeeOptions {
+  std::string picture;
+  std::string rig;
+  std::string still;
+  std::string config;
+  std::vector<std::string> settings;
+  std::string out;
+  bool json = false;
+};
+
+/// The picture of a file, or the newest of a camera once it has had a second to settle.
+Image picture_of(const std::string& source, CameraParams camera) {
+  if (!source.starts_with("/dev/")) return read_photograph(source);
+  camera.device = source;
+  NewestFrame live = live_camera(camera);
+  LiveFrame frame;
+  const double began = steady_seconds();
+  while (live.wait(frame, 0.5) || steady_seconds() < began + 10)
+    if (frame.frame.index > 0 && steady_seconds() > began + 1) return frame.frame.picture;
+  throw HardwareError(source + ": no picture within 10 s");
+}
+
+/// A picture of the same place. Throws InputError when it is of another size.
+Image still_of(const std::string& file, const Image& picture) {
+  Image still = read_photograph(file);
+  if (still.width != picture.width || still.height != picture.height)
+    throw InputError(fmt::format("{}: is {} × {} px, the picture is {} × {} px", file, still.width,
+                                 still.height, picture.width, picture.height));
+  return still;
+}
+
+Json json_of(const Blob& b) {
+  return {{"centre_px", {b.centre_px.x, b.centre_px.y}},
+          {"radius_px", b.radius_px},
+          {"semi_axes_px", {b.semi_major_px, b.semi_minor_px}},
+          {"angle_rad", b.angle},
+          {"contrast", b.contrast},
+          {"grain", b.grain},
+          {"is_cut", b.is_cut}};
+}
+
+std::string text_of(const Blob& b) {
+  return fmt::format(
+      "({:.2f}, {:.2f}) px, radius {:.2f} px, axes {:.1f} and {:.1f} px, contrast "
+      "{:.0f}, grain {:.1f}{}",
+      b.centre_px.x, b.centre_px.y, b.radius_px, b.semi_major_px, b.semi_minor_px, b.contrast,
+      b.grain, b.is_cut ? ", cut" : "");
+}
+
+/// Those of the rig, or of the settings' file, then of `--set`.
+SeeSettings settings_of(const SeeOptions& o) {
+  SeeSettings settings;
+  if (!o.rig.empty()) {
+    const Rig rig = read_rig(o.rig);
+    settings.scene = rig.params.eye.scene;
+    if (const auto* camera = std::get_if<CameraParams>(&rig.params.camera))
+      settings.camera = *camera;
+  }
+  if (!o.config.empty()) settings = read_yaml_file<SeeSettings>(o.config);
+  set_values(settings, o.settings);
+  return settings;
+}
+
+int see(const SeeOptions& o) {
+  for (const std::string& input : {o.picture, o.still, o.config, o.rig}) keep_input(o.out, input);
+  const SeeSettings settings = settings_of(o);
+  Issues issues = validate(settings.scene.swarm.look);
+  issues.add(validate(settings.scene.obstacles));
+  KeyLocations().require_none(issues);
+  const Image picture = picture_of(o.picture, settings.camera);
+  std::optional<Mask> walls;
+  if (!o.still.empty()) walls = find_walls(still_of(o.still, picture), settings.walls);
+  const Mask* hidden = walls ? &*walls : nullptr;
+  const SeenScene scene = find_scene(picture, settings.scene, std::nullopt, hidden);
+  if (!o.out.empty()) write_png(o.out, draw_scene(picture, scene, hidden));
+  const SwarmSighting& s = scene.swarm;
+  if (o.json) {
+    Json json{
+        {"swarm", enum_name(s.sight)}, {"candidates", Json::array()}, {"obstacles", Json::array()}};
+    for (const Blob& b : s.candidates) json["candidates"].push_back(json_of(b));
+    for (const SeenObstacle& b : scene.obstacles) {
+      json["obstacles"].push_back(json_of(b.blob));
+      json["obstacles"].back()["shape"] = b.disc ? "disc" : "polygon";
+    }
+    print("{}\n", json.dump(2));
+  } else {
+    print("swarm: {}\n", enum_name(s.sight));
+    for (const Blob& b : s.candidates) print("  {}\n", text_of(b));
+    print("obstacles: {}\n", scene.obstacles.size());
+    for (const SeenObstacle& b : scene.obstacles)
+      print("  {} {}\n", b.disc ? "disc" : "polygon", text_of(b.blob));
+    if (!o.out.empty()) print("wrote {}\n", o.out);
+  }
+  return s.sight == SwarmSight::found ? ok : not_reached;
+}
+
+}  // namespace
+
+void add_rig_see(Command rig, Action& action) {
+  auto o = std::make_shared<SeeOptions>();
+  Command cmd =
+      rig.add_command("see", "What is seen in a picture: the swarm and obstacles",
+                      "rig see frame.png --set scene.swarm.look.min_grain=8 --out seen.png");
+  cmd.add_option("picture", o->picture, "Picture, or a camera as /dev/video0")
+      .required()
+      .type_name("FILE");
+  cmd.add_option("--still", o->still, "Picture without swarm and obstacles: shows the walls")
+      .type_name("FILE");
+  const Option rig_file =
+      cmd.add_option("--rig", o->rig,
+                     "Rig file (YAML): looks as that rig does; --set comes after it")
+          .type_name("FILE");
+  cmd.add_option("--config", o->config, "Settings (YAML); --set comes after it")
+      .type_name("FILE")
+      .excludes(rig_file);
+  add_settings(cmd, o->settings,
+               "Change a value, for example scene.swarm.look.min_radius_px=12 (again and again)");
+  cmd.add_option("--out", o->out, "Picture to draw (PNG)")
+      .type_name("FILE")
+      .check(file_kind({".png"}));
+  add_json(cmd, o->json);
+  cmd.callback([o, &action] { action = [o](const Context&) { return see(*o); }; });
+}
+
+}  // namespace microswarm::cli

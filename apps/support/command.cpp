@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/command.hpp"
+
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <sstream>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/text.hpp"
+#include "support/cli.hpp"
+#include "support/options.hpp"
+#include "support/usage.hpp"
+
+namespace microswarm::cli {
+
+Check number(double lo, double hi) {
+  return {[lo, hi](const std::string& text) -> std::string {
+    const std::optional<double> value = parse_number(text);
+    if (!value) return "must be a number, not " + quote(text);
+    if (*value >= lo && *value <= hi) return {};
+    return fmt::format("is {}, allowed {}..{}", text, number_text(lo), number_text(hi));
+  }};
+}
+
+Check whole(std::uint64_t lo, std::uint64_t hi) {
+  return {[lo, hi](const std::string& text) -> std::string {
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error == std::errc{} && end == text.data() + text.size() && value >= lo && value <= hi)
+      return {};
+    return fmt::format("must be a whole number {}..{}, not {}", lo, hi, quote(text));
+  }};
+}
+
+Check one_of(const std::vector<std::string>& words) {
+  return {[words](const std::string& text) -> std::string {
+            if (std::find(words.begin(), words.end(), text) != words.end()) return {};
+            return fmt::format("must be one of {}, not {}", fmt::join(words, ", "), quote(text));
+          },
+          fmt::format("{{{}}}", fmt::join(words, ","))};
+}
+
+Check file_kind(const std::vector<std::string>& kinds) {
+  return {[kinds](const std::string& text) -> std::string {
+    const std::string kind = std::filesystem::path(text).extension().string();
+    if (std::find(kinds.begin(), kinds.end(), kind) != kinds.end()) return {};
+    return fmt::format("must be a file {}, not {}", fmt::join(kinds, ", "), quote(text));
+  }};
+}
+
+Check place(std::size_t most, const char* form) {
+  return {[most, form](const std::string& text) -> std::string {
+    const std::size_t count = numbers(text).size();
+    if (count >= 2 && count <= most) return {};
+    return fmt::format("must be {}, not {}", form, quote(text));
+  }};
+}
+
+Option Option::required() {
+  option_->required();
+  return *this;
+}
+
+Option Option::type_name(const char* name) {
+  option_->type_name(name);
+  return *this;
+}
+
+Option Option::check(const Check& check) {
+  option_->check(CLI::Validator([wrong = check.wrong](std::string& text) { return wrong(text); },
+                                check.allowed));
+  return *this;
+}
+
+Option Option::needs(Option other) {
+  option_->needs(other.option_);
+  return *this;
+}
+
+Option Option::needs(const char* other) {
+  option_->needs(other);
+  return *this;
+}
+
+Option Option::excludes(Option other) {
+  option_->excludes(other.option_);
+  return *this;
+}
+
+Option Option::excludes(const char* other) {
+  option_->excludes(other);
+  return *this;
+}
+
+Option Option::shows_default() {
+  option_->capture_default_str();
+  return *this;
+}
+
+Option Option::again_and_again() {
+  option_->take_all()->allow_extra_args(false);
+  return *this;
+}
+
+Command Command::add_command(const char* name, const char* doc, const char* example) {
+  CLI::App* command = app_->add_subcommand(name, doc);
+  command->footer(std::string("Example:\n  microswarm ") + example);
+  return Command(command);
+}
+
+Command Command::add_group(const char* name, const char* doc) {
+  CLI::App* group = app_->add_subcommand(name, doc);
+  group->require_subcommand(1);
+  return Command(group);
+}
+
+template <class T>
+Option Command::add_option(const char* name, T& value, const char* doc) {
+  CLI::Option* option = app_->add_option(name, value, doc);
+  if constexpr (std::is_same_v<T, std::string>)  // as "$NOT_SET" gives
+    option->check([](const std::string& text) { return text.empty() ? "is empty" : ""; });
+  return Option(option);
+}
+template Option Command::add_option(const char*, std::string&, const char*);
+template Option Command::add_option(const char*, std::vector<std::string>&, const char*);
+template Option Command::add_option(const char*, double&, const char*);
+template Option Command::add_option(const char*, int&, const char*);
+template Option Command::add_option(const char*, std::uint32_t&, const char*);
+template Option Command::add_option(const char*, std::uint64_t&, const char*);
+template Option Command::add_option(const char*, std::optional<double>&, const char*);
+template Option Command::add_option(const char*, std::optional<int>&, const char*);
+template Option Command::add_option(const char*, std::optional<std::uint64_t>&, const char*);
+
+Option Command::add_flag(const char* name, bool& value, const char* doc) {
+  return Option(app_->add_flag(name, value, doc)->disable_flag_override());
+}
+
+Option Command::option(const char* name) { return Option(app_->get_option(name)); }
+
+void Command::callback(std::function<void()> given) { app_->callback(std::move(given)); }
+
+CommandLine::CommandLine(const char* name, const char* doc, const std::string& version,
+                         const char* footer)
+    : app_(std::make_unique<CLI::App>(doc, name)) {
+  app_->set_version_flag("--version", version, "Print the version and exit");
+  app_->set_help_flag("-h,--help", "Print this help and exit");
+  app_->require_subcommand(1);
+  app_->footer(footer);
+}
+
+CommandLine::~CommandLine() = default;
+
+std::optional<int> CommandLine::parse(int argc, char** argv) {
+  try {
+    app_->parse(argc, argv);
+    return std::nullopt;
+  } catch (const CLI::Success& e) {  // --help, --version
+    std::ostringstream help;
+    const int code = app_->exit(e, help, help);
+    put(help.str());
+    flush_output();
+    return code;
+  } catch (const CLI::ParseError& e) {
+    throw InputError(usage_error(*app_, e));
+  }
+}
+
+}  // namespace microswarm::cli

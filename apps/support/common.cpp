@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <system_error>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/file.hpp"
+#include "support/cli.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+[[noreturn]] void output_failed(int error) {
+  if (error == EPIPE) {
+    std::signal(SIGPIPE, SIG_DFL);
+    std::raise(SIGPIPE);
+  }
+  throw InputError("stdout: cannot write: " + std::generic_category().message(error));
+}
+
+}  // namespace
+
+void put(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) output_failed(errno);
+}
+
+void flush_output() {
+  if (std::fflush(stdout) != 0) output_failed(errno);
+}
+
+void say(std::string_view text) noexcept {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
+ProgressBar::ProgressBar(std::string label)
+    : label_(std::move(label)), shown_(isatty(STDERR_FILENO) == 1), began_(Stop::Clock::now()) {}
+
+ProgressBar::~ProgressBar() {
+  if (shown_ && last_ >= 0) note("\r\033[K");
+}
+
+void ProgressBar::update(double share, const std::string& doing) {
+  const int percent = static_cast<int>(100 * std::clamp(share, 0.0, 1.0));
+  if (!shown_ || (percent == last_ && doing == note_)) return;
+  last_ = percent;
+  note_ = doing;
+  const double spent = std::chrono::duration<double>(Stop::Clock::now() - began_).count();
+  const double left = share > 0 ? spent * (1 - share) / share : 0;
+  const auto done = static_cast<std::size_t>(percent / 4);
+  note("\r\033[K{} [{}{}] {:3} % {:.0f} s left {}", label_, std::string(done, '#'),
+       std::string(25 - done, '.'), percent, left, doing);
+}
+
+void keep_input(const std::string& out, const std::string& in) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  if (out.empty() || in.empty()) return;
+  if (fs::equivalent(out, in, none) || fs::weakly_canonical(out) == fs::weakly_canonical(in))
+    throw InputError(out + ": is the input, which would be lost");
+}
+
+OutFolder::OutFolder(const std::string& folder) {
+  if (folder.empty()) return;
+  std::error_code none;
+  for (std::filesystem::path at = std::filesystem::absolute(folder, none).lexically_normal();
+       at.has_relative_path() && !std::filesystem::exists(at, none); at = at.parent_path())
+    made_.push_back(at);
+  make_folder(folder);
+  folder_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder_ < 0) return;
+  if (::flock(folder_, LOCK_EX | LOCK_NB) == 0) {
+    clear_staged(folder);
+  } else if (errno == EWOULDBLOCK) {
+    ::close(folder_);
+    throw InputError(folder + ": another command is writing to it");
+  }
+}
+
+OutFolder::~OutFolder() {
+  if (folder_ < 0) return;
+  for (const std::filesystem::path& folder : made_)
+    if (::rmdir(folder.c_str()) != 0 && errno != ENOENT) break;
+  ::close(folder_);
+}
+
+BeginProgress progress_bars() {
+  return [](const std::string& label) {
+    return [bar = std::make_shared<ProgressBar>(label)](double share, const std::string& doing) {
+      bar->update(share, doing);
+    };
+  };
+}
+
+std::filesystem::path scenario_folder() {
+  std::error_code error;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+  const auto bin = program.parent_path();
+  const std::array folders{(bin / "../../../scenarios").lexically_normal(),
+                           (bin / "../share/microswarm/scenarios").lexically_normal()};
+  for (const auto& folder : folders)
+    if (std::filesystem::is_directory(folder, error)) return folder;
+  throw InputError(fmt::format("the program's scenarios are neither in {} nor in {}",
+                               folders[0].string(), folders[1].string()));
+}
+
+}  // namespace microswarm::cli

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/options.hpp"
+
+#include <sstream>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/core/text.hpp"
+#include "microswarm/formats/images/image.hpp"
+
+namespace microswarm::cli {
+
+void add_um_per_px(Command command, std::optional<double>& value, const char* doc) {
+  command.add_option("--um-per-px", value, doc).type_name("NUMBER").check(number(1e-6, 1e6));
+}
+
+void add_settings(Command command, std::vector<std::string>& values, const char* doc) {
+  command.add_option("--set", values, doc).type_name("KEY=VALUE").again_and_again();
+}
+
+void add_json(Command command, bool& value) {
+  command.add_flag("--json", value, "Print the result as JSON");
+}
+
+void add_photo(Command command, PhotoOptions& options) {
+  command.add_option("--photo", options.file, "Photograph to lay under the pictures")
+      .type_name("FILE");
+  add_um_per_px(command, options.um_per_px, "µm per pixel of the photograph, 1e-6..1e6");
+  command.option("--um-per-px").needs("--photo");
+}
+
+ReportOptions report_options(const PhotoOptions& options) {
+  if (options.file.empty()) return {};
+  if (!options.um_per_px)
+    throw InputError(options.file + ": µm per px is missing: give --um-per-px");
+  return {read_photograph(options.file), *options.um_per_px};
+}
+
+std::vector<double> numbers(const std::string& text) {
+  std::vector<double> values;
+  std::istringstream words(text + ",");
+  for (std::string word; std::getline(words, word, ',');) {
+    const std::optional<double> value = parse_number(word);
+    if (!value) return {};
+    values.push_back(*value);
+  }
+  return values;
+}
+
+}  // namespace microswarm::cli

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "microswarm/report/run_report.hpp"
+#include "support/cli.hpp"
+#include "support/command.hpp"
+
+namespace microswarm::cli {
+
+/// Options that several commands have.
+void add_um_per_px(Command command, std::optional<double>& value, const char* doc);
+void add_settings(Command command, std::vector<std::string>& values, const char* doc);
+void add_json(Command command, bool& value);
+
+/// `--photo` with its `--um-per-px`, for commands that draw reports.
+struct PhotoOptions {
+  std::string file;
+  std::optional<double> um_per_px;
+};
+void add_photo(Command command, PhotoOptions& options);
+/// Reads the photograph, if one is named. Throws InputError.
+ReportOptions report_options(const PhotoOptions& options);
+
+/// The planner's choice as a file would hold it, so that --set planner.… works as in scenarios;
+/// `Planners` is a variant.
+template <class Planners>
+struct PlannerChoice {
+  Planners planner;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.planner, {"planner", Unit::none, {}, "Planner and its parameters."});
+  }
+};
+
+/// "11 of 14 aims are met, 3 have no verdict", of rows to reproduce or of a bench.
+template <class Row>
+std::string aims_met(const std::vector<Row>& rows) {
+  const auto count = [&](auto&& is) { return std::count_if(rows.begin(), rows.end(), is); };
+  const auto judged = count([](const Row& r) { return r.has_verdict(); });
+  const auto met = count([](const Row& r) { return r.has_verdict() && r.ok(); });
+  const auto open = count([](const Row& r) { return r.aim && !r.has_verdict(); });
+  return fmt::format("{} of {} aims are met{}\n", met, judged,
+                     open == 0 ? "" : fmt::format(", {} have no verdict", open));
+}
+
+/// The numbers in "200,500,-90"; empty when it is no such list.
+std::vector<double> numbers(const std::string& text);
+
+}  // namespace microswarm::cli

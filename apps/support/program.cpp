@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/program.hpp"
+
+#include <malloc.h>  // of glibc
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <string>
+#include <string_view>
+
+#include "microswarm/core/error.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+std::atomic<bool> was_interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+// The first Ctrl-C asks for a clean end; a second one ends at once.
+extern "C" void on_interrupt(int signal) {
+  if (was_interrupted.exchange(true)) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+}
+
+/// Every line of a complaint begins with the program's name.
+int complain(const char* name, std::string_view what, int code) {
+  for (bool more = true; more;) {
+    const std::size_t end = what.find('\n');
+    std::fprintf(stderr, "%s: %s\n", name, std::string(what.substr(0, end)).c_str());
+    more = end != std::string_view::npos;
+    if (more) what.remove_prefix(end + 1);
+  }
+  return code;
+}
+
+/// Pictures come and go: their memory is kept, not given back to the system and cleared each time.
+void keep_memory() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  mallopt(M_TRIM_THRESHOLD, 256 << 20);
+#endif
+}
+
+int act(const char* name, const Action& action) {
+  try {
+    const int code = action(Context(&was_interrupted));
+    flush_output();
+    return code;
+  } catch (const InputError& e) {
+    return complain(name, e.what(), bad_input);
+  } catch (const HardwareError& e) {
+    return complain(name, e.what(), hardware);
+  } catch (const std::filesystem::filesystem_error& e) {
+    return complain(name, e.what(), bad_input);
+  } catch (const std::bad_alloc&) {
+    return complain(name, "out of memory", failed);
+  } catch (const std::exception& e) {
+    return complain(name, e.what(), failed);
+  }
+}
+
+}  // namespace
+
+int run_program(const char* name, CommandLine& line, const Action& action, int argc, char** argv) {
+  keep_memory();
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  std::signal(SIGQUIT, on_interrupt);
+  std::signal(SIGHUP, on_interrupt);  // the terminal was closed
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing
+  try {
+    if (const std::optional<int> code = line.parse(argc, argv)) return *code;
+  } catch (const InputError& e) {
+    return complain(name, e.what(), bad_input);
+  }
+  return act(name, action);
+}
+
+}  // namespace microswarm::cli

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/usage.hpp"
+
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <vector>
+
+#include "microswarm/core/text.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+using Names = std::vector<std::string>;
+
+Names commands_of(const CLI::App& app) {
+  Names names;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  return names;
+}
+
+Names options_of(const CLI::App& app) {
+  Names names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+std::string nearest(const std::string& word, const Names& names) {
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  return std::string(nearest_word(word, views));
+}
+
+/// What is said of a word that nothing on the command line asked for.
+std::string stray(const CLI::App& app, const std::string& word) {
+  if (word.starts_with('-')) {
+    const std::string name = word.substr(0, word.find('='));
+    const std::string meant = nearest(name, options_of(app));
+    return "unknown option " + quote(name) +
+           (meant.empty() ? "" : ", did you mean '" + meant + "'?");
+  }
+  const Names commands = commands_of(app);
+  if (commands.empty()) return "nothing is expected where " + quote(word) + " stands";
+  const std::string meant = nearest(word, commands);
+  return "unknown command " + quote(word) +
+         (meant.empty() ? fmt::format(", there are: {}", fmt::join(commands, ", "))
+                        : ", did you mean '" + meant + "'?");
+}
+
+std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error) {
+  const Names commands = commands_of(app);
+  if (!commands.empty() && app.get_subcommands().empty())
+    return fmt::format("a command is missing, there are: {}", fmt::join(commands, ", "));
+  std::string what = one_line(error.what());
+  if (const auto at = what.find(": At Most 1 required but received "); at != what.npos)
+    return what.substr(0, at) + " is given more than once";
+  if (const auto at = what.find(" was given a disallowed flag override"); at != what.npos)
+    return "--" + what.substr(0, at) + " takes no value";
+  if (const auto at = what.find(" requires ");
+      at != what.npos && error.get_name() == "RequiresError")
+    what.replace(at, 10, " needs ");
+  if (const auto at = what.find(" excludes ");
+      at != what.npos && error.get_name() == "ExcludesError")
+    return what.replace(at, 10, " and ") + " do not go together";
+  if (error.get_name() == "ArgumentMismatch" && what.ends_with(" missing")) {
+    what.resize(what.size() - std::string_view(" missing").size());
+    const std::string count = ": 1 required ";  // "--set: 1 required KEY=VALUE missing"
+    if (const auto at = what.find(count); at != what.npos)
+      what.replace(at, count.size(), " needs a ");
+  }
+  return what;
+}
+
+}  // namespace
+
+std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App* at = &app;
+  std::string path = app.get_name();
+  for (;;) {  // down the commands that were named
+    const Names left = at->remaining();
+    const auto named = at->get_subcommands();
+    if (!left.empty() || named.empty()) {
+      const std::string what = left.empty() ? what_is_wrong(*at, error) : stray(*at, left.front());
+      return fmt::format("{} (see {} --help)", what, path);
+    }
+    at = named.back();
+    path += " " + at->get_name();
+  }
+}
+
+}  // namespace microswarm::cli
