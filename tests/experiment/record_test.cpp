@@ -8,9 +8,9 @@
 #include <sstream>
 
 #include "microswarm/core/file.hpp"
-#include "microswarm/experiment/record/hdf5_image.hpp"
-#include "microswarm/experiment/record/record_layout.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/io/columns.hpp"
+#include "microswarm/io/hdf5_image.hpp"
 #include "microswarm/planning/common/detection.hpp"
 #include "tests/experiment/scenes.hpp"
 
@@ -185,12 +185,12 @@ TEST(RecordLayout, TheDocsNameEveryQuantity) {
     for (const auto& column : columns)
       EXPECT_NE(docs.find(column.key + "`"), std::string::npos) << column.key;
   };
-  expect(columns_of(static_cast<const Frame*>(nullptr)));
-  expect(columns_of(static_cast<const PathChange*>(nullptr)));
-  expect(columns_of(static_cast<const PlanEvent*>(nullptr)));
-  expect(columns_of(static_cast<const RunEvent*>(nullptr)));
-  expect(columns_of(static_cast<const TreeNode*>(nullptr)));
-  expect(columns_of(static_cast<const Detection*>(nullptr)));
+  expect(columns_of<Frame>());
+  expect(columns_of<PathChange>());
+  expect(columns_of<PlanEvent>());
+  expect(columns_of<RunEvent>());
+  expect(columns_of<TreeNode>());
+  expect(columns_of<Detection>());
 }
 
 TEST(Record, H5pyReadsIt) {

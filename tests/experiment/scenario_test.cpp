@@ -165,6 +165,30 @@ TEST(Scenario, EveryMistakeHasItsLine) {
             1u);
 }
 
+TEST(Scenario, KeysOfEarlierVersionsAreRead) {
+  const auto folder = empty_folder("scenario_moved");
+  const std::string room =
+      "map: {type: polygons, hi_um: [2000, 1000]}\nstart: {x_um: 200, y_um: 500}\n"
+      "goal_um: [1800, 500]\n";
+  const auto opened = [&](const std::string& text, const std::vector<std::string>& set = {}) {
+    write_file_atomically(folder / "s.yaml", room + text);
+    return open_experiment(folder / "s.yaml", set).scenario();
+  };
+  const std::string old = "navigator: {type: radar, frame_timeout_s: 0.3}\n";
+  EXPECT_EQ(opened(old).sensing.frame_timeout, 0.3);
+  EXPECT_EQ(opened(old + "sensing: {position_noise_um: 2}\n").sensing.frame_timeout, 0.3);
+  EXPECT_EQ(opened("", {"navigator.frame_timeout_s=0.4"}).sensing.frame_timeout, 0.4);
+  // Given in both places, the old one is unknown; its line is told for what is wrong with it.
+  EXPECT_NE(error_of([&] {
+              opened(old + "sensing: {frame_timeout_s: 0.2}\n");
+            }).find("s.yaml:4:26: unknown key"),
+            std::string::npos);
+  EXPECT_NE(error_of([&] {
+              opened("navigator: {type: radar, frame_timeout_s: -1}\n");
+            }).find("s.yaml:4:43: frame_timeout_s is -1"),
+            std::string::npos);
+}
+
 TEST(Scenario, WhatComesOutLaterHasItsPlaceToo) {
   const auto folder = empty_folder("scenario_places");
   const auto message = [&](const std::string& text, const std::vector<std::string>& set = {}) {
@@ -245,7 +269,7 @@ TEST(ScenarioCheck, FramesThatAreAlwaysTooOld) {
   Scenario scenario = open_room();
   scenario.sensing.observation_delay = 1;
   EXPECT_EQ(check_error(scenario),
-            "s.yaml: sensing.observation_delay_s is 1, more than navigator.frame_timeout_s, 0.5: "
+            "s.yaml: sensing.observation_delay_s is 1, more than sensing.frame_timeout_s, 0.5: "
             "every frame would be too old");
 }
 

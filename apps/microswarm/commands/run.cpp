@@ -4,11 +4,11 @@
 #include <optional>
 
 #include "commands/run_output.hpp"
-#include "microswarm/core/angles.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/text.hpp"
 #include "microswarm/experiment/trials.hpp"
+#include "microswarm/io/columns.hpp"
 #include "microswarm/session/session.hpp"
 #include "rig/rig_notes.hpp"
 
@@ -32,20 +32,15 @@ struct RunOptions {
 };
 
 std::string trials_csv(const std::vector<TrialResult>& trials) {
+  const std::vector<Column> columns = columns_of<Metrics>(ColumnUnits::shown);
   std::string text =
-      "trial,status,time_s,length_um,turning_deg,goal_distance_um,hold_time_s,least_wall_um,"
-      "least_obstacle_um,contacts,planning_events,planning_mean_s,planning_max_s,record_hash\n";
+      "trial,status," + csv_head(columns) + ",planning_mean_s,planning_max_s,record_hash\n";
   for (std::size_t i = 0; i < trials.size(); ++i) {
     if (!trials[i].ran) continue;
     const RunResult& r = trials[i].result;
-    const Metrics& m = r.metrics;
     const TimeSummary p = summarise(r.timing.planning);
-    text += fmt::format("{},{}", i, to_string(r.status));
-    for (const double v : {m.time, m.length, degrees(m.turning), m.goal_distance, m.hold_time,
-                           m.walls.clearance, m.obstacles.clearance})
-      text += "," + number_text(v);
-    text += fmt::format(",{},{},{:.6g},{:.6g},{}\n", m.contacts, m.planning_events, p.mean, p.max,
-                        trials[i].hash);
+    text += fmt::format("{},{},{},{:.6g},{:.6g},{}\n", i, to_string(r.status),
+                        csv_line(columns, &r.metrics), p.mean, p.max, trials[i].hash);
   }
   return text;
 }

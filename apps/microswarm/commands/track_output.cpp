@@ -11,7 +11,7 @@
 #include "microswarm/config/write.hpp"
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/version.hpp"
-#include "microswarm/experiment/record/hdf5_image.hpp"
+#include "microswarm/io/hdf5_image.hpp"
 #include "support/cli.hpp"
 
 namespace microswarm::cli {

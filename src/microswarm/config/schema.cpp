@@ -63,6 +63,7 @@ Json schema_of(const Type& type, const FieldInfo& info, const void* defaults) {
       return {{"type", "boolean"}};
     case TypeKind::integer:
       return number_schema("integer", info.range);
+    case TypeKind::index:
     case TypeKind::count:
       return number_schema("integer", {std::max(info.range.min, 0.0), info.range.max});
     case TypeKind::number:

@@ -21,6 +21,7 @@ enum class TypeKind {
   boolean,   ///< bool
   integer,   ///< int
   count,     ///< std::uint64_t
+  index,     ///< std::uint32_t
   number,    ///< double
   text,      ///< std::string
   point,     ///< Vec2
@@ -96,6 +97,8 @@ template <>
 struct Describe<int> : DescribeScalar<TypeKind::integer> {};
 template <>
 struct Describe<std::uint64_t> : DescribeScalar<TypeKind::count> {};
+template <>
+struct Describe<std::uint32_t> : DescribeScalar<TypeKind::index> {};
 template <>
 struct Describe<double> : DescribeScalar<TypeKind::number> {};
 template <>

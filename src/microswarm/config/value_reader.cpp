@@ -23,6 +23,7 @@ std::string expected(const Type& type) {
       return "true or false";
     case TypeKind::integer:
     case TypeKind::count:
+    case TypeKind::index:
       return "a whole number";
     case TypeKind::number:
       return "a number";
@@ -221,6 +222,8 @@ void ValueReader::read(const Type& type, const FieldInfo& info, std::string_view
       return read_whole(info, label, *static_cast<int*>(value), node);
     case TypeKind::count:
       return read_whole(info, label, *static_cast<std::uint64_t*>(value), node);
+    case TypeKind::index:
+      return read_whole(info, label, *static_cast<std::uint32_t*>(value), node);
     case TypeKind::number:
       return read_number(info, label, *static_cast<double*>(value), node);
     case TypeKind::text:

@@ -109,6 +109,8 @@ std::string line(const Type& type, Unit unit, const void* value, Syntax syntax) 
       return fmt::format("{}", *static_cast<const int*>(value));
     case TypeKind::count:
       return fmt::format("{}", *static_cast<const std::uint64_t*>(value));
+    case TypeKind::index:
+      return fmt::format("{}", *static_cast<const std::uint32_t*>(value));
     case TypeKind::number:
       return number_value(*static_cast<const double*>(value), unit, syntax);
     case TypeKind::text:

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,8 +24,21 @@ inline constexpr std::size_t max_yaml_bytes = 16 << 20;
 /// into `mistakes`, or, without them, is thrown with a line for each. What is wrong keeps what it
 /// had, or is half read.
 YamlNode read_yaml(const Type& type, void* value, std::string_view text, std::string_view name,
-                   Mistakes& mistakes);
-YamlNode read_yaml(const Type& type, void* value, std::string_view text, std::string_view name);
+                   Mistakes& mistakes, std::span<const MovedKey> moved = {});
+YamlNode read_yaml(const Type& type, void* value, std::string_view text, std::string_view name,
+                   std::span<const MovedKey> moved = {});
+
+/// The keys of earlier versions that T lists.
+template <class T>
+constexpr std::span<const MovedKey> moved_keys_of() {
+  if constexpr (requires { T::moved_keys; })
+    return T::moved_keys;
+  else
+    return {};
+}
+
+/// An assignment "KEY=VALUE" with the key that it has by now.
+std::string current_key(std::string_view assignment, std::span<const MovedKey> moved);
 
 /// What `set_value` does, on a described value.
 void set_value(const Type& type, void* value, std::string_view assignment, std::string_view option);
@@ -35,7 +49,7 @@ void set_value(const Type& type, void* value, std::string_view assignment, std::
 template <HasFields T>
 T read_yaml_text(std::string_view text, std::string_view name) {
   T value{};
-  read_yaml(type_of<T>(), &value, text, name);
+  read_yaml(type_of<T>(), &value, text, name, moved_keys_of<T>());
   return value;
 }
 
@@ -53,7 +67,7 @@ T read_yaml_file(const std::filesystem::path& path) {
 template <HasFields T>
 void set_value(T& value, std::string_view assignment, std::string_view option = "--set") {
   T changed = value;
-  set_value(type_of<T>(), &changed, assignment, option);
+  set_value(type_of<T>(), &changed, current_key(assignment, moved_keys_of<T>()), option);
   value = std::move(changed);
 }
 
@@ -75,8 +89,8 @@ T read_yaml_file(const std::filesystem::path& path, const Settings& assignments,
                  KeyLocations& locations, Mistakes& mistakes) {
   T value{};
   const std::string name = path.string();
-  YamlNode document =
-      read_yaml(type_of<T>(), &value, read_file(path, max_yaml_bytes), name, mistakes);
+  YamlNode document = read_yaml(type_of<T>(), &value, read_file(path, max_yaml_bytes), name,
+                                mistakes, moved_keys_of<T>());
   check_types_first(assignments);
   for (const std::string& text : assignments.texts) {
     try {
@@ -85,7 +99,9 @@ T read_yaml_file(const std::filesystem::path& path, const Settings& assignments,
       mistakes.add(text.substr(0, text.find_first_of(".=")), error.what());
     }
   }
-  locations = locations_of(std::move(document), name, assignments);
+  Settings current = assignments;
+  for (std::string& text : current.texts) text = current_key(text, moved_keys_of<T>());
+  locations = locations_of(std::move(document), name, std::move(current));
   return value;
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "microswarm/core/fields.hpp"
 #include "microswarm/core/rng.hpp"
 #include "microswarm/core/status.hpp"
 #include "microswarm/core/stop.hpp"
@@ -18,6 +19,15 @@ struct Detection {
   double w1 = 0;   ///< density: covered share of the circle, Eq 1
   double w2 = 0;   ///< distribution: how near the obstacles are to its centre, Eq 2
   double rho = 1;  ///< dynamic adjust factor, Eq 3, floored
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.circle.centre.x, {"x", Unit::um, {}, "Centre of the circle, to the right."});
+    visit(self.circle.centre.y, {"y", Unit::um, {}, "Centre of the circle, upwards."});
+    visit(self.circle.radius, {"radius", Unit::um, {}, "Radius of the circle."});
+    visit(self.w1, {"w1", Unit::none, {}, "Density, Eq 1 [drrt]."});
+    visit(self.w2, {"w2", Unit::none, {}, "Distribution, Eq 2 [drrt]."});
+    visit(self.rho, {"rho", Unit::none, {}, "Dynamic adjust factor, Eq 3 [drrt]."});
+  }
 };
 
 /// Node of a search tree. The root is node 0 and its own parent.
@@ -26,6 +36,14 @@ struct TreeNode {
   double heading = 0;  ///< [rad] of the edge from its parent; the root's is the start's
   double cost = 0;     ///< from the root, in the planner's own measure
   std::uint32_t parent = 0;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.position.x, {"x", Unit::um, {}, "Position to the right."});
+    visit(self.position.y, {"y", Unit::um, {}, "Position upwards."});
+    visit(self.heading, {"heading", Unit::rad, {}, "Heading of the edge from its parent."});
+    visit(self.cost, {"cost", Unit::none, {}, "Cost from the root, in the planner's measure."});
+    visit(self.parent, {"parent", Unit::none, {}, "Index in its tree, from 0; the root's is 0."});
+  }
 };
 
 /// What the planner did.

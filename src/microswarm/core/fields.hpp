@@ -32,6 +32,13 @@ struct FieldInfo {
 /// Key of a field: its name with the unit's suffix.
 std::string key_of(const FieldInfo& info);
 
+/// A key that stood elsewhere in earlier versions, in a part of the document: it is read there
+/// still. A struct lists them as `static constexpr std::array<MovedKey, N> moved_keys`.
+struct MovedKey {
+  std::string_view from;  ///< "navigator.frame_timeout_s"
+  std::string_view to;    ///< "sensing.frame_timeout_s"
+};
+
 /// Visits fields and does nothing: what the concept below is asked with.
 struct NullVisitor {
   template <class T>
@@ -46,11 +53,11 @@ struct NullVisitor {
 ///     }
 ///
 /// and everything else comes from it: YAML, JSON Schema, `--set`, help text, record headers.
-/// Allowed types: bool, int, std::uint64_t, double, std::string, Vec2, Pose2, enums with
-/// `enum_names`, structs with `fields`, std::optional and std::vector of these, and std::variant of
-/// structs that each have a `static constexpr std::string_view type_name` (chosen by the key
-/// `type`). Unit and range hold for every number in the field: both coordinates of a Vec2, each
-/// entry of a vector.
+/// Allowed types: bool, int, std::uint32_t, std::uint64_t, double, std::string, Vec2, Pose2, enums
+/// with `enum_names`, structs with `fields`, std::optional and std::vector of these, and
+/// std::variant of structs that each have a `static constexpr std::string_view type_name` (chosen
+/// by the key `type`). Unit and range hold for every number in the field: both coordinates of a
+/// Vec2, each entry of a vector.
 template <class T>
 concept HasFields = requires(T& t, NullVisitor& v) {
   T::fields(t, v);

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <string_view>
+#include <utility>
+
+#include "microswarm/core/fields.hpp"
 
 namespace microswarm {
 
@@ -19,8 +23,21 @@ enum class Status {
   collided,       ///< run: the swarm touched an obstacle or a wall
   fault,          ///< run: the plant could not go on, as a rig that lost its swarm
 };
+constexpr auto enum_names(Status) {
+  return std::array<std::pair<Status, std::string_view>, 10>{
+      {{Status::solved, "solved"},
+       {Status::no_path, "no_path"},
+       {Status::node_limit, "node_limit"},
+       {Status::time_limit, "time_limit"},
+       {Status::stopped, "stopped"},
+       {Status::start_blocked, "start_blocked"},
+       {Status::goal_blocked, "goal_blocked"},
+       {Status::held, "held"},
+       {Status::collided, "collided"},
+       {Status::fault, "fault"}}};
+}
 
 /// The status in one word with underscores, as in records and JSON.
-std::string_view to_string(Status status);
+constexpr std::string_view to_string(Status status) { return enum_name(status); }
 
 }  // namespace microswarm

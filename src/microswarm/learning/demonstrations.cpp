@@ -24,14 +24,14 @@ class Demonstrator : public Navigator {
         path_(task.path),
         params_(std::get<PathNavigatorParams>(scenario.navigator)),
         helm_(limits_of(scenario.swarm), params_.speed, *scenario.goal, scenario.goal_tolerance,
-              params_.frame_timeout),
+              scenario.sensing.frame_timeout),
         follower_(params_.follower, helm_.swarm()),
         expert_(std::get<RibbonParams>(scenario.swarm), path_, params_.speed),
         expert_drives_(expert_drives) {}
 
   Command step(const Observation& seen, const Stop&) override {
     const Command wanted = expert_.command(plant_.truth()->swarm.pose, seen.now);
-    if (sees_swarm(seen, params_.frame_timeout)) follower_.see(seen, helm_.forecast());
+    if (helm_.sees_swarm(seen)) follower_.see(seen, helm_.forecast());
     const Pose2* pose = helm_.begin(seen);
     const Command command = pose ? drive(*pose, wanted) : helm_.rest();
     expert_.note(seen.now, command);

@@ -21,41 +21,47 @@ using Made = std::unique_ptr<Navigator>;
 
 Made make(const HierarchicalParams& p, const Task& task, Rng rng) {
   return std::make_unique<HierarchicalNavigator>(p, task.swarm, *task.goal, task.goal_tolerance,
-                                                 rng);
+                                                 rng, task.frame_timeout);
 }
 
 Made make(const PlanPlayerParams& p, const Task& task, Rng rng) {
-  return std::make_unique<PlanPlayer>(p, *task.robots, task.goal_tolerance, task.tick, rng);
+  return std::make_unique<PlanPlayer>(p, *task.robots, task.goal_tolerance, task.tick, rng,
+                                      task.frame_timeout);
 }
 
 Made make(const AggregationParams& p, const Task& task, Rng rng) {
   return std::make_unique<AggregationNavigator>(p, *task.robots, *task.goal, task.goal_tolerance,
-                                                task.tick, rng);
+                                                task.tick, rng, task.frame_timeout);
 }
 
 Made make(const RadarParams& p, const Task& task, Rng rng) {
-  return std::make_unique<RadarNavigator>(p, task.swarm, *task.goal, task.goal_tolerance, rng);
+  return std::make_unique<RadarNavigator>(p, task.swarm, *task.goal, task.goal_tolerance, rng,
+                                          task.frame_timeout);
 }
 
 Made make(const StraightParams& p, const Task& task, Rng) {
-  return std::make_unique<StraightNavigator>(p, task.swarm, *task.goal, task.goal_tolerance);
+  return std::make_unique<StraightNavigator>(p, task.swarm, *task.goal, task.goal_tolerance,
+                                             task.frame_timeout);
 }
 
 Made make(const PotentialFieldParams& p, const Task& task, Rng) {
-  return std::make_unique<PotentialFieldNavigator>(p, task.swarm, *task.goal, task.goal_tolerance);
+  return std::make_unique<PotentialFieldNavigator>(p, task.swarm, *task.goal, task.goal_tolerance,
+                                                   task.frame_timeout);
 }
 
 Made make(const VelocityObstacleParams& p, const Task& task, Rng) {
-  return std::make_unique<VelocityObstacleNavigator>(p, task.swarm, *task.goal,
-                                                     task.goal_tolerance);
+  return std::make_unique<VelocityObstacleNavigator>(p, task.swarm, *task.goal, task.goal_tolerance,
+                                                     task.frame_timeout);
 }
 
 Made make(const PredictiveParams& p, const Task& task, Rng rng) {
-  return std::make_unique<PredictiveNavigator>(p, task.swarm, *task.goal, task.goal_tolerance, rng);
+  return std::make_unique<PredictiveNavigator>(p, task.swarm, *task.goal, task.goal_tolerance, rng,
+                                               task.frame_timeout);
 }
 
 Made make(const PathNavigatorParams& p, const Task& task, Rng) {
-  return std::make_unique<PathNavigator>(p, task.swarm, *task.goal, task.goal_tolerance);
+  return std::make_unique<PathNavigator>(p, task.swarm, *task.goal, task.goal_tolerance,
+                                         task.frame_timeout);
 }
 
 std::string_view lacks_body(const Task& task) {

@@ -38,10 +38,6 @@ double detection_range_of(const NavigatorParams& params) {
       params);
 }
 
-double frame_timeout_of(const NavigatorParams& params) {
-  return std::visit([](const auto& p) { return p.frame_timeout; }, params);
-}
-
 namespace {
 
 template <class Params>

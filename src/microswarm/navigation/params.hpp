@@ -31,9 +31,6 @@ double margin_of(const NavigatorParams& params);
 /// detection range d_r of the radar, and 50 µm of those that have none.
 double detection_range_of(const NavigatorParams& params);
 
-/// Age [s] from which on the navigator holds a frame for too old.
-double frame_timeout_of(const NavigatorParams& params);
-
 /// The follower's parameters of a navigator that follows a path; null for others.
 const FollowerParams* follower_of(const NavigatorParams& params);
 FollowerParams* follower_of(NavigatorParams& params);

@@ -9,18 +9,12 @@
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/text.hpp"
-#include "microswarm/experiment/record/hdf5_image.hpp"
-#include "microswarm/experiment/record/record_layout.hpp"
+#include "microswarm/io/columns.hpp"
+#include "microswarm/io/hdf5_image.hpp"
+#include "microswarm/io/tables.hpp"
 
 namespace microswarm {
 namespace {
-
-std::string csv_text(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == text.npos) return std::string(text);
-  std::string quoted = "\"";
-  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
-  return quoted + "\"";
-}
 
 std::string csv_value(const SqlValue& value) {
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
@@ -59,46 +53,27 @@ struct RecordTables {
   std::vector<std::string> names;
   std::string csv;
 
-  template <class Rows>
-  void table(const std::string& group, const Rows& rows) {
-    using Row = typename Rows::value_type;
+  void table(const std::string& group, const ListRef<const void*>& list) {
     if (!is_wanted(group)) return;
-    head<Row>("");
-    for (const Row& row : rows) line(row, "");
+    const std::vector<Column> columns = columns_of(list.row_type());
+    csv += csv_head(columns) + "\n";
+    for (std::size_t i = 0; i < list.size(); ++i) csv += csv_line(columns, list.row(i)) + "\n";
   }
-  template <class Rows, class Part>
-  void parts(const std::string& group, const Rows& rows, Part part) {
-    using Row = typename std::remove_cvref_t<decltype(part(rows.front()))>::value_type;
+  void parts(const std::string& group, const ListRef<const void*>& outer, const Field& field) {
     if (!is_wanted(group)) return;
-    head<Row>("row,");
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      for (const Row& row : part(rows[i])) line(row, std::to_string(i) + ",");
+    const std::vector<Column> columns = columns_of(*field.type->parts[0]);
+    csv += "row," + csv_head(columns) + "\n";
+    for (std::size_t i = 0; i < outer.size(); ++i) {
+      const ListRef<const void*> part = outer.part(i, field);
+      for (std::size_t k = 0; k < part.size(); ++k)
+        csv += fmt::format("{},{}\n", i, csv_line(columns, part.row(k)));
+    }
   }
 
  private:
   bool is_wanted(const std::string& group) {
     names.push_back(group.substr(1));
     return names.back() == wanted;
-  }
-  template <class Row>
-  void head(const std::string& first) {
-    csv += first;
-    const auto columns = columns_of(static_cast<const Row*>(nullptr));
-    for (std::size_t i = 0; i < columns.size(); ++i) csv += (i ? "," : "") + columns[i].key;
-    csv += "\n";
-  }
-  template <class Row>
-  void line(const Row& row, const std::string& first) {
-    static const auto columns = columns_of(static_cast<const Row*>(nullptr));
-    csv += first;
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      if (i) csv += ",";
-      if (columns[i].kind == ColumnKind::word)
-        csv += csv_text(columns[i].word(row));
-      else if (const double number = columns[i].number(row); !std::isnan(number))
-        csv += number_text(number);
-    }
-    csv += "\n";
   }
 };
 
@@ -145,13 +120,13 @@ std::string sweep_hdf5(const SweepReader& sweep) {
 
 std::vector<std::string> record_tables(const Record& record) {
   RecordTables tables;
-  visit_tables(record, tables);
+  visit_tables(type_of<Record>(), static_cast<const void*>(&record), tables);
   return tables.names;
 }
 
 std::string record_csv(const Record& record, const std::string& table) {
   RecordTables tables{.wanted = table, .names = {}, .csv = {}};
-  visit_tables(record, tables);
+  visit_tables(type_of<Record>(), static_cast<const void*>(&record), tables);
   if (tables.csv.empty())
     throw InputError(fmt::format("the record has no table {}, only {}", quote(table),
                                  fmt::join(tables.names, ", ")));

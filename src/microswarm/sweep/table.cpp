@@ -11,61 +11,12 @@
 #include "microswarm/config/write.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/text.hpp"
+#include "microswarm/io/columns.hpp"
 
 namespace microswarm {
 namespace {
 
 using Role = SweepColumn::Role;
-
-/// The value that a field has in a table, and its kind. Numbers are as they are shown; what is no
-/// single number or word is a line of JSON.
-template <class T>
-struct Cell {
-  static constexpr SweepColumnKind kind = std::is_floating_point_v<T> ? SweepColumnKind::real
-                                          : std::is_integral_v<T>     ? SweepColumnKind::whole
-                                                                      : SweepColumnKind::text;
-  static SqlValue value(const T& field, Unit unit) {
-    if constexpr (std::is_floating_point_v<T>)
-      return field * unit_shown_per_stored(unit);
-    else if constexpr (std::is_integral_v<T>)
-      return static_cast<std::int64_t>(field);
-    else if constexpr (NamedEnum<T>)
-      return std::string(enum_name(field));
-    else if constexpr (std::is_same_v<T, std::string>)
-      return field;
-    else
-      return json_line(type_of<T>(), unit, &field);
-  }
-};
-template <class T>
-struct Cell<std::optional<T>> {
-  static constexpr SweepColumnKind kind = Cell<T>::kind;
-  static SqlValue value(const std::optional<T>& field, Unit unit) {
-    return field ? Cell<T>::value(*field, unit) : SqlValue{};
-  }
-};
-
-/// Lists the columns and values of a struct with fields, what is nested in it too.
-struct FieldLister {
-  std::vector<SweepColumn>& columns;
-  std::vector<SqlValue>& values;
-  std::string prefix;
-  Role role;
-
-  template <class T>
-  void operator()(const T& field, const FieldInfo& info) {
-    if constexpr (HasFields<T>) {
-      const std::string inner = fmt::format("{}{}_", prefix, info.name);
-      T::fields(field, FieldLister{columns, values, inner, role});
-    } else {
-      std::string name = prefix + std::string(info.name);
-      if (info.unit != Unit::none) name.append("_").append(unit_suffix(info.unit));
-      columns.push_back({std::move(name), Cell<T>::kind, std::string(unit_symbol(info.unit)),
-                         std::string(info.doc), role});
-      values.push_back(Cell<T>::value(field, info.unit));
-    }
-  }
-};
 
 /// Columns and values of a trial's outcome, side by side.
 struct Results {
@@ -89,7 +40,13 @@ Results results_of(const TrialResult& trial) {
   r.add(
       {"arrived", SweepColumnKind::whole, "", "1 when the goal was reached, else 0.", Role::result},
       std::int64_t{run.status == Status::solved});
-  Metrics::fields(run.metrics, FieldLister{r.columns, r.values, "", Role::metric});
+  for (const Column& column : columns_of<Metrics>(ColumnUnits::shown)) {
+    const double value = column.number(&run.metrics);
+    const bool real = column.kind == ColumnKind::real;
+    r.add({column.key, real ? SweepColumnKind::real : SweepColumnKind::whole,
+           std::string(unit_symbol(column.unit)), column.doc, Role::metric},
+          real ? SqlValue{value} : SqlValue{static_cast<std::int64_t>(value)});
+  }
   const TimeSummary planning = summarise(run.timing.planning);
   const TimeSummary steps = summarise(run.timing.steps);
   r.add_seconds("planning_mean_s", "Wall clock: a step in which it planned, on average.",

@@ -8,7 +8,7 @@
 #include "microswarm/core/fields.hpp"
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/version.hpp"
-#include "microswarm/experiment/record/hdf5_image.hpp"
+#include "microswarm/io/hdf5_image.hpp"
 
 namespace microswarm {
 namespace {

@@ -5,51 +5,51 @@
 
 #include "microswarm/core/hash.hpp"
 #include "microswarm/core/version.hpp"
-#include "microswarm/experiment/record/record_layout.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/io/columns.hpp"
+#include "microswarm/io/tables.hpp"
 
 namespace microswarm {
 
 namespace {
 
+/// Numbers as they are held, so that two records are the same to the bit.
 struct TableHasher {
   Hash& hash;
 
-  template <class Rows>
-  void table(std::string_view, const Rows& rows) {
-    using Row = typename Rows::value_type;
-    hash.value(static_cast<std::uint64_t>(rows.size()));
-    for (const Column<Row>& column : columns_of(static_cast<const Row*>(nullptr)))
-      for (const Row& row : rows)
-        column.kind == ColumnKind::word ? hash.text(column.word(row))
-                                        : hash.value(column.number(row));
+  void table(const std::string&, const ListRef<const void*>& list) const {
+    rows(list, columns_of(list.row_type()));
   }
-  template <class Rows, class Part>
-  void parts(std::string_view group, const Rows& rows, Part part) {
-    for (const auto& row : rows) table(group, part(row));
+  void parts(const std::string&, const ListRef<const void*>& outer, const Field& field) const {
+    const auto columns = columns_of(*field.type->parts[0]);
+    for (std::size_t i = 0; i < outer.size(); ++i) rows(outer.part(i, field), columns);
+  }
+  void rows(const ListRef<const void*>& list, const std::vector<Column>& columns) const {
+    hash.value(static_cast<std::uint64_t>(list.size()));
+    for (const Column& column : columns)
+      for (std::size_t i = 0; i < list.size(); ++i)
+        column.kind == ColumnKind::word ? hash.text(column.word(list.row(i)))
+                                        : hash.value(column.number(list.row(i)));
   }
 };
 
-struct FieldHasher {
-  Hash& hash;
-
-  template <class T>
-  void operator()(const T& value, const FieldInfo&) {
-    if constexpr (HasFields<T>)
-      T::fields(value, *this);
-    else
-      hash.value(value);
+/// Whole numbers as such.
+void hash_metrics(Hash& hash, const Metrics& metrics) {
+  for (const Column& column : columns_of<Metrics>()) {
+    const double value = column.number(&metrics);
+    column.kind == ColumnKind::real ? hash.value(value) : hash.value(static_cast<int>(value));
   }
-};
+}
 
 }  // namespace
+
+template const Type& type_of<Record>();
 
 std::string Record::hash() const {
   Hash hash;
   hash.text(to_string(result.status));
-  FieldHasher fields{hash};
-  Metrics::fields(result.metrics, fields);
-  visit_tables(*this, TableHasher{hash});
+  hash_metrics(hash, result.metrics);
+  visit_tables(type_of<Record>(), static_cast<const void*>(this), TableHasher{hash});
   for (const Change& change : changes) hash.value(change.frame), hash.text(change.setting);
   return hash.hex();
 }

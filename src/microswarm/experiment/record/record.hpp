@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "microswarm/config/type.hpp"
 #include "microswarm/experiment/run/run.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 
@@ -26,10 +27,23 @@ struct Record {
   std::vector<RobotMoment> robots;  ///< of robots that are told apart: a part of the frames
   std::string stated_hash;  ///< what the file it was read from says it is; empty for a new one
 
+  /// The tables.
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.frames, {"frames", Unit::none, {}, "Ticks, and the end."});
+    visit(self.paths, {"paths", Unit::none, {}, "Paths that the navigator followed."});
+    visit(self.plans, {"plans", Unit::none, {}, "Planning events."});
+    visit(self.events, {"events", Unit::none, {}, "What happened, between the ticks too."});
+    visit(self.robots, {"robots", Unit::none, {}, "Where individually tracked robots were."});
+  }
+
   /// Fingerprint of all that is physical: frames, paths, plans, events, status and metrics, and of
   /// the changes, where there are any.
   std::string hash() const;
 };
+
+/// Compiled once, in record.cpp: it describes all that a record holds.
+extern template const Type& type_of<Record>();
 
 /// Keeps a run in memory. Give it to run(), then take the record. Where robots are it keeps at 64
 /// to 128 moments, evenly from the start on, and at the end.

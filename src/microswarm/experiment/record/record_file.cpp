@@ -6,10 +6,10 @@
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
-#include "microswarm/experiment/record/hdf5_image.hpp"
 #include "microswarm/experiment/record/record.hpp"
-#include "microswarm/experiment/record/record_layout.hpp"
 #include "microswarm/experiment/record/record_scene.hpp"
+#include "microswarm/io/hdf5_image.hpp"
+#include "microswarm/io/hdf5_tables.hpp"
 
 namespace microswarm {
 
@@ -18,204 +18,6 @@ namespace {
 constexpr std::string_view record_format_name = "microswarm record";
 constexpr std::int64_t record_format_version = 4;
 constexpr std::int64_t unchanged_format_version = 3;  // of a record in which nothing was changed
-constexpr const char* words_attribute = "words";      // joined by spaces, indexed from 0
-
-std::vector<std::string> split(std::string_view words) {
-  std::vector<std::string> list;
-  for (std::size_t begin = 0; begin < words.size();) {
-    const std::size_t end = std::min(words.find(' ', begin), words.size());
-    list.emplace_back(words.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return list;
-}
-
-struct TableWriter {
-  Hdf5Writer& file;
-
-  template <class Rows>
-  void table(const std::string& group, const Rows& rows) {
-    using Row = typename Rows::value_type;
-    std::vector<const Row*> all;
-    all.reserve(rows.size());
-    for (const Row& row : rows) all.push_back(&row);
-    write(group, all);
-  }
-  template <class Rows, class Part>
-  void parts(const std::string& group, const Rows& rows, Part part) {
-    using Row = typename std::remove_cvref_t<decltype(part(rows.front()))>::value_type;
-    std::vector<const Row*> all;
-    std::vector<std::int64_t> offsets{0};
-    for (const auto& row : rows) {
-      for (const Row& one : part(row)) all.push_back(&one);
-      offsets.push_back(static_cast<std::int64_t>(all.size()));
-    }
-    write(group, all);
-    file.dataset(group + "/offset", offsets);
-    file.attribute(group + "/offset", "description",
-                   "Row i of the table above owns offset[i] to offset[i + 1] - 1, counted from 0.");
-  }
-
- private:
-  template <class Row>
-  void write(const std::string& group, const std::vector<const Row*>& rows) {
-    for (const Column<Row>& column : columns_of(static_cast<const Row*>(nullptr))) {
-      const std::string path = group + "/" + column.key;
-      if (column.kind == ColumnKind::real)
-        write_reals(path, column, rows);
-      else
-        write_integers(path, column, rows);
-      file.attribute(path, "unit", unit_symbol(column.unit));
-      file.attribute(path, "description", column.doc);
-    }
-  }
-  template <class Row>
-  void write_reals(const std::string& path, const Column<Row>& column,
-                   const std::vector<const Row*>& rows) {
-    std::vector<double> values;
-    values.reserve(rows.size());
-    for (const Row* row : rows) values.push_back(column.number(*row));
-    file.dataset(path, values);
-  }
-  template <class Row>
-  void write_integers(const std::string& path, const Column<Row>& column,
-                      const std::vector<const Row*>& rows) {
-    std::vector<std::int64_t> values;
-    values.reserve(rows.size());
-    std::vector<std::string> words;
-    for (const Row* row : rows)
-      values.push_back(column.kind == ColumnKind::word
-                           ? index_of(column.word(*row), words)
-                           : static_cast<std::int64_t>(column.number(*row)));
-    file.dataset(path, values);
-    if (column.kind != ColumnKind::word) return;
-    std::string joined;
-    for (const std::string& word : words) joined += (joined.empty() ? "" : " ") + word;
-    file.attribute(path, words_attribute, joined);
-  }
-  static std::int64_t index_of(const std::string& word, std::vector<std::string>& words) {
-    auto found = std::find(words.begin(), words.end(), word);
-    if (found == words.end()) found = words.insert(words.end(), word);
-    return found - words.begin();
-  }
-};
-
-struct TableReader {
-  const Hdf5Reader& file;
-
-  template <class Rows>
-  void table(const std::string& group, Rows& rows) {
-    using Row = typename Rows::value_type;
-    bool first = true;
-    for (const Column<Row>& column : columns_of(static_cast<const Row*>(nullptr))) {
-      const std::string path = group + "/" + column.key;
-      const auto set = column.kind == ColumnKind::real      ? reals(path, column)
-                       : column.kind == ColumnKind::integer ? integers(path, column)
-                                                            : words(path, column);
-      if (first) rows.resize(set.size);
-      first = false;
-      if (set.size != rows.size()) file.fail(path + " is not as long as its table");
-      for (std::size_t i = 0; i < rows.size(); ++i) set.into(rows[i], i);
-    }
-  }
-  template <class Rows, class Part>
-  void parts(const std::string& group, Rows& rows, Part part) {
-    std::remove_cvref_t<decltype(part(rows.front()))> all;
-    table(group, all);
-    const std::vector<std::int64_t> offsets = file.integers(group + "/offset");
-    if (offsets.size() != rows.size() + 1 || offsets.front() != 0 ||
-        offsets.back() != static_cast<std::int64_t>(all.size()) ||
-        !std::is_sorted(offsets.begin(), offsets.end()))
-      file.fail(group + "/offset does not fit its table");
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      part(rows[i]).assign(all.begin() + offsets[i], all.begin() + offsets[i + 1]);
-  }
-
- private:
-  template <class Row>
-  struct Values {
-    std::size_t size;
-    std::function<void(Row&, std::size_t)> into;
-  };
-
-  template <class Row>
-  Values<Row> reals(const std::string& path, const Column<Row>& column) {
-    std::vector<double> values = file.numbers(path);
-    const std::size_t size = values.size();
-    return {size, [set = column.set_number, values = std::move(values)](Row& row, std::size_t i) {
-              set(row, values[i]);
-            }};
-  }
-  template <class Row>
-  Values<Row> integers(const std::string& path, const Column<Row>& column) {
-    const std::vector<std::int64_t> stored = file.integers(path);
-    std::vector<double> values;
-    for (const std::int64_t value : stored) {
-      values.push_back(static_cast<double>(value));
-      if (value < 0 || values.back() > column.max) file.fail(path + " has a value out of range");
-    }
-    return {values.size(),
-            [set = column.set_number, values](Row& row, std::size_t i) { set(row, values[i]); }};
-  }
-  template <class Row>
-  Values<Row> words(const std::string& path, const Column<Row>& column) {
-    const std::vector<std::string> known = split(file.text_attribute(path, words_attribute));
-    std::vector<std::int64_t> values = file.integers(path);
-    for (const std::int64_t value : values)
-      if (value < 0 || value >= static_cast<std::int64_t>(known.size()))
-        file.fail(path + " has a value without a word");
-    const std::size_t size = values.size();
-    return {size, [this, path, known, set = column.set_word, values = std::move(values)](
-                      Row& row, std::size_t i) {
-              if (!set(row, known[static_cast<std::size_t>(values[i])]))
-                file.fail(path + " has an unknown word");
-            }};
-  }
-};
-
-// Angles stand in records as they are held.
-std::string attribute_name(const std::string& prefix, const FieldInfo& info) {
-  const Unit unit = info.unit == Unit::deg ? Unit::rad : info.unit;
-  std::string name = prefix + std::string(info.name);
-  if (unit != Unit::none) name.append("_").append(unit_suffix(unit));
-  return name;
-}
-
-struct MetricsWriter {
-  Hdf5Writer& file;
-  std::string prefix;
-
-  template <class T>
-  void operator()(const T& value, const FieldInfo& info) {
-    if constexpr (HasFields<T>)
-      T::fields(value, MetricsWriter{file, prefix + std::string(info.name) + "_"});
-    else if constexpr (std::is_floating_point_v<T>)
-      file.attribute("/metrics", attribute_name(prefix, info).c_str(), value);
-    else
-      file.attribute("/metrics", attribute_name(prefix, info).c_str(),
-                     static_cast<std::int64_t>(value));
-  }
-};
-
-struct MetricsReader {
-  const Hdf5Reader& file;
-  std::string prefix;
-
-  template <class T>
-  void operator()(T& value, const FieldInfo& info) {
-    const std::string name = attribute_name(prefix, info);
-    if constexpr (HasFields<T>) {
-      T::fields(value, MetricsReader{file, prefix + std::string(info.name) + "_"});
-    } else if constexpr (std::is_floating_point_v<T>) {
-      value = file.number_attribute("/metrics", name.c_str());
-    } else {
-      const std::int64_t stored = file.integer_attribute("/metrics", name.c_str());
-      if (!std::in_range<T>(stored)) file.fail("attribute " + name + " is out of range");
-      value = static_cast<T>(stored);
-    }
-  }
-};
-
 void write_root(Hdf5Writer& out, const Record& record) {
   out.attribute("/", "format", record_format_name);
   out.attribute("/", "format_version",
@@ -238,8 +40,7 @@ void write_times(Hdf5Writer& out, const std::string& path, const std::vector<dou
 }
 
 Status status_of(const Hdf5Reader& in, const std::string& word) {
-  for (int i = 0; i <= static_cast<int>(Status::fault); ++i)
-    if (to_string(static_cast<Status>(i)) == word) return static_cast<Status>(i);
+  if (const auto status = enum_value<Status>(word)) return *status;
   in.fail("attribute status is the unknown word '" + word + "'");
 }
 
@@ -295,10 +96,10 @@ void write_record(const Record& record, const std::filesystem::path& file) {
   Hdf5Writer out;
   write_root(out, record);
   write_scene(out, record.scene);
-  visit_tables(record, TableWriter{out});
+  write_tables(out, type_of<Record>(), &record);
   write_changes(out, record.changes);
   out.group("/metrics");
-  Metrics::fields(record.result.metrics, MetricsWriter{out, ""});
+  write_attributes(out, "/metrics", type_of<Metrics>(), &record.result.metrics);
   write_times(out, "/timing/step_s", record.result.timing.steps,
               "Wall-clock time of the navigator's step, one a tick.");
   write_times(out, "/timing/planning_s", record.result.timing.planning,
@@ -316,10 +117,10 @@ Record read_record(const std::filesystem::path& file) {
   record.trial = static_cast<std::uint32_t>(trial);
   if (in.has_attribute("/", "rig")) record.rig = in.text_attribute("/", "rig");
   record.scene = read_scene(in);
-  visit_tables(record, TableReader{in});
+  read_tables(in, type_of<Record>(), &record);
   if (format == record_format_version) record.changes = read_changes(in);
   record.result.status = status_of(in, in.text_attribute("/", "status"));
-  Metrics::fields(record.result.metrics, MetricsReader{in, ""});
+  read_attributes(in, "/metrics", type_of<Metrics>(), &record.result.metrics);
   record.stated_hash = in.text_attribute("/", "record_hash");
   record.result.timing = {in.numbers("/timing/step_s"), in.numbers("/timing/planning_s")};
   return record;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "microswarm/experiment/record/hdf5_image.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/io/hdf5_image.hpp"
 
 namespace microswarm {
 

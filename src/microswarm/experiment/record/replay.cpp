@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <atomic>
+#include <cstddef>
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/hash.hpp"
 #include "microswarm/core/text.hpp"
 #include "microswarm/experiment/record/record.hpp"
-#include "microswarm/experiment/record/record_layout.hpp"
 #include "microswarm/experiment/run/open_run.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/io/columns.hpp"
+#include "microswarm/io/tables.hpp"
 
 namespace microswarm {
 
@@ -19,28 +22,26 @@ bool same_bits(double a, double b) {
   return first.digest() == second.digest();
 }
 
-/// The first row and quantity in which two tables differ; empty when they do not.
-template <class Rows>
-std::string difference_of(const std::string& row_name, const Rows& stored, const Rows& now) {
-  using Row = typename Rows::value_type;
-  const std::vector<Column<Row>> columns = columns_of(static_cast<const Row*>(nullptr));
+std::string shown(const Column& column, const void* row) {
+  return column.kind == ColumnKind::word ? std::string(column.word(row))
+                                         : number_text(column.number(row));
+}
+
+/// The first row and quantity in which two lists differ; empty when they do not.
+std::string difference_of(const std::string& row_name, const ListRef<const void*>& stored,
+                          const ListRef<const void*>& now) {
+  const std::vector<Column> columns = columns_of(stored.row_type());
+  const bool timed = columns.front().key == "t_s";
   for (std::size_t i = 0; i < std::min(stored.size(), now.size()); ++i) {
-    const auto parted = [&](const Column<Row>& column, const std::string& was,
-                            const std::string& is) {
-      const bool timed = columns.front().key == "t_s";
-      const std::string when =
-          timed ? " (t = " + number_text(columns.front().number(stored[i])) + " s)" : "";
-      return row_name + " " + std::to_string(i) + when + ": " + column.key + " is " + was +
-             " in the record, " + is + " in the replay";
-    };
-    for (const Column<Row>& column : columns) {
-      if (column.kind == ColumnKind::word) {
-        const std::string was = column.word(stored[i]), is = column.word(now[i]);
-        if (was != is) return parted(column, was, is);
-      } else {
-        const double was = column.number(stored[i]), is = column.number(now[i]);
-        if (!same_bits(was, is)) return parted(column, number_text(was), number_text(is));
-      }
+    for (const Column& column : columns) {
+      const bool same = column.kind == ColumnKind::word
+                            ? column.word(stored.row(i)) == column.word(now.row(i))
+                            : same_bits(column.number(stored.row(i)), column.number(now.row(i)));
+      if (same) continue;
+      const std::string when = timed ? " (t = " + columns.front().text(stored.row(i)) + " s)" : "";
+      return row_name + " " + std::to_string(i) + when + ": " + column.key + " is " +
+             shown(column, stored.row(i)) + " in the record, " + shown(column, now.row(i)) +
+             " in the replay";
     }
   }
   if (stored.size() == now.size()) return {};
@@ -50,36 +51,30 @@ std::string difference_of(const std::string& row_name, const Rows& stored, const
 
 /// Goes through the tables of both records side by side.
 struct Comparison {
+  const Record& record;
   const Record& now;
   std::string difference;
 
-  template <class Rows>
-  void table(const std::string& group, const Rows& stored) {
-    if (difference.empty())
-      difference =
-          difference_of(row_name(group), stored, table_of(static_cast<const Rows*>(nullptr)));
+  void table(const std::string& group, const ListRef<const void*>& stored) {
+    if (difference.empty()) difference = difference_of(row_name(group), stored, of_now(stored));
   }
-  template <class Rows, class Part>
-  void parts(const std::string& group, const Rows& stored, Part part) {
-    const Rows& again = table_of(static_cast<const Rows*>(nullptr));
+  void parts(const std::string& group, const ListRef<const void*>& stored, const Field& field) {
+    const ListRef<const void*> again = of_now(stored);
     for (std::size_t i = 0; i < stored.size() && difference.empty(); ++i)
       difference = difference_of(group.substr(1) + " " + std::to_string(i) + ", row",
-                                 part(stored[i]), part(again[i]));
+                                 stored.part(i, field), again.part(i, field));
   }
 
  private:
   static std::string row_name(const std::string& group) {
     return group.substr(1, group.size() - 2);  // "/frames" → "frame"
   }
-  const std::vector<Frame>& table_of(const std::vector<Frame>*) const { return now.frames; }
-  const std::vector<PathChange>& table_of(const std::vector<PathChange>*) const {
-    return now.paths;
+  /// The list of the other record that stands where this one does.
+  ListRef<const void*> of_now(const ListRef<const void*>& stored) const {
+    const auto offset =
+        static_cast<const std::byte*>(stored.value) - reinterpret_cast<const std::byte*>(&record);
+    return {stored.type, reinterpret_cast<const std::byte*>(&now) + offset};
   }
-  const std::vector<PlanEvent>& table_of(const std::vector<PlanEvent>*) const { return now.plans; }
-  const std::vector<RobotMoment>& table_of(const std::vector<RobotMoment>*) const {
-    return now.robots;
-  }
-  const std::vector<RunEvent>& table_of(const std::vector<RunEvent>*) const { return now.events; }
 };
 
 /// Ends a replay where the record was stopped, and when the caller stops.
@@ -134,29 +129,13 @@ class Changes : public RunListener {
   std::string refused_;
 };
 
-using Numbers = std::vector<std::pair<std::string, double>>;
-
-struct NumbersOf {
-  Numbers& numbers;
-  std::string prefix;
-
-  template <class T>
-  void operator()(const T& value, const FieldInfo& info) {
-    if constexpr (HasFields<T>)
-      T::fields(value, NumbersOf{numbers, prefix + std::string(info.name) + "."});
-    else
-      numbers.emplace_back(prefix + std::string(info.name), static_cast<double>(value));
-  }
-};
-
 std::string difference_of(const Metrics& stored, const Metrics& now) {
-  Numbers was, is;
-  Metrics::fields(stored, NumbersOf{was, ""});
-  Metrics::fields(now, NumbersOf{is, ""});
-  for (std::size_t i = 0; i < was.size(); ++i)
-    if (!same_bits(was[i].second, is[i].second))
-      return "metrics: " + was[i].first + " is " + number_text(was[i].second) + " in the record, " +
-             number_text(is[i].second) + " in the replay";
+  for (const Column& column : columns_of<Metrics>()) {
+    const double was = column.number(&stored), is = column.number(&now);
+    if (!same_bits(was, is))
+      return "metrics: " + column.key + " is " + number_text(was) + " in the record, " +
+             number_text(is) + " in the replay";
+  }
   return {};
 }
 
@@ -174,8 +153,8 @@ ReplayResult replay(const Record& record, const Stop& stop) {
   const Record now = recorder.take();
   if (ending.stopped()) return {.identical = false, .stopped = true, .difference = {}};
 
-  Comparison comparison{now, changes.refused()};
-  visit_tables(record, comparison);
+  Comparison comparison{record, now, changes.refused()};
+  visit_tables(type_of<Record>(), static_cast<const void*>(&record), comparison);
   std::string difference = std::move(comparison.difference);
   if (difference.empty() && record.result.status != now.result.status)
     difference = "status is " + std::string(to_string(record.result.status)) + " in the record, " +

@@ -31,24 +31,70 @@ struct Frame {
   std::optional<Vec2> target;     ///< the navigator's local target
   NavigatorState state = NavigatorState::hold;  ///< what the navigator does
   bool planned = false;                         ///< a planning event
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.t, {"t", Unit::s, {}, "When the tick begins."});
+    visit(self.pose.position.x, {"x", Unit::um, {}, "The swarm's centre at t, to the right."});
+    visit(self.pose.position.y, {"y", Unit::um, {}, "The swarm's centre at t, upwards."});
+    visit(self.pose.heading, {"heading", Unit::rad, {}, "The swarm's heading at t."});
+    visit(self.radius, {"radius", Unit::um, {}, "The swarm's radius at t; of robots 0."});
+    visit(self.speed, {"speed", Unit::um_per_s, {}, "The swarm's speed at t."});
+    visit(self.seen, {"seen", Unit::s, {}, "When the navigator's camera frame was taken."});
+    visit(self.observed, {"observed", Unit::none, {}, "The swarm in that camera frame."});
+    visit(self.command.heading, {"command_heading", Unit::rad, {}, "Heading that was commanded."});
+    visit(self.command.speed,
+          {"command_speed", Unit::um_per_s, {}, "Speed that was commanded; 0 is hold."});
+    visit(self.goal_distance,
+          {"goal_distance", Unit::um, {}, "Distance left to the goal; of robots as in metrics."});
+    visit(self.wall_clearance,
+          {"wall_clearance", Unit::um, {}, "From the centre to walls; infinite for robots."});
+    visit(self.obstacle_clearance,
+          {"obstacle_clearance", Unit::um, {}, "From the centre to moving bodies, or infinite."});
+    visit(self.avoidance_cost, {"avoidance_cost", Unit::none, {}, "δ at t, Eq 4 [radar]."});
+    visit(self.target, {"target", Unit::um, {}, "The navigator's local target."});
+    visit(self.state, {"state", Unit::none, {}, "State of the navigator; end in the last frame."});
+    visit(self.planned, {"planned", Unit::none, {}, "1 for a planning event, else 0."});
+  }
 };
 
 /// A path that the navigator began to follow; it follows it until the next one.
 struct PathChange {
   double t = 0;  ///< [s]
   std::vector<Vec2> path;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.t, {"t", Unit::s, {}, "When the navigator began to follow it."});
+    visit(self.path, {"points", Unit::um, {}, "The path."});
+  }
 };
 
 /// Where robots that are told apart are.
 struct RobotMoment {
   double t = 0;  ///< [s]
   std::vector<Vec2> places;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.t, {"t", Unit::s, {}, "When the robots were there."});
+    visit(self.places, {"places", Unit::um, {}, "Position of each robot."});
+  }
 };
 
 /// A planning event: what the local planner returned, its tree and detection circles included.
 struct PlanEvent {
   double t = 0;  ///< [s]
   Plan plan;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.t, {"t", Unit::s, {}, "When it planned."});
+    visit(self.plan.status, {"status", Unit::none, {}, "How the planner ended."});
+    visit(self.plan.counts.iterations,
+          {"iterations", Unit::none, {}, "Iterations of the planner."});
+    visit(self.plan.counts.samples, {"samples", Unit::none, {}, "Samples that it drew."});
+    visit(self.plan.counts.edge_checks, {"edge_checks", Unit::none, {}, "Edges that it checked."});
+    visit(self.plan.path, {"path", Unit::um, {}, "The path that it found."});
+    visit(self.plan.tree, {"tree", Unit::none, {}, "Its tree."});
+    visit(self.plan.detections, {"detections", Unit::none, {}, "Its detection circles."});
+  }
 };
 
 /// A value of the scenario that was changed between two ticks.
@@ -77,6 +123,16 @@ struct RunEvent {
   double clearance = 0;    ///< of the centre at t [µm]
   double speed = 0;        ///< of the swarm at t [µm/s]: 0 when it was run into while holding
   std::uint32_t body = 0;  ///< wall piece or obstacle that was touched
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.t, {"t", Unit::s, {}, "When it happened, between the ticks too."});
+    visit(self.kind, {"kind", Unit::none, {}, "What happened."});
+    visit(self.position.x, {"x", Unit::um, {}, "The swarm's centre then, to the right."});
+    visit(self.position.y, {"y", Unit::um, {}, "The swarm's centre then, upwards."});
+    visit(self.clearance, {"clearance", Unit::um, {}, "From the centre, of a contact."});
+    visit(self.speed, {"speed", Unit::um_per_s, {}, "The swarm's speed then."});
+    visit(self.body, {"body", Unit::none, {}, "What was touched; 4294967295 is the border."});
+  }
 };
 
 }  // namespace microswarm

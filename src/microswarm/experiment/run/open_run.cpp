@@ -60,8 +60,9 @@ std::unique_ptr<Navigator> OpenRun::made() const {
                         Rng(scenario_.seed, Purpose::planner, trial_));
 }
 
-Issues OpenRun::change(const std::string& setting) {
+Issues OpenRun::change(const std::string& wanted) {
   Issues issues;
+  const std::string setting = current_key(wanted, moved_keys_of<Scenario>());
   const std::string key = setting.substr(0, setting.find_first_of(".="));
   if (std::ranges::find(changeable, key) == changeable.end())
     issues.add(key, key + " cannot be changed while the experiment runs");

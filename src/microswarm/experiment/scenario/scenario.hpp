@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -28,6 +29,7 @@ struct SensingParams {
   double obstacle_noise = 0;
   double obstacle_missed_share = 0;
   double obstacle_memory = 0.5;
+  double frame_timeout = 0.5;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.observation_delay,
@@ -48,6 +50,8 @@ struct SensingParams {
                                  Unit::s,
                                  {0, 60},
                                  "An obstacle that is not found goes on as seen for so long."});
+    visit(self.frame_timeout,
+          {"frame_timeout", Unit::s, {0, 60}, "The navigator holds when a frame is older."});
   }
 };
 
@@ -72,6 +76,9 @@ struct Scenario {
   bool stop_at_contact = true;
   std::optional<double> detection_range;
   std::uint64_t seed = 1;
+  /// Keys of earlier versions.
+  static constexpr std::array<MovedKey, 1> moved_keys{
+      {{"navigator.frame_timeout_s", "sensing.frame_timeout_s"}}};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.name, {"name", Unit::none, {}, "What the run is called."});

@@ -143,7 +143,8 @@ Task task_of(const Scenario& scenario) {
           .robots = scenario.robots,
           .goal = scenario.goal,
           .goal_tolerance = scenario.goal_tolerance,
-          .tick = scenario.tick};
+          .tick = scenario.tick,
+          .frame_timeout = scenario.sensing.frame_timeout};
 }
 
 }  // namespace microswarm

@@ -16,12 +16,12 @@ namespace {
 // A navigator that takes what it sees for too old holds for ever.
 Issues validate_sensing(const Scenario& scenario) {
   Issues issues;
-  const double timeout = frame_timeout_of(scenario.navigator);
+  const double timeout = scenario.sensing.frame_timeout;
   const double delay = scenario.sensing.observation_delay;
   if (delay > timeout)
-    issues.add({"sensing.observation_delay_s", "navigator.frame_timeout_s"},
+    issues.add({"sensing.observation_delay_s", "sensing.frame_timeout_s"},
                fmt::format("sensing.observation_delay_s is {:.4g}, more than "
-                           "navigator.frame_timeout_s, {:.4g}: every frame would be too old",
+                           "sensing.frame_timeout_s, {:.4g}: every frame would be too old",
                            delay, timeout));
   return issues;
 }

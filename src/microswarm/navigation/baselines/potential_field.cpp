@@ -37,9 +37,9 @@ Vec2 nearest_of(const Body& body, Vec2 p) {
 
 PotentialFieldNavigator::PotentialFieldNavigator(const PotentialFieldParams& params,
                                                  const SwarmLimits& swarm, Vec2 goal,
-                                                 double goal_tolerance)
+                                                 double goal_tolerance, double frame_timeout)
     : params_(params),
-      helm_(swarm, params.speed, goal, goal_tolerance, params.frame_timeout),
+      helm_(swarm, params.speed, goal, goal_tolerance, frame_timeout),
       guide_(params.guide, goal),
       tracker_(params.tracker) {}
 

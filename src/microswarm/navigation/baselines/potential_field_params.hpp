@@ -23,7 +23,6 @@ struct PotentialFieldParams {
   double least_force = 0.05;
   double margin = 10;
   Guide guide = Guide::route;
-  double frame_timeout = 0.5;
   ObstacleTrackerParams tracker;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -40,8 +39,6 @@ struct PotentialFieldParams {
           {"least_force", Unit::none, {0, 1}, "Stuck, and at rest, under a lesser force."});
     visit(self.margin, {"margin", Unit::um, {0, 1e5}, "Gaps begin so far from the swarm's edge."});
     visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight, or route."});
-    visit(self.frame_timeout,
-          {"frame_timeout", Unit::s, {0, 60}, "Hold when the newest frame is older than this."});
     visit(self.tracker, {"tracker", Unit::none, {}, "How the obstacles' motion is told."});
   }
 };

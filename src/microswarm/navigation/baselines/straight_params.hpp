@@ -13,7 +13,6 @@ struct StraightParams {
   double speed = 60;
   double stop_distance = 100;
   double margin = 10;
-  double frame_timeout = 0.5;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Speed asked for."});
@@ -23,8 +22,6 @@ struct StraightParams {
            {0, 1e5},
            "Stop while a wall or an obstacle is so near ahead, from edge to edge."});
     visit(self.margin, {"margin", Unit::um, {0, 1e5}, "Kept beside the swarm's edge."});
-    visit(self.frame_timeout,
-          {"frame_timeout", Unit::s, {0, 60}, "Hold when the newest frame is older than this."});
   }
 };
 

@@ -52,9 +52,9 @@ bool along_the_way(Pose2 pose, const Command& command, double turn_rate, double 
 
 VelocityObstacleNavigator::VelocityObstacleNavigator(const VelocityObstacleParams& params,
                                                      const SwarmLimits& swarm, Vec2 goal,
-                                                     double goal_tolerance)
+                                                     double goal_tolerance, double frame_timeout)
     : params_(params),
-      helm_(swarm, params.speed, goal, goal_tolerance, params.frame_timeout),
+      helm_(swarm, params.speed, goal, goal_tolerance, frame_timeout),
       guide_(params.guide, goal),
       tracker_(params.tracker) {
   rank_choices();

@@ -22,7 +22,6 @@ struct VelocityObstacleParams {
   double margin = 10;
   double urgency = 200;
   Guide guide = Guide::route;
-  double frame_timeout = 0.5;
   ObstacleTrackerParams tracker;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -41,8 +40,6 @@ struct VelocityObstacleParams {
            "Where no velocity will do: the least of urgency / time to contact + distance to the "
            "preferred velocity is taken."});
     visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight, or route."});
-    visit(self.frame_timeout,
-          {"frame_timeout", Unit::s, {0, 60}, "Hold when the newest frame is older than this."});
     visit(self.tracker, {"tracker", Unit::none, {}, "How the obstacles' motion is told."});
   }
 };

@@ -7,9 +7,9 @@
 namespace microswarm {
 
 PathNavigator::PathNavigator(const PathNavigatorParams& params, const SwarmLimits& swarm, Vec2 goal,
-                             double goal_tolerance)
+                             double goal_tolerance, double frame_timeout)
     : params_(params),
-      helm_(swarm, params.speed, goal, goal_tolerance, params.frame_timeout),
+      helm_(swarm, params.speed, goal, goal_tolerance, frame_timeout),
       follower_(params.follower, swarm),
       path_{goal} {
   path_.insert(path_.begin(), params.path.begin(), params.path.end());
@@ -29,7 +29,7 @@ NavigatorView PathNavigator::view() const {
 }
 
 Command PathNavigator::step(const Observation& seen, const Stop&) {
-  if (sees_swarm(seen, params_.frame_timeout)) follower_.see(seen, helm_.forecast());
+  if (helm_.sees_swarm(seen)) follower_.see(seen, helm_.forecast());
   const Pose2* pose = helm_.begin(seen);
   if (!pose) return helm_.rest();
   if (path_.size() < 2) path_.insert(path_.begin(), seen.swarm->pose.position);

@@ -20,7 +20,6 @@ struct PathNavigatorParams {
   FollowerParams follower;
   double horizon = 1;
   double margin = 10;
-  double frame_timeout = 0.5;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.path,
@@ -32,8 +31,6 @@ struct PathNavigatorParams {
     visit(self.horizon,
           {"horizon", Unit::s, {0.1, 10}, "Hold when something stands in the way of so long."});
     visit(self.margin, {"margin", Unit::um, {0, 1e5}, "Kept beside the swarm's edge."});
-    visit(self.frame_timeout,
-          {"frame_timeout", Unit::s, {0, 60}, "Hold when the newest frame is older than this."});
   }
 };
 

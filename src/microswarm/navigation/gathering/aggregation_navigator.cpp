@@ -9,12 +9,14 @@ namespace microswarm {
 
 AggregationNavigator::AggregationNavigator(const AggregationParams& params,
                                            const RobotSwarmParams& robots, Vec2 goal,
-                                           double goal_tolerance, double tick, Rng rng)
+                                           double goal_tolerance, double tick, Rng rng,
+                                           double frame_timeout)
     : params_(params),
       robots_(robots),
       goal_(goal),
       goal_tolerance_(goal_tolerance),
       tick_(tick),
+      frame_timeout_(frame_timeout),
       rng_(rng) {}
 
 void AggregationNavigator::prepare(const Snapshot& world) {
@@ -30,7 +32,7 @@ void AggregationNavigator::prepare(const Snapshot& world) {
 
 Command AggregationNavigator::step(const Observation& seen, const Stop& stop) {
   view_ = {};
-  if (seen.robots.empty() || seen.age() > params_.frame_timeout)
+  if (seen.robots.empty() || seen.age() > frame_timeout_)
     return issue(seen.now, {}, NavigatorState::blind);
   const Robots robots = forecast_->at_effect(seen);
   const std::optional<Vec2> move =

@@ -18,7 +18,8 @@ class AggregationNavigator : public Navigator {
   /// `robots`: what is known of them; `tick` [s] between two commands. It goes on until the mean
   /// way is at most half of the task's `goal_tolerance` [µm], however that is measured there.
   AggregationNavigator(const AggregationParams& params, const RobotSwarmParams& robots, Vec2 goal,
-                       double goal_tolerance, double tick, Rng rng);
+                       double goal_tolerance, double tick, Rng rng,
+                       double frame_timeout = usual_frame_timeout);
 
   /// Grows the tree. Throws InputError as AggregationMap does.
   void prepare(const Snapshot& world) override;
@@ -37,6 +38,7 @@ class AggregationNavigator : public Navigator {
   Vec2 goal_;
   double goal_tolerance_;
   double tick_;
+  double frame_timeout_;  ///< [s]
   Rng rng_;
   std::optional<RobotForecast> forecast_;
   std::optional<AggregationMap> ground_;

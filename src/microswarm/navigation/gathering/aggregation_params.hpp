@@ -51,7 +51,6 @@ struct AggregationParams {
   double discount = 0.3;
   double discount_length = 5;
   int patience = 2;
-  double frame_timeout = 0.5;
   RolloutParams rollout;
   ObstacleWeightedRrtParams tree;
   MapSegmentationParams segmentation;
@@ -93,8 +92,6 @@ struct AggregationParams {
                           Unit::none,
                           {1, 1000},
                           "Longest ways without progress after which any robot may lead."});
-    visit(self.frame_timeout,
-          {"frame_timeout", Unit::s, {0, 60}, "Hold when the newest frame is older than this."});
     visit(self.rollout, {"rollout", Unit::none, {}, "How a plan is made better."});
     visit(self.tree, {"tree", Unit::none, {}, "Tree and weights."});
     visit(self.segmentation, {"segmentation", Unit::none, {}, "Regions and branches."});

@@ -8,8 +8,8 @@
 namespace microswarm {
 
 PlanPlayer::PlanPlayer(const PlanPlayerParams& params, const RobotSwarmParams& robots,
-                       double goal_tolerance, double tick, Rng rng)
-    : params_(params), swarm_(robots), tick_(tick), rng_(rng) {
+                       double goal_tolerance, double tick, Rng rng, double frame_timeout)
+    : params_(params), swarm_(robots), tick_(tick), frame_timeout_(frame_timeout), rng_(rng) {
   params_.planner.goal_tolerance = goal_tolerance;
   params_.planner.contact = robots.contact;
 }
@@ -20,7 +20,7 @@ void PlanPlayer::prepare(const Snapshot& world) {
 
 Command PlanPlayer::step(const Observation& seen, const Stop& stop) {
   view_ = {};
-  if (seen.robots.size() != swarm_.goals.size() || seen.age() > params_.frame_timeout)
+  if (seen.robots.size() != swarm_.goals.size() || seen.age() > frame_timeout_)
     return issue(seen.now, {}, NavigatorState::blind);
   const Robots robots = forecast_->at_effect(seen);
   if (met(robots)) {

@@ -21,7 +21,6 @@ struct PlanPlayerParams {
   static constexpr std::string_view type_name = "plan_player";
   double stray = 3;
   int rejoin_candidates = 64;
-  double frame_timeout = 0.5;
   double retry_time = 10;
   GlobalSearchParams planner = limited();
   template <class Self, class V>
@@ -33,8 +32,6 @@ struct PlanPlayerParams {
            Unit::none,
            {0, 1e6},
            "Places of the plan, the nearest ones, at which joining it again is tried."});
-    visit(self.frame_timeout,
-          {"frame_timeout", Unit::s, {0, 60}, "Hold when the newest frame is older than this."});
     visit(self.retry_time,
           {"retry_time", Unit::s, {0, 1e5}, "Hold for so long after a search that found no plan."});
     visit(self.planner, {"planner", Unit::none, {}, "How inputs are searched."});

@@ -48,11 +48,12 @@ Issues validate(const HierarchicalParams& params, const IsGiven& is_given) {
 
 HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params,
                                              const SwarmLimits& swarm, Vec2 goal,
-                                             double goal_tolerance, Rng rng)
+                                             double goal_tolerance, Rng rng, double frame_timeout)
     : params_(params.in_effect()),
       swarm_(swarm),
       goal_(goal),
       goal_tolerance_(goal_tolerance),
+      frame_timeout_(frame_timeout),
       aim_{.position = goal, .tolerance = goal_tolerance},
       rng_(rng),
       forecast_(swarm),
@@ -93,7 +94,7 @@ Command HierarchicalNavigator::issue(double now, Command command, NavigatorState
 
 // Algorithm 4 [drrt], one pass of its loop
 Command HierarchicalNavigator::decide(const Observation& seen, const Stop& stop) {
-  if (!sees_swarm(seen, params_.frame_timeout)) return issue(seen.now, {}, NavigatorState::blind);
+  if (!sees_swarm(seen, frame_timeout_)) return issue(seen.now, {}, NavigatorState::blind);
   follower_.see(seen, forecast_);
   pose_ = forecast_.at_effect(seen);
   const Command hold{pose_.heading, 0};

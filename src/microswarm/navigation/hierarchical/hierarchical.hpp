@@ -27,7 +27,7 @@ class HierarchicalNavigator : public Navigator {
  public:
   /// `swarm` is what is known of the swarm: radius, turning limit and dead time.
   HierarchicalNavigator(const HierarchicalParams& params, const SwarmLimits& swarm, Vec2 goal,
-                        double goal_tolerance, Rng rng);
+                        double goal_tolerance, Rng rng, double frame_timeout = usual_frame_timeout);
 
   void prepare(const Snapshot& world) override;
   Command step(const Observation& observation, const Stop& stop) override;
@@ -70,7 +70,8 @@ class HierarchicalNavigator : public Navigator {
   SwarmLimits swarm_;
   Vec2 goal_;
   double goal_tolerance_;
-  Aim aim_;  ///< the goal, or the point within its tolerance that keeps the margin
+  double frame_timeout_;  ///< [s]
+  Aim aim_;               ///< the goal, or the point within its tolerance that keeps the margin
   Rng rng_;
   Route route_;
   double slack_ = 1;     ///< kept besides the margin, for what happens within a tick [µm]

@@ -72,7 +72,6 @@ struct HierarchicalParams {
   bool as_published = false;
   Guide guide = Guide::route;
   double route_cell = 20;
-  double frame_timeout = 0.5;
   ObstacleTrackerParams tracker;
   LocalTargetParams target;
   DrrtStarParams planner = local_planner();
@@ -99,8 +98,6 @@ struct HierarchicalParams {
           {"as_published", Unit::none, {}, "Algorithm 4 alone: what is ours is left out."});
     visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight, or route."});
     visit(self.route_cell, {"route_cell", Unit::um, {1e-2, 1e5}, "Grid spacing of the route."});
-    visit(self.frame_timeout,
-          {"frame_timeout", Unit::s, {0, 60}, "Hold when the newest frame is older than this."});
     visit(self.tracker, {"tracker", Unit::none, {}, "Estimation of the obstacles' motion."});
     visit(self.target, {"target", Unit::none, {}, "Local target selection."});
     visit(self.planner, {"planner", Unit::none, {}, "Local planner."});

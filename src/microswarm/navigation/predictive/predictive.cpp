@@ -43,9 +43,10 @@ double distance_to(const ConvexOutline& outline, Vec2 a, Vec2 b, double near) {
 }  // namespace
 
 PredictiveNavigator::PredictiveNavigator(const PredictiveParams& params, const SwarmLimits& swarm,
-                                         Vec2 goal, double goal_tolerance, Rng)
+                                         Vec2 goal, double goal_tolerance, Rng,
+                                         double frame_timeout)
     : params_(params),
-      helm_(swarm, params.speed, goal, goal_tolerance, params.frame_timeout),
+      helm_(swarm, params.speed, goal, goal_tolerance, frame_timeout),
       goal_tolerance_(goal_tolerance),
       reached_{goal, inner_goal * goal_tolerance},
       radius_(swarm.radius + params.margin),

@@ -44,7 +44,6 @@ struct PredictiveParams {
   ForesightParams foresight;
   Guide guide = Guide::route;
   double route_cell = 20;
-  double frame_timeout = 0.5;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Speed asked for."});
@@ -57,8 +56,6 @@ struct PredictiveParams {
     visit(self.foresight, {"foresight", Unit::none, {}, "How obstacles are foreseen."});
     visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight, or route."});
     visit(self.route_cell, {"route_cell", Unit::um, {1e-2, 1e5}, "Grid spacing of the route."});
-    visit(self.frame_timeout,
-          {"frame_timeout", Unit::s, {0, 60}, "Hold when the newest frame is older than this."});
   }
 };
 

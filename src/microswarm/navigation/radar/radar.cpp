@@ -19,12 +19,13 @@ constexpr double usual_tick = 0.1;   // [s]
 }  // namespace
 
 RadarNavigator::RadarNavigator(const RadarParams& params, const SwarmLimits& swarm, Vec2 goal,
-                               double goal_tolerance, Rng rng)
+                               double goal_tolerance, Rng rng, double frame_timeout)
     : params_(params.in_effect()),
       swarm_(swarm),
       goal_(goal),
       aim_{.position = goal, .tolerance = goal_tolerance},
       goal_tolerance_(goal_tolerance),
+      frame_timeout_(frame_timeout),
       rng_(rng),
       safety_radius_(params.safety_radius),
       forecast_(swarm),
@@ -60,7 +61,7 @@ Command RadarNavigator::guarded(const Command& command, const Observation& seen)
   if (look_) {
     sighted_ = seen.seen;
     sighting_ = seen.swarm;
-  } else if (sighting_ && seen.now - sighted_ <= params_.frame_timeout) {
+  } else if (sighting_ && seen.now - sighted_ <= frame_timeout_) {
     pose_ = forecast_.at_effect(
         {.now = seen.now, .seen = sighted_, .swarm = sighting_, .robots = {}, .world = seen.world});
   } else {
@@ -77,7 +78,7 @@ Command RadarNavigator::guarded(const Command& command, const Observation& seen)
 }
 
 Command RadarNavigator::decide(const Observation& seen, const Stop& stop) {
-  if (!sees_swarm(seen, params_.frame_timeout) || !(seen.swarm->radius > 0))
+  if (!sees_swarm(seen, frame_timeout_) || !(seen.swarm->radius > 0))
     return issue({}, NavigatorState::blind);
   pose_ = params_.compensate_delay ? forecast_.at_effect(seen) : seen.swarm->pose;
   if (!seen.world->is_free(pose_.position, 0)) return issue({}, NavigatorState::hold);

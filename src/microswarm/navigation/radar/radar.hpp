@@ -26,7 +26,7 @@ class RadarNavigator : public Navigator {
  public:
   /// `params` passed `check`; `swarm` is what is known of the swarm.
   RadarNavigator(const RadarParams& params, const SwarmLimits& swarm, Vec2 goal,
-                 double goal_tolerance, Rng rng);
+                 double goal_tolerance, Rng rng, double frame_timeout = usual_frame_timeout);
 
   void prepare(const Snapshot& world) override;
   Command step(const Observation& observation, const Stop& stop) override;
@@ -53,6 +53,7 @@ class RadarNavigator : public Navigator {
   Vec2 goal_;
   Aim aim_;  ///< the goal, or the point within its tolerance that keeps the safety distance
   double goal_tolerance_;
+  double frame_timeout_;  ///< [s]
   Rng rng_;
   SafetyRadius safety_radius_;
   BodyForecast forecast_;

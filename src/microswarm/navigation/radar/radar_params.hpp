@@ -36,7 +36,6 @@ struct RadarParams {
   double waypoint_tolerance = 50;
   bool global_plan = false;
   FmtStarParams planner;
-  double frame_timeout = 0.5;
   bool as_published = false;
 
   /// These, or with `as_published` the same without what is ours.
@@ -95,8 +94,6 @@ struct RadarParams {
                              {},
                              "Plan waypoints round the walls, else straight to the goal."});
     visit(self.planner, {"planner", Unit::none, {}, "Planner of the waypoints."});
-    visit(self.frame_timeout,
-          {"frame_timeout", Unit::s, {0, 60}, "Hold when the newest frame is older than this."});
     visit(self.as_published,
           {"as_published",
            Unit::none,

@@ -33,7 +33,7 @@ double Helm::wall_clearance(double wanted, Vec2 p, double reach) const {
 const Pose2* Helm::begin(const Observation& seen) {
   view_ = {};
   now_ = seen.now;
-  if (!sees_swarm(seen, frame_timeout_)) {
+  if (!sees_swarm(seen)) {
     why_rest_ = NavigatorState::blind;
     return nullptr;
   }

@@ -24,11 +24,15 @@ bool sees_swarm(const Observation& seen, double frame_timeout);
 class Helm {
  public:
   Helm(const SwarmLimits& swarm, double speed, Vec2 goal, double goal_tolerance,
-       double frame_timeout);
+       double frame_timeout = usual_frame_timeout);
 
   /// Once, before the first step: where to head for, `least` and if it can `wanted` [µm] away from
   /// the map's walls (see aim_at).
   void prepare(const Snapshot& world, double least, double wanted);
+  /// As above, by its own limit.
+  bool sees_swarm(const Observation& seen) const {
+    return microswarm::sees_swarm(seen, frame_timeout_);
+  }
   /// Where the swarm will be when the command of this step takes effect; null when it is to rest:
   /// there is none to see ("blind"), or it will be at the goal ("arrived").
   const Pose2* begin(const Observation& seen);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/record/hdf5_image.hpp"
+#include "microswarm/io/hdf5_image.hpp"
 
 #include <hdf5.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/record/hdf5_image.hpp"
+#include "microswarm/io/hdf5_image.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 
-#include "tests/experiment/scenes.hpp"
+#include "tests/files.hpp"
 
 namespace microswarm {
 namespace {
@@ -49,13 +49,14 @@ TEST(Hdf5Image, WhatIsMissingOrOfAnotherKindIsNamed) {
   out.dataset("/numbers", std::vector<double>{1, 2});
   out.attribute("/numbers", "unit", "s");
   const Hdf5Reader in(out.finish(), "x.h5");
-  EXPECT_EQ(error_of([&] { in.numbers("/other"); }), "x.h5: has no dataset /other");
-  EXPECT_EQ(error_of([&] { in.integers("/numbers"); }),
+  EXPECT_EQ(test::error_of([&] { in.numbers("/other"); }), "x.h5: has no dataset /other");
+  EXPECT_EQ(test::error_of([&] { in.integers("/numbers"); }),
             "x.h5: /numbers is no column of numbers of its kind");
-  EXPECT_EQ(error_of([&] { in.text("/numbers"); }), "x.h5: /numbers is no text of fixed length");
-  EXPECT_EQ(error_of([&] { in.number_attribute("/numbers", "unit"); }),
+  EXPECT_EQ(test::error_of([&] { in.text("/numbers"); }),
+            "x.h5: /numbers is no text of fixed length");
+  EXPECT_EQ(test::error_of([&] { in.number_attribute("/numbers", "unit"); }),
             "x.h5: attribute unit at /numbers is of another kind");
-  EXPECT_EQ(error_of([&] { in.text_attribute("/numbers", "name"); }),
+  EXPECT_EQ(test::error_of([&] { in.text_attribute("/numbers", "name"); }),
             "x.h5: has no attribute name at /numbers");
 }
 

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/io/hdf5_tables.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "microswarm/io/columns.hpp"
+#include "microswarm/io/tables.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr const char* words_attribute = "words";  // joined by spaces, indexed from 0
+
+std::vector<std::string> split(std::string_view words) {
+  std::vector<std::string> list;
+  for (std::size_t begin = 0; begin < words.size();) {
+    const std::size_t end = std::min(words.find(' ', begin), words.size());
+    list.emplace_back(words.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return list;
+}
+
+struct TableWriter {
+  Hdf5Writer& file;
+
+  void table(const std::string& group, const ListRef<const void*>& list) {
+    std::vector<const void*> rows;
+    for (std::size_t i = 0; i < list.size(); ++i) rows.push_back(list.row(i));
+    write(group, columns_of(list.row_type()), rows);
+  }
+  void parts(const std::string& group, const ListRef<const void*>& outer, const Field& field) {
+    std::vector<const void*> rows;
+    std::vector<std::int64_t> offsets{0};
+    for (std::size_t i = 0; i < outer.size(); ++i) {
+      const auto part = outer.part(i, field);
+      for (std::size_t k = 0; k < part.size(); ++k) rows.push_back(part.row(k));
+      offsets.push_back(static_cast<std::int64_t>(rows.size()));
+    }
+    write(group, columns_of(*field.type->parts[0], ColumnUnits::held, field.info.unit), rows);
+    file.dataset(group + "/offset", offsets);
+    file.attribute(group + "/offset", "description",
+                   "Row i of the table above owns offset[i] to offset[i + 1] - 1, counted from 0.");
+  }
+
+ private:
+  void write(const std::string& group, const std::vector<Column>& columns,
+             const std::vector<const void*>& rows) {
+    for (const Column& column : columns) {
+      const std::string path = group + "/" + column.key;
+      if (column.kind == ColumnKind::real) {
+        std::vector<double> values;
+        for (const void* row : rows) values.push_back(column.number(row));
+        file.dataset(path, values);
+      } else {
+        write_integers(path, column, rows);
+      }
+      file.attribute(path, "unit", unit_symbol(column.unit));
+      file.attribute(path, "description", column.doc);
+    }
+  }
+  void write_integers(const std::string& path, const Column& column,
+                      const std::vector<const void*>& rows) {
+    std::vector<std::int64_t> values;
+    std::vector<std::string> words;
+    for (const void* row : rows)
+      values.push_back(column.kind == ColumnKind::word
+                           ? index_of(column.word(row), words)
+                           : static_cast<std::int64_t>(column.number(row)));
+    file.dataset(path, values);
+    if (column.kind != ColumnKind::word) return;
+    std::string joined;
+    for (const std::string& word : words) joined += (joined.empty() ? "" : " ") + word;
+    file.attribute(path, words_attribute, joined);
+  }
+  static std::int64_t index_of(std::string_view word, std::vector<std::string>& words) {
+    auto found = std::find(words.begin(), words.end(), word);
+    if (found == words.end()) found = words.insert(words.end(), std::string(word));
+    return found - words.begin();
+  }
+};
+
+struct TableReader {
+  const Hdf5Reader& file;
+
+  void table(const std::string& group, const ListRef<void*>& list) {
+    read(group, columns_of(list.row_type()), list);
+  }
+  void parts(const std::string& group, const ListRef<void*>& outer, const Field& field) {
+    // All parts are read into the first row's list, then dealt out.
+    const std::vector<std::int64_t> offsets = file.integers(group + "/offset");
+    if (offsets.size() != outer.size() + 1 || offsets.front() != 0 ||
+        !std::is_sorted(offsets.begin(), offsets.end()))
+      file.fail(group + "/offset does not fit its table");
+    const Type& row = *field.type->parts[0];
+    const std::vector<Column> columns = columns_of(row, ColumnUnits::held, field.info.unit);
+    std::vector<void*> rows;
+    const auto size = static_cast<std::size_t>(offsets.back());
+    check_size(group, columns, size);
+    for (std::size_t i = 0; i < outer.size(); ++i) {
+      const auto part = outer.part(i, field);
+      part.resize(static_cast<std::size_t>(offsets[i + 1] - offsets[i]));
+      for (std::size_t k = 0; k < part.size(); ++k) rows.push_back(part.row(k));
+    }
+    for (const Column& column : columns) read(group, column, rows);
+  }
+
+ private:
+  void read(const std::string& group, const std::vector<Column>& columns,
+            const ListRef<void*>& list) {
+    const std::string first = group + "/" + columns.front().key;
+    const std::size_t size = columns.front().kind == ColumnKind::real ? file.numbers(first).size()
+                                                                      : file.integers(first).size();
+    check_size(group, columns, size);
+    list.resize(size);
+    std::vector<void*> rows;
+    for (std::size_t i = 0; i < size; ++i) rows.push_back(list.row(i));
+    for (const Column& column : columns) read(group, column, rows);
+  }
+  /// Before memory is taken for rows that are not there.
+  void check_size(const std::string& group, const std::vector<Column>& columns, std::size_t size) {
+    const std::string path = group + "/" + columns.front().key;
+    const std::size_t found = columns.front().kind == ColumnKind::real ? file.numbers(path).size()
+                                                                       : file.integers(path).size();
+    if (found != size) file.fail(group + "/offset does not fit its table");
+  }
+  void read(const std::string& group, const Column& column, const std::vector<void*>& rows) {
+    const std::string path = group + "/" + column.key;
+    if (column.kind == ColumnKind::real) {
+      const std::vector<double> values = file.numbers(path);
+      check_length(path, values.size(), rows.size());
+      for (std::size_t i = 0; i < rows.size(); ++i) column.set_number(rows[i], values[i]);
+      return;
+    }
+    const std::vector<std::int64_t> values = file.integers(path);
+    check_length(path, values.size(), rows.size());
+    const bool words = column.kind == ColumnKind::word;
+    const std::vector<std::string> known =
+        words ? split(file.text_attribute(path, words_attribute)) : std::vector<std::string>{};
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (words && !std::in_range<std::size_t>(values[i]))
+        file.fail(path + " has a value without a word");
+      if (words && static_cast<std::size_t>(values[i]) >= known.size())
+        file.fail(path + " has a value without a word");
+      if (words && !column.set_word(rows[i], known[static_cast<std::size_t>(values[i])]))
+        file.fail(path + " has an unknown word");
+      if (!words && !column.set_number(rows[i], static_cast<double>(values[i])))
+        file.fail(path + " has a value out of range");
+    }
+  }
+  void check_length(const std::string& path, std::size_t found, std::size_t rows) {
+    if (found != rows) file.fail(path + " is not as long as its table");
+  }
+};
+
+}  // namespace
+
+void write_tables(Hdf5Writer& out, const Type& type, const void* value) {
+  visit_tables(type, value, TableWriter{out});
+}
+
+void read_tables(const Hdf5Reader& in, const Type& type, void* value) {
+  visit_tables(type, value, TableReader{in});
+}
+
+void write_attributes(Hdf5Writer& out, const std::string& group, const Type& type,
+                      const void* value) {
+  for (const Column& column : columns_of(type)) {
+    if (column.kind == ColumnKind::real)
+      out.attribute(group, column.key.c_str(), column.number(value));
+    else
+      out.attribute(group, column.key.c_str(), static_cast<std::int64_t>(column.number(value)));
+  }
+}
+
+void read_attributes(const Hdf5Reader& in, const std::string& group, const Type& type,
+                     void* value) {
+  for (const Column& column : columns_of(type)) {
+    const char* name = column.key.c_str();
+    const double number = column.kind == ColumnKind::real
+                              ? in.number_attribute(group, name)
+                              : static_cast<double>(in.integer_attribute(group, name));
+    if (!column.set_number(value, number)) in.fail("attribute " + column.key + " is out of range");
+  }
+}
+
+}  // namespace microswarm

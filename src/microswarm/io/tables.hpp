@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "microswarm/config/type.hpp"
+#include "microswarm/io/columns.hpp"
+
+namespace microswarm {
+
+/// A described list, behind a pointer. `Pointer` is void* or const void*.
+template <class Pointer>
+struct ListRef {
+  const Type* type;  ///< of the list
+  Pointer value;
+
+  const Type& row_type() const { return *type->parts[0]; }
+  std::size_t size() const { return type->count(value); }
+  Pointer row(std::size_t i) const { return type->part(const_cast<void*>(value_of()), i); }
+  void resize(std::size_t size) const { type->set_count(value, size); }
+  /// The list that a row holds in a field.
+  ListRef part(std::size_t i, const Field& field) const { return {field.type, field.in(row(i))}; }
+
+ private:
+  const void* value_of() const { return value; }
+};
+
+/// Goes through the tables of a described value. A table is a list of rows; where these hold lists
+/// of their own, each is a table of parts:
+///
+///     visit.table(group, list)            // "/plans"
+///     visit.parts(group, list, field)     // "/plans/tree"
+///
+/// field.in(row) is the list that a row of the table above holds.
+template <class Pointer, class Visitor>
+void visit_tables(const Type& type, Pointer value, Visitor&& visit) {
+  for (const Field& field : type.fields) {
+    if (field.type->kind != TypeKind::list) continue;
+    const ListRef<Pointer> list{field.type, field.in(value)};
+    const std::string group = "/" + std::string(field.info.name);
+    visit.table(group, list);
+    for (const Field& inner : list.row_type().fields)
+      if (inner.type->kind == TypeKind::list)
+        visit.parts(group + "/" + std::string(inner.info.name), list, inner);
+  }
+}
+
+}  // namespace microswarm

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/io/columns.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/io/hdf5_tables.hpp"
+#include "microswarm/io/tables.hpp"
+
+namespace microswarm {
+namespace {
+
+enum class Mood { calm, cross };
+constexpr auto enum_names(Mood) {
+  return std::array<std::pair<Mood, std::string_view>, 2>{
+      {{Mood::calm, "calm"}, {Mood::cross, "cross"}}};
+}
+
+struct Inner {
+  double depth = 0;
+  int count = 0;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.depth, {"depth", Unit::um, {}, "How deep."});
+    visit(self.count, {"count", Unit::none, {}, "How many."});
+  }
+};
+
+struct Row {
+  double t = 0;
+  double turn = 0;
+  std::optional<Pose2> seen;
+  std::optional<Vec2> target;
+  Inner inner;
+  Mood mood = Mood::calm;
+  bool is_last = false;
+  std::uint32_t index = 0;
+  std::vector<Vec2> points;
+  std::vector<Inner> parts;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.t, {"t", Unit::s, {}, "When."});
+    visit(self.turn, {"turn", Unit::deg, {}, "Turning."});
+    visit(self.seen, {"seen", Unit::none, {}, "What was seen."});
+    visit(self.target, {"target", Unit::um, {}, "Target."});
+    visit(self.inner, {"inner", Unit::none, {}, "Inside."});
+    visit(self.mood, {"mood", Unit::none, {}, "Mood."});
+    visit(self.is_last, {"is_last", Unit::none, {}, "Last."});
+    visit(self.index, {"index", Unit::none, {}, "Index."});
+    visit(self.points, {"points", Unit::um, {}, "Points."});
+    visit(self.parts, {"parts", Unit::none, {}, "Parts."});
+  }
+};
+
+struct Results {
+  std::vector<Row> rows;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.rows, {"rows", Unit::none, {}, "Rows."});
+  }
+};
+
+Row full_row() {
+  return {.t = 2,
+          .turn = std::numbers::pi / 2,
+          .seen = Pose2{{1, 2}, 0.5},
+          .target = Vec2{3, 4},
+          .inner = {.depth = 5, .count = 6},
+          .mood = Mood::cross,
+          .is_last = true,
+          .index = 7,
+          .points = {{8, 9}, {10, 11}},
+          .parts = {{.depth = 12, .count = 13}}};
+}
+
+const Column& column_of(const std::vector<Column>& columns, std::string_view key) {
+  for (const Column& column : columns)
+    if (column.key == key) return column;
+  throw InputError("no column " + std::string(key));
+}
+
+TEST(Columns, AreTheLeavesOfTheFields) {
+  EXPECT_EQ(csv_head(columns_of<Row>()),
+            "t_s,turn_rad,seen_x_um,seen_y_um,seen_heading_rad,target_x_um,target_y_um,"
+            "inner_depth_um,inner_count,mood,is_last,index");
+  const std::vector<Column> columns = columns_of<Row>();
+  EXPECT_EQ(column_of(columns, "inner_depth_um").doc, "Inside: how deep.");
+  EXPECT_EQ(column_of(columns, "mood").kind, ColumnKind::word);
+  EXPECT_EQ(column_of(columns, "index").kind, ColumnKind::integer);
+  const Row row = full_row();
+  EXPECT_EQ(column_of(columns, "inner_count").number(&row), 6);
+  EXPECT_EQ(column_of(columns_of<Row>(ColumnUnits::shown), "turn_deg").number(&row), 90);
+}
+
+TEST(Columns, WhatIsMissingIsNoNumberAndAnEmptyText) {
+  const std::vector<Column> columns = columns_of<Row>();
+  const Row none;
+  EXPECT_TRUE(std::isnan(column_of(columns, "seen_x_um").number(&none)));
+  EXPECT_EQ(csv_line(columns, &none), "0,0,,,,,,0,0,calm,0,0");
+  Row row;
+  EXPECT_TRUE(column_of(columns, "target_y_um").set_number(&row, std::nan("")));
+  EXPECT_FALSE(row.target);
+  EXPECT_TRUE(column_of(columns, "target_y_um").set_number(&row, 4));
+  EXPECT_EQ(row.target->y, 4);
+}
+
+TEST(Columns, WhatIsOutOfRangeIsRefused) {
+  const std::vector<Column> columns = columns_of<Row>();
+  Row row;
+  EXPECT_FALSE(column_of(columns, "is_last").set_number(&row, 2));
+  EXPECT_FALSE(column_of(columns, "index").set_number(&row, -1));
+  EXPECT_FALSE(column_of(columns, "index").set_number(&row, 4294967296.0));
+  EXPECT_TRUE(column_of(columns, "index").set_number(&row, 4294967295.0));
+  EXPECT_FALSE(column_of(columns, "mood").set_word(&row, "glad"));
+}
+
+TEST(Tables, ComeBackFromHdf5) {
+  Results results;
+  results.rows = {full_row(), Row{}, full_row()};
+  results.rows[2].parts.clear();
+  Hdf5Writer out;
+  write_tables(out, type_of<Results>(), &results);
+  const Hdf5Reader in(out.finish(), "x.h5");
+  Results read;
+  read_tables(in, type_of<Results>(), &read);
+  ASSERT_EQ(read.rows.size(), 3u);
+  EXPECT_EQ(csv_line(columns_of<Row>(), &read.rows[0]),
+            csv_line(columns_of<Row>(), &results.rows[0]));
+  EXPECT_FALSE(read.rows[1].seen);
+  EXPECT_EQ(read.rows[0].points, results.rows[0].points);
+  EXPECT_TRUE(read.rows[1].points.empty());
+  EXPECT_EQ(read.rows[0].parts[0].count, 13);
+  EXPECT_TRUE(read.rows[2].parts.empty());
+}
+
+}  // namespace
+}  // namespace microswarm
