@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/experiment/run/run.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "microswarm/experiment/scenario/experiment.hpp"
 #include "tests/experiment/scenes.hpp"
 
 namespace microswarm {
@@ -73,6 +75,18 @@ TEST(Run, ASwarmThatTurnsSlowlyTouchesNoWall) {
       EXPECT_NE(result.status, Status::collided)
           << trial << ", navigator " << navigator.index() << ", " << result.metrics.time;
     }
+  }
+}
+
+// Waiting for an obstacle to pass must not look better again and again.
+TEST(Run, AWaitForAnObstacleEnds) {
+  const auto file = std::filesystem::path(MICROSWARM_SOURCE_DIR) / "scenarios/first_flight.yaml";
+  for (int speed = 20; speed <= 80; speed += 5) {
+    const Experiment flight =
+        open_experiment(file, {fmt::format("navigator.speed_um_per_s={}", speed)});
+    const RunResult result = simulate(flight.scenario(), flight.world);
+    EXPECT_EQ(result.status, Status::solved) << speed;
+    EXPECT_LT(result.metrics.hold_time, 30) << speed;
   }
 }
 

@@ -179,6 +179,12 @@ Vec2 HierarchicalNavigator::towards(const Map& map) const {
   return via == pose_.position ? aim_.position : via;
 }
 
+// What is beyond the horizon seems free: without an end, a wait would look better for ever.
+double HierarchicalNavigator::most_wait(double now) {
+  if (wait_ && distance(wait_->at, pose_.position) > used_up()) wait_.reset();
+  return params_.target_horizon - (wait_ ? now - wait_->since : 0);
+}
+
 bool HierarchicalNavigator::replan_in_time(const Snapshot& seen, double clearance,
                                            const Stop& stop) {
   if (params_.target_horizon <= 0 || obstacles_.all_rest()) return false;
@@ -199,10 +205,14 @@ bool HierarchicalNavigator::replan_in_time(const Snapshot& seen, double clearanc
                                                .angle_step = params_.target.angle_step,
                                                .turn_weight = params_.planner.smoothness_weight,
                                                .clearance = clearance,
-                                               .horizon = params_.target_horizon},
+                                               .horizon = params_.target_horizon,
+                                               .most_wait = most_wait(seen.time())},
                                               way_from);
   if (!target) return false;
-  if (target->wait > 0) return true;  // without a path it holds
+  if (target->wait > 0) {  // without a path it holds
+    if (!wait_) wait_ = Wait{seen.time(), from};
+    return true;
+  }
   plan_to(Snapshot(seen.shared_map(), seen.time()), target->position, clearance, stop);
   path_in_time_ = true;
   if (!path_holds(seen)) path_ = {from, target->position};

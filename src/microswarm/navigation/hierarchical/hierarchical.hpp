@@ -64,7 +64,14 @@ class HierarchicalNavigator : public Navigator {
   /// So little that it counts as nothing [µm].
   double path_end() const { return std::min(1.0, 0.25 * aim_.tolerance); }
   bool is_used_up();
+  double most_wait(double now);
   Command escape(const Observation& seen);
+
+  /// A wait for an obstacle to pass.
+  struct Wait {
+    double since = 0;  ///< [s]
+    Vec2 at;
+  };
 
   HierarchicalParams params_;
   SwarmLimits swarm_;
@@ -88,6 +95,7 @@ class HierarchicalNavigator : public Navigator {
   double path_clearance_ = 0;
   bool path_in_time_ = false;  ///< was the path chosen among predicted obstacles?
   std::optional<Vec2> target_;
+  std::optional<Wait> wait_;  ///< the newest, until the swarm has left that place
   std::optional<Plan> plan_;
   NavigatorView view_;
 };
