@@ -26,11 +26,11 @@ def name(row):
     return f'{row["figure"]}: {row["quantity"]}'
 
 
-def measured(program, key):
-    """Rows of KEY, without files that are no part of the repository."""
+def measured(program, key, settings=None):
+    """Rows of KEY, without files that are no part of the repository; `settings` of the environment."""
     done = subprocess.run(
         [program, "reproduce", key, "--quick", "--json"],
-        env=os.environ | {"MICROSWARM_DATA": "/nonexistent"},
+        env=os.environ | {"MICROSWARM_DATA": "/nonexistent"} | (settings or {}),
         stdout=subprocess.PIPE,
         check=False,
     )

@@ -9,6 +9,7 @@ from pathlib import Path
 import check_docstrings
 import check_files
 import check_includes
+import check_maths
 import check_rows
 import safety_page
 
@@ -134,6 +135,34 @@ class Files(unittest.TestCase):
         self.assertEqual([], list(check_files.check_text(
             "dev", f"#!/bin/bash\n# {check_files.LICENCE}\n")))
         self.assertEqual(3, len(list(check_files.check_text("a.hpp", "int x;\n" * 500))))
+
+
+class Maths(unittest.TestCase):
+    def lines(self, text):
+        return [int(found.split(":")[1]) for found in check_maths.check_text("a.cpp", text)]
+
+    def test_calls_of_the_c_library(self):
+        self.assertEqual([1, 2, 3, 4, 5, 6, 7, 8, 9], self.lines(
+            "double a = std::sin(x);\n"
+            "double b = 2 * cos(x) + 1;\n"
+            "return exp(x);\n"
+            "auto f = &std::log;\n"
+            "float g = ::atan2f(y, x);\n"
+            "cv::log(even, even);\n"
+            "std::normal_distribution<double> noise;\n"
+            "x = y > hypot(a, b);\n"
+            "f(a, pow(b, 2));\n"))
+
+    def test_exempt(self):
+        self.assertEqual([], self.lines(
+            "double a = maths::sin(x) + std::sqrt(std::abs(y)) + std::fma(a, b, c);\n"
+            "// std::sin(x)\n"
+            'throw Error("std::sin(x)");  /* cos(x)\n tan(x) */\n'
+            "CommandLog& log();\n"
+            "std::vector<int> log(int a);\n"
+            "std::string LogWriter::log(int a) const;\n"
+            "session.log().add(x);\n"
+            "std::log_wrapper::f(x); is_log(x); Eigen::exp_of(x);\n"))
 
 
 class Rows(unittest.TestCase):

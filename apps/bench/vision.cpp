@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "microswarm/core/maths.hpp"
 #include "microswarm/core/rng.hpp"
 #include "microswarm/core/statistics.hpp"
 #include "microswarm/vision/image/mat.hpp"
@@ -53,7 +54,7 @@ Image draw(const std::vector<Vec2>& at_px, Rng& rng) {
       for (int x = std::max(0, static_cast<int>(p.x) - 9);
            x < std::min(width, static_cast<int>(p.x) + 10); ++x)
         grey[static_cast<std::size_t>(y) * width + x] -=
-            depth * std::exp(-0.5 * squared_norm(Vec2{1.0 * x, 1.0 * y} - p) / (spread * spread));
+            depth * maths::exp(-0.5 * squared_norm(Vec2{1.0 * x, 1.0 * y} - p) / (spread * spread));
   Image image{width, height, 1, {}};
   for (const double g : grey)
     image.pixels.push_back(static_cast<std::uint8_t>(std::clamp(std::lround(g), 0L, 255L)));

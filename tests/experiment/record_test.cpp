@@ -34,7 +34,7 @@ TEST(Record, AStraightFlightIsTheSameBitsInEveryBuild) {
   Recorder recorder(scene);
   RunListener* const listeners[] = {&recorder};
   run(scenario, plant, navigator, listeners);
-  EXPECT_EQ(recorder.record().hash(), "f898f36d39703ff6");
+  EXPECT_EQ(recorder.record().hash(), "60fe8e7adc43bf4f");
 }
 
 TEST(Record, TheSmallFlightArrives) { EXPECT_EQ(flight().result.status, Status::solved); }

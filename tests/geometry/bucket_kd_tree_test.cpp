@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "microswarm/core/rng.hpp"
+#include "tests/each_target.hpp"
 
 namespace microswarm {
 namespace {
@@ -60,6 +61,17 @@ float uniform(Rng& rng, std::size_t) { return static_cast<float>(rng.uniform(-15
 TEST(BucketKdTree, UniformPointsInEveryDimension) {
   for (const std::size_t d : {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 15, 16, 17, 31, 64, 128})
     expect_same_as_brute_force(d, 3000, uniform);
+}
+
+TEST(BucketKdTree, VectorsOfEveryWidthFindTheSame) {
+  test::for_each_target([](const char* target) {
+    SCOPED_TRACE(target);
+    for (const std::size_t d : {1, 2, 3, 8, 17}) {
+      expect_same_as_brute_force(d, 1500, uniform);
+      expect_same_as_brute_force(
+          d, 1500, [](Rng& rng, std::size_t) { return static_cast<float>(rng.below(5)); });
+    }
+  });
 }
 
 TEST(BucketKdTree, LatticeWithTiesAndRepeats) {

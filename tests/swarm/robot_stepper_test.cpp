@@ -6,6 +6,7 @@
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/rng.hpp"
 #include "tests/cases.hpp"
+#include "tests/each_target.hpp"
 
 namespace microswarm {
 namespace {
@@ -128,27 +129,31 @@ TEST(RobotStepper, NothingSlipsInExactlyAlongTheDiagonalOfASquareCorner) {
     }
 }
 
-TEST(RobotStepper, LanesGiveTheBitsOfThePlainForm) {
-  for (const Case& c : cases()) {
-    const RobotStepper stepper(c.map, c.reach);
-    for (const ContactRule rule : rules) {
-      Rng rng(8, Purpose::scene);
-      Robots robots = stepper.place(free_places(c.map, 4 * stepper.guard(), 61, rng));
-      Robots plain = robots;
-      for (int k = 0; k < 300; ++k) {
-        const Vec2 move = c.reach * rng.uniform(0, 1.5) * unit_vector(rng.uniform(0, 2 * pi));
-        const PointF m{static_cast<float>(move.x), static_cast<float>(move.y)};
-        stepper.step(robots, move, rule);
-        for (std::size_t i = 0; i < plain.size(); ++i) {
-          const PointF p = stepper.moved({plain.x[i], plain.y[i]}, m, rule);
-          plain.x[i] = p.x;
-          plain.y[i] = p.y;
-        }
-        ASSERT_EQ(robots.x, plain.x) << c.name;
-        ASSERT_EQ(robots.y, plain.y) << c.name;
-      }
+/// Robots of the case after 300 moves, by vectors and one by one.
+void expect_bits_of_the_plain_form(const Case& c, ContactRule rule, const char* target) {
+  const RobotStepper stepper(c.map, c.reach);
+  Rng rng(8, Purpose::scene);
+  Robots robots = stepper.place(free_places(c.map, 4 * stepper.guard(), 61, rng));
+  Robots plain = robots;
+  for (int k = 0; k < 300; ++k) {
+    const Vec2 move = c.reach * rng.uniform(0, 1.5) * unit_vector(rng.uniform(0, 2 * pi));
+    const PointF m{static_cast<float>(move.x), static_cast<float>(move.y)};
+    stepper.step(robots, move, rule);
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+      const PointF p = stepper.moved({plain.x[i], plain.y[i]}, m, rule);
+      plain.x[i] = p.x;
+      plain.y[i] = p.y;
     }
+    ASSERT_EQ(robots.x, plain.x) << c.name << ' ' << target;
+    ASSERT_EQ(robots.y, plain.y) << c.name << ' ' << target;
   }
+}
+
+TEST(RobotStepper, LanesOfEveryWidthGiveTheBitsOfThePlainForm) {
+  test::for_each_target([](const char* target) {
+    for (const Case& c : cases())
+      for (const ContactRule rule : rules) expect_bits_of_the_plain_form(c, rule, target);
+  });
 }
 
 // In double precision: the whole move where it is free, else up to about the first wall.

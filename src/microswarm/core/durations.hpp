@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "microswarm/core/maths.hpp"
+
 namespace microswarm {
 
 /// Many durations in a fixed place: how many there were in each of steps of 1 %, from 1 µs to
@@ -15,7 +17,7 @@ class Durations {
  public:
   /// One of `seconds`.
   void add(double seconds) {
-    const double step = std::log(std::max(seconds, shortest) / shortest) / growth;
+    const double step = maths::log(std::max(seconds, shortest) / shortest) / growth;
     ++counts_[std::min(static_cast<std::size_t>(step), counts_.size() - 1)];
     longest_ = std::max(longest_, seconds);
     ++count_;
@@ -29,7 +31,7 @@ class Durations {
     for (std::size_t i = 0; i < counts_.size(); ++i) {
       below += counts_[i];
       if (below >= std::max<std::uint64_t>(rank, 1))
-        return std::min(longest_, shortest * std::exp(growth * static_cast<double>(i + 1)));
+        return std::min(longest_, shortest * maths::exp(growth * static_cast<double>(i + 1)));
     }
     return 0;
   }

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "microswarm/core/maths.hpp"
+
 namespace microswarm {
 
 // The seed is Philox's key; purpose and trial are the upper half of its counter, blocks the lower.
@@ -36,7 +38,7 @@ std::uint64_t Rng::below(std::uint64_t n) {
 double Rng::normal() {
   const double u = 1 - uniform();  // in (0, 1]: its logarithm is finite
   const double v = uniform();
-  return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
+  return std::sqrt(-2 * maths::log(u)) * maths::cos(2 * std::numbers::pi * v);
 }
 
 }  // namespace microswarm

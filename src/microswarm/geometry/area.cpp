@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/geometry/area.hpp"
 
+#include "microswarm/core/maths.hpp"
 #include "microswarm/geometry/predicates.hpp"
 
 namespace microswarm {
@@ -11,7 +12,7 @@ double angle_seen(Vec2 p, Vec2 q, int side) {
   // The observer stands at (δ, ε), so it sees a corner in the origin towards (−1, −0).
   if (p == Vec2{}) p = {-1, 0};
   if (q == Vec2{}) q = {-1, 0};
-  return std::copysign(std::atan2(cross(p, q), dot(p, q)), side);
+  return std::copysign(maths::atan2(cross(p, q), dot(p, q)), side);
 }
 
 }  // namespace
@@ -63,8 +64,8 @@ double intersection_area(Disc a, Disc b) {
   const double half = std::sqrt((both + d) * (both - d) * (d + less) * (d - less)) / (2 * d);
   const double from_a = 0.5 * (d + less * both / d);
   const double from_b = 0.5 * (d - less * both / d);
-  const double lens = a.radius * a.radius * std::atan2(half, from_a) +
-                      b.radius * b.radius * std::atan2(half, from_b) - d * half;
+  const double lens = a.radius * a.radius * maths::atan2(half, from_a) +
+                      b.radius * b.radius * maths::atan2(half, from_b) - d * half;
   return std::clamp(lens, 0.0, area(less < 0 ? a : b));
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "microswarm/core/maths.hpp"
 #include "microswarm/geometry/predicates.hpp"
 
 namespace microswarm {
@@ -41,7 +42,7 @@ struct Curve {
     auto half_disc = [r = disc.radius](double u) {
       u = std::clamp(u, -r, r);
       const double half_chord = std::sqrt((r - u) * (r + u));
-      return 0.5 * (u * half_chord + r * r * std::atan2(u, half_chord));
+      return 0.5 * (u * half_chord + r * r * maths::atan2(u, half_chord));
     };
     const Vec2 c = disc.centre;
     return c.y * (to - from) + bend * (half_disc(to - c.x) - half_disc(from - c.x));

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "microswarm/core/maths.hpp"
+
 namespace microswarm {
 
 /// Point or vector in the plane [µm], y up.
@@ -31,8 +33,11 @@ inline double distance(Vec2 a, Vec2 b) { return norm(b - a); }
 /// `a` turned left by a quarter.
 constexpr Vec2 perpendicular(Vec2 a) { return {-a.y, a.x}; }
 /// Heading of the vector [rad], in [-π, π]; 0 for the zero vector.
-inline double heading_of(Vec2 a) { return std::atan2(a.y, a.x); }
-inline Vec2 unit_vector(double heading) { return {std::cos(heading), std::sin(heading)}; }
+inline double heading_of(Vec2 a) { return maths::atan2(a.y, a.x); }
+inline Vec2 unit_vector(double heading) {
+  const auto [sine, cosine] = maths::sincos(heading);
+  return {cosine, sine};
+}
 inline Vec2 rotated(Vec2 a, double angle) {
   const Vec2 u = unit_vector(angle);
   return {u.x * a.x - u.y * a.y, u.y * a.x + u.x * a.y};

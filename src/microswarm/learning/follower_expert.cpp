@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths.hpp"
 #include "microswarm/navigation/following/path_follower.hpp"
 
 namespace microswarm {
@@ -52,7 +53,7 @@ Command FollowerExpert::command(const Pose2& pose, double now) {
                                       [](const Way& a, const Way& b) { return a.cost < b.cost; });
   double sum = 0, off = 0, speed = 0;
   for (const Way& w : ways) {
-    const double weight = std::exp((best.cost - w.cost) / softness);
+    const double weight = maths::exp((best.cost - w.cost) / softness);
     sum += weight;
     off += weight * wrap(w.first.heading - best.first.heading);
     speed += weight * w.first.speed;

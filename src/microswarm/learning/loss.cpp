@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "microswarm/core/maths.hpp"
 #include "microswarm/core/parallel.hpp"
 #include "microswarm/learning/fit.hpp"
 
@@ -67,7 +68,7 @@ class Shard {
         }
         ++w;
         if (!last)
-          for (double& v : out) v = std::tanh(v);
+          for (double& v : out) v = maths::tanh(v);
       }
     }
   }

@@ -16,6 +16,7 @@
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
+#include "microswarm/core/maths.hpp"
 
 extern char** environ;
 
@@ -110,10 +111,10 @@ std::vector<AxisTick> log_ticks(const Plot& plot) {
     }
   std::vector<AxisTick> out;
   if (!(least > 0) || !(most < 1e3 * least)) return out;
-  const int last = static_cast<int>(std::ceil(std::log10(most)));
-  for (int power = static_cast<int>(std::floor(std::log10(least))); power <= last; ++power)
+  const int last = static_cast<int>(std::ceil(maths::log10(most)));
+  for (int power = static_cast<int>(std::floor(maths::log10(least))); power <= last; ++power)
     for (const double digit : {1, 2, 5}) {
-      const double at = digit * std::pow(10, power);
+      const double at = digit * maths::power(10, power);
       out.push_back({fmt::format("{:g}", at), at});
     }
   return out;

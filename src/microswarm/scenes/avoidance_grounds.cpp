@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths.hpp"
 #include "microswarm/scenes/vascular.hpp"
 #include "microswarm/scenes/worlds.hpp"
 #include "microswarm/world/obstacles/clip.hpp"
@@ -99,8 +100,8 @@ Ground scattered_ground(const Crosser& swarm, int obstacles, Rng& rng) {
     if (kind == 0) {
       ground.map.discs.push_back({room.centre, radius});
     } else if (kind == 1) {
-      add_wall(ground, turned_rectangle(room.centre, 2 * radius * std::cos(slant),
-                                        2 * radius * std::sin(slant), rng.uniform(-pi, pi)));
+      const Vec2 half = radius * unit_vector(slant);
+      add_wall(ground, turned_rectangle(room.centre, 2 * half.x, 2 * half.y, rng.uniform(-pi, pi)));
     } else {
       ground.map.walls.push_back(star(room.centre, radius, rng));
     }
@@ -171,7 +172,7 @@ Ground channel_ground(const Crosser& swarm, double speed_ratio, Rng& rng) {
   const double middle = inset + swing + 60;
   for (double x = 0; x <= length + 1; x += length / 16)
     channel.centre_line.push_back(
-        {inset + x, middle + swing * std::sin(2 * pi * x / wave + phase)});
+        {inset + x, middle + swing * maths::sin(2 * pi * x / wave + phase)});
   ground.map.hi = {2 * inset + length, 2 * middle};
   channel.block_centre = 0.5 * ground.map.hi;
   channel.block_width = ground.map.hi.x + 200;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths.hpp"
 
 namespace microswarm::scenes {
 namespace {
@@ -42,7 +43,8 @@ Shape random_shape(double most, double& extent, Rng& rng) {
                          .phase = rng.uniform()};
   if (kind < 7) {
     const double slant = rng.uniform(0.25, 1.3);
-    return BoxShape{2 * extent * std::cos(slant), 2 * extent * std::sin(slant)};
+    const Vec2 half = extent * unit_vector(slant);
+    return BoxShape{2 * half.x, 2 * half.y};
   }
   if (kind < 9) return random_polygon(extent, rng);
   const double span = 2 * extent;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths.hpp"
 #include "microswarm/scenes/worlds.hpp"
 #include "microswarm/world/obstacles/clip.hpp"
 
@@ -181,7 +182,7 @@ Vascular random_vascular(const VascularShape& shape, Rng& rng) {
   const Disc end = graph.joints[0];
   const Vec2 out = end.centre - graph.joints[graph.channels[0].second].centre;
   v.goal = end.centre + (0.4 * end.radius / norm(out)) * out;
-  v.nodes = static_cast<int>(nodes_per_area * free_area(v) * std::pow(10 / v.width, 2));
+  v.nodes = static_cast<int>(nodes_per_area * free_area(v) * maths::power(10 / v.width, 2));
   return v;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "microswarm/actuation/coils/si.hpp"
+#include "microswarm/core/maths.hpp"
 
 namespace microswarm {
 namespace {
@@ -22,9 +23,9 @@ void add(FieldGradient& sum, const Term& t, const Eigen::Vector3d& u, const Eige
          double r) {
   const double c = u.dot(z);
   const Eigen::Vector3d w = t.f * u - t.g * z;
-  sum.field += t.coefficient * std::pow(r, t.degree) * w;
+  sum.field += t.coefficient * maths::power(r, t.degree) * w;
   if (t.degree == 0) return;  // uniform
-  sum.gradient += t.coefficient * std::pow(r, t.degree - 1) *
+  sum.gradient += t.coefficient * maths::power(r, t.degree - 1) *
                   (t.degree * w * u.transpose() + (t.df * u - t.dg * z) * (z - c * u).transpose() +
                    t.f * (Eigen::Matrix3d::Identity() - u * u.transpose()));
 }

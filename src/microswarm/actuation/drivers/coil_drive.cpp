@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "microswarm/core/infinity.hpp"
+#include "microswarm/core/maths.hpp"
 
 namespace microswarm {
 namespace {
@@ -106,7 +107,7 @@ double CoilDrive::temperature_after(std::size_t coil, double to, double dt) cons
   const double from = currents_[i];
   const double mean_square = std::max((from * from + from * to + to * to) / 3, to * to);
   const double end = d.ambient + d.thermal_resistance * d.resistance * mean_square;
-  return end + (temperatures_[i] - end) * std::exp(-dt / d.thermal_time);
+  return end + (temperatures_[i] - end) * maths::exp(-dt / d.thermal_time);
 }
 
 CoilDrive::Bounds CoilDrive::reachable(double dt, bool mind_heat) const {
@@ -128,7 +129,7 @@ CoilDrive::Bounds CoilDrive::reachable(double dt, bool mind_heat) const {
     const double per_square = d.thermal_resistance * d.resistance;
     if (mind_heat && d.max_temperature && per_square > 0) {
       // to² and (to² + I to + I²) / 3 ≤ the mean square that ends at the highest temperature
-      const double keeps = std::exp(-dt / d.thermal_time);
+      const double keeps = maths::exp(-dt / d.thermal_time);
       const double end = (*d.max_temperature - temperatures_[i] * keeps) / (1 - keeps);
       const double mean_square = (end - d.ambient) / per_square;
       const double root = 3 * mean_square - 0.75 * I * I;

@@ -7,39 +7,41 @@
 #include <cmath>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths.hpp"
 
 namespace microswarm {
 
 Eigen::Vector3d rotating_field(double amplitude, double pitch, double heading, double phase) {
-  const double along = std::cos(phase), across = std::sin(phase);
-  return amplitude *
-         Eigen::Vector3d(-std::cos(pitch) * std::cos(heading) * along - std::sin(heading) * across,
-                         -std::cos(pitch) * std::sin(heading) * along + std::cos(heading) * across,
-                         std::sin(pitch) * along);
+  const auto [across, along] = maths::sincos(phase);
+  const auto [up, level] = maths::sincos(pitch);
+  const Vec2 ahead = unit_vector(heading);
+  return amplitude * Eigen::Vector3d(-level * ahead.x * along - ahead.y * across,
+                                     -level * ahead.y * along + ahead.x * across, up * along);
 }
 
 Eigen::Vector3d rolling_field(double amplitude, double heading, double phase) {
-  const double forward = std::cos(phase);
-  return amplitude * Eigen::Vector3d(forward * std::cos(heading), forward * std::sin(heading),
-                                     -std::sin(phase));
+  const auto [down, forward] = maths::sincos(phase);
+  const Vec2 ahead = unit_vector(heading);
+  return amplitude * Eigen::Vector3d(forward * ahead.x, forward * ahead.y, -down);
 }
 
 Vec2 rolled_way(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double length_per_turn) {
   const Eigen::Vector3d axis = from.cross(to);
   const double sine = axis.norm();
   if (sine == 0) return {};
-  const Eigen::Vector3d turn = std::atan2(sine, from.dot(to)) / sine * axis;
+  const Eigen::Vector3d turn = maths::atan2(sine, from.dot(to)) / sine * axis;
   return length_per_turn / (2 * pi) * Vec2{turn.y(), -turn.x()};
 }
 
 Eigen::Vector3d steering_field(double amplitude, double heading) {
-  return amplitude * Eigen::Vector3d(std::cos(heading), std::sin(heading), 0);
+  const Vec2 ahead = unit_vector(heading);
+  return amplitude * Eigen::Vector3d(ahead.x, ahead.y, 0);
 }
 
 Eigen::Vector3d oscillating_field(double amplitude, double pitch, double heading, double phase) {
-  return amplitude * std::cos(phase) *
-         Eigen::Vector3d(std::cos(pitch) * std::cos(heading), std::cos(pitch) * std::sin(heading),
-                         std::sin(pitch));
+  const auto [up, level] = maths::sincos(pitch);
+  const Vec2 ahead = unit_vector(heading);
+  return amplitude * maths::cos(phase) * Eigen::Vector3d(level * ahead.x, level * ahead.y, up);
 }
 
 Eigen::Vector3d Waveform::at(double t) const {

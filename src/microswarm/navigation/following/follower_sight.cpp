@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths.hpp"
 
 namespace microswarm {
 
@@ -25,8 +26,9 @@ FollowerSight sight_of(const FollowerQuery& query) {
     if (k != bearing_preview) add(dot(point, y));  // the bearing's own is 0
   }
   const double off = wrap(query.pose.heading - sight.bearing);
-  add(std::sin(off));
-  add(std::cos(off));
+  const auto [sine, cosine] = maths::sincos(off);
+  add(sine);
+  add(cosine);
   const Vec2 flow = (1 / query.speed) * query.flow;
   add(dot(flow, x));
   add(dot(flow, y));

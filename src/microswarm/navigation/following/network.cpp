@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "microswarm/core/maths.hpp"
+
 namespace microswarm {
 
 std::size_t Network::weight_count(std::span<const std::size_t> layers) {
@@ -24,7 +26,7 @@ void Network::evaluate(std::span<const double> in, std::span<double> out) const 
     for (std::size_t o = 0; o < layers[k + 1]; ++o) {
       double sum = w[layers[k]];
       for (std::size_t i = 0; i < layers[k]; ++i) sum += w[i] * values[i];
-      next[o] = last ? sum : std::tanh(sum);
+      next[o] = last ? sum : maths::tanh(sum);
       w += layers[k] + 1;
     }
     values.swap(next);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths.hpp"
 
 namespace microswarm {
 
@@ -50,7 +51,7 @@ Command pursue_in_flow(std::span<const Vec2> path, PathPlace& place, const Pose2
   const Vec2 way = unit_vector(command.heading);
   const double across = way.x * flow.y - way.y * flow.x;
   // No heading holds the line in a flow that is as fast as the swarm.
-  const double crab = -std::asin(std::clamp(across / speed, -0.9, 0.9));
+  const double crab = -maths::asin(std::clamp(across / speed, -0.9, 0.9));
   command.heading = wrap(command.heading + crab);
   return command;
 }

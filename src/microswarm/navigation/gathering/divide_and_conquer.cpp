@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "microswarm/core/infinity.hpp"
+#include "microswarm/core/maths.hpp"
 
 namespace microswarm {
 
@@ -97,7 +98,7 @@ std::uint32_t DivideAndConquer::richest_branch(const RobotsOnMap& robots) const 
     if (map.region[robots.nodes[i]] != region_) continue;
     double& v = value[map.branch[robots.nodes[i]]];
     const double share =
-        std::pow(params_.discount, way_to_gate(robots, i) / params_.discount_length);
+        maths::pow(params_.discount, way_to_gate(robots, i) / params_.discount_length);
     v = std::max(0.0, v) + robots.count(i) * on_lattice(share);
   }
   return static_cast<std::uint32_t>(std::max_element(value.begin(), value.end()) - value.begin());

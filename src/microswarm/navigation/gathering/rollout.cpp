@@ -69,7 +69,7 @@ bool RolloutGatherer::on_plan(const Robots& robots) const {
   double off = 0;
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const PointF p = expected_.place_of(i);
-    off += std::hypot(robots.x[i] - p.x, robots.y[i] - p.y);
+    off += distance(Vec2{robots.x[i], robots.y[i]}, Vec2{p.x, p.y});
   }
   return off <= params_.stray * simulator_.params().step * static_cast<double>(robots.size());
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "microswarm/core/maths.hpp"
+
 namespace microswarm {
 namespace {
 
@@ -117,7 +119,7 @@ double RolloutSimulator::left_to_do(Crowd crowd) const {
   double sum = 0;
   for (std::size_t i = 0; i < crowd.places().size(); ++i) {
     const double far = way(crowd.places(), i);
-    sum += std::pow(crowd.counts()[i], weight_of_robots) * far * far;
+    sum += maths::pow(crowd.counts()[i], weight_of_robots) * far * far;
   }
   return sum;
 }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths.hpp"
 
 namespace microswarm {
 namespace {
@@ -30,7 +31,7 @@ double turn_against(std::span<const Vec2> then, std::span<const Vec2> now, Vec2 
     sine += cross(then[i], now[i] - centre);
     cosine += dot(then[i], now[i] - centre);
   }
-  return std::atan2(sine, cosine);
+  return maths::atan2(sine, cosine);
 }
 
 }  // namespace
@@ -104,7 +105,7 @@ void Foresight::note(Book& book, const Body& body, const TrackedBody& motion) {
 
 // Looks up what was said of the time that has come.
 void Foresight::prove(Book& book) const {
-  const double kept = std::exp(-0.1 / params_.proof_time);
+  const double kept = maths::exp(-0.1 / params_.proof_time);
   for (std::size_t k = 0; k < spans.size(); ++k) {
     auto& open = book.open[k];
     std::size_t done = 0;

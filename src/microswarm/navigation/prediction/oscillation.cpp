@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "microswarm/core/maths.hpp"
+
 namespace microswarm {
 namespace {
 
@@ -24,8 +26,8 @@ struct Terms {
 Vec2 Oscillation::at(double t) const {
   const double half = 0.5 * frequency * t;
   if (std::abs(half) < 1e-6) return value + t * rate + (0.5 * t * t) * curve;
-  const double sine = std::sin(half);
-  return value + (2 * sine * std::cos(half) / frequency) * rate +
+  const auto [sine, cosine] = maths::sincos(half);
+  return value + (2 * sine * cosine / frequency) * rate +
          (2 * sine * sine / (frequency * frequency)) * curve;
 }
 
@@ -80,9 +82,9 @@ struct OscillationFit::Sums {
 };
 
 OscillationFit::OscillationFit() {
-  const double step = std::log(fastest / slowest) / (rungs - 1);
+  const double step = maths::log(fastest / slowest) / (rungs - 1);
   for (std::size_t k = 0; k < rungs; ++k)
-    frequencies_[k] = slowest * std::exp(step * static_cast<double>(k));
+    frequencies_[k] = slowest * maths::exp(step * static_cast<double>(k));
   rows_.reserve(most_rows);
 }
 
@@ -99,8 +101,8 @@ void OscillationFit::fill(Row& row) const {
   for (std::size_t k = 0; k < rungs; ++k) {
     const double w = frequencies_[k];
     const double half = 0.5 * w * (row.t - now_);
-    const double sine = std::sin(half);
-    row.sine[k] = 2 * sine * std::cos(half) / w;
+    const auto [sine, cosine] = maths::sincos(half);
+    row.sine[k] = 2 * sine * cosine / w;
     row.cosine[k] = 2 * sine * sine / (w * w);
   }
 }
@@ -146,7 +148,7 @@ std::optional<Oscillation> OscillationFit::best_of(const Sums& sums, Vec2 origin
       for (std::size_t i = 0; i < found.c.size(); ++i)
         found.c[i] += (0.5 * off) * (after.c[i] - before.c[i]) +
                       (0.5 * off * off) * (before.c[i] - 2 * found.c[i] + after.c[i]);
-      frequency *= std::pow(frequencies_[1] / frequencies_[0], off);
+      frequency *= maths::pow(frequencies_[1] / frequencies_[0], off);
     }
   }
   return Oscillation{frequency, origin + found.c[0], found.c[1], found.c[2]};

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths.hpp"
 #include "microswarm/geometry/distance.hpp"
 
 namespace microswarm {
@@ -273,7 +274,7 @@ double PredictiveNavigator::turning_time(const Pose2& pose) const {
   if (!wanted_) return 0;
   const double wanted = ending_ ? heading_of(helm_.aim() - pose.position) : *wanted_;
   const double turn = turn_between(wanted, pose.heading);
-  return (turn - std::sin(turn)) / helm_.swarm().max_turn_rate;
+  return (turn - maths::sin(turn)) / helm_.swarm().max_turn_rate;
 }
 
 /// What the bodies mean to the swarm while it goes along a piece of the first leg.

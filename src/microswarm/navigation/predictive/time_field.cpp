@@ -24,7 +24,7 @@ TimeField::TimeField(double speed, double horizon, double step)
       width_(2 * half_ + 1) {
   for (int j = -stride_cells; j <= stride_cells; ++j)
     for (int i = -stride_cells; i <= stride_cells; ++i) {
-      const double length = std::hypot(i, j);
+      const double length = std::sqrt(i * i + j * j);
       const bool is_long = length >= long_way && length <= longest_way;
       const bool is_short = length <= short_way && (i == 0) == (j == 0);
       if (!is_long && !is_short) continue;

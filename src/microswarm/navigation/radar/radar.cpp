@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "microswarm/core/maths.hpp"
 #include "microswarm/navigation/radar/wait_area.hpp"
 #include "microswarm/navigation/steering/helm.hpp"
 #include "microswarm/planning/path/fmt_star.hpp"
@@ -172,7 +173,7 @@ RadarLook RadarNavigator::look_around(const Observation& seen, Vec2 target) cons
           .target_gain = params_.target_gain,
           .avoidance_gain = params_.avoidance_gain,
           .course = course_,
-          .least_cosine = std::cos(params_.most_turn)};
+          .least_cosine = maths::cos(params_.most_turn)};
 }
 
 Command RadarNavigator::rest(const Observation& seen, NavigatorState state) {

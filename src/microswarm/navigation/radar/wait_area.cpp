@@ -20,8 +20,8 @@ struct Frame {
   Vec2 local(Vec2 p) const { return {dot(p - centre, along), cross(along, p - centre)}; }
   double distance_to(Vec2 p) const {
     const Vec2 q = local(p);
-    return std::hypot(std::max(0.0, std::abs(q.x) - half_length),
-                      std::max(0.0, std::abs(q.y) - half_width));
+    return norm(
+        {std::max(0.0, std::abs(q.x) - half_length), std::max(0.0, std::abs(q.y) - half_width)});
   }
 };
 

@@ -34,7 +34,7 @@ class Spread {
     const double yy = yy_ / count_ - mean.y * mean.y;
     const double xy = xy_ / count_ - mean.x * mean.y;
     const double middle = 0.5 * (xx + yy);
-    const double half = std::hypot(0.5 * (xx - yy), xy);
+    const double half = norm({0.5 * (xx - yy), xy});
     if (!(middle + half > 0)) return 1;
     return std::sqrt(std::clamp(1 - (middle - half) / (middle + half), 0.0, 1.0));
   }

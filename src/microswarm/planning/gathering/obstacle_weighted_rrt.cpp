@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "microswarm/core/infinity.hpp"
+#include "microswarm/core/maths.hpp"
 #include "microswarm/planning/gathering/tree_cover.hpp"
 
 namespace microswarm {
@@ -91,12 +92,12 @@ void weigh(const Map& map, const ObstacleWeightedRrtParams& params, Tree& tree) 
   PointGrid boundary(map.bounds());
   for (const Vec2 p : tree.boundary) boundary.add(p);
   const double at_cutoff =
-      std::exp(params.weight_exponent - params.weight_decay * params.weight_cutoff);
+      maths::exp(params.weight_exponent - params.weight_decay * params.weight_cutoff);
   for (std::size_t v = 0; v < tree.nodes.size(); ++v) {
     const Vec2 p = tree.nodes[v];
     const bool grown = v < tree.grown && !boundary.empty();
     const double d = grown ? distance(p, boundary[boundary.nearest(p)]) : map.clearance(p);
-    const double w = std::exp(params.weight_exponent - params.weight_decay * d) - at_cutoff;
+    const double w = maths::exp(params.weight_exponent - params.weight_decay * d) - at_cutoff;
     tree.clearances.push_back(d);
     tree.weights.push_back(d < params.weight_cutoff ? std::max(w, 0.0) : 0);
   }
@@ -319,7 +320,7 @@ std::optional<Status> route(const Map& map, const ObstacleWeightedRrtParams& par
 ObstacleWeightedRrtParams scaled(ObstacleWeightedRrtParams params, double factor) {
   params.extension *= factor;
   params.weight_decay /= factor;
-  params.weight_exponent += std::log(factor);
+  params.weight_exponent += maths::log(factor);
   params.weight_cutoff *= factor;
   params.zeta *= factor;
   params.neighbour_radius *= factor;

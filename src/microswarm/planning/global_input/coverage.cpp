@@ -7,6 +7,7 @@
 #include <unordered_set>
 
 #include "microswarm/core/error.hpp"
+#include "microswarm/core/maths.hpp"
 
 namespace microswarm {
 namespace {
@@ -89,7 +90,7 @@ Coverage coverage(const Map& map, const GlobalTree& tree, double cell) {
   for (std::uint32_t i = 0; i < plane.count(); ++i)
     result.free_cells += was_seen[i] != 0 || plane.is_free(i);
   const double all =
-      std::pow(static_cast<double>(result.free_cells), static_cast<double>(tree.robots));
+      maths::power(static_cast<double>(result.free_cells), static_cast<int>(tree.robots));
   if (result.free_cells > 0) result.share = static_cast<double>(result.occupied) / all;
   return result;
 }

@@ -79,8 +79,7 @@ struct Problem {
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < i; ++j)
         if (std::abs(c[i].x - c[j].x) < near && std::abs(c[i].y - c[j].y) < near &&
-            std::hypot(goals[i].x - goals[j].x, goals[i].y - goals[j].y) >
-                2 * static_cast<float>(params.goal_tolerance))
+            distance(position(goals[i]), position(goals[j])) > 2 * params.goal_tolerance)
           return true;
     return false;
   }

@@ -8,6 +8,7 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/infinity.hpp"
+#include "microswarm/core/maths.hpp"
 #include "microswarm/planning/common/free_goal.hpp"
 #include "microswarm/planning/path/sample_buckets.hpp"
 
@@ -230,7 +231,7 @@ Issues validate(const FmtStarParams& params) {
 
 double fmt_radius(double radius_factor, double area, std::size_t n) {
   const double count = static_cast<double>(std::max<std::size_t>(2, n));
-  return 2 * radius_factor * std::sqrt(0.5 * area / pi * std::log(count) / count);
+  return 2 * radius_factor * std::sqrt(0.5 * area / pi * maths::log(count) / count);
 }
 
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const FmtStarParams& params, Rng& rng,

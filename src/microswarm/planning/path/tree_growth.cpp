@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths.hpp"
 #include "microswarm/planning/common/free_goal.hpp"
 #include "microswarm/planning/path/turn_edge.hpp"
 
@@ -20,7 +21,7 @@ Pose2 finite(Pose2 pose) { return is_finite(pose.position) ? pose : Pose2{}; }
 /// and Frazzoli, Theorem 38; the area of the bounds stands for that of the free space.
 double shrinking_radius(double area, std::uint32_t nodes) {
   const double n = std::max(2u, nodes);
-  return 2.0 * std::sqrt(1.5 * area / pi * std::log(n) / n);
+  return 2.0 * std::sqrt(1.5 * area / pi * maths::log(n) / n);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths.hpp"
 
 namespace microswarm {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 constexpr double chord_angle = pi / 18;
 constexpr double turn_rounding = 1e-9;  // [rad]
 
-Vec2 left_of(double heading) { return {-std::sin(heading), std::cos(heading)}; }
+Vec2 left_of(double heading) { return perpendicular(unit_vector(heading)); }
 
 /// The edge that turns to one side; infinitely long when `to` lies in that turning circle.
 TurnEdge turn_to_side(const Pose2& from, Vec2 to, double radius, double side) {
@@ -22,7 +23,7 @@ TurnEdge turn_to_side(const Pose2& from, Vec2 to, double radius, double side) {
   const double far = norm(off);
   if (far < radius * (1 - turn_rounding))
     return {.length = std::numeric_limits<double>::infinity()};
-  const double touching = heading_of(off) - side * std::acos(std::min(1.0, radius / far));
+  const double touching = heading_of(off) - side * maths::acos(std::min(1.0, radius / far));
   double turn = wrap(side * (touching - heading_of(from.position - centre)));
   if (turn < -turn_rounding) turn += 2 * pi;
   turn = std::max(0.0, turn);
@@ -60,6 +61,6 @@ void append_edge(const Pose2& from, Vec2 to, double radius, std::vector<Vec2>& o
   if (edge.length > 0) out.back() = to;  // but for rounding it is
 }
 
-double chord_error(double radius) { return radius * (1 - std::cos(0.5 * chord_angle)); }
+double chord_error(double radius) { return radius * (1 - maths::cos(0.5 * chord_angle)); }
 
 }  // namespace microswarm

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "microswarm/core/file.hpp"
+#include "microswarm/core/maths.hpp"
 #include "microswarm/core/parallel.hpp"
 #include "microswarm/reproduce/gather/gather.hpp"
 
@@ -20,9 +21,9 @@ constexpr double map_area = 100;  // m of the printed figure's curves, in areas 
 
 /// Eq 9 [gather] over kρm²: the map shrinks by the factor ξ again and again.
 double by_factor(double xi, double m) {
-  const int levels = static_cast<int>(std::floor(std::log(m) / std::log(1 / xi)));
+  const int levels = static_cast<int>(std::floor(maths::log(m) / maths::log(1 / xi)));
   double sum = 0;
-  for (int i = 0; i <= levels; ++i) sum += std::pow(xi, 2 * i);
+  for (int i = 0; i <= levels; ++i) sum += maths::power(xi, 2 * i);
   return (1 - xi) * (1 - xi) * sum;
 }
 /// Eq 10

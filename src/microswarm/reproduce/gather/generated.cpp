@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "microswarm/core/file.hpp"
+#include "microswarm/core/maths.hpp"
 #include "microswarm/core/parallel.hpp"
 #include "microswarm/reproduce/gather/gather.hpp"
 
@@ -81,7 +82,7 @@ void gather_generated(const ReproduceOptions& options, const Stop& stop,
         if ((map.regions >= enough_regions) != many) continue;
         ++count;
         best += map.dca < map.hra;
-        logs += std::log(map.dca / std::max(1.0, map.hra));
+        logs += maths::log(map.dca / std::max(1.0, map.hra));
       }
       if (count == 0) continue;
       const std::string what =
@@ -92,7 +93,7 @@ void gather_generated(const ReproduceOptions& options, const Stop& stop,
                                      {}, 100 * best / count));
       ReproduceRow ratio =
           row_of("generated", what + ": DCA's steps ÷ HRA's, geometric mean", "1", {},
-                 std::exp(logs / count), many ? std::optional(1.0) : std::nullopt);
+                 maths::exp(logs / count), many ? std::optional(1.0) : std::nullopt);
       rows.push_back(
           noted(std::move(ratio), many ? "the paper: DCA is the best" : "too few to divide"));
     }

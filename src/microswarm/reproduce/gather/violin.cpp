@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "microswarm/core/maths.hpp"
+
 namespace microswarm::reproduce {
 
 void add_violin(std::vector<double> values, double x, double half_width, Series& series) {
@@ -18,7 +20,7 @@ void add_violin(std::vector<double> values, double x, double half_width, Series&
   for (int k = 0; k <= levels; ++k) {
     double sum = 0;
     for (const double v : values)
-      sum += std::exp(-0.5 * std::pow((v - (lo + (hi - lo) * k / levels)) / kernel, 2));
+      sum += maths::exp(-0.5 * maths::power((v - (lo + (hi - lo) * k / levels)) / kernel, 2));
     density.push_back(sum);
   }
   const double most = *std::max_element(density.begin(), density.end());

@@ -10,6 +10,7 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/file.hpp"
+#include "microswarm/core/maths.hpp"
 #include "microswarm/core/statistics.hpp"
 #include "microswarm/report/page.hpp"
 #include "microswarm/reproduce/gather/gather.hpp"
@@ -201,15 +202,16 @@ Plot avoidable_plot(const CourseResult& result) {
     if (avoidable > 0) least = std::min(least, avoidable);
     most = std::max(most, avoidable);
   }
-  const double first = std::floor(std::log10(least)), last = std::ceil(std::log10(most));
-  const double none = std::pow(10, first - 0.7);  // below the first power
+  const int first = static_cast<int>(std::floor(maths::log10(least)));
+  const int last = static_cast<int>(std::ceil(maths::log10(most)));
+  const double none = maths::pow(10, first - 0.7);  // below the first power
   plot.y_ticks.push_back({"none", none});
-  for (double power = first; power <= last; ++power) {
-    const double at = std::pow(10, power);
+  for (int power = first; power <= last; ++power) {
+    const double at = maths::power(10, power);
     plot.y_ticks.push_back({fmt::format("{:g}", at), at});
   }
   plot.y_min = 0.5 * none;
-  plot.y_max = 2 * std::pow(10, last);
+  plot.y_max = 2 * maths::power(10, last);
   for (std::size_t k = 0; k < result.who.size(); ++k) {
     const Tally tally = tally_of(result.crossings[k]);
     if (tally.runs == 0) continue;

@@ -7,6 +7,7 @@
 
 #include "microswarm/actuation/field/waveform.hpp"
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths.hpp"
 
 namespace microswarm {
 namespace {
@@ -54,7 +55,7 @@ Command FieldResponse::oscillating(const Eigen::Vector3d& field, double dt) {
       over({dt, field.dot(axis_) < 0 ? -field : field}, 1 / params_.frequency);
   axis_ = along.normalized();
   const Vec2 flat{axis_.x(), axis_.y()};
-  const double pitch = std::asin(std::clamp(axis_.z(), -1.0, 1.0));
+  const double pitch = maths::asin(std::clamp(axis_.z(), -1.0, 1.0));
   const double sign = pitch < 0 ? -1 : 1;  // forwards is where the axis rises
   if (std::abs(pitch) > flat_pitch) heading_ = heading_of(sign * flat);
   return {heading_, params_.speed_per_pitch * std::abs(pitch)};
@@ -63,7 +64,7 @@ Command FieldResponse::oscillating(const Eigen::Vector3d& field, double dt) {
 /// `raised` points upwards, and by the pitch towards the heading.
 Command FieldResponse::pitched(const Eigen::Vector3d& raised) {
   const Vec2 flat{raised.x(), raised.y()};
-  const double pitch = std::atan2(norm(flat), std::abs(raised.z()));
+  const double pitch = maths::atan2(norm(flat), std::abs(raised.z()));
   if (pitch > flat_pitch) heading_ = heading_of(flat);
   return {heading_, params_.speed_per_pitch * pitch};
 }

@@ -10,7 +10,9 @@
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/each_cpu.hpp"
 #include "microswarm/core/error.hpp"
+#include "microswarm/core/maths.hpp"
 #include "microswarm/rig/perception/walls_in_picture.hpp"
+#include "microswarm/vision/image/blur.hpp"
 
 namespace microswarm {
 namespace {
@@ -87,7 +89,7 @@ const Image& Microscope::look(const Snapshot& world, const std::optional<SwarmPo
     draw_disc(scale_.to_picture(robot), 0.5 * params_.robot_diameter, params_.swarm_depth);
   if (params_.blur > 0) {
     cv::Mat view = as_floats(view_, width_, height_);
-    cv::GaussianBlur(view, view, {}, params_.blur);
+    blurred(view, params_.blur).copyTo(view);
   }
   expose(world.time());
   return picture_;
@@ -143,7 +145,7 @@ void Microscope::draw_disc(Vec2 at, double radius, double depth) {
 }
 
 void Microscope::expose(double t) {
-  const double swell = params_.light_drift * std::sin(2 * pi * t / params_.light_period);
+  const double swell = params_.light_drift * maths::sin(2 * pi * t / params_.light_period);
   const auto light = static_cast<float>(1 + swell);
   std::size_t grain = rng_.below(grains);
   for (std::size_t i = 0; i < view_.size(); grain = 0) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "microswarm/core/maths.hpp"
 #include "microswarm/swarm/body/unicycle.hpp"
 
 namespace microswarm {
@@ -31,14 +32,12 @@ double pitch_of(const VortexParams& params, const Command& command) {
 }
 
 std::array<double, 3> rotating_field(const VortexParams& params, const Command& command, double t) {
-  const double pitch = pitch_of(params, command);
-  const double turn = 2 * pi * params.field_frequency * t;
+  const auto [up, level] = maths::sincos(pitch_of(params, command));
+  const auto [across, along] = maths::sincos(2 * pi * params.field_frequency * t);
   const Vec2 ahead = unit_vector(command.heading);
-  return {params.field_amplitude *
-              (-std::cos(pitch) * ahead.x * std::cos(turn) - ahead.y * std::sin(turn)),
-          params.field_amplitude *
-              (-std::cos(pitch) * ahead.y * std::cos(turn) + ahead.x * std::sin(turn)),
-          params.field_amplitude * std::sin(pitch) * std::cos(turn)};
+  return {params.field_amplitude * (-level * ahead.x * along - ahead.y * across),
+          params.field_amplitude * (-level * ahead.y * along + ahead.x * across),
+          params.field_amplitude * up * along};
 }
 
 Vortex::Vortex(const VortexParams& params, Pose2 start)
@@ -69,7 +68,7 @@ void Vortex::advance(double dt, Rng& rng) {
 void Vortex::breathe(double dt, Rng& rng) {
   const double share = active_.speed / params_.max_speed;
   const double aim = params_.radius + share * (params_.moving_radius - params_.radius);
-  const double kept = std::exp(-dt / params_.radius_lag);
+  const double kept = maths::exp(-dt / params_.radius_lag);
   radius_ = aim + kept * (radius_ - aim);
   if (params_.radius_ripple <= 0) return;
   radius_ += params_.radius_ripple * std::sqrt(1 - kept * kept) * rng.normal();

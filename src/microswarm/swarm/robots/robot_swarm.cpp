@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "microswarm/core/maths.hpp"
+
 namespace microswarm {
 
 SwarmPose body_of(std::span<const Vec2> robots, double heading) {
@@ -57,8 +59,8 @@ bool RobotSwarm::stuck(std::size_t robot, double dt, Rng& rng) {
   const double chance = rng.uniform(), how_long = rng.uniform();
   double& left = stuck_for_[robot];
   if (left <= 0 && params_.sticking_interval > 0 &&
-      chance < -std::expm1(-dt / params_.sticking_interval))
-    left = -params_.sticking_time * std::log1p(-how_long);
+      chance < -maths::expm1(-dt / params_.sticking_interval))
+    left = -params_.sticking_time * maths::log1p(-how_long);
   if (left <= 0) return false;
   left -= dt;
   return true;

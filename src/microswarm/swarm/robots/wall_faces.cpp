@@ -6,6 +6,7 @@
 #include <map>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths.hpp"
 #include "microswarm/geometry/distance.hpp"
 
 namespace microswarm {
@@ -23,7 +24,7 @@ Vec2 direction(Vec2 v) {
 }
 
 std::vector<Vec2> ring_around(const Disc& disc) {
-  const double radius = disc.radius / std::cos(pi / disc_corners);
+  const double radius = disc.radius / maths::cos(pi / disc_corners);
   std::vector<Vec2> ring;
   ring.reserve(disc_corners);
   for (int k = 0; k < disc_corners; ++k)

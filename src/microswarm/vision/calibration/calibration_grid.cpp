@@ -14,6 +14,7 @@
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/statistics.hpp"
+#include "microswarm/vision/image/blur.hpp"
 #include "microswarm/vision/image/mat.hpp"
 #include "microswarm/vision/scene/blobs.hpp"
 
@@ -51,7 +52,7 @@ std::vector<Vec2> dots_in(const Image& grey) {
 std::vector<Vec2> corners_in(const Image& grey, std::size_t wanted) {
   cv::Mat smooth;
   as_mat(grey).convertTo(smooth, CV_32F);
-  cv::GaussianBlur(smooth, smooth, {0, 0}, corner_blur);
+  smooth = blurred(smooth, corner_blur);
   cv::Mat light;
   cv::blur(smooth, light, {light_side, light_side});
   smooth = 255 * smooth / (light + 1);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "microswarm/core/error.hpp"
+#include "microswarm/core/maths.hpp"
 #include "microswarm/core/text.hpp"
 
 namespace microswarm {
@@ -29,11 +30,11 @@ FittedScale fit_scale(std::span<const ScalePoint> points, bool y_up) {
     across += cross(at, p.place - middle);
     square += squared_norm(at);
   }
-  const double um_per_px = std::hypot(along, across) / square;
+  const double um_per_px = norm({along, across}) / square;
   if (!(square > 0 && um_per_px > 0 && std::isfinite(um_per_px)))
     throw InputError("scale: two different points are needed");
   FittedScale fit{
-      .scale = {.um_per_px = um_per_px, .rotation = std::atan2(across, along), .y_up = y_up}};
+      .scale = {.um_per_px = um_per_px, .rotation = heading_of({along, across}), .y_up = y_up}};
   // The origin is where to_picture(middle) falls on middle_px.
   fit.scale.origin_px = middle_px - fit.scale.to_picture(middle);
   double squares = 0;

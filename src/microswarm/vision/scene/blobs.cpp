@@ -14,7 +14,9 @@
 
 #include "microswarm/core/each_cpu.hpp"
 #include "microswarm/core/error.hpp"
+#include "microswarm/core/maths.hpp"
 #include "microswarm/core/statistics.hpp"
+#include "microswarm/vision/image/blur.hpp"
 #include "microswarm/vision/image/mat.hpp"
 #include "microswarm/vision/scene/ground.hpp"
 #include "microswarm/vision/scene/level_line.hpp"
@@ -81,12 +83,12 @@ cv::Mat rise_of(const cv::Mat& grey, const cv::Mat& seen, bool dark, double spre
   cv::Mat rise = ground_of(grey, seen);
   take_ground({grey.ptr<std::uint8_t>(), grey.total()}, all.ptr<std::uint8_t>(), dark ? -1 : 1,
               rise.ptr<float>());
-  const int side = 2 * static_cast<int>(std::ceil(2.5 * spread)) + 1;
-  cv::GaussianBlur(rise, rise, {side, side}, spread, spread, cv::BORDER_REFLECT);
+  const int reach = static_cast<int>(std::ceil(2.5 * spread));
+  rise = blurred(rise, spread, reach, cv::BORDER_REFLECT);
   if (seen.empty()) return rise;
   cv::Mat share;
   seen.convertTo(share, CV_32F, 1.0 / 255);
-  cv::GaussianBlur(share, share, {side, side}, spread, spread, cv::BORDER_REFLECT);
+  share = blurred(share, spread, reach, cv::BORDER_REFLECT);
   make_up({share.ptr<float>(), share.total()}, seen.ptr<std::uint8_t>(), rise.ptr<float>());
   return rise;
 }
@@ -170,10 +172,10 @@ bool measure(Blob& blob) {
   const double mean = 0.5 * (m.mu20 + m.mu02) / m.m00;
   const double half = 0.5 * (m.mu20 - m.mu02) / m.m00;
   const double mixed = m.mu11 / m.m00;
-  const double spread = std::hypot(half, mixed);
+  const double spread = norm({half, mixed});
   blob.semi_major_px = 2 * std::sqrt(mean + spread);
   blob.semi_minor_px = 2 * std::sqrt(std::max(0.0, mean - spread));
-  blob.angle = 0.5 * std::atan2(mixed, half);
+  blob.angle = 0.5 * maths::atan2(mixed, half);
   return true;
 }
 
@@ -288,7 +290,7 @@ std::vector<Blob> find_blobs(const Image& picture, const BlobParams& p, const Ma
   const double noise = roughness(field, {0, 0, ground.cols, ground.rows}, ground, ground_rows);
 
   // What stands out, then what of each piece does so by half as much as its middle.
-  const double least_area = std::numbers::pi * std::pow(0.5 * p.min_radius / field.side, 2);
+  const double least_area = std::numbers::pi * maths::power(0.5 * p.min_radius / field.side, 2);
   std::vector<Blob> blobs;
   for (Piece& piece : pieces_of(high, {}, least_area)) {
     if (p.min_grain > 0) {

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "microswarm/core/error.hpp"
+#include "microswarm/vision/image/logs.hpp"
 #include "microswarm/vision/image/mask_ops.hpp"
 #include "microswarm/vision/image/mat.hpp"
 #include "microswarm/vision/vessels/outline.hpp"
@@ -84,17 +85,14 @@ struct Light {
 
 /// The picture as it were in even light, its mean at the middle grey.
 cv::Mat in_even_light(const cv::Mat& grey) {
-  cv::Mat even;
-  grey.convertTo(even, CV_32F);
-  even = cv::max(even, 1);
-  cv::log(even, even);
+  cv::Mat even = logs_of(grey, 0);
   const Light light(slopes_of(even));
   for (int y = 0; y < even.rows; ++y)
     for (int x = 0; x < even.cols; ++x)
       even.at<float>(y, x) -=
           static_cast<float>(light.at(x - 0.5 * (even.cols - 1), y - 0.5 * (even.rows - 1)));
   even -= cv::mean(even)[0];
-  cv::exp(even, even);
+  to_exponentials(even);
   cv::Mat bytes;
   even.convertTo(bytes, CV_8U, middle_grey);
   return bytes;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "microswarm/core/each_cpu.hpp"
+#include "microswarm/core/maths.hpp"
 
 namespace microswarm {
 namespace {
@@ -18,7 +19,7 @@ std::vector<float> gaussian(double spread) {
   std::vector<double> half;
   double sum = 0;
   for (int i = 0; i <= reach; ++i) {
-    half.push_back(std::exp(-0.5 * i * i / (spread * spread)));
+    half.push_back(maths::exp(-0.5 * i * i / (spread * spread)));
     sum += (i == 0 ? 1 : 2) * half.back();
   }
   std::vector<float> taps;

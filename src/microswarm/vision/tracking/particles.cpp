@@ -12,6 +12,7 @@
 
 #include "microswarm/core/each_cpu.hpp"
 #include "microswarm/core/error.hpp"
+#include "microswarm/core/maths.hpp"
 #include "microswarm/core/text.hpp"
 #include "microswarm/vision/tracking/ring_fit.hpp"
 
@@ -69,8 +70,9 @@ ParticleFinder::ParticleFinder(const ParticleParams& params)
   for (int dy = -radius_; dy <= radius_; ++dy)
     for (int dx = -radius_; dx <= radius_; ++dx) {
       if (dx * dx + dy * dy > radius_ * radius_) continue;
-      const double twice = 2 * std::atan2(dy, dx);
-      mask_.push_back({dx, dy, std::cos(twice), std::sin(twice)});
+      const double twice = 2 * maths::atan2(dy, dx);
+      const auto [sine, cosine] = maths::sincos(twice);
+      mask_.push_back({dx, dy, cosine, sine});
     }
 }
 
@@ -174,7 +176,7 @@ void ParticleFinder::describe(Particle& particle, Peak at) const {
   particle.signal = greys_per_byte_ * highest;
   particle.gyration_px = std::sqrt(second_moment / mass);
   particle.radius_px = std::numbers::sqrt2 * particle.gyration_px;
-  particle.eccentricity = std::hypot(cosine, sine) / std::max(1.0, mass - *middle);
+  particle.eccentricity = norm({cosine, sine}) / std::max(1.0, mass - *middle);
 }
 
 void ParticleFinder::fit_rings(const Image& grey) {

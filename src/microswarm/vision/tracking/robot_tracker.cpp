@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "microswarm/core/maths.hpp"
+
 namespace microswarm {
 
 RobotTracker::RobotTracker(const TrackerParams& p, double diameter, double frame_time)
@@ -53,7 +55,7 @@ void RobotTracker::find_candidates(std::span<const Vec2> seen) {
     const RobotFilter& filter = robots_[row].filter;
     const double variance = filter.seen_variance(noise_);
     const double reach = std::min(search_range_, gate_ * std::sqrt(variance));
-    const double doubt = 2 * std::log(variance / least);
+    const double doubt = 2 * maths::log(variance / least);
     auto at = std::lower_bound(by_height_.begin(), by_height_.end(), filter.place().y - reach,
                                [&](int i, double y) { return seen[i].y < y; });
     for (; at != by_height_.end() && seen[*at].y <= filter.place().y + reach; ++at) {

@@ -12,6 +12,7 @@
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
+#include "microswarm/core/maths.hpp"
 #include "microswarm/vision/image/mat.hpp"
 #include "microswarm/vision/image/strokes.hpp"
 
@@ -73,7 +74,7 @@ void draw_legend(cv::Mat& picture, double um_per_px, double t, std::size_t robot
 
 double scale_bar_length(double width) {
   const double about = width / 5;
-  const double ten = std::pow(10, std::floor(std::log10(about)));
+  const double ten = maths::power(10, static_cast<int>(std::floor(maths::log10(about))));
   for (const double times : {5.0, 2.0})
     if (times * ten <= about) return times * ten;
   return ten;

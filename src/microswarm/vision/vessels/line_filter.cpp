@@ -7,6 +7,9 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "microswarm/core/maths.hpp"
+#include "microswarm/vision/image/blur.hpp"
+
 namespace microswarm {
 namespace {
 
@@ -27,9 +30,10 @@ struct Shift {
 
 /// Pixels of the line through the middle, one for each step along its longer axis.
 std::vector<Shift> line_steps(double angle, int half_length) {
+  const auto [sine, cosine] = maths::sincos(angle);
   std::vector<Shift> steps;
   for (int t = -half_length; t <= half_length; ++t)
-    steps.push_back({cvRound(t * std::cos(angle)), cvRound(t * std::sin(angle))});
+    steps.push_back({cvRound(t * cosine), cvRound(t * sine)});
   return steps;
 }
 
@@ -93,8 +97,7 @@ void keep_better(cv::Mat& best, const cv::Mat& padded_means, int pad, double nx,
 /// Best answer over the orientations for lines of one half width, all in pixels of `picture`.
 cv::Mat answers(const cv::Mat& picture, double half_width, int half_length,
                 const LineFilter& filter) {
-  cv::Mat smooth;
-  cv::GaussianBlur(picture, smooth, {}, std::max(0.3, blur * half_width));
+  const cv::Mat smooth = blurred(picture, std::max(0.3, blur * half_width));
   const double side = side_distance * half_width + 0.5;
   const int side_pad = cvCeil(side) + 2;
   const int pad = half_length + side_pad;
@@ -104,8 +107,9 @@ cv::Mat answers(const cv::Mat& picture, double half_width, int half_length,
   cv::Mat best(picture.size(), CV_32F, cv::Scalar(-1e9));
   for (int i = 0; i < filter.orientations; ++i) {
     const double angle = std::numbers::pi * i / filter.orientations;
+    const auto [sine, cosine] = maths::sincos(angle);
     const cv::Mat means = line_means(padded, half_length, line_steps(angle, half_length));
-    keep_better(best, means, side_pad, -side * std::sin(angle), side * std::cos(angle),
+    keep_better(best, means, side_pad, -side * sine, side * cosine,
                 static_cast<float>(filter.both_sides));
   }
   return best;

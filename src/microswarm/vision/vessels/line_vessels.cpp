@@ -7,6 +7,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "microswarm/vision/image/blur.hpp"
+#include "microswarm/vision/image/logs.hpp"
 #include "microswarm/vision/image/mask_ops.hpp"
 #include "microswarm/vision/vessels/bridges.hpp"
 #include "microswarm/vision/vessels/line_filter.hpp"
@@ -73,14 +75,13 @@ cv::Size shrunk(cv::Size size, double scale) {
 cv::Mat standing_out(const cv::Mat& picture, double wide_radius) {
   const double diameter = opening * wide_radius;
   const int shrink = std::max(1, cvFloor(diameter / least_disc));
-  cv::Mat ground;
-  cv::GaussianBlur(picture, ground, {}, std::max(0.5, shrink / 2.0));
+  cv::Mat ground = blurred(picture, std::max(0.5, shrink / 2.0));
   if (shrink > 1)
     cv::resize(ground, ground, shrunk(picture.size(), 1.0 / shrink), 0, 0, cv::INTER_AREA);
   const int side = 2 * cvRound(diameter / shrink / 2) + 1;
   cv::morphologyEx(ground, ground, cv::MORPH_OPEN,
                    cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side}));
-  cv::GaussianBlur(ground, ground, {}, 1);
+  ground = blurred(ground, 1);
   if (shrink > 1) cv::resize(ground, ground, picture.size(), 0, 0, cv::INTER_LINEAR);
   return picture - ground;
 }
@@ -94,8 +95,7 @@ Working at_scale(const cv::Mat& grey, const cv::Mat& view, double scale, double 
     cv::resize(view, w.view, size, 0, 0, cv::INTER_AREA);
     w.view = w.view > 250;
   }
-  w.absorbance.convertTo(w.absorbance, CV_32F, 1, dark_noise);
-  cv::log(w.absorbance, w.absorbance);
+  w.absorbance = logs_of(w.absorbance, dark_noise);
   if (!bright) w.absorbance = -w.absorbance;
   if (!is_whole(w.view))
     continue_outside(w.absorbance, depth_in(w.view) > soft_rim * diameter_of(w.view));

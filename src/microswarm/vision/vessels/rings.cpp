@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "microswarm/core/maths.hpp"
 #include "microswarm/geometry/distance.hpp"
 #include "microswarm/geometry/predicates.hpp"
 
@@ -124,7 +125,7 @@ std::vector<char> touching(const Rings& rings, double cell) {
 std::array<double, 2 * ring_reach + 1> ring_weights() {
   std::array<double, 2 * ring_reach + 1> weights{};
   for (int k = -ring_reach; k <= ring_reach; ++k)
-    weights[k + ring_reach] = std::exp(-0.5 * k * k / (ring_sigma * ring_sigma));
+    weights[k + ring_reach] = maths::exp(-0.5 * k * k / (ring_sigma * ring_sigma));
   const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
   for (double& w : weights) w /= sum;
   return weights;

@@ -3,6 +3,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "microswarm/vision/image/blur.hpp"
 #include "microswarm/vision/image/mask_ops.hpp"
 
 namespace microswarm {
@@ -15,10 +16,10 @@ constexpr double noise_blur = 1;     // [px]
 
 /// Gaussian mean of the picture over the pixels of `where` only; 0 far from all of them.
 cv::Mat mean_over(const cv::Mat& picture, const cv::Mat& where, double sigma) {
-  cv::Mat weight, sum;
+  cv::Mat weight;
   where.convertTo(weight, CV_32F, 1.0 / 255);
-  cv::GaussianBlur(picture.mul(weight), sum, {}, sigma);
-  cv::GaussianBlur(weight, weight, {}, sigma);
+  const cv::Mat sum = blurred(picture.mul(weight), sigma);
+  weight = blurred(weight, sigma);
   return sum / cv::max(weight, 1e-6);
 }
 
@@ -29,8 +30,7 @@ cv::Mat fitted_walls(const cv::Mat& picture, const cv::Mat& lines, const cv::Mat
   const cv::Mat reach = grown(lines, outward * wide_radius) & view;
   const cv::Mat within = mean_over(picture, lines, along * wide_radius);
   const cv::Mat outside = mean_over(picture, view & ~reach, around * wide_radius);
-  cv::Mat smooth;
-  cv::GaussianBlur(picture, smooth, {}, noise_blur);
+  const cv::Mat smooth = blurred(picture, noise_blur);
   return (smooth > outside + level * (within - outside)) & reach;
 }
 

@@ -7,6 +7,7 @@
 #include <queue>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths.hpp"
 #include "microswarm/geometry/predicates.hpp"
 #include "microswarm/world/connectivity/neck.hpp"
 #include "microswarm/world/map/lattice.hpp"
@@ -23,7 +24,7 @@ constexpr std::size_t most_passages = 100;
 
 Polygon as_polygon(const Disc& d) {
   constexpr double sector = 2 * pi / corners_of_disc;
-  const double radius = d.radius * std::sqrt(sector / std::sin(sector));
+  const double radius = d.radius * std::sqrt(sector / maths::sin(sector));
   Polygon out;
   for (int k = 0; k < corners_of_disc; ++k) {
     out.outer.push_back(d.centre + radius * unit_vector(k * sector));

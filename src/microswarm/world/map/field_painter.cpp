@@ -77,7 +77,8 @@ Vec2 FieldPainter::point(double column, double row) const {
 }
 
 double FieldPainter::half_diagonal(const Block& block) const {
-  return 0.5 * field_.cell_ * std::hypot(block.right - block.left, block.top - block.bottom) *
+  return 0.5 * field_.cell_ *
+             norm(Vec2{1.0 * (block.right - block.left), 1.0 * (block.top - block.bottom)}) *
              (1 + 1e-9) +
          rounding_;
 }

@@ -6,6 +6,7 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/error.hpp"
+#include "microswarm/core/maths.hpp"
 #include "microswarm/core/text.hpp"
 #include "microswarm/geometry/predicates.hpp"
 
@@ -169,7 +170,7 @@ std::vector<Vec2> channel_outline(const DeformingChannel& channel, double t) {
   const double shift = turns - std::floor(turns);
   return outline(line, [&](double s) {
     return half_width_at(channel, s, length) +
-           channel.amplitude * std::sin(2 * pi * (s / channel.wavelength - shift));
+           channel.amplitude * maths::sin(2 * pi * (s / channel.wavelength - shift));
   });
 }
 

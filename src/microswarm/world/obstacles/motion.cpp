@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths.hpp"
 
 namespace microswarm {
 namespace {
@@ -24,16 +25,18 @@ Placement placed(const Straight& m, double t) {
 
 Placement placed(const HarmonicLine& m, double t) {
   const double angle = wave_angle(t, m.period, m.phase);
+  const auto [sine, cosine] = maths::sincos(angle);
   return {true,
-          {m.centre + std::sin(angle) * m.amplitude, heading_of(m.amplitude)},
-          (2 * pi / m.period * std::cos(angle)) * m.amplitude};
+          {m.centre + sine * m.amplitude, heading_of(m.amplitude)},
+          (2 * pi / m.period * cosine) * m.amplitude};
 }
 
 Placement placed(const HarmonicArc& m, double t) {
   const double angle = wave_angle(t, m.period, m.phase);
-  const double turned = m.middle + m.half_angle * std::sin(angle);
+  const auto [sine, cosine] = maths::sincos(angle);
+  const double turned = m.middle + m.half_angle * sine;
   const Vec2 spoke = unit_vector(turned);
-  const double turning = m.half_angle * 2 * pi / m.period * std::cos(angle);
+  const double turning = m.half_angle * 2 * pi / m.period * cosine;
   return {true,
           {m.pivot + m.radius * spoke, turned + pi / 2},
           (m.radius * turning) * perpendicular(spoke)};

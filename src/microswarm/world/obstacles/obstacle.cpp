@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths.hpp"
 #include "microswarm/core/text.hpp"
 #include "microswarm/world/obstacles/channel.hpp"
 
@@ -17,7 +18,7 @@ namespace {
 double swing(double least, double greatest, double period, double phase, double t) {
   const double turns = t / period + phase;
   const double angle = 2 * pi * (turns - std::floor(turns));
-  return least + 0.5 * (greatest - least) * (1 + std::sin(angle));
+  return least + 0.5 * (greatest - least) * (1 + maths::sin(angle));
 }
 double top_rate(double least, double greatest, double period) {
   return std::abs(greatest - least) * pi / period;
@@ -85,15 +86,15 @@ class Builder {
 struct Extent {
   double operator()(const DiscShape& s) const { return s.radius; }
   double operator()(const BreathingDisc& s) const { return s.greatest_radius; }
-  double operator()(const BoxShape& s) const { return 0.5 * std::hypot(s.width, s.height); }
+  double operator()(const BoxShape& s) const { return 0.5 * norm({s.width, s.height}); }
   double operator()(const PolygonShape& s) const {
     double extent = 0;
     for (const Vec2 v : s.vertices) extent = std::max(extent, norm(v));
     return extent;
   }
-  double operator()(const Valve& s) const { return 0.5 * std::hypot(s.span, s.thickness); }
+  double operator()(const Valve& s) const { return 0.5 * norm({s.span, s.thickness}); }
   double operator()(const DeformingChannel& s) const {
-    return norm(s.block_centre) + 0.5 * std::hypot(s.block_width, s.block_height);
+    return norm(s.block_centre) + 0.5 * norm({s.block_width, s.block_height});
   }
 };
 
