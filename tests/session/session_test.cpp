@@ -111,6 +111,19 @@ TEST(Session, WhatIsSetIsRecordedAndPlayedBack) {
   EXPECT_FALSE(session.seek(0));
 }
 
+TEST(Session, TheViewIsTheLastTicksUntilTheNext) {
+  Session session(flight());
+  while (session.view().tree.empty()) ASSERT_TRUE(session.step());
+  const SessionView before = session.view();
+  EXPECT_TRUE(session.set("navigator.speed_um_per_s", "30").empty());
+  EXPECT_TRUE(session.set("navigator.speed_um_per_s", "31").empty());
+  const SessionView after = session.view();  // though its navigator was replaced
+  EXPECT_EQ(after.tree.size(), before.tree.size());
+  EXPECT_EQ(after.path, before.path);
+  ASSERT_TRUE(session.step());
+  EXPECT_EQ(session.view().frame.command.speed, 31);
+}
+
 TEST(Session, ListenersHearEveryTickAndTheEnd) {
   struct Count : RunListener {
     void on_tick(const Tick&) override { ++ticks; }

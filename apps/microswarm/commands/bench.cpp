@@ -30,6 +30,7 @@ int measure(const BenchOptions& o) {
   if (o.quick) words.push_back("--quick");
   if (o.json) words.push_back("--json");
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   flush_output();

@@ -138,7 +138,9 @@ double atan2(double y, double x) {
   const bool steep = rise > run;
   const double less = steep ? run : rise, more = steep ? rise : run;
   if (!(less <= more && more >= 1e-30 && more <= 1e30)) return Sleef_cinz_atan2d1_u10purec(y, x);
-  // atan(q) = atan(c) + atan((q − c) / (1 + q c)), with c = i / 16 next to q.
+  // atan(q) = atan(c) + atan((q − c) / (1 + q c)), with c = i / 16 next to q; which of two
+  // neighbours is taken does not matter.
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings)
   const auto i = static_cast<std::size_t>(
       static_cast<float>(less) / static_cast<float>(more) * arcs_to_one + 0.5F);
   const double c = static_cast<double>(i) / arcs_to_one;

@@ -52,6 +52,7 @@ struct TableWriter {
       const std::string path = group + "/" + column.key;
       if (column.kind == ColumnKind::real) {
         std::vector<double> values;
+        values.reserve(rows.size());
         for (const void* row : rows) values.push_back(column.number(row));
         file.dataset(path, values);
       } else {
@@ -64,6 +65,7 @@ struct TableWriter {
   void write_integers(const std::string& path, const Column& column,
                       const std::vector<const void*>& rows) {
     std::vector<std::int64_t> values;
+    values.reserve(rows.size());
     std::vector<std::string> words;
     for (const void* row : rows)
       values.push_back(column.kind == ColumnKind::word

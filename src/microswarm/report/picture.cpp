@@ -31,7 +31,7 @@ cairo_status_t append(void* out, const unsigned char* data, unsigned int length)
 
 /// 1, 2 or 5 times a power of ten, at most `most`.
 double round_length(double most) {
-  const double power = maths::power(10, static_cast<int>(std::floor(maths::log10(most))));
+  const double power = maths::power(10.0, static_cast<int>(std::floor(maths::log10(most))));
   for (const double factor : {5.0, 2.0})
     if (factor * power <= most) return factor * power;
   return power;

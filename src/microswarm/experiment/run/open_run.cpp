@@ -52,12 +52,18 @@ OpenRun::OpenRun(Scenario scenario, World world, std::unique_ptr<Plant> plant, s
       navigator_(navigator ? std::move(navigator) : made()),
       episode_(scenario_, *plant_, *navigator_) {}
 
-OpenRun::OpenRun(Scenario scenario, World world, std::uint32_t trial)
+OpenRun::OpenRun(const Scenario& scenario, const World& world, std::uint32_t trial)
     : OpenRun(scenario, world, make_kinematic_plant(scenario, world, trial), trial) {}
 
 std::unique_ptr<Navigator> OpenRun::made() const {
   return make_navigator(scenario_.navigator, task_of(scenario_),
                         Rng(scenario_.seed, Purpose::planner, trial_));
+}
+
+const Tick* OpenRun::step(const Stop& stop) {
+  const Tick* tick = episode_.step(stop);
+  last_navigator_.reset();
+  return tick;
 }
 
 Issues OpenRun::change(const std::string& wanted) {
@@ -93,6 +99,7 @@ Issues OpenRun::change(const std::string& wanted) {
   if (steers_anew && !navigator_is_theirs_) {
     std::unique_ptr<Navigator> next = made();
     episode_.change(setting, *next);
+    if (!last_navigator_) last_navigator_ = std::move(navigator_);
     navigator_ = std::move(next);
   } else {
     episode_.change(setting, *navigator_);

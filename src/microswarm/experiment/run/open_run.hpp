@@ -24,12 +24,13 @@ class OpenRun {
   OpenRun(Scenario scenario, World world, std::unique_ptr<Plant> plant, std::uint32_t trial = 0,
           std::unique_ptr<Navigator> navigator = nullptr);
   /// In the simulation without physics.
-  OpenRun(Scenario scenario, World world, std::uint32_t trial = 0);
+  OpenRun(const Scenario& scenario, const World& world, std::uint32_t trial = 0);
+  ~OpenRun() = default;
   OpenRun(const OpenRun&) = delete;
   OpenRun& operator=(const OpenRun&) = delete;
 
   /// As Episode::step.
-  const Tick* step(const Stop& stop = {}) { return episode_.step(stop); }
+  const Tick* step(const Stop& stop = {});
 
   /// Sets a value of the scenario from the next tick on, "navigator.speed_um_per_s=60": of the
   /// navigator, which is made anew, the goal, an obstacle, or a limit of the run. Where there are
@@ -53,6 +54,7 @@ class OpenRun {
   std::unique_ptr<Plant> plant_;
   bool navigator_is_theirs_;
   std::unique_ptr<Navigator> navigator_;
+  std::unique_ptr<Navigator> last_navigator_;  ///< the last tick shows its plan
   Episode episode_;
 };
 

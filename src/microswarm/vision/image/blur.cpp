@@ -23,6 +23,7 @@ std::vector<float> bell(double spread, int reach) {
     sum += (i == 0 ? 1 : 2) * half.back();
   }
   std::vector<float> weights;
+  weights.reserve(half.size());
   for (const double w : half) weights.push_back(static_cast<float>(w / sum));
   return weights;
 }

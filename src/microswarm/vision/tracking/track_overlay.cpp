@@ -74,7 +74,7 @@ void draw_legend(cv::Mat& picture, double um_per_px, double t, std::size_t robot
 
 double scale_bar_length(double width) {
   const double about = width / 5;
-  const double ten = maths::power(10, static_cast<int>(std::floor(maths::log10(about))));
+  const double ten = maths::power(10.0, static_cast<int>(std::floor(maths::log10(about))));
   for (const double times : {5.0, 2.0})
     if (times * ten <= about) return times * ten;
   return ten;
