@@ -113,6 +113,8 @@ TEST(OpenRun, WhatCannotBeChangedIsSaidAndNothingChanges) {
 
   Recorded theirs(open_room(), std::make_unique<GoStraight>(Vec2{1, 1}, 5));
   EXPECT_FALSE(theirs.open.change("navigator.speed_um_per_s=3").empty());
+  EXPECT_FALSE(theirs.open.change("goal_um=[500, 500]").empty());
+  EXPECT_TRUE(theirs.open.change("hold_limit_s=3").empty());
 }
 
 }  // namespace

@@ -107,6 +107,8 @@ TEST(Session, WhatIsSetIsRecordedAndPlayedBack) {
   ASSERT_TRUE(playback->seek(1'000'000));
   ASSERT_TRUE(playback->step());
   EXPECT_TRUE(playback->view().end);
+  EXPECT_EQ(playback->view().number, frames - 1);
+  EXPECT_EQ(playback->view().plans, session.view().plans);
   EXPECT_EQ(playback->step(), nullptr);
   EXPECT_FALSE(session.seek(0));
 }

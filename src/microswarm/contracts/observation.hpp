@@ -24,7 +24,7 @@ struct TimedPose {
 };
 
 /// Age of a frame [s] from which on a navigator holds, where nothing else is said.
-inline constexpr double usual_frame_timeout = 0.5;
+inline constexpr double default_frame_timeout = 0.5;
 
 /// What is seen: the newest frame, which is `age()` old when the navigator gets it. `swarm` is
 /// empty when no swarm was found in the frame. `robots` are its robots one by one, where they are

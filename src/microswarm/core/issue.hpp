@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "microswarm/core/error.hpp"
+
 namespace microswarm {
 
 /// One thing that is wrong with a value.
@@ -37,6 +39,20 @@ class Issues {
  private:
   std::vector<Issue> list_;
 };
+
+/// Calls `read`, whose InputError is one more issue: about that key, or about none where it names a
+/// file.
+template <class Read>
+void attempt(Issues& issues, std::string_view key, Read&& read) {
+  try {
+    read();
+  } catch (const InputError& error) {
+    if (key.empty())
+      issues.add({}, error.what());
+    else
+      issues.add(key, error.what());
+  }
+}
 
 /// Whether `key` is `outer` or something in it.
 bool is_in_key(std::string_view key, std::string_view outer);

@@ -25,19 +25,6 @@ MapParts parts_of(const Mask& blocked, double cell, Vec2 lo = {}) {
   return {cell_bounds(blocked, cell, lo), mask_walls(blocked, cell, lo), {}};
 }
 
-/// Calls `read`, whose InputError is one more issue with that key, or with none.
-template <class Read>
-void attempt(Issues& issues, const std::string& key, Read&& read) {
-  try {
-    read();
-  } catch (const InputError& error) {
-    if (key.empty())
-      issues.add({}, error.what());
-    else
-      issues.add(key, error.what());
-  }
-}
-
 MapParts read(const ImageMap& spec, const fs::path& base, Issues&) {
   const Image image = read_image(base / spec.file);
   const bool dark_is_wall = spec.free == FreePixels::bright;

@@ -91,7 +91,6 @@ struct TableReader {
     read(group, columns_of(list.row_type()), list);
   }
   void parts(const std::string& group, const ListRef<void*>& outer, const Field& field) {
-    // All parts are read into the first row's list, then dealt out.
     const std::vector<std::int64_t> offsets = file.integers(group + "/offset");
     if (offsets.size() != outer.size() + 1 || offsets.front() != 0 ||
         !std::is_sorted(offsets.begin(), offsets.end()))
@@ -99,8 +98,9 @@ struct TableReader {
     const Type& row = *field.type->parts[0];
     const std::vector<Column> columns = columns_of(row, ColumnUnits::held, field.info.unit);
     std::vector<void*> rows;
-    const auto size = static_cast<std::size_t>(offsets.back());
-    check_size(group, columns, size);
+    // Before memory is taken for rows that are not there.
+    if (size_of(group, columns.front()) != static_cast<std::size_t>(offsets.back()))
+      file.fail(group + "/offset does not fit its table");
     for (std::size_t i = 0; i < outer.size(); ++i) {
       const auto part = outer.part(i, field);
       part.resize(static_cast<std::size_t>(offsets[i + 1] - offsets[i]));
@@ -112,21 +112,15 @@ struct TableReader {
  private:
   void read(const std::string& group, const std::vector<Column>& columns,
             const ListRef<void*>& list) {
-    const std::string first = group + "/" + columns.front().key;
-    const std::size_t size = columns.front().kind == ColumnKind::real ? file.numbers(first).size()
-                                                                      : file.integers(first).size();
-    check_size(group, columns, size);
+    const std::size_t size = size_of(group, columns.front());
     list.resize(size);
     std::vector<void*> rows;
     for (std::size_t i = 0; i < size; ++i) rows.push_back(list.row(i));
     for (const Column& column : columns) read(group, column, rows);
   }
-  /// Before memory is taken for rows that are not there.
-  void check_size(const std::string& group, const std::vector<Column>& columns, std::size_t size) {
-    const std::string path = group + "/" + columns.front().key;
-    const std::size_t found = columns.front().kind == ColumnKind::real ? file.numbers(path).size()
-                                                                       : file.integers(path).size();
-    if (found != size) file.fail(group + "/offset does not fit its table");
+  std::size_t size_of(const std::string& group, const Column& column) {
+    const std::string path = group + "/" + column.key;
+    return column.kind == ColumnKind::real ? file.numbers(path).size() : file.integers(path).size();
   }
   void read(const std::string& group, const Column& column, const std::vector<void*>& rows) {
     const std::string path = group + "/" + column.key;

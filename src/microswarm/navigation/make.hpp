@@ -16,12 +16,12 @@ namespace microswarm {
 
 /// What a navigator is told of its task.
 struct Task {
-  SwarmLimits swarm;                           ///< of a swarm that is seen as one body
-  std::optional<RobotSwarmParams> robots;      ///< of one whose robots are told apart
-  std::optional<Vec2> goal;                    ///< nothing when the robots have goals of their own
-  double goal_tolerance = 0;                   ///< [µm]
-  double tick = 0.1;                           ///< between two commands [s]
-  double frame_timeout = usual_frame_timeout;  ///< age of a frame [s] at which it holds
+  SwarmLimits swarm;                       ///< of a swarm that is seen as one body
+  std::optional<RobotSwarmParams> robots;  ///< of one whose robots are told apart
+  std::optional<Vec2> goal;                ///< nothing when the robots have goals of their own
+  double goal_tolerance = 0;               ///< [µm]
+  double tick = 0.1;                       ///< between two commands [s]
+  double frame_timeout = default_frame_timeout;  ///< age of a frame [s] at which it holds
 };
 
 /// What a navigator can steer: nothing when it can do the task, else what it lacks.

@@ -6,9 +6,9 @@
 namespace microswarm {
 
 /// A live rig with the devices that it needs.
-class LiveSession::Devised : public Plant {
+class LiveSession::LivePlant : public Plant {
  public:
-  Devised(RigExperiment on, bool dry, const std::filesystem::path& folder)
+  LivePlant(RigExperiment on, bool dry, const std::filesystem::path& folder)
       : on_(std::move(on)),
         devices_(open_devices(on_, dry)),
         log_(folder, on_.rig.system, dry),
@@ -30,15 +30,15 @@ class LiveSession::Devised : public Plant {
 };
 
 LiveSession::LiveSession(const RigExperiment& on, const std::string& name,
-                         std::unique_ptr<Plant> owned, Devised* plant)
+                         std::unique_ptr<Plant> owned, LivePlant* plant)
     : Session(on.experiment, 0, std::move(owned), nullptr, name), plant_(plant) {}
 
 std::unique_ptr<LiveSession> LiveSession::open(const RigExperiment& on, bool dry,
                                                const std::filesystem::path& folder) {
-  auto plant = std::make_unique<Devised>(on, dry, folder);
-  Devised* const devised = plant.get();
+  auto plant = std::make_unique<LivePlant>(on, dry, folder);
+  LivePlant* const live = plant.get();
   return std::unique_ptr<LiveSession>(
-      new LiveSession(on, name_of(on.rig) + (dry ? ", dry run" : ""), std::move(plant), devised));
+      new LiveSession(on, name_of(on.rig) + (dry ? ", dry run" : ""), std::move(plant), live));
 }
 
 void LiveSession::stop(const std::string& why) { plant_->rig().stop(why); }

@@ -30,12 +30,12 @@ class LiveSession : public Session {
   RigTiming timing() const;
 
  private:
-  class Devised;
+  class LivePlant;
 
   LiveSession(const RigExperiment& on, const std::string& name, std::unique_ptr<Plant> owned,
-              Devised* plant);
+              LivePlant* plant);
 
-  Devised* plant_;  ///< the session's
+  LivePlant* plant_;  ///< the session's
 };
 
 }  // namespace microswarm

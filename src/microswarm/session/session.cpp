@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/session/session.hpp"
 
+#include <algorithm>
+
 #include "microswarm/config/schema.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/rig/simulation/simulated_rig.hpp"
@@ -78,12 +80,12 @@ Issues Session::set(const std::string& key, const std::string& value) {
 bool Session::seek(std::size_t frame) {
   if (!is_playback()) return false;
   auto& playback = std::get<Playback>(source_);
-  playback.seek(frame);
   tick_ = nullptr;
-  ticks_ = frame;
-  plans_ = 0;
+  ticks_ = playback.seek(frame);
   const auto& frames = playback.record().frames;
-  for (std::size_t i = 0; i < std::min(frame, frames.size()); ++i) plans_ += frames[i].planned;
+  plans_ = static_cast<std::uint64_t>(
+      std::count_if(frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(ticks_),
+                    [](const Frame& f) { return f.planned; }));
   return true;
 }
 

@@ -22,12 +22,13 @@ Playback::Playback(Record record)
       scenario_(record_.scene.scenario),
       world_(build_world(record_.scene)) {}
 
-void Playback::seek(std::size_t frame) {
+std::size_t Playback::seek(std::size_t frame) {
   next_ = record_.frames.empty() ? 0 : std::min(frame, record_.frames.size() - 1);
   scenario_ = record_.scene.scenario;
   changed_ = 0;
   if (next_ > 0) apply_changes(next_ - 1);
   world_.obstacles = scenario_.obstacles;
+  return next_;
 }
 
 void Playback::apply_changes(std::size_t frame) {

@@ -19,8 +19,8 @@ class Playback {
 
   /// The next frame's tick; null after the last one. Valid until the next call.
   const Tick* step();
-  /// The next step gives this frame; beyond the last one, the last.
-  void seek(std::size_t frame);
+  /// The next step gives this frame; beyond the last one, the last. Its number.
+  std::size_t seek(std::size_t frame);
 
   const Record& record() const { return record_; }
   /// The scenario with what was changed up to the present frame.

@@ -149,7 +149,7 @@ ReplayResult replay(const Record& record, const Stop& stop) {
   OpenRun open(record.scene.scenario, build_world(record.scene), record.trial);
   Changes changes(record.changes, open);
   RunListener* const listeners[] = {&recorder, &ending, &changes};
-  finish(open, listeners, Stop(&ending.over()));
+  open.finish(listeners, Stop(&ending.over()));
   const Record now = recorder.take();
   if (ending.stopped()) return {.identical = false, .stopped = true, .difference = {}};
 

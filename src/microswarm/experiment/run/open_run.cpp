@@ -48,7 +48,7 @@ OpenRun::OpenRun(Scenario scenario, World world, std::unique_ptr<Plant> plant, s
       world_(std::move(world)),
       trial_(trial),
       plant_(std::move(plant)),
-      navigator_is_theirs_(navigator != nullptr),
+      has_external_navigator_(navigator != nullptr),
       navigator_(navigator ? std::move(navigator) : made()),
       episode_(scenario_, *plant_, *navigator_) {}
 
@@ -74,8 +74,9 @@ Issues OpenRun::change(const std::string& wanted) {
     issues.add(key, key + " cannot be changed while the experiment runs");
   if (setting.find_first_of("\n\r") != std::string::npos)
     issues.add(key, key + " is set in more than one line");
-  if (key == "navigator" && navigator_is_theirs_)
-    issues.add(key, "the navigator is not the scenario's");
+  const bool steers_anew = key == "navigator" || key == "goal_um" || key == "goal_tolerance_um";
+  if (steers_anew && has_external_navigator_)
+    issues.add(key, "an external navigator cannot be told of another " + key);
   if (!issues.empty()) return issues;
 
   Scenario changed = scenario_;
@@ -93,10 +94,9 @@ Issues OpenRun::change(const std::string& wanted) {
     issues.add(key, "the obstacles of this plant cannot be changed");
   if (!issues.empty()) return issues;
 
-  const bool steers_anew = key == "navigator" || key == "goal_um" || key == "goal_tolerance_um";
   scenario_ = std::move(changed);
   world_.obstacles = scenario_.obstacles;
-  if (steers_anew && !navigator_is_theirs_) {
+  if (steers_anew) {
     std::unique_ptr<Navigator> next = made();
     episode_.change(setting, *next);
     if (!last_navigator_) last_navigator_ = std::move(navigator_);
@@ -107,8 +107,9 @@ Issues OpenRun::change(const std::string& wanted) {
   return issues;
 }
 
-RunResult finish(OpenRun& open, std::span<RunListener* const> listeners, const Stop& stop) {
-  return run(open.episode_, open.scenario_, listeners, stop);
+RunResult OpenRun::finish(std::span<RunListener* const> listeners, const Stop& stop) {
+  return run(
+      scenario_, [&] { return step(stop); }, listeners);
 }
 
 }  // namespace microswarm

@@ -31,6 +31,8 @@ class OpenRun {
 
   /// As Episode::step.
   const Tick* step(const Stop& stop = {});
+  /// Steps to the end; the listeners hear every tick from now on.
+  RunResult finish(std::span<RunListener* const> listeners = {}, const Stop& stop = {});
 
   /// Sets a value of the scenario from the next tick on, "navigator.speed_um_per_s=60": of the
   /// navigator, which is made anew, the goal, an obstacle, or a limit of the run. Where there are
@@ -44,22 +46,16 @@ class OpenRun {
   const Navigator& navigator() const { return *navigator_; }
 
  private:
-  friend RunResult finish(OpenRun& open, std::span<RunListener* const> listeners, const Stop& stop);
-
   std::unique_ptr<Navigator> made() const;
 
   Scenario scenario_;
   World world_;
   std::uint32_t trial_;
   std::unique_ptr<Plant> plant_;
-  bool navigator_is_theirs_;
+  bool has_external_navigator_;
   std::unique_ptr<Navigator> navigator_;
   std::unique_ptr<Navigator> last_navigator_;  ///< the last tick shows its plan
   Episode episode_;
 };
-
-/// As run(), of what is left.
-RunResult finish(OpenRun& open, std::span<RunListener* const> listeners = {},
-                 const Stop& stop = {});
 
 }  // namespace microswarm

@@ -9,10 +9,10 @@
 
 namespace microswarm {
 
-RunResult run(Episode& episode, const Scenario& scenario, std::span<RunListener* const> listeners,
-              const Stop& stop) {
+RunResult run(const Scenario& scenario, const std::function<const Tick*()>& step,
+              std::span<RunListener* const> listeners) {
   MetricsListener metrics(scenario);
-  while (const Tick* tick = episode.step(stop)) {
+  while (const Tick* tick = step()) {
     metrics.on_tick(*tick);
     for (RunListener* listener : listeners) listener->on_tick(*tick);
   }
@@ -23,7 +23,8 @@ RunResult run(Episode& episode, const Scenario& scenario, std::span<RunListener*
 RunResult run(const Scenario& scenario, Plant& plant, Navigator& navigator,
               std::span<RunListener* const> listeners, const Stop& stop) {
   Episode episode(scenario, plant, navigator);
-  return run(episode, scenario, listeners, stop);
+  return run(
+      scenario, [&] { return episode.step(stop); }, listeners);
 }
 
 std::unique_ptr<Plant> make_kinematic_plant(const Scenario& scenario, const World& world,
@@ -35,7 +36,7 @@ std::unique_ptr<Plant> make_kinematic_plant(const Scenario& scenario, const Worl
 RunResult simulate(const Scenario& scenario, const World& world, std::uint32_t trial,
                    std::span<RunListener* const> listeners, const Stop& stop) {
   OpenRun open(scenario, world, trial);
-  return finish(open, listeners, stop);
+  return open.finish(listeners, stop);
 }
 
 }  // namespace microswarm

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -30,12 +31,12 @@ class RunListener {
   virtual void on_end(const RunResult& result) { (void)result; }
 };
 
-class Episode;
+/// Calls `step` until it gives no tick and tells every tick to the listeners; with `fault`, the
+/// plant's reason is the result's state.
+RunResult run(const Scenario& scenario, const std::function<const Tick*()>& step,
+              std::span<RunListener* const> listeners = {});
 
-/// Steps an episode to its end and tells every tick to the listeners; with `fault`, the plant's
-/// reason is the result's state.
-RunResult run(Episode& episode, const Scenario& scenario,
-              std::span<RunListener* const> listeners = {}, const Stop& stop = {});
+/// The same with an episode of this plant and navigator.
 RunResult run(const Scenario& scenario, Plant& plant, Navigator& navigator,
               std::span<RunListener* const> listeners = {}, const Stop& stop = {});
 

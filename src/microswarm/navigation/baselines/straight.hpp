@@ -11,7 +11,7 @@ namespace microswarm {
 class StraightNavigator : public Navigator {
  public:
   StraightNavigator(const StraightParams& params, const SwarmLimits& swarm, Vec2 goal,
-                    double goal_tolerance, double frame_timeout = usual_frame_timeout)
+                    double goal_tolerance, double frame_timeout = default_frame_timeout)
       : params_(params), helm_(swarm, params.speed, goal, goal_tolerance, frame_timeout) {}
 
   void prepare(const Snapshot& world) override;

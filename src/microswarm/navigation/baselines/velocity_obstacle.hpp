@@ -16,7 +16,7 @@ class VelocityObstacleNavigator : public Navigator {
  public:
   VelocityObstacleNavigator(const VelocityObstacleParams& params, const SwarmLimits& swarm,
                             Vec2 goal, double goal_tolerance,
-                            double frame_timeout = usual_frame_timeout);
+                            double frame_timeout = default_frame_timeout);
 
   void prepare(const Snapshot& world) override;
   Command step(const Observation& observation, const Stop& stop) override;

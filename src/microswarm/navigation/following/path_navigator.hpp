@@ -14,7 +14,7 @@ namespace microswarm {
 class PathNavigator : public Navigator {
  public:
   PathNavigator(const PathNavigatorParams& params, const SwarmLimits& swarm, Vec2 goal,
-                double goal_tolerance, double frame_timeout = usual_frame_timeout);
+                double goal_tolerance, double frame_timeout = default_frame_timeout);
 
   void prepare(const Snapshot& world) override;
   Command step(const Observation& observation, const Stop& stop) override;

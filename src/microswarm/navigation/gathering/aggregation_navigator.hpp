@@ -19,7 +19,7 @@ class AggregationNavigator : public Navigator {
   /// way is at most half of the task's `goal_tolerance` [µm], however that is measured there.
   AggregationNavigator(const AggregationParams& params, const RobotSwarmParams& robots, Vec2 goal,
                        double goal_tolerance, double tick, Rng rng,
-                       double frame_timeout = usual_frame_timeout);
+                       double frame_timeout = default_frame_timeout);
 
   /// Grows the tree. Throws InputError as AggregationMap does.
   void prepare(const Snapshot& world) override;

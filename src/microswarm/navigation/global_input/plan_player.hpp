@@ -18,7 +18,7 @@ class PlanPlayer : public Navigator {
  public:
   /// `robots`: what is known of them, with a goal each; `tick` [s] between two commands.
   PlanPlayer(const PlanPlayerParams& params, const RobotSwarmParams& robots, double goal_tolerance,
-             double tick, Rng rng, double frame_timeout = usual_frame_timeout);
+             double tick, Rng rng, double frame_timeout = default_frame_timeout);
 
   void prepare(const Snapshot& world) override;
   Command step(const Observation& observation, const Stop& stop) override;

@@ -180,7 +180,7 @@ Vec2 HierarchicalNavigator::towards(const Map& map) const {
 }
 
 // What is beyond the horizon seems free: without an end, a wait would look better for ever.
-double HierarchicalNavigator::most_wait(double now) {
+double HierarchicalNavigator::max_wait(double now) {
   if (wait_ && distance(wait_->at, pose_.position) > used_up()) wait_.reset();
   return params_.target_horizon - (wait_ ? now - wait_->since : 0);
 }
@@ -206,7 +206,7 @@ bool HierarchicalNavigator::replan_in_time(const Snapshot& seen, double clearanc
                                                .turn_weight = params_.planner.smoothness_weight,
                                                .clearance = clearance,
                                                .horizon = params_.target_horizon,
-                                               .most_wait = most_wait(seen.time())},
+                                               .max_wait = max_wait(seen.time())},
                                               way_from);
   if (!target) return false;
   if (target->wait > 0) {  // without a path it holds

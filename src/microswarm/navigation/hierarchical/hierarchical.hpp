@@ -27,7 +27,8 @@ class HierarchicalNavigator : public Navigator {
  public:
   /// `swarm` is what is known of the swarm: radius, turning limit and dead time.
   HierarchicalNavigator(const HierarchicalParams& params, const SwarmLimits& swarm, Vec2 goal,
-                        double goal_tolerance, Rng rng, double frame_timeout = usual_frame_timeout);
+                        double goal_tolerance, Rng rng,
+                        double frame_timeout = default_frame_timeout);
 
   void prepare(const Snapshot& world) override;
   Command step(const Observation& observation, const Stop& stop) override;
@@ -64,7 +65,7 @@ class HierarchicalNavigator : public Navigator {
   /// So little that it counts as nothing [µm].
   double path_end() const { return std::min(1.0, 0.25 * aim_.tolerance); }
   bool is_used_up();
-  double most_wait(double now);
+  double max_wait(double now);
   Command escape(const Observation& seen);
 
   /// A wait for an obstacle to pass.

@@ -92,7 +92,7 @@ std::optional<PredictedTarget> select_predicted_target(
   const int directions = std::max(4, static_cast<int>(std::lround(2 * pi / q.angle_step)));
   PredictedChoice choice(frame, obstacles, q, way_from);
   for (const double wait : waits) {
-    if (wait > 0 && wait > q.most_wait) break;
+    if (wait > 0 && wait > q.max_wait) break;
     if (goal_distance <= q.reach) choice.consider(q.goal, wait);
     for (double reach = std::min(q.reach, goal_distance); reach >= q.least_reach; reach /= 2)
       for (int k = 0; k < directions; ++k)

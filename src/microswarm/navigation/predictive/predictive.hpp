@@ -20,7 +20,7 @@ namespace microswarm {
 class PredictiveNavigator : public Navigator {
  public:
   PredictiveNavigator(const PredictiveParams& params, const SwarmLimits& swarm, Vec2 goal,
-                      double goal_tolerance, Rng rng, double frame_timeout = usual_frame_timeout);
+                      double goal_tolerance, Rng rng, double frame_timeout = default_frame_timeout);
 
   void prepare(const Snapshot& world) override;
   Command step(const Observation& observation, const Stop& stop) override;

@@ -26,7 +26,7 @@ class RadarNavigator : public Navigator {
  public:
   /// `params` passed `check`; `swarm` is what is known of the swarm.
   RadarNavigator(const RadarParams& params, const SwarmLimits& swarm, Vec2 goal,
-                 double goal_tolerance, Rng rng, double frame_timeout = usual_frame_timeout);
+                 double goal_tolerance, Rng rng, double frame_timeout = default_frame_timeout);
 
   void prepare(const Snapshot& world) override;
   Command step(const Observation& observation, const Stop& stop) override;

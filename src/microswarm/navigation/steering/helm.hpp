@@ -24,7 +24,7 @@ bool sees_swarm(const Observation& seen, double frame_timeout);
 class Helm {
  public:
   Helm(const SwarmLimits& swarm, double speed, Vec2 goal, double goal_tolerance,
-       double frame_timeout = usual_frame_timeout);
+       double frame_timeout = default_frame_timeout);
 
   /// Once, before the first step: where to head for, `least` and if it can `wanted` [µm] away from
   /// the map's walls (see aim_at).
