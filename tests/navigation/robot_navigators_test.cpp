@@ -1,61 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <deque>
-
 #include "microswarm/navigation/gathering/aggregation_check.hpp"
 #include "microswarm/navigation/gathering/aggregation_navigator.hpp"
 #include "microswarm/navigation/global_input/plan_player.hpp"
 #include "microswarm/scenes/global_worlds.hpp"
 #include "microswarm/scenes/vascular.hpp"
 #include "microswarm/scenes/worlds.hpp"
+#include "tests/navigation/robot_scene.hpp"
 
 namespace microswarm {
 namespace {
 
 constexpr double robot_tick = 0.1;
-
-/// Robots under a navigator, seen as they were some ticks ago.
-struct Rig {
-  Map map;
-  RobotSwarmParams params;
-  std::size_t delay_ticks;
-  Snapshot world;
-  Rng rng{5, Purpose::plant};
-  RobotSwarm swarm;
-  std::deque<std::vector<Vec2>> history;
-  double now = 0;
-
-  Rig(Map m, const RobotSwarmParams& p, const std::vector<Vec2>& starts, std::size_t delay)
-      : map(std::move(m)),
-        params(p),
-        delay_ticks(delay),
-        world(std::make_shared<const Map>(map)),
-        swarm(p, RobotStepper(map, p.max_speed * robot_tick), starts, rng),
-        history{places()} {}
-
-  std::vector<Vec2> places() const { return swarm.robots().positions(); }
-  Observation observe() const {
-    const auto ticks = static_cast<double>(history.size() - 1);
-    return {.now = now,
-            .seen = now - ticks * robot_tick,
-            .swarm = SwarmPose{},
-            .robots = history.front(),
-            .world = borrowed(world)};
-  }
-  void apply(const Command& command) {
-    swarm.step(command, robot_tick, rng);
-    now += robot_tick;
-    history.push_back(places());
-    if (history.size() > delay_ticks + 1) history.pop_front();
-  }
-  double worst() const {
-    double w = 0;
-    for (std::size_t i = 0; i < params.goals.size(); ++i)
-      w = std::max(w, distance(swarm.robots().position(i), params.goals[i]));
-    return w;
-  }
-};
 
 RobotSwarmParams two_robots() {
   RobotSwarmParams p;
@@ -69,7 +26,7 @@ RobotSwarmParams two_robots() {
 TEST(RobotForecast, IsWhatComesUnderDelayAndLag) {
   RobotSwarmParams params = two_robots();
   params.response_lag = robot_tick;
-  Rig rig(scenes::global_world(1), params, params.starts, 3);
+  test::RobotScene rig(scenes::global_world(1), params, params.starts, 3);
   RobotForecast forecast(rig.map, params.max_speed * robot_tick, params.contact,
                          params.response_lag);
   for (int i = 0; i < 200; ++i) {
@@ -85,7 +42,7 @@ TEST(RobotForecast, IsWhatComesUnderDelayAndLag) {
 // Workspace L: the top of a block is at y = 175 µm, its left side at x = 175 µm.
 TEST(RobotForecast, ARobotSeenJustInAWallDoesNotGoThroughIt) {
   const RobotSwarmParams params = two_robots();
-  const Rig rig(scenes::global_world(1), params, params.starts, 0);
+  const test::RobotScene rig(scenes::global_world(1), params, params.starts, 0);
   RobotForecast forecast(rig.map, params.max_speed * robot_tick, params.contact, 0);
   Observation seen = rig.observe();
   const std::vector<Vec2> places{{260, 174.99}, {330, 200}};
@@ -100,7 +57,7 @@ TEST(RobotForecast, ARobotSeenJustInAWallDoesNotGoThroughIt) {
 
 TEST(PlanPlayer, SeenWithErrorsItArrives) {
   const RobotSwarmParams params = two_robots();
-  Rig rig(scenes::global_world(1), params, params.starts, 1);
+  test::RobotScene rig(scenes::global_world(1), params, params.starts, 1);
   PlanPlayer player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
   player.prepare(rig.world);
   Rng eye(3, Purpose::test);
@@ -120,7 +77,7 @@ TEST(PlanPlayer, SeenWithErrorsItArrives) {
 TEST(PlanPlayer, WithoutErrorsItPlansOnceAndArrives) {
   for (const std::size_t delay : {0, 2}) {
     const RobotSwarmParams params = two_robots();
-    Rig rig(scenes::global_world(1), params, params.starts, delay);
+    test::RobotScene rig(scenes::global_world(1), params, params.starts, delay);
     PlanPlayer player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
     player.prepare(rig.world);
     int planned = 0;
@@ -138,7 +95,7 @@ TEST(PlanPlayer, WithErrorsItFindsItsWayAgain) {
   params.position_noise = 3;
   params.heading_noise = 0.05;
   params.speed_spread = 0.1;
-  Rig rig(scenes::global_world(1), params, params.starts, 1);
+  test::RobotScene rig(scenes::global_world(1), params, params.starts, 1);
   PlanPlayer player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
   player.prepare(rig.world);
   int found_again = 0;
@@ -153,7 +110,7 @@ TEST(PlanPlayer, WithErrorsItFindsItsWayAgain) {
 
 TEST(PlanPlayer, RobotsThatWereCarriedAwayJoinThePlanAgain) {
   const RobotSwarmParams params = two_robots();
-  Rig rig(scenes::global_world(1), params, params.starts, 0);
+  test::RobotScene rig(scenes::global_world(1), params, params.starts, 0);
   PlanPlayer player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
   player.prepare(rig.world);
   std::vector<Observation> seen;
@@ -169,7 +126,7 @@ TEST(PlanPlayer, WithoutAPlanItHoldsAndTriesAgainLater) {
   const RobotSwarmParams params = two_robots();
   PlanPlayerParams hard;
   hard.planner.max_nodes = 1;
-  Rig rig(scenes::global_world(1), params, params.starts, 0);
+  test::RobotScene rig(scenes::global_world(1), params, params.starts, 0);
   PlanPlayer player(hard, params, 20, robot_tick, Rng(1, Purpose::planner));
   player.prepare(rig.world);
   int planned = 0;
@@ -186,7 +143,7 @@ TEST(PlanPlayer, WithoutAPlanItHoldsAndTriesAgainLater) {
 
 TEST(PlanPlayer, HoldsWhenItSeesTooFewTooOldOrIsThere) {
   const RobotSwarmParams params = two_robots();
-  Rig rig(scenes::global_world(1), params, params.starts, 0);
+  test::RobotScene rig(scenes::global_world(1), params, params.starts, 0);
   PlanPlayer player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
   player.prepare(rig.world);
   Observation seen = rig.observe();
@@ -210,7 +167,7 @@ TEST(AggregationNavigator, GathersUnderLagAndDelayAndHoldsThen) {
   std::vector<Vec2> starts;
   Rng rng(4, Purpose::scene);
   for (int i = 0; i < 64; ++i) starts.push_back({rng.uniform(2, 98), rng.uniform(92, 98)});
-  Rig rig(t.map(), params, starts, 1);
+  test::RobotScene rig(t.map(), params, starts, 1);
   AggregationNavigator navigator({}, params, t.goal, 20, robot_tick, Rng(1, Purpose::planner));
   navigator.prepare(rig.world);
   int steps = 0;

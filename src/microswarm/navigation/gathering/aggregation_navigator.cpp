@@ -32,8 +32,7 @@ void AggregationNavigator::prepare(const Snapshot& world) {
 
 Command AggregationNavigator::step(const Observation& seen, const Stop& stop) {
   view_ = {};
-  if (seen.robots.empty() || seen.age() > frame_timeout_)
-    return issue(seen.now, {}, NavigatorState::blind);
+  if (!sees_robots(seen, frame_timeout_)) return issue(seen.now, {}, NavigatorState::blind);
   const Robots robots = forecast_->at_effect(seen);
   const std::optional<Vec2> move =
       rollout_ ? rollout_->next(robots, stop) : gatherer_->next(robots);

@@ -20,7 +20,7 @@ void PlanPlayer::prepare(const Snapshot& world) {
 
 Command PlanPlayer::step(const Observation& seen, const Stop& stop) {
   view_ = {};
-  if (seen.robots.size() != swarm_.goals.size() || seen.age() > frame_timeout_)
+  if (seen.robots.size() != swarm_.goals.size() || !sees_robots(seen, frame_timeout_))
     return issue(seen.now, {}, NavigatorState::blind);
   const Robots robots = forecast_->at_effect(seen);
   if (met(robots)) {

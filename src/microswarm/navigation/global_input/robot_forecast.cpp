@@ -15,6 +15,11 @@ constexpr double remembered = 60;  // [s] frames are never older
 
 }  // namespace
 
+bool sees_robots(const Observation& seen, double frame_timeout) {
+  return !seen.robots.empty() && seen.age() <= frame_timeout &&
+         std::all_of(seen.robots.begin(), seen.robots.end(), is_finite);
+}
+
 RobotForecast::RobotForecast(const Map& map, double reach, ContactRule contact, double response_lag)
     : map_(map), stepper_(map, reach), contact_(contact), lag_(response_lag) {}
 

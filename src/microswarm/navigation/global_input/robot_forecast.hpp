@@ -9,6 +9,10 @@
 
 namespace microswarm {
 
+/// Whether a frame shows robots, each at a finite position, and is no older than `frame_timeout`
+/// [s].
+bool sees_robots(const Observation& seen, double frame_timeout);
+
 /// Where robots will be when the next command takes effect: those last seen, moved by the commands
 /// that were given since and are still on their way.
 class RobotForecast {
