@@ -4,61 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "microswarm/core/angles.hpp"
-#include "microswarm/core/rng.hpp"
 
 namespace microswarm {
 namespace {
 
 std::shared_ptr<const Samples> samples(std::vector<double> times, std::vector<Vec2> points) {
   return std::make_shared<Samples>(Samples{std::move(times), std::move(points)});
-}
-
-const std::vector<Vec2> corners{{0, 0}, {300, 0}, {300, 0}, {300, 400}, {-100, 400}};
-
-std::vector<Motion> all_motions() {
-  return {Still{{3, 4}, 0.5},
-          Straight{{10, 20}, {-7, 3}},
-          HarmonicLine{{100, 100}, {80, -60}, 12.5, 0.3},
-          HarmonicArc{{0, 0}, 250, 1.0, 0.8, 9, -0.2},
-          Waypoints{corners, 35, AtEnd::stay},
-          Waypoints{corners, 35, AtEnd::back},
-          Waypoints{corners, 35, AtEnd::loop},
-          Waypoints{{{5, 5}}, 35, AtEnd::loop},
-          Track{"f.csv", "1", samples({0, 1, 4, 4.5}, {{0, 0}, {10, 0}, {10, 60}, {0, 60}})}};
-}
-
-TEST(Motion, is_never_faster_than_its_top_speed) {
-  Rng rng(1, Purpose::test);
-  for (const Motion& motion : all_motions()) {
-    const double top = top_speed(motion);
-    for (int i = 0; i < 3000; ++i) {
-      const double t = rng.uniform(-10, 60);
-      const double dt = std::pow(10.0, rng.uniform(-4, 1));
-      const Placement a = placement(motion, t);
-      const Placement b = placement(motion, t + dt);
-      if (!a.present || !b.present) continue;
-      EXPECT_LE(distance(a.pose.position, b.pose.position), top * dt + 1e-9);
-      EXPECT_LE(turn_between(a.pose.heading, b.pose.heading), top_turning(motion) * dt + 1e-9);
-      EXPECT_LE(norm(a.velocity), top * (1 + 1e-12));
-    }
-  }
-}
-
-TEST(Motion, velocity_is_the_derivative_of_position) {
-  Rng rng(2, Purpose::test);
-  for (const Motion& motion : all_motions()) {
-    int bends = 0;
-    for (int i = 0; i < 1000; ++i) {
-      const double t = rng.uniform(0.1, 40);
-      const double dt = 1e-5;
-      const Placement a = placement(motion, t - dt);
-      const Placement b = placement(motion, t + dt);
-      if (!a.present || !b.present) continue;
-      const Vec2 slope = (b.pose.position - a.pose.position) / (2 * dt);
-      bends += distance(slope, placement(motion, t).velocity) > 1e-3 ? 1 : 0;
-    }
-    EXPECT_LE(bends, 2);  // a corner may fall between t − dt and t + dt
-  }
 }
 
 TEST(Motion, harmonic_ones_repeat_with_their_period) {
@@ -114,14 +65,6 @@ TEST(Motion, a_track_is_absent_outside_its_times) {
   const Track once{"f.csv", "7", samples({2}, {{1, 1}})};
   EXPECT_TRUE(placement(once, 2).present);
   EXPECT_FALSE(placement(once, 2.1).present);
-}
-
-TEST(Motion, same_time_same_bits) {
-  for (const Motion& motion : all_motions()) {
-    for (double t = -1; t < 30; t += 0.1) {
-      EXPECT_EQ(placement(motion, t).pose, placement(Motion(motion), t).pose);
-    }
-  }
 }
 
 }  // namespace
