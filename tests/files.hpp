@@ -69,4 +69,9 @@ inline std::filesystem::path data_folder() {
   return std::filesystem::is_directory(folder) ? folder : std::filesystem::path();
 }
 
+/// Samples of the same kinds that are part of the repository.
+inline std::filesystem::path sample_folder() {
+  return std::filesystem::path(MICROSWARM_SOURCE_DIR) / "tests" / "samples";
+}
+
 }  // namespace microswarm::test

@@ -136,54 +136,77 @@ struct Worst {
   }
 };
 
+/// Compares a calibration with the fields and gradients in the table beside it.
+void expect_fields(const std::filesystem::path& folder, const std::string& name) {
+  const MpemSystem mpem = read_mpem(folder / (name + ".yaml"));
+  CoilSystemParams params;
+  params.coils = MpemCoils{name + ".yaml"};
+  const CoilSystem system(params, {}, folder);
+  const std::string text = read_file(folder / (name + ".expected_fields.csv"));
+  TextRows rows(text, name);
+  ASSERT_TRUE(rows.next());
+  const std::size_t columns = rows.pieces(',').size();
+  const std::size_t coils = columns - 12;
+  ASSERT_EQ(system.size(), coils);
+  Worst fields, gradients;
+  int undefined = 0;
+  while (rows.next()) {
+    const auto pieces = rows.pieces(',');
+    ASSERT_EQ(pieces.size(), columns);
+    // A gradient of "-nan" stands at the place of a source without strength: ours is finite.
+    const auto number = [&](std::size_t i) {
+      return pieces[i].ends_with("nan") ? std::nan("") : rows.number(pieces[i], "value");
+    };
+    const Eigen::Vector3d p = 1e6 * Eigen::Vector3d(number(0), number(1), number(2));
+    Eigen::VectorXd currents(static_cast<Eigen::Index>(coils));
+    for (std::size_t i = 0; i < coils; ++i) currents[static_cast<Eigen::Index>(i)] = number(3 + i);
+    const std::size_t b = 3 + coils;
+    const Actuation at = system.at(p);
+    const Eigen::Vector3d expected = 1e3 * Eigen::Vector3d(number(b), number(b + 1), number(b + 2));
+    fields.add(at.field_of(currents), expected);
+    FiveGradients five;
+    for (std::size_t k = 0; k < 5; ++k) five[static_cast<Eigen::Index>(k)] = number(b + 3 + k);
+    const FiveGradients found = five_gradients(at.gradient_of(currents));
+    if (five.allFinite())
+      gradients.add(found, FiveGradients(mt_per_um_of_t_per_m * five));
+    else
+      ++undefined;
+    EXPECT_TRUE(found.allFinite());
+    EXPECT_EQ(mpem.in_workspace(p), number(columns - 1) == 1);
+  }
+  std::cout << name << ": " << fields.compared << " fields within " << fields.relative << ", "
+            << gradients.compared << " gradients within " << gradients.relative << '\n';
+  EXPECT_LE(fields.relative, 1e-6) << name;
+  EXPECT_LE(gradients.relative, 1e-6) << name;
+  EXPECT_GE(gradients.compared, 30) << name;
+  EXPECT_EQ(undefined, name == "OctoMag_IC" ? 10 : 0);
+}
+
+TEST(CalibrationSample, FieldsAndGradientsAreThoseExpected) {
+  expect_fields(test::sample_folder() / "coils", "coils");
+}
+
+TEST(CalibrationSample, GridsOfFieldsAreRead) {
+  const auto folder = test::sample_folder() / "coils";
+  CoilSystemParams params;
+  params.coils = VfieldCoils{{"Left.txt", "Right.txt", "Below.txt"}};
+  const CoilSystem grids(params, {}, folder);
+  params.coils = MpemCoils{"coils.yaml"};
+  const CoilSystem mpem(params, {}, folder);
+  EXPECT_EQ(grids.coil_names()[1], "Right");
+  // At the nodes they are the calibration's fields, between them about.
+  for (const Eigen::Vector3d& p :
+       {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(5000, -5000, 5000), Eigen::Vector3d(-5000, 0, 0)})
+    EXPECT_LE((grids.at(p).field - mpem.at(p).field).norm(), 1e-5 * mpem.at(p).field.norm());
+  const Eigen::Vector3d between(1000, -2500, 2000);
+  EXPECT_LE((grids.at(between).field - mpem.at(between).field).norm(),
+            0.03 * mpem.at(between).field.norm());
+}
+
 TEST_F(CalibrationData, FieldsAndGradientsAreThoseExpected) {
   for (const std::string name : {"OctoMag_Calibration", "MagBed_Calibration_03-07-2018",
-                                 "Navion_2_Calibration_24-02-2020", "OctoMag_IC"}) {
-    const MpemSystem mpem = read_mpem(folder_ / (name + ".yaml"));
-    CoilSystemParams params;
-    params.coils = MpemCoils{name + ".yaml"};
-    const CoilSystem system(params, {}, folder_);
-    const std::string text = read_file(folder_ / (name + ".expected_fields.csv"));
-    TextRows rows(text, name);
-    ASSERT_TRUE(rows.next());
-    const std::size_t columns = rows.pieces(',').size();
-    const std::size_t coils = columns - 12;
-    ASSERT_EQ(system.size(), coils);
-    Worst fields, gradients;
-    int undefined = 0;
-    while (rows.next()) {
-      const auto pieces = rows.pieces(',');
-      ASSERT_EQ(pieces.size(), columns);
-      // A gradient of "-nan" stands at the place of a source without strength: ours is finite.
-      const auto number = [&](std::size_t i) {
-        return pieces[i].ends_with("nan") ? std::nan("") : rows.number(pieces[i], "value");
-      };
-      const Eigen::Vector3d p = 1e6 * Eigen::Vector3d(number(0), number(1), number(2));
-      Eigen::VectorXd currents(static_cast<Eigen::Index>(coils));
-      for (std::size_t i = 0; i < coils; ++i)
-        currents[static_cast<Eigen::Index>(i)] = number(3 + i);
-      const std::size_t b = 3 + coils;
-      const Actuation at = system.at(p);
-      const Eigen::Vector3d expected =
-          1e3 * Eigen::Vector3d(number(b), number(b + 1), number(b + 2));
-      fields.add(at.field_of(currents), expected);
-      FiveGradients five;
-      for (std::size_t k = 0; k < 5; ++k) five[static_cast<Eigen::Index>(k)] = number(b + 3 + k);
-      const FiveGradients found = five_gradients(at.gradient_of(currents));
-      if (five.allFinite())
-        gradients.add(found, FiveGradients(mt_per_um_of_t_per_m * five));
-      else
-        ++undefined;
-      EXPECT_TRUE(found.allFinite());
-      EXPECT_EQ(mpem.in_workspace(p), number(columns - 1) == 1);
-    }
-    std::cout << name << ": " << fields.compared << " fields within " << fields.relative << ", "
-              << gradients.compared << " gradients within " << gradients.relative << '\n';
-    EXPECT_LE(fields.relative, 1e-6) << name;
-    EXPECT_LE(gradients.relative, 1e-6) << name;
-    EXPECT_GE(gradients.compared, 30) << name;
-    EXPECT_EQ(undefined, name == "OctoMag_IC" ? 10 : 0);
-  }
+                                 "Navion_2_Calibration_24-02-2020", "OctoMag_IC"})
+    expect_fields(folder_, name);
 }
 
 TEST_F(CalibrationData, TheTwoInvalidFilesAreRefused) {

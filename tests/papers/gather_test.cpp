@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Aggregation [gather] on the vessel masks of CHASE_DB1, which are not part of the project.
+// Aggregation [gather] in a maze, and on the vessel masks of CHASE_DB1, which are not part of the
+// project.
 #include <gtest/gtest.h>
 
 #include "microswarm/experiment/run/run.hpp"
@@ -12,17 +13,15 @@
 namespace microswarm {
 namespace {
 
-TEST(Gather, RobotsAnywhereInARealVesselMaskComeTogether) {
-  const std::filesystem::path mask = test::data_folder() / "vessels" / "CHASE_09L_mask_obs1.png";
-  if (!std::filesystem::exists(mask)) GTEST_SKIP() << "no " << mask;
-  constexpr double step = 4;
+/// Robots at random in a map gather at the goal, by each method.
+void expect_gathered(const MapSpec& map, Vec2 goal, double step, int robots) {
   Scenario s;
-  s.map = guess_map_spec(mask, 6.0);
-  s.robots.emplace().count = test::cases(48);
+  s.map = map;
+  s.robots.emplace().count = robots;
   s.robots->max_speed = 80;
   s.tick = step / s.robots->max_speed;
   s.time_limit = 100'000 * s.tick;
-  s.goal = Vec2{234, 3217};  // a dead end
+  s.goal = goal;
   s.goal_tolerance = 10 * step;
   AggregationParams params;
   params.scale = step;
@@ -34,6 +33,18 @@ TEST(Gather, RobotsAnywhereInARealVesselMaskComeTogether) {
     EXPECT_TRUE(validate(s, world).empty());
     EXPECT_EQ(simulate(s, world).status, Status::solved);
   }
+}
+
+// The goal is a dead end in both.
+TEST(GatherSample, RobotsInAMazeComeTogether) {
+  expect_gathered(guess_map_spec(test::sample_folder() / "maze.pgm", 1.0), {28, 12}, 0.8,
+                  test::cases(48));
+}
+
+TEST(Gather, RobotsAnywhereInARealVesselMaskComeTogether) {
+  const std::filesystem::path mask = test::data_folder() / "vessels" / "CHASE_09L_mask_obs1.png";
+  if (!std::filesystem::exists(mask)) GTEST_SKIP() << "no " << mask;
+  expect_gathered(guess_map_spec(mask, 6.0), {234, 3217}, 4, test::cases(48));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The task that came with the published program of [global].
+// The task that came with the published program of [global], and a sample of its kind.
 #include <gtest/gtest.h>
 
 #include "microswarm/formats/map_file.hpp"
@@ -10,11 +10,8 @@
 namespace microswarm {
 namespace {
 
-TEST(Global, ThreeRobotsAmongThePublishedVeinsOfALeaf) {
-  const auto data = test::data_folder();
-  if (data.empty()) GTEST_SKIP() << "no folder MICROSWARM_DATA";
-  const auto file = data / "paper_authors" / "global_leaf.csv";
-  const scenes::GlobalTask task = scenes::leaf_task(*load_map(guess_map_spec(file)).map);
+/// A plan is found, and played it brings all robots to their goals.
+void expect_all_come_home(const scenes::GlobalTask& task) {
   GlobalSearchParams params;
   params.robostep = 2;
   params.goal_tolerance = 4;
@@ -33,6 +30,21 @@ TEST(Global, ThreeRobotsAmongThePublishedVeinsOfALeaf) {
     }
   for (std::size_t i = 0; i < places.size(); ++i)
     EXPECT_LE(distance(places[i], task.goals[i]), params.goal_tolerance + 1e-3) << i;
+}
+
+TEST(GlobalSample, TwoRobotsAmongVeins) {
+  const auto file = test::sample_folder() / "veins.csv";
+  expect_all_come_home({.name = "veins",
+                        .map = *load_map(guess_map_spec(file)).map,
+                        .starts = {{25, 30}, {25, 50}},
+                        .goals = {{175, 30}, {175, 60}}});
+}
+
+TEST(Global, ThreeRobotsAmongThePublishedVeinsOfALeaf) {
+  const auto data = test::data_folder();
+  if (data.empty()) GTEST_SKIP() << "no folder MICROSWARM_DATA";
+  const auto file = data / "paper_authors" / "global_leaf.csv";
+  expect_all_come_home(scenes::leaf_task(*load_map(guess_map_spec(file)).map));
 }
 
 }  // namespace

@@ -18,13 +18,8 @@ constexpr std::size_t every = 200;  // sanitizers are slow; the release build as
 constexpr std::size_t every = 10;
 #endif
 
-std::filesystem::path folder() { return test::data_folder() / "grid_maps"; }
-
-class GridMaps : public testing::TestWithParam<const char*> {};
-
-TEST_P(GridMaps, AStarFindsThePublishedOptimum) {
-  const std::filesystem::path file = folder() / (std::string(GetParam()) + ".map");
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
+/// Asks for every so many-th query of a map.
+void expect_optima(const std::filesystem::path& file, std::size_t stride) {
   const Mask blocked = read_moving_ai(file);
   const std::vector<GridQuery> queries = read_scenarios(file.string() + ".scen");
   const Snapshot world(
@@ -36,7 +31,7 @@ TEST_P(GridMaps, AStarFindsThePublishedOptimum) {
   Rng rng(1, Purpose::planner);
   std::size_t asked = 0;
   // From the last on: that is the longest.
-  for (std::size_t i = queries.size(); i > 0; i -= std::min(i, every), ++asked) {
+  for (std::size_t i = queries.size(); i > 0; i -= std::min(i, stride), ++asked) {
     const GridQuery& query = queries[i - 1];
     const Vec2 start = cell_centre(blocked, query.start.column, query.start.row, 1);
     const Vec2 goal = cell_centre(blocked, query.goal.column, query.goal.row, 1);
@@ -45,7 +40,19 @@ TEST_P(GridMaps, AStarFindsThePublishedOptimum) {
     EXPECT_NEAR(path_length(found.path), query.optimal_length, 1e-4 * (1 + query.optimal_length))
         << "query " << i;
   }
-  EXPECT_GE(asked, queries.size() / every);
+  EXPECT_GE(asked, queries.size() / stride);
+}
+
+TEST(GridMapSample, AStarFindsTheOptimum) {
+  expect_optima(test::sample_folder() / "blocks.map", 1);
+}
+
+class GridMaps : public testing::TestWithParam<const char*> {};
+
+TEST_P(GridMaps, AStarFindsThePublishedOptimum) {
+  const auto file = test::data_folder() / "grid_maps" / (std::string(GetParam()) + ".map");
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
+  expect_optima(file, every);
 }
 
 INSTANTIATE_TEST_SUITE_P(MovingAi, GridMaps,

@@ -99,6 +99,21 @@ TEST(Agreement, OfAMaskWithItselfIsPerfect) {
   EXPECT_EQ(a.specificity(), 1.0);
 }
 
+TEST(VesselsSample, AgreesWithItsMask) {
+  const auto folder = test::sample_folder() / "vessels";
+  const Mask drawn_mask = threshold(read_image(folder / "retina_mask.png"), 128, false);
+  for (const VesselMethod method : {VesselMethod::automatic, VesselMethod::lines}) {
+    VesselParams params;
+    params.method = method;
+    params.keep = KeepPieces::all;
+    const VesselSegmentation found = segment_vessels(read_image(folder / "retina.png"), params);
+    const Agreement a = compare(drawn_mask, found.vessels, &found.field_of_view);
+    EXPECT_GT(*a.dice(), 0.65);
+    EXPECT_GT(*a.sensitivity(), 0.9);
+    EXPECT_GT(*a.specificity(), 0.9);
+  }
+}
+
 std::filesystem::path retinas() { return test::data_folder() / "vessels"; }
 
 TEST(Vessels, RetinasAgreeWithTheirObservers) {

@@ -313,6 +313,21 @@ Comparison compare(const fs::path& folder, const fs::path& reference,
   return result;
 }
 
+TEST(VideoSample, EveryRobotIsFoundAndFollowed) {
+  const Comparison c =
+      compare(test::sample_folder() / "video", test::sample_folder() / "video_positions.csv",
+              {.um_per_px = 0.5,
+               .rate = 10,
+               .find = {.diameter = 11, .tone = ParticleTone::bright, .min_mass = 200}});
+  EXPECT_EQ(c.reference, 6 * 8);
+  EXPECT_EQ(c.ours, c.reference);
+  EXPECT_EQ(c.within_quarter_px, c.reference);
+  EXPECT_LT(c.rms(), 0.1);
+  EXPECT_EQ(c.common_links, c.reference_links);
+  EXPECT_EQ(c.our_links, c.reference_links);
+  EXPECT_EQ(c.summary.tracks, 6);
+}
+
 TEST(RealVideos, BulkWaterAgreesWithTrackpy) {
   const fs::path data = videos();
   if (!fs::exists(data)) GTEST_SKIP() << data << " is absent";
