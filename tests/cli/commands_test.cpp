@@ -163,9 +163,9 @@ TEST_F(Commands, GatherBringsRobotsTogether) {
   const Outcome outcome = run(few_steps);
   EXPECT_EQ(outcome.code, 3);
   EXPECT_EQ(Json::parse(outcome.out).at("status"), "time_limit");
-  refused({"gather", "t.csv", "--goal", "10,10"}, "t.csv: goal is 10 µm inside wall 1");
+  refused({"gather", "t.csv", "--goal", "10,10"}, naming("t.csv", {"goal", "10 µm", "wall 1"}));
   refused({"gather", "t.csv", "--goal", "50,3", "--robots", "0"},
-          "--robots: must be a whole number 1..1000000, not '0' (see microswarm gather --help)");
+          naming("--robots", {"1..1000000", "0", "microswarm gather --help"}));
 }
 
 TEST_F(Commands, SchemaHasTheKeysOfGlobal) {
@@ -187,9 +187,8 @@ TEST_F(Commands, SchemaIsJson) {
     EXPECT_TRUE(Json::parse(good({"schema", kind})).at("properties").contains(key)) << kind;
     EXPECT_NE(good({"schema", kind, "--keys"}).find(key), std::string::npos) << kind;
   }
-  refused({"schema", "planet"},
-          "kind: must be one of scenario, sweep, rig, coils, track, global, not 'planet' (see "
-          "microswarm schema --help)");
+  refused({"schema", "planet"}, naming("kind", {"scenario", "sweep", "rig", "coils", "track",
+                                                "global", "planet", "microswarm schema --help"}));
 }
 
 }  // namespace

@@ -56,37 +56,34 @@ TEST_F(Global, ATreeIsKeptAndAskedAgain) {
       {"global", "l.csv", "--tree", "tree.h5", "--goals", goals, "--set", "planner.contact=stop"},
       "tree.h5: was grown with contact slide, not stop");
   refused({"global", "l.csv", "--tree", "tree.h5", "--goals", "330,300"},
-          "goals: 1 given for 2 robots");
+          naming("goals", {"1", "2", "robots"}));
   refused({"global", "l.csv", "--tree", "l.csv", "--goals", goals},
-          "l.csv: no HDF5 file, or a damaged one");
+          naming("l.csv", {"HDF5", "damaged"}));
   const Outcome other = run({"global", "other.csv", "--tree", "tree.h5", "--goals", goals});
   EXPECT_EQ(other.code, 2);
   EXPECT_TRUE(other.err.starts_with("microswarm: tree.h5: was grown on another map")) << other.err;
 }
 
 TEST_F(Global, SaysWhatIsWrong) {
-  refused({"global", "l.csv", "--goals", goals},
-          "global: give either --robots, where they start, or --tree, which knows");
-  refused({"global", "l.csv", "--robots", robots},
-          "global: give --goals, or --save-tree to grow a tree for later");
+  refused({"global", "l.csv", "--goals", goals}, naming("global", {"--robots", "start", "--tree"}));
+  refused({"global", "l.csv", "--robots", robots}, naming("global", {"--goals", "--save-tree"}));
   refused({"global", "l.csv", "--robots", "160,160;60,250", "--goals", goals},
-          "l.csv: robot 1: start is 10 µm inside wall 2");
+          naming("l.csv", {"robot 1", "start", "10 µm", "wall 2"}));
   refused({"global", "l.csv", "--robots", robots, "--goals", "330,300;20,20", "--set",
            "planner.goal_tolerance_um=5"},
-          "l.csv: robot 2: goal is 20 µm inside wall 1");
+          naming("l.csv", {"robot 2", "goal", "20 µm", "wall 1"}));
   refused({"global", "l.csv", "--robots", "60,250;60,251", "--goals", goals, "--set",
            "planner.separation_um=10"},
-          "l.csv: two starts are nearer to each other than separation_um 10");
+          naming("l.csv", {"separation_um", "10"}));
   refused({"global", "l.csv", "--robots", "60,300;60,300", "--goals", goals},
-          "l.csv: robots 1 and 2 start in one place: nothing parts them");
+          naming("l.csv", {"1", "2", "start"}));
   refused({"global", "l.csv", "--robots", robots, "--save-tree", "l.csv"},
           "l.csv: is the input, which would be lost");
   refused({"global", "l.csv", "--robots", "60 250", "--goals", goals},
-          "--robots: must be places as 60,300;60,250 in µm, not '60 250' (see microswarm global "
-          "--help)");
+          naming("--robots", {"60,300;60,250", "60 250", "microswarm global --help"}));
   refused({"global", "l.csv", "--robots", robots, "--goals", goals, "--save-tree", "t.h5", "--set",
            "planner.type=global_search"},
-          "global: --save-tree keeps trees of planner.type=global_rrt only");
+          naming("global", {"--save-tree", "planner.type", "global_rrt"}));
 }
 
 TEST_F(Global, GivesUpAtTheTimeLimit) {

@@ -42,8 +42,7 @@ TEST_F(Learn, CtrlCLeavesNothingHalf) {
 }
 
 TEST_F(Learn, BadParametersAreToldInOneLine) {
-  refused(learn({"--out", "out", "--set", "hiden=4"}),
-          "--set hiden: unknown key 'hiden', did you mean 'hidden'?");
+  refused(learn({"--out", "out", "--set", "hiden=4"}), naming("--set hiden", {"hiden", "hidden"}));
 }
 
 TEST_F(Learn, AScenarioNamesItsModelAndTheRecordKeepsIt) {

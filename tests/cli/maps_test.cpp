@@ -67,8 +67,7 @@ TEST_F(Maps, ThereAndBack) {
   const Json ros = about("info", "e.yaml", false);
   EXPECT_EQ(ros.at("hi_um"), room.at("hi_um"));
   EXPECT_EQ(ros.at("vertices"), room.at("vertices"));
-  refused({"map", "convert", "a.geojson", "f.png"},
-          "f.png: the size of a cell is missing: give --cell");
+  refused({"map", "convert", "a.geojson", "f.png"}, naming("f.png", {"missing", "--cell"}));
 }
 
 TEST_F(Maps, PlanInPictures) {
@@ -94,8 +93,8 @@ TEST_F(Maps, EveryPlanner) {
   }
   refused({"plan", "room.pgm", "--um-per-px", "10", "--start", "100,300", "--goal", "500,300",
            "--set", "planner.type=rrt**"},
-          "--set planner.type: type of planner is 'rrt**', allowed: drrt_star, rrt_star, "
-          "uniform_rrt_star, rrt, a_star, fmt_star");
+          naming("--set planner.type", {"rrt**", "drrt_star", "rrt_star", "uniform_rrt_star", "rrt",
+                                        "a_star", "fmt_star"}));
 }
 
 /// A vessel of 8 px that forks.
@@ -119,7 +118,7 @@ TEST_F(Maps, Segment) {
   EXPECT_EQ(check.at("free_pieces"), 1);
   EXPECT_GT(check.at("widest_um"), 30);
   refused({"map", "segment", "photo.pgm", "--um-per-px", "5", "--set", "min_widt_px=6"},
-          "--set min_widt_px: unknown key 'min_widt_px', did you mean 'min_width_px'?");
+          naming("--set min_widt_px", {"min_widt_px", "min_width_px"}));
 }
 
 }  // namespace

@@ -79,14 +79,14 @@ TEST_F(Output, FolderThatIsAFile) {
 
 TEST_F(Output, FolderWhereNothingCanBeMade) {
   refused({"run", "flight.yaml", "--out", "/proc/microswarm"},
-          "/proc/microswarm: cannot make the folder: No such file or directory");
+          naming("/proc/microswarm", {"folder"}));
   refused(plan("/proc/path.png"), "/proc/path.png: cannot write: No such file or directory");
 }
 
 TEST_F(Output, UnknownKindOfFile) {
-  refused(plan("path.gif"), "path.gif: a picture is .png, .svg or .pdf");
+  refused(plan("path.gif"), naming("path.gif", {"picture"}));
   refused({"map", "convert", "room.pgm", "--um-per-px", "5", "room.bmp"},
-          "room.bmp: maps are written as .geojson, .png, .map (MovingAI) or .yaml (ROS)");
+          naming("room.bmp", {"MovingAI", "ROS"}));
 }
 
 TEST_F(Output, WithoutGnuplot) {

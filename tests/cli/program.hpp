@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -20,6 +21,7 @@
 #include <vector>
 
 #include "microswarm/core/file.hpp"
+#include "tests/messages.hpp"
 
 namespace microswarm::test {
 
@@ -157,18 +159,20 @@ class CommandLine : public testing::Test {
     return outcome.out;
   }
   /// Bad input: one line on stderr, nothing on stdout, exit code 2, and no file more or less.
-  void refused(const Arguments& arguments, const std::string& line) const {
+  void refused(const Arguments& arguments, const Complaint& complaint) const {
     const std::set<std::string> before = files();
     const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.err, "microswarm: " + line + "\n");
+    constexpr std::string_view name = "microswarm: ";
+    EXPECT_TRUE(outcome.err.starts_with(name) && outcome.err.ends_with('\n')) << outcome.err;
+    EXPECT_TRUE(is(outcome.err.substr(std::min(name.size(), outcome.err.size())), complaint));
     EXPECT_EQ(outcome.out, "");
     EXPECT_EQ(outcome.code, 2);
     EXPECT_EQ(files(), before);
   }
   /// The same for a scenario.
-  void run_refused(const std::string& scenario, const std::string& line) const {
+  void run_refused(const std::string& scenario, const Complaint& complaint) const {
     write("flight.yaml", scenario);
-    refused({"run", "flight.yaml"}, line);
+    refused({"run", "flight.yaml"}, complaint);
   }
 
   Surroundings at;

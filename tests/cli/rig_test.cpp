@@ -111,24 +111,20 @@ TEST_F(Rig, CalibrationGivesASystemThatIsReadAgain) {
 
 TEST_F(Rig, RefusesInOneLine) {
   refused({"rig", "field", "rig.yaml"}, "rig field: give either --currents or --field");
-  refused({"rig", "field", "rig.yaml", "--currents", "1,2"},
-          "--currents has 2 numbers, the system has 3 coils: x, y, z");
+  refused({"rig", "field", "rig.yaml", "--currents", "1,2"}, naming("", {"--currents", "2", "3"}));
   refused({"rig", "field", "none.yaml", "--field", "1,0,0"},
           "none.yaml: cannot read: No such file or directory");
   write("bad.yaml", "coils: {type: helmholtz, radus_um: [1, 2, 3]}\n");
   refused({"rig", "field", "bad.yaml", "--field", "1,0,0"},
-          "bad.yaml:1:26: unknown key 'radus_um', did you mean 'radius_um'?");
+          naming("bad.yaml:1:26", {"radus_um", "radius_um"}));
   write("few.csv", "i_a_a,i_b_a,bx_mt,by_mt,bz_mt\n1,0,2,0,0\n2,0,4,0,0\n");
   refused({"rig", "calibrate", "few.csv", "--out", "x.yaml"},
-          "few.csv: 2 measurements do not tell the fields of 'b': currents are missing that change "
-          "each of them apart from the others");
-  refused({"rig", "map", "rig.yaml", "--currents", "0,0,0"},
-          "the field at the centre of the map is 0");
+          naming("few.csv", {"2", "fields", "b"}));
+  refused({"rig", "map", "rig.yaml", "--currents", "0,0,0"}, naming("", {"field", "centre", "0"}));
   refused({"rig", "map", "rig.yaml", "--out", "even.bmp"},
-          "--out: must be a file .png, .svg, .pdf, .csv, not 'even.bmp' (see microswarm rig map "
-          "--help)");
+          naming("--out", {"even.bmp", "microswarm rig map --help"}));
   refused({"rig", "map", "rig.yaml", "--json=3"},
-          "--json takes no value (see microswarm rig map --help)");
+          naming("", {"--json", "microswarm rig map --help"}));
 }
 
 class WholeRig : public CommandLine {
@@ -195,16 +191,13 @@ TEST_F(WholeRig, ARehearsalOnTheBenchIsRefusedBeforeItBegins) {
 }
 
 TEST_F(WholeRig, WhatIsWrongIsToldWhereItWasGiven) {
-  refused(
-      {"rig", "check", rig("vortex.yaml"), "--set", "drive_rate_hz=20"},
-      "--set drive_rate_hz: drive_rate_hz is 20, the field turns 16 times a second and needs at "
-      "least 160");
+  refused({"rig", "check", rig("vortex.yaml"), "--set", "drive_rate_hz=20"},
+          naming("--set drive_rate_hz", {"drive_rate_hz", "20", "16", "160"}));
   write("flight.yaml", two_rooms());
   refused({"run", "flight.yaml", "--rig", rig("vortex.yaml"), "--set-rig", "camera.foo=3"},
-          "--set-rig camera.foo: unknown key 'foo', allowed: microscope, speed_error");
+          naming("--set-rig camera.foo", {"foo", "microscope", "speed_error"}));
   refused({"run", "flight.yaml", "--rig", rig("ribbon.yaml"), "--set-rig", "drive_rate_hz=20"},
-          "--set-rig drive_rate_hz: drive_rate_hz is 20, the field turns 16 times a second and "
-          "needs at least 160");
+          naming("--set-rig drive_rate_hz", {"drive_rate_hz", "20", "16", "160"}));
 }
 
 }  // namespace

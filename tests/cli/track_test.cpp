@@ -110,12 +110,12 @@ TEST_F(Track, TheSameVideoGivesTheSameBytes) {
 
 TEST_F(Track, BadInputIsRefused) {
   film("video", 3);
-  const auto bad = [&](Arguments more, const std::string& line) {
+  const auto bad = [&](Arguments more, const Complaint& line) {
     Arguments words{"track"};
     words.insert(words.end(), more.begin(), more.end());
     refused(words, line);
   };
-  bad({"video", "--out", "out"}, "video: µm per px is missing: give --um-per-px");
+  bad({"video", "--out", "out"}, naming("video", {"missing", "--um-per-px"}));
   bad({"none.mp4", "--um-per-px", "1", "--out", "out"},
       "none.mp4: cannot read: No such file or directory");
   write("zero.yaml", "um_per_px: 0\n");
@@ -127,10 +127,10 @@ TEST_F(Track, BadInputIsRefused) {
   bad({"video.mp4", "--um-per-px", "1", "--out", "out"}, "video.mp4: is no video that can be read");
   fs::create_directories(at.folder / "nothing");
   bad({"nothing", "--um-per-px", "1", "--out", "out"},
-      "nothing: no pictures in this folder (PNG, JPEG, BMP, PGM or PPM)");
+      naming("nothing", {"PNG", "JPEG", "BMP", "PGM", "PPM"}));
   write("video/f9.pgm", pgm(20, 20, [](int, int) { return 7; }));
   bad({"video", "--um-per-px", "1", "--rate", "10", "--out", "out"},
-      "video/f9.pgm: 20x20 pixels, the first picture has 200x160");
+      naming("video/f9.pgm", {"pixels", "picture"}));
 }
 
 TEST_F(Track, CtrlCKeepsWhatThereIs) {

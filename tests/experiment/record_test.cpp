@@ -13,6 +13,7 @@
 #include "microswarm/io/hdf5_image.hpp"
 #include "microswarm/planning/common/detection.hpp"
 #include "tests/experiment/scenes.hpp"
+#include "tests/messages.hpp"
 
 namespace microswarm {
 namespace {
@@ -93,14 +94,15 @@ TEST(Record, ForeignBytesAreOneLine) {
     return what.substr(what.find("x.h5"));
   };
   EXPECT_EQ(message(""), "x.h5: no HDF5 file, or a damaged one");
-  EXPECT_EQ(message("hello"), "x.h5: no HDF5 file, or a damaged one");
+  EXPECT_TRUE(test::is_one_line_naming(message("hello"), "x.h5", {"HDF5", "damaged"}));
   Hdf5Writer other;
   other.attribute("/", "format", "something else");
-  EXPECT_EQ(message(other.finish()), "x.h5: is no microswarm record");
+  EXPECT_TRUE(test::is_one_line_naming(message(other.finish()), "x.h5", {"microswarm", "record"}));
 
   write_record(flight(), folder / "whole.h5");
   const std::string whole = read_file(folder / "whole.h5");
-  EXPECT_EQ(message(whole.substr(0, whole.size() / 2)), "x.h5: no HDF5 file, or a damaged one");
+  EXPECT_TRUE(test::is_one_line_naming(message(whole.substr(0, whole.size() / 2)), "x.h5",
+                                       {"HDF5", "damaged"}));
 }
 
 TEST(Record, DamagedBytesAreErrorsOrRecordsNeverCrashes) {

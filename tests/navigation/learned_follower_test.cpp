@@ -8,6 +8,7 @@
 #include "microswarm/core/error.hpp"
 #include "microswarm/navigation/following/path_navigator.hpp"
 #include "microswarm/swarm/body/ribbon.hpp"
+#include "tests/messages.hpp"
 
 namespace microswarm {
 namespace {
@@ -45,18 +46,22 @@ TEST(FollowerModel, DamagedOnesAreRefusedInOneLine) {
   const std::string whole = follower_model_text(default_follower_model());
   EXPECT_EQ(complaint(whole), "");
   EXPECT_EQ(complaint(""), "m.yaml: '' where 'version: ' must stand");
-  EXPECT_EQ(complaint(with_line("version", "version: 2")), "m.yaml:2: version is '2', must be 1");
-  EXPECT_EQ(complaint(with_line("seed", "seed: -1")),
-            "m.yaml:3: seed is '-1', must be a whole number");
-  EXPECT_EQ(complaint(with_line("layers", "layers: [7, 2]")), "m.yaml:5: 7 inputs, must be 18");
-  EXPECT_EQ(complaint(with_line("layers", "layers: [18, 3]")), "m.yaml:5: 3 outputs, must be 2");
-  EXPECT_EQ(complaint(with_line("layers", "layers: [18, 65, 2]")),
-            "m.yaml:5: a layer of 65, allowed 1..64");
-  EXPECT_EQ(complaint(with_line("layers", "layers: 18")),
-            "m.yaml:5: 'layers: ' must be numbers in brackets");
-  EXPECT_EQ(complaint(with_line("lowest", "lowest: [1, nan]")),
-            "m.yaml:6: 'nan' is no number within ±1000000");
-  EXPECT_EQ(complaint(with_line("lowest", "lowest: [1, 2]")), "m.yaml:6: 2 numbers, must be 18");
+  EXPECT_TRUE(test::is_one_line_naming(complaint(with_line("version", "version: 2")), "m.yaml:2",
+                                       {"version", "2", "1"}));
+  EXPECT_TRUE(test::is_one_line_naming(complaint(with_line("seed", "seed: -1")), "m.yaml:3",
+                                       {"seed", "-1"}));
+  EXPECT_TRUE(test::is_one_line_naming(complaint(with_line("layers", "layers: [7, 2]")), "m.yaml:5",
+                                       {"7", "18"}));
+  EXPECT_TRUE(test::is_one_line_naming(complaint(with_line("layers", "layers: [18, 3]")),
+                                       "m.yaml:5", {"3", "2"}));
+  EXPECT_TRUE(test::is_one_line_naming(complaint(with_line("layers", "layers: [18, 65, 2]")),
+                                       "m.yaml:5", {"layer", "65", "1..64"}));
+  EXPECT_TRUE(test::is_one_line_naming(complaint(with_line("layers", "layers: 18")), "m.yaml:5",
+                                       {"layers: "}));
+  EXPECT_TRUE(test::is_one_line_naming(complaint(with_line("lowest", "lowest: [1, nan]")),
+                                       "m.yaml:6", {"nan", "1000000"}));
+  EXPECT_TRUE(test::is_one_line_naming(complaint(with_line("lowest", "lowest: [1, 2]")), "m.yaml:6",
+                                       {"2", "numbers", "18"}));
   EXPECT_EQ(complaint(with_line("highest", "")).substr(0, 9), "m.yaml:9:");
   EXPECT_EQ(complaint(whole + "more\n").substr(0, 7), "m.yaml:");
   for (std::size_t cut = 0; cut + 2 < whole.size(); cut += 97)
