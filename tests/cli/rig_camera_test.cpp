@@ -43,9 +43,7 @@ TEST_F(RigCamera, ScaleFromAGridOfDots) {
   EXPECT_LT(told["worst_um"].get<double>(), 1);
   const Outcome other = run({"rig", "scale", "slide.pgm", "--grid", "9x7", "--pitch", "100"});
   EXPECT_EQ(other.code, 2);
-  EXPECT_EQ(other.err,
-            "microswarm: slide.pgm: grid: 54 points of a grid of 9x6 are seen, asked for is one of "
-            "9x7\n");
+  EXPECT_TRUE(is_one_line_naming(other.err, "microswarm: slide.pgm: grid", {"54", "9x6", "9x7"}));
 }
 
 TEST_F(RigCamera, ScaleOfAMirroredPicture) {

@@ -49,7 +49,7 @@ TEST_F(Rig, SaysWhichLimitBites) {
       Json::array(
           {{{"limit", "current"}, {"coil", "x"}, {"unit", "a"}, {"asked", 4}, {"allowed", 2}}}));
   const Outcome text = run({"rig", "field", "rig.yaml", "--currents", "4,1,0"});
-  EXPECT_NE(text.out.find("current of coil x: 4 A, allowed 2 A: 2 A too much"), std::string::npos)
+  EXPECT_TRUE(names(text.out, "coil x") && names(text.out, "4 A") && names(text.out, "2 A"))
       << text.out;
 }
 
@@ -84,7 +84,7 @@ TEST_F(Rig, AMapOfAMeasuredSystemStaysWhereItWasMeasured) {
 TEST_F(Rig, AMapSaysWhatCannotBe) {
   const Outcome strong = run({"rig", "map", "rig.yaml", "--field", "50,0,0", "--points", "5"});
   EXPECT_EQ(strong.code, 0);
-  EXPECT_TRUE(strong.err.starts_with("note: the coils' limits allow ")) << strong.err;
+  EXPECT_TRUE(strong.err.starts_with("note: ") && names(strong.err, "limits")) << strong.err;
   EXPECT_EQ(strong.out.find("e-1"), std::string::npos) << strong.out;  // rounding
 }
 
@@ -102,8 +102,9 @@ TEST_F(Rig, CalibrationGivesASystemThatIsReadAgain) {
         "4\n");
   const Outcome said = run({"rig", "calibrate", "measured.csv", "--out", "fitted.yaml"});
   EXPECT_EQ(said.code, 0);
-  EXPECT_NE(said.out.find("4 measurements of 3 coils: a, b, c"), std::string::npos) << said.out;
-  EXPECT_EQ(said.err, "note: fitted.yaml names no limits of the coils: add its `drives`\n");
+  EXPECT_TRUE(names(said.out, "4 measurements") && names(said.out, "3 coils")) << said.out;
+  for (const char* coil : {"a", "b", "c"}) EXPECT_TRUE(names(said.out, coil)) << said.out;
+  EXPECT_TRUE(is_one_line_naming(said.err, "note", {"fitted.yaml", "limits", "drives"}));
   const Json json =
       Json::parse(good({"rig", "field", "fitted.yaml", "--field", "2,3.5,4", "--json"}));
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(json["currents_a"][i].get<double>(), 1, 1e-9);
