@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What complaints must name, whatever their wording: the file and place, the key, the value, the
-// limit.
+// What complaints must name, whatever their wording: file and place, key, value, limit.
 #pragma once
 
 #include <gtest/gtest.h>
