@@ -12,7 +12,6 @@
 #include "microswarm/navigation/make.hpp"
 #include "microswarm/scenes/global_worlds.hpp"
 #include "microswarm/scenes/vascular.hpp"
-#include "tests/cases.hpp"
 #include "tests/navigation/robot_scene.hpp"
 
 namespace microswarm {
