@@ -20,7 +20,7 @@ namespace {
 constexpr double robot_tick = 0.125;  // a power of two: times add up exactly
 constexpr double robot_timeout = 0.5;
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
-constexpr int most_ticks = 3000;
+constexpr int max_ticks = 3000;
 
 /// A navigator and what it is to do.
 struct RobotCase {
@@ -45,7 +45,7 @@ class RobotNavigatorLaws : public testing::TestWithParam<RobotCase> {
                     .goal_tolerance = GetParam().goal_tolerance,
                     .tick = robot_tick,
                     .frame_timeout = robot_timeout};
-    EXPECT_EQ(what_it_lacks(GetParam().params, task), "");
+    EXPECT_EQ(unsupported_reason(GetParam().params, task), "");
     return make_navigator(GetParam().params, task, Rng(seed, Purpose::planner));
   }
   test::RobotScene scene(const RobotSwarmParams& robots, std::size_t delay = 1,
@@ -74,7 +74,7 @@ class RobotNavigatorLaws : public testing::TestWithParam<RobotCase> {
     bool done = false;  ///< as measured
   };
   /// Steers until it says that it has arrived; `change` is done to what it is shown.
-  Ended drive(test::RobotScene s, int ticks = most_ticks, const Change& change = {}) const {
+  Ended drive(test::RobotScene s, int ticks = max_ticks, const Change& change = {}) const {
     const auto navigator = make(s.params);
     navigator->prepare(s.world);
     Ended out;
@@ -119,7 +119,7 @@ TEST_P(RobotNavigatorLaws, ANewOneTakesOverOnTheWay) {
   for (int one = 0; one < 4 && !arrived; ++one) {
     const auto navigator = make(s.params, 7);
     navigator->prepare(s.world);
-    for (int k = 0; k < (one < 3 ? 40 : most_ticks) && !arrived; ++k) {
+    for (int k = 0; k < (one < 3 ? 40 : max_ticks) && !arrived; ++k) {
       s.apply(navigator->step(s.observe(), {}));
       arrived = navigator->view().state == NavigatorState::arrived;
     }
@@ -160,7 +160,7 @@ TEST_P(RobotNavigatorLaws, HoldsOnceArrived) {
   const auto navigator = make(s.params);
   navigator->prepare(s.world);
   int after = 0;
-  for (int k = 0; k < most_ticks && after < 50; ++k) {
+  for (int k = 0; k < max_ticks && after < 50; ++k) {
     const Command command = navigator->step(s.observe(), {});
     if (navigator->view().state == NavigatorState::arrived || after > 0) {
       ASSERT_EQ(navigator->view().state, NavigatorState::arrived) << after;
@@ -267,7 +267,7 @@ RobotCase gathering(std::string name, const AggregationParams& params) {
   return c;
 }
 
-RobotCase global_input(std::string name, const PlanPlayerParams& params, ContactRule contact) {
+RobotCase global_input(std::string name, const PlanExecutorParams& params, ContactRule contact) {
   RobotCase c{std::move(name), params, [] { return scenes::global_world(1); }, {}, {}, 20};
   c.robots.starts = {{60, 300}, {60, 250}};
   c.robots.goals = {{330, 300}, {330, 200}};

@@ -127,7 +127,7 @@ TEST_P(SwarmBodyLaws, RadiusStaysWithinItsLimits) {
   Rng rng(3, Purpose::plant);
   for (const Command& c : random_commands(params(), 300)) {
     body.step(c, 0.1, rng);
-    for (const TimedPose& p : body.swept()) {
+    for (const PoseStamped& p : body.swept()) {
       ASSERT_LE(p.radius, limits().radius + 1e-9);
       ASSERT_GE(p.radius, limits().radius - limits().radius_variation - 1e-9);
       ASSERT_GT(p.radius, 0);

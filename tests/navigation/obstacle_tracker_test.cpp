@@ -37,7 +37,7 @@ struct Camera {
     for (const double end = now + seconds; now < end; now += tick) {
       if (rng.uniform() < missed_share) continue;
       const Snapshot world = frame_at(obstacles, now - delay, noise, rng);
-      tracker.see(
+      tracker.update(
           {.now = now, .seen = now - delay, .swarm = {}, .robots = {}, .world = borrowed(world)});
     }
   }
@@ -147,7 +147,7 @@ TEST(ObstacleTracker, APartThatMovesFarAwayDoesNotCountHere) {
                       {2400, 700 - 50 * t}, {2900, 700}, {2900, 300}};
     channel = {.shape = walls, .obstacle = 0};
     const Snapshot world(map, t, {channel});
-    tracker.see({.now = t, .seen = t, .swarm = {}, .robots = {}, .world = borrowed(world)});
+    tracker.update({.now = t, .seen = t, .swarm = {}, .robots = {}, .world = borrowed(world)});
   }
   EXPECT_NEAR(tracker.body(0).outline_speed, 50, 3);
   EXPECT_NEAR(tracker.outline_speed_within(0, channel, {{2500, 500}, 200}), 50, 3);
@@ -160,24 +160,24 @@ TEST(ObstacleTracker, ObstaclesComeAndGo) {
   ObstacleTracker tracker;
   const auto see = [&](double t, const std::vector<Body>& bodies) {
     const Snapshot world(frame_at({}, t, 0, rng).shared_map(), t, bodies);
-    tracker.see({.now = t, .seen = t, .swarm = {}, .robots = {}, .world = borrowed(world)});
+    tracker.update({.now = t, .seen = t, .swarm = {}, .robots = {}, .world = borrowed(world)});
   };
   const auto at = [](double x, std::uint32_t obstacle) {
     return Body{.shape = Disc{{x, 0}, 10}, .obstacle = obstacle};
   };
-  see(0, {at(0, 4), at(100, 7)});
-  see(0.1, {at(110, 7)});
-  see(0.2, {at(40, 4), at(120, 7)});
+  update(0, {at(0, 4), at(100, 7)});
+  update(0.1, {at(110, 7)});
+  update(0.2, {at(40, 4), at(120, 7)});
   EXPECT_NEAR(tracker.body(0).velocity.x, 200, 1e-9);
   EXPECT_NEAR(tracker.body(1).velocity.x, 100, 1e-9);
-  see(0.2, {at(0, 4), at(0, 7)});  // the same frame again
+  update(0.2, {at(0, 4), at(0, 7)});  // the same frame again
   EXPECT_NEAR(tracker.body(1).velocity.x, 100, 1e-9);
-  see(5, {at(900, 4)});  // forgotten meanwhile
+  update(5, {at(900, 4)});  // forgotten meanwhile
   ASSERT_EQ(tracker.size(), 1u);
   EXPECT_EQ(tracker.body(0).velocity, Vec2{});
-  see(0.1, {at(900, 4)});  // begun anew
+  update(0.1, {at(900, 4)});  // begun anew
   EXPECT_EQ(tracker.body(0).frames, 1);
-  tracker.see({});
+  tracker.update({});
   EXPECT_EQ(tracker.size(), 1u);
 }
 

@@ -86,7 +86,7 @@ SeeSettings settings_of(const SeeOptions& o) {
   SeeSettings settings;
   if (!o.rig.empty()) {
     const Rig rig = read_rig(o.rig);
-    settings.scene = rig.params.eye.scene;
+    settings.scene = rig.params.perception.scene;
     if (const auto* camera = std::get_if<CameraParams>(&rig.params.camera))
       settings.camera = *camera;
   }
@@ -134,7 +134,7 @@ void add_rig_see(Command rig, Action& action) {
   auto o = std::make_shared<SeeOptions>();
   Command cmd =
       rig.add_command("see", "What is seen in a picture: the swarm and obstacles",
-                      "rig see frame.png --set scene.swarm.look.min_grain=8 --out seen.png");
+                      "rig see frame.png --set scene.swarm.look.min_texture=8 --out seen.png");
   cmd.add_option("picture", o->picture, "Picture, or a camera as /dev/video0")
       .required()
       .type_name("FILE");

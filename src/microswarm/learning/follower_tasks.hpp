@@ -12,12 +12,12 @@ namespace microswarm {
 /// Random paths to follow, and how much stands against it. Each task draws its own values from
 /// these ranges; lengths of the path are in seconds at the task's speed.
 struct FollowerTaskParams {
-  double least_speed = 30;
-  double most_speed = 90;
-  double least_turn_rate = radians(90);
-  double most_turn_rate = radians(360);
+  double min_speed = 30;
+  double max_speed = 90;
+  double min_turn_rate = radians(90);
+  double max_turn_rate = radians(360);
   double unlimited_share = 0.2;
-  double most_flow = 0.2;
+  double max_flow = 0.2;
   double speed_error = 0.15;
   double position_noise = 3;
   double heading_noise = radians(3);
@@ -26,16 +26,16 @@ struct FollowerTaskParams {
   double start_spread = 0.15;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.least_speed, {"least_speed", Unit::um_per_s, {1, 1e4}, "Slowest speed asked for."});
-    visit(self.most_speed, {"most_speed", Unit::um_per_s, {1, 1e4}, "Fastest."});
-    visit(self.least_turn_rate,
+    visit(self.min_speed, {"least_speed", Unit::um_per_s, {1, 1e4}, "Slowest speed asked for."});
+    visit(self.max_speed, {"most_speed", Unit::um_per_s, {1, 1e4}, "Fastest."});
+    visit(self.min_turn_rate,
           {"least_turn_rate", Unit::deg_per_s, {1, 3600}, "Least turning limit of the swarm."});
-    visit(self.most_turn_rate, {"most_turn_rate", Unit::deg_per_s, {1, 3600}, "Greatest."});
+    visit(self.max_turn_rate, {"most_turn_rate", Unit::deg_per_s, {1, 3600}, "Greatest."});
     visit(self.unlimited_share, {"unlimited_share",
                                  Unit::none,
                                  {0, 1},
                                  "Share of tasks whose swarm turns at 36000 °/s: at once."});
-    visit(self.most_flow, {"most_flow", Unit::none, {0, 0.8}, "Fastest flow, of the speed."});
+    visit(self.max_flow, {"most_flow", Unit::none, {0, 0.8}, "Fastest flow, of the speed."});
     visit(self.speed_error, {"speed_error", Unit::none, {0, 0.9}, "Speed is off by so much."});
     visit(self.position_noise,
           {"position_noise", Unit::um, {0, 1e3}, "Most noise of the seen position (sd)."});

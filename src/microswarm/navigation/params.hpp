@@ -8,7 +8,7 @@
 #include "microswarm/navigation/baselines/velocity_obstacle_params.hpp"
 #include "microswarm/navigation/following/path_navigator_params.hpp"
 #include "microswarm/navigation/gathering/aggregation_params.hpp"
-#include "microswarm/navigation/global_input/plan_player_params.hpp"
+#include "microswarm/navigation/global_input/plan_executor_params.hpp"
 #include "microswarm/navigation/hierarchical/hierarchical_params.hpp"
 #include "microswarm/navigation/predictive/predictive_params.hpp"
 #include "microswarm/navigation/radar/radar_params.hpp"
@@ -16,7 +16,7 @@
 namespace microswarm {
 
 /// Any navigator, chosen at run time by its `type`.
-using NavigatorParams = std::variant<HierarchicalParams, PlanPlayerParams, AggregationParams,
+using NavigatorParams = std::variant<HierarchicalParams, PlanExecutorParams, AggregationParams,
                                      RadarParams, StraightParams, PotentialFieldParams,
                                      VelocityObstacleParams, PredictiveParams, PathNavigatorParams>;
 

@@ -17,7 +17,8 @@ struct SweepParameter {
   std::vector<std::string> values;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.key, {"key", Unit::none, {}, "Key of the scenario, as navigator.margin_um.", true});
+    visit(self.key,
+          {"key", Unit::none, {}, "Key of the scenario, as navigator.clearance_um.", true});
     visit(self.values,
           {"values", Unit::none, {}, "What it is set to; lists and mappings in quotes.", true});
   }
@@ -59,8 +60,8 @@ struct Sweep {
 };
 
 /// Most cells, and most trials in all, that a sweep may have.
-inline constexpr std::size_t most_cells = 100'000;
-inline constexpr std::size_t most_trials = 10'000'000;
+inline constexpr std::size_t max_cells = 100'000;
+inline constexpr std::size_t max_trials = 10'000'000;
 
 /// Reads a sweep file. Without methods there is one, called "default". Throws InputError, one line,
 /// also for what contradicts itself: no values, a key, a value or a name given twice, too many.

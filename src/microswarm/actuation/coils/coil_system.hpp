@@ -141,7 +141,7 @@ struct Actuation {
 /// A coil as loops.
 struct LoopCoil {
   std::string name;
-  std::vector<Loop> loops;
+  std::vector<CurrentLoop> loops;
 };
 
 /// A system of coils: what field each makes where, and what their amplifiers bear.

@@ -24,7 +24,8 @@ Eigen::Vector3d rolling_field(double amplitude, double heading, double phase);
 /// The way [µm] of a body on the floor whose field turns from one direction to another, of `length`
 /// µm a turn. It turns with the field by the shortest turn, ω, as a field cannot turn it about
 /// itself, and rolls ω × up.
-Vec2 rolled_way(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double length_per_turn);
+Vec2 rolled_distance(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                     double length_per_turn);
 
 /// Field in the plane along `heading`: where steering begins and ends, Eq 2 [global].
 Eigen::Vector3d steering_field(double amplitude, double heading);

@@ -27,7 +27,7 @@ struct Avoidance {
   double mean_cost = 0;
   double time = 0;
   double mean_gap = 0;
-  double least_gap = std::numeric_limits<double>::infinity();
+  double min_gap = std::numeric_limits<double>::infinity();
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.mean_cost,
@@ -35,7 +35,7 @@ struct Avoidance {
     visit(self.time, {"time", Unit::s, {}, "Time with an obstacle in the detection circle."});
     visit(self.mean_gap,
           {"mean_gap", Unit::um, {}, "From edge to edge in that time, the nearest obstacle's."});
-    visit(self.least_gap, {"least_gap", Unit::um, {}, "Least of all gaps, below 0 of a touch."});
+    visit(self.min_gap, {"least_gap", Unit::um, {}, "Least of all gaps, below 0 of a touch."});
   }
 };
 

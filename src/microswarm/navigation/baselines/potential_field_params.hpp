@@ -20,8 +20,8 @@ struct PotentialFieldParams {
   double influence = 150;  // g₀
   double wall_influence = 20;
   double reaction_time = 0.5;
-  double least_force = 0.05;
-  double margin = 10;
+  double min_force = 0.05;
+  double gap = 10;
   Guide guide = Guide::route;
   ObstacleTrackerParams tracker;
   template <class Self, class V>
@@ -35,9 +35,9 @@ struct PotentialFieldParams {
           {"wall_influence", Unit::um, {1e-3, 1e6}, "Gap from which on no wall pushes."});
     visit(self.reaction_time,
           {"reaction_time", Unit::s, {0, 60}, "What comes nearer counts as so much nearer."});
-    visit(self.least_force,
-          {"least_force", Unit::none, {0, 1}, "Stuck, and at rest, under a lesser force."});
-    visit(self.margin, {"margin", Unit::um, {0, 1e5}, "Gaps begin so far from the swarm's edge."});
+    visit(self.min_force,
+          {"min_force", Unit::none, {0, 1}, "Stuck, and at rest, under a lesser force."});
+    visit(self.gap, {"margin", Unit::um, {0, 1e5}, "Gaps begin so far from the swarm's edge."});
     visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight, or route."});
     visit(self.tracker, {"tracker", Unit::none, {}, "How the obstacles' motion is told."});
   }

@@ -12,7 +12,7 @@ struct StraightParams {
   static constexpr std::string_view type_name = "straight_stop";
   double speed = 60;
   double stop_distance = 100;
-  double margin = 10;
+  double gap = 10;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Speed asked for."});
@@ -21,7 +21,7 @@ struct StraightParams {
            Unit::um,
            {0, 1e5},
            "Stop while a wall or an obstacle is so near ahead, from edge to edge."});
-    visit(self.margin, {"margin", Unit::um, {0, 1e5}, "Kept beside the swarm's edge."});
+    visit(self.gap, {"margin", Unit::um, {0, 1e5}, "Kept beside the swarm's edge."});
   }
 };
 

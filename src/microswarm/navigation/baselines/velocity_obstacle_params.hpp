@@ -19,7 +19,7 @@ struct VelocityObstacleParams {
   int speeds = 4;
   double horizon = 4;
   double wall_horizon = 1;
-  double margin = 10;
+  double gap = 10;
   double urgency = 200;
   Guide guide = Guide::route;
   ObstacleTrackerParams tracker;
@@ -32,7 +32,7 @@ struct VelocityObstacleParams {
           {"horizon", Unit::s, {0, 60}, "Velocities that meet no obstacle for so long will do."});
     visit(self.wall_horizon,
           {"wall_horizon", Unit::s, {0, 60}, "Velocities that meet no wall for so long will do."});
-    visit(self.margin, {"margin", Unit::um, {0, 1e5}, "Kept beside the swarm's edge."});
+    visit(self.gap, {"margin", Unit::um, {0, 1e5}, "Kept beside the swarm's edge."});
     visit(self.urgency,
           {"urgency",
            Unit::um,

@@ -19,7 +19,7 @@ struct PathNavigatorParams {
   double lookahead = 20;
   FollowerParams follower;
   double horizon = 1;
-  double margin = 10;
+  double gap = 10;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.path,
@@ -30,7 +30,7 @@ struct PathNavigatorParams {
     visit(self.follower, {"follower", Unit::none, {}, "Who follows the path."});
     visit(self.horizon,
           {"horizon", Unit::s, {0.1, 10}, "Hold when something stands in the way of so long."});
-    visit(self.margin, {"margin", Unit::um, {0, 1e5}, "Kept beside the swarm's edge."});
+    visit(self.gap, {"margin", Unit::um, {0, 1e5}, "Kept beside the swarm's edge."});
   }
 };
 

@@ -16,7 +16,7 @@ namespace microswarm {
 enum class Aggregation {
   heuristic,           ///< the robot farthest from the goal: Alg 3 [gather], HRA
   divide_and_conquer,  ///< region after region, branch after branch: Alg 5 [gather], DCA
-  rollout,             ///< a plan to the end, made better in simulations of both: RolloutGatherer
+  rollout,             ///< a plan to the end, made better in simulations of both: RolloutPolicy
 };
 constexpr auto enum_names(Aggregation) {
   return std::array<std::pair<Aggregation, std::string_view>, 3>{

@@ -9,7 +9,7 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/published.hpp"
-#include "microswarm/navigation/steering/helm.hpp"
+#include "microswarm/navigation/steering/steering_cycle.hpp"
 #include "microswarm/swarm/body/unicycle.hpp"
 
 namespace microswarm {
@@ -27,7 +27,7 @@ constexpr std::array<double, 3> eases{1.0, 0.5, 0.25};
 HierarchicalParams HierarchicalParams::in_effect() const {
   HierarchicalParams p = *this;
   if (!as_published) return p;
-  p.extra_margin = 0;
+  p.extra_clearance = 0;
   p.horizon = 0;
   p.target_horizon = 0;
   p.guide = Guide::straight;
@@ -56,7 +56,7 @@ HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params,
       frame_timeout_(frame_timeout),
       aim_{.position = goal, .tolerance = goal_tolerance},
       rng_(rng),
-      forecast_(swarm),
+      compensator_(swarm),
       obstacles_(params.tracker),
       follower_(params.follower, swarm) {
   params_.speed = std::min(params.speed, swarm.max_speed);
@@ -67,15 +67,15 @@ HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params,
 
 void HierarchicalNavigator::prepare(const Snapshot& world) {
   const Snapshot walls(world.shared_map());
-  aim_ =
-      aim_at(walls, goal_, goal_tolerance_, params_.margin, params_.margin + params_.extra_margin);
+  aim_ = aim_at(walls, goal_, goal_tolerance_, params_.clearance,
+                params_.clearance + params_.extra_clearance);
   if (params_.guide == Guide::route)
-    route_ = Route(world.map(), aim_.position, params_.margin, params_.route_cell);
+    route_ = Route(world.map(), aim_.position, params_.clearance, params_.route_cell);
 }
 
 Command HierarchicalNavigator::step(const Observation& seen, const Stop& stop) {
   view_ = {};
-  obstacles_.see(seen);
+  obstacles_.update(seen);
   Command command = decide(seen, stop);
   view_.local_target = target_;
   if (params_.guide == Guide::route && seen.world) view_.phased_goal = towards(seen.world->map());
@@ -88,15 +88,15 @@ Command HierarchicalNavigator::issue(double now, Command command, NavigatorState
   view_.state = state;
   if (issued_at_) period_ = std::clamp(now - *issued_at_, escape_tick, 1.0);
   issued_at_ = now;
-  forecast_.note(now, command);
+  compensator_.note(now, command);
   return command;
 }
 
 // Algorithm 4 [drrt], one pass of its loop
 Command HierarchicalNavigator::decide(const Observation& seen, const Stop& stop) {
   if (!sees_swarm(seen, frame_timeout_)) return issue(seen.now, {}, NavigatorState::blind);
-  follower_.see(seen, forecast_);
-  pose_ = forecast_.at_effect(seen);
+  follower_.update(seen, compensator_);
+  pose_ = compensator_.at_effect(seen);
   const Command hold{pose_.heading, 0};
   if (distance(pose_.position, goal_) <= goal_tolerance_) {  // line 2
     path_.clear();
@@ -123,7 +123,7 @@ Command HierarchicalNavigator::decide(const Observation& seen, const Stop& stop)
       }
   }
   if (params_.as_published ||
-      look_ahead(seen, params_.margin, [&](const Pose2&, double) { return hold; }).safe)
+      look_ahead(seen, params_.clearance, [&](const Pose2&, double) { return hold; }).safe)
     return issue(seen.now, hold, NavigatorState::hold);
   return escape(seen);
 }
@@ -131,10 +131,10 @@ Command HierarchicalNavigator::decide(const Observation& seen, const Stop& stop)
 // A path to a local target is replaced before its end, the one to the aim at its end.
 bool HierarchicalNavigator::is_used_up() {
   if (path_.size() < 2 || !target_) return false;
-  if (!(*target_ == aim_.position)) return way_left(path_, place_) < used_up();
+  if (!(*target_ == aim_.position)) return remaining(path_, place_) < used_up();
   if (params_.as_published) return false;
   place_ = nearest_place(path_, pose_.position, place_);
-  return way_left(path_, place_) < path_end();
+  return remaining(path_, place_) < path_end();
 }
 
 // Path Safety, P_clt Unsafe: the rest of the path against what is seen now.
@@ -143,7 +143,7 @@ bool HierarchicalNavigator::path_holds(const Snapshot& world) const {
   std::vector<Vec2> rest{point_ahead(path_, place_, 0)};
   rest.insert(rest.end(), path_.begin() + static_cast<std::ptrdiff_t>(place_.piece) + 1,
               path_.end());
-  const double clearance = std::min(params_.margin, path_clearance_);
+  const double clearance = std::min(params_.clearance, path_clearance_);
   return path_in_time_ ? is_free_in_time(world, obstacles_, rest, params_.speed, delay_,
                                          params_.target_horizon, clearance)
                        : world.is_free(rest, clearance);
@@ -153,18 +153,18 @@ void HierarchicalNavigator::replan(const Snapshot& seen, const Stop& stop) {
   path_.clear();
   place_ = {};
   const double here = seen.clearance(pose_.position);
-  double wanted = params_.margin + params_.extra_margin;
+  double wanted = params_.clearance + params_.extra_clearance;
   if (distance(pose_.position, aim_.position) <= params_.target.base_distance)  // it may have less
-    wanted = std::clamp(aim_.clearance, params_.margin, wanted);
-  if (here < params_.margin) {
+    wanted = std::clamp(aim_.clearance, params_.clearance, wanted);
+  if (here < params_.clearance) {
     target_.reset();
     return;
   }
-  for (const double clearance : {wanted, params_.margin})
+  for (const double clearance : {wanted, params_.clearance})
     if (clearance <= here && replan_in_time(seen, clearance, stop)) return;
   const Snapshot ahead =
-      obstacles_.swept_obstacles(seen, std::min(params_.horizon, longest_sweep), params_.margin);
-  for (const double clearance : {wanted, params_.margin}) {
+      obstacles_.swept_obstacles(seen, std::min(params_.horizon, longest_sweep), params_.clearance);
+  for (const double clearance : {wanted, params_.clearance}) {
     if (clearance > here) continue;
     if (replan_with(ahead, clearance, stop) || replan_with(seen, clearance, stop)) return;
   }
@@ -175,7 +175,7 @@ void HierarchicalNavigator::replan(const Snapshot& seen, const Stop& stop) {
 Vec2 HierarchicalNavigator::towards(const Map& map) const {
   if (params_.guide == Guide::straight) return aim_.position;
   const Vec2 via =
-      route_.ahead(map, pose_.position, 1.5 * params_.target.base_distance, params_.margin);
+      route_.ahead(map, pose_.position, 1.5 * params_.target.base_distance, params_.clearance);
   return via == pose_.position ? aim_.position : via;
 }
 
@@ -201,7 +201,7 @@ bool HierarchicalNavigator::replan_in_time(const Snapshot& seen, double clearanc
                                                .goal = aim_.position,
                                                .towards = towards(seen.map()),
                                                .reach = params_.target.base_distance,
-                                               .least_reach = 2 * used_up(),
+                                               .min_reach = 2 * used_up(),
                                                .angle_step = params_.target.angle_step,
                                                .turn_weight = params_.planner.smoothness_weight,
                                                .clearance = clearance,
@@ -228,7 +228,7 @@ bool HierarchicalNavigator::replan_with(const Snapshot& world, double clearance,
                                .goal_distance = distance(from, aim_.position),
                                .previous_target = target_,
                                .clearance = clearance,
-                               .least_distance = swarm_.radius};
+                               .min_distance = swarm_.radius};
   const bool near_goal =  // line 6
       params_.as_published ? query.goal_distance <= target_distance(world, query, params_.target)
                            : query.goal_distance <= params_.target.base_distance &&
@@ -264,14 +264,14 @@ void HierarchicalNavigator::plan_to(const Snapshot& world, Vec2 target, double c
 // happens within a tick is no contact; less where the swarm is, or the aim on the next `reach` µm.
 double HierarchicalNavigator::wall_floor(const Map& map, double reach) const {
   const double wanted = swarm_.radius + slack_;
-  if (params_.margin >= wanted) return params_.margin;
-  const double near_aim = aim_.wall_clearance(params_.margin, wanted, pose_.position, reach);
-  return std::max(params_.margin, std::min(near_aim, map.clearance(pose_.position)));
+  if (params_.clearance >= wanted) return params_.clearance;
+  const double near_aim = aim_.wall_clearance(params_.clearance, wanted, pose_.position, reach);
+  return std::max(params_.clearance, std::min(near_aim, map.clearance(pose_.position)));
 }
 
 // Where the swarm goes once the command takes effect, against where the obstacles go.
 template <class Steer>
-HierarchicalNavigator::Outlook HierarchicalNavigator::look_ahead(const Observation& seen,
+HierarchicalNavigator::Rollout HierarchicalNavigator::look_ahead(const Observation& seen,
                                                                  double floor,
                                                                  Steer&& steer) const {
   const double enough = far_enough();
@@ -280,7 +280,7 @@ HierarchicalNavigator::Outlook HierarchicalNavigator::look_ahead(const Observati
   const Map& map = seen.world->map();
   const double from_walls = wall_floor(map, enough);
   Pose2 pose = pose_;
-  Outlook out{.safe = true, .least = enough, .last = enough};
+  Rollout out{.safe = true, .least = enough, .last = enough};
   Command command;
   double next_command = 0;
   for (int k = 0; k < ticks; ++k) {
@@ -292,7 +292,7 @@ HierarchicalNavigator::Outlook HierarchicalNavigator::look_ahead(const Observati
     const Segment move{pose.position, next.position};
     const double from = delay + k * escape_tick;
     const double moving = obstacles_.clearance(*seen.world, move, from, from + escape_tick, enough);
-    out.safe = out.safe && moving >= params_.margin + slack_ && map.is_free(move, from_walls);
+    out.safe = out.safe && moving >= params_.clearance + slack_ && map.is_free(move, from_walls);
     // The whole move counts, so that no way through a wall is ever the best one.
     out.last = map.is_free(move, 0) ? std::min(moving, map.clearance(next.position)) : 0;
     out.least = std::min(out.least, out.last);
@@ -314,17 +314,17 @@ PathFollower::Answer HierarchicalNavigator::follow(PathPlace& place, const Pose2
       last_bit ? PathFollower::Answer{pursue(path_, place, pose, lookahead, speed)}
                : follower_.command(path_, place, pose, lookahead, speed);
   if (params_.as_published) return answer;
-  const double left = way_left(path_, place);
+  const double left = remaining(path_, place);
   if (left < path_end() || distance(pose.position, goal_) <= goal_tolerance_)
     return {{pose.heading, 0}};
   if (last_bit) answer.command.speed = std::min(answer.command.speed, left / period_);
   return answer;
 }
 
-HierarchicalNavigator::Outlook HierarchicalNavigator::look_along_path(const Observation& seen,
+HierarchicalNavigator::Rollout HierarchicalNavigator::look_along_path(const Observation& seen,
                                                                       double speed) const {
   PathPlace place = place_;
-  return look_ahead(seen, params_.margin,
+  return look_ahead(seen, params_.clearance,
                     [&](const Pose2& pose, double) { return follow(place, pose, speed).command; });
 }
 
@@ -337,7 +337,7 @@ Command HierarchicalNavigator::escape(const Observation& seen) {
   double best_score = -1;
   double best_least = 0;
   const auto consider = [&](const Command& first, const Command& second) {
-    const Outlook o =
+    const Rollout o =
         look_ahead(seen, best_score - last_weight * far_enough(),
                    [&](const Pose2&, double t) { return t < first_leg ? first : second; });
     const double score = o.least + last_weight * o.last;
@@ -351,10 +351,10 @@ Command HierarchicalNavigator::escape(const Observation& seen) {
   };
   consider(best, best);
   for (int i = 0; i < directions; ++i) consider(leg(i), leg(i));
-  if (best_least < params_.margin + slack_)  // who turns slowly comes less near meanwhile
+  if (best_least < params_.clearance + slack_)  // who turns slowly comes less near meanwhile
     for (int i = 0; i < directions; ++i)
       for (const double ease : {0.25, 0.1}) consider(leg(i, ease), leg(i));
-  if (best_least < params_.margin + slack_)
+  if (best_least < params_.clearance + slack_)
     for (int i = 0; i < directions; ++i)
       for (int j = 0; j < directions; ++j)
         if (i != j) consider(leg(i), leg(j));

@@ -14,7 +14,7 @@
 #include "microswarm/navigation/hierarchical/predicted_target.hpp"
 #include "microswarm/navigation/prediction/obstacle_predictor.hpp"
 #include "microswarm/navigation/steering/aim.hpp"
-#include "microswarm/navigation/steering/body_forecast.hpp"
+#include "microswarm/navigation/steering/delay_compensator.hpp"
 #include "microswarm/navigation/steering/guide.hpp"
 #include "microswarm/planning/path/planners.hpp"
 #include "microswarm/swarm/body/swarm_limits.hpp"
@@ -35,7 +35,7 @@ class HierarchicalNavigator : public Navigator {
   NavigatorView view() const override { return view_; }
 
  private:
-  struct Outlook {
+  struct Rollout {
     bool safe = false;
     double least = 0;  ///< least clearance on the way [µm]
     double last = 0;   ///< clearance at its end [µm]
@@ -52,11 +52,11 @@ class HierarchicalNavigator : public Navigator {
   /// Plays `steer(pose, seconds) → command` through for the horizon; ends early, unsafe, once the
   /// clearance falls below `floor`.
   template <class Steer>
-  Outlook look_ahead(const Observation& seen, double floor, Steer&& steer) const;
+  Rollout look_ahead(const Observation& seen, double floor, Steer&& steer) const;
   double wall_floor(const Map& map, double reach) const;
-  double far_enough() const { return 2 * params_.margin + params_.extra_margin; }
+  double far_enough() const { return 2 * params_.clearance + params_.extra_clearance; }
   PathFollower::Answer follow(PathPlace& place, const Pose2& pose, double speed) const;
-  Outlook look_along_path(const Observation& seen, double speed) const;
+  Rollout look_along_path(const Observation& seen, double speed) const;
   double lookahead_at(double speed) const {
     return params_.lookahead * std::max(0.5, speed / params_.speed);
   }
@@ -87,7 +87,7 @@ class HierarchicalNavigator : public Navigator {
   double delay_ = 0;     ///< from the frame until the command of this step takes effect [s]
 
   std::optional<double> issued_at_;  ///< the last command [s]
-  BodyForecast forecast_;
+  DelayCompensator compensator_;
   ObstaclePredictor obstacles_;
   PathFollower follower_;
   Pose2 pose_;  ///< where the swarm will be when the command of this step takes effect

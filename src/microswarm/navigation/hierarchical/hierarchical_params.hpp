@@ -62,8 +62,8 @@ struct HierarchicalParams {
   }
 
   static constexpr std::string_view type_name = "hierarchical_drrt_star";
-  double margin = 90;  // r_s
-  double extra_margin = 10;
+  double clearance = 90;  // r_s
+  double extra_clearance = 10;
   double speed = 60;
   double lookahead = 60;
   FollowerParams follower;
@@ -80,9 +80,9 @@ struct HierarchicalParams {
   HierarchicalParams in_effect() const;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.margin, {"margin", Unit::um, {0, 1e5}, "Least distance from the centre (r_s)."});
+    visit(self.clearance, {"margin", Unit::um, {0, 1e5}, "Least distance from the centre (r_s)."});
     visit(
-        self.extra_margin,
+        self.extra_clearance,
         {"extra_margin", Unit::um, {0, 1e5}, "Added to the margin while planning, where it fits."});
     visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Speed asked for."});
     visit(self.lookahead,

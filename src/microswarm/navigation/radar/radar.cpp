@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "microswarm/core/maths.hpp"
-#include "microswarm/navigation/radar/wait_area.hpp"
-#include "microswarm/navigation/steering/helm.hpp"
+#include "microswarm/navigation/radar/wait_zone.hpp"
+#include "microswarm/navigation/steering/steering_cycle.hpp"
 #include "microswarm/planning/path/fmt_star.hpp"
 #include "microswarm/world/connectivity/free_place.hpp"
 
@@ -29,9 +29,9 @@ RadarNavigator::RadarNavigator(const RadarParams& params, const SwarmLimits& swa
       frame_timeout_(frame_timeout),
       rng_(rng),
       safety_radius_(params.safety_radius),
-      forecast_(swarm),
+      compensator_(swarm),
       scanner_(directions_of(params)),
-      guard_(params.guard, std::min(params.speed, swarm.max_speed)) {
+      filter_(params.safety_filter, std::min(params.speed, swarm.max_speed)) {
   params_.speed = std::min(params.speed, swarm.max_speed);
 }
 
@@ -46,10 +46,10 @@ Command RadarNavigator::step(const Observation& seen, const Stop& stop) {
   look_.reset();
   contact_.reset();
   Command command = decide(seen, stop);
-  if (params_.guard.active && seen.world) command = guarded(command, seen);
+  if (params_.safety_filter.active && seen.world) command = guarded(command, seen);
   if (command.speed > 0) course_ = unit_vector(command.heading);
   last_ = seen.now;
-  forecast_.note(seen.now, command);
+  compensator_.note(seen.now, command);
   view_.path = route_.rest();
   if (!route_.empty()) view_.phased_goal = view_.path.front();
   if (plan_) view_.plan = &*plan_;
@@ -58,22 +58,22 @@ Command RadarNavigator::step(const Observation& seen, const Stop& stop) {
 
 // A frame without a swarm is no reason to forget where it was.
 Command RadarNavigator::guarded(const Command& command, const Observation& seen) {
-  guard_.see(seen);
+  filter_.update(seen);
   if (look_) {
     sighted_ = seen.seen;
     sighting_ = seen.swarm;
   } else if (sighting_ && seen.now - sighted_ <= frame_timeout_) {
-    pose_ = forecast_.at_effect(
+    pose_ = compensator_.at_effect(
         {.now = seen.now, .seen = sighted_, .swarm = sighting_, .robots = {}, .world = seen.world});
   } else {
     return command;
   }
-  const Guard::Start start{.place = pose_.position,
-                           .radius = std::max(sighting_->radius, swarm_.radius),
-                           .time = seen.now + swarm_.response_lag};
+  const SafetyFilter::Start start{.place = pose_.position,
+                                  .radius = std::max(sighting_->radius, swarm_.radius),
+                                  .time = seen.now + swarm_.response_lag};
   const double since = seen.now - last_;
   const double tick = since > 0 && since < 1 ? since : usual_tick;
-  const auto instead = guard_.overrules(command, start, *seen.world, tick);
+  const auto instead = filter_.filter(command, start, *seen.world, tick);
   if (!instead) return command;
   return issue(*instead, instead->speed > 0 ? NavigatorState::guard : NavigatorState::hold);
 }
@@ -81,7 +81,7 @@ Command RadarNavigator::guarded(const Command& command, const Observation& seen)
 Command RadarNavigator::decide(const Observation& seen, const Stop& stop) {
   if (!sees_swarm(seen, frame_timeout_) || !(seen.swarm->radius > 0))
     return issue({}, NavigatorState::blind);
-  pose_ = params_.compensate_delay ? forecast_.at_effect(seen) : seen.swarm->pose;
+  pose_ = params_.compensate_delay ? compensator_.at_effect(seen) : seen.swarm->pose;
   if (!seen.world->is_free(pose_.position, 0)) return issue({}, NavigatorState::hold);
   find_route(seen, stop);
   const bool has_plan = !route_.empty();
@@ -99,7 +99,7 @@ Command RadarNavigator::decide(const Observation& seen, const Stop& stop) {
     return rest(seen, NavigatorState::arrived);
   if (!has_plan) return rest(seen, NavigatorState::stuck);
   const Waiting waiting{pose_.position, look_->radius, look_->circles.prediction, target};
-  for (const WaitArea& area : params_.wait_areas)  // Eq 29
+  for (const WaitZone& area : params_.wait_zones)  // Eq 29
     if (must_wait(area, seen.world->moving().bodies(), waiting))
       return rest(seen, NavigatorState::wait);
   if (const auto heading = scanner_.choose(*look_, *seen.world)) {
@@ -173,7 +173,7 @@ RadarLook RadarNavigator::look_around(const Observation& seen, Vec2 target) cons
           .target_gain = params_.target_gain,
           .avoidance_gain = params_.avoidance_gain,
           .course = course_,
-          .least_cosine = maths::cos(params_.most_turn)};
+          .min_cosine = maths::cos(params_.max_turn)};
 }
 
 Command RadarNavigator::rest(const Observation& seen, NavigatorState state) {

@@ -6,22 +6,23 @@
 #include "microswarm/contracts/navigator.hpp"
 #include "microswarm/core/infinity.hpp"
 #include "microswarm/core/rng.hpp"
-#include "microswarm/navigation/radar/guard.hpp"
 #include "microswarm/navigation/radar/radar_circles.hpp"
 #include "microswarm/navigation/radar/radar_route.hpp"
 #include "microswarm/navigation/radar/radar_scan.hpp"
 #include "microswarm/navigation/radar/radar_scanner.hpp"
+#include "microswarm/navigation/radar/safety_filter.hpp"
 #include "microswarm/navigation/radar/safety_radius.hpp"
 #include "microswarm/navigation/steering/aim.hpp"
-#include "microswarm/navigation/steering/body_forecast.hpp"
+#include "microswarm/navigation/steering/delay_compensator.hpp"
 #include "microswarm/swarm/body/swarm_limits.hpp"
 
 namespace microswarm {
 
 /// Navigation by a hierarchical radar [radar], see RadarParams. It knows of obstacles only where
 /// they are and how wide. Made for a swarm that moves into any direction at once. States: direct,
-/// avoid, retreat, guard (it does what the guard orders instead), hold, wait, arrived, blind, and
-/// stuck when there is no plan round the walls or they leave no way that leads nearer.
+/// avoid, retreat, safety_filter (it does what the safety_filter orders instead), hold, wait,
+/// arrived, blind, and stuck when there is no plan round the walls or they leave no way that leads
+/// nearer.
 class RadarNavigator : public Navigator {
  public:
   /// `params` passed `check`; `swarm` is what is known of the swarm.
@@ -56,9 +57,9 @@ class RadarNavigator : public Navigator {
   double frame_timeout_;  ///< [s]
   Rng rng_;
   SafetyRadius safety_radius_;
-  BodyForecast forecast_;
+  DelayCompensator compensator_;
   RadarScanner scanner_;
-  Guard guard_;
+  SafetyFilter filter_;
   RadarRoute route_;
   std::optional<Plan> plan_;  ///< the newest one, found or not
   bool routed_ = false;       ///< has looked for a route

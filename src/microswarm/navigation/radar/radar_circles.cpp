@@ -25,7 +25,7 @@ RadarParams RadarParams::in_effect() const {
   if (!as_published) return p;
   p.guard = {.active = false};
   p.retreat = false;
-  p.most_turn = radians(180);
+  p.max_turn = radians(180);
   p.compensate_delay = false;
   p.obstacle_speed_bound = 0;
   return p;

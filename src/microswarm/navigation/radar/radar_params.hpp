@@ -7,15 +7,16 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/fields.hpp"
-#include "microswarm/navigation/radar/guard_params.hpp"
+#include "microswarm/navigation/radar/safety_filter_params.hpp"
 #include "microswarm/navigation/radar/safety_radius_params.hpp"
-#include "microswarm/navigation/radar/wait_area_params.hpp"
+#include "microswarm/navigation/radar/wait_zone_params.hpp"
 #include "microswarm/planning/path/fmt_star_params.hpp"
 
 namespace microswarm {
 
 /// Radar-based navigation among moving obstacles [radar]. Ours besides: that it keeps to a side,
-/// the retreat, the guard, and that delays are made up for. `as_published` switches all that off.
+/// the retreat, the safety_filter, and that delays are made up for. `as_published` switches all
+/// that off.
 struct RadarParams {
   static constexpr std::string_view type_name = "radar";
   double speed = 85.8;
@@ -26,12 +27,12 @@ struct RadarParams {
   double target_gain = 0.1;         // k_t ε
   double avoidance_gain = 0.9;      // k_a η
   SafetyRadiusParams safety_radius;
-  double most_turn = radians(90);
+  double max_turn = radians(90);
   bool retreat = true;
-  GuardParams guard;
+  SafetyFilterParams safety_filter;
   bool compensate_delay = true;
   double obstacle_speed_bound = 0;
-  std::vector<WaitArea> wait_areas;
+  std::vector<WaitZone> wait_zones;
   std::vector<Vec2> waypoints;
   double waypoint_tolerance = 50;
   bool global_plan = false;
@@ -65,14 +66,15 @@ struct RadarParams {
                                 "Growth of q_a with nearness (k_a eta); q_a stays below q_t."});
     visit(self.safety_radius,
           {"safety_radius", Unit::none, {}, "Control of the safety circle's radius."});
-    visit(self.most_turn, {"most_turn",
-                           Unit::deg,
-                           {30, 180},
-                           "Directions that turn more from the last one are taken only where no "
-                           "other is safe; 180 as published."});
+    visit(self.max_turn, {"most_turn",
+                          Unit::deg,
+                          {30, 180},
+                          "Directions that turn more from the last one are taken only where no "
+                          "other is safe; 180 as published."});
     visit(self.retreat,
           {"retreat", Unit::none, {}, "With no safe direction get away, else hold as published."});
-    visit(self.guard, {"guard", Unit::none, {}, "Keeps a way out open, foreseeing obstacles."});
+    visit(self.safety_filter,
+          {"guard", Unit::none, {}, "Keeps a way out open, foreseeing obstacles."});
     visit(self.compensate_delay,
           {"compensate_delay",
            Unit::none,
@@ -83,8 +85,8 @@ struct RadarParams {
            Unit::um_per_s,
            {0, 1e5},
            "Obstacles count as nearer by their way at this speed in the dead time."});
-    visit(self.wait_areas,
-          {"wait_areas", Unit::none, {}, "Where to wait for valves to open (A, D)."});
+    visit(self.wait_zones,
+          {"wait_zones", Unit::none, {}, "Where to wait for valves to open (A, D)."});
     visit(self.waypoints,
           {"waypoints", Unit::um, {}, "Phased goals on the way, in order; none: as planned."});
     visit(self.waypoint_tolerance,

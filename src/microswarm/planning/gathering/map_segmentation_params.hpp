@@ -17,7 +17,7 @@ struct MapSegmentationParams {
   double arm_gap = radians(20);
   double merge_distance = 0.4;
   double fill = 0.5;
-  int most_branches = 4;
+  int max_branches = 4;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.eccentricity, {"eccentricity", Unit::none, {0, 1}, "delta_e: junctions have less."});
@@ -27,7 +27,7 @@ struct MapSegmentationParams {
     visit(self.merge_distance,
           {"merge_distance", Unit::none, {0, 10}, "Junction nodes nearer are one junction."});
     visit(self.fill, {"fill", Unit::none, {0, 1}, "Share of junction nodes in its middle."});
-    visit(self.most_branches, {"most_branches", Unit::none, {1, 10}, "Branches of a region."});
+    visit(self.max_branches, {"max_branches", Unit::none, {1, 10}, "Branches of a region."});
   }
 };
 

@@ -16,8 +16,8 @@
 #include "microswarm/core/fields.hpp"
 #include "microswarm/core/issue.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
-#include "microswarm/rig/params/eye_params.hpp"
 #include "microswarm/rig/params/microscope_params.hpp"
+#include "microswarm/rig/params/perception_params.hpp"
 #include "microswarm/vision/camera/camera.hpp"
 #include "microswarm/vision/camera/camera_scale.hpp"
 
@@ -67,7 +67,7 @@ struct VideoCamera {
 /// When a run is ended for safety, with the coils at zero.
 struct SafetyParams {
   double lost_swarm = 0.5;
-  double oldest_frame = 0.5;
+  double max_frame_age = 0.5;
   double deadman = 0.5;
   int missed_deadlines = 10;
   template <class Self, class V>
@@ -75,7 +75,7 @@ struct SafetyParams {
     visit(
         self.lost_swarm,
         {"lost_swarm", Unit::s, {0.01, 100}, "The swarm was not seen, or not alone, for so long."});
-    visit(self.oldest_frame,
+    visit(self.max_frame_age,
           {"oldest_frame", Unit::s, {0.01, 100}, "The newest frame is older than this."});
     visit(self.deadman,
           {"deadman", Unit::s, {0.02, 100}, "No new command came from the navigator for so long."});
@@ -93,7 +93,7 @@ struct RigParams {
   std::variant<SimulatedCoils, SerialCoilParams> driver;
   std::variant<SimulatedCamera, CameraParams, VideoCamera> camera;
   std::optional<CameraScale> scale;
-  EyeParams eye;
+  PerceptionParams perception;
   SafetyParams safety;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -109,7 +109,7 @@ struct RigParams {
     visit(self.camera, {"camera", Unit::none, {}, "What sees."});
     visit(self.scale,
           {"scale", Unit::none, {}, "Where the camera sees the world; a simulated one knows."});
-    visit(self.eye, {"eye", Unit::none, {}, "How pictures are read."});
+    visit(self.perception, {"eye", Unit::none, {}, "How pictures are read."});
     visit(self.safety, {"safety", Unit::none, {}, "When a run is ended for safety."});
   }
 };

@@ -39,8 +39,8 @@ struct CameraScale {
     return origin_px + Vec2{way.x, y_up ? -way.y : way.y};
   }
   /// A way in the picture as one in the world [µm].
-  Vec2 direction_to_world(Vec2 way_px) const {
-    return um_per_px * rotated({way_px.x, y_up ? -way_px.y : way_px.y}, rotation);
+  Vec2 direction_to_world(Vec2 distance_px) const {
+    return um_per_px * rotated({distance_px.x, y_up ? -distance_px.y : distance_px.y}, rotation);
   }
 };
 

@@ -20,7 +20,7 @@ struct BlobParams {
   double max_radius = 200;
   double min_contrast = 8;
   double gap = 6;
-  double min_grain = 0;
+  double min_texture = 0;
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -35,12 +35,12 @@ struct BlobParams {
            Unit::px,
            {1, 1000},
            "Widest gap between clumps that belong together; edges are smoothed by half."});
-    visit(self.min_grain, {"min_grain",
-                           Unit::none,
-                           {0, 255},
-                           "Least spread of greys within, beyond that of the noise: a cloud of "
-                           "particles has some, a smooth obstacle has none. Smooth parts are cut "
-                           "off. 0: anything."});
+    visit(self.min_texture, {"min_texture",
+                             Unit::none,
+                             {0, 255},
+                             "Least spread of greys within, beyond that of the noise: a cloud of "
+                             "particles has some, a smooth obstacle has none. Smooth parts are cut "
+                             "off. 0: anything."});
   }
 };
 
@@ -57,7 +57,7 @@ struct Blob {
   double angle = 0;              ///< of its major axis [rad], from x towards y: clockwise as seen
   std::vector<Vec2> outline_px;  ///< where it is half as far from the ground as its middle
   double contrast = 0;           ///< median difference to the ground [grey]
-  double grain = 0;              ///< spread of the greys within beyond that of the noise [grey]
+  double texture = 0;            ///< spread of the greys within beyond that of the noise [grey]
   bool is_cut = false;           ///< it goes on beyond the picture or behind a wall
 };
 

@@ -11,10 +11,10 @@
 
 namespace microswarm {
 
-/// Settings of `find_scene`. Where obstacles have the swarm's tone, `swarm.look.min_grain` tells
+/// Settings of `find_scene`. Where obstacles have the swarm's tone, `swarm.look.min_texture` tells
 /// them apart.
 struct SceneParams {
-  SwarmFinderParams swarm{.look = {.min_grain = 5}};
+  SwarmFinderParams swarm{.look = {.min_texture = 5}};
   BlobParams obstacles{.gap = 4};
   double roundness = 0.06;
 

@@ -42,7 +42,7 @@ struct ParticleParams {
   double min_mass = 20;
   int separation = 0;
   double noise = 1;
-  double least_rise = 1;
+  double min_foreground = 1;
   double percentile = 64;
   int max_moves = 10;
 
@@ -66,8 +66,9 @@ struct ParticleParams {
                             "plus one."});
     visit(self.noise,
           {"noise", Unit::px, {0, 100}, "Spread of the Gaussian that takes the noise away."});
-    visit(self.least_rise,
-          {"least_rise", Unit::none, {0, 255}, "Greys above the ground that are still ground."});
+    visit(
+        self.min_foreground,
+        {"min_foreground", Unit::none, {0, 255}, "Greys above the ground that are still ground."});
     visit(self.percentile, {"percentile",
                             Unit::none,
                             {0, 100},

@@ -20,7 +20,7 @@ namespace microswarm {
 /// between frames.
 struct TrackerParams {
   int memory = 3;
-  int lasting = 4;
+  int min_lifetime = 4;
   double gate = 4;
   std::optional<double> search_range;
   std::optional<double> measurement;
@@ -33,11 +33,12 @@ struct TrackerParams {
   static void fields(Self& self, V&& visit) {
     visit(self.memory,
           {"memory", Unit::none, {0, 10000}, "Frames a robot may be missing and go on."});
-    visit(self.lasting, {"lasting",
-                         Unit::none,
-                         {1, 10000},
-                         "Frames that a robot is seen before and gone after it merges, or seen "
-                         "after it splits off; less is flicker."});
+    visit(self.min_lifetime,
+          {"lasting",
+           Unit::none,
+           {1, 10000},
+           "Frames that a robot is seen before and gone after it merges, or seen "
+           "after it splits off; less is flicker."});
     visit(self.gate, {"gate",
                       Unit::none,
                       {0.1, 100},

@@ -52,7 +52,7 @@ struct VesselParams {
   double seed_threshold = 2.8;
   double wall_level = 0.5;
   double gap = 3;
-  double least_piece = 8;
+  double min_piece = 8;
   double min_width = 0;
   KeepPieces keep = KeepPieces::largest;
 
@@ -69,8 +69,8 @@ struct VesselParams {
     visit(self.wall_level,
           {"wall_level", Unit::none, {0, 1}, "Walls between ground (0) and vessel (1)."});
     visit(self.gap, {"gap", Unit::none, {0, 20}, "Widest gap bridged, in wide widths."});
-    visit(self.least_piece,
-          {"least_piece", Unit::none, {0, 1e4}, "Least piece, in squares of the wide width."});
+    visit(self.min_piece,
+          {"min_piece", Unit::none, {0, 1e4}, "Least piece, in squares of the wide width."});
     visit(self.min_width,
           {"min_width", Unit::px, {0, 1000}, "Narrower vessels are left out; 0: none."});
     visit(self.keep, {"keep", Unit::none, {}, "The largest connected network, or all pieces."});

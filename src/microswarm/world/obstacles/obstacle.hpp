@@ -26,14 +26,14 @@ struct DiscShape {
 /// Disc that breathes: the radius goes between its bounds as a sine of time.
 struct BreathingDisc {
   static constexpr std::string_view type_name = "breathing_disc";
-  double least_radius = 50;
-  double greatest_radius = 100;
+  double min_radius = 50;
+  double max_radius = 100;
   double period = 20;
   double phase = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.least_radius, {"least_radius", Unit::um, {0, 1e6}, "Smallest radius.", true});
-    visit(self.greatest_radius, {"greatest_radius", Unit::um, {0, 1e6}, "Largest radius.", true});
+    visit(self.min_radius, {"least_radius", Unit::um, {0, 1e6}, "Smallest radius.", true});
+    visit(self.max_radius, {"greatest_radius", Unit::um, {0, 1e6}, "Largest radius.", true});
     visit(self.period, {"period", Unit::s, {1e-2, 1e6}, "Time of one breath."});
     visit(self.phase, {"phase", Unit::none, {-1, 1}, "Share of the period at t = 0."});
   }
@@ -69,16 +69,16 @@ struct Valve {
   static constexpr std::string_view type_name = "valve";
   double span = 400;
   double thickness = 40;
-  double least_gap = 0;
-  double greatest_gap = 300;
+  double min_gap = 0;
+  double max_gap = 300;
   double period = 20;
   double phase = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.span, {"span", Unit::um, {1, 1e6}, "Width of the passage.", true});
     visit(self.thickness, {"thickness", Unit::um, {1e-3, 1e6}, "Thickness of the leaves."});
-    visit(self.least_gap, {"least_gap", Unit::um, {0, 1e6}, "Gap when closed."});
-    visit(self.greatest_gap, {"greatest_gap", Unit::um, {0, 1e6}, "Gap when open."});
+    visit(self.min_gap, {"least_gap", Unit::um, {0, 1e6}, "Gap when closed."});
+    visit(self.max_gap, {"greatest_gap", Unit::um, {0, 1e6}, "Gap when open."});
     visit(self.period, {"period", Unit::s, {1e-2, 1e6}, "Time of one opening and closing."});
     visit(self.phase, {"phase", Unit::none, {-1, 1}, "Share of the period at t = 0."});
   }
