@@ -87,6 +87,7 @@ std::unique_ptr<Session> open_on_rig(const RunOptions& o) {
   if (o.rig.empty()) return nullptr;
   const RigExperiment on =
       open_rig_experiment(o.scenario, o.settings, o.rig, o.rig_settings, o.seed);
+  note_each(on.experiment.keys.notes());
   note_field(on.rig, on.scenario());
   return rig_session(on);
 }
@@ -94,7 +95,10 @@ std::unique_ptr<Session> open_on_rig(const RunOptions& o) {
 int run_command(const RunOptions& o, const Context& context) {
   std::unique_ptr<Session> session = open_on_rig(o);
   std::optional<Experiment> experiment;
-  if (!session) experiment = open_experiment(o.scenario, o.settings, o.seed);
+  if (!session) {
+    experiment = open_experiment(o.scenario, o.settings, o.seed);
+    note_each(experiment->keys.notes());
+  }
   const ReportOptions report = report_options(o.photo);
   const OutFolder hold(o.out);
   if (o.trials > 1) return many_runs(o, experiment->scene, experiment->world, context.stop);

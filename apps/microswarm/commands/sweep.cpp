@@ -165,6 +165,7 @@ int sweep_command(SweepOptions o, const Context& context) {
   SweepHelpers helpers(ranks);
   const std::filesystem::path file = o.sweep;
   const SweepPlan plan = load_sweep(file, o.jobs);
+  note_each(plan.notes);
   check(plan, o.jobs);
   if (o.out.empty()) o.out = file.stem().string() + ".db";
   keep_input(o.out, o.sweep);

@@ -90,8 +90,13 @@ SeeSettings settings_of(const SeeOptions& o) {
     if (const auto* camera = std::get_if<CameraParams>(&rig.params.camera))
       settings.camera = *camera;
   }
-  if (!o.config.empty()) settings = read_yaml_file<SeeSettings>(o.config);
-  set_values(settings, o.settings);
+  if (o.config.empty()) {
+    note_each(set_values(settings, o.settings));
+    return settings;
+  }
+  KeyLocations keys;
+  settings = read_yaml_file<SeeSettings>(o.config, o.settings, keys);
+  note_each(keys.notes());
   return settings;
 }
 
