@@ -115,7 +115,7 @@ std::shared_ptr<ob::RealVectorStateSpace> space_of(const Map& map, std::size_t r
 }  // namespace
 
 OmplGrowth grow_ompl(const Map& map, std::span<const Vec2> starts, const GlobalRrtParams& params,
-                     std::size_t nodes, double most_seconds) {
+                     std::size_t nodes, double max_seconds) {
   ompl::msg::noOutputHandler();
   const std::size_t n = starts.size();
   const RobotStepper stepper = input_stepper(map, params.robostep);
@@ -150,7 +150,7 @@ OmplGrowth grow_ompl(const Map& map, std::span<const Vec2> starts, const GlobalR
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   };
   planner.solve(
-      ob::PlannerTerminationCondition([&] { return grown >= nodes || seconds() >= most_seconds; }));
+      ob::PlannerTerminationCondition([&] { return grown >= nodes || seconds() >= max_seconds; }));
   return {grown, seconds()};
 }
 

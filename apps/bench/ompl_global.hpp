@@ -14,10 +14,10 @@ struct OmplGrowth {
   double seconds = 0;
 };
 
-/// Grows OMPL's RRT to `nodes` or for `most_seconds` in the space of several robots' places, with
+/// Grows OMPL's RRT to `nodes` or for `max_seconds` in the space of several robots' places, with
 /// its own nearest neighbours and with the local planner of ours, Alg 2 [global], as its directed
 /// control sampler; each input is one step of its propagator.
 OmplGrowth grow_ompl(const Map& map, std::span<const Vec2> starts, const GlobalRrtParams& params,
-                     std::size_t nodes, double most_seconds);
+                     std::size_t nodes, double max_seconds);
 
 }  // namespace microswarm::bench

@@ -143,7 +143,7 @@ OmplResult run_ompl(OmplPlanner kind, const OmplQuery& q) {
 
   const auto began = std::chrono::steady_clock::now();
   const ob::PlannerStatus status =
-      planner->solve(ob::timedPlannerTerminationCondition(q.most_seconds));
+      planner->solve(ob::timedPlannerTerminationCondition(q.max_seconds));
   OmplResult out;
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   out.solved = status == ob::PlannerStatus::EXACT_SOLUTION;

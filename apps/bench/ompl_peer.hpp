@@ -35,7 +35,7 @@ struct OmplQuery {
   unsigned samples = 1000;     ///< of FMT*
   double radius_factor = 1.1;  ///< of FMT*
   double free_area = 0;        ///< of FMT* [µm²]; 0: the bounds', as OMPL does by itself
-  double most_seconds = 1;
+  double max_seconds = 1;
   bool first_solution = true;  ///< stop at it, or use up the time
 };
 

@@ -168,7 +168,7 @@ std::vector<BenchRow> tree_growth(bool quick, const Stop& stop) {
                              .clearance = clearance,
                              .goal_tolerance = grow.goal_tolerance,
                              .range = grow.step,
-                             .most_seconds = quick ? 2.0 : 4.0,
+                             .max_seconds = quick ? 2.0 : 4.0,
                              .first_solution = false};
   const OmplResult star = run_ompl(OmplPlanner::rrt_star, long_query);
   rows.push_back(
@@ -177,7 +177,7 @@ std::vector<BenchRow> tree_growth(bool quick, const Stop& stop) {
        .unit = "1/s",
        .ours = quantile(rate, 0.5),
        .peer = static_cast<double>(star.vertices) / star.seconds,
-       .peer_name = fmt::format("OMPL RRT* ({} in {:g} s)", star.vertices, long_query.most_seconds),
+       .peer_name = fmt::format("OMPL RRT* ({} in {:g} s)", star.vertices, long_query.max_seconds),
        .aim = 200'000,
        .at_most = false});
   return rows;

@@ -80,7 +80,7 @@ void add_rows(std::vector<BenchRow>& rows, const std::string& name, int obstacle
                           .max_speed = 85.8,
                           .max_turn_rate = std::numeric_limits<double>::infinity()};
   RadarParams params;
-  params.guard.active = guarded;
+  params.safety_filter.active = guarded;
   RadarNavigator navigator(params, swarm, {0, 0}, 1, Rng(1, Purpose::planner));
   double now = 0;
   double sum = 0;  // keeps the results from being thought useless

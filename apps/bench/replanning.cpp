@@ -22,7 +22,7 @@ class PeerListener : public RunListener {
                                                              .goal = goal_,
                                                              .clearance = clearance_,
                                                              .goal_tolerance = 30,
-                                                             .most_seconds = 0.2});
+                                                             .max_seconds = 0.2});
     times_.push_back(r.seconds);
   }
   const std::vector<double>& times() const { return times_; }

@@ -96,12 +96,12 @@ Option Option::excludes(const char* other) {
   return *this;
 }
 
-Option Option::shows_default() {
+Option Option::capture_default() {
   option_->capture_default_str();
   return *this;
 }
 
-Option Option::again_and_again() {
+Option Option::repeatable() {
   option_->take_all()->allow_extra_args(false);
   return *this;
 }

@@ -46,9 +46,9 @@ class Option {
   Option excludes(Option other);
   Option excludes(const char* other);
   /// The help tells the value that it has now.
-  Option shows_default();
+  Option capture_default();
   /// It may stand several times, with a value each.
-  Option again_and_again();
+  Option repeatable();
 
  private:
   CLI::Option* option_;

@@ -14,7 +14,7 @@ void add_um_per_px(Command command, std::optional<double>& value, const char* do
 }
 
 void add_settings(Command command, std::vector<std::string>& values, const char* doc) {
-  command.add_option("--set", values, doc).type_name("KEY=VALUE").again_and_again();
+  command.add_option("--set", values, doc).type_name("KEY=VALUE").repeatable();
 }
 
 void add_json(Command command, bool& value) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/actuation/coils/loop.hpp"
+#include "microswarm/actuation/coils/current_loop.hpp"
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
@@ -15,7 +15,7 @@ namespace {
 
 /// Biot–Savart summed over straight bits of the circle: the trapezoidal rule on a periodic
 /// integrand, exact to rounding away from the wire.
-Eigen::Vector3d summed_field(const Loop& loop, const Eigen::Vector3d& p, int bits) {
+Eigen::Vector3d summed_field(const CurrentLoop& loop, const Eigen::Vector3d& p, int bits) {
   const Eigen::Vector3d u = loop.axis.unitOrthogonal();
   const Eigen::Vector3d v = loop.axis.cross(u);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -29,21 +29,21 @@ Eigen::Vector3d summed_field(const Loop& loop, const Eigen::Vector3d& p, int bit
   return mu_0 / (4 * pi) * loop.turns * sum;
 }
 
-double distance_to_wire(const Loop& loop, const Eigen::Vector3d& p) {
+double distance_to_wire(const CurrentLoop& loop, const Eigen::Vector3d& p) {
   const Eigen::Vector3d off = p - loop.centre;
   const double z = off.dot(loop.axis);
   return std::hypot(z, (off - z * loop.axis).norm() - loop.radius);
 }
 
-Loop random_loop(test::Dice& dice) {
+CurrentLoop random_loop(test::Dice& dice) {
   return {1e4 * dice.vector(), dice.direction(), 3e4 * (1.1 + dice.number()),
           50 * (1.1 + dice.number())};
 }
 
-TEST(Loop, AgreesWithBiotAndSavartSummedNumerically) {
+TEST(CurrentLoop, AgreesWithBiotAndSavartSummedNumerically) {
   test::Dice dice(1);
   for (int trial = 0; trial < 500; ++trial) {
-    const Loop loop = random_loop(dice);
+    const CurrentLoop loop = random_loop(dice);
     const Eigen::Vector3d p = loop.centre + 3 * loop.radius * dice.vector();
     if (distance_to_wire(loop, p) < 0.1 * loop.radius) continue;
     const Eigen::Vector3d expected = summed_field(loop, p, 1000);
@@ -52,8 +52,8 @@ TEST(Loop, AgreesWithBiotAndSavartSummedNumerically) {
   }
 }
 
-TEST(Loop, HasTheKnownFieldOnItsAxisAndFarAway) {
-  const Loop loop{{1000, -2000, 500}, Eigen::Vector3d(1, 2, 2) / 3, 20000, 30};
+TEST(CurrentLoop, HasTheKnownFieldOnItsAxisAndFarAway) {
+  const CurrentLoop loop{{1000, -2000, 500}, Eigen::Vector3d(1, 2, 2) / 3, 20000, 30};
   for (const double z : {0.0, 1.0, -3e4, 1e5}) {
     const FieldGradient f = loop_field(loop, loop.centre + z * loop.axis);
     const double expected = 30 * mu_0 * 4e8 / (2 * std::pow(4e8 + z * z, 1.5));
@@ -70,10 +70,10 @@ TEST(Loop, HasTheKnownFieldOnItsAxisAndFarAway) {
   EXPECT_LE((found - dipole).norm(), 5e-6 * dipole.norm());
 }
 
-TEST(Loop, GradientIsThatOfTheFieldAndFreeOfCurlAndDivergence) {
+TEST(CurrentLoop, GradientIsThatOfTheFieldAndFreeOfCurlAndDivergence) {
   test::Dice dice(2);
   for (int trial = 0; trial < 300; ++trial) {
-    const Loop loop = random_loop(dice);
+    const CurrentLoop loop = random_loop(dice);
     Eigen::Vector3d p = loop.centre + 2 * loop.radius * dice.vector();
     if (trial % 10 == 0) p = loop.centre + loop.radius * dice.number() * loop.axis;
     if (trial % 10 == 1) p += 1e-9 * loop.radius * dice.vector();
@@ -89,8 +89,8 @@ TEST(Loop, GradientIsThatOfTheFieldAndFreeOfCurlAndDivergence) {
   }
 }
 
-TEST(Loop, IsSmoothWhereSeriesAndIntegralsMeet) {
-  const Loop loop{};
+TEST(CurrentLoop, IsSmoothWhereSeriesAndIntegralsMeet) {
+  const CurrentLoop loop{};
   // m = 0.1 at about this ρ in the plane of the loop: both sides agree.
   const double rho = 0.0263;
   for (const double z : {0.0, 0.3}) {
@@ -103,8 +103,8 @@ TEST(Loop, IsSmoothWhereSeriesAndIntegralsMeet) {
   }
 }
 
-TEST(Loop, StaysFiniteOnTheWire) {
-  const FieldGradient f = loop_field(Loop{}, {1, 0, 0});
+TEST(CurrentLoop, StaysFiniteOnTheWire) {
+  const FieldGradient f = loop_field(CurrentLoop{}, {1, 0, 0});
   EXPECT_TRUE(f.field.allFinite());
   EXPECT_TRUE(f.gradient.allFinite());
 }
@@ -125,7 +125,7 @@ TEST(Winding, SolenoidHasTheKnownFieldOnItsAxis) {
   w.length = 40000;
   w.thickness = 20000;
   Issues issues;
-  const std::vector<Loop> loops = loops_of(w, issues);
+  const std::vector<CurrentLoop> loops = loops_of(w, issues);
   EXPECT_TRUE(issues.empty());
   for (const double z : {0.0, 1e4, 2e4, 5e4, -1e5}) {
     const double expected = solenoid_on_axis(z, 20000, 40000, 40000, 400);
@@ -133,7 +133,7 @@ TEST(Winding, SolenoidHasTheKnownFieldOnItsAxis) {
     EXPECT_NEAR(found.z(), expected, 1e-9 * expected) << z;
   }
   double turns = 0;
-  for (const Loop& loop : loops) turns += loop.turns;
+  for (const CurrentLoop& loop : loops) turns += loop.turns;
   EXPECT_NEAR(turns, 400, 1e-9);
 }
 
@@ -145,9 +145,9 @@ TEST(Winding, ThinLayerIsManyLoops) {
   w.turns = 100;
   w.length = 30000;
   Issues issues;
-  const std::vector<Loop> loops = loops_of(w, issues);
+  const std::vector<CurrentLoop> loops = loops_of(w, issues);
   EXPECT_TRUE(issues.empty());
-  std::vector<Loop> many;
+  std::vector<CurrentLoop> many;
   for (int i = 0; i < 3000; ++i)
     many.push_back({{1e4, 30000 * ((i + 0.5) / 3000 - 0.5), 0}, {0, 1, 0}, 20000, 100.0 / 3000});
   for (const Eigen::Vector3d& p : {Eigen::Vector3d(1e4, 0, 0), Eigen::Vector3d(1.5e4, 3e3, -4e3),

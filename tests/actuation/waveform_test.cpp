@@ -55,17 +55,17 @@ TEST(Waveform, RolledWayIsThatOfTheShortestTurn) {
   for (const double heading : {0.0, 1.0, -2.5}) {
     Vec2 way;
     for (int i = 0; i < 400; ++i)
-      way += rolled_way(rolling_field(3, heading, 0.05 * pi * i),
-                        rolling_field(3, heading, 0.05 * pi * (i + 1)), 16);
+      way += rolled_distance(rolling_field(3, heading, 0.05 * pi * i),
+                             rolling_field(3, heading, 0.05 * pi * (i + 1)), 16);
     EXPECT_LE(distance(way, 160 * unit_vector(heading)), 1e-9);
   }
   // Steering in the plane moves nothing, nor does a field that only grows.
-  EXPECT_LE(norm(rolled_way(steering_field(3, 0.2), steering_field(3, 1.2), 16)), 1e-12);
-  EXPECT_EQ(rolled_way(steering_field(3, 1), 2 * steering_field(3, 1), 16), (Vec2{}));
+  EXPECT_LE(norm(rolled_distance(steering_field(3, 0.2), steering_field(3, 1.2), 16)), 1e-12);
+  EXPECT_EQ(rolled_distance(steering_field(3, 1), 2 * steering_field(3, 1), 16), (Vec2{}));
   // A raised field that is steered moves the body across: R sin φ cos φ for each radian.
   const double turn = 1e-4, raised = 0.6;
   const Vec2 across =
-      rolled_way(rolling_field(1, 0, -raised), rolling_field(1, turn, -raised), 2 * pi);
+      rolled_distance(rolling_field(1, 0, -raised), rolling_field(1, turn, -raised), 2 * pi);
   EXPECT_LE(distance(across, Vec2{0, turn * std::sin(raised) * std::cos(raised)}), 1e-7);
 }
 
@@ -174,7 +174,7 @@ TEST(FieldGenerator, RollsTheWayThatIsCommanded) {
     generator.command(command);
     for (int i = 0; i < 10; ++i) {
       const Eigen::Vector3d before = generator.field();
-      rolled += rolled_way(before, generator.advance(0.01), params.length_per_turn);
+      rolled += rolled_distance(before, generator.advance(0.01), params.length_per_turn);
     }
     commanded += displacement(command, 0.1);
     const double off = distance(commanded, rolled);
@@ -214,7 +214,7 @@ TEST(FieldGenerator, RollsBackwardsRatherThanTurnRound) {
   FieldGenerator generator(params, 0.5);
   generator.command({0.5 - pi, 40});
   const Eigen::Vector3d before = generator.field();
-  const Vec2 way = rolled_way(before, generator.advance(0.01), params.length_per_turn);
+  const Vec2 way = rolled_distance(before, generator.advance(0.01), params.length_per_turn);
   EXPECT_LE(distance(way, 0.4 * unit_vector(0.5 - pi)), 1e-9);
   EXPECT_NEAR(generator.heading(), 0.5, 1e-9);
   EXPECT_LT(generator.frequency(), 0);

@@ -60,9 +60,9 @@ TEST_F(BadScenarios, KeysThatDoNotFitTogether) {
               "swarm's least diameter + safety_distance_um, 105: it could step over a wall");
   run_refused(two_rooms() +
                   "obstacles:\n"
-                  "  - shape: {type: valve, span_um: 100, least_gap_um: 120}\n"
+                  "  - shape: {type: valve, span_um: 100, min_gap_um: 120}\n"
                   "    motion: {type: still, position_um: [500, 200]}\n",
-              "flight.yaml:17:54: obstacle 1: least_gap_um is 120, leaves no leaf in span_um, 100");
+              "flight.yaml:17:52: obstacle 1: min_gap_um is 120, leaves no leaf in span_um, 100");
   refused({"run", "flight.yaml", "--set", "obstacles=[]", "--set", "start.y_um=100", "--set",
            "start.x_um=1012"},
           "--set start.x_um: start is 12 µm inside wall 3");

@@ -62,7 +62,7 @@ TEST_F(Commands, RunThatIsHeldSaysWhy) {
         "map: {type: rectangles, lo_um: [0, 0], hi_um: [2000, 800], rectangles_um: "
         "[[1000, 0, 60, 250], [1000, 550, 60, 250]]}\n"
         "obstacles:\n"
-        "  - shape: {type: valve, span_um: 300, least_gap_um: 0, greatest_gap_um: 200, period_s: "
+        "  - shape: {type: valve, span_um: 300, min_gap_um: 0, max_gap_um: 200, period_s: "
         "1000, phase: -0.25}\n"
         "    motion: {type: still, position_um: [1030, 400]}\n"
         "swarm: {type: vortex, radius_um: 50, moving_radius_um: 50}\n"
@@ -71,8 +71,8 @@ TEST_F(Commands, RunThatIsHeldSaysWhy) {
         "hold_limit_s: 20\n"
         "navigator:\n"
         "  type: radar\n"
-        "  wait_areas:\n"
-        "    - {centre_um: [1030, 400], width_um: 600, height_um: 400, least_gap_um: 190}\n");
+        "  wait_zones:\n"
+        "    - {centre_um: [1030, 400], width_um: 600, height_um: 400, min_gap_um: 190}\n");
   const Outcome outcome = run({"run", "wait.yaml", "--out", "wait"});
   EXPECT_EQ(outcome.code, 3);
   EXPECT_EQ(outcome.err, "");

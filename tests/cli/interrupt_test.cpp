@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double most_seconds = 20;  // a busy computer draws a report for some; a hang is longer
+constexpr double max_seconds = 20;  // a busy computer draws a report for some; a hang is longer
 
 /// Takes minutes: a slow swarm at a thousand ticks a second.
 std::string endless() {
@@ -47,7 +47,7 @@ TEST_F(Interrupted, CtrlCKeepsWhatThereIs) {
     program.let_work(500);
     ASSERT_TRUE(program.running());
     Outcome outcome;
-    EXPECT_LT(end_with(program, signal, outcome), most_seconds);
+    EXPECT_LT(end_with(program, signal, outcome), max_seconds);
     EXPECT_EQ(outcome.code, 3) << outcome.err;
     EXPECT_EQ(outcome.err, "");
     EXPECT_EQ(Json::parse(outcome.out).at("status"), "stopped");
@@ -85,7 +85,7 @@ TEST_F(Interrupted, CtrlCWithoutOutLeavesNothing) {
   Program program({"run", "flight.yaml"}, at);
   program.let_work(300);
   Outcome outcome;
-  EXPECT_LT(end_with(program, SIGINT, outcome), most_seconds);
+  EXPECT_LT(end_with(program, SIGINT, outcome), max_seconds);
   EXPECT_EQ(outcome.code, 3);
   EXPECT_TRUE(outcome.out.starts_with("stopped after ")) << outcome.out;
   EXPECT_EQ(files(), std::set<std::string>{"flight.yaml"});
@@ -98,7 +98,7 @@ TEST_F(Interrupted, CtrlCEndsTrialsReplayAndReproduce) {
     program.let_work(300);
     EXPECT_TRUE(program.running()) << arguments[0];
     Outcome outcome;
-    EXPECT_LT(end_with(program, SIGINT, outcome), most_seconds) << arguments[0];
+    EXPECT_LT(end_with(program, SIGINT, outcome), max_seconds) << arguments[0];
     EXPECT_EQ(outcome.code, 3) << arguments[0] << outcome.err;
     EXPECT_EQ(outcome.err, "");
   };

@@ -69,7 +69,7 @@ TEST_F(RigCamera, SeesASwarmAndDrawsIt) {
   draw("frame.pgm", [](int x, int y) { return std::hypot(x - 100, y - 90) < 25; });
   // A smooth disc, where swarms have grain.
   const Json told = Json::parse(good({"rig", "see", "frame.pgm", "--out", "seen.png", "--json",
-                                      "--set", "scene.swarm.look.min_grain=0"}));
+                                      "--set", "scene.swarm.look.min_texture=0"}));
   EXPECT_EQ(told["swarm"], "found");
   EXPECT_NEAR(told["candidates"][0]["centre_px"][0].get<double>(), 100, 0.1);
   EXPECT_NEAR(told["candidates"][0]["radius_px"].get<double>(), 25, 0.5);

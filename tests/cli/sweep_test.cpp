@@ -17,7 +17,7 @@ std::string sweep_of(int trials) {
   return "name: rooms\n"
          "scenario: flight.yaml\n"
          "grid:\n"
-         "  - {key: navigator.margin_um, values: [60, 80]}\n"
+         "  - {key: navigator.clearance_um, values: [60, 80]}\n"
          "methods:\n"
          "  - {name: route, set: [navigator.guide=route]}\n"
          "  - {name: straight, set: [navigator.guide=straight]}\n"
@@ -63,12 +63,12 @@ class Sweeps : public CommandLine {
 
 TEST_F(Sweeps, TellsWhatCameOfEachCell) {
   const std::string text = good({"sweep", "sweep.yaml"});
-  EXPECT_TRUE(text.starts_with("navigator_margin_um  method    trials  arrived_%  ")) << text;
+  EXPECT_TRUE(text.starts_with("navigator_clearance_um  method    trials  arrived_%  ")) << text;
   EXPECT_NE(text.find("\n24 of 24 trials are in sweep.db, 24 of them new\n"), text.npos) << text;
   const Json again = Json::parse(good({"sweep", "sweep.yaml", "--json", "--csv", "trials.csv"}));
   EXPECT_EQ(again.at("added"), 0);
   EXPECT_EQ(again.at("cells").size(), 4u);
-  EXPECT_EQ(again.at("cells")[3].at("parameters").at("navigator_margin_um"), 80);
+  EXPECT_EQ(again.at("cells")[3].at("parameters").at("navigator_clearance_um"), 80);
   EXPECT_EQ(again.at("cells")[3].at("method"), "straight");
   EXPECT_EQ(again.at("cells")[3].at("status").at("solved"), 6);
   EXPECT_EQ(files(),
@@ -77,8 +77,9 @@ TEST_F(Sweeps, TellsWhatCameOfEachCell) {
 
 TEST_F(Sweeps, ATrialIsThatOfRun) {
   good({"sweep", "sweep.yaml", "--jobs", "2"});
-  const Json run = Json::parse(good({"run", "flight.yaml", "--trials", "6", "--json", "--set",
-                                     "navigator.margin_um=80", "--set", "navigator.guide=route"}));
+  const Json run =
+      Json::parse(good({"run", "flight.yaml", "--trials", "6", "--json", "--set",
+                        "navigator.clearance_um=80", "--set", "navigator.guide=route"}));
   const auto rows = table("sweep.db");
   for (std::size_t trial = 0; trial < 6; ++trial)
     EXPECT_EQ(rows[1 + 12 + trial].back(), run.at("trials")[trial].at("record_hash"));
@@ -137,7 +138,7 @@ TEST_F(Sweeps, BadInputIsOneLine) {
   write("key.yaml", with(sweep_of(1), "key:", "  - {key: navigator.magrin_um, values: [60]}"));
   refused({"sweep", "key.yaml"},
           "key.yaml: grid: --set navigator.magrin_um: unknown key 'magrin_um', did you mean "
-          "'margin_um'?");
+          "'clearance_um'?");
   write("wide.yaml", with(sweep_of(1), "key:", "  - {key: swarm.radius_um, values: [40, 170]}"));
   const Outcome wide = run({"sweep", "wide.yaml"});
   EXPECT_EQ(wide.code, 2);

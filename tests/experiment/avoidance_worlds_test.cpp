@@ -43,7 +43,7 @@ TEST_P(AvoidanceWorlds, AreScenariosThatTheProgramTakes) {
   for_each_world(GetParam(), [](Scenario s, const World& world) {
     for (const Obstacle& obstacle : s.obstacles) EXPECT_TRUE(validate(obstacle).empty());
     HierarchicalParams navigator;
-    navigator.margin = radius_of(s) + 0.8 * scenes::avoidance_passage_gap;
+    navigator.clearance = radius_of(s) + 0.8 * scenes::avoidance_passage_gap;
     s.navigator = navigator;
     EXPECT_TRUE(validate(s, world).empty());
   });
@@ -65,9 +65,9 @@ TEST_P(AvoidanceWorlds, ObstaclesKeepToTheirSpeeds) {
     const double swarm = limits_of(s.swarm).max_speed;
     for (const Obstacle& obstacle : s.obstacles) {
       const double ratio = top_speed(obstacle) / swarm;
-      EXPECT_LE(ratio, GetParam().most_speed_ratio + 1e-6);
-      if (GetParam().least_speed_ratio < 1) continue;
-      EXPECT_GE(ratio, GetParam().least_speed_ratio - 1e-6);
+      EXPECT_LE(ratio, GetParam().max_speed_ratio + 1e-6);
+      if (GetParam().min_speed_ratio < 1) continue;
+      EXPECT_GE(ratio, GetParam().min_speed_ratio - 1e-6);
     }
   });
 }

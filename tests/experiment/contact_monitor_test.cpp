@@ -8,7 +8,7 @@
 namespace microswarm {
 namespace {
 
-using Way = std::vector<TimedPose>;
+using Way = std::vector<PoseStamped>;
 
 TEST(ContactMonitor, SeesADiscThatFliesThroughTheSwarmBetweenTwoTicks) {
   Scenario scenario = open_room();
@@ -56,8 +56,8 @@ TEST(ContactMonitor, LeastDistanceIsThatOfTheClosedForm) {
 
 TEST(ContactMonitor, LeastDistanceToABreathingDisc) {
   Scenario scenario = open_room();
-  scenario.obstacles = {{BreathingDisc{.least_radius = 50, .greatest_radius = 150, .period = 0.4},
-                         Still{{1000, 500}, 0}}};
+  scenario.obstacles = {
+      {BreathingDisc{.min_radius = 50, .max_radius = 150, .period = 0.4}, Still{{1000, 500}, 0}}};
   const World world = world_of(scenario);
   ContactMonitor watch(world);
   for (int tick = 0; tick < 8; ++tick)
@@ -104,12 +104,12 @@ TEST(ContactMonitor, ASwarmThatWidensTouchesWhatItDidNotReach) {
   const World world = world_of(scenario);
   ContactMonitor watch(world);
   EXPECT_TRUE(watch.follow(0, Way{{0, {{1100, 500}, 0}, 40}, {0.1, {{1100, 500}, 0}, 40}}).empty());
-  EXPECT_NEAR(watch.least_gap(), 10, 1e-9);
+  EXPECT_NEAR(watch.min_gap(), 10, 1e-9);
   const auto touches =
       watch.follow(0.1, Way{{0, {{1100, 500}, 0}, 40}, {0.1, {{1100, 500}, 0}, 60}});
   ASSERT_EQ(touches.size(), 1u);
   EXPECT_NEAR(touches[0].t, 0.15, 0.001);
-  EXPECT_NEAR(watch.least_gap(), -10, 1e-9);
+  EXPECT_NEAR(watch.min_gap(), -10, 1e-9);
   EXPECT_NEAR(watch.obstacles().clearance, 50, 1e-9);
 }
 

@@ -53,8 +53,8 @@ TEST(Episode, ATickSaysWhatHappenedInIt) {
     EXPECT_EQ(tick->view.state, NavigatorState::follow);
     EXPECT_EQ(tick->world->time(), tick->frame.t);
     EXPECT_FALSE(tick->robots);
-    ASSERT_FALSE(tick->swept.empty());
-    EXPECT_EQ(tick->swept.front().pose.position, tick->frame.pose.position);
+    ASSERT_FALSE(tick->trajectory.empty());
+    EXPECT_EQ(tick->trajectory.front().pose.position, tick->frame.pose.position);
     events.assign(tick->events.begin(), tick->events.end());
   }
   ASSERT_TRUE(tick);

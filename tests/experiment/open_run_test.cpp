@@ -104,7 +104,7 @@ TEST(OpenRun, WhatCannotBeChangedIsSaidAndNothingChanges) {
   const std::string before = scenario_text(run.open.scenario());
   for (const char* setting :
        {"tick_s=1", "swarm.radius_um=20", "map.hi_um=[1, 1]", "seed=3", "no_key=1", "goal_um=[1",
-        "goal_um=[-500, 20]", "navigator.speed_um_per_s=fast", "navigator.margin_um=5000",
+        "goal_um=[-500, 20]", "navigator.speed_um_per_s=fast", "navigator.clearance_um=5000",
         "obstacles=[{shape: {type: polygon, vertices_um: [[0, 0]]}, motion: {type: still}}]",
         "hold_limit_s=1\ntick_s=3", "navigator.follower={kind: learned, model: m.yaml}", ""})
     EXPECT_FALSE(run.open.change(setting).empty()) << setting;

@@ -29,7 +29,7 @@ TEST(KinematicPlant, ShowsSwarmAndObstaclesAsTheyWereOneDelayAgo) {
     EXPECT_EQ(seen.swarm->radius, 40);
     const Body& body = seen.world->moving().bodies()[0];
     EXPECT_NEAR(std::get<Disc>(body.shape).centre.x, 500 + 30 * (2 - delay), 1e-6);
-    EXPECT_NEAR(plant.truth()->swarm.pose.position.x, 280, 1e-6);
+    EXPECT_NEAR(plant.ground_truth()->swarm.pose.position.x, 280, 1e-6);
   }
 }
 
@@ -45,13 +45,14 @@ TEST(KinematicPlant, DelaysLongerThanATickKeepTheirHistory) {
   Scenario scenario = delayed(1.05);
   std::get<RibbonParams>(scenario.swarm).max_turn_rate = 1;
   KinematicPlant plant(scenario, world_of(scenario));
-  std::vector<Pose2> truth{*scenario.start};
+  std::vector<Pose2> ground_truth{*scenario.start};
   for (int i = 0; i < 40; ++i) {
     plant.apply({0.1 * i, 40}, 0.1);
-    truth.push_back(plant.truth()->swarm.pose);
+    ground_truth.push_back(plant.ground_truth()->swarm.pose);
     if (i < 12) continue;
     // 1.05 s ago lies half-way between two ticks, on a way that hardly bends.
-    const Vec2 middle = 0.5 * (truth[i + 1 - 10].position + truth[i + 1 - 11].position);
+    const Vec2 middle =
+        0.5 * (ground_truth[i + 1 - 10].position + ground_truth[i + 1 - 11].position);
     EXPECT_LT(distance(plant.observe().swarm->pose.position, middle), 0.1);
   }
 }
@@ -59,7 +60,7 @@ TEST(KinematicPlant, DelaysLongerThanATickKeepTheirHistory) {
 TEST(KinematicPlant, ObstaclesAreSeenWithTheNoiseAndTheMissesAskedFor) {
   Scenario scenario = delayed(0);
   scenario.obstacles.push_back(
-      {Valve{.span = 400, .thickness = 40, .least_gap = 20, .greatest_gap = 200, .period = 8},
+      {Valve{.span = 400, .thickness = 40, .min_gap = 20, .max_gap = 200, .period = 8},
        Still{{800, 300}, 0.7}});
   scenario.sensing.obstacle_noise = 3;
   scenario.sensing.obstacle_missed_share = 0.2;
@@ -84,7 +85,7 @@ TEST(KinematicPlant, ObstaclesAreSeenWithTheNoiseAndTheMissesAskedFor) {
   }
   EXPECT_NEAR(found, 0.8 * frames, 100);
   EXPECT_NEAR(std::sqrt(0.5 * squares / found), 3, 0.15);
-  EXPECT_EQ(std::get<Disc>(plant.truth()->world->at(0).moving().bodies()[0].shape).centre,
+  EXPECT_EQ(std::get<Disc>(plant.ground_truth()->world->at(0).moving().bodies()[0].shape).centre,
             (Vec2{500, 700}));
 }
 
@@ -111,7 +112,7 @@ TEST(KinematicPlant, TrialsDifferAndRepeat) {
   const auto end_of = [&](std::uint32_t trial) {
     KinematicPlant plant(scenario, world_of(scenario), trial);
     for (int i = 0; i < 10; ++i) plant.apply({0, 40}, 0.1);
-    return plant.truth()->swarm.pose;
+    return plant.ground_truth()->swarm.pose;
   };
   EXPECT_EQ(end_of(3), end_of(3));
   EXPECT_NE(end_of(3), end_of(4));

@@ -40,7 +40,7 @@ Scenario two_robots() {
   s.robots->goals = {{330, 300}, {330, 200}};
   s.robots->contact = ContactRule::slide;
   s.goal_tolerance = 20;
-  s.navigator = PlanPlayerParams{};
+  s.navigator = PlanExecutorParams{};
   return s;
 }
 
@@ -142,7 +142,7 @@ TEST(RobotPlant, ShowsTheRobotsAsTheyWere) {
   const Observation seen = plant.observe();
   EXPECT_NEAR(seen.seen, 0.75, 1e-12);
   EXPECT_NEAR(seen.robots[0].x, 60 + 7.5, 1e-3);
-  EXPECT_NEAR(plant.truth()->robots[0].x, 70, 1e-3);
+  EXPECT_NEAR(plant.ground_truth()->robots[0].x, 70, 1e-3);
   EXPECT_NEAR(seen.swarm->pose.position.y, 275, 1e-3);
   EXPECT_NEAR(seen.swarm->radius, 25, 1e-3);
 }

@@ -60,7 +60,7 @@ TEST(Run, ASwarmThatTurnsSlowlyTouchesNoWall) {
   scenario.goal_tolerance = 5;
   scenario.hold_limit = 2;
   HierarchicalParams drrt;
-  drrt.margin = 40;
+  drrt.clearance = 40;
   PredictiveParams predictive;
   Rng rng(3, Purpose::scene, 0);
   for (int trial = 0; trial < 24; ++trial) {
@@ -81,12 +81,12 @@ TEST(Run, ASwarmThatTurnsSlowlyTouchesNoWall) {
 // Waiting for an obstacle to pass must not look better again and again.
 TEST(Run, AWaitForAnObstacleEnds) {
   const auto file = std::filesystem::path(MICROSWARM_SOURCE_DIR) / "scenarios/first_flight.yaml";
-  for (int speed = 20; speed <= 80; speed += 5) {
+  for (int commanded = 20; commanded <= 80; commanded += 5) {
     const Experiment flight =
-        open_experiment(file, {fmt::format("navigator.speed_um_per_s={}", speed)});
+        open_experiment(file, {fmt::format("navigator.speed_um_per_s={}", commanded)});
     const RunResult result = simulate(flight.scenario(), flight.world);
-    EXPECT_EQ(result.status, Status::solved) << speed;
-    EXPECT_LT(result.metrics.hold_time, 30) << speed;
+    EXPECT_EQ(result.status, Status::solved) << commanded;
+    EXPECT_LT(result.metrics.hold_time, 30) << commanded;
   }
 }
 
@@ -201,7 +201,7 @@ TEST(Run, StopsWhenToldAndKeepsWhatWas) {
 TEST(Run, WithoutTheTruthWhatIsSeenCounts) {
   struct Blind : KinematicPlant {
     using KinematicPlant::KinematicPlant;
-    std::optional<Truth> truth() const override { return std::nullopt; }
+    std::optional<GroundTruth> ground_truth() const override { return std::nullopt; }
   };
   const Scenario scenario = open_room();
   Blind plant(scenario, world_of(scenario));
@@ -275,13 +275,12 @@ TEST(Run, CountsWhatItAvoidsOnlyWhileSomethingIsNear) {
   const Told far = run_with(scenario, navigator);
   EXPECT_EQ(far.result.metrics.avoidance.time, 0);
   EXPECT_EQ(far.result.metrics.avoidance.mean_cost, 0);
-  EXPECT_GT(far.result.metrics.avoidance.least_gap, 100);
+  EXPECT_GT(far.result.metrics.avoidance.min_gap, 100);
   scenario.detection_range = 400;
   const Told near = run_with(scenario, navigator);
   EXPECT_GT(near.result.metrics.avoidance.time, 1);
-  EXPECT_GE(near.result.metrics.avoidance.mean_gap, near.result.metrics.avoidance.least_gap);
-  EXPECT_NEAR(near.result.metrics.avoidance.least_gap, far.result.metrics.avoidance.least_gap,
-              1e-9);
+  EXPECT_GE(near.result.metrics.avoidance.mean_gap, near.result.metrics.avoidance.min_gap);
+  EXPECT_NEAR(near.result.metrics.avoidance.min_gap, far.result.metrics.avoidance.min_gap, 1e-9);
 }
 
 }  // namespace

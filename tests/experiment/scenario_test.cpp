@@ -51,13 +51,13 @@ TEST(Scenario, AsPublishedLeavesNothingOfOursUnsaid) {
   };
   const std::string radar = "  type: radar\n  as_published: true\n";
   EXPECT_EQ(refusal(radar), "");
-  EXPECT_EQ(refusal(radar + "  retreat: false\n  guard: {active: false}\n"), "");
+  EXPECT_EQ(refusal(radar + "  retreat: false\n  safety_filter: {active: false}\n"), "");
   const std::string not_the_papers = " is not the paper's, and as_published is true";
   EXPECT_EQ(refusal(radar + "  retreat: true\n"), "s.yaml:7:12: retreat" + not_the_papers);
-  EXPECT_EQ(refusal(radar + "  guard: {active: true}\n"),
-            "s.yaml:7:19: guard.active" + not_the_papers);
-  EXPECT_EQ(refusal(radar + "  guard: {horizon_s: 4}\n"),
-            "s.yaml:7:22: guard.horizon_s" + not_the_papers);
+  EXPECT_EQ(refusal(radar + "  safety_filter: {active: true}\n"),
+            "s.yaml:7:27: safety_filter.active" + not_the_papers);
+  EXPECT_EQ(refusal(radar + "  safety_filter: {horizon_s: 4}\n"),
+            "s.yaml:7:30: safety_filter.horizon_s" + not_the_papers);
   EXPECT_EQ(refusal(radar, {"navigator.compensate_delay=true"}),
             "--set navigator.compensate_delay: compensate_delay" + not_the_papers);
   const std::string drrt = "  type: hierarchical_drrt_star\n  as_published: true\n";
@@ -136,19 +136,20 @@ TEST(Scenario, EveryMistakeHasItsLine) {
     return lines;
   };
   // In keys and values, of the file and of --set.
-  EXPECT_EQ(mistakes("map: {type: polygons, hi_um: [2000, 1000]}\n"
-                     "start: {x_um: 200, y_um: 500}\n"
-                     "goal_um: [1800, 500]\n"
-                     "tick_s: 0\n"
-                     "time_limt_s: 3\n"
-                     "navigator: {type: radar, speed_um_per_s: fast, guard: {activ: true}}\n",
-                     {"hold_limit_s=-1"}),
-            (std::vector<std::string>{
-                "s.yaml:4:9: tick_s is 0 s, allowed 0.001..10 s",
-                "s.yaml:5:1: unknown key 'time_limt_s', did you mean 'time_limit_s'?",
-                "s.yaml:6:42: speed_um_per_s must be a number, not 'fast'",
-                "s.yaml:6:56: unknown key 'activ', did you mean 'active'?",
-                "--set hold_limit_s: hold_limit_s is -1 s, allowed 0..1e5 s"}));
+  EXPECT_EQ(
+      mistakes("map: {type: polygons, hi_um: [2000, 1000]}\n"
+               "start: {x_um: 200, y_um: 500}\n"
+               "goal_um: [1800, 500]\n"
+               "tick_s: 0\n"
+               "time_limt_s: 3\n"
+               "navigator: {type: radar, speed_um_per_s: fast, safety_filter: {activ: true}}\n",
+               {"hold_limit_s=-1"}),
+      (std::vector<std::string>{
+          "s.yaml:4:9: tick_s is 0 s, allowed 0.001..10 s",
+          "s.yaml:5:1: unknown key 'time_limt_s', did you mean 'time_limit_s'?",
+          "s.yaml:6:42: speed_um_per_s must be a number, not 'fast'",
+          "s.yaml:6:64: unknown key 'activ', did you mean 'active'?",
+          "--set hold_limit_s: hold_limit_s is -1 s, allowed 0..1e5 s"}));
   // In what values mean together, beside one that was misread.
   EXPECT_EQ(mistakes("map: {type: polygons, hi_um: [2000, 1000]}\n"
                      "start: {x_um: 200, y_um: 5000}\n"
@@ -207,9 +208,9 @@ TEST(Scenario, WhatComesOutLaterHasItsPlaceToo) {
                            "  - motion: {type: still, position_um: [9, 9]}\n"
                            "    shape:\n"
                            "      type: breathing_disc\n"
-                           "      least_radius_um: 90\n"
-                           "      greatest_radius_um: 20\n"),
-            "s.yaml:10:24: obstacle 2: least_radius_um is 90, more than greatest_radius_um, 20");
+                           "      min_radius_um: 90\n"
+                           "      max_radius_um: 20\n"),
+            "s.yaml:10:22: obstacle 2: min_radius_um is 90, more than max_radius_um, 20");
   EXPECT_EQ(message(room, {"start.y_um=100", "start.x_um=990"}),
             "--set start.x_um: start is 10 µm inside wall 1");
   EXPECT_EQ(message("map: {type: polygons, hi_um: [2000, 0]}\n"),
@@ -261,7 +262,7 @@ TEST(ScenarioCheck, GoalCutOff) {
   EXPECT_EQ(check_error(scenario), "s.yaml: goal is cut off from the start by walls");
   // For a swarm thinner than the search for ways can see, too.
   std::get<RibbonParams>(scenario.swarm).radius = 0.5;
-  std::get<HierarchicalParams>(scenario.navigator).margin = 1;
+  std::get<HierarchicalParams>(scenario.navigator).clearance = 1;
   EXPECT_EQ(check_error(scenario), "s.yaml: goal is cut off from the start by walls");
 }
 
@@ -281,7 +282,7 @@ TEST(ScenarioCheck, SwarmWiderThanEveryPassage) {
       "s.yaml: swarm is 80 µm wide, wider than every passage to the goal: the widest is about ";
   EXPECT_EQ(check_error(scenario).substr(0, expected.size()), expected);
   std::get<RibbonParams>(scenario.swarm).radius = 29;
-  std::get<HierarchicalParams>(scenario.navigator).margin = 29;
+  std::get<HierarchicalParams>(scenario.navigator).clearance = 29;
   EXPECT_EQ(check_error(scenario), "");
 }
 
@@ -290,9 +291,9 @@ TEST(ScenarioCheck, MarginWiderThanEveryPassage) {
   std::get<PolygonsMap>(scenario.map).walls = {bar(1000, 0, 20, 500).outer,
                                                bar(1000, 600, 20, 400).outer};
   const std::string expected =
-      "s.yaml: navigator.margin_um is 90, wider than the passages to the goal allow: about ";
+      "s.yaml: navigator.clearance_um is 90, wider than the passages to the goal allow: about ";
   EXPECT_EQ(check_error(scenario).substr(0, expected.size()), expected);
-  std::get<HierarchicalParams>(scenario.navigator).margin = 49;
+  std::get<HierarchicalParams>(scenario.navigator).clearance = 49;
   EXPECT_EQ(check_error(scenario), "");
 }
 
@@ -300,9 +301,10 @@ TEST(ScenarioCheck, GoalNearerToAWallThanTheMargin) {
   Scenario scenario = open_room();
   scenario.goal = Vec2{1700, 60};
   scenario.goal_tolerance = 20;
-  EXPECT_EQ(check_error(scenario),
-            "s.yaml: goal is 60 µm from the border, needs 90 µm (navigator.margin_um), and 0.9 of "
-            "goal_tolerance_um is only 18 µm");
+  EXPECT_EQ(
+      check_error(scenario),
+      "s.yaml: goal is 60 µm from the border, needs 90 µm (navigator.clearance_um), and 0.9 of "
+      "goal_tolerance_um is only 18 µm");
   scenario.goal_tolerance = 34;
   EXPECT_EQ(check_error(scenario), "");
 }

@@ -12,7 +12,7 @@ namespace {
 Scenario radar_room() {
   Scenario s = open_room();
   std::get<PolygonsMap>(s.map).walls = {{{950, 0}, {1050, 0}, {1050, 450}, {950, 450}}};
-  s.obstacles = {{Valve{.span = 400, .thickness = 40, .least_gap = 0, .greatest_gap = 300},
+  s.obstacles = {{Valve{.span = 400, .thickness = 40, .min_gap = 0, .max_gap = 300},
                   Still{.position = {1000, 700}}}};
   s.navigator = RadarParams{};
   return s;
@@ -50,11 +50,11 @@ TEST(RadarCheck, AsPublishedRefusesWhatIsNotThePapers) {
   Scenario s = radar_room();
   radar(s).as_published = true;
   EXPECT_EQ(refusal(s), "");
-  radar(s).most_turn = radians(180);
+  radar(s).max_turn = radians(180);
   EXPECT_EQ(refusal(s), "");
-  radar(s).most_turn = radians(120);
-  EXPECT_EQ(refusal(s), "s.yaml: most_turn_deg is not the paper's, and as_published is true");
-  radar(s).most_turn = RadarParams{}.most_turn;
+  radar(s).max_turn = radians(120);
+  EXPECT_EQ(refusal(s), "s.yaml: max_turn_deg is not the paper's, and as_published is true");
+  radar(s).max_turn = RadarParams{}.max_turn;
   radar(s).obstacle_speed_bound = 50;
   EXPECT_NE(refusal(s).find("obstacle_speed_bound_um_per_s"), std::string::npos) << refusal(s);
 }
@@ -88,27 +88,27 @@ TEST(RadarCheck, LegsThroughAWall) {
 
 TEST(RadarCheck, WaitAreas) {
   Scenario s = radar_room();
-  WaitArea area{.centre = {1000, 700}, .width = 300, .height = 300, .least_gap = 200};
+  WaitZone area{.centre = {1000, 700}, .width = 300, .height = 300, .min_gap = 200};
   const auto why = [&] {
-    radar(s).wait_areas = {area};
+    radar(s).wait_zones = {area};
     return refusal(s);
   };
   EXPECT_EQ(why(), "");
-  area.least_gap = 300;  // which it reaches for no time
+  area.min_gap = 300;  // which it reaches for no time
   EXPECT_EQ(why(),
-            "s.yaml: wait area 1: least_gap_um is 300, the valve in it opens to 300 µm (obstacle "
+            "s.yaml: wait zone 1: min_gap_um is 300, the valve in it opens to 300 µm (obstacle "
             "1)");
-  area.least_gap = 200;
+  area.min_gap = 200;
   area.centre = {1000, 500};
-  EXPECT_EQ(why(), "s.yaml: wait area 1: the middle of no valve is in it");
+  EXPECT_EQ(why(), "s.yaml: wait zone 1: the middle of no valve is in it");
   area.centre = {1000, 1400};
-  EXPECT_EQ(why(), "s.yaml: wait area 1: at (1000, 1400) µm it is outside the map");
+  EXPECT_EQ(why(), "s.yaml: wait zone 1: at (1000, 1400) µm it is outside the map");
 }
 
 TEST(RadarCheck, AValveThatIsDrawnInStopsNobody) {
   Scenario s = radar_room();
-  std::get<Valve>(s.obstacles[0].shape).greatest_gap = 450;  // beyond its span
-  radar(s).wait_areas = {{.centre = {1000, 700}, .width = 300, .height = 300, .least_gap = 460}};
+  std::get<Valve>(s.obstacles[0].shape).max_gap = 450;  // beyond its span
+  radar(s).wait_zones = {{.centre = {1000, 700}, .width = 300, .height = 300, .min_gap = 460}};
   EXPECT_EQ(refusal(s), "");
 }
 

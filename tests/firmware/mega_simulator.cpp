@@ -36,8 +36,8 @@ using Clock = std::chrono::steady_clock;
 using Outputs = std::array<int, 6>;
 
 constexpr double frequency = 16e6;
-constexpr double slice = 0.001;     // [s] simulated between looks at the line
-constexpr double most_late = 0.02;  // [s]
+constexpr double slice = 0.001;    // [s] simulated between looks at the line
+constexpr double max_late = 0.02;  // [s]
 constexpr int top = 799;
 
 /// What the pins do, by the registers' addresses in the data sheet.
@@ -89,10 +89,10 @@ class Mega {
     for (;;) {
       const double own = static_cast<double>(avr_->cycle) / frequency;
       double late = std::chrono::duration<double>(Clock::now() - began).count() - own;
-      if (late > most_late) {  // the computer had other work: that time does not count
+      if (late > max_late) {  // the computer had other work: that time does not count
         began += std::chrono::duration_cast<Clock::duration>(
-            std::chrono::duration<double>(late - most_late));
-        late = most_late;
+            std::chrono::duration<double>(late - max_late));
+        late = max_late;
       }
       // A little at a time, so that no message waits until all is caught up with.
       const auto until = static_cast<avr_cycle_count_t>((own + std::min(late, slice)) * frequency);

@@ -142,10 +142,10 @@ TEST_P(NavigatorLaws, GetsThereInTheOpen) {
 
 /// What a navigator keeps from walls at the least [µm]: of the goals that the check lets through,
 /// what the radar as published gets to.
-double least_clearance(const NavigatorParams& params) {
+double min_clearance(const NavigatorParams& params) {
   const auto* radar = std::get_if<RadarParams>(&params);
   if (radar && radar->as_published) return radius + radar->safety_distance;
-  return std::max(margin_of(params), radius);
+  return std::max(required_clearance(params), radius);
 }
 
 // The goal itself is too near to the border, a point within its tolerance is not.
@@ -158,7 +158,7 @@ TEST_P(NavigatorLaws, GetsNearAGoalBesideAWall) {
       if (published && corner) continue;
       Scene scene = random_scene(0, 0);
       scene.map = std::make_shared<const Map>(Box{{0, 0}, {1200, 800}}, std::vector<Polygon>{});
-      const double free = least_clearance(GetParam().params);
+      const double free = min_clearance(GetParam().params);
       scene.goal = {800, free - share * 20};
       if (corner) scene.goal = Vec2{1200 - free, free} + share * 20 * unit_vector(-pi / 4);
       bool arrived = false;
@@ -189,7 +189,7 @@ TEST_P(NavigatorLaws, GetsToASmallGoalAlongAWall) {
         for (const double heading : {0.0, 2.6}) {
           SwarmLimits limits = swarm;
           limits.max_turn_rate = turn_rate;
-          const Vec2 goal{800, least_clearance(GetParam().params) + beyond};
+          const Vec2 goal{800, min_clearance(GetParam().params) + beyond};
           const auto navigator = make(goal, tolerance, limits);
           Pose2 pose{{300, 300}, heading};
           Command active;
@@ -310,7 +310,7 @@ TEST_P(NavigatorLaws, StepsAllocateNothing) {
 
 std::vector<Case> cases() {
   HierarchicalParams hierarchical;
-  hierarchical.margin = 40;
+  hierarchical.clearance = 40;
   HierarchicalParams hierarchical_learned = hierarchical;
   hierarchical_learned.follower.kind = FollowerKind::learned;
   PathNavigatorParams learned;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/gathering/aggregation.hpp"
+#include "microswarm/navigation/gathering/aggregation_policy.hpp"
 
 #include <gtest/gtest.h>
 
@@ -27,10 +27,10 @@ TEST(Aggregation, GathersWithEveryMethod) {
         AggregationParams params = t.params;
         params.method = method;
         Robots robots = t.robots(count, 3);
-        Gatherer gatherer(t.ground, params);
-        const GatherResult result = gather(t.stepper, gatherer, robots, 5000);
+        AggregationPolicy policy(t.ground, params);
+        const GatherResult result = gather(t.stepper, policy, robots, 5000);
         ASSERT_EQ(result.status, Status::solved) << count;
-        EXPECT_LT(result.mean_way, params.sigma);
+        EXPECT_LT(result.mean_distance, params.sigma);
         for (std::size_t i = 0; i < robots.size(); ++i)
           EXPECT_TRUE(t.ground.map.is_free(robots.position(i), 0));
       }
@@ -47,8 +47,8 @@ TEST(Aggregation, RegionByRegionIsQuickerThanRobotByRobot) {
     double sum = 0;
     for (std::uint32_t trial = 0; trial < 10; ++trial) {
       Robots robots = t.robots(64, trial);
-      Gatherer gatherer(t.ground, params);
-      sum += gather(t.stepper, gatherer, robots, 5000).steps;
+      AggregationPolicy policy(t.ground, params);
+      sum += gather(t.stepper, policy, robots, 5000).steps;
     }
     return sum / 10;
   };
@@ -76,8 +76,8 @@ TEST(Aggregation, NoLivelock) {
       for (const int count : {2, 16, 256}) {
         for (const std::uint32_t trial : {1u, 2u}) {
           Robots robots = g.robots(count, trial);
-          Gatherer gatherer(g.ground, params);
-          const GatherResult result = gather(g.stepper, gatherer, robots, 10'000);
+          AggregationPolicy policy(g.ground, params);
+          const GatherResult result = gather(g.stepper, policy, robots, 10'000);
           EXPECT_EQ(result.status, Status::solved) << map.name << " " << count << " " << trial;
         }
       }
@@ -88,19 +88,19 @@ TEST(Aggregation, NoLivelock) {
 // Robots that no input moves: the guard says so, seldom and more seldom.
 TEST(Aggregation, TheGuardFiresWhenNothingHelps) {
   const Gathering& t = t_junction();
-  Gatherer gatherer(t.ground, t.params);
+  AggregationPolicy policy(t.ground, t.params);
   const Robots robots = t.robots(8, 1);  // which never move
-  for (int i = 0; i < 20'000; ++i) ASSERT_TRUE(gatherer.next(robots));
-  EXPECT_GE(gatherer.guard_count(), 1);
-  EXPECT_LE(gatherer.guard_count(), 10);
+  for (int i = 0; i < 20'000; ++i) ASSERT_TRUE(policy.next(robots));
+  EXPECT_GE(policy.guard_count(), 1);
+  EXPECT_LE(policy.guard_count(), 10);
 }
 
 TEST(Aggregation, SameRobotsSameBits) {
   const Gathering& t = t_junction();
   Robots one = t.robots(32, 5);
   Robots two = one;
-  Gatherer first(t.ground, t.params);
-  Gatherer second(t.ground, t.params);
+  AggregationPolicy first(t.ground, t.params);
+  AggregationPolicy second(t.ground, t.params);
   EXPECT_EQ(gather(t.stepper, first, one, 5000).steps, gather(t.stepper, second, two, 5000).steps);
   EXPECT_EQ(one.x, two.x);
   EXPECT_EQ(one.y, two.y);
@@ -114,9 +114,9 @@ TEST(Aggregation, IsTheSameRobotByRobot) {
     params.method = method;
     Robots joined = t.robots(200, 6);
     Robots single = joined;
-    Gatherer gatherer(t.ground, params);
-    const GatherResult result = gather(t.stepper, gatherer, joined, 5000);
-    Gatherer naive(t.ground, params);
+    AggregationPolicy policy(t.ground, params);
+    const GatherResult result = gather(t.stepper, policy, joined, 5000);
+    AggregationPolicy naive(t.ground, params);
     int steps = 0;
     for (; steps < 5000; ++steps) {
       const auto move = naive.next(single);
@@ -124,7 +124,7 @@ TEST(Aggregation, IsTheSameRobotByRobot) {
       t.stepper.step(single, *move, ContactRule::stop);
     }
     EXPECT_EQ(steps, result.steps);
-    EXPECT_EQ(naive.mean_way(), result.mean_way);
+    EXPECT_EQ(naive.mean_distance(), result.mean_distance);
     EXPECT_EQ(joined.x, single.x);
     EXPECT_EQ(joined.y, single.y);
   }
@@ -133,10 +133,10 @@ TEST(Aggregation, IsTheSameRobotByRobot) {
 TEST(Aggregation, EndsWhenToldAndWhenTheStepsRunOut) {
   const Gathering& t = t_junction();
   Robots robots = t.robots(32, 5);
-  Gatherer gatherer(t.ground, t.params);
-  EXPECT_EQ(gather(t.stepper, gatherer, robots, 7).status, Status::time_limit);
+  AggregationPolicy policy(t.ground, t.params);
+  EXPECT_EQ(gather(t.stepper, policy, robots, 7).status, Status::time_limit);
   const std::atomic<bool> stop{true};
-  const GatherResult stopped = gather(t.stepper, gatherer, robots, 7, Stop(&stop));
+  const GatherResult stopped = gather(t.stepper, policy, robots, 7, Stop(&stop));
   EXPECT_EQ(stopped.status, Status::stopped);
   EXPECT_EQ(stopped.steps, 0);
 }
@@ -144,8 +144,8 @@ TEST(Aggregation, EndsWhenToldAndWhenTheStepsRunOut) {
 TEST(Aggregation, NobodyIsLedNowhere) {
   const Gathering& t = t_junction();
   Robots none = t.robots(0, 1);
-  Gatherer gatherer(t.ground, t.params);
-  EXPECT_EQ(gatherer.next(none), std::nullopt);
+  AggregationPolicy policy(t.ground, t.params);
+  EXPECT_EQ(policy.next(none), std::nullopt);
 }
 
 TEST(Aggregation, AGoalInAWallIsRefused) {

@@ -21,7 +21,7 @@ AggregationParams coarse(const scenes::Vascular& scene, bool weighted) {
   params.tree.extension *= 4;
   params.tree.neighbour_radius *= 4;
   params.rollout.budget = 1e4;
-  params.rollout.most_work = 1e3;
+  params.rollout.max_work = 1e3;
   params.rollout.candidates = 0;
   return params;
 }
@@ -32,11 +32,11 @@ int steps(const Gathering& g, Aggregation method, int count, std::uint32_t trial
   Robots robots = g.robots(count, trial);
   GatherResult result;
   if (method == Aggregation::rollout) {
-    RolloutGatherer gatherer(g.ground, g.stepper, params, Rng(1, Purpose::planner));
-    result = gather(g.stepper, gatherer, robots, most);
+    RolloutPolicy policy(g.ground, g.stepper, params, Rng(1, Purpose::planner));
+    result = gather(g.stepper, policy, robots, most);
   } else {
-    Gatherer gatherer(g.ground, params);
-    result = gather(g.stepper, gatherer, robots, most);
+    AggregationPolicy policy(g.ground, params);
+    result = gather(g.stepper, policy, robots, most);
   }
   return result.status == Status::solved ? result.steps : most;
 }

@@ -30,7 +30,7 @@ struct BaselineDrive {
   SwarmLimits swarm = fast_vortex;
   Pose2 pose{{200, 500}, 0};
   double delay = 0.05;
-  double least_gap = std::numeric_limits<double>::infinity();  ///< from edge to edge
+  double min_gap = std::numeric_limits<double>::infinity();  ///< from edge to edge
   double time = 0;
   bool arrived = false;
   std::vector<NavigatorState> states{};
@@ -62,8 +62,8 @@ struct BaselineDrive {
         pending.erase(pending.begin());
         was.push_back(pose);
         was.erase(was.begin());
-        least_gap =
-            std::min(least_gap, world.at(time + substep).clearance(pose.position) - swarm.radius);
+        min_gap =
+            std::min(min_gap, world.at(time + substep).clearance(pose.position) - swarm.radius);
       }
       arrived = distance(pose.position, room_goal) <= room_tolerance;
     }
@@ -86,7 +86,7 @@ TEST(Straight, StopsBeforeWhatStandsAheadAndGoesOnAfterIt) {
   drive.run(navigator, 100);
   EXPECT_TRUE(drive.arrived);
   EXPECT_TRUE(drive.was(NavigatorState::hold));
-  EXPECT_GT(drive.least_gap, 0);
+  EXPECT_GT(drive.min_gap, 0);
 }
 
 TEST(Straight, StopsBeforeAWallAtItsDistance) {
@@ -112,7 +112,7 @@ TEST(PotentialField, GoesRoundADiscThatStandsAside) {
     drive.run(navigator, 80);
     EXPECT_TRUE(drive.arrived);
     EXPECT_TRUE(drive.was(NavigatorState::avoid));
-    EXPECT_GT(drive.least_gap, 10);
+    EXPECT_GT(drive.min_gap, 10);
   }
 }
 
@@ -122,7 +122,7 @@ TEST(PotentialField, IsStuckWhereForcesCancelOut) {
   drive.run(navigator, 60);
   EXPECT_FALSE(drive.arrived);
   EXPECT_EQ(drive.states.back(), NavigatorState::stuck);
-  EXPECT_GT(drive.least_gap, 20);
+  EXPECT_GT(drive.min_gap, 20);
 }
 
 TEST(PotentialField, ReachesAGoalBesideAWall) {
@@ -130,7 +130,7 @@ TEST(PotentialField, ReachesAGoalBesideAWall) {
   PotentialFieldNavigator navigator({}, fast_vortex, room_goal, room_tolerance);
   drive.run(navigator, 120);
   EXPECT_TRUE(drive.arrived);
-  EXPECT_GT(drive.least_gap, 0);
+  EXPECT_GT(drive.min_gap, 0);
 }
 
 TEST(PotentialField, TheRouteLeadsThroughTheGap) {
@@ -142,7 +142,7 @@ TEST(PotentialField, TheRouteLeadsThroughTheGap) {
     PotentialFieldNavigator navigator(params, fast_vortex, room_goal, room_tolerance);
     drive.run(navigator, 120);
     EXPECT_EQ(drive.arrived, guide == Guide::route);
-    EXPECT_GT(drive.least_gap, 0);
+    EXPECT_GT(drive.min_gap, 0);
   }
 }
 
@@ -151,7 +151,7 @@ TEST(PotentialField, GivesWayToWhatCrosses) {
   PotentialFieldNavigator navigator({}, fast_vortex, room_goal, room_tolerance);
   drive.run(navigator, 80);
   EXPECT_TRUE(drive.arrived);
-  EXPECT_GT(drive.least_gap, 0);
+  EXPECT_GT(drive.min_gap, 0);
 }
 
 TEST(VelocityObstacle, KeepsToThePreferredVelocityInTheOpen) {
@@ -172,7 +172,7 @@ TEST(VelocityObstacle, AvoidsWhatCrossesOrComesHeadOn) {
       drive.run(navigator, 80);
       EXPECT_TRUE(drive.arrived);
       EXPECT_TRUE(drive.was(NavigatorState::avoid));
-      EXPECT_GT(drive.least_gap, 0) << motion.start.x << " " << swarm.max_turn_rate;
+      EXPECT_GT(drive.min_gap, 0) << motion.start.x << " " << swarm.max_turn_rate;
     }
 }
 
@@ -184,7 +184,7 @@ TEST(VelocityObstacle, AvoidsBoxesAndWhatGrows) {
   VelocityObstacleNavigator navigator({}, fast_vortex, room_goal, room_tolerance);
   drive.run(navigator, 90);
   EXPECT_TRUE(drive.arrived);
-  EXPECT_GT(drive.least_gap, 0);
+  EXPECT_GT(drive.min_gap, 0);
 }
 
 TEST(VelocityObstacle, TheRouteLeadsThroughTheGap) {
@@ -192,7 +192,7 @@ TEST(VelocityObstacle, TheRouteLeadsThroughTheGap) {
   VelocityObstacleNavigator navigator({}, fast_vortex, room_goal, room_tolerance);
   drive.run(navigator, 120);
   EXPECT_TRUE(drive.arrived);
-  EXPECT_GT(drive.least_gap, 0);
+  EXPECT_GT(drive.min_gap, 0);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/gathering/crowd.hpp"
+#include "microswarm/navigation/gathering/merged_robots.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,21 +12,21 @@ std::uint32_t sum(std::span<const std::uint32_t> counts) {
   return std::accumulate(counts.begin(), counts.end(), 0u);
 }
 
-TEST(Crowd, JoinsTheSamePlacesAndRemembersWhoIsWhere) {
+TEST(MergedRobots, JoinsTheSamePlacesAndRemembersWhoIsWhere) {
   const Robots robots{{}, {1, 2, 1, 3, 2, 1}, {5, 5, 5, 5, 5, 6}};
-  Crowd crowd(robots);
-  const auto to = crowd.join();
+  MergedRobots merged(robots);
+  const auto to = merged.merge_coincident();
   EXPECT_EQ(std::vector<std::uint32_t>(to.begin(), to.end()),
             (std::vector<std::uint32_t>{0, 1, 0, 2, 1, 3}));
-  EXPECT_EQ(crowd.places().x, (std::vector<float>{1, 2, 3, 1}));
-  EXPECT_EQ(sum(crowd.counts()), 6u);
-  EXPECT_EQ(crowd.counts()[1], 2u);
-  EXPECT_TRUE(crowd.join().empty());
-  EXPECT_EQ(crowd.robots().x, robots.x);
-  EXPECT_EQ(crowd.robots().y, robots.y);
+  EXPECT_EQ(merged.places().x, (std::vector<float>{1, 2, 3, 1}));
+  EXPECT_EQ(sum(merged.counts()), 6u);
+  EXPECT_EQ(merged.counts()[1], 2u);
+  EXPECT_TRUE(merged.merge_coincident().empty());
+  EXPECT_EQ(merged.robots().x, robots.x);
+  EXPECT_EQ(merged.robots().y, robots.y);
 }
 
-TEST(Crowd, ThinsOutToAsManyAsWanted) {
+TEST(MergedRobots, ThinsOutToAsManyAsWanted) {
   Robots robots;
   for (int row = 0; row < 25; ++row) {
     for (int column = 0; column < 40; ++column) {
@@ -34,18 +34,18 @@ TEST(Crowd, ThinsOutToAsManyAsWanted) {
       robots.y.push_back(static_cast<float>(row - 12));
     }
   }
-  Crowd crowd(robots);
-  crowd.thin_out(64, 0.5);
-  EXPECT_LE(crowd.places().size(), 64u);
-  EXPECT_GE(crowd.places().size(), 10u);
-  EXPECT_EQ(sum(crowd.counts()), 1000u);
-  EXPECT_EQ(crowd.robots().size(), 1000u);
+  MergedRobots merged(robots);
+  merged.coarsen(64, 0.5);
+  EXPECT_LE(merged.places().size(), 64u);
+  EXPECT_GE(merged.places().size(), 10u);
+  EXPECT_EQ(sum(merged.counts()), 1000u);
+  EXPECT_EQ(merged.robots().size(), 1000u);
 }
 
-TEST(Crowd, OfNobody) {
-  Crowd crowd(Robots{});
-  EXPECT_TRUE(crowd.join().empty());
-  EXPECT_EQ(crowd.robots().size(), 0u);
+TEST(MergedRobots, OfNobody) {
+  MergedRobots merged(Robots{});
+  EXPECT_TRUE(merged.merge_coincident().empty());
+  EXPECT_EQ(merged.robots().size(), 0u);
 }
 
 }  // namespace

@@ -24,14 +24,14 @@ TEST(Follower, PlacesGoForwardOnly) {
 TEST(Follower, PointAheadRunsAroundTheCornerAndEndsAtTheEnd) {
   EXPECT_EQ(point_ahead(short_corner, {0, 0.5}, 75), (Vec2{100, 25}));
   EXPECT_EQ(point_ahead(short_corner, {0, 0}, 1e9), (Vec2{100, 100}));
-  EXPECT_NEAR(way_left(short_corner, {0, 0.5}), 150, 1e-12);
+  EXPECT_NEAR(remaining(short_corner, {0, 0.5}), 150, 1e-12);
 }
 
 TEST(Follower, APathOfOnePointIsHeldOn) {
   const std::vector<Vec2> point{{3, 4}};
   PathPlace place;
   EXPECT_EQ(point_ahead(point, place, 10), (Vec2{3, 4}));
-  EXPECT_EQ(way_left(point, place), 0);
+  EXPECT_EQ(remaining(point, place), 0);
 }
 
 TEST(Follower, ReachesTheEndFromAnyHeading) {

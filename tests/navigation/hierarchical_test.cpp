@@ -27,14 +27,14 @@ std::unique_ptr<Navigator> navigator(const Snapshot& world, std::uint64_t seed =
   return made;
 }
 
-Observation see(const Snapshot& world, Vec2 at, double heading = 0, double now = 0) {
+Observation update(const Snapshot& world, Vec2 at, double heading = 0, double now = 0) {
   return {.now = now, .seen = now, .swarm = SwarmPose{{at, heading}, 40}, .world = borrowed(world)};
 }
 
 TEST(Hierarchical, DrivesInTheOpen) {
   const Snapshot world = room_with();
   const auto n = navigator(world);
-  const Command c = n->step(see(world, {300, 500}), {});
+  const Command c = n->step(update(world, {300, 500}), {});
   EXPECT_GT(c.speed, 0);
   EXPECT_EQ(n->view().state, NavigatorState::follow);
   EXPECT_TRUE(n->view().planned);
@@ -44,16 +44,16 @@ TEST(Hierarchical, DrivesInTheOpen) {
 TEST(Hierarchical, HoldsWhenBlind) {
   const Snapshot world = room_with();
   const auto n = navigator(world);
-  Observation none = see(world, {300, 500});
+  Observation none = update(world, {300, 500});
   none.swarm.reset();
   EXPECT_EQ(n->step(none, {}).speed, 0);
   EXPECT_EQ(n->view().state, NavigatorState::blind);
-  Observation stale = see(world, {300, 500}, 0, 5);
+  Observation stale = update(world, {300, 500}, 0, 5);
   stale.seen = 4;
   EXPECT_EQ(n->step(stale, {}).speed, 0);
-  Observation bad = see(world, {std::numeric_limits<double>::quiet_NaN(), 500}, 0, 6);
+  Observation bad = update(world, {std::numeric_limits<double>::quiet_NaN(), 500}, 0, 6);
   EXPECT_EQ(n->step(bad, {}).speed, 0);
-  Observation no_world = see(world, {300, 500}, 0, 7);
+  Observation no_world = update(world, {300, 500}, 0, 7);
   no_world.world = nullptr;
   EXPECT_EQ(n->step(no_world, {}).speed, 0);
 }
@@ -61,7 +61,7 @@ TEST(Hierarchical, HoldsWhenBlind) {
 TEST(Hierarchical, HoldsAtTheGoal) {
   const Snapshot world = room_with();
   const auto n = navigator(world);
-  EXPECT_EQ(n->step(see(world, {1790, 500}), {}).speed, 0);
+  EXPECT_EQ(n->step(update(world, {1790, 500}), {}).speed, 0);
   EXPECT_EQ(n->view().state, NavigatorState::arrived);
 }
 
@@ -74,7 +74,7 @@ TEST(Hierarchical, HoldsWhenEverythingIsBlocked) {
   const Snapshot world = room_with(walls);
   const auto n = navigator(world);
   for (int k = 0; k < 5; ++k) {
-    const Command c = n->step(see(world, {300, 500}, 0, 0.1 * k), {});
+    const Command c = n->step(update(world, {300, 500}, 0, 0.1 * k), {});
     if (c.speed <= 0) continue;
     const Pose2 next = unicycle_step({{300, 500}, 0}, c, 3, 0.1);
     EXPECT_TRUE(world.is_free(Segment{{300, 500}, next.position}, 80));
@@ -89,7 +89,7 @@ TEST(Hierarchical, GetsOutOfTheWayOfWhatComesAtIt) {
   double least = 1e9;
   for (int k = 0; k < 200; ++k) {
     const Snapshot world = room_with({}, {{.shape = Disc{{x, 500}, 60}, .obstacle = 0}});
-    const Command c = n->step(see(world, pose.position, pose.heading, 0.1 * k), {});
+    const Command c = n->step(update(world, pose.position, pose.heading, 0.1 * k), {});
     pose = unicycle_step(pose, c, 3, 0.1);
     x -= 4;
     least = std::min(least, distance(pose.position, Vec2{x, 500}) - 60);
@@ -104,7 +104,7 @@ std::uint64_t commands_hash(std::uint64_t seed) {
   Pose2 pose{{300, 500}, 1};
   Hash hash;
   for (int k = 0; k < 150; ++k) {
-    const Command c = n->step(see(world, pose.position, pose.heading, 0.1 * k), {});
+    const Command c = n->step(update(world, pose.position, pose.heading, 0.1 * k), {});
     hash.value(c.heading);
     hash.value(c.speed);
     pose = unicycle_step(pose, c, 3, 0.1);
@@ -152,7 +152,7 @@ Driven drive(Pose2 pose, Vec2 goal, double seconds, const std::vector<StraightDi
   Driven out{.pose = pose};
   for (double t = 0; t < seconds; t += 0.1) {
     const Snapshot world = world_at(t);
-    const Command c = made->step(see(world, out.pose.position, out.pose.heading, t), {});
+    const Command c = made->step(update(world, out.pose.position, out.pose.heading, t), {});
     const Pose2 next = unicycle_step(out.pose, c, RibbonParams{}.max_turn_rate, 0.1);
     out.turned += turn_between(out.pose.heading, next.heading);
     out.pose = next;

@@ -152,7 +152,7 @@ TEST(PathNavigator, SaysThatItHandsOver) {
 }
 
 TEST(FlowEstimate, FindsTheFlowInNoise) {
-  BodyForecast forecast(swarm_of(3));
+  DelayCompensator forecast(swarm_of(3));
   FlowEstimate estimate;
   Rng rng(3, Purpose::test);
   Ribbon ribbon({.max_speed = 60, .drift = {5, -3}}, {});
@@ -164,7 +164,7 @@ TEST(FlowEstimate, FindsTheFlowInNoise) {
         .now = 0.1 * k,
         .seen = 0.1 * k,
         .swarm = SwarmPose{{pose.position + 2.0 * Vec2{x, rng.normal()}, pose.heading}, 20}};
-    estimate.see(seen, forecast);
+    estimate.update(seen, forecast);
     forecast.at_effect(seen);
     const Command command{0.02 * k, 60};
     forecast.note(seen.now, command);

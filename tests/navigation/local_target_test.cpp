@@ -16,7 +16,7 @@ LocalTargetQuery towards(Vec2 from, double heading, Vec2 goal, double clearance 
           .goal_distance = distance(from, goal),
           .previous_target = {},
           .clearance = clearance,
-          .least_distance = 20};
+          .min_distance = 20};
 }
 
 TEST(LocalTarget, InTheOpenItLiesTowardsTheGoal) {

@@ -17,7 +17,7 @@ constexpr double remembered = 0.5;  // [s]
 struct Film {
   std::vector<Obstacle> obstacles{
       moving_disc(Straight{{100, 200}, {60, -20}}),
-      {Valve{.span = 400, .thickness = 40, .least_gap = 20, .greatest_gap = 200, .period = 8},
+      {Valve{.span = 400, .thickness = 40, .min_gap = 20, .max_gap = 200, .period = 8},
        Still{{800, 300}, 0.7}},
       moving_disc(Straight{{1500, 900}, {-30, 0}})};
   ObstacleMemory memory{remembered};
@@ -25,7 +25,7 @@ struct Film {
       std::make_shared<const Map>(Box{{-5000, -5000}, {5000, 5000}}, std::vector<Polygon>{});
   Snapshot frame{map};
 
-  Observation see(double t, std::vector<std::uint32_t> lost = {}) {
+  Observation update(double t, std::vector<std::uint32_t> lost = {}) {
     std::vector<Body> bodies;
     for (std::uint32_t i = 0; i < obstacles.size(); ++i)
       if (std::find(lost.begin(), lost.end(), i) == lost.end())
@@ -45,14 +45,14 @@ std::vector<const Body*> of(const Observation& seen, std::uint32_t obstacle) {
 
 TEST(ObstacleMemory, LeavesCompleteFramesAsTheyAre) {
   Film film;
-  for (int k = 0; k < 20; ++k) EXPECT_EQ(film.see(0.1 * k).world.get(), &film.frame);
+  for (int k = 0; k < 20; ++k) EXPECT_EQ(film.update(0.1 * k).world.get(), &film.frame);
 }
 
 TEST(ObstacleMemory, AnObstacleThatIsNotFoundGoesOnAsItMovedForAWhile) {
   Film film;
-  for (int k = 0; k < 20; ++k) film.see(0.1 * k);
+  for (int k = 0; k < 20; ++k) film.update(0.1 * k);
   for (int k = 20; k < 24; ++k) {
-    const Observation seen = film.see(0.1 * k, {0});
+    const Observation seen = film.update(0.1 * k, {0});
     ASSERT_EQ(of(seen, 0).size(), 1u) << k;
     const Vec2 is = std::get<Disc>(of(seen, 0).front()->shape).centre;
     EXPECT_LT(distance(is, Vec2{100, 200} + 0.1 * k * Vec2{60, -20}), 1e-6);
@@ -60,37 +60,37 @@ TEST(ObstacleMemory, AnObstacleThatIsNotFoundGoesOnAsItMovedForAWhile) {
     EXPECT_EQ(of(seen, 1).size(), 2u);
     EXPECT_EQ(of(seen, 2).size(), 1u);
   }
-  EXPECT_TRUE(of(film.see(2.7, {0}), 0).empty()) << "for ever";
+  EXPECT_TRUE(of(film.update(2.7, {0}), 0).empty()) << "for ever";
 }
 
 TEST(ObstacleMemory, AnObstacleThatIsFoundAgainIsThereOnce) {
   Film film;
   for (int k = 0; k < 20; ++k)
-    film.see(0.1 * k, k % 3 == 2 ? std::vector{0u, 1u} : std::vector{2u});
-  const Observation seen = film.see(2);
+    film.update(0.1 * k, k % 3 == 2 ? std::vector{0u, 1u} : std::vector{2u});
+  const Observation seen = film.update(2);
   EXPECT_EQ(seen.world.get(), &film.frame);
 }
 
 TEST(ObstacleMemory, BothLeavesOfAValveAreRemembered) {
   Film film;
-  for (int k = 0; k < 20; ++k) film.see(0.1 * k);
-  EXPECT_EQ(of(film.see(2, {1}), 1).size(), 2u);
+  for (int k = 0; k < 20; ++k) film.update(0.1 * k);
+  EXPECT_EQ(of(film.update(2, {1}), 1).size(), 2u);
 }
 
 TEST(ObstacleMemory, TheSameFrameTwiceAndOneFromBeforeAreNoTrouble) {
   Film film;
-  for (int k = 0; k < 20; ++k) film.see(0.1 * k);
-  const Vec2 once = std::get<Disc>(of(film.see(2, {0}), 0).front()->shape).centre;
-  const Vec2 twice = std::get<Disc>(of(film.see(2, {0}), 0).front()->shape).centre;
+  for (int k = 0; k < 20; ++k) film.update(0.1 * k);
+  const Vec2 once = std::get<Disc>(of(film.update(2, {0}), 0).front()->shape).centre;
+  const Vec2 twice = std::get<Disc>(of(film.update(2, {0}), 0).front()->shape).centre;
   EXPECT_EQ(once, twice);
-  EXPECT_EQ(film.see(1, {0, 1, 2}).world.get(), &film.frame);
+  EXPECT_EQ(film.update(1, {0, 1, 2}).world.get(), &film.frame);
 }
 
 TEST(ObstacleMemory, RemembersNothingWhenAskedTo) {
   Film film;
   film.memory = ObstacleMemory(0);
-  for (int k = 0; k < 20; ++k) film.see(0.1 * k);
-  EXPECT_EQ(film.see(2, {0}).world.get(), &film.frame);
+  for (int k = 0; k < 20; ++k) film.update(0.1 * k);
+  EXPECT_EQ(film.update(2, {0}).world.get(), &film.frame);
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ struct PredictedScene {
   void watch() {
     for (int k = -6; k <= 0; ++k) {
       const Snapshot frame = at(0.1 * k);
-      predictor.see(
+      predictor.update(
           {.now = 0.1 * k, .seen = 0.1 * k, .swarm = {}, .robots = {}, .world = borrowed(frame)});
     }
     newest = at(0);
@@ -116,7 +116,7 @@ TEST(ObstaclePredictor, WallsOfAHoleThatComeNearerAreSeen) {
   };
   for (int k = 0; k <= 5; ++k) {
     const Snapshot seen = frame(0.1 * k);
-    predictor.see(
+    predictor.update(
         {.now = 0.1 * k, .seen = 0.1 * k, .swarm = {}, .robots = {}, .world = borrowed(seen)});
   }
   const double true_distance = 200 - 20 * 2.5;

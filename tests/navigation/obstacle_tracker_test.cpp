@@ -37,7 +37,7 @@ struct Camera {
     for (const double end = now + seconds; now < end; now += tick) {
       if (rng.uniform() < missed_share) continue;
       const Snapshot world = frame_at(obstacles, now - delay, noise, rng);
-      tracker.see(
+      tracker.update(
           {.now = now, .seen = now - delay, .swarm = {}, .robots = {}, .world = borrowed(world)});
     }
   }
@@ -147,7 +147,7 @@ TEST(ObstacleTracker, APartThatMovesFarAwayDoesNotCountHere) {
                       {2400, 700 - 50 * t}, {2900, 700}, {2900, 300}};
     channel = {.shape = walls, .obstacle = 0};
     const Snapshot world(map, t, {channel});
-    tracker.see({.now = t, .seen = t, .swarm = {}, .robots = {}, .world = borrowed(world)});
+    tracker.update({.now = t, .seen = t, .swarm = {}, .robots = {}, .world = borrowed(world)});
   }
   EXPECT_NEAR(tracker.body(0).outline_speed, 50, 3);
   EXPECT_NEAR(tracker.outline_speed_within(0, channel, {{2500, 500}, 200}), 50, 3);
@@ -160,7 +160,7 @@ TEST(ObstacleTracker, ObstaclesComeAndGo) {
   ObstacleTracker tracker;
   const auto see = [&](double t, const std::vector<Body>& bodies) {
     const Snapshot world(frame_at({}, t, 0, rng).shared_map(), t, bodies);
-    tracker.see({.now = t, .seen = t, .swarm = {}, .robots = {}, .world = borrowed(world)});
+    tracker.update({.now = t, .seen = t, .swarm = {}, .robots = {}, .world = borrowed(world)});
   };
   const auto at = [](double x, std::uint32_t obstacle) {
     return Body{.shape = Disc{{x, 0}, 10}, .obstacle = obstacle};
@@ -177,7 +177,7 @@ TEST(ObstacleTracker, ObstaclesComeAndGo) {
   EXPECT_EQ(tracker.body(0).velocity, Vec2{});
   see(0.1, {at(900, 4)});  // begun anew
   EXPECT_EQ(tracker.body(0).frames, 1);
-  tracker.see({});
+  tracker.update({});
   EXPECT_EQ(tracker.size(), 1u);
 }
 

@@ -27,7 +27,7 @@ struct PredictiveDrive {
   Pose2 pose{{200, 500}, 0};
   PredictiveParams params{};
   std::uint64_t seed = 1;
-  double least_gap = infinity;  ///< from edge to edge [µm]
+  double min_gap = infinity;  ///< from edge to edge [µm]
   double time = 0;
   bool arrived = false;
   std::vector<NavigatorState> states{};
@@ -63,8 +63,8 @@ struct PredictiveDrive {
         pending.erase(pending.begin());
         was_there.push_back(pose);
         was_there.erase(was_there.begin());
-        least_gap =
-            std::min(least_gap, world.at(time + substep).clearance(pose.position) - swarm.radius);
+        min_gap =
+            std::min(min_gap, world.at(time + substep).clearance(pose.position) - swarm.radius);
       }
       arrived = distance(pose.position, room_goal) <= room_tolerance;
     }
@@ -93,7 +93,7 @@ TEST(Predictive, LetsWhatIsThreeTimesAsFastCross) {
                             .swarm = swarm};
       drive.run(60);
       EXPECT_TRUE(drive.arrived);
-      EXPECT_GT(drive.least_gap, 0) << y;
+      EXPECT_GT(drive.min_gap, 0) << y;
       EXPECT_LT(drive.time, 30) << y;
     }
 }
@@ -106,7 +106,7 @@ TEST(Predictive, StepsAsideOfWhatComesHeadOn) {
           .swarm = swarm};
       drive.run(60);
       EXPECT_TRUE(drive.arrived);
-      EXPECT_GT(drive.least_gap, 0) << faster;
+      EXPECT_GT(drive.min_gap, 0) << faster;
       EXPECT_LT(drive.time, 30) << faster;
     }
 }
@@ -119,7 +119,7 @@ TEST(Predictive, GoesRoundAWallAndLetsAnObstaclePassInTheGap) {
         .obstacles = {{DiscShape{60}, HarmonicLine{{1000, 850}, {300, 0}, period, 0.2}}}};
     drive.run(120);
     EXPECT_TRUE(drive.arrived);
-    EXPECT_GT(drive.least_gap, 0) << period;
+    EXPECT_GT(drive.min_gap, 0) << period;
   }
 }
 
@@ -129,7 +129,7 @@ TEST(Predictive, HoldsOrLeavesRatherThanBeRunOver) {
       .obstacles = {{BoxShape{80, 560}, HarmonicLine{{900, 280}, {500, 0}, 30, 0.25}}}};
   drive.run(120);
   EXPECT_TRUE(drive.arrived);
-  EXPECT_GT(drive.least_gap, 0);
+  EXPECT_GT(drive.min_gap, 0);
   EXPECT_TRUE(drive.was(NavigatorState::avoid));
 }
 
@@ -137,7 +137,7 @@ TEST(Predictive, GivesWayBeforeItsGoal) {
   PredictiveDrive drive{.obstacles = {{DiscShape{60}, HarmonicLine{room_goal, {0, 300}, 8, 0}}}};
   drive.run(120);
   EXPECT_TRUE(drive.arrived);
-  EXPECT_GT(drive.least_gap, 0);
+  EXPECT_GT(drive.min_gap, 0);
 }
 
 TEST(Predictive, ThroughAChannelWithMovingWalls) {
@@ -151,7 +151,7 @@ TEST(Predictive, ThroughAChannelWithMovingWalls) {
   PredictiveDrive drive{.obstacles = {{channel, Still{{0, 0}, 0}}}};
   drive.run(120);
   EXPECT_TRUE(drive.arrived);
-  EXPECT_GT(drive.least_gap, 0);
+  EXPECT_GT(drive.min_gap, 0);
 }
 
 TEST(Predictive, SameSeedSameBits) {

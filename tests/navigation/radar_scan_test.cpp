@@ -170,7 +170,7 @@ Case random_case(Rng& rng) {
   if (rng.below(3) == 0) c.look.approach = rng.uniform(0, 20);
   if (rng.below(2) == 0) {
     c.look.course = unit_vector(rng.uniform(-pi, pi));
-    c.look.least_cosine = std::cos(rng.uniform(radians(30), pi));
+    c.look.min_cosine = std::cos(rng.uniform(radians(30), pi));
   }
   const auto count = rng.below(rng.below(4) == 0 ? 120 : 8);
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -236,7 +236,7 @@ TEST(RadarScanner, ATurnLimitThatForbidsTheBestOfNothingChangesNothing) {
     const auto free = scanner.choose(c.look, world);
     if (!free) continue;
     c.look.course = unit_vector(*free + rng.uniform(-pi, pi));
-    c.look.least_cosine = std::cos(radians(120));
+    c.look.min_cosine = std::cos(radians(120));
     const bool may = keeps_course(c.look, unit_vector(*free));
     ++(may ? within : beyond);
     const auto limited = scanner.choose(c.look, world);

@@ -27,7 +27,7 @@ std::shared_ptr<const Map> radar_room(std::vector<Polygon> walls = {}) {
 /// What became of a swarm that was steered for a while.
 struct Trip {
   bool arrived = false;
-  double least_gap = 1e9;  ///< from its edge to obstacles, walls and border
+  double min_gap = 1e9;  ///< from its edge to obstacles, walls and border
   double time = 0;
   std::vector<NavigatorState> states;
 
@@ -39,13 +39,13 @@ struct Trip {
 using Movers = std::function<std::vector<Body>(double t)>;
 
 Trip drive(const RadarParams& params, Vec2 start, Vec2 goal, std::shared_ptr<const Map> map,
-           const Movers& movers, double most_seconds = 120) {
+           const Movers& movers, double max_seconds = 120) {
   RadarNavigator navigator(params, radar_vortex, goal, 20, Rng(1, Purpose::planner));
   Trip trip;
   Pose2 pose{start, 0};
-  for (; trip.time < most_seconds; trip.time += radar_tick) {
+  for (; trip.time < max_seconds; trip.time += radar_tick) {
     const Snapshot world(map, trip.time, movers(trip.time));
-    trip.least_gap = std::min(trip.least_gap, world.clearance(pose.position) - radar_radius);
+    trip.min_gap = std::min(trip.min_gap, world.clearance(pose.position) - radar_radius);
     trip.arrived = distance(pose.position, goal) <= 20;
     if (trip.arrived) break;
     const Command c = navigator.step({.now = trip.time,
@@ -75,7 +75,7 @@ TEST(Radar, AvoidsWhatStandsInTheWay) {
   });
   EXPECT_TRUE(trip.arrived);
   EXPECT_TRUE(trip.was(NavigatorState::avoid));
-  EXPECT_GT(trip.least_gap, 15);  // d_f less what a tick and the step take
+  EXPECT_GT(trip.min_gap, 15);  // d_f less what a tick and the step take
 }
 
 Body box(Vec2 middle, double width, double height) {
@@ -89,7 +89,7 @@ TEST(Radar, GetsRoundWhatIsFlat) {
       return std::vector{box({1500, 750}, size.x, size.y)};
     });
     EXPECT_TRUE(trip.arrived) << size.x << " × " << size.y;
-    EXPECT_GT(trip.least_gap, 0);
+    EXPECT_GT(trip.min_gap, 0);
   }
 }
 
@@ -99,7 +99,7 @@ TEST(Radar, AvoidsWhatCrossesAndWhatComes) {
       return std::vector{disc_body(Vec2{1500, 700} + (t - 14) * v, 150)};
     });
     EXPECT_TRUE(trip.arrived);
-    EXPECT_GT(trip.least_gap, 0) << v.x << ", " << v.y;
+    EXPECT_GT(trip.min_gap, 0) << v.x << ", " << v.y;
   }
 }
 
@@ -134,7 +134,7 @@ TEST(Radar, WithoutRetreatItHoldsAsPublished) {
     params.safety_distance = 80;
     params.detection_range = 120;
     params.retreat = retreat;
-    params.guard.active = retreat;
+    params.safety_filter.active = retreat;
     RadarNavigator navigator(params, radar_vortex, {2700, 700}, 30, Rng(1, Purpose::planner));
     const Command c = navigator.step({.now = 0,
                                       .seen = 0,
@@ -149,8 +149,8 @@ TEST(Radar, WithoutRetreatItHoldsAsPublished) {
 
 TEST(Radar, AsPublishedOverridesWhatIsOurs) {
   RadarParams by_hand;
-  by_hand.retreat = by_hand.guard.active = by_hand.compensate_delay = false;
-  by_hand.most_turn = pi;
+  by_hand.retreat = by_hand.safety_filter.active = by_hand.compensate_delay = false;
+  by_hand.max_turn = pi;
   RadarParams by_key;
   by_key.as_published = true;
   by_key.obstacle_speed_bound = 50;
@@ -187,17 +187,17 @@ TEST(Radar, FollowsWaypointsRoundAWall) {
   const Trip blind = drive(params, {700, 400}, {2300, 400}, map, nothing);
   EXPECT_FALSE(blind.arrived);
   EXPECT_TRUE(blind.was(NavigatorState::stuck));
-  EXPECT_GT(blind.least_gap, 0);
+  EXPECT_GT(blind.min_gap, 0);
   params.waypoints = {{1300, 1250}, {1600, 1250}};
   const Trip by_hand = drive(params, {700, 400}, {2300, 400}, map, nothing);
   EXPECT_TRUE(by_hand.arrived);
-  EXPECT_GT(by_hand.least_gap, 0);
+  EXPECT_GT(by_hand.min_gap, 0);
   params.waypoints.clear();
   params.global_plan = true;
   params.planner.clearance = 140;
   const Trip planned = drive(params, {700, 400}, {2300, 400}, map, nothing);
   EXPECT_TRUE(planned.arrived);
-  EXPECT_GT(planned.least_gap, 0);
+  EXPECT_GT(planned.min_gap, 0);
 }
 
 TEST(Radar, IsStuckWithoutAPlan) {
@@ -314,7 +314,7 @@ TEST(Radar, WaitsForAValve) {
   // A passage of 600 µm; the valve is closed for some time, and the swarm must not be touched.
   const auto map = radar_room({scenes::rectangle({{1400, 0}, {1600, 450}}),
                                scenes::rectangle({{1400, 1050}, {1600, 1500}})});
-  const Obstacle valve{Valve{.span = 600, .thickness = 60, .greatest_gap = 500, .period = 40},
+  const Obstacle valve{Valve{.span = 600, .thickness = 60, .max_gap = 500, .period = 40},
                        Still{.position = {1500, 750}}};
   const auto leaves = [&](double t) {
     std::vector<Body> bodies;
@@ -323,12 +323,12 @@ TEST(Radar, WaitsForAValve) {
   };
   RadarParams params;
   params.safety_distance = 15;
-  params.wait_areas = {{.centre = {1500, 750}, .width = 700, .height = 700, .least_gap = 400}};
+  params.wait_zones = {{.centre = {1500, 750}, .width = 700, .height = 700, .min_gap = 400}};
   for (const double begin : {0.0, 7.0, 13.0, 20.0, 26.0, 33.0}) {
     const Trip trip =
         drive(params, {900, 750}, {2300, 750}, map, [&](double t) { return leaves(t + begin); });
     EXPECT_TRUE(trip.arrived) << begin;
-    EXPECT_GT(trip.least_gap, 0) << begin;
+    EXPECT_GT(trip.min_gap, 0) << begin;
   }
 }
 

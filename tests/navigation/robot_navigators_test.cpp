@@ -5,7 +5,7 @@
 
 #include "microswarm/navigation/gathering/aggregation_check.hpp"
 #include "microswarm/navigation/gathering/aggregation_navigator.hpp"
-#include "microswarm/navigation/global_input/plan_player.hpp"
+#include "microswarm/navigation/global_input/plan_executor.hpp"
 #include "microswarm/scenes/global_worlds.hpp"
 #include "microswarm/scenes/vascular.hpp"
 #include "microswarm/scenes/worlds.hpp"
@@ -66,16 +66,16 @@ RobotSwarmParams two_robots() {
   return p;
 }
 
-TEST(RobotForecast, IsWhatComesUnderDelayAndLag) {
+TEST(RobotDelayCompensator, IsWhatComesUnderDelayAndLag) {
   RobotSwarmParams params = two_robots();
   params.response_lag = robot_tick;
   Rig rig(scenes::global_world(1), params, params.starts, 3);
-  RobotForecast forecast(rig.map, params.max_speed * robot_tick, params.contact,
-                         params.response_lag);
+  RobotDelayCompensator forecast(rig.map, params.max_speed * robot_tick, params.contact,
+                                 params.response_lag);
   for (int i = 0; i < 200; ++i) {
     const Robots foretold = forecast.at_effect(rig.observe());
     const Command command{0.3 * i, 25};
-    forecast.issued(rig.now, command);
+    forecast.note(rig.now, command);
     rig.apply(command);
     for (std::size_t k = 0; k < 2; ++k)
       ASSERT_LE(distance(foretold.position(k), rig.swarm.robots().position(k)), 1e-3) << i;
@@ -83,14 +83,14 @@ TEST(RobotForecast, IsWhatComesUnderDelayAndLag) {
 }
 
 // Workspace L: the top of a block is at y = 175 µm, its left side at x = 175 µm.
-TEST(RobotForecast, ARobotSeenJustInAWallDoesNotGoThroughIt) {
+TEST(RobotDelayCompensator, ARobotSeenJustInAWallDoesNotGoThroughIt) {
   const RobotSwarmParams params = two_robots();
   const Rig rig(scenes::global_world(1), params, params.starts, 0);
-  RobotForecast forecast(rig.map, params.max_speed * robot_tick, params.contact, 0);
+  RobotDelayCompensator forecast(rig.map, params.max_speed * robot_tick, params.contact, 0);
   Observation seen = rig.observe();
   const std::vector<Vec2> places{{260, 174.99}, {330, 200}};
   seen.robots = places;
-  forecast.issued(0, {radians(-90), 30});
+  forecast.note(0, {radians(-90), 30});
   seen.now = 0.1;
   const Robots robots = forecast.at_effect(seen);
   EXPECT_NEAR(robots.position(0).y, 175, 0.05);
@@ -98,10 +98,10 @@ TEST(RobotForecast, ARobotSeenJustInAWallDoesNotGoThroughIt) {
   EXPECT_NEAR(robots.position(1).y, 197, 1e-3);
 }
 
-TEST(PlanPlayer, SeenWithErrorsItArrives) {
+TEST(PlanExecutor, SeenWithErrorsItArrives) {
   const RobotSwarmParams params = two_robots();
   Rig rig(scenes::global_world(1), params, params.starts, 1);
-  PlanPlayer player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
+  PlanExecutor player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
   player.prepare(rig.world);
   Rng eye(3, Purpose::test);
   int planned = 0;
@@ -117,11 +117,11 @@ TEST(PlanPlayer, SeenWithErrorsItArrives) {
   EXPECT_LE(planned, 3);  // an error at a corner may look like a robot on its other side
 }
 
-TEST(PlanPlayer, WithoutErrorsItPlansOnceAndArrives) {
+TEST(PlanExecutor, WithoutErrorsItPlansOnceAndArrives) {
   for (const std::size_t delay : {0, 2}) {
     const RobotSwarmParams params = two_robots();
     Rig rig(scenes::global_world(1), params, params.starts, delay);
-    PlanPlayer player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
+    PlanExecutor player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
     player.prepare(rig.world);
     int planned = 0;
     for (int i = 0; i < 3000 && rig.worst() > 20; ++i) {
@@ -133,13 +133,13 @@ TEST(PlanPlayer, WithoutErrorsItPlansOnceAndArrives) {
   }
 }
 
-TEST(PlanPlayer, WithErrorsItFindsItsWayAgain) {
+TEST(PlanExecutor, WithErrorsItFindsItsWayAgain) {
   RobotSwarmParams params = two_robots();
   params.position_noise = 3;
   params.heading_noise = 0.05;
   params.speed_spread = 0.1;
   Rig rig(scenes::global_world(1), params, params.starts, 1);
-  PlanPlayer player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
+  PlanExecutor player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
   player.prepare(rig.world);
   int found_again = 0;
   for (int i = 0; i < 6000 && rig.worst() > 20; ++i) {
@@ -151,10 +151,10 @@ TEST(PlanPlayer, WithErrorsItFindsItsWayAgain) {
   EXPECT_GT(found_again, 1);
 }
 
-TEST(PlanPlayer, RobotsThatWereCarriedAwayJoinThePlanAgain) {
+TEST(PlanExecutor, RobotsThatWereCarriedAwayJoinThePlanAgain) {
   const RobotSwarmParams params = two_robots();
   Rig rig(scenes::global_world(1), params, params.starts, 0);
-  PlanPlayer player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
+  PlanExecutor player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
   player.prepare(rig.world);
   std::vector<Observation> seen;
   for (int i = 0; i < 20; ++i) rig.apply(player.step(rig.observe(), {}));
@@ -165,12 +165,12 @@ TEST(PlanPlayer, RobotsThatWereCarriedAwayJoinThePlanAgain) {
   EXPECT_FALSE(player.view().planned);
 }
 
-TEST(PlanPlayer, WithoutAPlanItHoldsAndTriesAgainLater) {
+TEST(PlanExecutor, WithoutAPlanItHoldsAndTriesAgainLater) {
   const RobotSwarmParams params = two_robots();
-  PlanPlayerParams hard;
+  PlanExecutorParams hard;
   hard.planner.max_nodes = 1;
   Rig rig(scenes::global_world(1), params, params.starts, 0);
-  PlanPlayer player(hard, params, 20, robot_tick, Rng(1, Purpose::planner));
+  PlanExecutor player(hard, params, 20, robot_tick, Rng(1, Purpose::planner));
   player.prepare(rig.world);
   int planned = 0;
   int stuck = 0;
@@ -184,10 +184,10 @@ TEST(PlanPlayer, WithoutAPlanItHoldsAndTriesAgainLater) {
   EXPECT_GT(stuck, 100);
 }
 
-TEST(PlanPlayer, HoldsWhenItSeesTooFewTooOldOrIsThere) {
+TEST(PlanExecutor, HoldsWhenItSeesTooFewTooOldOrIsThere) {
   const RobotSwarmParams params = two_robots();
   Rig rig(scenes::global_world(1), params, params.starts, 0);
-  PlanPlayer player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
+  PlanExecutor player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
   player.prepare(rig.world);
   Observation seen = rig.observe();
   seen.robots = seen.robots.first(1);
@@ -222,28 +222,28 @@ TEST(AggregationNavigator, GathersUnderLagAndDelayAndHoldsThen) {
     ++steps;
   }
   EXPECT_LT(steps, 1000);
-  EXPECT_LT(navigator.gatherer()->mean_way(), 10);
+  EXPECT_LT(navigator.policy()->mean_distance(), 10);
   Observation nothing = rig.observe();
   nothing.robots = {};
   EXPECT_EQ(navigator.step(nothing, {}).speed, 0);
   EXPECT_EQ(navigator.view().state, NavigatorState::blind);
 }
 
-TEST(AggregationGround, KnowsDeadEndsAndWhatIsApart) {
+TEST(MapAssumptions, KnowsDeadEndsAndWhatIsApart) {
   const scenes::Vascular t = scenes::t_junction();
   const Map map = t.map();
-  EXPECT_EQ(aggregation_ground(map, t.goal, 10).ways_out, 1);
-  EXPECT_GT(aggregation_ground(map, t.goal, 10).reached_share, 0.999);
+  EXPECT_EQ(map_assumptions(map, t.goal, 10).exits, 1);
+  EXPECT_GT(map_assumptions(map, t.goal, 10).reached_share, 0.999);
   EXPECT_TRUE(unmet_assumptions(map, t.goal, 10).empty());
-  EXPECT_EQ(aggregation_ground(map, {50, 95}, 10).ways_out, 3);  // in the junction
-  EXPECT_EQ(aggregation_ground(map, {20, 95}, 10).ways_out, 2);
+  EXPECT_EQ(map_assumptions(map, {50, 95}, 10).exits, 3);  // in the junction
+  EXPECT_EQ(map_assumptions(map, {20, 95}, 10).exits, 2);
   // Two rooms, and a goal in the smaller one.
   const Map apart({{0, 0}, {100, 10}}, {scenes::rectangle({{24, -1}, {25, 11}})});
-  EXPECT_NEAR(aggregation_ground(apart, {3, 5}, 10).reached_share, 24.0 / 99, 0.02);
+  EXPECT_NEAR(map_assumptions(apart, {3, 5}, 10).reached_share, 24.0 / 99, 0.02);
   EXPECT_EQ(unmet_assumptions(apart, {3, 5}, 10).size(), 1u);
 }
 
-TEST(AggregationGround, TellsWhenThereIsLittleToDivide) {
+TEST(MapAssumptions, TellsWhenThereIsLittleToDivide) {
   MapSegmentation map;
   map.regions.resize(4);
   EXPECT_NE(too_few_regions(map), "");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/gathering/rollout.hpp"
+#include "microswarm/navigation/gathering/rollout_policy.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,18 +11,18 @@
 namespace microswarm {
 namespace {
 
-AggregationParams with_work(const Gathering& g, double most_work) {
+AggregationParams with_work(const Gathering& g, double max_work) {
   AggregationParams params = g.params;
   params.rollout.budget = 2e5;
-  params.rollout.most_work = most_work;
+  params.rollout.max_work = max_work;
   return params;
 }
 
 int steps_of(const Gathering& g, Aggregation method, Robots robots) {
   AggregationParams params = g.params;
   params.method = method;
-  Gatherer gatherer(g.ground, params);
-  return gather(g.stepper, gatherer, robots, 20'000).steps;
+  AggregationPolicy policy(g.ground, params);
+  return gather(g.stepper, policy, robots, 20'000).steps;
 }
 
 int best_base(const Gathering& g, const Robots& robots) {
@@ -38,12 +38,12 @@ TEST(Rollout, NeverTakesLongerThanItsBaseAndEndsThere) {
         Robots robots = g->robots(count, 4);
         const int base = best_base(*g, robots);
         const AggregationParams params = with_work(*g, work);
-        RolloutGatherer gatherer(g->ground, g->stepper, params, Rng(3, Purpose::planner));
-        const GatherResult result = gather(g->stepper, gatherer, robots, 20'000);
+        RolloutPolicy policy(g->ground, g->stepper, params, Rng(3, Purpose::planner));
+        const GatherResult result = gather(g->stepper, policy, robots, 20'000);
         EXPECT_EQ(result.status, Status::solved);
         EXPECT_LE(result.steps, base) << g->scene.name << " " << count << " " << work;
-        EXPECT_LT(result.mean_way, params.sigma);
-        EXPECT_EQ(gatherer.replans(), 0);
+        EXPECT_LT(result.mean_distance, params.sigma);
+        EXPECT_EQ(policy.replans(), 0);
         for (std::size_t i = 0; i < robots.size(); ++i)
           EXPECT_TRUE(g->ground.map.is_free(robots.position(i), 0));
       }
@@ -59,9 +59,9 @@ TEST(Rollout, FindsMuchShorterPlans) {
   for (std::uint32_t trial = 0; trial < 4; ++trial) {
     Robots robots = t.robots(128, trial);
     base += best_base(t, robots);
-    RolloutGatherer gatherer(t.ground, t.stepper, with_work(t, 4e6), Rng(3, Purpose::planner));
-    sum += gather(t.stepper, gatherer, robots, 2000).steps;
-    EXPECT_GT(gatherer.improvements(), 3);
+    RolloutPolicy policy(t.ground, t.stepper, with_work(t, 4e6), Rng(3, Purpose::planner));
+    sum += gather(t.stepper, policy, robots, 2000).steps;
+    EXPECT_GT(policy.improvements(), 3);
   }
   EXPECT_LT(sum, 0.9 * base);
 }
@@ -70,11 +70,11 @@ TEST(Rollout, FindsMuchShorterPlans) {
 TEST(Rollout, StepsLeftOnlyShrink) {
   const Gathering& t = t_junction();
   Robots robots = t.robots(64, 2);
-  RolloutGatherer gatherer(t.ground, t.stepper, with_work(t, 2e6), Rng(3, Purpose::planner));
+  RolloutPolicy policy(t.ground, t.stepper, with_work(t, 2e6), Rng(3, Purpose::planner));
   std::size_t left = 10'000;
-  while (const auto move = gatherer.next(robots)) {
-    EXPECT_LT(gatherer.steps_left(), left);
-    left = gatherer.steps_left();
+  while (const auto move = policy.next(robots)) {
+    EXPECT_LT(policy.steps_left(), left);
+    left = policy.steps_left();
     t.stepper.step(robots, *move, ContactRule::stop);
   }
   EXPECT_EQ(left, 0u);
@@ -85,8 +85,8 @@ TEST(Rollout, SameSeedSameMoves) {
   Robots one = t.robots(64, 5);
   Robots two = one;
   const AggregationParams params = with_work(t, 1e6);
-  RolloutGatherer first(t.ground, t.stepper, params, Rng(3, Purpose::planner));
-  RolloutGatherer second(t.ground, t.stepper, params, Rng(3, Purpose::planner));
+  RolloutPolicy first(t.ground, t.stepper, params, Rng(3, Purpose::planner));
+  RolloutPolicy second(t.ground, t.stepper, params, Rng(3, Purpose::planner));
   EXPECT_EQ(gather(t.stepper, first, one, 5000).steps, gather(t.stepper, second, two, 5000).steps);
   EXPECT_EQ(one.x, two.x);
   EXPECT_EQ(one.y, two.y);
@@ -110,59 +110,59 @@ TEST(Rollout, PlansAnewWhenRobotsStray) {
   for (const double noise : {0.05, 0.2}) {
     Robots robots = t.robots(48, 7);
     Rng rng(9, Purpose::plant);
-    RolloutGatherer gatherer(t.ground, t.stepper, with_work(t, 5e5), Rng(3, Purpose::planner));
+    RolloutPolicy policy(t.ground, t.stepper, with_work(t, 5e5), Rng(3, Purpose::planner));
     int steps = 0;
     for (; steps < 3000; ++steps) {
-      const auto move = gatherer.next(robots);
+      const auto move = policy.next(robots);
       if (!move) break;
       t.stepper.step(robots, *move, ContactRule::stop);
       shake(t.stepper, robots, noise, rng);
     }
     EXPECT_LT(steps, 3000) << noise;
-    EXPECT_LT(gatherer.mean_way(), t.params.sigma);
-    EXPECT_GT(gatherer.replans(), 0);
+    EXPECT_LT(policy.mean_distance(), t.params.sigma);
+    EXPECT_GT(policy.replans(), 0);
   }
 }
 
 // Another swarm is another task.
 TEST(Rollout, BeginsAnewWithAnotherSwarm) {
   const Gathering& t = t_junction();
-  RolloutGatherer gatherer(t.ground, t.stepper, with_work(t, 1e5), Rng(3, Purpose::planner));
+  RolloutPolicy policy(t.ground, t.stepper, with_work(t, 1e5), Rng(3, Purpose::planner));
   Robots many = t.robots(30, 1);
-  ASSERT_TRUE(gatherer.next(many));
+  ASSERT_TRUE(policy.next(many));
   Robots few = t.robots(10, 2);
-  EXPECT_EQ(gather(t.stepper, gatherer, few, 2000).status, Status::solved);
+  EXPECT_EQ(gather(t.stepper, policy, few, 2000).status, Status::solved);
 }
 
 // Robots that no input moves: no plan holds, yet it always has a move to give.
 TEST(Rollout, GoesOnWhenNothingHelps) {
   const Gathering& t = t_junction();
   AggregationParams params = with_work(t, 1e5);
-  params.rollout.most_steps = 50;  // no plan is as short
-  RolloutGatherer gatherer(t.ground, t.stepper, params, Rng(3, Purpose::planner));
+  params.rollout.max_steps = 50;  // no plan is as short
+  RolloutPolicy policy(t.ground, t.stepper, params, Rng(3, Purpose::planner));
   const Robots robots = t.robots(8, 1);
-  for (int i = 0; i < 300; ++i) ASSERT_TRUE(gatherer.next(robots));
-  EXPECT_EQ(gatherer.steps_left(), 0u);
+  for (int i = 0; i < 300; ++i) ASSERT_TRUE(policy.next(robots));
+  EXPECT_EQ(policy.steps_left(), 0u);
   Robots moving = robots;
-  EXPECT_EQ(gather(t.stepper, gatherer, moving, 3000).status, Status::solved);
+  EXPECT_EQ(gather(t.stepper, policy, moving, 3000).status, Status::solved);
 }
 
 TEST(Rollout, OfNobodyAndOfOne) {
   const Gathering& t = t_junction();
-  RolloutGatherer gatherer(t.ground, t.stepper, with_work(t, 1e5), Rng(3, Purpose::planner));
-  EXPECT_EQ(gatherer.next(t.robots(0, 1)), std::nullopt);
+  RolloutPolicy policy(t.ground, t.stepper, with_work(t, 1e5), Rng(3, Purpose::planner));
+  EXPECT_EQ(policy.next(t.robots(0, 1)), std::nullopt);
   Robots one = t.stepper.place(std::vector<Vec2>{{50, 56}});
-  EXPECT_EQ(gatherer.next(one), std::nullopt);  // gathered already
-  EXPECT_LT(gatherer.mean_way(), t.params.sigma);
+  EXPECT_EQ(policy.next(one), std::nullopt);  // gathered already
+  EXPECT_LT(policy.mean_distance(), t.params.sigma);
 }
 
 TEST(Rollout, StopEndsTheThinkingOnly) {
   const Gathering& t = t_junction();
   const std::atomic<bool> stop{true};
-  RolloutGatherer gatherer(t.ground, t.stepper, with_work(t, 1e6), Rng(3, Purpose::planner));
-  EXPECT_TRUE(gatherer.next(t.robots(16, 1), Stop(&stop)));
-  EXPECT_EQ(gatherer.improvements(), 0);
-  EXPECT_GT(gatherer.steps_left(), 0u);
+  RolloutPolicy policy(t.ground, t.stepper, with_work(t, 1e6), Rng(3, Purpose::planner));
+  EXPECT_TRUE(policy.next(t.robots(16, 1), Stop(&stop)));
+  EXPECT_EQ(policy.improvements(), 0);
+  EXPECT_GT(policy.steps_left(), 0u);
 }
 
 }  // namespace

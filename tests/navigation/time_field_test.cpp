@@ -16,7 +16,7 @@ struct Made {
   TimeField field{field_speed, 6, 0.5};
   Vec2 goal{1000, 0};
 
-  void solve(std::span<const ConvexOutline> outlines, std::span<const BodyAhead> ahead) {
+  void solve(std::span<const ConvexOutline> outlines, std::span<const PredictedBody> ahead) {
     field.begin(
         {}, {goal, 20}, [](Vec2) { return 0.0F; },
         [&](Vec2 p) { return static_cast<float>(distance(p, goal) / field_speed); });
@@ -47,7 +47,7 @@ TEST(TimeField, ADiscThatComesCostsNothingBesideItsWay) {
   Made made;
   ConvexOutline disc;
   disc.radius = 60;
-  std::vector<BodyAhead> ahead;
+  std::vector<PredictedBody> ahead;
   for (int s = 0; s < 2 * made.field.steps(); ++s)
     ahead.push_back({.centre = {600 - 200 * made.field.time_of(s), 0}});
   made.solve(std::span(&disc, 1), ahead);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/radar/wait_area.hpp"
+#include "microswarm/navigation/radar/wait_zone.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,14 +12,14 @@ namespace {
 
 /// A valve across a passage that runs upwards, 400 µm wide at x = 0; its leaves lie at y = ±20.
 std::vector<Body> valve(double gap) {
-  const Obstacle obstacle{Valve{.span = 400, .least_gap = gap, .greatest_gap = gap},
+  const Obstacle obstacle{Valve{.span = 400, .min_gap = gap, .max_gap = gap},
                           Still{.position = {0, 0}, .heading = radians(90)}};
   std::vector<Body> bodies;
   append_bodies(obstacle, 0, 0, bodies);
   return bodies;
 }
 
-const WaitArea area{.centre = {0, 0}, .width = 600, .height = 600, .least_gap = 120};
+const WaitZone area{.centre = {0, 0}, .width = 600, .height = 600, .min_gap = 120};
 
 Waiting swarm(Vec2 at, Vec2 target = {0, 1000}) { return {at, 50, 75, target}; }
 
@@ -34,41 +34,41 @@ TEST(GapBetween, Shapes) {
   EXPECT_DOUBLE_EQ(gap_between(box({{0, 0}, {10, 10}}), box({{2, 2}, {4, 4}})), 0);
 }
 
-TEST(WaitArea, WaitsBeforeAValveThatIsTooNarrow) {
+TEST(WaitZone, WaitsBeforeAValveThatIsTooNarrow) {
   EXPECT_TRUE(must_wait(area, valve(100), swarm({0, -200})));
   EXPECT_TRUE(must_wait(area, valve(0), swarm({0, -200})));
   EXPECT_FALSE(must_wait(area, valve(140), swarm({0, -200})));
 }
 
-TEST(WaitArea, BeginsWithTheEdgeOfTheSwarm) {
+TEST(WaitZone, BeginsWithTheEdgeOfTheSwarm) {
   EXPECT_TRUE(must_wait(area, valve(0), swarm({0, -349})));
   EXPECT_FALSE(must_wait(area, valve(0), swarm({0, -351})));
 }
 
-TEST(WaitArea, GoesOnWhereLeavesCouldCloseOnIt) {
+TEST(WaitZone, GoesOnWhereLeavesCouldCloseOnIt) {
   EXPECT_FALSE(must_wait(area, valve(100), swarm({0, 0})));
   EXPECT_FALSE(must_wait(area, valve(100), swarm({0, -90})));  // 70 µm from the leaves' way
   EXPECT_TRUE(must_wait(area, valve(100), swarm({0, -100})));
 }
 
-TEST(WaitArea, GoesOnBeyondTheValve) {
+TEST(WaitZone, GoesOnBeyondTheValve) {
   EXPECT_FALSE(must_wait(area, valve(0), swarm({0, 200})));
   EXPECT_FALSE(must_wait(area, valve(0), swarm({0, -200}, {0, -1000})));
   EXPECT_TRUE(must_wait(area, valve(0), swarm({0, 200}, {0, -1000})));
 }
 
-TEST(WaitArea, OtherObstaclesAreNoValve) {
+TEST(WaitZone, OtherObstaclesAreNoValve) {
   std::vector<Body> two = valve(0);
   two[1].obstacle = 1;
   EXPECT_FALSE(must_wait(area, two, swarm({0, -200})));
   std::vector<Body> elsewhere = valve(0);
-  WaitArea far = area;
+  WaitZone far = area;
   far.centre = {0, -600};
   EXPECT_FALSE(must_wait(far, elsewhere, swarm({0, -600})));
 }
 
-TEST(WaitArea, MayBeTurned) {
-  WaitArea turned = area;
+TEST(WaitZone, MayBeTurned) {
+  WaitZone turned = area;
   turned.width = 1200;
   turned.height = 100;
   EXPECT_FALSE(must_wait(turned, valve(0), swarm({0, -400})));

@@ -32,7 +32,7 @@ Scenario street(const Tracks& tracks) {
   std::get<RibbonParams>(s.swarm).radius = 40;
   std::get<RibbonParams>(s.swarm).max_speed = 60;
   HierarchicalParams navigator;
-  navigator.margin = 60;
+  navigator.clearance = 60;
   navigator.speed = 60;
   s.navigator = navigator;
   s.goal_tolerance = 30;

@@ -49,7 +49,7 @@ TEST(RadarPaper, CasesOfFig5AsPublished) {
 
 struct Twelve {
   const char* file;
-  double most_turning;  ///< [°]
+  double max_turning;  ///< [°]
 };
 
 class RadarTwelve : public testing::TestWithParam<Twelve> {};
@@ -60,9 +60,9 @@ TEST_P(RadarTwelve, IsCrossedByOursWithoutTurningToAndFro) {
   const RunResult guarded = s.run();
   EXPECT_EQ(guarded.status, Status::solved);
   EXPECT_EQ(guarded.metrics.contacts, 0);
-  EXPECT_LT(degrees(guarded.metrics.turning), GetParam().most_turning);
+  EXPECT_LT(degrees(guarded.metrics.turning), GetParam().max_turning);
   s.scene.scenario.stop_at_contact = false;
-  s.params().guard.active = false;
+  s.params().safety_filter.active = false;
   EXPECT_LE(guarded.metrics.turning, 1.2 * s.run().metrics.turning);
   s.scene.scenario.stop_at_contact = true;
   s.params().as_published = true;

@@ -20,7 +20,7 @@ namespace {
 
 using scenes::global_world;
 
-double least_of(const std::vector<PointF>& robots) {
+double min_of(const std::vector<PointF>& robots) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < robots.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
@@ -30,8 +30,8 @@ double least_of(const std::vector<PointF>& robots) {
 }
 
 /// Oracle: the least distance between two robots at many moments of a move.
-double least_on(const RobotStepper& stepper, const std::vector<PointF>& from, PointF move,
-                ContactRule rule, int moments) {
+double min_on(const RobotStepper& stepper, const std::vector<PointF>& from, PointF move,
+              ContactRule rule, int moments) {
   double least = std::numeric_limits<double>::infinity();
   std::vector<PointF> now(from.size());
   for (int k = 0; k <= moments; ++k) {
@@ -44,7 +44,7 @@ double least_on(const RobotStepper& stepper, const std::vector<PointF>& from, Po
         now[i] = stepper.moved(from[i], {share * move.x, share * move.y}, rule);
       }
     }
-    least = std::min(least, least_of(now));
+    least = std::min(least, min_of(now));
   }
   return least;
 }
@@ -67,12 +67,12 @@ TEST(GlobalSeparation, HoldsOnlyWhereNoMomentOfTheMoveIsTooNear) {
         } while (!map.is_free(p, 0.1) || !map.is_free(q, 0.1) || map.clearance(p) > 10);
         const std::vector<PointF> from{stepper.relative(p), stepper.relative(q)};
         const double least = rng.uniform(0.5, 8);
-        if (least_of(from) < least) continue;
+        if (min_of(from) < least) continue;
         const std::vector<PointF> moves = input_moves(16, step);
         const PointF move = moves[rng.below(16)];
         std::vector<PointF> to;
         for (const PointF r : from) to.push_back(stepper.moved(r, move, rule));
-        const double truth = least_on(stepper, from, move, rule, 400);
+        const double truth = min_on(stepper, from, move, rule, 400);
         const bool holds = GlobalSeparation(stepper, rule, least).holds(from, to, move);
         if (holds) {
           EXPECT_GT(truth, least - slack);
@@ -115,11 +115,10 @@ TEST(GlobalSeparation, ATreeKeepsIt) {
   bool comes_nearer = false;
   for (std::uint32_t node = 1; node < tree.size(); ++node) {
     const std::vector<PointF> from = robots(tree, tree.parents[node]);
-    ASSERT_GT(least_on(stepper, from, tree.moves[tree.inputs[node]], tree.contact, 20),
-              least - 1e-3);
+    ASSERT_GT(min_on(stepper, from, tree.moves[tree.inputs[node]], tree.contact, 20), least - 1e-3);
   }
   for (std::uint32_t node = 1; node < free_tree.tree.size(); ++node)
-    comes_nearer |= least_of(robots(free_tree.tree, node)) < least;
+    comes_nearer |= min_of(robots(free_tree.tree, node)) < least;
   EXPECT_TRUE(comes_nearer);
   EXPECT_EQ(tree.size(), 3000u);
 }
@@ -141,7 +140,7 @@ TEST(GlobalSeparation, PlansKeepIt) {
           std::vector<PointF> from;
           for (const Vec2 p : plan->configurations[k]) from.push_back(stepper.relative(p));
           const PointF move{float(plan->inputs[k].x), float(plan->inputs[k].y)};
-          ASSERT_GT(least_on(stepper, from, move, params.contact, 20), least - 1e-3);
+          ASSERT_GT(min_on(stepper, from, move, params.contact, 20), least - 1e-3);
         }
       }
     }

@@ -131,7 +131,7 @@ TEST(MapSegmentation, BendsAreNoJunctionsAndForksAre) {
 TEST(MapSegmentation, LawsHoldOnGeneratedMaps) {
   for (int seed = 1; seed <= test::cases(12); ++seed) {
     scenes::VascularShape shape;
-    shape.least_half = seed % 3 == 0 ? 1.5 : 3.5;
+    shape.min_half = seed % 3 == 0 ? 1.5 : 3.5;
     Rng rng(seed, Purpose::scene);
     const scenes::Vascular scene = scenes::random_vascular(shape, rng);
     const Map map = scene.map();

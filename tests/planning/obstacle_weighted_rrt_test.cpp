@@ -56,7 +56,7 @@ std::vector<Case> cases() {
                         {scenes::vascular_network(), with_nodes(2500)}};
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     scenes::VascularShape shape;
-    shape.least_half = seed % 2 == 0 ? 1.5 : 3.5;  // also channels that ζ shuts
+    shape.min_half = seed % 2 == 0 ? 1.5 : 3.5;  // also channels that ζ shuts
     Rng rng(seed, Purpose::scene);
     all.push_back({scenes::random_vascular(shape, rng), with_nodes(2500)});
   }

@@ -12,7 +12,7 @@
 #include "microswarm/core/error.hpp"
 #include "microswarm/experiment/run/run.hpp"
 #include "microswarm/navigation/make.hpp"
-#include "microswarm/rig/runtime/live_bench.hpp"
+#include "microswarm/rig/runtime/realtime_rig_simulator.hpp"
 #include "microswarm/rig/simulation/simulated_rig.hpp"
 #include "tests/cases.hpp"
 #include "tests/files.hpp"
@@ -116,13 +116,13 @@ class LiveRigs : public testing::Test {
                          {"camera.type=simulated", "camera.microscope.um_per_px=6"}));
     // A busy computer stalls: a test sets the limit that it is about.
     rig->params.safety = {
-        .lost_swarm = 3, .oldest_frame = 3, .deadman = 3, .missed_deadlines = 100};
+        .lost_swarm = 3, .max_frame_age = 3, .deadman = 3, .missed_deadlines = 100};
   }
 
   /// Runs until `seconds` have passed or it ends; `then` is called after 0.5 s.
   RunResult go(double seconds, const std::function<void(LiveRig&)>& then = {}) {
     const Scenario& s = scene.scenario;
-    LiveBench bench(s, world, *rig, std::make_unique<WatchedCoils>(coils));
+    RealtimeRigSimulator bench(s, world, *rig, std::make_unique<WatchedCoils>(coils));
     LiveRig plant(s, world.map, *rig, std::make_unique<TroubledCamera>(bench.camera(40), trouble),
                   bench.view().scale, bench.coils());
     const auto navigator =
@@ -200,7 +200,7 @@ TEST_F(LiveRigs, BlackPicturesEndIt) {
 }
 
 TEST_F(LiveRigs, PicturesThatComeTwoSecondsLateEndIt) {
-  rig->params.safety.oldest_frame = 0.5;
+  rig->params.safety.max_frame_age = 0.5;
   const RunResult result = go(6, [&](LiveRig&) { trouble->late = 2; });
   EXPECT_EQ(result.status, Status::fault);
   EXPECT_NE(result.state.find("s old, allowed 0.5 s"), std::string::npos) << result.state;
@@ -273,7 +273,7 @@ class Slow : public Navigator {
 TEST_F(LiveRigs, ANavigatorThatHangsEndsIt) {
   rig->params.safety.deadman = 0.5;
   const Scenario& s = scene.scenario;
-  LiveBench bench(s, world, *rig, std::make_unique<WatchedCoils>(coils));
+  RealtimeRigSimulator bench(s, world, *rig, std::make_unique<WatchedCoils>(coils));
   LiveRig plant(s, world.map, *rig, bench.camera(40), bench.view().scale, bench.coils());
   Slow slow;
   const RunResult result = run(s, plant, slow);
@@ -284,7 +284,7 @@ TEST_F(LiveRigs, ANavigatorThatHangsEndsIt) {
 
 TEST_F(LiveRigs, ALogThatCannotBeWrittenEndsIt) {
   const Scenario& s = scene.scenario;
-  LiveBench bench(s, world, *rig, std::make_unique<WatchedCoils>(coils));
+  RealtimeRigSimulator bench(s, world, *rig, std::make_unique<WatchedCoils>(coils));
   int moments = 0;
   LiveRig plant(s, world.map, *rig, bench.camera(40), bench.view().scale, bench.coils(),
                 [&](const CoilMoment&) {
@@ -308,7 +308,7 @@ TEST_F(LiveRigs, ADeadmanShorterThanATickIsRefused) {
 
 TEST_F(LiveRigs, AGoalOutsideThePictureIsRefused) {
   const Scenario& s = scene.scenario;
-  LiveBench bench(s, world, *rig, std::make_unique<WatchedCoils>(coils));
+  RealtimeRigSimulator bench(s, world, *rig, std::make_unique<WatchedCoils>(coils));
   CameraScale near = bench.view().scale;
   near.um_per_px /= 2;
   const std::string error =
@@ -337,7 +337,7 @@ class OnePicture : public FrameSource {
 
 TEST_F(LiveRigs, ACameraThatFailsAtTheStartEndsIt) {
   const Scenario& s = scene.scenario;
-  LiveBench bench(s, world, *rig, std::make_unique<WatchedCoils>(coils));
+  RealtimeRigSimulator bench(s, world, *rig, std::make_unique<WatchedCoils>(coils));
   const auto camera = bench.camera(40);
   VideoFrame first;
   ASSERT_TRUE(camera->next(first));

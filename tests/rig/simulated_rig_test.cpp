@@ -61,7 +61,7 @@ TEST_P(Rehearsals, TheGoalIsReachedAboutAsFast) {
   EXPECT_EQ(whole.status, Status::solved);
   EXPECT_LT(whole.metrics.time, 1.35 * plain.metrics.time);
   EXPECT_EQ(whole.metrics.contacts, 0);
-  const double margin = margin_of(r.scene.scenario.navigator);
+  const double margin = required_clearance(r.scene.scenario.navigator);
   EXPECT_GE(plain.metrics.obstacles.clearance, margin);
   EXPECT_GE(whole.metrics.obstacles.clearance, margin);
 }
@@ -85,7 +85,7 @@ TEST(SimulatedRig, TheSameSeedGivesTheSameRun) {
   r.in_rig(first);
   r.in_rig(second);
   EXPECT_EQ(first.picture().pixels, second.picture().pixels);
-  EXPECT_EQ(first.truth()->swarm.pose.position, second.truth()->swarm.pose.position);
+  EXPECT_EQ(first.ground_truth()->swarm.pose.position, second.ground_truth()->swarm.pose.position);
   SimulatedRig other(r.scene.scenario, r.world, r.rig, 1);
   r.in_rig(other);
   EXPECT_NE(first.picture().pixels, other.picture().pixels);
@@ -105,7 +105,8 @@ TEST(SimulatedRig, LimitsOfTheCoilsSlowItDown) {
   const Vec2 start = r.scene.scenario.start->position;
   r.in_rig(limited);
   EXPECT_LT(limited.coils().scale, 0.1);
-  EXPECT_LT(distance(limited.truth()->swarm.pose.position, start), 1);  // too weak to move it
+  EXPECT_LT(distance(limited.ground_truth()->swarm.pose.position, start),
+            1);  // too weak to move it
 }
 
 TEST(SimulatedRig, WhatDoesNotGoTogetherIsRefused) {
@@ -152,9 +153,9 @@ TEST(SimulatedRig, ASwarmMayBeFasterThanTheFieldIsMadeFor) {
   const auto way = [&](double error) {
     std::get<SimulatedCamera>(r.rig.params.camera).speed_error = error;
     SimulatedRig plant(r.scene.scenario, r.world, r.rig);
-    const Vec2 from = plant.truth()->swarm.pose.position;
+    const Vec2 from = plant.ground_truth()->swarm.pose.position;
     for (int i = 0; i < 60; ++i) plant.apply({1, 30}, 0.1);
-    return distance(from, plant.truth()->swarm.pose.position);
+    return distance(from, plant.ground_truth()->swarm.pose.position);
   };
   EXPECT_NEAR(way(1) / way(0), 2, 0.05);
   EXPECT_NEAR(way(-0.5) / way(0), 0.5, 0.05);

@@ -72,19 +72,19 @@ TEST(Ribbon, SpeedIsLimitedAndNeverNegative) {
 TEST(Ribbon, SweptRunsFromTheOldPoseToTheNewOneInSmallPieces) {
   Rng rng = test_rng();
   Ribbon ribbon({.response_lag = 0.137, .position_noise = 3, .heading_noise = 0.2}, {});
-  EXPECT_TRUE(ribbon.swept().empty());
+  EXPECT_TRUE(ribbon.trajectory().empty());
   for (int i = 0; i < 20; ++i) {
     const Pose2 before = ribbon.pose();
     ribbon.step({0.3 * i, 40}, 0.1, rng);
-    const auto swept = ribbon.swept();
-    ASSERT_GE(swept.size(), 2u);
-    EXPECT_EQ(swept.front().t, 0);
-    EXPECT_EQ(swept.front().pose, before);
-    EXPECT_EQ(swept.back().t, 0.1);
-    EXPECT_EQ(swept.back().pose, ribbon.pose());
-    for (std::size_t k = 1; k < swept.size(); ++k) {
-      EXPECT_GT(swept[k].t, swept[k - 1].t);
-      EXPECT_LE(swept[k].t - swept[k - 1].t, ribbon_substep + 1e-9);
+    const auto trajectory = ribbon.trajectory();
+    ASSERT_GE(trajectory.size(), 2u);
+    EXPECT_EQ(trajectory.front().t, 0);
+    EXPECT_EQ(trajectory.front().pose, before);
+    EXPECT_EQ(trajectory.back().t, 0.1);
+    EXPECT_EQ(trajectory.back().pose, ribbon.pose());
+    for (std::size_t k = 1; k < trajectory.size(); ++k) {
+      EXPECT_GT(trajectory[k].t, trajectory[k - 1].t);
+      EXPECT_LE(trajectory[k].t - trajectory[k - 1].t, ribbon_substep + 1e-9);
     }
   }
 }

@@ -62,8 +62,8 @@ TEST(Vortex, WidensWhileItMoves) {
   Rng rng(1, Purpose::plant);
   vortex.step({0, 100}, 1, rng);
   EXPECT_NEAR(vortex.radius(), 400 - 100 * std::exp(-1.0), 1e-9);
-  EXPECT_EQ(vortex.swept().front().radius, 300);
-  EXPECT_EQ(vortex.swept().back().radius, vortex.radius());
+  EXPECT_EQ(vortex.trajectory().front().radius, 300);
+  EXPECT_EQ(vortex.trajectory().back().radius, vortex.radius());
   vortex.step({0, 0}, 20, rng);
   EXPECT_NEAR(vortex.radius(), 300, 1e-5);
 }
@@ -77,7 +77,7 @@ TEST(Vortex, ItsRippleHasASpreadAndALimit) {
   constexpr int steps = 5000;
   for (int i = 0; i < steps; ++i) {
     vortex.step({0, 0}, 0.5, rng);
-    for (const TimedPose& p : vortex.swept()) {
+    for (const PoseStamped& p : vortex.trajectory()) {
       ASSERT_LE(p.radius, limits_of(params).radius);
       ASSERT_GE(p.radius, 260);
     }

@@ -43,7 +43,7 @@ class SweepExport : public testing::Test {
 TEST_F(SweepExport, CsvHasALineATrial) {
   const std::string csv = sweep_csv(sweep);
   EXPECT_TRUE(
-      csv.starts_with("cell,trial,method,navigator_margin_um,goal_um,status,arrived,time_s,"))
+      csv.starts_with("cell,trial,method,navigator_clearance_um,goal_um,status,arrived,time_s,"))
       << csv.substr(0, 200);
   EXPECT_NE(csv.find("\n0,0,straight on,60,\"[700, 500]\",solved,1,"), csv.npos);
   EXPECT_NE(csv.find("\n7,1,route,90.5,\"[800, 600]\",solved,1,"), csv.npos);

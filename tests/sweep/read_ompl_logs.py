@@ -123,7 +123,7 @@ def main():
         assert str(run["solved"]) == row["arrived"]
         assert same(run["length_um"], row["length_um"])
         assert same(run["time"], row["compute_s"])
-        assert same(run["navigator_margin_um"], row["navigator_margin_um"])
+        assert same(run["navigator_clearance_um"], row["navigator_clearance_um"])
         assert run["goal_um"] == row["goal_um"]
 
 

@@ -58,7 +58,7 @@ TEST(SweepPlan, CellsAreTheCrossProduct) {
   EXPECT_EQ(plan.cells[1].method, "route");
   EXPECT_EQ(plan.cells[2].values, (std::vector<std::string>{"60", "[800, 600]"}));
   EXPECT_EQ(plan.cells[7].values, (std::vector<std::string>{"90.5", "[800, 600]"}));
-  EXPECT_EQ(margin_of(plan.cells[7].scenario.navigator), 90.5);
+  EXPECT_EQ(required_clearance(plan.cells[7].scenario.navigator), 90.5);
   EXPECT_EQ(plan.cells[7].scenario.time_limit, 20);
   EXPECT_EQ(plan.cells[7].scenario.seed, 7u);
   EXPECT_EQ(plan.cells[0].world.map, plan.cells[7].world.map);
@@ -88,16 +88,18 @@ TEST(SweepPlan, BadSettingsNameWhereTheyStand) {
     const std::string what = error_of([&] { check(load_sweep(file, 2), 2); });
     return what.starts_with(file + ": ") ? what.substr(file.size() + 2) : "elsewhere: " + what;
   };
-  EXPECT_EQ(refused("navigator.margin_um", "navigator.magrin_um"),
-            "grid: --set navigator.magrin_um: unknown key 'magrin_um', did you mean 'margin_um'?");
+  EXPECT_EQ(
+      refused("navigator.clearance_um", "navigator.magrin_um"),
+      "grid: --set navigator.magrin_um: unknown key 'magrin_um', did you mean 'clearance_um'?");
   EXPECT_EQ(refused("guide=straight", "guide=sideways"),
             "method 'straight on': --set navigator.guide: guide is 'sideways', allowed: straight, "
             "route");
   EXPECT_EQ(refused("time_limit_s=20", "time_limit_s=-1"),
             "--set time_limit_s: time_limit_s is -1 s, allowed 0..1e5 s");
-  EXPECT_TRUE(refused("[800, 600]", "[1000, 100]")
-                  .starts_with("navigator.margin_um=60, goal_um=[1000, 100], method 'straight on': "
-                               "goal "));
+  EXPECT_TRUE(
+      refused("[800, 600]", "[1000, 100]")
+          .starts_with("navigator.clearance_um=60, goal_um=[1000, 100], method 'straight on': "
+                       "goal "));
 }
 
 TEST(SweepPlan, AsPublishedBesideAKeyOfOursIsRefused) {
@@ -111,8 +113,8 @@ TEST(SweepPlan, AsPublishedBesideAKeyOfOursIsRefused) {
   const std::string published = "\"navigator={type: hierarchical_drrt_star, as_published: true";
   EXPECT_EQ(refused(published + "}\""), "");
   const std::string complaint =
-      "method 'straight on': extra_margin_um is not the paper's, and as_published is true";
-  EXPECT_TRUE(refused(published + ", extra_margin_um: 10}\"").ends_with(complaint));
+      "method 'straight on': extra_clearance_um is not the paper's, and as_published is true";
+  EXPECT_TRUE(refused(published + ", extra_clearance_um: 10}\"").ends_with(complaint));
   EXPECT_NE(refused("navigator.as_published=true").find(complaint),
             std::string::npos);  // it is in the file
 }
@@ -138,7 +140,7 @@ TEST(SweepTable, EveryMetricHasItsColumnWithUnit) {
   EXPECT_EQ(named("turning_deg").unit, "°");
   EXPECT_EQ(named("walls_clearance_um").role, SweepColumn::Role::metric);
   EXPECT_EQ(named("contacts").kind, SweepColumnKind::whole);
-  EXPECT_EQ(named("navigator_margin_um").kind, SweepColumnKind::real);
+  EXPECT_EQ(named("navigator_clearance_um").kind, SweepColumnKind::real);
   EXPECT_EQ(named("goal_um").kind, SweepColumnKind::text);
   EXPECT_EQ(named("planning_max_s").role, SweepColumn::Role::wall_clock);
 }

@@ -13,7 +13,7 @@ inline std::string sweep_text(int trials = 3) {
          "scenario: flight.yaml\n"
          "set: [time_limit_s=20]\n"
          "grid:\n"
-         "  - key: navigator.margin_um\n"
+         "  - key: navigator.clearance_um\n"
          "    values: [60, 90.5]\n"
          "  - {key: goal_um, values: [\"[700, 500]\", \"[800, 600]\"]}\n"
          "methods:\n"

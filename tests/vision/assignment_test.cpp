@@ -15,13 +15,13 @@ namespace {
 using Matrix = std::vector<std::vector<std::optional<double>>>;
 
 /// Least cost of all ways, by trying each column for each row.
-double least_cost(const Matrix& costs, double alone, std::size_t row, std::vector<bool>& taken) {
+double min_cost(const Matrix& costs, double alone, std::size_t row, std::vector<bool>& taken) {
   if (row == costs.size()) return 0;
-  double least = alone + least_cost(costs, alone, row + 1, taken);
+  double least = alone + min_cost(costs, alone, row + 1, taken);
   for (std::size_t c = 0; c < taken.size(); ++c) {
     if (taken[c] || !costs[row][c]) continue;
     taken[c] = true;
-    least = std::min(least, *costs[row][c] + least_cost(costs, alone, row + 1, taken));
+    least = std::min(least, *costs[row][c] + min_cost(costs, alone, row + 1, taken));
     taken[c] = false;
   }
   return least;
@@ -70,7 +70,7 @@ TEST(Assignment, CostsWhatTheBestOfAllWaysCosts) {
     const auto& found =
         solver.solve(static_cast<int>(rows), static_cast<int>(columns), edges_of(costs), alone);
     std::vector<bool> taken(columns);
-    ASSERT_NEAR(cost_of(costs, alone, found), least_cost(costs, alone, 0, taken), 1e-9) << k;
+    ASSERT_NEAR(cost_of(costs, alone, found), min_cost(costs, alone, 0, taken), 1e-9) << k;
   }
 }
 

@@ -70,10 +70,10 @@ struct Changes {
   int noted = 0;
   int right = 0;
 };
-Changes changes_in(const PairsVideo& video, int lasting) {
+Changes changes_in(const PairsVideo& video, int min_lifetime) {
   VideoTracker tracker({.um_per_px = 1,
                         .find = {.diameter = 13, .tone = ParticleTone::bright, .min_mass = 300},
-                        .track = {.lasting = lasting}},
+                        .track = {.min_lifetime = min_lifetime}},
                        0.1);
   std::map<std::pair<int, int>, Vec2> place;  // of frame and robot
   for (int k = 0; k < PairsVideo::frames; ++k)
@@ -99,13 +99,13 @@ Changes changes_in(const PairsVideo& video, int lasting) {
 TEST(VideoTracker, TrueMergesAndSplitsAreToldFromFlicker) {
   const PairsVideo video;
   constexpr int truth = 2 * PairsVideo::pairs;
-  for (const int lasting : {TrackerParams{}.lasting, 1}) {
-    if (test::sanitized && lasting == 1) break;  // twenty times the events, the same code
-    const Changes c = changes_in(video, lasting);
+  for (const int min_lifetime : {TrackerParams{}.min_lifetime, 1}) {
+    if (test::sanitized && min_lifetime == 1) break;  // twenty times the events, the same code
+    const Changes c = changes_in(video, min_lifetime);
     std::printf("merges and splits that last %d frames: %d noted, recall %.3f, precision %.3f\n",
-                lasting, c.noted, 1.0 * c.right / truth, 1.0 * c.right / c.noted);
+                min_lifetime, c.noted, 1.0 * c.right / truth, 1.0 * c.right / c.noted);
     EXPECT_GE(c.right, 0.9 * truth);
-    if (lasting > 1) {
+    if (min_lifetime > 1) {
       EXPECT_GE(c.right, 0.65 * c.noted);
     }
   }

@@ -56,10 +56,10 @@ TEST(SceneFinder, SwarmAndObstaclesOfTheSameToneAreToldApart) {
         EXPECT_LT(distance(o.blob.centre_px, at), 0.5);
         EXPECT_NEAR(o.blob.semi_major_px / o.blob.semi_minor_px, 1 / 0.6, 0.1);
       }
-      grain_of_discs.push_back(o.blob.grain);
+      grain_of_discs.push_back(o.blob.texture);
     }
     EXPECT_EQ(discs, 1) << trial;
-    grain_of_swarms.push_back(scene.swarm.swarm->grain);
+    grain_of_swarms.push_back(scene.swarm.swarm->texture);
   }
   std::printf("grain: swarms at least %.1f, obstacles at most %.1f grey\n",
               quantile(grain_of_swarms, 0), quantile(grain_of_discs, 1));

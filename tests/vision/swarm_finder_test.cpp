@@ -26,7 +26,7 @@ struct Scene {
   DrawnSwarm swarm;
   Image picture;
 };
-Scene scene(std::uint32_t trial, double most_noise) {
+Scene scene(std::uint32_t trial, double max_noise) {
   Rng rng(11, Purpose::test, trial);
   Scene s;
   s.swarm.radius = rng.uniform(15, 80);
@@ -41,7 +41,7 @@ Scene scene(std::uint32_t trial, double most_noise) {
   const double slope = rng.uniform(0, 0.4);
   const double heading = rng.uniform(-pi, pi);
   s.picture = frame.expose(rng.uniform(110, 170), slope, heading, rng.uniform(0, 0.2),
-                           rng.uniform(0, most_noise), rng);
+                           rng.uniform(0, max_noise), rng);
   return s;
 }
 
@@ -59,15 +59,15 @@ void expect_finite(const Blob& b) {
 }
 
 TEST(SwarmFinder, PlaceSizeAndShapeOfHundredsOfSwarms) {
-  for (const double most_noise : {0.0, 10.0}) {
+  for (const double max_noise : {0.0, 10.0}) {
     std::vector<double> off;
     std::vector<double> radius_off;
     std::vector<double> radius_bias;
     std::vector<double> angle_off;
     std::vector<double> ms;
     int missed = 0;
-    for (int trial = 0; trial < test::cases(most_noise > 0 ? 250 : 50); ++trial) {
-      const Scene s = scene(trial, most_noise);
+    for (int trial = 0; trial < test::cases(max_noise > 0 ? 250 : 50); ++trial) {
+      const Scene s = scene(trial, max_noise);
       const auto began = std::chrono::steady_clock::now();
       const SwarmSighting seen = find_swarm(s.picture);
       ms.push_back(
@@ -90,7 +90,7 @@ TEST(SwarmFinder, PlaceSizeAndShapeOfHundredsOfSwarms) {
         "noise to %.0f: %d missed; place off %.2f px median, %.2f p99, %.2f worst; radius off "
         "%.1f %% median, %.1f %% p99, bias median %.2f px; angle off %.1f deg median, %.1f p99; "
         "%.2f ms median\n",
-        most_noise, missed, quantile(off, 0.5), quantile(off, 0.99), quantile(off, 1),
+        max_noise, missed, quantile(off, 0.5), quantile(off, 0.99), quantile(off, 1),
         100 * quantile(radius_off, 0.5), 100 * quantile(radius_off, 0.99),
         quantile(radius_bias, 0.5), quantile(angle_off, 0.5), quantile(angle_off, 0.99),
         quantile(ms, 0.5));

@@ -113,11 +113,11 @@ TEST(Obstacle, what_makes_no_sense_is_named) {
   };
   for (const Obstacle& o : all_obstacles()) EXPECT_EQ(message(o), "");
   EXPECT_EQ(message({BreathingDisc{90, 20}, Still{}}),
-            "least_radius_um is 90, more than greatest_radius_um, 20");
-  EXPECT_EQ(message({Valve{.span = 400, .least_gap = 300, .greatest_gap = 200}, Still{}}),
-            "least_gap_um is 300, more than greatest_gap_um, 200");
-  EXPECT_EQ(message({Valve{.span = 400, .least_gap = 500, .greatest_gap = 600}, Still{}}),
-            "least_gap_um is 500, leaves no leaf in span_um, 400");
+            "min_radius_um is 90, more than max_radius_um, 20");
+  EXPECT_EQ(message({Valve{.span = 400, .min_gap = 300, .max_gap = 200}, Still{}}),
+            "min_gap_um is 300, more than max_gap_um, 200");
+  EXPECT_EQ(message({Valve{.span = 400, .min_gap = 500, .max_gap = 600}, Still{}}),
+            "min_gap_um is 500, leaves no leaf in span_um, 400");
   EXPECT_EQ(message({PolygonShape{{{0, 0}, {1, 1}}}, Still{}}),
             "vertices_um needs three different points at least");
   EXPECT_EQ(message({PolygonShape{{{0, 0}, {1, 1}, {2, 2}}}, Still{}}),
@@ -133,7 +133,7 @@ TEST(World, snapshots_hold_the_bodies_of_their_time) {
   World world{std::make_shared<Map>(Box{{-500, -500}, {500, 500}}, std::vector<Polygon>{}),
               {{DiscShape{30}, Straight{{0, 0}, {10, 0}}},
                {DiscShape{30}, Track{}},
-               {Valve{.span = 100, .least_gap = 0, .greatest_gap = 50}, Still{}}}};
+               {Valve{.span = 100, .min_gap = 0, .max_gap = 50}, Still{}}}};
   const Snapshot now = world.at(7);
   EXPECT_EQ(now.time(), 7);
   ASSERT_EQ(now.moving().bodies().size(), 3u);

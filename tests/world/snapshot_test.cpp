@@ -23,7 +23,7 @@ TEST(Snapshot, joins_walls_border_and_moving_bodies) {
       EXPECT_EQ(now.obstacle_clearance(p), std::min(walls.to_walls(p), moving.to_walls(p)));
       const double r = rng.uniform(0, 60);
       EXPECT_EQ(now.is_free(p, r), is_free_at(now.clearance(p), r));
-      EXPECT_EQ(now.why_blocked(p, r).empty(), now.is_free(p, r));
+      EXPECT_EQ(now.blocked_reason(p, r).empty(), now.is_free(p, r));
     }
   }
 }
@@ -55,20 +55,20 @@ TEST(Snapshot, says_why_a_point_is_blocked) {
   const Snapshot now(std::make_shared<Map>(walls.map()), 0,
                      {{.shape = Disc{{300, 500}, 60}, .obstacle = 0},
                       {.shape = rectangle(800, 800, 900, 900), .obstacle = 1}});
-  EXPECT_EQ(now.why_blocked({100, 100}, 40), "");
-  EXPECT_EQ(now.why_blocked({512, 500}, 40), "is 12 µm inside wall 2");
-  EXPECT_EQ(now.why_blocked({493, 500}, 40), "is 7 µm from wall 2, needs 40 µm");
-  EXPECT_EQ(now.why_blocked({1000, 270}, 40), "is 20 µm inside wall 3");
-  EXPECT_EQ(now.why_blocked({1000, 225}, 40), "is 25 µm from wall 3, needs 40 µm");
-  EXPECT_EQ(now.why_blocked({300, 433}, 40), "is 7 µm from obstacle 1, needs 40 µm");
-  EXPECT_EQ(now.why_blocked({850, 810}, 40), "is 10 µm inside obstacle 2");
-  EXPECT_EQ(now.why_blocked({-5, 100}, 0), "is outside the map (0..2000 × 0..1000 µm)");
-  EXPECT_EQ(now.why_blocked({100, 7}, 40), "is 7 µm from the border, needs 40 µm");
-  EXPECT_EQ(now.why_blocked({100, 0}, 0), "touches the border");
-  EXPECT_EQ(now.why_blocked({500, 500}, 0), "touches wall 2");
-  EXPECT_EQ(now.why_blocked({460.0004, 500}, 40), "is 39.9996 µm from wall 2, needs 40 µm");
-  EXPECT_EQ(now.why_blocked({460.04, 500}, 40), "is 39.96 µm from wall 2, needs 40 µm");
-  EXPECT_EQ(now.why_blocked({464.6, 500}, 40), "is 35 µm from wall 2, needs 40 µm");
+  EXPECT_EQ(now.blocked_reason({100, 100}, 40), "");
+  EXPECT_EQ(now.blocked_reason({512, 500}, 40), "is 12 µm inside wall 2");
+  EXPECT_EQ(now.blocked_reason({493, 500}, 40), "is 7 µm from wall 2, needs 40 µm");
+  EXPECT_EQ(now.blocked_reason({1000, 270}, 40), "is 20 µm inside wall 3");
+  EXPECT_EQ(now.blocked_reason({1000, 225}, 40), "is 25 µm from wall 3, needs 40 µm");
+  EXPECT_EQ(now.blocked_reason({300, 433}, 40), "is 7 µm from obstacle 1, needs 40 µm");
+  EXPECT_EQ(now.blocked_reason({850, 810}, 40), "is 10 µm inside obstacle 2");
+  EXPECT_EQ(now.blocked_reason({-5, 100}, 0), "is outside the map (0..2000 × 0..1000 µm)");
+  EXPECT_EQ(now.blocked_reason({100, 7}, 40), "is 7 µm from the border, needs 40 µm");
+  EXPECT_EQ(now.blocked_reason({100, 0}, 0), "touches the border");
+  EXPECT_EQ(now.blocked_reason({500, 500}, 0), "touches wall 2");
+  EXPECT_EQ(now.blocked_reason({460.0004, 500}, 40), "is 39.9996 µm from wall 2, needs 40 µm");
+  EXPECT_EQ(now.blocked_reason({460.04, 500}, 40), "is 39.96 µm from wall 2, needs 40 µm");
+  EXPECT_EQ(now.blocked_reason({464.6, 500}, 40), "is 35 µm from wall 2, needs 40 µm");
 }
 
 }  // namespace

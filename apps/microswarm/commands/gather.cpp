@@ -20,7 +20,7 @@ struct GatherOptions {
   std::string goal;
   int robots = 256;
   std::optional<double> channel_width;
-  int most_steps = 100'000;
+  int max_steps = 100'000;
   std::vector<std::string> settings;
   std::string out;
   std::uint64_t seed = 1;
@@ -30,13 +30,13 @@ struct GatherOptions {
 
 /// The published lengths and speed [gather], for channels of 10 µm, made as large as this map's
 /// channels: a step a tick, gathered when the mean way is as short as a channel is wide.
-void fit(Scenario& scenario, double width, int most_steps) {
+void fit(Scenario& scenario, double width, int max_steps) {
   constexpr double speed = 80;  // [µm/s]
   auto& params = std::get<AggregationParams>(scenario.navigator);
   params.scale = width / published_channel_width;
   scenario.robots->max_speed = speed;
   scenario.tick = params.step * params.scale / speed;
-  scenario.time_limit = most_steps * scenario.tick;
+  scenario.time_limit = max_steps * scenario.tick;
   scenario.goal_tolerance = width;
 }
 
@@ -77,9 +77,9 @@ int gather_command(const GatherOptions& o, const Context& context) {
   scenario.seed = o.seed;
   Scene scene = load_scene(std::move(scenario), {});
   const World world = build_world(scene);
-  if (const std::string why = world.at(0).why_blocked(*scene.scenario.goal, 0); !why.empty())
+  if (const std::string why = world.at(0).blocked_reason(*scene.scenario.goal, 0); !why.empty())
     throw InputError(fmt::format("{}: goal {}", o.map, why));
-  fit(scene.scenario, width_of(o, *world.map), o.most_steps);
+  fit(scene.scenario, width_of(o, *world.map), o.max_steps);
   note_each(set_values(scene.scenario, o.settings));
   KeyLocations(o.map).require_none(validate(scene.scenario, world));
   const OutFolder hold(o.out);
@@ -112,7 +112,7 @@ void add_gather(Command app, Action& action) {
                  "Usual width of a channel in µm, which all lengths go by; measured when not given")
       .type_name("NUMBER")
       .check(number(1e-3, 1e6));
-  cmd.add_option("--most-steps", o->most_steps, "Give up after so many; 100000 when not given")
+  cmd.add_option("--most-steps", o->max_steps, "Give up after so many; 100000 when not given")
       .type_name("NUMBER")
       .check(whole(1, 100'000'000));
   add_settings(cmd, o->settings,

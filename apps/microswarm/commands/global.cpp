@@ -55,8 +55,8 @@ Check place_list() {
   return {[](const std::string& text) -> std::string {
     const std::size_t count = places(text).size();
     if (count == 0) return "must be places as 60,300;60,250 in µm, not " + quote(text);
-    if (count <= most_global_robots) return {};
-    return fmt::format("has {} places, allowed are 1 to {}", count, most_global_robots);
+    if (count <= max_global_robots) return {};
+    return fmt::format("has {} places, allowed are 1 to {}", count, max_global_robots);
   }};
 }
 
@@ -85,7 +85,7 @@ void explain(const GlobalOptions& o, const Map& map, std::span<const Vec2> start
   const std::span<const Vec2> wrong = starts_wrong ? starts : goals;
   const char* what = starts_wrong ? "start" : "goal";
   for (std::size_t i = 0; i < wrong.size(); ++i)
-    if (const std::string why = world.why_blocked(wrong[i], 0); !why.empty())
+    if (const std::string why = world.blocked_reason(wrong[i], 0); !why.empty())
       throw InputError(fmt::format("{}: robot {}: {} {}", o.map, i + 1, what, why));
   if (play.separation > 0)
     throw InputError(fmt::format("{}: two {}s are nearer to each other than separation_um {:g}{}",

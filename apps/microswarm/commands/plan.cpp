@@ -63,9 +63,9 @@ void explain(const PlanOptions& o, const Snapshot& world, Vec2 start, Vec2 goal,
              const PlannerParams& planner, Status status) {
   const auto [clearance, tolerance] = ends_of(planner);
   if (status == Status::start_blocked)
-    throw InputError(fmt::format("{}: start {}", o.map, world.why_blocked(start, clearance)));
+    throw InputError(fmt::format("{}: start {}", o.map, world.blocked_reason(start, clearance)));
   if (status == Status::goal_blocked)
-    throw InputError(fmt::format("{}: goal {}", o.map, world.why_blocked(goal, clearance)));
+    throw InputError(fmt::format("{}: goal {}", o.map, world.blocked_reason(goal, clearance)));
   if (status != Status::no_path && status != Status::node_limit) return;
   if (const auto target = free_goal(world, goal, tolerance, clearance))
     KeyLocations(o.map).require_none(validate_path(world.map(), start, *target, clearance));

@@ -74,11 +74,11 @@ std::string robots_summary(const RunResult& result, const RobotSwarmParams& robo
 }
 
 std::string avoidance_text(const Avoidance& a) {
-  if (!std::isfinite(a.least_gap)) return {};
+  if (!std::isfinite(a.min_gap)) return {};
   const std::string mean = a.time > 0 ? fmt::format(", {} on average", um(a.mean_gap)) : "";
   return fmt::format(
       "  avoiding  {:.1f} s, mean avoidance cost {:.3g}; gap to obstacles {} at least{}\n", a.time,
-      a.mean_cost, um(a.least_gap), mean);
+      a.mean_cost, um(a.min_gap), mean);
 }
 
 std::string summary(const RunResult& result) {

@@ -50,7 +50,7 @@ void add_schema(Command app, Action& action) {
                  "A file of a scenario, sweep, rig, or coil system, or what --set of track or "
                  "global changes")
       .check(one_of(names))
-      .shows_default();
+      .capture_default();
   cmd.add_flag("--keys", *keys, "A table of every key with unit, default, range and meaning");
   cmd.callback([=, &action] {
     action = [=](const Context&) {

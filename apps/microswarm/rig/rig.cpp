@@ -200,12 +200,12 @@ void add_field(Command rig, Action& action) {
   cmd.add_option("system", o->system, "Coil system (YAML)").required().type_name("FILE");
   cmd.add_option("--at", o->at, "Place in µm, x,y,z; the centre when not given")
       .type_name("X,Y,Z")
-      .check(triple("X,Y,Z", most_place));
+      .check(triple("X,Y,Z", max_place));
   const Option currents =
       cmd.add_option("--currents", o->currents, "Current of each coil in A").type_name("A,A,…");
   cmd.add_option("--field", o->field, "Field to make in mT, bx,by,bz")
       .type_name("BX,BY,BZ")
-      .check(triple("BX,BY,BZ", most_field))
+      .check(triple("BX,BY,BZ", max_field))
       .excludes(currents);
   add_json(cmd, o->json);
   cmd.callback([o, &action] { action = [o](const Context&) { return field(*o); }; });

@@ -11,8 +11,8 @@
 
 namespace microswarm::cli {
 
-inline constexpr double most_place = 1e9;  ///< [µm]
-inline constexpr double most_field = 1e6;  ///< [mT]
+inline constexpr double max_place = 1e9;  ///< [µm]
+inline constexpr double max_field = 1e6;  ///< [mT]
 
 /// Allows three numbers up to `most`; `form` says what is meant.
 Check triple(const char* form, double most);
@@ -28,7 +28,7 @@ void add_rig_map(Command rig, Action& action);
 void add_rig_scale(Command rig, Action& action);
 /// The part `rig check` of `rig`.
 void add_rig_check(Command rig, Action& action);
-/// The part `rig rehearse` of `rig`.
+/// The part `rig simulate_rig` of `rig`.
 void add_rig_rehearse(Command rig, Action& action);
 /// The part `rig run` of `rig`.
 void add_rig_run(Command rig, Action& action);

@@ -84,10 +84,10 @@ void check_camera(const Rig& rig, const CheckOptions& o, const Stop& stop, Answe
       answers.say(usual <= 1.1 / *rate, "frames",
                   fmt::format("{:.4g} ms apart as a rule, {:.6g} Hz means {:.4g}", 1e3 * usual,
                               *rate, 1e3 / *rate));
-    if (const double longest = gaps.quantile(1); longest > rig.params.safety.oldest_frame)
+    if (const double longest = gaps.quantile(1); longest > rig.params.safety.max_frame_age)
       answers.say(false, "frames",
-                  fmt::format("{:.3g} s apart, safety.oldest_frame_s is {:.6g}", longest,
-                              rig.params.safety.oldest_frame));
+                  fmt::format("{:.3g} s apart, safety.max_frame_age_s is {:.6g}", longest,
+                              rig.params.safety.max_frame_age));
   } catch (const std::runtime_error& e) {
     answers.say(false, "camera", e.what());
   }

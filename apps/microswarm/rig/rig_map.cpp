@@ -188,12 +188,12 @@ void add_rig_map(Command rig, Action& action) {
       .check(file_kind({".png", ".svg", ".pdf", ".csv"}));
   cmd.add_option("--at", o->at, "Centre in µm, x,y,z; that of the system when not given")
       .type_name("X,Y,Z")
-      .check(triple("X,Y,Z", most_place));
+      .check(triple("X,Y,Z", max_place));
   const Option currents =
       cmd.add_option("--currents", o->currents, "Current of each coil in A").type_name("A,A,…");
   cmd.add_option("--field", o->field, "Field at the centre in mT, 1,0,0 when not given")
       .type_name("BX,BY,BZ")
-      .check(triple("BX,BY,BZ", most_field))
+      .check(triple("BX,BY,BZ", max_field))
       .excludes(currents);
   cmd.add_option("--plane", o->plane, "Plane of the map: xy, xz or yz")
       .type_name("WORD")

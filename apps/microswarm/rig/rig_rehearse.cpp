@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `rig rehearse`: scenarios through a simulated rig, beside the simulation without one.
+// `rig simulate_rig`: scenarios through a simulated rig, beside the simulation without one.
 #include <fmt/ranges.h>
 
 #include <array>
@@ -112,7 +112,7 @@ int rehearse_trials(const RehearseOptions& o, const Context& context) {
         if (context.stop()) return;
         const std::array<RunResult, 2> both{
             simulate(scenario, world, trial, {}, context.stop),
-            microswarm::rehearse(scenario, world, on.rig, trial, {}, context.stop)};
+            microswarm::simulate_rig(scenario, world, on.rig, trial, {}, context.stop)};
         if (context.stop()) return;
         results[i] = both;
         const std::lock_guard lock(mutex);

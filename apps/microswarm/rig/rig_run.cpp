@@ -88,7 +88,7 @@ nlohmann::ordered_json timing_json(const RigTiming& t) {
           {"frames_dropped", t.dropped_frames},
           {"fields_not_made", t.unmade},
           {"fields_weakened", t.limited},
-          {"least_field_share", t.least_scale},
+          {"least_field_share", t.min_scale},
           {"coils_resumed", t.resumed},
           {"currents_weakened", t.scaled}};
 }
@@ -112,7 +112,7 @@ void note_limits(const RigTiming& t) {
         t.unmade, t.round_trip.count());
   if (t.limited > 0)
     note("note: the coils' limits weakened the field in {} of {} sendings, to {:.0f} % at least\n",
-         t.limited, t.round_trip.count(), 100 * t.least_scale);
+         t.limited, t.round_trip.count(), 100 * t.min_scale);
 }
 
 struct RigRunOptions {

@@ -36,7 +36,7 @@ struct ScalePiece {
   CameraScale scale;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.scale, {"scale", Unit::none, {}, "Where the camera sees the world."});
+    visit(self.scale, {"scale", Unit::none, {}, "Position and scale of the camera in the world."});
   }
 };
 
@@ -151,7 +151,7 @@ void add_rig_scale(Command rig, Action& action) {
   cmd.add_option("--pattern", o->pattern, "What the points are")
       .type_name("WORD")
       .check(one_of({"dots", "chessboard"}))
-      .shows_default()
+      .capture_default()
       .needs(grid);
   cmd.add_option("--origin", o->origin,
                  "The world's origin in the picture, px, y down; not given: the lower left corner, "

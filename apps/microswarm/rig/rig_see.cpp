@@ -26,9 +26,9 @@ struct SeeSettings {
   WallParams walls;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.camera, {"camera", Unit::none, {}, "The camera, when a picture is taken."});
-    visit(self.scene, {"scene", Unit::none, {}, "How swarm and obstacles are found."});
-    visit(self.walls, {"walls", Unit::none, {}, "How walls are found in the still picture."});
+    visit(self.camera, {"camera", Unit::none, {}, "Camera from which a picture is taken."});
+    visit(self.scene, {"scene", Unit::none, {}, "Detection of the swarm and the obstacles."});
+    visit(self.walls, {"walls", Unit::none, {}, "Detection of walls in the still picture."});
   }
 };
 
@@ -69,7 +69,7 @@ Json json_of(const Blob& b) {
           {"semi_axes_px", {b.semi_major_px, b.semi_minor_px}},
           {"angle_rad", b.angle},
           {"contrast", b.contrast},
-          {"grain", b.grain},
+          {"grain", b.texture},
           {"is_cut", b.is_cut}};
 }
 
@@ -78,7 +78,7 @@ std::string text_of(const Blob& b) {
       "({:.2f}, {:.2f}) px, radius {:.2f} px, axes {:.1f} and {:.1f} px, contrast "
       "{:.0f}, grain {:.1f}{}",
       b.centre_px.x, b.centre_px.y, b.radius_px, b.semi_major_px, b.semi_minor_px, b.contrast,
-      b.grain, b.is_cut ? ", cut" : "");
+      b.texture, b.is_cut ? ", cut" : "");
 }
 
 /// Those of the rig, or of the settings' file, then of `--set`.
@@ -86,7 +86,7 @@ SeeSettings settings_of(const SeeOptions& o) {
   SeeSettings settings;
   if (!o.rig.empty()) {
     const Rig rig = read_rig(o.rig);
-    settings.scene = rig.params.eye.scene;
+    settings.scene = rig.params.perception.scene;
     if (const auto* camera = std::get_if<CameraParams>(&rig.params.camera))
       settings.camera = *camera;
   }
@@ -139,7 +139,7 @@ void add_rig_see(Command rig, Action& action) {
   auto o = std::make_shared<SeeOptions>();
   Command cmd =
       rig.add_command("see", "What is seen in a picture: the swarm and obstacles",
-                      "rig see frame.png --set scene.swarm.look.min_grain=8 --out seen.png");
+                      "rig see frame.png --set scene.swarm.look.min_texture=8 --out seen.png");
   cmd.add_option("picture", o->picture, "Picture, or a camera as /dev/video0")
       .required()
       .type_name("FILE");

@@ -132,8 +132,10 @@ std::string with_present_key(const Type& of, const void* value, std::string_view
   for (const MovedKey& one : moved)
     if (path == one.from) return fmt::format("{}{}", one.to, rest);
   std::string present;
-  for (const Type* type = &of; !path.empty();) {
+  const Type* type = &of;
+  for (bool more = true; more;) {
     const std::string_view word = path.substr(0, path.find('.'));
+    more = word.size() < path.size();
     std::string_view now = word;
     if (type) type = held_type(type, value);
     if (type && type->kind == TypeKind::record) {
@@ -154,8 +156,8 @@ std::string with_present_key(const Type& of, const void* value, std::string_view
       type = nullptr;
     }
     present += now;
-    path.remove_prefix(std::min(word.size() + 1, path.size()));
-    if (!path.empty()) present += '.';
+    path.remove_prefix(word.size() + (more ? 1 : 0));
+    if (more) present += '.';
   }
   return present + std::string(rest);
 }

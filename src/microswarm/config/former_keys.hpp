@@ -21,7 +21,8 @@ using Notes = std::vector<std::string>;
 void use_present_keys(const Type& type, YamlNode& document, std::string_view name,
                       std::span<const MovedKey> moved, Notes& notes);
 
-/// The assignment "KEY=VALUE" with the present key; `value` tells which alternative a variant holds.
+/// The assignment "KEY=VALUE" with the present key; `value` tells which alternative a variant
+/// holds.
 std::string with_present_key(const Type& type, const void* value, std::string_view assignment,
                              std::span<const MovedKey> moved);
 

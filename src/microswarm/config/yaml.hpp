@@ -66,8 +66,7 @@ T read_yaml_file(const std::filesystem::path& path) {
 template <HasFields T>
 std::string set_value(T& value, std::string_view assignment, std::string_view option = "--set") {
   T changed = value;
-  std::string present =
-      with_present_key(type_of<T>(), &changed, assignment, moved_keys_of<T>());
+  std::string present = with_present_key(type_of<T>(), &changed, assignment, moved_keys_of<T>());
   set_value(type_of<T>(), &changed, present, option);
   value = std::move(changed);
   return present;

@@ -17,7 +17,7 @@ struct SwarmPose {
 };
 
 /// Where a swarm was, how wide [µm], and when [s].
-struct TimedPose {
+struct PoseStamped {
   double t = 0;
   Pose2 pose;
   double radius = 0;

@@ -13,12 +13,13 @@
 namespace microswarm {
 
 /// What really is, where a plant can tell: simulations and recordings know it, rigs do not.
-struct Truth {
+struct GroundTruth {
   double now = 0;  ///< [s]
   SwarmPose swarm;
-  double speed = 0;                  ///< [µm/s]
-  std::span<const TimedPose> swept;  ///< the way of the last apply(), straight between its poses
-  std::span<const Vec2> robots;      ///< one by one [µm], of a swarm that consists of robots
+  double speed = 0;  ///< [µm/s]
+  std::span<const PoseStamped>
+      trajectory;                ///< the way of the last apply(), straight between its poses
+  std::span<const Vec2> robots;  ///< one by one [µm], of a swarm that consists of robots
   const World* world = nullptr;
 };
 
@@ -35,7 +36,7 @@ class Plant {
   /// Why it cannot go on, in words; empty while it can. Valid until the next observe().
   virtual std::string_view fault() const { return {}; }
   /// Valid until the next apply(); empty when nobody knows.
-  virtual std::optional<Truth> truth() const { return std::nullopt; }
+  virtual std::optional<GroundTruth> ground_truth() const { return std::nullopt; }
 };
 
 }  // namespace microswarm

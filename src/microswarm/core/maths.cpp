@@ -19,8 +19,8 @@ namespace {
 // π/2 = quarter_high + quarter_low; the product of the first and a whole number to 2²⁰ is exact.
 constexpr double quarter_high = 0x1.921fb544p+0;
 constexpr double quarter_low = 0x1.0b4611a626331p-34;
-constexpr double most_reduced = 1000;            // [rad]
-constexpr double least_reduced = 0x1p-14;        // nearer to a quarter turn too few bits are left
+constexpr double max_reduced = 1000;             // [rad]
+constexpr double min_reduced = 0x1p-14;          // nearer to a quarter turn too few bits are left
 constexpr double eighth = std::numbers::pi / 4;  // [rad]
 
 /// An angle less whole quarters of a turn, as a sum: within ±π/4.
@@ -36,7 +36,7 @@ inline bool reduce(double angle, Reduced& left) {
     left = {angle, 0, 0};
     return true;
   }
-  if (!(size <= most_reduced)) return false;
+  if (!(size <= max_reduced)) return false;
   constexpr double whole = 0x1.8p52;  // added and taken away, it rounds
   const double turns = (angle * (2 / std::numbers::pi) + whole) - whole;
   const double off = angle - turns * quarter_high;
@@ -44,7 +44,7 @@ inline bool reduce(double angle, Reduced& left) {
   left.high = off - rest;
   left.low = (off - left.high) - rest;
   left.quarter = static_cast<int>(turns) & 3;
-  return std::abs(left.high) >= least_reduced;
+  return std::abs(left.high) >= min_reduced;
 }
 
 /// Of angles within ±π/4, by polynomials of least greatest error.

@@ -98,12 +98,12 @@ class NearestSearch {
       hn::Store(b, d, squares + i + lanes);
       least = hn::Min(least, hn::Min(a, b));
     }
-    const float least_here = hn::GetLane(hn::MinOfLanes(d, least));
-    if (least_here > least_) return;
-    const auto at = std::find(squares, squares + bucket.count, least_here) - squares;
+    const float min_here = hn::GetLane(hn::MinOfLanes(d, least));
+    if (min_here > least_) return;
+    const auto at = std::find(squares, squares + bucket.count, min_here) - squares;
     const std::uint32_t point = bucket.points[static_cast<std::size_t>(at)];
-    if (least_here < least_ || point < best_) best_ = point;
-    least_ = least_here;
+    if (min_here < least_ || point < best_) best_ = point;
+    least_ = min_here;
   }
 
   static constexpr std::size_t rows_a_line = BucketKdTree::bucket_size / BucketKdTree::Row::size;
@@ -145,14 +145,14 @@ void make_room(std::vector<T>& all, std::size_t more) {
 
 BucketKdTree::BucketKdTree(std::size_t dimension)
     : dimension_(dimension), box_rows_((dimension + BoxRow::size - 1) / BoxRow::size) {
-  assert(dimension >= 1 && dimension <= most_dimensions);
+  assert(dimension >= 1 && dimension <= max_dimensions);
   new_nodes(1);
   nodes_[0].child = new_bucket();
 }
 
 std::uint32_t BucketKdTree::nearest(std::span<const float> point) const {
   assert(size_ > 0 && point.size() == dimension_);
-  alignas(64) std::array<float, most_dimensions> padded{};
+  alignas(64) std::array<float, max_dimensions> padded{};
   std::copy(point.begin(), point.end(), padded.begin());
   return HWY_DYNAMIC_DISPATCH(nearest_here)(view(), padded.data());
 }
@@ -261,7 +261,7 @@ bool BucketKdTree::split(std::uint32_t node) {
   const std::uint32_t child = new_nodes(2);
   for (std::uint32_t half = 0; half < 2; ++half) nodes_[child + half].child = halves[half];
   nodes_[node] = {middle, static_cast<std::uint32_t>(axis), child};
-  std::array<float, most_dimensions> point;
+  std::array<float, max_dimensions> point;
   for (std::size_t i = 0; i < bucket_size; ++i) {
     for (std::size_t k = 0; k < dimension_; ++k) point[k] = points[k * bucket_size + i];
     const std::uint32_t half = point[axis] < middle ? 0 : 1;

@@ -19,9 +19,9 @@ namespace microswarm {
 /// safe to run in several threads.
 class BucketKdTree {
  public:
-  static constexpr std::size_t most_dimensions = 128;
+  static constexpr std::size_t max_dimensions = 128;
 
-  /// `dimension` is 1 to most_dimensions.
+  /// `dimension` is 1 to max_dimensions.
   explicit BucketKdTree(std::size_t dimension);
 
   /// Adds a point; coordinates are finite and below 1e17. Its index is the number of points before.

@@ -13,8 +13,8 @@ namespace {
 /// Share of a coordinate that no rounding error here exceeds.
 constexpr double rounding = 1e-12;
 /// Cells never get so many that memory, or so small that rounding, is a matter.
-constexpr int most_cells = 1 << 22;
-constexpr double least_cell_in_slacks = 1e3;
+constexpr int max_cells = 1 << 22;
+constexpr double min_cell_in_slacks = 1e3;
 
 double magnitude(Vec2 p) { return std::abs(p.x) + std::abs(p.y); }
 
@@ -135,9 +135,9 @@ void EdgeGrid::choose_cells(double cell) {
         std::max(box_.width(), wide / count) * std::max(box_.height(), wide / count);
     cell = std::max(std::sqrt(area / (2 * count)), length / (4 * count));
   }
-  const double budget = std::max<double>(most_cells, 4 * count);
+  const double budget = std::max<double>(max_cells, 4 * count);
   cell = std::max({cell, std::sqrt(box_.width() * box_.height() / budget),
-                   (box_.width() + box_.height()) / budget, least_cell_in_slacks * slack_,
+                   (box_.width() + box_.height()) / budget, min_cell_in_slacks * slack_,
                    std::numeric_limits<double>::min()});
   cell_ = cell;
   per_cell_ = 1 / cell;

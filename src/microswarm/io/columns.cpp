@@ -11,7 +11,7 @@ namespace microswarm {
 namespace {
 
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
-constexpr double most_exact = 9007199254740992.0;  // 2^53
+constexpr double max_exact = 9007199254740992.0;  // 2^53
 
 double greatest_of(TypeKind kind) {
   switch (kind) {
@@ -22,7 +22,7 @@ double greatest_of(TypeKind kind) {
     case TypeKind::index:
       return std::numeric_limits<std::uint32_t>::max();
     default:
-      return most_exact;
+      return max_exact;
   }
 }
 

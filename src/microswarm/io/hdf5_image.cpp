@@ -14,7 +14,7 @@ namespace {
 
 static_assert(sizeof(hid_t) == sizeof(std::int64_t));
 
-constexpr hsize_t most_values = 100'000'000;
+constexpr hsize_t max_values = 100'000'000;
 constexpr hsize_t compressed_from = 4096;  // values: below, chunks cost more than they save
 constexpr hsize_t chunk = 16'384;
 constexpr std::size_t image_growth = 1 << 20;  // [bytes]
@@ -221,7 +221,7 @@ std::vector<T> read_column(const Hdf5Reader& reader, hid_t file, const std::stri
   if (H5Sget_simple_extent_ndims(space) != 1 || H5Tget_class(stored) != kind ||
       H5Sget_simple_extent_dims(space, &count, nullptr) != 1)
     reader.fail(path + " is no column of numbers of its kind");
-  if (count > most_values) reader.fail(path + " has more than 100,000,000 values");
+  if (count > max_values) reader.fail(path + " has more than 100,000,000 values");
   std::vector<T> values(count);
   if (count > 0 && H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     reader.fail(path + " is damaged");
@@ -232,7 +232,7 @@ std::vector<T> read_column(const Hdf5Reader& reader, hid_t file, const std::stri
 std::size_t text_size(hid_t type) {
   if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0) return 0;
   const std::size_t size = H5Tget_size(type);
-  return size <= most_values ? size : 0;
+  return size <= max_values ? size : 0;
 }
 
 std::string unpadded(std::string text) {

@@ -7,13 +7,13 @@
 #include "microswarm/learning/follower_expert.hpp"
 #include "microswarm/navigation/following/follower_model.hpp"
 #include "microswarm/navigation/following/path_follower.hpp"
-#include "microswarm/navigation/steering/helm.hpp"
+#include "microswarm/navigation/steering/steering_cycle.hpp"
 
 namespace microswarm {
 namespace {
 
 /// Beyond it an answer is next to the jump from π to -π, and no network can learn it [rad].
-constexpr double most_off_path = 2.5;
+constexpr double max_off_path = 2.5;
 
 /// Sees as a learned follower does, and asks the expert beside it.
 class Demonstrator : public Navigator {
@@ -23,40 +23,41 @@ class Demonstrator : public Navigator {
       : plant_(plant),
         path_(task.path),
         params_(std::get<PathNavigatorParams>(scenario.navigator)),
-        helm_(limits_of(scenario.swarm), params_.speed, *scenario.goal, scenario.goal_tolerance,
-              scenario.sensing.frame_timeout),
-        follower_(params_.follower, helm_.swarm()),
+        steering_(limits_of(scenario.swarm), params_.speed, *scenario.goal, scenario.goal_tolerance,
+                  scenario.sensing.frame_timeout),
+        follower_(params_.follower, steering_.swarm()),
         expert_(std::get<RibbonParams>(scenario.swarm), path_, params_.speed),
         expert_drives_(expert_drives) {}
 
   Command step(const Observation& seen, const Stop&) override {
-    const Command wanted = expert_.command(plant_.truth()->swarm.pose, seen.now);
-    if (helm_.sees_swarm(seen)) follower_.see(seen, helm_.forecast());
-    const Pose2* pose = helm_.begin(seen);
-    const Command command = pose ? drive(*pose, wanted) : helm_.rest();
+    const Command wanted = expert_.command(plant_.ground_truth()->swarm.pose, seen.now);
+    if (steering_.sees_swarm(seen)) follower_.update(seen, steering_.compensator());
+    const Pose2* pose = steering_.observe(seen);
+    const Command command = pose ? drive(*pose, wanted) : steering_.hold();
     expert_.note(seen.now, command);
     return command;
   }
-  NavigatorView view() const override { return helm_.view(); }
+  NavigatorView view() const override { return steering_.view(); }
 
   std::vector<Demonstration> shown;
 
  private:
   Command drive(const Pose2& pose, const Command& wanted) {
-    const FollowerSight sight = sight_of(follower_.query(path_, place_, pose, params_.speed));
-    const double off = wrap(wanted.heading - sight.bearing);
-    if (std::abs(off) < most_off_path)
-      shown.push_back({sight.features, {off, wanted.speed / params_.speed}});
-    if (expert_drives_) return helm_.issue(wanted, NavigatorState::follow);
+    const FollowerFeatures features =
+        features_of(follower_.query(path_, place_, pose, params_.speed));
+    const double off = wrap(wanted.heading - features.bearing);
+    if (std::abs(off) < max_off_path)
+      shown.push_back({features.features, {off, wanted.speed / params_.speed}});
+    if (expert_drives_) return steering_.command(wanted, NavigatorState::follow);
     const auto next =
         follower_.command(path_, place_, pose, params_.lookahead, params_.speed).command;
-    return helm_.issue(next, NavigatorState::follow);
+    return steering_.command(next, NavigatorState::follow);
   }
 
   const Plant& plant_;
   const std::vector<Vec2>& path_;
   PathNavigatorParams params_;
-  Helm helm_;
+  SteeringCycle steering_;
   PathFollower follower_;
   FollowerExpert expert_;
   PathPlace place_;

@@ -20,7 +20,7 @@ using Column = dlib::matrix<double, 0, 1>;
 /// both one by one.
 class Objective {
  public:
-  Objective(Network& network, const Examples& examples, const FitOptions& options)
+  Objective(MultilayerPerceptron& network, const Examples& examples, const FitOptions& options)
       : network_(network), examples_(examples), options_(options) {}
 
   double value(const Column& weights) {
@@ -45,7 +45,7 @@ class Objective {
   }
 
  private:
-  Network& network_;
+  MultilayerPerceptron& network_;
   const Examples& examples_;
   const FitOptions& options_;
   Column at_;
@@ -71,7 +71,7 @@ class Limit {
 };
 
 /// Each output of a layer gets weights that keep the spread of what comes in (Glorot 2010).
-void randomise(Network& network, Rng& rng) {
+void randomise(MultilayerPerceptron& network, Rng& rng) {
   auto w = network.weights.begin();
   for (std::size_t k = 0; k + 1 < network.layers.size(); ++k) {
     const std::size_t ins = network.layers[k], outs = network.layers[k + 1];
@@ -85,10 +85,10 @@ void randomise(Network& network, Rng& rng) {
 
 }  // namespace
 
-Network fit(std::vector<std::size_t> layers, const Examples& examples, const FitOptions& options,
-            Rng& rng, const Stop& stop) {
-  Network network{.layers = std::move(layers), .weights = {}};
-  network.weights.resize(Network::weight_count(network.layers));
+MultilayerPerceptron fit(std::vector<std::size_t> layers, const Examples& examples,
+                         const FitOptions& options, Rng& rng, const Stop& stop) {
+  MultilayerPerceptron network{.layers = std::move(layers), .weights = {}};
+  network.weights.resize(MultilayerPerceptron::weight_count(network.layers));
   randomise(network, rng);
   Objective objective(network, examples, options);
   Column weights(static_cast<long>(network.weights.size()));

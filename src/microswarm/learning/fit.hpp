@@ -7,7 +7,7 @@
 
 #include "microswarm/core/rng.hpp"
 #include "microswarm/core/stop.hpp"
-#include "microswarm/navigation/following/network.hpp"
+#include "microswarm/navigation/following/multilayer_perceptron.hpp"
 
 namespace microswarm {
 
@@ -31,12 +31,12 @@ struct FitOptions {
 
 /// Mean over the examples of the squared distance between answer and network, with its gradient by
 /// the weights (back-propagation). The sums run in an order that does not depend on `jobs`.
-double loss_with_gradient(const Network& network, const Examples& examples,
+double loss_with_gradient(const MultilayerPerceptron& network, const Examples& examples,
                           std::vector<double>& gradient, int jobs);
 
 /// A network of these layers that fits the examples: L-BFGS of dlib from random weights, all
 /// examples at once. The same examples and stream give the same bits on any number of threads.
-Network fit(std::vector<std::size_t> layers, const Examples& examples, const FitOptions& options,
-            Rng& rng, const Stop& stop = {});
+MultilayerPerceptron fit(std::vector<std::size_t> layers, const Examples& examples,
+                         const FitOptions& options, Rng& rng, const Stop& stop = {});
 
 }  // namespace microswarm

@@ -31,7 +31,7 @@ class ExpertNavigator : public Navigator {
                 std::get<RibbonParams>(task.scenario.swarm).max_speed) {}
 
   Command step(const Observation& seen, const Stop&) override {
-    const Command command = expert_.command(plant_.truth()->swarm.pose, seen.now);
+    const Command command = expert_.command(plant_.ground_truth()->swarm.pose, seen.now);
     expert_.note(seen.now, command);
     return command;
   }
@@ -71,9 +71,9 @@ class Gauge : public RunListener {
     const double ticks = std::max(1, ticks_);
     return {.arrived = result.status == Status::solved,
             .time = result.metrics.time,
-            .fair_time = way_left(path_, {}) / speed,
+            .fair_time = remaining(path_, {}) / speed,
             .rms_off = std::sqrt(sum_ / ticks),
-            .most_off = most_,
+            .max_off = most_,
             .field_turning = turning_ / std::max(1e-9, result.metrics.time),
             .fallback_share = fallbacks_ / ticks};
   }

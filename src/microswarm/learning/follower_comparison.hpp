@@ -18,7 +18,7 @@ struct FollowedPath {
   double time = 0;            ///< [s]
   double fair_time = 0;       ///< way at the speed asked for [s]
   double rms_off = 0;         ///< root mean square distance from the path [µm]
-  double most_off = 0;        ///< [µm]
+  double max_off = 0;         ///< [µm]
   double field_turning = 0;   ///< of the commanded heading, a second [rad/s]
   double fallback_share = 0;  ///< of the steps in which the learned follower handed over
 };

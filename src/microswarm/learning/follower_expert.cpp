@@ -31,17 +31,17 @@ SwarmLimits limits(const RibbonParams& swarm) {
 }  // namespace
 
 FollowerExpert::FollowerExpert(const RibbonParams& swarm, std::span<const Vec2> path, double speed)
-    : swarm_(swarm), path_(path), speed_(speed), forecast_(limits(swarm)) {
+    : swarm_(swarm), path_(path), speed_(speed), compensator_(limits(swarm)) {
   last_.heading = heading_of(path[1] - path[0]);
 }
 
 void FollowerExpert::note(double now, const Command& command) {
-  forecast_.note(now, {command.heading, swarm_.speed_factor * command.speed});
+  compensator_.note(now, {command.heading, swarm_.speed_factor * command.speed});
   if (command.speed > 0) last_ = command;
 }
 
 Command FollowerExpert::command(const Pose2& pose, double now) {
-  Pose2 at_effect = forecast_.at_effect(
+  Pose2 at_effect = compensator_.at_effect(
       {.now = now, .seen = now, .swarm = SwarmPose{pose, swarm_.radius}, .robots = {}});
   at_effect.position += swarm_.response_lag * swarm_.drift;
   place_ = nearest_place(path_, at_effect.position, place_);
@@ -82,7 +82,7 @@ FollowerExpert::Way FollowerExpert::play(Pose2 pose, PathPlace place, double loo
     const double turn = wrap(command.heading - heading);
     heading = command.heading;
     pose = moved(pose, command);
-    if (way_left(path_, place) < tick * speed_) break;
+    if (remaining(path_, place) < tick * speed_) break;
     const PathPlace now = nearest_place(path_, pose.position, place);
     const double off2 = squared_norm(pose.position - point_ahead(path_, now, 0));
     way.cost += (off2 / unit + turn_weight * turn * turn) / ticks;

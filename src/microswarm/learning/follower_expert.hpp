@@ -4,7 +4,7 @@
 #include <span>
 
 #include "microswarm/navigation/following/follower.hpp"
-#include "microswarm/navigation/steering/body_forecast.hpp"
+#include "microswarm/navigation/steering/delay_compensator.hpp"
 #include "microswarm/swarm/body/ribbon.hpp"
 
 namespace microswarm {
@@ -36,7 +36,7 @@ class FollowerExpert {
   RibbonParams swarm_;
   std::span<const Vec2> path_;
   double speed_;
-  BodyForecast forecast_;  ///< of the commands as the swarm really obeys them
+  DelayCompensator compensator_;  ///< of the commands as the swarm really obeys them
   PathPlace place_;
   Command last_;
 };

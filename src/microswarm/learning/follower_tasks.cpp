@@ -29,14 +29,14 @@ std::vector<Vec2> with_cut_corners(const std::vector<Vec2>& path) {
 /// Legs of random lengths around a main direction, from which none turns off by more than 75°: such
 /// a path does not come near to itself. Half of all are rounded.
 std::vector<Vec2> random_path(double unit, Rng& rng) {
-  constexpr double most_off = 75 * pi / 180;
+  constexpr double max_off = 75 * pi / 180;
   const double main = rng.uniform(-pi, pi);
   const auto legs = static_cast<int>(5 + rng.below(5));
   std::vector<Vec2> path{{0, 0}};
   double off = 0;
   for (int i = 0; i < legs; ++i) {
     path.push_back(path.back() + rng.uniform(0.6, 3) * unit * unit_vector(main + off));
-    off = std::clamp(off + 0.8 * rng.normal(), -most_off, most_off);
+    off = std::clamp(off + 0.8 * rng.normal(), -max_off, max_off);
   }
   if (rng.uniform() < 0.5) path = with_cut_corners(with_cut_corners(with_cut_corners(path)));
   return path;
@@ -51,7 +51,7 @@ Box around(const std::vector<Vec2>& path, double margin) {
   return {box.lo - Vec2{margin, margin}, box.hi + Vec2{margin, margin}};
 }
 
-double length_of(const std::vector<Vec2>& path) { return way_left(path, {}); }
+double length_of(const std::vector<Vec2>& path) { return remaining(path, {}); }
 
 }  // namespace
 
@@ -59,15 +59,15 @@ FollowerTask follower_task(const FollowerTaskParams& params, std::uint64_t seed,
                            std::uint32_t number) {
   constexpr double at_once = 200 * pi;  // [rad/s]
   Rng rng(seed, Purpose::learning, number);
-  const double speed = rng.uniform(params.least_speed, params.most_speed);
+  const double speed = rng.uniform(params.min_speed, params.max_speed);
   std::vector<Vec2> path = random_path(speed, rng);
   Scenario s;
   s.name = "follow";
   RibbonParams swarm{.radius = 20, .max_speed = speed};
-  swarm.max_turn_rate = rng.uniform(params.least_turn_rate, params.most_turn_rate);
+  swarm.max_turn_rate = rng.uniform(params.min_turn_rate, params.max_turn_rate);
   if (rng.uniform() < params.unlimited_share) swarm.max_turn_rate = at_once;
   swarm.response_lag = rng.uniform(0.05, 0.15);
-  swarm.drift = rng.uniform(0, params.most_flow) * speed * unit_vector(rng.uniform(-pi, pi));
+  swarm.drift = rng.uniform(0, params.max_flow) * speed * unit_vector(rng.uniform(-pi, pi));
   swarm.speed_factor = rng.uniform(1 - params.speed_error, 1 + params.speed_error);
   swarm.position_noise = rng.uniform(0, params.random_drift);
   swarm.heading_noise = rng.uniform(0, params.heading_noise);

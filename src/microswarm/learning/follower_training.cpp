@@ -99,7 +99,7 @@ Examples examples_of(const FollowerModel& model, const std::vector<Demonstration
   return examples;
 }
 
-double error_of(const Network& network, const Examples& examples, int jobs) {
+double error_of(const MultilayerPerceptron& network, const Examples& examples, int jobs) {
   std::vector<double> unused;
   return std::sqrt(loss_with_gradient(network, examples, unused, jobs) / 2);
 }

@@ -26,7 +26,7 @@ double dot(const Lanes& a, const Lanes& b) {
 /// Loss and gradient of some examples, `lanes` at a time.
 class Shard {
  public:
-  explicit Shard(const Network& network)
+  explicit Shard(const MultilayerPerceptron& network)
       : gradient(network.weights.size()), net_(network), values_(net_.layers.size()) {
     for (std::size_t k = 0; k < values_.size(); ++k) values_[k].resize(net_.layers[k]);
     errors_ = values_;
@@ -97,14 +97,14 @@ class Shard {
     }
   }
 
-  const Network& net_;
+  const MultilayerPerceptron& net_;
   std::vector<Layer> values_;
   std::vector<Layer> errors_;  // of the loss by the values
 };
 
 }  // namespace
 
-double loss_with_gradient(const Network& network, const Examples& examples,
+double loss_with_gradient(const MultilayerPerceptron& network, const Examples& examples,
                           std::vector<double>& gradient, int jobs) {
   const std::size_t count = examples.count();
   std::vector<Shard> shards((count + per_shard - 1) / per_shard, Shard(network));

@@ -8,7 +8,7 @@
 #include "microswarm/navigation/baselines/velocity_obstacle.hpp"
 #include "microswarm/navigation/following/path_navigator.hpp"
 #include "microswarm/navigation/gathering/aggregation_navigator.hpp"
-#include "microswarm/navigation/global_input/plan_player.hpp"
+#include "microswarm/navigation/global_input/plan_executor.hpp"
 #include "microswarm/navigation/hierarchical/hierarchical.hpp"
 #include "microswarm/navigation/predictive/predictive.hpp"
 #include "microswarm/navigation/radar/radar.hpp"
@@ -24,9 +24,9 @@ Made make(const HierarchicalParams& p, const Task& task, Rng rng) {
                                                  rng, task.frame_timeout);
 }
 
-Made make(const PlanPlayerParams& p, const Task& task, Rng rng) {
-  return std::make_unique<PlanPlayer>(p, *task.robots, task.goal_tolerance, task.tick, rng,
-                                      task.frame_timeout);
+Made make(const PlanExecutorParams& p, const Task& task, Rng rng) {
+  return std::make_unique<PlanExecutor>(p, *task.robots, task.goal_tolerance, task.tick, rng,
+                                        task.frame_timeout);
 }
 
 Made make(const AggregationParams& p, const Task& task, Rng rng) {
@@ -64,24 +64,38 @@ Made make(const PathNavigatorParams& p, const Task& task, Rng) {
                                          task.frame_timeout);
 }
 
-std::string_view lacks_body(const Task& task) {
+std::string_view missing_for_body(const Task& task) {
   if (task.robots) return "a swarm that is one body: it cannot steer robots one by one";
   return task.goal ? "" : "a goal";
 }
 
-std::string_view lacks(const HierarchicalParams&, const Task& task) { return lacks_body(task); }
-std::string_view lacks(const StraightParams&, const Task& task) { return lacks_body(task); }
-std::string_view lacks(const PotentialFieldParams&, const Task& task) { return lacks_body(task); }
-std::string_view lacks(const VelocityObstacleParams&, const Task& task) { return lacks_body(task); }
-std::string_view lacks(const PredictiveParams&, const Task& task) { return lacks_body(task); }
-std::string_view lacks(const RadarParams&, const Task& task) { return lacks_body(task); }
-std::string_view lacks(const PathNavigatorParams&, const Task& task) { return lacks_body(task); }
+std::string_view missing_requirement(const HierarchicalParams&, const Task& task) {
+  return missing_for_body(task);
+}
+std::string_view missing_requirement(const StraightParams&, const Task& task) {
+  return missing_for_body(task);
+}
+std::string_view missing_requirement(const PotentialFieldParams&, const Task& task) {
+  return missing_for_body(task);
+}
+std::string_view missing_requirement(const VelocityObstacleParams&, const Task& task) {
+  return missing_for_body(task);
+}
+std::string_view missing_requirement(const PredictiveParams&, const Task& task) {
+  return missing_for_body(task);
+}
+std::string_view missing_requirement(const RadarParams&, const Task& task) {
+  return missing_for_body(task);
+}
+std::string_view missing_requirement(const PathNavigatorParams&, const Task& task) {
+  return missing_for_body(task);
+}
 
-std::string_view lacks(const PlanPlayerParams&, const Task& task) {
+std::string_view missing_requirement(const PlanExecutorParams&, const Task& task) {
   return task.robots && !task.robots->goals.empty() ? "" : "robots with a goal each";
 }
 
-std::string_view lacks(const AggregationParams&, const Task& task) {
+std::string_view missing_requirement(const AggregationParams&, const Task& task) {
   if (!task.robots) return "robots";
   if (task.robots->contact != ContactRule::stop) return "robots that stop at walls";
   return task.goal ? "" : "one goal for all robots";
@@ -93,7 +107,7 @@ Issues validate(const RadarParams& p, const Task& task, const Map& map, const Is
   issues.add(validate_step(p, task.swarm));
   const Snapshot walls(std::shared_ptr<const Map>(std::shared_ptr<void>(), &map));
   for (std::size_t i = 0; i < p.waypoints.size(); ++i)
-    if (const auto why = walls.why_blocked(p.waypoints[i], task.swarm.radius); !why.empty())
+    if (const auto why = walls.blocked_reason(p.waypoints[i], task.swarm.radius); !why.empty())
       issues.add(fmt::format("waypoints_um.{}", i), fmt::format("waypoint {} {}", i + 1, why));
   return issues;
 }
@@ -107,8 +121,8 @@ Issues validate(const Other&, const Task&, const Map&, const IsGiven&) {
 
 }  // namespace
 
-std::string_view what_it_lacks(const NavigatorParams& params, const Task& task) {
-  return std::visit([&](const auto& p) { return lacks(p, task); }, params);
+std::string_view unsupported_reason(const NavigatorParams& params, const Task& task) {
+  return std::visit([&](const auto& p) { return missing_requirement(p, task); }, params);
 }
 
 Issues validate(const NavigatorParams& params, const Task& task, const Map& map,

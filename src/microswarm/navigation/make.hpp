@@ -25,7 +25,7 @@ struct Task {
 };
 
 /// What a navigator can steer: nothing when it can do the task, else what it lacks.
-std::string_view what_it_lacks(const NavigatorParams& params, const Task& task);
+std::string_view unsupported_reason(const NavigatorParams& params, const Task& task);
 
 /// Issues when the navigator's parameters make no sense together, for this swarm or on this map.
 Issues validate(const NavigatorParams& params, const Task& task, const Map& map,

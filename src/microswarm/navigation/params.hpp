@@ -8,7 +8,7 @@
 #include "microswarm/navigation/baselines/velocity_obstacle_params.hpp"
 #include "microswarm/navigation/following/path_navigator_params.hpp"
 #include "microswarm/navigation/gathering/aggregation_params.hpp"
-#include "microswarm/navigation/global_input/plan_player_params.hpp"
+#include "microswarm/navigation/global_input/plan_executor_params.hpp"
 #include "microswarm/navigation/hierarchical/hierarchical_params.hpp"
 #include "microswarm/navigation/predictive/predictive_params.hpp"
 #include "microswarm/navigation/radar/radar_params.hpp"
@@ -16,7 +16,7 @@
 namespace microswarm {
 
 /// Any navigator, chosen at run time by its `type`.
-using NavigatorParams = std::variant<HierarchicalParams, PlanPlayerParams, AggregationParams,
+using NavigatorParams = std::variant<HierarchicalParams, PlanExecutorParams, AggregationParams,
                                      RadarParams, StraightParams, PotentialFieldParams,
                                      VelocityObstacleParams, PredictiveParams, PathNavigatorParams>;
 
@@ -25,7 +25,7 @@ using NavigatorParams = std::variant<HierarchicalParams, PlanPlayerParams, Aggre
 NavigatorParams in_effect(const NavigatorParams& params);
 
 /// Least distance [µm] from its centre that the navigator keeps for a swarm seen as one body.
-double margin_of(const NavigatorParams& params);
+double required_clearance(const NavigatorParams& params);
 
 /// How near [µm] to the swarm's edge an obstacle is when it begins to be avoided, for metrics: the
 /// detection range d_r of the radar, and 50 µm of those that have none.

@@ -20,7 +20,7 @@ namespace {
 constexpr double picture_margin = 24;
 constexpr double title_height = 34;
 constexpr double foot_height = 52;
-constexpr double least_disc_radius = 4;  // of a disc that would else be lost
+constexpr double min_disc_radius = 4;  // of a disc that would else be lost
 
 constexpr double key_line = 22;  // height of a line of the legend
 
@@ -106,7 +106,7 @@ struct Picture::Impl {
 
   /// Where a text is to begin: as asked for, or a few lines lower or higher where none stands yet.
   Vec2 place_for_text(Vec2 wanted, double text_width, double size) {
-    constexpr int most_lines = 6;
+    constexpr int max_lines = 6;
     constexpr double gap = 3;  // [px]
     const double highest = top() + size + 2;
     const double lowest = std::max(highest, top() + view.height() * scale - gap);
@@ -114,7 +114,7 @@ struct Picture::Impl {
       return Box{{wanted.x - gap, y - size}, {wanted.x + text_width + gap, y + gap}};
     };
     double y = std::clamp(wanted.y, highest, lowest);
-    for (int k = 0; k <= 2 * most_lines; ++k) {
+    for (int k = 0; k <= 2 * max_lines; ++k) {
       const int lines = k % 2 == 1 ? (k + 1) / 2 : -k / 2;
       const double tried = std::clamp(wanted.y + lines * (size + gap), highest, lowest);
       const Box box = box_at(tried);
@@ -144,7 +144,7 @@ struct Picture::Impl {
   void trace(const Disc& d) const {
     const Vec2 c = at(d.centre);
     cairo_new_sub_path(cr);
-    cairo_arc(cr, c.x, c.y, std::max(d.radius * scale, least_disc_radius), 0, 2 * pi);
+    cairo_arc(cr, c.x, c.y, std::max(d.radius * scale, min_disc_radius), 0, 2 * pi);
   }
   void trace(const Polygon& polygon) const {
     trace(polygon.outer);

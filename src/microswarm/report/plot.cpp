@@ -26,7 +26,7 @@ namespace {
 constexpr std::array<const char*, 8> palette{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                              "#E69F00", "#56B4E9", "#333333", "#7A5C3E"};
 
-constexpr std::ptrdiff_t most_upright_letters = 4;  // of a label that is not turned
+constexpr std::ptrdiff_t max_upright_letters = 4;  // of a label that is not turned
 constexpr const char* band_colour = "#ececec";
 constexpr std::array<int, 7> markers{7, 5, 9, 11, 13, 8, 4};  // gnuplot's
 
@@ -136,7 +136,7 @@ std::string axes(const Plot& plot) {
     for (const Series& s : plot.series)
       if (s.style == PlotStyle::box && !s.x.empty()) names.push_back({s.label, s.x[0]});
   const bool wide = std::ranges::any_of(
-      names, [](const AxisTick& t) { return letters_of(t.label) > most_upright_letters; });
+      names, [](const AxisTick& t) { return letters_of(t.label) > max_upright_letters; });
   out += names.empty()
              ? "set xtics norotate autojustify auto\n"
              : fmt::format("set xtics {} {}\n",

@@ -8,7 +8,7 @@
 
 #include "microswarm/navigation/radar/radar_circles.hpp"
 #include "microswarm/navigation/radar/safety_radius.hpp"
-#include "microswarm/navigation/radar/wait_area.hpp"
+#include "microswarm/navigation/radar/wait_zone.hpp"
 
 namespace microswarm {
 namespace {
@@ -63,14 +63,14 @@ void draw_circles(Picture& picture, const Frame& frame, const RadarParams& param
 void draw_radar_marks(Picture& picture, const Record& record, const World& world) {
   const auto* params = std::get_if<RadarParams>(&record.scene.scenario.navigator);
   if (!params || record.frames.empty()) return;
-  for (const WaitArea& area : params->wait_areas) {
+  for (const WaitZone& area : params->wait_zones) {
     std::vector<Vec2> outline = outline_of(area).outer;
     outline.push_back(outline.front());
     picture.line(outline, waiting, 2, true);
   }
   for (std::size_t i = 0; i < params->waypoints.size(); ++i)
     picture.mark(params->waypoints[i], fmt::format("waypoint {}", i + 1), waiting);
-  if (!params->wait_areas.empty()) picture.legend("wait areas", waiting);
+  if (!params->wait_zones.empty()) picture.legend("wait areas", waiting);
   const Frame& frame = tightest(record);
   const Snapshot then = world.at(frame.t);
   for (const Body& body : then.moving().bodies()) draw_outline(picture, body);

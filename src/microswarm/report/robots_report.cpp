@@ -10,14 +10,14 @@
 #include <utility>
 
 #include "microswarm/experiment/scenario/scene.hpp"
-#include "microswarm/report/ground.hpp"
+#include "microswarm/report/map_background.hpp"
 #include "microswarm/report/page.hpp"
 #include "microswarm/report/plot.hpp"
 
 namespace microswarm {
 namespace {
 
-constexpr std::size_t most_numbered = 8;  // robots that get a colour and a number of their own
+constexpr std::size_t max_numbered = 8;  // robots that get a colour and a number of their own
 
 struct RobotsSubject {
   const Record& record;
@@ -25,7 +25,7 @@ struct RobotsSubject {
   World world;
   const Scenario& scenario() const { return record.scene.scenario; }
   std::string title() const { return title_of(record); }
-  bool few() const { return scenario().robots->starts.size() - 1 < most_numbered; }
+  bool few() const { return scenario().robots->starts.size() - 1 < max_numbered; }
 };
 
 Colour colour_of(const RobotsSubject& s, std::size_t robot) {

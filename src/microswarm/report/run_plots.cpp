@@ -9,14 +9,14 @@
 namespace microswarm {
 namespace {
 
-constexpr double most_ticks = 8;
+constexpr double max_ticks = 8;
 
-/// 1, 2, 5, 10, …: the least such step that gives no more than `most_ticks` up to `count`.
+/// 1, 2, 5, 10, …: the least such step that gives no more than `max_ticks` up to `count`.
 double whole_step(double count) {
   double power = 1;
   for (;;) {
     for (const double digit : {1.0, 2.0, 5.0})
-      if (count / (digit * power) <= most_ticks) return digit * power;
+      if (count / (digit * power) <= max_ticks) return digit * power;
     power *= 10;
   }
 }
@@ -66,7 +66,7 @@ Plot clearances(const Record& record) {
     bodies.x.push_back(f.t);
     bodies.y.push_back(f.obstacle_clearance);
   }
-  const double margin = margin_of(scenario.navigator);
+  const double margin = required_clearance(scenario.navigator);
   const double radius = limits_of(scenario.swarm).radius;
   plot.levels = {{"swarm's radius", radius}};
   if (margin > 0) plot.levels.push_back({"navigator's margin", margin});

@@ -10,7 +10,7 @@
 #include "microswarm/core/angles.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/planning/common/detection.hpp"
-#include "microswarm/report/ground.hpp"
+#include "microswarm/report/map_background.hpp"
 #include "microswarm/report/page.hpp"
 #include "microswarm/report/radar_marks.hpp"
 #include "microswarm/report/robots_report.hpp"
@@ -156,7 +156,7 @@ std::vector<std::vector<std::string>> run_numbers(const Record& record) {
           {"mean avoidance cost δ", fmt::format("{:.4g}", m.avoidance.mean_cost)},
           {"mean gap to the nearest obstacle in that time",
            m.avoidance.time > 0 ? um(m.avoidance.mean_gap) : "–"},
-          {"least gap to an obstacle", um(m.avoidance.least_gap)},
+          {"least gap to an obstacle", um(m.avoidance.min_gap)},
           {"time held", fmt::format("{:.1f} s", m.hold_time)},
           {"planning events", fmt::format("{}", m.planning_events)},
           {"planning time, mean ± sd",

@@ -57,10 +57,10 @@ void add_gates(Ground& ground, const Crosser& swarm, double x, double speed, Rng
     if (rng.below(2) == 0) continue;
     Valve valve{.span = width,
                 .thickness = 30,
-                .least_gap = rng.uniform(0, 40),
-                .greatest_gap = rng.uniform(2, 2.4) * gate,
+                .min_gap = rng.uniform(0, 40),
+                .max_gap = rng.uniform(2, 2.4) * gate,
                 .phase = rng.uniform()};
-    valve.period = pi / 2 * (valve.greatest_gap - valve.least_gap) / speed;
+    valve.period = pi / 2 * (valve.max_gap - valve.min_gap) / speed;
     const Obstacle gate_valve{valve, Still{{x + thickness / 2, low + width / 2}, 0}};
     ground.fixtures.push_back(gate_valve);
   }
@@ -130,8 +130,8 @@ Ground vessel_ground(const Crosser& swarm, Rng& rng) {
   shape.width = 3200;
   shape.height = 2400;
   shape.spacing = 800;
-  shape.least_half = 2 * swarm.half_passage + 70;
-  shape.most_half = shape.least_half + 60;
+  shape.min_half = 2 * swarm.half_passage + 70;
+  shape.max_half = shape.min_half + 60;
   shape.wander = 0.12;
   const ChannelGraph graph = random_channels(shape, rng);
   Ground ground;
@@ -145,7 +145,7 @@ Ground vessel_ground(const Crosser& swarm, Rng& rng) {
   }
   for (const auto& [a, b] : graph.channels)
     ground.lanes.push_back({graph.joints[a].centre, graph.joints[b].centre});
-  ground.lane_room = shape.least_half;
+  ground.lane_room = shape.min_half;
   ground.extent = 60;
   ground.enclosed = true;
   ground.goal = graph.joints[0].centre;

@@ -38,9 +38,8 @@ Shape random_shape(double most, double& extent, Rng& rng) {
   extent = most * rng.uniform(0.35, 1);
   if (kind < 3) return DiscShape{extent};
   if (kind < 5)
-    return BreathingDisc{.least_radius = extent * rng.uniform(0.4, 0.8),
-                         .greatest_radius = extent,
-                         .phase = rng.uniform()};
+    return BreathingDisc{
+        .min_radius = extent * rng.uniform(0.4, 0.8), .max_radius = extent, .phase = rng.uniform()};
   if (kind < 7) {
     const double slant = rng.uniform(0.25, 1.3);
     const Vec2 half = extent * unit_vector(slant);
@@ -50,8 +49,8 @@ Shape random_shape(double most, double& extent, Rng& rng) {
   const double span = 2 * extent;
   return Valve{.span = span,
                .thickness = 0.15 * span,
-               .least_gap = rng.uniform(0, 0.3) * span,
-               .greatest_gap = rng.uniform(0.5, 0.9) * span,
+               .min_gap = rng.uniform(0, 0.3) * span,
+               .max_gap = rng.uniform(0.5, 0.9) * span,
                .phase = rng.uniform()};
 }
 
@@ -150,8 +149,8 @@ Mover random_mover(const Ground& ground, const Crosser& swarm, double speed_rati
   const std::uint64_t kind = may_rest ? rng.below(8) : 1 + rng.below(7);
   mover.rests = kind == 0;
   mover.passes = kind == 1 || kind == 2;
-  const double most_own = std::min(speed, 0.5 * swarm.speed);
-  const double own = breathes ? (mover.rests ? speed : rng.uniform(0.2, 0.8) * most_own) : 0;
+  const double max_own = std::min(speed, 0.5 * swarm.speed);
+  const double own = breathes ? (mover.rests ? speed : rng.uniform(0.2, 0.8) * max_own) : 0;
   const double carried = speed - own;
   switch (kind) {
     case 0:

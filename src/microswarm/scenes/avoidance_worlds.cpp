@@ -123,7 +123,7 @@ class Referee {
 Ground random_ground(const AvoidanceOptions& options, const Crosser& swarm, int obstacles,
                      Rng& rng) {
   if (!options.walls) return open_ground(swarm, obstacles, rng);
-  const double slow = std::min(0.9, options.most_speed_ratio);
+  const double slow = std::min(0.9, options.max_speed_ratio);
   const std::uint64_t kind = rng.below(20);
   if (kind < 8) return scattered_ground(swarm, obstacles, rng);
   if (kind < 13) return gated_ground(swarm, slow * rng.uniform(0.3, 1), rng);
@@ -140,9 +140,9 @@ Scenario avoidance_scenario(std::uint64_t seed, const AvoidanceOptions& options)
   s.swarm = swarm;
   s.sensing = random_sensing(rng);
   s.seed = seed;
-  const double radius = greatest_radius(swarm);
+  const double radius = max_radius(swarm);
   const Crosser crosser{radius + avoidance_passage_gap, swarm.max_speed};
-  const auto most = static_cast<std::uint64_t>(options.most_obstacles);
+  const auto most = static_cast<std::uint64_t>(options.max_obstacles);
   const int asked = 1 + static_cast<int>(rng.below(most));
   const Ground ground = random_ground(options, crosser, asked, rng);
   s.map = ground.map;
@@ -162,9 +162,9 @@ Scenario avoidance_scenario(std::uint64_t seed, const AvoidanceOptions& options)
   Referee referee(ground, walls, crosser, radius);
   for (int i = 0; i < asked; ++i) {
     for (int k = 0; k < tries_each; ++k) {
-      const double ratio = rng.uniform(options.least_speed_ratio, options.most_speed_ratio);
+      const double ratio = rng.uniform(options.min_speed_ratio, options.max_speed_ratio);
       Mover mover =
-          random_mover(ground, crosser, ratio, options.least_speed_ratio < 1, s.time_limit, rng);
+          random_mover(ground, crosser, ratio, options.min_speed_ratio < 1, s.time_limit, rng);
       if (!referee.accepts(mover)) continue;
       s.obstacles.push_back(std::move(mover.obstacle));
       break;

@@ -13,15 +13,15 @@ struct AvoidanceOptions {
   bool walls = false;  ///< scattered ones, walls with gates, vessels, or a deforming channel
   /// Of the top speed of an obstacle's points to the swarm's speed. Below 1 some obstacles stand;
   /// what belongs to the walls (valves in gates, the deforming channel) is slower than 1 always.
-  double least_speed_ratio = 0.1;
-  double most_speed_ratio = 0.9;
-  int most_obstacles = 60;  ///< 1 … most are asked for; between walls fewer may fit
+  double min_speed_ratio = 0.1;
+  double max_speed_ratio = 0.9;
+  int max_obstacles = 60;  ///< 1 … most are asked for; between walls fewer may fit
 };
 
 /// Slow worlds, and those with every obstacle at 1 to 3 times the swarm's speed.
 inline constexpr AvoidanceOptions slow_obstacles{};
 inline constexpr AvoidanceOptions fast_obstacles{
-    .least_speed_ratio = 1, .most_speed_ratio = 3, .most_obstacles = 30};
+    .min_speed_ratio = 1, .max_speed_ratio = 3, .max_obstacles = 30};
 
 /// No obstacle is nearer to the swarm's edge at t = 0 than this [µm] and what it moves in a second.
 inline constexpr double avoidance_start_gap = 60;

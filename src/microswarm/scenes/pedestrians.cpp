@@ -12,7 +12,7 @@ namespace {
 
 constexpr double um_per_m = 150;
 constexpr double walker_radius = 45;
-constexpr double least_way = 900;  // from start to goal [µm]
+constexpr double min_way = 900;  // from start to goal [µm]
 constexpr Box street{{-1300, 550}, {1150, 3300}};
 constexpr Box inner{{-1000, 850}, {850, 3000}};
 
@@ -37,12 +37,12 @@ bool starts_apart(const Scenario& s) {
 }
 
 void place_ends(Scenario& s, Rng& rng) {
-  constexpr int most_tries = 1000;
-  for (int i = 0; i < most_tries; ++i) {
+  constexpr int max_tries = 1000;
+  for (int i = 0; i < max_tries; ++i) {
     s.start = Pose2{random_place(rng), 0};
     s.goal = random_place(rng);
     s.start->heading = heading_of(*s.goal - s.start->position);
-    if (distance(s.start->position, *s.goal) > least_way && starts_apart(s)) return;
+    if (distance(s.start->position, *s.goal) > min_way && starts_apart(s)) return;
   }
 }
 

@@ -104,7 +104,7 @@ class Generator {
     const Vec2 cell{shape_.width / columns_, shape_.height / rows_};
     const double dx = rng_.uniform(-shape_.wander, shape_.wander);
     const double dy = rng_.uniform(-shape_.wander, shape_.wander);
-    const double half = rng_.uniform(shape_.least_half, shape_.most_half);
+    const double half = rng_.uniform(shape_.min_half, shape_.max_half);
     const Vec2 centre{(place.column + 0.5 + dx) * cell.x, (place.row + 0.5 + dy) * cell.y};
     graph_.joints.push_back({centre, half});
     if (joint != from) graph_.channels.push_back({from, joint});
@@ -134,11 +134,11 @@ class Generator {
 
 // A network that has not died out early, or else the largest of some.
 ChannelGraph random_channels(const VascularShape& shape, Rng& rng) {
-  constexpr int most_tries = 20;
+  constexpr int max_tries = 20;
   const double places =
       std::floor(shape.width / shape.spacing) * std::floor(shape.height / shape.spacing);
   ChannelGraph best;
-  for (int i = 0; i < most_tries; ++i) {
+  for (int i = 0; i < max_tries; ++i) {
     ChannelGraph graph = Generator(shape, rng).grow();
     if (graph.joints.size() > best.joints.size()) best = std::move(graph);
     if (static_cast<double>(best.joints.size()) >= 0.8 * (1 - shape.missing) * places) break;
@@ -160,8 +160,8 @@ Vascular generated_vascular_network() {
   shape.width = 400;
   shape.height = 314;
   shape.spacing = 44;
-  shape.least_half = 5;
-  shape.most_half = 8;
+  shape.min_half = 5;
+  shape.max_half = 8;
   shape.missing = 0.1;
   shape.loops = 0.25;
   Rng rng(24, Purpose::scene);
@@ -177,7 +177,7 @@ Vascular random_vascular(const VascularShape& shape, Rng& rng) {
   v.name = "random_vascular";
   v.bounds = graph.bounds;
   v.walls = walls_of(graph);
-  v.width = shape.least_half + shape.most_half;
+  v.width = shape.min_half + shape.max_half;
   // In from the end of the dead end, as in the T-junction: 3 of 10 widths from its wall.
   const Disc end = graph.joints[0];
   const Vec2 out = end.centre - graph.joints[graph.channels[0].second].centre;

@@ -45,11 +45,11 @@ std::vector<Polygon> walls_of(const ChannelGraph& graph);
 
 /// What a generated map is like.
 struct VascularShape {
-  double width = 100;       ///< of the map [µm]
-  double height = 90;       ///< of the map [µm]
-  double spacing = 22;      ///< between joints, about [µm]
-  double least_half = 3.5;  ///< half the width of a channel [µm]
-  double most_half = 5;
+  double width = 100;     ///< of the map [µm]
+  double height = 90;     ///< of the map [µm]
+  double spacing = 22;    ///< between joints, about [µm]
+  double min_half = 3.5;  ///< half the width of a channel [µm]
+  double max_half = 5;
   double wander = 0.25;   ///< how far joints stray, in spacings
   double loops = 0.25;    ///< share of the channels beyond a tree that are kept
   double missing = 0.15;  ///< share of the places that have no joint

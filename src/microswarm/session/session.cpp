@@ -20,7 +20,7 @@ class OwnedRig : public Plant {
   bool set_obstacles(const std::vector<Obstacle>& obstacles) override {
     return plant_.set_obstacles(obstacles);
   }
-  std::optional<Truth> truth() const override { return plant_.truth(); }
+  std::optional<GroundTruth> ground_truth() const override { return plant_.ground_truth(); }
 
  private:
   Rig rig_;

@@ -10,7 +10,7 @@
 namespace microswarm {
 
 namespace {
-constexpr std::size_t most_ahead = 64;  // trials a thread
+constexpr std::size_t max_ahead = 64;  // trials a thread
 }  // namespace
 
 TrialResult run_task(const SweepPlan& plan, const SweepTask& task, const Stop& stop) {
@@ -56,7 +56,7 @@ std::vector<SweepRow> SweepCrew::take(std::chrono::milliseconds patience) {
   std::vector<SweepRow> rows = std::exchange(rows_, {});
   const auto jobs = static_cast<std::size_t>(jobs_);
   const bool waited = in_hand_ >= enough_ && in_hand_ - rows.size() < jobs;
-  if (waited) enough_ = std::min(2 * enough_, most_ahead * jobs);
+  if (waited) enough_ = std::min(2 * enough_, max_ahead * jobs);
   in_hand_ -= rows.size();
   return rows;
 }

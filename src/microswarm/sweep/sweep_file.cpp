@@ -60,9 +60,9 @@ class Checker {
     if (const auto twice = twin(keys)) need(false, "the grid has {} twice", quote(*twice));
     if (const auto twice = twin(names)) need(false, "two methods are called {}", quote(*twice));
     const std::size_t cells = cell_count(sweep);
-    need(cells <= most_cells, "more than {} cells", most_cells);
-    need(cells * static_cast<std::size_t>(sweep.trials) <= most_trials,
-         "more than {} trials in all", most_trials);
+    need(cells <= max_cells, "more than {} cells", max_cells);
+    need(cells * static_cast<std::size_t>(sweep.trials) <= max_trials, "more than {} trials in all",
+         max_trials);
   }
 
  private:
@@ -74,7 +74,7 @@ class Checker {
 std::size_t cell_count(const Sweep& sweep) {
   std::size_t cells = std::max<std::size_t>(1, sweep.methods.size());
   for (const SweepParameter& parameter : sweep.grid)
-    cells = std::min(cells * parameter.values.size(), most_cells + 1);
+    cells = std::min(cells * parameter.values.size(), max_cells + 1);
   return cells;
 }
 

@@ -17,9 +17,8 @@ struct SweepParameter {
   std::vector<std::string> values;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.key, {"key", Unit::none, {}, "Key of the scenario, as navigator.margin_um.", true});
-    visit(self.values,
-          {"values", Unit::none, {}, "What it is set to; lists and mappings in quotes.", true});
+    visit(self.key, {"key", Unit::none, {}, "Key of the scenario, such as swarm.radius_um.", true});
+    visit(self.values, {"values", Unit::none, {}, "Values; lists and mappings in quotes.", true});
   }
 };
 
@@ -29,8 +28,8 @@ struct SweepMethod {
   std::vector<std::string> set;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.name, {"name", Unit::none, {}, "What the method is called.", true});
-    visit(self.set, {"set", Unit::none, {}, "Settings KEY=VALUE, as of --set."});
+    visit(self.name, {"name", Unit::none, {}, "Name of the method.", true});
+    visit(self.set, {"set", Unit::none, {}, "Settings KEY=VALUE, as for --set."});
   }
 };
 
@@ -46,21 +45,21 @@ struct Sweep {
   std::optional<std::uint64_t> seed;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.name, {"name", Unit::none, {}, "What the sweep is called."});
-    visit(self.description, {"description", Unit::none, {}, "What it is for, for people."});
+    visit(self.name, {"name", Unit::none, {}, "Name of the sweep."});
+    visit(self.description, {"description", Unit::none, {}, "Description of the sweep."});
     visit(self.scenario,
           {"scenario", Unit::none, {}, "Scenario file, from the sweep file's folder.", true});
-    visit(self.set, {"set", Unit::none, {}, "Settings KEY=VALUE of all cells, as of --set."});
-    visit(self.grid, {"grid", Unit::none, {}, "Parameters; every combination is run."});
-    visit(self.methods, {"methods", Unit::none, {}, "What is compared, in every combination."});
+    visit(self.set, {"set", Unit::none, {}, "Settings KEY=VALUE of all cells, as for --set."});
+    visit(self.grid, {"grid", Unit::none, {}, "Parameters whose combinations are run."});
+    visit(self.methods, {"methods", Unit::none, {}, "Methods compared in every combination."});
     visit(self.trials, {"trials", Unit::none, {1, 1e6}, "Trials of each cell: 0 to n - 1.", true});
     visit(self.seed, {"seed", Unit::none, {}, "Seed in place of the scenario's."});
   }
 };
 
 /// Most cells, and most trials in all, that a sweep may have.
-inline constexpr std::size_t most_cells = 100'000;
-inline constexpr std::size_t most_trials = 10'000'000;
+inline constexpr std::size_t max_cells = 100'000;
+inline constexpr std::size_t max_trials = 10'000'000;
 
 /// Reads a sweep file. Without methods there is one, called "default". Throws InputError, one line,
 /// also for what contradicts itself: no values, a key, a value or a name given twice, too many.

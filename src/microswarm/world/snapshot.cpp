@@ -80,7 +80,7 @@ Survey Snapshot::survey(Disc circle) const {
   return survey;
 }
 
-std::string Snapshot::why_blocked(Vec2 p, double r) const {
+std::string Snapshot::blocked_reason(Vec2 p, double r) const {
   if (is_free(p, r)) return {};
   const Box& box = bounds();
   if (!box.contains(p)) {

@@ -40,7 +40,7 @@ class Snapshot {
   /// One line for people on why `p` is not free with clearance r: "is 12 µm inside wall 3", "is 7
   /// µm from obstacle 1, needs 40 µm", "is outside the map (0..2000 × 0..1000 µm)"; empty when
   /// free.
-  std::string why_blocked(Vec2 p, double r) const;
+  std::string blocked_reason(Vec2 p, double r) const;
 
  private:
   std::shared_ptr<const Map> map_;

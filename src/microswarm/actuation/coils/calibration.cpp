@@ -18,10 +18,10 @@ namespace microswarm {
 namespace {
 
 constexpr std::uint64_t max_bytes = 64ULL << 20;
-constexpr double largest = 1e9;         // of any number in the file
-constexpr double least_current = 1e-9;  // [A] less is none
+constexpr double largest = 1e9;       // of any number in the file
+constexpr double min_current = 1e-9;  // [A] less is none
 // Currents that differ by less than this share are the same current.
-constexpr double least_difference = 1e-6;
+constexpr double min_difference = 1e-6;
 
 constexpr std::array<std::string_view, 3> field_columns{"bx_mt", "by_mt", "bz_mt"};
 constexpr std::array<std::string_view, 3> place_columns{"x_um", "y_um", "z_um"};
@@ -132,12 +132,12 @@ FittedMatrix fit_matrix(const FieldMeasurements& measured, bool with_offset) {
   // Each column in its own measure, so that small currents count as large ones.
   Eigen::VectorXd scale = inputs.leftCols(n).cwiseAbs().colwise().maxCoeff().transpose();
   for (double& s : scale)
-    if (s < least_current) s = 1;
+    if (s < min_current) s = 1;
   inputs.leftCols(n) = inputs.leftCols(n) * scale.cwiseInverse().asDiagonal();
   if (with_offset) inputs.col(n).setOnes();
 
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(inputs);
-  qr.setThreshold(least_difference);
+  qr.setThreshold(min_difference);
   if (qr.rank() < inputs.cols()) {
     std::vector<std::string> open;
     const Eigen::MatrixXd unknown = null_space(qr);

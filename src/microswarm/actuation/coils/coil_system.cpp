@@ -28,7 +28,7 @@ WindingParams winding(const Eigen::Vector3d& centre, int axis, double radius, do
   return w;
 }
 
-void append(std::vector<Loop>& loops, const std::vector<Loop>& more) {
+void append(std::vector<CurrentLoop>& loops, const std::vector<CurrentLoop>& more) {
   loops.insert(loops.end(), more.begin(), more.end());
 }
 

@@ -20,14 +20,14 @@ namespace {
 
 constexpr int max_nodes = 1000;  // in one direction
 constexpr std::int64_t max_values = 4'000'000;
-constexpr double least_extent = 1e-9;  // [m]
-constexpr double most_field = 1e3;     // [T] of one ampere
+constexpr double min_extent = 1e-9;  // [m]
+constexpr double max_field = 1e3;    // [T] of one ampere
 
 /// A range of the grid that makes sense, else what is wrong with it.
 std::string complaint(int nodes, double least, double most) {
   if (nodes < 2 || nodes > max_nodes)
     return fmt::format("{} nodes in one direction, allowed 2..{}", nodes, max_nodes);
-  if (!(most - least >= least_extent))
+  if (!(most - least >= min_extent))
     return fmt::format("range {} .. {} m, must ascend", number_text(least), number_text(most));
   return {};
 }
@@ -35,9 +35,9 @@ std::string complaint(int nodes, double least, double most) {
 /// A field that could be, else what is wrong with it.
 std::string complaint(std::span<const double> field) {
   for (const double b : field)
-    if (!(std::abs(b) <= most_field))
+    if (!(std::abs(b) <= max_field))
       return fmt::format("a field of {} T for one ampere, allowed -{}..{}", number_text(b),
-                         number_text(most_field), number_text(most_field));
+                         number_text(max_field), number_text(max_field));
   return {};
 }
 

@@ -41,7 +41,7 @@ Eigen::Vector3d vector_of(const std::vector<double>& numbers, std::string_view k
   return Eigen::Vector3d::Zero();
 }
 
-std::vector<Loop> loops_of(const WindingParams& winding, Issues& issues) {
+std::vector<CurrentLoop> loops_of(const WindingParams& winding, Issues& issues) {
   const std::size_t before = issues.size();
   const Eigen::Vector3d centre = vector_of(winding.centre, "centre_um", issues);
   const Eigen::Vector3d axis = vector_of(winding.axis, "axis", issues);
@@ -53,7 +53,7 @@ std::vector<Loop> loops_of(const WindingParams& winding, Issues& issues) {
                            number_text(winding.thickness), number_text(2 * winding.radius)));
   if (issues.size() > before) return {};
   const Eigen::Vector3d unit = axis.normalized();
-  std::vector<Loop> loops;
+  std::vector<CurrentLoop> loops;
   for (const Node& along : nodes<20>(winding.length > 0))
     for (const Node& out : nodes<10>(winding.thickness > 0))
       loops.push_back({centre + 0.5 * winding.length * along.at * unit, unit,
@@ -62,9 +62,9 @@ std::vector<Loop> loops_of(const WindingParams& winding, Issues& issues) {
   return loops;
 }
 
-FieldGradient field_of(const std::vector<Loop>& loops, const Eigen::Vector3d& place) {
+FieldGradient field_of(const std::vector<CurrentLoop>& loops, const Eigen::Vector3d& place) {
   FieldGradient sum;
-  for (const Loop& loop : loops) sum += loop_field(loop, place);
+  for (const CurrentLoop& loop : loops) sum += loop_field(loop, place);
   return sum;
 }
 

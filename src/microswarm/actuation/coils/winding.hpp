@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "microswarm/actuation/coils/loop.hpp"
+#include "microswarm/actuation/coils/current_loop.hpp"
 #include "microswarm/core/fields.hpp"
 #include "microswarm/core/issue.hpp"
 
@@ -25,7 +25,7 @@ struct WindingParams {
     visit(self.axis, {"axis",
                       Unit::none,
                       {-1e6, 1e6},
-                      "Direction of the field within for a positive current, [x, y, z]."});
+                      "Direction of the field for a positive current, [x, y, z]."});
     visit(self.radius, {"radius", Unit::um, {1, 1e8}, "Radius of the middle turn.", true});
     visit(self.turns, {"turns", Unit::none, {1e-3, 1e6}, "Number of turns."});
     visit(self.length, {"length", Unit::um, {0, 1e8}, "Length along the axis; 0: a thin loop."});
@@ -47,10 +47,10 @@ struct CoilParams {
 
 /// The loops that stand for a winding: as many as make its field exact to about 1e-9 where the
 /// winding is farther away than half its length and thickness. Throws InputError at `where`.
-std::vector<Loop> loops_of(const WindingParams& winding, Issues& issues);
+std::vector<CurrentLoop> loops_of(const WindingParams& winding, Issues& issues);
 
 /// Field of several loops for one ampere.
-FieldGradient field_of(const std::vector<Loop>& loops, const Eigen::Vector3d& place);
+FieldGradient field_of(const std::vector<CurrentLoop>& loops, const Eigen::Vector3d& place);
 
 /// Three numbers of a list as a vector; InputError "KEY has 2 numbers, must be [x, y, z]".
 Eigen::Vector3d vector_of(const std::vector<double>& numbers, std::string_view key, Issues& issues);

@@ -11,10 +11,10 @@ namespace microswarm {
 namespace {
 
 // Of a turn's length: what is owed across the heading is made up for on so long a way, as quicker
-// turns would owe more than they make up for; more than `most_owed` is forgotten; and no more than
-// `most_rolled` is rolled at once, as half a turn has no direction.
-constexpr double catch_up_way = 0.25, most_owed = 0.5, most_rolled = 0.4;
-constexpr double most_haste = 2;  // times the commanded speed, when something is owed
+// turns would owe more than they make up for; more than `max_owed` is forgotten; and no more than
+// `max_rolled` is rolled at once, as half a turn has no direction.
+constexpr double catch_up_way = 0.25, max_owed = 0.5, max_rolled = 0.4;
+constexpr double max_haste = 2;  // times the commanded speed, when something is owed
 
 }  // namespace
 
@@ -58,22 +58,21 @@ void FieldGenerator::turn_to(double heading, double dt) {
 void FieldGenerator::roll(double dt) {
   const double length = params_.length_per_turn;
   owed_ += dt * velocity_;
-  if (const double most = most_owed * length; norm(owed_) > most)
-    owed_ = most / norm(owed_) * owed_;
+  if (const double most = max_owed * length; norm(owed_) > most) owed_ = most / norm(owed_) * owed_;
   const double speed = norm(velocity_);
   if (speed > 0) {
     const double wanted = heading_of(owed_ + catch_up_way * length / speed * velocity_);
     const bool backwards = std::abs(wrap(wanted - heading_)) > pi / 2;
     turn_to(backwards ? wanted + pi : wanted, dt);
   }
-  const double fastest = std::min(length * params_.frequency, most_haste * speed);
-  const double most = std::min(fastest * dt, most_rolled * length);
+  const double fastest = std::min(length * params_.frequency, max_haste * speed);
+  const double most = std::min(fastest * dt, max_rolled * length);
   const double way = std::clamp(dot(owed_, unit_vector(heading_)), -most, most);
   frequency_ = dt > 0 ? way / length / dt : 0;
   phase_ = std::fmod(phase_ + 2 * pi * (1 + way / length), 2 * pi);
   const Eigen::Vector3d before = field_;
   update_field();
-  owed_ -= rolled_way(before, field_, length);
+  owed_ -= rolled_distance(before, field_, length);
 }
 
 double FieldGenerator::max_rate() const {

@@ -25,7 +25,8 @@ Eigen::Vector3d rolling_field(double amplitude, double heading, double phase) {
   return amplitude * Eigen::Vector3d(forward * ahead.x, forward * ahead.y, -down);
 }
 
-Vec2 rolled_way(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double length_per_turn) {
+Vec2 rolled_distance(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                     double length_per_turn) {
   const Eigen::Vector3d axis = from.cross(to);
   const double sine = axis.norm();
   if (sine == 0) return {};

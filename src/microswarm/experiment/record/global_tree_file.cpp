@@ -92,7 +92,7 @@ class Reader {
   }
 
   void read_root() {
-    tree_.robots = static_cast<std::size_t>(whole("robots", 1, most_global_robots));
+    tree_.robots = static_cast<std::size_t>(whole("robots", 1, max_global_robots));
     tree_.robostep = length("robostep_um", 1e-3);
     tree_.separation = length("separation_um", 0);
     const auto directions = static_cast<int>(whole("directions", 3, 256));

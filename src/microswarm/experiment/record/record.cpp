@@ -77,13 +77,13 @@ void Recorder::on_tick(const Tick& tick) {
 }
 
 void Recorder::keep_robots(double t, std::span<const Vec2> robots) {
-  constexpr std::size_t most_moments = 128;
+  constexpr std::size_t max_moments = 128;
   last_robots_ = {t, {robots.begin(), robots.end()}};
   if (robot_frames_++ % robot_period_ != 0) return;
   std::vector<RobotMoment>& kept = record_.robots;
-  if (kept.size() == most_moments) {
+  if (kept.size() == max_moments) {
     for (std::size_t i = 1; 2 * i < kept.size(); ++i) kept[i] = std::move(kept[2 * i]);
-    kept.resize(most_moments / 2);
+    kept.resize(max_moments / 2);
     robot_period_ *= 2;
   }
   kept.push_back(last_robots_);

@@ -53,7 +53,8 @@ std::vector<Answer> answers(double speed, int directions) {
                                    const SwarmBody& body) {
   return std::all_of(log.contacts().begin(), log.contacts().end(), [&](const RunEvent& contact) {
     if (contact.t < t || contact.t > t + tick) return true;
-    return distance(moment_on(body.swept(), contact.t - t).pose.position, contact.position) < 1e-3;
+    return distance(moment_on(body.trajectory(), contact.t - t).pose.position, contact.position) <
+           1e-3;
   });
 }
 
@@ -107,7 +108,7 @@ bool stays_free(const ContactMonitor& fresh, const State& from, const Answer& an
   while (now.t < until) {
     const bool begins = now.t - from.t < answer.until - 1e-9;
     now.body.step(begins ? answer.first : answer.second, tick, now.drift);
-    if (!watch.follow(now.t, now.body.swept()).empty()) return false;
+    if (!watch.follow(now.t, now.body.trajectory()).empty()) return false;
     now.t += tick;
   }
   return true;

@@ -13,9 +13,9 @@ namespace microswarm {
 
 namespace {
 
-constexpr int most_samples = 20'000;  // of one obstacle in one way
+constexpr int max_samples = 20'000;  // of one obstacle in one way
 
-double top_speed_of(std::span<const TimedPose> way) {
+double top_speed_of(std::span<const PoseStamped> way) {
   double speed = 0;
   for (std::size_t i = 1; i < way.size(); ++i)
     speed = std::max(speed, distance(way[i - 1].pose.position, way[i].pose.position) /
@@ -24,7 +24,7 @@ double top_speed_of(std::span<const TimedPose> way) {
 }
 
 /// Of the radius [µm/s].
-double top_growth_of(std::span<const TimedPose> way) {
+double top_growth_of(std::span<const PoseStamped> way) {
   double growth = 0;
   for (std::size_t i = 1; i < way.size(); ++i)
     if (way[i].radius != way[i - 1].radius)
@@ -38,12 +38,12 @@ double clearance_of(Vec2 p, const Body& body) {
 }
 
 /// The least a distance can have been between two moments when it changes by `reach` at most.
-double least_between(double at_first, double at_last, double reach) {
+double min_between(double at_first, double at_last, double reach) {
   const double sum = at_first + at_last;
   return sum < infinity ? (sum - reach) / 2 : std::min(at_first, at_last) - reach;
 }
 
-double speed_at(std::span<const TimedPose> way, double t) {
+double speed_at(std::span<const PoseStamped> way, double t) {
   for (std::size_t i = 1; i < way.size(); ++i)
     if (way[i].t >= t)
       return distance(way[i - 1].pose.position, way[i].pose.position) / (way[i].t - way[i - 1].t);
@@ -54,7 +54,7 @@ double speed_at(std::span<const TimedPose> way, double t) {
 
 struct ContactMonitor::Way {
   double t0;
-  std::span<const TimedPose> poses;
+  std::span<const PoseStamped> poses;
   double top_speed;
   double top_growth;
 };
@@ -67,21 +67,21 @@ void ContactMonitor::take_obstacles() {
   touching_.resize(world_->obstacles.size(), false);
 }
 
-std::vector<RunEvent> ContactMonitor::follow(double t0, std::span<const TimedPose> swept) {
+std::vector<RunEvent> ContactMonitor::follow(double t0, std::span<const PoseStamped> trajectory) {
   std::vector<RunEvent> events;
-  if (swept.empty()) return events;
-  const Way way{t0, swept, top_speed_of(swept), top_growth_of(swept)};
+  if (trajectory.empty()) return events;
+  const Way way{t0, trajectory, top_speed_of(trajectory), top_growth_of(trajectory)};
   if (const auto touch = wall_touch(way)) events.push_back(*touch);
   for (std::uint32_t i = 0; i < world_->obstacles.size(); ++i) {
     const std::optional<Sample> touch = first_touch(way, i);
     if (touch && !touching_[i])
       events.push_back({.t = t0 + touch->t,
                         .kind = EventKind::contact_obstacle,
-                        .position = moment_on(swept, touch->t).pose.position,
+                        .position = moment_on(trajectory, touch->t).pose.position,
                         .clearance = touch->clearance,
-                        .speed = speed_at(swept, touch->t),
+                        .speed = speed_at(trajectory, touch->t),
                         .body = i});
-    touching_[i] = touch && sample(way, i, swept.back().t).gap < 0;
+    touching_[i] = touch && sample(way, i, trajectory.back().t).gap < 0;
   }
   std::stable_sort(events.begin(), events.end(),
                    [](const RunEvent& a, const RunEvent& b) { return a.t < b.t; });
@@ -91,13 +91,13 @@ std::vector<RunEvent> ContactMonitor::follow(double t0, std::span<const TimedPos
 ContactMonitor::Sample ContactMonitor::sample(const Way& way, std::uint32_t obstacle, double t) {
   bodies_.clear();
   append_bodies(world_->obstacles[obstacle], obstacle, way.t0 + t, bodies_);
-  const TimedPose swarm = moment_on(way.poses, t);
+  const PoseStamped swarm = moment_on(way.poses, t);
   double clearance = infinity;
   for (const Body& body : bodies_)
     clearance = std::min(clearance, clearance_of(swarm.pose.position, body));
   if (clearance < obstacles_.clearance) obstacles_ = {clearance, way.t0 + t};
   const double gap = clearance - swarm.radius;
-  least_gap_ = std::min(least_gap_, gap);
+  min_gap_ = std::min(min_gap_, gap);
   return {t, clearance, gap};
 }
 
@@ -110,16 +110,15 @@ std::optional<ContactMonitor::Sample> ContactMonitor::first_touch(const Way& way
   std::vector<std::pair<Sample, Sample>> open{
       {sample(way, obstacle, 0), sample(way, obstacle, way.poses.back().t)}};
   if (open.back().first.gap < 0) touch = open.back().first;
-  for (int n = 0; n < most_samples && !open.empty(); ++n) {
+  for (int n = 0; n < max_samples && !open.empty(); ++n) {
     const auto [a, b] = open.back();
     open.pop_back();
     if (std::min(a.clearance, b.clearance) == infinity) continue;  // absent at both ends
-    const double least = least_between(a.clearance, b.clearance, rate * (b.t - a.t));
-    const double least_gap = least_between(a.gap, b.gap, gap_rate * (b.t - a.t));
-    const bool may_touch =
-        !touch && least_gap < 0 && std::min(a.gap, b.gap) - least_gap > resolution;
+    const double least = min_between(a.clearance, b.clearance, rate * (b.t - a.t));
+    const double min_gap = min_between(a.gap, b.gap, gap_rate * (b.t - a.t));
+    const bool may_touch = !touch && min_gap < 0 && std::min(a.gap, b.gap) - min_gap > resolution;
     const bool may_be_nearest =
-        least < obstacles_.clearance - resolution || least_gap < least_gap_ - resolution;
+        least < obstacles_.clearance - resolution || min_gap < min_gap_ - resolution;
     if (may_touch || may_be_nearest) {
       const Sample middle = sample(way, obstacle, (a.t + b.t) / 2);
       open.push_back({middle, b});
@@ -138,12 +137,12 @@ std::optional<RunEvent> ContactMonitor::wall_touch(const Way& way) {
   std::optional<RunEvent> event;
   bool touching = touching_wall_;
   for (std::size_t i = 0; i < way.poses.size(); ++i) {
-    const TimedPose& here = way.poses[i];
-    const TimedPose& before = way.poses[i > 0 ? i - 1 : 0];
+    const PoseStamped& here = way.poses[i];
+    const PoseStamped& before = way.poses[i > 0 ? i - 1 : 0];
     const Segment piece{before.pose.position, here.pose.position};
     const double radius = std::max(before.radius, here.radius);
-    const double way_length = distance(piece.a, piece.b);
-    if (map.field().lower(piece.b) - way_length >= std::max(walls_.clearance, radius)) {
+    const double path_length_um = distance(piece.a, piece.b);
+    if (map.field().lower(piece.b) - path_length_um >= std::max(walls_.clearance, radius)) {
       touching = false;
       continue;
     }
@@ -153,12 +152,12 @@ std::optional<RunEvent> ContactMonitor::wall_touch(const Way& way) {
     if (clearance < walls_.clearance) walls_ = {clearance, way.t0 + here.t};
     const bool touches = clearance < radius;
     if (touches && !touching && !event) {
-      const std::size_t body = map.walls().nearest(piece.b, clearance + way_length);
+      const std::size_t body = map.walls().nearest(piece.b, clearance + path_length_um);
       event = {.t = way.t0 + here.t,
                .kind = EventKind::contact_wall,
                .position = piece.b,
                .clearance = clearance,
-               .speed = i > 0 ? way_length / (here.t - before.t) : 0,
+               .speed = i > 0 ? path_length_um / (here.t - before.t) : 0,
                .body = body < map.walls().bodies().size() && clearance < border
                            ? map.walls().bodies()[body].obstacle
                            : border_body};
@@ -169,10 +168,11 @@ std::optional<RunEvent> ContactMonitor::wall_touch(const Way& way) {
   return event;
 }
 
-std::optional<double> first_arrival(std::span<const TimedPose> swept, Vec2 goal, double tolerance) {
-  for (std::size_t i = 0; i < swept.size(); ++i) {
-    const TimedPose& a = swept[i > 0 ? i - 1 : 0];
-    const TimedPose& b = swept[i];
+std::optional<double> first_arrival(std::span<const PoseStamped> trajectory, Vec2 goal,
+                                    double tolerance) {
+  for (std::size_t i = 0; i < trajectory.size(); ++i) {
+    const PoseStamped& a = trajectory[i > 0 ? i - 1 : 0];
+    const PoseStamped& b = trajectory[i];
     const double share =
         first_contact(Segment{a.pose.position, b.pose.position}, tolerance, Disc{goal, 0});
     if (share <= 1) return a.t + share * (b.t - a.t);
@@ -180,12 +180,12 @@ std::optional<double> first_arrival(std::span<const TimedPose> swept, Vec2 goal,
   return std::nullopt;
 }
 
-TimedPose moment_on(std::span<const TimedPose> swept, double t) {
-  const auto after =
-      std::find_if(swept.begin(), swept.end(), [t](const TimedPose& pose) { return pose.t >= t; });
-  if (after == swept.end()) return swept.back();
-  if (after == swept.begin()) return *after;
-  const TimedPose& a = *std::prev(after);
+PoseStamped moment_on(std::span<const PoseStamped> trajectory, double t) {
+  const auto after = std::find_if(trajectory.begin(), trajectory.end(),
+                                  [t](const PoseStamped& pose) { return pose.t >= t; });
+  if (after == trajectory.end()) return trajectory.back();
+  if (after == trajectory.begin()) return *after;
+  const PoseStamped& a = *std::prev(after);
   const double share = (t - a.t) / (after->t - a.t);
   return {t,
           {a.pose.position + share * (after->pose.position - a.pose.position),

@@ -29,14 +29,15 @@ class ContactMonitor {
   /// To be called when the world's obstacles are others than before.
   void take_obstacles();
 
-  /// Follows the way `swept`, which begins at time t0, and returns the touches that begin in it, in
-  /// order of time. Obstacles that were touched at the end of the last way do not begin anew.
-  std::vector<RunEvent> follow(double t0, std::span<const TimedPose> swept);
+  /// Follows the way `trajectory`, which begins at time t0, and returns the touches that begin in
+  /// it, in order of time. Obstacles that were touched at the end of the last way do not begin
+  /// anew.
+  std::vector<RunEvent> follow(double t0, std::span<const PoseStamped> trajectory);
 
   const LeastClearance& walls() const { return walls_; }
   const LeastClearance& obstacles() const { return obstacles_; }
   /// Least distance from the swarm's edge to an obstacle, below 0 when it touched one [µm].
-  double least_gap() const { return least_gap_; }
+  double min_gap() const { return min_gap_; }
 
  private:
   struct Sample {
@@ -54,16 +55,17 @@ class ContactMonitor {
   std::vector<double> top_speeds_;
   LeastClearance walls_;
   LeastClearance obstacles_;
-  double least_gap_ = std::numeric_limits<double>::infinity();
+  double min_gap_ = std::numeric_limits<double>::infinity();
   std::vector<bool> touching_;
   bool touching_wall_ = false;
   std::vector<Body> bodies_;
 };
 
-/// When [s, counted as in `swept`] the way first comes within `tolerance` of the goal.
-std::optional<double> first_arrival(std::span<const TimedPose> swept, Vec2 goal, double tolerance);
+/// When [s, counted as in `trajectory`] the way first comes within `tolerance` of the goal.
+std::optional<double> first_arrival(std::span<const PoseStamped> trajectory, Vec2 goal,
+                                    double tolerance);
 
 /// Where the swarm is on its way at time t, clamped to its ends; the way must not be empty.
-TimedPose moment_on(std::span<const TimedPose> swept, double t);
+PoseStamped moment_on(std::span<const PoseStamped> trajectory, double t);
 
 }  // namespace microswarm

@@ -14,10 +14,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// Ends a way at time t.
-void cut(std::vector<TimedPose>& way, double t) {
-  TimedPose end = moment_on(way, t);
+void cut(std::vector<PoseStamped>& way, double t) {
+  PoseStamped end = moment_on(way, t);
   end.t = t;
-  std::erase_if(way, [t](const TimedPose& pose) { return pose.t >= t && pose.t > 0; });
+  std::erase_if(way, [t](const PoseStamped& pose) { return pose.t >= t && pose.t > 0; });
   if (t > 0) way.push_back(end);
 }
 
@@ -31,8 +31,8 @@ Episode::Episode(const Scenario& scenario, Plant& plant, Navigator& navigator)
       detection_range_(scenario.detection_range.value_or(detection_range_of(scenario.navigator))) {
   if (scenario.start) present_.pose = *scenario.start;
   take_goal();
-  const auto truth = plant.truth();
-  if (truth && !scenario.robots) contacts_.emplace(*truth->world);
+  const auto ground_truth = plant.ground_truth();
+  if (ground_truth && !scenario.robots) contacts_.emplace(*ground_truth->world);
 }
 
 void Episode::take_goal() {
@@ -53,7 +53,7 @@ const Tick* Episode::step(const Stop& stop) {
   if (tick_.end) return nullptr;
   tick_ = {};
   events_.clear();
-  swept_.clear();
+  trajectory_.clear();
   changes_ = std::exchange(coming_changes_, {});
   tick_.changes = changes_;
   const double ticks = std::ceil(scenario_.time_limit / scenario_.tick - 1e-9);
@@ -61,7 +61,7 @@ const Tick* Episode::step(const Stop& stop) {
   if (!ending_ && stop()) ending_ = Status::stopped;
   if (ending_ || !advance(stop)) end();
   tick_.events = events_;
-  tick_.swept = swept_;
+  tick_.trajectory = trajectory_;
   if (contacts_) tick_.contacts = &*contacts_;
   return &tick_;
 }
@@ -69,7 +69,7 @@ const Tick* Episode::step(const Stop& stop) {
 /// False where the episode is over before the tick has begun.
 bool Episode::advance(const Stop& stop) {
   const Observation seen = obstacles_.complete(plant_.observe());
-  was_seen_ = was_seen_ || seen.swarm || plant_.truth();
+  was_seen_ = was_seen_ || seen.swarm || plant_.ground_truth();
   if (scenario_.robots && !task_) begin_with_robots(seen);
   present_ = present(seen);
   if (!plant_.fault().empty()) {
@@ -104,20 +104,22 @@ bool Episode::advance(const Stop& stop) {
     return true;
   }
   plant_.apply(command, scenario_.tick);
-  if (contacts_) ending_ = follow(*plant_.truth());
+  if (contacts_) ending_ = follow(*plant_.ground_truth());
   return true;
 }
 
 void Episode::begin_with_robots(const Observation& seen) {
   task_.emplace(scenario_, seen.world->map());
-  const auto truth = plant_.truth();
-  if (truth || seen.swarm) present_.pose = truth ? truth->swarm.pose : seen.swarm->pose;
+  const auto ground_truth = plant_.ground_truth();
+  if (ground_truth || seen.swarm)
+    present_.pose = ground_truth ? ground_truth->swarm.pose : seen.swarm->pose;
 }
 
 Episode::Present Episode::present(const Observation& seen) {
-  if (const auto truth = plant_.truth())
-    return {truth->now, truth->swarm.pose, scenario_.robots ? 0 : truth->swarm.radius, truth->speed,
-            left(truth->swarm.pose.position, truth->robots)};
+  if (const auto ground_truth = plant_.ground_truth())
+    return {ground_truth->now, ground_truth->swarm.pose,
+            scenario_.robots ? 0 : ground_truth->swarm.radius, ground_truth->speed,
+            left(ground_truth->swarm.pose.position, ground_truth->robots)};
   if (!seen.swarm)
     return {seen.now, present_.pose, present_.radius, present_.speed, present_.goal_distance};
   const double passed = seen.now - present_.t;
@@ -140,25 +142,25 @@ double Episode::hold(const Command& command) {
 }
 
 /// Contact and arrival on the way just made, in the order in which they came.
-std::optional<Status> Episode::follow(const Truth& truth) {
+std::optional<Status> Episode::follow(const GroundTruth& ground_truth) {
   const double t0 = present_.t;
-  swept_.assign(truth.swept.begin(), truth.swept.end());
-  const auto arrival = first_arrival(swept_, *scenario_.goal, scenario_.goal_tolerance);
-  if (arrival) cut(swept_, *arrival);
+  trajectory_.assign(ground_truth.trajectory.begin(), ground_truth.trajectory.end());
+  const auto arrival = first_arrival(trajectory_, *scenario_.goal, scenario_.goal_tolerance);
+  if (arrival) cut(trajectory_, *arrival);
   const ContactMonitor before = *contacts_;
-  const std::vector<RunEvent> touches = contacts_->follow(t0, swept_);
+  const std::vector<RunEvent> touches = contacts_->follow(t0, trajectory_);
   const bool ends = !touches.empty() && scenario_.stop_at_contact;
   if (ends) {
-    cut(swept_, touches.front().t - t0);
+    cut(trajectory_, touches.front().t - t0);
     *contacts_ = before;  // what would have come after the touch is none of its clearances
-    contacts_->follow(t0, swept_);
+    contacts_->follow(t0, trajectory_);
   }
   touched_ = touched_ || !touches.empty();
   events_.insert(events_.end(), touches.begin(), ends ? touches.begin() + 1 : touches.end());
-  if (!swept_.empty()) {
-    const TimedPose& last = swept_.back();
-    present_ = {t0 + last.t, last.pose, last.radius, ends ? touches.front().speed : truth.speed,
-                left(last.pose.position, {})};
+  if (!trajectory_.empty()) {
+    const PoseStamped& last = trajectory_.back();
+    present_ = {t0 + last.t, last.pose, last.radius,
+                ends ? touches.front().speed : ground_truth.speed, left(last.pose.position, {})};
   }
   if (ends) return Status::collided;
   if (!arrival) return std::nullopt;
@@ -183,11 +185,11 @@ void Episode::end() {
 
 /// Fills in what the world is like at the present.
 void Episode::fill(const Observation& seen) {
-  const auto truth = plant_.truth();
-  world_ = truth ? truth->world->at(present_.t) : *seen.world;
+  const auto ground_truth = plant_.ground_truth();
+  world_ = ground_truth ? ground_truth->world->at(present_.t) : *seen.world;
   tick_.world = &*world_;
   if (task_) {
-    const std::span<const Vec2> robots = truth ? truth->robots : seen.robots;
+    const std::span<const Vec2> robots = ground_truth ? ground_truth->robots : seen.robots;
     robots_.assign(robots.begin(), robots.end());
     tick_.robots = robots_;
   }

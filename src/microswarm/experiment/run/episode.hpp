@@ -57,7 +57,7 @@ class Episode {
   Present present(const Observation& seen);
   double left(Vec2 centre, std::span<const Vec2> robots);
   double hold(const Command& command);
-  std::optional<Status> follow(const Truth& truth);
+  std::optional<Status> follow(const GroundTruth& ground_truth);
   void fill(const Observation& seen);
   Status arrived();
   void note(EventKind kind);
@@ -85,7 +85,7 @@ class Episode {
   std::vector<std::string> coming_changes_;
   std::vector<std::string> changes_;
   std::vector<RunEvent> events_;
-  std::vector<TimedPose> swept_;
+  std::vector<PoseStamped> trajectory_;
   std::string fault_;
 };
 

@@ -15,7 +15,7 @@ MetricsListener::MetricsListener(const Scenario& scenario)
 
 void MetricsListener::on_tick(const Tick& tick) {
   move_to(tick.frame.pose);
-  for (const TimedPose& pose : tick.swept) move_to(pose.pose);
+  for (const PoseStamped& pose : tick.trajectory) move_to(pose.pose);
   for (const RunEvent& event : tick.events) {
     const bool touch =
         event.kind == EventKind::contact_wall || event.kind == EventKind::contact_obstacle;
@@ -57,7 +57,7 @@ void MetricsListener::note_clearances(const Tick& tick) {
   if (tick.contacts) {
     metrics.walls = tick.contacts->walls();
     metrics.obstacles = tick.contacts->obstacles();
-    metrics.avoidance.least_gap = tick.contacts->least_gap();
+    metrics.avoidance.min_gap = tick.contacts->min_gap();
     return;
   }
   const Frame& frame = tick.frame;
@@ -65,8 +65,8 @@ void MetricsListener::note_clearances(const Tick& tick) {
     metrics.walls = {frame.wall_clearance, frame.t};
   if (frame.obstacle_clearance < metrics.obstacles.clearance)
     metrics.obstacles = {frame.obstacle_clearance, frame.t};
-  metrics.avoidance.least_gap =
-      std::min(metrics.avoidance.least_gap, frame.obstacle_clearance - frame.radius);
+  metrics.avoidance.min_gap =
+      std::min(metrics.avoidance.min_gap, frame.obstacle_clearance - frame.radius);
 }
 
 void MetricsListener::note_end(const Tick& tick) {

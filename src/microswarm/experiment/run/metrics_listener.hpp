@@ -7,7 +7,7 @@
 
 namespace microswarm {
 
-/// Sums up a run: its metrics, and how long the navigator took. Without the plant's truth,
+/// Sums up a run: its metrics, and how long the navigator took. Without the plant's ground_truth,
 /// clearances are those of what was seen.
 class MetricsListener : public RunListener {
  public:

@@ -29,7 +29,7 @@ Observation KinematicPlant::observe() {
   const bool missed = noise_.uniform() < sensing_.missed_share;
   const double dx = noise_.normal(), dy = noise_.normal(), turn = noise_.normal();
   if (missed) return observation;
-  const TimedPose was = moment_on(history_, seen);
+  const PoseStamped was = moment_on(history_, seen);
   Pose2 pose = was.pose;
   pose.position += sensing_.position_noise * Vec2{dx, dy};
   if (sensing_.heading_noise > 0) pose.heading = wrap(pose.heading + sensing_.heading_noise * turn);
@@ -61,12 +61,12 @@ Snapshot KinematicPlant::frame_at(double t) {
 
 void KinematicPlant::apply(const Command& command, double dt) {
   swarm_.step(command, dt, drift_);
-  for (const TimedPose& pose : swarm_.swept().subspan(1))
+  for (const PoseStamped& pose : swarm_.trajectory().subspan(1))
     history_.push_back({now_ + pose.t, pose.pose, pose.radius});
   now_ += dt;
   const double oldest = now_ - sensing_.observation_delay;
   const auto still_seen = std::find_if(history_.begin(), history_.end() - 1,
-                                       [&](const TimedPose& p) { return p.t > oldest; });
+                                       [&](const PoseStamped& p) { return p.t > oldest; });
   if (still_seen - history_.begin() > 1) history_.erase(history_.begin(), still_seen - 1);
 }
 
@@ -75,13 +75,13 @@ bool KinematicPlant::set_obstacles(const std::vector<Obstacle>& obstacles) {
   return true;
 }
 
-std::optional<Truth> KinematicPlant::truth() const {
-  return Truth{.now = now_,
-               .swarm = swarm_.pose(),
-               .speed = swarm_.speed(),
-               .swept = swarm_.swept(),
-               .robots = {},
-               .world = &world_};
+std::optional<GroundTruth> KinematicPlant::ground_truth() const {
+  return GroundTruth{.now = now_,
+                     .swarm = swarm_.pose(),
+                     .speed = swarm_.speed(),
+                     .trajectory = swarm_.trajectory(),
+                     .robots = {},
+                     .world = &world_};
 }
 
 }  // namespace microswarm

@@ -22,7 +22,7 @@ class KinematicPlant : public Plant {
   Observation observe() override;
   void apply(const Command& command, double dt) override;
   bool set_obstacles(const std::vector<Obstacle>& obstacles) override;
-  std::optional<Truth> truth() const override;
+  std::optional<GroundTruth> ground_truth() const override;
 
  private:
   Snapshot frame_at(double t);
@@ -34,7 +34,7 @@ class KinematicPlant : public Plant {
   Rng noise_;
   Rng obstacle_noise_;
   double now_ = 0;
-  std::vector<TimedPose> history_;  // covers the observation delay
+  std::vector<PoseStamped> history_;  // covers the observation delay
 };
 
 }  // namespace microswarm

@@ -75,14 +75,14 @@ void RobotPlant::apply(const Command& command, double dt) {
     history_.pop_front();
 }
 
-std::optional<Truth> RobotPlant::truth() const {
+std::optional<GroundTruth> RobotPlant::ground_truth() const {
   const std::vector<Vec2>& robots = history_.back().robots;
-  return Truth{.now = now_,
-               .swarm = body_of(robots, command_.heading),
-               .speed = command_.speed,
-               .swept = {},
-               .robots = robots,
-               .world = &world_};
+  return GroundTruth{.now = now_,
+                     .swarm = body_of(robots, command_.heading),
+                     .speed = command_.speed,
+                     .trajectory = {},
+                     .robots = robots,
+                     .world = &world_};
 }
 
 std::vector<Vec2> RobotPlant::robots_at(double t) const {

@@ -22,7 +22,7 @@ class RobotPlant : public Plant {
 
   Observation observe() override;
   void apply(const Command& command, double dt) override;
-  std::optional<Truth> truth() const override;
+  std::optional<GroundTruth> ground_truth() const override;
 
  private:
   struct Moment {

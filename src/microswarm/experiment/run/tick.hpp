@@ -25,7 +25,7 @@ struct Tick {
   /// What was changed since the last tick, "navigator.speed_um_per_s=60", in its order.
   std::span<const std::string> changes;
   std::span<const RunEvent> events;
-  std::span<const TimedPose> swept;          ///< the swarm's way in the tick, where it is known
+  std::span<const PoseStamped> trajectory;   ///< the swarm's way in the tick, where it is known
   const ContactMonitor* contacts = nullptr;  ///< up to the tick's end; null where nobody knows
   double step_time = 0;                      ///< wall-clock time of the navigator's step [s]
   std::optional<Status> end;                 ///< of the last tick, which has only a frame

@@ -34,13 +34,13 @@ std::string goal_text(const std::string& why, const Scenario& scenario) {
 // What the swarm fits through, its navigator may still refuse.
 Issues validate_margin(const Scenario& scenario, const World& world) {
   Issues issues;
-  const double margin = margin_of(scenario.navigator);
+  const double margin = required_clearance(scenario.navigator);
   const Snapshot walls(world.map);
   const auto target = reachable_goal(walls, *scenario.goal, scenario.goal_tolerance, margin);
   if (!target) {
-    issues.add(
-        {"goal_um", "navigator.margin_um"},
-        goal_text(walls.why_blocked(*scenario.goal, margin) + " (navigator.margin_um)", scenario));
+    issues.add({"goal_um", "navigator.clearance_um"},
+               goal_text(walls.blocked_reason(*scenario.goal, margin) + " (navigator.clearance_um)",
+                         scenario));
     return issues;
   }
   const WidestPath way = widest_path(*world.map, scenario.start->position, *target, margin);
@@ -51,8 +51,8 @@ Issues validate_margin(const Scenario& scenario, const World& world) {
                                ? fmt::format(": about {:.3g} µm are left at ({:.4g}, {:.4g}) µm",
                                              way.clearance, way.tightest.x, way.tightest.y)
                                : "";
-  issues.add("navigator.margin_um",
-             fmt::format("navigator.margin_um is {:.4g}, wider than the passages to the goal "
+  issues.add("navigator.clearance_um",
+             fmt::format("navigator.clearance_um is {:.4g}, wider than the passages to the goal "
                          "allow{}",
                          margin, left));
   return issues;
@@ -63,7 +63,8 @@ Issues validate_body(const Scenario& scenario, const World& world) {
   const double radius = limits_of(scenario.swarm).radius;
   if (!scenario.start)
     issues.add("start", "missing key 'start'");
-  else if (const auto why = world.at(0).why_blocked(scenario.start->position, radius); !why.empty())
+  else if (const auto why = world.at(0).blocked_reason(scenario.start->position, radius);
+           !why.empty())
     issues.add("start", fmt::format("start {}", why));
   if (!scenario.goal) {
     issues.add("goal_um", "missing key 'goal_um'");
@@ -73,7 +74,7 @@ Issues validate_body(const Scenario& scenario, const World& world) {
   const Snapshot walls(world.map);
   const auto target = reachable_goal(walls, *scenario.goal, scenario.goal_tolerance, radius);
   if (!target)
-    issues.add("goal_um", goal_text(walls.why_blocked(*scenario.goal, radius), scenario));
+    issues.add("goal_um", goal_text(walls.blocked_reason(*scenario.goal, radius), scenario));
   if (!issues.empty()) return issues;
   issues = validate_path(*world.map, scenario.start->position, *target, radius);
   if (issues.empty()) issues = validate_margin(scenario, world);
@@ -102,7 +103,7 @@ Issues validate(const Scenario& scenario, const World& world, const IsGiven& is_
   Issues issues = validate_sensing(scenario);
   if (scenario.robots) issues.add(validate_robots(scenario));
   const bool is_complete = issues.empty() && (scenario.robots || scenario.goal);
-  const auto lack = what_it_lacks(scenario.navigator, task_of(scenario));
+  const auto lack = unsupported_reason(scenario.navigator, task_of(scenario));
   if (is_complete && !lack.empty())
     issues.add({"navigator.type", "navigator"}, fmt::format("this navigator needs {}", lack));
   issues.add_within("navigator", validate(scenario.navigator, task_of(scenario), *world.map,

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "microswarm/navigation/radar/wait_area.hpp"
+#include "microswarm/navigation/radar/wait_zone.hpp"
 #include "microswarm/world/map/map.hpp"
 #include "microswarm/world/world.hpp"
 
@@ -41,16 +41,16 @@ Issues validate_legs(const std::vector<Stage>& stages, const Map& map) {
 }
 
 /// Why the swarm would never get past a valve in the area, or nothing.
-std::string never_opens(const WaitArea& area, const Valve& valve) {
-  const bool opens = valve.greatest_gap >= valve.span ||   // then nothing stands there
-                     valve.least_gap >= area.least_gap ||  // it is never too narrow
-                     valve.greatest_gap > area.least_gap;
+std::string never_opens(const WaitZone& area, const Valve& valve) {
+  const bool opens = valve.max_gap >= valve.span ||    // then nothing stands there
+                     valve.min_gap >= area.min_gap ||  // it is never too narrow
+                     valve.max_gap > area.min_gap;
   if (opens) return {};
-  return fmt::format("least_gap_um is {:.6g}, the valve in it opens to {:.6g} µm", area.least_gap,
-                     valve.greatest_gap);
+  return fmt::format("min_gap_um is {:.6g}, the valve in it opens to {:.6g} µm", area.min_gap,
+                     valve.max_gap);
 }
 
-Issues validate_area(const WaitArea& area, const Scenario& scenario, const Map& map) {
+Issues validate_area(const WaitZone& area, const Scenario& scenario, const Map& map) {
   Issues issues;
   const Box b = map.bounds();
   const Body ground{Polygon{{b.lo, {b.hi.x, b.lo.y}, b.hi, {b.lo.x, b.hi.y}}, {}}};
@@ -63,10 +63,10 @@ Issues validate_area(const WaitArea& area, const Scenario& scenario, const Map& 
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i) {
     const auto* valve = std::get_if<Valve>(&scenario.obstacles[i].shape);
     const auto* still = std::get_if<Still>(&scenario.obstacles[i].motion);
-    if (!valve || (still && !is_in(area, still->position))) continue;
+    if (!valve || (still && !contains(area, still->position))) continue;
     has_valve = true;
     if (const std::string why = never_opens(area, *valve); still && !why.empty())
-      issues.add("least_gap_um", fmt::format("{} (obstacle {})", why, i + 1));
+      issues.add("min_gap_um", fmt::format("{} (obstacle {})", why, i + 1));
   }
   if (!has_valve) issues.add("centre_um", "the middle of no valve is in it");
   return issues;
@@ -79,10 +79,10 @@ Issues validate_radar(const Scenario& scenario, const World& world) {
   const auto* radar = std::get_if<RadarParams>(&scenario.navigator);
   if (!radar || !scenario.start || !scenario.goal) return issues;
   if (!radar->waypoints.empty()) issues.add(validate_legs(stages_of(scenario, *radar), *world.map));
-  for (std::size_t i = 0; i < radar->wait_areas.size(); ++i)
-    issues.add_within(fmt::format("navigator.wait_areas.{}", i),
-                      validate_area(radar->wait_areas[i], scenario, *world.map),
-                      fmt::format("wait area {}", i + 1));
+  for (std::size_t i = 0; i < radar->wait_zones.size(); ++i)
+    issues.add_within(fmt::format("navigator.wait_zones.{}", i),
+                      validate_area(radar->wait_zones[i], scenario, *world.map),
+                      fmt::format("wait zone {}", i + 1));
   return issues;
 }
 

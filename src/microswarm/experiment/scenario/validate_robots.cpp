@@ -34,10 +34,10 @@ Issues validate_robots(const Scenario& scenario) {
     issues.add("robots.goals_um",
                fmt::format("robots.goals_um has {} places, robots.starts_um has {}",
                            robots.goals.size(), robots.starts.size()));
-  if (robots.starts.size() > most_global_robots)
+  if (robots.starts.size() > max_global_robots)
     issues.add("robots.goals_um",
                fmt::format("{} robots with goals of their own, at most {} can be planned for",
-                           robots.starts.size(), most_global_robots));
+                           robots.starts.size(), max_global_robots));
   return issues;
 }
 
@@ -47,7 +47,7 @@ Issues validate_robot_positions(const Scenario& scenario, const Map& map) {
   std::vector<Vec2> goals = robots.goals;
   if (scenario.goal) {
     const Snapshot world(std::shared_ptr<const Map>(std::shared_ptr<void>(), &map));
-    if (const auto why = world.why_blocked(*scenario.goal, 0); !why.empty())
+    if (const auto why = world.blocked_reason(*scenario.goal, 0); !why.empty())
       issues.add("goal_um", fmt::format("goal {}", why));
     if (!issues.empty()) return issues;
     goals.assign(robots.starts.size(), *scenario.goal);
@@ -61,7 +61,7 @@ Issues validate_robot_paths(const Map& map, std::span<const Vec2> starts,
   Issues issues;
   const Snapshot world(std::shared_ptr<const Map>(std::shared_ptr<void>(), &map));
   const auto is_free = [&](std::size_t robot, const char* what, Vec2 p, double radius) {
-    const std::string why = world.why_blocked(p, radius);
+    const std::string why = world.blocked_reason(p, radius);
     if (!why.empty())
       issues.add(fmt::format("robots.{}s_um.{}", what, robot),
                  fmt::format("robot {}: {} {}", robot + 1, what, why));

@@ -10,7 +10,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double most_nearness = 20;  // of influence / gap: what pushes at a touch
+constexpr double max_nearness = 20;   // of influence / gap: what pushes at a touch
 constexpr double stencil = 5;         // of the gradient of the walls' push [µm]
 constexpr double resting = 2;         // slower is taken to stand [µm/s]
 constexpr double guarded_time = 0.2;  // a command lasts no longer [s]
@@ -39,53 +39,54 @@ PotentialFieldNavigator::PotentialFieldNavigator(const PotentialFieldParams& par
                                                  const SwarmLimits& swarm, Vec2 goal,
                                                  double goal_tolerance, double frame_timeout)
     : params_(params),
-      helm_(swarm, params.speed, goal, goal_tolerance, frame_timeout),
+      steering_(swarm, params.speed, goal, goal_tolerance, frame_timeout),
       guide_(params.guide, goal),
       tracker_(params.tracker) {}
 
 void PotentialFieldNavigator::prepare(const Snapshot& world) {
-  const double radius = helm_.swarm().radius;
-  helm_.prepare(world, radius, radius + params_.margin);
-  guide_.prepare(world.map(), helm_.aim(), radius + params_.margin, radius);
+  const double radius = steering_.swarm().radius;
+  steering_.prepare(world, radius, radius + params_.gap);
+  guide_.prepare(world.map(), steering_.aim().position, radius + params_.gap, radius);
 }
 
 Command PotentialFieldNavigator::step(const Observation& seen, const Stop&) {
-  tracker_.see(seen);
-  const Pose2* pose = helm_.begin(seen);
-  if (!pose) return helm_.rest();
+  tracker_.update(seen);
+  const Pose2* pose = steering_.observe(seen);
+  if (!pose) return steering_.hold();
   const Snapshot& world = *seen.world;
   const Vec2 p = pose->position;
   const Vec2 target = guide_.target(world.map(), p);
-  helm_.show_target(target);
+  steering_.view().local_target = target;
   const Vec2 draw = unit_vector(heading_of(target - p));
   Vec2 pushes = push_of_walls(world.map(), p);
   const auto bodies = world.moving().bodies();
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    pushes += push_of(bodies[i], tracker_.body(i), p, helm_.speed() * draw);
+    pushes += push_of(bodies[i], tracker_.body(i), p, steering_.speed() * draw);
   const Vec2 force = draw + pushes;
   const Command hold{pose->heading, 0};
-  if (norm(force) < params_.least_force) return helm_.issue(hold, NavigatorState::stuck);
+  if (norm(force) < params_.min_force) return steering_.command(hold, NavigatorState::stuck);
   if (const auto command = clear_of_walls(world.map(), *pose, force))
-    return helm_.issue(*command, pushes == Vec2{} ? NavigatorState::follow : NavigatorState::avoid);
-  return helm_.issue(hold, NavigatorState::hold);
+    return steering_.command(*command,
+                             pushes == Vec2{} ? NavigatorState::follow : NavigatorState::avoid);
+  return steering_.command(hold, NavigatorState::hold);
 }
 
 /// Strength of a push at a gap [µm].
 double PotentialFieldNavigator::push(double gap, double influence) const {
   if (gap >= influence) return 0;
-  const double x = std::min(most_nearness, influence / std::max(gap, 1e-9));
+  const double x = std::min(max_nearness, influence / std::max(gap, 1e-9));
   return params_.repulsion * (x - 1) * x * x;
 }
 
 /// What stands pushes less near the goal, or a goal beside a wall could not be reached (GNRON).
 double PotentialFieldNavigator::calm_near_goal(Vec2 p) const {
-  return std::min(1.0, distance(p, helm_.aim()) / params_.influence);
+  return std::min(1.0, distance(p, steering_.aim().position) / params_.influence);
 }
 
 /// The gradient of the clearance points away from the nearest wall; between two walls its central
 /// differences cancel out.
 Vec2 PotentialFieldNavigator::push_of_walls(const Map& map, Vec2 p) const {
-  const double edge = helm_.swarm().radius + params_.margin;
+  const double edge = steering_.swarm().radius + params_.gap;
   const double gap = map.clearance(p) - edge;
   if (gap >= params_.wall_influence) return {};
   const auto slope = [&](Vec2 d) {
@@ -100,7 +101,8 @@ Vec2 PotentialFieldNavigator::push_of_walls(const Map& map, Vec2 p) const {
 /// without obstacles: pushed by its present one, it would go back and forth before what stands.
 Vec2 PotentialFieldNavigator::push_of(const Body& body, const TrackedBody& motion, Vec2 p,
                                       Vec2 wanted) const {
-  const Vec2 at = p - helm_.delay() * motion.velocity;  // in the frame of the body as it was seen
+  const Vec2 at =
+      p - steering_.delay() * motion.velocity;  // in the frame of the body as it was seen
   const bool inside = depth_in(body, at) >= 0;
   const Vec2 way = (inside ? motion.centre : nearest_of(body, at)) - at;
   const double d = norm(way);
@@ -109,10 +111,10 @@ Vec2 PotentialFieldNavigator::push_of(const Body& body, const TrackedBody& motio
   const Vec2 relative = wanted - motion.velocity;
   const double growth = outward_speed(body, motion);
   const double closing = std::max(0.0, dot(relative, n)) + growth;
-  const double gap = (inside ? 0 : d) - helm_.swarm().radius - params_.margin -
-                     helm_.delay() * growth - params_.reaction_time * closing;
+  const double gap = (inside ? 0 : d) - steering_.swarm().radius - params_.gap -
+                     steering_.delay() * growth - params_.reaction_time * closing;
   const Vec2 across = relative - dot(relative, n) * n;
-  const double spoke = std::max(helm_.swarm().radius, distance(at, motion.centre));
+  const double spoke = std::max(steering_.swarm().radius, distance(at, motion.centre));
   const double calm = norm(motion.velocity) < resting ? calm_near_goal(p) : 1;
   return calm * push(gap, params_.influence) * ((params_.reaction_time / spoke) * across - n);
 }
@@ -120,12 +122,12 @@ Vec2 PotentialFieldNavigator::push_of(const Body& body, const TrackedBody& motio
 /// The command that follows the force, or the nearest direction beside it, and into no wall.
 std::optional<Command> PotentialFieldNavigator::clear_of_walls(const Map& map, const Pose2& pose,
                                                                Vec2 force) const {
-  constexpr int most_aside = 5;
+  constexpr int max_aside = 5;
   constexpr double step_aside = pi / 10;
-  const double turn_rate = helm_.swarm().max_turn_rate;
-  const double r = std::min(helm_.swarm().radius, (1 - 1e-9) * map.clearance(pose.position));
-  const double speed = helm_.speed() * std::min(1.0, norm(force));
-  for (int k = 0; k <= 2 * most_aside; ++k) {
+  const double turn_rate = steering_.swarm().max_turn_rate;
+  const double r = std::min(steering_.swarm().radius, (1 - 1e-9) * map.clearance(pose.position));
+  const double speed = steering_.speed() * std::min(1.0, norm(force));
+  for (int k = 0; k <= 2 * max_aside; ++k) {
     const int steps = k % 2 == 0 ? -k / 2 : (k + 1) / 2;
     const double aside = steps * step_aside;
     Command command{wrap(heading_of(force) + aside), speed};

@@ -4,7 +4,7 @@
 #include "microswarm/navigation/baselines/potential_field_params.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker.hpp"
 #include "microswarm/navigation/steering/guide.hpp"
-#include "microswarm/navigation/steering/helm.hpp"
+#include "microswarm/navigation/steering/steering_cycle.hpp"
 
 namespace microswarm {
 
@@ -18,7 +18,7 @@ class PotentialFieldNavigator : public Navigator {
 
   void prepare(const Snapshot& world) override;
   Command step(const Observation& observation, const Stop& stop) override;
-  NavigatorView view() const override { return helm_.view(); }
+  NavigatorView view() const override { return steering_.view(); }
 
  private:
   double push(double gap, double influence) const;
@@ -28,7 +28,7 @@ class PotentialFieldNavigator : public Navigator {
   std::optional<Command> clear_of_walls(const Map& map, const Pose2& pose, Vec2 force) const;
 
   PotentialFieldParams params_;
-  Helm helm_;
+  SteeringCycle steering_;
   GoalGuide guide_;
   ObstacleTracker tracker_;
 };

@@ -7,40 +7,41 @@ namespace microswarm {
 namespace {
 
 constexpr double lookahead_tick = 0.1;  // of the look ahead [s]
-constexpr int most_ticks = 200;
+constexpr int max_ticks = 200;
 
 }  // namespace
 
 void StraightNavigator::prepare(const Snapshot& world) {
-  helm_.prepare(world, helm_.swarm().radius, helm_.swarm().radius + params_.margin);
+  steering_.prepare(world, steering_.swarm().radius, steering_.swarm().radius + params_.gap);
 }
 
 Command StraightNavigator::step(const Observation& seen, const Stop&) {
-  const Pose2* pose = helm_.begin(seen);
-  if (!pose) return helm_.rest();
-  helm_.show_target(helm_.aim());
-  if (!way_is_clear(*seen.world, *pose))
-    return helm_.issue({pose->heading, 0}, NavigatorState::hold);
-  return helm_.issue({heading_of(helm_.aim() - pose->position), helm_.speed()},
-                     NavigatorState::follow);
+  const Pose2* pose = steering_.observe(seen);
+  if (!pose) return steering_.hold();
+  steering_.view().local_target = steering_.aim().position;
+  if (!path_is_clear(*seen.world, *pose))
+    return steering_.command({pose->heading, 0}, NavigatorState::hold);
+  return steering_.command(
+      {heading_of(steering_.aim().position - pose->position), steering_.speed()},
+      NavigatorState::follow);
 }
 
 /// The way to the goal as the swarm turns into it, up to the stop distance.
-bool StraightNavigator::way_is_clear(const Snapshot& world, Pose2 pose) const {
+bool StraightNavigator::path_is_clear(const Snapshot& world, Pose2 pose) const {
   constexpr double rounding = 1e-9;
-  const double wanted = helm_.swarm().radius + params_.margin;
+  const double wanted = steering_.swarm().radius + params_.gap;
   const double here = (1 - rounding) * world.clearance(pose.position);
   const double from_bodies = std::min(wanted, here);
   const double from_walls =
-      std::min(helm_.wall_clearance(wanted, pose.position, params_.stop_distance), here);
-  double left = std::min(params_.stop_distance, distance(pose.position, helm_.aim()));
-  for (int k = 0; k < most_ticks && left > rounding; ++k) {
-    const Command command{heading_of(helm_.aim() - pose.position), helm_.speed()};
-    const bool aligned = std::isinf(helm_.swarm().max_turn_rate) ||
+      std::min(steering_.wall_clearance(wanted, pose.position, params_.stop_distance), here);
+  double left = std::min(params_.stop_distance, distance(pose.position, steering_.aim().position));
+  for (int k = 0; k < max_ticks && left > rounding; ++k) {
+    const Command command{heading_of(steering_.aim().position - pose.position), steering_.speed()};
+    const bool aligned = std::isinf(steering_.swarm().max_turn_rate) ||
                          std::abs(wrap(command.heading - pose.heading)) < rounding;
     const double dt =
         aligned ? left / command.speed : std::min(lookahead_tick, left / command.speed);
-    const Pose2 next = unicycle_step(pose, command, helm_.swarm().max_turn_rate, dt);
+    const Pose2 next = unicycle_step(pose, command, steering_.swarm().max_turn_rate, dt);
     const Segment move{pose.position, next.position};
     if (!world.map().is_free(move, from_walls)) return false;
     if (!world.moving().is_free(move, from_bodies)) return false;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "microswarm/navigation/baselines/straight_params.hpp"
-#include "microswarm/navigation/steering/helm.hpp"
+#include "microswarm/navigation/steering/steering_cycle.hpp"
 
 namespace microswarm {
 
@@ -12,17 +12,17 @@ class StraightNavigator : public Navigator {
  public:
   StraightNavigator(const StraightParams& params, const SwarmLimits& swarm, Vec2 goal,
                     double goal_tolerance, double frame_timeout = default_frame_timeout)
-      : params_(params), helm_(swarm, params.speed, goal, goal_tolerance, frame_timeout) {}
+      : params_(params), steering_(swarm, params.speed, goal, goal_tolerance, frame_timeout) {}
 
   void prepare(const Snapshot& world) override;
   Command step(const Observation& observation, const Stop& stop) override;
-  NavigatorView view() const override { return helm_.view(); }
+  NavigatorView view() const override { return steering_.view(); }
 
  private:
-  bool way_is_clear(const Snapshot& world, Pose2 pose) const;
+  bool path_is_clear(const Snapshot& world, Pose2 pose) const;
 
   StraightParams params_;
-  Helm helm_;
+  SteeringCycle steering_;
 };
 
 }  // namespace microswarm

@@ -54,19 +54,19 @@ VelocityObstacleNavigator::VelocityObstacleNavigator(const VelocityObstacleParam
                                                      const SwarmLimits& swarm, Vec2 goal,
                                                      double goal_tolerance, double frame_timeout)
     : params_(params),
-      helm_(swarm, params.speed, goal, goal_tolerance, frame_timeout),
+      steering_(swarm, params.speed, goal, goal_tolerance, frame_timeout),
       guide_(params.guide, goal),
       tracker_(params.tracker) {
   rank_choices();
 }
 
 void VelocityObstacleNavigator::rank_choices() {
-  const Vec2 preferred{helm_.speed(), 0};
-  choices_.push_back({0, 0, helm_.speed()});
+  const Vec2 preferred{steering_.speed(), 0};
+  choices_.push_back({0, 0, steering_.speed()});
   for (int s = params_.speeds; s > 0; --s)
     for (int k = 0; k < params_.directions; ++k) {
       const double turn = wrap(2 * pi * k / params_.directions);
-      const double speed = helm_.speed() * s / params_.speeds;
+      const double speed = steering_.speed() * s / params_.speeds;
       choices_.push_back({turn, speed, distance(speed * unit_vector(turn), preferred)});
     }
   std::stable_sort(choices_.begin(), choices_.end(),
@@ -74,37 +74,38 @@ void VelocityObstacleNavigator::rank_choices() {
 }
 
 void VelocityObstacleNavigator::prepare(const Snapshot& world) {
-  const double radius = helm_.swarm().radius;
-  helm_.prepare(world, radius, radius + params_.margin);
-  guide_.prepare(world.map(), helm_.aim(), radius + params_.margin, radius);
+  const double radius = steering_.swarm().radius;
+  steering_.prepare(world, radius, radius + params_.gap);
+  guide_.prepare(world.map(), steering_.aim().position, radius + params_.gap, radius);
 }
 
 Command VelocityObstacleNavigator::step(const Observation& seen, const Stop&) {
-  tracker_.see(seen);
-  const Pose2* pose = helm_.begin(seen);
-  if (!pose) return helm_.rest();
+  tracker_.update(seen);
+  const Pose2* pose = steering_.observe(seen);
+  if (!pose) return steering_.hold();
   const Map& map = seen.world->map();
   const Vec2 target = guide_.target(map, pose->position);
-  helm_.show_target(target);
+  steering_.view().local_target = target;
   find_threats(*seen.world, pose->position);
   const double preferred = heading_of(target - pose->position);
   Command best{pose->heading, 0};
-  double least_penalty = never;
+  double min_penalty = never;
   for (const Choice& choice : choices_) {
     const Command command{wrap(preferred + choice.turn), choice.speed};
     if (!clear_of_walls(map, *pose, command)) continue;
     const double time = time_to_contact(*pose, command);
     if (time >= params_.horizon) {
-      if (choice.speed == 0) return helm_.issue({pose->heading, 0}, NavigatorState::hold);
-      return helm_.issue(command, choice.off == 0 ? NavigatorState::follow : NavigatorState::avoid);
+      if (choice.speed == 0) return steering_.command({pose->heading, 0}, NavigatorState::hold);
+      return steering_.command(command,
+                               choice.off == 0 ? NavigatorState::follow : NavigatorState::avoid);
     }
     const double penalty = choice.off + params_.urgency / std::max(time, choice_rounding);
-    if (penalty >= least_penalty) continue;
-    least_penalty = penalty;
+    if (penalty >= min_penalty) continue;
+    min_penalty = penalty;
     best = command;
   }
-  if (best.speed == 0) return helm_.issue({pose->heading, 0}, NavigatorState::hold);
-  return helm_.issue(best, NavigatorState::escape);
+  if (best.speed == 0) return steering_.command({pose->heading, 0}, NavigatorState::hold);
+  return steering_.command(best, NavigatorState::escape);
 }
 
 /// The bodies that can be met within the horizon. What is nearer than the margin already may be
@@ -116,12 +117,12 @@ void VelocityObstacleNavigator::find_threats(const Snapshot& world, Vec2 p) {
     const TrackedBody motion = tracker_.body(i);
     const bool round = std::holds_alternative<Disc>(bodies[i].shape);
     const double speed = outward_speed(bodies[i], motion);
-    const Vec2 at = p - helm_.delay() * motion.velocity;
+    const Vec2 at = p - steering_.delay() * motion.velocity;
     const double away =
         std::visit([&](const auto& shape) { return distance(at, shape); }, bodies[i].shape);
-    const double wanted = helm_.swarm().radius + params_.margin +
-                          speed * (helm_.delay() + (round ? 0 : deforming_time));
-    const double top = helm_.speed() + norm(motion.velocity) + speed;
+    const double wanted = steering_.swarm().radius + params_.gap +
+                          speed * (steering_.delay() + (round ? 0 : deforming_time));
+    const double top = steering_.speed() + norm(motion.velocity) + speed;
     if (away - wanted > top * params_.horizon) continue;
     threats_.push_back({.body = &bodies[i],
                         .velocity = motion.velocity,
@@ -134,19 +135,19 @@ bool VelocityObstacleNavigator::clear_of_walls(const Map& map, const Pose2& pose
                                                const Command& command) const {
   if (command.speed == 0) return true;
   const double reach = params_.wall_horizon * command.speed;
-  const double wanted = helm_.swarm().radius + params_.margin;
-  const double r = std::min(helm_.wall_clearance(wanted, pose.position, reach),
+  const double wanted = steering_.swarm().radius + params_.gap;
+  const double r = std::min(steering_.wall_clearance(wanted, pose.position, reach),
                             (1 - choice_rounding) * map.clearance(pose.position));
-  const double time =
-      std::min(params_.wall_horizon, distance(pose.position, helm_.aim()) / command.speed);
-  return along_the_way(pose, command, helm_.swarm().max_turn_rate, time,
+  const double time = std::min(params_.wall_horizon,
+                               distance(pose.position, steering_.aim().position) / command.speed);
+  return along_the_way(pose, command, steering_.swarm().max_turn_rate, time,
                        [&](Segment way, double, double) { return map.is_free(way, r); });
 }
 
 /// When the command leads into a body; infinity when not within the horizon.
 double VelocityObstacleNavigator::time_to_contact(const Pose2& pose, const Command& command) const {
   double first = never;
-  along_the_way(pose, command, helm_.swarm().max_turn_rate, params_.horizon,
+  along_the_way(pose, command, steering_.swarm().max_turn_rate, params_.horizon,
                 [&](Segment way, double t0, double t1) {
                   for (const Threat& threat : threats_)
                     first = std::min(first, time_to_contact(threat, way, t0, t1));
@@ -157,8 +158,8 @@ double VelocityObstacleNavigator::time_to_contact(const Pose2& pose, const Comma
 
 double VelocityObstacleNavigator::time_to_contact(const Threat& threat, Segment way, double t0,
                                                   double t1) const {
-  const Segment own_frame{way.a - (helm_.delay() + t0) * threat.velocity,
-                          way.b - (helm_.delay() + t1) * threat.velocity};
+  const Segment own_frame{way.a - (steering_.delay() + t0) * threat.velocity,
+                          way.b - (steering_.delay() + t1) * threat.velocity};
   if (const auto* disc = std::get_if<Disc>(&threat.body->shape)) {
     if (t1 <= t0) return never;
     const Vec2 velocity = (1 / (t1 - t0)) * (own_frame.b - own_frame.a);

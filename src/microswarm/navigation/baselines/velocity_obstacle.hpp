@@ -6,7 +6,7 @@
 #include "microswarm/navigation/baselines/velocity_obstacle_params.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker.hpp"
 #include "microswarm/navigation/steering/guide.hpp"
-#include "microswarm/navigation/steering/helm.hpp"
+#include "microswarm/navigation/steering/steering_cycle.hpp"
 
 namespace microswarm {
 
@@ -20,7 +20,7 @@ class VelocityObstacleNavigator : public Navigator {
 
   void prepare(const Snapshot& world) override;
   Command step(const Observation& observation, const Stop& stop) override;
-  NavigatorView view() const override { return helm_.view(); }
+  NavigatorView view() const override { return steering_.view(); }
 
  private:
   /// A body that may be met.
@@ -43,7 +43,7 @@ class VelocityObstacleNavigator : public Navigator {
   double time_to_contact(const Threat& threat, Segment way, double t0, double t1) const;
 
   VelocityObstacleParams params_;
-  Helm helm_;
+  SteeringCycle steering_;
   GoalGuide guide_;
   ObstacleTracker tracker_;
   std::vector<Threat> threats_;

@@ -43,7 +43,7 @@ Vec2 point_ahead(std::span<const Vec2> path, PathPlace place, double ahead) {
   return path.back();
 }
 
-double way_left(std::span<const Vec2> path, PathPlace place) {
+double remaining(std::span<const Vec2> path, PathPlace place) {
   double left = 0;
   for (std::size_t i = place.piece; i + 1 < path.size(); ++i) {
     const double length = distance(path[i], path[i + 1]);

@@ -19,7 +19,7 @@ PathPlace nearest_place(std::span<const Vec2> path, Vec2 p, PathPlace from);
 /// Point `ahead` µm further along the path; its end when the path is shorter.
 Vec2 point_ahead(std::span<const Vec2> path, PathPlace place, double ahead);
 /// What is left of the path [µm].
-double way_left(std::span<const Vec2> path, PathPlace place);
+double remaining(std::span<const Vec2> path, PathPlace place);
 
 /// Pure pursuit: heads for the point `lookahead` µm along the path from the nearest place (which is
 /// moved on) at `speed`, slower while the heading is off by more than a right angle.

@@ -25,22 +25,22 @@ std::optional<std::array<double, feature_count>> FollowerModel::scaled(
 }
 
 std::optional<Command> FollowerModel::command(const FollowerQuery& query) const {
-  const FollowerSight sight = sight_of(query);
-  const auto features = scaled(sight.features);
+  const FollowerFeatures seen = features_of(query);
+  const auto features = scaled(seen.features);
   if (!features) return std::nullopt;
   std::array<double, 2> answer{};
   network.evaluate(*features, answer);
   const double off = std::clamp(answer[0], -pi, pi);
-  return Command{wrap(sight.bearing + off),
-                 std::clamp(answer[1], least_speed_share, 1.0) * query.speed};
+  return Command{wrap(seen.bearing + off),
+                 std::clamp(answer[1], min_speed_share, 1.0) * query.speed};
 }
 
 namespace {
 
 constexpr std::string_view version = "1";
-constexpr std::size_t most_layers = 6;
-constexpr double most_magnitude = 1e6;  // of a weight or a feature
-constexpr std::size_t most_text = 4096;
+constexpr std::size_t max_layers = 6;
+constexpr double max_magnitude = 1e6;  // of a weight or a feature
+constexpr std::size_t max_text = 4096;
 
 template <class Values>
 std::string list_text(const Values& values) {
@@ -67,24 +67,24 @@ class Reader {
     return line.substr(begin.size());
   }
 
-  /// From `least` to `most_many` numbers in brackets.
-  std::vector<double> numbers(std::string_view begin, std::size_t least, std::size_t most_many) {
+  /// From `least` to `max_many` numbers in brackets.
+  std::vector<double> numbers(std::string_view begin, std::size_t least, std::size_t max_many) {
     std::string_view list = after(begin);
     if (list.size() < 2 || list.front() != '[' || list.back() != ']')
       fail(fmt::format("{} must be numbers in brackets", quote(begin)));
     list = list.substr(1, list.size() - 2);
     std::vector<double> values;
-    values.reserve(most_many);
+    values.reserve(max_many);
     for (bool more = true; more;) {
       const auto comma = list.find(", ");
       more = comma != std::string_view::npos;
       const auto value = parse_number(list.substr(0, comma));
-      if (!value || std::abs(*value) > most_magnitude)
-        fail(fmt::format("{} is no number within ±{}", quote(list.substr(0, comma)),
-                         most_magnitude));
+      if (!value || std::abs(*value) > max_magnitude)
+        fail(
+            fmt::format("{} is no number within ±{}", quote(list.substr(0, comma)), max_magnitude));
       values.push_back(*value);
       if (more) list.remove_prefix(comma + 2);
-      if (more && values.size() == most_many) fail(fmt::format("more than {} numbers", most_many));
+      if (more && values.size() == max_many) fail(fmt::format("more than {} numbers", max_many));
     }
     if (values.size() < least) fail(fmt::format("{} numbers, must be {}", values.size(), least));
     return values;
@@ -114,10 +114,11 @@ class Reader {
 
 std::vector<std::size_t> read_layers(Reader& in) {
   std::vector<std::size_t> layers;
-  layers.reserve(most_layers);
-  for (const double width : in.numbers("layers: ", 2, most_layers)) {
-    if (!(width >= 1 && width <= Network::max_width) || width != std::floor(width))
-      in.fail(fmt::format("a layer of {}, allowed 1..{}", number_text(width), Network::max_width));
+  layers.reserve(max_layers);
+  for (const double width : in.numbers("layers: ", 2, max_layers)) {
+    if (!(width >= 1 && width <= MultilayerPerceptron::max_width) || width != std::floor(width))
+      in.fail(fmt::format("a layer of {}, allowed 1..{}", number_text(width),
+                          MultilayerPerceptron::max_width));
     layers.push_back(static_cast<std::size_t>(width));
   }
   if (layers.front() != feature_count)
@@ -159,8 +160,8 @@ FollowerModel parse_follower_model(std::string_view text, std::string_view name)
     in.fail(fmt::format("version is {}, must be {}", quote(v), version));
   model.seed = read_seed(in);
   model.training = in.after("training: ");
-  if (model.training.size() > most_text || model.training != one_line(model.training, most_text))
-    in.fail(fmt::format("training must be at most {} plain characters", most_text));
+  if (model.training.size() > max_text || model.training != one_line(model.training, max_text))
+    in.fail(fmt::format("training must be at most {} plain characters", max_text));
   model.network.layers = read_layers(in);
   const auto lowest = in.numbers("lowest: ", feature_count, feature_count);
   const auto highest = in.numbers("highest: ", feature_count, feature_count);
@@ -172,7 +173,7 @@ FollowerModel parse_follower_model(std::string_view text, std::string_view name)
                           number_text(highest[i]), number_text(lowest[i])));
   if (!in.after("weights:").empty()) in.fail("the weights begin on the next line");
   const auto& layers = model.network.layers;
-  model.network.weights.reserve(Network::weight_count(layers));
+  model.network.weights.reserve(MultilayerPerceptron::weight_count(layers));
   for (std::size_t k = 0; k + 1 < layers.size(); ++k)
     for (std::size_t o = 0; o < layers[k + 1]; ++o) {
       const auto row = in.numbers("  - ", layers[k] + 1, layers[k] + 1);

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "microswarm/navigation/following/follower_sight.hpp"
-#include "microswarm/navigation/following/network.hpp"
+#include "microswarm/navigation/following/follower_features.hpp"
+#include "microswarm/navigation/following/multilayer_perceptron.hpp"
 
 namespace microswarm {
 
@@ -20,7 +20,7 @@ struct FollowerModel {
   std::string training;  ///< its parameters, on one line
   std::array<double, feature_count> lowest{};
   std::array<double, feature_count> highest{};
-  Network network;
+  MultilayerPerceptron network;
 
   /// The features as the network takes them; nothing when one is outside of its range.
   std::optional<std::array<double, feature_count>> scaled(
@@ -30,7 +30,7 @@ struct FollowerModel {
 };
 
 /// The slowest share of the speed asked for that a model commands.
-inline constexpr double least_speed_share = 0.2;
+inline constexpr double min_speed_share = 0.2;
 
 /// A model as text: YAML that is easy to read for people, with numbers to the last bit.
 std::string follower_model_text(const FollowerModel& model);

@@ -20,15 +20,15 @@ PathFollower::PathFollower(const FollowerParams& params, const SwarmLimits& swar
     learned_ = loaded_ ? loaded_.get() : &default_follower_model();
 }
 
-void PathFollower::see(const Observation& seen, const BodyForecast& forecast) {
+void PathFollower::update(const Observation& seen, const DelayCompensator& compensator) {
   if (!knows_flow()) return;
   delay_ = seen.age() + lag_;
-  flow_.see(seen, forecast);
+  flow_.update(seen, compensator);
 }
 
 FollowerQuery PathFollower::query(std::span<const Vec2> path, PathPlace& place, const Pose2& pose,
                                   double speed) const {
-  // The forecast of the pose knows of no flow.
+  // The compensator of the pose knows of no flow.
   const Pose2 carried{pose.position + delay_ * flow(), pose.heading};
   place = nearest_place(path, carried.position, place);
   return {path, place, carried, speed, flow(), max_turn_rate_};

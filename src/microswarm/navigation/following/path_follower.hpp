@@ -23,7 +23,7 @@ class PathFollower {
   PathFollower(const FollowerParams& params, const SwarmLimits& swarm);
 
   /// Takes in a frame with a swarm: first thing in a step.
-  void see(const Observation& seen, const BodyForecast& forecast);
+  void update(const Observation& seen, const DelayCompensator& compensator);
   /// The command for a swarm that will be at `pose` when it takes effect; moves `place` on.
   /// `lookahead` [µm] is that of pure pursuit. May be asked for poses to come. Allocates nothing.
   Answer command(std::span<const Vec2> path, PathPlace& place, const Pose2& pose, double lookahead,

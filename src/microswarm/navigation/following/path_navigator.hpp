@@ -5,7 +5,7 @@
 
 #include "microswarm/navigation/following/path_follower.hpp"
 #include "microswarm/navigation/following/path_navigator_params.hpp"
-#include "microswarm/navigation/steering/helm.hpp"
+#include "microswarm/navigation/steering/steering_cycle.hpp"
 
 namespace microswarm {
 
@@ -21,10 +21,10 @@ class PathNavigator : public Navigator {
   NavigatorView view() const override;
 
  private:
-  bool way_is_clear(const Snapshot& world, Pose2 pose) const;
+  bool path_is_clear(const Snapshot& world, Pose2 pose) const;
 
   PathNavigatorParams params_;
-  Helm helm_;
+  SteeringCycle steering_;
   PathFollower follower_;
   std::vector<Vec2> path_;  ///< to the goal
   PathPlace place_;

@@ -44,7 +44,7 @@ double reached_share(const Map& map, Vec2 goal) {
 }
 
 /// Pieces of the ring between one width and 1.25 that are reached without leaving it outwards.
-int ways_out(const Map& map, Vec2 goal, double width) {
+int exits(const Map& map, Vec2 goal, double width) {
   const double outer = 1.25 * width;
   const Vec2 half{outer, outer};
   const NodeLattice lattice({goal - half, goal + half}, width / 24, 4000);
@@ -68,20 +68,20 @@ int ways_out(const Map& map, Vec2 goal, double width) {
 
 }  // namespace
 
-AggregationGround aggregation_ground(const Map& map, Vec2 goal, double width) {
-  return {reached_share(map, goal), ways_out(map, goal, width)};
+MapAssumptions map_assumptions(const Map& map, Vec2 goal, double width) {
+  return {reached_share(map, goal), exits(map, goal, width)};
 }
 
 std::vector<std::string> unmet_assumptions(const Map& map, Vec2 goal, double width) {
-  const AggregationGround ground = aggregation_ground(map, goal, width);
+  const MapAssumptions ground = map_assumptions(map, goal, width);
   std::vector<std::string> unmet;
   if (ground.reached_share < 0.999)
     unmet.push_back(fmt::format("the map is not connected: the goal is reached from {:.1f} % of it",
                                 100 * ground.reached_share));
-  if (ground.ways_out != 1)
+  if (ground.exits != 1)
     unmet.push_back(fmt::format(
         "the goal is at no dead end: {} channels lead away from it, so robots may be pushed out",
-        ground.ways_out));
+        ground.exits));
   return unmet;
 }
 

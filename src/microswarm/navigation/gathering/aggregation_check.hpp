@@ -9,14 +9,14 @@
 namespace microswarm {
 
 /// What of the ground [gather] assumes is so for a goal on a map.
-struct AggregationGround {
+struct MapAssumptions {
   double reached_share = 0;  ///< of the free area, from where the goal is reached; should be 1
-  int ways_out = 0;          ///< channels that lead away from the goal; 1 at a dead end
+  int exits = 0;             ///< channels that lead away from the goal; 1 at a dead end
 };
 
 /// Looks at a map with channels of about `width` [µm]: over a grid of some million places, and the
 /// surroundings of the goal out to 1.25 widths.
-AggregationGround aggregation_ground(const Map& map, Vec2 goal, double width);
+MapAssumptions map_assumptions(const Map& map, Vec2 goal, double width);
 
 /// The assumptions of [gather] that do not hold, one line each: the map is connected, and the goal
 /// lies in a region that is closed but for one channel. Aggregation works without them, less well:

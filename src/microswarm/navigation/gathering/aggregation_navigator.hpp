@@ -4,14 +4,14 @@
 #include <optional>
 
 #include "microswarm/contracts/navigator.hpp"
-#include "microswarm/navigation/gathering/aggregation.hpp"
-#include "microswarm/navigation/gathering/rollout.hpp"
-#include "microswarm/navigation/global_input/robot_forecast.hpp"
+#include "microswarm/navigation/gathering/aggregation_policy.hpp"
+#include "microswarm/navigation/gathering/rollout_policy.hpp"
+#include "microswarm/navigation/steering/robot_steering_cycle.hpp"
 
 namespace microswarm {
 
 /// HRA and DCA, Alg 3 and 5 [gather], and the rollout planner as a navigator: looks at where the
-/// robots will be when its command takes effect, and gives the gatherer's move, or as much of it as
+/// robots will be when its command takes effect, and gives the policy's move, or as much of it as
 /// a tick allows. States: gather, arrived, blind.
 class AggregationNavigator : public Navigator {
  public:
@@ -24,27 +24,21 @@ class AggregationNavigator : public Navigator {
   /// Grows the tree. Throws InputError as AggregationMap does.
   void prepare(const Snapshot& world) override;
   Command step(const Observation& observation, const Stop& stop) override;
-  NavigatorView view() const override { return view_; }
+  NavigatorView view() const override { return steering_.view(); }
   /// After prepare(): null before.
-  const Gatherer* gatherer() const { return gatherer_ ? &*gatherer_ : nullptr; }
+  const AggregationPolicy* policy() const { return policy_ ? &*policy_ : nullptr; }
   /// What it gathers by; null before prepare().
-  const AggregationMap* map() const { return ground_ ? &*ground_ : nullptr; }
+  const AggregationMap* map() const { return map_ ? &*map_ : nullptr; }
 
  private:
-  Command issue(double now, Command command, NavigatorState state);
-
   AggregationParams params_;
-  RobotSwarmParams robots_;
   Vec2 goal_;
   double goal_tolerance_;
-  double tick_;
-  double frame_timeout_;  ///< [s]
   Rng rng_;
-  std::optional<RobotForecast> forecast_;
-  std::optional<AggregationMap> ground_;
-  std::optional<Gatherer> gatherer_;
-  std::optional<RolloutGatherer> rollout_;
-  NavigatorView view_;
+  RobotSteeringCycle steering_;
+  std::optional<AggregationMap> map_;
+  std::optional<AggregationPolicy> policy_;
+  std::optional<RolloutPolicy> rollout_;
 };
 
 }  // namespace microswarm

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "microswarm/core/rng.hpp"
-#include "microswarm/navigation/gathering/aggregation.hpp"
+#include "microswarm/navigation/gathering/aggregation_policy.hpp"
 
 namespace microswarm {
 

@@ -18,14 +18,14 @@ std::size_t DivideAndConquer::leader(const RobotsOnMap& robots, std::size_t last
     if (follows) {
       ++followed_;
       region_ = entered_;
-      branch_ = ground_->segmentation.branch[robots.nodes[last]];
+      branch_ = map_->segmentation.branch[robots.nodes[last]];
     } else {
       followed_ = 0;
       region_ = round_ = next_region(robots);
     }
   }
   leads_ = true;
-  target_way_ = region_ < last_regions() ? 0 : infinity;
+  target_distance_ = region_ < last_regions() ? 0 : infinity;
   if (region_ < last_regions()) return farthest_in_region(robots);
   if (!follows) branch_ = richest_branch(robots);  // line 4
   return nearest_to_gate(robots);                  // line 6
@@ -33,13 +33,13 @@ std::size_t DivideAndConquer::leader(const RobotsOnMap& robots, std::size_t last
 
 // Line 8: in its region, and then for some way beyond; or to the goal.
 bool DivideAndConquer::is_led_on(const RobotsOnMap& robots, std::size_t robot) {
-  if (target_way_ == infinity) {
-    const std::uint32_t region = ground_->segmentation.region[robots.nodes[robot]];
+  if (target_distance_ == infinity) {
+    const std::uint32_t region = map_->segmentation.region[robots.nodes[robot]];
     if (region == region_) return true;
     entered_ = region;
-    target_way_ = std::max(0.0, robots.ways[robot] - params_.team_depth);
+    target_distance_ = std::max(0.0, robots.ways[robot] - params_.team_depth);
   }
-  return robots.ways[robot] > target_way_ + params_.step;
+  return robots.ways[robot] > target_distance_ + params_.step;
 }
 
 // The farthest region that holds robots. In rounds the map shrinks (Eq 7): robots that were pushed
@@ -49,7 +49,7 @@ std::uint32_t DivideAndConquer::next_region(const RobotsOnMap& robots) const {
   std::uint32_t in_round = 0;
   std::uint32_t of_all = 0;
   for (const std::uint32_t node : robots.nodes) {
-    const std::uint32_t region = ground_->segmentation.region[node];
+    const std::uint32_t region = map_->segmentation.region[node];
     of_all = std::max(of_all, region);
     if (region <= round_) in_round = std::max(in_round, region);
   }
@@ -58,18 +58,18 @@ std::uint32_t DivideAndConquer::next_region(const RobotsOnMap& robots) const {
 
 bool DivideAndConquer::is_empty(const RobotsOnMap& robots, std::uint32_t region) const {
   return std::none_of(robots.nodes.begin(), robots.nodes.end(), [&](std::uint32_t node) {
-    return ground_->segmentation.region[node] == region;
+    return map_->segmentation.region[node] == region;
   });
 }
 
 std::size_t DivideAndConquer::nearest_to_gate(const RobotsOnMap& robots) const {
-  const MapSegmentation& map = ground_->segmentation;
+  const MapSegmentation& map = map_->segmentation;
   std::size_t nearest = 0;
   double least = infinity;
   for (std::size_t i = 0; i < robots.nodes.size(); ++i) {
     const std::uint32_t node = robots.nodes[i];
     if (map.region[node] != region_ || map.branch[node] != branch_) continue;
-    const double way = way_to_gate(robots, i);
+    const double way = distance_to_gate(robots, i);
     if (way < least) {
       least = way;
       nearest = i;
@@ -82,8 +82,7 @@ std::size_t DivideAndConquer::farthest_in_region(const RobotsOnMap& robots) cons
   std::size_t farthest = 0;
   double most = -1;
   for (std::size_t i = 0; i < robots.nodes.size(); ++i) {
-    if (ground_->segmentation.region[robots.nodes[i]] != region_ || robots.ways[i] <= most)
-      continue;
+    if (map_->segmentation.region[robots.nodes[i]] != region_ || robots.ways[i] <= most) continue;
     most = robots.ways[i];
     farthest = i;
   }
@@ -92,22 +91,22 @@ std::size_t DivideAndConquer::farthest_in_region(const RobotsOnMap& robots) cons
 
 // Eq 6 [gather]
 std::uint32_t DivideAndConquer::richest_branch(const RobotsOnMap& robots) const {
-  const MapSegmentation& map = ground_->segmentation;
+  const MapSegmentation& map = map_->segmentation;
   std::vector<double> value(std::max(1u, map.regions[region_].branches), -1);
   for (std::size_t i = 0; i < robots.nodes.size(); ++i) {
     if (map.region[robots.nodes[i]] != region_) continue;
     double& v = value[map.branch[robots.nodes[i]]];
     const double share =
-        maths::pow(params_.discount, way_to_gate(robots, i) / params_.discount_length);
+        maths::pow(params_.discount, distance_to_gate(robots, i) / params_.discount_length);
     v = std::max(0.0, v) + robots.count(i) * on_lattice(share);
   }
   return static_cast<std::uint32_t>(std::max_element(value.begin(), value.end()) - value.begin());
 }
 
-double DivideAndConquer::way_to_gate(const RobotsOnMap& robots, std::size_t robot) const {
-  const MapSegmentation& map = ground_->segmentation;
+double DivideAndConquer::distance_to_gate(const RobotsOnMap& robots, std::size_t robot) const {
+  const MapSegmentation& map = map_->segmentation;
   const Region& region = map.regions[map.region[robots.nodes[robot]]];
-  return std::max(0.0, robots.ways[robot] - ground_->routes().length[region.node]);
+  return std::max(0.0, robots.ways[robot] - map_->routes().length[region.node]);
 }
 
 }  // namespace microswarm

@@ -12,8 +12,8 @@ namespace microswarm {
 class DivideAndConquer {
  public:
   /// The map must outlive it.
-  DivideAndConquer(const AggregationMap& ground, const AggregationParams& params)
-      : ground_(&ground), params_(params) {}
+  DivideAndConquer(const AggregationMap& map, const AggregationParams& params)
+      : map_(&map), params_(params) {}
 
   /// The place that leads; `last` did until now. There must be robots.
   std::size_t leader(const RobotsOnMap& robots, std::size_t last);
@@ -26,17 +26,17 @@ class DivideAndConquer {
   std::uint32_t richest_branch(const RobotsOnMap& robots) const;
   std::size_t nearest_to_gate(const RobotsOnMap& robots) const;
   std::size_t farthest_in_region(const RobotsOnMap& robots) const;
-  double way_to_gate(const RobotsOnMap& robots, std::size_t robot) const;
+  double distance_to_gate(const RobotsOnMap& robots, std::size_t robot) const;
 
-  const AggregationMap* ground_;
+  const AggregationMap* map_;
   AggregationParams params_;
   std::uint32_t region_ = 0;
   std::uint32_t branch_ = 0;
   std::uint32_t round_ = 0;  ///< farthest region of what is left of the map in this round
   bool leads_ = false;
-  double target_way_ = 0;      ///< to which the leader is led; infinity: out of its region
-  std::uint32_t entered_ = 0;  ///< region into which the last robot was led
-  int followed_ = 0;           ///< how often the team was followed
+  double target_distance_ = 0;  ///< to which the leader is led; infinity: out of its region
+  std::uint32_t entered_ = 0;   ///< region into which the last robot was led
+  int followed_ = 0;            ///< how often the team was followed
 };
 
 }  // namespace microswarm

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "microswarm/navigation/gathering/crowd.hpp"
+#include "microswarm/navigation/gathering/merged_robots.hpp"
 
 namespace microswarm {
 namespace {
@@ -11,16 +11,16 @@ namespace {
 /// `next` gives the move of a step, or nothing when they are gathered.
 template <class Policy, class Next>
 GatherResult gather_by(const RobotStepper& stepper, const Policy& policy, Robots& robots,
-                       int most_steps, const Stop& stop, Next next) {
+                       int max_steps, const Stop& stop, Next next) {
   GatherResult result;
   for (;; ++result.steps) {
     const std::optional<Vec2> move = next(result.steps);
-    if (move && !stop() && result.steps < most_steps) {
+    if (move && !stop() && result.steps < max_steps) {
       stepper.step(robots, *move, ContactRule::stop);
       continue;
     }
     result.status = !move ? Status::solved : stop() ? Status::stopped : Status::time_limit;
-    result.mean_way = policy.mean_way();
+    result.mean_distance = policy.mean_distance();
     result.guard_count = policy.guard_count();
     return result;
   }
@@ -28,25 +28,25 @@ GatherResult gather_by(const RobotStepper& stepper, const Policy& policy, Robots
 
 }  // namespace
 
-GatherResult gather(const RobotStepper& stepper, Gatherer& gatherer, Robots& robots, int most_steps,
-                    const Stop& stop) {
+GatherResult gather(const RobotStepper& stepper, AggregationPolicy& policy, Robots& robots,
+                    int max_steps, const Stop& stop) {
   constexpr int steps_between_joins = 16;
-  Crowd crowd(robots);
+  MergedRobots merged(robots);
   const GatherResult result =
-      gather_by(stepper, gatherer, crowd.places(), most_steps, stop, [&](int step) {
+      gather_by(stepper, policy, merged.places(), max_steps, stop, [&](int step) {
         if (step % steps_between_joins == 0)
-          if (const auto new_places = crowd.join(); !new_places.empty())
-            gatherer.joined(new_places);
-        return gatherer.next(crowd.places(), crowd.counts());
+          if (const auto new_places = merged.merge_coincident(); !new_places.empty())
+            policy.remap(new_places);
+        return policy.next(merged.places(), merged.counts());
       });
-  robots = crowd.robots();
+  robots = merged.robots();
   return result;
 }
 
-GatherResult gather(const RobotStepper& stepper, RolloutGatherer& gatherer, Robots& robots,
-                    int most_steps, const Stop& stop) {
-  return gather_by(stepper, gatherer, robots, most_steps, stop,
-                   [&](int) { return gatherer.next(robots, stop); });
+GatherResult gather(const RobotStepper& stepper, RolloutPolicy& policy, Robots& robots,
+                    int max_steps, const Stop& stop) {
+  return gather_by(stepper, policy, robots, max_steps, stop,
+                   [&](int) { return policy.next(robots, stop); });
 }
 
 }  // namespace microswarm

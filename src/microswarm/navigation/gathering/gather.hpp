@@ -3,8 +3,8 @@
 
 #include "microswarm/core/status.hpp"
 #include "microswarm/core/stop.hpp"
-#include "microswarm/navigation/gathering/aggregation.hpp"
-#include "microswarm/navigation/gathering/rollout.hpp"
+#include "microswarm/navigation/gathering/aggregation_policy.hpp"
+#include "microswarm/navigation/gathering/rollout_policy.hpp"
 #include "microswarm/swarm/robots/robot_stepper.hpp"
 
 namespace microswarm {
@@ -13,15 +13,15 @@ namespace microswarm {
 struct GatherResult {
   Status status = Status::time_limit;  ///< solved, time_limit (the steps ran out) or stopped
   int steps = 0;
-  double mean_way = 0;  ///< F at the end [µm]
+  double mean_distance = 0;  ///< F at the end [µm]
   int guard_count = 0;
 };
 
 /// Gathers robots step by step under the rule "stop", without camera, delay or noise; they end
 /// where they were gathered. With those an Episode gathers.
-GatherResult gather(const RobotStepper& stepper, Gatherer& gatherer, Robots& robots, int most_steps,
-                    const Stop& stop = {});
-GatherResult gather(const RobotStepper& stepper, RolloutGatherer& gatherer, Robots& robots,
-                    int most_steps, const Stop& stop = {});
+GatherResult gather(const RobotStepper& stepper, AggregationPolicy& policy, Robots& robots,
+                    int max_steps, const Stop& stop = {});
+GatherResult gather(const RobotStepper& stepper, RolloutPolicy& policy, Robots& robots,
+                    int max_steps, const Stop& stop = {});
 
 }  // namespace microswarm

@@ -12,36 +12,52 @@ namespace microswarm {
 struct RolloutParams {
   static constexpr std::string_view type_name = "rollout";
   double budget = 4e6;
-  double most_work = 200e6;
-  int most_steps = 100'000;
-  int places = 32;
-  int lookahead_places = 64;
+  double max_work = 200e6;
+  int max_steps = 100'000;
+  int representatives = 32;
+  int lookahead_representatives = 64;
   int candidates = 16;
   int horizon = 150;
   int commit = 50;
-  double stray = 1;
+  double max_deviation = 1;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.budget, {"budget", Unit::none, {0, 1e12}, "Work of a decision, in robot-steps."});
-    visit(self.most_work,
-          {"most_work", Unit::none, {0, 1e15}, "Work on a better plan in all; 0: without end."});
-    visit(self.most_steps,
-          {"most_steps", Unit::none, {1, 1e8}, "Longest plan; its base is followed without one."});
-    visit(self.places,
-          {"places", Unit::none, {1, 1e6}, "Robots that stand for all when a variation is tried."});
-    visit(self.lookahead_places, {"lookahead_places",
-                                  Unit::none,
-                                  {1, 1e6},
-                                  "Robots that stand for all when it looks ahead."});
-    visit(
-        self.candidates,
-        {"candidates", Unit::none, {0, 1e4}, "Leaders tried when it looks ahead; 0: it does not."});
-    visit(self.horizon, {"horizon", Unit::none, {1, 1e6}, "Steps that it looks ahead."});
-    visit(self.commit, {"commit", Unit::none, {1, 1e6}, "Steps after which it looks ahead anew."});
-    visit(self.stray, {"stray",
-                       Unit::none,
-                       {0, 1e6},
-                       "Plans anew when robots are off by more steps on average."});
+    visit(self.budget, {"budget", Unit::none, {0, 1e12}, "Simulated robot-steps per decision."});
+    visit(self.max_work, {"max_work",
+                          Unit::none,
+                          {0, 1e15},
+                          "Robot-steps spent on better plans; 0: unlimited.",
+                          false,
+                          "most_work"});
+    visit(self.max_steps, {"max_steps",
+                           Unit::none,
+                           {1, 1e8},
+                           "Longest plan; beyond it the base policy is followed.",
+                           false,
+                           "most_steps"});
+    visit(self.representatives, {"representatives",
+                                 Unit::none,
+                                 {1, 1e6},
+                                 "Representative robots for trying a variation.",
+                                 false,
+                                 "places"});
+    visit(self.lookahead_representatives, {"lookahead_representatives",
+                                           Unit::none,
+                                           {1, 1e6},
+                                           "Representative robots for the lookahead.",
+                                           false,
+                                           "lookahead_places"});
+    visit(self.candidates,
+          {"candidates", Unit::none, {0, 1e4}, "Leaders tried in the lookahead; 0: no lookahead."});
+    visit(self.horizon, {"horizon", Unit::none, {1, 1e6}, "Steps of the lookahead."});
+    visit(self.commit,
+          {"commit", Unit::none, {1, 1e6}, "Steps after which the lookahead is repeated."});
+    visit(self.max_deviation, {"max_deviation",
+                               Unit::none,
+                               {0, 1e6},
+                               "Mean deviation in steps above which it plans again.",
+                               false,
+                               "stray"});
   }
 };
 

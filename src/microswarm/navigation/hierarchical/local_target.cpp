@@ -83,7 +83,7 @@ std::optional<LocalTarget> select_local_target(const Snapshot& world, const Loca
   const Detection detection = detection_of(world, query, params);
 
   double reach = std::min(detection.rho * params.base_distance, query.goal_distance);
-  const double least = std::min(reach, std::max(query.least_distance, 1e-3));
+  const double least = std::min(reach, std::max(query.min_distance, 1e-3));
   for (; reach >= least; reach /= 2)
     for (const double half_angle : {params.half_angle, pi})
       if (const auto heading = best_heading(world, query, params, range, reach, half_angle))

@@ -22,7 +22,7 @@ struct LocalTargetQuery {
   double goal_distance = 0;             ///< ‖s_s − s_g‖: no target lies farther
   std::optional<Vec2> previous_target;  ///< s_gpre
   double clearance = 0;                 ///< r_s for CollisionFree [µm]
-  double least_distance = 0;            ///< the swarm's radius: where halving ends
+  double min_distance = 0;              ///< the swarm's radius: where halving ends
 };
 
 /// D_ts of the query [µm]: the base distance times ρ of the detection circle (Eq 3 [drrt]).
@@ -30,7 +30,7 @@ double target_distance(const Snapshot& world, const LocalTargetQuery& query,
                        const LocalTargetParams& params);
 
 /// Algorithm 1 [drrt]. When no candidate is free, the fan widens to the full circle, then D_ts is
-/// halved down to `least_distance`; empty when nothing is free even then. Empty at once when the
+/// halved down to `min_distance`; empty when nothing is free even then. Empty at once when the
 /// swarm itself is not free.
 std::optional<LocalTarget> select_local_target(const Snapshot& world, const LocalTargetQuery& query,
                                                const LocalTargetParams& params);

@@ -94,7 +94,7 @@ std::optional<PredictedTarget> select_predicted_target(
   for (const double wait : waits) {
     if (wait > 0 && wait > q.max_wait) break;
     if (goal_distance <= q.reach) choice.consider(q.goal, wait);
-    for (double reach = std::min(q.reach, goal_distance); reach >= q.least_reach; reach /= 2)
+    for (double reach = std::min(q.reach, goal_distance); reach >= q.min_reach; reach /= 2)
       for (int k = 0; k < directions; ++k)
         choice.consider(from + reach * unit_vector(straight + 2 * pi * k / directions), wait);
   }

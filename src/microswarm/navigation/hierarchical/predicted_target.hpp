@@ -17,7 +17,7 @@ struct PredictedTargetQuery {
   Vec2 goal;                   ///< free with the clearance
   Vec2 towards;                ///< the goal, or a point of the route to it, in sight
   double reach = 0;            ///< farthest target [µm]
-  double least_reach = 0;      ///< nearest target, but for the goal [µm]
+  double min_reach = 0;        ///< nearest target, but for the goal [µm]
   double angle_step = 0;       ///< between directions [rad]
   double turn_weight = 0;      ///< cost of turning [µm/rad]
   double clearance = 0;        ///< [µm]

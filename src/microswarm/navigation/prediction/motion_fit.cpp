@@ -9,10 +9,10 @@
 namespace microswarm {
 namespace {
 
-constexpr double least_noise = 0.02;  // [µm], above what rounding makes
-constexpr double first_noise = 0.5;   // [µm], while too few sightings tell
-constexpr double most_off = 3;        // root mean square residual of a fit, in noises
-constexpr std::size_t most_differences = 64;
+constexpr double min_noise = 0.02;   // [µm], above what rounding makes
+constexpr double first_noise = 0.5;  // [µm], while too few sightings tell
+constexpr double max_off = 3;        // root mean square residual of a fit, in noises
+constexpr std::size_t max_differences = 64;
 
 /// Third difference of four sightings, in standard deviations of one coordinate's noise.
 double third_difference(std::span<const Sighting, 4> s) {
@@ -36,15 +36,15 @@ double noise_of(std::span<const Sighting> sightings) {
   constexpr double rayleigh_median = 1.1774100225154747;  // √(2 ln 2)
   constexpr std::size_t enough = 7;
   if (sightings.size() < enough) return first_noise;
-  std::array<double, most_differences> differences{};
-  const std::size_t count = std::min(sightings.size() - 3, most_differences);
+  std::array<double, max_differences> differences{};
+  const std::size_t count = std::min(sightings.size() - 3, max_differences);
   const auto newest = sightings.last(count + 3);
   for (std::size_t i = 0; i < count; ++i)
     differences[i] = third_difference(newest.subspan(i).first<4>());
   const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(differences.begin(), middle,
                    differences.begin() + static_cast<std::ptrdiff_t>(count));
-  return std::max(least_noise, *middle / rayleigh_median);
+  return std::max(min_noise, *middle / rayleigh_median);
 }
 
 /// Sums over sightings, relative to the newest.
@@ -121,7 +121,7 @@ Window longest(std::span<const Sighting> sightings, std::size_t order, double no
     if (n <= order) continue;
     const Curve curve = order == 1 ? straight_through(m) : curved_through(m);
     const double freedom = 2.0 * static_cast<double>(n - order - 1);
-    if (n > order + 1 && curve.residual > freedom * most_off * most_off * noise * noise) break;
+    if (n > order + 1 && curve.residual > freedom * max_off * max_off * noise * noise) break;
     out = {curve, static_cast<int>(n)};
   }
   return out;

@@ -69,7 +69,7 @@ std::span<const Sighting> newer_than(std::span<const Sighting> seen, double age)
 
 }  // namespace
 
-MotionModels::MotionModels() { along_.reserve(MotionTrail::most_points); }
+MotionModels::MotionModels() { along_.reserve(MotionTrail::max_points); }
 
 void MotionModels::fit(const MotionTrail& trail, const TrackedBody& motion,
                        std::span<const Sighting> seen, OscillationFit& fit) {

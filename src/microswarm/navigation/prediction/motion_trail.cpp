@@ -9,9 +9,9 @@ namespace microswarm {
 namespace {
 
 constexpr double at_rest = 5;            // slower bodies rest [µm/s]
-constexpr double least_age = 1;          // of a recurrence [s]
-constexpr double least_way_back = 3;     // that is remembered, of a reversed one [s]
-constexpr double most_off_time = 0.12;   // of a point from the recurrence [s]
+constexpr double min_age = 1;            // of a recurrence [s]
+constexpr double min_way_back = 3;       // that is remembered, of a reversed one [s]
+constexpr double max_off_time = 0.12;    // of a point from the recurrence [s]
 constexpr double place_off = 2;          // and 3 times the noise [µm]
 constexpr double velocity_off = 0.05;    // share of the speed
 constexpr double velocity_noise = 20;    // of a velocity, for a noise of 1 µm [1/s]
@@ -28,8 +28,8 @@ TrailPoint moved(const TrailPoint& p, double t) {
 }  // namespace
 
 void MotionTrail::add(const TrailPoint& point, double memory) {
-  if (points_.size() == most_points)  // seldom, and many at once
-    points_.erase(points_.begin(), points_.begin() + most_points / 4);
+  if (points_.size() == max_points)  // seldom, and many at once
+    points_.erase(points_.begin(), points_.begin() + max_points / 4);
   const auto kept = std::find_if(points_.begin(), points_.end(),
                                  [&](const TrailPoint& p) { return p.t >= point.t - memory; });
   if (static_cast<std::size_t>(kept - points_.begin()) > points_.size() / 4)
@@ -59,29 +59,29 @@ std::optional<Recurrence> MotionTrail::recurrence(double noise) const {
   const TrailPoint now = points_.back();
   const double speed = norm(now.velocity);
   if (speed < at_rest) return std::nullopt;
-  const double near = most_off_time * speed + place_off + 3 * noise;
-  const double most_place_off = place_off + 3 * noise;
-  const double most_velocity_off = velocity_off * speed + velocity_noise * noise;
+  const double near = max_off_time * speed + place_off + 3 * noise;
+  const double max_place_off = place_off + 3 * noise;
+  const double max_velocity_off = velocity_off * speed + velocity_noise * noise;
   std::optional<Recurrence> best;
-  double least_off = std::numeric_limits<double>::infinity();
+  double min_off = std::numeric_limits<double>::infinity();
   for (std::size_t i = points_.size(); i-- > 0;) {
     const TrailPoint& p = points_[i];
-    if (p.t > now.t - least_age) continue;
+    if (p.t > now.t - min_age) continue;
     const Vec2 off = now.place - p.place;
     const double speed2 = squared_norm(p.velocity);
     if (squared_norm(off) > near * near || speed2 < 1) continue;
     const double shift = dot(off, p.velocity) / speed2;
-    if (std::abs(shift) > most_off_time || p.t + shift < points_.front().t) continue;
+    if (std::abs(shift) > max_off_time || p.t + shift < points_.front().t) continue;
     const TrailPoint was = at(p.t + shift);
     const double place = distance(was.place, now.place);
-    if (place > most_place_off) continue;
+    if (place > max_place_off) continue;
     for (const bool reversed : {false, true}) {
-      if (reversed && was.t < points_.front().t + least_way_back) continue;
+      if (reversed && was.t < points_.front().t + min_way_back) continue;
       const double velocity =
           norm(reversed ? was.velocity + now.velocity : was.velocity - now.velocity);
       const double sum = place + velocity_weight * velocity;
-      if (velocity > most_velocity_off || sum > least_off - much_better) continue;
-      least_off = sum;
+      if (velocity > max_velocity_off || sum > min_off - much_better) continue;
+      min_off = sum;
       best = Recurrence{was.t, reversed};
     }
   }

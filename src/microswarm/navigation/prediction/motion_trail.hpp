@@ -29,9 +29,9 @@ struct Recurrence {
 /// the trail was made for. Allocates nothing after it is made.
 class MotionTrail {
  public:
-  static constexpr std::size_t most_points = 1200;
+  static constexpr std::size_t max_points = 1200;
 
-  MotionTrail() { points_.reserve(most_points); }
+  MotionTrail() { points_.reserve(max_points); }
 
   /// Later than all before.
   void add(const TrailPoint& point, double memory);

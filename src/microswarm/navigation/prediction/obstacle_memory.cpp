@@ -22,7 +22,7 @@ Observation ObstacleMemory::complete(const Observation& observation) {
   }
   if (observation.seen != tracker_.seen()) {
     look_for_lost(bodies, observation.seen);
-    tracker_.see(observation);
+    tracker_.update(observation);
     found_.assign(bodies.begin(), bodies.end());
   }
   if (lost_.empty()) return observation;

@@ -22,9 +22,9 @@ double inradius_bound(const Body& body) {
 
 }  // namespace
 
-void ObstaclePredictor::see(const Observation& observation) {
+void ObstaclePredictor::update(const Observation& observation) {
   if (!observation.world) return;
-  tracker_.see(observation);
+  tracker_.update(observation);
   const auto bodies = observation.world->moving().bodies();
   motions_.assign(bodies.size(), {});
   all_rest_ = true;
@@ -59,7 +59,7 @@ double ObstaclePredictor::clearance(const Snapshot& frame, Segment s, double t0,
 
 Snapshot ObstaclePredictor::swept_obstacles(const Snapshot& frame, double horizon, double r) const {
   constexpr double enough_copies = 8;
-  constexpr double most_copies = 100;
+  constexpr double max_copies = 100;
   const auto bodies = frame.moving().bodies();
   assert(bodies.size() == motions_.size());
   std::vector<Body> swept;
@@ -69,8 +69,7 @@ Snapshot ObstaclePredictor::swept_obstacles(const Snapshot& frame, double horizo
     const double size = std::max(1.0, inradius_bound(bodies[i]));
     // Copies that close up; of a small and fast body fewer, but no path fits between two of them.
     const double without_gap = std::max(enough_copies, std::ceil(way / (size + r)));
-    const int copies =
-        static_cast<int>(std::min({std::ceil(way / size), without_gap, most_copies}));
+    const int copies = static_cast<int>(std::min({std::ceil(way / size), without_gap, max_copies}));
     for (int k = 0; k <= copies; ++k) {
       swept.push_back(bodies[i]);
       if (copies == 0) continue;

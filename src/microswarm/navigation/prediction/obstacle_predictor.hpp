@@ -15,7 +15,7 @@ class ObstaclePredictor {
   explicit ObstaclePredictor(const ObstacleTrackerParams& params = {}) : tracker_(params) {}
 
   /// Takes a frame; see ObstacleTracker::see. What follows is about the newest frame.
-  void see(const Observation& observation);
+  void update(const Observation& observation);
 
   /// Does no body move from its place, as far as the frames tell? Outlines may still deform.
   bool all_rest() const { return all_rest_; }

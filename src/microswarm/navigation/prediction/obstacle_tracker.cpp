@@ -75,7 +75,7 @@ Disc extent_of(const Body& body) {
   return extent;
 }
 
-void ObstacleTracker::see(const Observation& observation, double range) {
+void ObstacleTracker::update(const Observation& observation, double range) {
   if (!observation.world || !std::isfinite(observation.seen)) return;
   const auto bodies = observation.world->moving().bodies();
   if (observation.seen == seen_ && bodies.size() == trail_of_.size()) return;
@@ -174,7 +174,7 @@ double ObstacleTracker::outline_speed_within(std::size_t body, const Body& shape
          (seen_ - before.t);
 }
 
-TrackedBody ObstacleTracker::told_by(const Trail& trail) const {
+TrackedBody ObstacleTracker::estimate(const Trail& trail) const {
   if (trail.places.empty()) return {.velocity_error = std::numeric_limits<double>::infinity()};
   const MotionFit place = fit_motion(trail.places, params_.frames);
   const MotionFit radius = fit_motion(trail.radii, params_.frames);

@@ -41,12 +41,13 @@ class ObstacleTracker {
   /// Takes a frame. One that is as new as the last is not taken again; one that is older, or as
   /// new with another number of bodies, begins anew. An observation without a world is left out.
   /// Bodies all of which are farther than `range` [µm] from the swarm that is seen are left out.
-  void see(const Observation& observation, double range = std::numeric_limits<double>::infinity());
+  void update(const Observation& observation,
+              double range = std::numeric_limits<double>::infinity());
   /// Of the newest frame.
   std::size_t size() const { return trail_of_.size(); }
   /// How the body at this place in the newest frame's moving().bodies() moves; what was left out
   /// rests, with an infinite velocity error.
-  TrackedBody body(std::size_t body) const { return told_by(trails_[trail_of_[body]]); }
+  TrackedBody body(std::size_t body) const { return estimate(trails_[trail_of_[body]]); }
   /// Its outline speed, told from those edges alone that come into the disc [µm/s]: parts of a
   /// large body may move that are far away. `shape` is that body in the newest frame.
   double outline_speed_within(std::size_t body, const Body& shape, Disc within) const;
@@ -74,7 +75,7 @@ class ObstacleTracker {
   std::vector<Trail>::iterator lower_bound(const Key& key);
   void extend(Trail& trail, const Body& body, Disc within) const;
   void compare_outline(Trail& trail, const Polygon& polygon, Vec2 centre) const;
-  TrackedBody told_by(const Trail& trail) const;
+  TrackedBody estimate(const Trail& trail) const;
 
   ObstacleTrackerParams params_;
   double seen_ = -std::numeric_limits<double>::infinity();

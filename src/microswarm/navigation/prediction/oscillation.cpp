@@ -12,7 +12,7 @@ namespace {
 constexpr double slowest = 0.08;  // [rad/s]
 constexpr double fastest = 3.5;   // [rad/s]
 constexpr double spacing = 0.08;  // between the frames that are used [s]
-constexpr int least_sightings = 6;
+constexpr int min_sightings = 6;
 constexpr double same_time = 1e-9;  // [s]
 
 /// Coefficients of the three terms, and what is left over of Σ |place|².
@@ -85,14 +85,14 @@ OscillationFit::OscillationFit() {
   const double step = maths::log(fastest / slowest) / (rungs - 1);
   for (std::size_t k = 0; k < rungs; ++k)
     frequencies_[k] = slowest * maths::exp(step * static_cast<double>(k));
-  rows_.reserve(most_rows);
+  rows_.reserve(max_rows);
 }
 
 void OscillationFit::begin(double now) {
   now_ = now;
   if (rows_.size() > 1 && rows_.back().t - rows_[rows_.size() - 2].t < spacing) rows_.pop_back();
   std::erase_if(rows_, [&](const Row& row) { return row.t < now - windows.back(); });
-  if (rows_.size() == most_rows) rows_.erase(rows_.begin());
+  if (rows_.size() == max_rows) rows_.erase(rows_.begin());
   rows_.emplace_back().t = now;
   for (Row& row : rows_) fill(row);
 }
@@ -129,7 +129,7 @@ OscillationFit::Fits OscillationFit::fit(std::span<const Sighting> sightings) {
 }
 
 std::optional<Oscillation> OscillationFit::best_of(const Sums& sums, Vec2 origin) const {
-  if (sums.count < least_sightings) return std::nullopt;
+  if (sums.count < min_sightings) return std::nullopt;
   std::array<std::optional<Terms>, rungs> terms;
   std::size_t best = rungs;
   for (std::size_t k = 0; k < rungs; ++k) {

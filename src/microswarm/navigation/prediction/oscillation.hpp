@@ -40,7 +40,7 @@ class OscillationFit {
 
  private:
   static constexpr std::size_t rungs = 48;
-  static constexpr std::size_t most_rows = 104;
+  static constexpr std::size_t max_rows = 104;
   struct Row {
     double t = 0;
     std::array<double, rungs> sine;    ///< sin(ωt) / ω

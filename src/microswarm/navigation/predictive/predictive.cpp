@@ -13,13 +13,13 @@
 namespace microswarm {
 namespace {
 
-constexpr double wall_contact = 200;   // seconds a second
-constexpr double wall_nearness = 1.5;  // seconds a second, at the wall margin
-constexpr double wall_reach = 20;      // beyond the wall margin [µm]
-constexpr double no_way = 1000;        // to the goal [s]
-constexpr double inner_goal = 0.9;     // of the tolerance: where it counts as reached
-constexpr double slow_share = 0.1;     // of the swarm's speed
-constexpr double closing_time = 1;     // for which a hollow body is taken to close in [s]
+constexpr double wall_contact = 200;     // seconds a second
+constexpr double wall_nearness = 1.5;    // seconds a second, at the wall margin
+constexpr double wall_reach = 20;        // beyond the wall margin [µm]
+constexpr double no_path_reason = 1000;  // to the goal [s]
+constexpr double inner_goal = 0.9;       // of the tolerance: where it counts as reached
+constexpr double slow_share = 0.1;       // of the swarm's speed
+constexpr double closing_time = 1;       // for which a hollow body is taken to close in [s]
 constexpr double leg_rounding = 1e-9;
 constexpr std::array<double, 3> speed_shares{1, 0.5, 0.25};  // the last to turn in little room
 
@@ -47,67 +47,71 @@ PredictiveNavigator::PredictiveNavigator(const PredictiveParams& params, const S
                                          Vec2 goal, double goal_tolerance, Rng,
                                          double frame_timeout)
     : params_(params),
-      helm_(swarm, params.speed, goal, goal_tolerance, frame_timeout),
+      steering_(swarm, params.speed, goal, goal_tolerance, frame_timeout),
       goal_tolerance_(goal_tolerance),
       reached_{goal, inner_goal * goal_tolerance},
-      radius_(swarm.radius + params.margin),
-      foresight_(params.foresight),
-      field_(helm_.speed(), params.horizon, params.step) {
+      radius_(swarm.radius + params.gap),
+      predictor_(params.prediction),
+      field_(steering_.speed(), params.horizon, params.step) {
   path_.reserve(static_cast<std::size_t>(field_.steps()) + 1);
 }
 
 void PredictiveNavigator::prepare(const Snapshot& world) {
-  helm_.prepare(world, helm_.swarm().radius, helm_.swarm().radius + params_.wall_margin);
-  const double left = helm_.aim_tolerance();
-  reached_ = {helm_.aim(), inner_goal * left};
+  steering_.prepare(world, steering_.swarm().radius, steering_.swarm().radius + params_.wall_gap);
+  const double left = steering_.aim().tolerance;
+  reached_ = {steering_.aim().position, inner_goal * left};
   ends_within_ = goal_tolerance_ - (1 - inner_goal) * left;
   if (params_.guide == Guide::route)
-    route_ = Route(world.map(), helm_.aim(),
-                   helm_.wall_clearance(helm_.swarm().radius + params_.wall_margin, helm_.aim(), 0),
+    route_ = Route(world.map(), steering_.aim().position,
+                   steering_.wall_clearance(steering_.swarm().radius + params_.wall_gap,
+                                            steering_.aim().position, 0),
                    params_.route_cell);
 }
 
 NavigatorView PredictiveNavigator::view() const {
-  NavigatorView view = helm_.view();
+  NavigatorView view = steering_.view();
   view.planned = planned_;
   view.path = path_;
   return view;
 }
 
 Command PredictiveNavigator::step(const Observation& seen, const Stop&) {
-  foresight_.see(seen);
+  predictor_.update(seen);
   path_.clear();
   planned_ = false;
-  const Pose2* at = helm_.begin(seen);
-  if (!at) return helm_.rest();
+  const Pose2* at = steering_.observe(seen);
+  if (!at) return steering_.hold();
   const Pose2 pose = *at;
   const Map& map = seen.world->map();
-  radius_ = std::max(helm_.swarm().radius, seen.swarm->radius) + params_.margin;
+  radius_ = std::max(steering_.swarm().radius, seen.swarm->radius) + params_.gap;
   look_at_bodies(seen, pose.position);
-  look_ahead(seen.seen + helm_.delay());
-  in_sight_ = params_.guide == Guide::straight ||
-              map.is_free(Segment{pose.position, helm_.aim()}, helm_.swarm().radius);
+  look_ahead(seen.seen + steering_.delay());
+  in_sight_ =
+      params_.guide == Guide::straight ||
+      map.is_free(Segment{pose.position, steering_.aim().position}, steering_.swarm().radius);
   path_.push_back(pose.position);
   if (goal_is_clear(map, pose)) {
-    helm_.show_target(helm_.aim());
-    path_.push_back(helm_.aim());
-    return helm_.issue({heading_of(helm_.aim() - pose.position), helm_.speed()},
-                       NavigatorState::follow);
+    steering_.view().local_target = steering_.aim().position;
+    path_.push_back(steering_.aim().position);
+    return steering_.command(
+        {heading_of(steering_.aim().position - pose.position), steering_.speed()},
+        NavigatorState::follow);
   }
   planned_ = true;
   solve(map, pose.position);
   const Leg leg = best_leg(map, pose);
   const Vec2 end =
       pose.position + field_.step() * leg.command.speed * unit_vector(leg.command.heading);
-  helm_.show_target(end);
-  const double gap = std::min(leg.least_gap, follow_field(end));
-  const bool meets = gap < -params_.margin;
+  steering_.view().local_target = end;
+  const double gap = std::min(leg.min_gap, follow_field(end));
+  const bool meets = gap < -params_.gap;
   if (leg.command.speed == 0)
-    return helm_.issue({pose.heading, 0}, meets ? NavigatorState::escape : NavigatorState::hold);
+    return steering_.command({pose.heading, 0},
+                             meets ? NavigatorState::escape : NavigatorState::hold);
   const bool alone = gap > 2 * params_.risk.reach;
-  return helm_.issue(leg.command, meets   ? NavigatorState::escape
-                                  : alone ? NavigatorState::follow
-                                          : NavigatorState::avoid);
+  return steering_.command(leg.command, meets   ? NavigatorState::escape
+                                        : alone ? NavigatorState::follow
+                                                : NavigatorState::avoid);
 }
 
 /// Takes the outlines of all bodies. Of one that is hollow and hardly moves, such as a channel with
@@ -115,28 +119,28 @@ Command PredictiveNavigator::step(const Observation& seen, const Stop&) {
 void PredictiveNavigator::look_at_bodies(const Observation& seen, Vec2 from) {
   bodies_ = 0;
   body_of_.clear();
-  hollow_bodies_.clear();
+  nonconvex_bodies_.clear();
   closing_ = 0;
   const auto bodies = seen.world->moving().bodies();
-  for (std::size_t i = 0; i < bodies.size() && i < foresight_.size(); ++i) {
+  for (std::size_t i = 0; i < bodies.size() && i < predictor_.size(); ++i) {
     if (outlines_.size() == bodies_) outlines_.emplace_back();
     ConvexOutline& outline = outlines_[bodies_];
     outliner_.take(bodies[i], outline);
-    if (stands_hollow(outline, foresight_.tracked(i), from)) {
-      hollow_bodies_.push_back(bodies[i]);
-      closing_ = std::max(closing_, closing_time * foresight_.tracked(i).outline_speed);
+    if (stands_hollow(outline, predictor_.tracked(i), from)) {
+      nonconvex_bodies_.push_back(bodies[i]);
+      closing_ = std::max(closing_, closing_time * predictor_.tracked(i).outline_speed);
       continue;
     }
     body_of_.push_back(i);
     ++bodies_;
   }
-  hollow_.assign(hollow_bodies_);
+  nonconvex_.assign(nonconvex_bodies_);
 }
 
 bool PredictiveNavigator::stands_hollow(const ConvexOutline& outline, const TrackedBody& motion,
                                         Vec2 from) const {
-  if (norm(motion.velocity) > slow_share * helm_.speed()) return false;
-  return outliner_.misleads(outline, std::array{from, helm_.aim()});
+  if (norm(motion.velocity) > slow_share * steering_.speed()) return false;
+  return outliner_.misleads(outline, std::array{from, steering_.aim().position});
 }
 
 /// Where the bodies will be, from when this step's command takes effect.
@@ -145,32 +149,32 @@ void PredictiveNavigator::look_ahead(double effect) {
   leg_ahead_.clear();
   for (int s = 0; s < 2 * field_.steps(); ++s)
     for (const std::size_t body : body_of_)
-      ahead_.push_back(foresight_.at(body, effect + field_.time_of(s)));
+      ahead_.push_back(predictor_.at(body, effect + field_.time_of(s)));
   for (int s = 0; s <= leg_pieces; ++s)
     for (const std::size_t body : body_of_)
-      leg_ahead_.push_back(foresight_.at(body, effect + field_.step() * s / leg_pieces));
+      leg_ahead_.push_back(predictor_.at(body, effect + field_.step() * s / leg_pieces));
 }
 
 /// Is nothing near to the straight way to the goal, as far as the horizon reaches? Between the
 /// samples, what is met may have come nearer by half the way that both of them made.
 bool PredictiveNavigator::goal_is_clear(const Map& map, const Pose2& pose) const {
-  const Vec2 way = helm_.aim() - pose.position;
+  const Vec2 way = steering_.aim().position - pose.position;
   const double heading = heading_of(way);
   constexpr double turned = 0.02;  // [rad]
-  const bool turns = std::isfinite(helm_.swarm().max_turn_rate);
+  const bool turns = std::isfinite(steering_.swarm().max_turn_rate);
   if (!in_sight_ || (turns && turn_between(heading, pose.heading) > turned)) return false;
-  const double own_step = 0.5 * field_.step() * helm_.speed();
+  const double own_step = 0.5 * field_.step() * steering_.speed();
   for (int s = 0; s < 2 * field_.steps(); ++s) {
-    const double gone = std::min(norm(way), field_.time_of(s) * helm_.speed());
+    const double gone = std::min(norm(way), field_.time_of(s) * steering_.speed());
     const Vec2 p = pose.position + gone * unit_vector(heading);
     if (standing_risk(map, p) > 0) return false;
     const std::size_t first = static_cast<std::size_t>(s) * bodies_;
     for (std::size_t i = 0; i < bodies_; ++i) {
-      const BodyAhead& body = ahead_[first + i];
+      const PredictedBody& body = ahead_[first + i];
       const double step = s > 0 ? distance(body.centre, ahead_[first + i - bodies_].centre) : 0;
       const double gap =
           outlines_[i].distance_at(rotated(p - body.centre, -body.turn)) - body.growth - radius_;
-      if (gap < params_.risk.reach + body.doubt + 0.5 * (own_step + step)) return false;
+      if (gap < params_.risk.reach + body.uncertainty + 0.5 * (own_step + step)) return false;
     }
     if (gone == norm(way)) break;
   }
@@ -186,43 +190,44 @@ void PredictiveNavigator::solve(const Map& map, Vec2 from) {
 
 /// Time to the goal over free ground [s].
 double PredictiveNavigator::left_from(Vec2 p) const {
-  const double straight = distance(p, helm_.aim()) - reached_.radius;
-  if (in_sight_) return std::max(0.0, straight) / helm_.speed();
+  const double straight = distance(p, steering_.aim().position) - reached_.radius;
+  if (in_sight_) return std::max(0.0, straight) / steering_.speed();
   const double way = route_.way_from(p);
-  return std::isfinite(way) ? way / helm_.speed() : no_way;
+  return std::isfinite(way) ? way / steering_.speed() : no_path_reason;
 }
 
 float PredictiveNavigator::standing_risk(const Map& map, Vec2 p) const {
-  const double radius = radius_ - params_.margin;
+  const double radius = radius_ - params_.gap;
   double clearance = map.field().lower(p) + 0.5 * map.field().spread();
-  if (!hollow_.empty()) {
-    const double limit = radius + params_.wall_margin + wall_reach + closing_;
-    clearance = std::min(clearance, hollow_.clearance(p, limit) - closing_);
+  if (!nonconvex_.empty()) {
+    const double limit = radius + params_.wall_gap + wall_reach + closing_;
+    clearance = std::min(clearance, nonconvex_.clearance(p, limit) - closing_);
   }
-  const double gap = clearance - radius - params_.wall_margin;
+  const double gap = clearance - radius - params_.wall_gap;
   if (gap >= wall_reach) return 0;
-  if (gap < -params_.wall_margin) return static_cast<float>(wall_contact);
+  if (gap < -params_.wall_gap) return static_cast<float>(wall_contact);
   const double share = std::min(1.0, 1 - gap / wall_reach);
   return static_cast<float>(wall_nearness * share * share);
 }
 
 PredictiveNavigator::Leg PredictiveNavigator::best_leg(const Map& map, const Pose2& pose) {
-  const bool turns_slowly = std::isfinite(helm_.swarm().max_turn_rate);
+  const bool turns_slowly = std::isfinite(steering_.swarm().max_turn_rate);
   ending_ = false;
   wanted_ = turns_slowly ? best_heading(pose.position) : std::nullopt;
   Leg best = tried(map, pose, {pose.heading, 0}, std::numeric_limits<double>::infinity());
-  const bool alone = std::isinf(best.least_gap);
-  ending_ = alone && in_sight_ &&
-            distance(pose.position, helm_.aim()) < 2 * field_.step() * helm_.speed();
+  const bool alone = std::isinf(best.min_gap);
+  ending_ =
+      alone && in_sight_ &&
+      distance(pose.position, steering_.aim().position) < 2 * field_.step() * steering_.speed();
   // Where nothing moves, waiting leads nowhere: who turns slowly does not turn at rest, and the
   // last bit is finer than the field's cells.
   if (alone && (turns_slowly || ending_)) best.cost = std::numeric_limits<double>::infinity();
-  const double straight = heading_of(helm_.aim() - pose.position);
+  const double straight = heading_of(steering_.aim().position - pose.position);
   const std::span shares(speed_shares);
   for (const double share : turns_slowly ? shares : shares.first(2))
     for (int k = 0; k < params_.directions; ++k) {
       const Command command{wrap(straight + 2 * pi * k / params_.directions),
-                            share * helm_.speed()};
+                            share * steering_.speed()};
       const Leg leg = tried(map, pose, command, best.cost);
       if (leg.cost < best.cost - leg_rounding) best = leg;
     }
@@ -233,23 +238,24 @@ PredictiveNavigator::Leg PredictiveNavigator::best_leg(const Map& map, const Pos
 PredictiveNavigator::Leg PredictiveNavigator::tried(const Map& map, const Pose2& from,
                                                     const Command& command, double bound) const {
   const double dt = field_.step() / leg_pieces;
-  const double needed = std::min(helm_.wall_clearance(helm_.swarm().radius + params_.wall_margin,
-                                                      from.position, field_.step() * helm_.speed()),
-                                 (1 - leg_rounding) * map.clearance(from.position));
+  const double needed =
+      std::min(steering_.wall_clearance(steering_.swarm().radius + params_.wall_gap, from.position,
+                                        field_.step() * steering_.speed()),
+               (1 - leg_rounding) * map.clearance(from.position));
   Leg leg{command, field_.cost(1, from.position), std::numeric_limits<double>::infinity()};
   leg.cost = 0;
   Pose2 pose = from;
   for (int piece = 0; piece < leg_pieces; ++piece) {
-    const Pose2 next = unicycle_step(pose, command, helm_.swarm().max_turn_rate, dt);
+    const Pose2 next = unicycle_step(pose, command, steering_.swarm().max_turn_rate, dt);
     const Segment way{pose.position, next.position};
     const Meeting met = meeting(piece, way);
-    leg.least_gap = std::min(leg.least_gap, met.gap);
+    leg.min_gap = std::min(leg.min_gap, met.gap);
     const double risk = std::max(met.risk, static_cast<double>(standing_risk(map, next.position)));
     leg.cost += dt * (1 + risk);
-    if (command.speed > 0 && !map.is_free(way, needed)) leg.cost = no_way + bound;
+    if (command.speed > 0 && !map.is_free(way, needed)) leg.cost = no_path_reason + bound;
     if (leg.cost > bound) return leg;
     pose = next;
-    if (ending_ ? distance(helm_.goal(), way) < ends_within_
+    if (ending_ ? distance(steering_.goal(), way) < ends_within_
                 : distance(pose.position, reached_.centre) < reached_.radius)
       return leg;
   }
@@ -272,9 +278,9 @@ std::optional<double> PredictiveNavigator::best_heading(Vec2 p) const {
 /// turns by an angle at its full rate, it gets on by that angle's sine alone.
 double PredictiveNavigator::turning_time(const Pose2& pose) const {
   if (!wanted_) return 0;
-  const double wanted = ending_ ? heading_of(helm_.aim() - pose.position) : *wanted_;
+  const double wanted = ending_ ? heading_of(steering_.aim().position - pose.position) : *wanted_;
   const double turn = turn_between(wanted, pose.heading);
-  return (turn - maths::sin(turn)) / helm_.swarm().max_turn_rate;
+  return (turn - maths::sin(turn)) / steering_.swarm().max_turn_rate;
 }
 
 /// What the bodies mean to the swarm while it goes along a piece of the first leg.
@@ -282,17 +288,18 @@ PredictiveNavigator::Meeting PredictiveNavigator::meeting(int piece, Segment way
   Meeting out;
   const std::size_t first = static_cast<std::size_t>(piece) * bodies_;
   for (std::size_t i = 0; i < bodies_; ++i) {
-    const BodyAhead& a = leg_ahead_[first + i];
-    const BodyAhead& b = leg_ahead_[first + bodies_ + i];
+    const PredictedBody& a = leg_ahead_[first + i];
+    const PredictedBody& b = leg_ahead_[first + bodies_ + i];
     const double grown = radius_ + std::max(a.growth, b.growth);
-    const double near = grown + params_.risk.reach + b.doubt;
+    const double near = grown + params_.risk.reach + b.uncertainty;
     const Vec2 p = way.a - a.centre;
     const Vec2 q = way.b - b.centre;
     const double away = outlines_[i].radius + near + distance(p, q);
     if (squared_norm(p) > away * away) continue;
     const double gap =
         distance_to(outlines_[i], rotated(p, -a.turn), rotated(q, -b.turn), near) - grown;
-    const auto risk = risk_of(params_.risk, static_cast<float>(gap), static_cast<float>(b.doubt));
+    const auto risk =
+        risk_of(params_.risk, static_cast<float>(gap), static_cast<float>(b.uncertainty));
     out.gap = std::min(out.gap, gap);
     out.risk = std::max(out.risk, static_cast<double>(risk));
   }
@@ -308,11 +315,11 @@ double PredictiveNavigator::follow_field(Vec2 from) {
   for (int k = 1; k < field_.steps(); ++k) {
     const std::size_t first = static_cast<std::size_t>(2 * k) * bodies_;
     for (std::size_t i = 0; i < bodies_; ++i) {
-      const BodyAhead& body = ahead_[first + i];
+      const PredictedBody& body = ahead_[first + i];
       const Vec2 off = rotated(p - body.centre, -body.turn);
       least = std::min(least, outlines_[i].distance_at(off) - body.growth - radius_);
     }
-    if (helm_.arrives(p)) break;
+    if (steering_.arrives(p)) break;
     p = field_.next(k, p);
     path_.push_back(p);
   }

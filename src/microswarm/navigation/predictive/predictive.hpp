@@ -7,11 +7,11 @@
 
 #include "microswarm/core/rng.hpp"
 #include "microswarm/navigation/prediction/convex_outline.hpp"
-#include "microswarm/navigation/prediction/foresight.hpp"
+#include "microswarm/navigation/prediction/multi_model_predictor.hpp"
 #include "microswarm/navigation/predictive/predictive_params.hpp"
 #include "microswarm/navigation/predictive/time_field.hpp"
 #include "microswarm/navigation/steering/guide.hpp"
-#include "microswarm/navigation/steering/helm.hpp"
+#include "microswarm/navigation/steering/steering_cycle.hpp"
 
 namespace microswarm {
 
@@ -26,14 +26,14 @@ class PredictiveNavigator : public Navigator {
   Command step(const Observation& observation, const Stop& stop) override;
   NavigatorView view() const override;
 
-  const Foresight& foresight() const { return foresight_; }
+  const MultiModelPredictor& prediction() const { return predictor_; }
 
  private:
   static constexpr int leg_pieces = 5;
   struct Leg {
     Command command;
     double cost = 0;
-    double least_gap = 0;  ///< to obstacles [µm]
+    double min_gap = 0;  ///< to obstacles [µm]
   };
 
   struct Meeting {
@@ -56,12 +56,12 @@ class PredictiveNavigator : public Navigator {
   double follow_field(Vec2 from);
 
   PredictiveParams params_;
-  Helm helm_;
+  SteeringCycle steering_;
   double goal_tolerance_;
   Disc reached_;            ///< from where on the goal counts as reached
   double ends_within_ = 0;  ///< of the goal, on the last bit [µm]
   double radius_;           ///< with the margin [µm]
-  Foresight foresight_;
+  MultiModelPredictor predictor_;
   TimeField field_;
   Route route_;
   bool in_sight_ = true;          ///< is the goal?
@@ -72,10 +72,10 @@ class PredictiveNavigator : public Navigator {
   std::vector<ConvexOutline> outlines_;  ///< of the bodies that are foreseen
   std::vector<std::size_t> body_of_;
   std::size_t bodies_ = 0;
-  std::vector<BodyAhead> ahead_;      ///< at the samples of the field
-  std::vector<BodyAhead> leg_ahead_;  ///< at the ends of the pieces of the first leg
-  std::vector<Body> hollow_bodies_;
-  BodySet hollow_;      ///< bodies that the swarm is within the hull of: taken as they stand
+  std::vector<PredictedBody> ahead_;      ///< at the samples of the field
+  std::vector<PredictedBody> leg_ahead_;  ///< at the ends of the pieces of the first leg
+  std::vector<Body> nonconvex_bodies_;
+  BodySet nonconvex_;   ///< bodies that the swarm is within the hull of: taken as they stand
   double closing_ = 0;  ///< what those may come nearer meanwhile [µm]
   std::vector<Vec2> path_;
   bool planned_ = false;

@@ -8,7 +8,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double longest_way = 3.25;  // cells
+constexpr double longest_path = 3.25;  // cells
 constexpr double long_way = 2.4;
 constexpr double short_way = 1.5;
 constexpr double cells_a_step = 3.1;  // the mean of the long ways
@@ -25,7 +25,7 @@ TimeField::TimeField(double speed, double horizon, double step)
   for (int j = -stride_cells; j <= stride_cells; ++j)
     for (int i = -stride_cells; i <= stride_cells; ++i) {
       const double length = std::sqrt(i * i + j * j);
-      const bool is_long = length >= long_way && length <= longest_way;
+      const bool is_long = length >= long_way && length <= longest_path;
       const bool is_short = length <= short_way && (i == 0) == (j == 0);
       if (!is_long && !is_short) continue;
       // A whole number of cells is a little more or less than a step's way. Slow moves wait.
@@ -69,14 +69,15 @@ void TimeField::begin(Vec2 centre, Disc goal, const std::function<float(Vec2)>& 
     }
 }
 
-void TimeField::solve(std::span<const ConvexOutline> outlines, std::span<const BodyAhead> ahead,
+void TimeField::solve(std::span<const ConvexOutline> outlines, std::span<const PredictedBody> ahead,
                       double radius, const RiskParams& risk) {
   for (int k = steps_ - 1; k > 0; --k) step_back(k, outlines, ahead, radius, risk);
 }
 
 // The first half of a step counts where it begins, the second half where it ends.
 void TimeField::step_back(int k, std::span<const ConvexOutline> outlines,
-                          std::span<const BodyAhead> ahead, double radius, const RiskParams& risk) {
+                          std::span<const PredictedBody> ahead, double radius,
+                          const RiskParams& risk) {
   const auto bodies = outlines.size();
   const auto sample = [&](int s) {
     return ahead.subspan(static_cast<std::size_t>(s) * bodies, bodies);
@@ -111,7 +112,7 @@ void TimeField::step_back(int k, std::span<const ConvexOutline> outlines,
 }
 
 void TimeField::paint(int reach, std::span<const ConvexOutline> outlines,
-                      std::span<const BodyAhead> ahead, double radius, const RiskParams& risk) {
+                      std::span<const PredictedBody> ahead, double radius, const RiskParams& risk) {
   for (int row = half_ - reach; row <= half_ + reach; ++row) {
     const std::size_t first = cell_of(half_ - reach, row);
     std::copy_n(&standing_[first], 2 * reach + 1, &risk_[first]);
@@ -120,10 +121,10 @@ void TimeField::paint(int reach, std::span<const ConvexOutline> outlines,
     paint_one(reach, outlines[i], ahead[i], radius, risk);
 }
 
-void TimeField::paint_one(int reach, const ConvexOutline& outline, const BodyAhead& ahead,
+void TimeField::paint_one(int reach, const ConvexOutline& outline, const PredictedBody& ahead,
                           double radius, const RiskParams& risk) {
   const double grown = radius + ahead.growth;
-  const double felt = outline.radius + grown + risk.reach + ahead.doubt;
+  const double felt = outline.radius + grown + risk.reach + ahead.uncertainty;
   const Vec2 middle = (ahead.centre - centre_) / cell_ +
                       Vec2{static_cast<double>(half_), static_cast<double>(half_)};
   const double cells = felt / cell_;
@@ -157,8 +158,9 @@ void TimeField::paint_one(int reach, const ConvexOutline& outline, const BodyAhe
         gap[i] = std::max(gap[i], base + static_cast<float>(i) * slope);
     }
     float* const worst = &risk_[cell_of(left, row)];
-    const auto doubt = static_cast<float>(ahead.doubt);
-    for (int i = 0; i < count; ++i) worst[i] = std::max(worst[i], risk_of(risk, gap[i], doubt));
+    const auto uncertainty = static_cast<float>(ahead.uncertainty);
+    for (int i = 0; i < count; ++i)
+      worst[i] = std::max(worst[i], risk_of(risk, gap[i], uncertainty));
   }
 }
 

@@ -7,20 +7,21 @@
 #include <vector>
 
 #include "microswarm/navigation/prediction/convex_outline.hpp"
-#include "microswarm/navigation/prediction/foresight.hpp"
+#include "microswarm/navigation/prediction/multi_model_predictor.hpp"
 #include "microswarm/navigation/predictive/predictive_params.hpp"
 
 namespace microswarm {
 
-/// The cost of a gap [µm] that is known up to `doubt` [µm].
-inline float risk_of(const RiskParams& p, float gap, float doubt) {
-  const float reach = static_cast<float>(p.reach) + doubt;
+/// The cost of a gap [µm] that is known up to `uncertainty` [µm].
+inline float risk_of(const RiskParams& p, float gap, float uncertainty) {
+  const float reach = static_cast<float>(p.reach) + uncertainty;
   const float contact =
-      std::clamp(0.5F - 0.5F * gap / (static_cast<float>(p.softness) + doubt), 0.0F, 1.0F);
+      std::clamp(0.5F - 0.5F * gap / (static_cast<float>(p.softness) + uncertainty), 0.0F, 1.0F);
   const float near = std::clamp(1 - gap / reach, 0.0F, 1.0F);
   const float depth = std::clamp(-gap / static_cast<float>(p.reach), 0.0F, 1.0F);
-  return static_cast<float>(p.contact) * contact + static_cast<float>(p.nearness) * near * near +
-         static_cast<float>(p.depth) * depth;
+  return static_cast<float>(p.contact) * contact +
+         static_cast<float>(p.proximity_cost) * near * near +
+         static_cast<float>(p.penetration_cost) * depth;
 }
 
 /// The best that can be had from every place around the swarm at every time of the horizon: least
@@ -45,7 +46,7 @@ class TimeField {
              const std::function<float(Vec2)>& left);
   /// `ahead` holds the bodies of sample 0, then those of sample 1, …, in the order of `outlines`;
   /// `radius` is the swarm's [µm].
-  void solve(std::span<const ConvexOutline> outlines, std::span<const BodyAhead> ahead,
+  void solve(std::span<const ConvexOutline> outlines, std::span<const PredictedBody> ahead,
              double radius, const RiskParams& risk);
   /// Cost [s] from `p` on when `k` steps are over, 0 < k <= steps().
   double cost(int k, Vec2 p) const;
@@ -57,12 +58,12 @@ class TimeField {
 
   Vec2 place(int column, int row) const;
   int reach_at(int k) const;
-  void paint(int reach, std::span<const ConvexOutline> outlines, std::span<const BodyAhead> ahead,
-             double radius, const RiskParams& risk);
-  void paint_one(int reach, const ConvexOutline& outline, const BodyAhead& ahead, double radius,
+  void paint(int reach, std::span<const ConvexOutline> outlines,
+             std::span<const PredictedBody> ahead, double radius, const RiskParams& risk);
+  void paint_one(int reach, const ConvexOutline& outline, const PredictedBody& ahead, double radius,
                  const RiskParams& risk);
-  void step_back(int k, std::span<const ConvexOutline> outlines, std::span<const BodyAhead> ahead,
-                 double radius, const RiskParams& risk);
+  void step_back(int k, std::span<const ConvexOutline> outlines,
+                 std::span<const PredictedBody> ahead, double radius, const RiskParams& risk);
   std::size_t cell_of(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
            static_cast<std::size_t>(column);

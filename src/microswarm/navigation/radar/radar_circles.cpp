@@ -23,9 +23,9 @@ int directions_of(const RadarParams& params) {
 RadarParams RadarParams::in_effect() const {
   RadarParams p = *this;
   if (!as_published) return p;
-  p.guard = {.active = false};
+  p.safety_filter = {.active = false};
   p.retreat = false;
-  p.most_turn = radians(180);
+  p.max_turn = radians(180);
   p.compensate_delay = false;
   p.obstacle_speed_bound = 0;
   return p;

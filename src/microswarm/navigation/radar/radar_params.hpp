@@ -7,15 +7,16 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/fields.hpp"
-#include "microswarm/navigation/radar/guard_params.hpp"
+#include "microswarm/navigation/radar/safety_filter_params.hpp"
 #include "microswarm/navigation/radar/safety_radius_params.hpp"
-#include "microswarm/navigation/radar/wait_area_params.hpp"
+#include "microswarm/navigation/radar/wait_zone_params.hpp"
 #include "microswarm/planning/path/fmt_star_params.hpp"
 
 namespace microswarm {
 
 /// Radar-based navigation among moving obstacles [radar]. Ours besides: that it keeps to a side,
-/// the retreat, the guard, and that delays are made up for. `as_published` switches all that off.
+/// the retreat, the safety_filter, and that delays are made up for. `as_published` switches all
+/// that off.
 struct RadarParams {
   static constexpr std::string_view type_name = "radar";
   double speed = 85.8;
@@ -26,12 +27,12 @@ struct RadarParams {
   double target_gain = 0.1;         // k_t ε
   double avoidance_gain = 0.9;      // k_a η
   SafetyRadiusParams safety_radius;
-  double most_turn = radians(90);
+  double max_turn = radians(90);
   bool retreat = true;
-  GuardParams guard;
+  SafetyFilterParams safety_filter;
   bool compensate_delay = true;
   double obstacle_speed_bound = 0;
-  std::vector<WaitArea> wait_areas;
+  std::vector<WaitZone> wait_zones;
   std::vector<Vec2> waypoints;
   double waypoint_tolerance = 50;
   bool global_plan = false;
@@ -42,64 +43,67 @@ struct RadarParams {
   RadarParams in_effect() const;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Speed asked for."});
-    visit(self.prediction_distance,
-          {"prediction_distance",
-           Unit::um,
-           {1e-3, 1e5},
-           "From the swarm to a predictive swarm, centre to centre (d_p)."});
+    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Commanded speed."});
+    visit(self.prediction_distance, {"prediction_distance",
+                                     Unit::um,
+                                     {1e-3, 1e5},
+                                     "Distance to a predictive swarm, centre to centre (d_p)."});
+    visit(self.safety_distance,
+          {"safety_distance", Unit::um, {0, 1e5}, "Minimum gap of a predictive swarm (d_f)."});
     visit(
-        self.safety_distance,
-        {"safety_distance", Unit::um, {0, 1e5}, "Least gap that a predictive swarm keeps (d_f)."});
-    visit(self.detection_range, {"detection_range",
-                                 Unit::um,
-                                 {1e-3, 1e6},
-                                 "Obstacles nearer to the swarm's edge are avoided (d_r)."});
+        self.detection_range,
+        {"detection_range", Unit::um, {1e-3, 1e6}, "Gap below which obstacles are avoided (d_r)."});
     visit(self.angle_step,
-          {"angle_step", Unit::deg, {0.1, 90}, "Between two directions (beta); divides 360."});
-    visit(self.target_gain,
-          {"target_gain", Unit::none, {0, 1e6}, "Growth of q_t with the way left (k_t epsilon)."});
+          {"angle_step", Unit::deg, {0.1, 90}, "Angle between directions (beta); divides 360."});
+    visit(self.target_gain, {"target_gain",
+                             Unit::none,
+                             {0, 1e6},
+                             "Growth of q_t with the remaining distance (k_t epsilon)."});
     visit(self.avoidance_gain, {"avoidance_gain",
                                 Unit::none,
                                 {0, 0.999},
-                                "Growth of q_a with nearness (k_a eta); q_a stays below q_t."});
+                                "Growth of q_a with proximity (k_a eta); q_a < q_t."});
     visit(self.safety_radius,
-          {"safety_radius", Unit::none, {}, "Control of the safety circle's radius."});
-    visit(self.most_turn, {"most_turn",
-                           Unit::deg,
-                           {30, 180},
-                           "Directions that turn more from the last one are taken only where no "
-                           "other is safe; 180 as published."});
+          {"safety_radius", Unit::none, {}, "Control of the radius of the safety circle."});
+    visit(self.max_turn, {"max_turn",
+                          Unit::deg,
+                          {30, 180},
+                          "Largest turn while another direction is safe; 180: any.",
+                          false,
+                          "most_turn_deg"});
     visit(self.retreat,
-          {"retreat", Unit::none, {}, "With no safe direction get away, else hold as published."});
-    visit(self.guard, {"guard", Unit::none, {}, "Keeps a way out open, foreseeing obstacles."});
-    visit(self.compensate_delay,
-          {"compensate_delay",
-           Unit::none,
-           {},
-           "Decide for the place where the command takes effect, not for the one seen."});
-    visit(self.obstacle_speed_bound,
-          {"obstacle_speed_bound",
-           Unit::um_per_s,
-           {0, 1e5},
-           "Obstacles count as nearer by their way at this speed in the dead time."});
-    visit(self.wait_areas,
-          {"wait_areas", Unit::none, {}, "Where to wait for valves to open (A, D)."});
-    visit(self.waypoints,
-          {"waypoints", Unit::um, {}, "Phased goals on the way, in order; none: as planned."});
-    visit(self.waypoint_tolerance,
-          {"waypoint_tolerance", Unit::um, {1e-3, 1e6}, "How near to a waypoint counts."});
-    visit(self.global_plan, {"global_plan",
-                             Unit::none,
-                             {},
-                             "Plan waypoints round the walls, else straight to the goal."});
+          {"retreat", Unit::none, {}, "Retreat where no direction is safe; else hold."});
+    visit(self.safety_filter, {"safety_filter",
+                               Unit::none,
+                               {},
+                               "Safety filter (ours): keeps an escape open.",
+                               false,
+                               "guard"});
+    visit(self.compensate_delay, {"compensate_delay",
+                                  Unit::none,
+                                  {},
+                                  "Decide for the pose at which the command takes effect."});
+    visit(self.obstacle_speed_bound, {"obstacle_speed_bound",
+                                      Unit::um_per_s,
+                                      {0, 1e5},
+                                      "Speed of obstacles assumed during the dead time."});
+    visit(self.wait_zones, {"wait_zones",
+                            Unit::none,
+                            {},
+                            "Zones in which it waits for valves to open (A, D).",
+                            false,
+                            "wait_areas"});
+    visit(self.waypoints, {"waypoints", Unit::um, {}, "Phased goals in order; none: planned."});
+    visit(self.waypoint_tolerance, {"waypoint_tolerance",
+                                    Unit::um,
+                                    {1e-3, 1e6},
+                                    "Distance at which a waypoint counts as reached."});
+    visit(
+        self.global_plan,
+        {"global_plan", Unit::none, {}, "Plan waypoints around walls; else straight to the goal."});
     visit(self.planner, {"planner", Unit::none, {}, "Planner of the waypoints."});
     visit(self.as_published,
-          {"as_published",
-           Unit::none,
-           {},
-           "As in [radar]: no guard, no retreat, delays not made up for, turns as it likes, and "
-           "every planned waypoint is visited."});
+          {"as_published", Unit::none, {}, "As in [radar], without our additions."});
   }
 };
 

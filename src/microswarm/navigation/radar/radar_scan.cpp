@@ -10,9 +10,7 @@
 namespace microswarm {
 namespace {
 
-double nearness(Vec2 place, Vec2 target) {
-  return 1 / std::max(distance(place, target), least_way);
-}
+double nearness(Vec2 place, Vec2 target) { return 1 / std::max(distance(place, target), min_way); }
 
 Vec2 place_of(const RadarLook& look, double heading) {
   return look.centre + look.step * unit_vector(heading);

@@ -23,7 +23,7 @@ struct RadarLook {
   double target_gain = 0;      ///< k_t ε
   double avoidance_gain = 0;   ///< k_a η
   std::optional<Vec2> course;  ///< unit vector of the direction last driven
-  double least_cosine = -1;    ///< of the angle to it, where there is a choice
+  double min_cosine = -1;      ///< of the angle to it, where there is a choice
 
   /// Distance that a predictive swarm's centre keeps from obstacles: r_s + d_f, `approach` besides.
   double obstacle_reach() const { return circles.safety - step + approach; }
@@ -45,7 +45,7 @@ struct RadarWeights {
 RadarWeights radar_weights(const RadarLook& look, double distance);
 
 /// 1/‖O_pe O_t‖ of Eq 9 takes no way for shorter than this [µm].
-inline constexpr double least_way = 1e-9;
+inline constexpr double min_way = 1e-9;
 
 /// N(·) of Eq 9 [radar]: from 0 to 1 over the candidates, 0 where all are equal.
 class MinMax {
@@ -65,8 +65,7 @@ class MinMax {
 
 /// Does a direction keep to the side of the course?
 inline bool keeps_course(const RadarLook& look, Vec2 direction) {
-  return !look.course || look.least_cosine <= -1 ||
-         dot(direction, *look.course) >= look.least_cosine;
+  return !look.course || look.min_cosine <= -1 || dot(direction, *look.course) >= look.min_cosine;
 }
 
 /// Why a direction is not among χ_2 of Eq 17 [radar], or is among them but turns too far where

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double scan_rounding = 1e-6;  // of distances [µm]
 constexpr std::size_t retreat_directions = 36;
-constexpr double least_gain = 0.1;  // of a retreat over the hold, so that it comes to rest [steps]
+constexpr double min_gain = 0.1;  // of a retreat over the hold, so that it comes to rest [steps]
 
 }  // namespace
 
@@ -118,12 +118,12 @@ void RadarScanner::screen_by_walls(const RadarLook& look, const Snapshot& world)
 }
 
 // 1/‖O_pe O_t‖ of Eq 9.
-void RadarScanner::measure_way(Vec2 target) {
+void RadarScanner::measure_distance(Vec2 target) {
   for (std::size_t i = 0; i < way_.size(); ++i) {
     const double dx = target.x - px_[i];
     const double dy = target.y - py_[i];
     const double way = std::sqrt(dx * dx + dy * dy);
-    way_[i] = 1 / (way > least_way ? way : least_way);
+    way_[i] = 1 / (way > min_way ? way : min_way);
   }
 }
 
@@ -149,7 +149,7 @@ void RadarScanner::measure_gap(const Snapshot& world) {
 // Eq 9–13, 31 over what room_ has kept.
 std::optional<std::size_t> RadarScanner::best(const RadarLook& look, const Snapshot& world) {
   RadarWeights weights{radar_weights(look, look.circles.detection).target, 0};
-  measure_way(look.target);
+  measure_distance(look.target);
   if (nearest_) {
     weights = radar_weights(look, nearest_->distance);
     measure_gap(world);
@@ -222,7 +222,7 @@ RadarScanner::Outcome RadarScanner::outcome(const RadarLook& look, const Snapsho
 
 // What keeps most distance on the way and gains most at its end, after one step or a longer way.
 std::optional<double> RadarScanner::retreat(const RadarLook& look, const Snapshot& world) const {
-  const double hold = outcome(look, world, look.centre).worth() + least_gain * look.step;
+  const double hold = outcome(look, world, look.centre).worth() + min_gain * look.step;
   std::optional<std::size_t> found;
   double most = hold;
   const std::size_t stride = std::max<std::size_t>(1, ux_.size() / retreat_directions);

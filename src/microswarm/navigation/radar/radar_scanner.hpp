@@ -56,7 +56,7 @@ class RadarScanner {
   void screen(const RadarLook& look, const Snapshot& world);
   void screen_by_obstacles(const RadarLook& look, const Snapshot& world);
   void screen_by_walls(const RadarLook& look, const Snapshot& world);
-  void measure_way(Vec2 target);
+  void measure_distance(Vec2 target);
   void measure_gap(const Snapshot& world);
   std::optional<std::size_t> best(const RadarLook& look, const Snapshot& world);
   Outcome outcome(const RadarLook& look, const Snapshot& world, Vec2 to) const;

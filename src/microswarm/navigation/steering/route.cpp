@@ -27,10 +27,10 @@ constexpr std::array<std::array<int, 2>, 8> steps{
 
 }  // namespace
 
-Route::Route(const Map& map, Vec2 goal, double clearance, double cell, std::size_t most_cells)
+Route::Route(const Map& map, Vec2 goal, double clearance, double cell, std::size_t max_cells)
     : goal_(goal) {
   const Box& box = map.bounds();
-  cell_ = std::max(cell, std::sqrt(box.width() * box.height() / static_cast<double>(most_cells)));
+  cell_ = std::max(cell, std::sqrt(box.width() * box.height() / static_cast<double>(max_cells)));
   // The goal is a node of the grid, so that the last step ends on it.
   const Vec2 before{std::floor((goal.x - box.lo.x) / cell_),
                     std::floor((goal.y - box.lo.y) / cell_)};

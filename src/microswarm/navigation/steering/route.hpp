@@ -15,10 +15,10 @@ namespace microswarm {
 class Route {
  public:
   Route() = default;
-  /// `cell` [µm] is the grid spacing; at most `most_cells` cells are made, by a coarser grid if
+  /// `cell` [µm] is the grid spacing; at most `max_cells` cells are made, by a coarser grid if
   /// need be.
   Route(const Map& map, Vec2 goal, double clearance, double cell,
-        std::size_t most_cells = 1'000'000);
+        std::size_t max_cells = 1'000'000);
 
   /// Way to go from `p` [µm]; infinity when no way is known.
   double way_from(Vec2 p) const;

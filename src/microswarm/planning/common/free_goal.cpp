@@ -9,7 +9,7 @@ namespace microswarm {
 namespace {
 
 constexpr int finest_level = 6;
-constexpr int most_squares = 5'000;
+constexpr int max_squares = 5'000;
 
 /// Square of a quadtree around the goal; the order makes the queue give the one nearest to the goal
 /// first, and the coarser and earlier one among equals.
@@ -29,8 +29,8 @@ struct Square {
 /// From a blocked point away from what is near to it until it is free; nothing where that fails.
 std::optional<Vec2> pushed_free(const Snapshot& world, Vec2 p, double clearance) {
   constexpr double step = 1e-3;  // of the slope [µm]
-  constexpr int most_pushes = 4;
-  for (int push = 0; push < most_pushes; ++push) {
+  constexpr int max_pushes = 4;
+  for (int push = 0; push < max_pushes; ++push) {
     const double lacking = clearance - world.clearance(p);
     if (lacking <= 0) return p;
     const Vec2 slope{world.clearance(p + Vec2{step, 0}) - world.clearance(p - Vec2{step, 0}),
@@ -41,7 +41,7 @@ std::optional<Vec2> pushed_free(const Snapshot& world, Vec2 p, double clearance)
   return world.is_free(p, clearance) ? std::optional(p) : std::nullopt;
 }
 
-double least_distance(Vec2 goal, Vec2 centre, double half) {
+double min_distance(Vec2 goal, Vec2 centre, double half) {
   const double dx = std::max(0.0, std::abs(goal.x - centre.x) - half);
   const double dy = std::max(0.0, std::abs(goal.y - centre.y) - half);
   return norm({dx, dy});
@@ -55,7 +55,7 @@ std::optional<Vec2> search(const Snapshot& world, Vec2 goal, double tolerance, d
   std::priority_queue<Square> squares;
   int number = 0;
   squares.push({goal, tolerance, 0, 0, number++});
-  while (!squares.empty() && number < most_squares) {
+  while (!squares.empty() && number < max_squares) {
     const Square square = squares.top();
     squares.pop();
     if (square.nearest > best_distance || (best && square.nearest == best_distance)) break;
@@ -74,7 +74,7 @@ std::optional<Vec2> search(const Snapshot& world, Vec2 goal, double tolerance, d
     const double half = square.half / 2;
     for (const Vec2 corner : {Vec2{-1, -1}, Vec2{1, -1}, Vec2{-1, 1}, Vec2{1, 1}}) {
       const Vec2 centre = square.centre + half * corner;
-      squares.push({centre, half, least_distance(goal, centre, half), square.level + 1, number++});
+      squares.push({centre, half, min_distance(goal, centre, half), square.level + 1, number++});
     }
   }
   return best;

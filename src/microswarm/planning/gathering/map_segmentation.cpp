@@ -12,9 +12,9 @@ constexpr std::uint32_t unassigned = ~0u;
 /// Where the ring begins in which the channels around a node are counted, as a share of its range.
 constexpr double ring_begin = 0.6;
 /// Fewer nodes than this make no channel.
-constexpr std::size_t least_in_channel = 3;
+constexpr std::size_t min_in_channel = 3;
 /// Nor does a smaller share of a region's nodes than this make a branch.
-constexpr double least_in_branch = 0.05;
+constexpr double min_in_branch = 0.05;
 
 /// Sums for the covariance ellipse of points.
 class Spread {
@@ -158,7 +158,7 @@ class Segmenter {
       if (distance(at(node), p) >= ring_begin * range) angles_.push_back(heading_of(p - at(node)));
     }
     if (spread.eccentricity() >= params_.eccentricity) return false;
-    return static_cast<int>(bundles(angles_, params_.arm_gap, least_in_channel).size()) >=
+    return static_cast<int>(bundles(angles_, params_.arm_gap, min_in_channel).size()) >=
            params_.arms;
   }
 
@@ -281,10 +281,10 @@ class Segmenter {
     }
     std::vector<std::vector<double>> branches;
     for (std::size_t r = 0; r < leaving.size(); ++r) {
-      const double least = least_in_branch * static_cast<double>(leaving[r].size());
+      const double least = min_in_branch * static_cast<double>(leaving[r].size());
       branches.push_back(bundles(leaving[r], params_.arm_gap, static_cast<std::size_t>(least)));
       if (branches[r].empty()) branches[r].push_back(0);
-      merge_nearest(branches[r], params_.most_branches);
+      merge_nearest(branches[r], params_.max_branches);
       out_.regions[r].branches = static_cast<std::uint32_t>(branches[r].size());
     }
     for (const std::uint32_t v : by_cost_) {

@@ -11,13 +11,13 @@ namespace microswarm {
 namespace {
 
 constexpr double cells_per_node = 4;
-constexpr double most_lookup_cells = 4e6;
+constexpr double max_lookup_cells = 4e6;
 /// How often the search for a node that can be seen doubles its radius.
-constexpr int most_doublings = 3;
+constexpr int max_doublings = 3;
 /// A cell so many diagonals from all nodes is a place that the tree has not reached.
 constexpr double farthest = 8;
 /// Nor does a robot look for a node it sees farther away than so many cells.
-constexpr int most_rings = 12;
+constexpr int max_rings = 12;
 
 /// Lists the nodes that can be the answer somewhere in one cell.
 class CellSearch {
@@ -66,7 +66,7 @@ class CellSearch {
   /// From the centre to the nearest node that can be seen from the cell.
   std::optional<double> distance_to_seen(Vec2 centre, double radius) {
     if (viewpoints_.empty()) return std::nullopt;
-    for (int i = 0; i < most_doublings; ++i, radius *= 2) {
+    for (int i = 0; i < max_doublings; ++i, radius *= 2) {
       list_within(centre, radius);
       double least = std::numeric_limits<double>::infinity();
       for (const std::uint32_t node : listed_) {
@@ -116,7 +116,7 @@ NodeLookup::NodeLookup(const Map& map, const PointGrid& grid) : origin_(map.boun
   assert(!grid.empty());
   const Box& bounds = map.bounds();
   const double wanted =
-      std::min(cells_per_node * static_cast<double>(grid.size()) + 1000, most_lookup_cells);
+      std::min(cells_per_node * static_cast<double>(grid.size()) + 1000, max_lookup_cells);
   const double side = std::sqrt(bounds.width() * bounds.height() / wanted);
   columns_ = static_cast<int>(std::clamp(bounds.width() / side, 1.0, wanted));
   rows_ = static_cast<int>(std::clamp(bounds.height() / side, 1.0, wanted));
@@ -141,7 +141,7 @@ std::optional<std::uint32_t> NodeLookup::nearest_visible(const Map& map, Vec2 p,
   const double side = std::min(1 / per_cell_.x, 1 / per_cell_.y);
   std::optional<std::uint32_t> best;
   double least = std::numeric_limits<double>::infinity();
-  for (int ring = 0; ring <= most_rings && (ring - 1) * side < least; ++ring) {
+  for (int ring = 0; ring <= max_rings && (ring - 1) * side < least; ++ring) {
     for (int j = std::max(0, row - ring); j <= std::min(rows_ - 1, row + ring); ++j) {
       const int stride = std::abs(j - row) == ring ? 1 : std::max(1, 2 * ring);
       for (int i = column - ring; i <= column + ring; i += stride) {

@@ -169,7 +169,7 @@ class Router {
         --wanted;
         for (std::uint32_t v = top.node; !joined[v]; v = parent[v]) {
           joined[v] = 1;
-          if (!tree_.medial[v]) take_in(v);
+          if (!tree_.medial[v]) admit(v);
         }
       }
       for_neighbours(top.node, [&](std::uint32_t v) {
@@ -181,16 +181,16 @@ class Router {
   /// Lines 7–12: shortest ways over V*.
   void route_medial() {
     routes().cost[0] = routes().length[0] = 0;
-    spread({{0, 0}}, [&](std::uint32_t v) { return tree_.medial[v] != 0; });
+    dijkstra({{0, 0}}, [&](std::uint32_t v) { return tree_.medial[v] != 0; });
   }
 
   /// Lines 13–16: the others go to the nearest node of V* that they see.
-  void attach() {
+  void connect_rest() {
     const auto [medial, nodes] = middle();
     for (std::uint32_t v = 0; v < tree_.nodes.size(); ++v) {
       if (tree_.medial[v]) continue;
       const std::uint32_t found = nearest_seen(medial, tree_.nodes[v]);
-      if (found != no_node) go(v, nodes[found]);
+      if (found != no_node) set_next(v, nodes[found]);
     }
   }
 
@@ -203,7 +203,7 @@ class Router {
     if (reached.size() == tree_.nodes.size()) return;
     std::vector<std::uint8_t> waits(tree_.nodes.size(), 1);
     for (const Entry& e : reached) waits[e.node] = 0;
-    spread(reached, [&](std::uint32_t v) { return waits[v] != 0; });
+    dijkstra(reached, [&](std::uint32_t v) { return waits[v] != 0; });
   }
 
  private:
@@ -214,13 +214,13 @@ class Router {
   double edge(std::uint32_t v, std::uint32_t to) const {
     return distance(tree_.nodes[v], tree_.nodes[to]) + tree_.weights[to];
   }
-  void go(std::uint32_t v, std::uint32_t to) {
+  void set_next(std::uint32_t v, std::uint32_t to) {
     routes().next[v] = to;
     routes().cost[v] = edge(v, to) + routes().cost[to];
     routes().length[v] = distance(tree_.nodes[v], tree_.nodes[to]) + routes().length[to];
   }
 
-  void take_in(std::uint32_t node) {
+  void admit(std::uint32_t node) {
     tree_.medial[node] = 1;
     tree_.zeta_used =
         std::max(tree_.zeta_used, std::nextafter(tree_.weights[node], infinity));  // w < ζ
@@ -249,7 +249,7 @@ class Router {
 
   /// Dijkstra from what is reached into what `admits` allows.
   template <class Admits>
-  void spread(const std::vector<Entry>& from, Admits&& admits) {
+  void dijkstra(const std::vector<Entry>& from, Admits&& admits) {
     std::priority_queue<Entry> open(std::less<Entry>{}, from);
     while (!open.empty()) {
       const Entry top = open.top();
@@ -258,7 +258,7 @@ class Router {
       for_neighbours(top.node, [&](std::uint32_t v) {
         if (!admits(v) || edge(v, top.node) + top.key >= routes().cost[v]) return;
         if (!sees(v, top.node)) return;
-        go(v, top.node);
+        set_next(v, top.node);
         open.push({routes().cost[v], v});
       });
     }
@@ -309,7 +309,7 @@ std::optional<Status> route(const Map& map, const ObstacleWeightedRrtParams& par
   if (const auto reason = reason_to_stop(stop)) return reason;
   router.route_medial();
   if (const auto reason = reason_to_stop(stop)) return reason;
-  router.attach();
+  router.connect_rest();
   if (const auto reason = reason_to_stop(stop)) return reason;
   router.route_rest();
   return std::nullopt;

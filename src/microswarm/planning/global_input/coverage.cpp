@@ -12,7 +12,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double most_space_cells = 1 << 24;
+constexpr double max_space_cells = 1 << 24;
 constexpr int lattice = 16;
 
 class Cells {
@@ -21,7 +21,7 @@ class Cells {
     const Box& bounds = map.bounds();
     const double columns = std::ceil(bounds.width() / cell);
     const double rows = std::ceil(bounds.height() / cell);
-    if (!(cell > 0) || !(columns * rows <= most_space_cells))
+    if (!(cell > 0) || !(columns * rows <= max_space_cells))
       throw InputError("coverage cell: " + std::to_string(cell) +
                        " um, must be above 0 and leave at most 2^24 cells");
     columns_ = static_cast<std::uint32_t>(columns);

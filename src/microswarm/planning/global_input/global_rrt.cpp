@@ -14,12 +14,12 @@
 namespace microswarm {
 namespace {
 
-constexpr int most_place_draws = 10'000;  // of a place for one robot
+constexpr int max_place_draws = 10'000;   // of a place for one robot
 constexpr std::uint64_t asks_every = 16;  // iterations, each some 10 µs
 
-constexpr std::size_t most_reserved = 1 << 20;  // nodes
+constexpr std::size_t max_reserved = 1 << 20;  // nodes
 
-using GrownPlaces = std::array<float, 2 * most_global_robots>;
+using GrownPlaces = std::array<float, 2 * max_global_robots>;
 
 class Growth {
  public:
@@ -49,12 +49,12 @@ class Growth {
 
   // Alg 1 [global].
   GlobalRrt run(const Stop& stop) {
-    const auto most_nodes = static_cast<std::size_t>(params_.max_nodes);
-    const auto most_iterations = static_cast<std::uint64_t>(params_.max_iterations);
+    const auto max_nodes = static_cast<std::size_t>(params_.max_nodes);
+    const auto max_iterations = static_cast<std::uint64_t>(params_.max_iterations);
     GoalAnswer& answer = grown_.answer;
     std::uint64_t& iteration = grown_.counts.iterations;
-    grown_.tree.reserve(std::min(most_nodes, most_reserved));
-    for (; grown_.tree.size() < most_nodes && iteration < most_iterations; ++iteration) {
+    grown_.tree.reserve(std::min(max_nodes, max_reserved));
+    for (; grown_.tree.size() < max_nodes && iteration < max_iterations; ++iteration) {
       if (params_.stop_at_first && answer.status == Status::solved) break;
       if (iteration % asks_every == 0 && stop()) {
         if (answer.status != Status::solved)
@@ -92,7 +92,7 @@ class Growth {
       int draws = 0;
       Vec2 p;
       do {
-        if (++draws > most_place_draws) return std::nullopt;
+        if (++draws > max_place_draws) return std::nullopt;
         p.x = rng_.uniform(bounds.lo.x, bounds.hi.x);
         p.y = rng_.uniform(bounds.lo.y, bounds.hi.y);
       } while (!map_.is_free(p, 0));
@@ -139,7 +139,7 @@ class Growth {
   bool keeps_apart(std::uint32_t node, std::size_t input) const {
     if (!separation_.is_on()) return true;
     const std::span<const float> start = grown_.tree.configuration(node);
-    std::array<PointF, most_global_robots> before, after;
+    std::array<PointF, max_global_robots> before, after;
     for (std::size_t i = 0; i < n_; ++i) {
       before[i] = {start[2 * i], start[2 * i + 1]};
       after[i] = reached_[i * sums_.size() + input];
@@ -175,7 +175,7 @@ class Growth {
   std::vector<PointF> reached_;
 };
 
-double least_distance(std::span<const Vec2> places) {
+double min_distance(std::span<const Vec2> places) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < places.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) least = std::min(least, distance(places[i], places[j]));
@@ -189,11 +189,11 @@ std::optional<Status> robots_fault(const Map& map, std::span<const Vec2> starts,
                                    double separation) {
   for (const Vec2 p : starts)
     if (!is_finite(p) || !map.is_free(p, guard)) return Status::start_blocked;
-  if (least_distance(starts) < separation) return Status::start_blocked;
+  if (min_distance(starts) < separation) return Status::start_blocked;
   const Snapshot world(std::shared_ptr<const Map>(std::shared_ptr<void>(), &map));
   for (const Vec2 p : goals)
     if (!free_goal(world, p, tolerance, 0)) return Status::goal_blocked;
-  if (least_distance(goals) + 2 * tolerance < separation) return Status::goal_blocked;
+  if (min_distance(goals) + 2 * tolerance < separation) return Status::goal_blocked;
   return std::nullopt;
 }
 

@@ -25,7 +25,7 @@ struct GlobalRrt {
 /// (no tree then; robots nearer to each other than the separation are that too) or goal_blocked
 /// (just the root), solved, node_limit, and stopped or time_limit
 /// when it was told to stop; its node is the best there is. Throws InputError when there are no
-/// robots, more than most_global_robots, or goals that are not as many.
+/// robots, more than max_global_robots, or goals that are not as many.
 GlobalRrt global_rrt(const Map& map, std::span<const Vec2> starts, std::span<const Vec2> goals,
                      const GlobalRrtParams& params, Rng& rng, const Stop& stop = {});
 

@@ -21,7 +21,7 @@ constexpr double cell_of_tolerance = 2.25;
 constexpr double finest_of_cell = 0.7;   // a round's hypercubes are this to 1.4 times the cell
 constexpr double finer = 0.8;            // when a round found nothing new any more
 constexpr double finest_of_step = 1e-3;  // nothing new however fine: there is nothing more
-constexpr int most_search_rounds = 10'000;
+constexpr int max_search_rounds = 10'000;
 constexpr double still_of_step = 0.002;  // a shorter move is none
 constexpr double met_of_step = 0.002;    // robots nearer than that have met
 
@@ -54,7 +54,7 @@ struct Problem {
   std::vector<PointF> goals;
   GlobalSearchParams params;
   std::size_t n;
-  int most_steps;
+  int max_steps;
 
   PointF moved(PointF p, PointF move) const {
     if (stepper.faces().near(p).empty()) return {p.x + move.x, p.y + move.y};
@@ -127,10 +127,10 @@ class Round {
   }
 
   enum class End { solved, exhausted, nodes, told };
-  End run(std::size_t most_nodes, const Stop& stop) {
+  End run(std::size_t max_nodes, const Stop& stop) {
     while (!is_solved()) {
       if (open_.empty()) return End::exhausted;
-      if (nodes_.size() >= most_nodes) return End::nodes;
+      if (nodes_.size() >= max_nodes) return End::nodes;
       if (stop()) return End::told;
       const std::uint32_t from = open_.top().node;
       open_.pop();
@@ -168,7 +168,7 @@ class Round {
     const auto node_at = [&](HeldPlaces c, std::uint16_t steps) {
       add(c, from, {static_cast<std::uint8_t>(input), steps});
     };
-    for (std::uint16_t steps = 1; steps <= problem_.most_steps; ++steps) {
+    for (std::uint16_t steps = 1; steps <= problem_.max_steps; ++steps) {
       std::swap(before_, now_);
       std::uint64_t hindered = 0;
       bool is_moving = false;
@@ -298,12 +298,12 @@ GlobalSearch global_search(const Map& map, std::span<const Vec2> starts,
     return found;
   }
   const std::vector<PointF> start = problem.placed(starts);
-  const auto most_nodes = static_cast<std::uint64_t>(params.max_nodes);
+  const auto max_nodes = static_cast<std::uint64_t>(params.max_nodes);
   double round_nodes = params.round_nodes;
   double cell = params.cell > 0 ? params.cell : cell_of_tolerance * params.goal_tolerance;
   std::vector<GeodesicField> fields;
   Round::End end = Round::End::nodes;
-  while (found.rounds < most_search_rounds && found.counts.samples < most_nodes) {
+  while (found.rounds < max_search_rounds && found.counts.samples < max_nodes) {
     ++found.rounds;
     const double round_cell = cell * rng.uniform(finest_of_cell, 2 * finest_of_cell);
     const bool goes_around = found.rounds % 2 == 0;
@@ -312,7 +312,7 @@ GlobalSearch global_search(const Map& map, std::span<const Vec2> starts,
     const auto used =
         goes_around ? std::span<const GeodesicField>(fields) : std::span<const GeodesicField>();
     Round round(problem, used, start, round_cell, rng, found.counts);
-    const double left = static_cast<double>(most_nodes - found.counts.samples) + 1;
+    const double left = static_cast<double>(max_nodes - found.counts.samples) + 1;
     end = round.run(static_cast<std::size_t>(std::min(round_nodes, left)), stop);
     if (round.worst() < found.plan.worst) found.plan = played(problem, start, round.inputs());
     if (end == Round::End::solved || end == Round::End::told) break;

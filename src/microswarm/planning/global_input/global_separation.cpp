@@ -7,14 +7,14 @@
 namespace microswarm {
 namespace {
 
-constexpr int most_halvings = 6;
+constexpr int max_halvings = 6;
 constexpr float rigid_share = 1e-4f;  // of a move: a pair that changes by less moves as one
 
 PointF minus(PointF a, PointF b) { return {a.x - b.x, a.y - b.y}; }
 float norm(PointF v) { return std::sqrt(v.x * v.x + v.y * v.y); }
 
 /// Least norm on the straight way from `a` to `b`.
-float least_norm(PointF a, PointF b) {
+float min_norm(PointF a, PointF b) {
   const PointF v = minus(b, a);
   const float square = v.x * v.x + v.y * v.y;
   const float share = square > 0 ? std::clamp(-(a.x * v.x + a.y * v.y) / square, 0.0f, 1.0f) : 0.0f;
@@ -49,8 +49,8 @@ bool GlobalSeparation::holds(const Pair& from, const Pair& to, PointF move) cons
   const PointF after = minus(to.a, to.b);
   if (norm(after) < least_) return false;
   if (is_straight(from.a, to.a) && is_straight(from.b, to.b))
-    return least_norm(before, after) >= least_;
-  return holds_between(from, to, move, 0, from, 1, to, most_halvings);
+    return min_norm(before, after) >= least_;
+  return holds_between(from, to, move, 0, from, 1, to, max_halvings);
 }
 
 GlobalSeparation::Pair GlobalSeparation::at(const Pair& from, const Pair& to, PointF move,

@@ -11,7 +11,7 @@
 namespace microswarm {
 namespace {
 
-constexpr int most_shorten_rounds = 20;
+constexpr int max_shorten_rounds = 20;
 
 using PlayedPlaces = std::vector<PointF>;
 
@@ -45,7 +45,7 @@ class Shortening {
   }
 
   void run() {
-    for (int round = 0; round < most_shorten_rounds && !stop_(); ++round) {
+    for (int round = 0; round < max_shorten_rounds && !stop_(); ++round) {
       const std::size_t before = inputs_.size();
       for (std::size_t length = std::max<std::size_t>(1, inputs_.size() / 2);; length /= 2) {
         drop_stretches(length);

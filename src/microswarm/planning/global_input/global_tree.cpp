@@ -94,9 +94,9 @@ GlobalPlan plan_to(const GlobalTree& tree, const GoalAnswer& answer) {
 }
 
 void check_robots(std::span<const Vec2> starts, std::span<const Vec2> goals) {
-  if (starts.empty() || starts.size() > most_global_robots)
+  if (starts.empty() || starts.size() > max_global_robots)
     throw InputError("starts: " + std::to_string(starts.size()) + " robots, allowed are 1 to " +
-                     std::to_string(most_global_robots));
+                     std::to_string(max_global_robots));
   if (!goals.empty()) check_goals(goals.size(), starts.size());
 }
 

@@ -11,7 +11,7 @@
 namespace microswarm {
 
 /// At most so many robots are planned for under one input.
-inline constexpr std::size_t most_global_robots = 64;
+inline constexpr std::size_t max_global_robots = 64;
 
 /// The inputs that all robots get alike: `directions` moves of `robostep` µm, evenly spaced from
 /// the x axis on, axis directions exact. Alg 2, lines 3–4 [global].

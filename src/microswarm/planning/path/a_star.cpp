@@ -38,7 +38,7 @@ struct Cell {
 class Grid {
  public:
   static constexpr std::size_t side = 64;
-  static constexpr double most_tiles = 1 << 22;
+  static constexpr double max_tiles = 1 << 22;
 
   Grid(const Box& bounds, Vec2 origin, double cell) : cell_(cell), origin_(origin) {
     const auto places = [&](double length) { return std::floor(std::max(0.0, length) / cell); };
@@ -46,7 +46,7 @@ class Grid {
     const double below = places(origin.y - bounds.lo.y);
     const double columns = left + places(bounds.hi.x - origin.x) + 1;
     const double rows = below + places(bounds.hi.y - origin.y) + 1;
-    fits_ = std::max({columns, rows, (columns / side + 1) * (rows / side + 1)}) < most_tiles;
+    fits_ = std::max({columns, rows, (columns / side + 1) * (rows / side + 1)}) < max_tiles;
     if (!fits_) return;
     start_ = {static_cast<int>(left), static_cast<int>(below)};
     columns_ = static_cast<int>(columns);

@@ -14,7 +14,7 @@
 namespace microswarm {
 namespace {
 
-constexpr int most_time_steps = 10'000;
+constexpr int max_time_steps = 10'000;
 
 /// X_new and the node it was steered from, as Algorithm 3 returns them.
 struct Extension {
@@ -28,7 +28,7 @@ void steer_arc(const TreeNode& node, double heading_wanted, double length,
                const DrrtStarParams& params, std::vector<Vec2>& arc) {
   const double duration = length / params.speed;  // T_d
   const double count =
-      std::clamp(std::ceil(duration / params.time_step), 1.0, 1.0 * most_time_steps);
+      std::clamp(std::ceil(duration / params.time_step), 1.0, 1.0 * max_time_steps);
   const double dt = duration / count;
   const double gain = std::min(1.0, dt * params.heading_gain);  // no step turns past what is wanted
   Vec2 p = node.position;

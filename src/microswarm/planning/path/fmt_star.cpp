@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint64_t draws_per_sample = 200;  // at most, in the mean
 constexpr std::uint64_t between_stops = 64;
-constexpr double least_radius = 1e-3;  // [µm], in a space that has no area
+constexpr double min_radius = 1e-3;  // [µm], in a space that has no area
 
 /// A sample that the tree has reached and still grows from.
 struct OpenSample {
@@ -31,10 +31,10 @@ struct OpenSample {
 constexpr std::uint32_t blocked_flag = 1u << 31;
 
 /// Samples are numbered: 0 is the start, 1 the goal.
-class March {
+class FmtStar {
  public:
-  March(const Snapshot& world, Pose2 start, Vec2 goal, Vec2 free_goal, const FmtStarParams& params,
-        Rng& rng, const Stop& stop)
+  FmtStar(const Snapshot& world, Pose2 start, Vec2 goal, Vec2 free_goal,
+          const FmtStarParams& params, Rng& rng, const Stop& stop)
       : world_(world),
         start_(start),
         goal_(goal),
@@ -100,7 +100,7 @@ class March {
   std::uint32_t arrived_ = 0;              ///< node
 };
 
-void March::draw(std::size_t count) {
+void FmtStar::draw(std::size_t count) {
   const std::uint64_t most = counts_.samples + draws_per_sample * count;
   while (samples_.size() < count + 2 && counts_.samples < most) {
     if (told_to_stop(counts_.samples)) return;
@@ -113,10 +113,10 @@ void March::draw(std::size_t count) {
   const double draws = static_cast<double>(counts_.samples + 1);
   const double area = sampled_.width() * sampled_.height() * std::min(1.0, hits / draws);
   const double radius = fmt_radius(params_.radius_factor, area, samples_.size());
-  buckets_ = SampleBuckets(samples_, std::max(radius, least_radius));
+  buckets_ = SampleBuckets(samples_, std::max(radius, min_radius));
 }
 
-void March::begin() {
+void FmtStar::begin() {
   visited_.assign(samples_.size(), false);
   open_costs_.assign(samples_.size(), infinity);
   nodes_.assign(samples_.size(), 0);
@@ -129,7 +129,7 @@ void March::begin() {
   open_costs_[0] = 0;
 }
 
-void March::grow() {
+void FmtStar::grow() {
   if (ended_) return;
   begin();
   while (!open_.empty()) {
@@ -147,7 +147,7 @@ void March::grow() {
   }
 }
 
-void March::expand(std::uint32_t z) {
+void FmtStar::expand(std::uint32_t z) {
   joined_.clear();
   const Run near = neighbours(z);
   for (std::uint32_t i = near.first; i < near.last; ++i)
@@ -163,7 +163,7 @@ void March::expand(std::uint32_t z) {
 
 /// Hangs x under the open neighbour that is the cheapest way to it, walls left aside, when that
 /// edge is free; if not, x waits for another one to be the cheapest.
-void March::try_to_join(std::uint32_t x) {
+void FmtStar::try_to_join(std::uint32_t x) {
   const Run near = neighbours(x);
   const Vec2 p = samples_[x];
   double least = infinity;
@@ -190,7 +190,7 @@ void March::try_to_join(std::uint32_t x) {
   visited_[x] = true;
 }
 
-Plan March::finish() {
+Plan FmtStar::finish() {
   Plan plan;
   plan.status = *ended_;
   plan.counts = counts_;
@@ -208,7 +208,7 @@ Plan March::finish() {
   return plan;
 }
 
-March::Run March::neighbours(std::uint32_t sample) {
+FmtStar::Run FmtStar::neighbours(std::uint32_t sample) {
   Run& run = runs_[sample];
   if (run.known) return run;
   run.known = true;
@@ -244,7 +244,7 @@ Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const FmtStarParams& pa
     return blocked;
   }
   const auto end = free_goal(world, goal, params.goal_tolerance, params.clearance);
-  return March(world, start, goal, *end, params, rng, stop).run();
+  return FmtStar(world, start, goal, *end, params, rng, stop).run();
 }
 
 }  // namespace microswarm

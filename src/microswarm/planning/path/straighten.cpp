@@ -50,7 +50,7 @@ class Straightener {
   Edge& edge(std::size_t i, std::size_t j) { return edges_[j * window + i % window]; }
 
   void reach(std::size_t i, std::size_t j);
-  double least_cost_to_end(const Edge& e, Vec2 p) const;
+  double min_cost_to_end(const Edge& e, Vec2 p) const;
 
   const Snapshot& world_;
   double clearance_;
@@ -63,7 +63,7 @@ class Straightener {
 
 /// What the way from `p` to the end costs at least: as much turning as from the edge's heading to
 /// the end's direction.
-double Straightener::least_cost_to_end(const Edge& e, Vec2 p) const {
+double Straightener::min_cost_to_end(const Edge& e, Vec2 p) const {
   const Vec2 way = points_.back() - p;
   if (way == Vec2{}) return 0;
   return cost_.per_length * norm(way) + cost_.per_turn * turn_between(e.heading, heading_of(way));
@@ -99,8 +99,7 @@ void Straightener::take_cheapest_chain(std::vector<Vec2>& path, std::vector<Vec2
       if (points_[i] == points_[j]) continue;
       reach(i, j);
       Edge& e = edge(i, j);
-      const bool promising =
-          e.cost < infinity && e.cost + least_cost_to_end(e, points_[j]) <= known;
+      const bool promising = e.cost < infinity && e.cost + min_cost_to_end(e, points_[j]) <= known;
       if (!promising || !is_free(points_[i], points_[j])) e.cost = infinity;
     }
   }

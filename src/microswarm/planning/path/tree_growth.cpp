@@ -12,7 +12,7 @@
 namespace microswarm {
 namespace {
 
-constexpr int most_sample_draws = 200;
+constexpr int max_sample_draws = 200;
 
 /// A root at a place that is no number would harm the tree's grid; it is reported as blocked.
 Pose2 finite(Pose2 pose) { return is_finite(pose.position) ? pose : Pose2{}; }
@@ -60,11 +60,11 @@ bool TreeGrowth::goes_on() {
   return true;
 }
 
-std::optional<Vec2> TreeGrowth::draw(const Box& box, double most_from_goal) {
-  for (int i = 0; i < most_sample_draws; ++i) {
+std::optional<Vec2> TreeGrowth::draw(const Box& box, double max_from_goal) {
+  for (int i = 0; i < max_sample_draws; ++i) {
     const double x = rng_.uniform(box.lo.x, box.hi.x);
     const Vec2 p{x, rng_.uniform(box.lo.y, box.hi.y)};
-    if (distance(p, goal_) <= most_from_goal && world_.is_free(p, params_.clearance)) return p;
+    if (distance(p, goal_) <= max_from_goal && world_.is_free(p, params_.clearance)) return p;
   }
   return std::nullopt;
 }

@@ -56,7 +56,7 @@ class TreeGrowth {
   };
   bool solved() const { return !arrived_.empty(); }
   std::optional<Status> reason_to_end() const;
-  std::optional<Vec2> draw(const Box& box, double most_from_goal);
+  std::optional<Vec2> draw(const Box& box, double max_from_goal);
 
   const Snapshot& world_;
   const TreeParams& params_;

@@ -24,7 +24,7 @@ constexpr double wide_prediction = 130;
 constexpr double sight_noise = 2;      // of an obstacle's position [µm]
 constexpr double sight_missed = 0.02;  // share of the frames
 constexpr double enough = 0.9;  // of the trials that arrive, for medians of those to say something
-constexpr double most_turning = 500;  // aimed at [°]
+constexpr double max_turning = 500;  // aimed at [°]
 constexpr int all_trials = 100, quick_trials = 30;
 
 struct Contestant {
@@ -114,7 +114,7 @@ void add_rows(const char* name, const Study& s, bool aimed, std::vector<Reproduc
       s.least.empty() ? std::nullopt
                       : std::optional(*std::min_element(s.least.begin(), s.least.end())));
   add("turning, median", "°", median_if_any(s.turning));
-  aim(most_turning, true);
+  aim(max_turning, true);
   add("path length, median", "µm", median_if_any(s.length));
   add("time, median", "s", median_if_any(s.time));
   add("energy of the field, median", "mT²·s", median_if_any(s.energy));

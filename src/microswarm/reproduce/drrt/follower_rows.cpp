@@ -47,7 +47,7 @@ std::vector<ReproduceRow> follower_rows(const std::vector<FollowerOutcome>& outc
     row(o.name + ": RMS off the path, median", "µm", median(values_of(o, rms_off)));
     row(o.name + ": RMS off the path, mean", "µm", mean(values_of(o, rms_off)));
     row(o.name + ": most off the path, p95", "µm",
-        quantile(values_of(o, [](const FollowedPath& p) { return p.most_off; }), 0.95));
+        quantile(values_of(o, [](const FollowedPath& p) { return p.max_off; }), 0.95));
     row(o.name + ": turning of the field, median", "°/s", median(values_of(o, turning)));
     row(o.name + ": time beside way ÷ speed, median", "%", median(values_of(o, relative_time)));
   }
@@ -69,7 +69,7 @@ std::string follower_csv(const std::vector<FollowerOutcome>& outcomes) {
       const FollowedPath& p = o.paths[i];
       csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", o.name, i, p.arrived ? 1 : 0,
                          number_text(p.time), number_text(p.fair_time), number_text(p.rms_off),
-                         number_text(p.most_off), number_text(turning(p)),
+                         number_text(p.max_off), number_text(turning(p)),
                          number_text(p.fallback_share));
     }
   return csv;

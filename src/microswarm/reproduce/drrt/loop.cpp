@@ -32,10 +32,10 @@ constexpr LoopFigure moving{"fig5b", "moving_obstacles.yaml", 34, 44, 41, 100, 2
 
 /// What the trials of one setting amount to.
 struct Loops {
-  std::vector<double> planning;                                 // [ms]
-  std::vector<double> events, turning, length, time;            // a run; [1, °, µm, s]
-  double least = std::numeric_limits<double>::infinity();       // [µm]
-  double least_wall = std::numeric_limits<double>::infinity();  // [µm]
+  std::vector<double> planning;                               // [ms]
+  std::vector<double> events, turning, length, time;          // a run; [1, °, µm, s]
+  double least = std::numeric_limits<double>::infinity();     // [µm]
+  double min_wall = std::numeric_limits<double>::infinity();  // [µm]
   int reached = 0, below = 0;
 };
 
@@ -46,7 +46,7 @@ Loops summed(const std::vector<TrialResult>& trials) {
     out.reached += t.result.status == Status::solved;
     out.below += m.obstacles.clearance < published_margin;
     out.least = std::min(out.least, m.obstacles.clearance);
-    out.least_wall = std::min(out.least_wall, m.walls.clearance);
+    out.min_wall = std::min(out.min_wall, m.walls.clearance);
     out.events.push_back(m.planning_events);
     for (const double time : t.result.timing.planning) out.planning.push_back(1e3 * time);
     if (t.result.status != Status::solved) continue;
@@ -72,7 +72,7 @@ std::vector<ReproduceRow> loop_rows(const LoopFigure& f, const std::string& who,
           row_at_least(0, fig, named("least distance, centre to obstacles"), "µm", published_margin,
                        l.least),
           plain("runs that come nearer than the margin", "%", {}, 100 * l.below / n),
-          plain("least distance, centre to border", "µm", {}, l.least_wall),
+          plain("least distance, centre to border", "µm", {}, l.min_wall),
           plain("turning, median of runs that arrive", "°", {}, median_if_any(l.turning)),
           plain("path length, median of runs that arrive", "µm", {}, median_if_any(l.length)),
           plain("time, median of runs that arrive", "s", {}, median_if_any(l.time)),

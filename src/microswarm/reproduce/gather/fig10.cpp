@@ -164,10 +164,11 @@ class Shares {
 void gather_through_rig(const ThroughRig& how, const ReproduceOptions& options, const Stop& stop,
                         std::vector<ReproduceRow>& rows) {
   const World world = build_world(maze(options, Aggregation::heuristic, 1));
-  const Rig rollers = read_rig(options.scenarios / "rigs/rollers.yaml",
-                               {"camera.type=simulated", "camera.microscope.um_per_px=53",
-                                "camera.microscope.robot_diameter_px=4", "eye.robots.diameter_px=5",
-                                "eye.robots.min_mass=60", "eye.robots.separation_px=3"});
+  const Rig rollers =
+      read_rig(options.scenarios / "rigs/rollers.yaml",
+               {"camera.type=simulated", "camera.microscope.um_per_px=53",
+                "camera.microscope.robot_diameter_px=4", "perception.robots.diameter_px=5",
+                "perception.robots.min_mass=60", "eye.robots.separation_px=3"});
   std::vector<std::optional<RunResult>> results(2 * how.trials);  // of both methods in turn
   {
     Shares shares(options.progress, how.figure, results.size());
@@ -179,8 +180,8 @@ void gather_through_rig(const ThroughRig& how, const ReproduceOptions& options, 
       ProgressListener progress(
           scenario, [&](const RunProgress& p) { shares.tell_time(i, p.t); }, 10);
       RunListener* const listeners[] = {&progress};
-      const RunResult result =
-          rehearse(scenario, world, rollers, static_cast<std::uint32_t>(i / 2), listeners, stop);
+      const RunResult result = simulate_rig(scenario, world, rollers,
+                                            static_cast<std::uint32_t>(i / 2), listeners, stop);
       if (result.status != Status::stopped) results[i] = result;
       shares.tell(i, 1);
     });

@@ -77,8 +77,8 @@ double mean_steps(const scenes::Vascular& scene, const AggregationMap& map, int 
   for_each_index(steps.size(), 0, [&](std::size_t i) {
     Robots robots =
         gather_robots(scene, map, stepper, robots_measured, static_cast<std::uint32_t>(i), 0);
-    Gatherer gatherer(map, gather_params(scene, Aggregation::divide_and_conquer));
-    steps[i] = gather(stepper, gatherer, robots, gather_most_steps, stop).steps;
+    AggregationPolicy policy(map, gather_params(scene, Aggregation::divide_and_conquer));
+    steps[i] = gather(stepper, policy, robots, gather_most_steps, stop).steps;
   });
   return std::accumulate(steps.begin(), steps.end(), 0.0) / trials;
 }

@@ -30,8 +30,8 @@ AggregationParams parameters(const Ground& ground, std::size_t method, std::size
                              bool quick) {
   AggregationParams params = gather_params(ground.scene, gather_methods[method].aggregation);
   params.obstacle_weighted = gather_methods[method].weighted;
-  params.rollout.most_work = (quick ? 0.1 : 1) * ground.work * static_cast<double>(population + 1) /
-                             static_cast<double>(populations);
+  params.rollout.max_work = (quick ? 0.1 : 1) * ground.work * static_cast<double>(population + 1) /
+                            static_cast<double>(populations);
   if (method == of_dca) {
     params.reading = DcaReading::published;
     params.followed_regions = ground.followed_regions;
@@ -112,11 +112,11 @@ class Trials {
 GatherResult gathered(const AggregationMap& map, const RobotStepper& stepper,
                       const AggregationParams& params, Robots& robots, const Stop& stop) {
   if (params.method == Aggregation::rollout) {
-    RolloutGatherer gatherer(map, stepper, params, Rng(1, Purpose::planner));
-    return gather(stepper, gatherer, robots, gather_most_steps, stop);
+    RolloutPolicy policy(map, stepper, params, Rng(1, Purpose::planner));
+    return gather(stepper, policy, robots, gather_most_steps, stop);
   }
-  Gatherer gatherer(map, params);
-  return gather(stepper, gatherer, robots, gather_most_steps, stop);
+  AggregationPolicy policy(map, params);
+  return gather(stepper, policy, robots, gather_most_steps, stop);
 }
 
 Trials gather_on(const Ground& ground, int count, bool quick, const Progress& bar,
@@ -131,9 +131,8 @@ Trials gather_on(const Ground& ground, int count, bool quick, const Progress& ba
     const std::size_t k = trials.population_of(i);
     if (stop() || !trials.has(k)) return;
     const std::size_t m = trials.method_of(i);
-    Robots robots =
-        gather_robots(ground.scene, weighted, stepper, population(k),
-                      static_cast<std::uint32_t>(trials.number_of(i)), ground.least_way);
+    Robots robots = gather_robots(ground.scene, weighted, stepper, population(k),
+                                  static_cast<std::uint32_t>(trials.number_of(i)), ground.min_way);
     Trial& trial = trials[i];
     trial.result = gathered(gather_methods[m].weighted ? weighted : plain, stepper,
                             parameters(ground, m, k, quick), robots, stop);
@@ -254,12 +253,12 @@ double longest_decision(const Ground& ground, const Stop& stop) {
   const AggregationMap map = gather_map(ground.scene, true);
   const RobotStepper stepper(map.map, 1);
   Robots robots = gather_robots(ground.scene, map, stepper, population(of_1024), 0, 0);
-  RolloutGatherer gatherer(map, stepper, parameters(ground, of_rollout, of_1024, false),
-                           Rng(1, Purpose::planner));
+  RolloutPolicy policy(map, stepper, parameters(ground, of_rollout, of_1024, false),
+                       Rng(1, Purpose::planner));
   double longest = 0;
   for (int i = 0; i < gather_most_steps && !stop(); ++i) {
     const double began = processor_time();
-    const std::optional<Vec2> move = gatherer.next(robots, stop);
+    const std::optional<Vec2> move = policy.next(robots, stop);
     longest = std::max(longest, processor_time() - began);
     if (!move) break;
     stepper.step(robots, *move, ContactRule::stop);
@@ -276,7 +275,7 @@ std::string trials_csv(const std::vector<Ground>& maps, std::vector<Trials>& tri
       out += fmt::format("\"{}\",\"{}\",{},{},{},{},{:.9g},{}\n", maps[g].name,
                          gather_methods[trials[g].method_of(i)].name,
                          population(trials[g].population_of(i)), trials[g].number_of(i),
-                         to_string(t.result.status), t.result.steps, t.result.mean_way,
+                         to_string(t.result.status), t.result.steps, t.result.mean_distance,
                          t.result.guard_count);
     }
   }

@@ -47,7 +47,7 @@ using Means = std::array<std::optional<double>, populations>;
 struct Ground {
   const char* name;
   scenes::Vascular scene;
-  double least_way;  ///< of the places where robots start [µm]
+  double min_way;  ///< of the places where robots start [µm]
   std::array<Means, published_methods> published;
   int followed_regions;  ///< of DCA in the published program
   int last_regions;

@@ -25,16 +25,14 @@ AggregationMap gather_map(const scenes::Vascular& scene, bool obstacle_weighted)
 }
 
 Robots gather_robots(const scenes::Vascular& scene, const AggregationMap& map,
-                     const RobotStepper& stepper, int count, std::uint32_t trial,
-                     double least_cost) {
+                     const RobotStepper& stepper, int count, std::uint32_t trial, double min_cost) {
   Rng rng(1, Purpose::scene, trial);
   std::vector<Vec2> places;
   const Box& box = scene.bounds;
   while (std::ssize(places) < count) {
     const double x = rng.uniform(box.lo.x, box.hi.x);
     const Vec2 p{x, rng.uniform(box.lo.y, box.hi.y)};
-    if (map.map.is_free(p, 4 * stepper.guard()) &&
-        map.tree.cost(map.tree.weighted, p) >= least_cost)
+    if (map.map.is_free(p, 4 * stepper.guard()) && map.tree.cost(map.tree.weighted, p) >= min_cost)
       places.push_back(p);
   }
   return stepper.place(places);

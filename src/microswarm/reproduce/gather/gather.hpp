@@ -39,8 +39,7 @@ AggregationMap gather_map(const scenes::Vascular& scene, bool obstacle_weighted)
 /// Robots anywhere in free space from where the way costs at least so much; the same ones for every
 /// method.
 Robots gather_robots(const scenes::Vascular& scene, const AggregationMap& map,
-                     const RobotStepper& stepper, int count, std::uint32_t trial,
-                     double least_cost);
+                     const RobotStepper& stepper, int count, std::uint32_t trial, double min_cost);
 
 /// Plots beside the page, as .svg, .pdf and .png.
 void write_everywhere(const std::vector<Plot>& plots, const std::filesystem::path& stem);

@@ -26,11 +26,11 @@ struct GeneratedSize {
 
 std::array<GeneratedSize, 2> generated_sizes(bool quick) {
   scenes::VascularShape small{.width = 100, .height = 100, .spacing = 24};
-  small.least_half = 4.5;
+  small.min_half = 4.5;
   small.missing = 0.1;
   scenes::VascularShape medium{.width = 220, .height = 180, .spacing = 34};
-  medium.least_half = 4.5;
-  medium.most_half = 6;
+  medium.min_half = 4.5;
+  medium.max_half = 6;
   medium.missing = 0.1;
   return {{{"100 × 100", small, quick ? 6u : 40u}, {"220 × 180", medium, quick ? 2u : 20u}}};
 }
@@ -49,8 +49,8 @@ OnGenerated gather_on_generated(const scenes::Vascular& scene, std::uint32_t tri
   for (std::uint32_t trial = 0; trial < trials; ++trial) {
     for (const Aggregation method : {Aggregation::divide_and_conquer, Aggregation::heuristic}) {
       Robots robots = gather_robots(scene, map, stepper, robots_on_generated, trial, 0);
-      Gatherer gatherer(map, gather_params(scene, method));
-      const int steps = gather(stepper, gatherer, robots, gather_most_steps, stop).steps;
+      AggregationPolicy policy(map, gather_params(scene, method));
+      const int steps = gather(stepper, policy, robots, gather_most_steps, stop).steps;
       (method == Aggregation::heuristic ? out.hra : out.dca) += steps;
     }
   }

@@ -76,11 +76,11 @@ void draw_transitions(const AggregationMap& map, const scenes::Vascular& scene,
                       const ReproduceOptions& options) {
   const RobotStepper stepper(map.map, 1);
   Robots robots = gather_robots(scene, map, stepper, 64, 0, 0);
-  Gatherer gatherer(map, gather_params(scene, Aggregation::divide_and_conquer));
+  AggregationPolicy policy(map, gather_params(scene, Aggregation::divide_and_conquer));
   int done = 0;
   for (const int steps : {0, 100, 300, 600}) {
     for (; done < steps; ++done) {
-      const auto move = gatherer.next(robots);
+      const auto move = policy.next(robots);
       if (!move) break;
       stepper.step(robots, *move, ContactRule::stop);
     }
@@ -110,10 +110,10 @@ double spread_when_led(const AggregationMap& map, Vec2 start, const ReproduceOpt
   AggregationParams params;
   params.method = Aggregation::heuristic;
   params.sigma = 2;
-  Gatherer gatherer(map, params);
+  AggregationPolicy policy(map, params);
   std::vector<Vec2> path{start};
   for (int i = 0; i < 2000; ++i) {
-    const auto move = gatherer.next(leader);
+    const auto move = policy.next(leader);
     if (!move) break;
     for (Robots* all : {&leader, &robots}) stepper.step(*all, *move, ContactRule::stop);
     path.push_back(leader.position(0));

@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 using scenes::global_goals;
 using scenes::global_starts;
 
-constexpr int most_nodes = 7500;
-constexpr std::array tree_sizes{1000, 2500, 5000, most_nodes};
+constexpr int max_nodes = 7500;
+constexpr std::array tree_sizes{1000, 2500, 5000, max_nodes};
 constexpr double grid_cell =
     50;  // [µm]: "coverage decreases as grid size decreases", so it is an edge
 constexpr double best_step = 60;      // [µm], the paper's
@@ -150,7 +150,7 @@ std::vector<ReproduceRow> global_step_lengths(const ReproduceOptions& options, c
   const auto starts = std::span(global_starts).first(2);
   std::vector<CoverageCurve> curves(tree_sizes.size(), CoverageCurve(steps, tree_trials(options)));
   for_each_tree(curves[0], stop, [&](std::size_t k, std::size_t trial) {
-    const GlobalTree tree = grown(map, starts, steps[k], most_nodes, int(trial), stop);
+    const GlobalTree tree = grown(map, starts, steps[k], max_nodes, int(trial), stop);
     for (std::size_t size = 0; size < tree_sizes.size(); ++size)
       curves[size].shares[k][trial] =
           100 * coverage(map, first_nodes(tree, std::size_t(tree_sizes[size])), grid_cell).share;
@@ -187,7 +187,7 @@ std::vector<ReproduceRow> global_cell_sizes(const ReproduceOptions& options, con
   const auto starts = std::span(global_starts).first(2);
   CoverageCurve curve(cells, tree_trials(options));
   for_each_index(curve.shares[0].size(), 0, [&](std::size_t trial) {
-    const GlobalTree tree = grown(map, starts, best_step, most_nodes, int(trial), stop);
+    const GlobalTree tree = grown(map, starts, best_step, max_nodes, int(trial), stop);
     for (std::size_t k = 0; k < cells.size(); ++k)
       curve.shares[k][trial] = 100 * coverage(map, tree, cells[k]).share;
   });
@@ -214,8 +214,8 @@ std::vector<ReproduceRow> global_initial_distances(const ReproduceOptions& optio
   constexpr std::array distances{200., 150., 100., 70., 50., 20., 5., 1.};
   constexpr std::size_t at_20 = 5;
   constexpr std::size_t at_1 = distances.size() - 1;
-  constexpr double least_plateau = 90;  // [%]
-  constexpr double most_left = 60;      // [%]
+  constexpr double min_plateau = 90;  // [%]
+  constexpr double max_left = 60;     // [%]
   std::vector<AxisTick> ticks;
   for (const double d : distances)
     if (d != 150) ticks.push_back({fmt::format("{:g}", d), d});  // its label would touch 200's
@@ -227,7 +227,7 @@ std::vector<ReproduceRow> global_initial_distances(const ReproduceOptions& optio
                                       CoverageCurve(distances, tree_trials(options)));
     for_each_tree(curves[0], stop, [&](std::size_t k, std::size_t trial) {
       const std::array<Vec2, 2> starts{{{60, 300}, {60, 300 - distances[k]}}};
-      const GlobalTree tree = grown(map, starts, step, most_nodes, int(trial), stop);
+      const GlobalTree tree = grown(map, starts, step, max_nodes, int(trial), stop);
       for (std::size_t size = 0; size < tree_sizes.size(); ++size)
         curves[size].shares[k][trial] =
             100 * coverage(map, first_nodes(tree, std::size_t(tree_sizes[size])), grid_cell).share;
@@ -257,8 +257,8 @@ std::vector<ReproduceRow> global_initial_distances(const ReproduceOptions& optio
                           : "aim is ours, for \"little effect\""),
             options));
       };
-      row("20 µm", at_20, least_plateau, false);
-      row("1 µm", at_1, most_left, true);
+      row("20 µm", at_20, min_plateau, false);
+      row("1 µm", at_1, max_left, true);
     }
   }
   if (!options.out.empty()) write_plots_everywhere(plots, fs::path(options.out) / "fig7");

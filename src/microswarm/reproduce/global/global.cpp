@@ -19,7 +19,7 @@ void draw_plan(const ReproduceOptions& options, const std::string& name, const s
                 std::filesystem::path(options.out) / (name + kind));
 }
 
-double least_distance(const GlobalPlan& plan) {
+double min_distance(const GlobalPlan& plan) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& places : plan.configurations)
     for (std::size_t i = 0; i < places.size(); ++i)

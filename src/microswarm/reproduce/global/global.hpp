@@ -18,7 +18,7 @@ void draw_plan(const ReproduceOptions& options, const std::string& name, const s
                double tolerance = 20);
 
 /// Least distance between two robots at the ends of a plan's inputs.
-double least_distance(const GlobalPlan& plan);
+double min_distance(const GlobalPlan& plan);
 
 /// A task by the search beyond the paper, with some seeds; the first one's plan is drawn as `name`.
 std::vector<ReproduceRow> search_task(const char* figure, const char* name,

@@ -14,7 +14,7 @@
 namespace microswarm::reproduce {
 namespace {
 
-constexpr int most_search_nodes = 1'000'000;  // a minute of one core
+constexpr int max_search_nodes = 1'000'000;  // a minute of one core
 constexpr const char* by_the_search = "the search is beyond the paper";
 
 /// What searches with several seeds came to.
@@ -37,7 +37,7 @@ struct Searches {
                        {params.robostep, params.contact, params.separation, params.goal_tolerance},
                        stop);
       brief.push_back(static_cast<double>(plan.inputs.size()));
-      apart.push_back(least_distance(plan));
+      apart.push_back(min_distance(plan));
     } else {
       worst.push_back(plan.worst);
     }
@@ -88,7 +88,7 @@ std::vector<ReproduceRow> search_task(const char* figure, const char* name,
                                       const Stop& stop) {
   params.robostep = task.robostep;
   params.goal_tolerance = task.tolerance;
-  params.max_nodes = std::min(params.max_nodes, most_search_nodes);
+  params.max_nodes = std::min(params.max_nodes, max_search_nodes);
   Searches searches;
   for (int seed = 0; seed < seeds && !stop(); ++seed)
     searches.add(task, params, seed, options, name, stop);
@@ -109,7 +109,7 @@ std::vector<ReproduceRow> global_beyond(const ReproduceOptions& options, const S
   std::vector<ReproduceRow> rows;
   for (const std::size_t robots : {2U, 3U, 4U}) {
     const int seeds = options.quick ? (robots < 4 ? 3 : 1) : (robots < 4 ? 20 : 5);
-    const GlobalSearchParams params{.max_nodes = most_search_nodes};
+    const GlobalSearchParams params{.max_nodes = max_search_nodes};
     Searches searches;
     for (int env = 1; env <= scenes::global_worlds; ++env)
       for (int seed = 0; seed < seeds && !stop(); ++seed)

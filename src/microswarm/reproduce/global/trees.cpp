@@ -243,7 +243,7 @@ std::vector<ReproduceRow> global_magnets(const ReproduceOptions& options, const 
                 task.map, plan, task.goals, task.tolerance);
     if (plan.status != Status::solved) continue;
     ++solved;
-    apart = std::min(apart, least_distance(plan));
+    apart = std::min(apart, min_distance(plan));
   }
   if (stop()) return {};
   const std::string what = fmt::format("two magnets, tree of {} nodes: ", nodes);

@@ -38,7 +38,7 @@ std::optional<double> middle_of_wait(const Record& record, double t0) {
 /// through it, past what breathes, at the second valve, and the end.
 std::vector<double> micromaze_moments(const Record& record) {
   const Scenario& scenario = record.scene.scenario;
-  const auto& areas = std::get<RadarParams>(scenario.navigator).wait_areas;
+  const auto& areas = std::get<RadarParams>(scenario.navigator).wait_zones;
   const auto to_obstacle = [&](std::size_t k) {
     return nearest(record, [&](const Frame& f) {
       return distance(f.pose.position, placement(scenario.obstacles[k].motion, f.t).pose.position);
@@ -56,7 +56,7 @@ std::vector<double> micromaze_moments(const Record& record) {
     if (first_mover || std::holds_alternative<BreathingDisc>(shape)) add(to_obstacle(k));
   }
   double passed = 0;
-  for (const WaitArea& area : areas) {
+  for (const WaitZone& area : areas) {
     add(middle_of_wait(record, passed));
     passed =
         nearest(record, [&](const Frame& f) { return distance(f.pose.position, area.centre); });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/reproduce/radar/radar_picture.hpp"
-#include "microswarm/navigation/radar/wait_area.hpp"
+#include "microswarm/navigation/radar/wait_zone.hpp"
 
 #include <fmt/format.h>
 
@@ -30,11 +30,11 @@ constexpr Colour deviation{0.35, 0.35, 0.35, 1};
 constexpr Colour moment_mark{0.13, 0.15, 0.18, 1};
 
 constexpr double pixels = 900;
-constexpr double dot_px = 4.5;        // radius of a waypoint
-constexpr double head_px = 10;        // length of an arrow's head
-constexpr double arrow_length = 2;    // of the swarm's greatest speed, in its radii
-constexpr double least_cost = 0.005;  // δ from which α is drawn
-constexpr int most_pictures = 20;
+constexpr double dot_px = 4.5;      // radius of a waypoint
+constexpr double head_px = 10;      // length of an arrow's head
+constexpr double arrow_length = 2;  // of the swarm's greatest speed, in its radii
+constexpr double min_cost = 0.005;  // δ from which α is drawn
+constexpr int max_pictures = 20;
 
 /// As the navigator had them; before its first look as its parameters say.
 RadarCircles circles_at(const RadarRun& run, std::size_t frame) {
@@ -93,7 +93,7 @@ void draw_velocities(Picture& picture, const RadarRun& run, const World& world, 
   const Vec2 p = frame.pose.position;
   if (frame.speed > 0)
     arrow(picture, p, seconds * frame.speed * unit_vector(frame.pose.heading), driven, head);
-  if (frame.avoidance_cost <= least_cost || !run.looks[number]) return;
+  if (frame.avoidance_cost <= min_cost || !run.looks[number]) return;
   const Vec2 towards = run.looks[number]->target - p;
   const double reach = 1.2 * run.looks[number]->circles.detection;
   if (norm(towards) <= 0) return;
@@ -114,7 +114,7 @@ void mark_moments(Picture& picture, const Record& record, std::span<const double
 }
 
 void draw_wait_areas(Picture& picture, const RadarParams& params) {
-  for (const WaitArea& area : params.wait_areas) {
+  for (const WaitZone& area : params.wait_zones) {
     std::vector<Vec2> outline = outline_of(area).outer;
     outline.push_back(outline.front());
     picture.line(outline, waiting, 1.5, true);
@@ -134,7 +134,7 @@ void legend(Picture& picture, const RadarParams& params, const Record& record) {
   picture.legend("of obstacles", velocity);
   if (!record.plans.empty()) picture.legend("way planned", planned);
   if (!record.plans.empty()) picture.legend("FMT* tree", tree_colour);
-  if (!params.wait_areas.empty()) picture.legend("wait area", waiting);
+  if (!params.wait_zones.empty()) picture.legend("wait area", waiting);
 }
 
 std::string title_of(const RadarRun& run, const std::string& title, const Frame& frame) {
@@ -201,7 +201,7 @@ void draw_radar_moments(const RadarRun& run, const World& world, std::span<const
   const Box view = part.value_or(world.map->bounds());
   const double um_per_px = std::max(view.width(), view.height()) / pixels;
   std::vector<std::unique_ptr<Picture>> pictures;
-  for (int k = 1; k <= most_pictures; ++k)
+  for (int k = 1; k <= max_pictures; ++k)
     for (const char* end : {"png", "svg", "pdf"})
       fs::remove(fmt::format("{}-{}.{}", stem.string(), k, end));
   for (std::size_t k = 0; k < moments.size(); ++k) {

@@ -25,7 +25,7 @@ Params suited(Params params, const Scenario& scenario, bool walls) {
   const SwarmLimits swarm = limits_of(scenario.swarm);
   const double margin = swarm.radius + 0.8 * scenes::avoidance_passage_gap;
   if constexpr (requires { params.speed; }) params.speed = swarm.max_speed;
-  if constexpr (std::same_as<Params, HierarchicalParams>) params.margin = margin;
+  if constexpr (std::same_as<Params, HierarchicalParams>) params.clearance = margin;
   if constexpr (std::same_as<Params, RadarParams>)
     if (walls) params.safety_distance = std::min(params.safety_distance, 40.0);
   if constexpr (requires {
@@ -62,7 +62,7 @@ RadarParams published_radar() {
 /// One for the alternative of NavigatorParams, if it can do the task; two for the radar.
 template <class Params>
 void add(const Task& task, std::vector<Contestant>& out) {
-  if (!what_it_lacks(NavigatorParams(Params{}), task).empty()) return;
+  if (!unsupported_reason(NavigatorParams(Params{}), task).empty()) return;
   const std::string name(Params::type_name);
   if constexpr (std::same_as<Params, RadarParams>) {
     out.push_back(contestant(name, wide_radar()));
@@ -95,7 +95,7 @@ Crossing crossed(const Scenario& scenario, const World& world, const Stop& stop)
                  limits_of(scenario.swarm).max_speed;
   out.delta = metrics.avoidance.mean_cost;
   out.turning = metrics.turning;
-  out.least_gap = metrics.avoidance.least_gap;
+  out.min_gap = metrics.avoidance.min_gap;
   out.hold_time = metrics.hold_time;
   const std::vector<double>& steps = result.timing.steps;
   out.step = std::accumulate(steps.begin(), steps.end(), 0.0) /

@@ -43,7 +43,7 @@ struct Crossing {
   double straight = 0;   ///< what the straight way takes at full speed [s]
   double delta = 0;      ///< mean avoidance cost
   double turning = 0;    ///< [rad]
-  double least_gap = 0;  ///< [µm]
+  double min_gap = 0;    ///< [µm]
   double hold_time = 0;  ///< [s]
   double step = 0;       ///< mean wall-clock time of a decision [s]
   std::vector<ContactVerdict> contacts;

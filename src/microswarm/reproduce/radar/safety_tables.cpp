@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 
 constexpr int worlds_written = 3;  // a navigator and course
 constexpr std::size_t obstacles_a_bin = 10;
-constexpr int enough_worlds = 10;       // in a bin, to be joined with the next
-constexpr double least_percent = 0.01;  // of time beyond the straight way; the axis has no zero
+constexpr int enough_worlds = 10;     // in a bin, to be joined with the next
+constexpr double min_percent = 0.01;  // of time beyond the straight way; the axis has no zero
 
 /// One colour a method in all figures.
 std::size_t colour_of(std::string_view navigator) {
@@ -56,14 +56,14 @@ std::string runs_csv(const std::vector<CourseResult>& results) {
   std::string out =
       "course,navigator,seed,status,arrived,obstacles,time_s,straight_s,delta,turning_deg,"
       "least_gap_um,hold_s,contacts,avoidable\n";
-  for_each_run(
-      results, [&](const CourseResult& result, std::size_t k, std::size_t seed, const Crossing& c) {
-        out += fmt::format(
-            "\"{}\",{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{}\n",
-            result.course.name, result.who[k].name, seed, to_string(c.status), c.arrived ? 1 : 0,
-            c.obstacles, c.time, c.straight, c.delta, degrees(c.turning), c.least_gap, c.hold_time,
-            c.contacts.size(), c.avoidable());
-      });
+  for_each_run(results,
+               [&](const CourseResult& result, std::size_t k, std::size_t seed, const Crossing& c) {
+                 out += fmt::format(
+                     "\"{}\",{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{}\n",
+                     result.course.name, result.who[k].name, seed, to_string(c.status),
+                     c.arrived ? 1 : 0, c.obstacles, c.time, c.straight, c.delta,
+                     degrees(c.turning), c.min_gap, c.hold_time, c.contacts.size(), c.avoidable());
+               });
   return out;
 }
 
@@ -185,7 +185,7 @@ Plot times_plot(const CourseResult& result) {
                   .style = PlotStyle::box,
                   .colour = colour_of(result.who[k].name)};
     for (const Crossing& c : result.crossings[k])
-      if (c.ran && c.arrived) series.y.push_back(std::max(least_percent, 100 * (slowness(c) - 1)));
+      if (c.ran && c.arrived) series.y.push_back(std::max(min_percent, 100 * (slowness(c) - 1)));
     series.x.assign(series.y.size(), static_cast<double>(k + 1));
     plot.series.push_back(std::move(series));
   }

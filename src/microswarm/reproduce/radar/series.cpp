@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double swarm_radius = 100, planner_step = 25;  // r_s, d_p [px]
-constexpr double least_fall = 1e-4;                      // of a cost that falls
+constexpr double min_fall = 1e-4;                        // of a cost that falls
 
 /// One series: radii of one circle, the other one's fixed [px]. The cases of Fig 5 are ends of
 /// series; `rising_from` is where the paper says that the cost begins to rise (its point A).
@@ -132,7 +132,7 @@ void add_rows(const RadarSweep& sweep, const RadarVersion& version, const Series
     const double fall = curve.cost.front() - y.front();
     rows.push_back(
         version.as_published
-            ? noted(row_of("fig7", name(what), "1", {}, fall, least_fall, false),
+            ? noted(row_of("fig7", name(what), "1", {}, fall, min_fall, false),
                     "the paper says that it falls, not by how much")
             : row_without_aim("not the paper's navigator", "fig7", name(what), "1", {}, fall));
   }

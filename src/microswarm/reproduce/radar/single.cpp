@@ -95,7 +95,7 @@ class CaseRows {
     add(near_time, "avoidance cost exceeds 0.01", "s", case_.entered,
         cost_above(run.record, begun));
     add(near_time, "obstacle leaves the detection circle", "s", case_.left, period.to);
-    add(0, "least gap", "µm", {}, m.avoidance.least_gap);
+    add(0, "least gap", "µm", {}, m.avoidance.min_gap);
     add(0, "turning", "°", {}, degrees(m.turning));
   }
 

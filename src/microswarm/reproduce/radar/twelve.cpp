@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_draws = 1000;      // of an obstacle's way
-constexpr double most_turning = 1.2;  // with the guard, of that without
+constexpr int max_draws = 1000;      // of an obstacle's way
+constexpr double max_turning = 1.2;  // with the guard, of that without
 constexpr const char* chosen =
     "one scene, chosen among random ones as its cost was near to the paper's";
 
@@ -50,7 +50,7 @@ void scatter(Scenario& scenario, double top_speed, std::uint32_t trial) {
     const double keep_off =
         std::get<DiscShape>(obstacle.shape).radius + 2 * limits_of(scenario.swarm).radius;
     HarmonicLine line;
-    for (int draw = 0; draw < most_draws; ++draw) {
+    for (int draw = 0; draw < max_draws; ++draw) {
       const double x = map.lo.x + length * rng.uniform(0.15, 0.9);
       line.centre = rounded({x, map.lo.y + height * rng.uniform(0.15, 0.85)});
       line.amplitude =
@@ -184,7 +184,7 @@ void add_guard_rows(const Twelve& f, const ReproduceOptions& options, int trials
   std::array<double, 2> of_scene{}, of_random{};
   for (const bool guarded : {false, true}) {
     RadarSetting s = load_radar(options, f.scenario, radar_versions.back());
-    s.params().guard.active = guarded;
+    s.params().safety_filter.active = guarded;
     s.scene.scenario.stop_at_contact = false;
     of_scene[guarded] = run_radar(s.scene, s.world, stop).record.result.metrics.turning;
     of_random[guarded] = median(Totals(run_all(f, s, trials, {}, stop)).turning);
@@ -193,7 +193,7 @@ void add_guard_rows(const Twelve& f, const ReproduceOptions& options, int trials
   const auto add = [&](const char* what, const std::array<double, 2>& turning) {
     rows.push_back(unjudged_if_quick(
         noted(row_of(f.figure, fmt::format("turning with the guard ÷ without, {}", what), "1", {},
-                     turning[1] / std::max(turning[0], 1e-9), most_turning),
+                     turning[1] / std::max(turning[0], 1e-9), max_turning),
               "the aim is ours"),
         options));
   };

@@ -9,7 +9,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double least_sends = 10;  // in a turn of the field
+constexpr double min_sends = 10;  // in a turn of the field
 
 int channels_of(const RigParams& rig) {
   const auto* simulated = std::get_if<SimulatedCoils>(&rig.driver);
@@ -22,14 +22,14 @@ double full_scale_of(const RigParams& rig) {
 
 Issues validate(const RigParams& rig, const CoilSystem& system) {
   Issues issues;
-  const double least_rate = least_sends * rig.field.frequency;
-  if (rig.drive_rate < least_rate)
+  const double min_rate = min_sends * rig.field.frequency;
+  if (rig.drive_rate < min_rate)
     issues.add({"drive_rate_hz", "field.frequency_hz"},
                fmt::format("drive_rate_hz is {:.6g}, the field turns {:.6g} times a second and "
                            "needs at least {:.6g}",
-                           rig.drive_rate, rig.field.frequency, least_rate));
-  issues.add_within("eye.scene.swarm.look", validate(rig.eye.scene.swarm.look));
-  issues.add_within("eye.scene.obstacles", validate(rig.eye.scene.obstacles));
+                           rig.drive_rate, rig.field.frequency, min_rate));
+  issues.add_within("perception.scene.swarm.look", validate(rig.perception.scene.swarm.look));
+  issues.add_within("perception.scene.obstacles", validate(rig.perception.scene.obstacles));
   const int channels = channels_of(rig);
   if (static_cast<int>(system.size()) > channels)
     issues.add(

@@ -16,7 +16,7 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr int most_misses = 3;  // of the driver in a row; each is tried again by itself
+constexpr int max_misses = 3;  // of the driver in a row; each is tried again by itself
 
 }  // namespace
 
@@ -99,7 +99,7 @@ void CoilLoop::run() {
     lock.lock();
     misses = moment.output.status == DriveStatus::no_answer ? misses + 1 : 0;
     if (!trouble.empty() && why_.empty()) why_ = trouble;
-    if (misses >= most_misses && why_.empty()) why_ = "the coil driver does not answer";
+    if (misses >= max_misses && why_.empty()) why_ = "the coil driver does not answer";
   }
   lock.unlock();
   const bool confirmed = controller_.stop();

@@ -64,8 +64,8 @@ Devices open_devices(const RigExperiment& on, bool dry) {
   Devices devices;
   devices.coils = open_coils(rig, dry);
   if (std::holds_alternative<SimulatedCamera>(rig.camera)) {
-    devices.bench = std::make_unique<LiveBench>(on.scenario(), on.experiment.world, on.rig,
-                                                std::move(devices.coils));
+    devices.bench = std::make_unique<RealtimeRigSimulator>(on.scenario(), on.experiment.world,
+                                                           on.rig, std::move(devices.coils));
     devices.camera = devices.bench->camera(simulated_rate);
     devices.scale = devices.bench->view().scale;
     return devices;

@@ -9,7 +9,7 @@
 
 #include "microswarm/experiment/scenario/experiment.hpp"
 #include "microswarm/rig/params/rig_params.hpp"
-#include "microswarm/rig/runtime/live_bench.hpp"
+#include "microswarm/rig/runtime/realtime_rig_simulator.hpp"
 
 namespace microswarm {
 
@@ -31,7 +31,7 @@ RigExperiment open_rig_experiment(const std::filesystem::path& scenario,
 
 /// What a rig's file names, opened.
 struct Devices {
-  std::unique_ptr<LiveBench> bench;  ///< of a simulated camera
+  std::unique_ptr<RealtimeRigSimulator> bench;  ///< of a simulated camera
   std::unique_ptr<CoilDriver> coils;
   std::unique_ptr<FrameSource> camera;
   CameraScale scale;

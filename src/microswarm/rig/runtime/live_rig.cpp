@@ -7,7 +7,7 @@
 
 #include "microswarm/core/clock.hpp"
 #include "microswarm/core/error.hpp"
-#include "microswarm/rig/simulation/simulated_bench.hpp"
+#include "microswarm/rig/simulation/rig_simulator.hpp"
 
 namespace microswarm {
 namespace {
@@ -56,7 +56,7 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
                  timing_.round_trip.add(moment.round_trip);
                  timing_.unmade += !moment.output.reached;
                  timing_.limited += moment.output.scale < 1 - 1e-9;
-                 timing_.least_scale = std::min(timing_.least_scale, moment.output.scale);
+                 timing_.min_scale = std::min(timing_.min_scale, moment.output.scale);
                  timing_.resumed += moment.output.status == DriveStatus::resumed;
                  timing_.scaled += moment.output.status == DriveStatus::scaled;
                }
@@ -68,7 +68,8 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
   const Image& picture = frame_.frame.picture;
   check_picture(rig, scenario, scale, picture);
   const std::vector<Vec2> starts = scenario.robots ? scenario.robots->starts : std::vector<Vec2>{};
-  eye_ = make_eye(rig.params.eye, scenario, *map_, starts, {scale, picture.width, picture.height});
+  perception_ = make_perception(rig.params.perception, scenario, *map_, starts,
+                                {scale, picture.width, picture.height});
   start_ = steady_seconds();
   read_frame();
 }
@@ -78,8 +79,8 @@ Observation LiveRig::observe() {
   if (fault_.empty()) take_frame();
   const double now = since_start();
   look_for_faults(now);
-  return observation_of(*sight_, std::make_shared<const Snapshot>(map_, seen_, sight_->moving), now,
-                        seen_);
+  return observation_of(
+      *detections_, std::make_shared<const Snapshot>(map_, seen_, detections_->moving), now, seen_);
 }
 
 void LiveRig::take_frame() {
@@ -94,9 +95,9 @@ void LiveRig::read_frame() {
   seen_ = frame_.taken - start_;
   const double began = steady_seconds();
   take_channel(frame_.frame.picture, VideoChannel::grey, grey_);
-  sight_ = &eye_->see(grey_, seen_);
+  detections_ = &perception_->process(grey_, seen_);
   const double took = steady_seconds() - began;
-  if (sight_->swarm) found_ = seen_;
+  if (detections_->swarm) found_ = seen_;
   const std::lock_guard lock(timing_mutex_);
   timing_.vision.add(took);
 }
@@ -109,12 +110,12 @@ void LiveRig::look_for_faults(double now) {
     return fail(fmt::format("the camera's pictures are {}", enum_name(camera.state)));
   if (camera.state == CameraState::ended) return fail("the camera has no more pictures");
   const double age = now - seen_;
-  if (age > safety.oldest_frame)
+  if (age > safety.max_frame_age)
     return fail(
-        fmt::format("the newest picture is {:.2f} s old, allowed {} s", age, safety.oldest_frame));
+        fmt::format("the newest picture is {:.2f} s old, allowed {} s", age, safety.max_frame_age));
   if (now - found_ > safety.lost_swarm)
     return fail(fmt::format("the swarm was not found for {:.2f} s{}, allowed {} s", now - found_,
-                            sight_->trouble == "several" ? " (there are several)" : "",
+                            detections_->trouble == "several" ? " (there are several)" : "",
                             safety.lost_swarm));
   if (missed_in_a_row_ >= safety.missed_deadlines)
     return fail(fmt::format("{} ticks in a row ended too late", missed_in_a_row_));
@@ -134,8 +135,9 @@ void LiveRig::apply(const Command& command, double dt) {
   }
   missed_in_a_row_ = missed ? missed_in_a_row_ + 1 : 0;
   if (missed) next_ = now;
-  eye_->commanded(command, now);
-  const Vec2 place = sight_->swarm ? sight_->swarm->pose.position : map_->bounds().centre();
+  perception_->commanded(command, now);
+  const Vec2 place =
+      detections_->swarm ? detections_->swarm->pose.position : map_->bounds().centre();
   coils_.command(command, place_among_coils(rig_.system, *map_, place));
   coils_.wait(next_ - since_start());
 }

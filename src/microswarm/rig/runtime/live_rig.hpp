@@ -11,7 +11,7 @@
 #include "microswarm/core/clock.hpp"
 #include "microswarm/core/durations.hpp"
 #include "microswarm/rig/params/rig_params.hpp"
-#include "microswarm/rig/perception/eye.hpp"
+#include "microswarm/rig/perception/perception.hpp"
 #include "microswarm/rig/runtime/coil_loop.hpp"
 #include "microswarm/vision/camera/newest_frame.hpp"
 
@@ -27,7 +27,7 @@ struct RigTiming {
   int resumed = 0;           ///< times the coils had been off by themselves
   int unmade = 0;            ///< fields that these coils cannot make
   int limited = 0;           ///< fields that the coils' limits weakened
-  double least_scale = 1;    ///< the weakest of them, as share of what was wanted
+  double min_scale = 1;      ///< the weakest of them, as share of what was wanted
   int scaled = 0;            ///< currents that the device's own limits made smaller
   int missed_deadlines = 0;  ///< ticks that ended after the next should have begun
   int frames = 0;            ///< that were read
@@ -60,7 +60,7 @@ class LiveRig : public Plant {
   RigTiming timing() const;
   /// The newest picture and what was seen in it.
   const Image& picture() const { return grey_; }
-  const Sight& sight() const { return *sight_; }
+  const Detections& sight() const { return *detections_; }
 
  private:
   void take_frame();
@@ -73,11 +73,11 @@ class LiveRig : public Plant {
   std::shared_ptr<const Map> map_;
   NewestFrame camera_;
   CoilController controller_;
-  std::unique_ptr<Eye> eye_;
+  std::unique_ptr<Perception> perception_;
   LiveFrame frame_;
   Image grey_;
-  Sight unseen_;  // before the first picture
-  const Sight* sight_ = &unseen_;
+  Detections unseen_;  // before the first picture
+  const Detections* detections_ = &unseen_;
   double start_;      // [s], by steady_seconds()
   double seen_ = 0;   // when the newest frame was taken [s]
   double found_ = 0;  // when the swarm was seen last [s]

@@ -20,7 +20,7 @@ constexpr double flat_pitch = 1e-3;       // [rad]: less points nowhere
 Command FieldResponse::step(const Eigen::Vector3d& field, double dt) {
   const Eigen::Vector3d from = before_;
   before_ = field;
-  if (from.norm() < params_.least_amplitude || field.norm() < params_.least_amplitude) {
+  if (from.norm() < params_.min_amplitude || field.norm() < params_.min_amplitude) {
     turn_.clear();
     return {heading_, 0};
   }
@@ -36,7 +36,7 @@ Command FieldResponse::step(const Eigen::Vector3d& field, double dt) {
 }
 
 Command FieldResponse::rolling(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double dt) {
-  const Vec2 way = rolled_way(from, to, params_.length_per_turn);
+  const Vec2 way = rolled_distance(from, to, params_.length_per_turn);
   const Eigen::Vector3d sum = over({dt, {way.x, way.y, 0}}, rolling_inertia);
   double time = 0;
   for (const Piece& piece : turn_) time += piece.dt;

@@ -17,12 +17,12 @@
 namespace microswarm {
 namespace {
 
-constexpr int most_side = 4096;                  // [px]
-constexpr double usual_side = 800;               // [px]
-constexpr std::size_t grains = 1 << 18;          // of noise that are drawn once
-constexpr std::size_t most_particles = 1 << 15;  // of a swarm
-constexpr int corner_bits = 4;                   // sub-pixel bits of corners in OpenCV's polygons
-constexpr double swarm_spin = 0.5;               // [rad/s]; so that its picture is never the same
+constexpr int max_side = 4096;                  // [px]
+constexpr double usual_side = 800;              // [px]
+constexpr std::size_t grains = 1 << 18;         // of noise that are drawn once
+constexpr std::size_t max_particles = 1 << 15;  // of a swarm
+constexpr int corner_bits = 4;                  // sub-pixel bits of corners in OpenCV's polygons
+constexpr double swarm_spin = 0.5;              // [rad/s]; so that its picture is never the same
 
 cv::Mat as_floats(std::vector<float>& values, int width, int height) {
   return {height, width, CV_32F, values.data()};
@@ -46,11 +46,11 @@ Microscope::Microscope(const MicroscopeParams& params, const Map& map, std::uint
   const double cell = params.um_per_px.value_or(std::max(seen.width(), seen.height()) / usual_side);
   const auto pixels = [&](double length) {
     const double n = std::ceil(length / cell - 1e-9) + 2 * params.margin;
-    if (!(n <= most_side))
+    if (!(n <= max_side))
       throw InputError(
           fmt::format("um_per_px is {:.6g}: the picture would be {:.6g} pixels long, "
                       "at most {} are drawn",
-                      cell, n, most_side));
+                      cell, n, max_side));
     return static_cast<int>(n);
   };
   width_ = pixels(seen.width());
@@ -72,8 +72,8 @@ Microscope::Microscope(const MicroscopeParams& params, const Map& map, std::uint
   grain_.reserve(grains);
   for (std::size_t i = 0; i < grains; ++i)
     grain_.push_back(static_cast<float>(params.noise * rng_.normal()));
-  particles_.reserve(most_particles);
-  for (std::size_t i = 0; i < most_particles; ++i) {
+  particles_.reserve(max_particles);
+  for (std::size_t i = 0; i < max_particles; ++i) {
     const double r = std::sqrt(rng_.uniform());
     particles_.push_back(r * unit_vector(rng_.uniform(-pi, pi)));
   }
@@ -124,7 +124,7 @@ void Microscope::draw_swarm(const SwarmPose& swarm) {
   const Vec2 middle = scale_.to_picture(swarm.pose.position);
   const Vec2 turn = unit_vector(swarm.pose.heading);
   const double clumps = params_.swarm_density * reach * reach / (grain * grain);
-  const std::size_t count = std::min(most_particles, static_cast<std::size_t>(clumps) + 1);
+  const std::size_t count = std::min(max_particles, static_cast<std::size_t>(clumps) + 1);
   for (const Vec2 p : std::span(particles_).first(count))
     draw_disc(middle + reach * Vec2{p.x * turn.x - p.y * turn.y, p.x * turn.y + p.y * turn.x},
               grain, params_.swarm_depth);

@@ -16,13 +16,15 @@ SimulatedRig::SimulatedRig(const Scenario& scenario, const World& world, const R
                   scenario.start ? scenario.start->heading : 0),
       bench_(scenario, world, rig, trial),
       map_(world.map),
-      eye_(make_eye(rig.params.eye, scenario, *map_, bench_.truth().robots, bench_.camera())) {}
+      perception_(make_perception(rig.params.perception, scenario, *map_,
+                                  bench_.ground_truth().robots, bench_.camera())) {}
 
 Observation SimulatedRig::observe() {
-  const SimulatedBench::Shot shot = bench_.shoot();
-  picture_ = &bench_.develop(shot);
-  sight_ = &eye_->see(*picture_, shot.seen);
-  return observation_of(*sight_, std::make_shared<const Snapshot>(map_, shot.seen, sight_->moving),
+  const RigSimulator::Shot shot = bench_.capture();
+  picture_ = &bench_.render(shot);
+  detections_ = &perception_->process(*picture_, shot.seen);
+  return observation_of(*detections_,
+                        std::make_shared<const Snapshot>(map_, shot.seen, detections_->moving),
                         shot.now, shot.seen);
 }
 
@@ -30,8 +32,8 @@ void SimulatedRig::apply(const Command& command, double dt) {
   const auto pieces = static_cast<int>(std::ceil(dt * rig_.params.drive_rate - 1e-9));
   const double piece = dt / pieces;
   controller_.command(command);
-  eye_->commanded(command, bench_.truth().now);
-  bench_.begin_way();
+  perception_->commanded(command, bench_.ground_truth().now);
+  bench_.start_trajectory();
   for (int i = 0; i < pieces; ++i) {
     controller_.aim(bench_.place());
     controller_.advance(piece);
@@ -39,8 +41,9 @@ void SimulatedRig::apply(const Command& command, double dt) {
   }
 }
 
-RunResult rehearse(const Scenario& scenario, const World& world, const Rig& rig,
-                   std::uint32_t trial, std::span<RunListener* const> listeners, const Stop& stop) {
+RunResult simulate_rig(const Scenario& scenario, const World& world, const Rig& rig,
+                       std::uint32_t trial, std::span<RunListener* const> listeners,
+                       const Stop& stop) {
   SimulatedRig plant(scenario, world, rig, trial);
   const auto navigator = make_navigator(scenario.navigator, task_of(scenario),
                                         Rng(scenario.seed, Purpose::planner, trial));

@@ -6,8 +6,8 @@
 
 #include "microswarm/actuation/coils/coil_controller.hpp"
 #include "microswarm/experiment/run/run.hpp"
-#include "microswarm/rig/perception/eye.hpp"
-#include "microswarm/rig/simulation/simulated_bench.hpp"
+#include "microswarm/rig/perception/perception.hpp"
+#include "microswarm/rig/simulation/rig_simulator.hpp"
 
 namespace microswarm {
 
@@ -26,11 +26,11 @@ class SimulatedRig : public Plant {
   bool set_obstacles(const std::vector<Obstacle>& obstacles) override {
     return bench_.set_obstacles(obstacles);
   }
-  std::optional<Truth> truth() const override { return bench_.truth(); }
+  std::optional<GroundTruth> ground_truth() const override { return bench_.ground_truth(); }
 
   /// The picture of the last observation.
   const Image& picture() const { return *picture_; }
-  const Sight& sight() const { return *sight_; }
+  const Detections& sight() const { return *detections_; }
   const CoilOutput& coils() const { return controller_.output(); }
 
  private:
@@ -38,18 +38,18 @@ class SimulatedRig : public Plant {
   std::unique_ptr<CoilDriver> simulated_coils_;
   CoilDriver& driver_;
   CoilController controller_;
-  SimulatedBench bench_;
+  RigSimulator bench_;
   std::shared_ptr<const Map> map_;
-  std::unique_ptr<Eye> eye_;
+  std::unique_ptr<Perception> perception_;
   const Image* picture_ = nullptr;
-  const Sight* sight_ = nullptr;
+  const Detections* detections_ = nullptr;
 };
 
 /// Builds plant and navigator for one trial of a scenario and runs it through the rig, as
 /// simulate() does without one.
-RunResult rehearse(const Scenario& scenario, const World& world, const Rig& rig,
-                   std::uint32_t trial = 0, std::span<RunListener* const> listeners = {},
-                   const Stop& stop = {});
+RunResult simulate_rig(const Scenario& scenario, const World& world, const Rig& rig,
+                       std::uint32_t trial = 0, std::span<RunListener* const> listeners = {},
+                       const Stop& stop = {});
 
 /// Coils that are not there, as the rig describes them.
 std::unique_ptr<CoilDriver> simulated_coils(const RigParams& rig);

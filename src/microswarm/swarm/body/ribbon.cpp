@@ -12,16 +12,16 @@ Ribbon::Ribbon(const RibbonParams& params, Pose2 start)
     : params_(params), pose_(start), commands_(params.response_lag) {}
 
 void Ribbon::step(const Command& command, double dt, Rng& rng) {
-  swept_.assign(1, {0, pose_, params_.radius});
+  trajectory_.assign(1, {0, pose_, params_.radius});
   double passed = 0;
   commands_.pass(command, dt, ribbon_substep, [&](const Command& active, double piece) {
     const double speed = std::clamp(active.speed, 0.0, params_.max_speed);
     active_ = {active.heading, params_.speed_factor * speed};
     advance(piece, rng);
     passed += piece;
-    swept_.push_back({passed, pose_, params_.radius});
+    trajectory_.push_back({passed, pose_, params_.radius});
   });
-  swept_.back().t = dt;
+  trajectory_.back().t = dt;
 }
 
 void Ribbon::advance(double dt, Rng& rng) {

@@ -29,7 +29,7 @@ class Ribbon {
   void step(const Command& command, double dt, Rng& rng);
   /// The way of the last step, its first and last pose included: straight between them, times [s]
   /// counted from the step's start. Empty before the first step.
-  std::span<const TimedPose> swept() const { return swept_; }
+  std::span<const PoseStamped> trajectory() const { return trajectory_; }
 
  private:
   void advance(double dt, Rng& rng);
@@ -38,7 +38,7 @@ class Ribbon {
   Pose2 pose_;
   Command active_;
   LaggingCommands commands_;
-  std::vector<TimedPose> swept_;
+  std::vector<PoseStamped> trajectory_;
 };
 
 }  // namespace microswarm

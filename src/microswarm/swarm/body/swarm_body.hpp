@@ -19,7 +19,7 @@ class SwarmBody {
   double speed() const;  ///< [µm/s]
   /// See Ribbon::step and Vortex::step.
   void step(const Command& command, double dt, Rng& rng);
-  std::span<const TimedPose> swept() const;
+  std::span<const PoseStamped> trajectory() const;
 
  private:
   std::variant<Ribbon, Vortex> body_;

@@ -12,19 +12,19 @@ namespace microswarm {
 
 namespace {
 
-constexpr double substep = 0.01;      // longest piece that is integrated at once [s]
-constexpr double most_ripples = 2;    // standard deviations
-constexpr double least_share = 1e-3;  // of the radius, however strong the ripple
+constexpr double substep = 0.01;    // longest piece that is integrated at once [s]
+constexpr double max_ripples = 2;   // standard deviations
+constexpr double min_share = 1e-3;  // of the radius, however strong the ripple
 
 }  // namespace
 
-double greatest_radius(const VortexParams& p) {
-  return std::max(p.radius, p.moving_radius) + most_ripples * p.radius_ripple;
+double max_radius(const VortexParams& p) {
+  return std::max(p.radius, p.moving_radius) + max_ripples * p.radius_ripple;
 }
 
-double least_radius(const VortexParams& p) {
+double min_radius(const VortexParams& p) {
   const double least = std::min(p.radius, p.moving_radius);
-  return std::max(least_share * least, least - most_ripples * p.radius_ripple);
+  return std::max(min_share * least, least - max_ripples * p.radius_ripple);
 }
 
 double pitch_of(const VortexParams& params, const Command& command) {
@@ -44,16 +44,16 @@ Vortex::Vortex(const VortexParams& params, Pose2 start)
     : params_(params), pose_(start), radius_(params.radius), commands_(params.response_lag) {}
 
 void Vortex::step(const Command& command, double dt, Rng& rng) {
-  swept_.assign(1, {0, pose_, radius_});
+  trajectory_.assign(1, {0, pose_, radius_});
   double passed = 0;
   commands_.pass(command, dt, substep, [&](const Command& active, double piece) {
     active_ = {active.heading, pitch_of(params_, active) / params_.max_pitch * params_.max_speed};
     advance(piece, rng);
     breathe(piece, rng);
     passed += piece;
-    swept_.push_back({passed, pose_, radius_});
+    trajectory_.push_back({passed, pose_, radius_});
   });
-  swept_.back().t = dt;
+  trajectory_.back().t = dt;
 }
 
 void Vortex::advance(double dt, Rng& rng) {
@@ -72,7 +72,7 @@ void Vortex::breathe(double dt, Rng& rng) {
   radius_ = aim + kept * (radius_ - aim);
   if (params_.radius_ripple <= 0) return;
   radius_ += params_.radius_ripple * std::sqrt(1 - kept * kept) * rng.normal();
-  radius_ = std::clamp(radius_, least_radius(params_), greatest_radius(params_));
+  radius_ = std::clamp(radius_, min_radius(params_), max_radius(params_));
 }
 
 }  // namespace microswarm

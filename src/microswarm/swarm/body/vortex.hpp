@@ -15,9 +15,9 @@
 namespace microswarm {
 
 /// The widest it gets [µm].
-double greatest_radius(const VortexParams& params);
+double max_radius(const VortexParams& params);
 /// The narrowest it gets [µm].
-double least_radius(const VortexParams& params);
+double min_radius(const VortexParams& params);
 
 /// The pitch φ [rad] that a command asks for, at most max_pitch: Eq 2 [radar].
 double pitch_of(const VortexParams& params, const Command& command);
@@ -37,8 +37,8 @@ class Vortex {
   /// Lets `dt` seconds pass under `command`, which takes effect exactly `response_lag` later; noise
   /// is drawn from `rng`.
   void step(const Command& command, double dt, Rng& rng);
-  /// The way of the last step as in Ribbon::swept.
-  std::span<const TimedPose> swept() const { return swept_; }
+  /// The way of the last step as in Ribbon::trajectory.
+  std::span<const PoseStamped> trajectory() const { return trajectory_; }
 
  private:
   void advance(double dt, Rng& rng);
@@ -49,7 +49,7 @@ class Vortex {
   double radius_;
   Command active_;
   LaggingCommands commands_;
-  std::vector<TimedPose> swept_;
+  std::vector<PoseStamped> trajectory_;
 };
 
 }  // namespace microswarm

@@ -30,8 +30,8 @@ class ContactMoves {
   PointF slid(PointF p, PointF left) const {
     int contacts = 0;
     PointF lean;
-    const float most_pieces = std::ceil(length(left) / reach_) + most_contacts;
-    for (float k = 0; k < most_pieces; ++k) {
+    const float max_pieces = std::ceil(length(left) / reach_) + max_contacts;
+    for (float k = 0; k < max_pieces; ++k) {
       const float far = length(left);
       const float share = far > reach_ ? reach_ / far : 1.0f;
       const PointF done{share * left.x, share * left.y};
@@ -44,7 +44,7 @@ class ContactMoves {
         continue;
       }
       p = {p.x + contact.time * piece.x, p.y + contact.time * piece.y};
-      if (++contacts == most_contacts) return p;
+      if (++contacts == max_contacts) return p;
       left = {left.x - contact.time * done.x, left.y - contact.time * done.y};
       const PointF n = contact.normal;
       const float along = left.y * n.x - left.x * n.y;
@@ -56,7 +56,7 @@ class ContactMoves {
   }
 
  private:
-  static constexpr int most_contacts = 64;
+  static constexpr int max_contacts = 64;
 
   static float length(PointF v) { return std::sqrt(v.x * v.x + v.y * v.y); }
 

@@ -13,7 +13,7 @@ namespace microswarm {
 namespace {
 
 constexpr double guard_of_extent = 1.5e-6;  // rounding moves a robot by less than 1/4 of this
-constexpr double most_cells = 1 << 20;
+constexpr double max_cells = 1 << 20;
 constexpr int disc_corners = 64;
 
 PointF rounded(Vec2 p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
@@ -83,7 +83,7 @@ void WallFaces::add_border(const Box& bounds) {
 
 void WallFaces::fill_cells(const Box& bounds) {
   const double area = bounds.width() * bounds.height();
-  const double cell = std::max(static_cast<double>(reach_), std::sqrt(area / most_cells));
+  const double cell = std::max(static_cast<double>(reach_), std::sqrt(area / max_cells));
   columns_ = static_cast<std::size_t>(bounds.width() / cell) + 1;
   const std::size_t rows = static_cast<std::size_t>(bounds.height() / cell) + 1;
   low_ = rounded(bounds.lo - origin_);

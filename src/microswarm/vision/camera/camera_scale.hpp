@@ -20,15 +20,16 @@ struct CameraScale {
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.um_per_px, {"um_per_px", Unit::none, {1e-6, 1e6}, "µm that a pixel shows.", true});
+    visit(self.um_per_px,
+          {"um_per_px", Unit::none, {1e-6, 1e6}, "Scale: side of a pixel in µm.", true});
     visit(self.rotation, {"rotation",
                           Unit::deg,
                           {-360, 360},
-                          "Direction of the picture's x axis in the world, counter-clockwise."});
+                          "Direction of the image's x axis, counter-clockwise."});
     visit(self.y_up,
-          {"y_up", Unit::none, {}, "The world's y goes up in the picture; false when mirrored."});
+          {"y_up", Unit::none, {}, "Image y axis points up in the world; false if mirrored."});
     visit(self.origin_px,
-          {"origin", Unit::px, {-1e6, 1e6}, "The world's origin in the picture, x right, y down."});
+          {"origin", Unit::px, {-1e6, 1e6}, "World origin in the image, x right, y down."});
   }
 
   /// World place [µm] of a point in the picture.
@@ -39,8 +40,8 @@ struct CameraScale {
     return origin_px + Vec2{way.x, y_up ? -way.y : way.y};
   }
   /// A way in the picture as one in the world [µm].
-  Vec2 direction_to_world(Vec2 way_px) const {
-    return um_per_px * rotated({way_px.x, y_up ? -way_px.y : way_px.y}, rotation);
+  Vec2 direction_to_world(Vec2 distance_px) const {
+    return um_per_px * rotated({distance_px.x, y_up ? -distance_px.y : distance_px.y}, rotation);
   }
 };
 

@@ -50,10 +50,10 @@ int count_pieces(const cv::Mat& set) {
   return cv::connectedComponents(set, labels, 8, CV_32S) - 1;
 }
 
-cv::Mat without_small_pieces(const cv::Mat& set, double least_area) {
+cv::Mat without_small_pieces(const cv::Mat& set, double min_area) {
   const Pieces pieces = pieces_of(set, 8);
   std::vector<char> kept(pieces.areas.size(), 0);
-  for (std::size_t i = 1; i < kept.size(); ++i) kept[i] = pieces.areas[i] >= least_area;
+  for (std::size_t i = 1; i < kept.size(); ++i) kept[i] = pieces.areas[i] >= min_area;
   return labelled(pieces.labels, kept);
 }
 
@@ -67,10 +67,10 @@ cv::Mat pieces_with(const cv::Mat& set, const cv::Mat& seeds) {
   return labelled(pieces.labels, kept);
 }
 
-void fill_holes(cv::Mat& set, double most_area) {
+void fill_holes(cv::Mat& set, double max_area) {
   const Pieces gaps = pieces_of(~set, 4);
   std::vector<char> filled(gaps.areas.size(), 0);
-  for (std::size_t i = 1; i < filled.size(); ++i) filled[i] = gaps.areas[i] <= most_area;
+  for (std::size_t i = 1; i < filled.size(); ++i) filled[i] = gaps.areas[i] <= max_area;
   const auto open = [&](int x, int y) { filled[gaps.labels.at<int>(y, x)] = 0; };
   for (int x = 0; x < set.cols; ++x) open(x, 0), open(x, set.rows - 1);
   for (int y = 0; y < set.rows; ++y) open(0, y), open(set.cols - 1, y);

@@ -14,14 +14,14 @@ cv::Mat largest_piece(const cv::Mat& set);
 /// Number of pieces.
 int count_pieces(const cv::Mat& set);
 
-/// The pieces of at least `least_area` pixels.
-cv::Mat without_small_pieces(const cv::Mat& set, double least_area);
+/// The pieces of at least `min_area` pixels.
+cv::Mat without_small_pieces(const cv::Mat& set, double min_area);
 
 /// The pieces that share a pixel with `seeds`.
 cv::Mat pieces_with(const cv::Mat& set, const cv::Mat& seeds);
 
-/// Sets the holes of at most `most_area` pixels that do not touch the border.
-void fill_holes(cv::Mat& set, double most_area);
+/// Sets the holes of at most `max_area` pixels that do not touch the border.
+void fill_holes(cv::Mat& set, double max_area);
 
 /// What a disc of `diameter` pixels reaches without leaving the set.
 cv::Mat opened(const cv::Mat& set, double diameter);

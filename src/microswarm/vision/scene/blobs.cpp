@@ -18,7 +18,7 @@
 #include "microswarm/core/statistics.hpp"
 #include "microswarm/vision/image/blur.hpp"
 #include "microswarm/vision/image/mat.hpp"
-#include "microswarm/vision/scene/ground.hpp"
+#include "microswarm/vision/scene/background.hpp"
 #include "microswarm/vision/scene/level_line.hpp"
 
 namespace microswarm {
@@ -35,7 +35,7 @@ int coarseness(const BlobParams& p) {
 }
 
 /// Means of squares of `side` pixels; the border is repeated to fill the last ones.
-cv::Mat coarse(const cv::Mat& mat, int side) {
+cv::Mat downsampled(const cv::Mat& mat, int side) {
   if (side == 1) return mat;
   const int right = (side - mat.cols % side) % side;
   const int below = (side - mat.rows % side) % side;
@@ -54,7 +54,7 @@ cv::Mat seen_of(const Image& picture, const Mask* walls, int side) {
                      std::to_string(walls->height) + " pixels, the picture has " +
                      std::to_string(picture.width) + "x" + std::to_string(picture.height));
   cv::Mat hidden;
-  cv::dilate(coarse(to_mat(*walls), side) > 0, hidden, cv::Mat::ones(3, 3, CV_8U));
+  cv::dilate(downsampled(to_mat(*walls), side) > 0, hidden, cv::Mat::ones(3, 3, CV_8U));
   return ~hidden;
 }
 
@@ -62,17 +62,17 @@ cv::Mat seen_of(const Image& picture, const Mask* walls, int side) {
 MICROSWARM_EACH_CPU void take_ground(std::span<const std::uint8_t> grey, const std::uint8_t* seen,
                                      float sign, float* ground) {
   for (std::size_t i = 0; i < grey.size(); ++i) {
-    const float rise = sign * (static_cast<float>(grey[i]) - ground[i]);
-    ground[i] = seen[i] ? rise : 0.0F;
+    const float foreground = sign * (static_cast<float>(grey[i]) - ground[i]);
+    ground[i] = seen[i] ? foreground : 0.0F;
   }
 }
 
 /// Means over what is seen from means over all.
 MICROSWARM_EACH_CPU void make_up(std::span<const float> share, const std::uint8_t* seen,
-                                 float* rise) {
+                                 float* foreground) {
   for (std::size_t i = 0; i < share.size(); ++i) {
-    const float mean = rise[i] / (share[i] > 0.1F ? share[i] : 0.1F);
-    rise[i] = seen[i] ? mean : 0.0F;
+    const float mean = foreground[i] / (share[i] > 0.1F ? share[i] : 0.1F);
+    foreground[i] = seen[i] ? mean : 0.0F;
   }
 }
 
@@ -80,27 +80,29 @@ MICROSWARM_EACH_CPU void make_up(std::span<const float> share, const std::uint8_
 cv::Mat rise_of(const cv::Mat& grey, const cv::Mat& seen, bool dark, double spread) {
   assert(grey.isContinuous());
   const cv::Mat all = seen.empty() ? cv::Mat(grey.size(), CV_8U, cv::Scalar(255)) : seen;
-  cv::Mat rise = ground_of(grey, seen);
+  cv::Mat foreground = ground_of(grey, seen);
   take_ground({grey.ptr<std::uint8_t>(), grey.total()}, all.ptr<std::uint8_t>(), dark ? -1 : 1,
-              rise.ptr<float>());
+              foreground.ptr<float>());
   const int reach = static_cast<int>(std::ceil(2.5 * spread));
-  rise = blurred(rise, spread, reach, cv::BORDER_REFLECT);
-  if (seen.empty()) return rise;
+  foreground = blurred(foreground, spread, reach, cv::BORDER_REFLECT);
+  if (seen.empty()) return foreground;
   cv::Mat share;
   seen.convertTo(share, CV_32F, 1.0 / 255);
   share = blurred(share, spread, reach, cv::BORDER_REFLECT);
-  make_up({share.ptr<float>(), share.total()}, seen.ptr<std::uint8_t>(), rise.ptr<float>());
-  return rise;
+  make_up({share.ptr<float>(), share.total()}, seen.ptr<std::uint8_t>(), foreground.ptr<float>());
+  return foreground;
 }
 
 /// Spread of the ground around its surface, by the median of some ten thousand pixels.
-double ground_spread(const cv::Mat& rise, const cv::Mat& seen) {
+double ground_spread(const cv::Mat& foreground, const cv::Mat& seen) {
   constexpr std::size_t enough = 10'000;
-  const std::size_t step = 2 * (rise.total() / enough / 2) + 7;  // odd: no column again and again
+  const std::size_t step =
+      2 * (foreground.total() / enough / 2) + 7;  // odd: no column again and again
   std::vector<double> off;
-  off.reserve(rise.total() / step + 1);
-  for (std::size_t i = 0; i < rise.total(); i += step)
-    if (seen.empty() || seen.ptr<std::uint8_t>()[i]) off.push_back(std::abs(rise.ptr<float>()[i]));
+  off.reserve(foreground.total() / step + 1);
+  for (std::size_t i = 0; i < foreground.total(); i += step)
+    if (seen.empty() || seen.ptr<std::uint8_t>()[i])
+      off.push_back(std::abs(foreground.ptr<float>()[i]));
   return 1.4826 * median(std::move(off));
 }
 
@@ -116,8 +118,8 @@ struct Piece {
   }
 };
 
-/// Those of at least `least_area` pixels in a set, of which `corner` is the first pixel.
-std::vector<Piece> pieces_of(const cv::Mat& set, cv::Point corner, double least_area) {
+/// Those of at least `min_area` pixels in a set, of which `corner` is the first pixel.
+std::vector<Piece> pieces_of(const cv::Mat& set, cv::Point corner, double min_area) {
   struct Extent {
     int left, top, right, bottom, area;
   };
@@ -140,19 +142,19 @@ std::vector<Piece> pieces_of(const cv::Mat& set, cv::Point corner, double least_
   std::vector<Piece> pieces;
   for (int k = 1; k < count; ++k) {
     const Extent& e = extents[static_cast<std::size_t>(k)];
-    if (e.area < least_area) continue;
+    if (e.area < min_area) continue;
     const cv::Rect box(e.left, e.top, e.right - e.left + 1, e.bottom - e.top + 1);
     pieces.push_back({box + corner, labels(box) == k});
   }
   return pieces;
 }
 
-float median_within(const cv::Mat& rise, const Piece& piece) {
+float median_within(const cv::Mat& foreground, const Piece& piece) {
   std::vector<double> values;
   values.reserve(piece.in.total());
   for (int y = 0; y < piece.box.height; ++y) {
     const auto* in = piece.in.ptr<std::uint8_t>(y);
-    const auto* row = rise.ptr<float>(piece.box.y + y) + piece.box.x;
+    const auto* row = foreground.ptr<float>(piece.box.y + y) + piece.box.x;
     for (int x = 0; x < piece.box.width; ++x)
       if (in[x]) values.push_back(row[x]);
   }
@@ -181,16 +183,16 @@ bool measure(Blob& blob) {
 
 /// What is searched: the picture, the pixels that are looked at and how far they stand out of the
 /// ground, the latter two in working pixels.
-struct Field {
+struct BlobContext {
   int side = 1;  ///< of a working pixel
   cv::Mat fine;
   cv::Mat seen;
-  cv::Mat rise;
+  cv::Mat foreground;
 };
 
 /// Mean square of the differences between neighbours in a row of the picture, in every `step`th row
 /// of the working pixels that `chosen` (over `box`) sets.
-double roughness(const Field& field, const cv::Rect& box, const cv::Mat& chosen, int step) {
+double roughness(const BlobContext& field, const cv::Rect& box, const cv::Mat& chosen, int step) {
   const int side = field.side;
   double squares = 0;
   double count = 0;
@@ -201,8 +203,8 @@ double roughness(const Field& field, const cv::Rect& box, const cv::Mat& chosen,
     const int end = std::min(side * box.br().x, field.fine.cols - 1);
     for (int x = side * box.x; x < end; ++x) {
       if (!in[x / side - box.x]) continue;
-      const int rise = row[x + 1] - row[x];
-      squares += rise * rise;
+      const int foreground = row[x + 1] - row[x];
+      squares += foreground * foreground;
       ++count;
     }
   }
@@ -220,14 +222,14 @@ bool is_cut(const Piece& piece, const cv::Mat& seen, const cv::Size& size) {
   return cv::countNonZero(grown & ~seen(around)) > 0;
 }
 
-/// Mean difference of neighbours whose greys spread by `grain` beyond a noise of this roughness.
-double mean_step(double noise, double grain) {
-  return std::sqrt((noise + 2 * grain * grain) * 2 / std::numbers::pi);
+/// Mean difference of neighbours whose greys spread by `texture` beyond a noise of this roughness.
+double mean_step(double noise, double texture) {
+  return std::sqrt((noise + 2 * texture * texture) * 2 / std::numbers::pi);
 }
 
 /// The parts of a piece that are smooth over more than `smooth_side` working pixels. A pixel's
-/// grain is a median over its surroundings, so that the edge of a smooth thing is no grain.
-cv::Mat smooth_parts(const Field& field, const Piece& piece, double least) {
+/// texture is a median over its surroundings, so that the edge of a smooth thing is no texture.
+cv::Mat smooth_parts(const BlobContext& field, const Piece& piece, double least) {
   const int side = field.side;
   const cv::Rect all(0, 0, field.fine.cols, field.fine.rows);
   const cv::Mat fine = field.fine(cv::Rect(side * piece.box.tl(), side * piece.box.br()) & all);
@@ -240,7 +242,7 @@ cv::Mat smooth_parts(const Field& field, const Piece& piece, double least) {
   cv::absdiff(fine, next(same + cv::Point(1, 0)), right);
   cv::absdiff(fine, next(same + cv::Point(0, 1)), below);
   cv::addWeighted(right, 0.5, below, 0.5, 0, steps);
-  steps = coarse(steps, side);
+  steps = downsampled(steps, side);
   cv::medianBlur(steps, steps, 5);
   cv::Mat smooth = piece.in & (steps <= least);
   cv::Mat core;
@@ -251,16 +253,17 @@ cv::Mat smooth_parts(const Field& field, const Piece& piece, double least) {
 }
 
 /// The blob that a piece is, whose outline runs at `level`; `noise` is the roughness of the ground.
-std::optional<Blob> blob_of(const Field& field, const Piece& piece, float level, double noise) {
+std::optional<Blob> blob_of(const BlobContext& field, const Piece& piece, float level,
+                            double noise) {
   Blob blob;
-  blob.outline_px = level_line(field.rise, level, piece.first());
+  blob.outline_px = level_line(field.foreground, level, piece.first());
   for (Vec2& q : blob.outline_px) q = field.side * q + 0.5 * (field.side - 1) * Vec2{1, 1};
   if (!measure(blob)) return std::nullopt;
-  blob.contrast = median_within(field.rise, piece);
-  cv::Mat inner;  // the edge tells nothing of the grain
+  blob.contrast = median_within(field.foreground, piece);
+  cv::Mat inner;  // the edge tells nothing of the texture
   cv::erode(piece.in, inner, cv::Mat::ones(5, 5, CV_8U), {-1, -1}, 1, cv::BORDER_CONSTANT, 0);
-  blob.grain = std::sqrt(std::max(0.0, roughness(field, piece.box, inner, 1) - noise) / 2);
-  blob.is_cut = is_cut(piece, field.seen, field.rise.size());
+  blob.texture = std::sqrt(std::max(0.0, roughness(field, piece.box, inner, 1) - noise) / 2);
+  blob.is_cut = is_cut(piece, field.seen, field.foreground.size());
   return blob;
 }
 
@@ -276,35 +279,35 @@ Issues validate(const BlobParams& p) {
 }
 
 std::vector<Blob> find_blobs(const Image& picture, const BlobParams& p, const Mask* walls) {
-  Field field{.side = coarseness(p)};
+  BlobContext field{.side = coarseness(p)};
   field.seen = seen_of(picture, walls, field.side);
   if (picture.pixels.empty()) return {};
   const Image one = picture.channels == 1 ? Image{} : to_grey(picture);
   field.fine = as_mat(picture.channels == 1 ? picture : one);
-  field.rise = rise_of(coarse(field.fine, field.side), field.seen, p.tone == ParticleTone::dark,
-                       p.gap / 2 / field.side);
+  field.foreground = rise_of(downsampled(field.fine, field.side), field.seen,
+                             p.tone == ParticleTone::dark, p.gap / 2 / field.side);
   const auto least = static_cast<float>(
-      std::max(p.min_contrast, noise_limit * ground_spread(field.rise, field.seen)));
-  const cv::Mat high = field.rise > least;
+      std::max(p.min_contrast, noise_limit * ground_spread(field.foreground, field.seen)));
+  const cv::Mat high = field.foreground > least;
   const cv::Mat ground = field.seen.empty() ? cv::Mat(~high) : cv::Mat(~high & field.seen);
   const double noise = roughness(field, {0, 0, ground.cols, ground.rows}, ground, ground_rows);
 
   // What stands out, then what of each piece does so by half as much as its middle.
-  const double least_area = std::numbers::pi * maths::power(0.5 * p.min_radius / field.side, 2);
+  const double min_area = std::numbers::pi * maths::power(0.5 * p.min_radius / field.side, 2);
   std::vector<Blob> blobs;
-  for (Piece& piece : pieces_of(high, {}, least_area)) {
-    if (p.min_grain > 0) {
-      const cv::Mat smooth = smooth_parts(field, piece, mean_step(noise, p.min_grain));
+  for (Piece& piece : pieces_of(high, {}, min_area)) {
+    if (p.min_texture > 0) {
+      const cv::Mat smooth = smooth_parts(field, piece, mean_step(noise, p.min_texture));
       piece.in &= ~smooth;
-      field.rise(piece.box).setTo(0, smooth);
-      if (cv::countNonZero(piece.in) < least_area) continue;
+      field.foreground(piece.box).setTo(0, smooth);
+      if (cv::countNonZero(piece.in) < min_area) continue;
     }
-    const float level = std::max(least, median_within(field.rise, piece) / 2);
-    const cv::Mat half_up = piece.in & (field.rise(piece.box) > level);
-    for (const Piece& part : pieces_of(half_up, piece.box.tl(), least_area)) {
+    const float level = std::max(least, median_within(field.foreground, piece) / 2);
+    const cv::Mat half_up = piece.in & (field.foreground(piece.box) > level);
+    for (const Piece& part : pieces_of(half_up, piece.box.tl(), min_area)) {
       std::optional<Blob> blob = blob_of(field, part, level, noise);
       if (blob && blob->radius_px >= p.min_radius && blob->radius_px <= p.max_radius &&
-          blob->grain >= p.min_grain)
+          blob->texture >= p.min_texture)
         blobs.push_back(std::move(*blob));
     }
   }

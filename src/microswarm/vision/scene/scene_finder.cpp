@@ -10,8 +10,8 @@ namespace microswarm {
 namespace {
 
 constexpr double hull_tolerance = 0.5;  // [px]
-constexpr double least_gap = 8;  // [px] between points of an outline with something hidden between
-constexpr int soft_edge = 2;     // [px]
+constexpr double min_gap = 8;  // [px] between points of an outline with something hidden between
+constexpr int soft_edge = 2;   // [px]
 
 cv::Point2f point_of(Vec2 p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
 
@@ -57,7 +57,7 @@ std::optional<Ring> disc_of(const Blob& blob, const std::vector<Vec2>& own, doub
   if (!ring) return std::nullopt;
   double arc = 0;  // of the circle, by the share of the outline that is seen
   for (std::size_t i = 1; i < own.size(); ++i)
-    if (const double step = distance(own[i - 1], own[i]); step < least_gap) arc += step;
+    if (const double step = distance(own[i - 1], own[i]); step < min_gap) arc += step;
   if (3 * arc < 2 * std::numbers::pi * ring->radius_px) return std::nullopt;
   const double allowed = std::max(1.0, roundness * ring->radius_px);
   const bool is_round = std::all_of(own.begin(), own.end(), [&](Vec2 p) {

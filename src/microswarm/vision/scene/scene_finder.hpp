@@ -11,22 +11,21 @@
 
 namespace microswarm {
 
-/// Settings of `find_scene`. Where obstacles have the swarm's tone, `swarm.look.min_grain` tells
+/// Settings of `find_scene`. Where obstacles have the swarm's tone, `swarm.look.min_texture` tells
 /// them apart.
 struct SceneParams {
-  SwarmFinderParams swarm{.look = {.min_grain = 5}};
+  SwarmFinderParams swarm{.look = {.min_texture = 5}};
   BlobParams obstacles{.gap = 4};
   double roundness = 0.06;
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.swarm, {"swarm", Unit::none, {}, "How the swarm is found."});
-    visit(self.obstacles, {"obstacles", Unit::none, {}, "How moving obstacles look."});
+    visit(self.swarm, {"swarm", Unit::none, {}, "Detection of the swarm."});
+    visit(self.obstacles, {"obstacles", Unit::none, {}, "Appearance of moving obstacles."});
     visit(self.roundness, {"roundness",
                            Unit::none,
                            {0, 1},
-                           "An obstacle whose outline is nowhere farther from a circle, in radii, "
-                           "is a disc; others are convex polygons."});
+                           "Deviation from a circle, in radii, below which it is a disc."});
   }
 };
 

@@ -16,11 +16,11 @@
 namespace microswarm {
 namespace {
 
-constexpr int tile = 16;            // [px] a side, in which the slope of the light is told
-constexpr int slope_rounds = 15;    // of re-weighting
-constexpr double least_off = 1e-4;  // [1/px] a slope that is off by less fits
-constexpr double two_sorts = 0.6;   // separability of greys that are walls and channels
-constexpr int middle_grey = 100;    // of the picture in even light
+constexpr int tile = 16;           // [px] a side, in which the slope of the light is told
+constexpr int slope_rounds = 15;   // of re-weighting
+constexpr double min_off = 1e-4;   // [1/px] a slope that is off by less fits
+constexpr double two_sorts = 0.6;  // separability of greys that are walls and channels
+constexpr int middle_grey = 100;   // of the picture in even light
 
 /// How the logarithm of the light changes in a tile; x and y from the picture's middle [px].
 struct Slope {
@@ -77,7 +77,7 @@ struct Light {
       for (int i = 0; i < 5; ++i) factor[i] = solution.at<double>(i);
       for (std::size_t k = 0; k < slopes.size(); ++k) {
         const Vec2 fitted{product(along_x(slopes[k].at)), product(along_y(slopes[k].at))};
-        weight[k] = 1 / std::max(least_off, distance(fitted, slopes[k].rise));
+        weight[k] = 1 / std::max(min_off, distance(fitted, slopes[k].rise));
       }
     }
   }

@@ -123,7 +123,7 @@ MICROSWARM_EACH_CPU void BandPass::write_row(int width, float* out) const {
     for (int x = 0; x < width; ++x) out[x] += taps_[i] * (in[x - i] + in[x + i]);
   const float top = params_.dark_rises ? 255.0F : 0.0F;
   const float sign = params_.dark_rises ? -1.0F : 1.0F;
-  const float least = static_cast<float>(params_.least_rise);
+  const float least = static_cast<float>(params_.min_foreground);
   for (int x = 0; x < width; ++x) {
     const float rise = top + sign * out[x] - static_cast<float>(ground_[x]);
     out[x] = rise >= least ? rise : 0.0F;

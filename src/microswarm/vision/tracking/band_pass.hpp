@@ -10,10 +10,10 @@ namespace microswarm {
 
 /// What counts as noise and what as ground.
 struct BandPassParams {
-  double noise_px = 1;      ///< spread of the Gaussian that takes the noise away; 0: none
-  int box_px = 11;          ///< side of the box whose mean is the ground, odd
-  double least_rise = 1;    ///< greys above the ground below which a pixel counts as ground
-  bool dark_rises = false;  ///< what is darker than the ground rises, not what is brighter
+  double noise_px = 1;        ///< spread of the Gaussian that takes the noise away; 0: none
+  int box_px = 11;            ///< side of the box whose mean is the ground, odd
+  double min_foreground = 1;  ///< greys above the ground below which a pixel counts as ground
+  bool dark_rises = false;    ///< what is darker than the ground rises, not what is brighter
 };
 
 /// What stands between noise and uneven ground (Eqs 1 to 3 [crocker]): the picture smoothed by a

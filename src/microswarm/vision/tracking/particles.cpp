@@ -27,7 +27,7 @@ BandPassParams band_of(const ParticleParams& p) {
   if (p.noise >= odd(p.diameter))
     throw InputError("noise_px: is " + number_text(p.noise) + ", must be below the diameter, " +
                      std::to_string(odd(p.diameter)));
-  return {p.noise, odd(p.diameter), p.least_rise, p.tone == ParticleTone::dark};
+  return {p.noise, odd(p.diameter), p.min_foreground, p.tone == ParticleTone::dark};
 }
 
 /// Side of the largest square in the circle of radius `separation`.

@@ -36,10 +36,10 @@ std::optional<Ring> circle_through(const std::vector<Vec2>& points) {
 
 namespace {
 
-constexpr int most_fit_rounds = 10;
+constexpr int max_fit_rounds = 10;
 constexpr double still = 1e-3;    // [px] a centre that moves less has arrived
 constexpr double ray_step = 0.5;  // [px]
-constexpr double least_agreeing = 1.0 / 3;
+constexpr double min_agreeing = 1.0 / 3;
 constexpr double far_off = 3;  // median deviations from the circle
 
 /// Grey between pixels; nothing outside the picture.
@@ -107,10 +107,10 @@ std::optional<Ring> fit_ring(const Image& grey, Vec2 start, double radius, bool 
   const int rays = std::max(12, static_cast<int>(2 * pi * radius));
   const double reach = 0.5 * radius;
   Ring ring{start, radius};
-  for (int round = 0; round < most_fit_rounds; ++round) {
+  for (int round = 0; round < max_fit_rounds; ++round) {
     const auto points = ring_points(grey, ring, reach, dark ? 1 : -1, rays);
     const auto next = robust_circle(points);
-    if (!next || static_cast<double>(points.size()) < least_agreeing * rays ||
+    if (!next || static_cast<double>(points.size()) < min_agreeing * rays ||
         std::abs(next->radius_px - radius) > reach || distance(next->centre_px, start) > radius)
       return std::nullopt;
     const double moved = distance(next->centre_px, ring.centre_px);

@@ -20,7 +20,7 @@ RobotTracker::RobotTracker(const TrackerParams& p, double diameter, double frame
       touch_(p.touch.value_or(1.2 * diameter)),
       frame_time_(frame_time),
       memory_(p.memory),
-      lasting_(p.lasting) {
+      lasting_(p.min_lifetime) {
   assert(diameter > 0 && frame_time > 0);
 }
 

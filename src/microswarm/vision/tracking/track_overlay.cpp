@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t trail_length = 20;  // frames
 constexpr int forgotten_after = 20;       // frames unseen
-constexpr int most_numbered = 100;        // robots; of more, no numbers are shown
+constexpr int max_numbered = 100;         // robots; of more, no numbers are shown
 
 const cv::Scalar black(0, 0, 0);
 
@@ -109,7 +109,7 @@ const Image& TrackOverlay::draw(const VideoFrame& frame, const std::vector<Track
                fraction_bits);
   }
   const double size = std::clamp(picture.cols / 1600.0, 0.3, 1.5);
-  if (rows.size() <= most_numbered)
+  if (rows.size() <= max_numbered)
     for (const TrackRow& row : rows) {
       const Vec2 at = trails_[row.id]->places_px.back();
       const double beside = row.radius / um_per_px_ + 3;

@@ -9,11 +9,11 @@
 namespace microswarm {
 namespace {
 
-constexpr int darkest_view = 20;         // of 255: a surround is darker in every channel
-constexpr double least_surround = 0.02;  // share of the picture
-constexpr double least_view = 0.2;
-constexpr double least_of_bright = 0.98;  // share of the bright pixels that are one piece
-constexpr double least_solidity = 0.95;   // of that piece in its convex hull
+constexpr int darkest_view = 20;       // of 255: a surround is darker in every channel
+constexpr double min_surround = 0.02;  // share of the picture
+constexpr double min_view = 0.2;
+constexpr double min_of_bright = 0.98;  // share of the bright pixels that are one piece
+constexpr double min_solidity = 0.95;   // of that piece in its convex hull
 
 cv::Mat brightest_channel(const cv::Mat& picture) {
   if (picture.channels() == 1) return picture.clone();
@@ -44,11 +44,11 @@ Mask field_of_view(const Image& image) {
   const double bright_count = cv::countNonZero(bright);
   cv::Mat view = largest_piece(bright);
   const double view_count = cv::countNonZero(view);
-  if (bright_count > (1 - least_surround) * total || view_count < least_view * total ||
-      view_count < least_of_bright * bright_count)
+  if (bright_count > (1 - min_surround) * total || view_count < min_view * total ||
+      view_count < min_of_bright * bright_count)
     return to_mask(whole);
   fill_holes(view, total);
-  return to_mask(solidity(view) < least_solidity ? whole : view);
+  return to_mask(solidity(view) < min_solidity ? whole : view);
 }
 
 }  // namespace microswarm

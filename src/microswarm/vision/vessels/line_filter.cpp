@@ -18,7 +18,7 @@ constexpr double bank[] = {0.23, 0.35, 0.51, 0.77, 1.16, 1.63};
 constexpr double blur = 0.6;           // of the half width
 constexpr double side_distance = 2.0;  // of the half width, from the middle of the line
 constexpr double length_growth = 2.0;  // half length: this many half widths ...
-constexpr double least_length = 1.9;   // ... and this many wide radii
+constexpr double min_length = 1.9;     // ... and this many wide radii
 constexpr double flat_spread = 1e-4;   // answers that vary less are rounding, not lines
 constexpr double finest_on_half =
     1.5;  // [px] half width that a picture of half the size still shows
@@ -127,7 +127,7 @@ cv::Mat line_score(const cv::Mat& picture, const cv::Mat& view, const LineFilter
       cv::resize(small, small, {(small.cols + 1) / 2, (small.rows + 1) / 2}, 0, 0, cv::INTER_AREA);
       shrink *= 2;
     }
-    const double half_length = length_growth * half_width + least_length * filter.wide_radius;
+    const double half_length = length_growth * half_width + min_length * filter.wide_radius;
     cv::Mat answer =
         answers(small, half_width / shrink, std::max(1, cvRound(half_length / shrink)), filter);
     if (shrink > 1) cv::resize(answer, answer, picture.size(), 0, 0, cv::INTER_LINEAR);

@@ -19,14 +19,14 @@ namespace {
 
 constexpr double working_radius = 4.3;      // [px] of the wide vessels, where the filter works best
 constexpr double first_diameter = 900;      // [px] of the view when the widths are first measured
-constexpr double most_diameter = 2000;      // [px] of the view at work
+constexpr double max_diameter = 2000;       // [px] of the view at work
 constexpr double wide_line_quantile = 0.8;  // of the depths of vessel pixels ...
 constexpr double wide_factor = 1.35;        // ... times this is the wide radius
 constexpr double first_blur = 2.2;          // [px] by which the first look widens vessels
 constexpr double soft_rim = 0.01;           // of the view's diameter
 constexpr double dark_noise = 15;           // [grey levels] below which absorbance means little
 constexpr double opening = 8;               // wide radii across the disc of the opening
-constexpr double least_disc = 10;           // [px] to which that disc may be shrunk
+constexpr double min_disc = 10;             // [px] to which that disc may be shrunk
 constexpr double sure_margin = 0.5;         // spreads above the threshold
 constexpr double small_piece = 0.2;         // of the least piece: too small to be bridged
 constexpr double reflex = 0.3;  // squares of the wide width: holes that light reflexes leave
@@ -74,7 +74,7 @@ cv::Size shrunk(cv::Size size, double scale) {
 /// than any vessel. A step stands out on neither side, so the bright disc of the eye gets no rim.
 cv::Mat standing_out(const cv::Mat& picture, double wide_radius) {
   const double diameter = opening * wide_radius;
-  const int shrink = std::max(1, cvFloor(diameter / least_disc));
+  const int shrink = std::max(1, cvFloor(diameter / min_disc));
   cv::Mat ground = blurred(picture, std::max(0.5, shrink / 2.0));
   if (shrink > 1)
     cv::resize(ground, ground, shrunk(picture.size(), 1.0 / shrink), 0, 0, cv::INTER_AREA);
@@ -150,20 +150,20 @@ FoundVessels line_vessels(const cv::Mat& grey, const cv::Mat& view, bool bright,
       params.wide_width > 0 ? params.wide_width / 2 : measured_radius(grey, view, bright, params);
   FoundVessels found;
   found.wide_width_px = 2 * radius;
-  found.scale = std::min({1.0, most_diameter / diameter_of(view), working_radius / radius});
+  found.scale = std::min({1.0, max_diameter / diameter_of(view), working_radius / radius});
   const double wide_radius = radius * found.scale;
   const double wide_area = 4 * wide_radius * wide_radius;
 
   const Working w = at_scale(grey, view, found.scale, wide_radius, bright);
   const Lines lines = find_lines(w, wide_radius, params);
   found.vessels =
-      without_small_pieces(lines.fitted | lines.sure, small_piece * params.least_piece * wide_area);
+      without_small_pieces(lines.fitted | lines.sure, small_piece * params.min_piece * wide_area);
   fill_holes(found.vessels, reflex * wide_area);
   if (params.gap > 0) {
     const cv::Mat cost = cv::max(0.3, 1 - lines.score / std::max(0.1, params.threshold)) + 0.2;
     found.bridges = bridge_gaps(found.vessels, cost, params.gap * 2 * wide_radius);
   }
-  found.vessels = without_small_pieces(found.vessels, params.least_piece * wide_area);
+  found.vessels = without_small_pieces(found.vessels, params.min_piece * wide_area);
   if (found.scale < 1) {
     cv::resize(found.vessels, found.vessels, view.size(), 0, 0, cv::INTER_LINEAR);
     found.vessels = found.vessels > 127;

@@ -13,7 +13,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double most_smoothing = 0.5;  // cells that a vertex may move
+constexpr double max_smoothing = 0.5;  // cells that a vertex may move
 
 struct Cell {
   int column = 0;
@@ -135,7 +135,7 @@ std::vector<Polygon> outline(const Mask& mask, double cell, double tolerance, Ve
         ring_piece.push_back(piece[mask.index(column, row)]);
       }
     }
-  smooth_rings(rings, cell, std::min(tolerance / 2, most_smoothing * cell));
+  smooth_rings(rings, cell, std::min(tolerance / 2, max_smoothing * cell));
   thin_rings(rings, cell, tolerance / 2);
 
   std::vector<Polygon> polygons(static_cast<std::size_t>(count));

@@ -83,7 +83,7 @@ FoundVessels region_vessels(const TwoGreys& greys, const cv::Mat& view, bool bri
   found.wide_width_px = params.wide_width > 0 ? params.wide_width : wide_width_of(found.vessels);
   const double wide_area = found.wide_width_px * found.wide_width_px;
   fill_holes(found.vessels, speck * wide_area);
-  found.vessels = without_small_pieces(found.vessels, speck * params.least_piece * wide_area);
+  found.vessels = without_small_pieces(found.vessels, speck * params.min_piece * wide_area);
   found.vessels &= view;
   return found;
 }

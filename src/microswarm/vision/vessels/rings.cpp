@@ -19,8 +19,8 @@ namespace {
 
 constexpr int ring_sigma = 2;               // vertices
 constexpr int ring_reach = 3 * ring_sigma;  // vertices on either side that count
-constexpr std::size_t least_smoothed = 2 * ring_reach + 4;
-constexpr int most_untangling_rounds = 20;
+constexpr std::size_t min_smoothed = 2 * ring_reach + 4;
+constexpr int max_untangling_rounds = 20;
 constexpr double cells_per_bucket = 4;
 
 /// All rings as one list of vertices that are linked both ways, with the edges in square buckets.
@@ -133,7 +133,7 @@ std::array<double, 2 * ring_reach + 1> ring_weights() {
 
 std::vector<Vec2> smoothed(const std::vector<Vec2>& ring, double limit) {
   const std::size_t n = ring.size();
-  if (n < least_smoothed) return ring;
+  if (n < min_smoothed) return ring;
   const auto weights = ring_weights();
   std::vector<Vec2> result(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -246,7 +246,7 @@ void smooth_rings(Rings& rings, double cell, double limit) {
   if (limit <= 0) return;
   const Rings before = rings;
   for (auto& ring : rings) ring = smoothed(ring, limit);
-  for (int round = 0; round < most_untangling_rounds; ++round) {
+  for (int round = 0; round < max_untangling_rounds; ++round) {
     const auto found = touching(rings, cell);
     if (std::find(found.begin(), found.end(), 1) == found.end()) return;
     undo(rings, before, found);

@@ -9,7 +9,7 @@
 namespace microswarm {
 namespace {
 
-constexpr int most_steps = 50;
+constexpr int max_steps = 50;
 
 /// A wall edge or a disc: all points within `radius` of the core.
 struct Feature {
@@ -44,7 +44,7 @@ std::vector<Feature> features_near(const Map& map, Vec2 place, double reach) {
 /// Shortest connection of two convex sets near `p`: alternating projections of its middle.
 Segment connection(const Feature& f, const Feature& g, Vec2 p) {
   Segment s{nearest_point(p, f), nearest_point(p, g)};
-  for (int k = 0; k < most_steps; ++k) {
+  for (int k = 0; k < max_steps; ++k) {
     const Vec2 middle = 0.5 * (s.a + s.b);
     const Segment next{nearest_point(middle, f), nearest_point(middle, g)};
     if (next.a == s.a && next.b == s.b) break;

@@ -20,7 +20,7 @@ constexpr int corners_of_disc = 180;
 constexpr double room_ratio = 1.25;
 constexpr double room_share = 1e-3;
 constexpr double widest_precision = 1e-3;
-constexpr std::size_t most_passages = 100;
+constexpr std::size_t max_passages = 100;
 
 Polygon as_polygon(const Disc& d) {
   constexpr double sector = 2 * pi / corners_of_disc;
@@ -147,8 +147,8 @@ std::vector<Passage> find_passages(const Map& map, const Polygon& region,
     const std::uint32_t a = rooms.of(e.a);
     const std::uint32_t b = rooms.of(e.b);
     if (a == b) continue;
-    const double least_peak = std::max(room_ratio * e.clearance, e.clearance + lattice.spacing());
-    const bool are_rooms = std::min(rooms.peak(a), rooms.peak(b)) >= least_peak &&
+    const double min_peak = std::max(room_ratio * e.clearance, e.clearance + lattice.spacing());
+    const bool are_rooms = std::min(rooms.peak(a), rooms.peak(b)) >= min_peak &&
                            std::min(rooms.nodes(a), rooms.nodes(b)) >= room_share * region_nodes;
     if (are_rooms) {
       passages.push_back(
@@ -158,7 +158,7 @@ std::vector<Passage> find_passages(const Map& map, const Polygon& region,
   }
   std::stable_sort(passages.begin(), passages.end(),
                    [](const Passage& a, const Passage& b) { return a.width < b.width; });
-  if (passages.size() > most_passages) passages.resize(most_passages);
+  if (passages.size() > max_passages) passages.resize(max_passages);
   return passages;
 }
 

@@ -14,7 +14,7 @@ namespace microswarm {
 namespace {
 
 constexpr double sample_spacing = 25;
-constexpr double most_samples = 4000;
+constexpr double max_samples = 4000;
 
 /// A place on the centre line: how far along it is, and the direction there.
 struct Station {
@@ -62,7 +62,7 @@ std::vector<Station> stations(const DeformingChannel& channel) {
   if (p.size() < 2) return out;
   double total = 0;
   for (std::size_t i = 1; i < p.size(); ++i) total += distance(p[i - 1], p[i]);
-  const double spacing = std::max(sample_spacing, total / most_samples);
+  const double spacing = std::max(sample_spacing, total / max_samples);
   const std::vector<Vec2> tangents = spline_tangents(p);
   Vec2 forwards{1, 0};
   auto add = [&](Vec2 position, Vec2 direction) {

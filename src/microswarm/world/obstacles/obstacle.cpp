@@ -50,8 +50,7 @@ class Builder {
     out_.push_back({Disc{at_.position, shape.radius}, obstacle_});
   }
   void operator()(const BreathingDisc& shape) {
-    const double radius =
-        swing(shape.least_radius, shape.greatest_radius, shape.period, shape.phase, t_);
+    const double radius = swing(shape.min_radius, shape.max_radius, shape.period, shape.phase, t_);
     out_.push_back({Disc{at_.position, radius}, obstacle_});
   }
   void operator()(const BoxShape& shape) {
@@ -61,8 +60,7 @@ class Builder {
   void operator()(const PolygonShape& shape) { add(normalised({shape.vertices, {}})); }
   void operator()(const Valve& shape) {
     const double outer = 0.5 * shape.span;
-    const double inner =
-        0.5 * swing(shape.least_gap, shape.greatest_gap, shape.period, shape.phase, t_);
+    const double inner = 0.5 * swing(shape.min_gap, shape.max_gap, shape.period, shape.phase, t_);
     if (inner >= outer) return;
     const double half = 0.5 * shape.thickness;
     add({box_ring({{-half, inner}, {half, outer}}), {}});
@@ -85,7 +83,7 @@ class Builder {
 
 struct Extent {
   double operator()(const DiscShape& s) const { return s.radius; }
-  double operator()(const BreathingDisc& s) const { return s.greatest_radius; }
+  double operator()(const BreathingDisc& s) const { return s.max_radius; }
   double operator()(const BoxShape& s) const { return 0.5 * norm({s.width, s.height}); }
   double operator()(const PolygonShape& s) const {
     double extent = 0;
@@ -100,11 +98,9 @@ struct Extent {
 
 struct OwnSpeed {
   double operator()(const BreathingDisc& s) const {
-    return top_rate(s.least_radius, s.greatest_radius, s.period);
+    return top_rate(s.min_radius, s.max_radius, s.period);
   }
-  double operator()(const Valve& s) const {
-    return 0.5 * top_rate(s.least_gap, s.greatest_gap, s.period);
-  }
+  double operator()(const Valve& s) const { return 0.5 * top_rate(s.min_gap, s.max_gap, s.period); }
   double operator()(const DeformingChannel& s) const { return s.amplitude * 2 * pi / s.period; }
   template <class Rigid>
   double operator()(const Rigid&) const {
@@ -114,7 +110,7 @@ struct OwnSpeed {
 
 Issues validate_order(double least, double greatest, const std::string& what) {
   Issues issues;
-  const std::string low = "least_" + what, high = "greatest_" + what;
+  const std::string low = "min_" + what, high = "max_" + what;
   if (least > greatest)
     issues.add({low, high}, low + " is " + number_text(least) + ", more than " + high + ", " +
                                 number_text(greatest));
@@ -123,14 +119,14 @@ Issues validate_order(double least, double greatest, const std::string& what) {
 
 struct Validator {
   Issues operator()(const BreathingDisc& s) const {
-    return validate_order(s.least_radius, s.greatest_radius, "radius_um");
+    return validate_order(s.min_radius, s.max_radius, "radius_um");
   }
   Issues operator()(const Valve& s) const {
-    Issues issues = validate_order(s.least_gap, s.greatest_gap, "gap_um");
-    if (s.least_gap >= s.span)
-      issues.add({"least_gap_um", "span_um"}, "least_gap_um is " + number_text(s.least_gap) +
-                                                  ", leaves no leaf in span_um, " +
-                                                  number_text(s.span));
+    Issues issues = validate_order(s.min_gap, s.max_gap, "gap_um");
+    if (s.min_gap >= s.span)
+      issues.add({"min_gap_um", "span_um"}, "min_gap_um is " + number_text(s.min_gap) +
+                                                ", leaves no leaf in span_um, " +
+                                                number_text(s.span));
     return issues;
   }
   Issues operator()(const PolygonShape& s) const {

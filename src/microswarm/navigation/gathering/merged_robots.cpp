@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/gathering/merged_robots.hpp"
+
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+namespace microswarm {
+namespace {
+
+constexpr std::uint32_t nobody = ~0u;
+
+/// A place or its cell, as one number.
+std::uint64_t key_of(float x, float y, double cell) {
+  const auto part = [cell](float v) {
+    return cell > 0 ? static_cast<std::uint32_t>(static_cast<std::int64_t>(std::floor(v / cell)))
+                    : std::bit_cast<std::uint32_t>(v);
+  };
+  return std::uint64_t{part(x)} << 32 | part(y);
+}
+
+std::size_t mixed(std::uint64_t key) {
+  key *= 0x9e3779b97f4a7c15u;
+  return static_cast<std::size_t>(key ^ key >> 32);
+}
+
+}  // namespace
+
+MergedRobots::MergedRobots(const Robots& robots)
+    : places_(robots), counts_(robots.size(), 1), place_of_(robots.size()) {
+  std::iota(place_of_.begin(), place_of_.end(), 0u);
+}
+
+std::span<const std::uint32_t> MergedRobots::merge_coincident(double cell) {
+  const std::size_t count = places_.size();
+  const std::size_t mask = std::bit_ceil(2 * count + 1) - 1;
+  slots_.assign(mask + 1, nobody);
+  merged_into_.resize(count);
+  std::size_t kept = 0;
+  // Places that are kept move down, so that a slot names a place below the one looked at.
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint64_t key = key_of(places_.x[i], places_.y[i], cell);
+    std::size_t slot = mixed(key) & mask;
+    while (slots_[slot] != nobody &&
+           key_of(places_.x[slots_[slot]], places_.y[slots_[slot]], cell) != key)
+      slot = (slot + 1) & mask;
+    if (slots_[slot] == nobody) {
+      slots_[slot] = static_cast<std::uint32_t>(kept);
+      places_.x[kept] = places_.x[i];
+      places_.y[kept] = places_.y[i];
+      counts_[kept] = counts_[i];
+      ++kept;
+    } else {
+      counts_[slots_[slot]] += counts_[i];
+    }
+    merged_into_[i] = slots_[slot];
+  }
+  if (kept == count) return {};
+  places_.x.resize(kept);
+  places_.y.resize(kept);
+  counts_.resize(kept);
+  for (std::uint32_t& place : place_of_) place = merged_into_[place];
+  return merged_into_;
+}
+
+void MergedRobots::coarsen(std::size_t most, double cell) {
+  constexpr int max_doublings = 16;
+  for (int k = 0; k < max_doublings && places_.size() > most; ++k, cell *= 2)
+    merge_coincident(cell);
+}
+
+Robots MergedRobots::robots() const {
+  Robots all{places_.origin, {}, {}};
+  for (const std::uint32_t place : place_of_) {
+    all.x.push_back(places_.x[place]);
+    all.y.push_back(places_.y[place]);
+  }
+  return all;
+}
+
+}  // namespace microswarm

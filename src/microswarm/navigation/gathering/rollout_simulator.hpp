@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "microswarm/navigation/gathering/aggregation_policy.hpp"
+#include "microswarm/planning/gathering/obstacle_weighted_rrt.hpp"
+
+namespace microswarm {
+
+/// All moves up to the end, and the merged before every 16th of them.
+struct RolloutPlan {
+  static constexpr std::size_t checkpoint_interval = 16;
+  std::vector<Vec2> moves;
+  std::vector<MergedRobots> checkpoints;
+};
+
+/// A plan in the making: the merged as it will be after its moves.
+struct PartialPlan {
+  MergedRobots merged;
+  std::size_t from = 0;  ///< steps before its moves, a multiple of the mark interval
+  std::vector<Vec2> moves{};
+  bool keeps_checkpoints = false;
+  std::vector<MergedRobots> checkpoints{};
+
+  std::size_t steps() const { return from + moves.size(); }
+};
+
+/// Simulates what can be done next, and counts the work. `most` is a number of steps of the partial
+/// that must not be exceeded.
+class RolloutSimulator {
+ public:
+  /// Map and stepper must outlive it.
+  RolloutSimulator(const AggregationMap& map, const RobotStepper& stepper,
+                   const AggregationParams& params);
+  const AggregationParams& params() const { return params_; }
+
+  /// One move of all.
+  void move(PartialPlan& partial, Vec2 move);
+  void follow(PartialPlan& partial, std::span<const Vec2> moves, std::size_t most);
+  /// The robots of one place lead to the goal, or for so many steps.
+  void lead(PartialPlan& partial, std::size_t place, std::size_t steps, std::size_t most);
+  /// A base policy until they are gathered, which is told; gives up when that takes too long.
+  bool finish(PartialPlan& partial, Aggregation method, std::size_t most);
+  /// What leaves the least to do within the horizon, of the base policies and some random leaders:
+  /// the moves that are worth keeping. Empty when all are gathered.
+  std::vector<Vec2> look_ahead(const MergedRobots& merged, Rng& rng);
+
+  double way(const Robots& robots, std::size_t i) const;
+  double mean_distance(const MergedRobots& merged) const;
+  bool gathered(const MergedRobots& merged) const { return mean_distance(merged) < params_.sigma; }
+  /// Robot-steps so far.
+  double work() const { return work_; }
+
+ private:
+  bool pursue(PartialPlan& partial, Aggregation method, std::size_t most, bool to_the_end);
+  double left_to_do(MergedRobots merged) const;
+
+  const AggregationMap* map_;
+  const RobotStepper* stepper_;
+  AggregationParams params_;
+  const Routes* routes_;
+  double work_ = 0;
+};
+
+}  // namespace microswarm

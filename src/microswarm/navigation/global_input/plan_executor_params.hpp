@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/planning/global_input/global_search_params.hpp"
+
+namespace microswarm {
+
+/// Plays the inputs of a plan for several robots under one input, and watches them: errors would
+/// add up, as [global] says of its own. The goal tolerance is that of the planner.
+struct PlanExecutorParams {
+  /// A search that gives up after some seconds.
+  static GlobalSearchParams limited() {
+    GlobalSearchParams p;
+    p.max_nodes = 2'000'000;
+    return p;
+  }
+
+  static constexpr std::string_view type_name = "plan_player";
+  double max_deviation = 3;
+  int rejoin_candidates = 64;
+  double retry_time = 10;
+  GlobalSearchParams planner = limited();
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.max_deviation, {"max_deviation",
+                               Unit::um,
+                               {0, 1e6},
+                               "Deviation from the plan above which it is left.",
+                               false,
+                               "stray_um"});
+    visit(self.rejoin_candidates, {"rejoin_candidates",
+                                   Unit::none,
+                                   {0, 1e6},
+                                   "Nearest positions of the plan at which rejoining is tried."});
+    visit(self.retry_time,
+          {"retry_time", Unit::s, {0, 1e5}, "Hold time after a search without a plan."});
+    visit(self.planner, {"planner", Unit::none, {}, "Search for the inputs."});
+  }
+};
+
+}  // namespace microswarm

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/prediction/multi_model_predictor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double longest_gap = 1;          // without a sighting, after which a body is as new [s]
+constexpr double forecast_spacing = 0.08;  // [s]
+constexpr std::size_t max_open = 24;       // forecasts that are not due
+constexpr double worst_error = 300;        // that counts [µm]
+constexpr double proved = 0.5;             // and twice the noise: who errs no more is right [µm]
+constexpr double prior_weight = 2;         // of the errors below, in forecasts
+constexpr double growing_time = 1.5;       // for which an outline goes on as never seen before [s]
+
+/// Errors that are expected of a model before it has shown any, in shares of the way of its span.
+constexpr std::array<double, MotionModels::count> prior_errors{0.20, 0.17, 0.20, 0.20, 0.20,
+                                                               0.20, 0.20, 0.20, 0.14};
+
+/// How far `now` is turned against `then`, both about the centre, vertex by vertex [rad].
+double turn_against(std::span<const Vec2> then, std::span<const Vec2> now, Vec2 centre) {
+  double sine = 0;
+  double cosine = 0;
+  for (std::size_t i = 0; i < then.size(); ++i) {
+    sine += cross(then[i], now[i] - centre);
+    cosine += dot(then[i], now[i] - centre);
+  }
+  return maths::atan2(sine, cosine);
+}
+
+}  // namespace
+
+MultiModelPredictor::MultiModelPredictor(const MultiModelPredictorParams& params)
+    : params_(params), tracker_(params.tracker), now_(-std::numeric_limits<double>::infinity()) {
+  sightings_.reserve(MotionTrail::max_points);
+  radii_.reserve(MotionTrail::max_points);
+}
+
+void MultiModelPredictor::update(const Observation& observation) {
+  tracker_.update(observation);
+  if (tracker_.seen() == now_ && tracker_.size() == seen_bodies_.size()) return;
+  if (tracker_.seen() < now_) {
+    histories_.clear();
+    oscillations_ = OscillationFit();
+  }
+  if (tracker_.seen() != now_ || histories_.empty()) oscillations_.begin(tracker_.seen());
+  now_ = tracker_.seen();
+  if (observation.world) take(*observation.world);
+}
+
+void MultiModelPredictor::take(const Snapshot& frame) {
+  seen_bodies_.clear();
+  const auto bodies = frame.moving().bodies();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const auto same = [&](const Body& b) { return b.obstacle == bodies[i].obstacle; };
+    const auto leaf = std::count_if(bodies.begin(), bodies.begin() + static_cast<long>(i), same);
+    const std::size_t at = history_of(bodies[i].obstacle, static_cast<std::uint32_t>(leaf));
+    BodyHistory& history = histories_[at];
+    const TrackedBody& motion = history.motion = tracker_.body(i);
+    append(history, bodies[i], motion);
+    update_errors(history);
+    model(history, motion);
+    select_model(history, norm(motion.velocity));
+    issue_forecasts(history);
+    seen_bodies_.push_back(at);
+  }
+}
+
+std::size_t MultiModelPredictor::history_of(std::uint32_t obstacle, std::uint32_t leaf) {
+  const auto at = std::find_if(histories_.begin(), histories_.end(), [&](const BodyHistory& b) {
+    return b.obstacle == obstacle && b.leaf == leaf;
+  });
+  if (at != histories_.end()) return static_cast<std::size_t>(at - histories_.begin());
+  BodyHistory& fresh = histories_.emplace_back();
+  fresh.obstacle = obstacle;
+  fresh.leaf = leaf;
+  for (auto& open : fresh.open) open.reserve(max_open);
+  return histories_.size() - 1;
+}
+
+void MultiModelPredictor::append(BodyHistory& history, const Body& body,
+                                 const TrackedBody& motion) {
+  if (!history.trail.empty() && now_ - history.trail.back().t > longest_gap) {
+    history.trail.clear();
+    for (auto& open : history.open) open.clear();
+  }
+  const Disc extent = extent_of(body);
+  double turn = history.trail.empty() ? 0 : history.trail.back().turn;
+  if (const auto* outline = outline_of(body)) {
+    if (history.trail.empty() || history.outline.size() != outline->size()) {
+      history.outline.assign(outline->begin(), outline->end());
+      for (Vec2& v : history.outline) v -= extent.centre;
+      turn = 0;
+    } else {
+      turn += wrap(turn_against(history.outline, *outline, extent.centre) - turn);
+    }
+  }
+  history.trail.add({now_, extent.centre, motion.velocity, extent.radius, turn}, params_.memory);
+}
+
+// Looks up what was said of the time that has come.
+void MultiModelPredictor::update_errors(BodyHistory& history) const {
+  const double kept = maths::exp(-0.1 / params_.error_time_constant);
+  for (std::size_t k = 0; k < spans.size(); ++k) {
+    auto& open = history.open[k];
+    std::size_t done = 0;
+    for (; done < open.size() && open[done].due <= now_; ++done) {
+      const Forecast& told = open[done];
+      const Vec2 was = history.trail.at(told.due).place;
+      for (std::size_t m = 0; m < MotionModels::count; ++m) {
+        Record& record = history.records[m][k];
+        record.errors *= kept;
+        record.weight *= kept;
+        if (!told.holds[m]) continue;
+        record.errors += std::min(worst_error, distance(told.places[m], was));
+        record.weight += 1;
+      }
+    }
+    open.erase(open.begin(), open.begin() + static_cast<std::ptrdiff_t>(done));
+  }
+}
+
+void MultiModelPredictor::model(BodyHistory& history, const TrackedBody& motion) {
+  sightings_.clear();
+  radii_.clear();
+  double least = std::numeric_limits<double>::infinity();
+  double greatest = 0;
+  for (const TrailPoint& p : history.trail.points()) {
+    if (p.t < now_ - OscillationFit::windows.back()) continue;
+    sightings_.push_back({p.t, p.place});
+    radii_.push_back({p.t, {p.radius, 0}});
+    least = std::min(least, p.radius);
+    greatest = std::max(greatest, p.radius);
+  }
+  const Record& straight = history.records[MotionModels::straight].back();
+  const bool is_straight = straight.weight > prior_weight &&
+                           straight.errors < (proved + 2 * motion.noise) * straight.weight;
+  history.models.fit(history.trail, motion, is_straight ? std::span<const Sighting>{} : sightings_,
+                     oscillations_);
+  history.breath.reset();
+  history.radius_spread = greatest - least;
+  if (history.radius_spread < proved) return;
+  const auto breaths = oscillations_.fit(radii_);
+  for (const auto& breath : breaths)
+    if (breath && std::abs(breath->at(0).x - history.trail.back().radius) < proved)
+      history.breath = breath;
+}
+
+void MultiModelPredictor::select_model(BodyHistory& history, double speed) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t m = 0; m < MotionModels::count; ++m) {
+    if (!history.models.holds(m)) continue;
+    double sum = 0;
+    double last = 0;
+    for (std::size_t k = 0; k < spans.size(); ++k) {
+      const Record& record = history.records[m][k];
+      const double prior = prior_errors[m] * speed * spans[k] * prior_weight;
+      last = (record.errors + prior) / (record.weight + prior_weight);
+      sum += last / spans[k];
+    }
+    if (sum >= least) continue;
+    least = sum;
+    history.selected = m;
+    history.error = last;
+  }
+}
+
+void MultiModelPredictor::issue_forecasts(BodyHistory& history) const {
+  for (std::size_t k = 0; k < spans.size(); ++k) {
+    auto& open = history.open[k];
+    const double due = now_ + spans[k];
+    if (open.size() == max_open) continue;
+    if (!open.empty() && due - open.back().due < forecast_spacing) continue;
+    Forecast& told = open.emplace_back();
+    told.due = due;
+    for (std::size_t m = 0; m < MotionModels::count; ++m) {
+      told.holds[m] = history.models.holds(m);
+      if (told.holds[m]) told.places[m] = history.models.place(m, history.trail, spans[k]);
+    }
+  }
+}
+
+PredictedBody MultiModelPredictor::at(std::size_t body, double t) const {
+  const BodyHistory& history = histories_[seen_bodies_[body]];
+  const TrackedBody& motion = history.motion;
+  const double s = t - now_;
+  PredictedBody out;
+  out.centre = history.models.place(history.selected, history.trail, s);
+  out.turn = history.models.turn(history.selected, history.trail, s);
+  const double unseen = growing_time * std::abs(motion.radius_rate) + history.radius_spread;
+  const double growth = history.breath ? history.breath->at(s).x - history.breath->at(0).x
+                                       : motion.radius_rate * std::min(s, growing_time);
+  out.growth = std::clamp(growth, -unseen, unseen);
+  out.uncertainty =
+      std::min(params_.max_uncertainty, params_.uncertainty * history.error * s / spans.back());
+  return out;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "microswarm/core/fields.hpp"
+#include "microswarm/navigation/prediction/obstacle_tracker_params.hpp"
+
+namespace microswarm {
+
+/// How the motion models of obstacles are judged and how far they are doubted.
+struct MultiModelPredictorParams {
+  double memory = 60;
+  double error_time_constant = 2;
+  double uncertainty = 0;
+  double max_uncertainty = 60;
+  ObstacleTrackerParams tracker;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.memory,
+          {"memory", Unit::s, {0, 1e4}, "Time for which observed motion is remembered."});
+    visit(self.error_time_constant, {"error_time_constant",
+                                     Unit::s,
+                                     {1e-2, 1e3},
+                                     "Time constant with which a model's errors are forgotten.",
+                                     false,
+                                     "proof_time_s"});
+    visit(self.uncertainty, {"uncertainty_gain",
+                             Unit::none,
+                             {0, 10},
+                             "Share of past errors added to an obstacle's size.",
+                             false,
+                             "doubt"});
+    visit(self.max_uncertainty, {"max_uncertainty",
+                                 Unit::um,
+                                 {0, 1e4},
+                                 "Upper bound of the added uncertainty.",
+                                 false,
+                                 "most_doubt_um"});
+    visit(self.tracker, {"tracker", Unit::none, {}, "Estimation of the obstacles' motion."});
+  }
+};
+
+}  // namespace microswarm

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "microswarm/navigation/prediction/obstacle_tracker_params.hpp"
+
+namespace microswarm {
+
+/// Safety filter, ours, not in [radar]: a command passes only if it leaves a way out, to hold or to
+/// go straight into some direction, free of contact as far as is foreseen. Else the nearest command
+/// that leaves one is given. Obstacles go on as they were seen to move.
+struct SafetyFilterParams {
+  bool active = true;
+  double horizon = 5;
+  double step = 0.2;
+  int directions = 36;
+  double commitment = 0.7;
+  double gap = 12;
+  double gap_rate = 4;
+  double wall_gap = 10;
+  ObstacleTrackerParams tracker;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.active, {"active", Unit::none, {}, "Use the safety filter."});
+    visit(self.horizon, {"horizon", Unit::s, {0.1, 60}, "Time for which an escape must be free."});
+    visit(self.step, {"step", Unit::s, {0.01, 10}, "Time step of the escape check."});
+    visit(self.directions,
+          {"directions", Unit::none, {4, 360}, "Number of escape headings tested."});
+    visit(self.commitment,
+          {"commitment", Unit::s, {0, 10}, "Time after which an escape must still remain."});
+    visit(self.gap, {"gap",
+                     Unit::um,
+                     {0, 1e5},
+                     "Gap to obstacles that counts as contact.",
+                     false,
+                     "margin_um"});
+    visit(self.gap_rate, {"gap_rate",
+                          Unit::um_per_s,
+                          {0, 1e5},
+                          "Growth of the gap per second for moving obstacles.",
+                          false,
+                          "margin_rate_um_per_s"});
+    visit(self.wall_gap,
+          {"wall_gap", Unit::um, {0, 1e5}, "Gap kept to walls.", false, "wall_margin_um"});
+    visit(self.tracker, {"tracker", Unit::none, {}, "Estimation of the obstacles' motion."});
+  }
+};
+
+}  // namespace microswarm

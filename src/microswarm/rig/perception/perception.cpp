@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/rig/perception/perception.hpp"
+
+#include "microswarm/rig/perception/robot_perception.hpp"
+#include "microswarm/rig/perception/swarm_perception.hpp"
+
+namespace microswarm {
+
+Observation observation_of(const Detections& sight, std::shared_ptr<const Snapshot> world,
+                           double now, double seen) {
+  Observation observation{
+      .now = now, .seen = seen, .swarm = sight.swarm, .robots = {}, .world = std::move(world)};
+  if (sight.swarm) observation.robots = sight.robots;
+  return observation;
+}
+
+std::unique_ptr<Perception> make_perception(const PerceptionParams& params,
+                                            const Scenario& scenario, const Map& map,
+                                            std::span<const Vec2> starts, const CameraView& view) {
+  if (scenario.robots)
+    return std::make_unique<RobotPerception>(params, *scenario.robots, map, starts, view);
+  return std::make_unique<SwarmPerception>(params, map, *scenario.start, view);
+}
+
+}  // namespace microswarm

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/rig/perception/robot_perception.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "microswarm/core/angles.hpp"
+#include "microswarm/rig/perception/background_model.hpp"
+#include "microswarm/rig/perception/walls_in_picture.hpp"
+#include "microswarm/swarm/robots/robot_swarm.hpp"
+#include "microswarm/world/connectivity/free_place.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double usual_time = 1.0;  // [s] between pictures, for the stepper's grid
+
+std::size_t nearest_of(std::span<const Vec2> places, Vec2 to) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < places.size(); ++i)
+    if (squared_norm(places[i] - to) < squared_norm(places[best] - to)) best = i;
+  return best;
+}
+
+}  // namespace
+
+RobotPerception::RobotPerception(const PerceptionParams& params, const RobotSwarmParams& robots,
+                                 const Map& map, std::span<const Vec2> starts,
+                                 const CameraView& view)
+    : scale_(view.scale),
+      map_(map),
+      stepper_(map, robots.max_speed * usual_time),
+      contact_(robots.contact),
+      max_speed_(robots.max_speed),
+      finder_(params.robots),
+      diameter_(2 * finder_.radius_px() * scale_.um_per_px),
+      background_(std::make_unique<BackgroundModel>(
+          walls_in_picture(map, view.scale, view.width, view.height), finder_.radius_px())) {
+  detections_.robots.assign(starts.begin(), starts.end());
+}
+
+RobotPerception::~RobotPerception() = default;
+
+void RobotPerception::commanded(const Command& command, double) { command_ = command; }
+
+const Detections& RobotPerception::process(const Image& picture, double t) {
+  find_spots(picture);
+  if (detections_.robots.empty()) detections_.robots = spots_;
+  const double passed = std::max(0.0, t - seen_);
+  seen_ = t;
+  detections_.swarm.reset();
+  detections_.trouble = "none";
+  if (spots_.empty()) return detections_;
+  expect(passed);
+  pair(diameter_ + 3 * max_speed_ * passed);
+  place_the_unseen();
+  learn_ground();
+  detections_.trouble = "";
+  detections_.swarm = body_of(detections_.robots, command_.heading);
+  return detections_;
+}
+
+void RobotPerception::find_spots(const Image& picture) {
+  spots_.clear();
+  for (const Particle& particle : finder_.find(background_->take_out(picture)))
+    spots_.push_back(scale_.to_world(particle.at_px));
+}
+
+/// Robots that the command takes on, as far as walls let them.
+void RobotPerception::expect(double passed) {
+  std::vector<Vec2>& places = detections_.robots;
+  for (Vec2& place : places) place = free_place(map_, place, 2 * stepper_.guard());
+  Robots robots = stepper_.place(places);
+  stepper_.step(robots, displacement(command_, passed), contact_);
+  places = robots.positions();
+}
+
+void RobotPerception::pair(double reach) {
+  const std::vector<Vec2>& robots = detections_.robots;
+  edges_.clear();
+  // In order of x, so that only spots of about the same x are compared.
+  std::vector<int> by_x(spots_.size());
+  std::iota(by_x.begin(), by_x.end(), 0);
+  const auto x_of = [&](int spot) { return spots_[static_cast<std::size_t>(spot)].x; };
+  std::sort(by_x.begin(), by_x.end(), [&](int a, int b) { return x_of(a) < x_of(b); });
+  for (std::size_t r = 0; r < robots.size(); ++r) {
+    auto at = std::partition_point(by_x.begin(), by_x.end(),
+                                   [&](int s) { return x_of(s) < robots[r].x - reach; });
+    for (; at != by_x.end() && x_of(*at) <= robots[r].x + reach; ++at) {
+      const double d = squared_norm(spots_[static_cast<std::size_t>(*at)] - robots[r]);
+      if (d <= reach * reach) edges_.push_back({static_cast<int>(r), *at, d});
+    }
+  }
+  const auto& spot_of = assignment_.solve(static_cast<int>(robots.size()),
+                                          static_cast<int>(spots_.size()), edges_, reach * reach);
+  spot_of_.clear();
+  for (const std::optional<int>& spot : spot_of) spot_of_.push_back(spot.value_or(-1));
+}
+
+void RobotPerception::place_the_unseen() {
+  std::vector<Vec2>& robots = detections_.robots;
+  std::vector<bool> taken(spots_.size());
+  std::vector<std::size_t> unseen;
+  for (std::size_t r = 0; r < robots.size(); ++r) {
+    if (spot_of_[r] < 0) {
+      unseen.push_back(r);
+      continue;
+    }
+    const auto spot = static_cast<std::size_t>(spot_of_[r]);
+    robots[r] = spots_[spot];
+    taken[spot] = true;
+  }
+  for (std::size_t s = 0; s < spots_.size() && !unseen.empty(); ++s) {
+    if (taken[s]) continue;
+    const auto nearest =
+        std::min_element(unseen.begin(), unseen.end(), [&](std::size_t a, std::size_t b) {
+          return squared_norm(robots[a] - spots_[s]) < squared_norm(robots[b] - spots_[s]);
+        });
+    robots[*nearest] = spots_[s];
+    unseen.erase(nearest);
+  }
+  for (const std::size_t r : unseen)
+    if (!background_->is_dark(scale_.to_picture(robots[r])))
+      robots[r] = spots_[nearest_of(spots_, robots[r])];
+}
+
+void RobotPerception::learn_ground() {
+  std::vector<Vec2> at_px;
+  for (const Vec2 robot : detections_.robots) at_px.push_back(scale_.to_picture(robot));
+  for (const Vec2 spot : spots_) at_px.push_back(scale_.to_picture(spot));
+  background_->learn(at_px);
+}
+
+}  // namespace microswarm

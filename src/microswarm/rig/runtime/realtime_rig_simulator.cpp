@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/rig/runtime/realtime_rig_simulator.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "microswarm/core/clock.hpp"
+#include "microswarm/vision/camera/newest_frame.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double longest_step = 0.005;  // [s]
+
+Scenario without_delay(Scenario scenario) {
+  scenario.sensing.observation_delay = 0;
+  return scenario;
+}
+
+}  // namespace
+
+/// The driver, after each of whose doings the bench catches up.
+class RealtimeRigSimulator::Coils : public CoilDriver {
+ public:
+  Coils(RealtimeRigSimulator& bench, std::unique_ptr<CoilDriver> driver)
+      : bench_(bench), driver_(std::move(driver)) {}
+
+  int channels() const override { return driver_->channels(); }
+  std::span<const double> currents() const override { return driver_->currents(); }
+  DriveStatus drive(std::span<const double> currents) override {
+    const std::lock_guard lock(bench_.mutex_);
+    bench_.catch_up();
+    return driver_->drive(currents);
+  }
+  bool stop() noexcept override {
+    const std::lock_guard lock(bench_.mutex_);
+    return driver_->stop();  // the time before passes with no current; nothing that may fail here
+  }
+
+ private:
+  RealtimeRigSimulator& bench_;
+  std::unique_ptr<CoilDriver> driver_;
+};
+
+class RealtimeRigSimulator::Camera : public FrameSource {
+ public:
+  Camera(RealtimeRigSimulator& bench, double rate)
+      : bench_(bench), rate_(rate), due_(steady_seconds()) {
+    const std::lock_guard lock(bench_.mutex_);
+    ++bench_.cameras_;
+  }
+  ~Camera() override {
+    const std::lock_guard lock(bench_.mutex_);
+    --bench_.cameras_;
+    bench_.no_camera_.notify_all();
+  }
+  Camera(const Camera&) = delete;
+  Camera& operator=(const Camera&) = delete;
+
+  bool next(VideoFrame& frame) override {
+    due_ = std::max(due_ + 1 / rate_, steady_seconds());
+    std::this_thread::sleep_for(std::chrono::duration<double>(due_ - steady_seconds()));
+    std::unique_lock lock(bench_.mutex_);
+    bench_.catch_up();
+    const RigSimulator::Shot shot = bench_.bench_.capture();
+    lock.unlock();
+    frame.index = index_++;
+    frame.t = shot.now;
+    frame.picture = bench_.bench_.render(shot);
+    return true;
+  }
+  std::optional<int> count() const override { return std::nullopt; }
+  std::optional<double> rate() const override { return rate_; }
+
+ private:
+  RealtimeRigSimulator& bench_;
+  double rate_;
+  double due_;
+  int index_ = 0;
+};
+
+RealtimeRigSimulator::RealtimeRigSimulator(const Scenario& scenario, const World& world,
+                                           const Rig& rig, std::unique_ptr<CoilDriver> driver)
+    : bench_(without_delay(scenario), world, rig),
+      now_(steady_seconds()),
+      coils_(std::make_unique<Coils>(*this, std::move(driver))) {}
+
+RealtimeRigSimulator::~RealtimeRigSimulator() {
+  std::unique_lock lock(mutex_);
+  no_camera_.wait(lock, [this] { return cameras_ == 0; });
+}
+
+std::unique_ptr<FrameSource> RealtimeRigSimulator::camera(double rate) {
+  return std::make_unique<Camera>(*this, rate);
+}
+
+CoilDriver& RealtimeRigSimulator::coils() { return *coils_; }
+
+SwarmPose RealtimeRigSimulator::swarm() {
+  const std::lock_guard lock(mutex_);
+  catch_up();
+  return bench_.ground_truth().swarm;
+}
+
+void RealtimeRigSimulator::catch_up() {
+  const double now = steady_seconds();
+  bench_.start_trajectory();
+  while (now - now_ > 1e-6) {
+    const double step = std::min(longest_step, now - now_);
+    bench_.pass(coils_->currents(), step);
+    now_ += step;
+  }
+}
+
+}  // namespace microswarm

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/rig/simulation/rig_simulator.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/experiment/run/run.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double same_place = 20;  // [µm]; no coil's field changes over so short a way
+
+/// The scenario for the swarm as it is: its noise is in the pictures, and it may be faster than the
+/// field is made for.
+Scenario true_scenario(Scenario scenario, const Rig& rig) {
+  KeyLocations().require_none(validate(rig, scenario));
+  const double faster = std::max(1.0, 1 + simulated_camera(rig).speed_error);
+  std::visit([&](auto& swarm) { swarm.max_speed *= faster; }, scenario.swarm);
+  if (scenario.robots) scenario.robots->max_speed *= faster;
+  scenario.sensing.position_noise = 0;
+  scenario.sensing.heading_noise = 0;
+  scenario.sensing.missed_share = 0;
+  return scenario;
+}
+
+FieldResponseParams response_of(const RigParams& rig) {
+  const auto* camera = std::get_if<SimulatedCamera>(&rig.camera);
+  const double faster = 1 + (camera ? camera->speed_error : 0);
+  return {.kind = rig.field.kind,
+          .frequency = rig.field.frequency,
+          .speed_per_pitch = faster * rig.field.speed_per_pitch,
+          .length_per_turn = faster * rig.field.length_per_turn};
+}
+
+}  // namespace
+
+RigSimulator::RigSimulator(const Scenario& scenario, const World& world, const Rig& rig,
+                           std::uint32_t trial)
+    : rig_(rig),
+      robots_(scenario.robots.has_value()),
+      tick_(scenario.tick),
+      response_(response_of(rig.params)),
+      physics_(make_kinematic_plant(true_scenario(scenario, rig), world, trial)),
+      map_(world.map),
+      microscope_(std::get<SimulatedCamera>(rig.params.camera).microscope, *map_, scenario.seed,
+                  trial),
+      at_((check_workspace(rig, scenario, *map_), place())),
+      actuation_(rig.system.at(at_)) {}
+
+void RigSimulator::pass(std::span<const double> currents, double dt) {
+  const Eigen::VectorXd carried = Eigen::Map<const Eigen::VectorXd>(
+      currents.data(), static_cast<Eigen::Index>(rig_.system.size()));
+  if (const Eigen::Vector3d now = place(); (now - at_).norm() > same_place) {
+    at_ = now;
+    actuation_ = rig_.system.at(now);
+  }
+  const Command driven = response_.step(actuation_.field_of(carried), dt);
+  if (robots_) {  // these step once a tick, which is what their randomness is made for
+    step_ += displacement(driven, dt);
+    waiting_ += dt;
+    if (waiting_ < tick_ - 1e-9) return;
+    physics_->apply(command_for(step_, waiting_), waiting_);
+    step_ = {};
+    waiting_ = 0;
+    return;
+  }
+  const double passed = way_.empty() ? 0 : way_.back().t;
+  physics_->apply(driven, dt);
+  for (const PoseStamped& p : physics_->ground_truth()->trajectory.subspan(way_.empty() ? 0 : 1))
+    way_.push_back({passed + p.t, p.pose, p.radius});
+}
+
+RigSimulator::Shot RigSimulator::capture() {
+  const Observation shown = physics_->observe();
+  return {.now = shown.now,
+          .seen = shown.seen,
+          .world = *shown.world,
+          .swarm = robots_ ? std::nullopt : shown.swarm,
+          .robots = {shown.robots.begin(), shown.robots.end()}};
+}
+
+GroundTruth RigSimulator::ground_truth() const {
+  GroundTruth ground_truth = *physics_->ground_truth();
+  ground_truth.now += waiting_;
+  if (!way_.empty()) ground_truth.trajectory = way_;
+  return ground_truth;
+}
+
+Eigen::Vector3d RigSimulator::place() const {
+  return place_among_coils(rig_.system, *map_, physics_->ground_truth()->swarm.pose.position);
+}
+
+Eigen::Vector3d place_among_coils(const CoilSystem& system, const Map& map, Vec2 place) {
+  const Vec2 off = place - map.bounds().centre();
+  return system.centre() + Eigen::Vector3d(off.x, off.y, 0);
+}
+
+std::vector<Vec2> places_of(const Scenario& scenario) {
+  std::vector<Vec2> places;
+  if (scenario.start) places.push_back(scenario.start->position);
+  if (scenario.goal) places.push_back(*scenario.goal);
+  if (scenario.robots) {
+    places.insert(places.end(), scenario.robots->starts.begin(), scenario.robots->starts.end());
+    places.insert(places.end(), scenario.robots->goals.begin(), scenario.robots->goals.end());
+  }
+  return places;
+}
+
+void check_workspace(const Rig& rig, const Scenario& scenario, const Map& map) {
+  for (const Vec2 place : places_of(scenario)) {
+    const Eigen::Vector3d among = place_among_coils(rig.system, map, place);
+    if (!rig.system.in_workspace(among))
+      throw rig.keys.error(
+          "coils", fmt::format("the place ({:.6g}, {:.6g}) µm of the scenario is at ({:.6g}, "
+                               "{:.6g}, {:.6g}) µm among the coils, where their field is not known",
+                               place.x, place.y, among.x(), among.y(), among.z()));
+  }
+}
+
+}  // namespace microswarm
