@@ -9,6 +9,7 @@ from pathlib import Path
 import check_docstrings
 import check_files
 import check_includes
+import check_links
 import check_maths
 import check_rows
 import safety_page
@@ -135,6 +136,36 @@ class Files(unittest.TestCase):
         self.assertEqual([], list(check_files.check_text(
             "dev", f"#!/bin/bash\n# {check_files.LICENCE}\n")))
         self.assertEqual(3, len(list(check_files.check_text("a.hpp", "int x;\n" * 500))))
+
+
+class Links(unittest.TestCase):
+    def check(self, text, page="pages/how-to/a.md"):
+        with tempfile.TemporaryDirectory() as folder:
+            other = Path(folder) / "pages/b.md"
+            other.parent.mkdir()
+            other.write_text("# One, two\n## `x`: D-RRT*\n## `x`: D-RRT*\n```\n# no\n```\n",
+                             encoding="utf-8")
+            return list(check_links.check_page(Path(folder), page, text))
+
+    def test_links_that_lead_somewhere(self):
+        self.assertEqual([], self.check(
+            "[a](../b.md) [b](../b.md#one-two) ![c](<../b.md> \"b\")\n"
+            "[e](../b.md#x-d-rrt-1) [f](https://a.b/c#d) [g](mailto:a@b)\n"
+            "`[h](h.md)`\n```\n[i](i.md)\n```\n\n    [j](j.md)\n"))
+        self.assertEqual([], self.check("[d](#one-two)", "pages/b.md"))
+
+    def test_broken_links(self):
+        self.assertEqual(
+            ["pages/how-to/a.md:1: no such file: b.md",
+             "pages/how-to/a.md:2: no such heading: ../b.md#two",
+             "pages/how-to/a.md:2: no such heading: ../b.md#no",
+             "pages/how-to/a.md:3: no such file: ../../../b.md"],
+            self.check("[a](b.md)\n[b](../b.md#two) [c](../b.md#no)\n[d\ne](../../../b.md)"))
+
+    def test_pages_that_sources_name(self):
+        root, gone = Path(__file__).resolve().parent.parent, "docs/" + "nowhere.md"
+        self.assertEqual([f"a.hpp:2: no such file: {gone}"], list(check_links.check_source(
+            root, "a.hpp", f"// docs/index.md\n// {gone}, see build/{gone}\n")))
 
 
 class Maths(unittest.TestCase):
