@@ -12,6 +12,7 @@ import check_includes
 import check_links
 import check_maths
 import check_rows
+import reference
 import safety_page
 
 
@@ -237,6 +238,38 @@ class Rows(unittest.TestCase):
     def test_two_rows_of_one_name(self):
         self.assertEqual(["fig1: q: there are two such rows"],
                          list(check_rows.faults_of([self.row(), self.row()])))
+
+
+class Reference(unittest.TestCase):
+    def test_options_become_rows(self):
+        sections = reference.read_help(
+            "About\nUsage: a b\n\nOptions:\n  -h,--help    Help\n"
+            "  --rig FILE REQUIRED Excludes: --trials --jobs\n              A rig\n"
+            "  --to NAME Needs: --out   Where | how\n\nExample:\n  a b --c\n\nExit codes: 0\n")
+        self.assertEqual(["  a b --c", ""], sections["Example"])
+        self.assertEqual(
+            ["| `-h,--help` | Help |\n",
+             "| `--rig FILE` | A rig. Required. Not with `--trials`, `--jobs`. |\n",
+             "| `--to NAME` | Where \\| how. Needs `--out`. |\n"],
+            [reference.option_row(*row) for row in reference.entries(sections["Options"])])
+        self.assertEqual("| `kind` | What. One of `a`, `b`. Default `a`. |\n",
+                         reference.option_row("kind TEXT:{a,b}=a", "What"))
+
+    def test_keys_become_tables(self):
+        table = ("key        unit  default   allowed       meaning\n"
+                 "a_um       µm    1.2345678 0..1          One.\n"
+                 "b                required                Two.\n"
+                 "  c              x         x | y         Three.\n"
+                 "d                x         a type below  Four.\n"
+                 "  type: x\n"
+                 "    e      s     none                    Five.\n"
+                 "  type: y\n")
+        text = reference.Page().of("rig", reference.tree(reference.read_table(table)))
+        for row in ("- [b](#rig-b)\n- [d](#rig-d): [x](#d-x), [y](#d-y)\n",
+                    "| `a_um` | µm | `1.23457` | 0 … 1 | One. |\n",
+                    "### rig: `b`\n\nTwo.\n\n", "| `b.c` |  | `x` | `x`, `y` | Three. |\n",
+                    "#### `d`: `x`\n\n", "| `e` | s |  |  | Five. |\n", "#### `d`: `y`\n\nNo keys.\n"):
+            self.assertIn(row, text)
 
 
 class SafetyPage(unittest.TestCase):
