@@ -12,6 +12,7 @@ import check_includes
 import check_links
 import check_maths
 import check_rows
+import figures_page
 import reference
 import safety_page
 
@@ -238,6 +239,19 @@ class Rows(unittest.TestCase):
     def test_two_rows_of_one_name(self):
         self.assertEqual(["fig1: q: there are two such rows"],
                          list(check_rows.faults_of([self.row(), self.row()])))
+
+
+class FiguresPage(unittest.TestCase):
+    def test_rows_with_a_published_value(self):
+        row = {"figure": "fig1", "quantity": "|q|", "unit": "µm", "paper": 2.0, "aim": 2.2, "ok": True,
+               "ours": 12345.6}
+        text = figures_page.section("drrt", [
+            row, row | {"paper": None}, row | {"varies": True, "ours": None},
+            row | {"unit": "1", "aim": None, "ok": None, "ours": 0.123456}])
+        self.assertIn("2 rows; of 1 that can be judged, 1 are met.", text)
+        self.assertTrue(text.endswith(
+            "| --- |\n| fig1 | \\|q\\| | 2 µm | 12,346 µm | 2.2 | yes |\n"
+            "| fig1 | \\|q\\| | 2 | 0.1235 | – | – |\n"), text)
 
 
 class Reference(unittest.TestCase):
