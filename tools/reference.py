@@ -86,11 +86,10 @@ def option_row(name, meaning):
         name = name.replace(" REQUIRED", "")
     if name.endswith(" ..."):
         name = name.removesuffix(" ...")
-    name, _, choice = name.partition(" TEXT:{")
-    if choice:
-        choices, _, default = choice.partition("}")
-        words.append("One of " + ", ".join(f"`{c}`" for c in choices.split(",")) + ".")
-        words += [f"Default `{default[1:]}`."] if default else []
+    if choice := re.search(r" [A-Z]+:\{([^}]*)\}(?:=(\S+))?", name):
+        words.append("One of " + ", ".join(f"`{c}`" for c in choice[1].split(",")) + ".")
+        words += [f"Default `{choice[2]}`."] if choice[2] else []
+        name = name.replace(choice[0], "")
     meaning = meaning if not words or meaning.endswith((".", "?", "!")) else meaning + "."
     return f"| `{name}` | {cell(' '.join([meaning, *words]))} |\n"
 
