@@ -73,7 +73,7 @@ TEST(SweepPlan, TheSweepThatComesWithTheProgramCanBeRun) {
 }
 
 TEST(SweepFile, TheOneInTheDocsIsRead) {
-  const std::string page = read_file(std::string(MICROSWARM_SOURCE_DIR) + "/docs/sweeps.md");
+  const std::string page = read_file(std::string(MICROSWARM_SOURCE_DIR) + "/docs/how-to/sweep.md");
   const std::size_t begin = page.find("```yaml\n") + 8;
   const Sweep sweep = read_sweep_text(page.substr(begin, page.find("```", begin) - begin), "docs");
   EXPECT_EQ(sweep.methods.at(1).set.at(0), "navigator.horizon_s=0");

@@ -195,7 +195,7 @@ void add_sweep(Command app, Action& action) {
       "Run a scenario for every combination of parameters and methods, many trials each, into a "
       "database",
       "sweep scenarios/sweeps/first_flight.yaml --out out/first_flight.db");
-  cmd.add_option("sweep", o->sweep, "Sweep file (YAML); docs/sweeps.md tells its keys")
+  cmd.add_option("sweep", o->sweep, "Sweep file (YAML); docs/how-to/sweep.md tells its keys")
       .required()
       .type_name("FILE");
   cmd.add_option("--out", o->out,

@@ -38,7 +38,7 @@ struct SerialCoilParams {
   }
 };
 
-/// Six coils behind an Arduino Mega 2560 with firmware/coil_driver (docs/protocol.md).
+/// Six coils behind an Arduino Mega 2560 with firmware/coil_driver (docs/reference/protocol.md).
 class SerialCoilDriver final : public CoilDriver {
  public:
   /// Opens the port and greets the device; it is armed when the first currents come. Throws

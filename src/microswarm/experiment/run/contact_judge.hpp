@@ -10,7 +10,7 @@
 
 namespace microswarm {
 
-/// How a contact is judged; see docs/avoidance-safety.md.
+/// How a contact is judged; see docs/explanation/safety.md.
 struct JudgeParams {
   double lookback = 3;
   double aftermath = 2;

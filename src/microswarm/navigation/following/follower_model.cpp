@@ -139,7 +139,7 @@ std::uint64_t read_seed(Reader& in) {
 }  // namespace
 
 std::string follower_model_text(const FollowerModel& model) {
-  std::string text = "# A learned follower of microswarm: docs/learned-follower.md\n";
+  std::string text = "# A learned follower of microswarm: docs/explanation/learned-follower.md\n";
   text += fmt::format("version: {}\nseed: {}\ntraining: {}\n", version, model.seed, model.training);
   text += "layers: " + list_text(model.network.layers);
   text += "lowest: " + list_text(model.lowest);

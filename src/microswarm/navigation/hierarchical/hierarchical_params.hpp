@@ -53,7 +53,7 @@ struct LocalTargetParams {
 /// Hierarchical D-RRT* planning framework: Algorithm 4 [drrt] over local target selection
 /// (Algorithm 1) and the local planner (Algorithms 2–3). Ours besides: the guide along the map, and
 /// the look-ahead that screens every command against where the obstacles are going. With
-/// `as_published` Algorithm 4 is all there is (docs/navigation.md).
+/// `as_published` Algorithm 4 is all there is (docs/explanation/hierarchical-drrt-star.md).
 struct HierarchicalParams {
   /// D-RRT* with limits that fit a local target: near, and on a straight free line.
   static DrrtStarParams local_planner() {

@@ -14,7 +14,7 @@ namespace microswarm {
 /// `straighten` pulls the path found straight under the same cost and the same exact checks;
 /// `arcs` makes every edge a turn of at least `turn_radius` and a straight line, so that a unicycle
 /// can drive the path from the start's heading on. `as_published` leaves both out
-/// (docs/drrt-star.md).
+/// (docs/explanation/drrt-star.md).
 struct DrrtStarParams : RrtStarParams {
   static constexpr std::string_view type_name = "drrt_star";
   double detection_diameter = 300;  // D_dec
