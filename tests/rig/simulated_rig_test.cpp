@@ -126,7 +126,7 @@ TEST(SimulatedRig, WhatDoesNotGoTogetherIsRefused) {
   EXPECT_PRED2(ends_with, refusal({"camera.type=simulated", "camera.microscope.um_per_px=0.001"}),
                "pixels long, at most 4096 are drawn");
   EXPECT_PRED2(ends_with, refusal({"camera.type=v4l2"}),
-               ": the camera is no simulated one, as a rehearsal needs: set camera.type");
+               ": the camera is not simulated: set camera.type");
 }
 
 TEST(SimulatedRig, AScenarioBeyondTheGridOfTheFieldIsRefused) {

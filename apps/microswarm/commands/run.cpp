@@ -122,7 +122,7 @@ void add_run(Command app, Action& action) {
       .type_name("FOLDER");
   add_settings(cmd, o->settings, "Change a value of the scenario (again and again)");
   cmd.add_option("--rig", o->rig,
-                 "Rig file (YAML): rehearse it with simulated camera, coils and field")
+                 "Rig file (YAML): run through its simulated camera, coils and field")
       .type_name("FILE");
   cmd.add_option("--set-rig", o->rig_settings, "Change a value of the rig (again and again)")
       .type_name("KEY=VALUE")

@@ -136,7 +136,7 @@ std::string name_of(const Rig& rig);
 /// a driver with too few channels.
 Rig read_rig(const std::filesystem::path& file, const Settings& settings = {});
 
-/// The rig's camera, for a rehearsal. Throws InputError when it is no simulated one.
+/// The rig's camera, for a simulation. Throws InputError when it is no simulated one.
 const SimulatedCamera& simulated_camera(const Rig& rig);
 
 /// An issue when the rig cannot drive the scenario's swarm as fast as it is meant to go; keys are

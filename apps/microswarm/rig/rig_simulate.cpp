@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `rig simulate_rig`: scenarios through a simulated rig, beside the simulation without one.
+// `rig simulate`: scenarios through a simulated rig, beside the simulation without one.
 #include <fmt/ranges.h>
 
 #include <array>
@@ -30,7 +30,7 @@ struct Pair {
   std::vector<std::string> rig_settings{};
 };
 
-/// What is rehearsed when no scenario is named: every kind of navigator, scenarios of the papers.
+/// Simulated when no scenario is named: every kind of navigator, scenarios of the papers.
 std::vector<Pair> usual_pairs() {
   const std::string papers = (scenario_folder() / "papers").string() + "/";
   const std::string rigs = (scenario_folder() / "rigs").string() + "/";
@@ -64,7 +64,7 @@ struct Summary {
   std::string time() const { return times.empty() ? "–" : fmt::format("{:.1f}", median(times)); }
 };
 
-struct RehearseOptions {
+struct SimulateOptions {
   std::string scenario;
   std::string rig;
   std::vector<std::string> settings;
@@ -74,9 +74,9 @@ struct RehearseOptions {
   int jobs = 0;
 };
 
-int rehearse_trials(const RehearseOptions& o, const Context& context) {
+int simulate_trials(const SimulateOptions& o, const Context& context) {
   if (o.scenario.empty() != o.rig.empty())
-    throw InputError("rig rehearse: a scenario and --rig go together");
+    throw InputError("rig simulate: a scenario and --rig go together");
   const std::vector<Pair> pairs =
       o.scenario.empty() ? usual_pairs()
                          : std::vector<Pair>{{o.scenario, o.rig, o.settings, o.rig_settings}};
@@ -143,7 +143,7 @@ int rehearse_trials(const RehearseOptions& o, const Context& context) {
     all = all && sums[1].arrived == o.trials;
   }
   if (!o.out.empty()) {
-    const std::filesystem::path table = std::filesystem::path(o.out) / "rehearsal.csv";
+    const std::filesystem::path table = std::filesystem::path(o.out) / "simulation.csv";
     write_file_atomically(table, csv);
     print("wrote {}\n", table.string());
   }
@@ -153,11 +153,12 @@ int rehearse_trials(const RehearseOptions& o, const Context& context) {
 
 }  // namespace
 
-void add_rig_rehearse(Command rig, Action& action) {
-  auto o = std::make_shared<RehearseOptions>();
+void add_rig_simulate(Command rig, Action& action) {
+  auto o = std::make_shared<SimulateOptions>();
   Command cmd =
-      rig.add_command("rehearse", "Scenarios through a simulated rig, beside runs without one",
-                      "rig rehearse scenario.yaml --rig rig.yaml --trials 10");
+      rig.add_command("simulate", "Scenarios through a simulated rig, beside runs without one",
+                      "rig simulate scenario.yaml --rig rig.yaml --trials 10");
+  cmd.former_name("rehearse");
   cmd.add_option("scenario", o->scenario, "Scenario file (YAML); not given: some of the papers'")
       .type_name("FILE");
   cmd.add_option("--rig", o->rig, "Rig file (YAML)").type_name("FILE");
@@ -170,9 +171,9 @@ void add_rig_rehearse(Command rig, Action& action) {
   cmd.add_option("--jobs", o->jobs, "Threads; 0: one a core")
       .type_name("NUMBER")
       .check(whole(0, 1024));
-  cmd.add_option("--out", o->out, "Folder for rehearsal.csv").type_name("FOLDER");
+  cmd.add_option("--out", o->out, "Folder for simulation.csv").type_name("FOLDER");
   cmd.callback([o, &action] {
-    action = [o](const Context& context) { return rehearse_trials(*o, context); };
+    action = [o](const Context& context) { return simulate_trials(*o, context); };
   });
 }
 
