@@ -104,7 +104,8 @@ def command_section(program, words):
     depth = "#" * (len(words) + 2)
     about, *usage = [line for line in help_text[""] if line.strip()]
     out = f"{depth} {' '.join(words)}\n\n{about.rstrip('.')}.\n"
-    below = [name for name, _ in entries(help_text.get("Subcommands", []))]
+    # A former name stands behind a comma.
+    below = [name.split(",")[0] for name, _ in entries(help_text.get("Subcommands", []))]
     if below:
         full = [[*words, name] for name in below]
         out += "\n" + "".join(f"- [{' '.join(name)}](#{'-'.join(name)})\n" for name in full)

@@ -118,8 +118,7 @@ void VelocityObstacleNavigator::find_threats(const Snapshot& world, Vec2 p) {
     const bool round = std::holds_alternative<Disc>(bodies[i].shape);
     const double speed = outward_speed(bodies[i], motion);
     const Vec2 at = p - steering_.delay() * motion.velocity;
-    const double away =
-        std::visit([&](const auto& shape) { return distance(at, shape); }, bodies[i].shape);
+    const double away = distance(at, bodies[i]);
     const double wanted = steering_.swarm().radius + params_.gap +
                           speed * (steering_.delay() + (round ? 0 : deforming_time));
     const double top = steering_.speed() + norm(motion.velocity) + speed;

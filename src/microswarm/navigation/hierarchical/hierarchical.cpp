@@ -62,7 +62,8 @@ HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params,
 void HierarchicalNavigator::prepare(const Snapshot& world) {
   steering_.prepare(world, params_.clearance, params_.clearance + params_.extra_clearance);
   if (params_.guide == Guide::route)
-    route_ = Route(world.map(), aim().position, params_.clearance, params_.route_cell);
+    route_ =
+        DistanceField::to_goal(world.map(), aim().position, params_.clearance, params_.route_cell);
 }
 
 Command HierarchicalNavigator::step(const Observation& seen, const Stop& stop) {
@@ -179,8 +180,7 @@ bool HierarchicalNavigator::replan_in_time(const Snapshot& seen, double clearanc
   if (params_.target_horizon <= 0 || obstacles_.all_rest()) return false;
   const Vec2 from = pose_.position;
   const auto way_from = [&](Vec2 p) {
-    const double way =
-        params_.guide == Guide::route ? route_.way_from(p) : distance(p, aim().position);
+    const double way = params_.guide == Guide::route ? route_.from(p) : distance(p, aim().position);
     return std::isfinite(way) ? way : distance(p, aim().position) + no_route;
   };
   const auto target = select_predicted_target(seen, obstacles_,

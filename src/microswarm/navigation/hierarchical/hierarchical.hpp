@@ -85,7 +85,7 @@ class HierarchicalNavigator : public Navigator {
   HierarchicalParams params_;
   Rng rng_;
   SteeringCycle steering_;
-  Route route_;
+  DistanceField route_;
   double slack_ = 1;     ///< kept besides the clearance, for what happens within a tick [µm]
   double period_ = 0.1;  ///< between the last two commands [s]
 

@@ -62,10 +62,11 @@ void PredictiveNavigator::prepare(const Snapshot& world) {
   reached_ = {steering_.aim().position, inner_goal * left};
   ends_within_ = goal_tolerance_ - (1 - inner_goal) * left;
   if (params_.guide == Guide::route)
-    route_ = Route(world.map(), steering_.aim().position,
-                   steering_.wall_clearance(steering_.swarm().radius + params_.wall_gap,
-                                            steering_.aim().position, 0),
-                   params_.route_cell);
+    route_ =
+        DistanceField::to_goal(world.map(), steering_.aim().position,
+                               steering_.wall_clearance(steering_.swarm().radius + params_.wall_gap,
+                                                        steering_.aim().position, 0),
+                               params_.route_cell);
 }
 
 NavigatorView PredictiveNavigator::view() const {
@@ -192,7 +193,7 @@ void PredictiveNavigator::solve(const Map& map, Vec2 from) {
 double PredictiveNavigator::left_from(Vec2 p) const {
   const double straight = distance(p, steering_.aim().position) - reached_.radius;
   if (in_sight_) return std::max(0.0, straight) / steering_.speed();
-  const double way = route_.way_from(p);
+  const double way = route_.from(p);
   return std::isfinite(way) ? way / steering_.speed() : no_path_reason;
 }
 
