@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Prints the tables of docs/avoidance-safety.md from the rows in docs/results/safety.csv.
+"""Prints the tables of docs/results/safety.md from the rows in docs/results/safety.csv.
 
     tools/safety_page.py                          prints them into the page
     tools/safety_page.py --check                  complains where the page says something else
@@ -20,7 +20,7 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PAGE = ROOT / "docs" / "avoidance-safety.md"
+PAGE = ROOT / "docs" / "results" / "safety.md"
 STORED = ROOT / "docs" / "results" / "safety.csv"
 TABLE = re.compile(r"(<!-- safety: ([^>]+) -->\n).*?(<!-- end -->)", re.S)
 HEAD = (

@@ -9,8 +9,11 @@ from pathlib import Path
 import check_docstrings
 import check_files
 import check_includes
+import check_links
 import check_maths
 import check_rows
+import figures_page
+import reference
 import safety_page
 
 
@@ -137,6 +140,36 @@ class Files(unittest.TestCase):
         self.assertEqual(3, len(list(check_files.check_text("a.hpp", "int x;\n" * 500))))
 
 
+class Links(unittest.TestCase):
+    def check(self, text, page="pages/how-to/a.md"):
+        with tempfile.TemporaryDirectory() as folder:
+            other = Path(folder) / "pages/b.md"
+            other.parent.mkdir()
+            other.write_text("# One, two\n## `x`: D-RRT*\n## `x`: D-RRT*\n```\n# no\n```\n",
+                             encoding="utf-8")
+            return list(check_links.check_page(Path(folder), page, text))
+
+    def test_links_that_lead_somewhere(self):
+        self.assertEqual([], self.check(
+            "[a](../b.md) [b](../b.md#one-two) ![c](<../b.md> \"b\")\n"
+            "[e](../b.md#x-d-rrt-1) [f](https://a.b/c#d) [g](mailto:a@b)\n"
+            "`[h](h.md)`\n```\n[i](i.md)\n```\n\n    [j](j.md)\n"))
+        self.assertEqual([], self.check("[d](#one-two)", "pages/b.md"))
+
+    def test_broken_links(self):
+        self.assertEqual(
+            ["pages/how-to/a.md:1: no such file: b.md",
+             "pages/how-to/a.md:2: no such heading: ../b.md#two",
+             "pages/how-to/a.md:2: no such heading: ../b.md#no",
+             "pages/how-to/a.md:3: no such file: ../../../b.md"],
+            self.check("[a](b.md)\n[b](../b.md#two) [c](../b.md#no)\n[d\ne](../../../b.md)"))
+
+    def test_pages_that_sources_name(self):
+        root, gone = Path(__file__).resolve().parent.parent, "docs/" + "nowhere.md"
+        self.assertEqual([f"a.hpp:2: no such file: {gone}"], list(check_links.check_source(
+            root, "a.hpp", f"// docs/index.md\n// {gone}, see build/{gone}\n")))
+
+
 class Maths(unittest.TestCase):
     def lines(self, text):
         return [int(found.split(":")[1]) for found in check_maths.check_text("a.cpp", text)]
@@ -206,6 +239,51 @@ class Rows(unittest.TestCase):
     def test_two_rows_of_one_name(self):
         self.assertEqual(["fig1: q: there are two such rows"],
                          list(check_rows.faults_of([self.row(), self.row()])))
+
+
+class FiguresPage(unittest.TestCase):
+    def test_rows_with_a_published_value(self):
+        row = {"figure": "fig1", "quantity": "|q|", "unit": "µm", "paper": 2.0, "aim": 2.2, "ok": True,
+               "ours": 12345.6}
+        text = figures_page.section("drrt", [
+            row, row | {"paper": None}, row | {"varies": True, "ours": None},
+            row | {"unit": "1", "aim": None, "ok": None, "ours": 0.123456}])
+        self.assertIn("2 rows; of 1 that can be judged, 1 are met.", text)
+        self.assertTrue(text.endswith(
+            "| --- |\n| fig1 | \\|q\\| | 2 µm | 12,346 µm | 2.2 | yes |\n"
+            "| fig1 | \\|q\\| | 2 | 0.1235 | – | – |\n"), text)
+
+
+class Reference(unittest.TestCase):
+    def test_options_become_rows(self):
+        sections = reference.read_help(
+            "About\nUsage: a b\n\nOptions:\n  -h,--help    Help\n"
+            "  --rig FILE REQUIRED Excludes: --trials --jobs\n              A rig\n"
+            "  --to NAME Needs: --out   Where | how\n\nExample:\n  a b --c\n\nExit codes: 0\n")
+        self.assertEqual(["  a b --c", ""], sections["Example"])
+        self.assertEqual(
+            ["| `-h,--help` | Help |\n",
+             "| `--rig FILE` | A rig. Required. Not with `--trials`, `--jobs`. |\n",
+             "| `--to NAME` | Where \\| how. Needs `--out`. |\n"],
+            [reference.option_row(*row) for row in reference.entries(sections["Options"])])
+        self.assertEqual("| `kind` | What. One of `a`, `b`. Default `a`. |\n",
+                         reference.option_row("kind TEXT:{a,b}=a", "What"))
+
+    def test_keys_become_tables(self):
+        table = ("key        unit  default   allowed       meaning\n"
+                 "a_um       µm    1.2345678 0..1          One.\n"
+                 "b                required                Two.\n"
+                 "  c              x         x | y         Three.\n"
+                 "d                x         a type below  Four.\n"
+                 "  type: x\n"
+                 "    e      s     none                    Five.\n"
+                 "  type: y\n")
+        text = reference.Page().of("rig", reference.tree(reference.read_table(table)))
+        for row in ("- [b](#rig-b)\n- [d](#rig-d): [x](#d-x), [y](#d-y)\n",
+                    "| `a_um` | µm | `1.23457` | 0 … 1 | One. |\n",
+                    "### rig: `b`\n\nTwo.\n\n", "| `b.c` |  | `x` | `x`, `y` | Three. |\n",
+                    "#### `d`: `x`\n\n", "| `e` | s |  |  | Five. |\n", "#### `d`: `y`\n\nNo keys.\n"):
+            self.assertIn(row, text)
 
 
 class SafetyPage(unittest.TestCase):

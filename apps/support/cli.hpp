@@ -60,6 +60,11 @@ void note(fmt::format_string<Values...> format, Values&&... values) {
   say(fmt::format(format, std::forward<Values>(values)...));
 }
 
+/// Each of them as "note: …" on stderr.
+inline void note_each(const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) note("note: {}\n", line);
+}
+
 /// Progress on stderr, only where that is a terminal: "label [#####.....] 50 % 3 s left note".
 class ProgressBar {
  public:

@@ -112,6 +112,8 @@ Command Command::add_command(const char* name, const char* doc, const char* exam
   return Command(command);
 }
 
+void Command::former_name(const char* name) { app_->alias(name); }
+
 Command Command::add_group(const char* name, const char* doc) {
   CLI::App* group = app_->add_subcommand(name, doc);
   group->require_subcommand(1);

@@ -62,6 +62,8 @@ class Command {
   Command add_command(const char* name, const char* doc, const char* example);
   /// A group of commands, one of which must be named.
   Command add_group(const char* name, const char* doc);
+  /// The name that this command had in earlier versions, which still works.
+  void former_name(const char* name);
   /// `name` is "--name", or "name" for an argument. T: std::string, a list of them, double, int, a
   /// whole number, or an optional one of these.
   template <class T>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What goes over the wire: docs/protocol.md.
+// What goes over the wire: docs/reference/protocol.md.
 #pragma once
 
 #include <stdbool.h>

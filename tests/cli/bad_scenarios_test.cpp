@@ -58,7 +58,7 @@ TEST_F(BadScenarios, KeysThatDoNotFitTogether) {
                   "obstacles:\n"
                   "  - shape: {type: valve, span_um: 100, min_gap_um: 120}\n"
                   "    motion: {type: still, position_um: [500, 200]}\n",
-              naming("flight.yaml:17:54", {"obstacle 1", "min_gap_um", "120", "span_um", "100"}));
+              naming("flight.yaml:17:52", {"obstacle 1", "min_gap_um", "120", "span_um", "100"}));
   refused({"run", "flight.yaml", "--set", "obstacles=[]", "--set", "start.y_um=100", "--set",
            "start.x_um=1012"},
           naming("--set start.x_um", {"start", "12 µm", "wall 3"}));

@@ -186,9 +186,9 @@ TEST_F(WholeRig, ADeviceThatIsNotThereLeavesNoEmptyFolder) {
 
 TEST_F(WholeRig, ARehearsalOnTheBenchIsRefusedBeforeItBegins) {
   const std::string scenario = MICROSWARM_SOURCE_DIR "/scenarios/papers/radar/single.yaml";
-  refused({"rig", "rehearse", scenario, "--rig", rig("bench.yaml")},
+  refused({"rig", "simulate", scenario, "--rig", rig("bench.yaml")},
           rig("bench.yaml") +
-              ":8:9: the camera is no simulated one, as a rehearsal needs: set camera.type");
+              ":8:9: the camera is not simulated: set camera.type");
 }
 
 TEST_F(WholeRig, WhatIsWrongIsToldWhereItWasGiven) {

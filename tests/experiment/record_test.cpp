@@ -178,7 +178,7 @@ TEST(Replay, StopsWhenTold) {
 }
 
 TEST(RecordLayout, TheDocsNameEveryQuantity) {
-  std::ifstream in(std::string(MICROSWARM_SOURCE_DIR) + "/docs/record.md");
+  std::ifstream in(std::string(MICROSWARM_SOURCE_DIR) + "/docs/reference/record.md");
   ASSERT_TRUE(in);
   std::stringstream text;
   text << in.rdbuf();

@@ -81,12 +81,12 @@ TEST(Run, ASwarmThatTurnsSlowlyTouchesNoWall) {
 // Waiting for an obstacle to pass must not look better again and again.
 TEST(Run, AWaitForAnObstacleEnds) {
   const auto file = std::filesystem::path(MICROSWARM_SOURCE_DIR) / "scenarios/first_flight.yaml";
-  for (int speed = 20; speed <= 80; speed += 5) {
+  for (int commanded = 20; commanded <= 80; commanded += 5) {
     const Experiment flight =
-        open_experiment(file, {fmt::format("navigator.speed_um_per_s={}", speed)});
+        open_experiment(file, {fmt::format("navigator.speed_um_per_s={}", commanded)});
     const RunResult result = simulate(flight.scenario(), flight.world);
-    EXPECT_EQ(result.status, Status::solved) << speed;
-    EXPECT_LT(result.metrics.hold_time, 30) << speed;
+    EXPECT_EQ(result.status, Status::solved) << commanded;
+    EXPECT_LT(result.metrics.hold_time, 30) << commanded;
   }
 }
 

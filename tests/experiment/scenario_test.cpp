@@ -56,9 +56,9 @@ TEST(Scenario, AsPublishedLeavesNothingOfOursUnsaid) {
   const std::string not_the_papers = " is not the paper's, and as_published is true";
   EXPECT_EQ(refusal(radar + "  retreat: true\n"), "s.yaml:7:12: retreat" + not_the_papers);
   EXPECT_EQ(refusal(radar + "  safety_filter: {active: true}\n"),
-            "s.yaml:7:19: safety_filter.active" + not_the_papers);
+            "s.yaml:7:27: safety_filter.active" + not_the_papers);
   EXPECT_EQ(refusal(radar + "  safety_filter: {horizon_s: 4}\n"),
-            "s.yaml:7:22: safety_filter.horizon_s" + not_the_papers);
+            "s.yaml:7:30: safety_filter.horizon_s" + not_the_papers);
   EXPECT_EQ(refusal(radar, {"navigator.compensate_delay=true"}),
             "--set navigator.compensate_delay: compensate_delay" + not_the_papers);
   const std::string drrt = "  type: hierarchical_drrt_star\n  as_published: true\n";
@@ -149,7 +149,7 @@ TEST(Scenario, EveryMistakeHasItsLine) {
           "s.yaml:4:9: tick_s is 0 s, allowed 0.001..10 s",
           "s.yaml:5:1: unknown key 'time_limt_s', did you mean 'time_limit_s'?",
           "s.yaml:6:42: speed_um_per_s must be a number, not 'fast'",
-          "s.yaml:6:56: unknown key 'activ', did you mean 'active'?",
+          "s.yaml:6:64: unknown key 'activ', did you mean 'active'?",
           "--set hold_limit_s: hold_limit_s is -1 s, allowed 0..1e5 s"}));
   // In what values mean together, beside one that was misread.
   EXPECT_EQ(mistakes("map: {type: polygons, hi_um: [2000, 1000]}\n"
@@ -211,7 +211,7 @@ TEST(Scenario, WhatComesOutLaterHasItsPlaceToo) {
                            "      type: breathing_disc\n"
                            "      min_radius_um: 90\n"
                            "      max_radius_um: 20\n"),
-            "s.yaml:10:24: obstacle 2: min_radius_um is 90, more than max_radius_um, 20");
+            "s.yaml:10:22: obstacle 2: min_radius_um is 90, more than max_radius_um, 20");
   EXPECT_TRUE(test::is_one_line_naming(message(room, {"start.y_um=100", "start.x_um=990"}),
                                        "--set start.x_um", {"start", "10 µm", "wall 1"}));
   EXPECT_TRUE(test::is_one_line_naming(message("map: {type: polygons, hi_um: [2000, 0]}\n"),

@@ -99,9 +99,9 @@ TEST(RadarCheck, WaitAreas) {
                                        {"1", "min_gap_um", "300", "300 µm", "obstacle 1"}));
   area.min_gap = 200;
   area.centre = {1000, 500};
-  EXPECT_TRUE(test::is_one_line_naming(why(), "s.yaml", {"area", "1"}));
+  EXPECT_TRUE(test::is_one_line_naming(why(), "s.yaml", {"zone", "1"}));
   area.centre = {1000, 1400};
-  EXPECT_TRUE(test::is_one_line_naming(why(), "s.yaml", {"area", "1", "1000", "1400"}));
+  EXPECT_TRUE(test::is_one_line_naming(why(), "s.yaml", {"zone", "1", "1000", "1400"}));
 }
 
 TEST(RadarCheck, AValveThatIsDrawnInStopsNobody) {

@@ -145,7 +145,7 @@ TEST_P(NavigatorLaws, GetsThereInTheOpen) {
 double min_clearance(const NavigatorParams& params) {
   const auto* radar = std::get_if<RadarParams>(&params);
   if (radar && radar->as_published) return radius + radar->safety_distance;
-  return std::max(margin_of(params), radius);
+  return std::max(required_clearance(params), radius);
 }
 
 // The goal itself is too near to the border, a point within its tolerance is not.

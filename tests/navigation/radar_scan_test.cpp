@@ -179,7 +179,7 @@ Case random_case(Rng& rng) {
     if (rng.below(2) == 0)
       body.shape =
           scenes::turned_rectangle(at, rng.uniform(2, 250), rng.uniform(2, 60), rng.uniform(0, pi));
-    if (edge_distance(body, centre) > 0) c.bodies.push_back(body);
+    if (distance(centre, body) > 0) c.bodies.push_back(body);
   }
   return c;
 }

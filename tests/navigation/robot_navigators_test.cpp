@@ -32,7 +32,7 @@ TEST(RobotDelayCompensator, IsWhatComesUnderDelayAndLag) {
   for (int i = 0; i < 200; ++i) {
     const Robots foretold = forecast.at_effect(rig.observe());
     const Command command{0.3 * i, 25};
-    forecast.issued(rig.now, command);
+    forecast.note(rig.now, command);
     rig.apply(command);
     for (std::size_t k = 0; k < 2; ++k)
       ASSERT_LE(distance(foretold.position(k), rig.swarm.robots().position(k)), 1e-3) << i;
@@ -47,7 +47,7 @@ TEST(RobotDelayCompensator, ARobotSeenJustInAWallDoesNotGoThroughIt) {
   Observation seen = rig.observe();
   const std::vector<Vec2> places{{260, 174.99}, {330, 200}};
   seen.robots = places;
-  forecast.issued(0, {radians(-90), 30});
+  forecast.note(0, {radians(-90), 30});
   seen.now = 0.1;
   const Robots robots = forecast.at_effect(seen);
   EXPECT_NEAR(robots.position(0).y, 175, 0.05);

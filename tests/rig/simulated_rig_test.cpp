@@ -61,7 +61,7 @@ TEST_P(Rehearsals, TheGoalIsReachedAboutAsFast) {
   EXPECT_EQ(whole.status, Status::solved);
   EXPECT_LT(whole.metrics.time, 1.35 * plain.metrics.time);
   EXPECT_EQ(whole.metrics.contacts, 0);
-  const double margin = margin_of(r.scene.scenario.navigator);
+  const double margin = required_clearance(r.scene.scenario.navigator);
   EXPECT_GE(plain.metrics.obstacles.clearance, margin);
   EXPECT_GE(whole.metrics.obstacles.clearance, margin);
 }
@@ -126,7 +126,7 @@ TEST(SimulatedRig, WhatDoesNotGoTogetherIsRefused) {
   EXPECT_PRED2(ends_with, refusal({"camera.type=simulated", "camera.microscope.um_per_px=0.001"}),
                "pixels long, at most 4096 are drawn");
   EXPECT_PRED2(ends_with, refusal({"camera.type=v4l2"}),
-               ": the camera is no simulated one, as a rehearsal needs: set camera.type");
+               ": the camera is not simulated: set camera.type");
 }
 
 TEST(SimulatedRig, AScenarioBeyondTheGridOfTheFieldIsRefused) {

@@ -60,7 +60,7 @@ TEST(SweepPlan, CellsAreTheCrossProduct) {
   EXPECT_EQ(plan.cells[1].method, "route");
   EXPECT_EQ(plan.cells[2].values, (std::vector<std::string>{"60", "[800, 600]"}));
   EXPECT_EQ(plan.cells[7].values, (std::vector<std::string>{"90.5", "[800, 600]"}));
-  EXPECT_EQ(margin_of(plan.cells[7].scenario.navigator), 90.5);
+  EXPECT_EQ(required_clearance(plan.cells[7].scenario.navigator), 90.5);
   EXPECT_EQ(plan.cells[7].scenario.time_limit, 20);
   EXPECT_EQ(plan.cells[7].scenario.seed, 7u);
   EXPECT_EQ(plan.cells[0].world.map, plan.cells[7].world.map);
@@ -75,7 +75,7 @@ TEST(SweepPlan, TheSweepThatComesWithTheProgramCanBeRun) {
 }
 
 TEST(SweepFile, TheOneInTheDocsIsRead) {
-  const std::string page = read_file(std::string(MICROSWARM_SOURCE_DIR) + "/docs/sweeps.md");
+  const std::string page = read_file(std::string(MICROSWARM_SOURCE_DIR) + "/docs/how-to/sweep.md");
   const std::size_t begin = page.find("```yaml\n") + 8;
   const Sweep sweep = read_sweep_text(page.substr(begin, page.find("```", begin) - begin), "docs");
   EXPECT_EQ(sweep.methods.at(1).set.at(0), "navigator.horizon_s=0");

@@ -188,8 +188,8 @@ TEST(Background, IsWhatStandsStill) {
             "background: the pictures differ in size");
 }
 
-/// The picture of docs/vision.md: a swarm, discs and a polygon between walls. It is written to the
-/// folder MICROSWARM_PICTURES, with the frame and what stands still in it.
+/// The picture of docs/explanation/vision.md: a swarm, discs and a polygon between walls. It is
+/// written to the folder MICROSWARM_PICTURES, with the frame and what stands still in it.
 TEST(SceneFinder, TheSceneOfTheDocsIsSeen) {
   Rng rng(15, Purpose::test);
   Channels scene;

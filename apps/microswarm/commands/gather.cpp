@@ -80,7 +80,7 @@ int gather_command(const GatherOptions& o, const Context& context) {
   if (const std::string why = world.at(0).blocked_reason(*scene.scenario.goal, 0); !why.empty())
     throw InputError(fmt::format("{}: goal {}", o.map, why));
   fit(scene.scenario, width_of(o, *world.map), o.max_steps);
-  set_values(scene.scenario, o.settings);
+  note_each(set_values(scene.scenario, o.settings));
   KeyLocations(o.map).require_none(validate(scene.scenario, world));
   const OutFolder hold(o.out);
   Session session(Experiment{std::move(scene), world, o.map});

@@ -111,7 +111,7 @@ GlobalRrtParams parameters_of(const GlobalOptions& o, const GlobalTree& tree) {
   grown.contact = tree.contact;
   grown.separation = tree.separation;
   choice.planner = grown;
-  set_values(choice, o.settings);
+  note_each(set_values(choice, o.settings));
   const auto* set = std::get_if<GlobalRrtParams>(&choice.planner);
   const auto differs = [&](const char* key, const auto& was, const auto& is) {
     if (was != is)
@@ -226,7 +226,7 @@ Found found_plan(const GlobalOptions& o, const LoadedMap& map, std::span<const V
     to_be_kept.stop_at_first = false;
     choice.planner = to_be_kept;
   }
-  set_values(choice, o.settings);
+  note_each(set_values(choice, o.settings));
   play = play_of(choice.planner);
   const std::vector<Vec2> starts = places(o.robots);
   check_ends(o, *map.map, starts, goals, play);

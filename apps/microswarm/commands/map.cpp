@@ -126,7 +126,7 @@ std::optional<Mask> read_truth(const std::string& file, const Image& photo) {
 
 int segment(const SegmentOptions& o) {
   VesselParams params;
-  set_values(params, o.settings);
+  note_each(set_values(params, o.settings));
   const Image photo = read_photograph(o.photo);
   if (!o.um_per_px) throw InputError(o.photo + ": µm per px is missing: give --um-per-px");
   const std::optional<Mask> truth = read_truth(o.truth, photo);

@@ -111,7 +111,7 @@ void check_planner(const PlannerParams& planner, const Settings& settings) {
 int plan_command(const PlanOptions& o, const Context& context) {
   keep_input(o.picture, o.map);
   PathChoice choice;
-  set_values(choice, o.settings);
+  note_each(set_values(choice, o.settings));
   check_planner(choice.planner, o.settings);
   const std::vector<double> from = numbers(o.start);
   const std::vector<double> to = numbers(o.goal);

@@ -87,6 +87,7 @@ std::unique_ptr<Session> open_on_rig(const RunOptions& o) {
   if (o.rig.empty()) return nullptr;
   const RigExperiment on =
       open_rig_experiment(o.scenario, o.settings, o.rig, o.rig_settings, o.seed);
+  note_each(on.experiment.keys.notes());
   note_field(on.rig, on.scenario());
   return rig_session(on);
 }
@@ -94,7 +95,10 @@ std::unique_ptr<Session> open_on_rig(const RunOptions& o) {
 int run_command(const RunOptions& o, const Context& context) {
   std::unique_ptr<Session> session = open_on_rig(o);
   std::optional<Experiment> experiment;
-  if (!session) experiment = open_experiment(o.scenario, o.settings, o.seed);
+  if (!session) {
+    experiment = open_experiment(o.scenario, o.settings, o.seed);
+    note_each(experiment->keys.notes());
+  }
   const ReportOptions report = report_options(o.photo);
   const OutFolder hold(o.out);
   if (o.trials > 1) return many_runs(o, experiment->scene, experiment->world, context.stop);
@@ -118,7 +122,7 @@ void add_run(Command app, Action& action) {
       .type_name("FOLDER");
   add_settings(cmd, o->settings, "Change a value of the scenario (again and again)");
   cmd.add_option("--rig", o->rig,
-                 "Rig file (YAML): rehearse it with simulated camera, coils and field")
+                 "Rig file (YAML): run through its simulated camera, coils and field")
       .type_name("FILE");
   cmd.add_option("--set-rig", o->rig_settings, "Change a value of the rig (again and again)")
       .type_name("KEY=VALUE")

@@ -165,6 +165,7 @@ int sweep_command(SweepOptions o, const Context& context) {
   SweepHelpers helpers(ranks);
   const std::filesystem::path file = o.sweep;
   const SweepPlan plan = load_sweep(file, o.jobs);
+  note_each(plan.notes);
   check(plan, o.jobs);
   if (o.out.empty()) o.out = file.stem().string() + ".db";
   keep_input(o.out, o.sweep);
@@ -194,7 +195,7 @@ void add_sweep(Command app, Action& action) {
       "Run a scenario for every combination of parameters and methods, many trials each, into a "
       "database",
       "sweep scenarios/sweeps/first_flight.yaml --out out/first_flight.db");
-  cmd.add_option("sweep", o->sweep, "Sweep file (YAML); docs/sweeps.md tells its keys")
+  cmd.add_option("sweep", o->sweep, "Sweep file (YAML); docs/how-to/sweep.md tells its keys")
       .required()
       .type_name("FILE");
   cmd.add_option("--out", o->out,

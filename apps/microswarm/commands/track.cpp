@@ -27,8 +27,13 @@ struct TrackOptions {
 
 TrackSettings settings_of(const TrackOptions& o) {
   TrackSettings settings;
-  if (!o.config.empty()) settings = read_yaml_file<TrackSettings>(o.config);
-  set_values(settings, o.settings);
+  if (o.config.empty()) {
+    note_each(set_values(settings, o.settings));
+  } else {
+    KeyLocations keys;
+    settings = read_yaml_file<TrackSettings>(o.config, o.settings, keys);
+    note_each(keys.notes());
+  }
   if (o.um_per_px) settings.um_per_px = o.um_per_px;
   if (o.rate) settings.rate = o.rate;
   if (!settings.um_per_px) throw InputError(o.video + ": µm per px is missing: give --um-per-px");

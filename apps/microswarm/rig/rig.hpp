@@ -28,8 +28,8 @@ void add_rig_map(Command rig, Action& action);
 void add_rig_scale(Command rig, Action& action);
 /// The part `rig check` of `rig`.
 void add_rig_check(Command rig, Action& action);
-/// The part `rig simulate_rig` of `rig`.
-void add_rig_rehearse(Command rig, Action& action);
+/// The part `rig simulate` of `rig`.
+void add_rig_simulate(Command rig, Action& action);
 /// The part `rig run` of `rig`.
 void add_rig_run(Command rig, Action& action);
 /// The part `rig see` of `rig`.

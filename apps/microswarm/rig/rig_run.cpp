@@ -128,6 +128,7 @@ struct RigRunOptions {
 
 int rig_run(const RigRunOptions& o, const Context& context) {
   const RigExperiment on = open_rig_experiment(o.scenario, o.settings, o.rig, o.rig_settings);
+  note_each(on.experiment.keys.notes());
   note_field(on.rig, on.scenario());
   const OutFolder hold(o.out);
   set_picture_threads(1);

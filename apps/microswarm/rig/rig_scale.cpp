@@ -36,7 +36,7 @@ struct ScalePiece {
   CameraScale scale;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.scale, {"scale", Unit::none, {}, "Where the camera sees the world."});
+    visit(self.scale, {"scale", Unit::none, {}, "Position and scale of the camera in the world."});
   }
 };
 

@@ -26,9 +26,9 @@ struct SeeSettings {
   WallParams walls;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.camera, {"camera", Unit::none, {}, "The camera, when a picture is taken."});
-    visit(self.scene, {"scene", Unit::none, {}, "How swarm and obstacles are found."});
-    visit(self.walls, {"walls", Unit::none, {}, "How walls are found in the still picture."});
+    visit(self.camera, {"camera", Unit::none, {}, "Camera from which a picture is taken."});
+    visit(self.scene, {"scene", Unit::none, {}, "Detection of the swarm and the obstacles."});
+    visit(self.walls, {"walls", Unit::none, {}, "Detection of walls in the still picture."});
   }
 };
 
@@ -69,7 +69,7 @@ Json json_of(const Blob& b) {
           {"semi_axes_px", {b.semi_major_px, b.semi_minor_px}},
           {"angle_rad", b.angle},
           {"contrast", b.contrast},
-          {"grain", b.grain},
+          {"grain", b.texture},
           {"is_cut", b.is_cut}};
 }
 
@@ -78,7 +78,7 @@ std::string text_of(const Blob& b) {
       "({:.2f}, {:.2f}) px, radius {:.2f} px, axes {:.1f} and {:.1f} px, contrast "
       "{:.0f}, grain {:.1f}{}",
       b.centre_px.x, b.centre_px.y, b.radius_px, b.semi_major_px, b.semi_minor_px, b.contrast,
-      b.grain, b.is_cut ? ", cut" : "");
+      b.texture, b.is_cut ? ", cut" : "");
 }
 
 /// Those of the rig, or of the settings' file, then of `--set`.
@@ -90,8 +90,13 @@ SeeSettings settings_of(const SeeOptions& o) {
     if (const auto* camera = std::get_if<CameraParams>(&rig.params.camera))
       settings.camera = *camera;
   }
-  if (!o.config.empty()) settings = read_yaml_file<SeeSettings>(o.config);
-  set_values(settings, o.settings);
+  if (o.config.empty()) {
+    note_each(set_values(settings, o.settings));
+    return settings;
+  }
+  KeyLocations keys;
+  settings = read_yaml_file<SeeSettings>(o.config, o.settings, keys);
+  note_each(keys.notes());
   return settings;
 }
 

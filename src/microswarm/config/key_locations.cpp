@@ -120,12 +120,14 @@ InputError KeyLocations::error(std::string_view key, const std::string& what) co
   return InputError(line({{std::string(key)}, what}));
 }
 
-KeyLocations locations_of(YamlNode document, const std::string& name, Settings assignments) {
+KeyLocations locations_of(YamlNode document, const std::string& name, Settings assignments,
+                          Notes notes) {
   std::reverse(assignments.texts.begin(), assignments.texts.end());
   const auto found =
       std::make_shared<const Document>(Document{std::move(document), name, std::move(assignments)});
   return {name,
-          [found](std::string_view key, KeyLocations::Seek seek) { return (*found)(key, seek); }};
+          [found](std::string_view key, KeyLocations::Seek seek) { return (*found)(key, seek); },
+          std::move(notes)};
 }
 
 }  // namespace microswarm

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "microswarm/config/former_keys.hpp"
 #include "microswarm/config/settings.hpp"
 #include "microswarm/config/yaml_node.hpp"
 #include "microswarm/core/error.hpp"
@@ -31,6 +32,14 @@ class KeyLocations {
   KeyLocations(std::string name) : name_(std::move(name)) {}  // NOLINT(google-explicit-constructor)
   KeyLocations(const char* name) : name_(name) {}             // NOLINT(google-explicit-constructor)
 
+  /// The same with notes on the former keys that were read.
+  KeyLocations(std::string name, Find find, Notes notes)
+      : name_(std::move(name)), find_(std::move(find)), notes_(std::move(notes)) {}
+
+  /// One line for each former key that was read.
+  const Notes& notes() const { return notes_; }
+  void add_notes(const Notes& notes) { notes_.insert(notes_.end(), notes.begin(), notes.end()); }
+
   /// Whether a key is written there, not only by way of what it stands in.
   bool given(std::string_view key) const;
   /// The same as a function, which keeps what it needs.
@@ -47,11 +56,13 @@ class KeyLocations {
  private:
   std::string name_;
   Find find_;
+  Notes notes_;
 };
 
 /// Where the keys of a document stand: "NAME:LINE:COLUMN" of their values. A key that one of the
 /// assignments has set, in whole or in part, or whose alternative it has chosen, stands
 /// there: "--set KEY".
-KeyLocations locations_of(YamlNode document, const std::string& name, Settings assignments);
+KeyLocations locations_of(YamlNode document, const std::string& name, Settings assignments,
+                          Notes notes = {});
 
 }  // namespace microswarm

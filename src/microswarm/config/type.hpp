@@ -73,6 +73,12 @@ struct Type {
       if (f.key == key) return &f;
     return nullptr;
   }
+  /// The record's field that had that key in earlier versions, or null.
+  const Field* former_field(std::string_view key) const {
+    for (const Field& f : fields)
+      if (!key.empty() && f.info.former_key == key) return &f;
+    return nullptr;
+  }
 };
 
 /// The description of T, made once. T may not contain itself.

@@ -73,6 +73,11 @@ const Field* nearest_field(const Type& record, std::string_view key) {
   for (const Field& field : record.fields) keys.push_back(field.key);
   if (const std::string_view near = nearest_word(key, keys); !near.empty())
     return record.field(near);
+  keys.clear();
+  for (const Field& field : record.fields)
+    if (!field.info.former_key.empty()) keys.push_back(field.info.former_key);
+  if (const std::string_view near = nearest_word(key, keys); !near.empty())
+    return record.former_field(near);
   for (const Field& field : record.fields) {  // the right name without its unit, or with another
     const bool starts = key.starts_with(field.info.name);
     if (starts && (key.size() == field.info.name.size() || key[field.info.name.size()] == '_'))

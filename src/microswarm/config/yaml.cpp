@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <optional>
 
 #include "microswarm/config/value_reader.hpp"
 #include "microswarm/core/error.hpp"
@@ -73,44 +72,6 @@ bool holds_text(const Type& type) {
          (type.kind == TypeKind::optional && holds_text(*type.parts[0]));
 }
 
-/// The value of a map's key, as an index into its items; none where it has no such key.
-std::optional<std::size_t> value_of(const YamlNode& map, std::string_view key) {
-  if (map.kind != YamlNode::Kind::map) return std::nullopt;
-  for (std::size_t i = 0; i < map.items.size(); i += 2)
-    if (map.items[i].text == key) return i + 1;
-  return std::nullopt;
-}
-
-/// Takes a key of a part of the document to another part, with its line. Where it is given there
-/// too it stays, and is an unknown key.
-void move_key(YamlNode& document, const MovedKey& moved) {
-  const std::size_t from = moved.from.find('.'), to = moved.to.find('.');
-  const auto source = value_of(document, moved.from.substr(0, from));
-  if (!source) return;
-  const auto value = value_of(document.items[*source], moved.from.substr(from + 1));
-  if (!value) return;
-  auto target = value_of(document, moved.to.substr(0, to));
-  if (target && value_of(document.items[*target], moved.to.substr(to + 1))) return;
-  if (!target) {
-    YamlNode part = document.items[*source];
-    part.items.clear();
-    part.kind = YamlNode::Kind::map;
-    YamlNode word = word_node(moved.to.substr(0, to));
-    document.items.push_back(std::move(word));
-    document.items.push_back(std::move(part));
-    target = document.items.size() - 1;
-  }
-  std::vector<YamlNode>& here = document.items[*source].items;
-  const auto at = here.begin() + static_cast<std::ptrdiff_t>(*value) - 1;
-  YamlNode key = at[0], what = at[1];
-  here.erase(at, at + 2);
-  key.text = moved.to.substr(to + 1);
-  YamlNode& there = document.items[*target];
-  there.kind = YamlNode::Kind::map;
-  there.items.push_back(std::move(key));
-  there.items.push_back(std::move(what));
-}
-
 YamlNode value_node(const Type& type, std::string_view text, std::string_view name) {
   const bool none = type.kind == TypeKind::optional && text == "null";
   if (!holds_text(type) || none) return parse_yaml(text, name);
@@ -120,18 +81,11 @@ YamlNode value_node(const Type& type, std::string_view text, std::string_view na
 
 }  // namespace
 
-std::string current_key(std::string_view assignment, std::span<const MovedKey> moved) {
-  const std::string_view key = assignment.substr(0, assignment.find('='));
-  for (const MovedKey& one : moved)
-    if (key == one.from) return std::string(one.to) + std::string(assignment.substr(key.size()));
-  return std::string(assignment);
-}
-
 YamlNode read_yaml(const Type& type, void* value, std::string_view text, std::string_view name,
-                   Mistakes& mistakes, std::span<const MovedKey> moved) {
+                   Mistakes& mistakes, Notes& notes, std::span<const MovedKey> moved) {
   YamlNode node = parse_yaml(text, name);
   if (node.line == 0) node.line = node.column = 1;  // an empty document
-  for (const MovedKey& one : moved) move_key(node, one);
+  use_present_keys(type, node, name, moved, notes);
   ValueReader reader(name, true);
   reader.read(type, {}, "", value, node);
   mistakes = reader.mistakes();
@@ -141,7 +95,8 @@ YamlNode read_yaml(const Type& type, void* value, std::string_view text, std::st
 YamlNode read_yaml(const Type& type, void* value, std::string_view text, std::string_view name,
                    std::span<const MovedKey> moved) {
   Mistakes mistakes;
-  YamlNode node = read_yaml(type, value, text, name, mistakes, moved);
+  Notes notes;
+  YamlNode node = read_yaml(type, value, text, name, mistakes, notes, moved);
   mistakes.require_none();
   return node;
 }

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "microswarm/config/former_keys.hpp"
 #include "microswarm/config/key_locations.hpp"
 #include "microswarm/config/settings.hpp"
 #include "microswarm/config/type.hpp"
@@ -20,11 +21,11 @@ namespace microswarm {
 inline constexpr std::size_t max_yaml_bytes = 16 << 20;
 
 /// Reads the YAML text into the value, which keeps what the text does not give, and returns the
-/// document. Throws InputError for text that is no YAML; what is wrong with keys and values goes
-/// into `mistakes`, or, without them, is thrown with a line for each. What is wrong keeps what it
-/// had, or is half read.
+/// document with its present keys. Throws InputError for text that is no YAML; what is wrong with
+/// keys and values goes into `mistakes`, or, without them, is thrown with a line for each. What is
+/// wrong keeps what it had, or is half read.
 YamlNode read_yaml(const Type& type, void* value, std::string_view text, std::string_view name,
-                   Mistakes& mistakes, std::span<const MovedKey> moved = {});
+                   Mistakes& mistakes, Notes& notes, std::span<const MovedKey> moved = {});
 YamlNode read_yaml(const Type& type, void* value, std::string_view text, std::string_view name,
                    std::span<const MovedKey> moved = {});
 
@@ -37,10 +38,7 @@ constexpr std::span<const MovedKey> moved_keys_of() {
     return {};
 }
 
-/// An assignment "KEY=VALUE" with the key that it has by now.
-std::string current_key(std::string_view assignment, std::span<const MovedKey> moved);
-
-/// What `set_value` does, on a described value.
+/// Type-erased implementation of `set_value<T>`, for present keys.
 void set_value(const Type& type, void* value, std::string_view assignment, std::string_view option);
 
 /// A parameter struct from YAML text; `name` stands for the file in messages. Strict: an unknown or
@@ -63,45 +61,57 @@ T read_yaml_file(const std::filesystem::path& path) {
 /// list's entries by index, then a value as it would stand in a file (a text may go without
 /// quotes). Another `type` of a variant brings that alternative with its defaults; its other keys
 /// need the alternative to be there already. Errors are as in a file, behind "--set
-/// planner.stpe_um: "; then `value` is as it was before.
+/// planner.stpe_um: "; then `value` is as it was before. Returns the assignment with its present
+/// key.
 template <HasFields T>
-void set_value(T& value, std::string_view assignment, std::string_view option = "--set") {
+std::string set_value(T& value, std::string_view assignment, std::string_view option = "--set") {
   T changed = value;
-  set_value(type_of<T>(), &changed, current_key(assignment, moved_keys_of<T>()), option);
+  std::string present = with_present_key(type_of<T>(), &changed, assignment, moved_keys_of<T>());
+  set_value(type_of<T>(), &changed, present, option);
   value = std::move(changed);
+  return present;
 }
 
 /// Throws InputError when one of several assignments chooses a variant's `type` after another has
 /// set a part of it, which would be lost.
 void check_types_first(const Settings& assignments);
 
-/// Applies several assignments in their order, after check_types_first.
+/// Applies several assignments in their order, after check_types_first. Returns notes on former
+/// keys.
 template <HasFields T>
-void set_values(T& value, const Settings& assignments) {
+Notes set_values(T& value, const Settings& assignments) {
+  Notes notes;
   check_types_first(assignments);
-  for (const std::string& text : assignments.texts) set_value(value, text, assignments.option);
+  for (const std::string& text : assignments.texts) {
+    const std::string present = set_value(value, text, assignments.option);
+    if (present != text) notes.push_back(renaming_note(assignments.option, text, present));
+  }
+  return notes;
 }
 
 /// A parameter struct from a YAML file with assignments applied after it. What is wrong with keys
-/// and values goes into `mistakes`; `locations` then tells where each key stands.
+/// and values goes into `mistakes`; `locations` then tells where each key stands, and which former
+/// keys were read.
 template <HasFields T>
 T read_yaml_file(const std::filesystem::path& path, const Settings& assignments,
                  KeyLocations& locations, Mistakes& mistakes) {
   T value{};
   const std::string name = path.string();
+  Notes notes;
   YamlNode document = read_yaml(type_of<T>(), &value, read_file(path, max_yaml_bytes), name,
-                                mistakes, moved_keys_of<T>());
+                                mistakes, notes, moved_keys_of<T>());
   check_types_first(assignments);
-  for (const std::string& text : assignments.texts) {
+  Settings present = assignments;
+  for (std::string& text : present.texts) {
     try {
-      set_value(value, text, assignments.option);
+      std::string applied = set_value(value, text, assignments.option);
+      if (applied != text) notes.push_back(renaming_note(assignments.option, text, applied));
+      text = std::move(applied);
     } catch (const InputError& error) {
       mistakes.add(text.substr(0, text.find_first_of(".=")), error.what());
     }
   }
-  Settings current = assignments;
-  for (std::string& text : current.texts) text = current_key(text, moved_keys_of<T>());
-  locations = locations_of(std::move(document), name, std::move(current));
+  locations = locations_of(std::move(document), name, std::move(present), std::move(notes));
   return value;
 }
 

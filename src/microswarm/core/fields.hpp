@@ -26,7 +26,8 @@ struct FieldInfo {
   Unit unit = Unit::none;
   Range range{};
   std::string_view doc;
-  bool required = false;  ///< must be given: there is no sensible default
+  bool required = false;          ///< must be given: there is no sensible default
+  std::string_view former_key{};  ///< key in earlier versions, which is still read
 };
 
 /// Key of a field: its name with the unit's suffix.

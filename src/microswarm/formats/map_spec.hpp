@@ -31,15 +31,13 @@ struct ImageMap {
   double simplify = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.file, {"file", Unit::none, {}, "PNG, JPEG, BMP, PGM or PPM picture.", true});
-    visit(self.um_per_px, {"um_per_px",
-                           Unit::none,
-                           {1e-6, 1e6},
-                           "Side of a pixel in µm: the picture's scale.",
-                           true});
+    visit(self.file, {"file", Unit::none, {}, "PNG, JPEG, BMP, PGM or PPM image.", true});
+    visit(
+        self.um_per_px,
+        {"um_per_px", Unit::none, {1e-6, 1e6}, "Scale of the image: side of a pixel in µm.", true});
     visit(self.threshold,
-          {"threshold", Unit::none, {0, 255}, "Grey from which on a pixel counts as bright."});
-    visit(self.free, {"free", Unit::none, {}, "Which pixels are free: bright or dark."});
+          {"threshold", Unit::none, {0, 255}, "Grey value from which a pixel is bright."});
+    visit(self.free, {"free", Unit::none, {}, "Free pixels: bright or dark."});
     visit(self.simplify, {"simplify", Unit::um, {0, 1e6}, "Tolerance of the outlines; 0: exact."});
   }
 };
@@ -53,11 +51,10 @@ struct RosMap {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.file, {"file", Unit::none, {}, "YAML file with the key `image`.", true});
-    visit(
-        self.um_per_m,
-        {"um_per_m", Unit::none, {1e-3, 1e9}, "µm that a metre of the file becomes; 1e6: as is."});
+    visit(self.um_per_m,
+          {"um_per_m", Unit::none, {1e-3, 1e9}, "µm for a metre of the file; 1e6: true to scale."});
     visit(self.unknown_free,
-          {"unknown_free", Unit::none, {}, "Unknown cells are free, not walls."});
+          {"unknown_free", Unit::none, {}, "Treat unknown cells as free, not as walls."});
   }
 };
 
@@ -81,8 +78,7 @@ struct GeoJsonMap {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.file, {"file", Unit::none, {}, "GeoJSON file in plane coordinates.", true});
-    visit(self.um_per_unit,
-          {"um_per_unit", Unit::none, {1e-9, 1e9}, "µm that a unit of the file becomes."});
+    visit(self.um_per_unit, {"um_per_unit", Unit::none, {1e-9, 1e9}, "µm for a unit of the file."});
   }
 };
 
@@ -95,8 +91,8 @@ struct RectanglesMap {
   std::string file;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.lo, {"lo", Unit::um, {}, "Lower left corner of the map; missing: of the walls."});
-    visit(self.hi, {"hi", Unit::um, {}, "Upper right corner of the map; missing: of the walls."});
+    visit(self.lo, {"lo", Unit::um, {}, "Lower left corner of the map; none: of the walls."});
+    visit(self.hi, {"hi", Unit::um, {}, "Upper right corner of the map; none: of the walls."});
     visit(self.rectangles,
           {"rectangles", Unit::um, {}, "Walls: lower left x, y, width, height of each."});
     visit(self.file, {"file", Unit::none, {}, "CSV of more walls: x,y,width,height in µm."});
@@ -109,8 +105,8 @@ struct DiscWall {
   double radius = 1;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.centre, {"centre", Unit::um, {}, "Its centre.", true});
-    visit(self.radius, {"radius", Unit::um, {1e-3, 1e6}, "Its radius.", true});
+    visit(self.centre, {"centre", Unit::um, {}, "Centre of the disc.", true});
+    visit(self.radius, {"radius", Unit::um, {1e-3, 1e6}, "Radius of the disc.", true});
   }
 };
 
@@ -144,10 +140,11 @@ struct ChannelMap {
     visit(self.width, {"width", Unit::um, {1, 1e6}, "Width of the map.", true});
     visit(self.height, {"height", Unit::um, {1, 1e6}, "Height of the map.", true});
     visit(self.centre_line,
-          {"centre_line", Unit::um, {}, "Middle of the channel; smoothed.", true});
-    visit(self.half_width, {"half_width", Unit::um, {1, 1e6}, "Half width of the channel."});
-    visit(self.end_half_width, {"end_half_width", Unit::um, {1, 1e6}, "Half width at the ends."});
-    visit(self.end_length, {"end_length", Unit::um, {0, 1e6}, "Over which an end widens."});
+          {"centre_line", Unit::um, {}, "Centre line of the channel; smoothed.", true});
+    visit(self.half_width, {"half_width", Unit::um, {1, 1e6}, "Half of the channel's width."});
+    visit(self.end_half_width,
+          {"end_half_width", Unit::um, {1, 1e6}, "Half of the width at the ends."});
+    visit(self.end_length, {"end_length", Unit::um, {0, 1e6}, "Length over which an end widens."});
   }
 };
 

@@ -33,6 +33,20 @@ double signed_area(std::span<const Vec2> ring) {
   return 0.5 * twice;
 }
 
+Vec2 centroid(std::span<const Vec2> ring) {
+  const Vec2 origin = ring.front();
+  Vec2 sum;
+  double twice_area = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vec2 a = ring[i] - origin;
+    const Vec2 b = ring[(i + 1) % ring.size()] - origin;
+    sum += cross(a, b) * (a + b);
+    twice_area += cross(a, b);
+  }
+  if (twice_area == 0) return bounding_box(ring).centre();
+  return origin + sum / (3 * twice_area);
+}
+
 double area(const Polygon& polygon) {
   double sum = std::abs(signed_area(polygon.outer));
   for (const auto& hole : polygon.holes) sum -= std::abs(signed_area(hole));

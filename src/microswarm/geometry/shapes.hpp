@@ -58,6 +58,8 @@ inline Box bounding_box(const Disc& disc) {
 }
 /// Signed area of a ring [µm²], positive when counter-clockwise.
 double signed_area(std::span<const Vec2> ring);
+/// Centroid of the area within a ring; the middle of its box where it encloses none.
+Vec2 centroid(std::span<const Vec2> ring);
 /// Area of the polygon less its holes [µm²].
 double area(const Polygon& polygon);
 /// The polygon with its rings turned the way `Polygon` asks for, repeated and last = first vertices

@@ -26,26 +26,52 @@ struct FollowerTaskParams {
   double start_spread = 0.15;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.min_speed, {"least_speed", Unit::um_per_s, {1, 1e4}, "Slowest speed asked for."});
-    visit(self.max_speed, {"most_speed", Unit::um_per_s, {1, 1e4}, "Fastest."});
-    visit(self.min_turn_rate,
-          {"least_turn_rate", Unit::deg_per_s, {1, 3600}, "Least turning limit of the swarm."});
-    visit(self.max_turn_rate, {"most_turn_rate", Unit::deg_per_s, {1, 3600}, "Greatest."});
-    visit(self.unlimited_share, {"unlimited_share",
-                                 Unit::none,
-                                 {0, 1},
-                                 "Share of tasks whose swarm turns at 36000 °/s: at once."});
-    visit(self.max_flow, {"most_flow", Unit::none, {0, 0.8}, "Fastest flow, of the speed."});
-    visit(self.speed_error, {"speed_error", Unit::none, {0, 0.9}, "Speed is off by so much."});
+    visit(self.min_speed, {"min_speed",
+                           Unit::um_per_s,
+                           {1, 1e4},
+                           "Minimum commanded speed.",
+                           false,
+                           "least_speed_um_per_s"});
+    visit(self.max_speed, {"max_speed",
+                           Unit::um_per_s,
+                           {1, 1e4},
+                           "Maximum commanded speed.",
+                           false,
+                           "most_speed_um_per_s"});
+    visit(self.min_turn_rate, {"min_turn_rate",
+                               Unit::deg_per_s,
+                               {1, 3600},
+                               "Minimum turning limit of the swarm.",
+                               false,
+                               "least_turn_rate_deg_per_s"});
+    visit(self.max_turn_rate, {"max_turn_rate",
+                               Unit::deg_per_s,
+                               {1, 3600},
+                               "Maximum turning limit of the swarm.",
+                               false,
+                               "most_turn_rate_deg_per_s"});
+    visit(
+        self.unlimited_share,
+        {"unlimited_share", Unit::none, {0, 1}, "Share of tasks whose swarm turns at 36000 °/s."});
+    visit(self.max_flow, {"max_flow",
+                          Unit::none,
+                          {0, 0.8},
+                          "Maximum flow, as a share of the speed.",
+                          false,
+                          "most_flow"});
+    visit(self.speed_error, {"speed_error", Unit::none, {0, 0.9}, "Relative error of the speed."});
     visit(self.position_noise,
-          {"position_noise", Unit::um, {0, 1e3}, "Most noise of the seen position (sd)."});
+          {"position_noise", Unit::um, {0, 1e3}, "Maximum noise of the observed position (sd)."});
     visit(self.heading_noise,
-          {"heading_noise", Unit::deg, {0, 90}, "Most noise of the seen heading (sd)."});
+          {"heading_noise", Unit::deg, {0, 90}, "Maximum noise of the observed heading (sd)."});
     visit(self.random_drift,
-          {"random_drift", Unit::um, {0, 1e3}, "Most random drift (sd after 1 s)."});
-    visit(self.missed_share, {"missed_share", Unit::none, {0, 1}, "Frames without a swarm."});
-    visit(self.start_spread,
-          {"start_spread", Unit::none, {0, 10}, "Start beside the path (sd), in seconds of way."});
+          {"random_drift", Unit::um, {0, 1e3}, "Maximum random drift (sd after 1 s)."});
+    visit(self.missed_share,
+          {"missed_share", Unit::none, {0, 1}, "Share of frames without a swarm."});
+    visit(self.start_spread, {"start_spread",
+                              Unit::none,
+                              {0, 10},
+                              "Distance of the start from the path (sd), in seconds."});
   }
 };
 

@@ -8,9 +8,9 @@ namespace {
 
 constexpr double range_of_others = 50;  // [µm]; see detection_range_of
 
-double margin(const HierarchicalParams& p) { return p.margin; }
-template <class OfRobots>
-double margin(const OfRobots&) {
+double clearance(const HierarchicalParams& p) { return p.clearance; }
+template <class Others>
+double clearance(const Others&) {
   return 0;
 }
 
@@ -25,8 +25,8 @@ NavigatorParams in_effect(const NavigatorParams& params) {
       params);
 }
 
-double margin_of(const NavigatorParams& params) {
-  return std::visit([](const auto& p) { return margin(p); }, params);
+double required_clearance(const NavigatorParams& params) {
+  return std::visit([](const auto& p) { return clearance(p); }, params);
 }
 
 double detection_range_of(const NavigatorParams& params) {

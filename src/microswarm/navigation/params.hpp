@@ -25,7 +25,7 @@ using NavigatorParams = std::variant<HierarchicalParams, PlanExecutorParams, Agg
 NavigatorParams in_effect(const NavigatorParams& params);
 
 /// Least distance [µm] from its centre that the navigator keeps for a swarm seen as one body.
-double margin_of(const NavigatorParams& params);
+double required_clearance(const NavigatorParams& params);
 
 /// How near [µm] to the swarm's edge an obstacle is when it begins to be avoided, for metrics: the
 /// detection range d_r of the radar, and 50 µm of those that have none.

@@ -66,7 +66,7 @@ Plot clearances(const Record& record) {
     bodies.x.push_back(f.t);
     bodies.y.push_back(f.obstacle_clearance);
   }
-  const double margin = margin_of(scenario.navigator);
+  const double margin = required_clearance(scenario.navigator);
   const double radius = limits_of(scenario.swarm).radius;
   plot.levels = {{"swarm's radius", radius}};
   if (margin > 0) plot.levels.push_back({"navigator's margin", margin});

@@ -78,9 +78,7 @@ class Referee {
     std::vector<Body> bodies;
     append_bodies(obstacle, 0, t, bodies);
     double least = std::numeric_limits<double>::infinity();
-    for (const Body& body : bodies)
-      least = std::min(
-          least, std::visit([p](const auto& shape) { return distance(p, shape); }, body.shape));
+    for (const Body& body : bodies) least = std::min(least, distance(p, body));
     return least;
   }
 

@@ -40,8 +40,10 @@ Session::Running::Running(Experiment experiment, std::uint32_t trial, std::uniqu
 
 Session::Session(Experiment experiment, std::uint32_t trial, std::unique_ptr<Plant> plant,
                  std::unique_ptr<Navigator> navigator, const std::string& rig)
-    : source_(std::make_unique<Running>(std::move(experiment), trial, std::move(plant),
-                                        std::move(navigator), rig)) {}
+    : notes_(experiment.keys.notes()) {
+  source_ = std::make_unique<Running>(std::move(experiment), trial, std::move(plant),
+                                      std::move(navigator), rig);
+}
 
 Session::Session(Record record) : source_(Playback(std::move(record))) {}
 

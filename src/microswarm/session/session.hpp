@@ -61,6 +61,9 @@ class Session {
   /// Goes to a frame of a record. False for what is no record.
   bool seek(std::size_t frame);
 
+  /// One line for each former key that was read in the files and settings.
+  const Notes& notes() const { return notes_; }
+
   bool is_playback() const { return std::holds_alternative<Playback>(source_); }
   /// As it is by now.
   const Scenario& scenario() const;
@@ -87,6 +90,7 @@ class Session {
   };
 
   std::variant<std::unique_ptr<Running>, Playback> source_;
+  Notes notes_;
   std::vector<RunListener*> listeners_;
   const Tick* tick_ = nullptr;  ///< the newest
   std::uint64_t ticks_ = 0;

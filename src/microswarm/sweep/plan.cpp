@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <exception>
 #include <map>
 #include <mutex>
@@ -78,9 +79,9 @@ struct Loader {
   std::filesystem::path folder;
   MapShelf& maps;
 
-  void apply(Scenario& scenario, const std::string& setting, const std::string& what) const {
+  void apply(Scenario& scenario, std::string& setting, const std::string& what) const {
     try {
-      set_value(scenario, setting);
+      setting = set_value(scenario, setting);
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}: {}{}", plan.file, what, error.what()));
     }
@@ -102,21 +103,38 @@ struct Loader {
     }
   }
 
-  Scenario scenario_of(const SweepCell& cell, const SweepMethod& method) const {
+  /// The base with the cell's settings, which get their present keys.
+  Scenario scenario_of(SweepCell& cell, const SweepMethod& method) const {
     Scenario scenario = base;
     check_order(cell, method);
-    for (const std::string& setting : plan.sweep.set) apply(scenario, setting, "");
-    for (const std::string& setting : method.set)
-      apply(scenario, setting, fmt::format("method '{}': ", method.name));
-    for (std::size_t i = 0; i < cell.values.size(); ++i)
-      apply(scenario, fmt::format("{}={}", plan.sweep.grid[i].key, cell.values[i]), "grid: ");
+    const std::size_t common = plan.sweep.set.size(), own = common + method.set.size();
+    const std::string in_method = fmt::format("method '{}': ", method.name);
+    for (std::size_t i = 0; i < cell.settings.size(); ++i)
+      apply(scenario, cell.settings[i], i < common ? "" : i < own ? in_method : "grid: ");
     if (plan.sweep.seed) scenario.seed = *plan.sweep.seed;
     return scenario;
   }
 
+  /// One note for each former key in the sweep's settings.
+  void note_former_keys(Notes& notes) const {
+    for (std::size_t index = 0; index < plan.cells.size(); ++index) {
+      const SweepCell& cell = plan.cells[index];
+      const auto given = settings_of(cell, method_of(index));
+      for (std::size_t i = 0; i < given.size(); ++i) {
+        if (given[i] == cell.settings[i]) continue;
+        std::string note = renaming_note(plan.file + ": setting", given[i], cell.settings[i]);
+        if (std::ranges::find(notes, note) == notes.end()) notes.push_back(std::move(note));
+      }
+    }
+  }
+
+  const SweepMethod& method_of(std::size_t index) const {
+    return plan.sweep.methods[index % plan.sweep.methods.size()];
+  }
+
   SweepCell cell_of(std::size_t index) const {
     SweepCell cell;
-    const SweepMethod& method = plan.sweep.methods[index % plan.sweep.methods.size()];
+    const SweepMethod& method = method_of(index);
     index /= plan.sweep.methods.size();
     cell.method = method.name;
     cell.values.resize(plan.sweep.grid.size());
@@ -150,6 +168,8 @@ SweepPlan load_sweep(const std::filesystem::path& file, int jobs) {
   const Scenario base = read_scenario(scenario_file);
   plan.scenario_document =
       parse_yaml(read_file(scenario_file, max_yaml_bytes), scenario_file.string());
+  use_present_keys(type_of<Scenario>(), plan.scenario_document, scenario_file.string(),
+                   Scenario::moved_keys, plan.notes);
   plan.scenario_text = scenario_text(base);
   MapShelf maps;
   const Loader loader{plan, base, scenario_file.parent_path(), maps};
@@ -158,6 +178,7 @@ SweepPlan load_sweep(const std::filesystem::path& file, int jobs) {
   for_each_in_order(cells.size() - 1, jobs,
                     [&](std::size_t i) { cells[i + 1] = loader.cell_of(i + 1); });
   plan.cells = std::move(cells);
+  loader.note_former_keys(plan.notes);
   return plan;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "microswarm/config/former_keys.hpp"
 #include "microswarm/config/yaml_node.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/sweep/sweep_file.hpp"
@@ -28,6 +29,7 @@ struct SweepPlan {
   std::string file;           ///< as given
   std::string scenario_text;  ///< of the scenario that all cells begin with
   YamlNode scenario_document;
+  Notes notes;  ///< on former keys that were read
   std::vector<SweepCell> cells;
 
   /// Fingerprint of everything that results depend on.

@@ -14,8 +14,8 @@ struct SweepOrigin {
   std::string begun;  ///< "2026-01-31 12:00:00", UTC
 };
 
-/// The database that a sweep writes: one row a trial, layout in docs/sweeps.md. While it is open no
-/// other process can open it so; anybody may read.
+/// The database that a sweep writes: one row a trial, layout in docs/reference/sweep.md. While it
+/// is open no other process can open it so; anybody may read.
 class SweepDatabase {
  public:
   /// Makes the database, or takes it where it was left. Throws InputError, one line: when another

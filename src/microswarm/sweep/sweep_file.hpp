@@ -17,10 +17,8 @@ struct SweepParameter {
   std::vector<std::string> values;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.key,
-          {"key", Unit::none, {}, "Key of the scenario, as navigator.clearance_um.", true});
-    visit(self.values,
-          {"values", Unit::none, {}, "What it is set to; lists and mappings in quotes.", true});
+    visit(self.key, {"key", Unit::none, {}, "Key of the scenario, such as swarm.radius_um.", true});
+    visit(self.values, {"values", Unit::none, {}, "Values; lists and mappings in quotes.", true});
   }
 };
 
@@ -30,8 +28,8 @@ struct SweepMethod {
   std::vector<std::string> set;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.name, {"name", Unit::none, {}, "What the method is called.", true});
-    visit(self.set, {"set", Unit::none, {}, "Settings KEY=VALUE, as of --set."});
+    visit(self.name, {"name", Unit::none, {}, "Name of the method.", true});
+    visit(self.set, {"set", Unit::none, {}, "Settings KEY=VALUE, as for --set."});
   }
 };
 
@@ -47,13 +45,13 @@ struct Sweep {
   std::optional<std::uint64_t> seed;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.name, {"name", Unit::none, {}, "What the sweep is called."});
-    visit(self.description, {"description", Unit::none, {}, "What it is for, for people."});
+    visit(self.name, {"name", Unit::none, {}, "Name of the sweep."});
+    visit(self.description, {"description", Unit::none, {}, "Description of the sweep."});
     visit(self.scenario,
           {"scenario", Unit::none, {}, "Scenario file, from the sweep file's folder.", true});
-    visit(self.set, {"set", Unit::none, {}, "Settings KEY=VALUE of all cells, as of --set."});
-    visit(self.grid, {"grid", Unit::none, {}, "Parameters; every combination is run."});
-    visit(self.methods, {"methods", Unit::none, {}, "What is compared, in every combination."});
+    visit(self.set, {"set", Unit::none, {}, "Settings KEY=VALUE of all cells, as for --set."});
+    visit(self.grid, {"grid", Unit::none, {}, "Parameters whose combinations are run."});
+    visit(self.methods, {"methods", Unit::none, {}, "Methods compared in every combination."});
     visit(self.trials, {"trials", Unit::none, {1, 1e6}, "Trials of each cell: 0 to n - 1.", true});
     visit(self.seed, {"seed", Unit::none, {}, "Seed in place of the scenario's."});
   }

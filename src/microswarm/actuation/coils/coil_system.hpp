@@ -30,7 +30,7 @@ struct HelmholtzCoils {
   static void fields(Self& self, V&& visit) {
     visit(self.centre, {"centre", Unit::um, {-1e8, 1e8}, "Centre of the pairs, [x, y, z]."});
     visit(self.radius,
-          {"radius", Unit::um, {1, 1e8}, "Radius of the pairs x, y and z, their distance too."});
+          {"radius", Unit::um, {1, 1e8}, "Radii of the pairs x, y, z; also their distances."});
     visit(self.turns,
           {"turns", Unit::none, {1e-3, 1e6}, "Turns of each winding of the pairs x, y and z."});
     visit(self.length, {"length", Unit::um, {0, 1e8}, "Length of each winding; 0: thin."});
@@ -117,10 +117,9 @@ struct CoilSystemParams {
   static void fields(Self& self, V&& visit) {
     visit(self.name, {"name", Unit::none, {}, "Name of the system."});
     visit(self.coils, {"coils", Unit::none, {}, "The coils, by kind.", true});
-    visit(self.drives, {"drives",
-                        Unit::none,
-                        {},
-                        "Amplifier and limits: one entry for all coils, or one for each."});
+    visit(
+        self.drives,
+        {"drives", Unit::none, {}, "Amplifier and limits: one entry for all coils, or one each."});
   }
 };
 

@@ -25,7 +25,7 @@ struct WindingParams {
     visit(self.axis, {"axis",
                       Unit::none,
                       {-1e6, 1e6},
-                      "Direction of the field within for a positive current, [x, y, z]."});
+                      "Direction of the field for a positive current, [x, y, z]."});
     visit(self.radius, {"radius", Unit::um, {1, 1e8}, "Radius of the middle turn.", true});
     visit(self.turns, {"turns", Unit::none, {1e-3, 1e6}, "Number of turns."});
     visit(self.length, {"length", Unit::um, {0, 1e8}, "Length along the axis; 0: a thin loop."});

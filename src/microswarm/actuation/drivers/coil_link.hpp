@@ -9,7 +9,7 @@
 
 namespace microswarm {
 
-/// The wire between host and coil driver, version 1: docs/protocol.md.
+/// The wire between host and coil driver, version 1: docs/reference/protocol.md.
 inline constexpr int coil_link_version = 1;
 inline constexpr int coil_link_channels = 6;
 inline constexpr int coil_link_full_scale = 1000;  ///< of an output: per mille

@@ -25,18 +25,20 @@ struct SerialCoilParams {
   double connect_timeout = 5;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.port, {"port", Unit::none, {}, "The serial line to the device."});
+    visit(self.port, {"port", Unit::none, {}, "Serial port of the device."});
     visit(self.full_scale,
-          {"full_scale", Unit::a, {1e-6, 1000}, "Current of a channel that is fully on."});
+          {"full_scale", Unit::a, {1e-6, 1000}, "Current of a channel at full output."});
     visit(self.reply_timeout,
-          {"reply_timeout", Unit::s, {0.001, 1}, "How long an answer is waited for."});
-    visit(self.attempts, {"attempts", Unit::none, {1, 20}, "At telling it the same."});
-    visit(self.connect_timeout,
-          {"connect_timeout", Unit::s, {0.1, 60}, "A Mega restarts when its port is opened."});
+          {"reply_timeout", Unit::s, {0.001, 1}, "Longest wait for an answer."});
+    visit(self.attempts, {"attempts", Unit::none, {1, 20}, "Number of times a message is sent."});
+    visit(self.connect_timeout, {"connect_timeout",
+                                 Unit::s,
+                                 {0.1, 60},
+                                 "Longest wait for the device after its port is opened."});
   }
 };
 
-/// Six coils behind an Arduino Mega 2560 with firmware/coil_driver (docs/protocol.md).
+/// Six coils behind an Arduino Mega 2560 with firmware/coil_driver (docs/reference/protocol.md).
 class SerialCoilDriver final : public CoilDriver {
  public:
   /// Opens the port and greets the device; it is armed when the first currents come. Throws

@@ -24,17 +24,19 @@ struct DriveParams {
   static void fields(Self& self, V&& visit) {
     visit(self.resistance, {"resistance", Unit::ohm, {1e-6, 1e6}, "Resistance of the coil."});
     visit(self.inductance, {"inductance", Unit::mh, {0, 1e6}, "Inductance of the coil."});
-    visit(self.thermal_resistance,
-          {"thermal_resistance", Unit::k_per_w, {0, 1e6}, "Warmer than its surroundings by."});
+    visit(self.thermal_resistance, {"thermal_resistance",
+                                    Unit::k_per_w,
+                                    {0, 1e6},
+                                    "Temperature rise over the surroundings per watt."});
     visit(self.thermal_time,
-          {"thermal_time", Unit::s, {1e-3, 1e7}, "Time constant with which it warms up."});
+          {"thermal_time", Unit::s, {1e-3, 1e7}, "Time constant of the temperature."});
     visit(self.ambient, {"ambient", Unit::degc, {-273, 1e3}, "Temperature around the coil."});
-    visit(self.max_current, {"max_current", Unit::a, {1e-6, 1e6}, "Greatest current."});
-    visit(self.max_voltage, {"max_voltage", Unit::v, {1e-6, 1e6}, "Greatest voltage."});
+    visit(self.max_current, {"max_current", Unit::a, {1e-6, 1e6}, "Maximum current."});
+    visit(self.max_voltage, {"max_voltage", Unit::v, {1e-6, 1e6}, "Maximum voltage."});
     visit(self.max_slew,
-          {"max_slew", Unit::a_per_s, {1e-6, 1e9}, "Fastest change of the current."});
+          {"max_slew", Unit::a_per_s, {1e-6, 1e9}, "Maximum rate of change of the current."});
     visit(self.max_temperature,
-          {"max_temperature", Unit::degc, {-273, 1e4}, "Temperature that is not exceeded."});
+          {"max_temperature", Unit::degc, {-273, 1e4}, "Maximum temperature."});
   }
 };
 

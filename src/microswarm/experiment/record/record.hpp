@@ -65,8 +65,8 @@ class Recorder : public RunListener {
   RobotMoment last_robots_;
 };
 
-/// Writes an HDF5 file, layout in docs/record.md, under a temporary name first. Throws InputError
-/// "FILE: cannot write: REASON" and leaves nothing behind.
+/// Writes an HDF5 file, layout in docs/reference/record.md, under a temporary name first. Throws
+/// InputError "FILE: cannot write: REASON" and leaves nothing behind.
 void write_record(const Record& record, const std::filesystem::path& file);
 
 /// Reads one back. Throws InputError for a file that is none, is damaged or contradicts itself.

@@ -6,7 +6,7 @@
 
 namespace microswarm {
 
-/// The scene of a record: /scenario, /map and /tracks, layout in docs/record.md.
+/// The scene of a record: /scenario, /map and /tracks, layout in docs/reference/record.md.
 void write_scene(Hdf5Writer& out, const Scene& scene);
 
 /// Reads it back to the same bits. Throws InputError for what does not fit together.

@@ -10,7 +10,7 @@
 
 namespace microswarm {
 
-/// How a contact is judged; see docs/avoidance-safety.md.
+/// How a contact is judged; see docs/explanation/safety.md.
 struct JudgeParams {
   double lookback = 3;
   double aftermath = 2;
@@ -18,9 +18,11 @@ struct JudgeParams {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.lookback,
-          {"lookback", Unit::s, {0, 60}, "How long before a contact decisions are."});
-    visit(self.aftermath, {"aftermath", Unit::s, {0, 60}, "How long after it all must stay free."});
-    visit(self.directions, {"directions", Unit::none, {1, 3600}, "Of a retreat, evenly spread."});
+          {"lookback", Unit::s, {0, 60}, "Time before a contact in which decisions are judged."});
+    visit(self.aftermath,
+          {"aftermath", Unit::s, {0, 60}, "Time after the contact that must stay free."});
+    visit(self.directions,
+          {"directions", Unit::none, {1, 3600}, "Number of escape headings, evenly spaced."});
   }
 };
 

@@ -33,10 +33,6 @@ double top_growth_of(std::span<const PoseStamped> way) {
   return growth;
 }
 
-double clearance_of(Vec2 p, const Body& body) {
-  return std::visit([p](const auto& shape) { return distance(p, shape); }, body.shape);
-}
-
 /// The least a distance can have been between two moments when it changes by `reach` at most.
 double min_between(double at_first, double at_last, double reach) {
   const double sum = at_first + at_last;
@@ -94,7 +90,7 @@ ContactMonitor::Sample ContactMonitor::sample(const Way& way, std::uint32_t obst
   const PoseStamped swarm = moment_on(way.poses, t);
   double clearance = infinity;
   for (const Body& body : bodies_)
-    clearance = std::min(clearance, clearance_of(swarm.pose.position, body));
+    clearance = std::min(clearance, distance(swarm.pose.position, body));
   if (clearance < obstacles_.clearance) obstacles_ = {clearance, way.t0 + t};
   const double gap = clearance - swarm.radius;
   min_gap_ = std::min(min_gap_, gap);

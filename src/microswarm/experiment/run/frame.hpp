@@ -41,18 +41,24 @@ struct Frame {
     visit(self.speed, {"speed", Unit::um_per_s, {}, "The swarm's speed at t."});
     visit(self.seen, {"seen", Unit::s, {}, "When the navigator's camera frame was taken."});
     visit(self.observed, {"observed", Unit::none, {}, "The swarm in that camera frame."});
-    visit(self.command.heading, {"command_heading", Unit::rad, {}, "Heading that was commanded."});
-    visit(self.command.speed,
-          {"command_speed", Unit::um_per_s, {}, "Speed that was commanded; 0 is hold."});
-    visit(self.goal_distance,
-          {"goal_distance", Unit::um, {}, "Distance left to the goal; of robots as in metrics."});
-    visit(self.wall_clearance,
-          {"wall_clearance", Unit::um, {}, "From the centre to walls; infinite for robots."});
-    visit(self.obstacle_clearance,
-          {"obstacle_clearance", Unit::um, {}, "From the centre to moving bodies, or infinite."});
+    visit(self.command.heading, {"command_heading", Unit::rad, {}, "Commanded heading."});
+    visit(self.command.speed, {"command_speed", Unit::um_per_s, {}, "Commanded speed; 0 is hold."});
+    visit(self.goal_distance, {"goal_distance",
+                               Unit::um,
+                               {},
+                               "Remaining distance to the goal; of robots as in metrics."});
+    visit(self.wall_clearance, {"wall_clearance",
+                                Unit::um,
+                                {},
+                                "Distance from the centre to walls; infinite for robots."});
+    visit(self.obstacle_clearance, {"obstacle_clearance",
+                                    Unit::um,
+                                    {},
+                                    "Distance from the centre to moving bodies, or infinite."});
     visit(self.avoidance_cost, {"avoidance_cost", Unit::none, {}, "δ at t, Eq 4 [radar]."});
     visit(self.target, {"target", Unit::um, {}, "The navigator's local target."});
-    visit(self.state, {"state", Unit::none, {}, "State of the navigator; end in the last frame."});
+    visit(self.state,
+          {"state", Unit::none, {}, "State of the navigator; `end` in the last frame."});
     visit(self.planned, {"planned", Unit::none, {}, "1 for a planning event, else 0."});
   }
 };
@@ -63,7 +69,7 @@ struct PathChange {
   std::vector<Vec2> path;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.t, {"t", Unit::s, {}, "When the navigator began to follow it."});
+    visit(self.t, {"t", Unit::s, {}, "Time from which the navigator follows it."});
     visit(self.path, {"points", Unit::um, {}, "The path."});
   }
 };
@@ -74,7 +80,7 @@ struct RobotMoment {
   std::vector<Vec2> places;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.t, {"t", Unit::s, {}, "When the robots were there."});
+    visit(self.t, {"t", Unit::s, {}, "Time of the positions."});
     visit(self.places, {"places", Unit::um, {}, "Position of each robot."});
   }
 };
@@ -85,15 +91,16 @@ struct PlanEvent {
   Plan plan;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.t, {"t", Unit::s, {}, "When it planned."});
+    visit(self.t, {"t", Unit::s, {}, "Time of the planning."});
     visit(self.plan.status, {"status", Unit::none, {}, "How the planner ended."});
     visit(self.plan.counts.iterations,
           {"iterations", Unit::none, {}, "Iterations of the planner."});
-    visit(self.plan.counts.samples, {"samples", Unit::none, {}, "Samples that it drew."});
-    visit(self.plan.counts.edge_checks, {"edge_checks", Unit::none, {}, "Edges that it checked."});
-    visit(self.plan.path, {"path", Unit::um, {}, "The path that it found."});
-    visit(self.plan.tree, {"tree", Unit::none, {}, "Its tree."});
-    visit(self.plan.detections, {"detections", Unit::none, {}, "Its detection circles."});
+    visit(self.plan.counts.samples, {"samples", Unit::none, {}, "Number of samples drawn."});
+    visit(self.plan.counts.edge_checks,
+          {"edge_checks", Unit::none, {}, "Number of edges checked."});
+    visit(self.plan.path, {"path", Unit::um, {}, "Path found."});
+    visit(self.plan.tree, {"tree", Unit::none, {}, "Search tree."});
+    visit(self.plan.detections, {"detections", Unit::none, {}, "Detection circles."});
   }
 };
 
@@ -125,13 +132,13 @@ struct RunEvent {
   std::uint32_t body = 0;  ///< wall piece or obstacle that was touched
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.t, {"t", Unit::s, {}, "When it happened, between the ticks too."});
-    visit(self.kind, {"kind", Unit::none, {}, "What happened."});
-    visit(self.position.x, {"x", Unit::um, {}, "The swarm's centre then, to the right."});
-    visit(self.position.y, {"y", Unit::um, {}, "The swarm's centre then, upwards."});
-    visit(self.clearance, {"clearance", Unit::um, {}, "From the centre, of a contact."});
-    visit(self.speed, {"speed", Unit::um_per_s, {}, "The swarm's speed then."});
-    visit(self.body, {"body", Unit::none, {}, "What was touched; 4294967295 is the border."});
+    visit(self.t, {"t", Unit::s, {}, "Time of the event, also between ticks."});
+    visit(self.kind, {"kind", Unit::none, {}, "Kind of the event."});
+    visit(self.position.x, {"x", Unit::um, {}, "The swarm's centre at the event, to the right."});
+    visit(self.position.y, {"y", Unit::um, {}, "The swarm's centre at the event, upwards."});
+    visit(self.clearance, {"clearance", Unit::um, {}, "Distance from the centre at a contact."});
+    visit(self.speed, {"speed", Unit::um_per_s, {}, "The swarm's speed at the event."});
+    visit(self.body, {"body", Unit::none, {}, "Obstacle touched; 4294967295 is the border."});
   }
 };
 

@@ -17,7 +17,7 @@ struct LeastClearance {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.clearance, {"clearance", Unit::um, {}, "From the swarm's centre."});
-    visit(self.t, {"t", Unit::s, {}, "When."});
+    visit(self.t, {"t", Unit::s, {}, "Time of the least clearance."});
   }
 };
 
@@ -34,8 +34,8 @@ struct Avoidance {
           {"mean_cost", Unit::none, {}, "Mean avoidance cost δ of the run, Eq 3, 4 [radar]."});
     visit(self.time, {"time", Unit::s, {}, "Time with an obstacle in the detection circle."});
     visit(self.mean_gap,
-          {"mean_gap", Unit::um, {}, "From edge to edge in that time, the nearest obstacle's."});
-    visit(self.min_gap, {"least_gap", Unit::um, {}, "Least of all gaps, below 0 of a touch."});
+          {"mean_gap", Unit::um, {}, "Mean edge-to-edge gap to the nearest obstacle meanwhile."});
+    visit(self.min_gap, {"least_gap", Unit::um, {}, "Smallest gap; negative in a contact."});
   }
 };
 
@@ -61,22 +61,21 @@ struct Metrics {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.time, {"time", Unit::s, {}, "Simulated time at the end."});
-    visit(self.length, {"length", Unit::um, {}, "Length of the swarm's way."});
-    visit(self.turning, {"turning", Unit::deg, {}, "Total turning of its heading."});
-    visit(self.goal_distance,
-          {"goal_distance",
-           Unit::um,
-           {},
-           "From the goal at the end: of the centre; of robots the mean way to it, or the worst "
-           "robot's distance from its own."});
-    visit(self.hold_time, {"hold_time", Unit::s, {}, "Time under the command to hold."});
+    visit(self.length, {"length", Unit::um, {}, "Length of the swarm's path."});
+    visit(self.turning, {"turning", Unit::deg, {}, "Total change of its heading."});
+    visit(self.goal_distance, {"goal_distance",
+                               Unit::um,
+                               {},
+                               "Remaining distance; of robots the mean path or the worst."});
+    visit(self.hold_time, {"hold_time", Unit::s, {}, "Time spent in hold."});
     visit(self.walls, {"walls", Unit::none, {}, "Least clearance to walls and border."});
     visit(self.obstacles, {"obstacles", Unit::none, {}, "Least clearance to moving bodies."});
-    visit(self.avoidance, {"avoidance", Unit::none, {}, "Of moving obstacles."});
-    visit(self.planning_events, {"planning_events", Unit::none, {}, "Times it called a planner."});
-    visit(self.contacts, {"contacts", Unit::none, {}, "Touches of walls and moving bodies."});
+    visit(self.avoidance, {"avoidance", Unit::none, {}, "Avoidance of moving obstacles."});
+    visit(self.planning_events,
+          {"planning_events", Unit::none, {}, "Number of calls of a planner."});
+    visit(self.contacts, {"contacts", Unit::none, {}, "Contacts with walls and moving bodies."});
     visit(self.avoidable_contacts,
-          {"avoidable_contacts", Unit::none, {}, "Those while the swarm was driving."});
+          {"avoidable_contacts", Unit::none, {}, "Contacts while the swarm was driving."});
   }
 };
 
@@ -90,12 +89,12 @@ struct TimeSummary {
   double max = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.count, {"count", Unit::none, {}, "How many."});
+    visit(self.count, {"count", Unit::none, {}, "Number of values."});
     visit(self.mean, {"mean", Unit::s, {}, "Mean."});
     visit(self.sd, {"sd", Unit::s, {}, "Standard deviation (n − 1)."});
     visit(self.p50, {"p50", Unit::s, {}, "Median."});
     visit(self.p99, {"p99", Unit::s, {}, "99th percentile (nearest rank)."});
-    visit(self.max, {"max", Unit::s, {}, "Longest."});
+    visit(self.max, {"max", Unit::s, {}, "Maximum."});
   }
 };
 

@@ -68,7 +68,8 @@ const Tick* OpenRun::step(const Stop& stop) {
 
 Issues OpenRun::change(const std::string& wanted) {
   Issues issues;
-  const std::string setting = current_key(wanted, moved_keys_of<Scenario>());
+  const std::string setting =
+      with_present_key(type_of<Scenario>(), &scenario_, wanted, moved_keys_of<Scenario>());
   const std::string key = setting.substr(0, setting.find_first_of(".="));
   if (std::ranges::find(changeable, key) == changeable.end())
     issues.add(key, key + " cannot be changed while the experiment runs");

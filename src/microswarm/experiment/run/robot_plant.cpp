@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "microswarm/core/error.hpp"
-#include "microswarm/planning/common/geodesic_field.hpp"
+#include "microswarm/planning/common/distance_field.hpp"
 
 namespace microswarm {
 
@@ -24,7 +24,7 @@ RobotSwarm make_swarm(const Scenario& scenario, const Map& map, std::uint32_t tr
 std::vector<Vec2> robot_starts(const Scenario& scenario, const Map& map, std::uint32_t trial) {
   if (scenario.robots->count == 0) return scenario.robots->starts;
   const auto count = static_cast<std::size_t>(scenario.robots->count);
-  const GeodesicField way(map, *scenario.goal, 512);
+  const DistanceField field = DistanceField::over(map, *scenario.goal, 512);
   const double guard = RobotStepper(map, scenario.robots->max_speed * scenario.tick).guard();
   const Box& box = map.bounds();
   Rng rng(scenario.seed, Purpose::scene, trial);
@@ -32,7 +32,7 @@ std::vector<Vec2> robot_starts(const Scenario& scenario, const Map& map, std::ui
   for (std::size_t draw = 0; draw < 100'000 + 1000 * count && places.size() < count; ++draw) {
     const double x = rng.uniform(box.lo.x, box.hi.x);
     const Vec2 p{x, rng.uniform(box.lo.y, box.hi.y)};
-    if (way.reaches(p) && map.is_free(p, 4 * guard)) places.push_back(p);
+    if (field.reaches(p) && map.is_free(p, 4 * guard)) places.push_back(p);
   }
   if (places.size() < count)
     throw InputError(fmt::format("found {} places from which the goal is reached, for {} robots",

@@ -11,7 +11,7 @@ RobotTask::RobotTask(const Scenario& scenario, const Map& map)
     : map_(&map), goals_(scenario.robots->goals) {
   constexpr int cells = 512;
   if (!goals_.empty()) return;
-  way_.emplace(map, *scenario.goal, cells);
+  field_ = DistanceField::over(map, *scenario.goal, cells);
   known_.resize(4096);
 }
 
@@ -19,7 +19,7 @@ double RobotTask::way_from(Vec2 place) {
   Hash hash;
   hash.value(place.x), hash.value(place.y);
   Known& known = known_[hash.digest() % known_.size()];
-  if (known.place != place) known = {place, way_->seen_from(*map_, place)};
+  if (known.place != place) known = {place, field_->visible_estimate(*map_, place)};
   return known.way;
 }
 
@@ -27,11 +27,11 @@ double RobotTask::left(std::span<const Vec2> robots) {
   double worst = 0;
   double sum = 0;
   for (std::size_t i = 0; i < robots.size(); ++i) {
-    const double way = way_ ? way_from(robots[i]) : distance(robots[i], goals_[i]);
+    const double way = field_ ? way_from(robots[i]) : distance(robots[i], goals_[i]);
     worst = std::max(worst, way);
     sum += way;
   }
-  return way_ ? sum / static_cast<double>(robots.size()) : worst;
+  return field_ ? sum / static_cast<double>(robots.size()) : worst;
 }
 
 }  // namespace microswarm

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "microswarm/experiment/scenario/scenario.hpp"
-#include "microswarm/planning/common/geodesic_field.hpp"
+#include "microswarm/planning/common/distance_field.hpp"
 
 namespace microswarm {
 
@@ -32,7 +32,7 @@ class RobotTask {
 
   const Map* map_;
   std::vector<Vec2> goals_;
-  std::optional<GeodesicField> way_;
+  std::optional<DistanceField> field_;
   std::vector<Known> known_;  // robots that rest, or were pushed together, are asked for again
 };
 

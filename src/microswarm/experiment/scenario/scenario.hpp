@@ -32,8 +32,9 @@ struct SensingParams {
   double frame_timeout = 0.5;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.observation_delay,
-          {"observation_delay", Unit::s, {0, 10}, "Age of a frame when the navigator gets it."});
+    visit(
+        self.observation_delay,
+        {"observation_delay", Unit::s, {0, 10}, "Age of a frame when the navigator receives it."});
     visit(self.position_noise,
           {"position_noise", Unit::um, {0, 1e4}, "Standard deviation of the swarm's position."});
     visit(self.heading_noise,
@@ -49,9 +50,9 @@ struct SensingParams {
     visit(self.obstacle_memory, {"obstacle_memory",
                                  Unit::s,
                                  {0, 60},
-                                 "An obstacle that is not found goes on as seen for so long."});
+                                 "Time for which an obstacle that is not found is kept."});
     visit(self.frame_timeout,
-          {"frame_timeout", Unit::s, {0, 60}, "The navigator holds when a frame is older."});
+          {"frame_timeout", Unit::s, {0, 60}, "Age of a frame above which the navigator holds."});
   }
 };
 
@@ -81,39 +82,34 @@ struct Scenario {
       {{"navigator.frame_timeout_s", "sensing.frame_timeout_s"}}};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.name, {"name", Unit::none, {}, "What the run is called."});
-    visit(self.description, {"description", Unit::none, {}, "What it shows, for people."});
-    visit(self.map, {"map", Unit::none, {}, "The walls.", true});
-    visit(self.obstacles, {"obstacles", Unit::none, {}, "What moves or changes."});
-    visit(self.swarm, {"swarm", Unit::none, {}, "The swarm's body and motion, seen as one."});
+    visit(self.name, {"name", Unit::none, {}, "Name of the run."});
+    visit(self.description, {"description", Unit::none, {}, "Description of the run."});
+    visit(self.map, {"map", Unit::none, {}, "Walls.", true});
+    visit(self.obstacles, {"obstacles", Unit::none, {}, "Moving or changing obstacles."});
+    visit(self.swarm, {"swarm", Unit::none, {}, "Body and motion of a swarm seen as one body."});
     visit(self.robots,
-          {"robots", Unit::none, {}, "Robots that are told apart, in place of `swarm`."});
-    visit(self.sensing, {"sensing", Unit::none, {}, "What the camera sees, and when."});
-    visit(self.start,
-          {"start", Unit::none, {}, "Where the swarm stands at t = 0; not for robots."});
-    visit(self.goal, {"goal", Unit::um, {}, "Where it has to go, or where robots have to gather."});
-    visit(self.goal_tolerance,
-          {"goal_tolerance",
-           Unit::um,
-           {1e-3, 1e6},
-           "How near to the goal counts as there; of robots that gather their mean way, F."});
-    visit(self.navigator, {"navigator", Unit::none, {}, "Who steers."});
+          {"robots", Unit::none, {}, "Individually tracked robots, in place of `swarm`."});
+    visit(self.sensing, {"sensing", Unit::none, {}, "Noise and delay of the camera."});
+    visit(self.start, {"start", Unit::none, {}, "Pose of the swarm at t = 0; not for robots."});
+    visit(self.goal, {"goal", Unit::um, {}, "Goal of the swarm, or where robots gather."});
+    visit(self.goal_tolerance, {"goal_tolerance",
+                                Unit::um,
+                                {1e-3, 1e6},
+                                "Distance at which the goal counts as reached; robots: mean."});
+    visit(self.navigator, {"navigator", Unit::none, {}, "Navigator and its parameters."});
     visit(self.tick, {"tick", Unit::s, {1e-3, 10}, "Time between two commands."});
     visit(self.time_limit,
-          {"time_limit", Unit::s, {0, 1e5}, "Simulated time after which it ends."});
+          {"time_limit", Unit::s, {0, 1e5}, "Simulated time after which the run ends."});
     visit(self.hold_limit,
-          {"hold_limit", Unit::s, {0, 1e5}, "Ends after holding this long without a break."});
-    visit(self.stop_at_contact,
-          {"stop_at_contact",
-           Unit::none,
-           {},
-           "End at the first touch, or count it and go on; it ends collided."});
-    visit(self.detection_range,
-          {"detection_range",
-           Unit::um,
-           {0, 1e6},
-           "Obstacles nearer to the swarm's edge count as being avoided, in the metrics; none: the "
-           "radar's own range (d_r), of other navigators 50 µm."});
+          {"hold_limit", Unit::s, {0, 1e5}, "Longest uninterrupted hold before the run ends."});
+    visit(self.stop_at_contact, {"stop_at_contact",
+                                 Unit::none,
+                                 {},
+                                 "End at the first contact, or count contacts and go on."});
+    visit(self.detection_range, {"detection_range",
+                                 Unit::um,
+                                 {0, 1e6},
+                                 "Gap below which an obstacle counts as being avoided."});
     visit(self.seed, {"seed", Unit::none, {}, "Seed of every random stream."});
   }
 };

@@ -34,7 +34,7 @@ std::string goal_text(const std::string& why, const Scenario& scenario) {
 // What the swarm fits through, its navigator may still refuse.
 Issues validate_margin(const Scenario& scenario, const World& world) {
   Issues issues;
-  const double margin = margin_of(scenario.navigator);
+  const double margin = required_clearance(scenario.navigator);
   const Snapshot walls(world.map);
   const auto target = reachable_goal(walls, *scenario.goal, scenario.goal_tolerance, margin);
   if (!target) {

@@ -82,7 +82,7 @@ Issues validate_radar(const Scenario& scenario, const World& world) {
   for (std::size_t i = 0; i < radar->wait_zones.size(); ++i)
     issues.add_within(fmt::format("navigator.wait_zones.{}", i),
                       validate_area(radar->wait_zones[i], scenario, *world.map),
-                      fmt::format("wait area {}", i + 1));
+                      fmt::format("wait zone {}", i + 1));
   return issues;
 }
 

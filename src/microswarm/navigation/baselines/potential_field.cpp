@@ -46,7 +46,7 @@ PotentialFieldNavigator::PotentialFieldNavigator(const PotentialFieldParams& par
 void PotentialFieldNavigator::prepare(const Snapshot& world) {
   const double radius = steering_.swarm().radius;
   steering_.prepare(world, radius, radius + params_.gap);
-  guide_.prepare(world.map(), steering_.aim(), radius + params_.gap, radius);
+  guide_.prepare(world.map(), steering_.aim().position, radius + params_.gap, radius);
 }
 
 Command PotentialFieldNavigator::step(const Observation& seen, const Stop&) {
@@ -56,7 +56,7 @@ Command PotentialFieldNavigator::step(const Observation& seen, const Stop&) {
   const Snapshot& world = *seen.world;
   const Vec2 p = pose->position;
   const Vec2 target = guide_.target(world.map(), p);
-  steering_.show_target(target);
+  steering_.view().local_target = target;
   const Vec2 draw = unit_vector(heading_of(target - p));
   Vec2 pushes = push_of_walls(world.map(), p);
   const auto bodies = world.moving().bodies();
@@ -80,7 +80,7 @@ double PotentialFieldNavigator::push(double gap, double influence) const {
 
 /// What stands pushes less near the goal, or a goal beside a wall could not be reached (GNRON).
 double PotentialFieldNavigator::calm_near_goal(Vec2 p) const {
-  return std::min(1.0, distance(p, steering_.aim()) / params_.influence);
+  return std::min(1.0, distance(p, steering_.aim().position) / params_.influence);
 }
 
 /// The gradient of the clearance points away from the nearest wall; between two walls its central

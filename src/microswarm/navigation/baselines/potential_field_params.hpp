@@ -26,20 +26,31 @@ struct PotentialFieldParams {
   ObstacleTrackerParams tracker;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Speed asked for."});
+    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Commanded speed."});
     visit(self.repulsion,
-          {"repulsion", Unit::none, {0, 1e6}, "Gain of the push, beside a draw of 1."});
+          {"repulsion", Unit::none, {0, 1e6}, "Gain of the repulsion; the attraction is 1."});
     visit(self.influence,
-          {"influence", Unit::um, {1e-3, 1e6}, "Gap from which on no obstacle pushes."});
+          {"influence", Unit::um, {1e-3, 1e6}, "Gap above which obstacles do not repel."});
     visit(self.wall_influence,
-          {"wall_influence", Unit::um, {1e-3, 1e6}, "Gap from which on no wall pushes."});
-    visit(self.reaction_time,
-          {"reaction_time", Unit::s, {0, 60}, "What comes nearer counts as so much nearer."});
-    visit(self.min_force,
-          {"min_force", Unit::none, {0, 1}, "Stuck, and at rest, under a lesser force."});
-    visit(self.gap, {"margin", Unit::um, {0, 1e5}, "Gaps begin so far from the swarm's edge."});
-    visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight, or route."});
-    visit(self.tracker, {"tracker", Unit::none, {}, "How the obstacles' motion is told."});
+          {"wall_influence", Unit::um, {1e-3, 1e6}, "Gap above which walls do not repel."});
+    visit(self.reaction_time, {"reaction_time",
+                               Unit::s,
+                               {0, 60},
+                               "Time by which the approach of an obstacle is anticipated."});
+    visit(self.min_force, {"min_force",
+                           Unit::none,
+                           {0, 1},
+                           "Force below which the swarm is stuck and holds.",
+                           false,
+                           "least_force"});
+    visit(self.gap, {"gap",
+                     Unit::um,
+                     {0, 1e5},
+                     "Distance from the swarm's edge where gaps begin.",
+                     false,
+                     "margin_um"});
+    visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight or route."});
+    visit(self.tracker, {"tracker", Unit::none, {}, "Estimation of the obstacles' motion."});
   }
 };
 

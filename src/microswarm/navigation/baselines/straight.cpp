@@ -18,11 +18,12 @@ void StraightNavigator::prepare(const Snapshot& world) {
 Command StraightNavigator::step(const Observation& seen, const Stop&) {
   const Pose2* pose = steering_.observe(seen);
   if (!pose) return steering_.hold();
-  steering_.show_target(steering_.aim());
+  steering_.view().local_target = steering_.aim().position;
   if (!path_is_clear(*seen.world, *pose))
     return steering_.command({pose->heading, 0}, NavigatorState::hold);
-  return steering_.command({heading_of(steering_.aim() - pose->position), steering_.speed()},
-                           NavigatorState::follow);
+  return steering_.command(
+      {heading_of(steering_.aim().position - pose->position), steering_.speed()},
+      NavigatorState::follow);
 }
 
 /// The way to the goal as the swarm turns into it, up to the stop distance.
@@ -33,9 +34,9 @@ bool StraightNavigator::path_is_clear(const Snapshot& world, Pose2 pose) const {
   const double from_bodies = std::min(wanted, here);
   const double from_walls =
       std::min(steering_.wall_clearance(wanted, pose.position, params_.stop_distance), here);
-  double left = std::min(params_.stop_distance, distance(pose.position, steering_.aim()));
+  double left = std::min(params_.stop_distance, distance(pose.position, steering_.aim().position));
   for (int k = 0; k < max_ticks && left > rounding; ++k) {
-    const Command command{heading_of(steering_.aim() - pose.position), steering_.speed()};
+    const Command command{heading_of(steering_.aim().position - pose.position), steering_.speed()};
     const bool aligned = std::isinf(steering_.swarm().max_turn_rate) ||
                          std::abs(wrap(command.heading - pose.heading)) < rounding;
     const double dt =

@@ -15,13 +15,13 @@ struct StraightParams {
   double gap = 10;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Speed asked for."});
-    visit(self.stop_distance,
-          {"stop_distance",
-           Unit::um,
-           {0, 1e5},
-           "Stop while a wall or an obstacle is so near ahead, from edge to edge."});
-    visit(self.gap, {"margin", Unit::um, {0, 1e5}, "Kept beside the swarm's edge."});
+    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Commanded speed."});
+    visit(self.stop_distance, {"stop_distance",
+                               Unit::um,
+                               {0, 1e5},
+                               "Gap ahead, to a wall or an obstacle, at which it stops."});
+    visit(self.gap,
+          {"gap", Unit::um, {0, 1e5}, "Gap kept on both sides of the swarm.", false, "margin_um"});
   }
 };
 

@@ -76,7 +76,7 @@ void VelocityObstacleNavigator::rank_choices() {
 void VelocityObstacleNavigator::prepare(const Snapshot& world) {
   const double radius = steering_.swarm().radius;
   steering_.prepare(world, radius, radius + params_.gap);
-  guide_.prepare(world.map(), steering_.aim(), radius + params_.gap, radius);
+  guide_.prepare(world.map(), steering_.aim().position, radius + params_.gap, radius);
 }
 
 Command VelocityObstacleNavigator::step(const Observation& seen, const Stop&) {
@@ -85,7 +85,7 @@ Command VelocityObstacleNavigator::step(const Observation& seen, const Stop&) {
   if (!pose) return steering_.hold();
   const Map& map = seen.world->map();
   const Vec2 target = guide_.target(map, pose->position);
-  steering_.show_target(target);
+  steering_.view().local_target = target;
   find_threats(*seen.world, pose->position);
   const double preferred = heading_of(target - pose->position);
   Command best{pose->heading, 0};
@@ -118,8 +118,7 @@ void VelocityObstacleNavigator::find_threats(const Snapshot& world, Vec2 p) {
     const bool round = std::holds_alternative<Disc>(bodies[i].shape);
     const double speed = outward_speed(bodies[i], motion);
     const Vec2 at = p - steering_.delay() * motion.velocity;
-    const double away =
-        std::visit([&](const auto& shape) { return distance(at, shape); }, bodies[i].shape);
+    const double away = distance(at, bodies[i]);
     const double wanted = steering_.swarm().radius + params_.gap +
                           speed * (steering_.delay() + (round ? 0 : deforming_time));
     const double top = steering_.speed() + norm(motion.velocity) + speed;
@@ -138,8 +137,8 @@ bool VelocityObstacleNavigator::clear_of_walls(const Map& map, const Pose2& pose
   const double wanted = steering_.swarm().radius + params_.gap;
   const double r = std::min(steering_.wall_clearance(wanted, pose.position, reach),
                             (1 - choice_rounding) * map.clearance(pose.position));
-  const double time =
-      std::min(params_.wall_horizon, distance(pose.position, steering_.aim()) / command.speed);
+  const double time = std::min(params_.wall_horizon,
+                               distance(pose.position, steering_.aim().position) / command.speed);
   return along_the_way(pose, command, steering_.swarm().max_turn_rate, time,
                        [&](Segment way, double, double) { return map.is_free(way, r); });
 }

@@ -25,22 +25,22 @@ struct VelocityObstacleParams {
   ObstacleTrackerParams tracker;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Speed asked for."});
-    visit(self.directions, {"directions", Unit::none, {3, 3600}, "Directions to choose from."});
-    visit(self.speeds, {"speeds", Unit::none, {1, 100}, "Speeds to choose from, besides 0."});
+    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Commanded speed."});
+    visit(self.directions,
+          {"directions", Unit::none, {3, 3600}, "Number of directions to choose from."});
+    visit(self.speeds,
+          {"speeds", Unit::none, {1, 100}, "Number of speeds to choose from, besides 0."});
     visit(self.horizon,
-          {"horizon", Unit::s, {0, 60}, "Velocities that meet no obstacle for so long will do."});
+          {"horizon", Unit::s, {0, 60}, "Time for which a velocity must be free of obstacles."});
     visit(self.wall_horizon,
-          {"wall_horizon", Unit::s, {0, 60}, "Velocities that meet no wall for so long will do."});
-    visit(self.gap, {"margin", Unit::um, {0, 1e5}, "Kept beside the swarm's edge."});
-    visit(self.urgency,
-          {"urgency",
-           Unit::um,
-           {0, 1e6},
-           "Where no velocity will do: the least of urgency / time to contact + distance to the "
-           "preferred velocity is taken."});
-    visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight, or route."});
-    visit(self.tracker, {"tracker", Unit::none, {}, "How the obstacles' motion is told."});
+          {"wall_horizon", Unit::s, {0, 60}, "Time for which a velocity must be free of walls."});
+    visit(self.gap, {"gap", Unit::um, {0, 1e5}, "Gap kept around the swarm.", false, "margin_um"});
+    visit(self.urgency, {"urgency",
+                         Unit::um,
+                         {0, 1e6},
+                         "Weight of 1 / time to contact where no velocity is free."});
+    visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight or route."});
+    visit(self.tracker, {"tracker", Unit::none, {}, "Estimation of the obstacles' motion."});
   }
 };
 

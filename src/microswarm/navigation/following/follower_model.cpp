@@ -25,13 +25,13 @@ std::optional<std::array<double, feature_count>> FollowerModel::scaled(
 }
 
 std::optional<Command> FollowerModel::command(const FollowerQuery& query) const {
-  const FollowerFeatures features = features_of(query);
-  const auto features = scaled(features.features);
+  const FollowerFeatures seen = features_of(query);
+  const auto features = scaled(seen.features);
   if (!features) return std::nullopt;
   std::array<double, 2> answer{};
   network.evaluate(*features, answer);
   const double off = std::clamp(answer[0], -pi, pi);
-  return Command{wrap(features.bearing + off),
+  return Command{wrap(seen.bearing + off),
                  std::clamp(answer[1], min_speed_share, 1.0) * query.speed};
 }
 
@@ -139,7 +139,7 @@ std::uint64_t read_seed(Reader& in) {
 }  // namespace
 
 std::string follower_model_text(const FollowerModel& model) {
-  std::string text = "# A learned follower of microswarm: docs/learned-follower.md\n";
+  std::string text = "# A learned follower of microswarm: docs/explanation/learned-follower.md\n";
   text += fmt::format("version: {}\nseed: {}\ntraining: {}\n", version, model.seed, model.training);
   text += "layers: " + list_text(model.network.layers);
   text += "lowest: " + list_text(model.lowest);

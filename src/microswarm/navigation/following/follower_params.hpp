@@ -31,16 +31,11 @@ struct FollowerParams {
   std::shared_ptr<const FollowerModel> loaded;  ///< what the file `model` holds
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.kind, {"kind", Unit::none, {}, "pure_pursuit, or learned."});
-    visit(self.correct_flow, {"correct_flow",
-                              Unit::none,
-                              {},
-                              "Pure pursuit steers against what is seen to carry the swarm off."});
+    visit(self.kind, {"kind", Unit::none, {}, "Kind of the follower: pure_pursuit or learned."});
+    visit(self.correct_flow,
+          {"correct_flow", Unit::none, {}, "Pure pursuit compensates the observed drift."});
     visit(self.model,
-          {"model",
-           Unit::none,
-           {},
-           "File of a learned follower, beside the scenario; the built-in one when left out."});
+          {"model", Unit::none, {}, "File of a learned follower; none: the built-in one."});
   }
 };
 

@@ -18,7 +18,7 @@ PathNavigator::PathNavigator(const PathNavigatorParams& params, const SwarmLimit
 
 void PathNavigator::prepare(const Snapshot& world) {
   steering_.prepare(world, steering_.swarm().radius, steering_.swarm().radius + params_.gap);
-  path_.back() = steering_.aim();
+  path_.back() = steering_.aim().position;
 }
 
 NavigatorView PathNavigator::view() const {
@@ -34,7 +34,7 @@ Command PathNavigator::step(const Observation& seen, const Stop&) {
   if (!pose) return steering_.hold();
   if (path_.size() < 2) path_.insert(path_.begin(), seen.swarm->pose.position);
   const auto next = follower_.command(path_, place_, *pose, params_.lookahead, steering_.speed());
-  steering_.show_target(point_ahead(path_, place_, params_.lookahead));
+  steering_.view().local_target = point_ahead(path_, place_, params_.lookahead);
   if (!path_is_clear(*seen.world, *pose))
     return steering_.command({pose->heading, 0}, NavigatorState::hold);
   return steering_.command(next.command,

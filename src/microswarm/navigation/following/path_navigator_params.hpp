@@ -23,14 +23,14 @@ struct PathNavigatorParams {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.path,
-          {"path", Unit::um, {}, "Its points but the last, the goal; none: straight there."});
-    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Speed asked for."});
+          {"path", Unit::um, {}, "Points of the path without the goal; none: straight."});
+    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Commanded speed."});
     visit(self.lookahead,
-          {"lookahead", Unit::um, {1e-3, 1e5}, "How far ahead pure pursuit pursues the path."});
-    visit(self.follower, {"follower", Unit::none, {}, "Who follows the path."});
+          {"lookahead", Unit::um, {1e-3, 1e5}, "Lookahead distance of pure pursuit."});
+    visit(self.follower, {"follower", Unit::none, {}, "Path follower."});
     visit(self.horizon,
-          {"horizon", Unit::s, {0.1, 10}, "Hold when something stands in the way of so long."});
-    visit(self.gap, {"margin", Unit::um, {0, 1e5}, "Kept beside the swarm's edge."});
+          {"horizon", Unit::s, {0.1, 10}, "Hold if the path is blocked within this time."});
+    visit(self.gap, {"gap", Unit::um, {0, 1e5}, "Gap kept around the swarm.", false, "margin_um"});
   }
 };
 

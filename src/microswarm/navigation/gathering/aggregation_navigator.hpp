@@ -6,7 +6,7 @@
 #include "microswarm/contracts/navigator.hpp"
 #include "microswarm/navigation/gathering/aggregation_policy.hpp"
 #include "microswarm/navigation/gathering/rollout_policy.hpp"
-#include "microswarm/navigation/global_input/robot_delay_compensator.hpp"
+#include "microswarm/navigation/steering/robot_steering_cycle.hpp"
 
 namespace microswarm {
 
@@ -24,27 +24,21 @@ class AggregationNavigator : public Navigator {
   /// Grows the tree. Throws InputError as AggregationMap does.
   void prepare(const Snapshot& world) override;
   Command step(const Observation& observation, const Stop& stop) override;
-  NavigatorView view() const override { return view_; }
+  NavigatorView view() const override { return steering_.view(); }
   /// After prepare(): null before.
   const AggregationPolicy* policy() const { return policy_ ? &*policy_ : nullptr; }
   /// What it gathers by; null before prepare().
   const AggregationMap* map() const { return map_ ? &*map_ : nullptr; }
 
  private:
-  Command issue(double now, Command command, NavigatorState state);
-
   AggregationParams params_;
-  RobotSwarmParams robots_;
   Vec2 goal_;
   double goal_tolerance_;
-  double tick_;
-  double frame_timeout_;  ///< [s]
   Rng rng_;
-  std::optional<RobotDelayCompensator> compensator_;
+  RobotSteeringCycle steering_;
   std::optional<AggregationMap> map_;
   std::optional<AggregationPolicy> policy_;
   std::optional<RolloutPolicy> rollout_;
-  NavigatorView view_;
 };
 
 }  // namespace microswarm

@@ -57,44 +57,42 @@ struct AggregationParams {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.method,
-          {"method", Unit::none, {}, "Who leads: heuristic, divide_and_conquer or rollout."});
-    visit(self.reading,
-          {"reading",
-           Unit::none,
-           {},
-           "Next region of DCA: rounds (the farthest of this round) or published (the "
-           "farthest that holds robots)."});
-    visit(self.followed_regions,
-          {"followed_regions",
-           Unit::none,
-           {0, 1000},
-           "Regions into which DCA follows the robots it has led out of one."});
+          {"method", Unit::none, {}, "Policy: heuristic, divide_and_conquer or rollout."});
+    visit(
+        self.reading,
+        {"reading", Unit::none, {}, "Next region of DCA: farthest of the round, or as published."});
+    visit(self.followed_regions, {"followed_regions",
+                                  Unit::none,
+                                  {0, 1000},
+                                  "Number of regions into which DCA follows a team."});
     visit(self.last_regions, {"last_regions",
                               Unit::none,
                               {1, 1000},
-                              "Regions next to the goal, the goal's included, in which DCA leads "
-                              "the farthest robot to the goal."});
+                              "Regions near the goal that lead straight to it (DCA)."});
     visit(self.team_depth,
-          {"team_depth", Unit::um, {0, 1e6}, "How far DCA leads a robot into the next region."});
-    visit(self.obstacle_weighted,
-          {"obstacle_weighted", Unit::none, {}, "Ways along the middle; false: along the RRT."});
-    visit(self.scale, {"scale",
-                       Unit::none,
-                       {0, 1e6},
-                       "Factor on all lengths here, which are for channels of 10 µm; 0: the usual "
-                       "width of the map's channels / 10 µm."});
-    visit(self.step, {"step", Unit::um, {1e-6, 1e6}, "Length of a move."});
-    visit(self.sigma, {"sigma", Unit::um, {0, 1e6}, "Done when the mean way is shorter (F)."});
-    visit(self.discount, {"discount", Unit::none, {0, 1}, "Discount of far robots in Eq 6."});
-    visit(self.discount_length,
-          {"discount_length", Unit::um, {1e-6, 1e6}, "Way over which it is applied once."});
+          {"team_depth", Unit::um, {0, 1e6}, "Distance DCA leads a robot into the next region."});
+    visit(self.obstacle_weighted, {"obstacle_weighted",
+                                   Unit::none,
+                                   {},
+                                   "Paths along the channel centre, not along the RRT."});
+    visit(self.scale,
+          {"scale", Unit::none, {0, 1e6}, "Factor of all lengths here; 0: channel width / 10 µm."});
+    visit(self.step, {"step", Unit::um, {1e-6, 1e6}, "Length of one move."});
+    visit(self.sigma,
+          {"sigma", Unit::um, {0, 1e6}, "Mean distance F below which the robots are gathered."});
+    visit(self.discount, {"discount", Unit::none, {0, 1}, "Discount of far robots, Eq 6."});
+    visit(self.discount_length, {"discount_length",
+                                 Unit::um,
+                                 {1e-6, 1e6},
+                                 "Path length over which the discount applies once."});
     visit(self.patience, {"patience",
                           Unit::none,
                           {1, 1000},
-                          "Longest ways without progress after which any robot may lead."});
-    visit(self.rollout, {"rollout", Unit::none, {}, "How a plan is made better."});
-    visit(self.tree, {"tree", Unit::none, {}, "Tree and weights."});
-    visit(self.segmentation, {"segmentation", Unit::none, {}, "Regions and branches."});
+                          "Longest paths without progress before the livelock guard."});
+    visit(self.rollout, {"rollout", Unit::none, {}, "Parameters of the rollout policy."});
+    visit(self.tree, {"tree", Unit::none, {}, "Tree and its weights."});
+    visit(self.segmentation,
+          {"segmentation", Unit::none, {}, "Division of the map into regions and branches."});
   }
 };
 

@@ -22,26 +22,42 @@ struct RolloutParams {
   double max_deviation = 1;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.budget, {"budget", Unit::none, {0, 1e12}, "Work of a decision, in robot-steps."});
-    visit(self.max_work,
-          {"max_work", Unit::none, {0, 1e15}, "Work on a better plan in all; 0: without end."});
-    visit(self.max_steps,
-          {"max_steps", Unit::none, {1, 1e8}, "Longest plan; its base is followed without one."});
-    visit(self.representatives,
-          {"places", Unit::none, {1, 1e6}, "Robots that stand for all when a variation is tried."});
-    visit(self.lookahead_representatives, {"lookahead_places",
+    visit(self.budget, {"budget", Unit::none, {0, 1e12}, "Simulated robot-steps per decision."});
+    visit(self.max_work, {"max_work",
+                          Unit::none,
+                          {0, 1e15},
+                          "Robot-steps spent on better plans; 0: unlimited.",
+                          false,
+                          "most_work"});
+    visit(self.max_steps, {"max_steps",
+                           Unit::none,
+                           {1, 1e8},
+                           "Longest plan; beyond it the base policy is followed.",
+                           false,
+                           "most_steps"});
+    visit(self.representatives, {"representatives",
+                                 Unit::none,
+                                 {1, 1e6},
+                                 "Representative robots for trying a variation.",
+                                 false,
+                                 "places"});
+    visit(self.lookahead_representatives, {"lookahead_representatives",
                                            Unit::none,
                                            {1, 1e6},
-                                           "Robots that stand for all when it looks ahead."});
-    visit(
-        self.candidates,
-        {"candidates", Unit::none, {0, 1e4}, "Leaders tried when it looks ahead; 0: it does not."});
-    visit(self.horizon, {"horizon", Unit::none, {1, 1e6}, "Steps that it looks ahead."});
-    visit(self.commit, {"commit", Unit::none, {1, 1e6}, "Steps after which it looks ahead anew."});
-    visit(self.max_deviation, {"stray",
+                                           "Representative robots for the lookahead.",
+                                           false,
+                                           "lookahead_places"});
+    visit(self.candidates,
+          {"candidates", Unit::none, {0, 1e4}, "Leaders tried in the lookahead; 0: no lookahead."});
+    visit(self.horizon, {"horizon", Unit::none, {1, 1e6}, "Steps of the lookahead."});
+    visit(self.commit,
+          {"commit", Unit::none, {1, 1e6}, "Steps after which the lookahead is repeated."});
+    visit(self.max_deviation, {"max_deviation",
                                Unit::none,
                                {0, 1e6},
-                               "Plans anew when robots are off by more steps on average."});
+                               "Mean deviation in steps above which it plans again.",
+                               false,
+                               "stray"});
   }
 };
 

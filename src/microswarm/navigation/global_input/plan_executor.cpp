@@ -4,44 +4,38 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace microswarm {
 
 PlanExecutor::PlanExecutor(const PlanExecutorParams& params, const RobotSwarmParams& robots,
                            double goal_tolerance, double tick, Rng rng, double frame_timeout)
-    : params_(params), swarm_(robots), tick_(tick), frame_timeout_(frame_timeout), rng_(rng) {
+    : params_(params), rng_(rng), steering_(robots, tick, frame_timeout) {
   params_.planner.goal_tolerance = goal_tolerance;
   params_.planner.contact = robots.contact;
 }
 
-void PlanExecutor::prepare(const Snapshot& world) {
-  compensator_.emplace(world.map(), swarm_.max_speed * tick_, swarm_.contact, swarm_.response_lag);
-}
-
 Command PlanExecutor::step(const Observation& seen, const Stop& stop) {
-  view_ = {};
-  if (seen.robots.size() != swarm_.goals.size() || !sees_robots(seen, frame_timeout_))
-    return issue(seen.now, {}, NavigatorState::blind);
-  const Robots robots = compensator_->at_effect(seen);
-  if (met(robots)) {
+  const std::optional<Robots> robots = steering_.observe(seen, goals().size());
+  if (!robots) return steering_.hold();
+  if (met(*robots)) {
     on_plan_ = false;
-    return issue(seen.now, {}, NavigatorState::arrived);
+    return steering_.hold(NavigatorState::arrived);
   }
-  view_.state = NavigatorState::play;
-  if (!on_plan_ || input_ == plan_.inputs.size() || off(robots) > params_.max_deviation)
-    find_path(robots, seen.now, stop);
-  if (input_ == plan_.inputs.size()) return issue(seen.now, {}, NavigatorState::stuck);
-  return issue(seen.now, next_piece(), view_.state);
+  NavigatorState state = NavigatorState::play;
+  if (!on_plan_ || input_ == plan_.inputs.size() || deviation(*robots) > params_.max_deviation)
+    state = find_path(*robots, seen.now, stop);
+  if (input_ == plan_.inputs.size()) return steering_.hold(NavigatorState::stuck);
+  return steering_.command(next_piece(), state);
 }
 
 bool PlanExecutor::met(const Robots& robots) const {
   for (std::size_t i = 0; i < robots.size(); ++i)
-    if (distance(robots.position(i), swarm_.goals[i]) > params_.planner.goal_tolerance)
-      return false;
+    if (distance(robots.position(i), goals()[i]) > params_.planner.goal_tolerance) return false;
   return true;
 }
 
-double PlanExecutor::off(const Robots& robots) const {
+double PlanExecutor::deviation(const Robots& robots) const {
   double worst = 0;
   for (std::size_t i = 0; i < robots.size(); ++i)
     worst = std::max(worst, distance(robots.position(i), expected_.position(i)));
@@ -50,7 +44,7 @@ double PlanExecutor::off(const Robots& robots) const {
 
 bool PlanExecutor::leads_home(Robots robots, std::size_t from) const {
   for (std::size_t k = from; k < plan_.inputs.size(); ++k)
-    compensator_->stepper().step(robots, plan_.inputs[k], swarm_.contact);
+    steering_.stepper().step(robots, plan_.inputs[k], steering_.robots().contact);
   return met(robots);
 }
 
@@ -70,45 +64,38 @@ std::optional<std::size_t> PlanExecutor::rejoin_index(const Robots& robots) cons
   return std::nullopt;
 }
 
-void PlanExecutor::find_path(const Robots& robots, double now, const Stop& stop) {
+NavigatorState PlanExecutor::find_path(const Robots& robots, double now, const Stop& stop) {
   expected_ = robots;
-  if (on_plan_ && piece_ == 0 && leads_home(robots, input_) && input_ < plan_.inputs.size()) return;
+  if (on_plan_ && piece_ == 0 && leads_home(robots, input_) && input_ < plan_.inputs.size())
+    return NavigatorState::play;
   piece_ = 0;
   if (const auto k = rejoin_index(robots)) {
     input_ = *k;
-    if (on_plan_) view_.state = NavigatorState::rejoin;
-    on_plan_ = true;
-    return;
+    return std::exchange(on_plan_, true) ? NavigatorState::rejoin : NavigatorState::play;
   }
   on_plan_ = false;
   input_ = plan_.inputs.size();
-  if (now < retry_at_) return;
+  if (now < retry_at_) return NavigatorState::play;
   const std::vector<Vec2> places = robots.positions();
-  plan_ =
-      global_search(compensator_->map(), places, swarm_.goals, params_.planner, rng_, stop).plan;
+  plan_ = global_search(steering_.map(), places, goals(), params_.planner, rng_, stop).plan;
   if (plan_.status != Status::solved) retry_at_ = now + params_.retry_time;
   input_ = 0;
   on_plan_ = true;
-  view_.state = NavigatorState::replan;
-  view_.planned = true;
+  steering_.view().planned = true;
+  return NavigatorState::replan;
 }
 
 Command PlanExecutor::next_piece() {
   const Vec2 input = plan_.inputs[input_];
   const int pieces =
-      std::max(1, static_cast<int>(std::ceil(norm(input) / (swarm_.max_speed * tick_) - 1e-9)));
+      std::max(1, static_cast<int>(std::ceil(norm(input) / (steering_.max_move()) - 1e-9)));
   if (++piece_ >= pieces) {
     piece_ = 0;
     ++input_;
   }
-  const Command command = command_for(input / pieces, tick_);
-  compensator_->stepper().step(expected_, displacement(command, tick_), swarm_.contact);
-  return command;
-}
-
-Command PlanExecutor::issue(double now, Command command, NavigatorState state) {
-  compensator_->issued(now, command);
-  view_.state = state;
+  const Command command = command_for(input / pieces, steering_.tick());
+  steering_.stepper().step(expected_, displacement(command, steering_.tick()),
+                           steering_.robots().contact);
   return command;
 }
 

@@ -25,16 +25,19 @@ struct PlanExecutorParams {
   GlobalSearchParams planner = limited();
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.max_deviation,
-          {"stray", Unit::um, {0, 1e6}, "Robots off the plan by more make it look again."});
-    visit(self.rejoin_candidates,
-          {"rejoin_candidates",
-           Unit::none,
-           {0, 1e6},
-           "Places of the plan, the nearest ones, at which joining it again is tried."});
+    visit(self.max_deviation, {"max_deviation",
+                               Unit::um,
+                               {0, 1e6},
+                               "Deviation from the plan above which it is left.",
+                               false,
+                               "stray_um"});
+    visit(self.rejoin_candidates, {"rejoin_candidates",
+                                   Unit::none,
+                                   {0, 1e6},
+                                   "Nearest positions of the plan at which rejoining is tried."});
     visit(self.retry_time,
-          {"retry_time", Unit::s, {0, 1e5}, "Hold for so long after a search that found no plan."});
-    visit(self.planner, {"planner", Unit::none, {}, "How inputs are searched."});
+          {"retry_time", Unit::s, {0, 1e5}, "Hold time after a search without a plan."});
+    visit(self.planner, {"planner", Unit::none, {}, "Search for the inputs."});
   }
 };
 

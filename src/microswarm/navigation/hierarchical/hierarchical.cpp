@@ -9,7 +9,6 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/published.hpp"
-#include "microswarm/navigation/steering/steering_cycle.hpp"
 #include "microswarm/swarm/body/unicycle.hpp"
 
 namespace microswarm {
@@ -50,88 +49,79 @@ HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params,
                                              const SwarmLimits& swarm, Vec2 goal,
                                              double goal_tolerance, Rng rng, double frame_timeout)
     : params_(params.in_effect()),
-      swarm_(swarm),
-      goal_(goal),
-      goal_tolerance_(goal_tolerance),
-      frame_timeout_(frame_timeout),
-      aim_{.position = goal, .tolerance = goal_tolerance},
       rng_(rng),
-      compensator_(swarm),
+      steering_(swarm, params.speed, goal, goal_tolerance, frame_timeout),
       obstacles_(params.tracker),
       follower_(params.follower, swarm) {
-  params_.speed = std::min(params.speed, swarm.max_speed);
+  params_.speed = steering_.speed();
   // How far the arc of a tick is from its chord; a swarm that turns at once makes none.
   if (std::isfinite(swarm.max_turn_rate))
     slack_ = std::max(1.0, params_.speed * swarm.max_turn_rate * escape_tick * escape_tick / 8);
 }
 
 void HierarchicalNavigator::prepare(const Snapshot& world) {
-  const Snapshot walls(world.shared_map());
-  aim_ = aim_at(walls, goal_, goal_tolerance_, params_.clearance,
-                params_.clearance + params_.extra_clearance);
+  steering_.prepare(world, params_.clearance, params_.clearance + params_.extra_clearance);
   if (params_.guide == Guide::route)
-    route_ = Route(world.map(), aim_.position, params_.clearance, params_.route_cell);
+    route_ =
+        DistanceField::to_goal(world.map(), aim().position, params_.clearance, params_.route_cell);
 }
 
 Command HierarchicalNavigator::step(const Observation& seen, const Stop& stop) {
-  view_ = {};
+  const std::optional<double> last_command = steering_.last_command();
   obstacles_.update(seen);
-  Command command = decide(seen, stop);
-  view_.local_target = target_;
-  if (params_.guide == Guide::route && seen.world) view_.phased_goal = towards(seen.world->map());
-  view_.path = path_;
-  view_.plan = plan_ ? &*plan_ : nullptr;
-  return command;
-}
-
-Command HierarchicalNavigator::issue(double now, Command command, NavigatorState state) {
-  view_.state = state;
-  if (issued_at_) period_ = std::clamp(now - *issued_at_, escape_tick, 1.0);
-  issued_at_ = now;
-  compensator_.note(now, command);
-  return command;
+  const Decision decision = decide(seen, stop);
+  if (last_command) period_ = std::clamp(seen.now - *last_command, escape_tick, 1.0);
+  NavigatorView& view = steering_.view();
+  view.local_target = target_;
+  if (params_.guide == Guide::route && seen.world) view.phased_goal = towards(seen.world->map());
+  view.path = path_;
+  view.plan = plan_ ? &*plan_ : nullptr;
+  return steering_.command(decision.command, decision.state);
 }
 
 // Algorithm 4 [drrt], one pass of its loop
-Command HierarchicalNavigator::decide(const Observation& seen, const Stop& stop) {
-  if (!sees_swarm(seen, frame_timeout_)) return issue(seen.now, {}, NavigatorState::blind);
-  follower_.update(seen, compensator_);
-  pose_ = compensator_.at_effect(seen);
-  const Command hold{pose_.heading, 0};
-  if (distance(pose_.position, goal_) <= goal_tolerance_) {  // line 2
+HierarchicalNavigator::Decision HierarchicalNavigator::decide(const Observation& seen,
+                                                              const Stop& stop) {
+  if (steering_.sees_swarm(seen)) follower_.update(seen, steering_.compensator());
+  if (!steering_.begin(seen)) return {{}, NavigatorState::blind};
+  pose_ = steering_.compensate(seen);
+  if (steering_.arrives(pose_.position)) {  // line 2
     path_.clear();
-    return issue(seen.now, hold, NavigatorState::arrived);
+    return {hold(), NavigatorState::arrived};
   }
-
-  delay_ = seen.age() + swarm_.response_lag;
-  const Snapshot& now = *seen.world;
-  for (int attempt = 0; attempt < 2; ++attempt) {
-    if (attempt > 0 || is_used_up() || !path_holds(now)) {  // line 4
-      replan(now, stop);                                    // lines 5–11
-    }
-    if (path_.size() < 2) break;
-    if (params_.as_published) {
-      const auto next = follow(place_, pose_, params_.speed);
-      return issue(seen.now, next.command,
-                   next.handed_over ? NavigatorState::fallback : NavigatorState::follow);
-    }
-    for (const double ease : eases)
-      if (const double speed = ease * params_.speed; look_along_path(seen, speed).safe) {
-        const auto next = follow(place_, pose_, speed);
-        return issue(seen.now, next.command,
-                     next.handed_over ? NavigatorState::fallback : NavigatorState::follow);
-      }
+  if (is_used_up() || !path_holds(*seen.world)) replan(*seen.world, stop);  // lines 4–11
+  auto decision = keep_path(seen);
+  if (!decision && has_path()) {
+    replan(*seen.world, stop);
+    decision = keep_path(seen);
   }
-  if (params_.as_published ||
-      look_ahead(seen, params_.clearance, [&](const Pose2&, double) { return hold; }).safe)
-    return issue(seen.now, hold, NavigatorState::hold);
+  if (decision) return *decision;
+  if (params_.as_published || hold_is_safe(seen)) return {hold(), NavigatorState::hold};
   return escape(seen);
+}
+
+// Along the path, slowed down where only that is safe.
+std::optional<HierarchicalNavigator::Decision> HierarchicalNavigator::keep_path(
+    const Observation& seen) {
+  if (!has_path()) return std::nullopt;
+  for (const double ease : eases) {
+    const double speed = ease * params_.speed;
+    if (!params_.as_published && !look_along_path(seen, speed).safe) continue;
+    const auto next = follow(place_, pose_, speed);
+    return Decision{next.command,
+                    next.handed_over ? NavigatorState::fallback : NavigatorState::follow};
+  }
+  return std::nullopt;
+}
+
+bool HierarchicalNavigator::hold_is_safe(const Observation& seen) const {
+  return look_ahead(seen, params_.clearance, [&](const Pose2&, double) { return hold(); }).safe;
 }
 
 // A path to a local target is replaced before its end, the one to the aim at its end.
 bool HierarchicalNavigator::is_used_up() {
-  if (path_.size() < 2 || !target_) return false;
-  if (!(*target_ == aim_.position)) return remaining(path_, place_) < used_up();
+  if (!has_path() || !target_) return false;
+  if (!(*target_ == aim().position)) return remaining(path_, place_) < used_up();
   if (params_.as_published) return false;
   place_ = nearest_place(path_, pose_.position, place_);
   return remaining(path_, place_) < path_end();
@@ -139,12 +129,12 @@ bool HierarchicalNavigator::is_used_up() {
 
 // Path Safety, P_clt Unsafe: the rest of the path against what is seen now.
 bool HierarchicalNavigator::path_holds(const Snapshot& world) const {
-  if (path_.size() < 2) return false;
+  if (!has_path()) return false;
   std::vector<Vec2> rest{point_ahead(path_, place_, 0)};
   rest.insert(rest.end(), path_.begin() + static_cast<std::ptrdiff_t>(place_.piece) + 1,
               path_.end());
   const double clearance = std::min(params_.clearance, path_clearance_);
-  return path_in_time_ ? is_free_in_time(world, obstacles_, rest, params_.speed, delay_,
+  return path_in_time_ ? is_free_in_time(world, obstacles_, rest, params_.speed, steering_.delay(),
                                          params_.target_horizon, clearance)
                        : world.is_free(rest, clearance);
 }
@@ -154,8 +144,8 @@ void HierarchicalNavigator::replan(const Snapshot& seen, const Stop& stop) {
   place_ = {};
   const double here = seen.clearance(pose_.position);
   double wanted = params_.clearance + params_.extra_clearance;
-  if (distance(pose_.position, aim_.position) <= params_.target.base_distance)  // it may have less
-    wanted = std::clamp(aim_.clearance, params_.clearance, wanted);
+  if (distance(pose_.position, aim().position) <= params_.target.base_distance)  // it may have less
+    wanted = std::clamp(aim().clearance, params_.clearance, wanted);
   if (here < params_.clearance) {
     target_.reset();
     return;
@@ -173,10 +163,10 @@ void HierarchicalNavigator::replan(const Snapshot& seen, const Stop& stop) {
 
 // Where the goal lies: straight, or along the route.
 Vec2 HierarchicalNavigator::towards(const Map& map) const {
-  if (params_.guide == Guide::straight) return aim_.position;
+  if (params_.guide == Guide::straight) return aim().position;
   const Vec2 via =
       route_.ahead(map, pose_.position, 1.5 * params_.target.base_distance, params_.clearance);
-  return via == pose_.position ? aim_.position : via;
+  return via == pose_.position ? aim().position : via;
 }
 
 // What is beyond the horizon seems free: without an end, a wait would look better for ever.
@@ -190,15 +180,14 @@ bool HierarchicalNavigator::replan_in_time(const Snapshot& seen, double clearanc
   if (params_.target_horizon <= 0 || obstacles_.all_rest()) return false;
   const Vec2 from = pose_.position;
   const auto way_from = [&](Vec2 p) {
-    const double way =
-        params_.guide == Guide::route ? route_.way_from(p) : distance(p, aim_.position);
-    return std::isfinite(way) ? way : distance(p, aim_.position) + no_route;
+    const double way = params_.guide == Guide::route ? route_.from(p) : distance(p, aim().position);
+    return std::isfinite(way) ? way : distance(p, aim().position) + no_route;
   };
   const auto target = select_predicted_target(seen, obstacles_,
                                               {.swarm = pose_,
-                                               .delay = delay_,
+                                               .delay = steering_.delay(),
                                                .speed = params_.speed,
-                                               .goal = aim_.position,
+                                               .goal = aim().position,
                                                .towards = towards(seen.map()),
                                                .reach = params_.target.base_distance,
                                                .min_reach = 2 * used_up(),
@@ -225,17 +214,17 @@ bool HierarchicalNavigator::replan_with(const Snapshot& world, double clearance,
   path_in_time_ = false;
   const LocalTargetQuery query{.swarm = pose_,
                                .goal_heading = heading_of(towards(world.map()) - from),
-                               .goal_distance = distance(from, aim_.position),
+                               .goal_distance = distance(from, aim().position),
                                .previous_target = target_,
                                .clearance = clearance,
-                               .min_distance = swarm_.radius};
+                               .min_distance = swarm().radius};
   const bool near_goal =  // line 6
       params_.as_published ? query.goal_distance <= target_distance(world, query, params_.target)
                            : query.goal_distance <= params_.target.base_distance &&
-                                 world.is_free(Segment{from, aim_.position}, clearance);
+                                 world.is_free(Segment{from, aim().position}, clearance);
   std::optional<Vec2> target;
   if (near_goal) {
-    target = aim_.position;                                                            // line 9
+    target = aim().position;                                                           // line 9
   } else if (const auto chosen = select_local_target(world, query, params_.target)) {  // line 7
     target = chosen->position;
   }
@@ -245,12 +234,12 @@ bool HierarchicalNavigator::replan_with(const Snapshot& world, double clearance,
 
 void HierarchicalNavigator::plan_to(const Snapshot& world, Vec2 target, double clearance,
                                     const Stop& stop) {
-  view_.planned = true;
+  steering_.view().planned = true;
   const Vec2 from = pose_.position;
   DrrtStarParams local = params_.planner;
   local.clearance = clearance;
   local.goal_tolerance =
-      std::min({local.goal_tolerance, aim_.tolerance, 0.25 * distance(from, target)});
+      std::min({local.goal_tolerance, aim().tolerance, 0.25 * distance(from, target)});
   plan_ = plan(world, pose_, target, local, rng_, stop);  // line 11
   if (plan_->status == Status::solved)
     path_ = plan_->path;
@@ -263,9 +252,9 @@ void HierarchicalNavigator::plan_to(const Snapshot& world, Vec2 target, double c
 // The margin from walls or, where that is hardly more than the swarm, so much more that what
 // happens within a tick is no contact; less where the swarm is, or the aim on the next `reach` µm.
 double HierarchicalNavigator::wall_floor(const Map& map, double reach) const {
-  const double wanted = swarm_.radius + slack_;
+  const double wanted = swarm().radius + slack_;
   if (params_.clearance >= wanted) return params_.clearance;
-  const double near_aim = aim_.wall_clearance(params_.clearance, wanted, pose_.position, reach);
+  const double near_aim = aim().wall_clearance(params_.clearance, wanted, pose_.position, reach);
   return std::max(params_.clearance, std::min(near_aim, map.clearance(pose_.position)));
 }
 
@@ -275,7 +264,7 @@ HierarchicalNavigator::Rollout HierarchicalNavigator::look_ahead(const Observati
                                                                  double floor,
                                                                  Steer&& steer) const {
   const double enough = far_enough();
-  const double delay = params_.horizon > 0 ? seen.age() + swarm_.response_lag : 0;
+  const double delay = params_.horizon > 0 ? steering_.delay() : 0;
   const int ticks = std::max(1, static_cast<int>(std::lround(params_.horizon / escape_tick)));
   const Map& map = seen.world->map();
   const double from_walls = wall_floor(map, enough);
@@ -288,7 +277,7 @@ HierarchicalNavigator::Rollout HierarchicalNavigator::look_ahead(const Observati
       command = steer(pose, k * escape_tick);
       next_command += period_;
     }
-    const Pose2 next = unicycle_step(pose, command, swarm_.max_turn_rate, escape_tick);
+    const Pose2 next = unicycle_step(pose, command, swarm().max_turn_rate, escape_tick);
     const Segment move{pose.position, next.position};
     const double from = delay + k * escape_tick;
     const double moving = obstacles_.clearance(*seen.world, move, from, from + escape_tick, enough);
@@ -309,14 +298,13 @@ PathFollower::Answer HierarchicalNavigator::follow(PathPlace& place, const Pose2
                                                    double speed) const {
   const double lookahead = params_.as_published ? params_.lookahead : lookahead_at(speed);
   const bool last_bit =
-      *target_ == aim_.position && distance(pose.position, aim_.position) < lookahead;
+      *target_ == aim().position && distance(pose.position, aim().position) < lookahead;
   PathFollower::Answer answer =
       last_bit ? PathFollower::Answer{pursue(path_, place, pose, lookahead, speed)}
                : follower_.command(path_, place, pose, lookahead, speed);
   if (params_.as_published) return answer;
   const double left = remaining(path_, place);
-  if (left < path_end() || distance(pose.position, goal_) <= goal_tolerance_)
-    return {{pose.heading, 0}};
+  if (left < path_end() || steering_.arrives(pose.position)) return {{pose.heading, 0}};
   if (last_bit) answer.command.speed = std::min(answer.command.speed, left / period_);
   return answer;
 }
@@ -330,9 +318,9 @@ HierarchicalNavigator::Rollout HierarchicalNavigator::look_along_path(const Obse
 
 // Of the hold and the ways of one leg, or two where one will not do, the one that keeps the most
 // distance.
-Command HierarchicalNavigator::escape(const Observation& seen) {
+HierarchicalNavigator::Decision HierarchicalNavigator::escape(const Observation& seen) {
   constexpr int directions = 16;
-  const double goal_heading = heading_of(aim_.position - pose_.position);
+  const double goal_heading = heading_of(aim().position - pose_.position);
   Command best{pose_.heading, 0};
   double best_score = -1;
   double best_least = 0;
@@ -359,7 +347,7 @@ Command HierarchicalNavigator::escape(const Observation& seen) {
       for (int j = 0; j < directions; ++j)
         if (i != j) consider(leg(i), leg(j));
   path_.clear();
-  return issue(seen.now, best, best.speed > 0 ? NavigatorState::escape : NavigatorState::hold);
+  return {best, best.speed > 0 ? NavigatorState::escape : NavigatorState::hold};
 }
 
 }  // namespace microswarm

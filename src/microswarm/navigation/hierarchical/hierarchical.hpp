@@ -13,11 +13,9 @@
 #include "microswarm/navigation/hierarchical/local_target.hpp"
 #include "microswarm/navigation/hierarchical/predicted_target.hpp"
 #include "microswarm/navigation/prediction/obstacle_predictor.hpp"
-#include "microswarm/navigation/steering/aim.hpp"
-#include "microswarm/navigation/steering/delay_compensator.hpp"
 #include "microswarm/navigation/steering/guide.hpp"
+#include "microswarm/navigation/steering/steering_cycle.hpp"
 #include "microswarm/planning/path/planners.hpp"
-#include "microswarm/swarm/body/swarm_limits.hpp"
 
 namespace microswarm {
 
@@ -32,7 +30,7 @@ class HierarchicalNavigator : public Navigator {
 
   void prepare(const Snapshot& world) override;
   Command step(const Observation& observation, const Stop& stop) override;
-  NavigatorView view() const override { return view_; }
+  NavigatorView view() const override { return steering_.view(); }
 
  private:
   struct Rollout {
@@ -41,8 +39,18 @@ class HierarchicalNavigator : public Navigator {
     double last = 0;   ///< clearance at its end [µm]
   };
 
-  Command decide(const Observation& seen, const Stop& stop);
-  Command issue(double now, Command command, NavigatorState state);
+  struct Decision {
+    Command command;
+    NavigatorState state;
+  };
+
+  Decision decide(const Observation& seen, const Stop& stop);
+  std::optional<Decision> keep_path(const Observation& seen);
+  bool hold_is_safe(const Observation& seen) const;
+  Command hold() const { return {pose_.heading, 0}; }
+  bool has_path() const { return path_.size() >= 2; }
+  const Aim& aim() const { return steering_.aim(); }
+  const SwarmLimits& swarm() const { return steering_.swarm(); }
   bool path_holds(const Snapshot& world) const;
   void replan(const Snapshot& seen, const Stop& stop);
   bool replan_with(const Snapshot& world, double clearance, const Stop& stop);
@@ -61,12 +69,12 @@ class HierarchicalNavigator : public Navigator {
     return params_.lookahead * std::max(0.5, speed / params_.speed);
   }
   /// So little of a path is left when the next one is planned [µm].
-  double used_up() const { return std::max(params_.lookahead, 2 * swarm_.radius); }
+  double used_up() const { return std::max(params_.lookahead, 2 * swarm().radius); }
   /// So little that it counts as nothing [µm].
-  double path_end() const { return std::min(1.0, 0.25 * aim_.tolerance); }
+  double path_end() const { return std::min(1.0, 0.25 * aim().tolerance); }
   bool is_used_up();
   double max_wait(double now);
-  Command escape(const Observation& seen);
+  Decision escape(const Observation& seen);
 
   /// A wait for an obstacle to pass.
   struct Wait {
@@ -75,19 +83,12 @@ class HierarchicalNavigator : public Navigator {
   };
 
   HierarchicalParams params_;
-  SwarmLimits swarm_;
-  Vec2 goal_;
-  double goal_tolerance_;
-  double frame_timeout_;  ///< [s]
-  Aim aim_;               ///< the goal, or the point within its tolerance that keeps the margin
   Rng rng_;
-  Route route_;
-  double slack_ = 1;     ///< kept besides the margin, for what happens within a tick [µm]
+  SteeringCycle steering_;
+  DistanceField route_;
+  double slack_ = 1;     ///< kept besides the clearance, for what happens within a tick [µm]
   double period_ = 0.1;  ///< between the last two commands [s]
-  double delay_ = 0;     ///< from the frame until the command of this step takes effect [s]
 
-  std::optional<double> issued_at_;  ///< the last command [s]
-  DelayCompensator compensator_;
   ObstaclePredictor obstacles_;
   PathFollower follower_;
   Pose2 pose_;  ///< where the swarm will be when the command of this step takes effect
@@ -98,7 +99,6 @@ class HierarchicalNavigator : public Navigator {
   std::optional<Vec2> target_;
   std::optional<Wait> wait_;  ///< the newest, until the swarm has left that place
   std::optional<Plan> plan_;
-  NavigatorView view_;
 };
 
 }  // namespace microswarm

@@ -30,27 +30,30 @@ struct LocalTargetParams {
   static void fields(Self& self, V&& visit) {
     visit(self.base_distance,
           {"base_distance", Unit::um, {1e-3, 1e6}, "Farthest target (D_base)."});
-    visit(self.detection_diameter,
-          {"detection_diameter", Unit::um, {1e-3, 1e6}, "Detection circle (D_dec)."});
+    visit(
+        self.detection_diameter,
+        {"detection_diameter", Unit::um, {1e-3, 1e6}, "Diameter of the detection circle (D_dec)."});
     visit(self.rho_min, {"rho_min", Unit::none, {1e-3, 1}, "Floor of the adjust factor."});
     visit(self.half_angle, {"half_angle", Unit::deg, {1, 180}, "Half of the fan (alpha_search)."});
     visit(self.angle_step,
-          {"angle_step", Unit::deg, {0.5, 90}, "Between directions (delta alpha)."});
-    visit(self.obstacle_weight, {"obstacle_weight", Unit::none, {0, 1e6}, "alpha_1, Eq 4c."});
-    visit(self.border_weight, {"border_weight", Unit::none, {0, 1e6}, "alpha_2, Eq 4d."});
-    visit(self.goal_weight, {"goal_weight", Unit::none, {0, 1e6}, "alpha_3, Eq 4e."});
-    visit(self.direction_weight, {"direction_weight", Unit::none, {0, 1e6}, "alpha_4, Eq 4f."});
+          {"angle_step", Unit::deg, {0.5, 90}, "Angle between directions (delta alpha)."});
+    visit(self.obstacle_weight,
+          {"obstacle_weight", Unit::none, {0, 1e6}, "Weight alpha_1, Eq 4c."});
+    visit(self.border_weight, {"border_weight", Unit::none, {0, 1e6}, "Weight alpha_2, Eq 4d."});
+    visit(self.goal_weight, {"goal_weight", Unit::none, {0, 1e6}, "Weight alpha_3, Eq 4e."});
+    visit(self.direction_weight,
+          {"direction_weight", Unit::none, {0, 1e6}, "Weight alpha_4, Eq 4f."});
     visit(self.influence_range, {"influence_range",
                                  Unit::um,
                                  {1e-3, 1e9},
-                                 "R of Eq 4c, 4d; r_s² as a number when left out."});
+                                 "Range R of Eq 4c and 4d; none: the number r_s²."});
   }
 };
 
 /// Hierarchical D-RRT* planning framework: Algorithm 4 [drrt] over local target selection
 /// (Algorithm 1) and the local planner (Algorithms 2–3). Ours besides: the guide along the map, and
 /// the look-ahead that screens every command against where the obstacles are going. With
-/// `as_published` Algorithm 4 is all there is (docs/navigation.md).
+/// `as_published` Algorithm 4 is all there is (docs/explanation/hierarchical-drrt-star.md).
 struct HierarchicalParams {
   /// D-RRT* with limits that fit a local target: near, and on a straight free line.
   static DrrtStarParams local_planner() {
@@ -80,23 +83,30 @@ struct HierarchicalParams {
   HierarchicalParams in_effect() const;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.clearance, {"margin", Unit::um, {0, 1e5}, "Least distance from the centre (r_s)."});
-    visit(
-        self.extra_clearance,
-        {"extra_margin", Unit::um, {0, 1e5}, "Added to the margin while planning, where it fits."});
-    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Speed asked for."});
+    visit(self.clearance, {"clearance",
+                           Unit::um,
+                           {0, 1e5},
+                           "Minimum distance from the centre to obstacles (r_s).",
+                           false,
+                           "margin_um"});
+    visit(self.extra_clearance, {"extra_clearance",
+                                 Unit::um,
+                                 {0, 1e5},
+                                 "Clearance added while planning, where it fits.",
+                                 false,
+                                 "extra_margin_um"});
+    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Commanded speed."});
     visit(self.lookahead,
-          {"lookahead", Unit::um, {1e-3, 1e5}, "How far ahead the path is pursued."});
-    visit(self.follower, {"follower", Unit::none, {}, "Who follows the path."});
+          {"lookahead", Unit::um, {1e-3, 1e5}, "Lookahead distance of the path follower."});
+    visit(self.follower, {"follower", Unit::none, {}, "Path follower."});
     visit(self.horizon,
-          {"horizon", Unit::s, {0, 60}, "How far commands are looked ahead; 0: not."});
-    visit(self.target_horizon, {"target_horizon",
-                                Unit::s,
-                                {0, 60},
-                                "Targets among obstacles predicted so far; 0: as seen."});
+          {"horizon", Unit::s, {0, 60}, "Time for which a command is checked; 0: no check."});
+    visit(
+        self.target_horizon,
+        {"target_horizon", Unit::s, {0, 60}, "Prediction time of obstacles for targets; 0: none."});
     visit(self.as_published,
-          {"as_published", Unit::none, {}, "Algorithm 4 alone: what is ours is left out."});
-    visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight, or route."});
+          {"as_published", Unit::none, {}, "Algorithm 4 [drrt] without our additions."});
+    visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight or route."});
     visit(self.route_cell, {"route_cell", Unit::um, {1e-2, 1e5}, "Grid spacing of the route."});
     visit(self.tracker, {"tracker", Unit::none, {}, "Estimation of the obstacles' motion."});
     visit(self.target, {"target", Unit::none, {}, "Local target selection."});

@@ -16,16 +16,26 @@ struct MultiModelPredictorParams {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.memory,
-          {"memory", Unit::s, {0, 1e4}, "How long it is remembered how obstacles moved."});
-    visit(self.error_time_constant,
-          {"proof_time",
-           Unit::s,
-           {1e-2, 1e3},
-           "Over which a model's past errors count when it is chosen, time constant."});
-    visit(self.uncertainty,
-          {"doubt", Unit::none, {0, 10}, "Share of its past errors by which an obstacle widens."});
-    visit(self.max_uncertainty, {"most_doubt", Unit::um, {0, 1e4}, "By so much at most."});
-    visit(self.tracker, {"tracker", Unit::none, {}, "How the obstacles' motion is told."});
+          {"memory", Unit::s, {0, 1e4}, "Time for which observed motion is remembered."});
+    visit(self.error_time_constant, {"error_time_constant",
+                                     Unit::s,
+                                     {1e-2, 1e3},
+                                     "Time constant with which a model's errors are forgotten.",
+                                     false,
+                                     "proof_time_s"});
+    visit(self.uncertainty, {"uncertainty_gain",
+                             Unit::none,
+                             {0, 10},
+                             "Share of past errors added to an obstacle's size.",
+                             false,
+                             "doubt"});
+    visit(self.max_uncertainty, {"max_uncertainty",
+                                 Unit::um,
+                                 {0, 1e4},
+                                 "Upper bound of the added uncertainty.",
+                                 false,
+                                 "most_doubt_um"});
+    visit(self.tracker, {"tracker", Unit::none, {}, "Estimation of the obstacles' motion."});
   }
 };
 

@@ -50,8 +50,7 @@ double ObstaclePredictor::clearance(const Snapshot& frame, Segment s, double t0,
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Motion& motion = motions_[i];
     const Segment own_frame{s.a - t0 * motion.velocity, s.b - t1 * motion.velocity};
-    const double d =
-        std::visit([&](const auto& shape) { return distance(own_frame, shape); }, bodies[i].shape);
+    const double d = distance(own_frame, bodies[i]);
     least = std::min(least, d - motion.growth * std::min(t1, swept_growing_time));
   }
   return least;

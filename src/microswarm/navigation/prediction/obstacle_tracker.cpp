@@ -11,20 +11,6 @@
 namespace microswarm {
 namespace {
 
-Vec2 centroid(std::span<const Vec2> ring) {
-  const Vec2 origin = ring.front();
-  Vec2 sum;
-  double twice_area = 0;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Vec2 a = ring[i] - origin;
-    const Vec2 b = ring[(i + 1) % ring.size()] - origin;
-    sum += cross(a, b) * (a + b);
-    twice_area += cross(a, b);
-  }
-  if (twice_area == 0) return bounding_box(ring).centre();
-  return origin + sum / (3 * twice_area);
-}
-
 /// Sightings from which the noise is told, in windows of a fit.
 constexpr std::size_t windows = 4;
 
@@ -65,14 +51,6 @@ void remember(std::vector<Sighting>& trail, Sighting newest, std::size_t most) {
 double outward_speed(const Body& body, const TrackedBody& motion) {
   return std::holds_alternative<Disc>(body.shape) ? std::max(0.0, motion.radius_rate)
                                                   : motion.outline_speed;
-}
-
-Disc extent_of(const Body& body) {
-  if (const auto* disc = std::get_if<Disc>(&body.shape)) return *disc;
-  const std::vector<Vec2>& outline = *outline_of(body);
-  Disc extent{centroid(outline), 0};
-  for (const Vec2 v : outline) extent.radius = std::max(extent.radius, distance(extent.centre, v));
-  return extent;
 }
 
 void ObstacleTracker::update(const Observation& observation, double range) {

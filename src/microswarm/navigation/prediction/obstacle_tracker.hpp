@@ -86,7 +86,4 @@ class ObstacleTracker {
 /// How fast [µm/s] the body's outline comes outwards besides the motion of its centre, at most.
 double outward_speed(const Body& body, const TrackedBody& motion);
 
-/// Centre of a body as the tracker takes it, and its radius around it [µm].
-Disc extent_of(const Body& body);
-
 }  // namespace microswarm

@@ -11,11 +11,11 @@ struct ObstacleTrackerParams {
   double memory = 4;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.frames, {"frames", Unit::none, {2, 100}, "Frames to tell a motion from, at most."});
-    visit(self.memory, {"memory",
-                        Unit::s,
-                        {1e-2, 60},
-                        "Older frames, from which the noise is told, are forgotten."});
+    visit(self.frames,
+          {"frames", Unit::none, {2, 100}, "Maximum number of frames for a motion estimate."});
+    visit(
+        self.memory,
+        {"memory", Unit::s, {1e-2, 60}, "Time for which frames are kept for the noise estimate."});
   }
 };
 

@@ -58,14 +58,15 @@ PredictiveNavigator::PredictiveNavigator(const PredictiveParams& params, const S
 
 void PredictiveNavigator::prepare(const Snapshot& world) {
   steering_.prepare(world, steering_.swarm().radius, steering_.swarm().radius + params_.wall_gap);
-  const double left = steering_.aim_tolerance();
-  reached_ = {steering_.aim(), inner_goal * left};
+  const double left = steering_.aim().tolerance;
+  reached_ = {steering_.aim().position, inner_goal * left};
   ends_within_ = goal_tolerance_ - (1 - inner_goal) * left;
   if (params_.guide == Guide::route)
-    route_ = Route(
-        world.map(), steering_.aim(),
-        steering_.wall_clearance(steering_.swarm().radius + params_.wall_gap, steering_.aim(), 0),
-        params_.route_cell);
+    route_ =
+        DistanceField::to_goal(world.map(), steering_.aim().position,
+                               steering_.wall_clearance(steering_.swarm().radius + params_.wall_gap,
+                                                        steering_.aim().position, 0),
+                               params_.route_cell);
 }
 
 NavigatorView PredictiveNavigator::view() const {
@@ -86,21 +87,23 @@ Command PredictiveNavigator::step(const Observation& seen, const Stop&) {
   radius_ = std::max(steering_.swarm().radius, seen.swarm->radius) + params_.gap;
   look_at_bodies(seen, pose.position);
   look_ahead(seen.seen + steering_.delay());
-  in_sight_ = params_.guide == Guide::straight ||
-              map.is_free(Segment{pose.position, steering_.aim()}, steering_.swarm().radius);
+  in_sight_ =
+      params_.guide == Guide::straight ||
+      map.is_free(Segment{pose.position, steering_.aim().position}, steering_.swarm().radius);
   path_.push_back(pose.position);
   if (goal_is_clear(map, pose)) {
-    steering_.show_target(steering_.aim());
-    path_.push_back(steering_.aim());
-    return steering_.command({heading_of(steering_.aim() - pose.position), steering_.speed()},
-                             NavigatorState::follow);
+    steering_.view().local_target = steering_.aim().position;
+    path_.push_back(steering_.aim().position);
+    return steering_.command(
+        {heading_of(steering_.aim().position - pose.position), steering_.speed()},
+        NavigatorState::follow);
   }
   planned_ = true;
   solve(map, pose.position);
   const Leg leg = best_leg(map, pose);
   const Vec2 end =
       pose.position + field_.step() * leg.command.speed * unit_vector(leg.command.heading);
-  steering_.show_target(end);
+  steering_.view().local_target = end;
   const double gap = std::min(leg.min_gap, follow_field(end));
   const bool meets = gap < -params_.gap;
   if (leg.command.speed == 0)
@@ -138,7 +141,7 @@ void PredictiveNavigator::look_at_bodies(const Observation& seen, Vec2 from) {
 bool PredictiveNavigator::stands_hollow(const ConvexOutline& outline, const TrackedBody& motion,
                                         Vec2 from) const {
   if (norm(motion.velocity) > slow_share * steering_.speed()) return false;
-  return outliner_.misleads(outline, std::array{from, steering_.aim()});
+  return outliner_.misleads(outline, std::array{from, steering_.aim().position});
 }
 
 /// Where the bodies will be, from when this step's command takes effect.
@@ -156,7 +159,7 @@ void PredictiveNavigator::look_ahead(double effect) {
 /// Is nothing near to the straight way to the goal, as far as the horizon reaches? Between the
 /// samples, what is met may have come nearer by half the way that both of them made.
 bool PredictiveNavigator::goal_is_clear(const Map& map, const Pose2& pose) const {
-  const Vec2 way = steering_.aim() - pose.position;
+  const Vec2 way = steering_.aim().position - pose.position;
   const double heading = heading_of(way);
   constexpr double turned = 0.02;  // [rad]
   const bool turns = std::isfinite(steering_.swarm().max_turn_rate);
@@ -188,9 +191,9 @@ void PredictiveNavigator::solve(const Map& map, Vec2 from) {
 
 /// Time to the goal over free ground [s].
 double PredictiveNavigator::left_from(Vec2 p) const {
-  const double straight = distance(p, steering_.aim()) - reached_.radius;
+  const double straight = distance(p, steering_.aim().position) - reached_.radius;
   if (in_sight_) return std::max(0.0, straight) / steering_.speed();
-  const double way = route_.way_from(p);
+  const double way = route_.from(p);
   return std::isfinite(way) ? way / steering_.speed() : no_path_reason;
 }
 
@@ -214,12 +217,13 @@ PredictiveNavigator::Leg PredictiveNavigator::best_leg(const Map& map, const Pos
   wanted_ = turns_slowly ? best_heading(pose.position) : std::nullopt;
   Leg best = tried(map, pose, {pose.heading, 0}, std::numeric_limits<double>::infinity());
   const bool alone = std::isinf(best.min_gap);
-  ending_ = alone && in_sight_ &&
-            distance(pose.position, steering_.aim()) < 2 * field_.step() * steering_.speed();
+  ending_ =
+      alone && in_sight_ &&
+      distance(pose.position, steering_.aim().position) < 2 * field_.step() * steering_.speed();
   // Where nothing moves, waiting leads nowhere: who turns slowly does not turn at rest, and the
   // last bit is finer than the field's cells.
   if (alone && (turns_slowly || ending_)) best.cost = std::numeric_limits<double>::infinity();
-  const double straight = heading_of(steering_.aim() - pose.position);
+  const double straight = heading_of(steering_.aim().position - pose.position);
   const std::span shares(speed_shares);
   for (const double share : turns_slowly ? shares : shares.first(2))
     for (int k = 0; k < params_.directions; ++k) {
@@ -275,7 +279,7 @@ std::optional<double> PredictiveNavigator::best_heading(Vec2 p) const {
 /// turns by an angle at its full rate, it gets on by that angle's sine alone.
 double PredictiveNavigator::turning_time(const Pose2& pose) const {
   if (!wanted_) return 0;
-  const double wanted = ending_ ? heading_of(steering_.aim() - pose.position) : *wanted_;
+  const double wanted = ending_ ? heading_of(steering_.aim().position - pose.position) : *wanted_;
   const double turn = turn_between(wanted, pose.heading);
   return (turn - maths::sin(turn)) / steering_.swarm().max_turn_rate;
 }

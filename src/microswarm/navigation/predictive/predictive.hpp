@@ -63,7 +63,7 @@ class PredictiveNavigator : public Navigator {
   double radius_;           ///< with the margin [µm]
   MultiModelPredictor predictor_;
   TimeField field_;
-  Route route_;
+  DistanceField route_;
   bool in_sight_ = true;          ///< is the goal?
   std::optional<double> wanted_;  ///< heading to turn to, of a swarm that turns slowly [rad]
   bool ending_ = false;           ///< is it at the last bit, finer than the field's cells?

@@ -19,14 +19,22 @@ struct RiskParams {
   double softness = 6;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.contact, {"contact", Unit::none, {0, 1e6}, "In contact."});
-    visit(self.penetration_cost,
-          {"depth", Unit::none, {0, 1e6}, "Besides, a reach deep in an obstacle."});
-    visit(self.proximity_cost,
-          {"nearness", Unit::none, {0, 1e6}, "Besides, at contact; 0 at reach."});
-    visit(self.reach, {"reach", Unit::um, {1, 1e5}, "How far from an obstacle it is felt."});
+    visit(self.contact, {"contact", Unit::none, {0, 1e6}, "Cost rate in contact."});
+    visit(self.penetration_cost, {"penetration_cost",
+                                  Unit::none,
+                                  {0, 1e6},
+                                  "Extra cost rate when one `reach` inside an obstacle.",
+                                  false,
+                                  "depth"});
+    visit(self.proximity_cost, {"proximity_cost",
+                                Unit::none,
+                                {0, 1e6},
+                                "Extra cost rate at contact; falls to 0 at `reach`.",
+                                false,
+                                "nearness"});
+    visit(self.reach, {"reach", Unit::um, {1, 1e5}, "Gap above which an obstacle has no cost."});
     visit(self.softness,
-          {"softness", Unit::um, {1e-3, 1e4}, "Contact is half as bad that far from its edge."});
+          {"softness", Unit::um, {1e-3, 1e4}, "Gap at which the contact cost has fallen to half."});
   }
 };
 
@@ -48,15 +56,23 @@ struct PredictiveParams {
   double route_cell = 20;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Speed asked for."});
-    visit(self.gap, {"margin", Unit::um, {0, 1e5}, "Gap that counts as contact still."});
-    visit(self.wall_gap, {"wall_margin", Unit::um, {0, 1e5}, "Gap that is kept to walls."});
-    visit(self.horizon, {"horizon", Unit::s, {0.2, 60}, "How far it looks ahead."});
-    visit(self.step, {"step", Unit::s, {0.05, 10}, "Of time, between two places of a way ahead."});
-    visit(self.directions, {"directions", Unit::none, {4, 720}, "Of the first leg."});
-    visit(self.risk, {"risk", Unit::none, {}, "What nearness to obstacles costs."});
-    visit(self.prediction, {"foresight", Unit::none, {}, "How obstacles are foreseen."});
-    visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight, or route."});
+    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Commanded speed."});
+    visit(self.gap, {"gap",
+                     Unit::um,
+                     {0, 1e5},
+                     "Gap to obstacles that counts as contact.",
+                     false,
+                     "margin_um"});
+    visit(self.wall_gap,
+          {"wall_gap", Unit::um, {0, 1e5}, "Gap kept to walls.", false, "wall_margin_um"});
+    visit(self.horizon, {"horizon", Unit::s, {0.2, 60}, "Prediction time."});
+    visit(self.step, {"step", Unit::s, {0.05, 10}, "Time step of the cost-to-go."});
+    visit(self.directions,
+          {"directions", Unit::none, {4, 720}, "Number of directions of the first leg."});
+    visit(self.risk, {"risk", Unit::none, {}, "Cost of being near obstacles."});
+    visit(self.prediction,
+          {"prediction", Unit::none, {}, "Prediction of obstacles.", false, "foresight"});
+    visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight or route."});
     visit(self.route_cell, {"route_cell", Unit::um, {1e-2, 1e5}, "Grid spacing of the route."});
   }
 };

@@ -6,7 +6,6 @@
 
 #include "microswarm/core/maths.hpp"
 #include "microswarm/navigation/radar/wait_zone.hpp"
-#include "microswarm/navigation/steering/steering_cycle.hpp"
 #include "microswarm/planning/path/fmt_star.hpp"
 #include "microswarm/world/connectivity/free_place.hpp"
 
@@ -22,113 +21,103 @@ constexpr double usual_tick = 0.1;   // [s]
 RadarNavigator::RadarNavigator(const RadarParams& params, const SwarmLimits& swarm, Vec2 goal,
                                double goal_tolerance, Rng rng, double frame_timeout)
     : params_(params.in_effect()),
-      swarm_(swarm),
-      goal_(goal),
-      aim_{.position = goal, .tolerance = goal_tolerance},
-      goal_tolerance_(goal_tolerance),
-      frame_timeout_(frame_timeout),
       rng_(rng),
+      steering_(swarm, params.speed, goal, goal_tolerance, frame_timeout),
       safety_radius_(params.safety_radius),
-      compensator_(swarm),
       scanner_(directions_of(params)),
-      filter_(params.safety_filter, std::min(params.speed, swarm.max_speed)) {
-  params_.speed = std::min(params.speed, swarm.max_speed);
+      filter_(params.safety_filter, steering_.speed()) {
+  params_.speed = steering_.speed();
 }
 
 void RadarNavigator::prepare(const Snapshot& world) {
   if (params_.as_published) return;
-  aim_ = aim_at(Snapshot(world.shared_map()), goal_, goal_tolerance_, swarm_.radius,
-                swarm_.radius + params_.safety_distance);
+  steering_.prepare(world, swarm().radius, swarm().radius + params_.safety_distance);
 }
 
 Command RadarNavigator::step(const Observation& seen, const Stop& stop) {
-  view_ = {};
   look_.reset();
   contact_.reset();
-  Command command = decide(seen, stop);
-  if (params_.safety_filter.active && seen.world) command = guarded(command, seen);
-  if (command.speed > 0) course_ = unit_vector(command.heading);
-  last_ = seen.now;
-  compensator_.note(seen.now, command);
-  view_.path = route_.rest();
-  if (!route_.empty()) view_.phased_goal = view_.path.front();
-  if (plan_) view_.plan = &*plan_;
-  return command;
+  Decision decision = decide(seen, stop);
+  if (params_.safety_filter.active && seen.world) decision = filtered(decision, seen);
+  if (decision.command.speed > 0) course_ = unit_vector(decision.command.heading);
+  NavigatorView& view = steering_.view();
+  view.path = route_.rest();
+  if (!route_.empty()) view.phased_goal = view.path.front();
+  if (plan_) view.plan = &*plan_;
+  return steering_.command(decision.command, decision.state);
 }
 
 // A frame without a swarm is no reason to forget where it was.
-Command RadarNavigator::guarded(const Command& command, const Observation& seen) {
+RadarNavigator::Decision RadarNavigator::filtered(const Decision& decision,
+                                                  const Observation& seen) {
   filter_.update(seen);
+  Vec2 position = pose_.position;
   if (look_) {
-    sighted_ = seen.seen;
-    sighting_ = seen.swarm;
-  } else if (sighting_ && seen.now - sighted_ <= frame_timeout_) {
-    pose_ = compensator_.at_effect(
-        {.now = seen.now, .seen = sighted_, .swarm = sighting_, .robots = {}, .world = seen.world});
+    sighting_ = Sighting{seen.seen, *seen.swarm};
+  } else if (sighting_ && seen.now - sighting_->time <= steering_.frame_timeout()) {
+    position = steering_.compensator()
+                   .at_effect({.now = seen.now,
+                               .seen = sighting_->time,
+                               .swarm = sighting_->swarm,
+                               .robots = {},
+                               .world = seen.world})
+                   .position;
   } else {
-    return command;
+    return decision;
   }
-  const SafetyFilter::Start start{.place = pose_.position,
-                                  .radius = std::max(sighting_->radius, swarm_.radius),
-                                  .time = seen.now + swarm_.response_lag};
-  const double since = seen.now - last_;
+  const SafetyFilter::Start start{.place = position,
+                                  .radius = std::max(sighting_->swarm.radius, swarm().radius),
+                                  .time = seen.now + swarm().response_lag};
+  const double since = seen.now - steering_.last_command().value_or(seen.now);
   const double tick = since > 0 && since < 1 ? since : usual_tick;
-  const auto instead = filter_.filter(command, start, *seen.world, tick);
-  if (!instead) return command;
-  return issue(*instead, instead->speed > 0 ? NavigatorState::guard : NavigatorState::hold);
+  const auto instead = filter_.filter(decision.command, start, *seen.world, tick);
+  if (!instead) return decision;
+  return {*instead, instead->speed > 0 ? NavigatorState::guard : NavigatorState::hold};
 }
 
-Command RadarNavigator::decide(const Observation& seen, const Stop& stop) {
-  if (!sees_swarm(seen, frame_timeout_) || !(seen.swarm->radius > 0))
-    return issue({}, NavigatorState::blind);
-  pose_ = params_.compensate_delay ? compensator_.at_effect(seen) : seen.swarm->pose;
-  if (!seen.world->is_free(pose_.position, 0)) return issue({}, NavigatorState::hold);
+RadarNavigator::Decision RadarNavigator::decide(const Observation& seen, const Stop& stop) {
+  if (!steering_.begin(seen) || !(seen.swarm->radius > 0)) return {{}, NavigatorState::blind};
+  const Pose2& at_effect = steering_.compensate(seen);
+  pose_ = params_.compensate_delay ? at_effect : seen.swarm->pose;
+  if (!seen.world->is_free(pose_.position, 0)) return {{}, NavigatorState::hold};
   find_route(seen, stop);
   const bool has_plan = !route_.empty();
   const Vec2 target = has_plan ? route_.target(seen.world->map(), pose_.position,
                                                seen.swarm->radius, params_.waypoint_tolerance)
-                               : aim_.position;
-  look_ = look_around(seen, target);
-  contact_ = scanner_.detect(*look_, *seen.world);
-  if (contact_)
-    look_->circles.safety = safety_radius_.radius(look_->circles.safety, look_->circles.prediction,
-                                                  contact_->distance - look_->radius);
-  view_.local_target = target;
+                               : aim().position;
+  look_around(seen, target);
+  steering_.view().local_target = target;
 
-  if (distance(pose_.position, goal_) <= goal_tolerance_)
-    return rest(seen, NavigatorState::arrived);
+  if (steering_.arrives(pose_.position)) return rest(seen, NavigatorState::arrived);
   if (!has_plan) return rest(seen, NavigatorState::stuck);
   const Waiting waiting{pose_.position, look_->radius, look_->circles.prediction, target};
-  for (const WaitZone& area : params_.wait_zones)  // Eq 29
-    if (must_wait(area, seen.world->moving().bodies(), waiting))
+  for (const WaitZone& zone : params_.wait_zones)  // Eq 29
+    if (must_wait(zone, seen.world->moving().bodies(), waiting))
       return rest(seen, NavigatorState::wait);
   if (const auto heading = scanner_.choose(*look_, *seen.world)) {
     const bool straight =
         !contact_ && turn_between(*heading, heading_of(target - pose_.position)) < 1e-9;
-    return issue({*heading, params_.speed},
-                 straight ? NavigatorState::direct : NavigatorState::avoid);
+    return {{*heading, params_.speed}, straight ? NavigatorState::direct : NavigatorState::avoid};
   }
   const bool near_wall = !seen.world->map().is_free(pose_.position, look_->wall_reach());
   if (!contact_ && !near_wall) return rest(seen, NavigatorState::stuck);
-  if (params_.retreat)
-    if (const auto heading = scanner_.retreat(*look_, *seen.world))
-      return issue({*heading, params_.speed}, NavigatorState::retreat);
-  return issue({pose_.heading, 0}, contact_ ? NavigatorState::hold : NavigatorState::stuck);
+  if (const auto retreat = this->retreat(seen)) return *retreat;
+  return {{pose_.heading, 0}, contact_ ? NavigatorState::hold : NavigatorState::stuck};
 }
 
 // Waypoints by hand, planned, or just the goal.
 void RadarNavigator::find_route(const Observation& seen, const Stop& stop) {
   if (!routed_ && !params_.waypoints.empty()) {
     std::vector<Vec2> points = params_.waypoints;
-    points.push_back(aim_.position);
+    points.push_back(aim().position);
     route_ = RadarRoute(std::move(points), false);
   } else if (!routed_ && !params_.global_plan) {
-    route_ = RadarRoute({aim_.position}, true);
+    route_ = RadarRoute({aim().position}, true);
   } else if (params_.waypoints.empty() && params_.global_plan && seen.now >= plan_again_at_ &&
              (route_.empty() || !route_.in_sight())) {
-    view_.planned = true;
+    steering_.view().planned = true;
     const Snapshot walls(seen.world->shared_map());
-    const double radius = std::max(swarm_.radius, seen.swarm->radius);
+    const double radius = std::max(swarm().radius, seen.swarm->radius);
     const bool found =
         plan_route(walls, pose_, std::max(params_.planner.clearance, radius), stop) ||
         plan_route(walls, beside_walls(walls.map(), radius), radius, stop);
@@ -149,8 +138,8 @@ bool RadarNavigator::plan_route(const Snapshot& walls, Pose2 from, double cleara
                                 const Stop& stop) {
   FmtStarParams planner = params_.planner;
   planner.clearance = clearance;
-  planner.goal_tolerance = std::min(planner.goal_tolerance, aim_.tolerance);
-  plan_ = plan(walls, from, aim_.position, planner, rng_, stop);
+  planner.goal_tolerance = std::min(planner.goal_tolerance, aim().tolerance);
+  plan_ = plan(walls, from, aim().position, planner, rng_, stop);
   if (plan_->status != Status::solved) return false;
   std::vector<Vec2> points = plan_->path;
   if (points.size() > 1 && from.position == pose_.position) points.erase(points.begin());
@@ -158,35 +147,43 @@ bool RadarNavigator::plan_route(const Snapshot& walls, Pose2 from, double cleara
   return true;
 }
 
-RadarLook RadarNavigator::look_around(const Observation& seen, Vec2 target) const {
+// What the decision rests on: the detected contact decides the radius of the safety circle.
+void RadarNavigator::look_around(const Observation& seen, Vec2 target) {
   const double radius = seen.swarm->radius;
-  const double dead_time = seen.age() + swarm_.response_lag;
-  const double from_walls = aim_.wall_clearance(radius, radius + params_.safety_distance,
-                                                pose_.position, params_.prediction_distance);
-  return {.centre = pose_.position,
-          .radius = radius,
-          .target = target,
-          .circles = circles_of(params_, radius),
-          .step = params_.prediction_distance,
-          .wall_distance = from_walls - radius,
-          .approach = params_.compensate_delay ? params_.obstacle_speed_bound * dead_time : 0,
-          .target_gain = params_.target_gain,
-          .avoidance_gain = params_.avoidance_gain,
-          .course = course_,
-          .min_cosine = maths::cos(params_.max_turn)};
+  const double from_walls = aim().wall_clearance(radius, radius + params_.safety_distance,
+                                                 pose_.position, params_.prediction_distance);
+  RadarLook look{
+      .centre = pose_.position,
+      .radius = radius,
+      .target = target,
+      .circles = circles_of(params_, radius),
+      .step = params_.prediction_distance,
+      .wall_distance = from_walls - radius,
+      .approach = params_.compensate_delay ? params_.obstacle_speed_bound * steering_.delay() : 0,
+      .target_gain = params_.target_gain,
+      .avoidance_gain = params_.avoidance_gain,
+      .course = course_,
+      .min_cosine = maths::cos(params_.max_turn)};
+  contact_ = scanner_.detect(look, *seen.world);
+  if (contact_)
+    look.circles.safety = safety_radius_.radius(look.circles.safety, look.circles.prediction,
+                                                contact_->distance - look.radius);
+  look_ = look;
 }
 
-Command RadarNavigator::rest(const Observation& seen, NavigatorState state) {
+std::optional<RadarNavigator::Decision> RadarNavigator::retreat(const Observation& seen) {
+  if (!params_.retreat) return std::nullopt;
+  const auto heading = scanner_.retreat(*look_, *seen.world);
+  if (!heading) return std::nullopt;
+  return Decision{{*heading, params_.speed}, NavigatorState::retreat};
+}
+
+// A hold, but for an obstacle that presses.
+RadarNavigator::Decision RadarNavigator::rest(const Observation& seen, NavigatorState state) {
   const bool pressed = contact_ && contact_->distance < look_->circles.prediction;
-  if (pressed && params_.retreat)
-    if (const auto heading = scanner_.retreat(*look_, *seen.world))
-      return issue({*heading, params_.speed}, NavigatorState::retreat);
-  return issue({pose_.heading, 0}, state);
-}
-
-Command RadarNavigator::issue(const Command& command, NavigatorState state) {
-  view_.state = state;
-  return command;
+  if (pressed)
+    if (const auto retreat = this->retreat(seen)) return *retreat;
+  return {{pose_.heading, 0}, state};
 }
 
 }  // namespace microswarm

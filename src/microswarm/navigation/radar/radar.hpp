@@ -12,15 +12,13 @@
 #include "microswarm/navigation/radar/radar_scanner.hpp"
 #include "microswarm/navigation/radar/safety_filter.hpp"
 #include "microswarm/navigation/radar/safety_radius.hpp"
-#include "microswarm/navigation/steering/aim.hpp"
-#include "microswarm/navigation/steering/delay_compensator.hpp"
-#include "microswarm/swarm/body/swarm_limits.hpp"
+#include "microswarm/navigation/steering/steering_cycle.hpp"
 
 namespace microswarm {
 
 /// Navigation by a hierarchical radar [radar], see RadarParams. It knows of obstacles only where
 /// they are and how wide. Made for a swarm that moves into any direction at once. States: direct,
-/// avoid, retreat, safety_filter (it does what the safety_filter orders instead), hold, wait,
+/// avoid, retreat, guard (the safety filter's command in place of its own), hold, wait,
 /// arrived, blind, and stuck when there is no plan round the walls or they leave no way that leads
 /// nearer.
 class RadarNavigator : public Navigator {
@@ -31,7 +29,7 @@ class RadarNavigator : public Navigator {
 
   void prepare(const Snapshot& world) override;
   Command step(const Observation& observation, const Stop& stop) override;
-  NavigatorView view() const override { return view_; }
+  NavigatorView view() const override { return steering_.view(); }
 
   /// What the last decision by Eq 9–17 rests on, for `scan`; empty when the last step looked at
   /// nothing: blind, or inside a body.
@@ -40,24 +38,31 @@ class RadarNavigator : public Navigator {
   int directions() const { return directions_of(params_); }
 
  private:
-  Command decide(const Observation& seen, const Stop& stop);
-  Command guarded(const Command& command, const Observation& seen);
+  struct Decision {
+    Command command;
+    NavigatorState state;
+  };
+  /// The swarm as it was seen last.
+  struct Sighting {
+    double time = 0;  ///< [s]
+    SwarmPose swarm;
+  };
+
+  Decision decide(const Observation& seen, const Stop& stop);
+  Decision filtered(const Decision& decision, const Observation& seen);
   void find_route(const Observation& seen, const Stop& stop);
   Pose2 beside_walls(const Map& map, double radius) const;
   bool plan_route(const Snapshot& walls, Pose2 from, double clearance, const Stop& stop);
-  RadarLook look_around(const Observation& seen, Vec2 target) const;
-  Command rest(const Observation& seen, NavigatorState state);
-  Command issue(const Command& command, NavigatorState state);
+  void look_around(const Observation& seen, Vec2 target);
+  std::optional<Decision> retreat(const Observation& seen);
+  Decision rest(const Observation& seen, NavigatorState state);
+  const SwarmLimits& swarm() const { return steering_.swarm(); }
+  const Aim& aim() const { return steering_.aim(); }
 
   RadarParams params_;
-  SwarmLimits swarm_;
-  Vec2 goal_;
-  Aim aim_;  ///< the goal, or the point within its tolerance that keeps the safety distance
-  double goal_tolerance_;
-  double frame_timeout_;  ///< [s]
   Rng rng_;
+  SteeringCycle steering_;
   SafetyRadius safety_radius_;
-  DelayCompensator compensator_;
   RadarScanner scanner_;
   SafetyFilter filter_;
   RadarRoute route_;
@@ -65,14 +70,11 @@ class RadarNavigator : public Navigator {
   bool routed_ = false;       ///< has looked for a route
   double plan_again_at_ = 0;  ///< [s]
   double wait_ = 0;           ///< from the last plan to the next, longer after each failure [s]
-  double last_ = -1;          ///< when a step was asked for last [s]
-  double sighted_ = 0;        ///< when the swarm was seen last [s]
-  std::optional<SwarmPose> sighting_;
-  std::optional<Vec2> course_;  ///< the direction last driven
-  Pose2 pose_;                  ///< where the swarm is when the command takes effect
+  std::optional<Sighting> sighting_;  ///< the safety filter's
+  std::optional<Vec2> course_;        ///< the direction last driven
+  Pose2 pose_;                        ///< where the swarm is when the command takes effect
   std::optional<RadarLook> look_;
   std::optional<RadarContact> contact_;
-  NavigatorView view_;
 };
 
 }  // namespace microswarm

@@ -23,7 +23,7 @@ int directions_of(const RadarParams& params) {
 RadarParams RadarParams::in_effect() const {
   RadarParams p = *this;
   if (!as_published) return p;
-  p.guard = {.active = false};
+  p.safety_filter = {.active = false};
   p.retreat = false;
   p.max_turn = radians(180);
   p.compensate_delay = false;

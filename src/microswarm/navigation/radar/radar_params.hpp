@@ -43,65 +43,67 @@ struct RadarParams {
   RadarParams in_effect() const;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Speed asked for."});
-    visit(self.prediction_distance,
-          {"prediction_distance",
-           Unit::um,
-           {1e-3, 1e5},
-           "From the swarm to a predictive swarm, centre to centre (d_p)."});
+    visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Commanded speed."});
+    visit(self.prediction_distance, {"prediction_distance",
+                                     Unit::um,
+                                     {1e-3, 1e5},
+                                     "Distance to a predictive swarm, centre to centre (d_p)."});
+    visit(self.safety_distance,
+          {"safety_distance", Unit::um, {0, 1e5}, "Minimum gap of a predictive swarm (d_f)."});
     visit(
-        self.safety_distance,
-        {"safety_distance", Unit::um, {0, 1e5}, "Least gap that a predictive swarm keeps (d_f)."});
-    visit(self.detection_range, {"detection_range",
-                                 Unit::um,
-                                 {1e-3, 1e6},
-                                 "Obstacles nearer to the swarm's edge are avoided (d_r)."});
+        self.detection_range,
+        {"detection_range", Unit::um, {1e-3, 1e6}, "Gap below which obstacles are avoided (d_r)."});
     visit(self.angle_step,
-          {"angle_step", Unit::deg, {0.1, 90}, "Between two directions (beta); divides 360."});
-    visit(self.target_gain,
-          {"target_gain", Unit::none, {0, 1e6}, "Growth of q_t with the way left (k_t epsilon)."});
+          {"angle_step", Unit::deg, {0.1, 90}, "Angle between directions (beta); divides 360."});
+    visit(self.target_gain, {"target_gain",
+                             Unit::none,
+                             {0, 1e6},
+                             "Growth of q_t with the remaining distance (k_t epsilon)."});
     visit(self.avoidance_gain, {"avoidance_gain",
                                 Unit::none,
                                 {0, 0.999},
-                                "Growth of q_a with nearness (k_a eta); q_a stays below q_t."});
+                                "Growth of q_a with proximity (k_a eta); q_a < q_t."});
     visit(self.safety_radius,
-          {"safety_radius", Unit::none, {}, "Control of the safety circle's radius."});
-    visit(self.max_turn, {"most_turn",
+          {"safety_radius", Unit::none, {}, "Control of the radius of the safety circle."});
+    visit(self.max_turn, {"max_turn",
                           Unit::deg,
                           {30, 180},
-                          "Directions that turn more from the last one are taken only where no "
-                          "other is safe; 180 as published."});
+                          "Largest turn while another direction is safe; 180: any.",
+                          false,
+                          "most_turn_deg"});
     visit(self.retreat,
-          {"retreat", Unit::none, {}, "With no safe direction get away, else hold as published."});
-    visit(self.safety_filter,
-          {"guard", Unit::none, {}, "Keeps a way out open, foreseeing obstacles."});
-    visit(self.compensate_delay,
-          {"compensate_delay",
-           Unit::none,
-           {},
-           "Decide for the place where the command takes effect, not for the one seen."});
-    visit(self.obstacle_speed_bound,
-          {"obstacle_speed_bound",
-           Unit::um_per_s,
-           {0, 1e5},
-           "Obstacles count as nearer by their way at this speed in the dead time."});
-    visit(self.wait_zones,
-          {"wait_zones", Unit::none, {}, "Where to wait for valves to open (A, D)."});
-    visit(self.waypoints,
-          {"waypoints", Unit::um, {}, "Phased goals on the way, in order; none: as planned."});
-    visit(self.waypoint_tolerance,
-          {"waypoint_tolerance", Unit::um, {1e-3, 1e6}, "How near to a waypoint counts."});
-    visit(self.global_plan, {"global_plan",
-                             Unit::none,
-                             {},
-                             "Plan waypoints round the walls, else straight to the goal."});
+          {"retreat", Unit::none, {}, "Retreat where no direction is safe; else hold."});
+    visit(self.safety_filter, {"safety_filter",
+                               Unit::none,
+                               {},
+                               "Safety filter (ours): keeps an escape open.",
+                               false,
+                               "guard"});
+    visit(self.compensate_delay, {"compensate_delay",
+                                  Unit::none,
+                                  {},
+                                  "Decide for the pose at which the command takes effect."});
+    visit(self.obstacle_speed_bound, {"obstacle_speed_bound",
+                                      Unit::um_per_s,
+                                      {0, 1e5},
+                                      "Speed of obstacles assumed during the dead time."});
+    visit(self.wait_zones, {"wait_zones",
+                            Unit::none,
+                            {},
+                            "Zones in which it waits for valves to open (A, D).",
+                            false,
+                            "wait_areas"});
+    visit(self.waypoints, {"waypoints", Unit::um, {}, "Phased goals in order; none: planned."});
+    visit(self.waypoint_tolerance, {"waypoint_tolerance",
+                                    Unit::um,
+                                    {1e-3, 1e6},
+                                    "Distance at which a waypoint counts as reached."});
+    visit(
+        self.global_plan,
+        {"global_plan", Unit::none, {}, "Plan waypoints around walls; else straight to the goal."});
     visit(self.planner, {"planner", Unit::none, {}, "Planner of the waypoints."});
     visit(self.as_published,
-          {"as_published",
-           Unit::none,
-           {},
-           "As in [radar]: no guard, no retreat, delays not made up for, turns as it likes, and "
-           "every planned waypoint is visited."});
+          {"as_published", Unit::none, {}, "As in [radar], without our additions."});
   }
 };
 

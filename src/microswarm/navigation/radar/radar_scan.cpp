@@ -20,7 +20,7 @@ Vec2 place_of(const RadarLook& look, double heading) {
 void screen(RadarBeam& beam, const RadarLook& look, const Snapshot& world) {
   const Vec2 place = place_of(look, beam.heading);
   for (const Body& body : world.moving().bodies()) {
-    if (edge_distance(body, place) >= look.obstacle_reach()) continue;
+    if (distance(place, body) >= look.obstacle_reach()) continue;
     beam.fate = BeamFate::obstacle;
     beam.obstacle = body.obstacle;
     return;
@@ -33,7 +33,7 @@ std::optional<std::uint32_t> nearest_body(const RadarLook& look, const Snapshot&
   double least = look.circles.detection + look.approach;
   const auto bodies = world.moving().bodies();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const double d = edge_distance(bodies[i], look.centre);
+    const double d = distance(look.centre, bodies[i]);
     if (d >= least) continue;
     least = d;
     nearest = static_cast<std::uint32_t>(i);
@@ -58,7 +58,7 @@ void rate(RadarScan& out, const Snapshot& world) {
     if (!out.nearest) return 0.0;
     const Body& body = world.moving().bodies()[*out.nearest];
     const auto centre = centre_of(body);
-    return centre ? distance(*centre, p) : edge_distance(body, p);
+    return centre ? distance(*centre, p) : distance(p, body);
   };
   MinMax towards, away;
   for (const RadarBeam& beam : out.beams) {
@@ -86,13 +86,9 @@ void choose(RadarScan& out) {
 
 }  // namespace
 
-double edge_distance(const Body& body, Vec2 p) {
-  return std::visit([&](const auto& shape) { return distance(p, shape); }, body.shape);
-}
-
 std::optional<Vec2> centre_of(const Body& body) {
   const Vec2 centre = extent_of(body).centre;
-  return edge_distance(body, centre) > 0 ? std::nullopt : std::optional(centre);
+  return distance(centre, body) > 0 ? std::nullopt : std::optional(centre);
 }
 
 RadarWeights radar_weights(const RadarLook& look, double distance_to_edge) {
@@ -115,7 +111,7 @@ RadarScan scan(const RadarLook& look, const Snapshot& world, int directions) {
   }
   if (out.nearest) {
     const Body& body = world.moving().bodies()[*out.nearest];
-    out.weights = radar_weights(look, edge_distance(body, look.centre) - look.approach);
+    out.weights = radar_weights(look, distance(look.centre, body) - look.approach);
   } else {
     out.weights = {radar_weights(look, look.circles.detection).target, 0};
     // Eq 14–16; no farther than the target, which may lie before a wall.

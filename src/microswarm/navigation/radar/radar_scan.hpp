@@ -93,9 +93,6 @@ struct RadarScan {
 /// Asks every direction against every body and wall: slow, and the yardstick for RadarScanner.
 RadarScan scan(const RadarLook& look, const Snapshot& world, int directions);
 
-/// Distance [µm] from a point to a body's edge, 0 inside.
-double edge_distance(const Body& body, Vec2 p);
-
 /// O_ob of Eq 9 [radar]: the disc's centre or the polygon's centroid, so that along a flat face one
 /// way is better than the other. Nothing where the body is not around it, as a hollow one: then
 /// the distance to its edge counts.

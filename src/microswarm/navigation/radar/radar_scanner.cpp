@@ -211,10 +211,8 @@ RadarScanner::Outcome RadarScanner::outcome(const RadarLook& look, const Snapsho
   Outcome out{.on_way = map.clearance(way, look.circles.detection), .at_end = map.clearance(to)};
   for (const std::uint32_t i : bodies_) {
     const Body& body = world.moving().bodies()[i];
-    out.on_way =
-        std::min(out.on_way,
-                 std::visit([&](const auto& shape) { return distance(way, shape); }, body.shape));
-    out.at_end = std::min(out.at_end, edge_distance(body, to));
+    out.on_way = std::min(out.on_way, distance(way, body));
+    out.at_end = std::min(out.at_end, distance(to, body));
   }
   out.at_end = std::min(out.at_end, look.circles.detection);
   return out;

@@ -178,8 +178,8 @@ bool SafetyFilter::follow(const Way& way, Visit&& visit) const {
 
 bool SafetyFilter::is_free(const Map& map, const Way& way) const {
   return follow(way, [&, last = start_.place](double t, Vec2 p) mutable {
-    const double gap = std::min(params_.gap, gap_now_ + regain * t);
-    if (gap(p, t, margin + 1, params_.gap_rate) < margin) return false;
+    const double required = std::min(params_.gap, gap_now_ + regain * t);
+    if (gap(p, t, required + 1, params_.gap_rate) < required) return false;
     const Vec2 from = std::exchange(last, p);
     return p == from || map.is_free(Segment{from, p}, wall_keep_);
   });

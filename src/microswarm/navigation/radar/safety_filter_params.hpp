@@ -20,21 +20,28 @@ struct SafetyFilterParams {
   ObstacleTrackerParams tracker;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.active, {"active", Unit::none, {}, "Whether it is asked at all."});
-    visit(self.horizon, {"horizon", Unit::s, {0.1, 60}, "How long a way out must be free."});
-    visit(self.step, {"step", Unit::s, {0.01, 10}, "Of time, between two looks at a way out."});
-    visit(self.directions, {"directions", Unit::none, {4, 360}, "Of ways out, evenly spread."});
+    visit(self.active, {"active", Unit::none, {}, "Use the safety filter."});
+    visit(self.horizon, {"horizon", Unit::s, {0.1, 60}, "Time for which an escape must be free."});
+    visit(self.step, {"step", Unit::s, {0.01, 10}, "Time step of the escape check."});
+    visit(self.directions,
+          {"directions", Unit::none, {4, 360}, "Number of escape headings tested."});
     visit(self.commitment,
-          {"commitment",
-           Unit::s,
-           {0, 10},
-           "A command must leave a way out even if it lasts so long: the longer, the less the "
-           "swarm turns to and fro."});
-    visit(self.gap, {"margin", Unit::um, {0, 1e5}, "Gap to obstacles that counts as contact."});
-    visit(self.gap_rate,
-          {"margin_rate", Unit::um_per_s, {0, 1e5}, "It grows so fast for what moves."});
-    visit(self.wall_gap, {"wall_margin", Unit::um, {0, 1e5}, "Gap that is kept to walls."});
-    visit(self.tracker, {"tracker", Unit::none, {}, "How the obstacles' motion is told."});
+          {"commitment", Unit::s, {0, 10}, "Time after which an escape must still remain."});
+    visit(self.gap, {"gap",
+                     Unit::um,
+                     {0, 1e5},
+                     "Gap to obstacles that counts as contact.",
+                     false,
+                     "margin_um"});
+    visit(self.gap_rate, {"gap_rate",
+                          Unit::um_per_s,
+                          {0, 1e5},
+                          "Growth of the gap per second for moving obstacles.",
+                          false,
+                          "margin_rate_um_per_s"});
+    visit(self.wall_gap,
+          {"wall_gap", Unit::um, {0, 1e5}, "Gap kept to walls.", false, "wall_margin_um"});
+    visit(self.tracker, {"tracker", Unit::none, {}, "Estimation of the obstacles' motion."});
   }
 };
 

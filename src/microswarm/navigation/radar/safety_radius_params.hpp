@@ -18,15 +18,15 @@ struct SafetyRadiusParams {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.adaptive,
-          {"adaptive", Unit::none, {}, "Narrow the safety circle while obstacles are far."});
-    visit(self.horizon, {"horizon", Unit::none, {1, 1e4}, "Steps looked ahead (N)."});
+          {"adaptive", Unit::none, {}, "Shrink the safety circle while obstacles are far."});
+    visit(self.horizon, {"horizon", Unit::none, {1, 1e4}, "Number of steps ahead (N)."});
     visit(self.sample_time, {"sample_time", Unit::s, {1e-4, 1e3}, "Length of a step (T)."});
     visit(self.max_relative_speed, {"max_relative_speed",
                                     Unit::um_per_s,
                                     {0, 1e5},
-                                    "Fastest approach that is assumed (|v_r|max)."});
+                                    "Assumed maximum approach speed (|v_r|max)."});
     visit(self.assumed_time,
-          {"assumed_time", Unit::s, {0, 1e3}, "How long it is assumed to come nearer (t_as)."});
+          {"assumed_time", Unit::s, {0, 1e3}, "Assumed duration of the approach (t_as)."});
     visit(self.collision_weight,
           {"collision_weight", Unit::none, {0, 1e9}, "Weight of the distance (Q)."});
     visit(self.speed_weight, {"speed_weight", Unit::none, {1e-9, 1e9}, "Weight of the speed (R)."});

@@ -17,12 +17,16 @@ struct WaitZone {
   double min_gap = 500;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.centre, {"centre", Unit::um, coordinates, "Middle of the area.", true});
-    visit(self.width, {"width", Unit::um, {1e-3, 1e6}, "Along its heading.", true});
-    visit(self.height, {"height", Unit::um, {1e-3, 1e6}, "Across its heading.", true});
-    visit(self.heading, {"heading", Unit::deg, {-360, 360}, "How it is turned."});
-    visit(self.min_gap,
-          {"least_gap", Unit::um, {0, 1e6}, "Wait while the gap is smaller (D).", true});
+    visit(self.centre, {"centre", Unit::um, coordinates, "Centre of the zone.", true});
+    visit(self.width, {"width", Unit::um, {1e-3, 1e6}, "Extent along its heading.", true});
+    visit(self.height, {"height", Unit::um, {1e-3, 1e6}, "Extent across its heading.", true});
+    visit(self.heading, {"heading", Unit::deg, {-360, 360}, "Orientation of the zone."});
+    visit(self.min_gap, {"min_gap",
+                         Unit::um,
+                         {0, 1e6},
+                         "Gap of the valve below which it waits (D).",
+                         true,
+                         "least_gap_um"});
   }
 };
 

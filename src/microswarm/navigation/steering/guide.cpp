@@ -14,16 +14,16 @@ constexpr double route_reach = 400;  // along a route [µm]
 void GoalGuide::prepare(const Map& map, Vec2 goal, double clearance, double least) {
   goal_ = goal;
   if (kind_ == Guide::straight) return;
-  ways_ = {Way{Route(map, goal_, clearance, cell), clearance},
-           Way{Route(map, goal_, least, cell), least}};
+  for (const auto& [i, keep] : {std::pair{0U, clearance}, {1U, least}})
+    routes_[i] = {DistanceField::to_goal(map, goal_, keep, cell), keep};
 }
 
 Vec2 GoalGuide::target(const Map& map, Vec2 from) const {
   if (kind_ == Guide::straight) return goal_;
-  for (const Way& way : ways_) {
-    if (map.is_free(Segment{from, goal_}, way.clearance)) return goal_;
-    if (std::isfinite(way.route.way_from(from)))
-      return way.route.ahead(map, from, route_reach, way.clearance);
+  for (const Route& route : routes_) {
+    if (map.is_free(Segment{from, goal_}, route.clearance)) return goal_;
+    if (std::isfinite(route.field.from(from)))
+      return route.field.ahead(map, from, route_reach, route.clearance);
   }
   return goal_;
 }

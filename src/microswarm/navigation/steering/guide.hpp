@@ -4,7 +4,7 @@
 #include <array>
 
 #include "microswarm/navigation/steering/guide_kind.hpp"
-#include "microswarm/navigation/steering/route.hpp"
+#include "microswarm/planning/common/distance_field.hpp"
 
 namespace microswarm {
 
@@ -15,19 +15,19 @@ class GoalGuide {
   GoalGuide(Guide kind, Vec2 goal) : kind_(kind), goal_(goal) {}
 
   /// Makes the routes to `goal`: one that keeps `clearance` [µm], and one that keeps `least` for
-  /// places to which the first leads no way.
+  /// positions from which the first has no path.
   void prepare(const Map& map, Vec2 goal, double clearance, double least);
   /// What to head for from `from`: the goal or a point of the route that is in sight.
   Vec2 target(const Map& map, Vec2 from) const;
 
  private:
-  struct Way {
-    Route route;
+  struct Route {
+    DistanceField field;
     double clearance = 0;
   };
   Guide kind_;
   Vec2 goal_;
-  std::array<Way, 2> ways_;
+  std::array<Route, 2> routes_;
 };
 
 }  // namespace microswarm

@@ -6,12 +6,6 @@
 
 namespace microswarm {
 
-bool sees_swarm(const Observation& seen, double frame_timeout) {
-  return seen.swarm && seen.world && is_finite(seen.swarm->pose.position) &&
-         std::isfinite(seen.swarm->pose.heading) && std::isfinite(seen.swarm->radius) &&
-         seen.age() <= frame_timeout && seen.world->map().is_free(seen.swarm->pose.position, 0);
-}
-
 SteeringCycle::SteeringCycle(const SwarmLimits& swarm, double speed, Vec2 goal,
                              double goal_tolerance, double frame_timeout)
     : swarm_(swarm),
@@ -30,22 +24,35 @@ double SteeringCycle::wall_clearance(double wanted, Vec2 p, double reach) const 
   return aim_.wall_clearance(swarm_.radius, wanted, p, reach);
 }
 
-const Pose2* SteeringCycle::observe(const Observation& seen) {
+bool SteeringCycle::sees_swarm(const Observation& seen) const {
+  return seen.swarm && seen.world && is_finite(seen.swarm->pose.position) &&
+         std::isfinite(seen.swarm->pose.heading) && std::isfinite(seen.swarm->radius) &&
+         seen.age() <= frame_timeout_ && seen.world->map().is_free(seen.swarm->pose.position, 0);
+}
+
+bool SteeringCycle::begin(const Observation& seen) {
   view_ = {};
   now_ = seen.now;
-  if (!sees_swarm(seen)) {
-    why_hold_ = NavigatorState::blind;
-    return nullptr;
-  }
+  why_hold_ = NavigatorState::blind;
+  return sees_swarm(seen);
+}
+
+const Pose2& SteeringCycle::compensate(const Observation& seen) {
   delay_ = seen.age() + swarm_.response_lag;
   pose_ = compensator_.at_effect(seen);
-  if (!arrives(pose_.position)) return &pose_;
+  return pose_;
+}
+
+const Pose2* SteeringCycle::observe(const Observation& seen) {
+  if (!begin(seen)) return nullptr;
+  if (!arrives(compensate(seen).position)) return &pose_;
   why_hold_ = NavigatorState::arrived;
   return nullptr;
 }
 
 Command SteeringCycle::command(const Command& command, NavigatorState state) {
   view_.state = state;
+  last_command_ = now_;
   compensator_.note(now_, command);
   return command;
 }

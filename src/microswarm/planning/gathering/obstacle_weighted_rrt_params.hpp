@@ -25,30 +25,29 @@ struct ObstacleWeightedRrtParams {
   int max_iterations = 10'000'000;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.nodes, {"nodes", Unit::none, {1, 1e7}, "Nodes of the tree."});
-    visit(self.extension, {"extension", Unit::um, {1e-6, 1e6}, "Length of an edge of the tree."});
-    visit(self.wall_samples, {"wall_samples",
-                              Unit::none,
-                              {0, 1},
-                              "Share of the samples in walls that are used; less on sparse maps."});
+    visit(self.nodes, {"nodes", Unit::none, {1, 1e7}, "Number of tree nodes."});
+    visit(self.extension, {"extension", Unit::um, {1e-6, 1e6}, "Length of a tree edge."});
+    visit(self.wall_samples,
+          {"wall_samples", Unit::none, {0, 1}, "Share of samples in walls that are used."});
     visit(self.weight_decay,
-          {"weight_decay", Unit::none, {0, 1e6}, "a of the weight e^(b - a d), per um."});
+          {"weight_decay", Unit::none, {0, 1e6}, "Decay a of the weight e^(b - a d), per µm."});
     visit(self.weight_exponent,
-          {"weight_exponent", Unit::none, {-50, 50}, "b of the weight e^(b - a d)."});
+          {"weight_exponent", Unit::none, {-50, 50}, "Exponent b of the weight e^(b - a d)."});
     visit(self.weight_cutoff,
-          {"weight_cutoff", Unit::um, {0, 1e6}, "From this distance on the weight is 0."});
-    visit(self.zeta, {"zeta", Unit::none, {0, 1e9}, "Nodes of less weight are near the middle."});
+          {"weight_cutoff", Unit::um, {0, 1e6}, "Distance from which the weight is 0."});
+    visit(self.zeta,
+          {"zeta", Unit::none, {0, 1e9}, "Weight below which a node is near the middle."});
     visit(self.narrow_share, {"narrow_share",
                               Unit::none,
                               {0, 1},
-                              "Near the middle of a channel too narrow for zeta; 0: as printed."});
+                              "Share near the middle in narrow channels; 0: as printed."});
     visit(self.neighbour_radius,
-          {"neighbour_radius", Unit::um, {0, 1e6}, "Nodes nearer than this are adjacent."});
+          {"neighbour_radius", Unit::um, {0, 1e6}, "Distance below which nodes are adjacent."});
     visit(self.attach_radius,
-          {"attach_radius", Unit::um, {0, 1e6}, "How far other nodes look for the middle."});
-    visit(self.complete,
-          {"complete", Unit::none, {}, "Add nodes where the tree has missed a branch."});
-    visit(self.max_iterations, {"max_iterations", Unit::none, {1, 1e9}, "Samples at most."});
+          {"attach_radius", Unit::um, {0, 1e6}, "Search radius from other nodes to the middle."});
+    visit(self.complete, {"complete", Unit::none, {}, "Add nodes where the tree missed a branch."});
+    visit(self.max_iterations,
+          {"max_iterations", Unit::none, {1, 1e9}, "Maximum number of samples."});
   }
 };
 

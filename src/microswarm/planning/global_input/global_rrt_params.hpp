@@ -24,17 +24,21 @@ struct GlobalRrtParams {
   static void fields(Self& self, V&& visit) {
     visit(self.robostep, {"robostep", Unit::um, {1e-3, 1e6}, "Length of one input."});
     visit(self.directions,
-          {"directions", Unit::none, {3, 256}, "Directions of inputs, from the x axis on (k)."});
-    visit(self.contact, {"contact", Unit::none, {}, "What a robot does that meets a wall."});
-    visit(self.goal_tolerance,
-          {"goal_tolerance", Unit::um, {1e-3, 1e6}, "How near every robot must come to its goal."});
+          {"directions", Unit::none, {3, 256}, "Number of input directions, from the x axis (k)."});
+    visit(self.contact, {"contact", Unit::none, {}, "Behaviour of a robot that meets a wall."});
+    visit(self.goal_tolerance, {"goal_tolerance",
+                                Unit::um,
+                                {1e-3, 1e6},
+                                "Distance from its goal that each robot must reach."});
     visit(self.goal_bias, {"goal_bias", Unit::none, {0, 1}, "Share of samples at the goals."});
     visit(self.separation,
-          {"separation", Unit::um, {0, 1e6}, "Least distance between robots; 0: none."});
-    visit(self.max_nodes, {"max_nodes", Unit::none, {1, 1e8}, "Nodes to grow at most (K)."});
-    visit(self.max_iterations, {"max_iterations", Unit::none, {1, 1e9}, "Tries at most."});
-    visit(self.stop_at_first,
-          {"stop_at_first", Unit::none, {}, "Stop at the first solution, or grow to the limits."});
+          {"separation", Unit::um, {0, 1e6}, "Minimum distance between robots; 0: none."});
+    visit(self.max_nodes, {"max_nodes", Unit::none, {1, 1e8}, "Maximum number of nodes (K)."});
+    visit(self.max_iterations,
+          {"max_iterations", Unit::none, {1, 1e9}, "Maximum number of iterations."});
+    visit(
+        self.stop_at_first,
+        {"stop_at_first", Unit::none, {}, "Stop at the first solution; else grow to the limits."});
   }
 };
 

@@ -9,7 +9,7 @@
 #include <unordered_set>
 
 #include "microswarm/core/error.hpp"
-#include "microswarm/planning/common/geodesic_field.hpp"
+#include "microswarm/planning/common/distance_field.hpp"
 #include "microswarm/planning/global_input/global_rrt.hpp"
 #include "microswarm/planning/global_input/global_separation.hpp"
 
@@ -88,7 +88,7 @@ struct Problem {
   }
   /// How wrong the robots stand to each other, and the way they have to go together: straight, or
   /// where there are `fields`, the mean of their ways around the walls.
-  double cost(HeldPlaces c, std::span<const GeodesicField> fields) const {
+  double cost(HeldPlaces c, std::span<const DistanceField> fields) const {
     Vec2 sum;
     double squares = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -102,7 +102,7 @@ struct Problem {
     const double formation = std::sqrt(std::max(0.0, squares / count - squared_norm(mean)));
     if (fields.empty()) return formation + params.travel_weight * norm(mean);
     double way = 0;
-    for (std::size_t i = 0; i < n; ++i) way += fields[i].at(position(c[i]));
+    for (std::size_t i = 0; i < n; ++i) way += fields[i].estimate(position(c[i]));
     return formation + params.travel_weight * way / count;
   }
 };
@@ -110,7 +110,7 @@ struct Problem {
 /// One search from the start, with its own hypercubes.
 class Round {
  public:
-  Round(const Problem& problem, std::span<const GeodesicField> fields, HeldPlaces start,
+  Round(const Problem& problem, std::span<const DistanceField> fields, HeldPlaces start,
         double cell, Rng& rng, PlanCounts& counts)
       : problem_(problem),
         separation_(problem.stepper, problem.params.contact, problem.params.separation),
@@ -230,7 +230,7 @@ class Round {
 
   const Problem& problem_;
   GlobalSeparation separation_;
-  std::span<const GeodesicField> fields_;
+  std::span<const DistanceField> fields_;
   Rng& rng_;
   PlanCounts& counts_;
   float per_cell_;
@@ -301,16 +301,16 @@ GlobalSearch global_search(const Map& map, std::span<const Vec2> starts,
   const auto max_nodes = static_cast<std::uint64_t>(params.max_nodes);
   double round_nodes = params.round_nodes;
   double cell = params.cell > 0 ? params.cell : cell_of_tolerance * params.goal_tolerance;
-  std::vector<GeodesicField> fields;
+  std::vector<DistanceField> fields;
   Round::End end = Round::End::nodes;
   while (found.rounds < max_search_rounds && found.counts.samples < max_nodes) {
     ++found.rounds;
     const double round_cell = cell * rng.uniform(finest_of_cell, 2 * finest_of_cell);
     const bool goes_around = found.rounds % 2 == 0;
     if (goes_around && fields.empty())
-      for (const Vec2 goal : goals) fields.emplace_back(map, goal);
+      for (const Vec2 goal : goals) fields.push_back(DistanceField::over(map, goal));
     const auto used =
-        goes_around ? std::span<const GeodesicField>(fields) : std::span<const GeodesicField>();
+        goes_around ? std::span<const DistanceField>(fields) : std::span<const DistanceField>();
     Round round(problem, used, start, round_cell, rng, found.counts);
     const double left = static_cast<double>(max_nodes - found.counts.samples) + 1;
     end = round.run(static_cast<std::size_t>(std::min(round_nodes, left)), stop);

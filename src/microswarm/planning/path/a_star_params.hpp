@@ -18,10 +18,11 @@ struct AStarParams {
   int max_nodes = 4'000'000;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.clearance, {"clearance", Unit::um, {0, 1e6}, "Least distance to walls."});
-    visit(self.goal_tolerance, {"goal_tolerance", Unit::um, {0, 1e6}, "How near counts."});
+    visit(self.clearance, {"clearance", Unit::um, {0, 1e6}, "Minimum distance to walls."});
+    visit(self.goal_tolerance,
+          {"goal_tolerance", Unit::um, {0, 1e6}, "Distance at which the goal counts as reached."});
     visit(self.cell, {"cell", Unit::um, {1e-3, 1e6}, "Grid spacing."});
-    visit(self.max_nodes, {"max_nodes", Unit::none, {1, 1e8}, "Cells to open at most."});
+    visit(self.max_nodes, {"max_nodes", Unit::none, {1, 1e8}, "Maximum number of opened cells."});
   }
 };
 

@@ -14,7 +14,7 @@ namespace microswarm {
 /// `straighten` pulls the path found straight under the same cost and the same exact checks;
 /// `arcs` makes every edge a turn of at least `turn_radius` and a straight line, so that a unicycle
 /// can drive the path from the start's heading on. `as_published` leaves both out
-/// (docs/drrt-star.md).
+/// (docs/explanation/drrt-star.md).
 struct DrrtStarParams : RrtStarParams {
   static constexpr std::string_view type_name = "drrt_star";
   double detection_diameter = 300;  // D_dec
@@ -41,20 +41,22 @@ struct DrrtStarParams : RrtStarParams {
           {"detection_diameter", Unit::um, {1e-3, 1e6}, "Diameter of the detection circle."});
     visit(self.rho_min, {"rho_min", Unit::none, {1e-3, 1}, "Floor of the adjust factor."});
     visit(self.candidates, {"candidates", Unit::none, {1, 1000}, "Candidates per extension (M)."});
-    visit(self.max_attempts, {"max_attempts", Unit::none, {1, 1000}, "Samples per extension."});
+    visit(self.max_attempts,
+          {"max_attempts", Unit::none, {1, 1000}, "Maximum number of samples per extension."});
     visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e6}, "Forward speed while steering."});
     visit(self.time_step, {"time_step", Unit::s, {1e-4, 10}, "Step of the unicycle (dt)."});
-    visit(self.heading_gain, {"heading_gain", Unit::per_s, {0, 1e3}, "Gain of Eq 7 (k_p)."});
+    visit(self.heading_gain,
+          {"heading_gain", Unit::per_s, {0, 1e3}, "Heading gain of Eq 7 (k_p)."});
     visit(self.smoothness_weight,
           {"smoothness_weight", Unit::none, {0, 1e6}, "Cost of turning, µm per rad (λ_s)."});
     visit(self.length_weight, {"length_weight", Unit::none, {0, 1e6}, "Cost per µm (λ_l)."});
     visit(self.straighten,
-          {"straighten", Unit::none, {}, "Pull the path found straight (beyond the paper)."});
+          {"straighten", Unit::none, {}, "Straighten the path found (beyond the paper)."});
     visit(self.arcs, {"arcs", Unit::none, {}, "Edges of bounded curvature (beyond the paper)."});
     visit(self.turn_radius,
-          {"turn_radius", Unit::um, {1e-3, 1e6}, "Least radius of a turn, with arcs."});
+          {"turn_radius", Unit::um, {1e-3, 1e6}, "Minimum radius of a turn, with arcs."});
     visit(self.as_published,
-          {"as_published", Unit::none, {}, "The paper's method alone: no straightening, no arcs."});
+          {"as_published", Unit::none, {}, "The paper's method: no straightening, no arcs."});
   }
 };
 

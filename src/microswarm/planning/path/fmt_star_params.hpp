@@ -23,16 +23,18 @@ struct FmtStarParams {
   int max_nodes = 64'000;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.clearance, {"clearance", Unit::um, {0, 1e6}, "Least distance to obstacles."});
-    visit(self.goal_tolerance, {"goal_tolerance", Unit::um, {1e-3, 1e6}, "How near counts."});
-    visit(self.samples, {"samples", Unit::none, {1, 1e7}, "Free samples to begin with (n)."});
-    visit(self.radius_factor,
-          {"radius_factor",
-           Unit::none,
-           {1, 100},
-           "Neighbours lie within this times the least radius that the theory allows."});
-    visit(self.max_nodes,
-          {"max_nodes", Unit::none, {1, 1e7}, "Samples at most, doubled while there is no path."});
+    visit(self.clearance, {"clearance", Unit::um, {0, 1e6}, "Minimum distance to obstacles."});
+    visit(
+        self.goal_tolerance,
+        {"goal_tolerance", Unit::um, {1e-3, 1e6}, "Distance at which the goal counts as reached."});
+    visit(self.samples, {"samples", Unit::none, {1, 1e7}, "Initial number of free samples (n)."});
+    visit(
+        self.radius_factor,
+        {"radius_factor", Unit::none, {1, 100}, "Connection radius over the theoretical minimum."});
+    visit(self.max_nodes, {"max_nodes",
+                           Unit::none,
+                           {1, 1e7},
+                           "Maximum number of samples; doubled until a path is found."});
   }
 };
 

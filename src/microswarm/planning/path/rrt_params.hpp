@@ -19,14 +19,17 @@ struct TreeParams {
   bool stop_at_first = true;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.clearance, {"clearance", Unit::um, {0, 1e6}, "Least distance to obstacles."});
-    visit(self.goal_tolerance, {"goal_tolerance", Unit::um, {1e-3, 1e6}, "How near counts."});
+    visit(self.clearance, {"clearance", Unit::um, {0, 1e6}, "Minimum distance to obstacles."});
+    visit(
+        self.goal_tolerance,
+        {"goal_tolerance", Unit::um, {1e-3, 1e6}, "Distance at which the goal counts as reached."});
     visit(self.step, {"step", Unit::um, {1e-3, 1e6}, "Base length of one extension."});
     visit(self.goal_bias, {"goal_bias", Unit::none, {0, 1}, "Share of samples at the goal."});
-    visit(self.max_nodes, {"max_nodes", Unit::none, {1, 1e7}, "Nodes to grow at most."});
-    visit(self.max_iterations, {"max_iterations", Unit::none, {1, 1e8}, "Tries at most."});
+    visit(self.max_nodes, {"max_nodes", Unit::none, {1, 1e7}, "Maximum number of nodes."});
+    visit(self.max_iterations,
+          {"max_iterations", Unit::none, {1, 1e8}, "Maximum number of iterations."});
     visit(self.stop_at_first,
-          {"stop_at_first", Unit::none, {}, "Stop at the first path, or grow to the limits."});
+          {"stop_at_first", Unit::none, {}, "Stop at the first path; else grow to the limits."});
   }
 };
 
@@ -43,13 +46,10 @@ struct RrtStarParams : TreeParams {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     TreeParams::fields(self, visit);
-    visit(self.search_radius,
-          {"search_radius", Unit::um, {1e-3, 1e6}, "Neighbours for choose-parent and rewire."});
-    visit(self.shrinking,
-          {"shrinking",
-           Unit::none,
-           {},
-           "Shrink the radius as sqrt(log n / n) once that is below search_radius."});
+    visit(
+        self.search_radius,
+        {"search_radius", Unit::um, {1e-3, 1e6}, "Neighbour radius of choose-parent and rewire."});
+    visit(self.shrinking, {"shrinking", Unit::none, {}, "Shrink the radius as sqrt(log n / n)."});
   }
 };
 
@@ -62,7 +62,7 @@ struct UniformRrtStarParams : RrtStarParams {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     RrtStarParams::fields(self, visit);
-    visit(self.spacing, {"spacing", Unit::um, {0, 1e6}, "Least distance between nodes."});
+    visit(self.spacing, {"spacing", Unit::um, {0, 1e6}, "Minimum distance between nodes."});
   }
 };
 

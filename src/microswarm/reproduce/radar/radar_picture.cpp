@@ -52,9 +52,8 @@ void draw_circles(Picture& picture, const RadarCircles& circles, Vec2 p) {
 
 void draw_obstacles(Picture& picture, const Snapshot& world, Disc circle) {
   for (const Body& body : world.moving().bodies())
-    picture.bodies({&body, 1}, edge_distance(body, circle.centre) < circle.radius
-                                   ? detected_colour
-                                   : colours::obstacle);
+    picture.bodies({&body, 1}, distance(circle.centre, body) < circle.radius ? detected_colour
+                                                                             : colours::obstacle);
 }
 
 void draw_plan(Picture& picture, const Record& record, double um_per_px) {

@@ -25,7 +25,7 @@ Params suited(Params params, const Scenario& scenario, bool walls) {
   const SwarmLimits swarm = limits_of(scenario.swarm);
   const double margin = swarm.radius + 0.8 * scenes::avoidance_passage_gap;
   if constexpr (requires { params.speed; }) params.speed = swarm.max_speed;
-  if constexpr (std::same_as<Params, HierarchicalParams>) params.margin = margin;
+  if constexpr (std::same_as<Params, HierarchicalParams>) params.clearance = margin;
   if constexpr (std::same_as<Params, RadarParams>)
     if (walls) params.safety_distance = std::min(params.safety_distance, 40.0);
   if constexpr (requires {

@@ -23,36 +23,36 @@ struct MicroscopeParams {
   double robot_diameter = 7;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.um_per_px, {"um_per_px",
-                           Unit::none,
-                           {1e-3, 1e6},
-                           "µm that a pixel shows; not given: the map's longer side has 800."});
-    visit(self.margin,
-          {"margin", Unit::px, {0, 1000}, "What is seen beyond the map, on every side."});
-    visit(self.light, {"light", Unit::none, {0, 255}, "Grey of the bright ground."});
+    visit(self.um_per_px,
+          {"um_per_px", Unit::none, {1e-3, 1e6}, "Scale; none: the map's longer side has 800 px."});
+    visit(self.margin, {"margin", Unit::px, {0, 1000}, "Border seen around the map."});
+    visit(self.light, {"light", Unit::none, {0, 255}, "Grey value of the bright background."});
     visit(self.light_gradient, {"light_gradient",
                                 Unit::none,
                                 {0, 1},
-                                "Brighter in one corner, darker in the other, by this share."});
+                                "Relative brightness change from corner to corner."});
     visit(self.light_drift,
-          {"light_drift", Unit::none, {0, 1}, "The light swells and sinks by this share."});
-    visit(self.light_period, {"light_period", Unit::s, {1e-2, 1e6}, "Time in which it does."});
-    visit(self.noise, {"noise", Unit::none, {0, 255}, "Standard deviation of a pixel's grey."});
-    visit(self.blur, {"blur", Unit::px, {0, 20}, "Spread of the picture of a point."});
+          {"light_drift", Unit::none, {0, 1}, "Relative amplitude of slow brightness changes."});
+    visit(self.light_period,
+          {"light_period", Unit::s, {1e-2, 1e6}, "Period of slow brightness changes."});
+    visit(self.noise,
+          {"noise", Unit::none, {0, 255}, "Standard deviation of a pixel's grey value."});
+    visit(self.blur, {"blur", Unit::px, {0, 20}, "Standard deviation of the image of a point."});
     visit(self.wall_depth,
-          {"wall_depth", Unit::none, {0, 1}, "Share of the light that walls take away."});
+          {"wall_depth", Unit::none, {0, 1}, "Share of the light absorbed by walls."});
     visit(self.obstacle_depth,
-          {"obstacle_depth", Unit::none, {0, 1}, "Share that obstacles take away."});
-    visit(self.swarm_depth,
-          {"swarm_depth", Unit::none, {0, 1}, "Share that one particle of a swarm takes away."});
+          {"obstacle_depth", Unit::none, {0, 1}, "Share of the light absorbed by obstacles."});
+    visit(
+        self.swarm_depth,
+        {"swarm_depth", Unit::none, {0, 1}, "Share of the light absorbed by one swarm particle."});
     visit(self.swarm_density, {"swarm_density",
                                Unit::none,
                                {0.01, 10},
-                               "Area of all its clumps of particles beside that of the swarm."});
+                               "Area of all particle clumps over that of the swarm."});
     visit(self.particle_diameter,
-          {"particle_diameter", Unit::px, {1, 100}, "Diameter of such a clump."});
+          {"particle_diameter", Unit::px, {1, 100}, "Diameter of a particle clump."});
     visit(self.robot_diameter,
-          {"robot_diameter", Unit::px, {1, 100}, "Diameter of a robot that is told apart."});
+          {"robot_diameter", Unit::px, {1, 100}, "Diameter of an individually tracked robot."});
   }
 };
 

@@ -15,13 +15,16 @@ struct PerceptionParams {
   double heading_distance = 15;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.scene,
-          {"scene", Unit::none, {}, "How a swarm that is one body and obstacles are found."});
-    visit(self.robots, {"robots", Unit::none, {}, "How robots that are told apart are found."});
+    visit(self.scene, {"scene", Unit::none, {}, "Detection of a one-body swarm and of obstacles."});
+    visit(self.robots, {"robots", Unit::none, {}, "Detection of individually tracked robots."});
     visit(self.edge,
-          {"edge", Unit::px, {-1000, 1000}, "The swarm reaches beyond its outline by this."});
-    visit(self.heading_distance,
-          {"heading_way", Unit::um, {1e-3, 1e5}, "Way from which the swarm's heading is told."});
+          {"edge", Unit::px, {-1000, 1000}, "Width by which the swarm exceeds its outline."});
+    visit(self.heading_distance, {"heading_distance",
+                                  Unit::um,
+                                  {1e-3, 1e5},
+                                  "Distance travelled over which the heading is measured.",
+                                  false,
+                                  "heading_way_um"});
   }
 };
 

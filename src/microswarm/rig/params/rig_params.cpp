@@ -57,7 +57,7 @@ const SimulatedCamera& simulated_camera(const Rig& rig) {
   const auto* camera = std::get_if<SimulatedCamera>(&rig.params.camera);
   if (!camera)
     throw rig.keys.error("camera",
-                         "the camera is no simulated one, as a rehearsal needs: set camera.type");
+                         "the camera is not simulated: set camera.type");
   return *camera;
 }
 

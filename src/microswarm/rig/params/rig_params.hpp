@@ -30,9 +30,9 @@ struct SimulatedCoils {
   double full_scale = 20;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.channels, {"channels", Unit::none, {1, 64}, "Coils that can be connected."});
+    visit(self.channels, {"channels", Unit::none, {1, 64}, "Number of coil channels."});
     visit(self.full_scale,
-          {"full_scale", Unit::a, {1e-6, 1e6}, "Current of a channel that is fully on."});
+          {"full_scale", Unit::a, {1e-6, 1e6}, "Current of a channel at full output."});
   }
 };
 
@@ -43,11 +43,11 @@ struct SimulatedCamera {
   double speed_error = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.microscope, {"microscope", Unit::none, {}, "What its pictures are like."});
+    visit(self.microscope, {"microscope", Unit::none, {}, "Properties of the simulated images."});
     visit(self.speed_error, {"speed_error",
                              Unit::none,
                              {-0.9, 10},
-                             "The swarm is faster than the field is made for, by this share."});
+                             "Relative excess of the swarm's speed over the model."});
   }
 };
 
@@ -58,7 +58,7 @@ struct VideoCamera {
   std::optional<double> rate;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.rate, {"rate", Unit::hz, {1e-3, 1e4}, "Pictures a second; not given: as it says."});
+    visit(self.rate, {"rate", Unit::hz, {1e-3, 1e4}, "Frame rate; none: that of the file."});
     visit(self.file,
           {"file", Unit::none, {}, "Video, folder or TIFF, beside the rig's file.", true});
   }
@@ -72,15 +72,19 @@ struct SafetyParams {
   int missed_deadlines = 10;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
+    visit(self.lost_swarm,
+          {"lost_swarm", Unit::s, {0.01, 100}, "Longest time without exactly one visible swarm."});
+    visit(self.max_frame_age, {"max_frame_age",
+                               Unit::s,
+                               {0.01, 100},
+                               "Maximum age of the newest frame.",
+                               false,
+                               "oldest_frame_s"});
     visit(
-        self.lost_swarm,
-        {"lost_swarm", Unit::s, {0.01, 100}, "The swarm was not seen, or not alone, for so long."});
-    visit(self.max_frame_age,
-          {"oldest_frame", Unit::s, {0.01, 100}, "The newest frame is older than this."});
-    visit(self.deadman,
-          {"deadman", Unit::s, {0.02, 100}, "No new command came from the navigator for so long."});
+        self.deadman,
+        {"deadman", Unit::s, {0.02, 100}, "Longest time without a new command of the navigator."});
     visit(self.missed_deadlines,
-          {"missed_deadlines", Unit::none, {1, 1e6}, "Ticks in a row that ended too late."});
+          {"missed_deadlines", Unit::none, {1, 1e6}, "Maximum number of consecutive late ticks."});
   }
 };
 
@@ -99,18 +103,19 @@ struct RigParams {
   static void fields(Self& self, V&& visit) {
     visit(self.name, {"name", Unit::none, {}, "Name of the rig."});
     visit(self.coils, {"coils", Unit::none, {}, "File of the coil system, beside this one.", true});
-    visit(self.field, {"field", Unit::none, {}, "How commands become a field."});
+    visit(self.field, {"field", Unit::none, {}, "Conversion of commands to a magnetic field."});
     visit(self.drive_rate, {"drive_rate",
                             Unit::hz,
                             {20, 1e4},
-                            "Currents are sent so often; at least ten times a "
-                            "turn of the field."});
-    visit(self.driver, {"driver", Unit::none, {}, "What the coils hang on."});
-    visit(self.camera, {"camera", Unit::none, {}, "What sees."});
+                            "Rate of current updates; at least 10 per field turn."});
+    visit(self.driver, {"driver", Unit::none, {}, "Device that drives the coils."});
+    visit(self.camera, {"camera", Unit::none, {}, "Camera."});
     visit(self.scale,
-          {"scale", Unit::none, {}, "Where the camera sees the world; a simulated one knows."});
-    visit(self.perception, {"eye", Unit::none, {}, "How pictures are read."});
-    visit(self.safety, {"safety", Unit::none, {}, "When a run is ended for safety."});
+          {"scale", Unit::none, {}, "Camera position and scale; not for a simulated camera."});
+    visit(
+        self.perception,
+        {"perception", Unit::none, {}, "Detection of swarm, robots and obstacles.", false, "eye"});
+    visit(self.safety, {"safety", Unit::none, {}, "Limits that end a run."});
   }
 };
 
@@ -131,7 +136,7 @@ std::string name_of(const Rig& rig);
 /// a driver with too few channels.
 Rig read_rig(const std::filesystem::path& file, const Settings& settings = {});
 
-/// The rig's camera, for a rehearsal. Throws InputError when it is no simulated one.
+/// The rig's camera, for a simulation. Throws InputError when it is no simulated one.
 const SimulatedCamera& simulated_camera(const Rig& rig);
 
 /// An issue when the rig cannot drive the scenario's swarm as fast as it is meant to go; keys are

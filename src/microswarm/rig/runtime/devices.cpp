@@ -55,6 +55,7 @@ RigExperiment open_rig_experiment(const std::filesystem::path& scenario,
   RigExperiment on{open_experiment(scenario, settings, seed),
                    read_rig(rig, {rig_settings, "--set-rig"})};
   on.experiment.keys.require_none(validate(on.rig, on.scenario()));
+  on.experiment.keys.add_notes(on.rig.keys.notes());
   return on;
 }
 

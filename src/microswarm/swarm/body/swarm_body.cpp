@@ -15,11 +15,11 @@ SwarmLimits limits(const RibbonParams& p) {
 }
 
 SwarmLimits limits(const VortexParams& p) {
-  return {.radius = greatest_radius(p),
+  return {.radius = max_radius(p),
           .max_speed = p.max_speed,
           .max_turn_rate = std::numeric_limits<double>::infinity(),
           .response_lag = p.response_lag,
-          .radius_variation = greatest_radius(p) - min_radius(p)};
+          .radius_variation = max_radius(p) - min_radius(p)};
 }
 
 std::variant<Ribbon, Vortex> made(const RibbonParams& p, Pose2 start) { return Ribbon(p, start); }

@@ -18,7 +18,7 @@ constexpr double min_share = 1e-3;  // of the radius, however strong the ripple
 
 }  // namespace
 
-double greatest_radius(const VortexParams& p) {
+double max_radius(const VortexParams& p) {
   return std::max(p.radius, p.moving_radius) + max_ripples * p.radius_ripple;
 }
 
@@ -72,7 +72,7 @@ void Vortex::breathe(double dt, Rng& rng) {
   radius_ = aim + kept * (radius_ - aim);
   if (params_.radius_ripple <= 0) return;
   radius_ += params_.radius_ripple * std::sqrt(1 - kept * kept) * rng.normal();
-  radius_ = std::clamp(radius_, min_radius(params_), greatest_radius(params_));
+  radius_ = std::clamp(radius_, min_radius(params_), max_radius(params_));
 }
 
 }  // namespace microswarm

@@ -15,7 +15,7 @@
 namespace microswarm {
 
 /// The widest it gets [µm].
-double greatest_radius(const VortexParams& params);
+double max_radius(const VortexParams& params);
 /// The narrowest it gets [µm].
 double min_radius(const VortexParams& params);
 

@@ -28,16 +28,15 @@ struct VortexParams {
   static void fields(Self& self, V&& visit) {
     visit(self.radius, {"radius", Unit::um, {1e-3, 1e5}, "Radius of the swarm at rest."});
     visit(self.moving_radius,
-          {"moving_radius", Unit::um, {1e-3, 1e5}, "Radius at the fastest speed."});
-    visit(self.radius_lag,
-          {"radius_lag", Unit::s, {1e-3, 1e3}, "Time constant with which the radius changes."});
-    visit(self.radius_ripple,
-          {"radius_ripple",
-           Unit::um,
-           {0, 1e4},
-           "Random change of the radius, standard deviation; never more than twice that."});
-    visit(self.max_speed, {"max_speed", Unit::um_per_s, {1e-3, 1e5}, "Speed at the full pitch."});
-    visit(self.max_pitch, {"max_pitch", Unit::deg, {1e-3, 90}, "Pitch up to which it is stable."});
+          {"moving_radius", Unit::um, {1e-3, 1e5}, "Radius at the maximum speed."});
+    visit(self.radius_lag, {"radius_lag", Unit::s, {1e-3, 1e3}, "Time constant of the radius."});
+    visit(self.radius_ripple, {"radius_ripple",
+                               Unit::um,
+                               {0, 1e4},
+                               "Standard deviation of the radius; at most twice that."});
+    visit(self.max_speed,
+          {"max_speed", Unit::um_per_s, {1e-3, 1e5}, "Speed at the maximum pitch."});
+    visit(self.max_pitch, {"max_pitch", Unit::deg, {1e-3, 90}, "Largest stable pitch."});
     visit(self.response_lag,
           {"response_lag", Unit::s, {0, 10}, "Dead time from a command to its effect."});
     visit(self.position_noise,

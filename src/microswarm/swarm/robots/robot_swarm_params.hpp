@@ -29,30 +29,28 @@ struct RobotSwarmParams {
     visit(self.count, {"count",
                        Unit::none,
                        {0, 1e6},
-                       "Robots at random places from which the goal is reached; "
-                       "0: those of `starts_um`."});
-    visit(self.starts, {"starts", Unit::um, {}, "Where each robot starts."});
-    visit(self.goals, {"goals", Unit::um, {}, "A goal for each robot, in place of one for all."});
-    visit(self.contact, {"contact", Unit::none, {}, "What a robot does that meets a wall."});
+                       "Robots at random starts that reach the goal; 0: `starts_um`."});
+    visit(self.starts, {"starts", Unit::um, {}, "Start of each robot."});
+    visit(self.goals, {"goals", Unit::um, {}, "Goal of each robot, in place of one for all."});
+    visit(self.contact, {"contact", Unit::none, {}, "Behaviour of a robot that meets a wall."});
     visit(self.max_speed,
-          {"max_speed", Unit::um_per_s, {1e-3, 1e5}, "Fastest speed, of an ordinary robot."});
-    visit(self.speed_spread, {"speed_spread",
-                              Unit::none,
-                              {0, 1},
-                              "Spread of the robots' own speeds: standard deviation / mean."});
+          {"max_speed", Unit::um_per_s, {1e-3, 1e5}, "Maximum speed of an average robot."});
+    visit(
+        self.speed_spread,
+        {"speed_spread", Unit::none, {0, 1}, "Relative standard deviation of the robots' speeds."});
     visit(self.heading_noise, {"heading_noise",
                                Unit::deg,
                                {0, 360},
-                               "Standard deviation of each robot's direction, drawn anew for "
-                               "every command."});
+                               "Standard deviation of a robot's heading, per command."});
     visit(self.position_noise, {"position_noise",
                                 Unit::um,
                                 {0, 1e4},
                                 "Random drift of each robot, standard deviation after 1 s."});
-    visit(self.sticking_interval,
-          {"sticking_interval", Unit::s, {0, 1e6}, "Mean time until a robot sticks; 0: never."});
-    visit(self.sticking_time,
-          {"sticking_time", Unit::s, {0, 1e6}, "Mean time for which it sticks."});
+    visit(self.sticking_interval, {"sticking_interval",
+                                   Unit::s,
+                                   {0, 1e6},
+                                   "Mean time between two times a robot sticks; 0: never."});
+    visit(self.sticking_time, {"sticking_time", Unit::s, {0, 1e6}, "Mean time a robot sticks."});
     visit(self.response_lag,
           {"response_lag", Unit::s, {0, 10}, "Dead time from a command to its effect."});
   }

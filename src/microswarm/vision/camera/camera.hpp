@@ -26,10 +26,9 @@ struct CameraParams {
     visit(self.device, {"device", Unit::none, {}, "Device file."});
     visit(self.width, {"width", Unit::px, {1, max_image_side}, "Width of a picture."});
     visit(self.height, {"height", Unit::px, {1, max_image_side}, "Height of a picture."});
-    visit(self.rate, {"rate", Unit::hz, {0.01, 1e4}, "Pictures a second that are asked for."});
-    visit(self.exposure,
-          {"exposure", Unit::ms, {0.1, 1e5}, "Exposure; not given: as the camera chooses."});
-    visit(self.watch, {"watch", Unit::none, {}, "When it is silent, frozen or black."});
+    visit(self.rate, {"rate", Unit::hz, {0.01, 1e4}, "Requested frame rate."});
+    visit(self.exposure, {"exposure", Unit::ms, {0.1, 1e5}, "Exposure time; none: automatic."});
+    visit(self.watch, {"watch", Unit::none, {}, "Detection of a silent, frozen or black camera."});
   }
 };
 

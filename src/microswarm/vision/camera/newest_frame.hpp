@@ -40,16 +40,15 @@ struct NewestFrameParams {
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.silent_after,
-          {"silent_after", Unit::s, {1e-3, 3600}, "Without a picture for longer, it is silent."});
-    visit(self.frozen_after, {"frozen_after",
-                              Unit::none,
-                              {2, 1e6},
-                              "Of so many pictures in a row that are the same, it is frozen."});
-    visit(self.black_below, {"black_below",
-                             Unit::none,
-                             {0, 255},
-                             "A picture in which all greys are below this is black."});
+    visit(self.silent_after, {"silent_after",
+                              Unit::s,
+                              {1e-3, 3600},
+                              "Time without a frame after which the camera is silent."});
+    visit(
+        self.frozen_after,
+        {"frozen_after", Unit::none, {2, 1e6}, "Number of equal frames after which it is frozen."});
+    visit(self.black_below,
+          {"black_below", Unit::none, {0, 255}, "Grey value below which an image is black."});
   }
 };
 

@@ -24,23 +24,18 @@ struct BlobParams {
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.tone, {"tone", Unit::none, {}, "It is dark or bright against the ground."});
-    visit(self.min_radius, {"min_radius", Unit::px, {1, 1e4}, "What is smaller is dirt."});
-    visit(self.max_radius, {"max_radius", Unit::px, {1, 1e4}, "What is larger is something else."});
-    visit(
-        self.min_contrast,
-        {"min_contrast", Unit::none, {1, 255}, "Least difference to the ground, in greys of 255."});
-    visit(self.gap,
-          {"gap",
-           Unit::px,
-           {1, 1000},
-           "Widest gap between clumps that belong together; edges are smoothed by half."});
+    visit(self.tone, {"tone", Unit::none, {}, "Dark or bright against the background."});
+    visit(self.min_radius, {"min_radius", Unit::px, {1, 1e4}, "Minimum radius; smaller is dirt."});
+    visit(self.max_radius, {"max_radius", Unit::px, {1, 1e4}, "Maximum radius."});
+    visit(self.min_contrast,
+          {"min_contrast", Unit::none, {1, 255}, "Minimum contrast to the background, of 255."});
+    visit(self.gap, {"gap", Unit::px, {1, 1000}, "Maximum gap between clumps of one blob."});
     visit(self.min_texture, {"min_texture",
                              Unit::none,
                              {0, 255},
-                             "Least spread of greys within, beyond that of the noise: a cloud of "
-                             "particles has some, a smooth obstacle has none. Smooth parts are cut "
-                             "off. 0: anything."});
+                             "Minimum texture above the noise; 0: any.",
+                             false,
+                             "min_grain"});
   }
 };
 

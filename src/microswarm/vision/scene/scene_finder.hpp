@@ -20,13 +20,12 @@ struct SceneParams {
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.swarm, {"swarm", Unit::none, {}, "How the swarm is found."});
-    visit(self.obstacles, {"obstacles", Unit::none, {}, "How moving obstacles look."});
+    visit(self.swarm, {"swarm", Unit::none, {}, "Detection of the swarm."});
+    visit(self.obstacles, {"obstacles", Unit::none, {}, "Appearance of moving obstacles."});
     visit(self.roundness, {"roundness",
                            Unit::none,
                            {0, 1},
-                           "An obstacle whose outline is nowhere farther from a circle, in radii, "
-                           "is a disc; others are convex polygons."});
+                           "Deviation from a circle, in radii, below which it is a disc."});
   }
 };
 

@@ -20,13 +20,10 @@ struct SwarmFinderParams {
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.look, {"look", Unit::none, {}, "How the swarm looks."});
-    visit(self.jump, {"jump", Unit::px, {0, 1e5}, "Farthest from where it was seen before."});
+    visit(self.look, {"look", Unit::none, {}, "Appearance of the swarm."});
+    visit(self.jump, {"jump", Unit::px, {0, 1e5}, "Maximum displacement between two frames."});
     visit(self.rival,
-          {"rival",
-           Unit::none,
-           {0, 1},
-           "Something with this share of the largest one's area may be the swarm too."});
+          {"rival", Unit::none, {0, 1}, "Relative area from which a second blob is a rival."});
   }
 };
 

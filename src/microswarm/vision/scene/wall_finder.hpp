@@ -24,14 +24,11 @@ struct WallParams {
   static void fields(Self& self, V&& visit) {
     visit(self.tone, {"tone", Unit::none, {}, "Walls are dark or bright against the channels."});
     visit(self.min_contrast,
-          {"min_contrast", Unit::none, {1, 255}, "Least difference to the channels, in greys."});
+          {"min_contrast", Unit::none, {1, 255}, "Minimum contrast to the channels."});
     visit(self.smooth,
-          {"smooth", Unit::px, {0, 100}, "Spread of the Gaussian that takes the noise away."});
-    visit(self.min_area, {"min_area",
-                          Unit::none,
-                          {0, 1e8},
-                          "Smaller walls, and smaller holes in them, are none; "
-                          "in square px."});
+          {"smooth", Unit::px, {0, 100}, "Standard deviation of the smoothing Gaussian."});
+    visit(self.min_area,
+          {"min_area", Unit::none, {0, 1e8}, "Minimum area of walls and holes, in square pixels."});
   }
 };
 

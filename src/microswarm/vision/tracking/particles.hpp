@@ -51,30 +51,28 @@ struct ParticleParams {
     visit(self.diameter, {"diameter",
                           Unit::px,
                           {3, 1001},
-                          "Diameter of a particle; an even one counts as one more."});
-    visit(self.tone, {"tone", Unit::none, {}, "Particles are dark or bright against the ground."});
-    visit(self.shape, {"shape",
-                       Unit::none,
-                       {},
-                       "Its centroid is measured, or the circle of the opposite tone around it."});
+                          "Diameter of a particle; even values count as one more."});
+    visit(self.tone,
+          {"tone", Unit::none, {}, "Particles are dark or bright against the background."});
+    visit(self.shape, {"shape", Unit::none, {}, "Measure the centroid, or the ring around it."});
     visit(self.min_mass,
-          {"min_mass", Unit::none, {0, 1e9}, "Least sum of greys above the ground in a particle."});
-    visit(self.separation, {"separation",
-                            Unit::px,
-                            {0, 2000},
-                            "Of two particles nearer than this the fainter is dropped; 0: diameter "
-                            "plus one."});
+          {"min_mass", Unit::none, {0, 1e9}, "Minimum sum of grey values above the background."});
+    visit(self.separation,
+          {"separation", Unit::px, {0, 2000}, "Minimum distance of particles; 0: diameter + 1."});
     visit(self.noise,
-          {"noise", Unit::px, {0, 100}, "Spread of the Gaussian that takes the noise away."});
-    visit(
-        self.min_foreground,
-        {"min_foreground", Unit::none, {0, 255}, "Greys above the ground that are still ground."});
+          {"noise", Unit::px, {0, 100}, "Standard deviation of the smoothing Gaussian."});
+    visit(self.min_foreground, {"min_foreground",
+                                Unit::none,
+                                {0, 255},
+                                "Grey values above the background that are ignored.",
+                                false,
+                                "least_rise"});
     visit(self.percentile, {"percentile",
                             Unit::none,
                             {0, 100},
-                            "Percentage of the pixels above ground that a peak must outshine."});
+                            "Percentile of the foreground that a peak must exceed."});
     visit(self.max_moves,
-          {"max_moves", Unit::none, {1, 1000}, "Most steps of a mask towards its centroid."});
+          {"max_moves", Unit::none, {1, 1000}, "Maximum number of centroid refinements."});
   }
 };
 

@@ -32,47 +32,33 @@ struct TrackerParams {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.memory,
-          {"memory", Unit::none, {0, 10000}, "Frames a robot may be missing and go on."});
-    visit(self.min_lifetime,
-          {"lasting",
-           Unit::none,
-           {1, 10000},
-           "Frames that a robot is seen before and gone after it merges, or seen "
-           "after it splits off; less is flicker."});
-    visit(self.gate, {"gate",
-                      Unit::none,
-                      {0.1, 100},
-                      "Mahalanobis distance from where it is expected at which a robot is looked "
-                      "for."});
+          {"memory", Unit::none, {0, 10000}, "Frames for which a lost robot is kept."});
+    visit(self.min_lifetime, {"min_lifetime",
+                              Unit::none,
+                              {1, 10000},
+                              "Frames a robot must exist to merge or split.",
+                              false,
+                              "lasting"});
+    visit(self.gate, {"gate", Unit::none, {0.1, 100}, "Mahalanobis distance of the search gate."});
     visit(self.search_range,
-          {"search_range",
-           Unit::um,
-           {0, 1e6},
-           "Farthest from where it is expected; not given: 5/11 of the diameter."});
+          {"search_range", Unit::um, {0, 1e6}, "Search radius; none: 5/11 of the diameter."});
     visit(self.measurement, {"measurement",
                              Unit::um,
                              {1e-9, 1e6},
-                             "Spread of a seen place; not given: 1/50 of the diameter."});
-    visit(self.jitter, {"jitter",
-                        Unit::um,
-                        {0, 1e6},
-                        "Spread of random displacement between frames; not given: 1/10 of the "
-                        "diameter."});
+                             "Measurement noise (sd); none: 1/50 of the diameter."});
+    visit(
+        self.jitter,
+        {"jitter", Unit::um, {0, 1e6}, "Displacement noise per frame (sd); none: diameter / 10."});
     visit(self.speed_change, {"speed_change",
                               Unit::um_per_s,
                               {0, 1e9},
-                              "Spread of the velocity's change between frames; not given: 1/100 of "
-                              "the diameter a frame."});
+                              "Velocity noise per frame (sd); none: diameter / 100 a frame."});
     visit(self.start_speed, {"start_speed",
                              Unit::um_per_s,
                              {0, 1e9},
-                             "Spread of a new robot's velocity; not given: 1/20 of the diameter a "
-                             "frame."});
-    visit(self.touch, {"touch",
-                       Unit::um,
-                       {0, 1e6},
-                       "Distance at which two robots may merge or split; not given: "
-                       "1.2 diameters."});
+                             "Initial velocity (sd); none: diameter / 20 a frame."});
+    visit(self.touch,
+          {"touch", Unit::um, {0, 1e6}, "Distance of a merge or split; none: 1.2 diameters."});
   }
 };
 

@@ -22,16 +22,13 @@ struct TrackSettings {
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.um_per_px, {"um_per_px", Unit::none, {1e-6, 1e6}, "µm that a pixel shows."});
-    visit(self.rate,
-          {"rate", Unit::hz, {1e-6, 1e6}, "Pictures a second; not given: as the video says."});
-    visit(self.depth, {"depth",
-                       Unit::none,
-                       {8, 16},
-                       "Bits that samples of 16 bits use; not given: as the first picture needs."});
-    visit(self.channel, {"channel", Unit::none, {}, "Channel of colour that is looked at."});
-    visit(self.find, {"find", Unit::none, {}, "How robots are found in a picture."});
-    visit(self.track, {"track", Unit::none, {}, "How they are followed through the pictures."});
+    visit(self.um_per_px, {"um_per_px", Unit::none, {1e-6, 1e6}, "Scale: side of a pixel in µm."});
+    visit(self.rate, {"rate", Unit::hz, {1e-6, 1e6}, "Frame rate; none: that of the video."});
+    visit(self.depth,
+          {"depth", Unit::none, {8, 16}, "Bits used of 16-bit samples; none: measured."});
+    visit(self.channel, {"channel", Unit::none, {}, "Colour channel used."});
+    visit(self.find, {"find", Unit::none, {}, "Detection of robots in an image."});
+    visit(self.track, {"track", Unit::none, {}, "Tracking of robots through the images."});
   }
 };
 

@@ -58,22 +58,32 @@ struct VesselParams {
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.method, {"method", Unit::none, {}, "Lines on uneven ground, or regions."});
-    visit(self.polarity, {"polarity", Unit::none, {}, "Vessels are dark, bright, or automatic."});
+    visit(self.method,
+          {"method", Unit::none, {}, "Method: lines on an uneven background, or regions."});
+    visit(self.polarity, {"polarity", Unit::none, {}, "Vessels are dark or bright, or automatic."});
     visit(self.wide_width,
-          {"wide_width", Unit::px, {0, 1000}, "Width of the wide vessels; 0: measured."});
-    visit(self.threshold,
-          {"threshold", Unit::none, {0, 100}, "Line score in spreads that a vessel must have."});
-    visit(self.seed_threshold,
-          {"seed_threshold", Unit::none, {0, 100}, "Score that it must reach somewhere."});
-    visit(self.wall_level,
-          {"wall_level", Unit::none, {0, 1}, "Walls between ground (0) and vessel (1)."});
-    visit(self.gap, {"gap", Unit::none, {0, 20}, "Widest gap bridged, in wide widths."});
-    visit(self.min_piece,
-          {"min_piece", Unit::none, {0, 1e4}, "Least piece, in squares of the wide width."});
+          {"wide_width", Unit::px, {0, 1000}, "Width of the widest vessels; 0: measured."});
+    visit(self.threshold, {"threshold",
+                           Unit::none,
+                           {0, 100},
+                           "Line score, in standard deviations, of a vessel pixel."});
+    visit(
+        self.seed_threshold,
+        {"seed_threshold", Unit::none, {0, 100}, "Line score that a vessel must reach somewhere."});
+    visit(
+        self.wall_level,
+        {"wall_level", Unit::none, {0, 1}, "Wall position between background (0) and vessel (1)."});
+    visit(self.gap, {"gap", Unit::none, {0, 20}, "Maximum gap bridged, in wide widths."});
+    visit(self.min_piece, {"min_piece",
+                           Unit::none,
+                           {0, 1e4},
+                           "Minimum area of a piece, in squares of the wide width.",
+                           false,
+                           "least_piece"});
     visit(self.min_width,
-          {"min_width", Unit::px, {0, 1000}, "Narrower vessels are left out; 0: none."});
-    visit(self.keep, {"keep", Unit::none, {}, "The largest connected network, or all pieces."});
+          {"min_width", Unit::px, {0, 1000}, "Width below which vessels are dropped; 0: none."});
+    visit(self.keep,
+          {"keep", Unit::none, {}, "Keep the largest connected network, or all pieces."});
   }
 };
 

@@ -22,6 +22,13 @@ inline const std::vector<Vec2>* outline_of(const Body& body) {
   return polygon ? &polygon->outer : nullptr;
 }
 
+/// Distances [µm] between closed sets; 0 when they share a point.
+double distance(Vec2 p, const Body& body);
+double distance(Segment s, const Body& body);
+
+/// Centre of a body, the disc's or the centroid of the outline, and its radius around it [µm].
+Disc extent_of(const Body& body);
+
 /// Moves the body by `by` [µm].
 inline void shift(Body& body, Vec2 by) {
   if (auto* disc = std::get_if<Disc>(&body.shape)) {

@@ -25,8 +25,8 @@ struct Still {
   double heading = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.position, {"position", Unit::um, coordinates, "Where it stands.", true});
-    visit(self.heading, {"heading", Unit::deg, {-360, 360}, "How it is turned."});
+    visit(self.position, {"position", Unit::um, coordinates, "Position.", true});
+    visit(self.heading, {"heading", Unit::deg, {-360, 360}, "Orientation."});
   }
 };
 
@@ -37,8 +37,8 @@ struct Straight {
   Vec2 velocity{};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.start, {"start", Unit::um, coordinates, "Where it is at t = 0.", true});
-    visit(self.velocity, {"velocity", Unit::um_per_s, {-1e5, 1e5}, "Its velocity.", true});
+    visit(self.start, {"start", Unit::um, coordinates, "Position at t = 0.", true});
+    visit(self.velocity, {"velocity", Unit::um_per_s, {-1e5, 1e5}, "Velocity.", true});
   }
 };
 
@@ -52,10 +52,10 @@ struct HarmonicLine {
   double phase = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.centre, {"centre", Unit::um, coordinates, "Middle of the way.", true});
+    visit(self.centre, {"centre", Unit::um, coordinates, "Centre of the motion.", true});
     visit(self.amplitude,
-          {"amplitude", Unit::um, coordinates, "From the middle to the end.", true});
-    visit(self.period, {"period", Unit::s, {1e-2, 1e6}, "Time for forth and back."});
+          {"amplitude", Unit::um, coordinates, "Distance from the centre to an end.", true});
+    visit(self.period, {"period", Unit::s, {1e-2, 1e6}, "Period."});
     visit(self.phase, {"phase", Unit::none, {-1, 1}, "Share of the period at t = 0."});
   }
 };
@@ -74,9 +74,9 @@ struct HarmonicArc {
   static void fields(Self& self, V&& visit) {
     visit(self.pivot, {"pivot", Unit::um, coordinates, "Centre of the arc.", true});
     visit(self.radius, {"radius", Unit::um, {0, 1e6}, "Radius of the arc.", true});
-    visit(self.middle, {"middle", Unit::deg, {-360, 360}, "Direction of the middle of the arc."});
-    visit(self.half_angle, {"half_angle", Unit::deg, {0, 180}, "From the middle to the end."});
-    visit(self.period, {"period", Unit::s, {1e-2, 1e6}, "Time for forth and back."});
+    visit(self.middle, {"middle", Unit::deg, {-360, 360}, "Direction of the arc's middle."});
+    visit(self.half_angle, {"half_angle", Unit::deg, {0, 180}, "Angle from the middle to an end."});
+    visit(self.period, {"period", Unit::s, {1e-2, 1e6}, "Period."});
     visit(self.phase, {"phase", Unit::none, {-1, 1}, "Share of the period at t = 0."});
   }
 };
@@ -97,9 +97,10 @@ struct Waypoints {
   AtEnd at_end = AtEnd::back;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.points, {"points", Unit::um, coordinates, "Where it passes, in order.", true});
-    visit(self.speed, {"speed", Unit::um_per_s, {0, 1e5}, "Its speed."});
-    visit(self.at_end, {"at_end", Unit::none, {}, "At the last point: stay, back or loop."});
+    visit(self.points, {"points", Unit::um, coordinates, "Points passed, in order.", true});
+    visit(self.speed, {"speed", Unit::um_per_s, {0, 1e5}, "Speed."});
+    visit(self.at_end,
+          {"at_end", Unit::none, {}, "Behaviour at the last point: stay, back or loop."});
   }
 };
 
@@ -120,7 +121,7 @@ struct Track {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.file, {"file", Unit::none, {}, "CSV with columns id, t_s, x_um, y_um.", true});
-    visit(self.id, {"id", Unit::none, {}, "Which id of the file.", true});
+    visit(self.id, {"id", Unit::none, {}, "Identifier in the file.", true});
   }
 };
 

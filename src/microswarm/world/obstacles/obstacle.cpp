@@ -110,7 +110,7 @@ struct OwnSpeed {
 
 Issues validate_order(double least, double greatest, const std::string& what) {
   Issues issues;
-  const std::string low = "least_" + what, high = "greatest_" + what;
+  const std::string low = "min_" + what, high = "max_" + what;
   if (least > greatest)
     issues.add({low, high}, low + " is " + number_text(least) + ", more than " + high + ", " +
                                 number_text(greatest));

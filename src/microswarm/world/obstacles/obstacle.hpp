@@ -32,9 +32,11 @@ struct BreathingDisc {
   double phase = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.min_radius, {"least_radius", Unit::um, {0, 1e6}, "Smallest radius.", true});
-    visit(self.max_radius, {"greatest_radius", Unit::um, {0, 1e6}, "Largest radius.", true});
-    visit(self.period, {"period", Unit::s, {1e-2, 1e6}, "Time of one breath."});
+    visit(self.min_radius,
+          {"min_radius", Unit::um, {0, 1e6}, "Minimum radius.", true, "least_radius_um"});
+    visit(self.max_radius,
+          {"max_radius", Unit::um, {0, 1e6}, "Maximum radius.", true, "greatest_radius_um"});
+    visit(self.period, {"period", Unit::s, {1e-2, 1e6}, "Period."});
     visit(self.phase, {"phase", Unit::none, {-1, 1}, "Share of the period at t = 0."});
   }
 };
@@ -46,8 +48,8 @@ struct BoxShape {
   double height = 50;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.width, {"width", Unit::um, {1e-3, 1e6}, "Along its heading.", true});
-    visit(self.height, {"height", Unit::um, {1e-3, 1e6}, "Across its heading.", true});
+    visit(self.width, {"width", Unit::um, {1e-3, 1e6}, "Extent along its heading.", true});
+    visit(self.height, {"height", Unit::um, {1e-3, 1e6}, "Extent across its heading.", true});
   }
 };
 
@@ -77,9 +79,10 @@ struct Valve {
   static void fields(Self& self, V&& visit) {
     visit(self.span, {"span", Unit::um, {1, 1e6}, "Width of the passage.", true});
     visit(self.thickness, {"thickness", Unit::um, {1e-3, 1e6}, "Thickness of the leaves."});
-    visit(self.min_gap, {"least_gap", Unit::um, {0, 1e6}, "Gap when closed."});
-    visit(self.max_gap, {"greatest_gap", Unit::um, {0, 1e6}, "Gap when open."});
-    visit(self.period, {"period", Unit::s, {1e-2, 1e6}, "Time of one opening and closing."});
+    visit(self.min_gap, {"min_gap", Unit::um, {0, 1e6}, "Gap when closed.", false, "least_gap_um"});
+    visit(self.max_gap,
+          {"max_gap", Unit::um, {0, 1e6}, "Gap when open.", false, "greatest_gap_um"});
+    visit(self.period, {"period", Unit::s, {1e-2, 1e6}, "Period of opening and closing."});
     visit(self.phase, {"phase", Unit::none, {-1, 1}, "Share of the period at t = 0."});
   }
 };
@@ -103,10 +106,11 @@ struct DeformingChannel {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.centre_line,
-          {"centre_line", Unit::um, coordinates, "Middle of the channel; smoothed.", true});
-    visit(self.half_width, {"half_width", Unit::um, {1, 1e6}, "Half width at rest."});
-    visit(self.end_half_width, {"end_half_width", Unit::um, {1, 1e6}, "Half width at the ends."});
-    visit(self.end_length, {"end_length", Unit::um, {0, 1e6}, "Over which an end widens."});
+          {"centre_line", Unit::um, coordinates, "Centre line of the channel; smoothed.", true});
+    visit(self.half_width, {"half_width", Unit::um, {1, 1e6}, "Half of the width at rest."});
+    visit(self.end_half_width,
+          {"end_half_width", Unit::um, {1, 1e6}, "Half of the width at the ends."});
+    visit(self.end_length, {"end_length", Unit::um, {0, 1e6}, "Length over which an end widens."});
     visit(self.amplitude, {"amplitude", Unit::um, {0, 1e6}, "Amplitude of the wave."});
     visit(self.wavelength, {"wavelength", Unit::um, {1, 1e7}, "Wavelength along the channel."});
     visit(self.period, {"period", Unit::s, {1e-2, 1e6}, "Period of the wave."});
@@ -125,8 +129,8 @@ struct Obstacle {
   Motion motion;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.shape, {"shape", Unit::none, {}, "What it is.", true});
-    visit(self.motion, {"motion", Unit::none, {}, "How it moves.", true});
+    visit(self.shape, {"shape", Unit::none, {}, "Shape.", true});
+    visit(self.motion, {"motion", Unit::none, {}, "Motion.", true});
   }
 };
 

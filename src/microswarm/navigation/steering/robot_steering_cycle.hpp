@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "microswarm/contracts/navigator.hpp"
+#include "microswarm/navigation/steering/robot_delay_compensator.hpp"
+#include "microswarm/swarm/robots/robot_swarm_params.hpp"
+
+namespace microswarm {
+
+/// The same life cycle as SteeringCycle for individually tracked robots under one input.
+class RobotSteeringCycle {
+ public:
+  /// `robots`: what is known of them; `tick` [s] between two commands; a frame older than
+  /// `frame_timeout` [s] is none.
+  RobotSteeringCycle(const RobotSwarmParams& robots, double tick, double frame_timeout)
+      : robots_(robots), tick_(tick), frame_timeout_(frame_timeout) {}
+
+  /// Once, before the first step.
+  void prepare(const Snapshot& world);
+  /// Begins a step: the robots when its command takes effect. Nothing when the step is to end with
+  /// hold(): the frame is too old, shows no robot, or not `count` of them where that is given.
+  std::optional<Robots> observe(const Observation& seen, std::optional<std::size_t> count = {});
+
+  /// Ends a step without a move.
+  Command hold(NavigatorState state = NavigatorState::blind) { return command({}, state); }
+  /// Ends a step: notes its command and state. Once a step.
+  Command command(const Command& command, NavigatorState state);
+  /// Ends a step with a move of all robots [µm] within the tick.
+  Command move(Vec2 displacement, NavigatorState state) {
+    return command(command_for(displacement, tick_), state);
+  }
+
+  const RobotSwarmParams& robots() const { return robots_; }
+  double tick() const { return tick_; }
+  /// Longest move in a tick [µm].
+  double max_move() const { return robots_.max_speed * tick_; }
+  /// After prepare().
+  const Map& map() const { return compensator_->map(); }
+  const RobotStepper& stepper() const { return compensator_->stepper(); }
+
+  /// What the step shows, empty at its beginning.
+  NavigatorView& view() { return view_; }
+  const NavigatorView& view() const { return view_; }
+
+ private:
+  RobotSwarmParams robots_;
+  double tick_;
+  double frame_timeout_;
+  double now_ = 0;
+  std::optional<RobotDelayCompensator> compensator_;
+  NavigatorView view_;
+};
+
+}  // namespace microswarm

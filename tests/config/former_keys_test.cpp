@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "microswarm/config/yaml.hpp"
+#include "microswarm/core/error.hpp"
+#include "tests/config/message.hpp"
+
+namespace microswarm {
+namespace {
+
+struct Round {
+  static constexpr std::string_view type_name = "round";
+  double gap = 1;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.gap, {"gap", Unit::um, {0, 100}, "Gap.", false, "margin_um"});
+  }
+};
+
+struct Square {
+  static constexpr std::string_view type_name = "square";
+  double clearance = 2;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.clearance, {"clearance", Unit::um, {0, 100}, "Clearance.", false, "margin_um"});
+  }
+};
+
+struct Sensing {
+  double timeout = 3;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.timeout, {"timeout", Unit::s, {0, 10}, "Timeout."});
+  }
+};
+
+struct House {
+  std::variant<Round, Square> body;
+  std::vector<Round> rooms;
+  std::optional<Square> cellar;
+  Sensing sensing;
+  static constexpr std::array<MovedKey, 1> moved_keys{{{"body.timeout_s", "sensing.timeout_s"}}};
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.body, {"body", Unit::none, {}, "Body.", false, "shape"});
+    visit(self.rooms, {"rooms", Unit::none, {}, "Rooms."});
+    visit(self.cellar, {"cellar", Unit::none, {}, "Cellar."});
+    visit(self.sensing, {"sensing", Unit::none, {}, "Sensing."});
+  }
+};
+
+struct Read {
+  House house;
+  Notes notes;
+  std::string mistakes;
+};
+
+Read read(std::string_view text) {
+  Read out;
+  Mistakes mistakes;
+  read_yaml(type_of<House>(), &out.house, text, "house.yaml", mistakes, out.notes,
+            House::moved_keys);
+  for (const std::string& line : mistakes.lines) out.mistakes += line + "\n";
+  return out;
+}
+
+TEST(FormerKeys, AreReadWhereverTheyStandWithOneNoteEach) {
+  const Read r = read(
+      "shape: {type: square, margin_um: 5}\n"
+      "rooms: [{margin_um: 6}, {gap_um: 7}]\n"
+      "cellar: {margin_um: 8}\n");
+  EXPECT_EQ(r.mistakes, "");
+  EXPECT_EQ(std::get<Square>(r.house.body).clearance, 5);
+  ASSERT_EQ(r.house.rooms.size(), 2u);
+  EXPECT_EQ(r.house.rooms[0].gap, 6);
+  EXPECT_EQ(r.house.rooms[1].gap, 7);
+  EXPECT_EQ(r.house.cellar->clearance, 8);
+  EXPECT_EQ(r.notes, (Notes{"house.yaml:1:1: 'shape' is now 'body'",
+                            "house.yaml:1:23: 'margin_um' is now 'clearance_um'",
+                            "house.yaml:2:10: 'margin_um' is now 'gap_um'",
+                            "house.yaml:3:10: 'margin_um' is now 'clearance_um'"}));
+}
+
+TEST(FormerKeys, MayHaveStoodInAnotherPart) {
+  const Read r = read("body: {type: round, timeout_s: 4}\n");
+  EXPECT_EQ(r.mistakes, "");
+  EXPECT_EQ(r.house.sensing.timeout, 4);
+  EXPECT_EQ(r.notes, Notes{"house.yaml:1:21: 'body.timeout_s' is now 'sensing.timeout_s'"});
+}
+
+TEST(FormerKeys, MistakesInTheirValuesNameThePresentKeyAtTheirPlace) {
+  const Read r = read("body: {type: round, margin_um: 500}\n");
+  EXPECT_EQ(r.mistakes, "house.yaml:1:32: gap_um is 500 µm, allowed 0..100 µm\n");
+}
+
+TEST(FormerKeys, AreUnknownBesideThePresentKeyAndInOtherAlternatives) {
+  EXPECT_EQ(read("body: {type: round, margin_um: 5, gap_um: 6}\n").mistakes,
+            "house.yaml:1:21: unknown key 'margin_um', did you mean 'gap_um'?\n");
+  EXPECT_EQ(read("cellar: {gap_um: 5}\n").mistakes,
+            "house.yaml:1:10: unknown key 'gap_um', allowed: clearance_um\n");
+}
+
+TEST(FormerKeys, AssignmentsGetThePresentKeyOfTheAlternativeThatIsHeld) {
+  House house;
+  house.rooms.resize(2);
+  EXPECT_EQ(set_value(house, "body.margin_um=5"), "body.gap_um=5");
+  EXPECT_EQ(set_value(house, "shape.type=square"), "body.type=square");
+  EXPECT_EQ(set_value(house, "shape.margin_um=6"), "body.clearance_um=6");
+  EXPECT_EQ(set_value(house, "rooms.1.margin_um=7"), "rooms.1.gap_um=7");
+  EXPECT_EQ(set_value(house, "body.timeout_s=4"), "sensing.timeout_s=4");
+  EXPECT_EQ(set_value(house, "sensing.timeout_s=5"), "sensing.timeout_s=5");
+  EXPECT_EQ(std::get<Square>(house.body).clearance, 6);
+  EXPECT_EQ(house.rooms[1].gap, 7);
+  EXPECT_EQ(set_values(house, {"shape.margin_um=9", "sensing.timeout_s=1"}),
+            Notes{"--set shape.margin_um: is now 'body.clearance_um'"});
+  EXPECT_EQ(sample::message_of([&] { set_value(house, "rooms.9.margin_um=1"); }),
+            "--set rooms.9.margin_um: rooms has 2 entries, counted from 0, and none is '9'");
+}
+
+}  // namespace
+}  // namespace microswarm
