@@ -107,7 +107,7 @@ TEST_P(SwarmBodyLaws, SweptRunsFromTheOldPoseToTheNew) {
     for (const Command& c : random_commands(params(), 10)) {
       const SwarmPose before = body.pose();
       body.step(c, dt, rng);
-      const auto swept = body.swept();
+      const auto swept = body.trajectory();
       ASSERT_GE(swept.size(), 2u);
       EXPECT_EQ(swept.front().t, 0);
       EXPECT_EQ(swept.front().pose, before.pose);
@@ -127,7 +127,7 @@ TEST_P(SwarmBodyLaws, RadiusStaysWithinItsLimits) {
   Rng rng(3, Purpose::plant);
   for (const Command& c : random_commands(params(), 300)) {
     body.step(c, 0.1, rng);
-    for (const PoseStamped& p : body.swept()) {
+    for (const PoseStamped& p : body.trajectory()) {
       ASSERT_LE(p.radius, limits().radius + 1e-9);
       ASSERT_GE(p.radius, limits().radius - limits().radius_variation - 1e-9);
       ASSERT_GT(p.radius, 0);
@@ -181,7 +181,7 @@ TEST_P(QuietBodyLaws, SpeedAndTurningStayWithinTheirLimits) {
   for (const Command& c : random_commands(params(), 200)) {
     body.step(c, 0.1, rng);
     ASSERT_LE(body.speed(), limits().max_speed);
-    const auto swept = body.swept();
+    const auto swept = body.trajectory();
     for (std::size_t i = 1; i < swept.size(); ++i) {
       const double dt = swept[i].t - swept[i - 1].t;
       ASSERT_LE(distance(swept[i].pose.position, swept[i - 1].pose.position),

@@ -165,17 +165,17 @@ TEST(ObstacleTracker, ObstaclesComeAndGo) {
   const auto at = [](double x, std::uint32_t obstacle) {
     return Body{.shape = Disc{{x, 0}, 10}, .obstacle = obstacle};
   };
-  update(0, {at(0, 4), at(100, 7)});
-  update(0.1, {at(110, 7)});
-  update(0.2, {at(40, 4), at(120, 7)});
+  see(0, {at(0, 4), at(100, 7)});
+  see(0.1, {at(110, 7)});
+  see(0.2, {at(40, 4), at(120, 7)});
   EXPECT_NEAR(tracker.body(0).velocity.x, 200, 1e-9);
   EXPECT_NEAR(tracker.body(1).velocity.x, 100, 1e-9);
-  update(0.2, {at(0, 4), at(0, 7)});  // the same frame again
+  see(0.2, {at(0, 4), at(0, 7)});  // the same frame again
   EXPECT_NEAR(tracker.body(1).velocity.x, 100, 1e-9);
-  update(5, {at(900, 4)});  // forgotten meanwhile
+  see(5, {at(900, 4)});  // forgotten meanwhile
   ASSERT_EQ(tracker.size(), 1u);
   EXPECT_EQ(tracker.body(0).velocity, Vec2{});
-  update(0.1, {at(900, 4)});  // begun anew
+  see(0.1, {at(900, 4)});  // begun anew
   EXPECT_EQ(tracker.body(0).frames, 1);
   tracker.update({});
   EXPECT_EQ(tracker.size(), 1u);

@@ -129,11 +129,11 @@ TEST(RobotPerception, PilesAreSeenAsOneAndComeApartAgain) {
     return perception.process(microscope.look(Snapshot(map, t), std::nullopt, robots), t);
   };
   double t = 0;
-  for (; robots[0].x < robots[1].x; robots[0].x += 4) process(t += 0.1);
-  for (const Vec2 place : process(t += 0.1).robots)
+  for (; robots[0].x < robots[1].x; robots[0].x += 4) see(t += 0.1);
+  for (const Vec2 place : see(t += 0.1).robots)
     EXPECT_LT(std::min(distance(place, robots[1]), distance(place, robots[2])), 7);  // its radius
-  for (int i = 0; i < 40; ++i, robots[0].y += 4) process(t += 0.1);
-  const Detections& apart = process(t += 0.1);
+  for (int i = 0; i < 40; ++i, robots[0].y += 4) see(t += 0.1);
+  const Detections& apart = see(t += 0.1);
   const auto near = [&](Vec2 place) {
     return std::any_of(apart.robots.begin(), apart.robots.end(),
                        [&](Vec2 p) { return distance(p, place) < 3; });

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/navigation/steering/robot_steering_cycle.hpp"
 
+#include <algorithm>
+
 namespace microswarm {
 
 void RobotSteeringCycle::prepare(const Snapshot& world) {
@@ -11,8 +13,9 @@ std::optional<Robots> RobotSteeringCycle::observe(const Observation& seen,
                                                   std::optional<std::size_t> count) {
   view_ = {};
   now_ = seen.now;
-  const bool sees_robots = count ? seen.robots.size() == *count : !seen.robots.empty();
-  if (!sees_robots || seen.age() > frame_timeout_) return std::nullopt;
+  const bool is_complete = count ? seen.robots.size() == *count : !seen.robots.empty();
+  if (!is_complete || seen.age() > frame_timeout_ || !std::ranges::all_of(seen.robots, is_finite))
+    return std::nullopt;
   return compensator_->at_effect(seen);
 }
 

@@ -21,7 +21,7 @@ class RobotSteeringCycle {
   /// Once, before the first step.
   void prepare(const Snapshot& world);
   /// Begins a step: the robots when its command takes effect. Nothing when the step is to end with
-  /// hold(): the frame is too old, shows no robot, or not `count` of them where that is given.
+  /// hold(): the frame is too old, shows a robot at no finite position, or none, or not `count`.
   std::optional<Robots> observe(const Observation& seen, std::optional<std::size_t> count = {});
 
   /// Ends a step without a move.
