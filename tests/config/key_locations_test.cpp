@@ -65,14 +65,14 @@ TEST(KeyLocations, GivenIsWhatIsWrittenItself) {
   // A map brings the keys that it holds.
   const KeyLocations map = keys({"navigator={type: radar, retreat: true, guard: {active: true}}"});
   EXPECT_TRUE(map.given("navigator.retreat"));
-  EXPECT_TRUE(map.given("navigator.safety_filter.active"));
+  EXPECT_TRUE(map.given("navigator.guard.active"));
   EXPECT_FALSE(map.given("navigator.speed_um_per_s"));
-  EXPECT_FALSE(map.given("navigator.safety_filter.horizon_s"));
+  EXPECT_FALSE(map.given("navigator.guard.horizon_s"));
   // One without a type leaves the others as they were.
   const KeyLocations merged =
-      keys({"navigator.safety_filter.horizon_s=2", "navigator.guard={active: true}"});
-  EXPECT_TRUE(merged.given("navigator.safety_filter.horizon_s"));
-  EXPECT_TRUE(merged.given("navigator.safety_filter.active"));
+      keys({"navigator.guard.horizon_s=2", "navigator.guard={active: true}"});
+  EXPECT_TRUE(merged.given("navigator.guard.horizon_s"));
+  EXPECT_TRUE(merged.given("navigator.guard.active"));
 }
 
 TEST(KeyLocations, EveryIssueHasItsLine) {

@@ -10,11 +10,6 @@
 namespace microswarm {
 namespace {
 
-constexpr double max_nearness = 20;   // of influence / gap: what pushes at a touch
-constexpr double stencil = 5;         // of the gradient of the walls' push [µm]
-constexpr double resting = 2;         // slower is taken to stand [µm/s]
-constexpr double guarded_time = 0.2;  // a command lasts no longer [s]
-
 /// Nearest point of the body's outline to `p`.
 Vec2 nearest_of(const Body& body, Vec2 p) {
   if (const auto* disc = std::get_if<Disc>(&body.shape)) {
@@ -40,7 +35,7 @@ PotentialFieldNavigator::PotentialFieldNavigator(const PotentialFieldParams& par
                                                  double goal_tolerance, double frame_timeout)
     : params_(params),
       steering_(swarm, params.speed, goal, goal_tolerance, frame_timeout),
-      guide_(params.guide, goal),
+      guide_(params.guide, goal, params.tuning.route_cell, params.tuning.route_reach),
       tracker_(params.tracker) {}
 
 void PotentialFieldNavigator::prepare(const Snapshot& world) {
@@ -74,7 +69,7 @@ Command PotentialFieldNavigator::step(const Observation& seen, const Stop&) {
 /// Strength of a push at a gap [µm].
 double PotentialFieldNavigator::push(double gap, double influence) const {
   if (gap >= influence) return 0;
-  const double x = std::min(max_nearness, influence / std::max(gap, 1e-9));
+  const double x = std::min(params_.tuning.max_proximity, influence / std::max(gap, 1e-9));
   return params_.repulsion * (x - 1) * x * x;
 }
 
@@ -90,10 +85,10 @@ Vec2 PotentialFieldNavigator::push_of_walls(const Map& map, Vec2 p) const {
   const double gap = map.clearance(p) - edge;
   if (gap >= params_.wall_influence) return {};
   const auto slope = [&](Vec2 d) {
-    return (map.clearance(p + d) - map.clearance(p - d)) / (2 * stencil);
+    return (map.clearance(p + d) - map.clearance(p - d)) / (2 * params_.tuning.stencil);
   };
   return calm_near_goal(p) * push(gap, params_.wall_influence) *
-         Vec2{slope({stencil, 0}), slope({0, stencil})};
+         Vec2{slope({params_.tuning.stencil, 0}), slope({0, params_.tuning.stencil})};
 }
 
 /// −∇ of ½ k g₀ (g₀ / g − 1)² with g = gap − reaction time · closing speed: away from the nearest
@@ -115,7 +110,7 @@ Vec2 PotentialFieldNavigator::push_of(const Body& body, const TrackedBody& motio
                      steering_.delay() * growth - params_.reaction_time * closing;
   const Vec2 across = relative - dot(relative, n) * n;
   const double spoke = std::max(steering_.swarm().radius, distance(at, motion.centre));
-  const double calm = norm(motion.velocity) < resting ? calm_near_goal(p) : 1;
+  const double calm = norm(motion.velocity) < params_.tuning.rest_speed ? calm_near_goal(p) : 1;
   return calm * push(gap, params_.influence) * ((params_.reaction_time / spoke) * across - n);
 }
 
@@ -133,8 +128,8 @@ std::optional<Command> PotentialFieldNavigator::clear_of_walls(const Map& map, c
     Command command{wrap(heading_of(force) + aside), speed};
     const double turn = std::isinf(turn_rate) ? 0 : wrap(command.heading - pose.heading);
     if (std::abs(turn) > pi / 2) command.speed *= 0.5;
-    const Pose2 next = unicycle_step(pose, command, turn_rate, guarded_time / 2);
-    const Pose2 last = unicycle_step(next, command, turn_rate, guarded_time / 2);
+    const Pose2 next = unicycle_step(pose, command, turn_rate, params_.tuning.command_time / 2);
+    const Pose2 last = unicycle_step(next, command, turn_rate, params_.tuning.command_time / 2);
     if (map.is_free(Segment{pose.position, next.position}, r) &&
         map.is_free(Segment{next.position, last.position}, r))
       return command;

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "microswarm/core/fields.hpp"
+#include "microswarm/navigation/baselines/potential_field_tuning.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker_params.hpp"
 #include "microswarm/navigation/steering/guide_kind.hpp"
 
@@ -24,6 +25,7 @@ struct PotentialFieldParams {
   double gap = 10;
   Guide guide = Guide::route;
   ObstacleTrackerParams tracker;
+  PotentialFieldTuning tuning;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Commanded speed."});
@@ -51,6 +53,7 @@ struct PotentialFieldParams {
                      "margin_um"});
     visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight or route."});
     visit(self.tracker, {"tracker", Unit::none, {}, "Estimation of the obstacles' motion."});
+    visit(self.tuning, {"tuning", Unit::none, {}, "Constants that seldom need a change."});
   }
 };
 

@@ -12,7 +12,6 @@ namespace microswarm {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr double deforming_time = 1;  // for which polygons are taken to go on deforming [s]
 constexpr double choice_rounding = 1e-9;
 constexpr int turning_pieces = 4;
 
@@ -55,7 +54,7 @@ VelocityObstacleNavigator::VelocityObstacleNavigator(const VelocityObstacleParam
                                                      double goal_tolerance, double frame_timeout)
     : params_(params),
       steering_(swarm, params.speed, goal, goal_tolerance, frame_timeout),
-      guide_(params.guide, goal),
+      guide_(params.guide, goal, params.tuning.route_cell, params.tuning.route_reach),
       tracker_(params.tracker) {
   rank_choices();
 }
@@ -120,7 +119,7 @@ void VelocityObstacleNavigator::find_threats(const Snapshot& world, Vec2 p) {
     const Vec2 at = p - steering_.delay() * motion.velocity;
     const double away = distance(at, bodies[i]);
     const double wanted = steering_.swarm().radius + params_.gap +
-                          speed * (steering_.delay() + (round ? 0 : deforming_time));
+                          speed * (steering_.delay() + (round ? 0 : params_.tuning.growth_time));
     const double top = steering_.speed() + norm(motion.velocity) + speed;
     if (away - wanted > top * params_.horizon) continue;
     threats_.push_back({.body = &bodies[i],

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "microswarm/core/fields.hpp"
+#include "microswarm/navigation/baselines/velocity_obstacle_tuning.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker_params.hpp"
 #include "microswarm/navigation/steering/guide_kind.hpp"
 
@@ -23,6 +24,7 @@ struct VelocityObstacleParams {
   double urgency = 200;
   Guide guide = Guide::route;
   ObstacleTrackerParams tracker;
+  VelocityObstacleTuning tuning;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Commanded speed."});
@@ -41,6 +43,7 @@ struct VelocityObstacleParams {
                          "Weight of 1 / time to contact where no velocity is free."});
     visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight or route."});
     visit(self.tracker, {"tracker", Unit::none, {}, "Estimation of the obstacles' motion."});
+    visit(self.tuning, {"tuning", Unit::none, {}, "Constants that seldom need a change."});
   }
 };
 

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "microswarm/core/fields.hpp"
+#include "microswarm/navigation/gathering/rollout_tuning.hpp"
 
 namespace microswarm {
 
@@ -20,6 +21,7 @@ struct RolloutParams {
   int horizon = 150;
   int commit = 50;
   double max_deviation = 1;
+  RolloutTuning tuning;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.budget, {"budget", Unit::none, {0, 1e12}, "Simulated robot-steps per decision."});
@@ -58,6 +60,7 @@ struct RolloutParams {
                                "Mean deviation in steps above which it plans again.",
                                false,
                                "stray"});
+    visit(self.tuning, {"tuning", Unit::none, {}, "Constants that seldom need a change."});
   }
 };
 

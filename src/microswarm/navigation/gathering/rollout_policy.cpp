@@ -2,7 +2,6 @@
 #include "microswarm/navigation/gathering/rollout_policy.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "microswarm/core/angles.hpp"
@@ -11,12 +10,6 @@ namespace microswarm {
 namespace {
 
 constexpr std::size_t checkpoint_interval = RolloutPlan::checkpoint_interval;
-constexpr std::array<std::size_t, 5> lengths{5, 10, 20, 40, 80};  // of a change [steps]
-/// Enough to choose the base when robots have strayed: the plan will be off again soon.
-constexpr std::size_t places_when_strayed = 64;
-
-/// Crowds that are thinned out start from cells of this many steps.
-constexpr double finest_cell = 0.25;
 
 }  // namespace
 
@@ -109,7 +102,8 @@ void RolloutPolicy::start(const Robots& robots) {
 void RolloutPolicy::plan_anew(const Robots& robots) {
   ++replans_;
   MergedRobots some(robots);
-  some.coarsen(places_when_strayed, finest_cell * simulator_.params().step);
+  some.coarsen(static_cast<std::size_t>(params_.tuning.replan_representatives),
+               params_.tuning.finest_cell * simulator_.params().step);
   const std::span<const Vec2> rest = std::span(plan_.moves).subspan(done_);
   auto most = static_cast<std::size_t>(params_.max_steps);
   std::vector<Vec2> best;
@@ -177,7 +171,7 @@ bool RolloutPolicy::extend() {
 PartialPlan RolloutPolicy::partial_at(std::size_t step, std::size_t max_places) {
   const std::size_t mark = step / checkpoint_interval;
   PartialPlan partial{plan_.checkpoints[mark], mark * checkpoint_interval};
-  partial.merged.coarsen(max_places, finest_cell * simulator_.params().step);
+  partial.merged.coarsen(max_places, params_.tuning.finest_cell * simulator_.params().step);
   simulator_.follow(partial, std::span(plan_.moves).subspan(partial.from), step);
   return partial;
 }
@@ -195,7 +189,9 @@ void RolloutPolicy::perturb() {
 
 void RolloutPolicy::change(PartialPlan& partial) {
   const std::size_t at = partial.steps();
-  const std::size_t length = lengths[rng_.below(lengths.size())];
+  const std::vector<int>& lengths = params_.tuning.change_lengths;
+  const auto length =
+      static_cast<std::size_t>(lengths.empty() ? 1 : lengths[rng_.below(lengths.size())]);
   const std::size_t most = steps();
   std::size_t goes_on_at = at;
   bool goes_on = rng_.below(3) == 0;

@@ -12,17 +12,6 @@
 #include "microswarm/swarm/body/unicycle.hpp"
 
 namespace microswarm {
-namespace {
-
-constexpr double escape_tick = 0.1;    // of the look-ahead [s]
-constexpr double longest_sweep = 1.5;  // of obstacles while planning [s]
-constexpr double first_leg = 1.0;      // of an escape [s]
-constexpr double last_weight = 0.1;    // of the clearance at an escape's end beside the least one
-constexpr double no_route = 1e4;       // more than the straight way, where no route is known [µm]
-constexpr std::array<double, 3> eases{1.0, 0.5, 0.25};
-
-}  // namespace
-
 HierarchicalParams HierarchicalParams::in_effect() const {
   HierarchicalParams p = *this;
   if (!as_published) return p;
@@ -56,7 +45,8 @@ HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params,
   params_.speed = steering_.speed();
   // How far the arc of a tick is from its chord; a swarm that turns at once makes none.
   if (std::isfinite(swarm.max_turn_rate))
-    slack_ = std::max(1.0, params_.speed * swarm.max_turn_rate * escape_tick * escape_tick / 8);
+    slack_ = std::max(1.0, params_.speed * swarm.max_turn_rate * params_.tuning.check_step *
+                               params_.tuning.check_step / 8);
 }
 
 void HierarchicalNavigator::prepare(const Snapshot& world) {
@@ -70,7 +60,7 @@ Command HierarchicalNavigator::step(const Observation& seen, const Stop& stop) {
   const std::optional<double> last_command = steering_.last_command();
   obstacles_.update(seen);
   const Decision decision = decide(seen, stop);
-  if (last_command) period_ = std::clamp(seen.now - *last_command, escape_tick, 1.0);
+  if (last_command) period_ = std::clamp(seen.now - *last_command, params_.tuning.check_step, 1.0);
   NavigatorView& view = steering_.view();
   view.local_target = target_;
   if (params_.guide == Guide::route && seen.world) view.phased_goal = towards(seen.world->map());
@@ -104,7 +94,7 @@ HierarchicalNavigator::Decision HierarchicalNavigator::decide(const Observation&
 std::optional<HierarchicalNavigator::Decision> HierarchicalNavigator::keep_path(
     const Observation& seen) {
   if (!has_path()) return std::nullopt;
-  for (const double ease : eases) {
+  for (const double ease : params_.tuning.speed_shares) {
     const double speed = ease * params_.speed;
     if (!params_.as_published && !look_along_path(seen, speed).safe) continue;
     const auto next = follow(place_, pose_, speed);
@@ -152,8 +142,8 @@ void HierarchicalNavigator::replan(const Snapshot& seen, const Stop& stop) {
   }
   for (const double clearance : {wanted, params_.clearance})
     if (clearance <= here && replan_in_time(seen, clearance, stop)) return;
-  const Snapshot ahead =
-      obstacles_.swept_obstacles(seen, std::min(params_.horizon, longest_sweep), params_.clearance);
+  const Snapshot ahead = obstacles_.swept_obstacles(
+      seen, std::min(params_.horizon, params_.tuning.max_sweep), params_.clearance);
   for (const double clearance : {wanted, params_.clearance}) {
     if (clearance > here) continue;
     if (replan_with(ahead, clearance, stop) || replan_with(seen, clearance, stop)) return;
@@ -181,7 +171,7 @@ bool HierarchicalNavigator::replan_in_time(const Snapshot& seen, double clearanc
   const Vec2 from = pose_.position;
   const auto way_from = [&](Vec2 p) {
     const double way = params_.guide == Guide::route ? route_.from(p) : distance(p, aim().position);
-    return std::isfinite(way) ? way : distance(p, aim().position) + no_route;
+    return std::isfinite(way) ? way : distance(p, aim().position) + params_.tuning.detour;
   };
   const auto target = select_predicted_target(seen, obstacles_,
                                               {.swarm = pose_,
@@ -195,7 +185,10 @@ bool HierarchicalNavigator::replan_in_time(const Snapshot& seen, double clearanc
                                                .turn_weight = params_.planner.smoothness_weight,
                                                .clearance = clearance,
                                                .horizon = params_.target_horizon,
-                                               .max_wait = max_wait(seen.time())},
+                                               .max_wait = max_wait(seen.time()),
+                                               .wait_times = params_.tuning.wait_times,
+                                               .wait_weight = params_.tuning.wait_weight,
+                                               .contact_weight = params_.tuning.contact_weight},
                                               way_from);
   if (!target) return false;
   if (target->wait > 0) {  // without a path it holds
@@ -265,7 +258,8 @@ HierarchicalNavigator::Rollout HierarchicalNavigator::look_ahead(const Observati
                                                                  Steer&& steer) const {
   const double enough = far_enough();
   const double delay = params_.horizon > 0 ? steering_.delay() : 0;
-  const int ticks = std::max(1, static_cast<int>(std::lround(params_.horizon / escape_tick)));
+  const int ticks =
+      std::max(1, static_cast<int>(std::lround(params_.horizon / params_.tuning.check_step)));
   const Map& map = seen.world->map();
   const double from_walls = wall_floor(map, enough);
   Pose2 pose = pose_;
@@ -273,14 +267,16 @@ HierarchicalNavigator::Rollout HierarchicalNavigator::look_ahead(const Observati
   Command command;
   double next_command = 0;
   for (int k = 0; k < ticks; ++k) {
-    if (k * escape_tick >= next_command - 1e-9) {
-      command = steer(pose, k * escape_tick);
+    if (k * params_.tuning.check_step >= next_command - 1e-9) {
+      command = steer(pose, k * params_.tuning.check_step);
       next_command += period_;
     }
-    const Pose2 next = unicycle_step(pose, command, swarm().max_turn_rate, escape_tick);
+    const Pose2 next =
+        unicycle_step(pose, command, swarm().max_turn_rate, params_.tuning.check_step);
     const Segment move{pose.position, next.position};
-    const double from = delay + k * escape_tick;
-    const double moving = obstacles_.clearance(*seen.world, move, from, from + escape_tick, enough);
+    const double from = delay + k * params_.tuning.check_step;
+    const double moving =
+        obstacles_.clearance(*seen.world, move, from, from + params_.tuning.check_step, enough);
     out.safe = out.safe && moving >= params_.clearance + slack_ && map.is_free(move, from_walls);
     // The whole move counts, so that no way through a wall is ever the best one.
     out.last = map.is_free(move, 0) ? std::min(moving, map.clearance(next.position)) : 0;
@@ -325,10 +321,10 @@ HierarchicalNavigator::Decision HierarchicalNavigator::escape(const Observation&
   double best_score = -1;
   double best_least = 0;
   const auto consider = [&](const Command& first, const Command& second) {
-    const Rollout o =
-        look_ahead(seen, best_score - last_weight * far_enough(),
-                   [&](const Pose2&, double t) { return t < first_leg ? first : second; });
-    const double score = o.least + last_weight * o.last;
+    const Rollout o = look_ahead(
+        seen, best_score - params_.tuning.final_weight * far_enough(),
+        [&](const Pose2&, double t) { return t < params_.tuning.first_leg ? first : second; });
+    const double score = o.least + params_.tuning.final_weight * o.last;
     if (score <= best_score + 1e-9) return;
     best_score = score;
     best_least = o.least;

@@ -8,6 +8,7 @@
 #include "microswarm/core/fields.hpp"
 #include "microswarm/core/issue.hpp"
 #include "microswarm/navigation/following/follower_params.hpp"
+#include "microswarm/navigation/hierarchical/hierarchical_tuning.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker_params.hpp"
 #include "microswarm/navigation/steering/guide_kind.hpp"
 #include "microswarm/planning/path/drrt_star_params.hpp"
@@ -78,6 +79,7 @@ struct HierarchicalParams {
   ObstacleTrackerParams tracker;
   LocalTargetParams target;
   DrrtStarParams planner = local_planner();
+  HierarchicalTuning tuning;
 
   /// These, or with `as_published` the same without what is ours.
   HierarchicalParams in_effect() const;
@@ -111,6 +113,7 @@ struct HierarchicalParams {
     visit(self.tracker, {"tracker", Unit::none, {}, "Estimation of the obstacles' motion."});
     visit(self.target, {"target", Unit::none, {}, "Local target selection."});
     visit(self.planner, {"planner", Unit::none, {}, "Local planner."});
+    visit(self.tuning, {"tuning", Unit::none, {}, "Constants that seldom need a change."});
   }
 };
 

@@ -2,7 +2,6 @@
 #include "microswarm/navigation/hierarchical/predicted_target.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -11,11 +10,8 @@
 namespace microswarm {
 namespace {
 
-constexpr double same_place = 1;      // [µm]
-constexpr double piece_time = 1;      // of a way that is searched for its first contact [s]
-constexpr double wait_weight = 2;     // of the way that could be made while waiting
-constexpr double contact_weight = 3;  // of the way that is left within the horizon at a contact
-constexpr std::array<double, 5> waits{0, 1, 2, 4, 8};  // before going [s]
+constexpr double same_place = 1;  // [µm]
+constexpr double piece_time = 1;  // of a way that is searched for its first contact [s]
 
 /// How long the straight way stays free among obstacles [s], at most `most` and what it takes.
 double free_time(const Snapshot& frame, const ObstaclePredictor& obstacles, Segment way,
@@ -42,7 +38,7 @@ class PredictedChoice {
     const Vec2 from = q_.swarm.position;
     const double length = distance(from, target);
     const double heading = heading_of(target - from);
-    double cost = length + way_from_(target) + wait_weight * q_.speed * wait +
+    double cost = length + way_from_(target) + q_.wait_weight * q_.speed * wait +
                   q_.turn_weight * turn_between(heading, q_.swarm.heading);
     if (!(cost < best_cost_) || !frame_.map().is_free(Segment{from, target}, q_.clearance)) return;
     const double time = length / q_.speed;
@@ -51,7 +47,7 @@ class PredictedChoice {
     const double left = std::min(q_.horizon - wait - time, distance(target, next) / q_.speed);
     if (left > 0) {
       cost += q_.turn_weight * turn_between(heading_of(next - target), heading);
-      cost += contact_weight * q_.speed * (left - free_time({target, next}, wait + time, left));
+      cost += q_.contact_weight * q_.speed * (left - free_time({target, next}, wait + time, left));
     }
     if (cost >= best_cost_) return;
     best_cost_ = cost;
@@ -91,7 +87,7 @@ std::optional<PredictedTarget> select_predicted_target(
   const double goal_distance = distance(from, q.goal);
   const int directions = std::max(4, static_cast<int>(std::lround(2 * pi / q.angle_step)));
   PredictedChoice choice(frame, obstacles, q, way_from);
-  for (const double wait : waits) {
+  for (const double wait : q.wait_times) {
     if (wait > 0 && wait > q.max_wait) break;
     if (goal_distance <= q.reach) choice.consider(q.goal, wait);
     for (double reach = std::min(q.reach, goal_distance); reach >= q.min_reach; reach /= 2)

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 
 #include "microswarm/core/infinity.hpp"
 #include "microswarm/navigation/prediction/obstacle_predictor.hpp"
@@ -11,18 +12,21 @@ namespace microswarm {
 
 /// What a local target is chosen from among predicted obstacles.
 struct PredictedTargetQuery {
-  Pose2 swarm;                 ///< where it will be when the command takes effect
-  double delay = 0;            ///< from the frame until then [s]
-  double speed = 0;            ///< [µm/s]
-  Vec2 goal;                   ///< free with the clearance
-  Vec2 towards;                ///< the goal, or a point of the route to it, in sight
-  double reach = 0;            ///< farthest target [µm]
-  double min_reach = 0;        ///< nearest target, but for the goal [µm]
-  double angle_step = 0;       ///< between directions [rad]
-  double turn_weight = 0;      ///< cost of turning [µm/rad]
-  double clearance = 0;        ///< [µm]
-  double horizon = 0;          ///< [s]
-  double max_wait = infinity;  ///< for an obstacle to pass [s]
+  Pose2 swarm;                           ///< where it will be when the command takes effect
+  double delay = 0;                      ///< from the frame until then [s]
+  double speed = 0;                      ///< [µm/s]
+  Vec2 goal;                             ///< free with the clearance
+  Vec2 towards;                          ///< the goal, or a point of the route to it, in sight
+  double reach = 0;                      ///< farthest target [µm]
+  double min_reach = 0;                  ///< nearest target, but for the goal [µm]
+  double angle_step = 0;                 ///< between directions [rad]
+  double turn_weight = 0;                ///< cost of turning [µm/rad]
+  double clearance = 0;                  ///< [µm]
+  double horizon = 0;                    ///< [s]
+  double max_wait = infinity;            ///< for an obstacle to pass [s]
+  std::span<const double> wait_times{};  ///< ascending from 0 [s]
+  double wait_weight = 0;                ///< of the distance not driven during a wait
+  double contact_weight = 0;             ///< of the distance left in the horizon at a contact
 };
 
 /// A chosen target, and how long [s] the swarm waits for an obstacle to pass before it goes.

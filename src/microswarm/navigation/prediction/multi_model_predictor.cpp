@@ -11,17 +11,15 @@
 namespace microswarm {
 namespace {
 
-constexpr double longest_gap = 1;          // without a sighting, after which a body is as new [s]
-constexpr double forecast_spacing = 0.08;  // [s]
-constexpr std::size_t max_open = 24;       // forecasts that are not due
-constexpr double worst_error = 300;        // that counts [µm]
-constexpr double proved = 0.5;             // and twice the noise: who errs no more is right [µm]
-constexpr double prior_weight = 2;         // of the errors below, in forecasts
-constexpr double growing_time = 1.5;       // for which an outline goes on as never seen before [s]
+constexpr std::size_t max_open = 24;  // forecasts that are not due
 
-/// Errors that are expected of a model before it has shown any, in shares of the way of its span.
-constexpr std::array<double, MotionModels::count> prior_errors{0.20, 0.17, 0.20, 0.20, 0.20,
-                                                               0.20, 0.20, 0.20, 0.14};
+/// Error expected of a model before it has shown any, as a share of the predicted distance.
+double prior_of(std::size_t model, const MultiModelPredictorTuning& tuning) {
+  if (model == MotionModels::straight) return tuning.straight_prior;
+  if (model == MotionModels::curved) return tuning.curved_prior;
+  if (model == MotionModels::again) return tuning.recurrence_prior;
+  return model < MotionModels::arc ? tuning.swing_prior : tuning.arc_prior;
+}
 
 /// How far `now` is turned against `then`, both about the centre, vertex by vertex [rad].
 double turn_against(std::span<const Vec2> then, std::span<const Vec2> now, Vec2 centre) {
@@ -86,7 +84,7 @@ std::size_t MultiModelPredictor::history_of(std::uint32_t obstacle, std::uint32_
 
 void MultiModelPredictor::append(BodyHistory& history, const Body& body,
                                  const TrackedBody& motion) {
-  if (!history.trail.empty() && now_ - history.trail.back().t > longest_gap) {
+  if (!history.trail.empty() && now_ - history.trail.back().t > params_.tuning.max_gap) {
     history.trail.clear();
     for (auto& open : history.open) open.clear();
   }
@@ -118,7 +116,7 @@ void MultiModelPredictor::update_errors(BodyHistory& history) const {
         record.errors *= kept;
         record.weight *= kept;
         if (!told.holds[m]) continue;
-        record.errors += std::min(worst_error, distance(told.places[m], was));
+        record.errors += std::min(params_.tuning.max_error, distance(told.places[m], was));
         record.weight += 1;
       }
     }
@@ -139,16 +137,18 @@ void MultiModelPredictor::model(BodyHistory& history, const TrackedBody& motion)
     greatest = std::max(greatest, p.radius);
   }
   const Record& straight = history.records[MotionModels::straight].back();
-  const bool is_straight = straight.weight > prior_weight &&
-                           straight.errors < (proved + 2 * motion.noise) * straight.weight;
+  const bool is_straight =
+      straight.weight > params_.tuning.prior_weight &&
+      straight.errors < (params_.tuning.error_tolerance + 2 * motion.noise) * straight.weight;
   history.models.fit(history.trail, motion, is_straight ? std::span<const Sighting>{} : sightings_,
                      oscillations_);
   history.breath.reset();
   history.radius_spread = greatest - least;
-  if (history.radius_spread < proved) return;
+  if (history.radius_spread < params_.tuning.error_tolerance) return;
   const auto breaths = oscillations_.fit(radii_);
   for (const auto& breath : breaths)
-    if (breath && std::abs(breath->at(0).x - history.trail.back().radius) < proved)
+    if (breath &&
+        std::abs(breath->at(0).x - history.trail.back().radius) < params_.tuning.error_tolerance)
       history.breath = breath;
 }
 
@@ -160,8 +160,9 @@ void MultiModelPredictor::select_model(BodyHistory& history, double speed) const
     double last = 0;
     for (std::size_t k = 0; k < spans.size(); ++k) {
       const Record& record = history.records[m][k];
-      const double prior = prior_errors[m] * speed * spans[k] * prior_weight;
-      last = (record.errors + prior) / (record.weight + prior_weight);
+      const double prior =
+          prior_of(m, params_.tuning) * speed * spans[k] * params_.tuning.prior_weight;
+      last = (record.errors + prior) / (record.weight + params_.tuning.prior_weight);
       sum += last / spans[k];
     }
     if (sum >= least) continue;
@@ -176,7 +177,7 @@ void MultiModelPredictor::issue_forecasts(BodyHistory& history) const {
     auto& open = history.open[k];
     const double due = now_ + spans[k];
     if (open.size() == max_open) continue;
-    if (!open.empty() && due - open.back().due < forecast_spacing) continue;
+    if (!open.empty() && due - open.back().due < params_.tuning.forecast_interval) continue;
     Forecast& told = open.emplace_back();
     told.due = due;
     for (std::size_t m = 0; m < MotionModels::count; ++m) {
@@ -193,9 +194,11 @@ PredictedBody MultiModelPredictor::at(std::size_t body, double t) const {
   PredictedBody out;
   out.centre = history.models.place(history.selected, history.trail, s);
   out.turn = history.models.turn(history.selected, history.trail, s);
-  const double unseen = growing_time * std::abs(motion.radius_rate) + history.radius_spread;
-  const double growth = history.breath ? history.breath->at(s).x - history.breath->at(0).x
-                                       : motion.radius_rate * std::min(s, growing_time);
+  const double unseen =
+      params_.tuning.growth_time * std::abs(motion.radius_rate) + history.radius_spread;
+  const double growth = history.breath
+                            ? history.breath->at(s).x - history.breath->at(0).x
+                            : motion.radius_rate * std::min(s, params_.tuning.growth_time);
   out.growth = std::clamp(growth, -unseen, unseen);
   out.uncertainty =
       std::min(params_.max_uncertainty, params_.uncertainty * history.error * s / spans.back());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "microswarm/core/fields.hpp"
+#include "microswarm/navigation/prediction/multi_model_predictor_tuning.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker_params.hpp"
 
 namespace microswarm {
@@ -13,6 +14,7 @@ struct MultiModelPredictorParams {
   double uncertainty = 0;
   double max_uncertainty = 60;
   ObstacleTrackerParams tracker;
+  MultiModelPredictorTuning tuning;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.memory,
@@ -36,6 +38,7 @@ struct MultiModelPredictorParams {
                                  false,
                                  "most_doubt_um"});
     visit(self.tracker, {"tracker", Unit::none, {}, "Estimation of the obstacles' motion."});
+    visit(self.tuning, {"tuning", Unit::none, {}, "Constants that seldom need a change."});
   }
 };
 

@@ -13,15 +13,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double wall_contact = 200;     // seconds a second
-constexpr double wall_nearness = 1.5;    // seconds a second, at the wall margin
-constexpr double wall_reach = 20;        // beyond the wall margin [µm]
-constexpr double no_path_reason = 1000;  // to the goal [s]
-constexpr double inner_goal = 0.9;       // of the tolerance: where it counts as reached
-constexpr double slow_share = 0.1;       // of the swarm's speed
-constexpr double closing_time = 1;       // for which a hollow body is taken to close in [s]
 constexpr double leg_rounding = 1e-9;
-constexpr std::array<double, 3> speed_shares{1, 0.5, 0.25};  // the last to turn in little room
 
 /// Least distance from the outline to a point that runs straight from a to b, both seen from the
 /// outline's centre and turned back with it. The distance is a convex function of the way.
@@ -49,7 +41,7 @@ PredictiveNavigator::PredictiveNavigator(const PredictiveParams& params, const S
     : params_(params),
       steering_(swarm, params.speed, goal, goal_tolerance, frame_timeout),
       goal_tolerance_(goal_tolerance),
-      reached_{goal, inner_goal * goal_tolerance},
+      reached_{goal, params_.tuning.goal_share * goal_tolerance},
       radius_(swarm.radius + params.gap),
       predictor_(params.prediction),
       field_(steering_.speed(), params.horizon, params.step) {
@@ -59,8 +51,8 @@ PredictiveNavigator::PredictiveNavigator(const PredictiveParams& params, const S
 void PredictiveNavigator::prepare(const Snapshot& world) {
   steering_.prepare(world, steering_.swarm().radius, steering_.swarm().radius + params_.wall_gap);
   const double left = steering_.aim().tolerance;
-  reached_ = {steering_.aim().position, inner_goal * left};
-  ends_within_ = goal_tolerance_ - (1 - inner_goal) * left;
+  reached_ = {steering_.aim().position, params_.tuning.goal_share * left};
+  ends_within_ = goal_tolerance_ - (1 - params_.tuning.goal_share) * left;
   if (params_.guide == Guide::route)
     route_ =
         DistanceField::to_goal(world.map(), steering_.aim().position,
@@ -129,7 +121,8 @@ void PredictiveNavigator::look_at_bodies(const Observation& seen, Vec2 from) {
     outliner_.take(bodies[i], outline);
     if (stands_hollow(outline, predictor_.tracked(i), from)) {
       nonconvex_bodies_.push_back(bodies[i]);
-      closing_ = std::max(closing_, closing_time * predictor_.tracked(i).outline_speed);
+      closing_ =
+          std::max(closing_, params_.tuning.closing_time * predictor_.tracked(i).outline_speed);
       continue;
     }
     body_of_.push_back(i);
@@ -140,7 +133,7 @@ void PredictiveNavigator::look_at_bodies(const Observation& seen, Vec2 from) {
 
 bool PredictiveNavigator::stands_hollow(const ConvexOutline& outline, const TrackedBody& motion,
                                         Vec2 from) const {
-  if (norm(motion.velocity) > slow_share * steering_.speed()) return false;
+  if (norm(motion.velocity) > params_.tuning.slow_share * steering_.speed()) return false;
   return outliner_.misleads(outline, std::array{from, steering_.aim().position});
 }
 
@@ -194,21 +187,21 @@ double PredictiveNavigator::left_from(Vec2 p) const {
   const double straight = distance(p, steering_.aim().position) - reached_.radius;
   if (in_sight_) return std::max(0.0, straight) / steering_.speed();
   const double way = route_.from(p);
-  return std::isfinite(way) ? way / steering_.speed() : no_path_reason;
+  return std::isfinite(way) ? way / steering_.speed() : params_.tuning.unreachable_time;
 }
 
 float PredictiveNavigator::standing_risk(const Map& map, Vec2 p) const {
   const double radius = radius_ - params_.gap;
   double clearance = map.field().lower(p) + 0.5 * map.field().spread();
   if (!nonconvex_.empty()) {
-    const double limit = radius + params_.wall_gap + wall_reach + closing_;
+    const double limit = radius + params_.wall_gap + params_.tuning.wall_reach + closing_;
     clearance = std::min(clearance, nonconvex_.clearance(p, limit) - closing_);
   }
   const double gap = clearance - radius - params_.wall_gap;
-  if (gap >= wall_reach) return 0;
-  if (gap < -params_.wall_gap) return static_cast<float>(wall_contact);
-  const double share = std::min(1.0, 1 - gap / wall_reach);
-  return static_cast<float>(wall_nearness * share * share);
+  if (gap >= params_.tuning.wall_reach) return 0;
+  if (gap < -params_.wall_gap) return static_cast<float>(params_.tuning.wall_contact_cost);
+  const double share = std::min(1.0, 1 - gap / params_.tuning.wall_reach);
+  return static_cast<float>(params_.tuning.wall_proximity_cost * share * share);
 }
 
 PredictiveNavigator::Leg PredictiveNavigator::best_leg(const Map& map, const Pose2& pose) {
@@ -224,8 +217,9 @@ PredictiveNavigator::Leg PredictiveNavigator::best_leg(const Map& map, const Pos
   // last bit is finer than the field's cells.
   if (alone && (turns_slowly || ending_)) best.cost = std::numeric_limits<double>::infinity();
   const double straight = heading_of(steering_.aim().position - pose.position);
-  const std::span shares(speed_shares);
-  for (const double share : turns_slowly ? shares : shares.first(2))
+  const std::span shares(params_.tuning.speed_shares);
+  for (const double share :
+       turns_slowly ? shares : shares.first(std::min<std::size_t>(2, shares.size())))
     for (int k = 0; k < params_.directions; ++k) {
       const Command command{wrap(straight + 2 * pi * k / params_.directions),
                             share * steering_.speed()};
@@ -253,7 +247,8 @@ PredictiveNavigator::Leg PredictiveNavigator::tried(const Map& map, const Pose2&
     leg.min_gap = std::min(leg.min_gap, met.gap);
     const double risk = std::max(met.risk, static_cast<double>(standing_risk(map, next.position)));
     leg.cost += dt * (1 + risk);
-    if (command.speed > 0 && !map.is_free(way, needed)) leg.cost = no_path_reason + bound;
+    if (command.speed > 0 && !map.is_free(way, needed))
+      leg.cost = params_.tuning.unreachable_time + bound;
     if (leg.cost > bound) return leg;
     pose = next;
     if (ending_ ? distance(steering_.goal(), way) < ends_within_

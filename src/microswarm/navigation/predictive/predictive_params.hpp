@@ -6,6 +6,7 @@
 #include "microswarm/core/fields.hpp"
 #include "microswarm/navigation/prediction/multi_model_predictor_params.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker_params.hpp"
+#include "microswarm/navigation/predictive/predictive_tuning.hpp"
 #include "microswarm/navigation/steering/guide_kind.hpp"
 
 namespace microswarm {
@@ -54,6 +55,7 @@ struct PredictiveParams {
   MultiModelPredictorParams prediction;
   Guide guide = Guide::route;
   double route_cell = 20;
+  PredictiveTuning tuning;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.speed, {"speed", Unit::um_per_s, {1e-3, 1e5}, "Commanded speed."});
@@ -74,6 +76,7 @@ struct PredictiveParams {
           {"prediction", Unit::none, {}, "Prediction of obstacles.", false, "foresight"});
     visit(self.guide, {"guide", Unit::none, {}, "Direction of the goal: straight or route."});
     visit(self.route_cell, {"route_cell", Unit::um, {1e-2, 1e5}, "Grid spacing of the route."});
+    visit(self.tuning, {"tuning", Unit::none, {}, "Constants that seldom need a change."});
   }
 };
 

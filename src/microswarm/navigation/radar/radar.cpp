@@ -12,9 +12,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double replan_time = 1;    // between two plans, at least [s]
-constexpr double longest_wait = 30;  // after plans that failed [s]
-constexpr double usual_tick = 0.1;   // [s]
+constexpr double usual_tick = 0.1;  // [s]
 
 }  // namespace
 
@@ -24,7 +22,7 @@ RadarNavigator::RadarNavigator(const RadarParams& params, const SwarmLimits& swa
       rng_(rng),
       steering_(swarm, params.speed, goal, goal_tolerance, frame_timeout),
       safety_radius_(params.safety_radius),
-      scanner_(directions_of(params)),
+      scanner_(directions_of(params), params.tuning),
       filter_(params.safety_filter, steering_.speed()) {
   params_.speed = steering_.speed();
 }
@@ -121,7 +119,9 @@ void RadarNavigator::find_route(const Observation& seen, const Stop& stop) {
     const bool found =
         plan_route(walls, pose_, std::max(params_.planner.clearance, radius), stop) ||
         plan_route(walls, beside_walls(walls.map(), radius), radius, stop);
-    wait_ = found ? replan_time : std::min(2 * std::max(wait_, 0.5 * replan_time), longest_wait);
+    wait_ = found ? params_.tuning.replan_interval
+                  : std::min(2 * std::max(wait_, 0.5 * params_.tuning.replan_interval),
+                             params_.tuning.max_replan_interval);
     plan_again_at_ = seen.now + wait_;
   }
   routed_ = true;

@@ -7,6 +7,7 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/fields.hpp"
+#include "microswarm/navigation/radar/radar_tuning.hpp"
 #include "microswarm/navigation/radar/safety_filter_params.hpp"
 #include "microswarm/navigation/radar/safety_radius_params.hpp"
 #include "microswarm/navigation/radar/wait_zone_params.hpp"
@@ -37,6 +38,7 @@ struct RadarParams {
   double waypoint_tolerance = 50;
   bool global_plan = false;
   FmtStarParams planner;
+  RadarTuning tuning;
   bool as_published = false;
 
   /// These, or with `as_published` the same without what is ours.
@@ -104,6 +106,7 @@ struct RadarParams {
     visit(self.planner, {"planner", Unit::none, {}, "Planner of the waypoints."});
     visit(self.as_published,
           {"as_published", Unit::none, {}, "As in [radar], without our additions."});
+    visit(self.tuning, {"tuning", Unit::none, {}, "Constants that seldom need a change."});
   }
 };
 

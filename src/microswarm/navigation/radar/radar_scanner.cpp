@@ -11,12 +11,10 @@ namespace microswarm {
 namespace {
 
 constexpr double scan_rounding = 1e-6;  // of distances [µm]
-constexpr std::size_t retreat_directions = 36;
-constexpr double min_gain = 0.1;  // of a retreat over the hold, so that it comes to rest [steps]
 
 }  // namespace
 
-RadarScanner::RadarScanner(int directions) {
+RadarScanner::RadarScanner(int directions, const RadarTuning& tuning) : tuning_(tuning) {
   const auto n = static_cast<std::size_t>(directions);
   for (int i = 0; i < directions; ++i) {
     const Vec2 u = unit_vector(wrap(2 * pi * i / directions));
@@ -220,10 +218,12 @@ RadarScanner::Outcome RadarScanner::outcome(const RadarLook& look, const Snapsho
 
 // What keeps most distance on the way and gains most at its end, after one step or a longer way.
 std::optional<double> RadarScanner::retreat(const RadarLook& look, const Snapshot& world) const {
-  const double hold = outcome(look, world, look.centre).worth() + min_gain * look.step;
+  const double hold =
+      outcome(look, world, look.centre).worth() + tuning_.min_retreat_gain * look.step;
   std::optional<std::size_t> found;
   double most = hold;
-  const std::size_t stride = std::max<std::size_t>(1, ux_.size() / retreat_directions);
+  const std::size_t stride =
+      std::max<std::size_t>(1, ux_.size() / static_cast<std::size_t>(tuning_.retreat_directions));
   for (std::size_t i = 0; i < ux_.size(); i += stride) {
     for (const double steps : {1.0, 3.0}) {
       const Outcome o =

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "microswarm/navigation/radar/radar_scan.hpp"
+#include "microswarm/navigation/radar/radar_tuning.hpp"
 
 namespace microswarm {
 
@@ -19,7 +20,7 @@ struct RadarContact {
 /// in flat loops. Allocates nothing once its buffers have grown.
 class RadarScanner {
  public:
-  explicit RadarScanner(int directions);
+  explicit RadarScanner(int directions, const RadarTuning& tuning = {});
 
   int directions() const { return static_cast<int>(ux_.size()); }
 
@@ -62,6 +63,7 @@ class RadarScanner {
   Outcome outcome(const RadarLook& look, const Snapshot& world, Vec2 to) const;
   double heading(std::size_t i) const;
 
+  RadarTuning tuning_;
   std::vector<double> ux_, uy_;    ///< directions
   std::vector<double> px_, py_;    ///< predictive swarms
   std::vector<double> room_;       ///< squared distance beyond the reach; negative: screened

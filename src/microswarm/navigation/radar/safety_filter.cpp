@@ -12,23 +12,8 @@
 namespace microswarm {
 namespace {
 
-constexpr double regain = 5;                 // of a gap that is too small [µm/s]
-constexpr double gap_that_counts = 30;       // of two ways, more is no better [µm]
-constexpr double same_gap = 0.5;             // [µm]
-constexpr double contact_gap = 1;            // [µm]
-constexpr double contact_rate = 1;           // it grows so fast [µm/s]
-constexpr double widening_time = 1;          // for which an outline goes on as seen [s]
-constexpr double dead_time = 0.5;            // at most, from a frame to the effect of a command [s]
 constexpr double clearance_rounding = 1e-6;  // [µm]
-constexpr std::array<double, 2> waits{0.5, 1};
-constexpr std::array<double, 3> runs{0.5, 1, 2};
-constexpr std::array<double, 2> turns{0.4, 1};
-constexpr double time_to_change = 0.25;  // that another way must be free for longer [s]
-constexpr double gap_to_change = 5;      // or by which its gaps must be greater [µm]
-constexpr int finer = 2;                 // than ways out, of what may be commanded instead
 constexpr double tie = 1e-6;
-constexpr int min_ways = 4;               // out, that what is commanded instead leaves
-constexpr double impatience = 0.25 * pi;  // of a hold, a second [rad/s]
 
 Vec2 velocity_of(const Command& command) { return command.speed * unit_vector(command.heading); }
 
@@ -38,9 +23,9 @@ Vec2 SafetyFilter::Way::at(double t) const {
   return std::min(t, until) * first + std::max(0.0, t - until) * second;
 }
 
-bool SafetyFilter::Outcome::is_better_than(const Outcome& other) const {
+bool SafetyFilter::Outcome::is_better_than(const Outcome& other, double tolerance) const {
   return until_contact != other.until_contact ? until_contact > other.until_contact
-                                              : worth() > other.worth() + same_gap;
+                                              : worth() > other.worth() + tolerance;
 }
 
 SafetyFilter::SafetyFilter(const SafetyFilterParams& params, double speed)
@@ -51,12 +36,12 @@ SafetyFilter::SafetyFilter(const SafetyFilterParams& params, double speed)
       velocities_(1) {
   for (int k = 0; k < params.directions; ++k)
     velocities_.push_back(speed * unit_vector(wrap(2 * pi * k / params.directions)));
-  choices_.reserve(static_cast<std::size_t>(finer * params.directions) + 1);
+  choices_.reserve(static_cast<std::size_t>(params_.tuning.refinement * params.directions) + 1);
 }
 
 void SafetyFilter::update(const Observation& observation) {
   // What is farther cannot come near within the horizon unless it is much faster than the swarm.
-  const double range = 3 * speed_ * (params_.horizon + dead_time);
+  const double range = 3 * speed_ * (params_.horizon + params_.tuning.max_dead_time);
   tracker_.update(observation, range + (observation.swarm ? observation.swarm->radius : 0));
   if (threats_.size() < tracker_.size()) threats_.resize(tracker_.size());
 }
@@ -95,8 +80,8 @@ std::optional<Command> SafetyFilter::checked(const Command& wanted, const Map& m
 std::optional<Command> SafetyFilter::nearest_safe(const Map& map, const Command& wanted,
                                                   double lasting) {
   const double course = course_.value_or(wanted.heading);
-  choices_.assign(1, {0.5 * pi + impatience * waited_, {wanted.heading, 0}});
-  const int count = finer * params_.directions;
+  choices_.assign(1, {0.5 * pi + params_.tuning.impatience * waited_, {wanted.heading, 0}});
+  const int count = params_.tuning.refinement * params_.directions;
   for (int k = 0; k < count; ++k) {
     const double heading = wrap(wanted.heading + 2 * pi * k / count);
     // Between the two all turn the same: then what is nearer to the wanted one comes first.
@@ -106,7 +91,8 @@ std::optional<Command> SafetyFilter::nearest_safe(const Map& map, const Command&
   }
   std::sort(choices_.begin(), choices_.end());
   for (const Choice& choice : choices_)
-    if (has_escapes(map, velocity_of(choice.command), lasting, min_ways)) return choice.command;
+    if (has_escapes(map, velocity_of(choice.command), lasting, params_.tuning.min_escapes))
+      return choice.command;
   return std::nullopt;
 }
 
@@ -119,17 +105,19 @@ void SafetyFilter::look_at_bodies(const Start& start, const Snapshot& world) {
   for (std::size_t i = 0; i < bodies.size() && i < tracker_.size(); ++i) {
     const Disc extent = extent_of(bodies[i]);
     const double far = distance(extent.centre, start.place) - extent.radius - start.radius;
-    if (far > 3 * speed_ * (params_.horizon + dead_time)) continue;
+    if (far > 3 * speed_ * (params_.horizon + params_.tuning.max_dead_time)) continue;
     const TrackedBody motion = tracker_.body(i);
     const double widening = outward_speed(bodies[i], motion);
     const double closing = speed_ + norm(motion.velocity) + params_.gap_rate;
-    if (far > params_.gap + closing * (params_.horizon + ahead) + widening * widening_time)
+    if (far >
+        params_.gap + closing * (params_.horizon + ahead) + widening * params_.tuning.growth_time)
       continue;
     Threat& met = threats_[bodies_];
     outliner_.take(bodies[i], met.outline);
     if (outliner_.misleads(met.outline, std::array{start.place})) {
       nonconvex_bodies_.push_back(bodies[i]);
-      const Disc reach{start.place, start.radius + speed_ * (dead_time + widening_time)};
+      const Disc reach{start.place, start.radius + speed_ * (params_.tuning.max_dead_time +
+                                                             params_.tuning.growth_time)};
       closing_ = std::max(
           closing_, tracker_.outline_speed_within(i, bodies[i], reach) + norm(motion.velocity));
       continue;
@@ -148,7 +136,7 @@ void SafetyFilter::look_at_bodies(const Start& start, const Snapshot& world) {
 /// What moves is taken for wider by `error_rate` [µm/s], as far as it moves so fast.
 double SafetyFilter::gap(Vec2 p, double t, double limit, double error_rate) const {
   double least = limit;
-  const double widened = std::min(widening_time, start_.time - tracker_.seen() + t);
+  const double widened = std::min(params_.tuning.growth_time, start_.time - tracker_.seen() + t);
   for (std::size_t k = 0; k < bodies_; ++k) {
     const Threat& met = threats_[k];
     const double error = std::min(error_rate, met.speed) * t;
@@ -159,7 +147,8 @@ double SafetyFilter::gap(Vec2 p, double t, double limit, double error_rate) cons
       least = std::min(least, met.outline.distance_at(off) - touch);
   }
   if (nonconvex_.empty()) return least;
-  const double moved = closing_ * std::min(widening_time, start_.time - tracker_.seen());
+  const double moved =
+      closing_ * std::min(params_.tuning.growth_time, start_.time - tracker_.seen());
   const double touch = start_.radius + moved + std::min(error_rate, closing_) * t;
   return std::min(least, nonconvex_.clearance(p, touch + limit) - touch);
 }
@@ -178,7 +167,7 @@ bool SafetyFilter::follow(const Way& way, Visit&& visit) const {
 
 bool SafetyFilter::is_free(const Map& map, const Way& way) const {
   return follow(way, [&, last = start_.place](double t, Vec2 p) mutable {
-    const double required = std::min(params_.gap, gap_now_ + regain * t);
+    const double required = std::min(params_.gap, gap_now_ + params_.tuning.recovery_rate * t);
     if (gap(p, t, required + 1, params_.gap_rate) < required) return false;
     const Vec2 from = std::exchange(last, p);
     return p == from || map.is_free(Segment{from, p}, wall_keep_);
@@ -186,14 +175,15 @@ bool SafetyFilter::is_free(const Map& map, const Way& way) const {
 }
 
 SafetyFilter::Outcome SafetyFilter::outcome(const Map& map, const Way& way, double min_time) const {
-  Outcome out{.until_contact = 0, .least = gap_that_counts, .last = 0};
+  Outcome out{.until_contact = 0, .least = params_.tuning.counted_gap, .last = 0};
   bool touched = false;
   follow(way, [&, last = start_.place](double t, Vec2 p) mutable {
     const Vec2 from = std::exchange(last, p);
     if (p != from && !map.is_free(Segment{from, p}, wall_keep_)) return false;
-    out.last = gap(p, t, gap_that_counts, 0);
+    out.last = gap(p, t, params_.tuning.counted_gap, 0);
     out.least = std::min(out.least, out.last);
-    touched = touched || out.last < contact_gap + contact_rate * t;
+    touched =
+        touched || out.last < params_.tuning.contact_gap + params_.tuning.contact_gap_rate * t;
     if (!touched) out.until_contact = t;
     return !touched || out.until_contact >= min_time;
   });
@@ -216,26 +206,28 @@ Command SafetyFilter::best_manoeuvre(const Map& map) {
   Way chosen;
   const auto consider = [&](const Way& way) {
     const Outcome o = outcome(map, way, best.until_contact);
-    if (!o.is_better_than(best)) return;
+    if (!o.is_better_than(best, params_.tuning.gap_tolerance)) return;
     best = o;
     chosen = way;
   };
   if (committed_) {
     const double until = committed_->way.until - (start_.time - committed_->time);
     consider({committed_->way.first, std::max(until, 0.0), committed_->way.second});
-    best.until_contact = std::min(best.until_contact + time_to_change, samples_ * params_.step);
-    best.least += gap_to_change;
-    best.last += gap_to_change;
+    best.until_contact =
+        std::min(best.until_contact + params_.tuning.switch_time, samples_ * params_.step);
+    best.least += params_.tuning.switch_gap;
+    best.last += params_.tuning.switch_gap;
   }
   for (const Vec2 v : velocities_) consider({{}, 0, v});
   for (const Vec2 v : velocities_) {
-    for (const double t : waits) consider({{}, t, v});
-    for (const double t : runs) consider({v, t, {}});
+    for (const double t : params_.tuning.hold_times) consider({{}, t, v});
+    for (const double t : params_.tuning.run_times) consider({v, t, {}});
   }
   for (std::size_t i = 1; i < velocities_.size(); i += 2)
     for (std::size_t j = 1; j < velocities_.size(); j += 2)
       if (i != j)
-        for (const double t : turns) consider({velocities_[i], t, velocities_[j]});
+        for (const double t : params_.tuning.turn_times)
+          consider({velocities_[i], t, velocities_[j]});
   committed_ = Committed{chosen, start_.time};
   const Vec2 begin = chosen.until > 0 ? chosen.first : chosen.second;
   const double speed = norm(begin);

@@ -50,7 +50,7 @@ class SafetyFilter {
     double until_contact = 0;    ///< [s]
     double least = 0, last = 0;  ///< gap on the way and at its end, as far as more is better [µm]
     double worth() const { return least + last; }
-    bool is_better_than(const Outcome& other) const;
+    bool is_better_than(const Outcome& other, double tolerance) const;
   };
   /// The way last ordered, as long as it is needed.
   struct Committed {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "microswarm/navigation/radar/safety_filter_tuning.hpp"
+
 #include "microswarm/navigation/prediction/obstacle_tracker_params.hpp"
 
 namespace microswarm {
@@ -18,6 +20,7 @@ struct SafetyFilterParams {
   double gap_rate = 4;
   double wall_gap = 10;
   ObstacleTrackerParams tracker;
+  SafetyFilterTuning tuning;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.active, {"active", Unit::none, {}, "Use the safety filter."});
@@ -42,6 +45,7 @@ struct SafetyFilterParams {
     visit(self.wall_gap,
           {"wall_gap", Unit::um, {0, 1e5}, "Gap kept to walls.", false, "wall_margin_um"});
     visit(self.tracker, {"tracker", Unit::none, {}, "Estimation of the obstacles' motion."});
+    visit(self.tuning, {"tuning", Unit::none, {}, "Constants that seldom need a change."});
   }
 };
 

@@ -4,18 +4,11 @@
 #include <cmath>
 
 namespace microswarm {
-namespace {
-
-constexpr double cell = 20;          // of the routes [µm]
-constexpr double route_reach = 400;  // along a route [µm]
-
-}  // namespace
-
 void GoalGuide::prepare(const Map& map, Vec2 goal, double clearance, double least) {
   goal_ = goal;
   if (kind_ == Guide::straight) return;
   for (const auto& [i, keep] : {std::pair{0U, clearance}, {1U, least}})
-    routes_[i] = {DistanceField::to_goal(map, goal_, keep, cell), keep};
+    routes_[i] = {DistanceField::to_goal(map, goal_, keep, cell_), keep};
 }
 
 Vec2 GoalGuide::target(const Map& map, Vec2 from) const {
@@ -23,7 +16,7 @@ Vec2 GoalGuide::target(const Map& map, Vec2 from) const {
   for (const Route& route : routes_) {
     if (map.is_free(Segment{from, goal_}, route.clearance)) return goal_;
     if (std::isfinite(route.field.from(from)))
-      return route.field.ahead(map, from, route_reach, route.clearance);
+      return route.field.ahead(map, from, reach_, route.clearance);
   }
   return goal_;
 }

@@ -12,7 +12,9 @@ namespace microswarm {
 /// where walls hide it along the route to it.
 class GoalGuide {
  public:
-  GoalGuide(Guide kind, Vec2 goal) : kind_(kind), goal_(goal) {}
+  /// `cell` is the grid spacing of routes, `reach` the distance looked ahead along them [µm].
+  GoalGuide(Guide kind, Vec2 goal, double cell, double reach)
+      : kind_(kind), goal_(goal), cell_(cell), reach_(reach) {}
 
   /// Makes the routes to `goal`: one that keeps `clearance` [µm], and one that keeps `least` for
   /// positions from which the first has no path.
@@ -27,6 +29,8 @@ class GoalGuide {
   };
   Guide kind_;
   Vec2 goal_;
+  double cell_;
+  double reach_;
   std::array<Route, 2> routes_;
 };
 

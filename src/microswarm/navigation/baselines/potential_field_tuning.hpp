@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "microswarm/core/fields.hpp"
+
+namespace microswarm {
+
+/// Constants of PotentialFieldNavigator that seldom need a change.
+struct PotentialFieldTuning {
+  double max_proximity = 20;
+  double stencil = 5;
+  double rest_speed = 2;
+  double command_time = 0.2;
+  double route_cell = 20;
+  double route_reach = 400;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.max_proximity, {"max_proximity",
+                               Unit::none,
+                               {1, 1e6},
+                               "Upper bound of influence / gap in the repulsion."});
+    visit(self.stencil,
+          {"stencil", Unit::um, {1e-3, 1e3}, "Step of the gradient of the walls' repulsion."});
+    visit(self.rest_speed,
+          {"rest_speed", Unit::um_per_s, {0, 1e4}, "Speed below which an obstacle rests."});
+    visit(self.command_time,
+          {"command_time", Unit::s, {1e-3, 10}, "Time for which a command must be free of walls."});
+    visit(self.route_cell, {"route_cell", Unit::um, {1e-2, 1e5}, "Grid spacing of the route."});
+    visit(self.route_reach,
+          {"route_reach", Unit::um, {1e-2, 1e6}, "Distance looked ahead along the route."});
+  }
+};
+
+}  // namespace microswarm

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "microswarm/core/fields.hpp"
+
+namespace microswarm {
+
+/// Constants of MultiModelPredictor that seldom need a change. Priors are the errors expected of a
+/// model before it has shown any, as shares of the predicted distance.
+struct MultiModelPredictorTuning {
+  double max_gap = 1;
+  double forecast_interval = 0.08;
+  double max_error = 300;
+  double error_tolerance = 0.5;
+  double growth_time = 1.5;
+  double prior_weight = 2;
+  double straight_prior = 0.20;
+  double curved_prior = 0.17;
+  double swing_prior = 0.20;
+  double arc_prior = 0.20;
+  double recurrence_prior = 0.14;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.max_gap,
+          {"max_gap", Unit::s, {0, 1e3}, "Time without a sighting after which a body is new."});
+    visit(self.forecast_interval,
+          {"forecast_interval", Unit::s, {0, 10}, "Minimum time between two forecasts."});
+    visit(self.max_error,
+          {"max_error", Unit::um, {0, 1e6}, "Upper bound of an error that counts."});
+    visit(self.error_tolerance,
+          {"error_tolerance", Unit::um, {0, 1e4}, "Error that counts as none, besides the noise."});
+    visit(
+        self.growth_time,
+        {"growth_time", Unit::s, {0, 60}, "Time for which an outline keeps growing as observed."});
+    visit(self.prior_weight,
+          {"prior_weight", Unit::none, {0, 1e3}, "Weight of the priors, in forecasts."});
+    visit(self.straight_prior,
+          {"straight_prior", Unit::none, {0, 10}, "Prior of the straight motion."});
+    visit(self.curved_prior,
+          {"curved_prior", Unit::none, {0, 10}, "Prior of the accelerated motion."});
+    visit(self.swing_prior,
+          {"swing_prior", Unit::none, {0, 10}, "Prior of swings on a line or ellipse."});
+    visit(self.arc_prior, {"arc_prior", Unit::none, {0, 10}, "Prior of swings on a circle."});
+    visit(self.recurrence_prior,
+          {"recurrence_prior", Unit::none, {0, 10}, "Prior of the recurrent motion."});
+  }
+};
+
+}  // namespace microswarm
