@@ -5,7 +5,7 @@
 
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/text.hpp"
-#include "microswarm/formats/images/image_header.hpp"
+#include "microswarm/formats/images/image.hpp"
 #include "microswarm/formats/lines.hpp"
 
 namespace microswarm {
