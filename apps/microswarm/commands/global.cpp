@@ -3,7 +3,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 #include <variant>
 
 #include "commands/global_choice.hpp"
@@ -11,6 +10,7 @@
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
+#include "microswarm/core/lines.hpp"
 #include "microswarm/core/stop.hpp"
 #include "microswarm/core/text.hpp"
 #include "microswarm/experiment/record/global_tree_file.hpp"
@@ -42,9 +42,8 @@ struct GlobalOptions {
 /// "60,300;60,250"; empty when it is no such list.
 std::vector<Vec2> places(const std::string& text) {
   std::vector<Vec2> all;
-  std::istringstream words(text);
-  for (std::string word; std::getline(words, word, ';');) {
-    const std::vector<double> p = numbers(word);
+  for (const std::string_view one : split(text, ';')) {
+    const std::vector<double> p = numbers(one);
     if (p.size() != 2) return {};
     all.push_back({p[0], p[1]});
   }
