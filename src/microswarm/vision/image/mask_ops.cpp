@@ -50,6 +50,13 @@ int count_pieces(const cv::Mat& set) {
   return cv::connectedComponents(set, labels, 8, CV_32S) - 1;
 }
 
+cv::Mat highest_around(const cv::Mat& values, int side) {
+  cv::Mat highest;
+  cv::dilate(values, highest, cv::getStructuringElement(cv::MORPH_RECT, {side, side}),
+             {(side - 1) / 2, (side - 1) / 2}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
+  return highest;
+}
+
 cv::Mat without_small_pieces(const cv::Mat& set, double least_area) {
   const Pieces pieces = pieces_of(set, 8);
   std::vector<char> kept(pieces.areas.size(), 0);

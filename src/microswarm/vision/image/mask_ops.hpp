@@ -29,6 +29,10 @@ cv::Mat opened(const cv::Mat& set, double diameter);
 /// The set grown by all pixels within `radius`.
 cv::Mat grown(const cv::Mat& set, double radius);
 
+/// The highest value in the square around each pixel: `side` pixels wide, of which (side − 1) / 2
+/// lie left of it and above it; beyond the border is 0.
+cv::Mat highest_around(const cv::Mat& values, int side);
+
 /// Where two pixels hold together by a corner alone, one of the other two is set too, so that what
 /// moves in the set need not squeeze through a point.
 void widen_corners(cv::Mat& set);
