@@ -2,6 +2,7 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <vector>
 
 namespace microswarm {
 
@@ -10,6 +11,9 @@ namespace microswarm {
 
 /// The piece with the most pixels, the first in reading order among equals.
 cv::Mat largest_piece(const cv::Mat& set);
+
+/// The values, of floats, where the set is, in reading order.
+std::vector<float> values_in(const cv::Mat& values, const cv::Mat& set);
 
 /// Number of pieces.
 int count_pieces(const cv::Mat& set);
