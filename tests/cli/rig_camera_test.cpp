@@ -86,9 +86,9 @@ TEST_F(RigCamera, RefusesInOneLine) {
           "scale: 2e7 µm a pixel, allowed 1e-6..1e6");
   refused(
       {"rig", "scale", "slide.pgm", "--points", "1,2,3,4", "--distance", "9", "--pattern", "dots"},
-      "--pattern needs --grid (see microswarm rig scale --help)");
+      "--pattern requires --grid (see microswarm rig scale --help)");
   refused({"rig", "scale", "slide.pgm", "--points", "1,2,3,4", "--grid", "3x3"},
-          "--points and --grid do not go together (see microswarm rig scale --help)");
+          "--points excludes --grid (see microswarm rig scale --help)");
   write("small.pgm", "P5\n2 1\n255\nab");
   refused({"rig", "see", "slide.pgm", "--still", "small.pgm"},
           "small.pgm: is 2 × 1 px, the picture is 320 × 240 px");

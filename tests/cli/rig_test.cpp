@@ -128,7 +128,7 @@ TEST_F(Rig, RefusesInOneLine) {
           "--out: must be a file .png, .svg, .pdf, .csv, not 'even.bmp' (see microswarm rig map "
           "--help)");
   refused({"rig", "map", "rig.yaml", "--json=3"},
-          "--json takes no value (see microswarm rig map --help)");
+          "json was given a disallowed flag override (see microswarm rig map --help)");
 }
 
 class WholeRig : public CommandLine {
