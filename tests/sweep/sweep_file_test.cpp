@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "microswarm/experiment/trials.hpp"
-#include "microswarm/sweep/crew.hpp"
+#include "microswarm/sweep/worker_pool.hpp"
 
 namespace microswarm {
 namespace {

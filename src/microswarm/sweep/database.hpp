@@ -17,17 +17,17 @@ class Exception;
 
 namespace microswarm {
 
-/// What one place in a table holds; std::monostate is NULL. NaN is NULL too once it is stored.
+/// A value in a table; std::monostate is NULL. A stored NaN becomes NULL.
 using SqlValue = std::variant<std::monostate, std::int64_t, double, std::string>;
 
-/// "name" with quotes around it, as SQL wants a column.
+/// `name` as a quoted SQL identifier.
 std::string sql_name(std::string_view name);
 
-/// Holds a file for one writer, by a lock on a byte that SQLite does not use. It goes with the
-/// process, however that ends.
+/// Exclusive lock of a file for one writer, on a byte that SQLite does not use. The kernel releases
+/// it when the process ends.
 class WriterLock {
  public:
-  /// Makes the file when there is none. Throws InputError "FILE: another sweep is writing to it",
+  /// Creates the file if necessary. Throws InputError "FILE: another sweep is writing to it",
   /// or "FILE: cannot write: REASON".
   explicit WriterLock(const std::filesystem::path& file);
   ~WriterLock();
