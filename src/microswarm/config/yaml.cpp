@@ -82,13 +82,19 @@ std::optional<std::size_t> value_of(const YamlNode& map, std::string_view key) {
 }
 
 /// Takes a key of a part of the document to another part, with its line. Where it is given there
-/// too it stays, and is an unknown key.
+/// too it stays, and is an unknown key. A key that is gone is removed.
 void move_key(YamlNode& document, const MovedKey& moved) {
   const std::size_t from = moved.from.find('.'), to = moved.to.find('.');
   const auto source = value_of(document, moved.from.substr(0, from));
   if (!source) return;
   const auto value = value_of(document.items[*source], moved.from.substr(from + 1));
   if (!value) return;
+  if (moved.to.empty()) {
+    std::vector<YamlNode>& part = document.items[*source].items;
+    const auto at = part.begin() + static_cast<std::ptrdiff_t>(*value);
+    part.erase(at - 1, at + 1);
+    return;
+  }
   auto target = value_of(document, moved.to.substr(0, to));
   if (target && value_of(document.items[*target], moved.to.substr(to + 1))) return;
   if (!target) {
@@ -123,7 +129,8 @@ YamlNode value_node(const Type& type, std::string_view text, std::string_view na
 std::string current_key(std::string_view assignment, std::span<const MovedKey> moved) {
   const std::string_view key = assignment.substr(0, assignment.find('='));
   for (const MovedKey& one : moved)
-    if (key == one.from) return std::string(one.to) + std::string(assignment.substr(key.size()));
+    if (key == one.from && !one.to.empty())
+      return std::string(one.to) + std::string(assignment.substr(key.size()));
   return std::string(assignment);
 }
 
