@@ -78,7 +78,7 @@ void check_ends(const GlobalOptions& o, const Map& map, std::span<const Vec2> st
 /// Throws InputError when no planner could have brought the robots there.
 void explain(const GlobalOptions& o, const Map& map, std::span<const Vec2> starts,
              std::span<const Vec2> goals, const GlobalPlay& play, Status status) {
-  const Snapshot world(std::shared_ptr<const Map>(std::shared_ptr<void>(), &map));
+  const Snapshot world = Snapshot::of(map);
   const bool starts_wrong = status == Status::start_blocked;
   if (!starts_wrong && status != Status::goal_blocked) return;
   const std::span<const Vec2> wrong = starts_wrong ? starts : goals;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/navigation/steering/route.hpp"
+#include "microswarm/core/heap_entry.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,14 +14,6 @@ namespace microswarm {
 namespace {
 
 constexpr float unreached = std::numeric_limits<float>::infinity();
-
-struct Entry {
-  float way;
-  std::uint32_t cell;
-  friend bool operator<(const Entry& a, const Entry& b) {
-    return std::pair(a.way, a.cell) > std::pair(b.way, b.cell);  // nearest first
-  }
-};
 
 constexpr std::array<std::array<int, 2>, 8> steps{
     {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
@@ -41,7 +34,7 @@ Route::Route(const Map& map, Vec2 goal, double clearance, double cell, std::size
   next_.resize(way_.size());
   if (!box.contains(goal)) return;
 
-  std::priority_queue<Entry> open;
+  std::priority_queue<HeapEntry<float>> open;
   const auto root = static_cast<std::uint32_t>(cell_at(goal));
   way_[root] = 0;
   next_[root] = root;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/planning/common/geodesic_field.hpp"
+#include "microswarm/core/heap_entry.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,14 +13,6 @@ namespace {
 
 constexpr float unreached = std::numeric_limits<float>::infinity();
 
-struct OpenCell {
-  float distance;
-  std::size_t cell;
-  friend bool operator<(OpenCell a, OpenCell b) {
-    return a.distance != b.distance ? a.distance > b.distance : a.cell > b.cell;
-  }
-};
-
 }  // namespace
 
 GeodesicField::GeodesicField(const Map& map, Vec2 goal, int cells) : goal_(goal) {
@@ -31,7 +24,7 @@ GeodesicField::GeodesicField(const Map& map, Vec2 goal, int cells) : goal_(goal)
   rows_ = std::max(1, static_cast<int>(std::ceil(bounds.height() / cell_)));
   distances_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_),
                     unreached);
-  std::priority_queue<OpenCell> open;
+  std::priority_queue<HeapEntry<float, std::size_t>> open;
   const auto reach = [&](std::size_t cell, double distance) {
     const auto d = static_cast<float>(distance);
     if (d >= distances_[cell]) return;
@@ -40,17 +33,17 @@ GeodesicField::GeodesicField(const Map& map, Vec2 goal, int cells) : goal_(goal)
   };
   reach(index(goal), distance(goal, centre(index(goal))));
   while (!open.empty()) {
-    const OpenCell next = open.top();
+    const auto [reached, from] = open.top();
     open.pop();
-    if (next.distance > distances_[next.cell]) continue;
-    const int column = static_cast<int>(next.cell) % columns_;
-    const int row = static_cast<int>(next.cell) / columns_;
+    if (reached > distances_[from]) continue;
+    const int column = static_cast<int>(from) % columns_;
+    const int row = static_cast<int>(from) / columns_;
     for (int j = std::max(0, row - 1); j <= std::min(rows_ - 1, row + 1); ++j) {
       for (int i = std::max(0, column - 1); i <= std::min(columns_ - 1, column + 1); ++i) {
         const std::size_t cell = cell_of(i, j);
-        if (!map.is_free(Segment{centre(next.cell), centre(cell)}, 0)) continue;
+        if (!map.is_free(Segment{centre(from), centre(cell)}, 0)) continue;
         const double step = i != column && j != row ? std::numbers::sqrt2 : 1.0;
-        reach(cell, static_cast<double>(next.distance) + step * cell_);
+        reach(cell, static_cast<double>(reached) + step * cell_);
       }
     }
   }
