@@ -22,11 +22,9 @@ std::string sweep_hdf5(const SweepReader& sweep);
 /// methods are the planners.
 std::vector<std::pair<std::string, std::string>> ompl_logs(const SweepReader& sweep);
 
-/// Names of a record's tables: frames, paths, paths/points, ...
-std::vector<std::string> record_tables(const Record& record);
-
-/// One table of a record as CSV, units in the names. In a table of parts, as the points of all
-/// paths, the column `row` is the index of the owner. Throws InputError for an unknown table.
+/// One table of a record as CSV (frames, paths, paths/points, ...), units in the names. In a table
+/// of parts, as the points of all paths, the column `row` is the index of the owner. Throws
+/// InputError for an unknown table.
 std::string record_csv(const Record& record, const std::string& table);
 
 }  // namespace microswarm

@@ -71,7 +71,7 @@ Command RadarNavigator::guarded(const Command& command, const Observation& seen)
   const Guard::Start start{.place = pose_.position,
                            .radius = std::max(sighting_->radius, swarm_.radius),
                            .time = seen.now + swarm_.response_lag};
-  const double since = seen.now - last_;
+  const double since = last_ ? seen.now - *last_ : 0;
   const double tick = since > 0 && since < 1 ? since : usual_tick;
   const auto instead = guard_.overrules(command, start, *seen.world, tick);
   if (!instead) return command;

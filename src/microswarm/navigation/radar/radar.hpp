@@ -60,12 +60,12 @@ class RadarNavigator : public Navigator {
   RadarScanner scanner_;
   Guard guard_;
   RadarRoute route_;
-  std::optional<Plan> plan_;  ///< the newest one, found or not
-  bool routed_ = false;       ///< has looked for a route
-  double plan_again_at_ = 0;  ///< [s]
-  double wait_ = 0;           ///< from the last plan to the next, longer after each failure [s]
-  double last_ = -1;          ///< when a step was asked for last [s]
-  double sighted_ = 0;        ///< when the swarm was seen last [s]
+  std::optional<Plan> plan_;    ///< the newest one, found or not
+  bool routed_ = false;         ///< has looked for a route
+  double plan_again_at_ = 0;    ///< [s]
+  double wait_ = 0;             ///< from the last plan to the next, longer after each failure [s]
+  std::optional<double> last_;  ///< when a step was asked for last [s]
+  double sighted_ = 0;          ///< when the swarm was seen last [s]
   std::optional<SwarmPose> sighting_;
   std::optional<Vec2> course_;  ///< the direction last driven
   Pose2 pose_;                  ///< where the swarm is when the command takes effect
