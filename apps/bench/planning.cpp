@@ -12,6 +12,7 @@
 #include "microswarm/core/stop.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/geometry/distance.hpp"
+#include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/planning/path/planners.hpp"
 #include "microswarm/scenes/worlds.hpp"
 
@@ -86,10 +87,7 @@ struct Query {
 /// the peer, which ends exactly at its goal, can get there too.
 std::vector<Query> far_pairs(const Snapshot& world, double clearance, int count, Rng& rng) {
   const Box& box = world.bounds();
-  const auto place = [&] {
-    const double x = rng.uniform(box.lo.x, box.hi.x);
-    return Vec2{x, rng.uniform(box.lo.y, box.hi.y)};
-  };
+  const auto place = [&] { return uniform_in(box, rng); };
   std::vector<Query> pairs;
   for (int draw = 0; draw < 1000 * count && std::ssize(pairs) < count; ++draw) {
     const Query q{{place(), 0}, place()};
@@ -204,8 +202,7 @@ std::vector<BenchRow> queries(bool quick) {
   const std::size_t n = quick ? 200'000 : 1'000'000;
   std::vector<Segment> edges(n);
   for (Segment& e : edges) {
-    e.a = {rng.uniform(world.bounds().lo.x, world.bounds().hi.x),
-           rng.uniform(world.bounds().lo.y, world.bounds().hi.y)};
+    e.a = uniform_in(world.bounds(), rng);
     e.b = e.a + 40 * unit_vector(rng.uniform(0, 2 * pi));
   }
   const int repeats = quick ? 5 : 11;

@@ -10,6 +10,7 @@
 #include "microswarm/core/statistics.hpp"
 #include "microswarm/formats/images/mask.hpp"
 #include "microswarm/formats/images/rasterise.hpp"
+#include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/scenes/vascular.hpp"
 #include "microswarm/swarm/robots/robot_stepper.hpp"
 
@@ -25,8 +26,7 @@ std::vector<Vec2> free_places(const Map& map, double clearance, Rng& rng) {
   std::vector<Vec2> places;
   const Box& b = map.bounds();
   for (int draw = 0; draw < 1'000'000 && std::ssize(places) < robots_stepped; ++draw) {
-    const double x = rng.uniform(b.lo.x, b.hi.x);
-    const Vec2 p{x, rng.uniform(b.lo.y, b.hi.y)};
+    const Vec2 p = uniform_in(b, rng);
     if (map.is_free(p, clearance)) places.push_back(p);
   }
   return places;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/options.hpp"
 
-#include <sstream>
-
 #include "microswarm/core/error.hpp"
+#include "microswarm/core/lines.hpp"
 #include "microswarm/core/text.hpp"
 #include "microswarm/formats/images/image.hpp"
 
@@ -35,11 +34,10 @@ ReportOptions report_options(const PhotoOptions& options) {
   return {read_photograph(options.file), *options.um_per_px};
 }
 
-std::vector<double> numbers(const std::string& text) {
+std::vector<double> numbers(std::string_view text) {
   std::vector<double> values;
-  std::istringstream words(text + ",");
-  for (std::string word; std::getline(words, word, ',');) {
-    const std::optional<double> value = parse_number(word);
+  for (const std::string_view piece : split(text, ',')) {
+    const std::optional<double> value = parse_number(piece);
     if (!value) return {};
     values.push_back(*value);
   }

@@ -49,7 +49,7 @@ std::string aims_met(const std::vector<Row>& rows) {
                      open == 0 ? "" : fmt::format(", {} have no verdict", open));
 }
 
-/// The numbers in "200,500,-90"; empty when it is no such list.
-std::vector<double> numbers(const std::string& text);
+/// The numbers in "200,500,-90" or "200, 500, -90"; empty when it is no such list.
+std::vector<double> numbers(std::string_view text);
 
 }  // namespace microswarm::cli

@@ -51,24 +51,7 @@ std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error) {
   const Names commands = commands_of(app);
   if (!commands.empty() && app.get_subcommands().empty())
     return fmt::format("a command is missing, there are: {}", fmt::join(commands, ", "));
-  std::string what = one_line(error.what());
-  if (const auto at = what.find(": At Most 1 required but received "); at != what.npos)
-    return what.substr(0, at) + " is given more than once";
-  if (const auto at = what.find(" was given a disallowed flag override"); at != what.npos)
-    return "--" + what.substr(0, at) + " takes no value";
-  if (const auto at = what.find(" requires ");
-      at != what.npos && error.get_name() == "RequiresError")
-    what.replace(at, 10, " needs ");
-  if (const auto at = what.find(" excludes ");
-      at != what.npos && error.get_name() == "ExcludesError")
-    return what.replace(at, 10, " and ") + " do not go together";
-  if (error.get_name() == "ArgumentMismatch" && what.ends_with(" missing")) {
-    what.resize(what.size() - std::string_view(" missing").size());
-    const std::string count = ": 1 required ";  // "--set: 1 required KEY=VALUE missing"
-    if (const auto at = what.find(count); at != what.npos)
-      what.replace(at, count.size(), " needs a ");
-  }
-  return what;
+  return one_line(error.what());
 }
 
 }  // namespace

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "protocol.h"
 
+#include <util/crc16.h>
+
 uint16_t crc16(const uint8_t* bytes, uint8_t length) {
   uint16_t crc = 0xFFFF;
-  while (length--) {
-    crc ^= (uint16_t)(*bytes++ << 8);
-    for (uint8_t bit = 0; bit < 8; ++bit)
-      crc = (crc & 0x8000) ? (uint16_t)((crc << 1) ^ 0x1021) : (uint16_t)(crc << 1);
-  }
+  while (length--) crc = _crc_xmodem_update(crc, *bytes++);
   return crc;
 }
 

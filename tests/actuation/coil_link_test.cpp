@@ -40,6 +40,13 @@ TEST(CoilLink, CheckSumIsTheKnownOne) {
   EXPECT_EQ(crc16(bytes), 0x29B1);
 }
 
+TEST(CoilLink, TheBytesOnTheWireArePinned) {
+  using Bytes = std::vector<std::uint8_t>;
+  EXPECT_EQ(encode_hello(7), (Bytes{6, 1, 7, 1, 0x1a, 0x72, 0}));
+  EXPECT_EQ(encode_set(200, {0, 1000, -1000, 1, 256, -2}),
+            (Bytes{3, 3, 200, 1, 6, 0xe8, 3, 0x18, 0xfc, 1, 1, 6, 1, 0xfe, 0xff, 0xfc, 10, 0}));
+}
+
 TEST(CoilLink, FramesEndWithTheirOnlyZero) {
   Rng rng(1, Purpose::test);
   for (int k = 0; k < 500; ++k) {

@@ -7,23 +7,19 @@
 
 #include "microswarm/actuation/field/field_generator.hpp"
 #include "microswarm/core/angles.hpp"
-#include "microswarm/swarm/body/vortex.hpp"
 #include "tests/actuation/support.hpp"
 
 namespace microswarm {
 namespace {
 
-TEST(Waveform, RotatingFieldIsThatOfTheSwarmModel) {
+TEST(Waveform, RotatingFieldTurnsSquareToItsAxis) {
   test::Dice dice(7);
-  const VortexParams params;
   for (int trial = 0; trial < 100; ++trial) {
-    const Command command{pi * dice.number(), 100 * std::abs(dice.number())};
-    const double t = 10 * dice.number();
-    const auto expected = rotating_field(params, command, t);
-    const Eigen::Vector3d found =
-        rotating_field(params.field_amplitude, pitch_of(params, command), command.heading,
-                       2 * pi * params.field_frequency * t);
-    EXPECT_LE((found - Eigen::Vector3d(expected[0], expected[1], expected[2])).norm(), 1e-12);
+    const double heading = pi * dice.number(), pitch = dice.number(), phase = 9 * dice.number();
+    const Eigen::Vector3d axis(std::sin(pitch) * std::cos(heading),
+                               std::sin(pitch) * std::sin(heading), std::cos(pitch));
+    EXPECT_NEAR(rotating_field(8, pitch, heading, phase).dot(axis), 0, 1e-12);
+    EXPECT_EQ(rotating_field(8, 0, heading, phase).z(), 0);
   }
 }
 

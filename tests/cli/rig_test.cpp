@@ -125,7 +125,7 @@ TEST_F(Rig, RefusesInOneLine) {
   refused({"rig", "map", "rig.yaml", "--out", "even.bmp"},
           naming("--out", {"even.bmp", "microswarm rig map --help"}));
   refused({"rig", "map", "rig.yaml", "--json=3"},
-          naming("", {"--json", "microswarm rig map --help"}));
+          naming("", {"json", "microswarm rig map --help"}));
 }
 
 class WholeRig : public CommandLine {

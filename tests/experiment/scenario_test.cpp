@@ -180,6 +180,18 @@ TEST(Scenario, KeysOfEarlierVersionsAreRead) {
   EXPECT_EQ(opened(old).sensing.frame_timeout, 0.3);
   EXPECT_EQ(opened(old + "sensing: {position_noise_um: 2}\n").sensing.frame_timeout, 0.3);
   EXPECT_EQ(opened("", {"navigator.frame_timeout_s=0.4"}).sensing.frame_timeout, 0.4);
+  // What had no effect and is gone is ignored in a file and unknown on the command line.
+  const std::string vortex = "swarm: {type: vortex, field_amplitude_mt: 8, field_frequency_hz: 5";
+  EXPECT_EQ(
+      std::get<VortexParams>(opened(vortex + ", radius_um: 90, moving_radius_um: 90}\n").swarm)
+          .radius,
+      90);
+  EXPECT_NE(error_of([&] { opened(vortex + ", field_phase: 1}\n"); }).find("unknown key"),
+            std::string::npos);
+  EXPECT_NE(error_of([&] {
+              opened("swarm: {type: vortex}\n", {"swarm.field_amplitude_mt=8"});
+            }).find("field_amplitude_mt"),
+            std::string::npos);
   // Given in both places, the old one is unknown; its line is told for what is wrong with it.
   EXPECT_NE(error_of([&] {
               opened(old + "sensing: {frame_timeout_s: 0.2}\n");

@@ -9,12 +9,11 @@
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/rng.hpp"
 #include "microswarm/geometry/shapes.hpp"
+#include "microswarm/geometry/uniform_in.hpp"
 
 namespace microswarm {
 
-inline Vec2 random_point(Rng& rng, const Box& box) {
-  return {rng.uniform(box.lo.x, box.hi.x), rng.uniform(box.lo.y, box.hi.y)};
-}
+inline Vec2 random_point(Rng& rng, const Box& box) { return uniform_in(box, rng); }
 
 /// A point on a coarse lattice, so that coincidences and collinear triples are common.
 inline Vec2 lattice_point(Rng& rng, std::uint64_t n) {

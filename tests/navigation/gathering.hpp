@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/navigation/gathering/gather.hpp"
 #include "microswarm/scenes/vascular.hpp"
 
@@ -32,8 +33,7 @@ struct Gathering {
     std::vector<Vec2> places;
     const Box& b = scene.bounds;
     while (std::ssize(places) < count) {
-      const double x = rng.uniform(b.lo.x, b.hi.x);
-      const Vec2 p{x, rng.uniform(b.lo.y, b.hi.y)};
+      const Vec2 p = uniform_in(b, rng);
       if (ground.map.is_free(p, 4 * stepper.guard())) places.push_back(p);
     }
     return stepper.place(places);

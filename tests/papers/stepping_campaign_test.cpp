@@ -5,6 +5,7 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/formats/map_file.hpp"
+#include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/scenes/vascular.hpp"
 #include "microswarm/swarm/robots/robot_stepper.hpp"
 #include "tests/files.hpp"
@@ -46,8 +47,7 @@ Robots anywhere(const RobotStepper& stepper, const Map& map, Rng& rng) {
   std::vector<Vec2> places;
   const Box& b = map.bounds();
   for (int draw = 0; draw < 10'000'000 && std::ssize(places) < robots_a_map; ++draw) {
-    const double x = rng.uniform(b.lo.x, b.hi.x);
-    const Vec2 p{x, rng.uniform(b.lo.y, b.hi.y)};
+    const Vec2 p = uniform_in(b, rng);
     if (map.is_free(p, 4 * stepper.guard())) places.push_back(p);
   }
   return stepper.place(places);

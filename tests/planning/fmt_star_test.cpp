@@ -6,6 +6,7 @@
 #include <map>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/scenes/worlds.hpp"
 
 namespace microswarm {
@@ -54,8 +55,7 @@ Graph drawn_again(const Query& q, const FmtStarParams& params, std::uint32_t tri
   const Box box = q.world.bounds.grown(-clearance);
   int draws = 0;
   for (; std::ssize(graph.samples) < params.samples + 2; ++draws) {
-    const double x = rng.uniform(box.lo.x, box.hi.x);
-    const Vec2 p{x, rng.uniform(box.lo.y, box.hi.y)};
+    const Vec2 p = uniform_in(box, rng);
     if (q.world.clearance(p) >= clearance) graph.samples.push_back(p);
   }
   const double free = box.width() * box.height() * (params.samples + 1.0) / (draws + 1.0);

@@ -7,6 +7,7 @@
 #include <atomic>
 
 #include "microswarm/core/hash.hpp"
+#include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/scenes/vascular.hpp"
 #include "microswarm/scenes/worlds.hpp"
 
@@ -254,8 +255,7 @@ TEST(ObstacleWeightedRrt, LooksUpTheNearestNodeThatIsSeen) {
     int seen = 0;
     int asked = 0;
     while (asked < 400) {
-      const double x = rng.uniform(map.bounds().lo.x, map.bounds().hi.x);
-      const Vec2 p{x, rng.uniform(map.bounds().lo.y, map.bounds().hi.y)};
+      const Vec2 p = uniform_in(map.bounds(), rng);
       if (!map.is_free(p, 0)) continue;
       ++asked;
       double nearest = infinity;
@@ -328,8 +328,7 @@ TEST(ObstacleWeightedRrt, ACompletedTreeIsSeenFromEverywhere) {
     int unseen = 0;
     int all = 0;
     for (int i = 0; i < 3000; ++i) {
-      const double x = rng.uniform(box.lo.x, box.hi.x);
-      const Vec2 p{x, rng.uniform(box.lo.y, box.hi.y)};
+      const Vec2 p = uniform_in(box, rng);
       if (!map.is_free(p, 0.3)) continue;
       ++all;
       unseen += !tree.nearest_visible(map, p);

@@ -5,6 +5,7 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/rng.hpp"
+#include "microswarm/geometry/uniform_in.hpp"
 #include "tests/cases.hpp"
 #include "tests/each_target.hpp"
 
@@ -70,8 +71,7 @@ std::vector<Vec2> free_places(const Map& map, double clearance, int count, Rng& 
   std::vector<Vec2> places;
   const Box& b = map.bounds();
   for (int draw = 0; draw < 1000 * count && std::ssize(places) < count; ++draw) {
-    const double x = rng.uniform(b.lo.x, b.hi.x);
-    const Vec2 p{x, rng.uniform(b.lo.y, b.hi.y)};
+    const Vec2 p = uniform_in(b, rng);
     if (map.is_free(p, clearance)) places.push_back(p);
   }
   return places;

@@ -11,28 +11,6 @@
 namespace microswarm {
 namespace {
 
-TEST(RotatingField, TurnsSquareToItsAxisWithOneStrength) {
-  const VortexParams params;
-  Rng rng(1, Purpose::test);
-  for (int i = 0; i < 1000; ++i) {
-    const Command command{rng.uniform(-pi, pi), rng.uniform(0, 150)};
-    const auto b = rotating_field(params, command, rng.uniform(0, 10));
-    EXPECT_NEAR(std::hypot(b[0], b[1], b[2]), params.field_amplitude, 1e-12);
-    const double pitch = pitch_of(params, command);
-    const double along_axis =
-        std::sin(pitch) * (std::cos(command.heading) * b[0] + std::sin(command.heading) * b[1]) +
-        std::cos(pitch) * b[2];
-    EXPECT_NEAR(along_axis, 0, 1e-12);
-  }
-}
-
-TEST(RotatingField, IsFlatForASwarmThatHolds) {
-  const VortexParams params;
-  for (const double t : {0.0, 0.01, 0.02}) EXPECT_EQ(rotating_field(params, {1, 0}, t)[2], 0);
-  const auto b = rotating_field(params, {0, 0}, 0.25 / params.field_frequency);
-  EXPECT_NEAR(b[1], params.field_amplitude, 1e-12);
-}
-
 TEST(Vortex, IsAsFastAsItIsPitched) {
   const VortexParams params{.max_speed = 80, .max_pitch = 0.1, .response_lag = 0};
   EXPECT_DOUBLE_EQ(pitch_of(params, {0, 40}), 0.05);

@@ -6,6 +6,7 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
 
 #include "microswarm/core/statistics.hpp"
 #include "microswarm/sweep/summary.hpp"
@@ -99,16 +100,70 @@ TEST_F(SweepExport, WhatAKilledWriterLeftHalfDoneIsUndone) {
   if (child == 0) {
     Database database(file, Database::Access::write);
     database.run("PRAGMA cache_size = 2");  // pages go to the disk before the transaction ends
-    const Transaction transaction(database);
-    for (std::int64_t i = 0; i < 200; ++i)
-      database.run("INSERT INTO cells(cell, scenario) VALUES(?, ?)",
-                   std::vector<SqlValue>{100 + i, std::string(5000, 'x')});
-    ::kill(::getpid(), SIGKILL);
+    database.transaction([&] {
+      for (std::int64_t i = 0; i < 200; ++i)
+        database.run("INSERT INTO cells(cell, scenario) VALUES(?, ?)",
+                     std::vector<SqlValue>{100 + i, std::string(5000, 'x')});
+      ::kill(::getpid(), SIGKILL);
+    });
   }
   ::waitpid(child, nullptr, 0);
   EXPECT_TRUE(std::filesystem::exists(file.string() + "-journal"));
   EXPECT_EQ(SweepReader(file).cells(), 8u);
   EXPECT_EQ(physical_rows(file), physical_rows(folder() / "sweep.db"));
+}
+
+struct DatabaseFile : testing::Test {
+  std::filesystem::path file = empty_folder("database") / "a.db";
+  void SetUp() override { std::ofstream(file).close(); }
+  std::string refused(const std::string& sql, Database::Access access = Database::Access::write) {
+    const std::string what = error_of([&] { Database(file, access).run(sql); });
+    EXPECT_EQ(std::count(what.begin(), what.end(), '\n'), 0) << what;
+    return what.substr(std::min(what.size(), file.string().size() + 2));
+  }
+};
+
+TEST_F(DatabaseFile, KeepsEveryKindOfValue) {
+  Database database(file, Database::Access::write);
+  database.run("CREATE TABLE t(a, b, c, d, e)");
+  const std::vector<SqlValue> values{std::int64_t{-1} << 62, -0.1, std::string("a\0b", 3),
+                                     std::string(), std::monostate{}};
+  database.run("INSERT INTO t VALUES(?, ?, ?, ?, ?)", values);
+  std::vector<SqlValue> back;
+  database.select("SELECT * FROM t", {},
+                  [&](std::span<const SqlValue> row) { back.assign(row.begin(), row.end()); });
+  EXPECT_EQ(back, values);
+  EXPECT_EQ(database.number("SELECT a FROM t WHERE b > 0"), 0);
+}
+
+TEST_F(DatabaseFile, ATransactionThatThrowsIsUndone) {
+  Database database(file, Database::Access::write);
+  database.run("CREATE TABLE t(a)");
+  const auto fails = [&] {
+    database.transaction([&] {
+      database.run("INSERT INTO t VALUES(1)");
+      database.run("INSERT INTO none VALUES(1)");
+    });
+  };
+  EXPECT_EQ(error_of(fails), file.string() + ": no such table: none");
+  EXPECT_EQ(database.number("SELECT count(*) FROM t"), 0);
+  database.transaction([&] { database.run("INSERT INTO t VALUES(1)"); });
+  EXPECT_EQ(database.number("SELECT count(*) FROM t"), 1);
+}
+
+TEST_F(DatabaseFile, ErrorsAreOneLine) {
+  EXPECT_EQ(refused("CREATE TABLE"), "incomplete input");
+  EXPECT_EQ(refused("SELECT 1\n FROM\n none"), "no such table: none");
+  Database(file, Database::Access::write).run("CREATE TABLE t(a INTEGER PRIMARY KEY)");
+  EXPECT_EQ(refused("INSERT INTO t VALUES('x')"), "datatype mismatch");
+  std::filesystem::resize_file(file, 4096);
+  std::ofstream(file, std::ios::app) << std::string(4096, 'x');
+  EXPECT_EQ(refused("SELECT * FROM t"), "is damaged: database disk image is malformed");
+  std::ofstream(file) << std::string(1000, 'x');
+  EXPECT_EQ(refused("SELECT 1 FROM t"), "is no SQLite database");
+  std::filesystem::remove(file);
+  EXPECT_EQ(refused("SELECT 1", Database::Access::read), "cannot read: No such file or directory");
+  EXPECT_EQ(refused("SELECT 1"), "cannot write: No such file or directory");
 }
 
 TEST(RecordExport, TablesAsCsv) {

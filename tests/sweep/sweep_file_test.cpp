@@ -2,8 +2,13 @@
 #include "tests/messages.hpp"
 #include "tests/sweep/sweeps.hpp"
 
+#include <fmt/format.h>
+
+#include <bit>
+#include <limits>
+
 #include "microswarm/experiment/trials.hpp"
-#include "microswarm/sweep/crew.hpp"
+#include "microswarm/sweep/worker_pool.hpp"
 
 namespace microswarm {
 namespace {
@@ -146,22 +151,64 @@ TEST(SweepTable, EveryMetricHasItsColumnWithUnit) {
   EXPECT_EQ(named("planning_max_s").role, SweepColumn::Role::wall_clock);
 }
 
+SweepMessage some_message() {
+  return {.kind = SweepMessage::Kind::rows,
+          .text = std::string("a\0\xff\n", 4),
+          .want = 3,
+          .tasks = {{1, 4'294'967'295}},
+          .rows = {{{4, 5}, {std::int64_t{-1}, 0.1, std::string("x"), {}}}}};
+}
+
 TEST(SweepMessage, ComesBackAsItWas) {
-  SweepMessage message{.kind = SweepMessage::Kind::rows,
-                       .text = "a\0b",
-                       .want = 3,
-                       .tasks = {{1, 2}},
-                       .rows = {{{4, 5}, {std::int64_t{-1}, 0.1, std::string("x"), {}}}}};
-  const std::string bytes = to_bytes(message);
-  const SweepMessage back = message_of(bytes);
+  const SweepMessage message = some_message();
+  const SweepMessage back = message_of(to_bytes(message));
   EXPECT_EQ(back.kind, message.kind);
   EXPECT_EQ(back.text, message.text);
   EXPECT_EQ(back.want, 3u);
-  EXPECT_EQ(back.tasks.at(0).trial, 2u);
+  EXPECT_EQ(back.tasks.at(0).trial, 4'294'967'295u);
   EXPECT_EQ(back.rows.at(0).task.cell, 4u);
   EXPECT_EQ(back.rows.at(0).values, message.rows[0].values);
+}
+
+TEST(SweepMessage, NumbersKeepEveryBit) {
+  using Limits = std::numeric_limits<double>;
+  SweepMessage message;
+  message.rows.push_back({{}, {}});
+  for (const double real : {0.0, -0.0, 1.0, -2.5, 0.1, Limits::infinity(), -Limits::infinity(),
+                            Limits::quiet_NaN(), -Limits::quiet_NaN(), Limits::denorm_min(),
+                            Limits::max(), std::bit_cast<double>(0x7ff8'0000'dead'beefULL)})
+    message.rows[0].values.emplace_back(real);
+  for (const std::int64_t whole : {std::numeric_limits<std::int64_t>::min(), std::int64_t{-1},
+                                   std::int64_t{0}, std::numeric_limits<std::int64_t>::max()})
+    message.rows[0].values.emplace_back(whole);
+  const std::vector<SqlValue> back = message_of(to_bytes(message)).rows.at(0).values;
+  ASSERT_EQ(back.size(), message.rows[0].values.size());
+  for (std::size_t i = 0; i < back.size(); ++i) {
+    ASSERT_EQ(back[i].index(), message.rows[0].values[i].index());
+    if (const auto* real = std::get_if<double>(&back[i]))
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(*real),
+                std::bit_cast<std::uint64_t>(std::get<double>(message.rows[0].values[i])));
+    else
+      EXPECT_EQ(back[i], message.rows[0].values[i]);
+  }
+}
+
+TEST(SweepMessage, MalformedBytesAreRefused) {
+  const std::string bytes = to_bytes(some_message());
   for (std::size_t size = 0; size < bytes.size(); ++size)
-    EXPECT_NE(error_of([&] { message_of(bytes.substr(0, size)); }), "") << size;
+    EXPECT_EQ(error_of([&] { message_of(bytes.substr(0, size)); }),
+              fmt::format("mpirun: malformed message of {} bytes", size));
+  EXPECT_NE(error_of([&] { message_of(bytes + '\0'); }), "");
+  for (std::size_t at = 0; at < bytes.size(); ++at)
+    for (int value = 0; value < 256; ++value) {
+      std::string changed = bytes;
+      changed[at] = static_cast<char>(value);
+      error_of([&] { message_of(changed); });  // an InputError or a message
+    }
+  std::string unknown = to_bytes({});
+  unknown[1] = 7;
+  EXPECT_EQ(error_of([&] { message_of(unknown); }),
+            fmt::format("mpirun: malformed message of {} bytes", unknown.size()));
 }
 
 }  // namespace

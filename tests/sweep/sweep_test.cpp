@@ -33,11 +33,11 @@ TEST(Sweep, GoesOnWhereItWasStopped) {
   for (; there < 32 && runs < 100; ++runs) {
     std::atomic<bool> flag{false};
     const Ranks ranks;
-    SweepHelpers helpers(ranks);
+    RemoteWorkers workers(ranks);
     SweepDatabase database(folder / "parts.db", plan, {});
     SweepOptions options{.jobs = 2,
                          .progress = [&](const SweepProgress& p) { flag = p.added > 2; }};
-    const SweepProgress progress = run_sweep(plan, database, helpers, options, Stop(&flag));
+    const SweepProgress progress = run_sweep(plan, database, workers, options, Stop(&flag));
     EXPECT_EQ(progress.before, there);
     there = progress.before + progress.added;
     EXPECT_EQ(progress.left, 32 - there);

@@ -35,9 +35,9 @@ inline std::filesystem::path sweep_folder(const std::string& name, const std::st
 inline SweepProgress run_alone(const SweepPlan& plan, const std::filesystem::path& file, int jobs,
                                const Stop& stop = {}) {
   const Ranks ranks;
-  SweepHelpers helpers(ranks);
+  RemoteWorkers workers(ranks);
   SweepDatabase database(file, plan, {"host", "2026-01-31 12:00:00"});
-  return run_sweep(plan, database, helpers, {.jobs = jobs, .progress = {}}, stop);
+  return run_sweep(plan, database, workers, {.jobs = jobs, .progress = {}}, stop);
 }
 
 /// All rows of a database but for wall-clock times.

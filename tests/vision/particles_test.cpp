@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "microswarm/core/error.hpp"
-#include "microswarm/vision/image/running_max.hpp"
+#include "microswarm/vision/image/mask_ops.hpp"
 #include "microswarm/vision/tracking/ring_fit.hpp"
 #include "tests/vision/spots.hpp"
 
@@ -129,15 +129,14 @@ TEST(Particles, NoiseAsWideAsAParticleIsRefused) {
   EXPECT_THROW(ParticleFinder({.diameter = 5, .noise = 5}), InputError);
 }
 
-TEST(RunningMax, IsThatOfEachWindow) {
+TEST(HighestAround, IsThatOfEachWindow) {
   Rng rng(2, Purpose::test);
   for (int side = 1; side <= 20; ++side) {
     const int width = 1 + static_cast<int>(rng.below(30));
     const int height = 1 + static_cast<int>(rng.below(30));
     std::vector<std::uint8_t> in(width * height);
     for (auto& v : in) v = static_cast<std::uint8_t>(rng.below(256));
-    std::vector<std::uint8_t> out;
-    RunningMax(side).run(in, width, height, out);
+    const cv::Mat out = highest_around(cv::Mat(height, width, CV_8U, in.data()), side);
     const int before = (side - 1) / 2;
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) {
@@ -145,7 +144,7 @@ TEST(RunningMax, IsThatOfEachWindow) {
         for (int v = std::max(0, y - before); v < std::min(height, y - before + side); ++v)
           for (int u = std::max(0, x - before); u < std::min(width, x - before + side); ++u)
             highest = std::max<int>(highest, in[v * width + u]);
-        ASSERT_EQ(out[y * width + x], highest) << side << " at " << x << ", " << y;
+        ASSERT_EQ(out.at<std::uint8_t>(y, x), highest) << side << " at " << x << ", " << y;
       }
   }
 }

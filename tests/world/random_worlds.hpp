@@ -9,13 +9,12 @@
 #include "microswarm/core/rng.hpp"
 #include "microswarm/geometry/distance.hpp"
 #include "microswarm/geometry/predicates.hpp"
+#include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/world/map/map.hpp"
 
 namespace microswarm {
 
-inline Vec2 random_point(Rng& rng, const Box& box) {
-  return {rng.uniform(box.lo.x, box.hi.x), rng.uniform(box.lo.y, box.hi.y)};
-}
+inline Vec2 random_point(Rng& rng, const Box& box) { return uniform_in(box, rng); }
 
 /// Star-shaped polygon of 3 to 12 corners; `thin` flattens it, down to a needle.
 inline Polygon random_star(Rng& rng, Vec2 centre, double radius, double thin = 1) {

@@ -3,7 +3,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 #include <variant>
 
 #include "commands/global_choice.hpp"
@@ -11,6 +10,7 @@
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
+#include "microswarm/core/lines.hpp"
 #include "microswarm/core/stop.hpp"
 #include "microswarm/core/text.hpp"
 #include "microswarm/experiment/record/global_tree_file.hpp"
@@ -42,9 +42,8 @@ struct GlobalOptions {
 /// "60,300;60,250"; empty when it is no such list.
 std::vector<Vec2> places(const std::string& text) {
   std::vector<Vec2> all;
-  std::istringstream words(text);
-  for (std::string word; std::getline(words, word, ';');) {
-    const std::vector<double> p = numbers(word);
+  for (const std::string_view one : split(text, ';')) {
+    const std::vector<double> p = numbers(one);
     if (p.size() != 2) return {};
     all.push_back({p[0], p[1]});
   }
@@ -79,7 +78,7 @@ void check_ends(const GlobalOptions& o, const Map& map, std::span<const Vec2> st
 /// Throws InputError when no planner could have brought the robots there.
 void explain(const GlobalOptions& o, const Map& map, std::span<const Vec2> starts,
              std::span<const Vec2> goals, const GlobalPlay& play, Status status) {
-  const Snapshot world(std::shared_ptr<const Map>(std::shared_ptr<void>(), &map));
+  const Snapshot world = Snapshot::of(map);
   const bool starts_wrong = status == Status::start_blocked;
   if (!starts_wrong && status != Status::goal_blocked) return;
   const std::span<const Vec2> wrong = starts_wrong ? starts : goals;

@@ -159,10 +159,10 @@ int sweep_command(SweepOptions o, const Context& context) {
   const Ranks ranks;
   if (o.jobs == 0 && ranks.count() > 1) o.jobs = 1;
   if (ranks.rank() > 0) {
-    help_sweep(ranks, o.sweep, o.jobs, context.stop);
+    run_sweep_worker(ranks, o.sweep, o.jobs, context.stop);
     return ok;  // mpirun ends all when one fails; the first rank tells how it went
   }
-  SweepHelpers helpers(ranks);
+  RemoteWorkers workers(ranks);
   const std::filesystem::path file = o.sweep;
   const SweepPlan plan = load_sweep(file, o.jobs);
   note_each(plan.notes);
@@ -178,7 +178,7 @@ int sweep_command(SweepOptions o, const Context& context) {
     SweepDatabase database(o.out, plan, origin());
     Meter meter(ranks.count() > 1);
     progress = run_sweep(
-        plan, database, helpers,
+        plan, database, workers,
         {.jobs = o.jobs, .progress = [&](const SweepProgress& p) { meter.show(p); }}, context.stop);
   }
   tell(o, progress);

@@ -32,6 +32,15 @@ struct Renaming {
         fmt::format("{}:{}:{}: '{}' is now '{}'", name, key.line, key.column, from, to));
   }
 
+  /// Drops a key that no longer has a meaning.
+  void retire(std::vector<YamlNode>& part, std::size_t value, std::string_view from) const {
+    const auto at = part.begin() + static_cast<std::ptrdiff_t>(value);
+    const YamlNode& key = *(at - 1);
+    notes.push_back(fmt::format("{}:{}:{}: '{}' has no meaning any more", name, key.line,
+                                key.column, from));
+    part.erase(at - 1, at + 1);
+  }
+
   /// Takes a key of a part of the document to another part.
   void move(YamlNode& document, const MovedKey& moved) const {
     const std::size_t from = moved.from.find('.'), to = moved.to.find('.');
@@ -39,6 +48,7 @@ struct Renaming {
     if (!source) return;
     const auto value = value_of(document.items[*source], moved.from.substr(from + 1));
     if (!value) return;
+    if (moved.to.empty()) return retire(document.items[*source].items, *value, moved.from);
     auto target = value_of(document, moved.to.substr(0, to));
     if (target && value_of(document.items[*target], moved.to.substr(to + 1))) return;
     if (!target) {
@@ -130,7 +140,7 @@ std::string with_present_key(const Type& of, const void* value, std::string_view
   std::string_view path = assignment.substr(0, assignment.find('='));
   const std::string_view rest = assignment.substr(path.size());
   for (const MovedKey& one : moved)
-    if (path == one.from) return fmt::format("{}{}", one.to, rest);
+    if (path == one.from && !one.to.empty()) return fmt::format("{}{}", one.to, rest);
   std::string present;
   const Type* type = &of;
   for (bool more = true; more;) {

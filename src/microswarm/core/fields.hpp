@@ -34,10 +34,11 @@ struct FieldInfo {
 std::string key_of(const FieldInfo& info);
 
 /// A key that stood elsewhere in earlier versions, in a part of the document: it is read there
-/// still. A struct lists them as `static constexpr std::array<MovedKey, N> moved_keys`.
+/// still. One that had no effect and is gone is ignored there. A struct lists them as
+/// `static constexpr std::array<MovedKey, N> moved_keys`.
 struct MovedKey {
   std::string_view from;  ///< "navigator.frame_timeout_s"
-  std::string_view to;    ///< "sensing.frame_timeout_s"
+  std::string_view to;    ///< "sensing.frame_timeout_s"; empty when it is gone
 };
 
 /// Visits fields and does nothing: what the concept below is asked with.

@@ -5,17 +5,24 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace microswarm {
 
+/// The value that has `rank` others before it when all are sorted; there must be more than that.
+template <class T>
+T ranked(std::vector<T> values, std::size_t rank) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank),
+                   values.end());
+  return values[rank];
+}
 /// Quantile q in [0, 1] by nearest rank: a value that occurs, never one between two; 0 for none.
 inline double quantile(std::vector<double> values, double q) {
   if (values.empty()) return 0;
   const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(values.size())));
   const std::size_t k = std::clamp<std::size_t>(rank, 1, values.size()) - 1;
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(k), values.end());
-  return values[k];
+  return ranked(std::move(values), k);
 }
 /// Mean; 0 for none.
 inline double mean(const std::vector<double>& values) {

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <optional>
 
+#include "microswarm/core/status.hpp"
+
 namespace microswarm {
 
 /// When to give up: a flag somebody else may set (Ctrl-C), and a deadline. Both are optional, and
@@ -23,6 +25,12 @@ class Stop {
   /// The deadline has passed.
   bool expired() const { return deadline_ && Clock::now() >= *deadline_; }
   bool operator()() const { return requested() || expired(); }
+  /// What ends work now: `stopped`, `time_limit` or nothing.
+  std::optional<Status> status() const {
+    if (requested()) return Status::stopped;
+    if (expired()) return Status::time_limit;
+    return std::nullopt;
+  }
 
  private:
   const std::atomic<bool>* flag_ = nullptr;

@@ -12,7 +12,6 @@
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/text.hpp"
 #include "microswarm/formats/json_place.hpp"
-#include "microswarm/formats/lines.hpp"
 
 namespace microswarm {
 namespace {

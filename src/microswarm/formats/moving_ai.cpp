@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "microswarm/core/file.hpp"
+#include "microswarm/core/lines.hpp"
 #include "microswarm/core/text.hpp"
-#include "microswarm/formats/images/image_header.hpp"
-#include "microswarm/formats/lines.hpp"
+#include "microswarm/formats/images/image.hpp"
 
 namespace microswarm {
 namespace {

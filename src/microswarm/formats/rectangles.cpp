@@ -6,8 +6,8 @@
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
+#include "microswarm/core/lines.hpp"
 #include "microswarm/core/text.hpp"
-#include "microswarm/formats/lines.hpp"
 
 namespace microswarm {
 namespace {

@@ -3,13 +3,14 @@
 
 #include <span>
 
+#include "microswarm/core/angles.hpp"
 #include "microswarm/geometry/edge_grid.hpp"
 #include "microswarm/geometry/shapes.hpp"
 
 namespace microswarm {
 
 /// Area of the disc [µm²].
-inline double area(Disc disc) { return 3.14159265358979323846 * disc.radius * disc.radius; }
+inline double area(Disc disc) { return pi * disc.radius * disc.radius; }
 
 /// Exact area of disc ∩ polygon [µm²] (Green's theorem over the clipped boundary).
 double intersection_area(Disc disc, const Polygon& polygon);

@@ -88,7 +88,6 @@ class EdgeGrid {
   void find_windings();
   Found search(Vec2 p, double squared_limit) const;
   void scan(Vec2 p, int row, Run columns, Found& best) const;
-  double squared_distance_beyond(Vec2 p, Run columns, Run rows) const;
   std::span<const std::uint32_t> edges_in(int row, Run columns) const {
     const Cell* cells = cells_.data() + static_cast<std::size_t>(row) * columns_;
     return {ids_.data() + cells[columns.first].first, ids_.data() + cells[columns.last + 1].first};

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "microswarm/core/lines.hpp"
 #include "microswarm/io/columns.hpp"
 #include "microswarm/io/tables.hpp"
 
@@ -13,14 +14,9 @@ namespace {
 
 constexpr const char* words_attribute = "words";  // joined by spaces, indexed from 0
 
-std::vector<std::string> split(std::string_view words) {
-  std::vector<std::string> list;
-  for (std::size_t begin = 0; begin < words.size();) {
-    const std::size_t end = std::min(words.find(' ', begin), words.size());
-    list.emplace_back(words.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return list;
+std::vector<std::string> words_of(const std::string& joined) {
+  const std::vector<std::string_view> list = split(joined, ' ');
+  return {list.begin(), list.end()};
 }
 
 struct TableWriter {
@@ -132,17 +128,18 @@ struct TableReader {
     }
     const std::vector<std::int64_t> values = file.integers(path);
     check_length(path, values.size(), rows.size());
-    const bool words = column.kind == ColumnKind::word;
+    const bool has_words = column.kind == ColumnKind::word;
     const std::vector<std::string> known =
-        words ? split(file.text_attribute(path, words_attribute)) : std::vector<std::string>{};
+        has_words ? words_of(file.text_attribute(path, words_attribute))
+                  : std::vector<std::string>{};
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (words && !std::in_range<std::size_t>(values[i]))
+      if (has_words && !std::in_range<std::size_t>(values[i]))
         file.fail(path + " has a value without a word");
-      if (words && static_cast<std::size_t>(values[i]) >= known.size())
+      if (has_words && static_cast<std::size_t>(values[i]) >= known.size())
         file.fail(path + " has a value without a word");
-      if (words && !column.set_word(rows[i], known[static_cast<std::size_t>(values[i])]))
+      if (has_words && !column.set_word(rows[i], known[static_cast<std::size_t>(values[i])]))
         file.fail(path + " has an unknown word");
-      if (!words && !column.set_number(rows[i], static_cast<double>(values[i])))
+      if (!has_words && !column.set_number(rows[i], static_cast<double>(values[i])))
         file.fail(path + " has a value out of range");
     }
   }

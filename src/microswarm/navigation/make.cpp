@@ -105,7 +105,7 @@ std::string_view missing_requirement(const AggregationParams&, const Task& task)
 Issues validate(const RadarParams& p, const Task& task, const Map& map, const IsGiven& is_given) {
   Issues issues = validate(p, is_given);
   issues.add(validate_step(p, task.swarm));
-  const Snapshot walls(std::shared_ptr<const Map>(std::shared_ptr<void>(), &map));
+  const Snapshot walls = Snapshot::of(map);
   for (std::size_t i = 0; i < p.waypoints.size(); ++i)
     if (const auto why = walls.blocked_reason(p.waypoints[i], task.swarm.radius); !why.empty())
       issues.add(fmt::format("waypoints_um.{}", i), fmt::format("waypoint {} {}", i + 1, why));

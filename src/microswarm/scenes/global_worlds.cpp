@@ -38,9 +38,4 @@ Map global_world(int number) {
   return {{{50, 50}, {350, 350}}, walls};
 }
 
-std::string_view global_world_name(int number) {
-  constexpr std::array<std::string_view, global_worlds> names{"L", "thin gap", "thick gap", "bars"};
-  return names[static_cast<std::size_t>(number - 1)];
-}
-
 }  // namespace microswarm::scenes

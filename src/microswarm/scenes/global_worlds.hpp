@@ -14,7 +14,6 @@ namespace microswarm::scenes {
 inline constexpr int global_worlds = 4;
 /// Env `number`, 1 to global_worlds.
 Map global_world(int number);
-std::string_view global_world_name(int number);
 
 /// Starts and goals of up to four robots.
 inline constexpr std::array<Vec2, 4> global_starts{{{60, 300}, {60, 250}, {60, 200}, {60, 150}}};

@@ -5,6 +5,7 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/rng.hpp"
+#include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/scenes/avoidance_worlds.hpp"
 
 namespace microswarm::scenes {
@@ -22,11 +23,6 @@ Samples begun_at(const Samples& samples, double t) {
   return out;
 }
 
-Vec2 random_place(Rng& rng) {
-  const double x = rng.uniform(inner.lo.x, inner.hi.x);
-  return {x, rng.uniform(inner.lo.y, inner.hi.y)};
-}
-
 bool starts_apart(const Scenario& s) {
   const double radius = limits_of(s.swarm).radius;
   return std::all_of(s.obstacles.begin(), s.obstacles.end(), [&](const Obstacle& walker) {
@@ -39,8 +35,8 @@ bool starts_apart(const Scenario& s) {
 void place_ends(Scenario& s, Rng& rng) {
   constexpr int max_tries = 1000;
   for (int i = 0; i < max_tries; ++i) {
-    s.start = Pose2{random_place(rng), 0};
-    s.goal = random_place(rng);
+    s.start = Pose2{uniform_in(inner, rng), 0};
+    s.goal = uniform_in(inner, rng);
     s.start->heading = heading_of(*s.goal - s.start->position);
     if (distance(s.start->position, *s.goal) > min_way && starts_apart(s)) return;
   }

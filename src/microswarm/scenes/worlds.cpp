@@ -5,25 +5,21 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/geometry/distance.hpp"
+#include "microswarm/geometry/uniform_in.hpp"
 
 namespace microswarm::scenes {
 namespace {
 
-Vec2 random_point(const Box& box, Rng& rng) {
-  const double x = rng.uniform(box.lo.x, box.hi.x);
-  return {x, rng.uniform(box.lo.y, box.hi.y)};
-}
-
 void scatter_discs(int count, std::vector<Disc>& out, const Box& box, Rng& rng) {
   for (int i = 0; i < count; ++i) {
-    const Vec2 centre = random_point(box, rng);
+    const Vec2 centre = uniform_in(box, rng);
     out.push_back({centre, rng.uniform(10, 70)});
   }
 }
 
 void scatter_boxes(int count, RawWorld& world, Rng& rng) {
   for (int i = 0; i < count; ++i) {
-    const Vec2 centre = random_point(world.bounds, rng);
+    const Vec2 centre = uniform_in(world.bounds, rng);
     const double width = rng.uniform(20, 160);
     const double height = rng.uniform(5, 80);
     world.walls.push_back(turned_rectangle(centre, width, height, rng.uniform(-pi, pi)));
@@ -119,7 +115,7 @@ RawWorld random_world(int kind, Rng& rng) {
 
 Vec2 random_free_point(const RawWorld& world, double clearance, Rng& rng) {
   for (int i = 0; i < 10'000; ++i) {
-    const Vec2 p = random_point(world.bounds, rng);
+    const Vec2 p = uniform_in(world.bounds, rng);
     if (world.clearance(p) > clearance + 1e-6) return p;
   }
   return world.bounds.centre();
@@ -131,11 +127,11 @@ RawWorld cluttered(Rng& rng) {
   world.bounds = {{0, 0}, {2000, 1000}};
   world.field_cell = 0;
   for (int i = 0; i < 140; ++i) {
-    const Vec2 centre = random_point(world.bounds, rng);
+    const Vec2 centre = uniform_in(world.bounds, rng);
     world.discs.push_back({centre, rng.uniform(8, 25)});
   }
   for (int i = 0; i < 70; ++i) {
-    const Vec2 centre = random_point(world.bounds, rng);
+    const Vec2 centre = uniform_in(world.bounds, rng);
     Polygon polygon;
     const int corners = 3 + static_cast<int>(rng.below(6));
     const double radius = rng.uniform(10, 30);

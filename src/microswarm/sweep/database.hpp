@@ -4,27 +4,30 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <variant>
 
-struct sqlite3;
-struct sqlite3_stmt;
+namespace SQLite {  // NOLINT(readability-identifier-naming): the name is theirs
+class Database;
+class Exception;
+}  // namespace SQLite
 
 namespace microswarm {
 
-/// What one place in a table holds; std::monostate is NULL. NaN is NULL too once it is stored.
+/// A value in a table; std::monostate is NULL. A stored NaN becomes NULL.
 using SqlValue = std::variant<std::monostate, std::int64_t, double, std::string>;
 
-/// "name" with quotes around it, as SQL wants a column.
+/// `name` as a quoted SQL identifier.
 std::string sql_name(std::string_view name);
 
-/// Holds a file for one writer, by a lock on a byte that SQLite does not use. It goes with the
-/// process, however that ends.
+/// Exclusive lock of a file for one writer, on a byte that SQLite does not use. The kernel releases
+/// it when the process ends.
 class WriterLock {
  public:
-  /// Makes the file when there is none. Throws InputError "FILE: another sweep is writing to it",
+  /// Creates the file if necessary. Throws InputError "FILE: another sweep is writing to it",
   /// or "FILE: cannot write: REASON".
   explicit WriterLock(const std::filesystem::path& file);
   ~WriterLock();
@@ -36,7 +39,7 @@ class WriterLock {
 };
 
 /// An SQLite database in a file that exists; an empty file is a database without tables. Every
-/// error is an InputError in one line that begins with the file's name.
+/// error is an InputError of one line that begins with the file's name.
 class Database {
  public:
   enum class Access { read, write };
@@ -45,39 +48,27 @@ class Database {
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
 
-  /// One statement, values taking the place of its question marks.
+  /// Executes one statement; `values` are bound to its question marks.
   void run(const std::string& sql, std::span<const SqlValue> values = {}) {
     select(sql, values, {});
   }
-  /// The same, with each row of its result.
+  /// The same, and calls `each` for every row of the result.
   void select(const std::string& sql, std::span<const SqlValue> values,
               const std::function<void(std::span<const SqlValue>)>& each) const;
-  /// The whole number in the first place of the first row; 0 without a row.
+  /// The whole number in the first column of the first row; 0 without a row.
   std::int64_t number(const std::string& sql) const;
+  /// Executes `statements` in one transaction, which is rolled back when they throw.
+  void transaction(const std::function<void()>& statements);
 
   const std::string& name() const { return name_; }
   /// Throws InputError "FILE: WHY".
   [[noreturn]] void fail(const std::string& why) const;
 
  private:
-  [[noreturn]] void fail_with(int code) const;
+  [[noreturn]] void fail(const SQLite::Exception& error) const;
 
   std::string name_;
-  sqlite3* connection_ = nullptr;
-};
-
-/// All statements in its scope come to pass together at `commit()`, or not at all.
-class Transaction {
- public:
-  explicit Transaction(Database& database);
-  ~Transaction();
-  Transaction(const Transaction&) = delete;
-  Transaction& operator=(const Transaction&) = delete;
-  void commit();
-
- private:
-  Database& database_;
-  bool open_ = true;
+  std::unique_ptr<SQLite::Database> connection_;
 };
 
 }  // namespace microswarm

@@ -118,12 +118,6 @@ std::string sweep_hdf5(const SweepReader& sweep) {
   return out.finish();
 }
 
-std::vector<std::string> record_tables(const Record& record) {
-  RecordTables tables;
-  visit_tables(type_of<Record>(), static_cast<const void*>(&record), tables);
-  return tables.names;
-}
-
 std::string record_csv(const Record& record, const std::string& table) {
   RecordTables tables{.wanted = table, .names = {}, .csv = {}};
   visit_tables(type_of<Record>(), static_cast<const void*>(&record), tables);

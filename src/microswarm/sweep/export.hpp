@@ -10,10 +10,10 @@
 
 namespace microswarm {
 
-/// The table of trials as CSV (RFC 4180): a line of column names, a line a trial; NULL is empty.
+/// The trials table as CSV (RFC 4180): a header line, then one line per trial; NULL is empty.
 std::string sweep_csv(const SweepReader& sweep);
 
-/// The table of trials as an HDF5 file: a dataset of one dimension for each column in `/trials`,
+/// The trials table as an HDF5 file: a one-dimensional dataset per column in `/trials`,
 /// with its unit and description as attributes; the sweep file and each cell's scenario as texts.
 std::string sweep_hdf5(const SweepReader& sweep);
 
@@ -22,11 +22,9 @@ std::string sweep_hdf5(const SweepReader& sweep);
 /// methods are the planners.
 std::vector<std::pair<std::string, std::string>> ompl_logs(const SweepReader& sweep);
 
-/// Names of a record's tables: frames, paths, paths/points, ...
-std::vector<std::string> record_tables(const Record& record);
-
-/// One table of a record as CSV, units in the names. In a table of parts, as the points of all
-/// paths, the column `row` tells whose part it is. Throws InputError for a table that there is not.
+/// One table of a record as CSV (frames, paths, paths/points, ...), units in the names. In a table
+/// of parts, as the points of all paths, the column `row` is the index of the owner. Throws
+/// InputError for an unknown table.
 std::string record_csv(const Record& record, const std::string& table);
 
 }  // namespace microswarm

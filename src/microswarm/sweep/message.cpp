@@ -1,119 +1,85 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/sweep/message.hpp"
 
-#include <cstring>
+#include <fmt/format.h>
+
+#include <bit>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "microswarm/core/error.hpp"
 
 namespace microswarm {
 namespace {
 
-class Packer {
- public:
-  template <class T>
-  requires std::is_trivially_copyable_v<T>
-  void put(const T& value) { bytes_.append(reinterpret_cast<const char*>(&value), sizeof value); }
-  void put(const std::string& text) {
-    put(static_cast<std::uint64_t>(text.size()));
-    bytes_ += text;
-  }
-  void put(const SqlValue& value) {
-    put(static_cast<std::uint8_t>(value.index()));
-    std::visit([this](const auto& held) { put_held(held); }, value);
-  }
-  std::string take() { return std::move(bytes_); }
+using Json = nlohmann::json;
 
- private:
-  void put_held(std::monostate) {}
-  template <class T>
-  void put_held(const T& held) {
-    put(held);
-  }
+// Numbers are their bits in an array of one: CBOR would make every NaN the same.
+Json json_of(const SqlValue& value) {
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return *whole;
+  if (const auto* real = std::get_if<double>(&value))
+    return Json::array({std::bit_cast<std::uint64_t>(*real)});
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  return nullptr;
+}
 
-  std::string bytes_;
-};
+// What follows throws std::exception for a document of other types or ranges.
 
-class Unpacker {
- public:
-  explicit Unpacker(std::string_view bytes) : bytes_(bytes) {}
+std::uint64_t whole_of(const Json& json, std::uint64_t max = ~std::uint64_t{0}) {
+  const auto whole = json.get_ref<const std::uint64_t&>();
+  if (whole > max) throw std::out_of_range("number in a message");
+  return whole;
+}
 
-  template <class T>
-  T get() {
-    T value{};
-    std::memcpy(&value, take(sizeof value).data(), sizeof value);
-    return value;
-  }
-  /// A number of things, each at least a byte long.
-  std::size_t count() {
-    const auto n = get<std::uint64_t>();
-    if (n > bytes_.size()) fail();
-    return static_cast<std::size_t>(n);
-  }
-  std::string text() { return std::string(take(count())); }
-  SqlValue value() {
-    switch (get<std::uint8_t>()) {
-      case 0:
-        return std::monostate{};
-      case 1:
-        return get<std::int64_t>();
-      case 2:
-        return get<double>();
-      case 3:
-        return text();
-      default:
-        fail();
-    }
-  }
-  void end() const {
-    if (!bytes_.empty()) fail();
-  }
+std::uint32_t word_of(const Json& json) {
+  return static_cast<std::uint32_t>(whole_of(json, std::numeric_limits<std::uint32_t>::max()));
+}
 
- private:
-  [[noreturn]] static void fail() { throw InputError("mpirun: a message that makes no sense"); }
-  std::string_view take(std::size_t size) {
-    if (size > bytes_.size()) fail();
-    const std::string_view part = bytes_.substr(0, size);
-    bytes_.remove_prefix(size);
-    return part;
-  }
+SqlValue value_of_json(const Json& json) {
+  if (json.is_null()) return std::monostate{};
+  if (json.is_number_integer()) return json.get<std::int64_t>();
+  if (json.is_array()) return std::bit_cast<double>(whole_of(json.at(0)));
+  return json.get_ref<const std::string&>();
+}
 
-  std::string_view bytes_;
-};
+const Json::array_t& list_of(const Json& json) { return json.get_ref<const Json::array_t&>(); }
 
 }  // namespace
 
 std::string to_bytes(const SweepMessage& message) {
-  Packer packer;
-  packer.put(message.kind);
-  packer.put(message.text);
-  packer.put(message.want);
-  packer.put(static_cast<std::uint64_t>(message.tasks.size()));
-  for (const SweepTask& task : message.tasks) packer.put(task);
-  packer.put(static_cast<std::uint64_t>(message.rows.size()));
+  Json tasks = Json::array();
+  for (const SweepTask& task : message.tasks) tasks.push_back({task.cell, task.trial});
+  Json rows = Json::array();
   for (const SweepRow& row : message.rows) {
-    packer.put(row.task);
-    packer.put(static_cast<std::uint64_t>(row.values.size()));
-    for (const SqlValue& value : row.values) packer.put(value);
+    Json values = Json::array();
+    for (const SqlValue& value : row.values) values.push_back(json_of(value));
+    rows.push_back({row.task.cell, row.task.trial, std::move(values)});
   }
-  return packer.take();
+  const Json all = {static_cast<std::uint8_t>(message.kind), message.text, message.want,
+                    std::move(tasks), std::move(rows)};
+  std::string bytes;
+  Json::to_cbor(all, bytes);
+  return bytes;
 }
 
-SweepMessage message_of(std::string_view bytes) {
-  Unpacker in(bytes);
+SweepMessage message_of(std::string_view bytes) try {
+  const Json all = Json::from_cbor(bytes);
   SweepMessage message;
-  message.kind = in.get<SweepMessage::Kind>();
-  message.text = in.text();
-  message.want = in.get<std::uint32_t>();
-  message.tasks.resize(in.count());
-  for (SweepTask& task : message.tasks) task = in.get<SweepTask>();
-  message.rows.resize(in.count());
-  for (SweepRow& row : message.rows) {
-    row.task = in.get<SweepTask>();
-    row.values.resize(in.count());
-    for (SqlValue& value : row.values) value = in.value();
+  constexpr auto last = static_cast<std::uint64_t>(SweepMessage::Kind::over);
+  message.kind = static_cast<SweepMessage::Kind>(whole_of(all.at(0), last));
+  message.text = all.at(1).get_ref<const std::string&>();
+  message.want = word_of(all.at(2));
+  for (const Json& task : list_of(all.at(3)))
+    message.tasks.push_back({word_of(task.at(0)), word_of(task.at(1))});
+  for (const Json& row : list_of(all.at(4))) {
+    message.rows.push_back({{word_of(row.at(0)), word_of(row.at(1))}, {}});
+    for (const Json& value : list_of(row.at(2)))
+      message.rows.back().values.push_back(value_of_json(value));
   }
-  in.end();
   return message;
+} catch (const std::exception&) {
+  throw InputError(fmt::format("mpirun: malformed message of {} bytes", bytes.size()));
 }
 
 }  // namespace microswarm

@@ -9,8 +9,8 @@
 
 namespace microswarm {
 
-/// What the processes of a sweep say to each other. Those that help report (ready or failed) and
-/// send rows; the first gives tasks and says when it is over, which they answer with done.
+/// A message between the processes of a sweep. Workers report `ready` or `failed` and send rows;
+/// rank 0 sends tasks and finally `over`, which workers answer with `done`.
 struct SweepMessage {
   enum class Kind : std::uint8_t { ready, failed, rows, stopped, done, tasks, over };
   Kind kind = Kind::over;
@@ -20,10 +20,10 @@ struct SweepMessage {
   std::vector<SweepRow> rows;    ///< rows
 };
 
-/// The message as bytes, for machines of one kind.
+/// The message in CBOR; doubles keep every bit.
 std::string to_bytes(const SweepMessage& message);
 
-/// Reads it back. Throws InputError for bytes that are none.
+/// The message of these bytes. Throws InputError "mpirun: malformed message of … bytes".
 SweepMessage message_of(std::string_view bytes);
 
 }  // namespace microswarm

@@ -19,7 +19,7 @@
 namespace microswarm {
 namespace {
 
-/// Calls body(i) for all i on several threads; of what is thrown, that of the least i comes out.
+/// Calls body(i) for all i on several threads and rethrows the exception of the lowest i.
 template <class Body>
 void for_each_in_order(std::size_t count, int jobs, Body body) {
   std::vector<std::exception_ptr> thrown(count);
@@ -34,8 +34,8 @@ void for_each_in_order(std::size_t count, int jobs, Body body) {
     if (one) std::rethrow_exception(one);
 }
 
-/// Maps by their fingerprint, each built once.
-class MapShelf {
+/// Maps by fingerprint, each built once.
+class MapCache {
  public:
   World world_of(const Scene& scene) {
     const std::uint64_t key = fingerprint(scene.map);
@@ -62,7 +62,7 @@ std::string cell_name(const SweepPlan& plan, const SweepCell& cell) {
   return fmt::format("{}: {}method '{}'", plan.file, name, cell.method);
 }
 
-/// Complaints begin with the cell's name; what is given is known.
+/// Issues are prefixed with the cell's name; only whether a key is given is known.
 KeyLocations locations_of(const SweepPlan& plan, const SweepCell& cell) {
   using Seek = KeyLocations::Seek;
   const std::string name = cell_name(plan, cell);
@@ -77,7 +77,7 @@ struct Loader {
   const SweepPlan& plan;
   const Scenario& base;
   std::filesystem::path folder;
-  MapShelf& maps;
+  MapCache& maps;
 
   void apply(Scenario& scenario, std::string& setting, const std::string& what) const {
     try {
@@ -171,7 +171,7 @@ SweepPlan load_sweep(const std::filesystem::path& file, int jobs) {
   use_present_keys(type_of<Scenario>(), plan.scenario_document, scenario_file.string(),
                    Scenario::moved_keys, plan.notes);
   plan.scenario_text = scenario_text(base);
-  MapShelf maps;
+  MapCache maps;
   const Loader loader{plan, base, scenario_file.parent_path(), maps};
   std::vector<SweepCell> cells(cell_count(plan.sweep));
   cells[0] = loader.cell_of(0);  // alone, for the map that all may share

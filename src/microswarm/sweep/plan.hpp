@@ -12,35 +12,35 @@
 
 namespace microswarm {
 
-/// What every trial of one combination of values and method has in common.
+/// One combination of grid values and method, shared by its trials.
 struct SweepCell {
-  std::vector<std::string> values;  ///< one for each parameter of the grid
+  std::vector<std::string> values;  ///< one per grid parameter
   std::string method;
-  std::vector<std::string> settings;  ///< all, in the order in which they are applied
-  Scenario scenario;                  ///< the tracks of its obstacles have their samples
-  World world;                        ///< cells of the same walls share their map
+  std::vector<std::string> settings;  ///< all, in order of application
+  Scenario scenario;                  ///< with the samples of its tracks
+  World world;                        ///< cells with the same walls share their map
   std::string input_hash;             ///< of scenario, map and tracks, as Scene::hash()
 };
 
-/// A sweep with all that the files it names held. The last parameter of the grid changes before the
-/// first, and the method before all of them.
+/// A sweep with the contents of all files it names. Cells are ordered with the method varying
+/// fastest, then the last grid parameter.
 struct SweepPlan {
   Sweep sweep;
   std::string file;           ///< as given
-  std::string scenario_text;  ///< of the scenario that all cells begin with
+  std::string scenario_text;  ///< of the base scenario
   YamlNode scenario_document;
   Notes notes;  ///< on former keys that were read
   std::vector<SweepCell> cells;
 
-  /// Fingerprint of everything that results depend on.
+  /// Fingerprint of everything the results depend on.
   std::string hash() const;
 };
 
-/// Reads a sweep file and what it names, and makes the cells, on `jobs` threads (0: one a core).
-/// Throws InputError, one line, for the first cell that cannot be.
+/// Reads a sweep file and the files it names and builds the cells on `jobs` threads (0: one per
+/// core). Throws InputError, one line, for the first invalid cell.
 SweepPlan load_sweep(const std::filesystem::path& file, int jobs = 0);
 
-/// Throws InputError for the first cell that cannot be meant so; see check(Scenario).
+/// Validates every cell; throws InputError for the first invalid one. See check(Scenario).
 void check(const SweepPlan& plan, int jobs = 0);
 
 /// One trial of a sweep.

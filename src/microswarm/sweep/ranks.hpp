@@ -6,12 +6,11 @@
 
 namespace microswarm {
 
-/// The processes that mpirun (or srun) started together, and messages between them; a single one
-/// when the program was started by itself, and then MPI is never touched. To be called by the
-/// thread that made it, and made once in a process.
+/// The processes started by mpirun or srun, and messages between them. A program started alone has
+/// one rank and does not initialise MPI. Create it once in a process and use it from one thread.
 class Ranks {
  public:
-  /// Throws InputError when it was started under mpirun and the program was built without MPI.
+  /// Throws InputError under mpirun when the program was built without MPI.
   Ranks();
   ~Ranks();
   Ranks(const Ranks&) = delete;
@@ -24,9 +23,9 @@ class Ranks {
     int from = 0;
     std::string bytes;
   };
-  /// Messages between two ranks arrive in the order in which they are sent.
+  /// Sends a message; messages between two ranks keep their order.
   void send(int to, const std::string& bytes) const;
-  /// One that waits, or nothing.
+  /// The next pending message, if any.
   std::optional<Message> receive() const;
 
  private:

@@ -5,16 +5,16 @@
 
 namespace microswarm {
 
-/// What the trials of one cell come to.
+/// Summary of the trials of one cell.
 struct CellSummary {
   std::size_t cell = 0;
   std::string method;
-  std::vector<SqlValue> parameters;  ///< the grid's values, in its order
+  std::vector<SqlValue> parameters;  ///< grid values, in grid order
   std::size_t trials = 0;
   std::size_t arrived = 0;
   std::map<std::string, std::size_t> endings;  ///< trials by status
-  /// By column, each metric and wall-clock time: the median over the trials that arrived (nearest
-  /// rank, a value that occurred); missing when none did.
+  /// Median of each metric and wall-clock time over the trials that arrived (nearest rank), by
+  /// column; absent when none arrived.
   std::map<std::string, double> medians;
 
   double share_arrived() const {
@@ -22,7 +22,7 @@ struct CellSummary {
   }
 };
 
-/// A summary of every cell, in order; a cell without trials yet has zeros.
+/// Summary of every cell, in order; zeros for a cell without trials.
 std::vector<CellSummary> summarise(const SweepReader& sweep);
 
 }  // namespace microswarm

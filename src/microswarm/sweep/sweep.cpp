@@ -8,23 +8,23 @@
 #include <utility>
 
 #include "microswarm/core/error.hpp"
-#include "microswarm/sweep/crew.hpp"
+#include "microswarm/sweep/worker_pool.hpp"
 
 namespace microswarm {
 namespace {
 
 using MessageKind = SweepMessage::Kind;
 
-constexpr std::chrono::milliseconds alone_patience{50};  // then Ctrl-C is looked for
-constexpr std::chrono::milliseconds rank_patience{1};    // then messages are
+constexpr std::chrono::milliseconds alone_poll_timeout{50};  // then checks for Ctrl-C
+constexpr std::chrono::milliseconds rank_poll_timeout{1};    // then checks for messages
 
 void append(std::vector<SweepRow>& rows, std::vector<SweepRow> more) {
   rows.insert(rows.end(), std::make_move_iterator(more.begin()),
               std::make_move_iterator(more.end()));
 }
 
-/// Puts rows into the database, all that have gathered at a time. After a transaction it rests for
-/// as long as that took, so that others can read.
+/// Writes rows to the database in batches. After a transaction it pauses for as long as the
+/// transaction took, so that others can read.
 class RowWriter {
  public:
   explicit RowWriter(SweepDatabase& database) : database_(database) {}
@@ -49,16 +49,16 @@ class RowWriter {
 
 }  // namespace
 
-SweepHelpers::SweepHelpers(const Ranks& ranks) : ranks_(ranks), at_work_(ranks.count() - 1) {}
+RemoteWorkers::RemoteWorkers(const Ranks& ranks) : ranks_(ranks), at_work_(ranks.count() - 1) {}
 
-SweepHelpers::~SweepHelpers() {
+RemoteWorkers::~RemoteWorkers() {
   try {
-    send_home();
-  } catch (const std::exception&) {  // the error that led here is told by who sees it
+    shutdown();
+  } catch (const std::exception&) {  // the error that led here is reported elsewhere
   }
 }
 
-void SweepHelpers::hear(int from, SweepMessage message, const std::string& plan_hash) {
+void RemoteWorkers::handle(int from, SweepMessage message, const std::string& plan_hash) {
   switch (message.kind) {
     case MessageKind::ready:
       if (message.text == plan_hash)
@@ -83,14 +83,14 @@ void SweepHelpers::hear(int from, SweepMessage message, const std::string& plan_
   }
 }
 
-std::vector<SweepRow> SweepHelpers::take(const std::string& plan_hash) {
+std::vector<SweepRow> RemoteWorkers::take(const std::string& plan_hash) {
   while (auto message = ranks_.receive())
-    hear(message->from, message_of(message->bytes), plan_hash);
+    handle(message->from, message_of(message->bytes), plan_hash);
   if (!failure_.empty()) throw InputError(failure_);
   return std::exchange(rows_, {});
 }
 
-void SweepHelpers::feed(const std::function<std::vector<SweepTask>(std::size_t)>& next) {
+void RemoteWorkers::dispatch(const std::function<std::vector<SweepTask>(std::size_t)>& next) {
   for (auto& [rank, wanted] : wanted_) {
     if (wanted == 0) continue;
     const std::vector<SweepTask> tasks = next(wanted);
@@ -101,20 +101,20 @@ void SweepHelpers::feed(const std::function<std::vector<SweepTask>(std::size_t)>
   }
 }
 
-std::vector<SweepRow> SweepHelpers::send_home() {
+std::vector<SweepRow> RemoteWorkers::shutdown() {
   if (at_work_ == 0) return {};
   for (int rank = 1; rank < ranks_.count(); ++rank)
     ranks_.send(rank, to_bytes({.kind = MessageKind::over, .text = {}, .tasks = {}, .rows = {}}));
-  while (at_work_ > 0) {  // ends: each says done once, or mpirun ends all
+  while (at_work_ > 0) {  // ends: each worker sends done once, or mpirun aborts
     if (auto message = ranks_.receive())
-      hear(message->from, message_of(message->bytes), "");
+      handle(message->from, message_of(message->bytes), "");
     else
-      std::this_thread::sleep_for(rank_patience);
+      std::this_thread::sleep_for(rank_poll_timeout);
   }
   return std::exchange(rows_, {});
 }
 
-SweepProgress run_sweep(const SweepPlan& plan, SweepDatabase& database, SweepHelpers& helpers,
+SweepProgress run_sweep(const SweepPlan& plan, SweepDatabase& database, RemoteWorkers& workers,
                         const SweepOptions& options, const Stop& stop) {
   const std::vector<SweepTask> tasks = database.missing();
   const std::size_t all = plan.cells.size() * static_cast<std::size_t>(plan.sweep.trials);
@@ -128,21 +128,21 @@ SweepProgress run_sweep(const SweepPlan& plan, SweepDatabase& database, SweepHel
   RowWriter writer(database);
   const std::string hash = plan.hash();
   {
-    SweepCrew crew(plan, options.jobs);
-    while (progress.left > 0 && !stop() && !helpers.stopped()) {
-      writer.add(helpers.take(hash));
-      helpers.feed(next);
-      if (crew.room() > 0) crew.give(next(crew.room()));
-      const bool busy = helpers.any() || writer.waits();
-      writer.add(crew.take(busy ? rank_patience : alone_patience));
+    WorkerPool pool(plan, options.jobs);
+    while (progress.left > 0 && !stop() && !workers.stopped()) {
+      writer.add(workers.take(hash));
+      workers.dispatch(next);
+      if (pool.room() > 0) pool.give(next(pool.room()));
+      const bool busy = workers.any() || writer.waits();
+      writer.add(pool.take(busy ? rank_poll_timeout : alone_poll_timeout));
       const std::size_t written = writer.write_when_due();
       progress.added += written;
       progress.left -= written;
       if (options.progress) options.progress(progress);
     }
-    writer.add(crew.take(std::chrono::milliseconds(0)));
+    writer.add(pool.take(std::chrono::milliseconds(0)));
   }
-  writer.add(helpers.send_home());
+  writer.add(workers.shutdown());
   const std::size_t written = writer.write();
   progress.added += written;
   progress.left -= written;
@@ -150,53 +150,55 @@ SweepProgress run_sweep(const SweepPlan& plan, SweepDatabase& database, SweepHel
   return progress;
 }
 
-void help_sweep(const Ranks& ranks, const std::filesystem::path& file, int jobs, const Stop& stop) {
-  const auto say = [&](const SweepMessage& message) { ranks.send(0, to_bytes(message)); };
-  const auto say_word = [&](MessageKind kind, const std::string& text) {
-    say({.kind = kind, .text = text, .tasks = {}, .rows = {}});
+void run_sweep_worker(const Ranks& ranks, const std::filesystem::path& file, int jobs,
+                      const Stop& stop) {
+  const auto send = [&](const SweepMessage& message) { ranks.send(0, to_bytes(message)); };
+  const auto send_kind = [&](MessageKind kind, const std::string& text) {
+    send({.kind = kind, .text = text, .tasks = {}, .rows = {}});
   };
   SweepPlan plan;
-  std::unique_ptr<SweepCrew> crew;
+  std::unique_ptr<WorkerPool> pool;
   const auto attempt = [&](auto action) {
     try {
       action();
     } catch (const std::exception& error) {
-      crew.reset();
-      say_word(MessageKind::failed, error.what());
+      pool.reset();
+      send_kind(MessageKind::failed, error.what());
     }
   };
   std::size_t asked = 0;
-  const auto want = [&] {  // what there is room for and not asked for yet
-    const std::size_t more = crew->room() > asked ? crew->room() - asked : 0;
+  const auto want = [&] {  // room for tasks not yet requested
+    const std::size_t more = pool->room() > asked ? pool->room() - asked : 0;
     asked += more;
     return static_cast<std::uint32_t>(more);
   };
   attempt([&] {
     plan = load_sweep(file, jobs);
-    crew = std::make_unique<SweepCrew>(plan, jobs);
-    say({.kind = MessageKind::ready, .text = plan.hash(), .want = want(), .tasks = {}, .rows = {}});
+    pool = std::make_unique<WorkerPool>(plan, jobs);
+    send(
+        {.kind = MessageKind::ready, .text = plan.hash(), .want = want(), .tasks = {}, .rows = {}});
   });
   for (bool over = false, stopped = false; !over;) {
-    if (stop() && !std::exchange(stopped, true)) say_word(MessageKind::stopped, "");
+    if (stop() && !std::exchange(stopped, true)) send_kind(MessageKind::stopped, "");
     std::vector<SweepRow> rows;
-    attempt([&] { rows = crew ? crew->take(rank_patience) : std::vector<SweepRow>(); });
+    attempt([&] { rows = pool ? pool->take(rank_poll_timeout) : std::vector<SweepRow>(); });
     if (!rows.empty())
-      say({.kind = MessageKind::rows,
-           .text = {},
-           .want = want(),
-           .tasks = {},
-           .rows = std::move(rows)});
+      send({.kind = MessageKind::rows,
+            .text = {},
+            .want = want(),
+            .tasks = {},
+            .rows = std::move(rows)});
     const auto message = ranks.receive();
-    if (!message && !crew) std::this_thread::sleep_for(rank_patience);
+    if (!message && !pool) std::this_thread::sleep_for(rank_poll_timeout);
     if (!message) continue;
     const SweepMessage order = message_of(message->bytes);
     over = order.kind == MessageKind::over;
-    if (!crew) continue;
-    crew->give(order.tasks);
+    if (!pool) continue;
+    pool->give(order.tasks);
     asked -= order.tasks.size();
   }
-  crew.reset();
-  say_word(MessageKind::done, "");
+  pool.reset();
+  send_kind(MessageKind::done, "");
 }
 
 }  // namespace microswarm

@@ -108,7 +108,7 @@ SweepDatabase::SweepDatabase(const std::filesystem::path& file, const SweepPlan&
       insert_(insert_sql(columns_)) {
   if (is_empty(database_)) {
     try {
-      make(origin);
+      database_.transaction([&] { make(origin); });
     } catch (const InputError&) {  // nothing is left behind of what did not come to be
       std::error_code error;
       if (std::filesystem::file_size(file, error) == 0) std::filesystem::remove(file, error);
@@ -121,7 +121,6 @@ SweepDatabase::SweepDatabase(const std::filesystem::path& file, const SweepPlan&
 }
 
 void SweepDatabase::make(const SweepOrigin& origin) {
-  Transaction transaction(database_);
   database_.run(fmt::format("PRAGMA application_id = {}", application_id));
   database_.run(fmt::format("PRAGMA user_version = {}", layout));
   database_.run("CREATE TABLE sweep(key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID");
@@ -155,7 +154,6 @@ void SweepDatabase::make(const SweepOrigin& origin) {
                                         scenario_text(cell.scenario)});
   }
   database_.run(trials_sql(columns_));
-  transaction.commit();
 }
 
 void SweepDatabase::check_same() const {
@@ -193,13 +191,13 @@ std::vector<SweepTask> SweepDatabase::missing() const {
 
 void SweepDatabase::add(const std::vector<SweepRow>& rows) {
   if (rows.empty()) return;
-  Transaction transaction(database_);
-  for (const SweepRow& row : rows) {
-    std::vector<SqlValue> values = task_values(plan_, columns_, row.task);
-    values.insert(values.end(), row.values.begin(), row.values.end());
-    database_.run(insert_, values);
-  }
-  transaction.commit();
+  database_.transaction([&] {
+    for (const SweepRow& row : rows) {
+      std::vector<SqlValue> values = task_values(plan_, columns_, row.task);
+      values.insert(values.end(), row.values.begin(), row.values.end());
+      database_.run(insert_, values);
+    }
+  });
 }
 
 SweepReader::SweepReader(const std::filesystem::path& file)

@@ -8,25 +8,25 @@
 
 namespace microswarm {
 
-/// Where and when a sweep was begun: for people, and for logs that want it.
+/// Host and time of the start of a sweep, for reports and logs.
 struct SweepOrigin {
   std::string host;
   std::string begun;  ///< "2026-01-31 12:00:00", UTC
 };
 
-/// The database that a sweep writes: one row a trial, layout in docs/reference/sweep.md. While it
-/// is open no other process can open it so; anybody may read.
+/// The output database of a sweep: one row per trial, layout in docs/reference/sweep.md. Only one process
+/// can hold it open for writing; any number can read.
 class SweepDatabase {
  public:
-  /// Makes the database, or takes it where it was left. Throws InputError, one line: when another
-  /// sweep has it, when it cannot be written, when it is something else, and when it was begun with
-  /// another sweep file, scenario or map or by another version of the program.
+  /// Creates the database or resumes an existing one. Throws InputError, one line, when another
+  /// sweep has it open, when it is not writable, when it is not a sweep database, and when it was
+  /// begun with another sweep file, scenario, map or program version.
   SweepDatabase(const std::filesystem::path& file, const SweepPlan& plan,
                 const SweepOrigin& origin);
 
-  /// Trials that have no row yet, cell by cell.
+  /// Trials without a row, cell by cell.
   std::vector<SweepTask> missing() const;
-  /// Adds rows in one transaction; when it returns they are on the disk.
+  /// Adds rows in one transaction; they are on disk when it returns.
   void add(const std::vector<SweepRow>& rows);
 
  private:
@@ -35,35 +35,35 @@ class SweepDatabase {
 
   const SweepPlan& plan_;
   std::vector<SweepColumn> columns_;
-  WriterLock lock_;  // let go after the connection: closing any descriptor ends SQLite's own locks
+  // Released after the connection: closing any descriptor drops SQLite's own locks.
+  WriterLock lock_;
   Database database_;
   std::string insert_;
 };
 
-/// What the database of a sweep says, of a sweep that goes on too.
+/// Read access to the database of a sweep, also while the sweep runs.
 class SweepReader {
  public:
-  /// Throws InputError when it is no database of a sweep, or of a layout that this program does not
-  /// read.
+  /// Throws InputError when it is not a sweep database or has an unknown layout.
   explicit SweepReader(const std::filesystem::path& file);
 
   const std::string& name() const { return database_.name(); }
   const std::vector<SweepColumn>& columns() const { return columns_; }
-  /// Index of a column. Throws InputError when there is none of that name.
+  /// Index of a column. Throws InputError for an unknown name.
   std::size_t column(const std::string& name) const;
-  /// The sweep file as YAML, with every key written out.
+  /// The sweep file.
   const Sweep& sweep() const { return sweep_; }
   std::size_t cells() const;
   std::size_t trials() const;
-  /// A text kept about the sweep: version, host, begun, seed, ... Throws InputError for none.
+  /// Metadata of the sweep: version, host, begun, seed, ... Throws InputError for an unknown key.
   std::string about(const std::string& key) const;
-  /// The scenario of a cell as YAML, with every key written out.
+  /// The scenario of a cell as YAML, with every key.
   std::string scenario(std::size_t cell) const;
 
-  /// Every row in the order of cells and trials; with `cell` only those of one.
+  /// Calls `row` for every row, ordered by cell and trial; with `cell`, only for its rows.
   void each_row(const std::function<void(std::span<const SqlValue>)>& row,
                 std::optional<std::size_t> cell = std::nullopt) const;
-  /// The values of one column, in the same order.
+  /// Calls `value` for every value of one column, in the same order.
   void each_value(std::size_t column, const std::function<void(const SqlValue&)>& value) const;
 
  private:

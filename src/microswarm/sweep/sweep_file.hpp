@@ -11,7 +11,7 @@
 
 namespace microswarm {
 
-/// A key of the scenario and the values that it takes in turn, as they stand behind `--set KEY=`.
+/// A scenario key and the values it takes, written as for `--set KEY=`.
 struct SweepParameter {
   std::string key;
   std::vector<std::string> values;
@@ -22,7 +22,7 @@ struct SweepParameter {
   }
 };
 
-/// A name for settings that belong together: what is compared with what.
+/// A named group of settings; methods are compared with each other.
 struct SweepMethod {
   std::string name;
   std::vector<std::string> set;
@@ -33,7 +33,7 @@ struct SweepMethod {
   }
 };
 
-/// Many experiments as data: every combination of a grid's values, by every method, so many times.
+/// A sweep: every combination of grid values and methods, `trials` times each.
 struct Sweep {
   std::string name;
   std::string description;
@@ -57,12 +57,12 @@ struct Sweep {
   }
 };
 
-/// Most cells, and most trials in all, that a sweep may have.
+/// Limits on the cells and on the total number of trials of a sweep.
 inline constexpr std::size_t max_cells = 100'000;
 inline constexpr std::size_t max_trials = 10'000'000;
 
 /// Reads a sweep file. Without methods there is one, called "default". Throws InputError, one line,
-/// also for what contradicts itself: no values, a key, a value or a name given twice, too many.
+/// also for empty values, duplicate keys, values or names, and more cells or trials than allowed.
 Sweep read_sweep(const std::filesystem::path& file);
 
 /// The same from a text; `name` stands for the file in messages.

@@ -10,7 +10,7 @@
 
 namespace microswarm {
 
-/// What a column of the table of trials holds.
+/// Type of a column of the trials table.
 enum class SweepColumnKind { whole, real, text };
 constexpr auto enum_names(SweepColumnKind) {
   return std::array<std::pair<SweepColumnKind, std::string_view>, 3>{
@@ -19,13 +19,13 @@ constexpr auto enum_names(SweepColumnKind) {
        {SweepColumnKind::text, "TEXT"}}};
 }
 
-/// One column of the table of trials.
+/// One column of the trials table.
 struct SweepColumn {
   std::string name;  ///< letters, digits and underscores; ends with its unit
   SweepColumnKind kind = SweepColumnKind::real;
   std::string unit;  ///< as people read it
   std::string description;
-  /// What it is: of the cell, a metric, or a wall-clock time, which differs from run to run.
+  /// Role of the column; wall-clock times differ from run to run.
   enum class Role { key, parameter, result, metric, wall_clock } role = Role::result;
 };
 constexpr auto enum_names(SweepColumn::Role) {
@@ -37,19 +37,18 @@ constexpr auto enum_names(SweepColumn::Role) {
                                                            {Role::wall_clock, "wall_clock"}}};
 }
 
-/// All columns of a sweep's table, in their order: cell, trial, method, one for each parameter of
-/// the grid, what the trial came to, every metric, wall-clock times, the record's hash. Throws
-/// InputError when a parameter's column would bear the name of another.
+/// All columns of a sweep's table, in order: cell, trial, method, the grid parameters, results,
+/// metrics, wall-clock times, the record's hash. Throws InputError for duplicate column names.
 std::vector<SweepColumn> sweep_columns(const SweepPlan& plan);
 
-/// The first part of a row, up to the parameters.
+/// Values of a row's columns up to the grid parameters.
 std::vector<SqlValue> task_values(const SweepPlan& plan, const std::vector<SweepColumn>& columns,
                                   const SweepTask& task);
 
-/// The rest of it.
+/// Values of the remaining columns.
 std::vector<SqlValue> result_values(const TrialResult& trial);
 
-/// A trial that has run: which one, and its result_values.
+/// A finished trial and its `result_values`.
 struct SweepRow {
   SweepTask task;
   std::vector<SqlValue> values;

@@ -16,6 +16,11 @@ class Snapshot {
  public:
   explicit Snapshot(std::shared_ptr<const Map> map, double time = 0, std::vector<Body> moving = {});
 
+  /// The walls alone. The map is not copied and must outlive the snapshot.
+  static Snapshot of(const Map& map) {
+    return Snapshot(std::shared_ptr<const Map>(std::shared_ptr<void>(), &map));
+  }
+
   double time() const { return time_; }
   const Map& map() const { return *map_; }
   const std::shared_ptr<const Map>& shared_map() const { return map_; }

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "microswarm/core/lines.hpp"
+
 namespace microswarm {
 
 /// The rows of a text of numbers, blank lines and lines that start with '#' passed over.
@@ -22,17 +24,16 @@ class TextRows {
   /// The number that one piece of the row spells.
   double number(std::string_view piece, std::string_view what) const;
   /// Number of the line last given, from 1.
-  int line() const { return line_; }
+  int line() const { return lines_.number(); }
   /// Complains of a row that follows.
   void end();
   /// Throws InputError "NAME:LINE: WHY" at the row last given.
   [[noreturn]] void fail(const std::string& why) const;
 
  private:
-  std::string_view rest_;
+  Lines lines_;
   std::string_view row_;
   std::string name_;
-  int line_ = 0;
 };
 
 }  // namespace microswarm

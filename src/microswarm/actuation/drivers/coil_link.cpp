@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/actuation/drivers/coil_link.hpp"
 
+#include <boost/crc.hpp>
 #include <cstddef>
 
 namespace microswarm {
@@ -79,13 +80,9 @@ std::optional<CoilReply> reply_of(std::span<const std::uint8_t> p) {
 }  // namespace
 
 std::uint16_t crc16(std::span<const std::uint8_t> bytes) {
-  unsigned crc = 0xFFFF;
-  for (const std::uint8_t byte : bytes) {
-    crc ^= static_cast<unsigned>(byte) << 8;
-    for (int bit = 0; bit < 8; ++bit) crc = (crc & 0x8000) ? (crc << 1) ^ 0x1021 : crc << 1;
-    crc &= 0xFFFF;
-  }
-  return static_cast<std::uint16_t>(crc);
+  boost::crc_optimal<16, 0x1021, 0xFFFF> crc;
+  crc.process_bytes(bytes.data(), bytes.size());
+  return crc.checksum();
 }
 
 std::vector<std::uint8_t> encode(CoilMessage message, std::uint8_t sequence,

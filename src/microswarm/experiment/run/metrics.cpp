@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "microswarm/core/statistics.hpp"
+
 namespace microswarm {
 
 double avoidance_cost(Vec2 towards, double left, double heading, bool moves,
@@ -22,14 +24,11 @@ TimeSummary summarise(std::span<const double> seconds) {
   double sum = 0, squares = 0;
   for (double s : sorted) sum += s;
   for (double s : sorted) squares += (s - sum / n) * (s - sum / n);
-  const auto percentile = [&](double p) {
-    return sorted[static_cast<std::size_t>(std::max(1.0, std::ceil(p * n))) - 1];
-  };
   return {.count = static_cast<int>(sorted.size()),
           .mean = sum / n,
           .sd = sorted.size() > 1 ? std::sqrt(squares / (n - 1)) : 0,
-          .p50 = percentile(0.5),
-          .p99 = percentile(0.99),
+          .p50 = quantile(sorted, 0.5),
+          .p99 = quantile(sorted, 0.99),
           .max = sorted.back()};
 }
 

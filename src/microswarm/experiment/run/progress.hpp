@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "microswarm/experiment/run/run.hpp"
 
@@ -23,7 +24,7 @@ class ProgressListener : public RunListener {
   void on_tick(const Tick& tick) override;
 
  private:
-  double start_distance_ = -1;  // until the first frame
+  std::optional<double> start_distance_;  // from the first frame on
   double time_limit_;
   std::function<void(const RunProgress&)> report_;
   double period_;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "microswarm/core/error.hpp"
+#include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/planning/common/distance_field.hpp"
 
 namespace microswarm {
@@ -30,8 +31,7 @@ std::vector<Vec2> robot_starts(const Scenario& scenario, const Map& map, std::ui
   Rng rng(scenario.seed, Purpose::scene, trial);
   std::vector<Vec2> places;
   for (std::size_t draw = 0; draw < 100'000 + 1000 * count && places.size() < count; ++draw) {
-    const double x = rng.uniform(box.lo.x, box.hi.x);
-    const Vec2 p{x, rng.uniform(box.lo.y, box.hi.y)};
+    const Vec2 p = uniform_in(box, rng);
     if (field.reaches(p) && map.is_free(p, 4 * guard)) places.push_back(p);
   }
   if (places.size() < count)

@@ -78,8 +78,10 @@ struct Scenario {
   std::optional<double> detection_range;
   std::uint64_t seed = 1;
   /// Keys of earlier versions.
-  static constexpr std::array<MovedKey, 1> moved_keys{
-      {{"navigator.frame_timeout_s", "sensing.frame_timeout_s"}}};
+  static constexpr std::array<MovedKey, 3> moved_keys{
+      {{"navigator.frame_timeout_s", "sensing.frame_timeout_s"},
+       {"swarm.field_amplitude_mt", ""},
+       {"swarm.field_frequency_hz", ""}}};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.name, {"name", Unit::none, {}, "Name of the run."});

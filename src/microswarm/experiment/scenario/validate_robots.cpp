@@ -46,7 +46,7 @@ Issues validate_robot_positions(const Scenario& scenario, const Map& map) {
   const RobotSwarmParams& robots = *scenario.robots;
   std::vector<Vec2> goals = robots.goals;
   if (scenario.goal) {
-    const Snapshot world(std::shared_ptr<const Map>(std::shared_ptr<void>(), &map));
+    const Snapshot world = Snapshot::of(map);
     if (const auto why = world.blocked_reason(*scenario.goal, 0); !why.empty())
       issues.add("goal_um", fmt::format("goal {}", why));
     if (!issues.empty()) return issues;
@@ -59,7 +59,7 @@ Issues validate_robot_positions(const Scenario& scenario, const Map& map) {
 Issues validate_robot_paths(const Map& map, std::span<const Vec2> starts,
                             std::span<const Vec2> goals, double tolerance, double guard) {
   Issues issues;
-  const Snapshot world(std::shared_ptr<const Map>(std::shared_ptr<void>(), &map));
+  const Snapshot world = Snapshot::of(map);
   const auto is_free = [&](std::size_t robot, const char* what, Vec2 p, double radius) {
     const std::string why = world.blocked_reason(p, radius);
     if (!why.empty())

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/formats/images/image.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <opencv2/core.hpp>
@@ -10,7 +12,7 @@
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/file.hpp"
-#include "microswarm/formats/images/image_header.hpp"
+#include "microswarm/formats/images/codecs.hpp"
 #include "microswarm/formats/images/pnm.hpp"
 
 namespace microswarm {
@@ -18,44 +20,33 @@ namespace {
 
 constexpr std::uint64_t max_file_bytes = 512ULL << 20;
 
-/// Pixels as OpenCV decodes them, three channels or one, of 8 or 16 bits; empty when it cannot.
-cv::Mat decoded(std::string_view bytes) {
-  const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
-  try {
-    return cv::imdecode(raw, cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH);
-  } catch (const cv::Exception&) {
-    return {};
-  }
-}
-
-Image from_mat(cv::Mat mat, bool grey, int depth) {
-  if (mat.depth() == CV_16U) mat.convertTo(mat, CV_8U, 255.0 / ((1 << depth) - 1));
-  Image image{mat.cols, mat.rows, grey ? 1 : 3, {}};
-  image.pixels.resize(image.index(0, image.height));
-  cv::Mat out(image.height, image.width, grey ? CV_8UC1 : CV_8UC3, image.pixels.data());
-  if (mat.channels() == 3 && grey)
-    cv::extractChannel(mat, out, 0);  // the three are alike
-  else if (mat.channels() == 3)
-    cv::cvtColor(mat, out, cv::COLOR_BGR2RGB);
-  else if (grey)
-    mat.copyTo(out);
-  else
-    cv::cvtColor(mat, out, cv::COLOR_GRAY2RGB);
-  return image;
+bool is_pnm(std::span<const std::byte> bytes) {
+  return bytes.size() > 2 && bytes[0] == std::byte{'P'} && bytes[1] >= std::byte{'1'} &&
+         bytes[1] <= std::byte{'6'};
 }
 
 }  // namespace
 
+void check_image_size(std::int64_t width, std::int64_t height, std::string_view name,
+                      std::string_view unit) {
+  const auto refuse = [&](const std::string& limit) {
+    throw InputError(fmt::format("{}: {} × {} {}, {}", name, width, height, unit, limit));
+  };
+  if (width < 1 || height < 1) refuse("at least 1 × 1");
+  if (width > max_image_side || height > max_image_side)
+    refuse(fmt::format("at most {} a side", max_image_side));
+  if (width * height > max_image_pixels)
+    refuse(fmt::format("at most {} million", max_image_pixels / 1'000'000));
+}
+
 Image decode_image(std::span<const std::byte> bytes, std::string_view name, int depth) {
-  const ImageHeader header = check_image(bytes, name);
-  if (header.kind == ImageKind::pnm) return decode_pnm(bytes, name);
-  cv::Mat mat = header.kind == ImageKind::png
-                    ? decoded(pixel_chunks(bytes))
-                    : decoded({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  if (mat.empty() || (mat.depth() != CV_8U && mat.depth() != CV_16U) ||
-      (mat.channels() != 1 && mat.channels() != 3))
-    throw InputError(std::string(name) + ": damaged image: its pixels cannot be decoded");
-  return from_mat(std::move(mat), header.grey, depth);
+  if (is_pnm(bytes)) return decode_pnm(bytes, name);
+  const cv::Mat pixels = decode_pixels(bytes, name);
+  Image image{pixels.cols, pixels.rows, pixels.channels(), {}};
+  image.pixels.resize(image.index(0, image.height));
+  cv::Mat out(image.height, image.width, CV_8UC(image.channels), image.pixels.data());
+  pixels.convertTo(out, CV_8U, pixels.depth() == CV_16U ? 255.0 / ((1 << depth) - 1) : 1.0);
+  return image;
 }
 
 Image read_image(const std::filesystem::path& path, int depth) {
@@ -66,8 +57,8 @@ Image read_image(const std::filesystem::path& path, int depth) {
 std::optional<int> sample_depth(const std::filesystem::path& path) {
   const std::string bytes = read_file(path, max_file_bytes);
   const auto raw = std::as_bytes(std::span(bytes.data(), bytes.size()));
-  if (check_image(raw, path.string()).kind != ImageKind::png) return std::nullopt;
-  const cv::Mat mat = decoded(pixel_chunks(raw));
+  if (!is_png(raw)) return std::nullopt;
+  const cv::Mat mat = decode_pixels(raw, path.string());
   if (mat.depth() != CV_16U) return std::nullopt;
   double largest = 0;
   cv::minMaxIdx(mat.reshape(1), nullptr, &largest);

@@ -29,6 +29,11 @@ struct Image {
 inline constexpr int max_image_side = 16384;
 inline constexpr std::int64_t max_image_pixels = 64'000'000;
 
+/// Throws InputError "NAME: 20000 × 20000 pixels, at most …" when a side is 0 or above these
+/// limits; maps in cells keep them too.
+void check_image_size(std::int64_t width, std::int64_t height, std::string_view name,
+                      std::string_view unit = "pixels");
+
 /// Reads PNG, JPEG, BMP, PGM, PPM or PBM: 16-bit samples are scaled to 8 bits, those of PNG as
 /// numbers of `depth` bits (8 to 16; what is larger becomes white), palettes and 1-bit
 /// pictures expanded, transparency dropped. The structure is checked before anything is decoded;
@@ -40,7 +45,7 @@ Image read_image(const std::filesystem::path& path, int depth = 16);
 Image decode_image(std::span<const std::byte> bytes, std::string_view name, int depth = 16);
 
 /// Bits, 8 to 16, that the largest sample of a PNG with 16-bit samples needs; nothing for another
-/// picture. Throws as `read_image`.
+/// picture or file. Throws as `read_image` for a damaged PNG.
 std::optional<int> sample_depth(const std::filesystem::path& path);
 
 /// What a camera wrote: samples of a PNG with 16 bits are numbers of as many bits as the largest of

@@ -2,7 +2,7 @@
 #include "microswarm/formats/images/pnm.hpp"
 
 #include "microswarm/core/error.hpp"
-#include "microswarm/formats/images/image_header.hpp"
+#include "microswarm/formats/images/image.hpp"
 
 namespace microswarm {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/text.hpp"
-#include "microswarm/formats/images/image_header.hpp"
+#include "microswarm/formats/images/image.hpp"
 
 namespace microswarm {
 namespace {

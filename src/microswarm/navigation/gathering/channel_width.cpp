@@ -2,6 +2,7 @@
 #include "microswarm/navigation/gathering/channel_width.hpp"
 
 #include "microswarm/core/error.hpp"
+#include "microswarm/geometry/uniform_in.hpp"
 
 namespace microswarm {
 
@@ -11,8 +12,7 @@ double channel_width(const Map& map, Rng& rng) {
   double sum = 0;
   int count = 0;
   for (int i = 0; i < 1000 * samples && count < samples; ++i) {
-    const double x = rng.uniform(box.lo.x, box.hi.x);
-    const double clearance = map.clearance({x, rng.uniform(box.lo.y, box.hi.y)});
+    const double clearance = map.clearance(uniform_in(box, rng));
     if (clearance <= 0) continue;
     sum += clearance;
     ++count;

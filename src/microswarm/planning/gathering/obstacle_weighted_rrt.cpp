@@ -6,8 +6,10 @@
 #include <queue>
 #include <utility>
 
+#include "microswarm/core/heap_entry.hpp"
 #include "microswarm/core/infinity.hpp"
 #include "microswarm/core/maths.hpp"
+#include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/planning/gathering/tree_cover.hpp"
 
 namespace microswarm {
@@ -18,13 +20,7 @@ constexpr int halvings = 20;
 
 using Tree = ObstacleWeightedRrt;
 
-struct Entry {
-  double key;
-  std::uint32_t node;
-  friend bool operator<(const Entry& a, const Entry& b) {
-    return a.key != b.key ? a.key > b.key : a.node > b.node;
-  }
-};
+using Entry = HeapEntry<double>;
 
 Vec2 contact(const Map& map, Segment s) {
   double free = 0;
@@ -36,12 +32,6 @@ Vec2 contact(const Map& map, Segment s) {
   return s.a + free * (s.b - s.a);
 }
 
-std::optional<Status> reason_to_stop(const Stop& stop) {
-  if (stop.requested()) return Status::stopped;
-  if (stop.expired()) return Status::time_limit;
-  return std::nullopt;
-}
-
 /// Alg 1 [gather]. Extensions have full length, also beyond the sample.
 Status grow(const Map& map, const ObstacleWeightedRrtParams& params, Rng& rng, const Stop& stop,
             PointGrid& grid, Tree& tree) {
@@ -50,10 +40,9 @@ Status grow(const Map& map, const ObstacleWeightedRrtParams& params, Rng& rng, c
   for (int i = 0; tree.nodes.size() < static_cast<std::size_t>(params.nodes); ++i) {
     if (i == params.max_iterations) return Status::node_limit;
     if (i % 256 == 0) {
-      if (const auto reason = reason_to_stop(stop)) return *reason;
+      if (const auto reason = stop.status()) return *reason;
     }
-    const double x = rng.uniform(bounds.lo.x, bounds.hi.x);
-    const Vec2 sample{x, rng.uniform(bounds.lo.y, bounds.hi.y)};
+    const Vec2 sample = uniform_in(bounds, rng);
     const bool thins_out = params.wall_samples < 1 && !map.is_free(sample, 0);
     if (thins_out && rng.uniform() >= params.wall_samples) continue;
     const std::uint32_t near = grid.nearest(sample);
@@ -254,9 +243,9 @@ class Router {
     while (!open.empty()) {
       const Entry top = open.top();
       open.pop();
-      if (top.key > routes().cost[top.node]) continue;
+      if (top.cost > routes().cost[top.node]) continue;
       for_neighbours(top.node, [&](std::uint32_t v) {
-        if (!admits(v) || edge(v, top.node) + top.key >= routes().cost[v]) return;
+        if (!admits(v) || edge(v, top.node) + top.cost >= routes().cost[v]) return;
         if (!sees(v, top.node)) return;
         set_next(v, top.node);
         open.push({routes().cost[v], v});
@@ -304,13 +293,13 @@ std::optional<Status> route(const Map& map, const ObstacleWeightedRrtParams& par
   Router router(map, params, grid, tree);
   router.choose_medial(params.zeta);
   router.add_narrow(params.narrow_share);
-  if (const auto reason = reason_to_stop(stop)) return reason;
+  if (const auto reason = stop.status()) return reason;
   router.join_medial(params.zeta);
-  if (const auto reason = reason_to_stop(stop)) return reason;
+  if (const auto reason = stop.status()) return reason;
   router.route_medial();
-  if (const auto reason = reason_to_stop(stop)) return reason;
+  if (const auto reason = stop.status()) return reason;
   router.connect_rest();
-  if (const auto reason = reason_to_stop(stop)) return reason;
+  if (const auto reason = stop.status()) return reason;
   router.route_rest();
   return std::nullopt;
 }

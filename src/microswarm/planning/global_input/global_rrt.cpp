@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "microswarm/geometry/bucket_kd_tree.hpp"
+#include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/planning/common/free_goal.hpp"
 #include "microswarm/planning/global_input/global_separation.hpp"
 
@@ -56,10 +57,11 @@ class Growth {
     grown_.tree.reserve(std::min(max_nodes, max_reserved));
     for (; grown_.tree.size() < max_nodes && iteration < max_iterations; ++iteration) {
       if (params_.stop_at_first && answer.status == Status::solved) break;
-      if (iteration % asks_every == 0 && stop()) {
-        if (answer.status != Status::solved)
-          answer.status = stop.requested() ? Status::stopped : Status::time_limit;
-        break;
+      if (iteration % asks_every == 0) {
+        if (const auto told = stop.status()) {
+          if (answer.status != Status::solved) answer.status = *told;
+          break;
+        }
       }
       const std::optional<GrownPlaces> sample = sample_free();
       if (!sample) continue;
@@ -93,8 +95,7 @@ class Growth {
       Vec2 p;
       do {
         if (++draws > max_place_draws) return std::nullopt;
-        p.x = rng_.uniform(bounds.lo.x, bounds.hi.x);
-        p.y = rng_.uniform(bounds.lo.y, bounds.hi.y);
+        p = uniform_in(bounds, rng_);
       } while (!map_.is_free(p, 0));
       put(c, i, stepper_.relative(p));
     }
@@ -190,7 +191,7 @@ std::optional<Status> robots_fault(const Map& map, std::span<const Vec2> starts,
   for (const Vec2 p : starts)
     if (!is_finite(p) || !map.is_free(p, guard)) return Status::start_blocked;
   if (min_distance(starts) < separation) return Status::start_blocked;
-  const Snapshot world(std::shared_ptr<const Map>(std::shared_ptr<void>(), &map));
+  const Snapshot world = Snapshot::of(map);
   for (const Vec2 p : goals)
     if (!free_goal(world, p, tolerance, 0)) return Status::goal_blocked;
   if (min_distance(goals) + 2 * tolerance < separation) return Status::goal_blocked;

@@ -9,6 +9,7 @@
 #include <unordered_set>
 
 #include "microswarm/core/error.hpp"
+#include "microswarm/core/heap_entry.hpp"
 #include "microswarm/planning/common/distance_field.hpp"
 #include "microswarm/planning/global_input/global_rrt.hpp"
 #include "microswarm/planning/global_input/global_separation.hpp"
@@ -36,14 +37,6 @@ struct Held {
 struct Node {
   std::uint32_t parent = 0;
   Held held;
-};
-
-struct OpenNode {
-  float cost;
-  std::uint32_t node;
-  friend bool operator<(OpenNode a, OpenNode b) {
-    return a.cost != b.cost ? a.cost > b.cost : a.node > b.node;
-  }
 };
 
 /// What all rounds share.
@@ -239,7 +232,7 @@ class Round {
   std::vector<Node> nodes_;
   std::vector<PointF> places_;  // n a node
   std::unordered_set<std::uint64_t> seen_;
-  std::priority_queue<OpenNode> open_;
+  std::priority_queue<HeapEntry<float>> open_;
   std::uint32_t best_ = 0;
   double worst_ = std::numeric_limits<double>::infinity();
 };
@@ -323,8 +316,7 @@ GlobalSearch global_search(const Map& map, std::span<const Vec2> starts,
   }
   found.plan.status = Status::node_limit;
   if (end == Round::End::solved) found.plan.status = Status::solved;
-  if (end == Round::End::told)
-    found.plan.status = stop.requested() ? Status::stopped : Status::time_limit;
+  if (end == Round::End::told) found.plan.status = stop.status().value_or(Status::time_limit);
   return found;
 }
 

@@ -122,9 +122,8 @@ class Search {
       open_.pop();
       Cell& cell = grid_[place];
       if (cell.mark == Mark::closed) continue;
-      if (counts_.iterations % 64 == 0 && stop()) {
-        return finish(stop.requested() ? Status::stopped : Status::time_limit, best);
-      }
+      if (counts_.iterations % 64 == 0)
+        if (const auto told = stop.status()) return finish(*told, best);
       if (counts_.iterations >= static_cast<std::uint64_t>(params_.max_nodes)) {
         return finish(Status::node_limit, best);
       }

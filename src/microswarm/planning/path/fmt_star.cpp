@@ -7,8 +7,10 @@
 #include <string>
 
 #include "microswarm/core/angles.hpp"
+#include "microswarm/core/heap_entry.hpp"
 #include "microswarm/core/infinity.hpp"
 #include "microswarm/core/maths.hpp"
+#include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/planning/common/free_goal.hpp"
 #include "microswarm/planning/path/sample_buckets.hpp"
 
@@ -18,15 +20,6 @@ namespace {
 constexpr std::uint64_t draws_per_sample = 200;  // at most, in the mean
 constexpr std::uint64_t between_stops = 64;
 constexpr double min_radius = 1e-3;  // [µm], in a space that has no area
-
-/// A sample that the tree has reached and still grows from.
-struct OpenSample {
-  double cost;
-  std::uint32_t node;
-  friend bool operator<(const OpenSample& a, const OpenSample& b) {
-    return a.cost != b.cost ? a.cost > b.cost : a.node > b.node;  // cheapest first
-  }
-};
 
 constexpr std::uint32_t blocked_flag = 1u << 31;
 
@@ -64,8 +57,8 @@ class FmtStar {
   };
 
   bool told_to_stop(std::uint64_t count) {
-    if (count % between_stops == 0 && stop_())
-      ended_ = stop_.requested() ? Status::stopped : Status::time_limit;
+    if (count % between_stops == 0)
+      if (const auto told = stop_.status()) ended_ = told;
     return ended_.has_value();
   }
   void draw(std::size_t count);
@@ -93,7 +86,7 @@ class FmtStar {
   std::vector<std::uint32_t> nodes_;  ///< of the tree, of each sample that is visited
   std::vector<Run> runs_;             ///< of each sample
   std::vector<std::uint32_t> neighbours_;  ///< with the mark `blocked` on edges that are not free
-  std::vector<OpenSample> open_;           ///< a heap
+  std::vector<HeapEntry<double>> open_;    ///< samples the tree grows from, a heap
   std::vector<std::uint32_t> joined_;      ///< V_open,new
   std::vector<TreeNode> tree_;
   std::vector<std::uint32_t> samples_of_;  ///< sample of each node
@@ -105,8 +98,7 @@ void FmtStar::draw(std::size_t count) {
   while (samples_.size() < count + 2 && counts_.samples < most) {
     if (told_to_stop(counts_.samples)) return;
     ++counts_.samples;
-    const double x = rng_.uniform(sampled_.lo.x, sampled_.hi.x);
-    const Vec2 p{x, rng_.uniform(sampled_.lo.y, sampled_.hi.y)};
+    const Vec2 p = uniform_in(sampled_, rng_);
     if (world_.is_free(p, params_.clearance)) samples_.push_back(p);
   }
   const double hits = static_cast<double>(samples_.size() - 1);

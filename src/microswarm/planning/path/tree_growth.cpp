@@ -6,6 +6,7 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/maths.hpp"
+#include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/planning/common/free_goal.hpp"
 #include "microswarm/planning/path/turn_edge.hpp"
 
@@ -48,9 +49,7 @@ std::optional<Status> TreeGrowth::reason_to_end() const {
       counts_.iterations >= static_cast<std::uint64_t>(params_.max_iterations)) {
     return Status::node_limit;
   }
-  if (stop_.requested()) return Status::stopped;
-  if (stop_.expired()) return Status::time_limit;
-  return std::nullopt;
+  return stop_.status();
 }
 
 bool TreeGrowth::goes_on() {
@@ -62,8 +61,7 @@ bool TreeGrowth::goes_on() {
 
 std::optional<Vec2> TreeGrowth::draw(const Box& box, double max_from_goal) {
   for (int i = 0; i < max_sample_draws; ++i) {
-    const double x = rng_.uniform(box.lo.x, box.hi.x);
-    const Vec2 p{x, rng_.uniform(box.lo.y, box.hi.y)};
+    const Vec2 p = uniform_in(box, rng_);
     if (distance(p, goal_) <= max_from_goal && world_.is_free(p, params_.clearance)) return p;
   }
   return std::nullopt;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "microswarm/core/heap_entry.hpp"
 #include "microswarm/planning/path/rrt_star.hpp"
 #include "microswarm/planning/path/search_tree.hpp"
 
@@ -47,13 +48,6 @@ class TreeGrowth {
   Plan finish();
 
  private:
-  struct Candidate {
-    double cost;
-    std::uint32_t node;
-    friend bool operator<(const Candidate& a, const Candidate& b) {
-      return a.cost != b.cost ? a.cost > b.cost : a.node > b.node;
-    }
-  };
   bool solved() const { return !arrived_.empty(); }
   std::optional<Status> reason_to_end() const;
   std::optional<Vec2> draw(const Box& box, double max_from_goal);
@@ -72,7 +66,7 @@ class TreeGrowth {
   std::optional<Status> ended_;
   std::vector<std::uint32_t> arrived_;  ///< nodes within the goal tolerance
   std::vector<std::uint32_t> near_;
-  std::vector<Candidate> candidates_;
+  std::vector<HeapEntry<double>> candidates_;
 };
 
 /// The point `step` on the way from `from` to `to`, or `to` when it is nearer.

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "microswarm/core/statistics.hpp"
+#include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/reproduce/figures.hpp"
 
 namespace microswarm::reproduce {
@@ -30,9 +31,9 @@ Robots gather_robots(const scenes::Vascular& scene, const AggregationMap& map,
   std::vector<Vec2> places;
   const Box& box = scene.bounds;
   while (std::ssize(places) < count) {
-    const double x = rng.uniform(box.lo.x, box.hi.x);
-    const Vec2 p{x, rng.uniform(box.lo.y, box.hi.y)};
-    if (map.map.is_free(p, 4 * stepper.guard()) && map.tree.cost(map.tree.weighted, p) >= min_cost)
+    const Vec2 p = uniform_in(box, rng);
+    if (map.map.is_free(p, 4 * stepper.guard()) &&
+        map.tree.cost(map.tree.weighted, p) >= min_cost)
       places.push_back(p);
   }
   return stepper.place(places);

@@ -92,10 +92,8 @@ void RobotPerception::pair(double reach) {
       if (d <= reach * reach) edges_.push_back({static_cast<int>(r), *at, d});
     }
   }
-  const auto& spot_of = assignment_.solve(static_cast<int>(robots.size()),
-                                          static_cast<int>(spots_.size()), edges_, reach * reach);
-  spot_of_.clear();
-  for (const std::optional<int>& spot : spot_of) spot_of_.push_back(spot.value_or(-1));
+  spot_of_ = assignment_.solve(static_cast<int>(robots.size()), static_cast<int>(spots_.size()),
+                               edges_, reach * reach);
 }
 
 void RobotPerception::place_the_unseen() {
@@ -103,11 +101,11 @@ void RobotPerception::place_the_unseen() {
   std::vector<bool> taken(spots_.size());
   std::vector<std::size_t> unseen;
   for (std::size_t r = 0; r < robots.size(); ++r) {
-    if (spot_of_[r] < 0) {
+    if (!spot_of_[r]) {
       unseen.push_back(r);
       continue;
     }
-    const auto spot = static_cast<std::size_t>(spot_of_[r]);
+    const auto spot = static_cast<std::size_t>(*spot_of_[r]);
     robots[r] = spots_[spot];
     taken[spot] = true;
   }

@@ -50,7 +50,7 @@ class RobotPerception : public Perception {
   std::vector<Vec2> spots_;  // of the newest picture [µm]
   Assignment assignment_;
   std::vector<AssignmentEdge> edges_;
-  std::vector<int> spot_of_;  // of each robot; -1: none of its own
+  std::vector<std::optional<int>> spot_of_;  // of each robot, if it has one
   Detections detections_;
 };
 

@@ -31,15 +31,6 @@ double pitch_of(const VortexParams& params, const Command& command) {
   return params.max_pitch * std::clamp(command.speed / params.max_speed, 0.0, 1.0);
 }
 
-std::array<double, 3> rotating_field(const VortexParams& params, const Command& command, double t) {
-  const auto [up, level] = maths::sincos(pitch_of(params, command));
-  const auto [across, along] = maths::sincos(2 * pi * params.field_frequency * t);
-  const Vec2 ahead = unit_vector(command.heading);
-  return {params.field_amplitude * (-level * ahead.x * along - ahead.y * across),
-          params.field_amplitude * (-level * ahead.y * along + ahead.x * across),
-          params.field_amplitude * up * along};
-}
-
 Vortex::Vortex(const VortexParams& params, Pose2 start)
     : params_(params), pose_(start), radius_(params.radius), commands_(params.response_lag) {}
 

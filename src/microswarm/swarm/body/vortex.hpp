@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -21,10 +20,6 @@ double min_radius(const VortexParams& params);
 
 /// The pitch φ [rad] that a command asks for, at most max_pitch: Eq 2 [radar].
 double pitch_of(const VortexParams& params, const Command& command);
-
-/// The rotating field [mT] at time t [s] under a command: Eq 1 [radar]. x and y lie in the plane of
-/// the swarm, z stands on it.
-std::array<double, 3> rotating_field(const VortexParams& params, const Command& command, double t);
 
 /// The moving part of the model. Before the first command takes effect it holds.
 class Vortex {

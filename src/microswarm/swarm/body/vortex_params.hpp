@@ -22,8 +22,6 @@ struct VortexParams {
   double max_pitch = radians(5);
   double response_lag = 0.1;
   double position_noise = 0;
-  double field_amplitude = 8;
-  double field_frequency = 16;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.radius, {"radius", Unit::um, {1e-3, 1e5}, "Radius of the swarm at rest."});
@@ -41,9 +39,6 @@ struct VortexParams {
           {"response_lag", Unit::s, {0, 10}, "Dead time from a command to its effect."});
     visit(self.position_noise,
           {"position_noise", Unit::um, {0, 1e4}, "Random drift, standard deviation after 1 s."});
-    visit(self.field_amplitude, {"field_amplitude", Unit::mt, {0, 1e3}, "Amplitude of the field."});
-    visit(self.field_frequency,
-          {"field_frequency", Unit::hz, {1e-3, 1e4}, "Turns of the field in a second."});
   }
 };
 

@@ -45,9 +45,24 @@ cv::Mat largest_piece(const cv::Mat& set) {
   return pieces.labels == static_cast<int>(largest - pieces.areas.begin());
 }
 
+std::vector<float> values_in(const cv::Mat& values, const cv::Mat& set) {
+  std::vector<float> list;
+  for (int y = 0; y < values.rows; ++y)
+    for (int x = 0; x < values.cols; ++x)
+      if (set.at<std::uint8_t>(y, x)) list.push_back(values.at<float>(y, x));
+  return list;
+}
+
 int count_pieces(const cv::Mat& set) {
   cv::Mat labels;
   return cv::connectedComponents(set, labels, 8, CV_32S) - 1;
+}
+
+cv::Mat highest_around(const cv::Mat& values, int side) {
+  cv::Mat highest;
+  cv::dilate(values, highest, cv::getStructuringElement(cv::MORPH_RECT, {side, side}),
+             {(side - 1) / 2, (side - 1) / 2}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
+  return highest;
 }
 
 cv::Mat without_small_pieces(const cv::Mat& set, double min_area) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <vector>
 
 namespace microswarm {
 
@@ -10,6 +11,9 @@ namespace microswarm {
 
 /// The piece with the most pixels, the first in reading order among equals.
 cv::Mat largest_piece(const cv::Mat& set);
+
+/// The values, of floats, where the set is, in reading order.
+std::vector<float> values_in(const cv::Mat& values, const cv::Mat& set);
 
 /// Number of pieces.
 int count_pieces(const cv::Mat& set);
@@ -28,6 +32,10 @@ cv::Mat opened(const cv::Mat& set, double diameter);
 
 /// The set grown by all pixels within `radius`.
 cv::Mat grown(const cv::Mat& set, double radius);
+
+/// The highest value in the square around each pixel: `side` pixels wide, of which (side − 1) / 2
+/// lie left of it and above it; beyond the border is 0.
+cv::Mat highest_around(const cv::Mat& values, int side);
 
 /// Where two pixels hold together by a corner alone, one of the other two is set too, so that what
 /// moves in the set need not squeeze through a point.

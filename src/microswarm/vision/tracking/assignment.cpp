@@ -8,7 +8,6 @@
 #include "microswarm/core/infinity.hpp"
 
 namespace microswarm {
-namespace {}  // namespace
 
 const std::vector<std::optional<int>>& Assignment::solve(int rows, int columns,
                                                          const std::vector<AssignmentEdge>& edges,

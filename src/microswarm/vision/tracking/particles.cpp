@@ -14,6 +14,7 @@
 #include "microswarm/core/error.hpp"
 #include "microswarm/core/maths.hpp"
 #include "microswarm/core/text.hpp"
+#include "microswarm/vision/image/mask_ops.hpp"
 #include "microswarm/vision/tracking/ring_fit.hpp"
 
 namespace microswarm {
@@ -65,8 +66,7 @@ ParticleFinder::ParticleFinder(const ParticleParams& params)
     : params_(params),
       radius_(odd(params.diameter) / 2),
       separation_(params.separation > 0 ? params.separation : odd(params.diameter) + 1),
-      band_pass_(band_of(params)),
-      surroundings_(square_in(separation_)) {
+      band_pass_(band_of(params)) {
   for (int dy = -radius_; dy <= radius_; ++dy)
     for (int dx = -radius_; dx <= radius_; ++dx) {
       if (dx * dx + dy * dy > radius_ * radius_) continue;
@@ -116,10 +116,11 @@ void ParticleFinder::find_peaks() {
   constexpr int stretch = 64;  // of a row, looked at as one
   const auto threshold = static_cast<std::uint8_t>(peak_threshold());
   const int margin = std::max(radius_, separation_ / 2 - 1);
-  surroundings_.run(bytes_, width_, height_, highest_);
+  const cv::Mat around =
+      highest_around(cv::Mat(height_, width_, CV_8U, bytes_.data()), square_in(separation_));
   for (int row = margin; row < height_ - margin; ++row) {
     const std::uint8_t* values = bytes_.data() + static_cast<std::size_t>(row) * width_;
-    const std::uint8_t* highest = highest_.data() + static_cast<std::size_t>(row) * width_;
+    const std::uint8_t* highest = around.ptr<std::uint8_t>(row);
     for (int from = margin; from < width_ - margin; from += stretch) {
       const int to = std::min(from + stretch, width_ - margin);
       if (!has_peak(values + from, highest + from, threshold, to - from)) continue;

@@ -11,7 +11,6 @@
 #include "microswarm/core/fields.hpp"
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/geometry/vec2.hpp"
-#include "microswarm/vision/image/running_max.hpp"
 #include "microswarm/vision/tracking/band_pass.hpp"
 
 namespace microswarm {
@@ -128,13 +127,11 @@ class ParticleFinder {
   int radius_;
   int separation_;
   BandPass band_pass_;
-  RunningMax surroundings_;
   std::vector<MaskPixel> mask_;
   int width_ = 0;
   int height_ = 0;
   double greys_per_byte_ = 0;
-  std::vector<std::uint8_t> bytes_;    ///< the filtered picture, its highest at 255
-  std::vector<std::uint8_t> highest_;  ///< in the square around each pixel
+  std::vector<std::uint8_t> bytes_;  ///< the filtered picture, its highest at 255
   std::vector<Peak> peaks_;
   std::vector<Particle> particles_;
 };

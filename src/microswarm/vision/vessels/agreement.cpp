@@ -35,11 +35,6 @@ std::optional<double> Agreement::dice() const {
   return share(2 * true_positive, 2 * true_positive + false_positive + false_negative);
 }
 
-std::optional<double> Agreement::accuracy() const {
-  return share(true_positive + true_negative,
-               true_positive + true_negative + false_positive + false_negative);
-}
-
 Agreement compare(const Mask& truth, const Mask& test, const Mask* view) {
   require_same_size(truth, test);
   if (view) require_same_size(truth, *view);

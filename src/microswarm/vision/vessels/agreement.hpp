@@ -21,8 +21,6 @@ struct Agreement {
   std::optional<double> specificity() const;
   /// Twice the common area over the sum of both areas; nothing when both are empty.
   std::optional<double> dice() const;
-  /// Share of all pixels that agree; nothing when there is none.
-  std::optional<double> accuracy() const;
 };
 
 /// Compares `test` with `truth` where `view` is set, everywhere without it. Throws InputError when

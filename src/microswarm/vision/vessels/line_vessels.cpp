@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "microswarm/core/statistics.hpp"
 #include "microswarm/vision/image/blur.hpp"
 #include "microswarm/vision/image/logs.hpp"
 #include "microswarm/vision/image/mask_ops.hpp"
@@ -105,14 +106,10 @@ Working at_scale(const cv::Mat& grey, const cv::Mat& view, double scale, double 
 
 /// Quantile of the values where `where` is set; 0 where nothing is.
 double quantile(const cv::Mat& values, const cv::Mat& where, double q) {
-  std::vector<float> list;
-  for (int y = 0; y < values.rows; ++y)
-    for (int x = 0; x < values.cols; ++x)
-      if (where.at<std::uint8_t>(y, x)) list.push_back(values.at<float>(y, x));
+  std::vector<float> list = values_in(values, where);
   if (list.empty()) return 0;
-  const auto nth = list.begin() + std::lround(q * static_cast<double>(list.size() - 1));
-  std::nth_element(list.begin(), nth, list.end());
-  return *nth;
+  const double last = static_cast<double>(list.size() - 1);
+  return ranked(std::move(list), static_cast<std::size_t>(std::lround(q * last)));
 }
 
 /// Hysteresis on the line score, then walls where the picture has them.

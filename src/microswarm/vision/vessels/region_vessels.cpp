@@ -5,6 +5,7 @@
 #include <array>
 #include <opencv2/imgproc.hpp>
 
+#include "microswarm/core/statistics.hpp"
 #include "microswarm/vision/image/mask_ops.hpp"
 
 namespace microswarm {
@@ -28,17 +29,10 @@ double largest_share(const cv::Mat& set) {
 }
 
 double wide_width_of(const cv::Mat& set) {
-  const cv::Mat depth = depth_in(set);
-  std::vector<float> depths;
-  for (int y = 0; y < set.rows; ++y)
-    for (int x = 0; x < set.cols; ++x)
-      if (set.at<std::uint8_t>(y, x)) depths.push_back(depth.at<float>(y, x));
+  std::vector<float> depths = values_in(depth_in(set), set);
   if (depths.empty()) return 0;
-  const auto nth =
-      depths.begin() +
-      static_cast<std::ptrdiff_t>(wide_region_quantile * static_cast<double>(depths.size() - 1));
-  std::nth_element(depths.begin(), nth, depths.end());
-  return 2 * *nth;
+  const double last = static_cast<double>(depths.size() - 1);
+  return 2 * ranked(std::move(depths), static_cast<std::size_t>(wide_region_quantile * last));
 }
 
 }  // namespace

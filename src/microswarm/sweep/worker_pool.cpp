@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/sweep/crew.hpp"
+#include "microswarm/sweep/worker_pool.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -24,7 +24,7 @@ TrialResult run_task(const SweepPlan& plan, const SweepTask& task, const Stop& s
   return trial;
 }
 
-SweepCrew::SweepCrew(const SweepPlan& plan, int jobs)
+WorkerPool::WorkerPool(const SweepPlan& plan, int jobs)
     : plan_(plan),
       jobs_(jobs > 0 ? jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))),
       enough_(2 * static_cast<std::size_t>(jobs_)),
@@ -32,7 +32,7 @@ SweepCrew::SweepCrew(const SweepPlan& plan, int jobs)
         for_each_index(static_cast<std::size_t>(jobs_), jobs_, [this](std::size_t) { work(); });
       }) {}
 
-SweepCrew::~SweepCrew() {
+WorkerPool::~WorkerPool() {
   {
     const std::lock_guard lock(mutex_);
     halt_ = true;
@@ -40,7 +40,7 @@ SweepCrew::~SweepCrew() {
   given_.notify_all();
 }
 
-void SweepCrew::give(std::span<const SweepTask> tasks) {
+void WorkerPool::give(std::span<const SweepTask> tasks) {
   {
     const std::lock_guard lock(mutex_);
     tasks_.insert(tasks_.end(), tasks.begin(), tasks.end());
@@ -49,9 +49,9 @@ void SweepCrew::give(std::span<const SweepTask> tasks) {
   given_.notify_all();
 }
 
-std::vector<SweepRow> SweepCrew::take(std::chrono::milliseconds patience) {
+std::vector<SweepRow> WorkerPool::take(std::chrono::milliseconds poll_timeout) {
   std::unique_lock lock(mutex_);
-  ended_.wait_for(lock, patience, [this] { return !rows_.empty() || thrown_; });
+  ended_.wait_for(lock, poll_timeout, [this] { return !rows_.empty() || thrown_; });
   if (thrown_) std::rethrow_exception(thrown_);
   std::vector<SweepRow> rows = std::exchange(rows_, {});
   const auto jobs = static_cast<std::size_t>(jobs_);
@@ -61,7 +61,7 @@ std::vector<SweepRow> SweepCrew::take(std::chrono::milliseconds patience) {
   return rows;
 }
 
-void SweepCrew::work() {
+void WorkerPool::work() {
   std::unique_lock lock(mutex_);
   while (true) {
     given_.wait(lock, [this] { return halt_ || !tasks_.empty(); });

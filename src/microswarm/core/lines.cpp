@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/formats/lines.hpp"
+#include "microswarm/core/lines.hpp"
 
 #include <algorithm>
 

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/formats/images/codecs.hpp"
+
+#include <spng.h>
+#include <turbojpeg.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <vector>
+
+#include "microswarm/core/error.hpp"
+#include "microswarm/formats/images/image.hpp"
+
+namespace microswarm {
+namespace {
+
+using Bytes = std::span<const std::byte>;
+
+[[noreturn]] void fail_image(std::string_view name, const std::string& why) {
+  throw InputError(std::string(name) + ": " + why);
+}
+
+bool starts_with(Bytes bytes, std::string_view text) {
+  return bytes.size() >= text.size() &&
+         std::equal(text.begin(), text.end(), bytes.begin(),
+                    [](char c, std::byte b) { return static_cast<std::byte>(c) == b; });
+}
+
+// --- PNG -----------------------------------------------------------------------------------------
+
+constexpr std::size_t max_chunk_bytes = 64 << 20;  // of a text or profile, also when inflated
+
+cv::Mat decode_png(Bytes bytes, std::string_view name) {
+  const std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> png(spng_ctx_new(0), spng_ctx_free);
+  const auto check = [&](int code) {
+    if (code) fail_image(name, std::string("damaged PNG: ") + spng_strerror(code));
+  };
+  check(spng_set_crc_action(png.get(), SPNG_CRC_ERROR, SPNG_CRC_ERROR));
+  check(spng_set_chunk_limits(png.get(), max_chunk_bytes, max_chunk_bytes));
+  check(spng_set_png_buffer(png.get(), bytes.data(), bytes.size()));
+  spng_ihdr header{};
+  check(spng_get_ihdr(png.get(), &header));
+  check_image_size(header.width, header.height, name);
+
+  const auto width = static_cast<int>(header.width), height = static_cast<int>(header.height);
+  const bool grey = header.color_type == SPNG_COLOR_TYPE_GRAYSCALE ||
+                    header.color_type == SPNG_COLOR_TYPE_GRAYSCALE_ALPHA;
+  cv::Mat pixels;
+  int format = SPNG_FMT_RGB8;
+  if (header.bit_depth == 16) {
+    static constexpr std::array<int, 7> samples{1, 0, 3, 0, 2, 0, 4};  // by colour type
+    pixels.create(height, width, CV_16UC(samples[header.color_type]));
+    format = SPNG_FMT_PNG;
+  } else if (header.color_type == SPNG_COLOR_TYPE_GRAYSCALE) {
+    pixels.create(height, width, CV_8UC1);
+    format = SPNG_FMT_G8;
+  } else {
+    pixels.create(height, width, CV_8UC3);
+  }
+  check(spng_decode_image(png.get(), pixels.data, pixels.total() * pixels.elemSize(), format, 0));
+  check(spng_decode_chunks(png.get()));  // up to IEND
+  if (grey && pixels.channels() > 1) cv::extractChannel(pixels, pixels, 0);
+  if (pixels.channels() == 4) cv::cvtColor(pixels, pixels, cv::COLOR_RGBA2RGB);
+  return pixels;
+}
+
+// --- JPEG and BMP: checked here, then decoded by OpenCV ------------------------------------------
+
+/// Decodes at an eighth of the size; every warning is an error.
+void check_jpeg(Bytes bytes, std::string_view name) {
+  const std::unique_ptr<void, int (*)(tjhandle)> jpeg(tjInitDecompress(), tjDestroy);
+  const auto check = [&](bool ok) {
+    if (!ok) fail_image(name, std::string("damaged JPEG: ") + tjGetErrorStr2(jpeg.get()));
+  };
+  const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
+  int width = 0, height = 0, subsampling = 0, colours = 0;
+  const int code =
+      tjDecompressHeader3(jpeg.get(), data, bytes.size(), &width, &height, &subsampling, &colours);
+  check(code == 0 ||
+        (subsampling < 0 && width > 0 && height > 0));  // one without a name can be decoded
+  check_image_size(width, height, name);
+
+  constexpr tjscalingfactor eighth{1, 8};
+  const int small_width = TJSCALED(width, eighth), small_height = TJSCALED(height, eighth);
+  const bool four = colours == TJCS_CMYK || colours == TJCS_YCCK;
+  std::vector<unsigned char> small(static_cast<std::size_t>(small_width) *
+                                   static_cast<std::size_t>(small_height) * (four ? 4 : 1));
+  check(tjDecompress2(jpeg.get(), data, bytes.size(), small.data(), small_width, 0, small_height,
+                      four ? TJPF_CMYK : TJPF_GRAY, TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS) == 0);
+}
+
+/// A BMP is a file header, the size of the info header, then little-endian fields.
+void check_bmp(Bytes bytes, std::string_view name) {
+  const auto number = [&](std::size_t at, std::size_t count) {
+    std::uint32_t value = 0;
+    while (count-- > 0) value = value << 8 | std::to_integer<std::uint32_t>(bytes[at + count]);
+    return value;
+  };
+  const auto field = [&](std::size_t at) {
+    return static_cast<std::int64_t>(static_cast<std::int32_t>(number(at, 4)));
+  };
+  if (bytes.size() < 26) fail_image(name, "truncated BMP: no header");
+  const std::size_t pixels = number(10, 4);
+  const bool old = number(14, 4) == 12;
+  if (bytes.size() < (old ? 26U : 54U)) fail_image(name, "truncated BMP: no header");
+  const std::int64_t width = old ? number(18, 2) : field(18);
+  const std::int64_t height = old ? number(20, 2) : std::abs(field(22));
+  const std::int64_t bits = number(old ? 24 : 28, 2);
+  const std::uint32_t compression = old ? 0 : number(30, 4);
+  check_image_size(width, height, name);
+  if (compression != 0 && compression != 3)
+    fail_image(name, "compressed BMP: only plain pixels are read");
+  if (bits != 1 && bits != 4 && bits != 8 && bits != 16 && bits != 24 && bits != 32)
+    fail_image(name, "damaged BMP: " + std::to_string(bits) + " bits a pixel");
+  const std::int64_t needed = (width * bits + 31) / 32 * 4 * height;
+  if (pixels > bytes.size() || static_cast<std::int64_t>(bytes.size() - pixels) < needed)
+    fail_image(name, "truncated BMP: " + std::to_string(needed) + " bytes of pixels expected");
+}
+
+cv::Mat decode_with_opencv(Bytes bytes, std::string_view name) {
+  const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8UC1,
+                    const_cast<std::byte*>(bytes.data()));
+  cv::Mat pixels;
+  try {
+    pixels = cv::imdecode(raw, cv::IMREAD_ANYCOLOR);
+  } catch (const cv::Exception&) {
+    pixels.release();
+  }
+  if (pixels.empty()) fail_image(name, "damaged image: its pixels cannot be decoded");
+  if (pixels.channels() == 3) cv::cvtColor(pixels, pixels, cv::COLOR_BGR2RGB);
+  return pixels;
+}
+
+}  // namespace
+
+bool is_png(Bytes bytes) { return starts_with(bytes, "\x89PNG\r\n\x1a\n"); }
+
+cv::Mat decode_pixels(Bytes bytes, std::string_view name) {
+  if (bytes.empty()) fail_image(name, "empty file");
+  if (is_png(bytes)) return decode_png(bytes, name);
+  if (starts_with(bytes, "\xff\xd8")) {
+    check_jpeg(bytes, name);
+    return decode_with_opencv(bytes, name);
+  }
+  if (!starts_with(bytes, "BM")) fail_image(name, "not an image (PNG, JPEG, BMP, PGM, PPM or PBM)");
+  check_bmp(bytes, name);
+  cv::Mat pixels = decode_with_opencv(bytes, name);
+  if (pixels.channels() == 1) cv::cvtColor(pixels, pixels, cv::COLOR_GRAY2RGB);
+  return pixels;
+}
+
+}  // namespace microswarm
