@@ -15,7 +15,7 @@ namespace {
 
 using Kind = YamlNode::Kind;
 
-/// The value of a map's key, as an index into its items; none where it has no such key.
+/// Index of a key's value in the map's items; nothing if the key is absent.
 std::optional<std::size_t> value_of(const YamlNode& map, std::string_view key) {
   if (map.kind != Kind::map) return std::nullopt;
   for (std::size_t i = 0; i < map.items.size(); i += 2)
@@ -32,7 +32,7 @@ struct Renaming {
         fmt::format("{}:{}:{}: '{}' is now '{}'", name, key.line, key.column, from, to));
   }
 
-  /// Takes a key of a part of the document to another part.
+  /// Moves a key from one section of the document to another.
   void move(YamlNode& document, const MovedKey& moved) const {
     const std::size_t from = moved.from.find('.'), to = moved.to.find('.');
     const auto source = value_of(document, moved.from.substr(0, from));
@@ -102,8 +102,8 @@ struct Renaming {
   }
 };
 
-/// Enters the content of optionals and the alternative that a variant holds; null where the
-/// optional is empty.
+/// Enters the content of optionals and the current alternative of variants; null if the optional is
+/// empty.
 const Type* held_type(const Type* type, const void*& value) {
   while (type->kind == TypeKind::optional || type->kind == TypeKind::variant) {
     const std::size_t count = type->count(value);

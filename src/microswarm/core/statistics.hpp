@@ -9,7 +9,7 @@
 
 namespace microswarm {
 
-/// Quantile q in [0, 1] by nearest rank: a value that occurs, never one between two; 0 for none.
+/// Quantile q in [0, 1] by nearest rank: always an element, never interpolated; 0 if empty.
 inline double quantile(std::vector<double> values, double q) {
   if (values.empty()) return 0;
   const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(values.size())));
@@ -17,12 +17,12 @@ inline double quantile(std::vector<double> values, double q) {
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(k), values.end());
   return values[k];
 }
-/// Mean; 0 for none.
+/// Mean; 0 if empty.
 inline double mean(const std::vector<double>& values) {
   if (values.empty()) return 0;
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
-/// The middle value, of an even number of them the mean of the two in the middle; 0 for none.
+/// Median, the mean of the two middle values if their number is even; 0 if empty.
 inline double median(std::vector<double> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -30,17 +30,17 @@ inline double median(std::vector<double> values) {
   if (values.size() % 2 == 1) return *middle;
   return std::midpoint(*std::max_element(values.begin(), middle), *middle);
 }
-/// The same; nothing for none.
+/// The same; nothing if empty.
 inline std::optional<double> median_if_any(const std::vector<double>& values) {
   return values.empty() ? std::nullopt : std::optional(median(values));
 }
 
-/// A share with the ends of its interval.
+/// Confidence interval of a proportion.
 struct ShareInterval {
   double low = 0, high = 1;
 };
-/// Where the share of successes lies with 95 % confidence when `successes` of `trials` were seen:
-/// Wilson's score interval. All of 0 … 1 without trials.
+/// 95 % Wilson score interval of the success rate for `successes` out of `trials`; [0, 1] without
+/// trials.
 inline ShareInterval share_interval(int successes, int trials) {
   if (trials <= 0) return {};
   constexpr double z = 1.959963984540054;  // 97.5 % of a normal distribution lie below
