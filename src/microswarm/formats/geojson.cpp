@@ -22,7 +22,7 @@ using Json = nlohmann::json;
 constexpr std::uint64_t max_geojson_bytes = 64ULL << 20;
 constexpr int max_depth = 32;
 
-/// What the library says, without its own prefix "[json.exception.…] ".
+/// The library's message without its prefix "[json.exception.…] ".
 std::string complaint(const Json::exception& error) {
   const std::string_view what = error.what();
   const std::size_t end = what.find("] ");
@@ -46,7 +46,7 @@ Json parse(std::string_view text, std::string_view name) {
   }
 }
 
-/// Walks through the document and collects walls and discs.
+/// Traverses the document and collects walls and discs.
 class GeoJsonReader {
  public:
   GeoJsonReader(std::string_view text, std::string_view name, double um_per_unit)
@@ -63,7 +63,7 @@ class GeoJsonReader {
   }
 
  private:
-  /// The properties of the feature around a geometry; null outside features.
+  /// Properties of the feature that contains a geometry; null outside features.
   struct Properties {
     const Json* value;
     const JsonPlace* place;
@@ -96,7 +96,7 @@ class GeoJsonReader {
     for (std::size_t i = 0; i < array(list, place).size(); ++i) visit(list[i], place.entry(i));
   }
 
-  /// A collection, a feature or a geometry.
+  /// Reads a collection, a feature or a geometry.
   void object(const Json& value, const JsonPlace& place, const Properties& properties) {
     if (!value.is_object())
       fail(place, "an object expected, not " + std::string(value.type_name()));

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint64_t max_file_bytes = 512ULL << 20;
 
-/// Pixels as OpenCV decodes them, three channels or one, of 8 or 16 bits; empty when it cannot.
+/// Pixels as decoded by OpenCV, one or three channels of 8 or 16 bits; empty if decoding fails.
 cv::Mat decoded(std::string_view bytes) {
   const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
   try {
@@ -34,7 +34,7 @@ Image from_mat(cv::Mat mat, bool grey, int depth) {
   image.pixels.resize(image.index(0, image.height));
   cv::Mat out(image.height, image.width, grey ? CV_8UC1 : CV_8UC3, image.pixels.data());
   if (mat.channels() == 3 && grey)
-    cv::extractChannel(mat, out, 0);  // the three are alike
+    cv::extractChannel(mat, out, 0);  // the three channels are equal
   else if (mat.channels() == 3)
     cv::cvtColor(mat, out, cv::COLOR_BGR2RGB);
   else if (grey)

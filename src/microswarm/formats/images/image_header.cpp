@@ -18,7 +18,7 @@ using Bytes = std::span<const std::byte>;
   throw InputError(std::string(name) + ": " + why);
 }
 
-/// Unsigned number of `count` bytes at `at`, the most significant first.
+/// Unsigned number of `count` bytes at `at`, most significant first.
 std::uint32_t big_endian(Bytes bytes, std::size_t at, std::size_t count) {
   std::uint32_t value = 0;
   for (const std::byte b : bytes.subspan(at, count))
@@ -42,7 +42,7 @@ bool starts_with(Bytes bytes, std::string_view text) {
 
 constexpr std::string_view png_signature = "\x89PNG\r\n\x1a\n";
 
-/// CRC-32 of ISO 3309, as PNG's chunks carry.
+/// CRC-32 of ISO 3309, as in PNG chunks.
 std::uint32_t checksum(Bytes bytes) {
   static constexpr auto table = [] {
     std::array<std::uint32_t, 256> t{};
@@ -59,12 +59,12 @@ std::uint32_t checksum(Bytes bytes) {
 }
 
 struct Chunk {
-  Bytes all;   ///< with length, type and checksum
+  Bytes all;   ///< including length, type and checksum
   Bytes type;  ///< four letters
   Bytes data;
 };
 
-/// Calls visit(chunk) for each whole chunk until it returns false; false when the bytes end first.
+/// Calls visit(chunk) for each complete chunk until it returns false; false if the bytes end first.
 template <class Visit>
 bool for_each_chunk(Bytes bytes, Visit&& visit) {
   std::size_t at = png_signature.size();
@@ -110,7 +110,7 @@ ImageHeader check_png(Bytes bytes, std::string_view name) {
   }
   if (damaged) fail(name, "damaged PNG: a checksum is wrong");
   if (!whole) fail(name, "truncated PNG: it ends before its IEND chunk");
-  // Deflate never packs more than 1032 bytes into one.
+  // Deflate compresses by a factor of at most 1032.
   if (compressed * 1032 < png_row_bytes(ihdr) * header.height)
     fail(name, "truncated PNG: too little data for its size");
   return header;
@@ -123,7 +123,7 @@ bool is_frame_header(std::uint32_t marker) {
 }
 bool stands_alone(std::uint32_t marker) { return marker == 0x01 || (marker & 0xf8) == 0xd0; }
 
-/// The next marker at or after `at`: within entropy-coded data, FF 00 and restarts are none.
+/// Next marker at or after `at`. In entropy-coded data, FF 00 and restarts are not markers.
 std::size_t find_marker(Bytes bytes, std::size_t at) {
   for (; at + 1 < bytes.size(); ++at) {
     if (bytes[at] != std::byte{0xff}) continue;
@@ -135,12 +135,12 @@ std::size_t find_marker(Bytes bytes, std::size_t at) {
 
 bool is_huffman_frame(std::uint32_t marker) { return marker <= 0xc2; }
 
-/// Refuses what cannot be whole, or would take a decoder ages.
+/// Rejects data that cannot be complete or would take very long to decode.
 void check_jpeg_data(const ImageHeader& header, std::int64_t scans, std::uint32_t frame,
                      std::int64_t bytes, std::string_view name) {
   const std::int64_t pixels = header.width * header.height;
   if (scans == 0) fail(name, "damaged JPEG: no picture in it");
-  // A block of 8 × 8 pixels takes a bit at least.
+  // A block of 8 × 8 pixels takes at least one bit.
   if (is_huffman_frame(frame) && bytes * 8 * 64 < pixels)
     fail(name, "truncated JPEG: too little data for its size");
   if (scans * pixels > 16 * max_image_pixels)
