@@ -11,7 +11,7 @@
 
 namespace microswarm {
 
-/// A picture of 8 bits a sample: row by row, y down, `channels` 1 (grey) or 3 (red, green, blue).
+/// Image with 8 bits per sample: row by row, y down, `channels` 1 (grey) or 3 (red, green, blue).
 struct Image {
   int width = 0;
   int height = 0;
@@ -25,32 +25,32 @@ struct Image {
   }
 };
 
-/// The largest picture that is read: neither side longer, and not more pixels in all.
+/// Limits of images read: length of a side and total number of pixels.
 inline constexpr int max_image_side = 16384;
 inline constexpr std::int64_t max_image_pixels = 64'000'000;
 
-/// Reads PNG, JPEG, BMP, PGM, PPM or PBM: 16-bit samples are scaled to 8 bits, those of PNG as
-/// numbers of `depth` bits (8 to 16; what is larger becomes white), palettes and 1-bit
-/// pictures expanded, transparency dropped. The structure is checked before anything is decoded;
-/// throws InputError "x.png: WHY" for no file, an empty one, no image, a truncated or damaged one,
-/// 0 pixels, or more than max_image_side or max_image_pixels.
+/// Reads PNG, JPEG, BMP, PGM, PPM or PBM. 16-bit samples are scaled to 8 bits; in a PNG they count
+/// as numbers of `depth` bits (8 to 16), and larger values become white. Palettes and 1-bit images
+/// are expanded, transparency is dropped. The structure is checked before decoding. Throws
+/// InputError "x.png: WHY" if the file is missing, empty, no image, truncated or damaged, has 0
+/// pixels, or exceeds max_image_side or max_image_pixels.
 Image read_image(const std::filesystem::path& path, int depth = 16);
 
 /// The same from memory; `name` stands for the file in messages.
 Image decode_image(std::span<const std::byte> bytes, std::string_view name, int depth = 16);
 
-/// Bits, 8 to 16, that the largest sample of a PNG with 16-bit samples needs; nothing for another
-/// picture. Throws as `read_image`.
+/// Number of bits, 8 to 16, of the largest sample in a PNG with 16-bit samples; nothing for other
+/// images. Throws as `read_image`.
 std::optional<int> sample_depth(const std::filesystem::path& path);
 
-/// What a camera wrote: samples of a PNG with 16 bits are numbers of as many bits as the largest of
-/// them needs, 12 of many cameras. Throws as `read_image`.
+/// Reads a camera image. The depth of a 16-bit PNG is taken from its largest sample, 12 bits for
+/// many cameras. Throws as `read_image`.
 Image read_photograph(const std::filesystem::path& path);
 
-/// The picture as one grey channel, of colours the luma 0.299 R + 0.587 G + 0.114 B, rounded.
+/// The image as one grey channel. The luma of a colour is 0.299 R + 0.587 G + 0.114 B, rounded.
 Image to_grey(const Image& image);
 
-/// Writes an 8-bit PNG by way of a temporary file. Throws InputError "PATH: cannot write: REASON".
+/// Writes an 8-bit PNG through a temporary file. Throws InputError "PATH: cannot write: REASON".
 void write_png(const std::filesystem::path& path, const Image& image);
 
 }  // namespace microswarm
