@@ -12,10 +12,10 @@ namespace {
 
 constexpr std::size_t checkpoint_interval = RolloutPlan::checkpoint_interval;
 constexpr std::array<std::size_t, 5> lengths{5, 10, 20, 40, 80};  // of a change [steps]
-/// Enough to choose the base when robots have strayed: the plan will be off again soon.
+/// Enough robots to choose the base policy after a deviation: the plan will be left again soon.
 constexpr std::size_t places_when_strayed = 64;
 
-/// Crowds that are thinned out start from cells of this many steps.
+/// Merged robots are coarsened from cells of this many steps.
 constexpr double finest_cell = 0.25;
 
 }  // namespace
@@ -50,14 +50,15 @@ std::optional<Vec2> RolloutPolicy::next(const Robots& robots, const Stop& stop) 
   return move;
 }
 
-// Not without a plan, nor when robots are so unlike those of the simulation that it would take
-// twice as long as its base should: then a policy that looks at them at every step is better.
+// Follows the plan unless there is none, or the robots differ so much from the simulation that it
+// would take twice as long as the base policy. Then a policy that observes the robots at every step
+// is better.
 bool RolloutPolicy::leads() const {
   constexpr std::size_t max_bases = 2;
   return steps() > 0 && made_ + steps_left() <= max_bases * base_steps_;
 }
 
-// The mean way shrinks by a step a move at best.
+// The mean path length decreases by at most one step per move.
 void RolloutPolicy::look(const Robots& robots, bool always) {
   if (!always && --unmeasured_ > 0) return;
   const AggregationParams& p = simulator_.params();
@@ -83,7 +84,7 @@ std::optional<PartialPlan> RolloutPolicy::simulated(const Robots& robots, Aggreg
   return partial;
 }
 
-// The base: the shorter one of both policies.
+// Base plan: the shorter one of the two policies.
 void RolloutPolicy::start(const Robots& robots) {
   expected_ = MergedRobots(robots);
   done_ = 0;
@@ -153,8 +154,8 @@ void RolloutPolicy::improve(double budget, const Stop& stop) {
   thought_ += simulator_.work() - begun;
 }
 
-// Grows a plan by looking ahead again and again. It begins a little ahead of the robots; when they
-// overtake it, twice as far ahead. True while it should go on.
+// Extends a plan by repeated lookahead, starting a little ahead of the robots. If they overtake it,
+// it starts twice as far ahead. True while it should continue.
 bool RolloutPolicy::extend() {
   if (!extended_ || extended_->from < done_) {
     const std::size_t from = (done_ + head_start_ + checkpoint_interval - 1) / checkpoint_interval;
@@ -182,7 +183,7 @@ PartialPlan RolloutPolicy::partial_at(std::size_t step, std::size_t max_places) 
   return partial;
 }
 
-// One thing is done otherwise somewhere; then the plan goes on, or a base policy does.
+// Changes the plan at one point, then continues with the plan or a base policy.
 void RolloutPolicy::perturb() {
   PartialPlan partial = partial_at(done_ + rng_.below(steps() - done_),
                                    static_cast<std::size_t>(params_.representatives));
@@ -224,7 +225,7 @@ void RolloutPolicy::change(PartialPlan& partial) {
   if (goes_on) simulator_.follow(partial, std::span(plan_.moves).subspan(goes_on_at), most);
 }
 
-// With all robots.
+// Simulates the plan with all robots.
 void RolloutPolicy::verify(const PartialPlan& partial) {
   PartialPlan all{plan_.checkpoints[partial.from / checkpoint_interval], partial.from};
   all.keeps_checkpoints = true;

@@ -12,12 +12,14 @@ namespace microswarm {
 namespace {
 
 constexpr double same_place = 1;      // [µm]
-constexpr double piece_time = 1;      // of a way that is searched for its first contact [s]
-constexpr double wait_weight = 2;     // of the way that could be made while waiting
-constexpr double contact_weight = 3;  // of the way that is left within the horizon at a contact
+constexpr double piece_time = 1;      // length of the segments searched for the first contact [s]
+constexpr double wait_weight = 2;     // relative to the distance that could be covered while
+                                      // waiting
+constexpr double contact_weight = 3;  // relative to the distance left within the horizon at a
+                                      // contact
 constexpr std::array<double, 5> waits{0, 1, 2, 4, 8};  // before going [s]
 
-/// How long the straight way stays free among obstacles [s], at most `most` and what it takes.
+/// Time for which the straight path stays free of obstacles [s], at most `most` and its duration.
 double free_time(const Snapshot& frame, const ObstaclePredictor& obstacles, Segment way,
                  double speed, double start, double most, double clearance) {
   const double time = std::min(most, distance(way.a, way.b) / speed);
@@ -37,7 +39,7 @@ class PredictedChoice {
                   const PredictedTargetQuery& query, const std::function<double(Vec2)>& way_from)
       : frame_(frame), obstacles_(obstacles), q_(query), way_from_(way_from) {}
 
-  /// Takes the target, gone to after a wait [s], when nothing has cost less.
+  /// Takes the target, reached after a wait [s], if no other has cost less.
   void consider(Vec2 target, double wait) {
     const Vec2 from = q_.swarm.position;
     const double length = distance(from, target);
