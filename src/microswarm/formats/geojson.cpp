@@ -85,7 +85,7 @@ class GeoJsonReader {
     return value;
   }
 
-  /// Calls visit(entry, its place) for each entry of the array `key`.
+  /// Calls visit(entry, its position) for each entry of the array `key`.
   template <class Visit>
   void each(const Json& parent, const JsonPlace& place, const char* key, Visit&& visit) const {
     const JsonPlace here = place.member(key);

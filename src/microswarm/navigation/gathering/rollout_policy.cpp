@@ -201,7 +201,7 @@ void RolloutPolicy::change(PartialPlan& partial) {
   std::size_t goes_on_at = at;
   bool goes_on = rng_.below(3) == 0;
   switch (rng_.below(5)) {
-    case 0:  // one leads all the way
+    case 0:  // one robot leads to the end
       simulator_.lead(partial, rng_.below(partial.merged.places().size()), most, most);
       break;
     case 1:

@@ -17,8 +17,8 @@ namespace {
 constexpr double escape_tick = 0.1;    // of the look-ahead [s]
 constexpr double longest_sweep = 1.5;  // of obstacles while planning [s]
 constexpr double first_leg = 1.0;      // of an escape [s]
-constexpr double last_weight = 0.1;    // of the clearance at an escape's end beside the least one
-constexpr double no_route = 1e4;       // more than the straight way, where no route is known [µm]
+constexpr double last_weight = 0.1;  // of the final clearance of an escape, relative to the minimum
+constexpr double no_route = 1e4;     // added to the straight distance if no route is known [µm]
 constexpr std::array<double, 3> eases{1.0, 0.5, 0.25};
 
 }  // namespace

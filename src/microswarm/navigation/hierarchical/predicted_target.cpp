@@ -13,10 +13,8 @@ namespace {
 
 constexpr double same_place = 1;      // [µm]
 constexpr double piece_time = 1;      // length of the segments searched for the first contact [s]
-constexpr double wait_weight = 2;     // relative to the distance that could be covered while
-                                      // waiting
-constexpr double contact_weight = 3;  // relative to the distance left within the horizon at a
-                                      // contact
+constexpr double wait_weight = 2;     // of the distance not covered while waiting
+constexpr double contact_weight = 3;  // of the distance left in the horizon at contact
 constexpr std::array<double, 5> waits{0, 1, 2, 4, 8};  // before going [s]
 
 /// Time for which the straight path stays free of obstacles [s], at most `most` and its duration.

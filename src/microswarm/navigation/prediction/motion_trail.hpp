@@ -47,8 +47,8 @@ class MotionTrail {
   /// Past time most similar to the newest point, which was seen with the `noise` [µm]. Nothing if
   /// the body was never close to this position and velocity, or is at rest.
   std::optional<Recurrence> recurrence(double noise) const;
-  /// Predicted state `s` seconds after the newest point, given the recurrence. A recurrence in the
-  /// same direction repeats periodically.
+  /// Past point that corresponds to `s` seconds after the newest point, given the recurrence. A
+  /// recurrence in the same direction repeats periodically.
   TrailPoint after(const Recurrence& recurrence, double s) const;
 
  private:

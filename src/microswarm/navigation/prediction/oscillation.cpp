@@ -15,7 +15,7 @@ constexpr double spacing = 0.08;  // between frames used [s]
 constexpr int min_sightings = 6;
 constexpr double same_time = 1e-9;  // [s]
 
-/// Coefficients of the three terms, and what is left over of Σ |place|².
+/// Coefficients of the three terms, and the residual of Σ |place|².
 struct Terms {
   std::array<Vec2, 3> c{};
   double residual = 0;

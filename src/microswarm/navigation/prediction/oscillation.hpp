@@ -35,7 +35,8 @@ class OscillationFit {
   /// Starts a frame taken at `now` [s], later than the previous one; no sighting may be newer.
   void begin(double now);
   /// Best oscillation through the sightings in each window; the newest sighting is from the present
-  /// frame. Nothing if a window has too few sightings or no more than the window before.
+  /// frame. Nothing if a window has too few sightings, or if a shorter window already holds them
+  /// all.
   Fits fit(std::span<const Sighting> sightings);
 
  private:

@@ -11,7 +11,7 @@ namespace {
 constexpr double longest_path = 3.25;  // cells
 constexpr double long_way = 2.4;
 constexpr double short_way = 1.5;
-constexpr double cells_a_step = 3.1;  // the mean of the long ways
+constexpr double cells_a_step = 3.1;  // mean length of the long moves
 constexpr float not_ended = std::numeric_limits<float>::infinity();
 
 }  // namespace
