@@ -64,8 +64,7 @@ std::string number_value(double value, Unit unit, Syntax syntax) {
   const std::string_view digits = std::string_view(text).substr(0, e);
   const std::string_view exponent = std::string_view(text).substr(e + 1);
   return fmt::format("{}{}e{}{}", digits, digits.find('.') == digits.npos ? ".0" : "",
-                     exponent.starts_with('-') ? "" : "+", exponent);  // YAML 1.1 does not read
-                                                                       // 1e20 as a number
+                     exponent.starts_with('-') ? "" : "+", exponent);  // YAML 1.1 rejects 1e20
 }
 
 bool has_keys(const Type& type) {

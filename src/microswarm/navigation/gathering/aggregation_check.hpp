@@ -10,8 +10,7 @@ namespace microswarm {
 
 /// Properties of a map and a goal that [gather] assumes.
 struct MapAssumptions {
-  double reached_share = 0;  ///< fraction of the free area from which the goal is reachable; should
-                             ///< be 1
+  double reached_share = 0;  ///< of the free area that is connected to the goal; should be 1
   int exits = 0;             ///< channels that leave the goal; 1 at a dead end
 };
 

@@ -65,10 +65,8 @@ class PredictiveNavigator : public Navigator {
   TimeField field_;
   Route route_;
   bool in_sight_ = true;          ///< whether the goal is visible
-  std::optional<double> wanted_;  ///< heading to turn to, for a swarm with a limited turn rate
-                                  ///< [rad]
-  bool ending_ = false;           ///< whether it is in the final approach, finer than the field's
-                                  ///< cells
+  std::optional<double> wanted_;  ///< desired heading, if the turn rate is limited [rad]
+  bool ending_ = false;           ///< in the final approach, finer than the field's cells
 
   ConvexOutliner outliner_;
   std::vector<ConvexOutline> outlines_;  ///< of the predicted bodies

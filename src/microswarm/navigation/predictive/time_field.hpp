@@ -83,8 +83,7 @@ class TimeField {
   std::vector<Move> moves_;
   std::vector<float> standing_;
   std::vector<float> risk_;
-  std::vector<float> after_;  ///< cost of being at a cell during the second half of a step, plus
-                              ///< cost-to-go
+  std::vector<float> after_;  ///< cost-to-go including the second half of a step
   std::vector<float> row_;
   std::vector<float> ended_;              ///< cost of a cell at the goal [s]; infinity elsewhere
   std::vector<std::vector<float>> cost_;  ///< after 0, 1, … steps

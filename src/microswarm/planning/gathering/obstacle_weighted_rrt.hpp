@@ -29,8 +29,7 @@ struct ObstacleWeightedRrt {
   std::vector<double> clearances;    ///< [µm] to the nearest point of V_obs
   std::vector<double> weights;       ///< w, Eq 3; the goal's is 0
   std::vector<std::uint8_t> medial;  ///< V*: 1 for nodes near the middle, Eq 4
-  double zeta_used = 0;  ///< ζ, raised just enough to join the components of V*, only at their
-                         ///< necks
+  double zeta_used = 0;  ///< ζ, raised just enough at the necks to join the components of V*
   Routes plain;          ///< Alg 1: next is the tree's parent, cost is the length
   Routes weighted;       ///< Alg 2
   NodeLookup lookup;

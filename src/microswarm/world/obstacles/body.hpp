@@ -13,8 +13,8 @@ namespace microswarm {
 /// a frame does not show one; ObstacleTracker estimates velocities.
 struct Body {
   std::variant<Disc, Polygon> shape;
-  std::uint32_t obstacle = 0;  ///< number of the wall piece or obstacle (a valve's two leaves share
-                               ///< one)
+  std::uint32_t obstacle =
+      0;  ///< number of the wall piece or obstacle; both leaves of a valve share it
 };
 
 /// The outer ring of a polygon; null for a disc.
