@@ -169,7 +169,7 @@ void make_folder(const std::string& folder) {
   const int nameless = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
   if (nameless >= 0)
     ::close(nameless);
-  else if (errno != EOPNOTSUPP && errno != EISDIR)  // untestable here
+  else if (errno != EOPNOTSUPP && errno != EISDIR)  // O_TMPFILE unsupported: not tested
     throw InputError(folder + ": cannot write: " + std::generic_category().message(errno));
 }
 
