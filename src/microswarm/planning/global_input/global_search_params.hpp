@@ -8,7 +8,7 @@
 
 namespace microswarm {
 
-/// Parameters of the search beyond [global]. One set suits two to four robots.
+/// Parameters of the search beyond [global]. One set does for two to four robots.
 struct GlobalSearchParams {
   static constexpr std::string_view type_name = "global_search";
   double robostep = 5;
