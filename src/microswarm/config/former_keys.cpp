@@ -15,7 +15,7 @@ namespace {
 
 using Kind = YamlNode::Kind;
 
-/// The value of a map's key, as an index into its items; none where it has no such key.
+/// Index of a key's value in the map's items; nothing if the key is absent.
 std::optional<std::size_t> value_of(const YamlNode& map, std::string_view key) {
   if (map.kind != Kind::map) return std::nullopt;
   for (std::size_t i = 0; i < map.items.size(); i += 2)
@@ -36,8 +36,8 @@ struct Renaming {
   void retire(std::vector<YamlNode>& part, std::size_t value, std::string_view from) const {
     const auto at = part.begin() + static_cast<std::ptrdiff_t>(value);
     const YamlNode& key = *(at - 1);
-    notes.push_back(fmt::format("{}:{}:{}: '{}' has no meaning any more", name, key.line,
-                                key.column, from));
+    notes.push_back(
+        fmt::format("{}:{}:{}: '{}' has no meaning any more", name, key.line, key.column, from));
     part.erase(at - 1, at + 1);
   }
 
@@ -112,8 +112,8 @@ struct Renaming {
   }
 };
 
-/// Enters the content of optionals and the alternative that a variant holds; null where the
-/// optional is empty.
+/// Enters the content of optionals and the current alternative of variants; null if the optional is
+/// empty.
 const Type* held_type(const Type* type, const void*& value) {
   while (type->kind == TypeKind::optional || type->kind == TypeKind::variant) {
     const std::size_t count = type->count(value);

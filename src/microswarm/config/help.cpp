@@ -65,7 +65,7 @@ void add_parts(const Type& type, const void* defaults, std::size_t depth, std::v
   }
 }
 
-/// Characters on a terminal: bytes that do not continue a UTF-8 character.
+/// Width on a terminal: bytes that do not continue a UTF-8 character.
 std::size_t width(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xc0) != 0x80;

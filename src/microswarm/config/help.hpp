@@ -7,11 +7,11 @@
 
 namespace microswarm {
 
-/// What `help_text` does, for a described type.
+/// Type-erased implementation of `help_text<T>`.
 std::string help_text(const Type& type);
 
-/// Table of all keys of T for a terminal: key, unit, default, what is allowed, meaning. Keys within
-/// a key are indented below it, a variant's alternatives each below a line `type: NAME`.
+/// Table of all keys of T for a terminal: key, unit, default, allowed values, meaning. Nested keys
+/// are indented; each alternative of a variant follows a line `type: NAME`.
 template <HasFields T>
 std::string help_text() {
   return help_text(type_of<T>());

@@ -41,7 +41,7 @@ const YamlNode* node_at(const YamlNode& document, std::string_view key) {
 struct Document {
   YamlNode root;
   std::string name;
-  Settings assignments;  // the last one first
+  Settings assignments;  // last one first
 
   std::optional<std::string> operator()(std::string_view key, KeyLocations::Seek seek) const {
     const bool itself = seek == KeyLocations::Seek::itself;
@@ -63,8 +63,8 @@ struct Document {
 
   enum class Change { none, written, dropped };
 
-  /// What an assignment to something that the key is in does to the key: a map may hold it, and a
-  /// map with a type drops what it does not hold.
+  /// Effect on a key of an assignment to something that contains it: a map may hold the key, and a
+  /// map with a type drops the keys it does not hold.
   static Change change_of(std::string_view path, std::string_view assignment,
                           std::string_view key) {
     if (!key.starts_with(path)) return Change::dropped;  // by a type
@@ -74,7 +74,7 @@ struct Document {
                                                                       : Change::dropped;
   }
 
-  /// A type that is another than the document's brings all keys beside it anew.
+  /// Choosing a type other than the document's resets all keys beside it.
   bool sets(std::string_view path, std::string_view value, std::string_view key) const {
     if (is_in_key(key, path)) return true;
     constexpr std::string_view type = ".type";

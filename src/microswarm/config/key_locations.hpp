@@ -16,41 +16,42 @@
 
 namespace microswarm {
 
-/// Where the keys of a parameter file stand, for issues that are found after reading.
+/// Positions of the keys of a parameter file, for issues found after reading.
 class KeyLocations {
  public:
-  /// What is looked for: where to complain about a key and all in it; where about something missing
-  /// in it; whether the key itself is written there.
+  /// What to look up: the location of a key or anything in it; the location to report something
+  /// missing in it; the key itself, only if it is given.
   enum class Seek { all_of_it, missing_in_it, itself };
-  /// What a complaint begins with: "flight.yaml:12:3"; nothing for a key that is not given.
+  /// Location that a message begins with: "flight.yaml:12:3"; nothing for a key that is not given.
   using Find = std::function<std::optional<std::string>(std::string_view key, Seek seek)>;
 
-  /// Complaints begin with nothing.
+  /// Messages without a location.
   KeyLocations() = default;
-  /// They begin with what `find` says, or with the name. A name alone will do for a location.
+  /// Messages begin with the location from `find`, or with `name`. A name alone can serve as
+  /// KeyLocations.
   KeyLocations(std::string name, Find find) : name_(std::move(name)), find_(std::move(find)) {}
   KeyLocations(std::string name) : name_(std::move(name)) {}  // NOLINT(google-explicit-constructor)
   KeyLocations(const char* name) : name_(name) {}             // NOLINT(google-explicit-constructor)
 
-  /// The same with notes on the former keys that were read.
+  /// The same with notes on the former keys read.
   KeyLocations(std::string name, Find find, Notes notes)
       : name_(std::move(name)), find_(std::move(find)), notes_(std::move(notes)) {}
 
-  /// One line for each former key that was read.
+  /// Notes on the former keys read, one line each.
   const Notes& notes() const { return notes_; }
   void add_notes(const Notes& notes) { notes_.insert(notes_.end(), notes.begin(), notes.end()); }
 
-  /// Whether a key is written there, not only by way of what it stands in.
+  /// Whether the key itself is given, not only a key that contains it.
   bool given(std::string_view key) const;
-  /// The same as a function, which keeps what it needs.
+  /// The same as a function that owns a copy.
   IsGiven is_given() const;
 
-  /// "flight.yaml:12:3: obstacle 4: WHAT", at the first of the keys that is given; else at what the
-  /// first would stand in.
+  /// "flight.yaml:12:3: obstacle 4: WHAT", located at the first key that is given, else at the
+  /// nearest enclosing key of the first one.
   std::string line(const Issue& issue) const;
-  /// Throws InputError with a line for each issue, if there are any.
+  /// Throws InputError with a line for each issue, if any.
   void require_none(const Issues& issues) const;
-  /// The error for one issue, where it is found while something is opened.
+  /// InputError for one issue found while something is opened.
   InputError error(std::string_view key, const std::string& what) const;
 
  private:
@@ -59,9 +60,8 @@ class KeyLocations {
   Notes notes_;
 };
 
-/// Where the keys of a document stand: "NAME:LINE:COLUMN" of their values. A key that one of the
-/// assignments has set, in whole or in part, or whose alternative it has chosen, stands
-/// there: "--set KEY".
+/// Locations of a document's keys: "NAME:LINE:COLUMN" of their values. A key has the location
+/// "--set KEY" if an assignment set it in whole or in part or chose its alternative.
 KeyLocations locations_of(YamlNode document, const std::string& name, Settings assignments,
                           Notes notes = {});
 

@@ -15,7 +15,8 @@
 namespace microswarm {
 namespace {
 
-/// As number_text, but 100000 rather than 1e5: an exponent only for the huge and the tiny.
+/// Like number_text, but 100000 instead of 1e5: an exponent only for very large and very small
+/// values.
 std::string plain_text(double value) {
   if (!(std::abs(value) >= 1 && std::abs(value) < 1e15)) return number_text(value);
   std::array<char, 32> buffer;
@@ -26,8 +27,8 @@ std::string plain_text(double value) {
 
 bool in_degrees(Unit unit) { return unit == Unit::deg || unit == Unit::deg_per_s; }
 
-/// The fewest digits in degrees that read back to this angle. Nearly always a double's 17 are
-/// enough; the extra ones of long double let every angle be spelled.
+/// Minimum number of digits in degrees that read back to this angle. The 17 of a double nearly
+/// always suffice; long double's extra digits make every angle expressible.
 std::string shown_angle(double stored) {
   const long double shown = stored * (180 / std::numbers::pi_v<long double>);
   std::array<char, 64> buffer;

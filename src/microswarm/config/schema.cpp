@@ -26,8 +26,7 @@ Json number_schema(std::string_view type, const Range& range) {
   return schema;
 }
 
-/// What a field's default adds to its schema: nothing for a group of keys, whose fields have
-/// theirs.
+/// Default of a field for its schema; null for a group of keys, whose fields have their own.
 Json default_of(const Field& field, const void* record) {
   const TypeKind kind = field.type->kind;
   if (field.info.required || kind == TypeKind::record || kind == TypeKind::variant) return nullptr;

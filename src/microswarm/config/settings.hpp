@@ -8,12 +8,12 @@
 
 namespace microswarm {
 
-/// Texts KEY=VALUE that change values after a file was read, and the option of the command line
-/// that gave them, as messages name it.
+/// Assignments KEY=VALUE applied after a file is read, and the command-line option that gave them,
+/// for messages.
 struct Settings {
   Settings() = default;
   Settings(std::initializer_list<std::string> list) : texts(list) {}
-  // NOLINTNEXTLINE(google-explicit-constructor): a plain list is one of --set
+  // a plain list belongs to --set
   Settings(std::vector<std::string> list, std::string from = "--set")
       : texts(std::move(list)), option(std::move(from)) {}
 

@@ -16,7 +16,7 @@
 
 namespace microswarm {
 
-/// What a field may be; see core/fields.hpp.
+/// Kind of a field's type; see core/fields.hpp.
 enum class TypeKind {
   boolean,   ///< bool
   integer,   ///< int
@@ -34,7 +34,7 @@ enum class TypeKind {
 
 struct Type;
 
-/// One field of a record: its key, and where it stands in the struct.
+/// One field of a record: its key and its offset in the struct.
 struct Field {
   std::string key;  ///< name with the unit's suffix
   FieldInfo info;
@@ -47,33 +47,33 @@ struct Field {
   void* in(void* record) const { return static_cast<std::byte*>(record) + offset; }
 };
 
-/// What a `fields` declaration says, as data: reading, writing, schema and help walk over it and
-/// over a value behind a pointer, and are compiled once for all structs.
+/// A `fields` declaration as data. Reading, writing, schema and help interpret it together with a
+/// pointer to the value, so they are compiled once for all structs.
 struct Type {
   TypeKind kind;
   std::vector<std::string_view> words{};  ///< choice: its words; variant: its type names
   std::vector<Field> fields{};            ///< record
   std::vector<const Type*> parts{};       ///< optional and list: the content; variant: alternatives
-  const void* defaults = nullptr;         ///< record: one with every field at its default
+  const void* defaults = nullptr;         ///< record: an instance with every field at its default
 
-  /// list: number of entries; optional: 0 or 1; choice and variant: which word holds.
+  /// list: number of entries; optional: 0 or 1; choice and variant: index of the current word.
   std::size_t (*count)(const void* value) = nullptr;
-  /// Brings the value to that count; what is new has its default. A variant begins afresh, even
-  /// when it holds that alternative already.
+  /// Sets that count; new content has its default. A variant is reset even if it already holds that
+  /// alternative.
   void (*set_count)(void* value, std::size_t count) = nullptr;
-  /// list: entry i; optional: its content; variant: the alternative it holds.
+  /// list: entry i; optional: its content; variant: the current alternative.
   void* (*part)(void* value, std::size_t i) = nullptr;
 
   const void* part_of(const void* value, std::size_t i = 0) const {
     return part(const_cast<void*>(value), i);
   }
-  /// The record's field of that key, or null.
+  /// Field with that key, or null.
   const Field* field(std::string_view key) const {
     for (const Field& f : fields)
       if (f.key == key) return &f;
     return nullptr;
   }
-  /// The record's field that had that key in earlier versions, or null.
+  /// Field that had that key in earlier versions, or null.
   const Field* former_field(std::string_view key) const {
     for (const Field& f : fields)
       if (!key.empty() && f.info.former_key == key) return &f;
@@ -81,7 +81,7 @@ struct Type {
   }
 };
 
-/// The description of T, made once. T may not contain itself.
+/// Description of T, built once. T may not contain itself.
 template <class T>
 const Type& type_of();
 
@@ -210,7 +210,7 @@ struct Describe<std::variant<Ts...>> {
 
 }  // namespace detail
 
-/// See its declaration above.
+/// Defined here; documented above.
 template <class T>
 const Type& type_of() {
   static const Type type = detail::Describe<T>::type();

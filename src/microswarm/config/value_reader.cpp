@@ -67,7 +67,7 @@ bool spells_no_finite_number(std::string_view text) {
   return lower == "nan" || lower == "inf" || lower == "infinity";
 }
 
-/// The field whose key the writer may have meant, or null.
+/// Field whose key was probably meant, or null.
 const Field* nearest_field(const Type& record, std::string_view key) {
   std::vector<std::string_view> keys;
   for (const Field& field : record.fields) keys.push_back(field.key);
@@ -78,7 +78,7 @@ const Field* nearest_field(const Type& record, std::string_view key) {
     if (!field.info.former_key.empty()) keys.push_back(field.info.former_key);
   if (const std::string_view near = nearest_word(key, keys); !near.empty())
     return record.former_field(near);
-  for (const Field& field : record.fields) {  // the right name without its unit, or with another
+  for (const Field& field : record.fields) {  // the right name without its unit or with another one
     const bool starts = key.starts_with(field.info.name);
     if (starts && (key.size() == field.info.name.size() || key[field.info.name.size()] == '_'))
       return &field;
@@ -132,7 +132,7 @@ long double ValueReader::checked_number(const Type& type, const FieldInfo& info,
     fail(node, fmt::format("{} is {}, must be finite", label, one_line(node.text)));
   if (!number) fail_kind(type, label, node);
   if (type.kind != TypeKind::number && *number != std::floor(*number)) fail_kind(type, label, node);
-  // As the limits are: 0.001 is not less than the double nearest to 0.001.
+  // Rounded to double like the limits: 0.001 is not less than the double nearest to 0.001.
   const double shown = static_cast<double>(*number);
   if (shown < range.min || shown > range.max)
     fail(node, fmt::format("{} is {}{}, allowed {}", label, number_text(shown),

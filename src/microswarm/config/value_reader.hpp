@@ -10,31 +10,31 @@
 
 namespace microswarm {
 
-/// What is wrong in a document.
+/// Mistakes found in a document.
 struct Mistakes {
   std::vector<std::string> lines;
-  std::vector<std::string> keys;  ///< of the document, in whose values they are
+  std::vector<std::string> keys;  ///< top-level keys whose values contain them
 
   bool empty() const { return lines.empty(); }
   void add(const std::string& key, const std::string& line);
-  /// Throws InputError with all of them, if there are any.
+  /// Throws InputError with all lines, if any.
   void require_none() const;
 };
 
-/// Reads parsed YAML into described values, and words every complaint.
+/// Reads parsed YAML into described values and writes the error messages.
 class ValueReader {
  public:
-  /// `name` stands before every message; with `places`, the node's line and column follow it.
+  /// `name` begins every message; with `places`, the node's line and column follow it.
   ValueReader(std::string_view name, bool places) : name_(name), places_(places) {}
 
-  /// Reads the node into the value of that type; `info` gives unit and range to the numbers in it,
+  /// Reads the node into a value of this type. `info` gives unit and range of the numbers in it;
   /// `label` names it in messages and is empty for a whole document.
   void read(const Type& type, const FieldInfo& info, std::string_view label, void* value,
             const YamlNode& node);
-  /// What was wrong in records and lists, which are read to their ends.
+  /// Mistakes in records and lists, which are read to the end.
   const Mistakes& mistakes() const { return mistakes_; }
 
-  /// Brings a variant (or the variant in an optional) to the alternative that the node names.
+  /// Switches a variant (or an optional's variant) to the alternative named by the node.
   void choose(const Type& type, std::string_view label, void* value, const YamlNode& node);
 
   [[noreturn]] void fail(const YamlNode& node, const std::string& what) const;
@@ -45,7 +45,7 @@ class ValueReader {
                    const YamlNode& node);
   template <class Int>
   void read_whole(const FieldInfo& info, std::string_view label, Int& value, const YamlNode& node);
-  /// The node's number as it stands, finite and within the range.
+  /// Number in the node, finite and within the range, not yet converted.
   long double checked_number(const Type& type, const FieldInfo& info, const Range& range,
                              std::string_view label, const YamlNode& node);
   void read_list(const Type& type, const FieldInfo& info, std::string_view label, void* value,
@@ -55,13 +55,13 @@ class ValueReader {
   void read_variant(const Type& type, std::string_view label, void* value, const YamlNode& node);
   [[noreturn]] void fail_kind(const Type& type, std::string_view label, const YamlNode& node);
 
-  /// Calls `body`, whose InputError is one more mistake.
+  /// Calls `body` and adds its InputError to the mistakes.
   template <class Body>
   void attempt(Body&& body);
 
   std::string_view name_;
   bool places_;
-  std::string key_;  ///< of the document, that is being read
+  std::string key_;  ///< top-level key being read
   Mistakes mistakes_;
 };
 

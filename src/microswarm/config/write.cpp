@@ -16,7 +16,7 @@ enum class Syntax { yaml, json };
 
 constexpr std::size_t line_width = 80;
 
-/// Escapes that JSON and double-quoted YAML have in common.
+/// Escapes common to JSON and double-quoted YAML.
 std::string double_quoted(std::string_view text) {
   std::string quoted = "\"";
   for (const char c : text) {
@@ -33,7 +33,7 @@ std::string double_quoted(std::string_view text) {
   return quoted;
 }
 
-/// Whether every YAML reader takes the bare word for a text.
+/// Whether every YAML reader takes the bare word for text.
 bool is_bare_word(std::string_view text) {
   const auto is_letter = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
@@ -64,7 +64,7 @@ std::string number_value(double value, Unit unit, Syntax syntax) {
   const std::string_view digits = std::string_view(text).substr(0, e);
   const std::string_view exponent = std::string_view(text).substr(e + 1);
   return fmt::format("{}{}e{}{}", digits, digits.find('.') == digits.npos ? ".0" : "",
-                     exponent.starts_with('-') ? "" : "+", exponent);  // YAML 1.1 reads no 1e20
+                     exponent.starts_with('-') ? "" : "+", exponent);  // YAML 1.1 rejects 1e20
 }
 
 bool has_keys(const Type& type) {
@@ -76,8 +76,8 @@ bool is_list_of_blocks(const Type& type) {
   return has_keys(*type.parts[0]) || is_list_of_blocks(*type.parts[0]);
 }
 
-/// For every key of a record: visit(field, its value). A variant is the record it holds, with
-/// visit_type(its name) before.
+/// Calls visit(field, its value) for each key of a record. A variant is visited as the record it
+/// holds, after visit_type(its name).
 template <class VisitType, class Visit>
 void each_key(const Type& type, const void* value, VisitType&& visit_type, Visit&& visit) {
   if (type.kind == TypeKind::variant) {
@@ -138,12 +138,12 @@ std::string line(const Type& type, Unit unit, const void* value, Syntax syntax) 
   return "";
 }
 
-/// Writes nested blocks; `out_` stands after a key's colon or a list's dash when a value begins.
+/// Writes nested blocks. When a value begins, `out_` ends with a key's colon or a list's dash.
 class YamlWriter {
  public:
   std::string take() { return std::move(out_); }
 
-  /// The keys of a record: the first where the text stands, the others indented.
+  /// Writes the keys of a record: the first at the current position, the others indented.
   void keys(const Type& type, const void* value, std::size_t indent) {
     bool first = true;
     const auto key = [&](std::string_view name) {

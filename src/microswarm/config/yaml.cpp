@@ -12,7 +12,7 @@
 namespace microswarm {
 namespace {
 
-/// Where an assignment's path has come to.
+/// Current position within an assignment's path.
 struct Place {
   const Type* type;
   FieldInfo info;
@@ -122,7 +122,7 @@ void set_value(const Type& type, void* value, std::string_view assignment,
       if (place.type->kind == TypeKind::variant) {
         const YamlNode chosen = parse_yaml(text, name);
         const std::size_t held = place.type->count(place.value);
-        if (chosen.text == place.type->words[held]) return;  // its settings stay
+        if (chosen.text == place.type->words[held]) return;  // keeps its settings
         return reader.choose(*place.type, fmt::format("type of {}", place.label), place.value,
                              chosen);
       }
@@ -139,7 +139,7 @@ void check_types_first(const Settings& given) {
   for (std::size_t i = 0; i < assignments.size(); ++i) {
     const std::string key = assignments[i].substr(0, assignments[i].find('='));
     if (!key.ends_with(".type")) continue;
-    const std::string part = key.substr(0, key.size() - 4);  // with the dot
+    const std::string part = key.substr(0, key.size() - 4);  // including the dot
     for (std::size_t k = 0; k < i; ++k)
       if (assignments[k].starts_with(part) && !assignments[k].starts_with(key + "="))
         throw InputError(fmt::format("{} {}: comes after {}, which it may drop: give it first",

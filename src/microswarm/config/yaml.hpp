@@ -20,16 +20,16 @@ namespace microswarm {
 
 inline constexpr std::size_t max_yaml_bytes = 16 << 20;
 
-/// Reads the YAML text into the value, which keeps what the text does not give, and returns the
-/// document with its present keys. Throws InputError for text that is no YAML; what is wrong with
-/// keys and values goes into `mistakes`, or, without them, is thrown with a line for each. What is
-/// wrong keeps what it had, or is half read.
+/// Reads YAML text into the value and returns the document with its present keys. Values not given
+/// by the text are kept. Throws InputError for text that is no YAML. Mistakes in keys and values go
+/// into `mistakes`; the overload without it throws them, one line each. A value with a mistake is
+/// unchanged or partly read.
 YamlNode read_yaml(const Type& type, void* value, std::string_view text, std::string_view name,
                    Mistakes& mistakes, Notes& notes, std::span<const MovedKey> moved = {});
 YamlNode read_yaml(const Type& type, void* value, std::string_view text, std::string_view name,
                    std::span<const MovedKey> moved = {});
 
-/// The keys of earlier versions that T lists.
+/// Moved keys that T lists.
 template <class T>
 constexpr std::span<const MovedKey> moved_keys_of() {
   if constexpr (requires { T::moved_keys; })
@@ -41,9 +41,10 @@ constexpr std::span<const MovedKey> moved_keys_of() {
 /// Type-erased implementation of `set_value<T>`, for present keys.
 void set_value(const Type& type, void* value, std::string_view assignment, std::string_view option);
 
-/// A parameter struct from YAML text; `name` stands for the file in messages. Strict: an unknown or
-/// missing key, a wrong type, a number out of its range or not finite, an unknown word is a line of
-/// an InputError, "NAME:LINE:COLUMN: unknown key 'stpe_um', did you mean 'step_um'?".
+/// Parameter struct from YAML text; `name` stands for the file in messages. Strict: throws
+/// InputError with a line for each unknown or missing key, wrong type, number that is out of range
+/// or not finite, and unknown word, e.g. "NAME:LINE:COLUMN: unknown key 'stpe_um', did you mean
+/// 'step_um'?".
 template <HasFields T>
 T read_yaml_text(std::string_view text, std::string_view name) {
   T value{};
@@ -51,18 +52,17 @@ T read_yaml_text(std::string_view text, std::string_view name) {
   return value;
 }
 
-/// A parameter struct from a YAML file; messages name the path as given.
+/// Parameter struct from a YAML file; messages name the path as given.
 template <HasFields T>
 T read_yaml_file(const std::filesystem::path& path) {
   return read_yaml_text<T>(read_file(path, max_yaml_bytes), path.string());
 }
 
-/// Applies one assignment of `--set` or a like option, "planner.step_um=60": keys joined by dots, a
-/// list's entries by index, then a value as it would stand in a file (a text may go without
-/// quotes). Another `type` of a variant brings that alternative with its defaults; its other keys
-/// need the alternative to be there already. Errors are as in a file, behind "--set
-/// planner.stpe_um: "; then `value` is as it was before. Returns the assignment with its present
-/// key.
+/// Applies one assignment of `--set` or a similar option, "planner.step_um=60": keys joined by
+/// dots, list entries by index, then a value as in a file (text needs no quotes). Setting a
+/// variant's `type` to another alternative resets it to that alternative's defaults; its other keys
+/// can only be set once it is chosen. Errors are as in a file, after "--set planner.stpe_um: ", and
+/// leave `value` unchanged. Returns the assignment with its present key.
 template <HasFields T>
 std::string set_value(T& value, std::string_view assignment, std::string_view option = "--set") {
   T changed = value;
@@ -72,12 +72,11 @@ std::string set_value(T& value, std::string_view assignment, std::string_view op
   return present;
 }
 
-/// Throws InputError when one of several assignments chooses a variant's `type` after another has
-/// set a part of it, which would be lost.
+/// Throws InputError if an assignment chooses a variant's `type` after another has set a part of
+/// it, which would be lost.
 void check_types_first(const Settings& assignments);
 
-/// Applies several assignments in their order, after check_types_first. Returns notes on former
-/// keys.
+/// Applies assignments in order, after check_types_first. Returns notes on former keys.
 template <HasFields T>
 Notes set_values(T& value, const Settings& assignments) {
   Notes notes;
@@ -89,9 +88,9 @@ Notes set_values(T& value, const Settings& assignments) {
   return notes;
 }
 
-/// A parameter struct from a YAML file with assignments applied after it. What is wrong with keys
-/// and values goes into `mistakes`; `locations` then tells where each key stands, and which former
-/// keys were read.
+/// Parameter struct from a YAML file, with assignments applied after it. Mistakes in keys and
+/// values go into `mistakes`; `locations` receives the location of each key and the notes on former
+/// keys.
 template <HasFields T>
 T read_yaml_file(const std::filesystem::path& path, const Settings& assignments,
                  KeyLocations& locations, Mistakes& mistakes) {
@@ -115,7 +114,7 @@ T read_yaml_file(const std::filesystem::path& path, const Settings& assignments,
   return value;
 }
 
-/// The same; throws InputError with a line for each mistake.
+/// The same, but throws InputError with a line for each mistake.
 template <HasFields T>
 T read_yaml_file(const std::filesystem::path& path, const Settings& assignments,
                  KeyLocations& locations) {

@@ -19,8 +19,8 @@ namespace {
 constexpr std::size_t max_depth = 64;
 constexpr std::size_t max_values = 2'000'000;
 
-/// Builds the tree from the parser's events. `open_` may point into `items`: while a node is open,
-/// only its own items grow.
+/// Builds the tree from the parser's events. `open_` may point into `items`: only the items of the
+/// innermost open node grow.
 class TreeBuilder : public YAML::EventHandler {
  public:
   explicit TreeBuilder(std::string_view name) : name_(name) {}
@@ -36,7 +36,7 @@ class TreeBuilder : public YAML::EventHandler {
     if (open_.empty() || open_.back()->kind != YamlNode::Kind::map) return;
     const std::vector<YamlNode>& items = open_.back()->items;
     if (items.size() % 2 != 0) return;
-    const YamlNode& key = items[items.size() - 2];  // what is not there stands where its key does
+    const YamlNode& key = items[items.size() - 2];  // a missing value has its key's position
     node.line = key.line;
     node.column = key.column;
   }
@@ -113,8 +113,8 @@ class TreeBuilder : public YAML::EventHandler {
   int documents_ = 0;
 };
 
-/// Length of the UTF-8 character that `text` begins with; 0 when it begins with none, or with a
-/// control character that has no place in a text file.
+/// Length of the UTF-8 character at the start of `text`; 0 if there is none, or for a control
+/// character not allowed in a text file.
 std::size_t character_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned lead = byte(0);

@@ -7,11 +7,11 @@
 
 namespace microswarm {
 
-/// A YAML document as a plain tree: all that strict reading needs, with places.
+/// YAML document as a plain tree with source positions.
 struct YamlNode {
   enum class Kind { null, scalar, list, map };
   Kind kind = Kind::null;
-  bool quoted = false;          ///< scalar in quotes or as a block: a text whatever it looks like
+  bool quoted = false;          ///< quoted or block scalar: always text
   int line = 0;                 ///< from 1
   int column = 0;               ///< from 1
   std::string text;             ///< scalar
@@ -20,14 +20,14 @@ struct YamlNode {
   bool is_plain() const { return kind == Kind::scalar && !quoted; }
 };
 
-/// Throws InputError with file:line:column where the text is not UTF-8, or holds a control
-/// character other than a tab or a line's end.
+/// Throws InputError with file:line:column if the text is not UTF-8 or holds a control character
+/// other than a tab or a line end.
 void check_characters(std::string_view text, std::string_view name);
 
-/// Parses one document; an empty one is null. Throws InputError with file:line:column for what is
-/// not YAML in UTF-8, and for what has no place in a parameter file: anchors, aliases, tags, keys
-/// that are no words, keys given twice, more than one document, nesting deeper than 64, more than
-/// 16 MB or two million values.
+/// Parses one document; an empty one is null. Throws InputError with file:line:column for text that
+/// is not YAML in UTF-8, and for what a parameter file may not contain: anchors, aliases, tags,
+/// keys that are not words, duplicate keys, several documents, nesting deeper than 64, more than 16
+/// MB or two million values.
 YamlNode parse_yaml(std::string_view text, std::string_view name);
 
 }  // namespace microswarm

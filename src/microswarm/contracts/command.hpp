@@ -7,13 +7,13 @@
 
 namespace microswarm {
 
-/// One global input: where to head [rad] and how fast [µm/s]. Speed 0 is hold.
+/// Global input: heading [rad] and speed [µm/s]. Speed 0 is hold.
 struct Command {
   double heading = 0;
   double speed = 0;
 };
 
-/// The way [µm] that a command asks for in `dt` seconds; along an axis exactly.
+/// Displacement [µm] that a command requests in `dt` seconds; exact along an axis.
 inline Vec2 displacement(const Command& command, double dt) {
   constexpr double rounding = 1e-15;
   const Vec2 u = unit_vector(command.heading);
@@ -21,7 +21,7 @@ inline Vec2 displacement(const Command& command, double dt) {
   return {std::abs(u.x) < rounding ? 0 : length * u.x, std::abs(u.y) < rounding ? 0 : length * u.y};
 }
 
-/// The command that asks for the way `move` [µm] in `dt` seconds.
+/// Command that requests the displacement `move` [µm] in `dt` seconds.
 inline Command command_for(Vec2 move, double dt) { return {heading_of(move), norm(move) / dt}; }
 
 }  // namespace microswarm

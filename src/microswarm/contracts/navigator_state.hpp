@@ -7,25 +7,25 @@
 
 namespace microswarm {
 
-/// What a navigator does in a step.
+/// State of a navigator in a step.
 enum class NavigatorState {
   hold,      ///< no move is safe
-  follow,    ///< on its way
-  fallback,  ///< the same by pure pursuit: the learned follower does not know
-  avoid,     ///< round an obstacle
-  direct,    ///< straight to the target: no obstacle is detected
-  escape,    ///< the least bad move: none is safe
-  retreat,   ///< away from an obstacle
-  guard,     ///< the safety filter's command instead of its own
-  wait,      ///< for a valve to open
-  stuck,     ///< it finds no way
-  play,      ///< the plan's inputs
-  rejoin,    ///< back to the plan
-  replan,    ///< a new plan
-  gather,    ///< robots towards the goal
+  follow,    ///< follows the path
+  fallback,  ///< follows the path by pure pursuit, because the learned follower is not applicable
+  avoid,     ///< goes around an obstacle
+  direct,    ///< straight to the target: no obstacle detected
+  escape,    ///< least unsafe move: none is safe
+  retreat,   ///< moves away from an obstacle
+  guard,     ///< the safety filter replaced the command
+  wait,      ///< waits for a valve to open
+  stuck,     ///< finds no path
+  play,      ///< executes the plan's inputs
+  rejoin,    ///< returns to the plan
+  replan,    ///< made a new plan
+  gather,    ///< moves robots towards the goal
   arrived,   ///< at the goal
-  blind,     ///< it sees no swarm, or too late
-  end        ///< of a record's last frame: the run is over
+  blind,     ///< no swarm detected, or the frame is stale
+  end        ///< last frame of a record: the run is over
 };
 constexpr auto enum_names(NavigatorState) {
   return std::array<std::pair<NavigatorState, std::string_view>, 17>{

@@ -10,30 +10,30 @@
 
 namespace microswarm {
 
-/// The swarm as one body: centre, heading, radius [µm].
+/// The swarm as one body: pose and radius [µm].
 struct SwarmPose {
   Pose2 pose;
   double radius = 0;
 };
 
-/// Where a swarm was, how wide [µm], and when [s].
+/// Pose and radius [µm] of a swarm at a time [s].
 struct PoseStamped {
   double t = 0;
   Pose2 pose;
   double radius = 0;
 };
 
-/// Age of a frame [s] from which on a navigator holds, where nothing else is said.
+/// Default age of a frame [s] from which a navigator holds.
 inline constexpr double default_frame_timeout = 0.5;
 
-/// What is seen: the newest frame, which is `age()` old when the navigator gets it. `swarm` is
-/// empty when no swarm was found in the frame. `robots` are its robots one by one, where they are
-/// told apart: robot i is the same in every observation; `swarm` is then their middle. `world`
-/// holds the map and the obstacles as seen then. `robots` lives at least until the next
-/// observation; who keeps the world shares it.
+/// Newest frame available to the navigator, `age()` old. `swarm` is empty if no swarm was found in
+/// the frame. `robots` are the positions of individually tracked robots, empty otherwise; robot i
+/// is the same in every observation, and `swarm` is then their centre. `world` holds the map and
+/// the obstacles as seen in the frame. `robots` is valid until the next observation; `world` is
+/// shared.
 struct Observation {
-  double now = 0;   ///< time at which the navigator is asked [s]
-  double seen = 0;  ///< time at which the frame was taken [s]
+  double now = 0;   ///< current time [s]
+  double seen = 0;  ///< capture time of the frame [s]
   std::optional<SwarmPose> swarm;
   std::span<const Vec2> robots;  ///< [µm]
   std::shared_ptr<const Snapshot> world;
@@ -41,7 +41,7 @@ struct Observation {
   double age() const { return now - seen; }
 };
 
-/// A world that is not owned, for an Observation that it outlives.
+/// Non-owning pointer to a world that outlives the Observation.
 inline std::shared_ptr<const Snapshot> borrowed(const Snapshot& world) {
   return {std::shared_ptr<const Snapshot>(), &world};
 }

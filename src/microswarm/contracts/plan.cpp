@@ -9,7 +9,7 @@
 namespace microswarm {
 namespace {
 
-/// Calls visit(heading) for every edge that has one.
+/// Calls visit(heading) for every edge of non-zero length.
 template <class Visit>
 void for_each_heading(std::span<const Vec2> path, Visit&& visit) {
   for (std::size_t i = 1; i < path.size(); ++i) {

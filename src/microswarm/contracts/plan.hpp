@@ -13,11 +13,11 @@
 
 namespace microswarm {
 
-/// What a detection circle told about a place: Eq 1–3 [drrt].
+/// Result of a detection circle: Eq 1–3 [drrt].
 struct Detection {
   Disc circle;
-  double w1 = 0;   ///< density: covered share of the circle, Eq 1
-  double w2 = 0;   ///< distribution: how near the obstacles are to its centre, Eq 2
+  double w1 = 0;   ///< density: covered fraction of the circle, Eq 1
+  double w2 = 0;   ///< distribution: proximity of the obstacles to its centre, Eq 2
   double rho = 1;  ///< dynamic adjust factor, Eq 3, floored
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -33,7 +33,7 @@ struct Detection {
 /// Node of a search tree. The root is node 0 and its own parent.
 struct TreeNode {
   Vec2 position;
-  double heading = 0;  ///< [rad] of the edge from its parent; the root's is the start's
+  double heading = 0;  ///< [rad] of the edge from its parent; the root has the start's heading
   double cost = 0;     ///< from the root, in the planner's own measure
   std::uint32_t parent = 0;
   template <class Self, class V>
@@ -46,30 +46,30 @@ struct TreeNode {
   }
 };
 
-/// What the planner did.
+/// Work done by a planner.
 struct PlanCounts {
   std::uint64_t iterations = 0;
   std::uint64_t samples = 0;
   std::uint64_t edge_checks = 0;
 };
 
-/// What a planner returns. When the status is `solved`, the path runs from the start to a point
-/// within the goal tolerance and every edge keeps the clearance; otherwise it is the best partial
-/// path: to the node nearest to the goal, and just the start when there is none.
+/// Result of a planner. If the status is `solved`, the path runs from the start to a point within
+/// the goal tolerance and every edge keeps the clearance. Otherwise it is the best partial path: to
+/// the node nearest to the goal, or just the start if there is none.
 struct Plan {
   Status status = Status::no_path;
   std::vector<Vec2> path;             ///< [µm]
   std::vector<TreeNode> tree;         ///< empty for A*
-  std::vector<Detection> detections;  ///< one a tree node; D-RRT* only
+  std::vector<Detection> detections;  ///< one per tree node; D-RRT* only
   PlanCounts counts;
 };
 
 /// Length of a path [µm].
 double path_length(std::span<const Vec2> path);
-/// Total turning angle [rad]: Σ|Δheading| over its vertices, the turn from `start_heading` into the
-/// first edge included.
+/// Total turning angle [rad]: Σ|Δheading| over its vertices, including the turn from
+/// `start_heading` into the first edge.
 double path_turning(std::span<const Vec2> path, double start_heading);
-/// The same without the turn out of the start.
+/// The same without the turn at the start.
 double path_turning(std::span<const Vec2> path);
 /// Path from the root to `node`.
 std::vector<Vec2> path_to(std::span<const TreeNode> tree, std::uint32_t node);

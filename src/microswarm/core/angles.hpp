@@ -8,17 +8,18 @@ namespace microswarm {
 
 inline constexpr double pi = std::numbers::pi;
 
-/// Angle `a` [rad] wrapped to [-π, π]. Every difference of two headings goes through here.
+/// Angle `a` [rad] wrapped to [-π, π]. Use it for every difference of two headings.
 inline double wrap(double a) {
-  if (std::abs(a) <= pi) return a;  // the remainder's own answer, without the call
+  if (std::abs(a) <= pi) return a;  // same result as remainder(), without the call
   return std::remainder(a, 2 * pi);
 }
 
 /// Absolute difference of two headings [rad], in [0, π].
 inline double turn_between(double a, double b) { return std::abs(wrap(a - b)); }
 
-/// Degrees are for people: files, the command line and pictures. Everything else is rad. Both turn
-/// over in long double and round once, so that 30° in code and in a file are the same bits.
+/// Conversions between degrees and radians. Degrees appear only in files, on the command line and
+/// in pictures; everything else is in rad. Both compute in long double and round once, so 30° in
+/// code and in a file give the same bits.
 constexpr double radians(long double degrees) {
   return static_cast<double>(degrees * (std::numbers::pi_v<long double> / 180));
 }

@@ -5,7 +5,7 @@
 
 namespace microswarm {
 
-/// Now, by the clock that never jumps [s].
+/// Current time of the monotonic clock [s].
 inline double steady_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }

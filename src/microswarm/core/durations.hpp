@@ -11,11 +11,10 @@
 
 namespace microswarm {
 
-/// Many durations in a fixed place: how many there were in each of steps of 1 %, from 1 µs to
-/// about 1000 s.
+/// Histogram of durations in fixed memory: bins of 1 % from 1 µs to about 1000 s.
 class Durations {
  public:
-  /// One of `seconds`.
+  /// Adds a duration [s].
   void add(double seconds) {
     const double step = maths::log(std::max(seconds, shortest) / shortest) / growth;
     ++counts_[std::min(static_cast<std::size_t>(step), counts_.size() - 1)];
@@ -23,8 +22,7 @@ class Durations {
     ++count_;
   }
   std::size_t count() const { return static_cast<std::size_t>(count_); }
-  /// Quantile q in [0, 1] by nearest rank [s]: at least that, and by at most 1 % or 1 µs more;
-  /// 0 for none.
+  /// Quantile q in [0, 1] by nearest rank [s], rounded up by at most 1 % or 1 µs; 0 if empty.
   double quantile(double q) const {
     const auto rank = static_cast<std::uint64_t>(std::ceil(q * static_cast<double>(count_)));
     std::uint64_t below = 0;

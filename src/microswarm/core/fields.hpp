@@ -13,21 +13,21 @@
 
 namespace microswarm {
 
-/// Range of a parameter in the unit in which it is shown; both ends are allowed.
+/// Range of a parameter in its displayed unit; both ends are allowed.
 struct Range {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
 };
 
-/// What one field of a parameter struct is called and allows. Its key in files and on the command
-/// line is the name with the unit's suffix: name "step" in µm is the key `step_um`.
+/// Metadata of one field of a parameter struct. Its key in files and on the command line is the
+/// name with the unit's suffix: "step" in µm has the key `step_um`.
 struct FieldInfo {
   std::string_view name;
   Unit unit = Unit::none;
   Range range{};
   std::string_view doc;
-  bool required = false;          ///< must be given: there is no sensible default
-  std::string_view former_key{};  ///< key in earlier versions, which is still read
+  bool required = false;          ///< must be given: no sensible default
+  std::string_view former_key{};  ///< key in earlier versions, still accepted
 };
 
 /// Key of a field: its name with the unit's suffix.
@@ -41,31 +41,32 @@ struct MovedKey {
   std::string_view to;    ///< "sensing.frame_timeout_s"; empty when it is gone
 };
 
-/// Visits fields and does nothing: what the concept below is asked with.
+/// Field visitor that does nothing; used by the concept HasFields.
 struct NullVisitor {
   template <class T>
   void operator()(T&, const FieldInfo&) {}
 };
 
-/// A parameter struct lists its fields once, in one static member template,
+/// A parameter struct that lists its fields once, in one static member template:
 ///
 ///     template <class Self, class Visitor>
 ///     static void fields(Self& self, Visitor&& visit) {
 ///       visit(self.step, {"step", Unit::um, {1, 1e5}, "Length of one extension."});
 ///     }
 ///
-/// and everything else comes from it: YAML, JSON Schema, `--set`, help text, record headers.
+/// YAML, JSON Schema, `--set`, help text and record headers are generated from it.
 /// Allowed types: bool, int, std::uint32_t, std::uint64_t, double, std::string, Vec2, Pose2, enums
 /// with `enum_names`, structs with `fields`, std::optional and std::vector of these, and
-/// std::variant of structs that each have a `static constexpr std::string_view type_name` (chosen
-/// by the key `type`). Unit and range hold for every number in the field: both coordinates of a
+/// std::variant of structs that each have a `static constexpr std::string_view type_name` (selected
+/// by the key `type`). Unit and range apply to every number in the field: both coordinates of a
 /// Vec2, each entry of a vector.
 template <class T>
 concept HasFields = requires(T& t, NullVisitor& v) {
   T::fields(t, v);
 };
 
-/// An enum that may be a field lists its words beside it, found by argument-dependent lookup:
+/// An enum usable as a field. It declares its words in its namespace, found by argument-dependent
+/// lookup:
 ///
 ///     enum class Walls { slide, stop };
 ///     constexpr auto enum_names(Walls) {
@@ -77,7 +78,7 @@ concept NamedEnum = std::is_enum_v<E> && requires {
   enum_names(E{});
 };
 
-/// The word of an enumerator; empty for a value that has none.
+/// Word of an enumerator; empty if it has none.
 template <NamedEnum E>
 constexpr std::string_view enum_name(E value) {
   for (const auto& [entry, name] : enum_names(value))
@@ -85,7 +86,7 @@ constexpr std::string_view enum_name(E value) {
   return {};
 }
 
-/// The enumerator that a word stands for, or nothing.
+/// Enumerator with this word, or nothing.
 template <NamedEnum E>
 constexpr std::optional<E> enum_value(std::string_view name) {
   for (const auto& [entry, word] : enum_names(E{}))

@@ -64,16 +64,16 @@ bool is_special(const fs::path& path) {
   return fs::exists(status) && !fs::is_regular_file(status);
 }
 
-constexpr std::string_view staged_mark = ".tmp-microswarm-";  // no file of a user's has it
+constexpr std::string_view staged_mark = ".tmp-microswarm-";  // reserved: no user file contains it
 
-/// Where a program makes its nth file for this target.
+/// Path of this process's nth temporary file for the target.
 fs::path staged_for(const fs::path& target, int n) {
   fs::path staged = target;
   return staged.replace_filename(fmt::format("{}{}{}-{}{}", target.stem().string(), staged_mark,
                                              ::getpid(), n, target.extension().string()));
 }
 
-/// The program that made a file by such a name; 0 for any other name.
+/// Process that made a temporary file of this name; 0 for any other name.
 pid_t maker_of(const fs::path& file) {
   const std::string name = file.filename().string();
   const auto mark = name.rfind(staged_mark);
@@ -98,7 +98,7 @@ std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
   std::string bytes;
   std::size_t used = 0;
   bytes.resize(static_cast<std::size_t>(status.st_size) <= max_bytes ? status.st_size + 1 : 1);
-  for (;;) {  // ends: each turn reads something, up to the limit
+  for (;;) {  // terminates: each pass reads something, up to the limit
     const ssize_t n = ::read(file.get(), bytes.data() + used, bytes.size() - used);
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) fail_errno(path, "read", errno);
@@ -169,7 +169,7 @@ void make_folder(const std::string& folder) {
   const int nameless = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
   if (nameless >= 0)
     ::close(nameless);
-  else if (errno != EOPNOTSUPP && errno != EISDIR)  // else it shows only when a file is written
+  else if (errno != EOPNOTSUPP && errno != EISDIR)  // O_TMPFILE unsupported: not tested
     throw InputError(folder + ": cannot write: " + std::generic_category().message(errno));
 }
 

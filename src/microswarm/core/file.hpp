@@ -11,13 +11,14 @@
 namespace microswarm {
 
 /// All bytes of a file. Throws InputError "PATH: cannot read: REASON", also for a folder and for a
-/// file of more than `max_bytes`.
+/// file larger than `max_bytes`.
 std::string read_file(const std::filesystem::path& path, std::uint64_t max_bytes = 1ULL << 30);
 
-/// A file in the making: write to `path()`, which stands beside the target and keeps its
-/// extension, then `commit()`. A reader sees the old file or the whole new one, never a part; when
-/// commit() was not reached, nothing is left behind. Errors are InputError "TARGET: cannot write:
-/// REASON". A target that is no plain file, as /dev/stdout, is written to straight away.
+/// A file written under a temporary name and renamed when complete. Write to `path()`, which is in
+/// the target's folder and keeps its extension, then call `commit()`. A reader sees the old file or
+/// the whole new one, never a part; without commit() nothing is left behind. Throws InputError
+/// "TARGET: cannot write: REASON". A target that is not a regular file, such as /dev/stdout, is
+/// written directly.
 class StagedFile {
  public:
   explicit StagedFile(std::filesystem::path target);
@@ -26,7 +27,7 @@ class StagedFile {
   StagedFile& operator=(const StagedFile&) = delete;
 
   const std::filesystem::path& path() const { return staged_; }
-  /// Brings the bytes to the disk (fsync), then renames to the target.
+  /// Flushes the bytes to the disk (fsync), then renames to the target.
   void commit();
 
  private:
@@ -36,14 +37,15 @@ class StagedFile {
   bool committed_ = false;
 };
 
-/// Takes away what StagedFile left in a folder for programs that are no more. Passes over errors.
+/// Removes files that StagedFile left in a folder for processes that no longer exist. Ignores
+/// errors.
 void clear_staged(const std::filesystem::path& folder);
 
-/// Writes a whole file by way of a StagedFile. Throws InputError "PATH: cannot write: REASON", for
+/// Writes a whole file through a StagedFile. Throws InputError "PATH: cannot write: REASON", for
 /// example "No space left on device".
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
-/// Makes the folder, with its parents, and tries whether files can be written there. Throws
+/// Creates the folder and its parents and tests whether files can be written there. Throws
 /// InputError "FOLDER: cannot make the folder: REASON" or "…: cannot write: REASON".
 void make_folder(const std::string& folder);
 

@@ -11,14 +11,14 @@
 
 namespace microswarm {
 
-/// FNV-1a, 64 bits: fingerprints of inputs and records, not a defence against forgery. Values are
-/// taken by their bits, so two doubles hash alike only if they are the same bits.
+/// FNV-1a, 64 bits: fingerprints of inputs and records, not cryptographic. Values are hashed by
+/// their bytes: two doubles hash alike only if their bits are equal.
 class Hash {
  public:
   void bytes(std::span<const std::byte> data) {
     for (std::byte b : data) state_ = (state_ ^ static_cast<std::uint64_t>(b)) * 0x100000001b3ULL;
   }
-  /// The length goes in too, so that "ab", "c" and "a", "bc" differ.
+  /// Hashes the length too, so "ab", "c" and "a", "bc" differ.
   void text(std::string_view s) {
     value(static_cast<std::uint64_t>(s.size()));
     bytes(std::as_bytes(std::span(s.data(), s.size())));

@@ -5,7 +5,7 @@
 
 namespace microswarm {
 
-/// Farther, later and dearer than anything.
+/// Positive infinity.
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace microswarm

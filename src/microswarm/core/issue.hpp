@@ -11,24 +11,26 @@
 
 namespace microswarm {
 
-/// One thing that is wrong with a value.
+/// One mistake in a value.
 struct Issue {
-  /// That it is about; it is told at the first that is written. None where the text names a file.
+  /// Keys concerned; the message locates the first one present in the file. Empty if the text names
+  /// a file itself.
   std::vector<std::string> keys;
   std::string text;
 };
 
-/// Everything that is wrong with a value. Keys are relative to it and joined by dots, entries of a
-/// list are counted from 0: "obstacles.3.shape.radius_um". Checks return issues and know no file;
-/// KeyLocations tells where the keys stand.
+/// List of all mistakes in a value. Keys are relative to it and joined by dots; list entries count
+/// from 0: "obstacles.3.shape.radius_um". Validation returns issues and knows no file; KeyLocations
+/// adds the file positions.
 class Issues {
  public:
   void add(std::initializer_list<std::string_view> keys, std::string text);
   void add(std::string_view key, std::string text) { add({key}, std::move(text)); }
   void add(const Issues& more);
-  /// Adds those of what `key` holds; its name in words stands before each text: "obstacle 4".
+  /// Adds the issues of the part held by `key`; `words` (e.g. "obstacle 4") is put before each
+  /// text.
   void add_within(std::string_view key, const Issues& part, const std::string& words = {});
-  /// Drops those that are about anything in one of these keys.
+  /// Removes issues about any of these keys or anything within them.
   void drop(const std::vector<std::string>& keys);
 
   bool empty() const { return list_.empty(); }
@@ -40,8 +42,8 @@ class Issues {
   std::vector<Issue> list_;
 };
 
-/// Calls `read`, whose InputError is one more issue: about that key, or about none where it names a
-/// file.
+/// Calls `read` and adds its InputError as an issue about `key`; an empty key means the text names
+/// a file.
 template <class Read>
 void attempt(Issues& issues, std::string_view key, Read&& read) {
   try {
@@ -54,13 +56,13 @@ void attempt(Issues& issues, std::string_view key, Read&& read) {
   }
 }
 
-/// Whether `key` is `outer` or something in it.
+/// Whether `key` is `outer` or lies within it.
 bool is_in_key(std::string_view key, std::string_view outer);
 
-/// Whether a key is written somewhere, or has its default.
+/// Tells whether a key is given explicitly rather than left at its default.
 using IsGiven = std::function<bool(std::string_view key)>;
 
-/// The same for the keys of what `key` holds.
+/// The same for keys relative to `key`.
 IsGiven given_within(const IsGiven& given, std::string_view key);
 
 }  // namespace microswarm

@@ -9,27 +9,27 @@
 #include <numbers>
 #include <utility>
 
-// Plain sums, products and quotients have the same bits everywhere, as nothing is contracted.
-// Sines, cosines and headings are asked for most, so they are worked out here where their argument
-// is ordinary. All else is SLEEF's: of its variants those in plain C without fused multiply-add
-// ("cinz … purec"), which are meant to give the same bits on every machine.
+// Plain sums, products and quotients have the same bits everywhere because nothing is contracted.
+// Sine, cosine and atan2 are the most frequent, so they are computed here for ordinary arguments.
+// Everything else calls SLEEF, in its plain C variants without fused multiply-add ("cinz … purec"),
+// which are meant to give the same bits on every machine.
 namespace microswarm::maths {
 namespace {
 
-// π/2 = quarter_high + quarter_low; the product of the first and a whole number to 2²⁰ is exact.
+// π/2 = quarter_high + quarter_low; quarter_high times an integer up to 2²⁰ is exact.
 constexpr double quarter_high = 0x1.921fb544p+0;
 constexpr double quarter_low = 0x1.0b4611a626331p-34;
 constexpr double max_reduced = 1000;             // [rad]
-constexpr double min_reduced = 0x1p-14;          // nearer to a quarter turn too few bits are left
+constexpr double min_reduced = 0x1p-14;          // closer to a quarter turn, too few bits remain
 constexpr double eighth = std::numbers::pi / 4;  // [rad]
 
-/// An angle less whole quarters of a turn, as a sum: within ±π/4.
+/// Angle minus whole quarter turns, as a sum within ±π/4.
 struct Reduced {
   double high = 0, low = 0;
   int quarter = 0;
 };
 
-/// Whether `angle` is ordinary, and then what is left of it.
+/// Reduces `angle`; false if it is not ordinary.
 inline bool reduce(double angle, Reduced& left) {
   const double size = std::abs(angle);
   if (size <= eighth) {
@@ -37,7 +37,7 @@ inline bool reduce(double angle, Reduced& left) {
     return true;
   }
   if (!(size <= max_reduced)) return false;
-  constexpr double whole = 0x1.8p52;  // added and taken away, it rounds
+  constexpr double whole = 0x1.8p52;  // adding and subtracting it rounds
   const double turns = (angle * (2 / std::numbers::pi) + whole) - whole;
   const double off = angle - turns * quarter_high;
   const double rest = turns * quarter_low;
@@ -47,7 +47,7 @@ inline bool reduce(double angle, Reduced& left) {
   return std::abs(left.high) >= min_reduced;
 }
 
-/// Of angles within ±π/4, by polynomials of least greatest error.
+/// Minimax polynomials for angles within ±π/4.
 inline double sine_of(double high, double low) {
   const double z = high * high;
   const double cube = high * z;
@@ -69,7 +69,7 @@ inline double cosine_of(double high, double low) {
   return most + (((1 - most) - half) + (z * (z * q) - high * low));
 }
 
-/// The sine of the angle turned on by so many quarters.
+/// Sine of the angle plus `quarters` quarter turns.
 inline double sine_after(const Reduced& left, int quarters) {
   const int quarter = (left.quarter + quarters) & 3;
   const double size =
@@ -81,7 +81,7 @@ inline double sine_after(const Reduced& left, int quarters) {
 struct Arc {
   double high = 0, low = 0;
 };
-constexpr double half_turn_low = 0x1.1a62633145c07p-53;  // π less its double
+constexpr double half_turn_low = 0x1.1a62633145c07p-53;  // π minus its double
 constexpr int arcs_to_one = 16;
 constexpr std::array<Arc, arcs_to_one + 1> arcs{{
     {0, 0},
@@ -138,15 +138,15 @@ double atan2(double y, double x) {
   const bool steep = rise > run;
   const double less = steep ? run : rise, more = steep ? rise : run;
   if (!(less <= more && more >= 1e-30 && more <= 1e30)) return Sleef_cinz_atan2d1_u10purec(y, x);
-  // atan(q) = atan(c) + atan((q − c) / (1 + q c)), with c = i / 16 next to q; which of two
-  // neighbours is taken does not matter.
+  // atan(q) = atan(c) + atan((q − c) / (1 + q c)), with c = i / 16 near q; either neighbour will
+  // do.
   const float nearest = static_cast<float>(less) / static_cast<float>(more) * arcs_to_one + 0.5F;
   const auto i = static_cast<std::size_t>(nearest);
   const double c = static_cast<double>(i) / arcs_to_one;
   const double t = (less - c * more) / (more + c * less);
   const double z = t * t;
   const double bend = t * z * (-1.0 / 3 + z * (1.0 / 5 + z * (-1.0 / 7 + z * (1.0 / 9 - z / 11))));
-  // The angle is that arc, or π/2 or π more or less.
+  // The angle is this arc, or π/2 or π plus or minus it.
   const double from = steep ? std::numbers::pi / 2 : x < 0 ? std::numbers::pi : 0;
   const double from_low = steep ? half_turn_low / 2 : x < 0 ? half_turn_low : 0;
   const double sign = steep != (x < 0) ? -1 : 1;

@@ -6,13 +6,13 @@
 
 namespace microswarm {
 
-/// Shows the share of some work that is done, in [0, 1], and what is being done. The display ends
-/// when the function is destroyed.
+/// Shows the completed share of some work, in [0, 1], and the current step. The display ends when
+/// the function object is destroyed.
 using ShowShare = std::function<void(double share, const std::string& doing)>;
-/// Begins to show the progress of work with this label.
+/// Starts a progress display with this label.
 using BeginProgress = std::function<ShowShare(const std::string& label)>;
 
-/// Tells how far some work is to whoever shows it, if anybody does.
+/// Reports the progress of some work to a display, if there is one.
 class Progress {
  public:
   Progress(const BeginProgress& begin, const std::string& label)

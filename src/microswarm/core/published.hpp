@@ -14,7 +14,7 @@ namespace microswarm {
 
 namespace published_detail {
 
-/// Compares the fields of `given`, in order, with those of the other two.
+/// Compares the fields of `given` in turn with those of `paper` and `usual`.
 template <class T>
 class Comparison {
  public:
@@ -59,10 +59,10 @@ class Comparison {
 
 }  // namespace published_detail
 
-/// For parameters with `as_published`: an issue for each key of ours that is given, in the file or
-/// after it, with a value that is not the one in effect, since it would have no effect. `given` are
-/// the parameters as read, `paper` the same in effect, `usual` their defaults: what no file gives
-/// must be the default or the paper's.
+/// Checks parameters that have `as_published`. Returns an issue for each key given by the user, in
+/// the file or on the command line, whose value differs from the one in effect and would be
+/// ignored. `given`: parameters as read; `paper`: parameters in effect; `usual`: defaults. A key
+/// not given must have its default or the paper's value.
 template <HasFields T>
 Issues validate_published(const IsGiven& is_given, const T& given, const T& paper, const T& usual) {
   Issues issues;

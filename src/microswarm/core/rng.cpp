@@ -11,8 +11,9 @@
 
 namespace microswarm {
 
-// The seed is Philox's key; purpose and trial are the upper half of its counter, blocks the lower.
-// Philox is a permutation of counters under each key, so streams of one seed cannot overlap.
+// The seed is Philox's key. Purpose and trial are the upper half of its counter, the block number
+// the lower half. Philox permutes the counters under each key, so streams of one seed cannot
+// overlap.
 Rng::Rng(std::uint64_t seed, Purpose purpose, std::uint32_t trial)
     : key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)},
       counter_{0, 0, trial, static_cast<std::uint32_t>(purpose)} {}
@@ -36,7 +37,7 @@ std::uint64_t Rng::below(std::uint64_t n) {
 }
 
 double Rng::normal() {
-  const double u = 1 - uniform();  // in (0, 1]: its logarithm is finite
+  const double u = 1 - uniform();  // in (0, 1], so the logarithm is finite
   const double v = uniform();
   return std::sqrt(-2 * maths::log(u)) * maths::cos(2 * std::numbers::pi * v);
 }

@@ -7,7 +7,8 @@
 
 namespace microswarm {
 
-/// What a random stream is for. Two purposes never share numbers, whatever the seed.
+/// Purpose of a random stream. Streams of different purposes never share numbers, whatever the
+/// seed.
 enum class Purpose : std::uint32_t {
   planner = 1,
   plant,
@@ -19,9 +20,9 @@ enum class Purpose : std::uint32_t {
   obstacle_sensor
 };
 
-/// Counter-based random stream (Philox4x32-10 by Random123), keyed by (seed, purpose, trial): the
-/// same key gives the same numbers on any thread, rank and build, and no two keys overlap. A copy
-/// continues independently from the same place.
+/// Counter-based random stream (Philox4x32-10 of Random123), keyed by (seed, purpose, trial). The
+/// same key gives the same numbers on any thread, rank and build; streams of different keys do not
+/// overlap. A copy continues independently from the same position.
 class Rng {
  public:
   Rng(std::uint64_t seed, Purpose purpose, std::uint32_t trial = 0);
@@ -35,10 +36,10 @@ class Rng {
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
   /// Uniform in [lo, hi).
   double uniform(double lo, double hi) { return lo + (hi - lo) * uniform(); }
-  /// Uniform integer in [0, n), from 64 bits always; a value's probability is off by less than
-  /// 2^-64. n must not be 0.
+  /// Uniform integer in [0, n), always from 64 bits; the bias of a value is below 2^-64. n must not
+  /// be 0.
   std::uint64_t below(std::uint64_t n);
-  /// Standard normal (Box–Muller, two uniforms a call, so that the stream position is predictable).
+  /// Standard normal (Box–Muller; two uniforms a call, so that the stream position is predictable).
   double normal();
 
  private:

@@ -24,12 +24,12 @@ inline double quantile(std::vector<double> values, double q) {
   const std::size_t k = std::clamp<std::size_t>(rank, 1, values.size()) - 1;
   return ranked(std::move(values), k);
 }
-/// Mean; 0 for none.
+/// Mean; 0 if empty.
 inline double mean(const std::vector<double>& values) {
   if (values.empty()) return 0;
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
-/// The middle value, of an even number of them the mean of the two in the middle; 0 for none.
+/// Median, the mean of the two middle values if their number is even; 0 if empty.
 inline double median(std::vector<double> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -37,17 +37,17 @@ inline double median(std::vector<double> values) {
   if (values.size() % 2 == 1) return *middle;
   return std::midpoint(*std::max_element(values.begin(), middle), *middle);
 }
-/// The same; nothing for none.
+/// The same; nothing if empty.
 inline std::optional<double> median_if_any(const std::vector<double>& values) {
   return values.empty() ? std::nullopt : std::optional(median(values));
 }
 
-/// A share with the ends of its interval.
+/// Confidence interval of a proportion.
 struct ShareInterval {
   double low = 0, high = 1;
 };
-/// Where the share of successes lies with 95 % confidence when `successes` of `trials` were seen:
-/// Wilson's score interval. All of 0 … 1 without trials.
+/// 95 % Wilson score interval of the success rate for `successes` out of `trials`; [0, 1] without
+/// trials.
 inline ShareInterval share_interval(int successes, int trials) {
   if (trials <= 0) return {};
   constexpr double z = 1.959963984540054;  // 97.5 % of a normal distribution lie below

@@ -12,16 +12,16 @@ namespace microswarm {
 /// Why a planner or a run ended. Expected outcomes are values, never exceptions; each comes with
 /// the best partial result.
 enum class Status {
-  solved,         ///< planner: a path to the goal; run: the goal was reached
-  no_path,        ///< the search space is exhausted: there is none
+  solved,         ///< planner: path to the goal found; run: goal reached
+  no_path,        ///< search space exhausted without a path
   node_limit,     ///< nodes or iterations ran out before a path was found
-  time_limit,     ///< run: the simulated time ran out; planner: its deadline passed
+  time_limit,     ///< run: simulated time ran out; planner: deadline passed
   stopped,        ///< the caller asked to stop
-  start_blocked,  ///< the start is not free with the clearance asked for
+  start_blocked,  ///< the start lacks the required clearance
   goal_blocked,   ///< no point within the goal tolerance is free
-  held,           ///< run: the swarm held where it was until the end, nothing was safe
+  held,           ///< run: the swarm held its position until the end because no motion was safe
   collided,       ///< run: the swarm touched an obstacle or a wall
-  fault,          ///< run: the plant could not go on, as a rig that lost its swarm
+  fault,          ///< run: the plant failed, e.g. a rig lost its swarm
 };
 constexpr auto enum_names(Status) {
   return std::array<std::pair<Status, std::string_view>, 10>{

@@ -9,8 +9,8 @@
 
 namespace microswarm {
 
-/// When to give up: a flag somebody else may set (Ctrl-C), and a deadline. Both are optional, and
-/// an empty Stop never stops. Library code asks it at least once per millisecond of work.
+/// Stop condition: a flag set elsewhere (Ctrl-C) and a deadline. Both are optional, and an empty
+/// Stop never stops. Library code polls it at least once per millisecond of work.
 class Stop {
  public:
   using Clock = std::chrono::steady_clock;
@@ -20,9 +20,9 @@ class Stop {
   explicit Stop(Clock::duration budget, const std::atomic<bool>* flag = nullptr)
       : flag_(flag), deadline_(Clock::now() + budget) {}
 
-  /// Somebody asked to stop.
+  /// Whether the flag is set.
   bool requested() const { return flag_ && flag_->load(std::memory_order_relaxed); }
-  /// The deadline has passed.
+  /// Whether the deadline has passed.
   bool expired() const { return deadline_ && Clock::now() >= *deadline_; }
   bool operator()() const { return requested() || expired(); }
   /// What ends work now: `stopped`, `time_limit` or nothing.
@@ -37,7 +37,7 @@ class Stop {
   std::optional<Clock::time_point> deadline_;
 };
 
-/// What has gone by [s].
+/// Elapsed time [s].
 inline double seconds_since(Stop::Clock::time_point began) {
   return std::chrono::duration<double>(Stop::Clock::now() - began).count();
 }

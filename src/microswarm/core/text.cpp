@@ -28,7 +28,7 @@ std::string tidy_exponent(std::string text) {
 
 std::string one_line(std::string_view text, std::size_t most) {
   std::size_t end = std::min(text.size(), most);
-  if (end < text.size())  // not within a character of UTF-8
+  if (end < text.size())  // do not split a UTF-8 character
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
   std::string line(text.substr(0, end));
   for (char& c : line)
@@ -42,7 +42,7 @@ std::string quote(std::string_view text) { return fmt::format("'{}'", one_line(t
 std::optional<double> parse_number(std::string_view text) {
   const std::size_t first = text.starts_with('-') || text.starts_with('+') ? 1 : 0;
   if (first >= text.size() || !(text[first] == '.' || (text[first] >= '0' && text[first] <= '9')))
-    return std::nullopt;  // from_chars would take "nan" and "inf", and no '+'
+    return std::nullopt;  // from_chars would accept "nan" and "inf" but not '+'
   if (text.front() == '+') text.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -5,8 +5,8 @@
 
 namespace microswarm {
 
-/// Unit of a parameter or a recorded quantity. Lengths are µm, times s, angles rad, flux densities
-/// mT and currents A everywhere inside; `deg` marks an angle held in rad and shown in degrees.
+/// Unit of a parameter or a recorded quantity. Internally lengths are µm, times s, angles rad, flux
+/// densities mT and currents A; `deg` marks an angle stored in rad and displayed in degrees.
 enum class Unit {
   none,
   um,
@@ -32,13 +32,13 @@ enum class Unit {
   k_per_w
 };
 
-/// Suffix of a key or a column that holds this unit: "um" in `step_um`; empty for `none`.
+/// Suffix of a key or column in this unit: "um" in `step_um`; empty for `none`.
 std::string_view unit_suffix(Unit unit);
 
-/// Unit as people read it: "µm", "µm/s", "°"; empty for `none`.
+/// Displayed symbol: "µm", "µm/s", "°"; empty for `none`.
 std::string_view unit_symbol(Unit unit);
 
-/// Factor from the stored value to the shown one: 180/π for `deg` and `deg_per_s`, else 1.
+/// Factor from the stored to the displayed value: 180/π for `deg` and `deg_per_s`, else 1.
 double unit_shown_per_stored(Unit unit);
 
 }  // namespace microswarm

@@ -21,7 +21,7 @@ using Json = nlohmann::json;
 constexpr std::uint64_t max_geojson_bytes = 64ULL << 20;
 constexpr int max_depth = 32;
 
-/// What the library says, without its own prefix "[json.exception.…] ".
+/// The library's message without its prefix "[json.exception.…] ".
 std::string complaint(const Json::exception& error) {
   const std::string_view what = error.what();
   const std::size_t end = what.find("] ");
@@ -45,7 +45,7 @@ Json parse(std::string_view text, std::string_view name) {
   }
 }
 
-/// Walks through the document and collects walls and discs.
+/// Traverses the document and collects walls and discs.
 class GeoJsonReader {
  public:
   GeoJsonReader(std::string_view text, std::string_view name, double um_per_unit)
@@ -62,7 +62,7 @@ class GeoJsonReader {
   }
 
  private:
-  /// The properties of the feature around a geometry; null outside features.
+  /// Properties of the feature that contains a geometry; null outside features.
   struct Properties {
     const Json* value;
     const JsonPlace* place;
@@ -84,7 +84,7 @@ class GeoJsonReader {
     return value;
   }
 
-  /// Calls visit(entry, its place) for each entry of the array `key`.
+  /// Calls visit(entry, its position) for each entry of the array `key`.
   template <class Visit>
   void each(const Json& parent, const JsonPlace& place, const char* key, Visit&& visit) const {
     const JsonPlace here = place.member(key);
@@ -95,7 +95,7 @@ class GeoJsonReader {
     for (std::size_t i = 0; i < array(list, place).size(); ++i) visit(list[i], place.entry(i));
   }
 
-  /// A collection, a feature or a geometry.
+  /// Reads a collection, a feature or a geometry.
   void object(const Json& value, const JsonPlace& place, const Properties& properties) {
     if (!value.is_object())
       fail(place, "an object expected, not " + std::string(value.type_name()));

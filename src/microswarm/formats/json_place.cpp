@@ -6,12 +6,12 @@
 namespace microswarm {
 namespace {
 
-/// Walks over valid JSON without building anything.
+/// Scans valid JSON without building a tree.
 class Scanner {
  public:
   explicit Scanner(std::string_view json) : json_(json) {}
 
-  /// Where the value of `place` begins, or that of the last step that there is.
+  /// Position of the value at `place`, or of its nearest existing ancestor.
   std::size_t find(const JsonPlace& place) {
     if (!place.parent) return begin_ = value_after(0);
     begin_ = find(*place.parent);
@@ -22,7 +22,7 @@ class Scanner {
   }
 
  private:
-  /// First byte at or after `at` that is no blank and no separator.
+  /// First byte at or after `at` that is neither blank nor separator.
   std::size_t value_after(std::size_t at) const {
     return std::min(json_.find_first_not_of(" \t\r\n,:", at), json_.size());
   }

@@ -102,7 +102,7 @@ MapParts read(const ChannelMap& spec, const fs::path&, Issues& issues) {
   return parts;
 }
 
-/// The file of the map, where it has one.
+/// File of the map, or null if it has none.
 const std::string* file_of(const MapSpec& spec) {
   return std::visit(
       [](const auto& s) -> const std::string* {
@@ -137,7 +137,7 @@ MapParts read_map_parts(const MapSpec& spec, const fs::path& base, Issues& issue
   const bool from_file = file && !file->empty();
   Issues of_map;
   MapParts parts;
-  // A map type that was chosen by --set may have no file.
+  // A map type chosen by --set may have no file.
   if (file && file->empty() && !std::holds_alternative<RectanglesMap>(spec))
     of_map.add("map.file", "missing key map.file");
   else

@@ -14,27 +14,27 @@
 
 namespace microswarm {
 
-/// Reads what the spec names, files relative to the folder `base`. What is wrong goes into
-/// `issues`, with the keys of a scenario; what is wrong in a file has no key and begins with the
-/// file's name. Then the parts are of no use.
+/// Reads the map given by `spec`; file names are relative to the folder `base`. Mistakes go into
+/// `issues` with the keys of a scenario; a mistake in a file has no key and begins with the file's
+/// name. If there are issues, the parts must not be used.
 MapParts read_map_parts(const MapSpec& spec, const std::filesystem::path& base, Issues& issues);
-/// The same; throws InputError with a line for each issue.
+/// The same, but throws InputError with a line for each issue.
 MapParts read_map_parts(const MapSpec& spec, const std::filesystem::path& base = {},
                         const KeyLocations& keys = {});
 
-/// A map ready for planning, and the fingerprint of the parts it was built from.
+/// A map ready for planning, and the fingerprint of its parts.
 struct LoadedMap {
   std::shared_ptr<const Map> map;
   std::uint64_t input_hash = 0;
 };
 
-/// Reads and builds. Throws InputError.
+/// Reads and builds a map. Throws InputError.
 LoadedMap load_map(const MapSpec& spec, const std::filesystem::path& base = {});
 
-/// The spec for a file on the command line, by its extension and content: a picture, a ROS YAML, a
-/// MovingAI .map, GeoJSON (.geojson, .json) or rectangles (.csv, .txt). `um_per_px` is the side of
-/// a pixel or cell; a picture needs it: "x.png: µm per px is missing: give --um-per-px". Throws
-/// InputError for what is none of these.
+/// Spec of a map file from the command line, from its extension and content: an image, a ROS YAML,
+/// a MovingAI .map, GeoJSON (.geojson, .json) or rectangles (.csv, .txt). `um_per_px` is the side
+/// of a pixel or cell; an image needs it: "x.png: µm per px is missing: give --um-per-px". Throws
+/// InputError for other files.
 MapSpec guess_map_spec(const std::filesystem::path& path,
                        std::optional<double> um_per_px = std::nullopt);
 

@@ -10,20 +10,20 @@
 
 namespace microswarm {
 
-/// What a reader of maps hands on: everything a Map is built from, as it stood in the file.
+/// Output of map readers: everything that a Map is built from.
 struct MapParts {
   Box bounds;
   std::vector<Polygon> walls;
   std::vector<Disc> discs;
 };
 
-/// The smallest box around walls and discs.
+/// Bounding box of walls and discs.
 Box box_of(const MapParts& parts);
 
-/// Fingerprint of every bit: the same for the same map, whatever file it came from.
+/// Fingerprint of every bit: equal for equal maps, whatever file they came from.
 std::uint64_t fingerprint(const MapParts& parts);
 
-/// Throws InputError "NAME: WHY" when the bounds are empty, or anything is not finite or beyond
+/// Throws InputError "NAME: WHY" if the bounds are empty, or anything is not finite or beyond
 /// max_coordinate.
 void check(const MapParts& parts, const std::string& name);
 

@@ -14,14 +14,14 @@
 
 namespace microswarm {
 
-/// Which pixels of a picture are free.
+/// Which pixels of an image are free.
 enum class FreePixels { bright, dark };
 constexpr auto enum_names(FreePixels) {
   return std::array<std::pair<FreePixels, std::string_view>, 2>{
       {{FreePixels::bright, "bright"}, {FreePixels::dark, "dark"}}};
 }
 
-/// A picture whose pixels are free or walls; (0, 0) is its lower left corner.
+/// Image whose pixels are free or walls; (0, 0) is its lower left corner.
 struct ImageMap {
   static constexpr std::string_view type_name = "image";
   std::string file;
@@ -42,7 +42,7 @@ struct ImageMap {
   }
 };
 
-/// A map of ROS' map_server: YAML and picture. Occupied and unknown cells are walls.
+/// Map of ROS' map_server: YAML and image. Occupied and unknown cells are walls.
 struct RosMap {
   static constexpr std::string_view type_name = "ros";
   std::string file;
@@ -58,7 +58,7 @@ struct RosMap {
   }
 };
 
-/// A grid map of the MovingAI benchmarks; (0, 0) is its lower left corner.
+/// Grid map of the MovingAI benchmarks; (0, 0) is its lower left corner.
 struct MovingAiMap {
   static constexpr std::string_view type_name = "moving_ai";
   std::string file;
@@ -82,7 +82,7 @@ struct GeoJsonMap {
   }
 };
 
-/// Rectangular walls, in a list or in a CSV file of rows x,y,width,height [µm].
+/// Rectangular walls, in a list or in a CSV file with rows x,y,width,height [µm].
 struct RectanglesMap {
   static constexpr std::string_view type_name = "rectangles";
   std::optional<Vec2> lo = std::nullopt;
@@ -110,7 +110,7 @@ struct DiscWall {
   }
 };
 
-/// Walls written down as polygons and discs.
+/// Walls given directly as polygons and discs.
 struct PolygonsMap {
   static constexpr std::string_view type_name = "polygons";
   Vec2 lo{};
@@ -126,7 +126,7 @@ struct PolygonsMap {
   }
 };
 
-/// A channel cut into a solid block from (0, 0) to (width, height): DeformingChannel at rest.
+/// Channel in a solid block from (0, 0) to (width, height): a DeformingChannel at rest.
 struct ChannelMap {
   static constexpr std::string_view type_name = "channel";
   double width = 2000;
@@ -148,7 +148,7 @@ struct ChannelMap {
   }
 };
 
-/// Where a map comes from: a file in one of the forms read, or written down in place.
+/// Source of a map: a file in one of the supported formats, or walls given directly.
 using MapSpec =
     std::variant<PolygonsMap, RectanglesMap, ChannelMap, ImageMap, RosMap, MovingAiMap, GeoJsonMap>;
 

@@ -16,7 +16,7 @@ constexpr std::uint64_t max_scenario_bytes = 64ULL << 20;
 
 constexpr bool is_free_letter(char c) { return c == '.' || c == 'G' || c == 'S'; }
 
-/// A whole number within [0, limit], or a failure that names it.
+/// Whole number in [0, limit]; otherwise fails with a message that names it.
 int whole_number(const Lines& lines, std::string_view word, int limit, const std::string& what) {
   const std::optional<double> value = parse_number(word);
   if (!value || *value != std::trunc(*value))
@@ -26,7 +26,7 @@ int whole_number(const Lines& lines, std::string_view word, int limit, const std
   return static_cast<int>(*value);
 }
 
-/// Header line "KEY VALUE"; the value.
+/// Value of a header line "KEY VALUE".
 std::string_view header_value(Lines& lines, std::string_view key) {
   const std::optional<std::string_view> line = lines.next();
   const std::vector<std::string_view> found = words(line.value_or(""));

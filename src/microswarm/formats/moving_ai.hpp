@@ -11,13 +11,13 @@
 namespace microswarm {
 
 /// Reads a grid map of the MovingAI benchmarks (Sturtevant, "Benchmarks for grid-based
-/// pathfinding", 2012): `type octile` or `tile`, height, width, then one letter a cell. '.', 'G'
-/// and 'S' are free, every other letter is blocked; the mask's set cells are the blocked ones.
+/// pathfinding", 2012): `type octile` or `tile`, height, width, then one letter per cell. '.', 'G'
+/// and 'S' are free, every other letter is blocked. The mask's set cells are the blocked ones.
 /// Throws InputError "NAME:LINE: WHY".
 Mask read_moving_ai(const std::filesystem::path& path);
 Mask parse_moving_ai(std::string_view text, std::string_view name);
 
-/// The same form from a mask: '@' where it is set, '.' elsewhere.
+/// MovingAI text of a mask: '@' where it is set, '.' elsewhere.
 std::string moving_ai_text(const Mask& blocked);
 
 /// A cell of a grid map, counted from the top left.
@@ -27,14 +27,14 @@ struct GridCell {
   friend bool operator==(GridCell, GridCell) = default;
 };
 
-/// One query of a .scen file: from cell to cell in octile moves without corner cutting.
+/// Query of a .scen file: from cell to cell in octile moves without corner cutting.
 struct GridQuery {
-  std::string map;  ///< file name, as written there
-  int width = 0;    ///< of the map [cells]
+  std::string map;  ///< file name as written in the .scen file
+  int width = 0;    ///< size of the map [cells]
   int height = 0;
   GridCell start;
   GridCell goal;
-  double optimal_length = 0;  ///< [cells]; a diagonal counts √2
+  double optimal_length = 0;  ///< [cells]; a diagonal move counts √2
 };
 
 /// Reads a .scen file of the MovingAI benchmarks, version 1. Throws InputError "NAME:LINE: WHY",

@@ -11,14 +11,14 @@
 
 namespace microswarm {
 
-/// Reads rectangles, one a line: lower left x, y, width, height [µm] with commas or blanks between
-/// them. A first line without numbers is a header; blank lines and lines that start with '#' are
-/// passed over. Throws InputError "NAME:LINE: WHY".
+/// Reads rectangles, one per line: lower left x, y, width, height [µm], separated by commas or
+/// blanks. A first line without numbers is a header. Blank lines and lines that start with '#' are
+/// skipped. Throws InputError "NAME:LINE: WHY".
 std::vector<Polygon> read_rectangles(const std::filesystem::path& path);
 std::vector<Polygon> parse_rectangles(std::string_view text, std::string_view name);
 
-/// The polygon of x, y, width, height [µm]. Throws InputError "WHERE: WHY" unless there are four
-/// numbers, the last two above 0.
+/// Polygon of a rectangle x, y, width, height [µm]. Throws InputError "WHERE: WHY" unless there are
+/// four numbers, the last two above 0.
 Polygon rectangle(std::span<const double> numbers, const std::string& where);
 
 }  // namespace microswarm

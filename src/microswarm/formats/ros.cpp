@@ -8,7 +8,7 @@
 namespace microswarm {
 namespace {
 
-/// What a pixel of a value [0, 255] makes of its cell.
+/// Occupancy of a cell from its pixel value [0, 255].
 enum class Cell { free, unknown, occupied };
 
 Cell cell_of(double value, const RosHeader& header) {
@@ -46,7 +46,7 @@ Mask ros_walls(const Image& image, const RosHeader& header, bool unknown_free) {
   Mask mask(image.width, image.height);
   const auto channels = static_cast<std::size_t>(image.channels);
   for (std::size_t i = 0; i < mask.cells.size(); ++i) {
-    int sum = 0;  // the mean of the colours, as map_server takes it
+    int sum = 0;  // mean of the colours, as in map_server
     for (std::size_t c = 0; c < channels; ++c) sum += image.pixels[i * channels + c];
     const Cell cell = cell_of(static_cast<double>(sum) / image.channels, header);
     mask.cells[i] = cell == Cell::occupied || (cell == Cell::unknown && !unknown_free);

@@ -13,18 +13,19 @@
 
 namespace microswarm {
 
-/// How the pixels of a ROS map say how likely a cell is occupied.
+/// Encoding of the occupancy probability in the pixels of a ROS map.
 enum class RosMode {
   trinary,  ///< dark is occupied, bright is free, between the thresholds is unknown
-  scale,    ///< the same here: what is between the thresholds is neither free nor surely occupied
-  raw       ///< the value is the percentage; above 100 is unknown
+  scale,    ///< treated as trinary: between the thresholds a cell is neither free nor certainly
+            ///< occupied
+  raw       ///< the value is a percentage; above 100 is unknown
 };
 constexpr auto enum_names(RosMode) {
   return std::array<std::pair<RosMode, std::string_view>, 3>{
       {{RosMode::trinary, "trinary"}, {RosMode::scale, "scale"}, {RosMode::raw, "raw"}}};
 }
 
-/// The YAML half of a map of ROS' map_server.
+/// YAML file of a map of ROS' map_server.
 struct RosHeader {
   std::string image;
   double resolution = 0;
@@ -49,14 +50,14 @@ struct RosHeader {
   }
 };
 
-/// Reads the YAML half. Throws InputError "NAME:LINE:COLUMN: WHY", also for a yaw that is not 0.
+/// Reads the YAML file. Throws InputError "NAME:LINE:COLUMN: WHY", also for a non-zero yaw.
 RosHeader read_ros_header(const std::filesystem::path& path);
 RosHeader parse_ros_header(std::string_view text, std::string_view name);
 
-/// The cells that are walls: the occupied ones, and the unknown unless `unknown_free`.
+/// Wall cells: the occupied ones, and the unknown ones unless `unknown_free`.
 Mask ros_walls(const Image& image, const RosHeader& header, bool unknown_free = false);
 
-/// The YAML half as text, for a map whose pixels are 0 (occupied) and 254 (free).
+/// YAML text for a map whose pixels are 0 (occupied) and 254 (free).
 std::string ros_header_text(const RosHeader& header);
 
 }  // namespace microswarm

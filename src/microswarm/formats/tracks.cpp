@@ -20,7 +20,7 @@ constexpr double max_time = 1e9;  // [s]
 enum Column : std::size_t { id, time_s, x_um, y_um, column_count };
 constexpr std::array<std::string_view, column_count> column_names{"id", "t_s", "x_um", "y_um"};
 
-/// Where each column stands in the header.
+/// Index of each column in the header.
 std::array<std::size_t, column_count> find_columns(const Lines& lines, std::string_view header) {
   const std::vector<std::string_view> names = split(header, ',');
   std::array<std::size_t, column_count> places{};

@@ -24,7 +24,7 @@ Image picture(const Mask& walls, std::uint8_t free_grey) {
 }
 
 void write_ros(const std::filesystem::path& yaml, const Mask& walls, double cell, Vec2 origin) {
-  constexpr std::uint8_t free_grey = 254;  // as map_saver writes it
+  constexpr std::uint8_t free_grey = 254;  // as written by map_saver
   std::filesystem::path pgm = yaml;
   pgm.replace_extension(".pgm");
   RosHeader header;

@@ -7,9 +7,10 @@
 namespace microswarm {
 namespace {
 
-/// Angle under which the point beside the origin sees p → q; `side` is where it lies of the line.
+/// Angle subtended by p → q at a point infinitesimally beside the origin; `side` is the side of the
+/// line it is on.
 double angle_seen(Vec2 p, Vec2 q, int side) {
-  // The observer stands at (δ, ε), so it sees a corner in the origin towards (−1, −0).
+  // The observer is at (δ, ε), so it sees a corner at the origin in the direction (−1, −0).
   if (p == Vec2{}) p = {-1, 0};
   if (q == Vec2{}) q = {-1, 0};
   return std::copysign(maths::atan2(cross(p, q), dot(p, q)), side);
@@ -17,9 +18,9 @@ double angle_seen(Vec2 p, Vec2 q, int side) {
 
 }  // namespace
 
-// The area is Σ triangles over the parts of edges inside + Σ sectors over the parts outside, and
-// all angles sum to 2π · winding: hence r² π · winding + Σ (triangles − sectors) over the parts
-// inside, and edges beyond the disc do not matter.
+// The area is Σ triangles over the parts of edges inside the disc + Σ sectors over the parts
+// outside, and all angles sum to 2π · winding. Hence it is r² π · winding + Σ (triangles − sectors)
+// over the parts inside; edges outside the disc do not contribute.
 double area_of_edge(Disc disc, Segment edge) {
   const Vec2 a = edge.a - disc.centre;
   const Vec2 b = edge.b - disc.centre;
@@ -60,7 +61,7 @@ double intersection_area(Disc a, Disc b) {
   const double less = a.radius - b.radius;
   if (d >= both) return 0;
   if (d <= std::abs(less)) return area(less < 0 ? a : b);
-  // Half the common chord by Heron's formula, and how far it lies from either centre.
+  // Half the common chord by Heron's formula, and its distance from either centre.
   const double half = std::sqrt((both + d) * (both - d) * (d + less) * (d - less)) / (2 * d);
   const double from_a = 0.5 * (d + less * both / d);
   const double from_b = 0.5 * (d - less * both / d);

@@ -18,19 +18,19 @@ double intersection_area(Disc disc, const Polygon& polygon);
 /// Exact area of the common lens of two discs [µm²].
 double intersection_area(Disc a, Disc b);
 
-/// Exact area of `disc` ∩ (union of polygons and discs) [µm²]: where obstacles overlap, they count
-/// once. Obstacles that overlap no other are summed; the others are cut into slabs between all
-/// vertices and crossings inside the disc, each integrated in closed form.
+/// Exact area of `disc` ∩ (union of polygons and discs) [µm²]; overlaps count once. Obstacles that
+/// overlap no other are summed. The others are cut into slabs between all vertices and crossings
+/// inside the disc, and each slab is integrated in closed form.
 double covered_area(Disc disc, std::span<const Polygon* const> polygons,
                     std::span<const Disc> discs);
 
-/// Exact area of `disc` ∩ solid [µm²] from the edges near the disc alone. Bodies may touch; where
-/// they overlap, each counts.
+/// Exact area of `disc` ∩ solid [µm²], from the edges near the disc alone. Bodies may touch;
+/// overlapping bodies count separately.
 double covered_area(Disc disc, const EdgeGrid& grid);
 
-/// What the edge adds to the area of disc ∩ solid, beyond the whole disc when its centre (moved as
-/// in `winding_of_edge`) is in the solid: with t the part of the edge in the disc, the triangle
-/// less the sector over t. Summed over all edges of the solid.
+/// Contribution of the edge to the area of disc ∩ solid, besides the whole disc if its centre
+/// (moved as in `winding_of_edge`) is in the solid. With t the part of the edge in the disc, it is
+/// the triangle minus the sector over t. Sum it over all edges of the solid.
 double area_of_edge(Disc disc, Segment edge);
 
 }  // namespace microswarm

@@ -32,7 +32,7 @@ class NearestSearch {
   using Tag = hn::CappedTag<float, BucketKdTree::Row::size>;
   using V = hn::Vec<Tag>;
 
-  // The child that is nearer first.
+  // Visits the nearer child first.
   void visit(std::uint32_t index) {
     const BucketKdTree::Node node = tree_.nodes[index];
     if (node.axis == tree_.dimension) return look_through(node.child);
@@ -48,7 +48,7 @@ class NearestSearch {
     if (!is_too_far(far)) visit(node.child + 1 - first);
   }
 
-  /// With room for the rounding of both squares.
+  /// Leaves room for the rounding of both squares.
   bool is_too_far(float square) const { return square * (1 - 1e-5f) > least_; }
 
   void look_through(std::uint32_t index) {
@@ -92,7 +92,7 @@ class NearestSearch {
         }
       };
       add_axes(0, half);
-      // Half a sum that is too much already is left at that: it is no least one.
+      // A half sum above the limit cannot become the minimum, so it is not completed.
       if (!hn::AllTrue(d, hn::Gt(hn::Min(a, b), limit))) add_axes(half, tree_.dimension);
       hn::Store(a, d, squares + i);
       hn::Store(b, d, squares + i + lanes);
@@ -129,12 +129,12 @@ HWY_EXPORT(nearest_here);
 
 namespace {
 
-/// Of unused lanes: farther than any point, and its square is finite.
+/// Coordinate of unused lanes: beyond any point, with a finite square.
 constexpr float far_away = 1e18f;
-/// A deeper tree is built anew, unless it was not long ago.
+/// A deeper tree is rebuilt, unless that was done recently.
 constexpr int deepest_tree = 48;
 
-/// Grows by an eighth where a vector by itself would double: the memory is mostly these.
+/// Grows by an eighth where std::vector would double: most of the memory is here.
 template <class T>
 void make_room(std::vector<T>& all, std::size_t more) {
   const std::size_t size = all.size() + more;
@@ -162,7 +162,7 @@ std::size_t BucketKdTree::bytes() const {
          buckets_.capacity() * sizeof(Bucket) + rows_.capacity() * sizeof(Row);
 }
 
-/// Leaves without a bucket and without points; the first one's index.
+/// Adds leaves without a bucket and without points; returns the first one's index.
 std::uint32_t BucketKdTree::new_nodes(std::size_t count) {
   const auto first = static_cast<std::uint32_t>(nodes_.size());
   nodes_.resize(nodes_.size() + count, {0, static_cast<std::uint32_t>(dimension_), none});
@@ -233,7 +233,7 @@ void BucketKdTree::add(std::span<const float> point) {
   }
 }
 
-/// Puts the points of a full bucket, all in the same place, behind it.
+/// Moves the points of a full bucket, all at the same position, to an overflow bucket.
 void BucketKdTree::spill(std::uint32_t index) {
   const std::uint32_t more = new_bucket();
   std::copy_n(line(index, 0), dimension_ * bucket_size, line(more, 0));
@@ -242,7 +242,7 @@ void BucketKdTree::spill(std::uint32_t index) {
   buckets_[index].next = more;
 }
 
-/// Halves a full bucket; not when all its points are in the same place.
+/// Splits a full bucket; false if all its points are at the same position.
 bool BucketKdTree::split(std::uint32_t node) {
   const std::uint32_t full = nodes_[node].child;
   const std::size_t axis = widest_axis(full);
@@ -277,7 +277,7 @@ bool BucketKdTree::split(std::uint32_t node) {
   return true;
 }
 
-/// Of a full bucket and what lies behind it.
+/// Widest axis of a full bucket and its overflow.
 std::size_t BucketKdTree::widest_axis(std::uint32_t bucket) const {
   const std::uint32_t behind = buckets_[bucket].next;
   std::size_t widest = 0;
@@ -313,7 +313,7 @@ void BucketKdTree::rebuild() {
   size_at_rebuild_ = size_;
 }
 
-/// A balanced tree of these points below `node`.
+/// Builds a balanced tree of these points below `node`.
 void BucketKdTree::build(std::uint32_t node, std::span<std::uint32_t> points,
                          const std::vector<float>& all) {
   const auto at = [&](std::uint32_t point, std::size_t k) { return all[dimension_ * point + k]; };

@@ -9,28 +9,29 @@
 
 namespace microswarm {
 
-/// Growing set of points of some dimension, single precision, with exact nearest-neighbour queries:
-/// a kd-tree with buckets of 128 points that are looked through with the widest vectors of the
-/// machine, and at every node the box around its points, which prunes better than the planes do
-/// where points fill less than their space. A full bucket is halved at its median; a tree that gets
-/// lopsided is built anew.
-/// Distances are the sums of squares in the order of the coordinates, in single precision; ties go
-/// to the lower index, so that answers depend neither on the tree nor on the machine. Queries are
-/// safe to run in several threads.
+/// Growing point set of a given dimension in single precision, with exact nearest-neighbour
+/// queries. It is a kd-tree with buckets of 128 points, which are scanned with the machine's widest
+/// vectors. Every node stores the bounding box of its points, which prunes better than the
+/// splitting planes where the points fill only part of their space. A full bucket is split at its
+/// median; an unbalanced tree is rebuilt.
+/// Squared distances are summed in the order of the coordinates, in single precision, and ties go
+/// to the lower index. Answers therefore depend neither on the tree nor on the machine. Queries are
+/// thread-safe.
 class BucketKdTree {
  public:
   static constexpr std::size_t max_dimensions = 128;
 
-  /// `dimension` is 1 to max_dimensions.
+  /// `dimension` in 1 … max_dimensions.
   explicit BucketKdTree(std::size_t dimension);
 
-  /// Adds a point; coordinates are finite and below 1e17. Its index is the number of points before.
+  /// Adds a point; its index is the number of points before it. Coordinates must be finite and
+  /// below 1e17.
   void add(std::span<const float> point);
   std::size_t size() const { return size_; }
   std::size_t dimension() const { return dimension_; }
   /// Index of the nearest point; the set must not be empty.
   std::uint32_t nearest(std::span<const float> point) const;
-  /// Bytes of memory in use for the points and the tree.
+  /// Memory used by the points and the tree [bytes].
   std::size_t bytes() const;
 
   static constexpr std::size_t bucket_size = 128;
@@ -41,15 +42,15 @@ class BucketKdTree {
     static constexpr std::size_t size = 16;
     std::array<float, size> x;
   };
-  /// Inner node: points below `split` are in `child`, the others in the node after it. Leaf: `axis`
-  /// is the dimension of the space, `child` a bucket.
+  /// Inner node: points below `split` are in node `child`, the others in the node after it. Leaf:
+  /// `axis` is the dimension of the space, `child` a bucket.
   struct Node {
     float split = 0;
     std::uint32_t axis = 0;
     std::uint32_t child = 0;
   };
-  /// Low corner in the first half of a box's floats, high corner in the second, each filled up with
-  /// zeros to whole rows of eight.
+  /// Floats of a bounding box: low corner first, then high corner, each padded with zeros to whole
+  /// rows of eight.
   struct alignas(32) BoxRow {
     static constexpr std::size_t size = 8;
     std::array<float, size> x;
@@ -57,14 +58,14 @@ class BucketKdTree {
   struct Bucket {
     std::array<std::uint32_t, bucket_size> points;  ///< ascending
     std::uint32_t count = 0;
-    std::uint32_t next = none;  ///< more points, all in the same place
+    std::uint32_t next = none;  ///< bucket with more points at the same position
   };
-  /// What a query reads.
+  /// Read-only data of a query.
   struct View {
     std::size_t dimension;
-    std::size_t box_rows;  ///< of a corner
+    std::size_t box_rows;  ///< rows per corner
     const Node* nodes;
-    const BoxRow* boxes;  ///< 2 box_rows a node
+    const BoxRow* boxes;  ///< 2 box_rows per node
     const Bucket* buckets;
     const Row* rows;
   };

@@ -11,7 +11,7 @@
 namespace microswarm {
 namespace {
 
-/// Obstacles nearer to one another than this share of the query's radius are taken as overlapping.
+/// Obstacles closer to each other than this fraction of the query's radius count as overlapping.
 constexpr double overlap_tolerance = 1e-9;
 
 struct Scratch {
@@ -24,7 +24,7 @@ using Obstacles = std::pmr::vector<NearObstacle>;
 
 enum class Cover { none, part, all };
 
-/// Collects the polygon's edges near the disc, about its centre, and how far it reaches in.
+/// Collects the polygon's edges near the disc, relative to its centre, and how it covers the disc.
 Cover find_near(Disc disc, const Polygon& polygon, Edges& edges, int& winding) {
   const double r = disc.radius;
   bool meets = false;
@@ -63,7 +63,7 @@ bool may_overlap(const NearObstacle& polygon, Disc disc) {
   return holds(polygon, d <= disc.radius ? Vec2{} : (1 - disc.radius / d) * disc.centre);
 }
 
-/// Is there an edge of `a` that meets the query disc inside of `b`? (No two edges cross.)
+/// Whether an edge of `a` meets the query disc inside `b`. (No two edges cross.)
 bool reaches_into(const NearObstacle& a, const NearObstacle& b, double r) {
   for (const Segment& e : a.edges) {
     const Vec2 p = nearest_point({}, e);
@@ -103,8 +103,8 @@ double area_of(const NearObstacle& obstacle, double r) {
   return sum;
 }
 
-/// Moves everything that overlaps obstacles[first], directly or through others, next to it;
-/// returns the end of this group.
+/// Moves everything that overlaps obstacles[first], directly or through others, next to it; returns
+/// the end of this group.
 std::size_t gather_group(Obstacles& obstacles, std::size_t first, double r) {
   std::size_t end = first + 1;
   for (std::size_t i = first; i < end; ++i) {

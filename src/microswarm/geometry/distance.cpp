@@ -14,15 +14,15 @@ double squared_distance_to_boundary(Vec2 p, const Polygon& polygon) {
   return best;
 }
 
-/// Where along s (fraction, unclamped) its point nearest to `p` lies; 0 for a point.
+/// Parameter on s (unclamped fraction) of the point nearest to `p`; 0 if s is a point.
 double fraction_of(Segment s, Vec2 p) {
   const Vec2 along = s.b - s.a;
   const double length2 = squared_norm(along);
   return length2 > 0 ? dot(p - s.a, along) / length2 : 0;
 }
 
-/// Fraction where s enters the circle, by the chord about the foot of the centre; no_contact when
-/// it passes beside it or starts within.
+/// Fraction where s enters the circle, from the chord about the foot of the perpendicular;
+/// no_contact if it misses the circle or starts inside.
 double entry(Segment s, double r, Vec2 centre) {
   const Vec2 along = s.b - s.a;
   const double length2 = squared_norm(along);
@@ -34,7 +34,7 @@ double entry(Segment s, double r, Vec2 centre) {
   return t >= 0 && t <= 1 ? t : no_contact;
 }
 
-/// Fraction where s comes within r of the inner part of the wall, seen square to it.
+/// Fraction where s comes within r of the interior of the wall, measured perpendicularly.
 double entry(Segment s, double r, Segment wall) {
   const Vec2 along = wall.b - wall.a;
   const double length = norm(along);
@@ -94,7 +94,7 @@ double first_contact(Segment s, double r, Segment wall) {
   if (r == 0 ? !intersects(s, wall) : squared_distance(s, wall) > r * r) return no_contact;
   const double t = std::min(entry(s, r, wall), std::min(entry(s, r, wall.a), entry(s, r, wall.b)));
   if (t <= 1) return t;
-  // Grazing, where rounding lost the entry: the nearest approach is the contact.
+  // Grazing contact whose entry was lost to rounding: use the nearest approach.
   double best = squared_distance(s.b, wall);
   double at = 1;
   for (const Vec2 end : {wall.a, wall.b}) {

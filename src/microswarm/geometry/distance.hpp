@@ -5,7 +5,7 @@
 
 namespace microswarm {
 
-/// Distances [µm] between closed sets; 0 when they share a point.
+/// Distance [µm] between closed sets; 0 if they share a point.
 inline double squared_distance(Vec2 p, Segment s) {
   const Vec2 along = s.b - s.a;
   const Vec2 to_p = p - s.a;
@@ -31,8 +31,8 @@ double signed_distance(Vec2 p, const Polygon& polygon);
 /// Point of the segment nearest to `p`.
 Vec2 nearest_point(Vec2 p, Segment s);
 
-/// First contact (distance <= r) of a disc of radius `r` whose centre runs from s.a to s.b, as the
-/// fraction of the way in [0, 1]; 0 when they touch at the start, 2 ("never") when there is none.
+/// First contact (distance <= r) of a disc of radius `r` whose centre moves from s.a to s.b, as a
+/// fraction of the segment in [0, 1]; 0 if they touch at the start, no_contact if never.
 inline constexpr double no_contact = 2;
 double first_contact(Segment s, double r, Segment wall);
 double first_contact(Segment s, double r, Disc disc);

@@ -10,18 +10,18 @@
 namespace microswarm {
 namespace {
 
-/// Share of a coordinate that no rounding error here exceeds.
+/// Relative bound on the rounding errors of a coordinate here.
 constexpr double rounding = 1e-12;
-/// Cells never get so many that memory, or so small that rounding, is a matter.
+/// Bounds that keep the number of cells far from memory limits and their size far from rounding.
 constexpr int max_cells = 1 << 22;
 constexpr double min_cell_in_slacks = 1e3;
 
 double magnitude(Vec2 p) { return std::abs(p.x) + std::abs(p.y); }
 
-/// A capsule to be held against many edges, most of which pass beside it.
+/// Capsule tested against many edges, most of which pass beside it.
 class Capsule {
  public:
-  /// `reach` is the radius and more than any rounding error here.
+  /// `reach` is the radius plus more than any rounding error here.
   Capsule(Segment s, double radius, double reach)
       : spine_(s), squared_radius_(radius * radius), along_(s.b - s.a) {
     const double length2 = squared_norm(along_);
@@ -36,7 +36,7 @@ class Capsule {
     const double height_b = cross(along_, b);
     const double way_a = dot(along_, a);
     const double way_b = dot(along_, b);
-    // One branch for all four sides: nearly always taken, whichever side it is.
+    // One branch for all four sides: it is nearly always taken, whichever side applies.
     const bool is_beside = (std::min(height_a, height_b) > beside_) |
                            (std::max(height_a, height_b) < -beside_) |
                            (std::min(way_a, way_b) > beyond_) | (std::max(way_a, way_b) < -beside_);
@@ -59,8 +59,8 @@ class Capsule {
 
 class EdgeGrid::Sweep {
  public:
-  /// Edges (reach 0) and queries (reach > 0) name their rows by the same monotone rounding, so a
-  /// shared point is never missed; only columns clipped to a row need the slack.
+  /// Edges (reach 0) and queries (reach > 0) compute their rows with the same monotone rounding, so
+  /// a shared point is never missed. Only columns clipped to a row need the slack.
   Sweep(const EdgeGrid& grid, Segment s, double reach)
       : grid_(grid), low_(s.a), high_(s.b), reach_(reach), margin_(reach + grid.slack_) {
     if (low_.y > high_.y) std::swap(low_, high_);
@@ -164,7 +164,7 @@ void EdgeGrid::fill_cells() {
   }
 }
 
-// Every edge that crosses the height of a row's centres winds once around all centres left of it.
+// Every edge that crosses the height of a row's centres winds once around all centres to its left.
 void EdgeGrid::find_windings() {
   for (const Segment& e : edges_) {
     if (e.a.y == e.b.y) continue;
@@ -217,8 +217,8 @@ void EdgeGrid::scan(Vec2 p, int row, Run columns, Found& best) const {
   }
 }
 
-// A block of cells around p's own grows by a row or column on its nearest side, until that side is
-// farther than the best edge.
+// Extends a block of cells around p's cell by a row or column on its nearest side until that side
+// is farther than the best edge.
 EdgeGrid::Found EdgeGrid::search(Vec2 p, double squared_limit) const {
   Found best{squared_limit, size()};
   if (empty()) return best;
@@ -260,7 +260,7 @@ double EdgeGrid::distance(Vec2 p, double limit) const {
 
 std::size_t EdgeGrid::nearest(Vec2 p, double limit) const { return search(p, limit * limit).edge; }
 
-/// r and more than any rounding error in the coordinates.
+/// r plus more than any rounding error in the coordinates.
 double EdgeGrid::reach_of(Segment s, double r) const {
   return r + slack_ + rounding * (r + magnitude(s.a) + magnitude(s.b));
 }

@@ -9,20 +9,20 @@
 
 namespace microswarm {
 
-/// Static bucket grid over the directed edges of closed rings (solid on the left). Answers exact
-/// distance, containment and nearness; flat arrays, no allocation in a query, safe to share between
-/// threads. Queries are exact everywhere, also outside the box it covers. Bodies may touch or
-/// overlap: the solid is their union (and every edge still counts as an edge).
+/// Static bucket grid over the directed edges of closed rings (solid on the left), for exact
+/// distance, containment and proximity queries, also outside its box. Flat arrays; queries do not
+/// allocate and are thread-safe. Bodies may touch or overlap: the solid is their union, and every
+/// edge still counts as an edge.
 class EdgeGrid {
  public:
   EdgeGrid() = default;
-  /// `body_of[i]` names the body that edge i belongs to. The cell size [µm] is chosen from the
-  /// edges when `cell` is 0.
+  /// `body_of[i]` is the body that edge i belongs to. The cell size [µm] is derived from the edges
+  /// if `cell` is 0.
   EdgeGrid(std::span<const Segment> edges, std::span<const std::uint32_t> body_of,
            double cell = 0) {
     assign(edges, body_of, cell);
   }
-  /// The same as constructing anew, but keeps the memory.
+  /// Same as constructing anew, but reuses the memory.
   void assign(std::span<const Segment> edges, std::span<const std::uint32_t> body_of,
               double cell = 0);
 
@@ -34,38 +34,37 @@ class EdgeGrid {
   /// Side of a cell [µm].
   double cell() const { return cell_; }
 
-  /// Distance from `p` to the nearest edge, or `limit` when none is nearer.
+  /// Distance from `p` to the nearest edge, or `limit` if none is nearer.
   double distance(Vec2 p, double limit) const;
-  /// Index of the nearest edge within `limit` (the lowest of equals); size() when there is none.
+  /// Index of the nearest edge within `limit`, the lowest among equals; size() if there is none.
   std::size_t nearest(Vec2 p, double limit) const;
-  /// Is `p` in the solid (or exactly on an edge)? Exact.
+  /// Whether `p` is in the solid or on an edge. Exact.
   bool in_solid(Vec2 p) const;
-  /// How often the rings wind around p (moved by an infinitesimal, so that it is on no edge): the
-  /// number of bodies that hold it.
+  /// Winding number of the rings around p (moved by an infinitesimal, so that it is on no edge):
+  /// the number of bodies that contain it.
   int winding(Vec2 p) const;
-  /// Does the capsule of radius r around s keep clear of every edge (distance >= r; for r = 0: not
-  /// touching)? Exact.
+  /// Whether the capsule of radius r around s is clear of every edge (distance >= r; not touching
+  /// if r = 0). Exact.
   bool capsule_free(Segment s, double r) const;
-  /// Distance from the segment to the nearest edge, or `limit` when none is nearer.
+  /// Distance from the segment to the nearest edge, or `limit` if none is nearer.
   double distance(Segment s, double limit) const;
-  /// Calls visit(edge index) once for every edge that may meet `box` (each edge once).
+  /// Calls visit(edge index) once for every edge that may meet `box`.
   template <class Visit>
   void for_each_in(const Box& box, Visit&& visit) const;
 
  private:
-  /// Cell number (row · columns_ + column) and what is known of it; its edges are
-  /// ids_[first .. first of the next cell).
+  /// Cell, numbered row · columns_ + column. Its edges are ids_[first .. first of the next cell).
   struct Cell {
     std::uint32_t first = 0;
     /// Winding number of the rings around the cell's centre.
     std::int32_t winding = 0;
   };
-  /// A run of columns or rows; empty when first > last.
+  /// Range of columns or rows; empty if first > last.
   struct Run {
     int first;
     int last;
   };
-  /// The cells that points within some reach of a segment can lie in, row by row.
+  /// Cells within a given distance of a segment, row by row.
   class Sweep;
   struct Found {
     double squared;
@@ -98,7 +97,7 @@ class EdgeGrid {
   Box box_;
   double cell_ = 1;
   double per_cell_ = 1;
-  /// More than any rounding error of a cell border.
+  /// Exceeds any rounding error of a cell border.
   double slack_ = 0;
   int columns_ = 0;
   int rows_ = 0;

@@ -8,7 +8,7 @@
 namespace microswarm {
 namespace {
 
-/// Cells of this depth are not halved any more.
+/// Cells of this depth are not split further.
 constexpr int deepest_cell = 60;
 
 double squared(double x) { return x * x; }
@@ -22,7 +22,7 @@ void PointGrid::clear() {
   start(box_);
 }
 
-/// An empty tree over the square around `box`.
+/// Creates an empty tree over the square around `box`.
 void PointGrid::start(const Box& box) {
   nodes_.clear();
   buckets_.clear();
@@ -40,7 +40,7 @@ void PointGrid::add(Vec2 p) {
     insert(static_cast<std::uint32_t>(size() - 1));
     return;
   }
-  // A wider square, so much wider that this stays rare.
+  // A square large enough that this stays rare.
   const Box all = bounding_box(points_);
   start(all.grown(0.5 * std::max(all.width(), all.height())));
   for (std::uint32_t i = 0; i < size(); ++i) insert(i);
@@ -91,7 +91,7 @@ void PointGrid::insert(std::uint32_t point) {
   }
 }
 
-/// Puts the points of a full bucket into the quarters around `centre`; the bucket is used again.
+/// Distributes the points of a full bucket to the quarters around `centre` and reuses the bucket.
 PointGrid::Child PointGrid::split(Child child, Vec2 centre) {
   Node node{centre};
   const Bucket old = buckets_[child / 2];
@@ -127,8 +127,8 @@ void PointGrid::scan(const Bucket& bucket, Vec2 p, Found& best) const {
   if (bucket.overflow != nothing) scan(buckets_[bucket.overflow / 2], p, best);
 }
 
-// `offset` is how far p lies beside the cell; rounding is monotone, so no point in it can come out
-// nearer than that.
+// `offset` is the distance of p from the cell in x and y. Rounding is monotone, so no point in the
+// cell can be computed to be nearer.
 void PointGrid::search(const Node& node, Vec2 p, Vec2 offset, Found& best) const {
   auto visit = [&](int quarter, Vec2 beside) {
     const Child child = node.quarters[quarter];

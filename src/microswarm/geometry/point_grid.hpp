@@ -9,18 +9,18 @@
 
 namespace microswarm {
 
-/// Growing set of points in the plane with exact nearest-neighbour and radius queries: a grid of
-/// buckets that halves its cells where points crowd (a bucket quadtree, so that empty regions and
-/// clusters cost little, whatever the order of insertion). Points keep the index in which they were
-/// added; ties go to the lower index, so that answers do not depend on the grid. Queries are safe
-/// to run in several threads.
+/// Growing set of points in the plane with exact nearest-neighbour and radius queries. It is a
+/// bucket quadtree: cells are split where points are dense, so empty regions and clusters cost
+/// little, whatever the order of insertion. A point's index is its position in the order of
+/// insertion. Ties go to the lower index, so answers do not depend on the grid. Queries are
+/// thread-safe.
 class PointGrid {
  public:
   /// Points are expected, but not required, to lie in `box`.
   explicit PointGrid(const Box& box);
 
   void add(Vec2 p);
-  /// Forgets the points, keeps the box and the memory.
+  /// Removes the points, keeps the box and the memory.
   void clear();
   std::size_t size() const { return points_.size(); }
   bool empty() const { return points_.empty(); }
@@ -32,12 +32,12 @@ class PointGrid {
   void within(Vec2 p, double radius, std::vector<std::uint32_t>& out) const;
 
  private:
-  /// A cell: nothing, a bucket, or an inner node.
+  /// A cell: nothing, a bucket or an inner node.
   using Child = std::int32_t;
   static constexpr Child nothing = -1;
   static constexpr std::uint32_t bucket_size = 32;
 
-  /// Four quarters around the centre: bit 0 is right of it, bit 1 above.
+  /// Four quarters around the centre: bit 0 means right of it, bit 1 above.
   struct Node {
     Vec2 centre;
     std::array<Child, 4> quarters{nothing, nothing, nothing, nothing};
@@ -50,7 +50,7 @@ class PointGrid {
     std::array<double, bucket_size> y;
     std::array<std::uint32_t, bucket_size> points;
     std::uint32_t count = 0;
-    /// More points in the same place, which no halving can part.
+    /// Bucket with more points at the same position, which no split can separate.
     Child overflow = nothing;
   };
   struct Found {

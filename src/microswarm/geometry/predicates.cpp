@@ -6,7 +6,7 @@
 namespace microswarm {
 namespace {
 
-/// The exact value of a sum or product: `high` is the rounded result, `low` the rest.
+/// Exact value of a sum or product: `high` is the rounded result, `low` the remainder.
 struct Exact {
   double high;
   double low;
@@ -101,7 +101,7 @@ bool intersects(Segment s, Segment t) {
 Side locate(const Polygon& polygon, Vec2 p) {
   bool inside = false;
   bool boundary = false;
-  // Parity of the edges to the right of p; an edge owns its lower end, so vertices count once.
+  // Parity of the edges to the right of p. An edge includes its lower end, so a vertex counts once.
   for_each_edge(polygon, [&](Vec2 a, Vec2 b) {
     if ((a.y <= p.y) != (b.y <= p.y)) {
       if (p.x > std::max(a.x, b.x)) return;

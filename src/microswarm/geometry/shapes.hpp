@@ -10,7 +10,7 @@
 
 namespace microswarm {
 
-/// Straight piece from `a` to `b`; both ends belong to it, and they may coincide.
+/// Line segment from `a` to `b`, including both ends, which may coincide.
 struct Segment {
   Vec2 a;
   Vec2 b;
@@ -22,7 +22,7 @@ struct Disc {
   double radius = 0;
 };
 
-/// Axis-aligned box; empty when a `lo` coordinate exceeds its `hi`.
+/// Axis-aligned box; empty if a `lo` coordinate exceeds its `hi`.
 struct Box {
   Vec2 lo{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   Vec2 hi{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
@@ -41,31 +41,31 @@ struct Box {
   }
 };
 
-/// Closed polygon: the outer ring counter-clockwise, holes clockwise, no ring repeats its first
-/// vertex. Rings may touch in single points (as traced pixels do) but not cross.
+/// Closed polygon. The outer ring is counter-clockwise, holes are clockwise, and no ring repeats
+/// its first vertex. Rings may touch in single points (as traced pixels do) but not cross.
 struct Polygon {
   std::vector<Vec2> outer;
   std::vector<std::vector<Vec2>> holes;
 };
 
-/// Smallest box that holds the points; empty when there are none.
+/// Smallest box around the points; empty if there are none.
 Box bounding_box(std::span<const Vec2> points);
-/// Smallest box that holds the polygon.
+/// Smallest box around the polygon.
 Box bounding_box(const Polygon& polygon);
-/// Smallest box that holds the disc.
+/// Smallest box around the disc.
 inline Box bounding_box(const Disc& disc) {
   return Box{disc.centre, disc.centre}.grown(disc.radius);
 }
-/// Signed area of a ring [µm²], positive when counter-clockwise.
+/// Signed area of a ring [µm²], positive if counter-clockwise.
 double signed_area(std::span<const Vec2> ring);
 /// Centroid of the area within a ring; the middle of its box where it encloses none.
 Vec2 centroid(std::span<const Vec2> ring);
 /// Area of the polygon less its holes [µm²].
 double area(const Polygon& polygon);
-/// The polygon with its rings turned the way `Polygon` asks for, repeated and last = first vertices
-/// removed; rings of fewer than three vertices vanish.
+/// The polygon with its rings oriented as `Polygon` requires and without repeated vertices. Rings
+/// of fewer than three vertices are removed.
 Polygon normalised(Polygon polygon);
-/// Every edge of every ring, in order; `visit(Vec2 a, Vec2 b)`.
+/// Calls `visit(Vec2 a, Vec2 b)` for every edge of every ring, in order.
 template <class Visit>
 void for_each_edge(const Polygon& polygon, Visit&& visit) {
   auto ring = [&](const std::vector<Vec2>& r) {

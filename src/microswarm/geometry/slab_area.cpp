@@ -10,16 +10,16 @@
 namespace microswarm {
 namespace {
 
-/// Events this share of the size beside the true place do no harm; missing one would.
+/// Events off by this fraction of the size are harmless; a missing one is not.
 constexpr double event_tolerance = 1e-9;
 
-/// Height of the edge at x; never beyond its ends, whatever the rounding.
+/// Height of the edge at x; never beyond its ends, despite rounding.
 double height_at(const Segment& e, double x) {
   const double y = e.a.y + (x - e.a.x) * ((e.b.y - e.a.y) / (e.b.x - e.a.x));
   return std::clamp(y, std::min(e.a.y, e.b.y), std::max(e.a.y, e.b.y));
 }
 
-/// Boundary as a function y(x) over [first, last): a straight line, or the lower (bend −1) or upper
+/// Boundary as a function y(x) on [first, last): a straight line, or the lower (bend −1) or upper
 /// (bend +1) half of a circle.
 struct Curve {
   double first;
@@ -27,7 +27,7 @@ struct Curve {
   Segment edge;
   Disc disc;
   int bend;
-  /// Change of the obstacle's winding number when it is crossed upwards.
+  /// Change of the obstacle's winding number when crossed upwards.
   int step;
   std::uint32_t obstacle;
 
@@ -177,8 +177,7 @@ class Slabs {
     events_.erase(std::unique(events_.begin(), events_.end()), events_.end());
   }
 
-  /// Winding number just above (x, 0); the edges that `order_` holds are judged by the same
-  /// heights.
+  /// Winding number just above (x, 0), from the same edge heights as `order_`.
   int winding_at(const NearObstacle& o, double x) const {
     int winding = o.winding;
     for (const Segment& e : o.edges) {
@@ -201,7 +200,7 @@ class Slabs {
     });
   }
 
-  /// Winding numbers below all curves of `order_`.
+  /// Sets the winding numbers below all curves of `order_`.
   void start_windings(double x) {
     for (std::size_t i = 0; i < obstacles_.size(); ++i) {
       windings_[i] = obstacles_[i].is_disc ? 0 : winding_at(obstacles_[i], x);

@@ -10,8 +10,8 @@
 
 namespace microswarm {
 
-/// An obstacle as `union_area` takes it, in coordinates about the query disc's centre: a disc, or
-/// the edges of a polygon that meet the disc's bounding box.
+/// Obstacle as input of `union_area`, relative to the query disc's centre: a disc, or the edges of
+/// a polygon that meet the disc's bounding box.
 struct NearObstacle {
   bool is_disc = false;
   Disc disc;
@@ -20,9 +20,9 @@ struct NearObstacle {
   int winding = 0;
 };
 
-/// Exact area [µm²] of the union of obstacles inside the disc of radius `radius` about the origin:
-/// slabs between all vertices and crossings in the disc; within a slab no two boundaries cross, and
-/// what lies between them is integrated in closed form. `memory` holds the work space.
+/// Exact area [µm²] of the union of obstacles inside the disc of radius `radius` about the origin.
+/// The disc is cut into slabs at all vertices and crossings in it. Within a slab no two boundaries
+/// cross, and the area between them is integrated in closed form. `memory` provides the work space.
 double union_area(double radius, std::span<const NearObstacle> obstacles,
                   std::pmr::memory_resource& memory);
 

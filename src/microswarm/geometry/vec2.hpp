@@ -30,7 +30,7 @@ constexpr double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 constexpr double squared_norm(Vec2 a) { return dot(a, a); }
 inline double norm(Vec2 a) { return std::sqrt(squared_norm(a)); }
 inline double distance(Vec2 a, Vec2 b) { return norm(b - a); }
-/// `a` turned left by a quarter.
+/// `a` rotated left by 90°.
 constexpr Vec2 perpendicular(Vec2 a) { return {-a.y, a.x}; }
 /// Heading of the vector [rad], in [-π, π]; 0 for the zero vector.
 inline double heading_of(Vec2 a) { return maths::atan2(a.y, a.x); }

@@ -39,7 +39,7 @@ std::string joined_doc(std::string_view outer, std::string_view inner) {
 
 }  // namespace
 
-/// Goes through a type's fields, what is nested in them too.
+/// Visits a type's fields, including nested ones.
 class ColumnLister {
  public:
   explicit ColumnLister(ColumnUnits units) : units_(units) {}

@@ -12,13 +12,13 @@
 
 namespace microswarm {
 
-/// How a quantity is kept: reals are NaN where there is none.
+/// Type of a column. Reals are NaN where there is no value.
 enum class ColumnKind { real, integer, word };
 
-/// The unit of a column's numbers: angles as they are held, in rad, or as people see them, in deg.
+/// Unit of a column's numbers: as stored (angles in rad) or as displayed (angles in deg).
 enum class ColumnUnits { held, shown };
 
-/// One quantity of rows that are described by `fields`: a field, or what is nested in one.
+/// One quantity of rows described by `fields`: a field or a field nested in one.
 class Column {
  public:
   std::string key;  ///< names joined by underscores, with the unit's suffix
@@ -26,21 +26,21 @@ class Column {
   std::string doc;
   ColumnKind kind = ColumnKind::real;
 
-  /// Of reals and integers.
+  /// Value of a real or integer column.
   double number(const void* row) const;
-  /// False when it is out of the field's range.
+  /// False if the value is outside the field's range.
   bool set_number(void* row, double value) const;
-  /// Of words.
+  /// Value of a word column.
   std::string_view word(const void* row) const;
-  /// False when there is no such word.
+  /// False if the word does not exist.
   bool set_word(void* row, std::string_view word) const;
-  /// The number or word as in a CSV file; empty where there is none.
+  /// The number or word as in a CSV file; empty if there is no value.
   std::string text(const void* row) const;
 
  private:
   friend class ColumnLister;
 
-  /// A field within what holds it; what is optional is entered.
+  /// Field within its parent; optionals are entered.
   struct Step {
     std::size_t offset = 0;
     const Type* optional = nullptr;
@@ -50,11 +50,11 @@ class Column {
 
   const Type* type_ = nullptr;
   std::vector<Step> steps_;
-  double scale_ = 1;  ///< of a number, per held
+  double scale_ = 1;  ///< written value per stored value
 };
 
-/// The columns of such rows, in the order of their fields. Lists are no columns: see described
-/// tables. A row that is a Vec2 has the columns x and y, in `unit`.
+/// Columns of such rows, in the order of their fields. Lists are not columns; see visit_tables. A
+/// row of type Vec2 has the columns x and y in `unit`.
 std::vector<Column> columns_of(const Type& row, ColumnUnits units = ColumnUnits::held,
                                Unit unit = Unit::um);
 template <class Row>
@@ -62,10 +62,10 @@ std::vector<Column> columns_of(ColumnUnits units = ColumnUnits::held) {
   return columns_of(type_of<Row>(), units);
 }
 
-/// A text as a field of a CSV file, in quotes where it must be.
+/// Text as a CSV field, quoted if necessary.
 std::string csv_text(std::string_view text);
 
-/// The head of a CSV file: the columns' keys with commas between them, and of a row its values.
+/// CSV header (the columns' keys, comma-separated) and the CSV line of a row.
 std::string csv_head(const std::vector<Column>& columns);
 std::string csv_line(const std::vector<Column>& columns, const void* row);
 

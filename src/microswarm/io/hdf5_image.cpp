@@ -15,11 +15,11 @@ namespace {
 static_assert(sizeof(hid_t) == sizeof(std::int64_t));
 
 constexpr hsize_t max_values = 100'000'000;
-constexpr hsize_t compressed_from = 4096;  // values: below, chunks cost more than they save
+constexpr hsize_t compressed_from = 4096;  // values; below this, chunks cost more than they save
 constexpr hsize_t chunk = 16'384;
 constexpr std::size_t image_growth = 1 << 20;  // [bytes]
 
-/// An HDF5 identifier that closes itself.
+/// HDF5 identifier that closes itself.
 class Id {
  public:
   Id(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
@@ -30,7 +30,7 @@ class Id {
   Id(const Id&) = delete;
   Id& operator=(const Id&) = delete;
   Id& operator=(Id&&) = delete;
-  operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): as HDF5 wants it
+  operator hid_t() const { return id_; }  // for HDF5 calls
   bool valid() const { return id_ >= 0; }
 
  private:
@@ -38,9 +38,8 @@ class Id {
   herr_t (*close_)(hid_t);
 };
 
-/// HDF5 prints its errors by itself; as long as one of these lives it does not. Nor does it tidy up
-/// at the program's end, when it complains about files that were damaged: everything here is
-/// closed.
+/// Suppresses HDF5's own error printing while an instance lives. It also disables HDF5's clean-up
+/// at program exit, which would complain about damaged files; everything here is closed explicitly.
 class Quiet {
  public:
   Quiet() {

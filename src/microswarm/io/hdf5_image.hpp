@@ -9,9 +9,9 @@
 
 namespace microswarm {
 
-/// An HDF5 file in the making, in memory: plain datasets of one dimension, which every HDF5 reader
-/// takes. The same calls give the same bytes. Groups come into being with what is put in them. HDF5
-/// is not safe for use by several threads at a time.
+/// HDF5 file built in memory from plain one-dimensional datasets, which every HDF5 reader accepts.
+/// The same calls give the same bytes. Groups are created with their contents. HDF5 must not be
+/// used by several threads at the same time.
 class Hdf5Writer {
  public:
   Hdf5Writer();
@@ -22,27 +22,27 @@ class Hdf5Writer {
   void dataset(const std::string& path, std::span<const double> values);
   void dataset(const std::string& path, std::span<const float> values);
   void dataset(const std::string& path, std::span<const std::int64_t> values);
-  /// Texts in UTF-8, all kept at the length of the longest.
+  /// Texts in UTF-8, all stored with the length of the longest.
   void dataset(const std::string& path, std::span<const std::string> values);
   /// One text of fixed length, UTF-8.
   void text(const std::string& path, std::string_view value);
 
-  /// Attribute of a dataset or group that is there already; "/" is the root.
+  /// Attribute of an existing dataset or group; "/" is the root.
   void attribute(const std::string& path, const char* name, std::string_view value);
   void attribute(const std::string& path, const char* name, double value);
   void attribute(const std::string& path, const char* name, std::int64_t value);
   void attribute(const std::string& path, const char* name, std::uint64_t value);
   void group(const std::string& path);
 
-  /// The file's bytes; the writer is closed then.
+  /// Closes the writer and returns the file's bytes.
   std::string finish();
 
  private:
   std::int64_t file_;
 };
 
-/// Reads what Hdf5Writer wrote, from bytes of any origin. Throws InputError "NAME: WHY" when
-/// something is missing, of another shape or too large.
+/// Reads files of Hdf5Writer from untrusted bytes. Throws InputError "NAME: WHY" if something is
+/// missing, has another shape or is too large.
 class Hdf5Reader {
  public:
   Hdf5Reader(std::string bytes, std::string name);

@@ -94,7 +94,7 @@ struct TableReader {
     const Type& row = *field.type->parts[0];
     const std::vector<Column> columns = columns_of(row, ColumnUnits::held, field.info.unit);
     std::vector<void*> rows;
-    // Before memory is taken for rows that are not there.
+    // Checked before memory is allocated for rows that do not exist.
     if (size_of(group, columns.front()) != static_cast<std::size_t>(offsets.back()))
       file.fail(group + "/offset does not fit its table");
     for (std::size_t i = 0; i < outer.size(); ++i) {

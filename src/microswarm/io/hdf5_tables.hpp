@@ -8,19 +8,20 @@
 
 namespace microswarm {
 
-/// Writes the tables of a described value, see visit_tables: a group a table, a dataset a column,
-/// with the attributes `unit` and `description`. Words are integers that count into the attribute
-/// `words`. The rows of parts follow each other; `offset` says which belong to which row.
+/// Writes the tables of a described value (see visit_tables): one group per table and one dataset
+/// per column, with the attributes `unit` and `description`. Words are stored as indices into the
+/// attribute `words`. Rows of parts are concatenated; `offset` gives the range that belongs to each
+/// row.
 void write_tables(Hdf5Writer& out, const Type& type, const void* value);
 
-/// Reads them back. Throws InputError for what does not fit the description.
+/// Reads the tables back. Throws InputError if they do not match the description.
 void read_tables(const Hdf5Reader& in, const Type& type, void* value);
 
-/// Writes the numbers of a described value, and of what is nested in it, as attributes of a group.
+/// Writes the numbers of a described value, including nested ones, as attributes of a group.
 void write_attributes(Hdf5Writer& out, const std::string& group, const Type& type,
                       const void* value);
 
-/// Reads them back; errors as above.
+/// Reads the attributes back; errors as above.
 void read_attributes(const Hdf5Reader& in, const std::string& group, const Type& type, void* value);
 
 }  // namespace microswarm

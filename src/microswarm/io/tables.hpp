@@ -10,7 +10,7 @@
 
 namespace microswarm {
 
-/// A described list, behind a pointer. `Pointer` is void* or const void*.
+/// Reference to a described list. `Pointer` is void* or const void*.
 template <class Pointer>
 struct ListRef {
   const Type* type;  ///< of the list
@@ -20,20 +20,20 @@ struct ListRef {
   std::size_t size() const { return type->count(value); }
   Pointer row(std::size_t i) const { return type->part(const_cast<void*>(value_of()), i); }
   void resize(std::size_t size) const { type->set_count(value, size); }
-  /// The list that a row holds in a field.
+  /// List held in a field of row i.
   ListRef part(std::size_t i, const Field& field) const { return {field.type, field.in(row(i))}; }
 
  private:
   const void* value_of() const { return value; }
 };
 
-/// Goes through the tables of a described value. A table is a list of rows; where these hold lists
-/// of their own, each is a table of parts:
+/// Visits the tables of a described value. A table is a list of rows; lists inside the rows form
+/// tables of parts:
 ///
 ///     visit.table(group, list)            // "/plans"
 ///     visit.parts(group, list, field)     // "/plans/tree"
 ///
-/// field.in(row) is the list that a row of the table above holds.
+/// field.in(row) is the list in a row of the parent table.
 template <class Pointer, class Visitor>
 void visit_tables(const Type& type, Pointer value, Visitor&& visit) {
   for (const Field& field : type.fields) {

@@ -101,7 +101,7 @@ std::string_view missing_requirement(const AggregationParams&, const Task& task)
   return task.goal ? "" : "one goal for all robots";
 }
 
-// Waypoints must be where the swarm can be.
+// Waypoints must be positions that the swarm can occupy.
 Issues validate(const RadarParams& p, const Task& task, const Map& map, const IsGiven& is_given) {
   Issues issues = validate(p, is_given);
   issues.add(validate_step(p, task.swarm));

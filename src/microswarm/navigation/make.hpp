@@ -14,24 +14,24 @@
 
 namespace microswarm {
 
-/// What a navigator is told of its task.
+/// Task of a navigator.
 struct Task {
-  SwarmLimits swarm;                       ///< of a swarm that is seen as one body
-  std::optional<RobotSwarmParams> robots;  ///< of one whose robots are told apart
-  std::optional<Vec2> goal;                ///< nothing when the robots have goals of their own
-  double goal_tolerance = 0;               ///< [µm]
-  double tick = 0.1;                       ///< between two commands [s]
+  SwarmLimits swarm;                             ///< for a single-body swarm
+  std::optional<RobotSwarmParams> robots;        ///< for individually tracked robots
+  std::optional<Vec2> goal;                      ///< nothing if the robots have individual goals
+  double goal_tolerance = 0;                     ///< [µm]
+  double tick = 0.1;                             ///< between two commands [s]
   double frame_timeout = default_frame_timeout;  ///< age of a frame [s] at which it holds
 };
 
-/// What a navigator can steer: nothing when it can do the task, else what it lacks.
+/// Why the navigator cannot perform the task; empty if it can.
 std::string_view unsupported_reason(const NavigatorParams& params, const Task& task);
 
-/// Issues when the navigator's parameters make no sense together, for this swarm or on this map.
+/// Reports parameters of the navigator that are inconsistent or do not fit this swarm or map.
 Issues validate(const NavigatorParams& params, const Task& task, const Map& map,
                 const IsGiven& is_given = {});
 
-/// The navigator with these parameters; it lacks nothing for the task.
+/// Creates the navigator with these parameters, which must support the task.
 std::unique_ptr<Navigator> make_navigator(const NavigatorParams& params, const Task& task, Rng rng);
 
 }  // namespace microswarm

@@ -15,23 +15,23 @@
 
 namespace microswarm {
 
-/// Any navigator, chosen at run time by its `type`.
+/// Any navigator, selected at run time by its `type`.
 using NavigatorParams = std::variant<HierarchicalParams, PlanExecutorParams, AggregationParams,
                                      RadarParams, StraightParams, PotentialFieldParams,
                                      VelocityObstacleParams, PredictiveParams, PathNavigatorParams>;
 
-/// The parameters, without what is ours where `as_published` says so: they read back without a
-/// contradiction.
+/// Parameters with our additions disabled where `as_published` is set; they can be read back
+/// without a contradiction.
 NavigatorParams in_effect(const NavigatorParams& params);
 
-/// Least distance [µm] from its centre that the navigator keeps for a swarm seen as one body.
+/// Minimum distance [µm] from its centre that the navigator keeps for a single-body swarm.
 double required_clearance(const NavigatorParams& params);
 
-/// How near [µm] to the swarm's edge an obstacle is when it begins to be avoided, for metrics: the
-/// detection range d_r of the radar, and 50 µm of those that have none.
+/// Gap [µm] to the swarm's edge at which an obstacle begins to be avoided, for metrics: the
+/// detection range d_r of the radar, 50 µm for navigators without one.
 double detection_range_of(const NavigatorParams& params);
 
-/// The follower's parameters of a navigator that follows a path; null for others.
+/// Follower parameters of a path-following navigator; null for others.
 const FollowerParams* follower_of(const NavigatorParams& params);
 FollowerParams* follower_of(NavigatorParams& params);
 

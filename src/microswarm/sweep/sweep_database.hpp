@@ -14,8 +14,8 @@ struct SweepOrigin {
   std::string begun;  ///< "2026-01-31 12:00:00", UTC
 };
 
-/// The output database of a sweep: one row per trial, layout in docs/reference/sweep.md. Only one process
-/// can hold it open for writing; any number can read.
+/// The output database of a sweep: one row per trial, layout in docs/reference/sweep.md. Only one
+/// process can hold it open for writing; any number can read.
 class SweepDatabase {
  public:
   /// Creates the database or resumes an existing one. Throws InputError, one line, when another

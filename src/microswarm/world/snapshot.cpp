@@ -13,7 +13,7 @@
 namespace microswarm {
 namespace {
 
-/// As few digits as tell it from `r`.
+/// Minimum number of digits that distinguish it from `r`.
 std::string length_text(double d, double r) {
   for (const double per_unit : {1.0, 10.0, 1e3, 1e6}) {
     const double rounded = std::round(d * per_unit) / per_unit;
@@ -27,7 +27,7 @@ std::string name_of(const BodySet& set, std::size_t body, const char* kind) {
   return kind + std::string(" ") + std::to_string(set.bodies()[body].obstacle + 1);
 }
 
-/// "is 12 µm inside wall 3", when it is.
+/// "is 12 µm inside wall 3", if it is.
 std::optional<std::string> inside_text(const BodySet& set, Vec2 p, const char* kind) {
   if (!set.holds(p)) return std::nullopt;
   const std::size_t body = set.nearest(p, infinity);

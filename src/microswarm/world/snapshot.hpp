@@ -10,8 +10,9 @@
 
 namespace microswarm {
 
-/// The world at one moment: the map and the moving bodies where they are. Planners and navigators
-/// see worlds only as snapshots. Cheap to make (the map is shared), queries are thread-safe.
+/// World at one moment: the map and the moving bodies at their positions. Planners and navigators
+/// see worlds only as snapshots. Cheap to construct, since the map is shared; queries are
+/// thread-safe.
 class Snapshot {
  public:
   explicit Snapshot(std::shared_ptr<const Map> map, double time = 0, std::vector<Body> moving = {});
@@ -29,7 +30,7 @@ class Snapshot {
 
   /// Distance [µm] to the nearest wall, border or body; 0 inside one or outside. Exact.
   double clearance(Vec2 p) const;
-  /// Distance [µm] to the nearest wall or body, the border left out: D_obs of Eq 4c [drrt].
+  /// Distance [µm] to the nearest wall or body, without the border: D_obs of Eq 4c [drrt].
   double obstacle_clearance(Vec2 p) const;
   bool is_free(Vec2 p, double r) const {
     return map_->is_free(p, r) && (moving_.empty() || moving_.is_free(p, r));
@@ -37,14 +38,13 @@ class Snapshot {
   bool is_free(Segment s, double r) const {
     return map_->is_free(s, r) && (moving_.empty() || moving_.is_free(s, r));
   }
-  /// Is every piece of the polyline free with clearance r? Short curves far from walls cost one
-  /// lookup.
+  /// Whether every segment of the polyline is free with clearance r. Short curves far from walls
+  /// cost one lookup.
   bool is_free(std::span<const Vec2> polyline, double r) const;
-  /// What a detection circle sees: Eq 1–2 [drrt].
+  /// Contents of a detection circle: Eq 1–2 [drrt].
   Survey survey(Disc circle) const;
-  /// One line for people on why `p` is not free with clearance r: "is 12 µm inside wall 3", "is 7
-  /// µm from obstacle 1, needs 40 µm", "is outside the map (0..2000 × 0..1000 µm)"; empty when
-  /// free.
+  /// Readable reason why `p` is not free with clearance r: "is 12 µm inside wall 3", "is 7 µm from
+  /// obstacle 1, needs 40 µm", "is outside the map (0..2000 × 0..1000 µm)"; empty if free.
   std::string blocked_reason(Vec2 p, double r) const;
 
  private:

@@ -14,7 +14,7 @@ struct World {
   std::shared_ptr<const Map> map;
   std::vector<Obstacle> obstacles;
 
-  /// The world at time t [s].
+  /// Snapshot at time t [s].
   Snapshot at(double t) const;
 };
 

@@ -11,7 +11,7 @@
 
 namespace microswarm {
 
-/// A picture of 8 bits a sample: row by row, y down, `channels` 1 (grey) or 3 (red, green, blue).
+/// Image with 8 bits per sample: row by row, y down, `channels` 1 (grey) or 3 (red, green, blue).
 struct Image {
   int width = 0;
   int height = 0;
@@ -25,7 +25,7 @@ struct Image {
   }
 };
 
-/// The largest picture that is read: neither side longer, and not more pixels in all.
+/// Limits of images read: length of a side and total number of pixels.
 inline constexpr int max_image_side = 16384;
 inline constexpr std::int64_t max_image_pixels = 64'000'000;
 
@@ -48,14 +48,14 @@ Image decode_image(std::span<const std::byte> bytes, std::string_view name, int 
 /// picture or file. Throws as `read_image` for a damaged PNG.
 std::optional<int> sample_depth(const std::filesystem::path& path);
 
-/// What a camera wrote: samples of a PNG with 16 bits are numbers of as many bits as the largest of
-/// them needs, 12 of many cameras. Throws as `read_image`.
+/// Reads a camera image. The depth of a 16-bit PNG is taken from its largest sample, 12 bits for
+/// many cameras. Throws as `read_image`.
 Image read_photograph(const std::filesystem::path& path);
 
-/// The picture as one grey channel, of colours the luma 0.299 R + 0.587 G + 0.114 B, rounded.
+/// The image as one grey channel. The luma of a colour is 0.299 R + 0.587 G + 0.114 B, rounded.
 Image to_grey(const Image& image);
 
-/// Writes an 8-bit PNG by way of a temporary file. Throws InputError "PATH: cannot write: REASON".
+/// Writes an 8-bit PNG through a temporary file. Throws InputError "PATH: cannot write: REASON".
 void write_png(const std::filesystem::path& path, const Image& image);
 
 }  // namespace microswarm

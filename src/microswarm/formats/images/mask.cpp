@@ -24,8 +24,8 @@ enum Direction : unsigned { east, north, west, south };
 constexpr unsigned turned_left(unsigned d) { return (d + 1) & 3U; }
 constexpr unsigned turned_right(unsigned d) { return (d + 3) & 3U; }
 
-/// Walks along the borders of the set cells with the cells on its left, and remembers which ring
-/// took which vertical edge. Cells outside the mask are not set.
+/// Traces the borders of the set cells with the cells on the left, and records which ring used
+/// which vertical edge. Cells outside the mask are not set.
 class Tracer {
  public:
   explicit Tracer(const Mask& mask)
@@ -34,10 +34,10 @@ class Tracer {
   static constexpr std::uint32_t no_ring = ~0U;
 
   bool is_set(int column, int row) const { return set_[at(column, row)] != 0; }
-  /// Ring that took the left edge of the cell; no_ring when none has yet.
+  /// Ring that used the left edge of the cell; no_ring if none yet.
   std::uint32_t ring_of_left_edge(int column, int row) const { return ring_of_[at(column, row)]; }
 
-  /// The corners where the ring turns, from the edge that leaves `start` in direction `first`.
+  /// Corners where the ring turns, starting with the edge that leaves `start` in direction `first`.
   std::vector<Corner> trace(Corner start, unsigned first, std::uint32_t ring) {
     std::vector<Corner> turns;
     Corner corner = start;
@@ -83,8 +83,9 @@ class Tracer {
     }
   }
 
-  /// Of the two cells ahead: round the right one when it is set, which keeps cells together that
-  /// touch by a corner only; straight on along the left one; round the corner when there is none.
+  /// Direction after a corner, from the two cells ahead. If the right one is set, turn right, which
+  /// keeps cells together that touch only by a corner. If only the left one is set, go straight on.
+  /// If neither is, turn left.
   unsigned next_direction(Corner corner, unsigned direction) const {
     // North-east, north-west, south-west and south-east of the corner.
     static constexpr std::array<std::pair<int, int>, 4> around{
@@ -141,8 +142,8 @@ std::vector<Polygon> mask_walls(const Mask& set, double cell, Vec2 lo) {
       points.push_back({lo.x + c.column * cell, lo.y + (set.height - c.row) * cell});
     return points;
   };
-  // Row by row, a piece is met first at its outer ring. A hole is met at the right end of a run of
-  // cells, whose left end belongs to a ring of the same piece that is known already.
+  // Row by row, a component is first met at its outer ring. A hole is met at the right end of a run
+  // of cells whose left end belongs to a known ring of the same component.
   for (int row = 0; row < set.height; ++row) {
     std::uint32_t left_ring = Tracer::no_ring;
     bool was_set = false;
@@ -168,7 +169,7 @@ std::vector<Polygon> mask_walls(const Mask& set, double cell, Vec2 lo) {
 
 namespace {
 
-/// Marks with `kept` the vertices between `first` and `last` (counted round the ring) that
+/// Marks in `kept` the vertices between `first` and `last` (counted around the ring) that
 /// Douglas–Peucker keeps.
 void keep_far_ones(const std::vector<Vec2>& ring, std::size_t first, std::size_t last,
                    double tolerance, std::vector<bool>& kept) {
@@ -199,7 +200,7 @@ std::size_t farthest_from(const std::vector<Vec2>& ring, std::size_t from) {
 
 void simplify_ring(std::vector<Vec2>& ring, double tolerance) {
   if (ring.size() < 4) return;
-  // Two vertices that are far apart stay, whatever the ring's first one is.
+  // Two vertices that are far apart are kept, independent of the ring's first vertex.
   const std::size_t a = farthest_from(ring, 0);
   const std::size_t b = farthest_from(ring, a);
   if (a == b) return;

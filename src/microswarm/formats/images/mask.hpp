@@ -9,7 +9,7 @@
 
 namespace microswarm {
 
-/// A set of square cells: 1 = set, 0 = not; row by row, y down.
+/// Set of square cells: 1 = set, 0 = not; row by row, y down.
 struct Mask {
   int width = 0;
   int height = 0;
@@ -27,27 +27,26 @@ struct Mask {
   friend bool operator==(const Mask&, const Mask&) = default;
 };
 
-/// Sets the cells whose grey (luma, for colours) is below `level` when `dark_is_set`, or else those
-/// at or above it: the two masks are each other's complement.
+/// Mask of the cells whose grey value (luma of colours) is below `level` if `dark_is_set`, else of
+/// those at or above it. The two masks are complements.
 Mask threshold(const Image& image, int level, bool dark_is_set);
 
-/// The box that the cells cover: `cell` [µm] is their side, `lo` the world's lower left corner.
+/// Box covered by the cells. `cell` [µm] is their side, `lo` the lower left corner in the world.
 Box cell_bounds(const Mask& mask, double cell, Vec2 lo = {});
 
-/// World centre [µm] of a cell: the image boundary is crossed here, columns go right and rows down
-/// in files, x goes right and y up in the world. Cell (column, row) covers
-/// lo + [column, column + 1] · cell × [height − row − 1, height − row] · cell.
+/// World centre [µm] of a cell; converts image to world coordinates. In files columns go right and
+/// rows down; in the world x goes right and y up. Cell (column, row) covers lo + [column, column +
+/// 1] · cell × [height − row − 1, height − row] · cell.
 Vec2 cell_centre(const Mask& mask, int column, int row, double cell, Vec2 lo = {});
 
-/// Outlines of the set cells along the cells' edges, exactly: one polygon for each piece of cells
-/// that touch by an edge or a corner, with its holes; what stands in a hole is a piece of its own.
-/// Vertices in a straight line are left out. The order is that of the pieces' topmost, then
-/// leftmost cells. Throws InputError when `cell` is not above 0 or a coordinate is not finite.
+/// Exact outlines of the set cells along the cells' edges. There is one polygon, with its holes,
+/// for each component of cells that touch by an edge or a corner; cells inside a hole are a
+/// separate component. Collinear vertices are left out. Components are ordered by their topmost,
+/// then leftmost cells. Throws InputError if `cell` is not above 0 or a coordinate is not finite.
 std::vector<Polygon> mask_walls(const Mask& set, double cell, Vec2 lo = {});
 
-/// Outlines with fewer vertices, of which every vertex left out is at most `tolerance` [µm] from
-/// the new outline (Douglas–Peucker on each ring). A ring never vanishes; rings may come to
-/// overlap.
+/// Reduces the vertices of the outlines by Douglas–Peucker on each ring. Every removed vertex is at
+/// most `tolerance` [µm] from the new outline. A ring never vanishes; rings may end up overlapping.
 void simplify(std::vector<Polygon>& polygons, double tolerance);
 
 }  // namespace microswarm

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int highest_maximum = 65535;
 
-/// Reads numbers and samples one after another.
+/// Reads numbers and samples in sequence.
 class PnmReader {
  public:
   PnmReader(std::span<const std::byte> bytes, std::string_view name)
@@ -20,7 +20,7 @@ class PnmReader {
   }
   std::size_t left() const { return text_.size() - at_; }
 
-  /// The next number, after blanks and comments; at most `limit`.
+  /// Next number, after blanks and comments; at most `limit`.
   int number(int limit, const char* what) {
     skip_blanks();
     if (at_ == text_.size()) fail("truncated: it ends before " + std::string(what));
@@ -32,14 +32,14 @@ class PnmReader {
     }
     return value;
   }
-  /// One digit of a plain PBM, which need no blanks between them.
+  /// One digit of a plain PBM, whose digits need no blanks between them.
   int bit() {
     skip_blanks();
     if (at_ == text_.size()) fail("truncated: it ends before its last pixel");
     if (text_[at_] != '0' && text_[at_] != '1') fail("damaged: a pixel is neither 0 nor 1");
     return text_[at_++] - '0';
   }
-  /// The one blank between the header and raw samples.
+  /// Skips the single blank between the header and raw samples.
   void end_header() {
     if (left() == 0) fail("truncated: no pixels");
     ++at_;
@@ -69,7 +69,7 @@ void read_bits(PnmReader& reader, bool plain, Image& image) {
     for (int column = 0; column < image.width; ++column) {
       if (!plain && column % 8 == 0) packed = reader.byte();
       const int bit = plain ? reader.bit() : packed >> (7 - column % 8) & 1;
-      image.pixels[image.index(column, row)] = bit ? 0 : 255;  // 1 is ink
+      image.pixels[image.index(column, row)] = bit ? 0 : 255;  // 1 is black
     }
   }
 }

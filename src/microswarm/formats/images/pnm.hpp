@@ -10,11 +10,11 @@
 
 namespace microswarm {
 
-/// Reads a Netpbm picture P1 to P6 (PBM, PGM, PPM, plain or raw; maximum up to 65535, scaled to 8
+/// Reads a Netpbm image P1 to P6 (PBM, PGM, PPM, plain or raw; maximum up to 65535, scaled to 8
 /// bits). Throws InputError "NAME: WHY".
 Image decode_pnm(std::span<const std::byte> bytes, std::string_view name);
 
-/// Raw PGM (grey) or PPM (colour) of an 8-bit picture.
+/// Raw PGM (grey) or PPM (colour) of an 8-bit image.
 std::string encode_pnm(const Image& image);
 
 }  // namespace microswarm

@@ -11,7 +11,7 @@
 namespace microswarm {
 namespace {
 
-/// Cells along a length; one that overhangs by less than a millionth is not begun.
+/// Number of cells along a length; an overhang below a millionth of a cell is ignored.
 std::int64_t cells_along(double length, double cell) {
   const double cells = std::ceil(length / cell - 1e-6);
   return cells < 1 ? 1 : static_cast<std::int64_t>(std::min(cells, 1e15));

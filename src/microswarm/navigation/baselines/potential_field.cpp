@@ -66,20 +66,21 @@ Command PotentialFieldNavigator::step(const Observation& seen, const Stop&) {
   return steering_.command(hold, NavigatorState::hold);
 }
 
-/// Strength of a push at a gap [µm].
+/// Magnitude of the repulsion at a gap [µm].
 double PotentialFieldNavigator::push(double gap, double influence) const {
   if (gap >= influence) return 0;
   const double x = std::min(params_.tuning.max_proximity, influence / std::max(gap, 1e-9));
   return params_.repulsion * (x - 1) * x * x;
 }
 
-/// What stands pushes less near the goal, or a goal beside a wall could not be reached (GNRON).
+/// Repulsion of static objects is reduced near the goal; otherwise a goal beside a wall could not
+/// be reached (GNRON).
 double PotentialFieldNavigator::calm_near_goal(Vec2 p) const {
   return std::min(1.0, distance(p, steering_.aim().position) / params_.influence);
 }
 
 /// The gradient of the clearance points away from the nearest wall; between two walls its central
-/// differences cancel out.
+/// differences cancel.
 Vec2 PotentialFieldNavigator::push_of_walls(const Map& map, Vec2 p) const {
   const double edge = steering_.swarm().radius + params_.gap;
   const double gap = map.clearance(p) - edge;
@@ -92,12 +93,13 @@ Vec2 PotentialFieldNavigator::push_of_walls(const Map& map, Vec2 p) const {
 }
 
 /// −∇ of ½ k g₀ (g₀ / g − 1)² with g = gap − reaction time · closing speed: away from the nearest
-/// point, and sideways the way the two pass each other already. `wanted` is the swarm's velocity
-/// without obstacles: pushed by its present one, it would go back and forth before what stands.
+/// point, and sideways in the direction in which the two already pass each other. `wanted` is the
+/// swarm's velocity without obstacles. Using its present velocity, it would oscillate in front of
+/// resting obstacles.
 Vec2 PotentialFieldNavigator::push_of(const Body& body, const TrackedBody& motion, Vec2 p,
                                       Vec2 wanted) const {
   const Vec2 at =
-      p - steering_.delay() * motion.velocity;  // in the frame of the body as it was seen
+      p - steering_.delay() * motion.velocity;  // relative to the body's observed position
   const bool inside = depth_in(body, at) >= 0;
   const Vec2 way = (inside ? motion.centre : nearest_of(body, at)) - at;
   const double d = norm(way);
@@ -114,7 +116,7 @@ Vec2 PotentialFieldNavigator::push_of(const Body& body, const TrackedBody& motio
   return calm * push(gap, params_.influence) * ((params_.reaction_time / spoke) * across - n);
 }
 
-/// The command that follows the force, or the nearest direction beside it, and into no wall.
+/// Command along the force or the nearest direction beside it that leads into no wall.
 std::optional<Command> PotentialFieldNavigator::clear_of_walls(const Map& map, const Pose2& pose,
                                                                Vec2 force) const {
   constexpr int max_aside = 5;

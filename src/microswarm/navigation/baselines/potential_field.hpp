@@ -8,9 +8,9 @@
 
 namespace microswarm {
 
-/// See PotentialFieldParams. No command leads into a wall: where the force does, the nearest
-/// direction beside it that does not. States: follow (nothing pushes), avoid, stuck (the forces
-/// cancel out: a local minimum), hold, arrived, blind.
+/// Potential field baseline; see PotentialFieldParams. Commands never lead into a wall: if the
+/// force does, the nearest direction that does not is taken. States: follow (no repulsion), avoid,
+/// stuck (the forces cancel: a local minimum), hold, arrived, blind.
 class PotentialFieldNavigator : public Navigator {
  public:
   PotentialFieldNavigator(const PotentialFieldParams& params, const SwarmLimits& swarm, Vec2 goal,

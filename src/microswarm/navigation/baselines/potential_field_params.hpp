@@ -11,9 +11,9 @@
 namespace microswarm {
 
 /// Baseline: artificial potential field for moving obstacles after Ge and Cui (Autonomous Robots
-/// 13, 2002). The target draws with a force of 1; a wall, border or obstacle at the gap g pushes
-/// with k (x − 1) x², x = influence / g, the negative gradient of ½ k g₀ (x − 1)². The gap to what
-/// moves is less what the two come nearer within the reaction time.
+/// 13, 2002). The target attracts with a force of 1. A wall, border or obstacle at the gap g repels
+/// with k (x − 1) x², x = influence / g, the negative gradient of ½ k g₀ (x − 1)². The gap to a
+/// moving obstacle is reduced by the approach within the reaction time.
 struct PotentialFieldParams {
   static constexpr std::string_view type_name = "potential_field";
   double speed = 60;

@@ -6,7 +6,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double lookahead_tick = 0.1;  // of the look ahead [s]
+constexpr double lookahead_tick = 0.1;  // time step of the look-ahead [s]
 constexpr int max_ticks = 200;
 
 }  // namespace
@@ -26,7 +26,7 @@ Command StraightNavigator::step(const Observation& seen, const Stop&) {
       NavigatorState::follow);
 }
 
-/// The way to the goal as the swarm turns into it, up to the stop distance.
+/// Whether the path to the goal, including the turn into it, is clear up to the stop distance.
 bool StraightNavigator::path_is_clear(const Snapshot& world, Pose2 pose) const {
   constexpr double rounding = 1e-9;
   const double wanted = steering_.swarm().radius + params_.gap;

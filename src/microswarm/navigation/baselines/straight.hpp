@@ -6,8 +6,8 @@
 
 namespace microswarm {
 
-/// See StraightParams. What is near, but not nearer further on, does not stop it. States: follow,
-/// hold, arrived, blind.
+/// Straight-line baseline; see StraightParams. It does not stop for what is near but gets no nearer
+/// ahead. States: follow, hold, arrived, blind.
 class StraightNavigator : public Navigator {
  public:
   StraightNavigator(const StraightParams& params, const SwarmLimits& swarm, Vec2 goal,

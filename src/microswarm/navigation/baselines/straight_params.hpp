@@ -7,7 +7,7 @@
 
 namespace microswarm {
 
-/// The simplest baseline: straight at the goal, and stop while something stands in the way.
+/// Simplest baseline: goes straight to the goal and stops while something is in the way.
 struct StraightParams {
   static constexpr std::string_view type_name = "straight_stop";
   double speed = 60;

@@ -15,8 +15,8 @@ constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double choice_rounding = 1e-9;
 constexpr int turning_pieces = 4;
 
-/// When, in [0, t], a point at `d` from a disc's centre that moves with `v` meets its rim, which
-/// begins at `reach` and grows: the least root of |d + v t| = reach + growth t.
+/// Time in [0, t] at which a point at `d` from a disc's centre, moving with `v`, meets its rim,
+/// which starts at `reach` and grows: the smallest root of |d + v t| = reach + growth t.
 double rim_contact(Vec2 d, Vec2 v, double reach, double growth, double t) {
   const double c = squared_norm(d) - reach * reach;
   if (c <= 0) return 0;
@@ -28,8 +28,8 @@ double rim_contact(Vec2 d, Vec2 v, double reach, double growth, double t) {
   return root >= 0 && root <= t ? root : never;
 }
 
-/// Calls visit(way, t0, t1) for the straight pieces of the way of the next `time` seconds, turning
-/// first, until one says false; says whether none did.
+/// Calls visit(way, t0, t1) for the straight segments of the path over the next `time` seconds,
+/// including the turn, until one call returns false. Returns whether none did.
 template <class Visit>
 bool along_the_way(Pose2 pose, const Command& command, double turn_rate, double time,
                    Visit&& visit) {
@@ -107,8 +107,8 @@ Command VelocityObstacleNavigator::step(const Observation& seen, const Stop&) {
   return steering_.command(best, NavigatorState::escape);
 }
 
-/// The bodies that can be met within the horizon. What is nearer than the margin already may be
-/// left behind, but not come nearer.
+/// Collects the bodies that can be met within the horizon. The swarm may move away from a body
+/// already nearer than the gap, but not approach it.
 void VelocityObstacleNavigator::find_threats(const Snapshot& world, Vec2 p) {
   threats_.clear();
   const auto bodies = world.moving().bodies();
@@ -142,7 +142,7 @@ bool VelocityObstacleNavigator::clear_of_walls(const Map& map, const Pose2& pose
                        [&](Segment way, double, double) { return map.is_free(way, r); });
 }
 
-/// When the command leads into a body; infinity when not within the horizon.
+/// Time until the command leads into a body; infinity if not within the horizon.
 double VelocityObstacleNavigator::time_to_contact(const Pose2& pose, const Command& command) const {
   double first = never;
   along_the_way(pose, command, steering_.swarm().max_turn_rate, params_.horizon,

@@ -10,8 +10,8 @@
 
 namespace microswarm {
 
-/// See VelocityObstacleParams. States: follow (the preferred velocity), avoid, escape (none will
-/// do), hold, arrived, blind.
+/// Velocity-obstacle baseline; see VelocityObstacleParams. States: follow (the preferred velocity),
+/// avoid, escape (no velocity is collision-free), hold, arrived, blind.
 class VelocityObstacleNavigator : public Navigator {
  public:
   VelocityObstacleNavigator(const VelocityObstacleParams& params, const SwarmLimits& swarm,
@@ -23,17 +23,17 @@ class VelocityObstacleNavigator : public Navigator {
   NavigatorView view() const override { return steering_.view(); }
 
  private:
-  /// A body that may be met.
+  /// Body that may be met.
   struct Threat {
     const Body* body = nullptr;
     Vec2 velocity;
-    double reach = 0;   ///< so near to it counts as contact [µm]
-    double growth = 0;  ///< of a disc's reach [µm/s]
+    double reach = 0;   ///< distance that counts as contact [µm]
+    double growth = 0;  ///< rate of a disc's reach [µm/s]
   };
   struct Choice {
     double turn = 0;  ///< from the preferred heading [rad]
     double speed = 0;
-    double off = 0;  ///< from the preferred velocity [µm/s]
+    double off = 0;  ///< distance from the preferred velocity [µm/s]
   };
 
   void rank_choices();
@@ -47,7 +47,7 @@ class VelocityObstacleNavigator : public Navigator {
   GoalGuide guide_;
   ObstacleTracker tracker_;
   std::vector<Threat> threats_;
-  std::vector<Choice> choices_;  ///< nearest to the preferred one first
+  std::vector<Choice> choices_;  ///< nearest to the preferred velocity first
 };
 
 }  // namespace microswarm

@@ -10,9 +10,9 @@
 
 namespace microswarm {
 
-/// Baseline: velocity obstacles (Fiorini and Shiller, IJRR 17, 1998), not reciprocal: of the
-/// velocities on a grid of directions and speeds that meet nothing within the horizon, the one
-/// nearest to the preferred one, which is at full speed to the target.
+/// Baseline: velocity obstacles (Fiorini and Shiller, IJRR 17, 1998), not reciprocal. Of the
+/// velocities on a grid of directions and speeds that are collision-free within the horizon, it
+/// takes the one nearest to the preferred velocity, which is full speed towards the target.
 struct VelocityObstacleParams {
   static constexpr std::string_view type_name = "velocity_obstacle";
   double speed = 60;

@@ -8,12 +8,12 @@
 
 namespace microswarm {
 
-/// Tells what carries a swarm off from where it is seen, frame by frame, beside where its commands
-/// would have taken it: a flow, or a speed that is not the one commanded. A low-pass over some
-/// seconds takes out the camera's noise.
+/// Estimates the drift velocity of a swarm: low-pass of (observed − predicted displacement) / dt.
+/// The drift is a flow, or a speed that differs from the commanded one. The time constant of some
+/// seconds removes the camera's noise.
 class FlowEstimate {
  public:
-  /// Takes in a frame with a swarm, before `compensator` forgets the commands since the last one.
+  /// Adds a frame with a swarm, before `compensator` drops the commands since the last one.
   void update(const Observation& seen, const DelayCompensator& compensator) {
     const PoseStamped now{seen.seen, seen.swarm->pose, seen.swarm->radius};
     if (last_ && now.t - last_->t > min_gap && now.t - last_->t < max_gap) {
@@ -29,8 +29,8 @@ class FlowEstimate {
 
  private:
   static constexpr double time_constant = 1.5;  // [s]
-  static constexpr double min_gap = 1e-6;       // of two frames [s]
-  static constexpr double max_gap = 1.0;        // beyond it the frames have nothing in common [s]
+  static constexpr double min_gap = 1e-6;       // between two frames [s]
+  static constexpr double max_gap = 1.0;        // between comparable frames [s]
   std::optional<PoseStamped> last_;
   Vec2 flow_;
 };

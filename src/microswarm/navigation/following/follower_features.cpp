@@ -23,7 +23,7 @@ FollowerFeatures features_of(const FollowerQuery& query) {
   for (std::size_t k = 0; k < preview_times.size(); ++k) {
     const Vec2 point = (1 / query.speed) * ahead(k);
     add(dot(point, x));
-    if (k != bearing_preview) add(dot(point, y));  // the bearing's own is 0
+    if (k != bearing_preview) add(dot(point, y));  // the bearing's own component is 0
   }
   const double off = wrap(query.pose.heading - features.bearing);
   const auto [sine, cosine] = maths::sincos(off);

@@ -52,14 +52,14 @@ std::string list_text(const Values& values) {
   return text + "]\n";
 }
 
-/// The lines of a model one by one, blank ones and comments passed over.
+/// Reads a model line by line; skips blank lines and comments.
 class Reader {
  public:
   Reader(std::string_view text, std::string_view name) : rest_(text), name_(name) {}
 
   [[noreturn]] void fail(const std::string& why) const { throw InputError(name_, line_, 0, why); }
 
-  /// The next line behind what it must begin with.
+  /// Rest of the next line, which must start with `begin`.
   std::string_view after(std::string_view begin) {
     const std::string_view line = next();
     if (!line.starts_with(begin))
@@ -67,7 +67,7 @@ class Reader {
     return line.substr(begin.size());
   }
 
-  /// From `least` to `max_many` numbers in brackets.
+  /// Between `least` and `max_many` numbers in brackets.
   std::vector<double> numbers(std::string_view begin, std::size_t least, std::size_t max_many) {
     std::string_view list = after(begin);
     if (list.size() < 2 || list.front() != '[' || list.back() != ']')

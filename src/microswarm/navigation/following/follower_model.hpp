@@ -12,35 +12,34 @@
 
 namespace microswarm {
 
-/// A learned follower: a network, the range of each of its features in training, and how it came
-/// about. Features enter the network scaled to [-1, 1] over their range. It answers with the
-/// heading off the bearing [rad] and the share of the speed asked for.
+/// Learned follower: a network, the training range of each feature, and its training parameters.
+/// Features are scaled to [-1, 1] over their range. The outputs are the heading relative to the
+/// bearing [rad] and the fraction of the commanded speed.
 struct FollowerModel {
   std::uint64_t seed = 0;
-  std::string training;  ///< its parameters, on one line
+  std::string training;  ///< training parameters, on one line
   std::array<double, feature_count> lowest{};
   std::array<double, feature_count> highest{};
   MultilayerPerceptron network;
 
-  /// The features as the network takes them; nothing when one is outside of its range.
+  /// Scaled features; nothing if one is outside its range.
   std::optional<std::array<double, feature_count>> scaled(
       std::array<double, feature_count> features) const;
-  /// The command for this; nothing when a feature is outside of the range of the training.
+  /// Command for the query; nothing if a feature is outside its training range.
   std::optional<Command> command(const FollowerQuery& query) const;
 };
 
-/// The slowest share of the speed asked for that a model commands.
+/// Minimum fraction of the commanded speed that a model commands.
 inline constexpr double min_speed_share = 0.2;
 
-/// A model as text: YAML that is easy to read for people, with numbers to the last bit.
+/// Model as readable YAML, with numbers exact to the last bit.
 std::string follower_model_text(const FollowerModel& model);
 
 /// Reads that text back to the same bits. Throws InputError "NAME:LINE: WHY" for anything else:
-/// keys out of order, a wrong count, a number that is not finite or too large, layers that do not
-/// fit.
+/// keys out of order, a wrong count, a number that is not finite or too large, inconsistent layers.
 FollowerModel parse_follower_model(std::string_view text, std::string_view name);
 
-/// The model that comes with the library: models/follower.yaml of the source tree.
+/// Built-in model: models/follower.yaml of the source tree.
 const FollowerModel& default_follower_model();
 
 }  // namespace microswarm

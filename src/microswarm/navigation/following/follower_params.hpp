@@ -13,22 +13,23 @@ namespace microswarm {
 
 class FollowerModel;
 
-/// How a path is followed.
+/// Path-following method.
 enum class FollowerKind {
   pure_pursuit,  ///< heads for a point of the path ahead
-  learned        ///< a network taught by an expert [drrt]
+  learned        ///< network trained by imitation of an expert [drrt]
 };
 constexpr auto enum_names(FollowerKind) {
   return std::array<std::pair<FollowerKind, std::string_view>, 2>{
       {{FollowerKind::pure_pursuit, "pure_pursuit"}, {FollowerKind::learned, "learned"}}};
 }
 
-/// Which follower a navigator has. The flow is told from what is seen; a model always knows it.
+/// Follower of a navigator. The flow is estimated from observations; a learned follower always uses
+/// it.
 struct FollowerParams {
   FollowerKind kind = FollowerKind::pure_pursuit;
   bool correct_flow = false;
   std::string model;
-  std::shared_ptr<const FollowerModel> loaded;  ///< what the file `model` holds
+  std::shared_ptr<const FollowerModel> loaded;  ///< contents of the file `model`
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.kind, {"kind", Unit::none, {}, "Kind of the follower: pure_pursuit or learned."});

@@ -28,7 +28,7 @@ void PathFollower::update(const Observation& seen, const DelayCompensator& compe
 
 FollowerQuery PathFollower::query(std::span<const Vec2> path, PathPlace& place, const Pose2& pose,
                                   double speed) const {
-  // The compensator of the pose knows of no flow.
+  // The delay compensator does not include the flow.
   const Pose2 carried{pose.position + delay_ * flow(), pose.heading};
   place = nearest_place(path, carried.position, place);
   return {path, place, carried, speed, flow(), max_turn_rate_};
@@ -50,7 +50,7 @@ Command pursue_in_flow(std::span<const Vec2> path, PathPlace& place, const Pose2
   Command command = pursue(path, place, pose, lookahead, speed);
   const Vec2 way = unit_vector(command.heading);
   const double across = way.x * flow.y - way.y * flow.x;
-  // No heading holds the line in a flow that is as fast as the swarm.
+  // No heading holds the line if the flow is as fast as the swarm.
   const double crab = -maths::asin(std::clamp(across / speed, -0.9, 0.9));
   command.heading = wrap(command.heading + crab);
   return command;

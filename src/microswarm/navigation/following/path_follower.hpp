@@ -10,25 +10,25 @@
 
 namespace microswarm {
 
-/// Turns path and pose into a command. A learned follower hands over to pure pursuit where it was
-/// not trained.
+/// Computes the command that follows a path. A learned follower falls back to pure pursuit outside
+/// its training range.
 class PathFollower {
  public:
   struct Answer {
     Command command;
-    bool handed_over = false;  ///< the learned follower did not know; this is pure pursuit
+    bool handed_over = false;  ///< pure pursuit, because the learned follower was not applicable
   };
 
-  /// A model that is named must be loaded.
+  /// A model named in `params` must be loaded.
   PathFollower(const FollowerParams& params, const SwarmLimits& swarm);
 
-  /// Takes in a frame with a swarm: first thing in a step.
+  /// Processes a frame with a swarm; call it first in a step.
   void update(const Observation& seen, const DelayCompensator& compensator);
-  /// The command for a swarm that will be at `pose` when it takes effect; moves `place` on.
-  /// `lookahead` [µm] is that of pure pursuit. May be asked for poses to come. Allocates nothing.
+  /// Command for a swarm that is at `pose` when it takes effect; advances `place`. `lookahead` [µm]
+  /// is that of pure pursuit. Future poses may be queried too. Does not allocate.
   Answer command(std::span<const Vec2> path, PathPlace& place, const Pose2& pose, double lookahead,
                  double speed) const;
-  /// What a learned follower is asked there; moves `place` on.
+  /// Inputs of a learned follower at that pose; advances `place`.
   FollowerQuery query(std::span<const Vec2> path, PathPlace& place, const Pose2& pose,
                       double speed) const;
   Vec2 flow() const { return flow_.flow(); }  ///< [µm/s]
@@ -41,12 +41,12 @@ class PathFollower {
   bool correct_flow_;
   double max_turn_rate_;
   double lag_;
-  double delay_ = 0;  ///< from the frame to the effect [s]
+  double delay_ = 0;  ///< from the frame until the command takes effect [s]
   FlowEstimate flow_;
 };
 
-/// Pure pursuit that crabs: the heading at which a swarm of `speed` is carried towards the point
-/// `lookahead` µm ahead by its own motion and the flow together.
+/// Pure pursuit with drift correction: the heading at which a swarm of `speed`, moved by itself and
+/// by the flow, reaches the point `lookahead` µm ahead.
 Command pursue_in_flow(std::span<const Vec2> path, PathPlace& place, const Pose2& pose,
                        double lookahead, double speed, Vec2 flow);
 

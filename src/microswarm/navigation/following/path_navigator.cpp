@@ -41,7 +41,7 @@ Command PathNavigator::step(const Observation& seen, const Stop&) {
                            next.handed_over ? NavigatorState::fallback : NavigatorState::follow);
 }
 
-/// The way that the follower will lead in the next `horizon` seconds, or to the goal.
+/// Whether the follower's path over the next `horizon` seconds, or to the goal, is clear.
 bool PathNavigator::path_is_clear(const Snapshot& world, Pose2 pose) const {
   constexpr double tick = 0.1;  // [s]
   constexpr double rounding = 1e-9;

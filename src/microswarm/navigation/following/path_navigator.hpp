@@ -9,8 +9,8 @@
 
 namespace microswarm {
 
-/// See PathNavigatorParams. States: follow, fallback (the learned follower does not know and hands
-/// over to pure pursuit), hold, arrived, blind.
+/// Path-following navigator; see PathNavigatorParams. States: follow, fallback (pure pursuit
+/// instead of the learned follower), hold, arrived, blind.
 class PathNavigator : public Navigator {
  public:
   PathNavigator(const PathNavigatorParams& params, const SwarmLimits& swarm, Vec2 goal,
@@ -26,7 +26,7 @@ class PathNavigator : public Navigator {
   PathNavigatorParams params_;
   SteeringCycle steering_;
   PathFollower follower_;
-  std::vector<Vec2> path_;  ///< to the goal
+  std::vector<Vec2> path_;  ///< including the goal
   PathPlace place_;
 };
 

@@ -10,8 +10,8 @@
 
 namespace microswarm {
 
-/// Follows a path that is given, and stops while something stands in the way: for comparing
-/// followers, and for paths drawn by hand.
+/// Follows a given path and stops while something is in the way: for comparing followers, and for
+/// paths drawn by hand.
 struct PathNavigatorParams {
   static constexpr std::string_view type_name = "follow_path";
   std::vector<Vec2> path;

@@ -12,8 +12,8 @@
 
 namespace microswarm {
 
-/// What an aggregation knows of its map: the tree with its ways to the goal, and the regions along
-/// them. Made once, shared by all that gather there.
+/// Map data of an aggregation: the tree with its routes to the goal, and the regions along them.
+/// Built once and shared by all robots.
 struct AggregationMap {
   Map map;
   ObstacleWeightedRrt tree;
@@ -22,20 +22,20 @@ struct AggregationMap {
 
   const Routes& routes() const { return obstacle_weighted ? tree.weighted : tree.plain; }
 
-  /// Throws InputError when the goal is not free or the tree could not be grown.
+  /// Throws InputError if the goal is not free or the tree could not be grown.
   AggregationMap(Map map, Vec2 goal, const AggregationParams& params, Rng& rng);
 };
 
-/// Robots as an aggregation sees them.
+/// Robots as input of an aggregation.
 struct RobotsOnMap {
-  std::vector<std::uint32_t> counts;  ///< robots in each place; empty: one
-  std::vector<std::uint32_t> nodes;   ///< nearest node of each place
-  std::vector<double> ways;           ///< way to the goal of each place [µm]
+  std::vector<std::uint32_t> counts;  ///< robots at each position; empty: one each
+  std::vector<std::uint32_t> nodes;   ///< nearest node of each position
+  std::vector<double> ways;           ///< path length to the goal from each position [µm]
 
   double count(std::size_t i) const { return counts.empty() ? 1 : static_cast<double>(counts[i]); }
 };
 
-/// Rounded to 2^-20: sums are exact, so that they do not depend on the order of the robots.
+/// Rounds to 2^-20, so that sums are exact and independent of the order of the robots.
 inline double on_lattice(double v) {
   constexpr double shift = 0x1.8p32;
   return (v + shift) - shift;

@@ -10,13 +10,14 @@
 
 namespace microswarm {
 
-/// HRA and DCA, Alg 3 and 5 [gather], and the rollout planner as a navigator: looks at where the
-/// robots will be when its command takes effect, and gives the policy's move, or as much of it as
+/// Navigator of HRA and DCA, Alg 3 and 5 [gather], and of the rollout planner. It predicts the
+/// robots' positions when its command takes effect and commands the policy's move, limited to what
 /// a tick allows. States: gather, arrived, blind.
 class AggregationNavigator : public Navigator {
  public:
-  /// `robots`: what is known of them; `tick` [s] between two commands. It goes on until the mean
-  /// way is at most half of the task's `goal_tolerance` [µm], however that is measured there.
+  /// `robots`: their known properties; `tick` [s] between two commands. It continues until the mean
+  /// path length to the goal is at most half of `goal_tolerance` [µm], whatever measure the task
+  /// uses.
   AggregationNavigator(const AggregationParams& params, const RobotSwarmParams& robots, Vec2 goal,
                        double goal_tolerance, double tick, Rng rng,
                        double frame_timeout = default_frame_timeout);
@@ -25,9 +26,9 @@ class AggregationNavigator : public Navigator {
   void prepare(const Snapshot& world) override;
   Command step(const Observation& observation, const Stop& stop) override;
   NavigatorView view() const override { return steering_.view(); }
-  /// After prepare(): null before.
+  /// The policy; null before prepare().
   const AggregationPolicy* policy() const { return policy_ ? &*policy_ : nullptr; }
-  /// What it gathers by; null before prepare().
+  /// The map data; null before prepare().
   const AggregationMap* map() const { return map_ ? &*map_ : nullptr; }
 
  private:

@@ -12,11 +12,11 @@
 
 namespace microswarm {
 
-/// Who leads the robots to the goal.
+/// Policy that chooses the leader of the robots.
 enum class Aggregation {
   heuristic,           ///< the robot farthest from the goal: Alg 3 [gather], HRA
   divide_and_conquer,  ///< region after region, branch after branch: Alg 5 [gather], DCA
-  rollout,             ///< a plan to the end, made better in simulations of both: RolloutPolicy
+  rollout,             ///< a complete plan, improved by simulation of both: RolloutPolicy
 };
 constexpr auto enum_names(Aggregation) {
   return std::array<std::pair<Aggregation, std::string_view>, 3>{
@@ -25,18 +25,18 @@ constexpr auto enum_names(Aggregation) {
        {Aggregation::rollout, "rollout"}}};
 }
 
-/// Which region is next in Alg 5 [gather] when a team is not followed any more.
+/// Next region in Alg 5 [gather] when a team is no longer followed.
 enum class DcaReading {
-  rounds,     ///< ours: the farthest of this round; who is pushed back waits for the next round
-  published,  ///< as the authors' program: the farthest that holds robots
+  rounds,     ///< ours: the farthest of this round; robots pushed back wait for the next round
+  published,  ///< as in the authors' program: the farthest that contains robots
 };
 constexpr auto enum_names(DcaReading) {
   return std::array<std::pair<DcaReading, std::string_view>, 2>{
       {{DcaReading::rounds, "rounds"}, {DcaReading::published, "published"}}};
 }
 
-/// Parameters of an aggregation [gather]. The lengths are for channels that are 10 µm wide;
-/// `fitted` makes them as large as a map's channels.
+/// Parameters of an aggregation [gather]. Lengths are for channels 10 µm wide; `fitted` scales them
+/// to a map's channels.
 struct AggregationParams {
   static constexpr std::string_view type_name = "aggregation";
   Aggregation method = Aggregation::divide_and_conquer;

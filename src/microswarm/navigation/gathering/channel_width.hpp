@@ -6,17 +6,17 @@
 
 namespace microswarm {
 
-/// Usual width [µm] of a map's channels, estimated at random points: in a channel of width w the
-/// mean clearance of a free point is w/4. Throws InputError when no free point is found.
+/// Typical channel width of a map [µm], estimated at random points: in a channel of width w the
+/// mean clearance of a free point is w/4. Throws InputError if no free point is found.
 double channel_width(const Map& map, Rng& rng);
 
-/// Width of the channels [µm] that the published lengths are for.
+/// Channel width for which the published lengths hold [µm].
 inline constexpr double published_channel_width = 10;
 
-/// The parameters' scale; measured on the map where it is 0.
+/// Scale of the parameters; measured on the map if it is 0.
 double scale_of(const AggregationParams& params, const Map& map, Rng& rng);
 
-/// The parameters with all lengths multiplied by their scale, which is 1 then.
+/// Parameters with all lengths multiplied by their scale, which is then set to 1.
 AggregationParams fitted(AggregationParams params, const Map& map, Rng& rng);
 
 }  // namespace microswarm

@@ -31,7 +31,7 @@ std::size_t DivideAndConquer::leader(const RobotsOnMap& robots, std::size_t last
   return nearest_to_gate(robots);                  // line 6
 }
 
-// Line 8: in its region, and then for some way beyond; or to the goal.
+// Line 8: within its region and then some distance beyond, or to the goal.
 bool DivideAndConquer::is_led_on(const RobotsOnMap& robots, std::size_t robot) {
   if (target_distance_ == infinity) {
     const std::uint32_t region = map_->segmentation.region[robots.nodes[robot]];

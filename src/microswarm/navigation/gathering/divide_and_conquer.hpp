@@ -7,15 +7,15 @@
 
 namespace microswarm {
 
-/// Who leads in Alg 5 [gather]: region after region, branch after branch. Keeps what it is about
-/// between two decisions.
+/// Choice of the leader in Alg 5 [gather]: region after region, branch after branch. Keeps its
+/// state between decisions.
 class DivideAndConquer {
  public:
   /// The map must outlive it.
   DivideAndConquer(const AggregationMap& map, const AggregationParams& params)
       : map_(&map), params_(params) {}
 
-  /// The place that leads; `last` did until now. There must be robots.
+  /// Position that leads next; `last` led until now. There must be robots.
   std::size_t leader(const RobotsOnMap& robots, std::size_t last);
 
  private:
@@ -32,11 +32,11 @@ class DivideAndConquer {
   AggregationParams params_;
   std::uint32_t region_ = 0;
   std::uint32_t branch_ = 0;
-  std::uint32_t round_ = 0;  ///< farthest region of what is left of the map in this round
+  std::uint32_t round_ = 0;  ///< farthest region still open in this round
   bool leads_ = false;
-  double target_distance_ = 0;  ///< to which the leader is led; infinity: out of its region
-  std::uint32_t entered_ = 0;   ///< region into which the last robot was led
-  int followed_ = 0;            ///< how often the team was followed
+  double target_distance_ = 0;  ///< down to which the leader is led; infinity: out of its region
+  std::uint32_t entered_ = 0;   ///< last region into which a robot was led
+  int followed_ = 0;            ///< number of times the team was followed
 };
 
 }  // namespace microswarm

@@ -9,7 +9,7 @@
 
 namespace microswarm {
 
-/// How a gathering ended.
+/// Result of a gathering.
 struct GatherResult {
   Status status = Status::time_limit;  ///< solved, time_limit (the steps ran out) or stopped
   int steps = 0;
@@ -17,8 +17,8 @@ struct GatherResult {
   int guard_count = 0;
 };
 
-/// Gathers robots step by step under the rule "stop", without camera, delay or noise; they end
-/// where they were gathered. With those an Episode gathers.
+/// Gathers robots step by step under the rule "stop", without camera, delay or noise. `robots` ends
+/// with their final positions. Episode gathers with camera, delay and noise.
 GatherResult gather(const RobotStepper& stepper, AggregationPolicy& policy, Robots& robots,
                     int max_steps, const Stop& stop = {});
 GatherResult gather(const RobotStepper& stepper, RolloutPolicy& policy, Robots& robots,

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t nobody = ~0u;
 
-/// A place or its cell, as one number.
+/// Position or its grid cell, as one number.
 std::uint64_t key_of(float x, float y, double cell) {
   const auto part = [cell](float v) {
     return cell > 0 ? static_cast<std::uint32_t>(static_cast<std::int64_t>(std::floor(v / cell)))
@@ -37,7 +37,7 @@ std::span<const std::uint32_t> MergedRobots::merge_coincident(double cell) {
   slots_.assign(mask + 1, nobody);
   merged_into_.resize(count);
   std::size_t kept = 0;
-  // Places that are kept move down, so that a slot names a place below the one looked at.
+  // Kept positions move to the front, so a slot refers to an index below the current one.
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint64_t key = key_of(places_.x[i], places_.y[i], cell);
     std::size_t slot = mixed(key) & mask;

@@ -8,8 +8,8 @@
 
 namespace microswarm {
 
-/// Parameters of the rollout planner. Work is counted in robot-steps: places moved, and 20 for the
-/// rest of each simulated step; some 40 million a second on one core.
+/// Parameters of the rollout planner. Work is counted in robot-steps: positions moved, plus 20 for
+/// the rest of each simulated step. One core does about 40 million per second.
 struct RolloutParams {
   static constexpr std::string_view type_name = "rollout";
   double budget = 4e6;

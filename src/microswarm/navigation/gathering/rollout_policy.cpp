@@ -43,14 +43,15 @@ std::optional<Vec2> RolloutPolicy::next(const Robots& robots, const Stop& stop) 
   return move;
 }
 
-// Not without a plan, nor when robots are so unlike those of the simulation that it would take
-// twice as long as its base should: then a policy that looks at them at every step is better.
+// Follows the plan unless there is none, or the robots differ so much from the simulation that it
+// would take twice as long as the base policy. Then a policy that observes the robots at every step
+// is better.
 bool RolloutPolicy::leads() const {
   constexpr std::size_t max_bases = 2;
   return steps() > 0 && made_ + steps_left() <= max_bases * base_steps_;
 }
 
-// The mean way shrinks by a step a move at best.
+// The mean path length decreases by at most one step per move.
 void RolloutPolicy::look(const Robots& robots, bool always) {
   if (!always && --unmeasured_ > 0) return;
   const AggregationParams& p = simulator_.params();
@@ -76,7 +77,7 @@ std::optional<PartialPlan> RolloutPolicy::simulated(const Robots& robots, Aggreg
   return partial;
 }
 
-// The base: the shorter one of both policies.
+// Base plan: the shorter one of the two policies.
 void RolloutPolicy::start(const Robots& robots) {
   expected_ = MergedRobots(robots);
   done_ = 0;
@@ -147,8 +148,8 @@ void RolloutPolicy::improve(double budget, const Stop& stop) {
   thought_ += simulator_.work() - begun;
 }
 
-// Grows a plan by looking ahead again and again. It begins a little ahead of the robots; when they
-// overtake it, twice as far ahead. True while it should go on.
+// Extends a plan by repeated lookahead, starting a little ahead of the robots. If they overtake it,
+// it starts twice as far ahead. True while it should continue.
 bool RolloutPolicy::extend() {
   if (!extended_ || extended_->from < done_) {
     const std::size_t from = (done_ + head_start_ + checkpoint_interval - 1) / checkpoint_interval;
@@ -176,7 +177,7 @@ PartialPlan RolloutPolicy::partial_at(std::size_t step, std::size_t max_places) 
   return partial;
 }
 
-// One thing is done otherwise somewhere; then the plan goes on, or a base policy does.
+// Changes the plan at one point, then continues with the plan or a base policy.
 void RolloutPolicy::perturb() {
   PartialPlan partial = partial_at(done_ + rng_.below(steps() - done_),
                                    static_cast<std::size_t>(params_.representatives));
@@ -196,7 +197,7 @@ void RolloutPolicy::change(PartialPlan& partial) {
   std::size_t goes_on_at = at;
   bool goes_on = rng_.below(3) == 0;
   switch (rng_.below(5)) {
-    case 0:  // one leads all the way
+    case 0:  // one robot leads to the end
       simulator_.lead(partial, rng_.below(partial.merged.places().size()), most, most);
       break;
     case 1:
@@ -220,7 +221,7 @@ void RolloutPolicy::change(PartialPlan& partial) {
   if (goes_on) simulator_.follow(partial, std::span(plan_.moves).subspan(goes_on_at), most);
 }
 
-// With all robots.
+// Simulates the plan with all robots.
 void RolloutPolicy::verify(const PartialPlan& partial) {
   PartialPlan all{plan_.checkpoints[partial.from / checkpoint_interval], partial.from};
   all.keeps_checkpoints = true;

@@ -8,31 +8,33 @@
 
 namespace microswarm {
 
-/// Gathers robots at the goal by a plan to the end, beyond [gather]. The plan is at first the
-/// shorter one of what HRA and DCA would do, found by simulating them; every decision then spends a
-/// budget of simulated robot-steps on shorter ones, and the plan is replaced only by a plan that
-/// all robots were simulated with. So without noise it never takes more steps than the better of
-/// the two, and ends where that ends. When the robots max_deviation from it, it plans anew from
-/// where they are seen: by the rest of the plan or by either policy, whichever is the shortest.
-/// When plans slip as fast as they are followed, the better policy leads to the end. Deterministic
-/// unless a deadline stops its thinking.
+/// Gathers robots at the goal by a complete plan, beyond [gather]. The initial plan is the shorter
+/// one of simulated HRA and DCA. Every decision then spends a budget of simulated robot-steps on
+/// finding shorter plans. A plan is replaced only after the new one was simulated with all robots.
+/// Without noise it therefore never needs more steps than the better of the two policies, and meets
+/// the same criterion at the end. When the robots deviate from the plan by more than
+/// `max_deviation`, it replans from their observed positions: by the rest of the plan or by either
+/// policy, whichever is shortest. When plans fail as fast as they are executed, the better policy
+/// leads to the end. Deterministic unless a deadline stops the search.
 class RolloutPolicy {
  public:
-  /// Map and stepper, of the rule "stop", must outlive it. Uses `params.rollout`.
+  /// Map and stepper must outlive it; the stepper is used with the rule "stop". Uses
+  /// `params.rollout`.
   RolloutPolicy(const AggregationMap& map, const RobotStepper& stepper,
                 const AggregationParams& params, Rng rng);
 
-  /// The next move [µm] of all robots; nothing when they are gathered: F < σ. `stop` ends the
-  /// thinking, not the gathering.
+  /// Next move [µm] of all robots; nothing if they are gathered: F < σ. `stop` ends the search for
+  /// better plans, not the gathering.
   std::optional<Vec2> next(const Robots& robots, const Stop& stop = {});
 
-  /// F(n, t): mean way to the goal [µm] when it was measured last; at the end it is that of then.
+  /// F(n, t): mean path length to the goal [µm] at its last measurement; at the end it is the final
+  /// value.
   double mean_distance() const { return mean_distance_; }
-  /// Moves left in the plan; 0 when neither policy has found an end.
+  /// Moves left in the plan; 0 if neither policy reached the end.
   std::size_t steps_left() const { return plan_.moves.size() - done_; }
-  /// How often it planned anew since robots strayed.
+  /// Number of times it replanned because robots deviated.
   int replans() const { return replans_; }
-  /// How often a shorter plan was found.
+  /// Number of shorter plans found.
   int improvements() const { return improvements_; }
   /// Simulated robot-steps so far.
   double work() const { return simulator_.work(); }
@@ -59,18 +61,18 @@ class RolloutPolicy {
   const RobotStepper* stepper_;
   Rng rng_;
   const AggregationMap* map_;
-  AggregationPolicy base_;  ///< leads when no plan does
+  AggregationPolicy base_;  ///< leads when there is no plan
   RolloutPlan plan_;
-  std::size_t done_ = 0;                 ///< moves of the plan that were made
-  MergedRobots expected_;                ///< where robots are when they follow it
-  std::optional<PartialPlan> extended_;  ///< plan that is grown by looking ahead
-  std::size_t head_start_ = 0;           ///< steps after which that begins
+  std::size_t done_ = 0;                 ///< executed moves of the plan
+  MergedRobots expected_;                ///< positions of robots that follow the plan
+  std::optional<PartialPlan> extended_;  ///< plan extended by the lookahead
+  std::size_t head_start_ = 0;           ///< steps after which the lookahead begins
   bool looks_ahead_ = true;
-  double thought_ = 0;  ///< work on better plans
+  double thought_ = 0;  ///< work spent on better plans
   double mean_distance_ = 0;
   int unmeasured_ = 0;          ///< moves until F is measured again
-  std::size_t made_ = 0;        ///< moves of plans
-  std::size_t base_steps_ = 0;  ///< what the base needed in the simulation
+  std::size_t made_ = 0;        ///< executed moves of plans
+  std::size_t base_steps_ = 0;  ///< steps of the base policy in simulation
   int replans_ = 0;
   int improvements_ = 0;
 };

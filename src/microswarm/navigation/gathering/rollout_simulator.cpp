@@ -69,7 +69,7 @@ bool RolloutSimulator::pursue(PartialPlan& partial, Aggregation method, std::siz
       policy.remap(partial.merged.merge_coincident());
     const std::optional<Vec2> next = policy.next(partial.merged.places(), partial.merged.counts());
     if (!next) return true;
-    // The mean way shrinks by a step a move at best.
+    // The mean path length decreases by at most one step per move.
     const double least = to_the_end ? (policy.mean_distance() - params_.sigma) / params_.step : 0;
     if (static_cast<double>(partial.steps()) + least >= static_cast<double>(most)) return false;
     move(partial, *next);
@@ -88,7 +88,7 @@ std::vector<Vec2> RolloutSimulator::look_ahead(const MergedRobots& merged, Rng& 
     if (k >= 0) lead(partial, rng.below(some.places().size()), horizon, horizon);
     const Aggregation base = k == -2 ? Aggregation::divide_and_conquer : Aggregation::heuristic;
     const bool ends = pursue(partial, base, horizon, false);
-    // An end in sight is better than everything else, and a near one best.
+    // A plan that gathers all beats everything else; the shortest one is best.
     const double left =
         ends ? static_cast<double>(partial.steps()) - 1e9 : left_to_do(partial.merged);
     if (left >= least) continue;
@@ -113,8 +113,8 @@ double RolloutSimulator::mean_distance(const MergedRobots& merged) const {
   return sum / std::max(1.0, robots);
 }
 
-/// Places count more than robots in them, since those of one place are led together; far ones count
-/// more than near ones. The exponents are those that gave the shortest plans on three maps.
+/// Positions count more than the robots at them, since robots at one position are led together. Far
+/// positions count more than near ones. The exponents gave the shortest plans on three maps.
 double RolloutSimulator::left_to_do(MergedRobots merged) const {
   constexpr double weight_of_robots = 0.3;
   merged.merge_coincident(0.5 * params_.step);

@@ -9,17 +9,17 @@
 
 namespace microswarm {
 
-/// All moves up to the end, and the merged before every 16th of them.
+/// All moves up to the end, with the merged robots before every 16th move.
 struct RolloutPlan {
   static constexpr std::size_t checkpoint_interval = 16;
   std::vector<Vec2> moves;
   std::vector<MergedRobots> checkpoints;
 };
 
-/// A plan in the making: the merged as it will be after its moves.
+/// Incomplete plan with the merged robots after its moves.
 struct PartialPlan {
   MergedRobots merged;
-  std::size_t from = 0;  ///< steps before its moves, a multiple of the mark interval
+  std::size_t from = 0;  ///< steps before its moves, a multiple of checkpoint_interval
   std::vector<Vec2> moves{};
   bool keeps_checkpoints = false;
   std::vector<MergedRobots> checkpoints{};
@@ -27,8 +27,8 @@ struct PartialPlan {
   std::size_t steps() const { return from + moves.size(); }
 };
 
-/// Simulates what can be done next, and counts the work. `most` is a number of steps of the partial
-/// that must not be exceeded.
+/// Simulates continuations of a plan and counts the work. `most` is the maximum number of steps of
+/// the partial plan.
 class RolloutSimulator {
  public:
   /// Map and stepper must outlive it.
@@ -36,15 +36,16 @@ class RolloutSimulator {
                    const AggregationParams& params);
   const AggregationParams& params() const { return params_; }
 
-  /// One move of all.
+  /// Applies one move to all robots.
   void move(PartialPlan& partial, Vec2 move);
   void follow(PartialPlan& partial, std::span<const Vec2> moves, std::size_t most);
-  /// The robots of one place lead to the goal, or for so many steps.
+  /// The robots at one position lead to the goal, for at most `steps` steps.
   void lead(PartialPlan& partial, std::size_t place, std::size_t steps, std::size_t most);
-  /// A base policy until they are gathered, which is told; gives up when that takes too long.
+  /// Applies a base policy until the robots are gathered; false if that takes too many steps.
   bool finish(PartialPlan& partial, Aggregation method, std::size_t most);
-  /// What leaves the least to do within the horizon, of the base policies and some random leaders:
-  /// the moves that are worth keeping. Empty when all are gathered.
+  /// Best continuation within the horizon among the base policies and some random leaders. Returns
+  /// its first moves that are worth keeping, at most `commit` unless it gathers all; empty if all
+  /// are gathered.
   std::vector<Vec2> look_ahead(const MergedRobots& merged, Rng& rng);
 
   double way(const Robots& robots, std::size_t i) const;

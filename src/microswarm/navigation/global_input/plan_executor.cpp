@@ -48,7 +48,7 @@ bool PlanExecutor::leads_home(Robots robots, std::size_t from) const {
   return met(robots);
 }
 
-// The nearest configurations of the plan first; of two as near, the later one.
+// Tries the nearest configurations of the plan first, among equals the earlier one.
 std::optional<std::size_t> PlanExecutor::rejoin_index(const Robots& robots) const {
   std::vector<std::size_t> order(plan_.inputs.size());
   std::iota(order.begin(), order.end(), 0);

@@ -10,13 +10,13 @@
 
 namespace microswarm {
 
-/// See PlanExecutorParams. When robots deviate from the plan, it tests on its own model
-/// whether the rest of the plan still brings all to their goals, then whether it does from another
-/// position of the plan; else it plans anew. A plan that leads only nearer is executed, too.
-/// States: play, rejoin, replan, arrived, blind, and stuck when there is no plan.
+/// Executes a plan; see PlanExecutorParams. When robots deviate from the plan, it simulates whether
+/// the rest of the plan still brings all to their goals, then whether it does from another position
+/// of the plan; otherwise it replans. A plan that only leads nearer is executed too. States: play,
+/// rejoin, replan, arrived, blind, and stuck if there is no plan.
 class PlanExecutor : public Navigator {
  public:
-  /// `robots`: what is known of them, with a goal each; `tick` [s] between two commands.
+  /// `robots`: their known properties, with a goal each; `tick` [s] between two commands.
   PlanExecutor(const PlanExecutorParams& params, const RobotSwarmParams& robots,
                double goal_tolerance, double tick, Rng rng,
                double frame_timeout = default_frame_timeout);
@@ -25,7 +25,7 @@ class PlanExecutor : public Navigator {
   Command step(const Observation& observation, const Stop& stop) override;
   NavigatorView view() const override { return steering_.view(); }
 
-  /// Plays this plan in place of one of its own, as long as it leads to the goals.
+  /// Executes this plan instead of one of its own, as long as it leads to the goals.
   void play(GlobalPlan plan) { plan_ = std::move(plan); }
 
  private:
@@ -41,11 +41,11 @@ class PlanExecutor : public Navigator {
   Rng rng_;
   RobotSteeringCycle steering_;
   GlobalPlan plan_;
-  std::size_t input_ = 0;  ///< of the plan, being played
-  int piece_ = 0;          ///< of that input, which is more than a tick's way
+  std::size_t input_ = 0;  ///< input of the plan being executed
+  int piece_ = 0;          ///< part of that input, if it is longer than a tick's move
   Robots expected_;        ///< when the next command takes effect
   bool on_plan_ = false;
-  double retry_at_ = 0;  ///< [s] not to be searched for before
+  double retry_at_ = 0;  ///< time of the next search [s]
 };
 
 }  // namespace microswarm

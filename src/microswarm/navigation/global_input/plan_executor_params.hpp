@@ -8,8 +8,8 @@
 
 namespace microswarm {
 
-/// Plays the inputs of a plan for several robots under one input, and watches them: errors would
-/// add up, as [global] says of its own. The goal tolerance is that of the planner.
+/// Executes a plan for several robots under one input in closed loop; open loop, errors would
+/// accumulate, as [global] notes. The goal tolerance is that of the planner.
 struct PlanExecutorParams {
   /// A search that gives up after some seconds.
   static GlobalSearchParams limited() {

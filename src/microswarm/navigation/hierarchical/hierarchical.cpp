@@ -43,7 +43,7 @@ HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params,
       obstacles_(params.tracker),
       follower_(params.follower, swarm) {
   params_.speed = steering_.speed();
-  // How far the arc of a tick is from its chord; a swarm that turns at once makes none.
+  // Deviation of a tick's arc from its chord; 0 for a swarm that turns at once.
   if (std::isfinite(swarm.max_turn_rate))
     slack_ = std::max(1.0, params_.speed * swarm.max_turn_rate * params_.tuning.check_step *
                                params_.tuning.check_step / 8);
@@ -90,7 +90,7 @@ HierarchicalNavigator::Decision HierarchicalNavigator::decide(const Observation&
   return escape(seen);
 }
 
-// Along the path, slowed down where only that is safe.
+// Follows the path, more slowly if only that is safe.
 std::optional<HierarchicalNavigator::Decision> HierarchicalNavigator::keep_path(
     const Observation& seen) {
   if (!has_path()) return std::nullopt;
@@ -117,7 +117,7 @@ bool HierarchicalNavigator::is_used_up() {
   return remaining(path_, place_) < path_end();
 }
 
-// Path Safety, P_clt Unsafe: the rest of the path against what is seen now.
+// Path Safety, P_clt Unsafe: tests the rest of the path against the current observation.
 bool HierarchicalNavigator::path_holds(const Snapshot& world) const {
   if (!has_path()) return false;
   std::vector<Vec2> rest{point_ahead(path_, place_, 0)};
@@ -151,7 +151,7 @@ void HierarchicalNavigator::replan(const Snapshot& seen, const Stop& stop) {
   target_.reset();
 }
 
-// Where the goal lies: straight, or along the route.
+// Direction of the goal: straight, or along the route.
 Vec2 HierarchicalNavigator::towards(const Map& map) const {
   if (params_.guide == Guide::straight) return aim().position;
   const Vec2 via =
@@ -159,7 +159,7 @@ Vec2 HierarchicalNavigator::towards(const Map& map) const {
   return via == pose_.position ? aim().position : via;
 }
 
-// What is beyond the horizon seems free: without an end, a wait would look better for ever.
+// Everything beyond the horizon looks free, so without a limit waiting would always look better.
 double HierarchicalNavigator::max_wait(double now) {
   if (wait_ && distance(wait_->at, pose_.position) > used_up()) wait_.reset();
   return params_.target_horizon - (wait_ ? now - wait_->since : 0);
@@ -237,13 +237,13 @@ void HierarchicalNavigator::plan_to(const Snapshot& world, Vec2 target, double c
   if (plan_->status == Status::solved)
     path_ = plan_->path;
   else if (!params_.as_published)
-    path_ = {from, target};  // which is free, target selection has checked it
+    path_ = {from, target};  // free: checked by target selection
   path_clearance_ = clearance;
   target_ = target;
 }
 
-// The margin from walls or, where that is hardly more than the swarm, so much more that what
-// happens within a tick is no contact; less where the swarm is, or the aim on the next `reach` µm.
+// Clearance from walls, increased where it hardly exceeds the swarm's radius, so that motion within
+// a tick causes no contact. Reduced if the swarm, or the aim on the next `reach` µm, has less.
 double HierarchicalNavigator::wall_floor(const Map& map, double reach) const {
   const double wanted = swarm().radius + slack_;
   if (params_.clearance >= wanted) return params_.clearance;
@@ -251,7 +251,7 @@ double HierarchicalNavigator::wall_floor(const Map& map, double reach) const {
   return std::max(params_.clearance, std::min(near_aim, map.clearance(pose_.position)));
 }
 
-// Where the swarm goes once the command takes effect, against where the obstacles go.
+// Predicted motion of the swarm once the command takes effect, relative to the predicted obstacles.
 template <class Steer>
 HierarchicalNavigator::Rollout HierarchicalNavigator::look_ahead(const Observation& seen,
                                                                  double floor,
@@ -278,7 +278,7 @@ HierarchicalNavigator::Rollout HierarchicalNavigator::look_ahead(const Observati
     const double moving =
         obstacles_.clearance(*seen.world, move, from, from + params_.tuning.check_step, enough);
     out.safe = out.safe && moving >= params_.clearance + slack_ && map.is_free(move, from_walls);
-    // The whole move counts, so that no way through a wall is ever the best one.
+    // The whole move is tested, so that a path through a wall is never the best one.
     out.last = map.is_free(move, 0) ? std::min(moving, map.clearance(next.position)) : 0;
     out.least = std::min(out.least, out.last);
     pose = next;
@@ -287,9 +287,9 @@ HierarchicalNavigator::Rollout HierarchicalNavigator::look_ahead(const Observati
   return out;
 }
 
-// A learned follower goes round a goal that is small: the last bit is left to pure pursuit. At the
-// goal and where the path ends it holds, and it does not go past the aim within a tick: what is
-// looked ahead to is what is done.
+// A learned follower circles a small goal, so pure pursuit takes over for the last part. At the
+// goal and at the end of the path it holds, and it does not pass the aim within a tick, so that the
+// look-ahead matches the motion.
 PathFollower::Answer HierarchicalNavigator::follow(PathPlace& place, const Pose2& pose,
                                                    double speed) const {
   const double lookahead = params_.as_published ? params_.lookahead : lookahead_at(speed);
@@ -312,8 +312,8 @@ HierarchicalNavigator::Rollout HierarchicalNavigator::look_along_path(const Obse
                     [&](const Pose2& pose, double) { return follow(place, pose, speed).command; });
 }
 
-// Of the hold and the ways of one leg, or two where one will not do, the one that keeps the most
-// distance.
+// Of the hold and the manoeuvres of one leg, or two if one is not enough, takes the one with the
+// largest clearance.
 HierarchicalNavigator::Decision HierarchicalNavigator::escape(const Observation& seen) {
   constexpr int directions = 16;
   const double goal_heading = heading_of(aim().position - pose_.position);
@@ -335,7 +335,7 @@ HierarchicalNavigator::Decision HierarchicalNavigator::escape(const Observation&
   };
   consider(best, best);
   for (int i = 0; i < directions; ++i) consider(leg(i), leg(i));
-  if (best_least < params_.clearance + slack_)  // who turns slowly comes less near meanwhile
+  if (best_least < params_.clearance + slack_)  // a slow turn comes less near
     for (int i = 0; i < directions; ++i)
       for (const double ease : {0.25, 0.1}) consider(leg(i, ease), leg(i));
   if (best_least < params_.clearance + slack_)

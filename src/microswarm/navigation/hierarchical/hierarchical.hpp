@@ -19,11 +19,11 @@
 
 namespace microswarm {
 
-/// See HierarchicalParams. States: follow, fallback (the learned follower does not know and hands
-/// over to pure pursuit), hold, escape, arrived, blind.
+/// Hierarchical D-RRT* navigator; see HierarchicalParams. States: follow, fallback (pure pursuit
+/// instead of the learned follower), hold, escape, arrived, blind.
 class HierarchicalNavigator : public Navigator {
  public:
-  /// `swarm` is what is known of the swarm: radius, turning limit and dead time.
+  /// `swarm`: known properties of the swarm: radius, turning limit and dead time.
   HierarchicalNavigator(const HierarchicalParams& params, const SwarmLimits& swarm, Vec2 goal,
                         double goal_tolerance, Rng rng,
                         double frame_timeout = default_frame_timeout);
@@ -35,7 +35,7 @@ class HierarchicalNavigator : public Navigator {
  private:
   struct Rollout {
     bool safe = false;
-    double least = 0;  ///< least clearance on the way [µm]
+    double least = 0;  ///< minimum clearance along it [µm]
     double last = 0;   ///< clearance at its end [µm]
   };
 
@@ -57,7 +57,7 @@ class HierarchicalNavigator : public Navigator {
   bool replan_in_time(const Snapshot& seen, double clearance, const Stop& stop);
   void plan_to(const Snapshot& world, Vec2 target, double clearance, const Stop& stop);
   Vec2 towards(const Map& map) const;
-  /// Plays `steer(pose, seconds) → command` through for the horizon; ends early, unsafe, once the
+  /// Simulates `steer(pose, seconds) → command` for the horizon. Ends early as unsafe when the
   /// clearance falls below `floor`.
   template <class Steer>
   Rollout look_ahead(const Observation& seen, double floor, Steer&& steer) const;
@@ -68,15 +68,15 @@ class HierarchicalNavigator : public Navigator {
   double lookahead_at(double speed) const {
     return params_.lookahead * std::max(0.5, speed / params_.speed);
   }
-  /// So little of a path is left when the next one is planned [µm].
+  /// Remaining path length below which the next path is planned [µm].
   double used_up() const { return std::max(params_.lookahead, 2 * swarm().radius); }
-  /// So little that it counts as nothing [µm].
+  /// Remaining path length that counts as none [µm].
   double path_end() const { return std::min(1.0, 0.25 * aim().tolerance); }
   bool is_used_up();
   double max_wait(double now);
   Decision escape(const Observation& seen);
 
-  /// A wait for an obstacle to pass.
+  /// Wait for an obstacle to pass.
   struct Wait {
     double since = 0;  ///< [s]
     Vec2 at;
@@ -91,13 +91,13 @@ class HierarchicalNavigator : public Navigator {
 
   ObstaclePredictor obstacles_;
   PathFollower follower_;
-  Pose2 pose_;  ///< where the swarm will be when the command of this step takes effect
+  Pose2 pose_;  ///< pose at which the command of this step takes effect
   std::vector<Vec2> path_;
   PathPlace place_;
   double path_clearance_ = 0;
-  bool path_in_time_ = false;  ///< was the path chosen among predicted obstacles?
+  bool path_in_time_ = false;  ///< whether the path was chosen among predicted obstacles
   std::optional<Vec2> target_;
-  std::optional<Wait> wait_;  ///< the newest, until the swarm has left that place
+  std::optional<Wait> wait_;  ///< latest wait, until the swarm has left that position
   std::optional<Plan> plan_;
 };
 

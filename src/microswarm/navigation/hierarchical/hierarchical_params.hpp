@@ -52,11 +52,11 @@ struct LocalTargetParams {
 };
 
 /// Hierarchical D-RRT* planning framework: Algorithm 4 [drrt] over local target selection
-/// (Algorithm 1) and the local planner (Algorithms 2–3). Ours besides: the guide along the map, and
-/// the look-ahead that screens every command against where the obstacles are going. With
-/// `as_published` Algorithm 4 is all there is (docs/explanation/hierarchical-drrt-star.md).
+/// (Algorithm 1) and the local planner (Algorithms 2–3). Our additions are the guide along the map,
+/// and the look-ahead that checks every command against predicted obstacles. With `as_published`
+/// only Algorithm 4 remains (docs/explanation/hierarchical-drrt-star.md).
 struct HierarchicalParams {
-  /// D-RRT* with limits that fit a local target: near, and on a straight free line.
+  /// D-RRT* with limits that suit a local target: near, and usually on a straight free line.
   static DrrtStarParams local_planner() {
     DrrtStarParams p;
     p.goal_bias = 0.5;
@@ -81,7 +81,7 @@ struct HierarchicalParams {
   DrrtStarParams planner = local_planner();
   HierarchicalTuning tuning;
 
-  /// These, or with `as_published` the same without what is ours.
+  /// These parameters, with our additions disabled if `as_published`.
   HierarchicalParams in_effect() const;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -117,7 +117,7 @@ struct HierarchicalParams {
   }
 };
 
-/// Issues when `as_published` stands beside given values that are not the paper's.
+/// Reports an issue if `as_published` is combined with given values that are not the paper's.
 Issues validate(const HierarchicalParams& params, const IsGiven& is_given);
 
 }  // namespace microswarm

@@ -9,29 +9,29 @@
 
 namespace microswarm {
 
-/// A chosen target and the circle that set its distance.
+/// Selected target and the circle that determined its distance.
 struct LocalTarget {
   Vec2 position;
   Detection detection;
 };
 
-/// What Algorithm 1 chooses from.
+/// Input of Algorithm 1.
 struct LocalTargetQuery {
   Pose2 swarm;                          ///< s_s
   double goal_heading = 0;              ///< α_g
-  double goal_distance = 0;             ///< ‖s_s − s_g‖: no target lies farther
+  double goal_distance = 0;             ///< ‖s_s − s_g‖: maximum distance of a target
   std::optional<Vec2> previous_target;  ///< s_gpre
   double clearance = 0;                 ///< r_s for CollisionFree [µm]
-  double min_distance = 0;              ///< the swarm's radius: where halving ends
+  double min_distance = 0;              ///< the swarm's radius, at which halving ends
 };
 
 /// D_ts of the query [µm]: the base distance times ρ of the detection circle (Eq 3 [drrt]).
 double target_distance(const Snapshot& world, const LocalTargetQuery& query,
                        const LocalTargetParams& params);
 
-/// Algorithm 1 [drrt]. When no candidate is free, the fan widens to the full circle, then D_ts is
-/// halved down to `min_distance`; empty when nothing is free even then. Empty at once when the
-/// swarm itself is not free.
+/// Algorithm 1 [drrt]. If no candidate is free, the fan widens to the full circle, then D_ts is
+/// halved down to `min_distance`. Empty if nothing is free even then, and at once if the swarm
+/// itself is not free.
 std::optional<LocalTarget> select_local_target(const Snapshot& world, const LocalTargetQuery& query,
                                                const LocalTargetParams& params);
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double same_place = 1;  // [µm]
 constexpr double piece_time = 1;  // of a way that is searched for its first contact [s]
 
-/// How long the straight way stays free among obstacles [s], at most `most` and what it takes.
+/// Time for which the straight path stays free of obstacles [s], at most `most` and its duration.
 double free_time(const Snapshot& frame, const ObstaclePredictor& obstacles, Segment way,
                  double speed, double start, double most, double clearance) {
   const double time = std::min(most, distance(way.a, way.b) / speed);
@@ -33,7 +33,7 @@ class PredictedChoice {
                   const PredictedTargetQuery& query, const std::function<double(Vec2)>& way_from)
       : frame_(frame), obstacles_(obstacles), q_(query), way_from_(way_from) {}
 
-  /// Takes the target, gone to after a wait [s], when nothing has cost less.
+  /// Takes the target, reached after a wait [s], if no other has cost less.
   void consider(Vec2 target, double wait) {
     const Vec2 from = q_.swarm.position;
     const double length = distance(from, target);

@@ -10,7 +10,7 @@
 
 namespace microswarm {
 
-/// What a local target is chosen from among predicted obstacles.
+/// Input of the target selection among predicted obstacles.
 struct PredictedTargetQuery {
   Pose2 swarm;                           ///< where it will be when the command takes effect
   double delay = 0;                      ///< from the frame until then [s]
@@ -29,25 +29,26 @@ struct PredictedTargetQuery {
   double contact_weight = 0;             ///< of the distance left in the horizon at a contact
 };
 
-/// A chosen target, and how long [s] the swarm waits for an obstacle to pass before it goes.
+/// Selected target, and the time [s] the swarm waits for an obstacle to pass before it goes.
 struct PredictedTarget {
   Vec2 position;
   double wait = 0;
 };
 
-/// Selection of a local target in space and time, ours beside Algorithm 1 [drrt]: the swarm goes
-/// straight to the target, at once or when an obstacle has passed, then straight towards the goal,
-/// and all obstacles go on as predicted. Of the targets that it reaches with the
-/// clearance the one of the least cost is taken: way to the target, `way_from` it to the goal [µm],
-/// turning, and what is lost by waiting and by meeting an obstacle behind the target within the
-/// horizon. Nothing when no target can be reached.
+/// Selects a local target in space and time (ours, besides Algorithm 1 [drrt]). The swarm goes
+/// straight to the target, at once or after an obstacle has passed, then straight towards the goal.
+/// All obstacles move as predicted. Of the targets reached with the clearance, the one of minimum
+/// cost is taken. The cost is the distance to the target, `way_from` it to the goal [µm], turning,
+/// and the loss by waiting and by meeting an obstacle beyond the target within the horizon. Nothing
+/// if no target can be reached.
 std::optional<PredictedTarget> select_predicted_target(const Snapshot& frame,
                                                        const ObstaclePredictor& obstacles,
                                                        const PredictedTargetQuery& query,
                                                        const std::function<double(Vec2)>& way_from);
 
-/// Is the path free when it is driven from its first point at `speed` [µm/s], `delay` [s] after the
-/// frame, for at most `horizon` [s] among predicted obstacles, and for all of it among walls?
+/// Whether the path is collision-free when followed from its first point at `speed` [µm/s], `delay`
+/// [s] after the frame: among predicted obstacles for at most `horizon` [s], among walls for the
+/// whole path.
 bool is_free_in_time(const Snapshot& frame, const ObstaclePredictor& obstacles,
                      std::span<const Vec2> path, double speed, double delay, double horizon,
                      double clearance);

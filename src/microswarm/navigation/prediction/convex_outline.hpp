@@ -9,30 +9,30 @@
 
 namespace microswarm {
 
-/// The convex hull of a body, as quick to ask as can be. A disc has no edges.
+/// Convex hull of a body, optimised for distance queries. A disc has no edges.
 struct ConvexOutline {
   struct Edge {
-    Vec2 normal;                ///< outwards, of length 1
-    double offset = 0;          ///< of the edge from the centre along it [µm]
+    Vec2 normal;                ///< outward unit normal
+    double offset = 0;          ///< of the edge from the centre along the normal [µm]
     double begin = 0, end = 0;  ///< of the edge along perpendicular(normal) [µm]
   };
   Vec2 centre;        ///< the disc's, or the centroid of the outline [µm]
   double radius = 0;  ///< of the disc, or to the farthest vertex [µm]
   std::vector<Edge> edges;
 
-  /// Distance [µm] of a point at `from_centre`, exact; negative inside.
+  /// Exact distance [µm] of the point `from_centre` relative to the centre; negative inside.
   double distance_at(Vec2 from_centre) const;
 };
 
-/// Makes outlines of bodies and keeps its buffer.
+/// Computes outlines of bodies; reuses its buffer.
 class ConvexOutliner {
  public:
-  /// Takes the body into `out`, whose memory is kept.
+  /// Computes the outline of the body into `out`, whose memory is reused.
   void take(const Body& body, ConvexOutline& out);
-  /// Share of the hull of the body last taken that is not in the body; 0 for a disc.
+  /// Fraction of the hull of the last body that is not in the body; 0 for a disc.
   double hollow_share() const { return hollow_share_; }
-  /// Would the outline of the body last taken, `out`, tell of it what is not true: that it fills
-  /// what is much of its hull, or some of it with one of these places in it?
+  /// Whether the outline `out` of the last body is misleading: much of it is not in the body, or
+  /// some of it is not and it contains one of these positions.
   bool misleads(const ConvexOutline& out, std::span<const Vec2> places) const;
 
  private:

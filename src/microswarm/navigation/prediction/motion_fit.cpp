@@ -110,7 +110,7 @@ struct Window {
   int sightings = 0;
 };
 
-/// The longest window, from the newest sighting back, that a curve of `order` + 1 terms fits.
+/// Longest window back from the newest sighting that a curve of `order` + 1 terms fits.
 Window longest(std::span<const Sighting> sightings, std::size_t order, double noise) {
   const Sighting newest = sightings.back();
   Moments m;

@@ -7,27 +7,28 @@
 
 namespace microswarm {
 
-/// Where something was seen [µm], and when [s].
+/// Observed position [µm] and its time [s].
 struct Sighting {
   double t = 0;
   Vec2 place;
 };
 
-/// How something moves, at the time of its newest sighting.
+/// Estimated motion at the time of the newest sighting.
 struct MotionFit {
-  Vec2 place;         ///< [µm]
-  Vec2 velocity;      ///< [µm/s]
-  Vec2 acceleration;  ///< [µm/s²]; 0 while the sightings go straight as far as their noise tells
-  double noise = 0;   ///< standard deviation of a sighting's coordinate [µm]
+  Vec2 place;                 ///< [µm]
+  Vec2 velocity;              ///< [µm/s]
+  Vec2 acceleration;          ///< [µm/s²]; 0 while the sightings are straight within their noise
+  double noise = 0;           ///< standard deviation of a sighting's coordinate [µm]
   double velocity_error = 0;  ///< standard deviation of a coordinate of the velocity [µm/s]
-  int sightings = 0;          ///< the newest ones, on which this stands
+  int sightings = 0;          ///< number of newest sightings used
 };
 
-/// Fits a straight or a curved (constant acceleration) motion by least squares to the newest
-/// sightings, at most `most` and as many as fit it within their noise, so that a turn or a leap
-/// ends the window; of the two fits the one whose velocity is surer. The noise is told from the
-/// median third difference of all of them, which few leaps do not touch. `sightings` ascend in
-/// time; one alone rests, with an infinite velocity error. Allocates nothing.
+/// Fits a straight or a curved (constant-acceleration) motion to the newest sightings by least
+/// squares. The window holds at most `most` sightings and only those that fit within their noise,
+/// so a turn or a jump ends it. Of the two fits the one with the more certain velocity is taken.
+/// The noise is estimated from the median third difference of all sightings, which is robust
+/// against a few jumps. `sightings` ascend in time; a single one is at rest with infinite velocity
+/// error. Does not allocate.
 MotionFit fit_motion(std::span<const Sighting> sightings, int most);
 
 }  // namespace microswarm

@@ -9,15 +9,15 @@
 namespace microswarm {
 namespace {
 
-constexpr double acceleration_time = 1;      // for which it is taken to last [s]
-constexpr double turning_time = 1;           // the same of a turn that no model explains [s]
-constexpr std::size_t newest_explained = 3;  // sightings that a model has to explain
+constexpr double acceleration_time = 1;      // for which it is assumed to last [s]
+constexpr double turning_time = 1;           // the same for a rotation that no model explains [s]
+constexpr std::size_t newest_explained = 3;  // sightings that a model must explain
 constexpr double largest_circle = 5000;      // [µm]
 constexpr double unturned = 1e-6;            // [rad]
 
 double tolerance(double noise) { return 0.3 + 3 * noise; }
 
-/// Does the model pass near the newest sightings?
+/// Whether the model passes near the newest sightings.
 template <class At>
 bool explains(At&& at, std::span<const Sighting> seen, double off) {
   const Sighting& last = seen.back();
@@ -26,8 +26,8 @@ bool explains(At&& at, std::span<const Sighting> seen, double off) {
                      [&](const Sighting& s) { return distance(at(s.t - last.t), s.place) < off; });
 }
 
-/// Circle through the sightings by least squares (Kåsa); none when they lie on a line or are
-/// farther off it than `off`.
+/// Least-squares circle through the sightings (Kåsa); nothing if they are on a line or farther than
+/// `off` from it.
 std::optional<Disc> circle_through(std::span<const Sighting> seen, double off) {
   const Vec2 origin = seen.back().place;
   Vec2 sum, cube;
@@ -140,7 +140,7 @@ double MotionModels::turn(std::size_t model, const MotionTrail& trail, double s)
   if (model == again) {
     return trail.after(again_, s).turn - trail.after(again_, 0).turn;
   }
-  // What swings on a circle and turns is taken to be fixed to its spoke.
+  // A body that oscillates on a circle and rotates is assumed to be fixed to the radius.
   if (model >= arc && model < again)
     return arcs_[model - arc].angle(s) - arcs_[model - arc].angle(0);
   return std::min(s, turning_time) * turn_rate_;

@@ -13,19 +13,19 @@
 
 namespace microswarm {
 
-/// To and fro, or round, on a circle.
+/// Oscillation or rotation on a circle.
 struct ArcSwing {
   Vec2 centre;
   double radius = 0;  ///< [µm]
-  Oscillation way;    ///< x: along the circle from the heading 0 [µm]
+  Oscillation way;    ///< x: arc length from heading 0 [µm]
 
   double angle(double t) const { return way.at(t).x / radius; }
   Vec2 at(double t) const { return centre + radius * unit_vector(angle(t)); }
 };
 
-/// How a body may go on, as several models that know nothing of one another take it: straight; with
-/// the present acceleration, for a second; swinging on a line or ellipse; swinging on a circle,
-/// both told from the newest 1.2, 3 and 8 s; as it once went on from here.
+/// Independent predictions of a body's motion: straight; with the present acceleration for a
+/// second; oscillating on a line or ellipse, and oscillating on a circle, both fitted to the newest
+/// 1.2, 3 and 8 s; repeating a past motion from the same state.
 class MotionModels {
  public:
   static constexpr std::size_t windows = OscillationFit::windows.size();
@@ -38,15 +38,15 @@ class MotionModels {
 
   MotionModels();
 
-  /// Takes what is known of the body, its newest sighting being the trail's last point. `seen` has
-  /// the sightings that `fit` takes; empty: no swing is looked for.
+  /// Fits the models to the body, whose newest sighting is the trail's last point. `seen` holds the
+  /// sightings used by `fit`; if empty, no oscillation is fitted.
   void fit(const MotionTrail& trail, const TrackedBody& motion, std::span<const Sighting> seen,
            OscillationFit& fit);
-  /// Does the model have an opinion, and explain the newest sightings?
+  /// Whether the model applies and explains the newest sightings.
   bool holds(std::size_t model) const { return holds_[model]; }
-  /// Where the centre is `s` seconds after the newest sighting.
+  /// Position of the centre `s` seconds after the newest sighting.
   Vec2 place(std::size_t model, const MotionTrail& trail, double s) const;
-  /// How far the body has turned by then since the newest sighting [rad].
+  /// Rotation of the body [rad] by then since the newest sighting.
   double turn(std::size_t model, const MotionTrail& trail, double s) const;
 
  private:
@@ -55,12 +55,12 @@ class MotionModels {
 
   TrackedBody motion_;
   double turn_rate_ = 0;  ///< [rad/s]
-  bool turns_ = false;    ///< has it turned of late?
+  bool turns_ = false;    ///< whether it has turned recently
   std::array<bool, count> holds_{};
   std::array<Oscillation, windows> swings_;
   std::array<ArcSwing, windows> arcs_;
   Recurrence again_;
-  std::vector<Sighting> along_;  ///< the circle
+  std::vector<Sighting> along_;  ///< arc lengths on the circle
 };
 
 }  // namespace microswarm

@@ -28,7 +28,7 @@ TrailPoint moved(const TrailPoint& p, double t) {
 }  // namespace
 
 void MotionTrail::add(const TrailPoint& point, double memory) {
-  if (points_.size() == max_points)  // seldom, and many at once
+  if (points_.size() == max_points)  // rare, and many at once
     points_.erase(points_.begin(), points_.begin() + max_points / 4);
   const auto kept = std::find_if(points_.begin(), points_.end(),
                                  [&](const TrailPoint& p) { return p.t >= point.t - memory; });
@@ -47,7 +47,7 @@ TrailPoint MotionTrail::at(double t) const {
   const double dt = b.t - a.t;
   const double f = (t - a.t) / dt;
   const double g = 1 - f;
-  // Hermite's cubic.
+  // Cubic Hermite interpolation.
   const Vec2 place = (g * g * (1 + 2 * f)) * a.place + (f * f * (1 + 2 * g)) * b.place +
                      (f * g * dt) * (g * a.velocity - f * b.velocity);
   return {t, place, g * a.velocity + f * b.velocity, g * a.radius + f * b.radius,

@@ -9,31 +9,31 @@
 
 namespace microswarm {
 
-/// Where a body was at a time, and how it moved there.
+/// State of a body at one time.
 struct TrailPoint {
   double t = 0;       ///< [s]
-  Vec2 place;         ///< of its centre [µm]
+  Vec2 place;         ///< centre [µm]
   Vec2 velocity;      ///< [µm/s]
   double radius = 0;  ///< [µm]
-  double turn = 0;    ///< since it was first seen [rad]
+  double turn = 0;    ///< rotation since first seen [rad]
 };
 
-/// A moment of the past that was like the present: what came after it is expected again, or, when
-/// the body passed in the other direction, what came before it.
+/// Past time at which the state was like the present one. The motion after it is expected to repeat
+/// or, if the body passed in the opposite direction, the motion before it.
 struct Recurrence {
-  double t = 0;           ///< when [s]
-  bool reversed = false;  ///< did it pass in the other direction?
+  double t = 0;           ///< time [s]
+  bool reversed = false;  ///< whether it passed in the opposite direction
 };
 
-/// Where a body was as long as it is remembered: `memory` seconds, and at most so many frames as
-/// the trail was made for. Allocates nothing after it is made.
+/// History of a body over `memory` seconds, at most max_points frames. Does not allocate after
+/// construction.
 class MotionTrail {
  public:
   static constexpr std::size_t max_points = 1200;
 
   MotionTrail() { points_.reserve(max_points); }
 
-  /// Later than all before.
+  /// Adds a point later than all others.
   void add(const TrailPoint& point, double memory);
   void clear() { points_.clear(); }
   bool empty() const { return points_.empty(); }
@@ -41,14 +41,14 @@ class MotionTrail {
   const TrailPoint& back() const { return points_.back(); }
   const std::vector<TrailPoint>& points() const { return points_; }
 
-  /// Smoothly between the points, straight on before the first and after the last of them.
+  /// Interpolated smoothly between the points, extrapolated straight beyond the first and last.
   TrailPoint at(double t) const;
 
-  /// The moment most like the newest point, which was seen with the `noise` [µm]; none when it was
-  /// never nearly there and nearly as fast, or rests.
+  /// Past time most similar to the newest point, which was seen with the `noise` [µm]. Nothing if
+  /// the body was never close to this position and velocity, or is at rest.
   std::optional<Recurrence> recurrence(double noise) const;
-  /// What followed the recurrence `s` seconds later. One in the same direction goes round and
-  /// round.
+  /// Past point that corresponds to `s` seconds after the newest point, given the recurrence. A
+  /// recurrence in the same direction repeats periodically.
   TrailPoint after(const Recurrence& recurrence, double s) const;
 
  private:

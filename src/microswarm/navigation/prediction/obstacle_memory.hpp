@@ -9,19 +9,19 @@
 
 namespace microswarm {
 
-/// Completes frames in which an obstacle was not found: for a while it is taken to go on as it was
-/// seen to move, so that one missed detection does not open a way through it.
+/// Completes frames in which an obstacle was not detected: for a while it is extrapolated at its
+/// estimated velocity, so that one missed detection does not open a path through it.
 class ObstacleMemory {
  public:
-  /// An obstacle is remembered for `memory` seconds after it was found last; 0 remembers none.
+  /// Remembers an obstacle for `memory` seconds after its last detection; 0 disables this.
   explicit ObstacleMemory(double memory) : memory_(memory) {}
 
-  /// The observation with the obstacles that its frame lacks after those that it has. Valid as long
-  /// as `observation` and until the next call. A frame older than the last one begins anew.
+  /// The observation with missing obstacles appended to the detected ones. Valid as long as
+  /// `observation` and until the next call. A frame older than the last one resets the memory.
   Observation complete(const Observation& observation);
 
  private:
-  /// A body that was found last at the time `seen`.
+  /// Body last detected at the time `seen`.
   struct Lost {
     Body body;
     Vec2 velocity;    ///< [µm/s]

@@ -10,8 +10,8 @@
 namespace microswarm {
 namespace {
 
-constexpr double rest_speed = 1e-6;       // less is rounding [µm/s]
-constexpr double sure = 2;                // standard errors: a velocity that is none is smaller
+constexpr double rest_speed = 1e-6;       // smaller values are rounding [µm/s]
+constexpr double sure = 2;                // standard errors; a smaller velocity counts as zero
 constexpr double swept_growing_time = 2;  // for which an outline goes on growing [s]
 
 double inradius_bound(const Body& body) {
@@ -40,7 +40,7 @@ double ObstaclePredictor::clearance(const Snapshot& frame, Segment s, double t0,
                                     double limit) const {
   const auto bodies = frame.moving().bodies();
   assert(bodies.size() == motions_.size());
-  if (all_rest_) {  // the indexed query serves
+  if (all_rest_) {  // the indexed query suffices
     double growth = 0;
     for (const Motion& m : motions_) growth = std::max(growth, m.growth);
     growth *= std::min(t1, swept_growing_time);
@@ -66,7 +66,8 @@ Snapshot ObstaclePredictor::swept_obstacles(const Snapshot& frame, double horizo
     const Motion& motion = motions_[i];
     const double way = norm(motion.velocity) * horizon;
     const double size = std::max(1.0, inradius_bound(bodies[i]));
-    // Copies that close up; of a small and fast body fewer, but no path fits between two of them.
+    // Copies without gaps between them; fewer for a small fast body, but no path fits between two
+    // of them.
     const double without_gap = std::max(enough_copies, std::ceil(way / (size + r)));
     const int copies = static_cast<int>(std::min({std::ceil(way / size), without_gap, max_copies}));
     for (int k = 0; k <= copies; ++k) {

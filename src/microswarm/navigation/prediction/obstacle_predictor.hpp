@@ -8,26 +8,26 @@
 
 namespace microswarm {
 
-/// Predicts moving obstacles for a few seconds: each goes straight on with the velocity that
-/// ObstacleTracker estimates from the frames, and its outline goes on growing for 2 s.
+/// Predicts moving obstacles for a few seconds. Each moves straight with the velocity that
+/// ObstacleTracker estimates from the frames; its outline keeps growing for 2 s.
 class ObstaclePredictor {
  public:
   explicit ObstaclePredictor(const ObstacleTrackerParams& params = {}) : tracker_(params) {}
 
-  /// Takes a frame; see ObstacleTracker::see. What follows is about the newest frame.
+  /// Processes a frame; see ObstacleTracker::update. The other members refer to the newest frame.
   void update(const Observation& observation);
 
-  /// Does no body move from its place, as far as the frames tell? Outlines may still deform.
+  /// Whether no body changes its position, as far as the frames show. Outlines may still deform.
   bool all_rest() const { return all_rest_; }
 
-  /// Least distance [µm] between a point that runs straight from s.a at time t0 to s.b at t1 [s
-  /// after the frame] and the predicted bodies of `frame`, the world of the newest observation; at
-  /// most `limit`. Exact in continuous time: every body is asked in its own frame of reference, in
-  /// which the point runs along a straight segment too.
+  /// Minimum distance [µm] between a point that moves straight from s.a at time t0 to s.b at t1 [s
+  /// after the frame] and the predicted bodies, at most `limit`. `frame` is the world of the newest
+  /// observation. Exact in continuous time: each body is tested in its own frame of reference, in
+  /// which the point moves along a segment too.
   double clearance(const Snapshot& frame, Segment s, double t0, double t1, double limit) const;
 
-  /// The frame with every moving body swept along its predicted way of the next `horizon` seconds,
-  /// so that a plan made on it with the clearance `r` keeps out of the way of what is coming.
+  /// The frame with every moving body swept along its predicted path over the next `horizon`
+  /// seconds, so that a plan made on it with the clearance `r` avoids approaching obstacles.
   Snapshot swept_obstacles(const Snapshot& frame, double horizon, double r) const;
 
  private:

@@ -16,8 +16,8 @@ constexpr std::size_t windows = 4;
 
 constexpr double outline_spacing = 0.4;  // between outlines that are kept [s]
 
-/// How far the vertices of `polygon` stand out of the solid `before`, which is given about its
-/// centre, at most; those that `counts(ring, i)`.
+/// Maximum distance by which vertices of `polygon` protrude from the solid `before`, given relative
+/// to its centre; only those for which `counts(ring, i)` holds.
 template <class Counts>
 double outward_distance(const Polygon& polygon, Vec2 centre, const Polygon& before,
                         Counts&& counts) {
@@ -40,7 +40,7 @@ double outward_distance(const Polygon& polygon, Vec2 centre, const Polygon& befo
 
 constexpr auto every_vertex = [](std::span<const Vec2>, std::size_t) { return true; };
 
-/// Keeps the newest `most`.
+/// Keeps the newest `most` sightings.
 void remember(std::vector<Sighting>& trail, Sighting newest, std::size_t most) {
   if (trail.size() >= most) trail.erase(trail.begin());
   trail.push_back(newest);
@@ -70,7 +70,7 @@ std::vector<ObstacleTracker::Trail>::iterator ObstacleTracker::lower_bound(const
                           [](const Trail& t, const Key& k) { return t.key < k; });
 }
 
-// Frames mostly show the same bodies in the same order.
+// Most frames show the same bodies in the same order.
 void ObstacleTracker::find_trails(std::span<const Body> bodies) {
   std::erase_if(trails_, [&](const Trail& t) { return t.present < seen_ - params_.memory; });
   const auto for_each_key = [&](auto&& visit) {
@@ -117,9 +117,9 @@ void ObstacleTracker::extend(Trail& trail, const Body& body, Disc within) const 
   remember(trail.radii, {seen_, {extent.radius, 0}}, most);
 }
 
-// Compares with an outline that is a few frames old, since one frame's noise is a large speed.
-// Outlines that are traced anew in every picture have other vertices each time, so a vertex is
-// compared with the solid of old and not with its like.
+// Compares with an outline a few frames old, since one frame's noise would be a large speed.
+// Outlines traced anew in every image have different vertices each time, so a vertex is compared
+// with the old solid, not with an old vertex.
 void ObstacleTracker::compare_outline(Trail& trail, const Polygon& polygon, Vec2 centre) const {
   auto& [older, newer] = trail.past;
   const bool known = !trail.places.empty() && !older.shape.outer.empty();

@@ -5,7 +5,7 @@
 
 namespace microswarm {
 
-/// What an ObstacleTracker tells a motion from.
+/// Data used by ObstacleTracker for a motion estimate.
 struct ObstacleTrackerParams {
   int frames = 12;
   double memory = 4;

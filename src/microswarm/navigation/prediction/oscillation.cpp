@@ -11,11 +11,11 @@ namespace {
 
 constexpr double slowest = 0.08;  // [rad/s]
 constexpr double fastest = 3.5;   // [rad/s]
-constexpr double spacing = 0.08;  // between the frames that are used [s]
+constexpr double spacing = 0.08;  // between frames used [s]
 constexpr int min_sightings = 6;
 constexpr double same_time = 1e-9;  // [s]
 
-/// Coefficients of the three terms, and what is left over of Σ |place|².
+/// Coefficients of the three terms, and the residual of Σ |place|².
 struct Terms {
   std::array<Vec2, 3> c{};
   double residual = 0;
@@ -31,7 +31,7 @@ Vec2 Oscillation::at(double t) const {
          (2 * sine * sine / (frequency * frequency)) * curve;
 }
 
-/// Normal equations of every rung: matrix and right-hand side.
+/// Normal equations for every frequency: matrix and right-hand side.
 struct OscillationFit::Sums {
   int count = 0;
   double squares = 0;
@@ -58,7 +58,7 @@ struct OscillationFit::Sums {
     }
   }
 
-  /// By the cofactors of the symmetric matrix; none when it is singular.
+  /// By the cofactors of the symmetric matrix; nothing if it is singular.
   std::optional<Terms> solve(std::size_t k) const {
     const double n = count;
     const double a = ss[k] * cc[k] - sc[k] * sc[k];

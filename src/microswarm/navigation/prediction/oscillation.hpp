@@ -10,9 +10,9 @@
 
 namespace microswarm {
 
-/// A place that swings: value + rate · sin(ωt) / ω + curve · (1 − cos ωt) / ω², t [s] counted from
-/// the newest sighting. Lines, ellipses and circles at their own pace are of this form; for ω → 0
-/// it is a constant acceleration.
+/// Oscillating position: value + rate · sin(ωt) / ω + curve · (1 − cos ωt) / ω², with t [s] since
+/// the newest sighting. Harmonic motion on lines, ellipses and circles has this form; for ω → 0 it
+/// is constant acceleration.
 struct Oscillation {
   double frequency = 0;  ///< ω [rad/s]
   Vec2 value;            ///< [µm]
@@ -23,8 +23,8 @@ struct Oscillation {
 };
 
 /// Fits oscillations to sightings by least squares, over windows of three lengths. The frequency is
-/// the best of a fixed ladder, refined between its rungs by a parabola. The sines of a frame's time
-/// are worked out once for all bodies that were seen in it. Allocates nothing after it is made.
+/// the best of a fixed set, refined by a parabola. The sines for a frame's time are computed once
+/// for all bodies in it. Does not allocate after construction.
 class OscillationFit {
  public:
   static constexpr std::array<double, 3> windows{1.2, 3, 8};  ///< [s]
@@ -32,10 +32,11 @@ class OscillationFit {
 
   OscillationFit();
 
-  /// Begins a frame taken at `now` [s], later than the one before; no sighting may be newer.
+  /// Starts a frame taken at `now` [s], later than the previous one; no sighting may be newer.
   void begin(double now);
-  /// The best oscillation through the sightings of each window, the newest of them taken in the
-  /// present frame; none where they are too few or the window holds no more than the one before.
+  /// Best oscillation through the sightings in each window; the newest sighting is from the present
+  /// frame. Nothing if a window has too few sightings, or if a shorter window already holds them
+  /// all.
   Fits fit(std::span<const Sighting> sightings);
 
  private:

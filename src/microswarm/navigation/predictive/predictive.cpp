@@ -15,8 +15,8 @@ namespace {
 
 constexpr double leg_rounding = 1e-9;
 
-/// Least distance from the outline to a point that runs straight from a to b, both seen from the
-/// outline's centre and turned back with it. The distance is a convex function of the way.
+/// Minimum distance from the outline to a point that moves straight from a to b, both relative to
+/// the outline's centre and rotated back with it. The distance is convex along the segment.
 double distance_to(const ConvexOutline& outline, Vec2 a, Vec2 b, double near) {
   const double bound = std::min(norm(a), norm(b)) - 0.5 * distance(a, b) - outline.radius;
   if (outline.edges.empty() || bound > near)
@@ -107,8 +107,8 @@ Command PredictiveNavigator::step(const Observation& seen, const Stop&) {
                                                 : NavigatorState::avoid);
 }
 
-/// Takes the outlines of all bodies. Of one that is hollow and hardly moves, such as a channel with
-/// moving walls, the true outline counts as it stands.
+/// Collects the outlines of all bodies. A hollow body that hardly moves, such as a channel with
+/// moving walls, is represented by its actual present outline.
 void PredictiveNavigator::look_at_bodies(const Observation& seen, Vec2 from) {
   bodies_ = 0;
   body_of_.clear();
@@ -137,7 +137,7 @@ bool PredictiveNavigator::stands_hollow(const ConvexOutline& outline, const Trac
   return outliner_.misleads(outline, std::array{from, steering_.aim().position});
 }
 
-/// Where the bodies will be, from when this step's command takes effect.
+/// Predicts the bodies from the time at which this step's command takes effect.
 void PredictiveNavigator::look_ahead(double effect) {
   ahead_.clear();
   leg_ahead_.clear();
@@ -149,8 +149,8 @@ void PredictiveNavigator::look_ahead(double effect) {
       leg_ahead_.push_back(predictor_.at(body, effect + field_.step() * s / leg_pieces));
 }
 
-/// Is nothing near to the straight way to the goal, as far as the horizon reaches? Between the
-/// samples, what is met may have come nearer by half the way that both of them made.
+/// Whether nothing is near the straight path to the goal within the horizon. Between samples, a
+/// body may have approached by half the distance that both moved.
 bool PredictiveNavigator::goal_is_clear(const Map& map, const Pose2& pose) const {
   const Vec2 way = steering_.aim().position - pose.position;
   const double heading = heading_of(way);
@@ -182,7 +182,7 @@ void PredictiveNavigator::solve(const Map& map, Vec2 from) {
   field_.solve(std::span(outlines_).first(bodies_), ahead_, radius_, params_.risk);
 }
 
-/// Time to the goal over free ground [s].
+/// Time to the goal without obstacles [s].
 double PredictiveNavigator::left_from(Vec2 p) const {
   const double straight = distance(p, steering_.aim().position) - reached_.radius;
   if (in_sight_) return std::max(0.0, straight) / steering_.speed();
@@ -213,8 +213,8 @@ PredictiveNavigator::Leg PredictiveNavigator::best_leg(const Map& map, const Pos
   ending_ =
       alone && in_sight_ &&
       distance(pose.position, steering_.aim().position) < 2 * field_.step() * steering_.speed();
-  // Where nothing moves, waiting leads nowhere: who turns slowly does not turn at rest, and the
-  // last bit is finer than the field's cells.
+  // With nothing moving, waiting is useless: a swarm with limited turn rate does not turn at rest,
+  // and the final approach is finer than the field's cells.
   if (alone && (turns_slowly || ending_)) best.cost = std::numeric_limits<double>::infinity();
   const double straight = heading_of(steering_.aim().position - pose.position);
   const std::span shares(params_.tuning.speed_shares);
@@ -229,7 +229,7 @@ PredictiveNavigator::Leg PredictiveNavigator::best_leg(const Map& map, const Pos
   return best;
 }
 
-/// The cost of a first leg and of the best that can follow; more than `bound` when it is no better.
+/// Cost of a first leg plus the best continuation; more than `bound` if it is no better.
 PredictiveNavigator::Leg PredictiveNavigator::tried(const Map& map, const Pose2& from,
                                                     const Command& command, double bound) const {
   const double dt = field_.step() / leg_pieces;
@@ -260,8 +260,7 @@ PredictiveNavigator::Leg PredictiveNavigator::tried(const Map& map, const Pose2&
   return leg;
 }
 
-/// Where the field leads to from `p`, over steps enough to smooth the grid; where it waits,
-/// nothing.
+/// Heading of the field's path from `p`, over enough steps to smooth the grid; nothing if it waits.
 std::optional<double> PredictiveNavigator::best_heading(Vec2 p) const {
   constexpr int steps_ahead = 3;
   const Vec2 from = p;
@@ -270,8 +269,8 @@ std::optional<double> PredictiveNavigator::best_heading(Vec2 p) const {
   return heading_of(p - from);
 }
 
-/// What the field leaves out: the time lost to turning into the best way on [s]. While the swarm
-/// turns by an angle at its full rate, it gets on by that angle's sine alone.
+/// Time lost to turning into the best continuation, which the field ignores [s]. While the swarm
+/// turns by an angle at its full rate, it advances only by the sine of that angle.
 double PredictiveNavigator::turning_time(const Pose2& pose) const {
   if (!wanted_) return 0;
   const double wanted = ending_ ? heading_of(steering_.aim().position - pose.position) : *wanted_;
@@ -279,7 +278,7 @@ double PredictiveNavigator::turning_time(const Pose2& pose) const {
   return (turn - maths::sin(turn)) / steering_.swarm().max_turn_rate;
 }
 
-/// What the bodies mean to the swarm while it goes along a piece of the first leg.
+/// Gap and risk of the bodies along a segment of the first leg.
 PredictiveNavigator::Meeting PredictiveNavigator::meeting(int piece, Segment way) const {
   Meeting out;
   const std::size_t first = static_cast<std::size_t>(piece) * bodies_;
@@ -302,8 +301,8 @@ PredictiveNavigator::Meeting PredictiveNavigator::meeting(int piece, Segment way
   return out;
 }
 
-/// Draws the way that the field holds for best; the least gap to a body on it [µm], told where a
-/// step begins.
+/// Computes the field's best path and returns the minimum gap to a body on it [µm], evaluated at
+/// the start of each step.
 double PredictiveNavigator::follow_field(Vec2 from) {
   double least = std::numeric_limits<double>::infinity();
   Vec2 p = from;

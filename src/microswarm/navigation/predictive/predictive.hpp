@@ -15,8 +15,8 @@
 
 namespace microswarm {
 
-/// See PredictiveParams. States: follow (no obstacle is foreseen near to the way), avoid, escape
-/// (contact is foreseen on the best way even), hold, arrived, blind.
+/// Predictive navigator; see PredictiveParams. States: follow (no obstacle predicted near the
+/// path), avoid, escape (contact predicted even on the best path), hold, arrived, blind.
 class PredictiveNavigator : public Navigator {
  public:
   PredictiveNavigator(const PredictiveParams& params, const SwarmLimits& swarm, Vec2 goal,
@@ -37,8 +37,8 @@ class PredictiveNavigator : public Navigator {
   };
 
   struct Meeting {
-    double gap = std::numeric_limits<double>::infinity();  ///< least, where it is near [µm]
-    double risk = 0;                                       ///< greatest, seconds a second
+    double gap = std::numeric_limits<double>::infinity();  ///< minimum, if near [µm]
+    double risk = 0;                                       ///< maximum, cost per second
   };
 
   void look_at_bodies(const Observation& seen, Vec2 from);
@@ -58,9 +58,9 @@ class PredictiveNavigator : public Navigator {
   PredictiveParams params_;
   SteeringCycle steering_;
   double goal_tolerance_;
-  Disc reached_;            ///< from where on the goal counts as reached
-  double ends_within_ = 0;  ///< of the goal, on the last bit [µm]
-  double radius_;           ///< with the margin [µm]
+  Disc reached_;            ///< region that counts as the goal reached
+  double ends_within_ = 0;  ///< distance from the goal at which the final approach ends [µm]
+  double radius_;           ///< including the gap [µm]
   MultiModelPredictor predictor_;
   TimeField field_;
   DistanceField route_;
@@ -69,14 +69,14 @@ class PredictiveNavigator : public Navigator {
   bool ending_ = false;           ///< is it at the last bit, finer than the field's cells?
 
   ConvexOutliner outliner_;
-  std::vector<ConvexOutline> outlines_;  ///< of the bodies that are foreseen
+  std::vector<ConvexOutline> outlines_;  ///< of the predicted bodies
   std::vector<std::size_t> body_of_;
   std::size_t bodies_ = 0;
   std::vector<PredictedBody> ahead_;      ///< at the samples of the field
-  std::vector<PredictedBody> leg_ahead_;  ///< at the ends of the pieces of the first leg
+  std::vector<PredictedBody> leg_ahead_;  ///< at the ends of the segments of the first leg
   std::vector<Body> nonconvex_bodies_;
-  BodySet nonconvex_;   ///< bodies that the swarm is within the hull of: taken as they stand
-  double closing_ = 0;  ///< what those may come nearer meanwhile [µm]
+  BodySet nonconvex_;   ///< bodies whose hull contains the swarm, in their present shape
+  double closing_ = 0;  ///< upper bound of their approach in the meantime [µm]
   std::vector<Vec2> path_;
   bool planned_ = false;
 };

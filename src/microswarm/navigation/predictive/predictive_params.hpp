@@ -11,7 +11,7 @@
 
 namespace microswarm {
 
-/// What it costs to be near an obstacle, in seconds a second.
+/// Cost of being near an obstacle, in seconds per second.
 struct RiskParams {
   double contact = 30;
   double penetration_cost = 30;
@@ -39,10 +39,10 @@ struct RiskParams {
   }
 };
 
-/// Navigation that looks ahead in time, ours: obstacles faster than the swarm cannot be outrun, but
-/// they can be foreseen. Where they will be is told from what was seen (MultiModelPredictor); the
-/// best way through the seconds to come is found among all (TimeField); its first leg is chosen by
-/// exact distances, and commanded until the next frame.
+/// Predictive navigator (ours). Obstacles faster than the swarm cannot be outrun, but they can be
+/// predicted from past observations (MultiModelPredictor). A time-expanded cost-to-go gives the
+/// best path over the horizon (TimeField). Its first leg is chosen with exact distances and
+/// commanded until the next frame.
 struct PredictiveParams {
   static constexpr std::string_view type_name = "predictive";
   double speed = 80;

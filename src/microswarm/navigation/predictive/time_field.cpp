@@ -11,7 +11,7 @@ namespace {
 constexpr double longest_path = 3.25;  // cells
 constexpr double long_way = 2.4;
 constexpr double short_way = 1.5;
-constexpr double cells_a_step = 3.1;  // the mean of the long ways
+constexpr double cells_a_step = 3.1;  // mean length of the long moves
 constexpr float not_ended = std::numeric_limits<float>::infinity();
 
 }  // namespace
@@ -28,7 +28,7 @@ TimeField::TimeField(double speed, double horizon, double step)
       const bool is_long = length >= long_way && length <= longest_path;
       const bool is_short = length <= short_way && (i == 0) == (j == 0);
       if (!is_long && !is_short) continue;
-      // A whole number of cells is a little more or less than a step's way. Slow moves wait.
+      // An integer number of cells is slightly more or less than a step. Slow moves wait.
       const double extra = is_long ? (length / cells_a_step - 1) * step_ : 0;
       moves_.push_back({j * width_ + i,
                         {static_cast<double>(i), static_cast<double>(j)},
@@ -54,7 +54,7 @@ void TimeField::begin(Vec2 centre, Disc goal, const std::function<float(Vec2)>& 
                       const std::function<float(Vec2)>& left) {
   centre_ = centre;
   auto& last = cost_.back();
-  constexpr double half_diagonal = 0.75;  // of a cell, a little more
+  constexpr double half_diagonal = 0.75;  // of a cell, rounded up
   const double at_goal = std::max(goal.radius, half_diagonal * cell_);
   const double speed = cells_a_step * cell_ / step_;
   for (int row = 0; row < width_; ++row)
@@ -74,7 +74,7 @@ void TimeField::solve(std::span<const ConvexOutline> outlines, std::span<const P
   for (int k = steps_ - 1; k > 0; --k) step_back(k, outlines, ahead, radius, risk);
 }
 
-// The first half of a step counts where it begins, the second half where it ends.
+// The first half of a step is charged at its start cell, the second half at its end cell.
 void TimeField::step_back(int k, std::span<const ConvexOutline> outlines,
                           std::span<const PredictedBody> ahead, double radius,
                           const RiskParams& risk) {

@@ -45,7 +45,7 @@ Command RadarNavigator::step(const Observation& seen, const Stop& stop) {
   return steering_.command(decision.command, decision.state);
 }
 
-// A frame without a swarm is no reason to forget where it was.
+// Remembers the last position over frames without a swarm.
 RadarNavigator::Decision RadarNavigator::filtered(const Decision& decision,
                                                   const Observation& seen) {
   filter_.update(seen);
@@ -103,7 +103,7 @@ RadarNavigator::Decision RadarNavigator::decide(const Observation& seen, const S
   return {{pose_.heading, 0}, contact_ ? NavigatorState::hold : NavigatorState::stuck};
 }
 
-// Waypoints by hand, planned, or just the goal.
+// Waypoints given, planned, or only the goal.
 void RadarNavigator::find_route(const Observation& seen, const Stop& stop) {
   if (!routed_ && !params_.waypoints.empty()) {
     std::vector<Vec2> points = params_.waypoints;
@@ -127,7 +127,7 @@ void RadarNavigator::find_route(const Observation& seen, const Stop& stop) {
   routed_ = true;
 }
 
-// A swarm that is seen, or was pushed, a little too near to a wall can plan from beside it.
+// A swarm observed or pushed slightly too near to a wall can plan from beside it.
 Pose2 RadarNavigator::beside_walls(const Map& map, double radius) const {
   const Vec2 place = free_place(map, pose_.position, radius);
   const bool in_sight = map.is_free(Segment{pose_.position, place}, 0);
@@ -147,7 +147,7 @@ bool RadarNavigator::plan_route(const Snapshot& walls, Pose2 from, double cleara
   return true;
 }
 
-// What the decision rests on: the detected contact decides the radius of the safety circle.
+// Input of the decision: the detected contact determines the radius of the safety circle.
 void RadarNavigator::look_around(const Observation& seen, Vec2 target) {
   const double radius = seen.swarm->radius;
   const double from_walls = aim().wall_clearance(radius, radius + params_.safety_distance,
@@ -178,7 +178,7 @@ std::optional<RadarNavigator::Decision> RadarNavigator::retreat(const Observatio
   return Decision{{*heading, params_.speed}, NavigatorState::retreat};
 }
 
-// A hold, but for an obstacle that presses.
+// Holds, unless an obstacle is too close.
 RadarNavigator::Decision RadarNavigator::rest(const Observation& seen, NavigatorState state) {
   const bool pressed = contact_ && contact_->distance < look_->circles.prediction;
   if (pressed)

@@ -16,14 +16,13 @@
 
 namespace microswarm {
 
-/// Navigation by a hierarchical radar [radar], see RadarParams. It knows of obstacles only where
-/// they are and how wide. Made for a swarm that moves into any direction at once. States: direct,
-/// avoid, retreat, guard (the safety filter's command in place of its own), hold, wait,
-/// arrived, blind, and stuck when there is no plan round the walls or they leave no way that leads
-/// nearer.
+/// Navigator with a hierarchical radar [radar]; see RadarParams. It knows only the positions and
+/// sizes of obstacles. Made for a swarm that moves in any direction at once. States: direct, avoid,
+/// retreat, guard (the safety filter's command), hold, wait, arrived, blind, and stuck if there is
+/// no plan around the walls or they block all directions that lead nearer.
 class RadarNavigator : public Navigator {
  public:
-  /// `params` passed `check`; `swarm` is what is known of the swarm.
+  /// `params` must have passed `validate`; `swarm`: known properties of the swarm.
   RadarNavigator(const RadarParams& params, const SwarmLimits& swarm, Vec2 goal,
                  double goal_tolerance, Rng rng, double frame_timeout = default_frame_timeout);
 
@@ -31,10 +30,10 @@ class RadarNavigator : public Navigator {
   Command step(const Observation& observation, const Stop& stop) override;
   NavigatorView view() const override { return steering_.view(); }
 
-  /// What the last decision by Eq 9–17 rests on, for `scan`; empty when the last step looked at
-  /// nothing: blind, or inside a body.
+  /// Input of the last decision by Eq 9–17, for `scan`; empty if the last step made none: blind, or
+  /// inside a body.
   const std::optional<RadarLook>& last_look() const { return look_; }
-  /// How many it chooses from.
+  /// Number of directions it chooses from.
   int directions() const { return directions_of(params_); }
 
  private:
@@ -42,7 +41,7 @@ class RadarNavigator : public Navigator {
     Command command;
     NavigatorState state;
   };
-  /// The swarm as it was seen last.
+  /// Last observed swarm.
   struct Sighting {
     double time = 0;  ///< [s]
     SwarmPose swarm;
@@ -66,13 +65,13 @@ class RadarNavigator : public Navigator {
   RadarScanner scanner_;
   SafetyFilter filter_;
   RadarRoute route_;
-  std::optional<Plan> plan_;  ///< the newest one, found or not
-  bool routed_ = false;       ///< has looked for a route
-  double plan_again_at_ = 0;  ///< [s]
-  double wait_ = 0;           ///< from the last plan to the next, longer after each failure [s]
-  std::optional<Sighting> sighting_;  ///< the safety filter's
-  std::optional<Vec2> course_;        ///< the direction last driven
-  Pose2 pose_;                        ///< where the swarm is when the command takes effect
+  std::optional<Plan> plan_;          ///< latest plan, found or not
+  bool routed_ = false;               ///< whether it has looked for a route
+  double plan_again_at_ = 0;          ///< [s]
+  double wait_ = 0;                   ///< time between two plans; longer after each failure [s]
+  std::optional<Sighting> sighting_;  ///< for the safety filter
+  std::optional<Vec2> course_;        ///< last commanded direction
+  Pose2 pose_;                        ///< pose at which the command takes effect
   std::optional<RadarLook> look_;
   std::optional<RadarContact> contact_;
 };

@@ -14,20 +14,20 @@ struct RadarCircles {
   double detection = 0;   ///< r_d
 };
 
-/// The circles of a swarm that is seen with the radius r_s [µm]: Eq 6, 7, 26 [radar].
+/// Circles of a swarm observed with the radius r_s [µm]: Eq 6, 7, 26 [radar].
 RadarCircles circles_of(const RadarParams& params, double swarm_radius);
 
-/// 360° / β: the number of directions.
+/// Number of directions, 360° / β.
 int directions_of(const RadarParams& params);
 
-/// Issues when the safety circle is not within the detection circle, β does not divide 360°, the
-/// speed is none, waypoints are both given and to be planned, the planner's parameters do not fit
-/// together, or `as_published` stands beside given values that are not the paper's.
+/// Reports an issue if the safety circle is not within the detection circle, β does not divide
+/// 360°, there is no speed, waypoints are both given and planned, the planner's parameters are
+/// inconsistent, or `as_published` is combined with given values that are not the paper's.
 Issues validate(const RadarParams& params, const IsGiven& is_given = {});
 
-/// An issue when d_p is more than the swarm's least diameter and, where r_f is not controlled, d_f:
-/// then a thin wall could lie between a swarm and its predictive swarm, and neither would touch it.
-/// The published d_p is at most an eighth of a body length [radar].
+/// Reports an issue if d_p exceeds the swarm's minimum diameter and, without control of r_f, d_f. A
+/// thin wall could then lie between a swarm and its predictive swarm, touching neither. The
+/// published d_p is at most an eighth of a body length [radar].
 Issues validate_step(const RadarParams& params, const SwarmLimits& swarm);
 
 }  // namespace microswarm

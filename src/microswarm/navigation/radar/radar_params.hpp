@@ -15,9 +15,8 @@
 
 namespace microswarm {
 
-/// Radar-based navigation among moving obstacles [radar]. Ours besides: that it keeps to a side,
-/// the retreat, the safety_filter, and that delays are made up for. `as_published` switches all
-/// that off.
+/// Radar-based navigation among moving obstacles [radar]. Our additions are keeping to one side,
+/// the retreat, the safety filter and the delay compensation. `as_published` disables them all.
 struct RadarParams {
   static constexpr std::string_view type_name = "radar";
   double speed = 85.8;
@@ -41,7 +40,7 @@ struct RadarParams {
   RadarTuning tuning;
   bool as_published = false;
 
-  /// These, or with `as_published` the same without what is ours.
+  /// These parameters, with our additions disabled if `as_published`.
   RadarParams in_effect() const;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {

@@ -10,24 +10,23 @@
 
 namespace microswarm {
 
-/// Waypoints as phased goals, one after the other [radar]. It never leads back to one that was
-/// passed.
+/// Waypoints as successive phased goals [radar]. Never returns to a waypoint already passed.
 class RadarRoute {
  public:
   RadarRoute() = default;
-  /// `points` [µm], of which there is at least one, the last being the goal. Those of a plan
-  /// `may_skip`: each is only a way to the next.
+  /// `points` [µm], at least one; the last is the goal. With `may_skip`, as for planned waypoints,
+  /// waypoints may be left out.
   RadarRoute(std::vector<Vec2> points, bool may_skip)
       : points_(std::move(points)), may_skip_(may_skip) {}
 
   bool empty() const { return points_.empty(); }
   std::span<const Vec2> rest() const { return std::span(points_).subspan(next_); }
 
-  /// The phased goal for a swarm at `p`: the next one, or where it may skip the farthest one that
-  /// it sees along a straight line with the clearance. One within `tolerance` [µm] is passed; one
-  /// within three times that, too, when the next is in sight and nearer than from there.
+  /// Phased goal for a swarm at `p`: the next one or, if it may skip, the farthest one visible
+  /// along a straight line with the clearance. A waypoint within `tolerance` [µm] is passed. So is
+  /// one within three times that, if the next is visible and nearer to `p` than to the waypoint.
   Vec2 target(const Map& map, Vec2 p, double clearance, double tolerance);
-  /// Was the last target seen?
+  /// Whether the last target was visible.
   bool in_sight() const { return in_sight_; }
 
  private:

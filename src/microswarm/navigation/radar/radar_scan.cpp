@@ -41,7 +41,8 @@ std::optional<std::uint32_t> nearest_body(const RadarLook& look, const Snapshot&
   return nearest;
 }
 
-/// Of χ_2 only what keeps the course is taken where there is such; φ_i is that over all of χ_2.
+/// From χ_2 only directions that keep the course are taken, if there are any; φ_i is computed over
+/// all of χ_2.
 void keep_course(RadarScan& out) {
   const auto is_on = [&](const RadarBeam& beam) {
     return beam.fate == BeamFate::kept && keeps_course(out.look, unit_vector(beam.heading));
@@ -53,7 +54,7 @@ void keep_course(RadarScan& out) {
 
 /// Eq 9
 void rate(RadarScan& out, const Snapshot& world) {
-  // N(·) takes away what is the same for all: r_s, r_ob.
+  // N(·) removes constants: r_s, r_ob.
   const auto gap = [&](Vec2 p) {
     if (!out.nearest) return 0.0;
     const Body& body = world.moving().bodies()[*out.nearest];
@@ -114,7 +115,7 @@ RadarScan scan(const RadarLook& look, const Snapshot& world, int directions) {
     out.weights = radar_weights(look, distance(look.centre, body) - look.approach);
   } else {
     out.weights = {radar_weights(look, look.circles.detection).target, 0};
-    // Eq 14–16; no farther than the target, which may lie before a wall.
+    // Eq 14–16; no farther than the target, which may be in front of a wall.
     const double heading = heading_of(look.target - look.centre);
     const double ahead = std::min(look.step, distance(look.centre, look.target));
     if (world.map().is_free(look.centre + ahead * unit_vector(heading), look.wall_reach()))

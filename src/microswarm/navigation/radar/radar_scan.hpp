@@ -11,23 +11,23 @@
 
 namespace microswarm {
 
-/// What one decision of the radar rests on, the world besides. Lengths in µm.
+/// Input of one radar decision, besides the world. Lengths in µm.
 struct RadarLook {
   Vec2 centre;                 ///< of the swarm, O_s
   double radius = 0;           ///< of the swarm, r_s
   Vec2 target;                 ///< O_t
-  RadarCircles circles;        ///< as controlled: with r_f of Eq 24
+  RadarCircles circles;        ///< with the controlled r_f of Eq 24
   double step = 0;             ///< d_p
-  double wall_distance = 0;    ///< d_f of walls and border, Eq 30; they need no control of r_f
-  double approach = 0;         ///< obstacles count as nearer by this
+  double wall_distance = 0;    ///< d_f of walls and border, Eq 30, independent of r_f
+  double approach = 0;         ///< reduction of the distances to obstacles
   double target_gain = 0;      ///< k_t ε
   double avoidance_gain = 0;   ///< k_a η
-  std::optional<Vec2> course;  ///< unit vector of the direction last driven
-  double min_cosine = -1;      ///< of the angle to it, where there is a choice
+  std::optional<Vec2> course;  ///< unit vector of the last commanded direction
+  double min_cosine = -1;      ///< of the angle to it, if there is a choice
 
-  /// Distance that a predictive swarm's centre keeps from obstacles: r_s + d_f, `approach` besides.
+  /// Distance that a predictive swarm's centre keeps from obstacles: r_s + d_f + `approach`.
   double obstacle_reach() const { return circles.safety - step + approach; }
-  /// The same of walls and border.
+  /// The same for walls and border.
   double wall_reach() const { return radius + wall_distance; }
 };
 
@@ -37,24 +37,24 @@ struct RadarWeights {
   double avoidance = 0.5;
 };
 
-/// The weights with an obstacle whose edge is `distance` µm from the swarm's centre. As printed,
-/// the scale of Q_a is 0 for an obstacle that is as wide as the circle leaves room for, and Q_a
-/// grows again inside the circle; measured from the obstacle's edge, between the swarm's and the
-/// detection circle, both are sound: q_a = 1/2 + k_a η / 2 · ((1/s − 1/r_d) / (1/r_s − 1/r_d))².
-/// Hence q_t >= 1 > q_a for k_a η < 1.
+/// Weights for an obstacle whose edge is `distance` µm from the swarm's centre. As printed, the
+/// scale of Q_a is 0 for an obstacle exactly as wide as the room left by the circle, and Q_a grows
+/// again inside the circle. Measured from the obstacle's edge, between the swarm's and the
+/// detection circle, both are well-defined: q_a = 1/2 + k_a η / 2 · ((1/s − 1/r_d) / (1/r_s −
+/// 1/r_d))². Hence q_t >= 1 > q_a for k_a η < 1.
 RadarWeights radar_weights(const RadarLook& look, double distance);
 
-/// 1/‖O_pe O_t‖ of Eq 9 takes no way for shorter than this [µm].
+/// Lower bound of the distance in 1/‖O_pe O_t‖ of Eq 9 [µm].
 inline constexpr double min_way = 1e-9;
 
-/// N(·) of Eq 9 [radar]: from 0 to 1 over the candidates, 0 where all are equal.
+/// N(·) of Eq 9 [radar]: from 0 to 1 over the candidates, 0 if all are equal.
 class MinMax {
  public:
   void include(double v) {
     least_ = v < least_ ? v : least_;
     greatest_ = v > greatest_ ? v : greatest_;
   }
-  /// Per unit beyond the least; 0 where all are equal.
+  /// Factor per unit above the minimum; 0 if all are equal.
   double scale() const { return greatest_ > least_ ? 1 / (greatest_ - least_) : 0; }
   double normalised(double v) const { return (v - least_) * scale(); }
 
@@ -63,39 +63,39 @@ class MinMax {
   double greatest_ = -std::numeric_limits<double>::infinity();
 };
 
-/// Does a direction keep to the side of the course?
+/// Whether a direction keeps to the side of the course.
 inline bool keeps_course(const RadarLook& look, Vec2 direction) {
   return !look.course || look.min_cosine <= -1 || dot(direction, *look.course) >= look.min_cosine;
 }
 
-/// Why a direction is not among χ_2 of Eq 17 [radar], or is among them but turns too far where
-/// others do not.
+/// Why a direction is not in χ_2 of Eq 17 [radar], or is in it but turns too far while others do
+/// not.
 enum class BeamFate { kept, obstacle, wall, turn };
 
 /// One of the alternative directions, Eq 8 [radar].
 struct RadarBeam {
   double heading = 0;  ///< θ_i
   BeamFate fate = BeamFate::kept;
-  std::uint32_t obstacle = 0;  ///< number of the one that screens it, where one does
-  double score = 0;            ///< φ_i of Eq 9, 31, over χ_2; 0 where screened
+  std::uint32_t obstacle = 0;  ///< number of the obstacle that screens it, if any
+  double score = 0;            ///< φ_i of Eq 9, 31, over χ_2; 0 if screened
 };
 
-/// One decision in full, for people: every direction and what became of it.
+/// One decision in full, for inspection: every direction and its fate.
 struct RadarScan {
   RadarLook look;
   RadarWeights weights;
-  std::optional<std::uint32_t> nearest;  ///< body in the detection circle that Eq 9 is about
+  std::optional<std::uint32_t> nearest;  ///< body in the detection circle to which Eq 9 refers
   std::vector<RadarBeam> beams;          ///< directions 0, β, 2β, …
-  std::optional<std::size_t> best;       ///< of the beams; none where all are screened
-  std::optional<double> straight;        ///< θ_f of Eq 14 where it is taken: nothing is detected
+  std::optional<std::size_t> best;       ///< index into beams; nothing if all are screened
+  std::optional<double> straight;        ///< θ_f of Eq 14 if it is taken: nothing detected
 };
 
-/// Asks every direction against every body and wall: slow, and the yardstick for RadarScanner.
+/// Tests every direction against every body and wall: slow reference for RadarScanner.
 RadarScan scan(const RadarLook& look, const Snapshot& world, int directions);
 
 /// O_ob of Eq 9 [radar]: the disc's centre or the polygon's centroid, so that along a flat face one
-/// way is better than the other. Nothing where the body is not around it, as a hollow one: then
-/// the distance to its edge counts.
+/// direction is better than the other. Nothing if the centroid is not inside the body, as in a
+/// hollow one; then the distance to its edge counts.
 std::optional<Vec2> centre_of(const Body& body);
 
 }  // namespace microswarm

@@ -54,8 +54,7 @@ std::optional<RadarContact> RadarScanner::detect(const RadarLook& look, const Sn
     bodies_.push_back(body);
     note({body, d - look.approach});
   });
-  // An edge that is farther than this is not the one of its body that is nearest to a predictive
-  // swarm.
+  // A farther edge is not the one of its body nearest to a predictive swarm.
   const double far = reach + 2 * look.step;
   moving.polygons().for_each_edge_in(near.grown(2 * look.step), [&](std::uint32_t body, Segment e) {
     const double squared = squared_distance(look.centre, e);
@@ -82,7 +81,8 @@ void RadarScanner::screen(const RadarLook& look, const Snapshot& world) {
   screen_by_walls(look, world);
 }
 
-// Eq 17, 30. What is outside the safety circle screens nothing: a step of d_p leaves it d_f away.
+// Eq 17, 30. Nothing outside the safety circle screens a direction, since after a step of d_p it is
+// still d_f away.
 void RadarScanner::screen_by_obstacles(const RadarLook& look, const Snapshot& world) {
   std::fill(room_.begin(), room_.end(), infinity);
   const double reach = look.obstacle_reach();
@@ -102,7 +102,7 @@ void RadarScanner::screen_by_obstacles(const RadarLook& look, const Snapshot& wo
       room_[i] =
           std::min(room_[i], squared_distance(Vec2{px_[i], py_[i]}, near.edge) - reach * reach);
   }
-  if (edges_.empty() || look.step < reach) return;  // else a step may end deep inside
+  if (edges_.empty() || look.step < reach) return;  // otherwise a step may end deep inside
   for (std::size_t i = 0; i < room_.size(); ++i)
     if (room_[i] >= 0 && world.moving().polygons().holds({px_[i], py_[i]})) room_[i] = -1;
 }
@@ -125,7 +125,7 @@ void RadarScanner::measure_distance(Vec2 target) {
   }
 }
 
-// ‖O_pe O_ob‖ of Eq 9; N(·) takes r_s and r_ob away.
+// ‖O_pe O_ob‖ of Eq 9; N(·) removes r_s and r_ob.
 void RadarScanner::measure_gap(const Snapshot& world) {
   if (const auto centre = centre_of(world.moving().bodies()[nearest_->body])) {
     for (std::size_t i = 0; i < gap_.size(); ++i) {
@@ -144,7 +144,7 @@ void RadarScanner::measure_gap(const Snapshot& world) {
   for (double& g : gap_) g = std::sqrt(g);
 }
 
-// Eq 9–13, 31 over what room_ has kept.
+// Eq 9–13, 31 over the directions kept in room_.
 std::optional<std::size_t> RadarScanner::best(const RadarLook& look, const Snapshot& world) {
   RadarWeights weights{radar_weights(look, look.circles.detection).target, 0};
   measure_distance(look.target);
@@ -160,7 +160,7 @@ std::optional<std::size_t> RadarScanner::best(const RadarLook& look, const Snaps
     way.include(way_[i]);
     gap.include(gap_[i]);
   }
-  // N(·) is over all of χ_2; of these, those that keep the course are preferred.
+  // N(·) is over all of χ_2; among these, directions that keep the course are preferred.
   std::optional<std::size_t> found;
   double most = 0;
   bool on_course = false;
@@ -188,7 +188,8 @@ std::optional<double> RadarScanner::choose(const RadarLook& look, const Snapshot
   screen(look, world);
   const auto found = best(look, world);
   if (!found) return std::nullopt;
-  // Walls alone that leave no way nearer to the target: what leads away would only lead back.
+  // Only walls detected and no direction leads nearer to the target: moving away would only lead
+  // back.
   const bool gains =
       distance({px_[*found], py_[*found]}, look.target) < distance(look.centre, look.target);
   if (!nearest_ && !gains) return std::nullopt;
@@ -216,7 +217,8 @@ RadarScanner::Outcome RadarScanner::outcome(const RadarLook& look, const Snapsho
   return out;
 }
 
-// What keeps most distance on the way and gains most at its end, after one step or a longer way.
+// Maximises the minimum distance along the path plus that at its end, over one step or a longer
+// path.
 std::optional<double> RadarScanner::retreat(const RadarLook& look, const Snapshot& world) const {
   const double hold =
       outcome(look, world, look.centre).worth() + tuning_.min_retreat_gain * look.step;

@@ -10,30 +10,30 @@
 
 namespace microswarm {
 
-/// The nearest body in the detection circle.
+/// Nearest body in the detection circle.
 struct RadarContact {
   std::uint32_t body = 0;
-  double distance = 0;  ///< from the swarm's centre to its edge, `approach` taken off [µm]
+  double distance = 0;  ///< from the swarm's centre to its edge, minus `approach` [µm]
 };
 
-/// What `scan` would choose, quickly: what is near is gathered once, then asked for all directions
-/// in flat loops. Allocates nothing once its buffers have grown.
+/// Fast version of `scan`: collects nearby objects once, then tests all directions in flat loops.
+/// Does not allocate once its buffers have grown.
 class RadarScanner {
  public:
   explicit RadarScanner(int directions, const RadarTuning& tuning = {});
 
   int directions() const { return static_cast<int>(ux_.size()); }
 
-  /// Gathers what is in the detection circle; of its nearest body tells which it is.
+  /// Collects what is in the detection circle; returns the nearest body.
   std::optional<RadarContact> detect(const RadarLook& look, const Snapshot& world);
   /// Heading of the best direction by Eq 9–17, 30, 31 [radar] among what was detected for the same
-  /// look, whose safety circle may have changed since; nothing where all are screened.
+  /// look, whose safety circle may have changed since. Nothing if all are screened.
   std::optional<double> choose(const RadarLook& look, const Snapshot& world);
-  /// Heading of the best way out where no direction is safe, ours: of some directions, one step or
-  /// three long, the one with the greatest sum of the least distance to anything on its way and
-  /// that at its end; nothing where holding is as good.
+  /// Heading of the best retreat if no direction is safe (ours). Of some directions, one or three
+  /// steps long, it maximises the sum of the minimum distance to anything along the path and the
+  /// distance at its end. Nothing if holding is as good.
   std::optional<double> retreat(const RadarLook& look, const Snapshot& world) const;
-  /// The directions that are not screened, χ_2 of Eq 17 [radar], among what was detected.
+  /// Directions that are not screened, χ_2 of Eq 17 [radar], among what was detected.
   std::vector<bool> kept(const RadarLook& look, const Snapshot& world);
 
  private:
@@ -45,9 +45,9 @@ class RadarScanner {
     Segment edge;
     std::uint32_t body;
   };
-  /// Distances from the swarm's centre to whatever is nearest, at most r_d [µm].
+  /// Distances from the swarm's centre to the nearest object, at most r_d [µm].
   struct Outcome {
-    double on_way = 0;  ///< least of them
+    double on_way = 0;  ///< minimum along the path
     double at_end = 0;
     double worth() const { return on_way + at_end; }
   };
@@ -66,12 +66,12 @@ class RadarScanner {
   RadarTuning tuning_;
   std::vector<double> ux_, uy_;    ///< directions
   std::vector<double> px_, py_;    ///< predictive swarms
-  std::vector<double> room_;       ///< squared distance beyond the reach; negative: screened
+  std::vector<double> room_;       ///< squared distance minus squared reach; negative: screened
   std::vector<double> way_, gap_;  ///< terms of Eq 9
   std::optional<RadarContact> nearest_;
   std::vector<NearDisc> discs_;
   std::vector<NearEdge> edges_;
-  std::vector<std::uint32_t> bodies_;  ///< that are near, each once
+  std::vector<std::uint32_t> bodies_;  ///< near bodies, each once
 };
 
 }  // namespace microswarm

@@ -5,16 +5,16 @@
 
 namespace microswarm {
 
-/// The controller with these parameters; see safety_radius.cpp for why it is exact.
+/// Controller of the safety radius; safety_radius.cpp proves that it is exact.
 class SafetyRadius {
  public:
   explicit SafetyRadius(const SafetyRadiusParams& params);
 
-  /// |v_ropt| [µm/s], the first input that minimises Eq 23, of an obstacle whose edge is `gap` µm
-  /// from the swarm's.
+  /// |v_ropt| [µm/s], the first input that minimises Eq 23, for a gap of `gap` µm between the edges
+  /// of obstacle and swarm.
   double assumed_speed(double gap) const;
-  /// r_f [µm], Eq 24: at most `greatest` (r_f0), at least `least` (the prediction circle). Of
-  /// several obstacles the nearest one's gap gives the largest, hence theirs all.
+  /// r_f [µm], Eq 24, at most `greatest` (r_f0) and at least `least` (the prediction circle). Of
+  /// several obstacles, the nearest one gives the maximum, so its gap suffices.
   double radius(double greatest, double least, double gap) const;
 
  private:

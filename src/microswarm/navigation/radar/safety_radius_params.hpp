@@ -5,8 +5,8 @@
 
 namespace microswarm {
 
-/// How the safety circle narrows while obstacles are far: model predictive control, Eq 18–24
-/// [radar].
+/// Adaptation of the safety circle, which shrinks while obstacles are far: model predictive
+/// control, Eq 18–24 [radar].
 struct SafetyRadiusParams {
   bool adaptive = false;
   int horizon = 10;                // N

@@ -10,7 +10,7 @@
 namespace microswarm {
 namespace {
 
-/// A rectangle that may be turned.
+/// Rectangle in any orientation.
 struct Frame {
   Vec2 centre;
   Vec2 along;  ///< unit vector
@@ -31,7 +31,7 @@ double gap(const Disc& a, const Disc& b) {
 double gap(const Disc& a, const Polygon& b) { return distance(a.centre, b) - a.radius; }
 double gap(const Polygon& a, const Disc& b) { return gap(b, a); }
 double gap(const Polygon& a, const Polygon& b) {
-  double least = distance(a.outer.front(), b);  // 0 when a lies in b
+  double least = distance(a.outer.front(), b);  // 0 if a is inside b
   least = std::min(least, distance(b.outer.front(), a));
   for_each_edge(a, [&](Vec2 p, Vec2 q) { least = std::min(least, distance(Segment{p, q}, b)); });
   return least;
@@ -58,8 +58,8 @@ Range extent(const Body& body, Vec2 along) {
 
 Range united(Range a, Range b) { return {std::min(a.min, b.min), std::max(a.max, b.max)}; }
 
-/// The rectangle that both leaves and the passage between them fill, along the line of their
-/// middles.
+/// Rectangle of both leaves and the passage between them, aligned with the line through their
+/// centres.
 Frame frame_of(const Body& a, const Body& b) {
   const Vec2 between = middle_of(b) - middle_of(a);
   const double length = norm(between);

@@ -11,27 +11,27 @@
 
 namespace microswarm {
 
-/// Where a swarm is that may have to wait, and where it is going.
+/// Position and target of a swarm that may have to wait.
 struct Waiting {
   Vec2 position;      ///< of its centre [µm]
   double radius = 0;  ///< [µm]
-  double reach = 0;   ///< nearer to the leaves' way than this it does not wait [µm]
+  double reach = 0;   ///< distance from the leaves' path below which it does not wait [µm]
   Vec2 target;        ///< [µm]
 };
 
-/// Is the point in the area?
+/// Whether the point is in the zone.
 bool contains(const WaitZone& area, Vec2 p);
 
-/// Its rectangle.
+/// Rectangle of the zone.
 Polygon outline_of(const WaitZone& area);
 
-/// Distance [µm] between two bodies, 0 when they touch or overlap.
+/// Distance [µm] between two bodies; 0 if they touch or overlap.
 double gap_between(const Body& a, const Body& b);
 
-/// Eq 29 [radar]: is some part of the swarm in the area, and the gap of a valve there, two bodies
-/// of one obstacle, below the least? Not so when the swarm has passed the valve, its target being
-/// on the same side, nor when it is within reach of the leaves: there it must go on or get out,
-/// lest they close on it.
+/// Eq 29 [radar]: whether some part of the swarm is in the zone and the gap of a valve there, two
+/// bodies of one obstacle, is below the minimum. False if the swarm has passed the valve, so that
+/// its target is on the same side, or is within reach of the leaves: there it must go on or leave
+/// before they close on it.
 bool must_wait(const WaitZone& area, std::span<const Body> bodies, const Waiting& swarm);
 
 }  // namespace microswarm

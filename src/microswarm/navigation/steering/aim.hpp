@@ -8,30 +8,30 @@
 
 namespace microswarm {
 
-/// Share of a goal's tolerance within which it is headed for: the rest is for following a path.
+/// Fraction of the goal's tolerance used to choose the aim; the rest is for path-following errors.
 inline constexpr double aim_share = 0.9;
 
-/// The point that a swarm heads for when it must stay `clearance` [µm] away from `walls`: the goal,
-/// or about the nearest free point within `aim_share` of the tolerance [µm] of it, so that it gets
-/// there although it does not keep to a point exactly. Nothing when there is none. The check of a
-/// scenario and the navigators ask here, so what passes the one is what the others head for.
+/// Point that a swarm heads for if it must keep `clearance` [µm] from `walls`: the goal, or
+/// approximately the nearest free point within `aim_share` of the tolerance [µm], so that it
+/// arrives even though it does not reach a point exactly. Nothing if there is none. Used by the
+/// scenario check and by the navigators, so that both agree.
 std::optional<Vec2> reachable_goal(const Snapshot& walls, Vec2 goal, double tolerance,
                                    double clearance);
 
-/// The point that a swarm heads for: the goal, or a point within its tolerance.
+/// Target point of a swarm: the goal, or a point within its tolerance.
 struct Aim {
   Vec2 position;                ///< [µm]
-  double clearance = infinity;  ///< of it, to walls [µm]
-  double tolerance = 0;         ///< what it leaves of the goal's [µm]
+  double clearance = infinity;  ///< distance to walls [µm]
+  double tolerance = 0;         ///< tolerance left around it [µm]
 
-  /// How far to stay from walls [µm] on the next `reach` µm from `p`: `wanted`; where they come
-  /// near to an aim that has less, its clearance, but `least` at least.
+  /// Clearance from walls [µm] to keep on the next `reach` µm from `p`: `wanted`. If walls are near
+  /// an aim that has less clearance, the aim's clearance, but at least `least`.
   double wall_clearance(double least, double wanted, Vec2 p, double reach) const;
 };
 
-/// An aim with `wanted` clearance from `walls`. Where that is too much, half of what can be had
-/// besides `least` is kept: a swarm strays from its path, and has some room to the walls and in the
-/// tolerance. The goal itself when no point keeps `least`.
+/// Aim with `wanted` clearance from `walls`. If that is impossible, with half of the possible
+/// clearance beyond `least`, since a swarm deviates from its path and needs some room to the walls
+/// and in the tolerance. The goal itself if no point has `least`.
 Aim aim_at(const Snapshot& walls, Vec2 goal, double tolerance, double least, double wanted);
 
 }  // namespace microswarm

@@ -11,9 +11,8 @@
 
 namespace microswarm {
 
-/// Keeps the commands given to a swarm of one body and tells where they take it: a frame is old
-/// when it is seen, and a command takes effect only after the swarm's dead time. Allocates nothing
-/// after it is made.
+/// Predicts a single-body swarm from its past commands: a frame is already old when it arrives, and
+/// a command takes effect only after the swarm's dead time. Does not allocate after construction.
 class DelayCompensator {
  public:
   explicit DelayCompensator(const SwarmLimits& swarm)
@@ -21,14 +20,14 @@ class DelayCompensator {
     issued_.reserve(max_commands);
   }
 
-  /// Notes a command that is given at the time `now` [s].
+  /// Records a command given at the time `now` [s].
   void note(double now, const Command& command) {
     if (issued_.size() == max_commands) issued_.erase(issued_.begin(), issued_.begin() + 128);
     issued_.push_back({now, command});
   }
 
-  /// Where a swarm that was seen will be when a command given now takes effect. Forgets the
-  /// commands that were over by the time of the frame.
+  /// Pose of an observed swarm when a command given now takes effect. Drops the commands that had
+  /// ended by the time of the frame.
   Pose2 at_effect(const Observation& seen) {
     const auto in_effect = std::find_if(issued_.begin() + (issued_.empty() ? 0 : 1), issued_.end(),
                                         [&](const Issued& i) { return starts(i) > seen.seen; });
@@ -36,8 +35,8 @@ class DelayCompensator {
     return moved(seen.swarm->pose, seen.seen, seen.now + lag_);
   }
 
-  /// Where the commands take a swarm from its pose at the time `t` to the time `until` [s]. Those
-  /// before the newest frame that was asked about are forgotten.
+  /// Pose to which the commands take a swarm from its pose at the time `t` until the time `until`
+  /// [s]. Commands before the newest frame passed to at_effect are dropped.
   Pose2 moved(Pose2 pose, double t, double until) const {
     for (std::size_t i = 0; i < issued_.size() && t < until; ++i) {
       const double end = i + 1 < issued_.size() ? std::min(until, starts(issued_[i + 1])) : until;

@@ -11,7 +11,7 @@ namespace microswarm {
 namespace {
 
 constexpr double same_moment = 1e-9;
-constexpr double remembered = 60;  // [s] frames are never older
+constexpr double remembered = 60;  // [s] upper bound of the age of a frame
 
 }  // namespace
 

@@ -9,17 +9,17 @@
 
 namespace microswarm {
 
-/// Where robots will be when the next command takes effect: those last seen, moved by the commands
-/// that were given since and are still on their way.
+/// Predicts the robots' positions when the next command takes effect: the last observed positions,
+/// moved by the commands given since and not yet in effect.
 class RobotDelayCompensator {
  public:
-  /// `reach` [µm] is what the robots go in one command.
+  /// `reach` [µm] is the robots' move per command.
   RobotDelayCompensator(const Map& map, double reach, ContactRule contact, double response_lag);
 
-  /// The robots at `now` + lag, from where they were `seen`. A robot seen in a wall, as errors of
-  /// less than a pixel suffice for, is taken to be beside it.
+  /// Robots at `now` + lag, from their positions at `seen`. A robot observed in a wall, which an
+  /// error below a pixel can cause, is moved beside it.
   Robots at_effect(const Observation& observation) const;
-  /// Notes that a command was given at `now` [s].
+  /// Records a command given at `now` [s].
   void note(double now, const Command& command);
 
   const Map& map() const { return map_; }

@@ -10,15 +10,15 @@
 
 namespace microswarm {
 
-/// The same life cycle as SteeringCycle for individually tracked robots under one input.
+/// Counterpart of SteeringCycle for individually tracked robots under one input.
 class RobotSteeringCycle {
  public:
-  /// `robots`: what is known of them; `tick` [s] between two commands; a frame older than
-  /// `frame_timeout` [s] is none.
+  /// `robots`: their known properties; `tick` [s] between two commands. A frame older than
+  /// `frame_timeout` [s] is ignored.
   RobotSteeringCycle(const RobotSwarmParams& robots, double tick, double frame_timeout)
       : robots_(robots), tick_(tick), frame_timeout_(frame_timeout) {}
 
-  /// Once, before the first step.
+  /// Call it once, before the first step.
   void prepare(const Snapshot& world);
   /// Begins a step: the robots when its command takes effect. Nothing when the step is to end with
   /// hold(): the frame is too old, shows a robot at no finite position, or none, or not `count`.
@@ -26,7 +26,7 @@ class RobotSteeringCycle {
 
   /// Ends a step without a move.
   Command hold(NavigatorState state = NavigatorState::blind) { return command({}, state); }
-  /// Ends a step: notes its command and state. Once a step.
+  /// Ends a step: records its command and state. Call it once per step.
   Command command(const Command& command, NavigatorState state);
   /// Ends a step with a move of all robots [µm] within the tick.
   Command move(Vec2 displacement, NavigatorState state) {
@@ -35,13 +35,13 @@ class RobotSteeringCycle {
 
   const RobotSwarmParams& robots() const { return robots_; }
   double tick() const { return tick_; }
-  /// Longest move in a tick [µm].
+  /// Maximum move in a tick [µm].
   double max_move() const { return robots_.max_speed * tick_; }
-  /// After prepare().
+  /// Available after prepare().
   const Map& map() const { return compensator_->map(); }
   const RobotStepper& stepper() const { return compensator_->stepper(); }
 
-  /// What the step shows, empty at its beginning.
+  /// Data shown for the step, reset at its start.
   NavigatorView& view() { return view_; }
   const NavigatorView& view() const { return view_; }
 

@@ -5,8 +5,8 @@
 
 namespace microswarm {
 
-/// Eq 1–3 [drrt] for one detection circle, the factor floored at `rho_min`. A circle of radius 0
-/// sees nothing.
+/// Detection for one circle: Eq 1–3 [drrt], with the factor floored at `rho_min`. A circle of
+/// radius 0 detects nothing.
 Detection detect(const Snapshot& world, Disc circle, double rho_min);
 
 }  // namespace microswarm

@@ -11,12 +11,12 @@ namespace {
 constexpr int finest_level = 6;
 constexpr int max_squares = 5'000;
 
-/// Square of a quadtree around the goal; the order makes the queue give the one nearest to the goal
-/// first, and the coarser and earlier one among equals.
+/// Square of a quadtree around the goal. The queue returns the one nearest to the goal first, among
+/// equals the coarser and earlier one.
 struct Square {
   Vec2 centre;
   double half = 0;
-  double nearest = 0;  ///< least distance of any of its points from the goal
+  double nearest = 0;  ///< minimum distance of its points from the goal
   int level = 0;
   int number = 0;
 
@@ -26,9 +26,9 @@ struct Square {
   }
 };
 
-/// From a blocked point away from what is near to it until it is free; nothing where that fails.
+/// Moves a blocked point along the clearance gradient until it is free; nothing if that fails.
 std::optional<Vec2> pushed_free(const Snapshot& world, Vec2 p, double clearance) {
-  constexpr double step = 1e-3;  // of the slope [µm]
+  constexpr double step = 1e-3;  // of the gradient [µm]
   constexpr int max_pushes = 4;
   for (int push = 0; push < max_pushes; ++push) {
     const double lacking = clearance - world.clearance(p);
@@ -47,7 +47,7 @@ double min_distance(Vec2 goal, Vec2 centre, double half) {
   return norm({dx, dy});
 }
 
-/// The nearest free point among the centres of the squares or, with `pushing`, beside them too.
+/// Nearest free point among the centres of the squares or, with `pushing`, also beside them.
 std::optional<Vec2> search(const Snapshot& world, Vec2 goal, double tolerance, double clearance,
                            bool pushing) {
   std::optional<Vec2> best;
@@ -59,7 +59,7 @@ std::optional<Vec2> search(const Snapshot& world, Vec2 goal, double tolerance, d
     const Square square = squares.top();
     squares.pop();
     if (square.nearest > best_distance || (best && square.nearest == best_distance)) break;
-    // Clearance changes by at most 1 µm per µm: no point of the square can have enough.
+    // Clearance changes by at most 1 µm per µm, so no point of the square can have enough.
     const double reach = square.half * std::numbers::sqrt2;
     if (world.clearance(square.centre) + reach < clearance) continue;
     const Vec2 place = pushing

@@ -8,12 +8,12 @@
 
 namespace microswarm {
 
-/// The goal when it is free with the clearance, else about the nearest free point within
-/// `tolerance` [µm] of it. A free spot smaller than tolerance / 64 is found only by going from its
-/// surroundings away from what is near, so one between several walls may be missed.
+/// The goal if it is free with the clearance, else approximately the nearest free point within
+/// `tolerance` [µm]. A free spot smaller than tolerance / 64 is found only by moving from its
+/// surroundings along the clearance gradient, so one between several walls may be missed.
 std::optional<Vec2> free_goal(const Snapshot& world, Vec2 goal, double tolerance, double clearance);
 
-/// What is wrong with the query before any planning: start_blocked, goal_blocked or nothing.
+/// Fault of a query before planning: start_blocked, goal_blocked or nothing.
 std::optional<Status> query_fault(const Snapshot& world, Vec2 start, Vec2 goal, double tolerance,
                                   double clearance);
 

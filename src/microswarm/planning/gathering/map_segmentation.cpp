@@ -9,11 +9,11 @@ namespace microswarm {
 namespace {
 
 constexpr std::uint32_t unassigned = ~0u;
-/// Where the ring begins in which the channels around a node are counted, as a share of its range.
+/// Inner radius of the ring in which the channels around a node are counted, relative to its range.
 constexpr double ring_begin = 0.6;
-/// Fewer nodes than this make no channel.
+/// Minimum number of nodes in a channel.
 constexpr std::size_t min_in_channel = 3;
-/// Nor does a smaller share of a region's nodes than this make a branch.
+/// Minimum fraction of a region's nodes in a branch.
 constexpr double min_in_branch = 0.05;
 
 /// Sums for the covariance ellipse of points.
@@ -47,8 +47,8 @@ class Spread {
   double xy_ = 0;
 };
 
-/// Cuts directions where neighbours are more than `gap` apart. Returns the mean direction of each
-/// bundle of at least `least` directions; all are one bundle when there is no gap.
+/// Splits directions where neighbours are more than `gap` apart. Returns the mean direction of each
+/// group of at least `least` directions; without a gap all form one group.
 std::vector<double> bundles(std::vector<double>& angles, double gap, std::size_t least) {
   std::vector<double> means;
   if (angles.empty()) return means;
@@ -75,7 +75,7 @@ std::vector<double> bundles(std::vector<double>& angles, double gap, std::size_t
   return means;
 }
 
-/// Merges the two nearest directions until there are no more than `most`.
+/// Merges the two nearest directions until at most `most` remain.
 void merge_nearest(std::vector<double>& directions, int most) {
   while (directions.size() > static_cast<std::size_t>(std::max(1, most))) {
     std::size_t a = 0;
@@ -136,7 +136,7 @@ class Segmenter {
   Vec2 at(std::uint32_t node) const { return tree_.nodes[node]; }
   bool sees(Vec2 a, Vec2 b) const { return map_.is_free(Segment{a, b}, 0); }
 
-  /// Width of the channel around a node: what its widest neighbour has.
+  /// Width of the channel around a node: twice the maximum clearance of its neighbours.
   double width(std::uint32_t node) {
     double widest = tree_.clearances[node];
     near_.clear();
@@ -145,7 +145,7 @@ class Segmenter {
     return 2 * widest;
   }
 
-  /// Def 4, and beyond it: enough channels lead away.
+  /// Def 4; beyond it, enough channels must lead away.
   bool is_junction(std::uint32_t node, double range) {
     Spread spread;
     angles_.clear();
@@ -174,7 +174,8 @@ class Segmenter {
     }
   }
 
-  /// Single linkage: what is near and seen is one junction. The goal's cluster is the first.
+  /// Single linkage: nodes that are near and visible form one junction. The goal's cluster is the
+  /// first.
   void cluster_by_distance() {
     const std::vector<std::uint32_t>& junctions = out_.junction_nodes;
     PointGrid grid(map_.bounds());
@@ -202,8 +203,8 @@ class Segmenter {
     std::erase_if(out_.junction_nodes, [&](std::uint32_t v) { return cluster_[v] == unassigned; });
   }
 
-  /// A few nodes in the corner of a bend are no junction: in its middle half a width must be full
-  /// of them.
+  /// Rejects a few nodes in the corner of a bend: within half a channel width of the centre, enough
+  /// nodes must be junction nodes.
   bool fills_its_place(const std::vector<std::uint32_t>& members) {
     Vec2 centroid;
     double widest = 0;
@@ -220,9 +221,9 @@ class Segmenter {
     return static_cast<double>(inside) > params_.fill * static_cast<double>(near_.size());
   }
 
-  /// A region is its junction and all whose way to the goal comes to this junction first. The part
-  /// of a junction whose way leads by another junction of a region farther away belongs to that
-  /// one, so that nobody ever goes to a region with a higher number.
+  /// A region consists of its junction and all nodes whose route to the goal reaches this junction
+  /// first. If the route of a junction's node passes a region farther away, the node belongs to
+  /// that region, so that no route ever enters a region with a higher number.
   void grow_regions() {
     std::vector<std::uint32_t> number(clusters_, unassigned);
     for (const std::uint32_t v : by_cost_) {
@@ -268,8 +269,8 @@ class Segmenter {
     return heading_of(at(v) - out_.regions[out_.region[v]].junction);
   }
 
-  /// Branches by the direction in which the way to a node leaves the junction: a channel that
-  /// bends later stays one branch.
+  /// Branches are distinguished by the direction in which the route to a node leaves the junction;
+  /// a channel that bends later remains one branch.
   void find_branches() {
     std::vector<std::vector<double>> leaving(out_.regions.size());
     std::vector<std::uint32_t> first(tree_.nodes.size(), unassigned);
@@ -302,9 +303,9 @@ class Segmenter {
   PointGrid grid_;                     ///< V*
   std::vector<std::uint32_t> medial_;  ///< its nodes
   std::vector<std::uint32_t> by_cost_;
-  std::vector<std::uint32_t> cluster_;  ///< of each node; unassigned outside V_J
+  std::vector<std::uint32_t> cluster_;  ///< per node; unassigned outside V_J
   std::uint32_t clusters_ = 0;
-  std::vector<double> widths_;  ///< one a junction node
+  std::vector<double> widths_;  ///< one per junction node
   std::vector<std::uint32_t> near_;
   std::vector<double> angles_;
   MapSegmentation out_;

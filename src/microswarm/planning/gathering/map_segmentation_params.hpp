@@ -8,7 +8,7 @@
 
 namespace microswarm {
 
-/// Lengths are in widths of the local channel, so that they fit every map.
+/// Parameters of segment_map. Lengths are in widths of the local channel, so they fit every map.
 struct MapSegmentationParams {
   static constexpr std::string_view type_name = "map_segmentation";
   double eccentricity = 0.97;

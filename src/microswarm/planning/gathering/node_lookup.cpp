@@ -12,14 +12,14 @@ namespace {
 
 constexpr double cells_per_node = 4;
 constexpr double max_lookup_cells = 4e6;
-/// How often the search for a node that can be seen doubles its radius.
+/// Number of times the search for a visible node doubles its radius.
 constexpr int max_doublings = 3;
-/// A cell so many diagonals from all nodes is a place that the tree has not reached.
+/// A cell this many diagonals from all nodes was not reached by the tree.
 constexpr double farthest = 8;
-/// Nor does a robot look for a node it sees farther away than so many cells.
+/// Maximum distance, in cells, at which a robot looks for a visible node.
 constexpr int max_rings = 12;
 
-/// Lists the nodes that can be the answer somewhere in one cell.
+/// Lists the candidate nodes of one cell.
 class CellSearch {
  public:
   CellSearch(const Map& map, const PointGrid& grid, Vec2 cell)
@@ -29,7 +29,7 @@ class CellSearch {
     const std::uint32_t nearest = grid_.nearest(centre);
     const double least = distance(centre, grid_[nearest]);
     const bool is_wall =
-        map_.field().lower(centre) + map_.field().spread() < -diagonal_ / 2;  // nobody will ask
+        map_.field().lower(centre) + map_.field().spread() < -diagonal_ / 2;  // never queried
     if (is_wall || least > farthest * diagonal_) {
       listed_.assign(1, nearest);
       return listed_;
@@ -63,7 +63,7 @@ class CellSearch {
       return map_.is_free(Segment{p, grid_[node]}, 0);
     });
   }
-  /// From the centre to the nearest node that can be seen from the cell.
+  /// Distance from the centre to the nearest node visible from the cell.
   std::optional<double> distance_to_seen(Vec2 centre, double radius) {
     if (viewpoints_.empty()) return std::nullopt;
     for (int i = 0; i < max_doublings; ++i, radius *= 2) {
@@ -78,7 +78,7 @@ class CellSearch {
     return std::nullopt;
   }
 
-  /// Drops a node when another is nearer to all four corners, and so to all of the cell.
+  /// Drops a node if another is nearer to all four corners, and hence to the whole cell.
   void drop_dominated(Vec2 centre) {
     std::sort(listed_.begin(), listed_.end(), [&](std::uint32_t a, std::uint32_t b) {
       const double d_a = squared_norm(grid_[a] - centre);
@@ -94,7 +94,8 @@ class CellSearch {
     listed_.resize(kept);
     std::sort(listed_.begin(), listed_.end());
   }
-  /// Is every point of the cell nearer to `other` than to `node`? Told with a margin for rounding.
+  /// Whether every point of the cell is nearer to `other` than to `node`, with a margin for
+  /// rounding.
   bool is_beyond(std::uint32_t node, std::uint32_t other, Vec2 centre) const {
     const Vec2 apart = grid_[node] - grid_[other];
     const Vec2 middle = 0.5 * (grid_[node] + grid_[other]);

@@ -11,18 +11,18 @@
 
 namespace microswarm {
 
-/// Answers which of a fixed set of nodes is nearest to a point of a map, for a thousand robots a
-/// step: a raster whose cells list the few nodes that can be the answer. A node that cannot be seen
-/// from a cell (from its centre and corners, as far as these are free) is not listed unless none
-/// can, so that nobody is sent through a wall. Queries allocate nothing and are safe to share.
+/// Lookup of the nearest of a fixed set of nodes, fast enough for a thousand robots per step. It is
+/// a raster whose cells list the few candidate nodes. A node not visible from a cell (from its
+/// centre and corners, as far as these are free) is listed only if no node is visible, so no robot
+/// is sent through a wall. Queries do not allocate and are thread-safe.
 class NodeLookup {
  public:
   NodeLookup() = default;
   /// `grid` holds the nodes, at least one.
   NodeLookup(const Map& map, const PointGrid& grid);
 
-  /// The nearest of the nodes that its cell sees; the lowest of equals. Points outside the bounds
-  /// are answered by the nearest cell. `nodes` are those of the constructor.
+  /// Nearest node visible from the cell of `p`, the lowest among equals. Points outside the bounds
+  /// use the nearest cell. `nodes` must be those of the constructor.
   std::uint32_t nearest(Vec2 p, std::span<const Vec2> nodes) const {
     const std::span<const std::uint32_t> some = listed(column_of(p.x), row_of(p.y));
     std::uint32_t best = some[0];
@@ -36,8 +36,8 @@ class NodeLookup {
     }
     return best;
   }
-  /// The nearest node that `p` itself sees, exactly; nothing when none is seen within about six
-  /// times the usual distance between nodes. Slower: for one robot a step, not for all.
+  /// Nearest node visible from `p` itself, exact; nothing if none is visible within about six times
+  /// the usual distance between nodes. Slower: for one robot per step, not for all.
   std::optional<std::uint32_t> nearest_visible(const Map& map, Vec2 p,
                                                std::span<const Vec2> nodes) const;
 
@@ -60,8 +60,8 @@ class NodeLookup {
   Vec2 per_cell_{1, 1};
   int columns_ = 1;
   int rows_ = 1;
-  std::vector<std::uint32_t> first_;   ///< one a cell, and the end
-  std::vector<std::uint32_t> listed_;  ///< nodes that can be nearest in the cell, ascending
+  std::vector<std::uint32_t> first_;   ///< one per cell, and the end
+  std::vector<std::uint32_t> listed_;  ///< candidate nodes of each cell, ascending
 };
 
 }  // namespace microswarm

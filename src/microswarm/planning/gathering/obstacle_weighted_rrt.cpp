@@ -15,7 +15,7 @@
 namespace microswarm {
 namespace {
 
-/// A place on the wall is found to 2^-20 of an extension.
+/// Wall contacts are located to 2^-20 of an extension.
 constexpr int halvings = 20;
 
 using Tree = ObstacleWeightedRrt;
@@ -62,8 +62,8 @@ Status grow(const Map& map, const ObstacleWeightedRrtParams& params, Rng& rng, c
   return Status::solved;
 }
 
-/// Beyond the paper: nodes for what the tree has missed. What V_obs would say of them, the map
-/// does.
+/// Beyond the paper: adds nodes that the tree has missed. Their clearance comes from the map
+/// instead of V_obs.
 void complete(const Map& map, const ObstacleWeightedRrtParams& params, PointGrid& grid,
               Tree& tree) {
   const double radius = std::max(params.neighbour_radius, 2 * params.extension);
@@ -75,8 +75,8 @@ void complete(const Map& map, const ObstacleWeightedRrtParams& params, PointGrid
   });
 }
 
-/// Eq 3 [gather], lowered so that it ends at 0 at the cutoff. Every way ends at the goal: its
-/// weight would tell nothing and is left out.
+/// Eq 3 [gather], shifted down to reach 0 at the cutoff. The goal's weight is 0, since every route
+/// ends there.
 void weigh(const Map& map, const ObstacleWeightedRrtParams& params, Tree& tree) {
   PointGrid boundary(map.bounds());
   for (const Vec2 p : tree.boundary) boundary.add(p);
@@ -93,7 +93,7 @@ void weigh(const Map& map, const ObstacleWeightedRrtParams& params, Tree& tree) 
   tree.weights[0] = 0;
 }
 
-/// A node that may be joined to another, the lightest first.
+/// Node that may be joined to another; lightest first.
 struct Link {
   double weight;
   std::uint32_t node;
@@ -104,7 +104,7 @@ struct Link {
   }
 };
 
-/// Alg 2 [gather]: V* and the ways over it.
+/// Alg 2 [gather]: V* and the routes over it.
 class Router {
  public:
   Router(const Map& map, const ObstacleWeightedRrtParams& params, const PointGrid& grid, Tree& tree)
@@ -126,7 +126,8 @@ class Router {
     }
   }
 
-  /// Beyond the paper: the middle of channels too narrow for Eq 4, which see nothing of V*.
+  /// Beyond the paper: adds the middle of channels too narrow for Eq 4, from which V* is not
+  /// visible.
   void add_narrow(double share) {
     if (share <= 0) return;
     const auto [medial, nodes] = middle();
@@ -139,8 +140,8 @@ class Router {
     for (const std::uint32_t v : unserved) tree_.medial[v] = is_middle(v, share);
   }
 
-  /// Joins the pieces of V* over the lightest nodes: Prim's tree over all nodes, so that the
-  /// heaviest node that is needed is as light as can be. Only what is needed comes into V*.
+  /// Joins the components of V* through the lightest nodes, by Prim's algorithm over all nodes,
+  /// which minimises the heaviest node needed. Only the nodes needed are added to V*.
   void join_medial(double zeta) {
     tree_.zeta_used = zeta;
     std::vector<std::uint32_t> parent(tree_.nodes.size(), no_node);
@@ -167,13 +168,13 @@ class Router {
     }
   }
 
-  /// Lines 7–12: shortest ways over V*.
+  /// Lines 7–12: shortest routes over V*.
   void route_medial() {
     routes().cost[0] = routes().length[0] = 0;
     dijkstra({{0, 0}}, [&](std::uint32_t v) { return tree_.medial[v] != 0; });
   }
 
-  /// Lines 13–16: the others go to the nearest node of V* that they see.
+  /// Lines 13–16: the other nodes go to the nearest visible node of V*.
   void connect_rest() {
     const auto [medial, nodes] = middle();
     for (std::uint32_t v = 0; v < tree_.nodes.size(); ++v) {
@@ -183,7 +184,7 @@ class Router {
     }
   }
 
-  /// Beyond the paper: a node that sees nothing of V* goes by way of nodes that do.
+  /// Beyond the paper: a node from which V* is not visible goes through nodes that see it.
   void route_rest() {
     std::vector<Entry> reached;
     for (std::uint32_t v = 0; v < tree_.nodes.size(); ++v) {
@@ -215,8 +216,8 @@ class Router {
         std::max(tree_.zeta_used, std::nextafter(tree_.weights[node], infinity));  // w < ζ
   }
 
-  /// Has the node a good share of the clearance around it? 0.7 is what ζ admits in the published
-  /// channels.
+  /// Whether the node has at least this share of the maximum clearance around it; ζ corresponds to
+  /// 0.7 in the published channels.
   bool is_middle(std::uint32_t node, double share) {
     near_.clear();
     grid_.within(tree_.nodes[node], std::max(tree_.clearances[node], radius_), near_);
@@ -236,7 +237,7 @@ class Router {
     return out;
   }
 
-  /// Dijkstra from what is reached into what `admits` allows.
+  /// Dijkstra from the reached nodes into those that `admits` allows.
   template <class Admits>
   void dijkstra(const std::vector<Entry>& from, Admits&& admits) {
     std::priority_queue<Entry> open(std::less<Entry>{}, from);
@@ -287,7 +288,7 @@ class Router {
   std::vector<std::uint32_t> near_;
 };
 
-/// Alg 2 [gather]; the reason when it was stopped half-way.
+/// Alg 2 [gather]; the reason if interrupted.
 std::optional<Status> route(const Map& map, const ObstacleWeightedRrtParams& params,
                             const PointGrid& grid, const Stop& stop, Tree& tree) {
   Router router(map, params, grid, tree);

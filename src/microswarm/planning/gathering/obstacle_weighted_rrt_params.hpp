@@ -7,8 +7,8 @@
 
 namespace microswarm {
 
-/// The defaults are those of the published trees, where a channel is 10 wide; `scaled` fits them to
-/// other channels.
+/// Parameters of the tree. The defaults are those of the published trees, where a channel is 10
+/// wide; `scaled` adapts them to other channels.
 struct ObstacleWeightedRrtParams {
   static constexpr std::string_view type_name = "obstacle_weighted_rrt";
   int nodes = 4000;
@@ -51,7 +51,7 @@ struct ObstacleWeightedRrtParams {
   }
 };
 
-/// The same parameters for a map `factor` times as large: same tree, same routes, `factor` times as
+/// The same parameters for a map scaled by `factor`: same tree and same routes, `factor` times as
 /// long. The published ones are for channels of 10 µm.
 ObstacleWeightedRrtParams scaled(ObstacleWeightedRrtParams params, double factor);
 

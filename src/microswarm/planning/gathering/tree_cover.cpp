@@ -57,7 +57,7 @@ class Cover {
     return best;
   }
 
-  /// The node at the cell's centre, which becomes one.
+  /// Node at the cell's centre, added if necessary.
   std::uint32_t node_in(std::uint32_t cell) {
     if (own_[cell] == no_node) {
       own_[cell] = static_cast<std::uint32_t>(nodes_.size());
@@ -71,8 +71,8 @@ class Cover {
   NodeLattice lattice_;
   double radius_;
   const Add& add_;
-  std::vector<std::uint32_t> seen_;  ///< node that the cell's centre sees
-  std::vector<std::uint32_t> own_;   ///< node that the cell's centre is
+  std::vector<std::uint32_t> seen_;  ///< node visible from the cell's centre
+  std::vector<std::uint32_t> own_;   ///< node at the cell's centre
   std::vector<std::uint32_t> near_;
 };
 

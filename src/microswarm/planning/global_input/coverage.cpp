@@ -56,7 +56,7 @@ class Cells {
   std::uint32_t rows_ = 0;
 };
 
-/// Nodes that lie in different hypercubes.
+/// Number of distinct hypercubes that contain nodes.
 std::size_t count_hypercubes(const std::vector<std::uint32_t>& cells, std::size_t robots) {
   const auto cube = [&](std::uint32_t node) { return cells.begin() + robots * node; };
   const auto hash = [&](std::uint32_t node) {

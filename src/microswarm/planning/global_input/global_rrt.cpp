@@ -15,8 +15,8 @@
 namespace microswarm {
 namespace {
 
-constexpr int max_place_draws = 10'000;   // of a place for one robot
-constexpr std::uint64_t asks_every = 16;  // iterations, each some 10 µs
+constexpr int max_place_draws = 10'000;   // per position of one robot
+constexpr std::uint64_t asks_every = 16;  // iterations, each about 10 µs
 
 constexpr std::size_t max_reserved = 1 << 20;  // nodes
 
@@ -102,7 +102,7 @@ class Growth {
     return c;
   }
 
-  // Alg 2 [global]: the input that gets nearest to the target, robot after robot.
+  // Alg 2 [global]: the input that gets nearest to the target, computed robot by robot.
   void extend(std::uint32_t from, const GrownPlaces& target) {
     const std::vector<PointF>& moves = grown_.tree.moves;
     const std::span<const float> start = grown_.tree.configuration(from);

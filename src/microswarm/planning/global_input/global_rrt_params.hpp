@@ -8,7 +8,8 @@
 
 namespace microswarm {
 
-/// `goal_bias` and `separation` go beyond the paper, whose tree knows no goal.
+/// Parameters of global_rrt. `goal_bias` and `separation` go beyond the paper, whose tree has no
+/// goal.
 struct GlobalRrtParams {
   static constexpr std::string_view type_name = "global_rrt";
   double robostep = 5;

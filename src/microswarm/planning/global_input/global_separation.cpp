@@ -13,7 +13,7 @@ constexpr float rigid_share = 1e-4f;  // of a move: a pair that changes by less 
 PointF minus(PointF a, PointF b) { return {a.x - b.x, a.y - b.y}; }
 float norm(PointF v) { return std::sqrt(v.x * v.x + v.y * v.y); }
 
-/// Least norm on the straight way from `a` to `b`.
+/// Minimum norm on the segment from `a` to `b`.
 float min_norm(PointF a, PointF b) {
   const PointF v = minus(b, a);
   const float square = v.x * v.x + v.y * v.y;
@@ -60,7 +60,7 @@ GlobalSeparation::Pair GlobalSeparation::at(const Pair& from, const Pair& to, Po
   return {stepper_.moved(from.a, part, rule_), stepper_.moved(from.b, part, rule_)};
 }
 
-// While the share grows by h, the distance changes by at most 2 h times the move.
+// If the share grows by h, the distance changes by at most 2 h times the move.
 bool GlobalSeparation::holds_between(const Pair& from, const Pair& to, PointF move, float low,
                                      const Pair& at_low, float high, const Pair& at_high,
                                      int halvings) const {

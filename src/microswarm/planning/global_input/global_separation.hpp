@@ -7,20 +7,20 @@
 
 namespace microswarm {
 
-/// Least distance that robots under one input keep from each other, all along their moves: magnets
-/// that come too near attract each other (future work of [global]).
+/// Minimum distance between robots under one input, enforced along their whole moves: magnets that
+/// come too close attract each other (future work of [global]).
 class GlobalSeparation {
  public:
-  /// `least` [µm]; 0: none, everything holds.
+  /// `least` [µm]; 0: no minimum, everything holds.
   GlobalSeparation(const RobotStepper& stepper, ContactRule rule, double least)
       : stepper_(stepper), rule_(rule), least_(static_cast<float>(least)) {}
 
   bool is_on() const { return least_ > 0; }
-  /// Is no pair nearer?
+  /// Whether no pair is closer.
   bool holds(std::span<const PointF> robots) const;
-  /// Is no pair nearer anywhere on the move that brings robots from `from`, where none is, to `to`?
-  /// Never true when one is; false also for a few moves that bring a pair within a 64th of the move
-  /// of the least distance.
+  /// Whether no pair comes closer anywhere on the move from `from`, where none is, to `to`.
+  /// Conservative: never true if a pair does, but false also for a few moves that bring a pair
+  /// within 1/64 of the move of the minimum distance.
   bool holds(std::span<const PointF> from, std::span<const PointF> to, PointF move) const;
 
  private:

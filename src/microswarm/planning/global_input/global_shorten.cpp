@@ -15,7 +15,7 @@ constexpr int max_shorten_rounds = 20;
 
 using PlayedPlaces = std::vector<PointF>;
 
-/// `count` equal inputs from `first` on.
+/// `count` equal inputs starting at `first`.
 struct Run {
   std::size_t first;
   std::size_t count;
@@ -71,7 +71,7 @@ class Shortening {
   bool reaches() const { return worst(states_.back()) <= play_.goal_tolerance; }
 
  private:
-  /// False when robots come too near each other.
+  /// False if robots come too close to each other.
   bool step(PlayedPlaces& robots, PointF u) {
     before_ = robots;
     for (std::size_t i = 0; i < n_; ++i) {
@@ -92,8 +92,8 @@ class Shortening {
     return std::sqrt(square);
   }
 
-  /// Plays the inputs without those of `gaps`, which lie in order; takes them when that reaches the
-  /// goals, up to where it first does.
+  /// Simulates the inputs without `gaps`, which are in order. If the goals are reached, takes the
+  /// shorter inputs, up to the first time they are.
   bool try_without(std::span<const Run> gaps) {
     const std::size_t from = gaps[0].first;
     PlayedPlaces robots = states_[from];
@@ -163,8 +163,8 @@ class Shortening {
   PlayedPlaces goals_;
   std::vector<PointF> inputs_;
   std::vector<PlayedPlaces> states_;  ///< before the first input, and after each
-  std::vector<PointF> played_;        ///< of the try under way
-  std::vector<PointF> reached_;       ///< n after each
+  std::vector<PointF> played_;        ///< inputs of the current attempt
+  std::vector<PointF> reached_;       ///< n per input
   PlayedPlaces before_;
 };
 

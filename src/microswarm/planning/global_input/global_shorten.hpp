@@ -9,7 +9,7 @@
 
 namespace microswarm {
 
-/// How a plan's inputs are played, and what it must reach.
+/// How a plan's inputs are executed, and what it must reach.
 struct GlobalPlay {
   double robostep = 5;
   ContactRule contact = ContactRule::slide;
@@ -17,11 +17,11 @@ struct GlobalPlay {
   double goal_tolerance = 20;
 };
 
-/// A solved plan with inputs left out as long as all robots still reach their goals: stretches of
-/// inputs, long ones first, then as many from one stretch of equal inputs as from another, until
-/// neither makes it shorter any more. Each try plays the rest of the plan. Never longer than
-/// `plan`, and `plan` itself when it is not solved; deterministic unless `stop` ends it, which
-/// gives the shortest so far. Beyond [global].
+/// Shortens a solved plan by leaving out inputs while all robots still reach their goals. It
+/// removes stretches of inputs, long ones first, then equal numbers of inputs from two runs of
+/// equal inputs, until neither helps. Each attempt simulates the rest of the plan. The result is
+/// never longer than `plan`, and is `plan` itself if that is not solved. Deterministic unless
+/// `stop` ends it; then the shortest plan so far is returned. Beyond [global].
 GlobalPlan shortened(const Map& map, const GlobalPlan& plan, std::span<const Vec2> goals,
                      const GlobalPlay& play, const Stop& stop = {});
 

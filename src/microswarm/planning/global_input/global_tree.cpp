@@ -12,7 +12,7 @@
 namespace microswarm {
 namespace {
 
-/// cos and sin of a share of a turn, exact on the axes.
+/// A sine or cosine, exactly 0 on the axes.
 double without_dust(double x) { return std::abs(x) < 1e-12 ? 0 : x; }
 
 void check_goals(std::size_t goals, std::size_t robots) {
@@ -33,7 +33,7 @@ std::vector<PointF> input_moves(int directions, double robostep) {
   return moves;
 }
 
-// A little more than a step, as the moves are rounded.
+// Slightly more than a step, since the moves are rounded.
 RobotStepper input_stepper(const Map& map, double robostep) { return {map, 1.001 * robostep}; }
 
 std::vector<Vec2> GlobalTree::positions(std::uint32_t node) const {

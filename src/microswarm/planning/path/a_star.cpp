@@ -13,7 +13,7 @@
 namespace microswarm {
 namespace {
 
-/// Place on the grid, in cells from its lower left corner.
+/// Grid position, in cells from the lower left corner.
 struct Place {
   int column = 0;
   int row = 0;
@@ -22,7 +22,7 @@ struct Place {
 constexpr Place operator+(Place a, Place b) { return {a.column + b.column, a.row + b.row}; }
 constexpr Place operator-(Place a, Place b) { return {a.column - b.column, a.row - b.row}; }
 
-/// Straight moves have even numbers; a diagonal lies between its two.
+/// Straight moves have even indices; a diagonal lies between its two.
 constexpr std::array<Place, 8> grid_moves{
     {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
 
@@ -31,10 +31,10 @@ enum class Mark : std::uint8_t { unknown, blocked, free, closed };
 struct Cell {
   double cost = std::numeric_limits<double>::infinity();
   Mark mark = Mark::unknown;
-  std::uint8_t move = 0;  ///< the move that led here
+  std::uint8_t move = 0;  ///< move that led here
 };
 
-/// The grid's cells in tiles that come into being when they are first touched.
+/// Grid cells in tiles that are allocated on first use.
 class Grid {
  public:
   static constexpr std::size_t side = 64;
@@ -55,7 +55,7 @@ class Grid {
     tiles_.resize(tile_columns_ * (static_cast<std::size_t>(rows_) / side + 1));
   }
 
-  /// Is the directory of tiles of a reasonable size?
+  /// Whether the directory of tiles has a reasonable size.
   bool fits() const { return fits_; }
   Place start() const { return start_; }
   bool holds(Place p) const {
@@ -84,9 +84,9 @@ class Grid {
   std::vector<std::unique_ptr<std::array<Cell, side * side>>> tiles_;
 };
 
-/// Entry of the open list: the least estimate first, then the farthest from the start, then the
-/// lower left. Estimates are whole numbers of 2⁻³⁰ cells, so that rounding does not part what is
-/// equal: the many ways of equal length across open space.
+/// Entry of the open list: minimum estimate first, then farthest from the start, then lower left.
+/// Estimates are integer multiples of 2⁻³⁰ cells, so that rounding does not distinguish paths of
+/// equal length across open space.
 struct OpenPlace {
   std::int64_t estimate;
   double cost;
@@ -99,7 +99,7 @@ struct OpenPlace {
   }
 };
 
-/// Length of the shortest way over a free grid.
+/// Length of the shortest path on an obstacle-free grid.
 double octile(Vec2 d) {
   const double x = std::abs(d.x);
   const double y = std::abs(d.y);
@@ -139,8 +139,8 @@ class Search {
  private:
   double to_goal(Place p) const { return distance(grid_.position(p), goal_); }
 
-  /// Length of the way by `p`, at least. What is left is never less than the octile length to the
-  /// goal, of which the tolerance saves at most √(4 - 2√2) · tolerance.
+  /// Lower bound of the length of a path through `p`. The remaining length is at least the octile
+  /// length to the goal, of which the tolerance saves at most √(4 - 2√2) · tolerance.
   std::int64_t estimate(Place p, double cost) const {
     constexpr double octile_per_length = 1.0823922002923940;
     const double left =
@@ -148,7 +148,7 @@ class Search {
     return std::llround((cost + std::max(0.0, left)) / params_.cell * 0x1p30);
   }
 
-  /// The cell at `p` when it is free, not closed: null otherwise. `free` tells whether it is free.
+  /// Cell at `p` if it is free and not closed, else null. `free` tells whether it is free.
   Cell* open_cell(Place p, bool& free) {
     free = false;
     if (!grid_.holds(p)) return nullptr;

@@ -7,9 +7,9 @@
 
 namespace microswarm {
 
-/// A* on a grid of 8 neighbours whose origin is the start; no corner is cut and every edge is
-/// checked with the clearance. Its path is the shortest of its grid to any cell within the goal
-/// tolerance; with the goal between the cells, a tolerance below cell / √2 may hold none.
+/// A* on an 8-connected grid whose origin is the start. It cuts no corners and checks every edge
+/// with the clearance. The path is the shortest on its grid to any cell within the goal tolerance.
+/// If the goal lies between cells, a tolerance below cell / √2 may contain no cell.
 struct AStarParams {
   static constexpr std::string_view type_name = "a_star";
   double clearance = 40;

@@ -22,15 +22,15 @@ struct Extension {
   Vec2 end;
 };
 
-/// The unicycle under heading control: the points of the swept arc, the node's position first. It
-/// goes on for `length` µm in equal steps of at most dt. Eq 6, 7 [drrt].
+/// Unicycle under heading control: the points of the swept arc, starting with the node's position,
+/// for `length` µm in equal steps of at most dt. Eq 6, 7 [drrt].
 void steer_arc(const TreeNode& node, double heading_wanted, double length,
                const DrrtStarParams& params, std::vector<Vec2>& arc) {
   const double duration = length / params.speed;  // T_d
   const double count =
       std::clamp(std::ceil(duration / params.time_step), 1.0, 1.0 * max_time_steps);
   const double dt = duration / count;
-  const double gain = std::min(1.0, dt * params.heading_gain);  // no step turns past what is wanted
+  const double gain = std::min(1.0, dt * params.heading_gain);  // no step overshoots
   Vec2 p = node.position;
   double heading = node.heading;
   arc.assign(1, p);
@@ -41,14 +41,14 @@ void steer_arc(const TreeNode& node, double heading_wanted, double length,
   }
 }
 
-/// A chain of turn edges through points of a path, as chords, and its cost.
+/// Chain of turning edges through points of a path, as chords, and its cost.
 struct TurnedPath {
   std::vector<Vec2> chords;
   double cost = 0;
 };
 
-/// Edge by edge through the points; with `shortcuts` each edge goes to the farthest point that it
-/// reaches freely. Empty when some point is not reached.
+/// Connects the points edge by edge; with `shortcuts` each edge goes to the farthest point that it
+/// reaches without collision. Empty if a point is not reached.
 TurnedPath chain(const Snapshot& world, Pose2 start, std::span<const Vec2> points, PathCost cost,
                  double clearance, bool shortcuts, std::uint64_t& checks) {
   const double radius = cost.turn_radius;
@@ -74,7 +74,7 @@ TurnedPath chain(const Snapshot& world, Pose2 start, std::span<const Vec2> point
   return out;
 }
 
-/// The tree's path as it is driven, or a cheaper one through some of its points.
+/// The tree's path with turning edges, or a cheaper one through some of its points.
 std::vector<Vec2> turned_path(const Snapshot& world, Pose2 start, std::span<const Vec2> points,
                               PathCost cost, const DrrtStarParams& params, std::uint64_t& checks) {
   TurnedPath path = chain(world, start, points, cost, params.clearance, false, checks);
@@ -145,7 +145,7 @@ class DrrtStar {
     return best;
   }
 
-  /// The first `step` µm of the edge to the sample.
+  /// First `step` µm of the edge to the sample.
   void steer_turn(const TreeNode& node, Vec2 sample, double step) {
     const Pose2 from{node.position, node.heading};
     const TurnEdge edge = turn_edge(from, sample, params_.turn_radius);
@@ -171,7 +171,7 @@ class DrrtStar {
   bool arcs_;
   PathCost cost_;
   TreeGrowth growth_;
-  std::vector<Detection> detections_;  ///< of each node: its ρ scales the steps from it
+  std::vector<Detection> detections_;  ///< per node: its ρ scales the steps from it
   std::vector<Vec2> arc_;
 };
 

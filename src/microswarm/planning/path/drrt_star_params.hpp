@@ -9,12 +9,11 @@
 
 namespace microswarm {
 
-/// The local planner of D-RRT*: Algorithms 2–3, Eq 1–3 and 5–10 [drrt]. Costs are
-/// λ_s · turning + λ_l · length, the turn out of the start's heading included. Beyond the paper:
-/// `straighten` pulls the path found straight under the same cost and the same exact checks;
-/// `arcs` makes every edge a turn of at least `turn_radius` and a straight line, so that a unicycle
-/// can drive the path from the start's heading on. `as_published` leaves both out
-/// (docs/explanation/drrt-star.md).
+/// Local planner D-RRT*: Algorithms 2–3, Eq 1–3 and 5–10 [drrt]. Costs are λ_s · turning + λ_l ·
+/// length, including the turn out of the start's heading. Beyond the paper: `straighten` shortens
+/// the path found under the same cost and the same exact checks; `arcs` makes every edge a turn of
+/// at least `turn_radius` followed by a straight line, so that a unicycle can follow the path from
+/// the start's heading. `as_published` disables both (docs/explanation/drrt-star.md).
 struct DrrtStarParams : RrtStarParams {
   static constexpr std::string_view type_name = "drrt_star";
   double detection_diameter = 300;  // D_dec
@@ -31,8 +30,8 @@ struct DrrtStarParams : RrtStarParams {
   double turn_radius = 20;
   bool as_published = false;
 
-  DrrtStarParams() { shrinking = false; }  // r_search is fixed in the paper
-  /// These, or with `as_published` the same without what is ours.
+  DrrtStarParams() { shrinking = false; }  // r_search is constant in the paper
+  /// These parameters, with our additions disabled if `as_published`.
   DrrtStarParams in_effect() const;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -60,7 +59,7 @@ struct DrrtStarParams : RrtStarParams {
   }
 };
 
-/// Issues when `as_published` stands beside given values of what it leaves out.
+/// Reports an issue if `as_published` is combined with given values of what it disables.
 Issues validate(const DrrtStarParams& params, const IsGiven& is_given);
 
 }  // namespace microswarm

@@ -17,13 +17,13 @@
 namespace microswarm {
 namespace {
 
-constexpr std::uint64_t draws_per_sample = 200;  // at most, in the mean
+constexpr std::uint64_t draws_per_sample = 200;  // maximum, on average
 constexpr std::uint64_t between_stops = 64;
-constexpr double min_radius = 1e-3;  // [µm], in a space that has no area
+constexpr double min_radius = 1e-3;  // [µm], for a space without area
 
 constexpr std::uint32_t blocked_flag = 1u << 31;
 
-/// Samples are numbered: 0 is the start, 1 the goal.
+/// FMT* search. Samples are numbered: 0 is the start, 1 the goal.
 class FmtStar {
  public:
   FmtStar(const Snapshot& world, Pose2 start, Vec2 goal, Vec2 free_goal,
@@ -49,7 +49,7 @@ class FmtStar {
   }
 
  private:
-  /// A sample's neighbours, a run in neighbours_.
+  /// Neighbours of a sample: a range in neighbours_.
   struct Run {
     std::uint32_t first = 0;
     std::uint32_t last = 0;
@@ -81,10 +81,10 @@ class FmtStar {
   PlanCounts counts_;
   std::optional<Status> ended_;
 
-  std::vector<bool> visited_;         ///< of each sample
-  std::vector<double> open_costs_;    ///< of each sample: its cost-to-come, infinity if not open
-  std::vector<std::uint32_t> nodes_;  ///< of the tree, of each sample that is visited
-  std::vector<Run> runs_;             ///< of each sample
+  std::vector<bool> visited_;              ///< per sample
+  std::vector<double> open_costs_;         ///< per sample: its cost-to-come, infinity if not open
+  std::vector<std::uint32_t> nodes_;       ///< tree node of each visited sample
+  std::vector<Run> runs_;                  ///< per sample
   std::vector<std::uint32_t> neighbours_;  ///< with the mark `blocked` on edges that are not free
   std::vector<HeapEntry<double>> open_;    ///< samples the tree grows from, a heap
   std::vector<std::uint32_t> joined_;      ///< V_open,new
@@ -153,8 +153,8 @@ void FmtStar::expand(std::uint32_t z) {
   open_costs_[z] = infinity;
 }
 
-/// Hangs x under the open neighbour that is the cheapest way to it, walls left aside, when that
-/// edge is free; if not, x waits for another one to be the cheapest.
+/// Connects x to the open neighbour that gives the lowest cost ignoring walls, if that edge is
+/// free. Otherwise x waits until another neighbour is the cheapest.
 void FmtStar::try_to_join(std::uint32_t x) {
   const Run near = neighbours(x);
   const Vec2 p = samples_[x];

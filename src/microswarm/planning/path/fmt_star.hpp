@@ -6,11 +6,11 @@
 
 namespace microswarm {
 
-/// γ √(log n / n) [µm] with γ = 2 (1 + η) √(1/2) √(area / π): the radius within which samples are
-/// neighbours, for n samples in a free space of `area` µm².
+/// Connection radius γ √(log n / n) [µm], with γ = 2 (1 + η) √(1/2) √(area / π), for n samples in a
+/// free space of `area` µm².
 double fmt_radius(double radius_factor, double area, std::size_t n);
 
-/// Plans with FMT*; see planners.hpp for the form that all planners share.
+/// Plans with FMT*; see planners.hpp for the common interface.
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const FmtStarParams& params, Rng& rng,
           const Stop& stop = {});
 

@@ -8,12 +8,12 @@
 
 namespace microswarm {
 
-/// FMT*, the Fast Marching Tree (Janson et al. 2015, reference 46 of [radar]): a tree marches from
+/// FMT*, the Fast Marching Tree (Janson et al. 2015, reference 46 of [radar]). A tree marches from
 /// the start, in the order of cost-to-come, over a set of free samples. Every sample and every edge
-/// keeps at least the clearance, as Eq 28 [radar] means. The first node within the goal tolerance
-/// that is the cheapest of the open ones ends the path. A set of samples in which the tree ends
-/// before the goal is doubled, up to `max_nodes`; where that equals `samples` the set is one and
-/// the same, as published.
+/// keeps at least the clearance, as in Eq 28 [radar]. The path ends at the first node within the
+/// goal tolerance that is the cheapest open one. If the tree ends before the goal, the sample set
+/// is doubled, up to `max_nodes`. With `max_nodes` equal to `samples` there is only one set, as
+/// published.
 struct FmtStarParams {
   static constexpr std::string_view type_name = "fmt_star";
   double clearance = 40;
@@ -38,7 +38,7 @@ struct FmtStarParams {
   }
 };
 
-/// An issue when `max_nodes` is less than `samples`.
+/// Reports an issue if `max_nodes` is less than `samples`.
 Issues validate(const FmtStarParams& params);
 
 }  // namespace microswarm

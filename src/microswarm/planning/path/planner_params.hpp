@@ -10,7 +10,7 @@
 
 namespace microswarm {
 
-/// Any planner, chosen at run time by its `type`.
+/// Any planner, selected at run time by its `type`.
 using PlannerParams = std::variant<DrrtStarParams, RrtStarParams, UniformRrtStarParams, RrtParams,
                                    AStarParams, FmtStarParams>;
 

@@ -11,11 +11,10 @@
 
 namespace microswarm {
 
-/// Every planner has one calling form, plan(world, start, goal, params, rng, stop). It is pure: the
-/// same arguments and random stream give the same bits. A bad start or goal is a status, never an
-/// exception; `stop` is asked at least once a millisecond.
-
-/// Plans with any of them.
+/// Plans with the planner selected by `params`. All planners share this interface: plan(world,
+/// start, goal, params, rng, stop). They are pure: the same arguments and random stream give the
+/// same bits. A bad start or goal is a status, never an exception. `stop` is polled at least once
+/// per millisecond.
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const PlannerParams& params, Rng& rng,
           const Stop& stop = {});
 

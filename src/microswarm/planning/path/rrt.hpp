@@ -6,7 +6,7 @@
 
 namespace microswarm {
 
-/// Plans with RRT; see planners.hpp for the form that all planners share.
+/// Plans with RRT; see planners.hpp for the common interface.
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const RrtParams& params, Rng& rng,
           const Stop& stop = {});
 

@@ -7,8 +7,8 @@
 
 namespace microswarm {
 
-/// What every sampling planner here has. One stopping rule for all: the first node within
-/// `goal_tolerance` of the goal ends the path; nothing is joined on unchecked.
+/// Parameters common to all sampling planners. All stop alike: the first node within
+/// `goal_tolerance` of the goal ends the path, and nothing is appended unchecked.
 struct TreeParams {
   double clearance = 40;
   double goal_tolerance = 50;
@@ -38,7 +38,7 @@ struct RrtParams : TreeParams {
   static constexpr std::string_view type_name = "rrt";
 };
 
-/// RRT* (Karaman & Frazzoli): choose parent and rewire within a radius, by length.
+/// RRT* (Karaman & Frazzoli): chooses parents and rewires within a radius, by length.
 struct RrtStarParams : TreeParams {
   static constexpr std::string_view type_name = "rrt_star";
   double search_radius = 120;
@@ -53,9 +53,9 @@ struct RrtStarParams : TreeParams {
   }
 };
 
-/// Uniform RRT*: a node is accepted only at least `spacing` away from every other, so that the tree
-/// fills free space evenly. Nodes at the goal are exempt; a spacing beyond the step counts as the
-/// step, since else nothing could grow.
+/// Uniform RRT*: accepts a node only if it is at least `spacing` from every other, so that the tree
+/// fills the free space evenly. Nodes at the goal are exempt. A spacing beyond the step counts as
+/// the step; otherwise nothing could grow.
 struct UniformRrtStarParams : RrtStarParams {
   static constexpr std::string_view type_name = "uniform_rrt_star";
   double spacing = 30;

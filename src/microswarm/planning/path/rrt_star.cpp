@@ -8,7 +8,7 @@
 namespace microswarm {
 namespace {
 
-/// RRT*; `accepts(growth, p)` says whether a new node may stand at p.
+/// RRT*; `accepts(growth, p)` tells whether a node may be added at p.
 template <class Accepts>
 Plan grow_rrt_star(TreeGrowth growth, const RrtStarParams& params, Accepts&& accepts) {
   while (growth.goes_on()) {
@@ -34,7 +34,7 @@ Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const RrtStarParams& pa
 
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const UniformRrtStarParams& params,
           Rng& rng, const Stop& stop) {
-  // A node one step from its nearest is that far away but for rounding.
+  // A node one step from its nearest node is that far away except for rounding.
   const double spacing = std::min(params.spacing, 0.999 * params.step);
   return grow_rrt_star({world, start, goal, params, {}, rng, stop}, params,
                        [&](const TreeGrowth& growth, Vec2 p) {

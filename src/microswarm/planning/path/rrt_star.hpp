@@ -6,7 +6,7 @@
 
 namespace microswarm {
 
-/// Plans with RRT* or uniform RRT*; see planners.hpp for the form that all planners share.
+/// Plans with RRT* or uniform RRT*; see planners.hpp for the common interface.
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const RrtStarParams& params, Rng& rng,
           const Stop& stop = {});
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const UniformRrtStarParams& params,

@@ -5,7 +5,7 @@ namespace microswarm {
 
 SampleBuckets::SampleBuckets(std::span<const Vec2> points, double radius)
     : radius_(radius), box_(bounding_box(points)), placed_(points.size()) {
-  // Never many more cells than points, however small the radius.
+  // The number of cells stays near the number of points, however small the radius.
   const double count = static_cast<double>(points.size());
   cell_ = std::max({radius, std::sqrt(box_.width() * box_.height() / count),
                     (box_.width() + box_.height()) / count});
@@ -16,7 +16,7 @@ SampleBuckets::SampleBuckets(std::span<const Vec2> points, double radius)
                static_cast<std::size_t>(columns_) +
            static_cast<std::size_t>(index(p.x - box_.lo.x, columns_));
   };
-  // Counts, then the ends of the cells; filling from behind leaves their beginnings.
+  // Counting sort: first the ends of the cells; filling from the back leaves their starts.
   first_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
   for (const Vec2 p : points) ++first_[cell_of(p)];
   for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
@@ -33,7 +33,7 @@ void SampleBuckets::append_near(Vec2 p, std::vector<std::uint32_t>& out) const {
     const std::size_t begin = static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_);
     const std::span<const Placed> run(placed_.data() + first_[begin + left],
                                       placed_.data() + first_[begin + end]);
-    // Written always and kept when near: which are near no branch could foresee.
+    // Branchless: always written, kept if near, since the test is unpredictable.
     std::size_t kept = out.size();
     out.resize(kept + run.size());
     for (const Placed& other : run) {

@@ -11,8 +11,8 @@
 
 namespace microswarm {
 
-/// Fixed points in square cells at least as wide as the radius in which neighbours are asked for:
-/// all within it lie in three rows of three cells, each row one run of memory.
+/// Fixed points in square cells at least as wide as the query radius. All points within the radius
+/// lie in three rows of three cells, and each row is contiguous in memory.
 class SampleBuckets {
  public:
   SampleBuckets() = default;
@@ -20,7 +20,7 @@ class SampleBuckets {
   SampleBuckets(std::span<const Vec2> points, double radius);
 
   /// Appends the indices of all other points within the radius (inclusive) of `p` to `out`; points
-  /// in the same place as `p` are left out.
+  /// exactly at `p` are left out.
   void append_near(Vec2 p, std::vector<std::uint32_t>& out) const;
 
  private:
@@ -38,7 +38,7 @@ class SampleBuckets {
   Box box_;
   int columns_ = 1;
   int rows_ = 1;
-  std::vector<std::uint32_t> first_;  ///< of each cell in placed_, and the end
+  std::vector<std::uint32_t> first_;  ///< start of each cell in placed_, and the end
   std::vector<Placed> placed_;
 };
 

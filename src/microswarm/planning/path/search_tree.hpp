@@ -10,20 +10,20 @@
 namespace microswarm {
 
 /// Cost of a path, summed over its edges: length and the turn into each edge. The turn into a
-/// root's first edge starts at the root's heading. Eq 9 [drrt]; for RRT* it is the length alone.
-/// With a turning radius a change of a node's heading changes the edges to its children.
+/// root's first edge starts at the root's heading. Eq 9 [drrt]; for RRT* the length alone. With a
+/// turning radius, a change of a node's heading changes the edges to its children.
 struct PathCost {
   double per_length = 1;   ///< λ_l
   double per_turn = 0;     ///< λ_s [µm/rad]
   double turn_radius = 0;  ///< edges are TurnEdges of this radius [µm]; 0: straight, with corners
 
-  /// What the edge from `node` to `p` adds.
+  /// Cost of the edge from `node` to `p`.
   double edge(const TreeNode& node, Vec2 p) const {
     if (turn_radius > 0) return turned_edge(node, p);
     const double length = per_length * distance(node.position, p);
     return per_turn == 0 ? length : length + per_turn * turn(node, p);
   }
-  /// The heading [rad] at `p` on the edge from `node`.
+  /// Heading [rad] at `p` on the edge from `node`.
   double heading_at_end(const TreeNode& node, Vec2 p) const;
   static double turn(const TreeNode& node, Vec2 p);
 
@@ -31,8 +31,8 @@ struct PathCost {
   double turned_edge(const TreeNode& node, Vec2 p) const;
 };
 
-/// Tree of straight edges with exact neighbour queries. Headings and costs of all nodes are right
-/// after every call: cost(node) = cost(parent) + edge(parent, node), to the bit.
+/// Search tree with exact neighbour queries. Headings and costs of all nodes are consistent after
+/// every call: cost(node) = cost(parent) + edge(parent, node), to the bit.
 class SearchTree {
  public:
   /// Nodes are expected, but not required, to lie in `bounds`.
@@ -42,23 +42,23 @@ class SearchTree {
   const TreeNode& operator[](std::uint32_t node) const { return nodes_[node]; }
   bool is_leaf(std::uint32_t node) const { return links_[node].first_child == 0; }
   std::uint32_t nearest(Vec2 p) const { return points_.nearest(p); }
-  /// Replaces `out` by all nodes within `radius` of `p`, in ascending order.
+  /// Replaces `out` by all nodes within `radius` of `p`, ascending.
   void near(Vec2 p, double radius, std::vector<std::uint32_t>& out) const;
-  /// Cost from the root to `p` by way of `node`.
+  /// Cost from the root to `p` through `node`.
   double cost_via(std::uint32_t node, Vec2 p) const {
     return nodes_[node].cost + cost_.edge(nodes_[node], p);
   }
 
-  /// New leaf at `p`, which is not its parent's position.
+  /// Adds a leaf at `p`, which must differ from its parent's position.
   std::uint32_t add(std::uint32_t parent, Vec2 p);
-  /// Hangs `node` under another parent, which must not be `node` or below it, and re-costs all that
-  /// hangs below `node`.
+  /// Moves `node` to another parent, which must not be `node` or below it, and updates the costs of
+  /// the subtree of `node`.
   void reparent(std::uint32_t node, std::uint32_t parent);
 
   std::vector<TreeNode> take_nodes() { return std::move(nodes_); }
 
  private:
-  /// Doubly linked list of a node's children; 0, the root, is nobody's child and stands for none.
+  /// Doubly linked list of a node's children. 0 means none, since the root is no child.
   struct Links {
     std::uint32_t first_child = 0;
     std::uint32_t next = 0;

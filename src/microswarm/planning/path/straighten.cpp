@@ -11,9 +11,9 @@
 namespace microswarm {
 namespace {
 
-/// An edge of a chain skips at most this many points, so that long paths take linear time.
+/// Maximum number of points skipped by an edge of a chain, so that long paths take linear time.
 constexpr std::size_t window = 48;
-/// Costs that differ by no more than this share are taken for rounding.
+/// Relative cost differences up to this are attributed to rounding.
 constexpr double rounding = 1e-9;
 
 class Straightener {
@@ -35,16 +35,17 @@ class Straightener {
     return world_.is_free(Segment{a, b}, clearance_);
   }
 
-  /// Replaces the path by the cheapest chain of free edges through `points`, which hold the path's.
+  /// Replaces the path by the cheapest chain of free edges through `points`, which include the
+  /// path's vertices.
   void take_cheapest_chain(std::vector<Vec2>& path, std::vector<Vec2> points);
 
  private:
-  /// The edge from point i to point j as the last of the cheapest chain that ends so: the turn into
-  /// an edge depends on the edge before it, so that edges, not points, are the states.
+  /// Edge from point i to point j as the last of the cheapest chain ending with it. The turn into
+  /// an edge depends on the edge before it, so edges, not points, are the states.
   struct Edge {
     double heading = 0;
     double cost = infinity;
-    std::size_t before = 0;  ///< the edge before it comes from this point
+    std::size_t before = 0;  ///< start point of the previous edge
   };
   static std::size_t first(std::size_t j) { return j > window ? j - window : 0; }
   Edge& edge(std::size_t i, std::size_t j) { return edges_[j * window + i % window]; }
@@ -61,8 +62,8 @@ class Straightener {
   std::vector<Edge> edges_;
 };
 
-/// What the way from `p` to the end costs at least: as much turning as from the edge's heading to
-/// the end's direction.
+/// Lower bound of the cost from `p` to the end: the straight line, and the turn from the edge's
+/// heading to it.
 double Straightener::min_cost_to_end(const Edge& e, Vec2 p) const {
   const Vec2 way = points_.back() - p;
   if (way == Vec2{}) return 0;
@@ -119,8 +120,8 @@ void Straightener::take_cheapest_chain(std::vector<Vec2>& path, std::vector<Vec2
   path = std::move(chain);
 }
 
-/// The path's vertices with points between them, closer together towards the vertices, where
-/// corners are cut.
+/// The path's vertices with points between them, denser towards the vertices, where corners are
+/// cut.
 std::vector<Vec2> divided(std::span<const Vec2> path) {
   std::vector<Vec2> points{path.front()};
   for (std::size_t k = 1; k < path.size(); ++k) {

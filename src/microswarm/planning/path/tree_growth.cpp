@@ -15,11 +15,11 @@ namespace {
 
 constexpr int max_sample_draws = 200;
 
-/// A root at a place that is no number would harm the tree's grid; it is reported as blocked.
+/// A root at a non-finite position would break the tree's grid; it is reported as blocked.
 Pose2 finite(Pose2 pose) { return is_finite(pose.position) ? pose : Pose2{}; }
 
-/// The radius of RRT*, γ √(log n / n), with γ above the bound 2 √(1 + 1/2) √(area / π) of Karaman
-/// and Frazzoli, Theorem 38; the area of the bounds stands for that of the free space.
+/// Radius of RRT*, γ √(log n / n), with γ above the bound 2 √(1 + 1/2) √(area / π) of Karaman and
+/// Frazzoli, Theorem 38. The area of the bounds replaces that of the free space.
 double shrinking_radius(double area, std::uint32_t nodes) {
   const double n = std::max(2u, nodes);
   return 2.0 * std::sqrt(1.5 * area / pi * maths::log(n) / n);
@@ -115,7 +115,7 @@ std::uint32_t TreeGrowth::choose_parent(Vec2 p, std::uint32_t nearest) {
   candidates_.push_back({tree_.cost_via(nearest, p), nearest});
   for (const std::uint32_t node : near_) {
     if (node == nearest || tree_[node].position == p) continue;
-    // Dearer than the edge that is known to be free: no need to look at it.
+    // No cheaper than the edge already known to be free.
     const double cost = tree_.cost_via(node, p);
     if (cost < candidates_.front().cost) candidates_.push_back({cost, node});
   }
@@ -134,7 +134,7 @@ void TreeGrowth::rewire(std::uint32_t node) {
   for (const std::uint32_t other : near_) {
     const Vec2 q = tree_[other].position;
     if (cost_.turn_radius > 0 && !tree_.is_leaf(other)) continue;
-    // Costs grow along every path, so a node above this one is never cheaper by way of it.
+    // Costs grow along every path, so an ancestor of this node is never cheaper through it.
     if (q != p && tree_.cost_via(node, q) < tree_[other].cost && edge_is_free(node, q)) {
       tree_.reparent(other, node);
     }

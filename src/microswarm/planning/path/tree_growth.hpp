@@ -11,8 +11,8 @@
 
 namespace microswarm {
 
-/// What every tree planner does besides extending its tree: limits and stopping, samples, counted
-/// checks, the choice of parents, and the plan at the end. A planner reads
+/// Common part of the tree planners: limits and stopping, samples, counted checks, the choice of
+/// parents, and the final plan. A planner reads
 ///
 ///     for (TreeGrowth growth(...); growth.goes_on();) { … growth.add(parent, p) … }
 class TreeGrowth {
@@ -21,30 +21,30 @@ class TreeGrowth {
              Rng& rng, const Stop& stop);
 
   const SearchTree& tree() const { return tree_; }
-  /// Begins another iteration; false when the planner is done, whatever the reason.
+  /// Begins another iteration; false if the planner is done, for any reason.
   bool goes_on();
-  /// Point of the free space, or with the goal bias the goal (where that is not free: a free point
-  /// within its tolerance). Nothing when no free point was drawn.
+  /// Free point or, with the goal bias, the goal (if that is not free: a free point within its
+  /// tolerance). Nothing if no free point was drawn.
   std::optional<Vec2> sample();
-  /// Is `p` within the goal tolerance?
+  /// Whether `p` is within the goal tolerance.
   bool arrives(Vec2 p) const { return distance(p, goal_) <= params_.goal_tolerance; }
   bool is_free(Segment edge);
   bool is_free(std::span<const Vec2> arc);
-  /// Is the edge from `node` to `p` free: straight, or with a turn as the cost says?
+  /// Whether the edge from `node` to `p` is free: straight, or with a turn as given by the cost.
   bool edge_is_free(std::uint32_t node, Vec2 p);
 
-  /// New leaf; its edge has been checked. Notes when it has arrived at the goal.
+  /// Adds a leaf whose edge has been checked; records whether it reaches the goal.
   std::uint32_t add(std::uint32_t parent, Vec2 p);
-  /// Looks up the nodes within the planner's radius for the two steps below.
+  /// Finds the nodes within the planner's radius for the two steps below.
   void find_near(Vec2 p, const RrtStarParams& params);
-  /// The node of the neighbourhood with the cheapest free edge to `p`; `nearest` belongs
-  /// to it and its edge to `p` has been checked.
+  /// Node of the neighbourhood with the cheapest free edge to `p`. `nearest` is one of the
+  /// candidates, and its edge to `p` has been checked.
   std::uint32_t choose_parent(Vec2 p, std::uint32_t nearest);
-  /// Hangs neighbours under `node` where that is cheaper and the edge free; where edges turn, only
-  /// those without children, whose edges would be others then.
+  /// Moves neighbours to `node` as their parent where that is cheaper and the edge free. With
+  /// turning edges, only neighbours without children, since their children's edges would change.
   void rewire(std::uint32_t node);
 
-  /// The plan; the growth is over after it.
+  /// Returns the plan and ends the growth.
   Plan finish();
 
  private:
@@ -69,7 +69,7 @@ class TreeGrowth {
   std::vector<HeapEntry<double>> candidates_;
 };
 
-/// The point `step` on the way from `from` to `to`, or `to` when it is nearer.
+/// Point at distance `step` from `from` towards `to`, or `to` if it is nearer.
 Vec2 steer(Vec2 from, Vec2 to, double step);
 
 }  // namespace microswarm

@@ -16,7 +16,7 @@ constexpr double turn_rounding = 1e-9;  // [rad]
 
 Vec2 left_of(double heading) { return perpendicular(unit_vector(heading)); }
 
-/// The edge that turns to one side; infinitely long when `to` lies in that turning circle.
+/// Edge that turns to one side; infinitely long if `to` lies inside that turning circle.
 TurnEdge turn_to_side(const Pose2& from, Vec2 to, double radius, double side) {
   const Vec2 centre = from.position + side * radius * left_of(from.heading);
   const Vec2 off = to - centre;
@@ -58,7 +58,7 @@ void append_chords(const Pose2& from, const TurnEdge& edge, double radius, doubl
 void append_edge(const Pose2& from, Vec2 to, double radius, std::vector<Vec2>& out) {
   const TurnEdge edge = turn_edge(from, to, radius);
   append_chords(from, edge, radius, edge.length, out);
-  if (edge.length > 0) out.back() = to;  // but for rounding it is
+  if (edge.length > 0) out.back() = to;  // exact, apart from rounding
 }
 
 double chord_error(double radius) { return radius * (1 - maths::cos(0.5 * chord_angle)); }

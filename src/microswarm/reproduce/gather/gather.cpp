@@ -32,8 +32,7 @@ Robots gather_robots(const scenes::Vascular& scene, const AggregationMap& map,
   const Box& box = scene.bounds;
   while (std::ssize(places) < count) {
     const Vec2 p = uniform_in(box, rng);
-    if (map.map.is_free(p, 4 * stepper.guard()) &&
-        map.tree.cost(map.tree.weighted, p) >= min_cost)
+    if (map.map.is_free(p, 4 * stepper.guard()) && map.tree.cost(map.tree.weighted, p) >= min_cost)
       places.push_back(p);
   }
   return stepper.place(places);

@@ -55,9 +55,7 @@ std::string name_of(const Rig& rig) {
 
 const SimulatedCamera& simulated_camera(const Rig& rig) {
   const auto* camera = std::get_if<SimulatedCamera>(&rig.params.camera);
-  if (!camera)
-    throw rig.keys.error("camera",
-                         "the camera is not simulated: set camera.type");
+  if (!camera) throw rig.keys.error("camera", "the camera is not simulated: set camera.type");
   return *camera;
 }
 

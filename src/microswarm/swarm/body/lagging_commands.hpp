@@ -8,14 +8,14 @@
 
 namespace microswarm {
 
-/// Commands on their way to a swarm, each of which takes effect `lag` seconds after it was given.
-/// Before the first one it holds.
+/// Delay line of commands: each takes effect `lag` seconds after it was given. Holds until the
+/// first one takes effect.
 class LaggingCommands {
  public:
   explicit LaggingCommands(double lag) : lag_(lag) {}
 
-  /// Gives a command and lets `dt` seconds pass: calls `act(command, seconds)` for what is in
-  /// effect, in pieces of at most `longest` seconds.
+  /// Adds a command and advances time by `dt` seconds. Calls `act(command, seconds)` for the
+  /// commands in effect, in pieces of at most `longest` seconds.
   template <class Act>
   void pass(const Command& command, double dt, double longest, Act&& act) {
     pending_.push_back({command, lag_});
@@ -33,7 +33,7 @@ class LaggingCommands {
   }
 
  private:
-  // Times nearer than this are the same moment: sums of ticks and lags do not come out even.
+  // Times closer than this are equal: sums of ticks and lags are not exact.
   static constexpr double same_moment = 1e-9;
   struct Pending {
     Command command;

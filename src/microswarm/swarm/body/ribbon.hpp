@@ -12,11 +12,11 @@
 
 namespace microswarm {
 
-/// Longest piece of time over which the ribbon is integrated at once [s].
+/// Maximum integration step of the ribbon [s].
 inline constexpr double ribbon_substep = 0.01;
 
-/// The moving part of the swarm model: pose and the commands that have not reached it yet. Before
-/// the first command takes effect it holds.
+/// State of the ribbon model: pose and commands that have not taken effect yet. Holds until the
+/// first command takes effect.
 class Ribbon {
  public:
   Ribbon(const RibbonParams& params, Pose2 start);
@@ -24,11 +24,11 @@ class Ribbon {
   const Pose2& pose() const { return pose_; }
   double radius() const { return params_.radius; }
   double speed() const { return active_.speed; }
-  /// Lets `dt` seconds pass under `command`, which takes effect exactly `response_lag` later; noise
-  /// is drawn from `rng`.
+  /// Advances time by `dt` seconds under `command`, which takes effect exactly `response_lag`
+  /// later. Noise is drawn from `rng`.
   void step(const Command& command, double dt, Rng& rng);
-  /// The way of the last step, its first and last pose included: straight between them, times [s]
-  /// counted from the step's start. Empty before the first step.
+  /// Trajectory of the last step, including its first and last pose; straight between poses, times
+  /// [s] from the step's start. Empty before the first step.
   std::span<const PoseStamped> trajectory() const { return trajectory_; }
 
  private:

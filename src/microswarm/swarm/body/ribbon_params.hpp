@@ -8,8 +8,8 @@
 
 namespace microswarm {
 
-/// Ribbon-like swarm under an oscillating field, as a unicycle [drrt]: it turns towards the
-/// commanded heading at a limited rate and moves along its own heading.
+/// Ribbon-like swarm under an oscillating field, modelled as a unicycle [drrt]: it turns towards
+/// the commanded heading at a limited rate and moves along its own heading.
 struct RibbonParams {
   static constexpr std::string_view type_name = "ribbon";
   double radius = 40;

@@ -10,7 +10,7 @@
 
 namespace microswarm {
 
-/// Its moving part.
+/// State of a swarm modelled as one body.
 class SwarmBody {
  public:
   SwarmBody(const SwarmParams& params, Pose2 start);

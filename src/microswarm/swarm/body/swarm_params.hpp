@@ -9,10 +9,10 @@
 
 namespace microswarm {
 
-/// Any swarm that is seen as one body, chosen at run time by its `type`.
+/// Any single-body swarm, selected at run time by its `type`.
 using SwarmParams = std::variant<RibbonParams, VortexParams>;
 
-/// What a navigator is told of such a swarm.
+/// Properties of such a swarm that navigators know.
 SwarmLimits limits_of(const SwarmParams& params);
 
 }  // namespace microswarm

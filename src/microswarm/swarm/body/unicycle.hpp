@@ -9,10 +9,10 @@
 
 namespace microswarm {
 
-/// One step of the unicycle every navigator and plant here shares: it turns towards the commanded
+/// One step of the unicycle model used by navigators and plants. It turns towards the commanded
 /// heading by at most `turn_rate` · dt [rad], then moves straight along the mean of the old and the
 /// new heading for speed · dt (Eq 6 [drrt] with the midpoint rule). Hold (speed 0) does not turn. A
-/// swarm without a turning limit (infinite) goes at once where it is told to: Eq 2 [radar].
+/// swarm with infinite turn rate moves in the commanded direction at once: Eq 2 [radar].
 inline Pose2 unicycle_step(const Pose2& pose, const Command& command, double turn_rate, double dt) {
   if (command.speed <= 0) return pose;
   if (std::isinf(turn_rate))

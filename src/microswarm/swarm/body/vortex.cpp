@@ -12,9 +12,9 @@ namespace microswarm {
 
 namespace {
 
-constexpr double substep = 0.01;    // longest piece that is integrated at once [s]
+constexpr double substep = 0.01;    // maximum integration step [s]
 constexpr double max_ripples = 2;   // standard deviations
-constexpr double min_share = 1e-3;  // of the radius, however strong the ripple
+constexpr double min_share = 1e-3;  // of the radius, whatever the ripple
 
 }  // namespace
 
@@ -55,7 +55,7 @@ void Vortex::advance(double dt, Rng& rng) {
   pose_.position += spread * Vec2{x, rng.normal()};
 }
 
-/// Follows the radius of the present speed, with a random change that has a limit.
+/// Moves the radius towards the value for the current speed, with bounded random ripple.
 void Vortex::breathe(double dt, Rng& rng) {
   const double share = active_.speed / params_.max_speed;
   const double aim = params_.radius + share * (params_.moving_radius - params_.radius);

@@ -13,12 +13,12 @@
 
 namespace microswarm {
 
-/// The widest it gets [µm].
+/// Maximum radius [µm].
 double max_radius(const VortexParams& params);
-/// The narrowest it gets [µm].
+/// Minimum radius [µm].
 double min_radius(const VortexParams& params);
 
-/// The pitch φ [rad] that a command asks for, at most max_pitch: Eq 2 [radar].
+/// Pitch φ [rad] of a command, at most max_pitch: Eq 2 [radar].
 double pitch_of(const VortexParams& params, const Command& command);
 
 /// The moving part of the model. Before the first command takes effect it holds.
@@ -29,10 +29,10 @@ class Vortex {
   const Pose2& pose() const { return pose_; }
   double radius() const { return radius_; }
   double speed() const { return active_.speed; }
-  /// Lets `dt` seconds pass under `command`, which takes effect exactly `response_lag` later; noise
-  /// is drawn from `rng`.
+  /// Advances time by `dt` seconds under `command`, which takes effect exactly `response_lag`
+  /// later. Noise is drawn from `rng`.
   void step(const Command& command, double dt, Rng& rng);
-  /// The way of the last step as in Ribbon::trajectory.
+  /// Trajectory of the last step, as in Ribbon::trajectory.
   std::span<const PoseStamped> trajectory() const { return trajectory_; }
 
  private:

@@ -9,9 +9,9 @@
 
 namespace microswarm {
 
-/// Vortex-like swarm under a rotating field [radar]: it moves into any direction at once, as fast
-/// as the field is pitched (Eq 2), and its body widens or narrows while it moves. A command's speed
-/// is turned into the pitch φ = speed / c with c = max_speed / max_pitch.
+/// Vortex-like swarm under a rotating field [radar]. It moves in any direction at once, with a
+/// speed given by the pitch of the field (Eq 2), and its radius changes while it moves. A command's
+/// speed is converted to the pitch φ = speed / c with c = max_speed / max_pitch.
 struct VortexParams {
   static constexpr std::string_view type_name = "vortex";
   double radius = 350;

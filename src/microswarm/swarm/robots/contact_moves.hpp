@@ -8,15 +8,15 @@
 
 namespace microswarm {
 
-/// One robot's move under a contact rule, written once for all ways of finding contacts:
-/// `first_contact(p, piece)` gives the FaceContact of a piece of at most `reach` µm.
+/// Move of one robot under a contact rule, independent of how contacts are found. `first_contact(p,
+/// piece)` returns the FaceContact of a piece of at most `reach` µm.
 template <class FirstContact>
 class ContactMoves {
  public:
   ContactMoves(float reach, float guard, FirstContact first_contact)
       : reach_(reach), guard_(guard), first_contact_(first_contact) {}
 
-  /// Where a robot at `p` gets.
+  /// End position of a robot at `p`.
   PointF moved(PointF p, PointF move, ContactRule rule) const {
     if (rule == ContactRule::slide) return slid(p, move);
     bool met = false;
@@ -24,9 +24,9 @@ class ContactMoves {
     return met && rule == ContactRule::reject ? p : end;
   }
 
-  /// Contacts in order along the move: what is left of it goes on along the wall that was met,
-  /// until nothing is left or a corner holds the robot. Along a wall each piece leans off it by
-  /// more than rounding can bring the robot nearer.
+  /// Resolves contacts in order along the move. The rest of the move continues along the wall until
+  /// nothing is left or a corner stops the robot. Along a wall, each piece is offset away from it
+  /// by more than rounding can bring the robot nearer.
   PointF slid(PointF p, PointF left) const {
     int contacts = 0;
     PointF lean;

@@ -7,11 +7,11 @@
 
 namespace microswarm {
 
-/// What a point robot does that meets a wall on its move.
+/// Behaviour of a point robot that meets a wall.
 enum class ContactRule {
-  slide,   ///< the part of the move normal to the wall is removed, wall after wall [global]
-  stop,    ///< it stays at the wall for the rest of the move [gather]
-  reject,  ///< it does not make the move at all, as in the program published with [global]
+  slide,   ///< removes the component of the move normal to the wall, wall after wall [global]
+  stop,    ///< stays at the wall for the rest of the move [gather]
+  reject,  ///< rejects the whole move, as in the program published with [global]
 };
 constexpr auto enum_names(ContactRule) {
   return std::array<std::pair<ContactRule, std::string_view>, 3>{{{ContactRule::slide, "slide"},

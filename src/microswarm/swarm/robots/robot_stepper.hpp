@@ -9,8 +9,8 @@
 
 namespace microswarm {
 
-/// Point robots, which do not block each other: a structure of arrays in single precision [µm],
-/// relative to the middle of the stepper's map.
+/// Point robots, which do not block each other. Structure of arrays in single precision [µm],
+/// relative to the centre of the stepper's map.
 struct Robots {
   Vec2 origin;
   std::vector<float> x;
@@ -28,23 +28,23 @@ struct Robots {
   }
 };
 
-/// Moves point robots that all get the same input and meet walls: Alg 2 [global], Eq 1 [gather]. No
-/// robot ever leaves the free space. Immutable after building, shared by threads.
+/// Moves point robots that all receive the same input and meet walls: Alg 2 [global], Eq 1
+/// [gather]. No robot ever leaves the free space. Immutable after construction, shared by threads.
 class RobotStepper {
  public:
-  /// `reach` [µm] is the move that is made in one go; longer ones are made in pieces. It should be
-  /// about the step that is used most.
+  /// `reach` [µm] is the maximum length of a move made at once; longer moves are split. It should
+  /// be about the most frequent step length.
   RobotStepper(const Map& map, double reach);
 
-  /// Robots at these places. They should be at least `guard()` from every wall.
+  /// Robots at these positions, which should be at least `guard()` from every wall.
   Robots place(std::span<const Vec2> places) const;
-  /// Moves every robot by `move` [µm] as far as the rule lets it. Uses the widest vectors of the
-  /// machine it runs on; the bits are those of `moved` on any of them.
+  /// Moves every robot by `move` [µm] as far as the rule allows. Uses the widest vectors of the
+  /// machine; the result has the same bits as `moved` on all machines.
   void step(Robots& robots, Vec2 move, ContactRule rule) const;
-  /// Where a robot at `p` gets: the plain form of `step`.
+  /// End position of a robot at `p`: scalar form of `step`.
   PointF moved(PointF p, PointF move, ContactRule rule) const;
 
-  /// Robots keep this [µm] from walls that they drive at, and twice as much where they stop.
+  /// Distance [µm] that robots keep from walls; they stop at twice this distance.
   double guard() const { return static_cast<double>(faces_.guard()); }
   const WallFaces& faces() const { return faces_; }
   PointF relative(Vec2 p) const;

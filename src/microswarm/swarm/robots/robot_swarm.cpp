@@ -39,7 +39,7 @@ void RobotSwarm::step(const Command& command, double dt, Rng& rng) {
   });
 }
 
-// Always the same count of draws, so that one robot's luck does not change another's.
+// The number of draws is constant, so that one robot's noise does not change another's.
 void RobotSwarm::advance_each(const Command& command, double dt, Rng& rng) {
   for (std::size_t i = 0; i < own_speed_.size(); ++i) {
     const double turn = rng.normal(), dx = rng.normal(), dy = rng.normal();

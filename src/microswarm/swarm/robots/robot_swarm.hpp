@@ -13,21 +13,20 @@
 
 namespace microswarm {
 
-/// Robots as one body: their middle, and how far they are from it (root mean square). There is one
-/// at least.
+/// Robots as one body: centroid and root-mean-square distance from it. There must be at least one.
 SwarmPose body_of(std::span<const Vec2> robots, double heading);
 
-/// The moving part of that model.
+/// Simulated swarm of individually tracked robots.
 class RobotSwarm {
  public:
-  /// Keeps the stepper, which the swarm's map was made for. The robots' own speeds are drawn from
-  /// `rng`: normal about 1, from 0.1 to 3.
+  /// Keeps the stepper, which must belong to the swarm's map. The robots' relative speeds are drawn
+  /// from `rng`: normal with mean 1, limited to 0.1 … 3.
   RobotSwarm(const RobotSwarmParams& params, RobotStepper stepper, std::span<const Vec2> starts,
              Rng& rng);
 
   const Robots& robots() const { return robots_; }
-  /// Lets `dt` seconds pass under `command`, which takes effect `response_lag` later; noise is
-  /// drawn from `rng`. Robots that are all alike move as `RobotStepper::step` moves them.
+  /// Advances time by `dt` seconds under `command`, which takes effect `response_lag` later. Noise
+  /// is drawn from `rng`. Identical robots move as in `RobotStepper::step`.
   void step(const Command& command, double dt, Rng& rng);
 
  private:
@@ -37,7 +36,7 @@ class RobotSwarm {
   RobotSwarmParams params_;
   RobotStepper stepper_;
   Robots robots_;
-  std::vector<double> own_speed_;  // share of the commanded one
+  std::vector<double> own_speed_;  // relative to the commanded speed
   std::vector<double> stuck_for_;  // [s]
   LaggingCommands commands_;
 };

@@ -9,9 +9,9 @@
 
 namespace microswarm {
 
-/// Robots that are told apart: points that all get the same input and do not block each other
-/// [global, gather]. On a real rig they are not alike: each has a speed of its own, wavers, and
-/// sticks to the floor now and then.
+/// Swarm of individually tracked robots: points that all receive the same input and do not block
+/// each other [global, gather]. Robots on a real rig differ, so each can have its own speed,
+/// heading noise and drift, and occasionally stick to the floor.
 struct RobotSwarmParams {
   int count = 0;
   std::vector<Vec2> starts;

@@ -21,14 +21,14 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A face in each lane, or one face in all of them.
+/// One face per lane, or one face in all lanes.
 template <class V>
 struct FaceLanes {
   V middle_x, middle_y, normal_x, normal_y, half_length;
 };
 
-// time_to_contact, a face or a robot a lane. Products and sums stay apart (no fused multiply-add):
-// the same bits as there.
+// Vectorised time_to_contact, one face or robot per lane. Products and sums are not fused, to give
+// the same bits.
 template <class D, class V>
 HWY_INLINE V times_to_contact(D d, const FaceLanes<V>& face, V x, V y, V move_x, V move_y,
                               V guard) {
@@ -55,8 +55,8 @@ HWY_INLINE V times_to_contact(D d, const FaceLanes<V>& face, V x, V y, V move_x,
   return hn::IfThenElse(meets, hn::IfThenZeroElse(too_near, time), never);
 }
 
-/// Calls visit(pack, k, time) for the faces near one robot, a face a lane: `time` belongs to those
-/// from k on in the pack.
+/// Calls visit(pack, k, time) for the faces near one robot, one face per lane; `time` belongs to
+/// the faces from index k in the pack.
 template <class D, class Visit>
 HWY_INLINE void for_each_near(D d, const WallFaces& faces, std::span<const FacePack> packs,
                               PointF p, PointF move, Visit&& visit) {
@@ -78,7 +78,7 @@ HWY_INLINE void for_each_near(D d, const WallFaces& faces, std::span<const FaceP
 
 using PackTag = hn::CappedTag<float, FacePack::size>;
 
-/// First contact of one robot.
+/// First contact of one robot with the faces near it.
 class NearContact {
  public:
   explicit NearContact(const WallFaces& faces) : faces_(&faces) {}
@@ -102,7 +102,7 @@ class NearContact {
   const WallFaces* faces_;
 };
 
-/// Its time alone; more than 1 when the move is free.
+/// Time of the first contact only; more than 1 if the move is free.
 HWY_INLINE float near_time(const WallFaces& faces, std::span<const FacePack> packs, PointF p,
                            PointF move) {
   const PackTag d;
@@ -112,7 +112,7 @@ HWY_INLINE float near_time(const WallFaces& faces, std::span<const FacePack> pac
   return hn::GetLane(hn::MinOfLanes(d, first));
 }
 
-/// Times to the first contact of `lanes` robots with any of the faces.
+/// Times of the first contact of `lanes` robots with any face.
 template <class D, class V>
 HWY_INLINE V first_of_all(D d, const WallFaces& faces, PointF move, V x, V y) {
   const V guard = hn::Set(d, faces.guard());
@@ -129,7 +129,7 @@ HWY_INLINE V first_of_all(D d, const WallFaces& faces, PointF move, V x, V y) {
   return first;
 }
 
-/// Moves the first robots, as many as fill whole vectors; returns how many.
+/// Moves the first robots, as many as fill whole vectors; returns their number.
 std::size_t step_by_robots(const WallFaces& faces, PointF move, ContactRule rule,
                            float* HWY_RESTRICT xs, float* HWY_RESTRICT ys, std::size_t count) {
   const hn::ScalableTag<float> d;
@@ -196,8 +196,7 @@ void step_here(const WallFaces& faces, PointF move, ContactRule rule, float* HWY
         y[i] = end.y;
         continue;
       }
-      const float share =
-          time <= 1 ? share_of_time * time : 1.0f;  // no branch: nobody can guess it
+      const float share = time <= 1 ? share_of_time * time : 1.0f;  // branchless: unpredictable
       x[i] = p.x + share * move.x;
       y[i] = p.y + share * move.y;
     }

@@ -8,9 +8,9 @@
 
 namespace microswarm {
 
-/// Moves all robots with vectors of the best width of the machine it runs on; the bits are those of
-/// ContactMoves with WallFaces::first_contact on any. Where a map has few faces, many robots are
-/// looked at together, else the faces near each robot.
+/// Moves all robots with the machine's widest vectors; the result has the same bits as ContactMoves
+/// with WallFaces::first_contact on all machines. Maps with few faces process many robots per
+/// vector, others the faces near each robot.
 void step_lanes(const WallFaces& faces, PointF move, ContactRule rule, std::span<float> x,
                 std::span<float> y);
 

@@ -91,7 +91,7 @@ void WallFaces::fill_cells(const Box& bounds) {
   last_column_ = static_cast<float>(columns_ - 1);
   last_row_ = static_cast<float>(rows - 1);
   const Vec2 low = bounds.lo - origin_;
-  // Half a diagonal and the way, and what rounding may do to the cell and to the contact.
+  // Half a diagonal plus the move, plus rounding of the cell and of the contact.
   const double range = reach_ + cell * std::sqrt(0.5) + 8 * guard_;
   std::vector<CellFace> entries;
   for (std::uint32_t id = 0; id < faces_.size(); ++id) {

@@ -13,21 +13,21 @@
 
 namespace microswarm {
 
-/// A point or a move in single precision [µm], relative to the middle of a map.
+/// Point or move in single precision [µm], relative to the centre of a map.
 struct PointF {
   float x = 0;
   float y = 0;
 };
 
-/// One straight side of a wall: robots are on the side its normal points to.
+/// One straight side of a wall; its normal points to the robots' side.
 struct WallFace {
   PointF middle;
   PointF normal;
-  float half_length = 0;  ///< [µm], and what it overlaps its neighbours by
+  float half_length = 0;  ///< [µm], including the overlap with its neighbours
 };
 
-/// Up to eight faces side by side, for machines that look at so many at once; the rest have lengths
-/// below 0, so that nothing meets them.
+/// Up to eight faces side by side for vector instructions. Unused lanes have negative lengths, so
+/// nothing meets them.
 struct alignas(32) FacePack {
   static constexpr std::size_t size = 8;
   std::array<float, size> middle_x{}, middle_y{}, normal_x{}, normal_y{}, half_length;
@@ -39,8 +39,8 @@ struct alignas(32) FacePack {
   }
 };
 
-/// First face that a move meets: the share of the move up to where the robot stands off from it,
-/// more than 1 when the move is free, and the face's normal.
+/// First face that a move meets. `time` is the fraction of the move up to the standoff from the
+/// face, more than 1 if the move is free; `normal` is the face's normal.
 struct FaceContact {
   float time = 2;
   PointF normal;
@@ -48,18 +48,19 @@ struct FaceContact {
   bool met() const { return time <= 1; }
 };
 
-/// The walls and the border of a map as faces in single precision, with lists of the faces near
-/// every cell of a grid. No point robot passes a face, though positions and products are rounded:
-/// a move that would bring the robot nearer than `guard` to a face is a contact, and the robot then
-/// stops `standoff` from the face, measured square to it, so that grazing contacts do not let it
-/// creep up. Both are far wider than all rounding. A face reaches one and a half guards beyond its
-/// ends (with one, a robot that comes straight at a corner of 90° would meet both faces just at
-/// their ends, and rounding could let it through), and a corner sharper than 90° has a face across
-/// its tip; so no gap is left between faces.
-/// Discs are taken as the polygons of 64 corners around them.
+/// Walls and border of a map as faces in single precision, with lists of the faces near every cell
+/// of a grid.
+/// No point robot passes a face, although positions and products are rounded. A move that would
+/// bring the robot nearer than `guard` to a face is a contact. The robot then stops `standoff` from
+/// the face, measured normal to it, so grazing contacts do not bring it gradually closer. Both
+/// distances far exceed all rounding.
+/// There are no gaps between faces. A face extends one and a half guards beyond its ends: with one
+/// guard, a robot heading straight at a 90° corner would meet both faces exactly at their ends, and
+/// rounding could let it through. A corner sharper than 90° has an additional face across its tip.
+/// Discs are replaced by circumscribed polygons of 64 vertices.
 class WallFaces {
  public:
-  /// `reach` [µm] is the longest move that `near` answers for.
+  /// `reach` [µm] is the maximum move for which `near` is valid.
   WallFaces(const Map& map, double reach);
 
   Vec2 origin() const { return origin_; }
@@ -67,7 +68,7 @@ class WallFaces {
   float guard() const { return guard_; }
   float standoff() const { return 2 * guard_; }
   std::span<const WallFace> all() const { return faces_; }
-  /// The faces that a robot at `p` may meet on a move of `reach`, in the order of all().
+  /// Faces that a robot at `p` may meet on a move of at most `reach`, in the order of all().
   std::span<const FacePack> near(PointF p) const {
     const Packs packs = cells_[cell_at(p)];
     return {packs_.data() + packs.first, packs.count};
@@ -76,7 +77,7 @@ class WallFaces {
   FaceContact first_contact(PointF p, PointF move) const;
 
  private:
-  /// What half_length holds besides: time_to_contact adds one guard.
+  /// Included in half_length; time_to_contact adds one guard.
   float overlap() const { return 0.5f * guard_; }
   void add_ring(std::span<const Vec2> ring);
   void add_face(Vec2 a, Vec2 b);
@@ -110,13 +111,14 @@ class WallFaces {
   float last_row_ = 0;
   std::size_t columns_ = 1;
   std::vector<Packs> cells_;
-  std::vector<FacePack> packs_;  ///< cells with the same faces share theirs
+  std::vector<FacePack> packs_;  ///< shared by cells with the same faces
 };
 
-/// Share of the move `move` up to where a robot at `p` stands off from the face; 2 when the face is
-/// not met. A robot that many moves along the wall have rounded to nearer than `guard` stays (0)
-/// unless it leaves by an eighth of that: it would go on being rounded, into the wall. The batch
-/// stepping does the same operations in the same order: the same bits.
+/// Fraction of `move` up to the standoff of a robot at `p` from the face; 2 if the face is not met.
+/// A robot that rounding has brought nearer than `guard` during many moves along the wall stays (0)
+/// unless it leaves by at least an eighth of `guard`; otherwise further rounding could bring it
+/// into the wall. The vectorised stepping does the same operations in the same order and gives the
+/// same bits.
 inline float time_to_contact(const WallFace& face, PointF p, PointF move, float guard) {
   constexpr float never = 2;
   const float dx = p.x - face.middle.x;

@@ -5,9 +5,9 @@
 
 namespace microswarm {
 
-/// Where something may be that was seen at `place`, keeping `r` > 0 [µm] from walls: `place` itself
-/// when that is free, else a free place about as near as there is one, looked for in 16 directions
-/// at distances that grow by a quarter. `place` when none is found.
+/// Free position with clearance `r` > 0 [µm] near a detected position: `place` itself if it is
+/// free, else the first free point found in 16 directions at distances that grow by a factor of
+/// 1.25. Returns `place` if none is found.
 Vec2 free_place(const Map& map, Vec2 place, double r);
 
 }  // namespace microswarm

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int max_steps = 50;
 
-/// A wall edge or a disc: all points within `radius` of the core.
+/// Wall edge or disc: all points within `radius` of the core.
 struct Feature {
   Segment core;
   double radius;
@@ -41,7 +41,7 @@ std::vector<Feature> features_near(const Map& map, Vec2 place, double reach) {
   return out;
 }
 
-/// Shortest connection of two convex sets near `p`: alternating projections of its middle.
+/// Shortest connection of two convex sets near `p`, by alternating projections of its midpoint.
 Segment connection(const Feature& f, const Feature& g, Vec2 p) {
   Segment s{nearest_point(p, f), nearest_point(p, g)};
   for (int k = 0; k < max_steps; ++k) {

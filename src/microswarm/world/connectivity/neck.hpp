@@ -5,9 +5,10 @@
 
 namespace microswarm {
 
-/// The passage near `place`, where a lattice of the given spacing saw the clearance `least`,
-/// measured between the two walls that make it: the middle of their shortest connection, if the
-/// lattice's error allows it and nothing else is nearer. Else what the lattice saw.
+/// Passage near `place`, where a lattice of the given spacing measured the clearance `least`. The
+/// result is the middle of the shortest connection of the two walls that form the passage, if it
+/// agrees with `least` within the lattice's error and nothing else is nearer. Otherwise it is the
+/// lattice's measurement.
 Passage neck_near(const Map& map, Vec2 place, double least, double spacing);
 
 }  // namespace microswarm

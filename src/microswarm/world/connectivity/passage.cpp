@@ -32,7 +32,7 @@ Polygon as_polygon(const Disc& d) {
   return out;
 }
 
-/// Connected pieces of the free space, largest first.
+/// Connected components of the free space, largest first.
 std::vector<Polygon> free_regions(const Map& map) {
   std::vector<Polygon> walls;
   for (const Body& body : map.walls().bodies()) {
@@ -45,7 +45,7 @@ std::vector<Polygon> free_regions(const Map& map) {
   return regions;
 }
 
-/// A square that may hold the centre of the largest disc.
+/// Square that may contain the centre of the largest disc.
 struct Square {
   double bound;
   double half;
@@ -77,7 +77,7 @@ Disc largest_disc(const Map& map) {
   return best;
 }
 
-/// Pieces that grow together as the clearance asked for falls.
+/// Components that merge as the required clearance falls.
 class Rooms {
  public:
   explicit Rooms(const std::vector<double>& clearance)

@@ -16,14 +16,14 @@
 namespace microswarm {
 namespace {
 
-/// A body that meets the circle, and its distance from the circle's centre.
+/// Body that intersects the circle, and its distance from the circle's centre.
 struct Met {
   std::uint32_t body;
   double distance;
 };
 using MetBodies = std::pmr::vector<Met>;
 
-/// Room on the stack for what a survey collects; more comes from the heap.
+/// Stack memory for a survey; larger surveys use the heap.
 struct Scratch {
   std::array<std::byte, 8192> bytes;
   std::pmr::monotonic_buffer_resource memory{bytes.data(), bytes.size()};
@@ -77,7 +77,7 @@ void count(std::span<const Body> bodies, const MetBodies& met, Survey& survey) {
   }
 }
 
-/// Obstacles near the circle for the union's area. A set whose polygons are apart is one obstacle.
+/// Obstacles near the circle, as input of union_area. A set with disjoint polygons is one obstacle.
 class Collection {
  public:
   Collection(Disc circle, std::pmr::memory_resource& memory)
@@ -142,7 +142,7 @@ bool overlaps(const PolygonSet& polygons, const Disc& disc) {
          polygons.holds(disc.centre);
 }
 
-/// Do the met discs overlap the polygons or one another?
+/// Whether these discs overlap the polygons or one another.
 bool discs_overlap(const BodySet& set, const MetBodies& met) {
   for (std::size_t i = 0; i < met.size(); ++i) {
     const Disc* a = as_disc(set.bodies()[met[i].body]);
@@ -187,7 +187,7 @@ double area_covered(Disc circle, const BodySet& set, const MetBodies& met,
   return sum + (meets_polygon ? covered_area(circle, grid) : 0);
 }
 
-/// May a moving body that meets the circle overlap a wall that does? Exact for discs.
+/// Whether a moving body in the circle may overlap a wall in it. Exact for discs.
 bool may_overlap(const BodySet& walls, const MetBodies& met_walls, const Body& moving) {
   if (const Disc* disc = as_disc(moving)) {
     return walls.clearance(disc->centre, disc->radius) < disc->radius;

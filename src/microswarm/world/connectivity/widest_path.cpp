@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t none = ~0u;
 
-/// Ways that wait to be carried on, the widest first; of equals the shortest.
+/// Open nodes: widest path first, among equals the shortest.
 struct Open {
   double clearance;
   double length;
@@ -97,7 +97,7 @@ class Search {
   std::priority_queue<Open> open_;
 };
 
-/// Where on a segment it is nearest to walls or border, to a thousandth of its length.
+/// Point of minimum clearance on a segment, to a thousandth of its length.
 Vec2 tightest_on(const Map& map, Segment s) {
   constexpr double far = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 10; ++i) {
@@ -128,7 +128,7 @@ WidestPath widest_path(const Map& map, Vec2 a, Vec2 b, double enough, double cel
     out.clearance = clearance;
     out.tightest = tightest_on(map, s);
   }
-  out.clearance *= 1 - 1e-12;  // so that no rounding makes it more than is_free grants
+  out.clearance *= 1 - 1e-12;  // rounding must not make it more than is_free grants
   return out;
 }
 

@@ -39,7 +39,7 @@ ClearanceField::ClearanceField(const Box& bounds, const BodySet& bodies, double 
   spread_ = std::sqrt(2.0) * cell_ * (1 + 1e-6) + 4 * painter.rounding() + of_floats * largest;
 }
 
-/// The same bits as `distance`; the three cases come at random, so all are computed.
+/// Same bits as `distance`. The three cases are unpredictable, so all are computed.
 double ClearanceField::distance_to(Vec2 p, const Wall& wall) {
   const Segment& s = wall.core;
   const Vec2 along = s.b - s.a;

@@ -9,34 +9,35 @@
 
 namespace microswarm {
 
-/// Bounds of the clearance on a grid of square cells, so that one lookup answers most queries. The
-/// signed clearance (distance to the nearest wall or to the border, depth in a wall or outside the
-/// border counted negative) of every point of a cell lies within [lower, lower + spread]. Made from
-/// exact distances at the cell centres, as it changes by at most 1 µm per µm; stored rounded down.
-/// Every cell also knows the few edges and discs that can be nearest to one of its points, so that
-/// the exact distance costs little more than the lookup.
+/// Bounds of the clearance on a grid of square cells, which answer most queries with one lookup.
+/// The signed clearance of every point of a cell lies in [lower, lower + spread]. It is the
+/// distance to the nearest wall or to the border; depth in a wall or outside the border is
+/// negative. The bounds are derived from exact distances at the cell centres, since clearance
+/// changes by at most 1 µm per µm, and stored rounded down. Every cell also stores the few edges
+/// and discs that can be nearest to one of its points, so an exact distance costs little more than
+/// the lookup.
 class ClearanceField {
  public:
   ClearanceField() = default;
-  /// Clearance to the bodies and to the border of `bounds`. `cell` [µm]; 0 chooses one so that
-  /// there are about 260,000 cells; one that makes more than 4 million is made coarser.
+  /// Clearance to the bodies and to the border of `bounds`. `cell` [µm]; 0 chooses about 260,000
+  /// cells. A cell size that gives more than 4 million cells is increased.
   ClearanceField(const Box& bounds, const BodySet& bodies, double cell = 0);
 
   double cell() const { return cell_; }
-  /// Width of the bracket [µm]: the cell's diagonal and a little for rounding.
+  /// Width of the bracket [µm]: the cell's diagonal plus an allowance for rounding.
   double spread() const { return spread_; }
   int columns() const { return columns_; }
   int rows() const { return rows_; }
-  /// No wall and no border is nearer to `p` than this [µm]; negative when `p` may be in a wall,
-  /// -infinity outside the bounds.
+  /// Lower bound of the clearance at `p` [µm]; negative if `p` may be in a wall, -infinity outside
+  /// the bounds.
   double lower(Vec2 p) const { return static_cast<double>(lower_[cell_at(p)]); }
-  /// Exact distance [µm] from a point of the bounds to the nearest wall edge or disc (0 in a disc),
-  /// the border left out; infinity when there is none. In a polygon it is the depth.
+  /// Exact distance [µm] from a point in the bounds to the nearest wall edge or disc (0 in a disc),
+  /// ignoring the border; infinity if there are no walls. In a polygon it is the depth.
   double wall_distance(Vec2 p) const;
 
  private:
   friend class FieldPainter;
-  /// The cells are surrounded by one ring of others that stand for all that is outside.
+  /// The grid is surrounded by one ring of cells that represent everything outside.
   std::size_t cell_at(Vec2 p) const {
     const double i = (p.x - origin_.x) * per_cell_;
     const double j = (p.y - origin_.y) * per_cell_;
@@ -55,13 +56,13 @@ class ClearanceField {
   int columns_ = 0;
   int rows_ = 0;
   std::vector<float> lower_{-std::numeric_limits<float>::infinity()};
-  /// The one or two walls that can be nearest to a point of a cell; or, marked so, where the list
-  /// of more begins in lists_.
+  /// The one or two walls that can be nearest to a point of a cell. If `first` is is_list, `second`
+  /// is the start of a longer list in lists_.
   struct Nearest {
     std::uint32_t first = 0;
     std::uint32_t second = 0;
   };
-  /// All points within `radius` of the core: an edge has radius 0, a disc a point as core.
+  /// All points within `radius` of the core. An edge has radius 0; a disc has a point as core.
   struct Wall {
     Segment core;
     double radius = 0;
@@ -71,7 +72,7 @@ class ClearanceField {
   static double distance_to(Vec2 p, const Wall& wall);
 
   std::vector<Nearest> nearest_;
-  std::vector<std::uint32_t> lists_;  ///< wall · 2, odd for the last of a list
+  std::vector<std::uint32_t> lists_;  ///< wall · 2, odd for the last entry of a list
   std::vector<Wall> walls_;
 };
 

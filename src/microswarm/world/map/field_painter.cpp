@@ -16,7 +16,7 @@ constexpr int few_cells = 4;
 
 double magnitude(Vec2 p) { return std::abs(p.x) + std::abs(p.y); }
 
-/// Largest float that is surely below `x`.
+/// A float certainly below `x`.
 float float_below(double x) {
   return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity());
 }
@@ -83,7 +83,7 @@ double FieldPainter::half_diagonal(const Block& block) const {
          rounding_;
 }
 
-// Distance of p to the candidates [first, last), depth in a disc counted negative.
+// Distance of p to the candidates [first, last), negative inside a disc.
 FieldPainter::NearestOfEach FieldPainter::measure(Vec2 p, std::size_t first, std::size_t last) {
   const Candidates& c = candidates_;
   const std::size_t n = last - first;
@@ -113,7 +113,7 @@ FieldPainter::NearestOfEach FieldPainter::measure(Vec2 p, std::size_t first, std
   return nearest;
 }
 
-/// From p to the nearest point of a candidate.
+/// Vector from p to the nearest point of a candidate.
 Vec2 FieldPainter::towards(Vec2 p, std::size_t candidate) const {
   const Candidates& c = candidates_;
   const Vec2 a{c.x[candidate], c.y[candidate]};
@@ -135,8 +135,9 @@ bool FieldPainter::can_be_nearest(Vec2 centre, double half, std::size_t candidat
   return gap * least <= half * (apart + 2 * half) * (1 + 1e-9);
 }
 
-// Puts the candidates of `block` among [first, last) behind all others. In a polygon the depth to
-// its edges counts beside the discs; outside only the nearest of both.
+// Appends those candidates in [first, last) that can be nearest in `block`. In a polygon, edges and
+// discs are compared separately, since depth and disc distance both count; outside, only the
+// nearest of all matters.
 FieldPainter::Solid FieldPainter::narrow(const Block& block, std::size_t first, std::size_t last,
                                          Solid solid) {
   const Vec2 centre = point(0.5 * (block.left + block.right), 0.5 * (block.bottom + block.top));
@@ -154,7 +155,7 @@ FieldPainter::Solid FieldPainter::narrow(const Block& block, std::size_t first, 
   return solid;
 }
 
-// The candidates of the block are [first, end).
+// The candidates of the block are [first, candidates_.size).
 void FieldPainter::paint(const Block& block, std::size_t first, Solid solid) {
   const std::size_t last = candidates_.size;
   if (block.cells() <= few_cells || last - first <= few_candidates) {
@@ -204,7 +205,7 @@ void FieldPainter::paint_cell(int column, int row, std::size_t first, Solid soli
   field_.nearest_[cell] = list_;
 }
 
-// Neighbours mostly have the same list, which is kept once.
+// Neighbouring cells mostly have the same list, which is stored once.
 void FieldPainter::store_list(std::size_t first) {
   const std::size_t n = candidates_.size - first;
   if (n == 0) return;

@@ -9,29 +9,31 @@
 namespace microswarm {
 
 /// Fills a clearance field. A block of cells keeps the list of edges and discs that can be nearest
-/// to one of its points; its quarters narrow the list down, until a handful is asked for each cell.
-///
-/// Let f be nearest to the block's centre, at distance D, e at D + g, and h the half diagonal. How
-/// much farther e is than f changes with slope |u_e − u_f| at most, u being the unit vectors
-/// towards the nearest points q_e and q_f, hence no faster than |q_e − q_f| / (D − h) and than 2.
-/// Over the block the nearest points move by h at most (projection on a convex set does not
-/// lengthen). So e is never the nearest when g > h · min(2, (|q_e − q_f| + 2h) / (D − h)).
+/// to one of its points. Its quarters narrow the list down until only a few remain to be tested for
+/// each cell.
+/// Let f be nearest to the block's centre, at distance D, e at D + g, and h the half diagonal. The
+/// difference of the distances to e and f changes with slope at most |u_e − u_f|, where u are the
+/// unit vectors towards the nearest points q_e and q_f. The slope is therefore at most |q_e − q_f|
+/// / (D − h) and at most 2. Within the block the nearest points move by at most h, since projection
+/// onto a convex set does not increase distances. Hence e is never the nearest if g > h · min(2,
+/// (|q_e − q_f| + 2h) / (D − h)).
 class FieldPainter {
  public:
   FieldPainter(const Box& bounds, const BodySet& bodies, ClearanceField& field);
   void paint();
-  /// More than the rounding error of a distance found here [µm].
+  /// Bound on the rounding error of a distance computed here [µm].
   double rounding() const { return rounding_; }
 
  private:
-  /// A rectangle of cells, column and row ranges half open.
+  /// Rectangle of cells; column and row ranges are half-open.
   struct Block {
     int left, right, bottom, top;
     int cells() const { return (right - left) * (top - bottom); }
   };
-  /// Is a block in a polygon?
+  /// Whether a block is in a polygon.
   enum class Solid { unknown, no, yes };
-  /// A stack in flat arrays: edges from (x, y) along (u, v), and discs: radius >= 0, along zero.
+  /// Stack in flat arrays. Edges run from (x, y) along (u, v); discs have radius >= 0 and along =
+  /// 0.
   struct Candidates {
     std::vector<double> x, y, u, v, per_length2, radius;
     std::vector<std::uint32_t> wall;
@@ -67,8 +69,8 @@ class FieldPainter {
   const BodySet& bodies_;
   ClearanceField& field_;
   double rounding_ = 0;
-  ClearanceField::Nearest list_;  ///< of the cells being painted
-  std::uint32_t last_list_ = 0;   ///< where the last one stored begins
+  ClearanceField::Nearest list_;  ///< list of the cells being painted
+  std::uint32_t last_list_ = 0;   ///< start of the last list stored
   Candidates candidates_;
   std::vector<double> distances_;
 };

@@ -11,12 +11,12 @@
 
 namespace microswarm {
 
-/// Square lattice of nodes over a box, half a spacing from its border at most, each joined with its
-/// eight neighbours.
+/// Square lattice of nodes over a box, at most half a spacing from its border. Each node is joined
+/// to its eight neighbours.
 class NodeLattice {
  public:
-  /// `spacing` [µm]; 0 chooses it for about `nodes` nodes, and it never gets more than 40 times
-  /// them.
+  /// `spacing` [µm]; 0 chooses it for about `nodes` nodes. The lattice never has more than 40 times
+  /// as many.
   NodeLattice(const Box& box, double spacing, double nodes) {
     const double longest = std::max(box.width(), box.height());
     const double area = box.width() * box.height();
@@ -35,7 +35,7 @@ class NodeLattice {
     return first_ + spacing_ * Vec2{static_cast<double>(n % columns_), static_cast<double>(row)};
   }
 
-  /// The neighbours to the right and above: each pair of neighbours once.
+  /// Visits the neighbours to the right and above, so that each pair is visited once.
   template <class Visit>
   void for_each_later_neighbour(std::uint32_t node, Visit&& visit) const {
     for (const auto& [i, j] : {std::pair{1, 0}, {-1, 1}, {0, 1}, {1, 1}})
@@ -49,7 +49,7 @@ class NodeLattice {
       }
     }
   }
-  /// The up to 16 nodes around a point, two to each side.
+  /// Visits the up to 16 nodes around a point, two on each side per axis.
   template <class Visit>
   void for_each_around(Vec2 p, Visit&& visit) const {
     const int left = static_cast<int>(std::floor((p.x - first_.x) / spacing_));

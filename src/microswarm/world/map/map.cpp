@@ -68,8 +68,7 @@ double Map::border_clearance(Vec2 p) const {
 
 double Map::clearance(Vec2 p) const { return clearance_beyond(p, field_.lower(p)); }
 
-/// The same when the field's lower bound is known: most points need not be asked whether they are
-/// in a wall.
+/// The same, given the field's lower bound; most points then need no point-in-wall test.
 double Map::clearance_beyond(Vec2 p, double lower) const {
   if (lower + field_.spread() < 0) return 0;
   const double least = std::min(border_clearance(p), field_.wall_distance(p));
@@ -92,8 +91,8 @@ bool Map::is_free_exactly(Vec2 p, double r) const {
   return field_.lower(p) > 0 || !walls_.polygons().holds(p);
 }
 
-/// Clearance at `p` of use to cover `length` µm around it: the lower bound where it tells enough,
-/// else exactly.
+/// Clearance at `p` for covering `length` µm around it: the lower bound if that suffices, else the
+/// exact value.
 double Map::useful_clearance(Vec2 p, double lower, double r, double length) const {
   if (lower - r >= std::min(length, field_.spread())) return lower;
   return lower + field_.spread() < r ? lower : clearance_beyond(p, lower);
@@ -113,8 +112,8 @@ bool Map::is_free(Segment s, double r) const {
   return from_b >= r && from_b > 0 && piece_is_free(s, from_a, from_b, r, 4);
 }
 
-// Two balls of known clearance at the ends cover a piece, or it is halved, or it passes so near
-// that the whole capsule has to be asked. Both ends are free.
+// A piece is free if two balls of known clearance at its ends cover it. Otherwise it is halved, or,
+// close to walls, tested as a whole capsule. Both ends are free.
 bool Map::piece_is_free(Segment s, double from_a, double from_b, double r, int halvings) const {
   const double length = distance(s.a, s.b) * (1 + 1e-12);
   if (from_a - r + from_b - r >= length) return true;

@@ -8,17 +8,16 @@
 
 namespace microswarm {
 
-/// The part of a world that never moves: a bounded workspace and its wall pieces. The border is a
-/// wall too: the swarm keeps its clearance from it, and for clearance 0 a point on a wall or on the
-/// border is not free. One law holds for both: free means clearance >= r and clearance > 0.
-/// Immutable after building, shared by threads.
+/// Static part of a world: a bounded workspace and its wall pieces. The border counts as a wall.
+/// Free means clearance >= r and clearance > 0, for walls and border alike, so for r = 0 a point on
+/// a wall or on the border is not free. Immutable after construction, shared by threads.
 class Map {
  public:
   Map() = default;
   /// Connected wall pieces are numbered from 0 in the order given (`Body::obstacle`); overlapping
-  /// polygons are united. Walls may reach beyond the bounds. `field_cell` [µm] is the clearance
-  /// field's, 0 chooses it. Throws InputError when `bounds` is empty or not finite, a vertex or a
-  /// disc is not finite, or a radius is negative.
+  /// polygons are united. Walls may extend beyond the bounds. `field_cell` [µm] is the cell size of
+  /// the clearance field; 0 chooses it. Throws InputError if `bounds` is empty or not finite, a
+  /// vertex or a disc is not finite, or a radius is negative.
   Map(const Box& bounds, std::vector<Polygon> walls, const std::vector<Disc>& discs = {},
       double field_cell = 0);
 
@@ -30,21 +29,21 @@ class Map {
 
   /// Distance [µm] to the nearest wall or border, 0 in a wall or outside the bounds. Exact.
   double clearance(Vec2 p) const;
-  /// The same, the border left out; infinity when there is no wall.
+  /// The same without the border; infinity if there are no walls.
   double wall_clearance(Vec2 p) const;
-  /// Distance [µm] from the segment to the nearest wall or border, 0 when they meet, at most
-  /// `limit`. Exact.
+  /// Distance [µm] from the segment to the nearest wall or border, 0 if they meet, at most `limit`.
+  /// Exact.
   double clearance(Segment s, double limit) const;
   /// Distance [µm] to the border, 0 outside: D_bd of Eq 4d [drrt].
   double border_clearance(Vec2 p) const;
-  /// Is the disc of radius r around `p` free of walls and inside the bounds? Exact.
+  /// Whether the disc of radius r around `p` is free of walls and inside the bounds. Exact.
   bool is_free(Vec2 p, double r) const {
     const double lower = field_.lower(p);
     const bool is_free = lower >= r;
     const bool is_blocked = lower + field_.spread() < r;
     return (is_free | is_blocked) ? is_free : is_free_exactly(p, r);
   }
-  /// Is the capsule of radius r around s free? Exact.
+  /// Whether the capsule of radius r around s is free. Exact.
   bool is_free(Segment s, double r) const;
 
  private:

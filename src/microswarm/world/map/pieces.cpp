@@ -11,7 +11,7 @@
 namespace microswarm {
 namespace {
 
-/// Disjoint groups of indices; a group's name is its lowest index.
+/// Disjoint sets of indices; a set is named by its lowest index.
 class Groups {
  public:
   explicit Groups(std::size_t n) : parent_(n) {

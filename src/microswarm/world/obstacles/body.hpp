@@ -9,11 +9,12 @@
 
 namespace microswarm {
 
-/// One solid piece at one moment: a connected wall piece or a moving obstacle. It has no velocity:
-/// a frame does not show one, and what a navigator needs of it ObstacleTracker estimates.
+/// One solid at one moment: a connected wall piece or a moving obstacle. It has no velocity, since
+/// a frame does not show one; ObstacleTracker estimates velocities.
 struct Body {
   std::variant<Disc, Polygon> shape;
-  std::uint32_t obstacle = 0;  ///< which wall piece or obstacle it is (two leaves share one)
+  std::uint32_t obstacle =
+      0;  ///< number of the wall piece or obstacle; both leaves of a valve share it
 };
 
 /// The outer ring of a polygon; null for a disc.

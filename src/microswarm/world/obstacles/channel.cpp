@@ -16,7 +16,7 @@ namespace {
 constexpr double sample_spacing = 25;
 constexpr double max_samples = 4000;
 
-/// A place on the centre line: how far along it is, and the direction there.
+/// Point on the centre line, with its arc length and direction.
 struct Station {
   Vec2 position;
   Vec2 direction;
@@ -28,8 +28,8 @@ std::vector<Vec2> without_repeats(std::vector<Vec2> points) {
   return points;
 }
 
-/// Derivatives at the points of the natural cubic spline over chord length: of all curves through
-/// the points about the one that bends least.
+/// Tangents at the points of the natural cubic spline over chord length, approximately the curve of
+/// least bending through the points.
 std::vector<Vec2> spline_tangents(const std::vector<Vec2>& p) {
   const std::size_t n = p.size();
   std::vector<Vec2> m(n);
@@ -93,14 +93,14 @@ double smooth_step(double x) {
   return x * x * (3 - 2 * x);
 }
 
-/// Half width at rest, `s` µm along a centre line of the given length.
+/// Half width at rest at `s` µm along a centre line of the given length.
 double half_width_at(const DeformingChannel& channel, double s, double length) {
   const double to_end = std::min(s, length - s);
   const double share = channel.end_length > 0 ? 1 - to_end / channel.end_length : 0;
   return channel.half_width + (channel.end_half_width - channel.half_width) * smooth_step(share);
 }
 
-/// Half circle about `centre` from the angle of `from` on, both ends left out.
+/// Half circle about `centre` starting at `from`, without its ends.
 void add_cap(Vec2 centre, Vec2 from, double radius, std::vector<Vec2>& ring) {
   const int pieces = std::max(8, static_cast<int>(std::ceil(pi * radius / sample_spacing)));
   for (int k = 1; k < pieces; ++k) {
@@ -108,7 +108,7 @@ void add_cap(Vec2 centre, Vec2 from, double radius, std::vector<Vec2>& ring) {
   }
 }
 
-/// Right side forth, a cap, left side back, a cap; `width(s)` is the half width.
+/// Right side forwards, a cap, left side back, a cap; `width(s)` is the half width.
 template <class Width>
 std::vector<Vec2> outline(const std::vector<Station>& line, Width&& width) {
   std::vector<Vec2> ring;
@@ -136,7 +136,7 @@ std::string rounded_text(Vec2 v) {
   return out.append(number_text(std::round(v.x))) + ", " + number_text(std::round(v.y)) + ")";
 }
 
-/// The walls between two stations and the four corners they make must be a convex piece: then no
+/// The four corners of the walls between two stations must form a convex quadrilateral; then no
 /// narrower wall can fold there either.
 bool folds(const Station& a, const Station& b, double wa, double wb) {
   const Vec2 na = perpendicular(a.direction);
@@ -182,8 +182,8 @@ Polygon channel_block(const DeformingChannel& channel, double t) {
           {std::move(hole)}};
 }
 
-// A channel as wide as it ever gets that neither folds nor meets itself is a mesh of convex pieces,
-// in which every narrower outline is simple too.
+// If the channel at its maximum width neither folds nor intersects itself, it is a mesh of convex
+// pieces, in which every narrower outline is simple too.
 Issues validate(const DeformingChannel& channel) {
   Issues issues;
   const auto is_wrong = [&](std::string_view key, std::string text) {

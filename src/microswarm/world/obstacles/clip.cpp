@@ -13,10 +13,10 @@ using ClipperLib::IntPoint;
 using ClipperLib::Path;
 using ClipperLib::Paths;
 
-/// Coordinates reach at most this far on the clipper's integer grid.
+/// Bits that coordinates occupy on the clipper's integer grid.
 constexpr int bits_of_extent = 40;
 
-/// The plane on the clipper's grid and back; remembers which vertex each grid point came from.
+/// Maps the plane to the clipper's grid and back; remembers the vertex of each grid point.
 class Lattice {
  public:
   explicit Lattice(const Box& box) : origin_(box.centre()) {

@@ -8,12 +8,12 @@
 
 namespace microswarm {
 
-/// Union of polygons (non-zero winding, so that a ring that crosses itself is mended too). New
-/// vertices, where edges cross, lie on a grid of about 1e-12 of the extent; the others keep their
-/// bits. The results touch one another in single points at most.
+/// Union of polygons by non-zero winding, which also repairs self-intersecting rings. New vertices
+/// at edge crossings lie on a grid of about 1e-12 of the extent; other vertices are unchanged. The
+/// results touch one another at most in single points.
 std::vector<Polygon> united(std::span<const Polygon> polygons);
 
-/// The box less the polygons, in the same manner.
+/// The box minus the polygons; vertices as in `united`.
 std::vector<Polygon> difference(const Box& box, std::span<const Polygon> polygons);
 
 }  // namespace microswarm

@@ -12,13 +12,13 @@
 namespace microswarm {
 namespace {
 
-/// Directions around a vertex that lead into the solid: counter-clockwise from `start` to `end`.
+/// Directions at a vertex that lead into the solid: counter-clockwise from `start` to `end`.
 struct Sector {
   Vec2 start;
   Vec2 end;
 };
 
-/// Does the direction v → d lead strictly into the sector at v?
+/// Whether the direction v → d leads strictly into the sector at v.
 bool leads_into(const Sector& s, Vec2 v, Vec2 d) {
   const int turn = orientation(v, s.start, s.end);
   const int after_start = orientation(v, s.start, d);
@@ -64,7 +64,7 @@ class Rings {
     }
   }
 
-  /// The polygons whose solid holds p, which is on no edge of theirs.
+  /// Polygons whose solid contains p, which is on none of their edges.
   void holding(Vec2 p, std::vector<std::uint32_t>& out) {
     out.clear();
     if (edges_.empty()) return;
@@ -111,7 +111,7 @@ class Rings {
     return {e.b, e.a};
   }
 
-  /// Of two edges that meet: do the solids beside them share more than points?
+  /// Whether the solids beside two edges that meet share more than points.
   bool edges_overlap(std::size_t i, std::size_t j) const {
     const Segment& s = edges_[i];
     const Segment& t = edges_[j];
@@ -127,7 +127,7 @@ class Rings {
     return crosses(i, j);
   }
 
-  /// The ring runs through itself; its own slits and touching corners are no harm.
+  /// Whether the ring crosses itself; slits and touching corners are allowed.
   bool ring_crosses(std::size_t i, std::size_t j) const {
     const Segment& s = edges_[i];
     const Segment& t = edges_[j];

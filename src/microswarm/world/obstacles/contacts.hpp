@@ -9,17 +9,17 @@
 
 namespace microswarm {
 
-/// Two solids that share a point, by their indices; discs count on after the polygons.
+/// Two solids that share a point, by index; disc indices follow those of the polygons.
 struct Contact {
   std::size_t first;
   std::size_t second;
-  /// Do they share more than single points? Told for polygons only.
+  /// Whether they share more than single points. Determined for polygons only.
   bool overlap;
 };
 
-/// Which polygons and discs touch or overlap. Exact, apart from the rounding of a disc's rim. A
-/// polygon whose ring crosses itself is in overlap with itself. Every connected group of solids is
-/// connected by the contacts, though not every pair in it need be listed.
+/// Contacts and overlaps of polygons and discs. Exact apart from the rounding of a disc's rim. A
+/// self-intersecting polygon overlaps itself. Every connected group of solids is connected by the
+/// contacts, but not every pair in it is listed.
 std::vector<Contact> find_contacts(std::span<const Polygon> polygons, std::span<const Disc> discs);
 
 }  // namespace microswarm

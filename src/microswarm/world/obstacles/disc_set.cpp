@@ -19,7 +19,7 @@ Box box_of(Segment s) {
   return box;
 }
 
-/// For r = 0 a touch is no clearance.
+/// For r = 0, touching is not clear.
 bool is_clear(double squared, double r, double radius) {
   const double reach = r + radius;
   return r > 0 ? squared >= reach * reach : squared > reach * reach;
@@ -74,7 +74,7 @@ void DiscSet::fill_buckets() {
   }
 }
 
-// Discs that reach into several cells are asked several times, which costs less than knowing.
+// Discs that span several cells are tested repeatedly, which is cheaper than avoiding it.
 template <class Visit>
 bool DiscSet::all_near(const Box& box, Visit&& is_clear_of) const {
   if (!bucketed()) return std::all_of(discs_.begin(), discs_.end(), is_clear_of);
@@ -105,7 +105,7 @@ bool DiscSet::is_free(Segment s, double r) const {
   });
 }
 
-// Square rings of cells around p's own, until nothing beyond them can be nearer.
+// Searches square rings of cells around p's cell until nothing farther out can be nearer.
 std::size_t DiscSet::nearest(Vec2 p, double limit) const {
   double best = limit;
   std::size_t found = size();

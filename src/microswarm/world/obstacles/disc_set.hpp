@@ -10,10 +10,10 @@
 
 namespace microswarm {
 
-/// Solid discs in flat arrays with exact queries; many discs get a bucket grid. Discs may overlap.
+/// Solid discs in flat arrays with exact queries; many discs use a bucket grid. Discs may overlap.
 class DiscSet {
  public:
-  /// Takes the discs among `bodies` and keeps the memory.
+  /// Takes the discs among `bodies` and reuses the memory.
   void assign(std::span<const Body> bodies);
 
   std::size_t size() const { return discs_.size(); }
@@ -25,10 +25,10 @@ class DiscSet {
   /// Distance [µm] to the nearest disc, 0 in one, at most `limit`.
   double clearance(Vec2 p, double limit) const;
   double clearance(Segment s, double limit) const;
-  /// Is every disc at least r away and, for r = 0, not touched?
+  /// Whether every disc is at least r away and, for r = 0, not touched.
   bool is_free(Vec2 p, double r) const;
   bool is_free(Segment s, double r) const;
-  /// Disc whose rim is nearest, counting depth inside as negative, within `limit`; size() if none.
+  /// Disc with the nearest rim within `limit`, depth inside counting as negative; size() if none.
   std::size_t nearest(Vec2 p, double limit) const;
   /// Calls visit(i) once for each disc that may meet the box, ascending within a bucket.
   template <class Visit>
@@ -58,7 +58,7 @@ class DiscSet {
   double per_cell_ = 1;
   int columns_ = 0;
   int rows_ = 0;
-  std::vector<std::uint32_t> first_;  ///< of each cell in ids_, one more than cells
+  std::vector<std::uint32_t> first_;  ///< start of each cell in ids_; one entry more than cells
   std::vector<std::uint32_t> ids_;
 };
 

@@ -11,7 +11,7 @@
 namespace microswarm {
 namespace {
 
-/// Angle of a wave [rad], reduced first so that late times lose no digits to 2π.
+/// Phase angle of a wave [rad], reduced before multiplying by 2π so that late times keep precision.
 double wave_angle(double t, double period, double phase) {
   const double turns = t / period + phase;
   return 2 * pi * (turns - std::floor(turns));
@@ -48,7 +48,7 @@ double length_of(const std::vector<Vec2>& points) {
   return length;
 }
 
-/// Distance along the waypoints after `way` µm of driving, and whether it drives backwards.
+/// Arc length along the waypoints after `way` µm, and the sign of the motion (0 at rest).
 struct Along {
   double s;
   double sign;

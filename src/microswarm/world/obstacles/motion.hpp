@@ -14,11 +14,11 @@
 
 namespace microswarm {
 
-/// No coordinate of a world may be farther from 0 than this [µm].
+/// Maximum absolute value of a coordinate [µm].
 inline constexpr double max_coordinate = 1e9;
 inline constexpr Range coordinates{-max_coordinate, max_coordinate};
 
-/// Does not move.
+/// No motion.
 struct Still {
   static constexpr std::string_view type_name = "still";
   Vec2 position{};
@@ -30,7 +30,7 @@ struct Still {
   }
 };
 
-/// Straight on at one velocity; its heading is the velocity's.
+/// Straight motion at constant velocity; the heading is the velocity's.
 struct Straight {
   static constexpr std::string_view type_name = "straight";
   Vec2 start{};
@@ -42,8 +42,8 @@ struct Straight {
   }
 };
 
-/// Back and forth on a line: centre + amplitude · sin(2π(t / period + phase)). Its heading is that
-/// of the amplitude, there and back.
+/// Harmonic motion on a line: centre + amplitude · sin(2π(t / period + phase)). The heading is
+/// always that of the amplitude.
 struct HarmonicLine {
   static constexpr std::string_view type_name = "harmonic_line";
   Vec2 centre{};
@@ -60,8 +60,8 @@ struct HarmonicLine {
   }
 };
 
-/// Back and forth on an arc around a pivot: angle = middle + half_angle · sin(2π(t / period +
-/// phase)). It turns with the arc: its heading is a quarter turn left of the spoke.
+/// Harmonic motion on an arc around a pivot: angle = middle + half_angle · sin(2π(t / period +
+/// phase)). The heading turns with the arc: a quarter turn left of the radius.
 struct HarmonicArc {
   static constexpr std::string_view type_name = "harmonic_arc";
   Vec2 pivot{};
@@ -81,15 +81,15 @@ struct HarmonicArc {
   }
 };
 
-/// What a mover does after its last waypoint.
+/// Behaviour of a mover after its last waypoint.
 enum class AtEnd { stay, back, loop };
 constexpr auto enum_names(AtEnd) {
   return std::array<std::pair<AtEnd, std::string_view>, 3>{
       {{AtEnd::stay, "stay"}, {AtEnd::back, "back"}, {AtEnd::loop, "loop"}}};
 }
 
-/// From waypoint to waypoint at one speed, beginning at t = 0. It keeps the heading of its first
-/// leg, so that no corner of a body leaps when a leg ends.
+/// Motion from waypoint to waypoint at one speed, starting at t = 0. It keeps the heading of its
+/// first leg, so that no corner of a body jumps at the end of a leg.
 struct Waypoints {
   static constexpr std::string_view type_name = "waypoints";
   std::vector<Vec2> points;
@@ -104,15 +104,15 @@ struct Waypoints {
   }
 };
 
-/// Positions seen at times, straight between them; absent before the first and after the last.
-/// Heading 0.
+/// Time-stamped positions, interpolated linearly. Absent before the first and after the last;
+/// heading 0.
 struct Samples {
   std::vector<double> times;  ///< [s], ascending
-  std::vector<Vec2> points;   ///< [µm], one a time
+  std::vector<Vec2> points;   ///< [µm], one per time
 };
 
-/// One body of a recorded track file (CSV with columns id, t_s, x_um, y_um). The samples are filled
-/// by the reader of the scenario; until then the mover is absent.
+/// One body of a recorded track file (CSV with columns id, t_s, x_um, y_um). The scenario reader
+/// fills the samples; until then the mover is absent.
 struct Track {
   static constexpr std::string_view type_name = "track";
   std::string file;
@@ -127,7 +127,7 @@ struct Track {
 
 using Motion = std::variant<Still, Straight, HarmonicLine, HarmonicArc, Waypoints, Track>;
 
-/// Where a mover is at a moment; `present` is false outside a track's times.
+/// Pose and velocity of a mover at one moment; `present` is false outside a track's times.
 struct Placement {
   bool present = true;
   Pose2 pose;
@@ -136,9 +136,9 @@ struct Placement {
 
 /// Placement at time t [s]. Pure: the same t gives the same bits.
 Placement placement(const Motion& motion, double t);
-/// Upper bound of the speed [µm/s]; infinite for a track that leaps.
+/// Upper bound of the speed [µm/s]; infinite for a track that jumps.
 double top_speed(const Motion& motion);
-/// Upper bound of the rate at which it turns [rad/s].
+/// Upper bound of the turning rate [rad/s].
 double top_turning(const Motion& motion);
 
 }  // namespace microswarm

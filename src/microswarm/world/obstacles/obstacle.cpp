@@ -14,7 +14,7 @@
 namespace microswarm {
 namespace {
 
-/// A quantity that goes between two bounds as a sine of time.
+/// Sinusoidal oscillation between two bounds.
 double swing(double least, double greatest, double period, double phase, double t) {
   const double turns = t / period + phase;
   const double angle = 2 * pi * (turns - std::floor(turns));
@@ -40,7 +40,7 @@ std::vector<Vec2> box_ring(const Box& b) {
   return {b.lo, {b.hi.x, b.lo.y}, b.hi, {b.lo.x, b.hi.y}};
 }
 
-/// Puts the bodies of one kind of shape at a pose.
+/// Creates the bodies of one shape at a pose.
 class Builder {
  public:
   Builder(const Pose2& at, std::uint32_t obstacle, double t, std::vector<Body>& out)

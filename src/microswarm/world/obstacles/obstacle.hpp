@@ -13,7 +13,7 @@
 
 namespace microswarm {
 
-/// Disc around the mover's position.
+/// Disc centred at the mover's position.
 struct DiscShape {
   static constexpr std::string_view type_name = "disc";
   double radius = 50;
@@ -23,7 +23,7 @@ struct DiscShape {
   }
 };
 
-/// Disc that breathes: the radius goes between its bounds as a sine of time.
+/// Disc whose radius varies sinusoidally between its bounds.
 struct BreathingDisc {
   static constexpr std::string_view type_name = "breathing_disc";
   double min_radius = 50;
@@ -41,7 +41,7 @@ struct BreathingDisc {
   }
 };
 
-/// Rectangle around the mover's position, turned with its heading.
+/// Rectangle centred at the mover's position, aligned with its heading.
 struct BoxShape {
   static constexpr std::string_view type_name = "box";
   double width = 100;
@@ -63,10 +63,10 @@ struct PolygonShape {
   }
 };
 
-/// Two leaves that close a passage from both sides: they lie across the mover's heading and leave a
-/// gap that goes between its bounds as a sine of time. A leaf is what stands in the passage, from
-/// half a span beside the position to the gap: its inner end moves, its outer end rests. At a gap
-/// of the span or more the leaves are drawn in, and nothing stands in the passage.
+/// Two leaves that close a passage from both sides. They lie across the mover's heading and leave a
+/// gap that varies sinusoidally between its bounds. A leaf extends from half a span beside the
+/// position to the gap: its inner end moves, its outer end is fixed. With a gap of at least the
+/// span, the leaves are fully retracted and the passage is clear.
 struct Valve {
   static constexpr std::string_view type_name = "valve";
   double span = 400;
@@ -87,10 +87,10 @@ struct Valve {
   }
 };
 
-/// A channel cut into a solid block, whose walls deform over time: a wave of the half width,
-/// w(s, t) = half width + amplitude · sin(2π(s / wavelength − t / period)), runs along the centre
-/// line, a smooth curve (cubic spline) through the points. Both ends are round and may be wider.
-/// The block's outline is a box. Centre line and block are given in the mover's frame.
+/// Channel in a solid block with walls that deform over time. The half width is a travelling wave
+/// along the centre line, w(s, t) = half width + amplitude · sin(2π(s / wavelength − t / period)).
+/// The centre line is a cubic spline through the points. Both ends are round and may be wider. The
+/// block's outline is a box. Centre line and block are given in the mover's frame.
 struct DeformingChannel {
   static constexpr std::string_view type_name = "deforming_channel";
   std::vector<Vec2> centre_line;
@@ -123,7 +123,7 @@ struct DeformingChannel {
 using Shape =
     std::variant<DiscShape, BreathingDisc, BoxShape, PolygonShape, Valve, DeformingChannel>;
 
-/// Something in the world that moves or changes.
+/// A moving or deforming obstacle.
 struct Obstacle {
   Shape shape;
   Motion motion;
@@ -134,15 +134,15 @@ struct Obstacle {
   }
 };
 
-/// Appends the bodies of obstacle number `index` at time t [s] to `out`: none when it is absent,
-/// two for a valve. Pure in t.
+/// Appends the bodies of obstacle number `index` at time t [s] to `out`: none if it is absent, two
+/// for a valve. Pure in t.
 void append_bodies(const Obstacle& obstacle, std::uint32_t index, double t, std::vector<Body>& out);
 
 /// Upper bound of the speed of any of its points [µm/s].
 double top_speed(const Obstacle& obstacle);
 
-/// Issues when a field makes no sense with another: fewer than three vertices, least above greatest
-/// radius, a channel that runs into itself, …
+/// Reports inconsistent fields: fewer than three vertices, minimum above maximum radius, a channel
+/// that intersects itself, …
 Issues validate(const Obstacle& obstacle);
 
 }  // namespace microswarm

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t few_edges = 64;
 
-/// Grown by more than rounding, so that it surely holds the polygon.
+/// Enlarged beyond rounding errors, so that it contains the polygon.
 Disc bounding_circle(std::span<const Vec2> ring) {
   const Vec2 centre = bounding_box(ring).centre();
   double squared = 0;

@@ -11,30 +11,30 @@
 
 namespace microswarm {
 
-/// Solid polygons with exact queries: a few edges are asked one by one behind bounding circles,
+/// Solid polygons with exact queries. A few edges are tested one by one behind bounding circles,
 /// many by an EdgeGrid. Polygons may overlap.
 class PolygonSet {
  public:
-  /// Takes the polygons among `bodies` and keeps the memory.
+  /// Takes the polygons among `bodies` and reuses the memory.
   void assign(std::span<const Body> bodies);
 
   bool empty() const { return rounds_.empty(); }
-  /// Is `p` in a polygon or on its boundary? Exact.
+  /// Whether `p` is in a polygon or on its boundary. Exact.
   bool holds(Vec2 p) const;
-  /// Winding number of all rings around `p`, moved aside infinitesimally where it is on an edge.
+  /// Winding number of all rings around `p`, moved infinitesimally if it is on an edge.
   int winding(Vec2 p) const;
-  /// Distance [µm] to the nearest edge, at most `limit`; asks nothing about insides.
+  /// Distance [µm] to the nearest edge, at most `limit`; ignores interiors.
   double edge_distance(Vec2 p, double limit) const;
   double edge_distance(Segment s, double limit) const;
-  /// Is every edge at least r away and, for r = 0, not touched? Asks nothing about insides.
+  /// Whether every edge is at least r away and, for r = 0, not touched; ignores interiors.
   bool edges_free(Segment s, double r) const;
-  /// Body whose edge is nearest to `p` within `limit`; `none` when there is none.
+  /// Body whose edge is nearest to `p` within `limit`; `none` if there is none.
   std::uint32_t nearest(Vec2 p, double limit) const;
   static constexpr std::uint32_t none = ~0u;
   /// Calls visit(body, edge) for each edge that may meet the box.
   template <class Visit>
   void for_each_edge_in(const Box& box, Visit&& visit) const;
-  /// The grid over all edges; empty when they are few.
+  /// Grid over all edges; empty if they are few.
   const EdgeGrid& grid() const { return grid_; }
 
  private:
