@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "microswarm/navigation/gathering/aggregation_map.hpp"
+
+namespace microswarm {
+
+/// Leads one robot at a time to the goal along the tree, from visible node to visible node.
+class WaypointFollower {
+ public:
+  /// `step` [µm] is the length of a move. The map must outlive it.
+  WaypointFollower(const AggregationMap& map, double step) : map_(&map), step_(step) {}
+
+  /// The move [µm] for leader `robot` of `count` robots, which is at `p`.
+  Vec2 move(std::size_t robot, std::size_t count, Vec2 p);
+  /// Takes the merging of positions: the new index of each old one.
+  void remap(std::span<const std::uint32_t> new_positions);
+
+  /// The point that the last move leads to.
+  Vec2 waypoint() const { return waypoint_; }
+
+ private:
+  Vec2 waypoint_of(std::size_t robot, Vec2 p);
+
+  const AggregationMap* map_;
+  double step_;
+  std::vector<std::uint32_t> node_of_;  ///< node that each robot was last led to
+  std::size_t leader_ = ~std::size_t{0};
+  Vec2 position_;  ///< of the leader at the last move
+  int held_ = 0;   ///< moves for which the leader has not moved
+  Vec2 waypoint_;
+};
+
+}  // namespace microswarm
