@@ -33,6 +33,5 @@ cv::Mat grown(const cv::Mat& set, double radius);
 void widen_corners(cv::Mat& set);
 
 /// Radii of the largest inscribed discs: distance [px] of each set pixel to the nearest unset one.
-/// Distance [px] of each set pixel to the nearest unset one: radii of the largest inscribed discs.
 
 }  // namespace microswarm

@@ -18,6 +18,7 @@ struct AssignmentEdge {
 /// pairs' costs plus `alone` for each unpaired row. Uses shortest augmenting paths with potentials
 /// [jonker]. A search stays within the rows and columns connected to its start, so scattered robots
 /// cost little more than a pass over the edges.
+///
 /// [jonker] R. Jonker and A. Volgenant, A shortest augmenting path algorithm for dense and sparse
 /// linear assignment problems, Computing 38, 325 (1987).
 class Assignment {

@@ -21,6 +21,7 @@ struct BandPassParams {
 /// The mean is rounded down to whole greys along the columns and again along the rows, like in
 /// trackpy with bytes. This makes the background about one grey too low. The border is replicated.
 /// Sums are in a fixed order, so the bits are the same on every machine.
+///
 /// [crocker] J. C. Crocker and D. G. Grier, Methods of digital video microscopy for colloidal
 /// studies, J. Colloid Interface Sci. 179, 298 (1996).
 class BandPass {
