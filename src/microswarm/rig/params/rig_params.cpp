@@ -9,7 +9,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double min_sends = 10;  // in a turn of the field
+constexpr double min_sends = 10;  // per turn of the field
 
 int channels_of(const RigParams& rig) {
   const auto* simulated = std::get_if<SimulatedCoils>(&rig.driver);
@@ -55,9 +55,7 @@ std::string name_of(const Rig& rig) {
 
 const SimulatedCamera& simulated_camera(const Rig& rig) {
   const auto* camera = std::get_if<SimulatedCamera>(&rig.params.camera);
-  if (!camera)
-    throw rig.keys.error("camera",
-                         "the camera is not simulated: set camera.type");
+  if (!camera) throw rig.keys.error("camera", "the camera is not simulated: set camera.type");
   return *camera;
 }
 
