@@ -24,7 +24,7 @@ class RigSimulator {
   RigSimulator(const Scenario& scenario, const World& world, const Rig& rig,
                std::uint32_t trial = 0);
 
-  /// Advances by `dt` seconds; the coils carry these currents [A] during that time.
+  /// Advances by `dt` seconds; at the end the coils carry these currents [A].
   void pass(std::span<const double> currents, double dt);
 
   /// State captured by the camera.
