@@ -12,9 +12,8 @@ namespace microswarm {
 struct PageSection {
   std::string heading;
   std::string text;
-  std::vector<std::vector<std::string>> table;  ///< the first row is the header
-  std::vector<std::pair<std::string, std::string>>
-      pictures;  ///< file name relative to the page, caption
+  std::vector<std::vector<std::string>> table;                ///< the first row is the header
+  std::vector<std::pair<std::string, std::string>> pictures;  ///< relative file, caption
 };
 
 /// Writes an HTML page. Pictures are referenced by file names relative to the page. All text is

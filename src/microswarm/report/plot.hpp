@@ -20,8 +20,7 @@ struct Series {
   std::vector<double> x;
   std::vector<double> y;
   PlotStyle style = PlotStyle::line;
-  std::optional<std::size_t> colour =
-      {};  ///< colour of the series with this number; default: its own
+  std::optional<std::size_t> colour = {};  ///< that of this series; default: its own
   std::vector<double> low = {};
   std::vector<double> high = {};
 };

@@ -76,8 +76,7 @@ Plot clearances(const Record& record) {
   const double nearest = std::min(m.walls.clearance, m.obstacles.clearance);
   plot.y_max = 5 * std::max(margin, radius);
   if (std::isfinite(nearest)) plot.y_max = std::max(*plot.y_max, 1.5 * nearest);
-  for (const Series& series :
-       {walls, bodies})  // a line above the range does not appear in the legend
+  for (const Series& series : {walls, bodies})  // omit lines above the range
     if (std::any_of(series.y.begin(), series.y.end(), [&](double y) { return y <= *plot.y_max; }))
       plot.series.push_back(series);
   return plot;

@@ -16,8 +16,7 @@ struct AvoidanceOptions {
   /// than 1.
   double min_speed_ratio = 0.1;
   double max_speed_ratio = 0.9;
-  int max_obstacles =
-      60;  ///< upper bound of the random number requested; between walls fewer may fit
+  int max_obstacles = 60;  ///< maximum requested; between walls fewer may fit
 };
 
 /// Slow worlds, and worlds in which every obstacle moves at 1 to 3 times the swarm's speed.

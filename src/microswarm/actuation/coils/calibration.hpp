@@ -42,10 +42,9 @@ struct FittedMatrix {
   std::vector<Eigen::Vector3d> residuals;  ///< measured − fitted, row by row [mT]
 };
 
-/// Fits the matrix A and, with `with_offset`, the field b at zero current by minimising Σ
-/// B − A I − b
-/// ². Throws InputError if the measurements do not determine the fit; the message names the coils
-/// whose currents were never varied, or never varied independently of others.
+/// Fits the matrix A and, with `with_offset`, the field b at zero current by minimising
+/// Σ |B − A I − b|². Throws InputError if the measurements do not determine the fit; the message
+/// names the coils whose currents were never varied, or never varied independently of others.
 FittedMatrix fit_matrix(const FieldMeasurements& measured, bool with_offset);
 
 }  // namespace microswarm

@@ -62,7 +62,7 @@ FieldGradient loop_field(const CurrentLoop& loop, const Eigen::Vector3d& place) 
   const double rho = across.norm();
 
   // With the minimum and maximum distances α, β to the wire, m = 4aρ/β² = 1 − α²/β²:
-  // B_z = Q (E − ρ² H),  B_ρ = Q ρ z H,  Q = µ0 a² / (π α² β),  H = 4 G / β².
+  //   B_z = Q (E − ρ² H),  B_ρ = Q ρ z H,  Q = µ0 a² / (π α² β),  H = 4 G / β².
   const double beta2 = (a + rho) * (a + rho) + z * z;
   const double alpha2 = std::max((a - rho) * (a - rho) + z * z, 1e-12 * a * a);
   const double beta = std::sqrt(beta2);

@@ -32,8 +32,7 @@ double UniformityMap::largest() const {
 }
 
 double UniformityMap::radius_within(double share) const {
-  std::vector<std::pair<double, bool>>
-      places;  // distance from the centre; deviates by more than `share`
+  std::vector<std::pair<double, bool>> places;  // distance, exceeds `share`
   places.reserve(deviation.size());
   for (int row = 0; row < grid.points; ++row)
     for (int column = 0; column < grid.points; ++column)

@@ -91,8 +91,7 @@ class FieldGenerator {
   double wanted_pitch_ = 0;
   double phase_ = 0;
   double frequency_ = 0;
-  Vec2 velocity_,
-      owed_;  // of a rolling body: commanded velocity [µm/s], displacement to make up [µm]
+  Vec2 velocity_, owed_;  // rolling: commanded [µm/s], displacement to make up [µm]
   Eigen::Vector3d field_;
 };
 

@@ -26,10 +26,9 @@ struct Frame {
   Command command;                ///< the navigator's command
   double goal_distance = 0;   ///< remaining distance to the goal [µm]; see Metrics::goal_distance
   double wall_clearance = 0;  ///< from the centre at t to walls and border [µm]; inf for robots
-  double obstacle_clearance =
-      0;                       ///< from the centre at t to moving bodies [µm]; inf without bodies
-  double avoidance_cost = 0;   ///< δ at t, Eq 4 [radar]
-  std::optional<Vec2> target;  ///< the navigator's local target
+  double obstacle_clearance = 0;  ///< from the centre at t to moving bodies [µm], or inf
+  double avoidance_cost = 0;      ///< δ at t, Eq 4 [radar]
+  std::optional<Vec2> target;     ///< the navigator's local target
   NavigatorState state = NavigatorState::hold;  ///< of the navigator
   bool planned = false;                         ///< a planning event
   template <class Self, class V>

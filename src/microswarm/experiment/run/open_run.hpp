@@ -54,8 +54,7 @@ class OpenRun {
   std::unique_ptr<Plant> plant_;
   bool has_external_navigator_;
   std::unique_ptr<Navigator> navigator_;
-  std::unique_ptr<Navigator>
-      last_navigator_;  ///< kept alive because the last tick refers to its plan
+  std::unique_ptr<Navigator> last_navigator_;  ///< its plan is in the last tick
   Episode episode_;
 };
 

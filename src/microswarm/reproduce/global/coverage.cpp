@@ -218,8 +218,7 @@ std::vector<ReproduceRow> global_initial_distances(const ReproduceOptions& optio
   constexpr double max_left = 60;     // [%]
   std::vector<AxisTick> ticks;
   for (const double d : distances)
-    if (d != 150)
-      ticks.push_back({fmt::format("{:g}", d), d});  // the label would touch that of 200
+    if (d != 150) ticks.push_back({fmt::format("{:g}", d), d});  // would touch that of 200
   const Map map = scenes::global_world(1);
   std::vector<Plot> plots;
   std::vector<ReproduceRow> rows;

@@ -22,9 +22,8 @@ namespace fs = std::filesystem;
 
 constexpr int worlds_written = 3;  // per navigator and course
 constexpr std::size_t obstacles_a_bin = 10;
-constexpr int enough_worlds = 10;  // per bin; bins with fewer are not joined by a line
-constexpr double min_percent =
-    0.01;  // of the time beyond the straight path; the logarithmic axis has no zero
+constexpr int enough_worlds = 10;     // per bin; bins with fewer are not joined by a line
+constexpr double min_percent = 0.01;  // of extra time; the logarithmic axis has no zero
 
 /// One colour per method in all figures.
 std::size_t colour_of(std::string_view navigator) {

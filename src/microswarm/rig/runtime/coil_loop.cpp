@@ -16,8 +16,7 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr int max_misses =
-    3;  // consecutive failures of the driver, which retries each message itself
+constexpr int max_misses = 3;  // consecutive ones; the driver retries by itself
 
 }  // namespace
 

@@ -35,8 +35,7 @@ class RealtimeRigSimulator::Coils : public CoilDriver {
   }
   bool stop() noexcept override {
     const std::lock_guard lock(bench_.mutex_);
-    return driver_
-        ->stop();  // the elapsed time is simulated without current, since nothing may fail here
+    return driver_->stop();  // catches up later without current: nothing may fail here
   }
 
  private:

@@ -26,8 +26,7 @@ constexpr double corner_blur = 2;    // [px]
 constexpr int light_side = 41;       // [px] over which the light is uniform
 constexpr double corner_share =
     0.5;  // of a typical corner's response; a corner of a square alone has 0.25
-constexpr double lattice_slack =
-    0.25;  // [pitches] maximum offset of a point from its expected position
+constexpr double lattice_slack = 0.25;   // [pitches] maximum offset of a point
 constexpr double neighbour_slack = 0.3;  // relative tolerance of the distance between neighbours
 
 std::vector<Vec2> dots_in(const Image& grey) {

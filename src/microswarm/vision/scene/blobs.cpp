@@ -24,9 +24,8 @@
 namespace microswarm {
 namespace {
 
-constexpr int smooth_side = 5;  // working pixels that a smooth part must extend over
-constexpr int ground_rows =
-    4;  // one working row in this many is used to estimate the background noise
+constexpr int smooth_side = 5;     // working pixels that a smooth part must extend over
+constexpr int ground_rows = 4;     // every so many rows are used for the background noise
 constexpr double noise_limit = 5;  // spreads of the background; smaller differences are ignored
 
 /// Picture pixels per side of a working pixel. Coarser pixels reduce noise and time.
@@ -98,8 +97,7 @@ cv::Mat rise_of(const cv::Mat& grey, const cv::Mat& seen, bool dark, double spre
 /// Spread of the background around its surface, from the median of about ten thousand pixels.
 double ground_spread(const cv::Mat& foreground, const cv::Mat& seen) {
   constexpr std::size_t enough = 10'000;
-  const std::size_t step =
-      2 * (foreground.total() / enough / 2) + 7;  // odd: no column again and again
+  const std::size_t step = 2 * (foreground.total() / enough / 2) + 7;  // odd, so that columns vary
   std::vector<double> off;
   off.reserve(foreground.total() / step + 1);
   for (std::size_t i = 0; i < foreground.total(); i += step)

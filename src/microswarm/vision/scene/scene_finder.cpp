@@ -10,9 +10,8 @@ namespace microswarm {
 namespace {
 
 constexpr double hull_tolerance = 0.5;  // [px]
-constexpr double min_gap =
-    8;  // [px] distance between outline points above which the part between them is hidden
-constexpr int soft_edge = 2;  // [px]
+constexpr double min_gap = 8;           // [px] larger gaps between outline points are hidden parts
+constexpr int soft_edge = 2;            // [px]
 
 cv::Point2f point_of(Vec2 p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
 

@@ -31,9 +31,8 @@ struct SceneParams {
 
 /// A moving obstacle in a picture [px]; x right, y down, (0, 0) is the centre of the first pixel.
 struct SeenObstacle {
-  Blob blob;  ///< its visible part
-  std::optional<Ring>
-      disc;  ///< set if it is round; completes a partly hidden disc. Otherwise the hull is used
+  Blob blob;                  ///< its visible part
+  std::optional<Ring> disc;   ///< if round, with hidden parts; else the hull is used
   std::vector<Vec2> hull_px;  ///< convex; contains the outline to half a pixel
 
   /// Shape in the world [µm], as in a Body.

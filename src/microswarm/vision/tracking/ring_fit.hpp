@@ -15,9 +15,7 @@ struct Ring {
   double radius_px = 0;
 };
 
-/// Circle through points by least squares of
-/// p − c
-/// ² − r² (Kåsa 1976); empty for collinear points.
+/// Circle through points by least squares of |p − c|² − r² (Kåsa 1976); empty for collinear points.
 std::optional<Ring> circle_through(const std::vector<Vec2>& points);
 
 /// Fits the dark circle (bright unless `dark`) around `start` with a radius between 0.5 and 1.5

@@ -122,8 +122,7 @@ class RobotTracker {
     int run = 1;                      ///< number of consecutive frames in which it was seen
     bool merged = false;              ///< it has merged with another robot
     std::optional<Touch> vanished{};  ///< set if the other robot had been seen for long enough
-    std::optional<Touch>
-        appeared{};  ///< likewise; cleared once the robot itself has been seen for long enough
+    std::optional<Touch> appeared{};  ///< likewise; until the robot itself has lasted
     RobotFilter filter;
   };
 
