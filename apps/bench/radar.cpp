@@ -65,8 +65,7 @@ std::vector<double> times(const std::vector<Place>& all, int rounds, const Stop&
       const auto began = Clock::now();
       decide(place);
       const std::chrono::duration<double, std::micro> took = Clock::now() - began;
-      if (round > 0 || rounds == 1)
-        microseconds.push_back(took.count());  // the first round warms up
+      if (round > 0 || rounds == 1) microseconds.push_back(took.count());  // else warm-up
     }
   }
   return microseconds;

@@ -32,6 +32,7 @@ cv::Mat grown(const cv::Mat& set, double radius);
 /// never passes through a point.
 void widen_corners(cv::Mat& set);
 
-/// Radii of the largest inscribed discs: distance [px] of each set pixel to the nearest unset one.
+/// Distance [px] of each set pixel to the nearest unset one: radii of the largest inscribed discs.
+cv::Mat depth_in(const cv::Mat& set);
 
 }  // namespace microswarm
