@@ -33,7 +33,7 @@ GlobalTree grow(const Map& map, std::span<const Vec2> starts, std::size_t nodes,
   return global_rrt(map, starts, {}, params, rng).tree;
 }
 
-/// Nodes a second: the median of some growths.
+/// Nodes per second: median of several runs.
 double rate(const Map& map, std::span<const Vec2> starts, std::size_t nodes, int repeats,
             double step, const Stop& stop) {
   std::vector<double> rates;
@@ -45,7 +45,7 @@ double rate(const Map& map, std::span<const Vec2> starts, std::size_t nodes, int
   return rates.empty() ? 0 : median(rates);
 }
 
-/// What a node takes while the tree grows: its entry and its part of the kd-tree.
+/// Memory per node during growth: its entry and its share of the kd-tree.
 double bytes_a_node(const GlobalTree& tree) {
   BucketKdTree nearest(2 * tree.robots);
   for (std::uint32_t node = 0; node < tree.size(); ++node) nearest.add(tree.configuration(node));
@@ -78,7 +78,7 @@ std::vector<BenchRow> growth(bool quick, const Stop& stop) {
   return rows;
 }
 
-/// The map's free space in pixels of `px` µm.
+/// The map rasterised with pixels of `px` µm.
 Map in_pixels(const Map& map, double px) {
   const Box& box = map.bounds();
   Mask walls(static_cast<int>(box.width() / px), static_cast<int>(box.height() / px));
@@ -88,7 +88,7 @@ Map in_pixels(const Map& map, double px) {
   return {cell_bounds(walls, px, box.lo), mask_walls(walls, px, box.lo)};
 }
 
-/// A vessel mask is an obstacle map like any other.
+/// Tree growth on a vessel mask as obstacle map.
 BenchRow raster(bool quick, const Stop& stop) {
   const scenes::GlobalTask task = scenes::vascular_task();
   const std::size_t nodes = quick ? 50'000 : 200'000;

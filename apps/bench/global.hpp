@@ -8,8 +8,9 @@
 
 namespace microswarm::bench {
 
-/// Growing the tree of [global] beside OMPL's RRT with the same local planner, on walls of polygons
-/// and of pixels; its memory; asking it and loading it from its file. `quick` grows smaller trees.
+/// Benchmarks tree growth of [global] against OMPL's RRT with the same local planner, on polygon
+/// and pixel walls; its memory; querying the tree and loading it from its file. `quick` grows
+/// smaller trees.
 std::vector<BenchRow> global(bool quick, const Stop& stop);
 
 }  // namespace microswarm::bench

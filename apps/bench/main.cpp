@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// microswarm-bench: speeds beside those of peers, which only this program links.
+// microswarm-bench compares speeds with those of peers, which only this program links.
 #include <memory>
 
 #include "bench/global.hpp"
@@ -45,8 +45,8 @@ void add_group(Command app, const Group& group, Action& action) {
   auto o = std::make_shared<BenchOptions>();
   const std::string example = fmt::format("bench {0} --quick --csv {0}.csv", group.name);
   Command cmd = app.add_command(group.name, group.doc, example.c_str());
-  cmd.add_option("--csv", o->csv, "Write the rows to this file too").type_name("FILE");
-  cmd.add_flag("--quick", o->quick, "Fewer repetitions: ends within 50 s");
+  cmd.add_option("--csv", o->csv, "Also write the rows to this CSV file").type_name("FILE");
+  cmd.add_flag("--quick", o->quick, "Fewer repetitions; takes at most 50 s");
   add_json(cmd, o->json);
   cmd.callback([=, &action] {
     action = [=](const Context& context) { return measure(group, *o, context); };
@@ -58,8 +58,9 @@ void add_group(Command app, const Group& group, Action& action) {
 
 int main(int argc, char** argv) {
   using namespace microswarm;
-  cli::CommandLine line("microswarm-bench", "Measures speeds beside a peer's in the same run.",
-                        std::string(version), "Exit code 3 when a row falls short.");
+  cli::CommandLine line("microswarm-bench",
+                        "Compares speeds with those of reference implementations.",
+                        std::string(version), "Exit code 3 if a row misses its aim.");
   const cli::Command app = line.root();
   cli::Action action;
   const cli::Group groups[] = {
@@ -70,7 +71,7 @@ int main(int argc, char** argv) {
       {"swarm", "Stepping of robots under one input", bench::swarm},
       {"global", "Planning for several robots under one input", bench::global},
       {"radar", "Decisions of the radar", bench::radar},
-      {"vision", "Finding and following swarms and robots", bench::vision}};
+      {"vision", "Detection and tracking of swarms and robots", bench::vision}};
   for (const cli::Group& group : groups) cli::add_group(app, group, action);
   return cli::run_program("microswarm-bench", line, action, argc, argv);
 }

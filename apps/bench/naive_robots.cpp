@@ -8,7 +8,8 @@ namespace {
 
 constexpr double standoff = 1e-3;  // [µm]
 
-/// Share of the move up to the edge, less the stand-off square to it; above 1 when not met.
+/// Fraction of the move up to the edge, minus the perpendicular standoff; above 1 if the edge is
+/// not reached.
 double time_to(const Segment& edge, Vec2 p, Vec2 move) {
   const Vec2 along = edge.b - edge.a;
   const double turn = cross(move, along);

@@ -7,8 +7,8 @@
 
 namespace microswarm::bench {
 
-/// Stepping as it is written first: robot after robot in double precision, each against every edge
-/// of the map, stopping a little before the nearest.
+/// Straightforward stepping as reference: one robot after the other in double precision, each
+/// against every edge of the map, stopping slightly before the nearest.
 class NaiveRobots {
  public:
   NaiveRobots(const Map& map, std::vector<Vec2> places);

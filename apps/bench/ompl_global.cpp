@@ -33,7 +33,7 @@ PointF place(const double* v, std::size_t robot) {
   return {static_cast<float>(v[2 * robot]), static_cast<float>(v[2 * robot + 1])};
 }
 
-/// Alg 2 [global], and how many nodes came of it.
+/// Alg 2 [global], with a count of the created nodes.
 class LocalPlanner : public oc::DirectedControlSampler {
  public:
   LocalPlanner(const oc::SpaceInformation* si, const RobotStepper& stepper,
@@ -125,7 +125,7 @@ OmplGrowth grow_ompl(const Map& map, std::span<const Vec2> starts, const GlobalR
   auto si = std::make_shared<oc::SpaceInformation>(space, controls);
   si->setStateValidityChecker([](const ob::State*) { return true; });
   si->setStatePropagator(
-      [](const ob::State*, const oc::Control*, double, ob::State*) {});  // the sampler does it
+      [](const ob::State*, const oc::Control*, double, ob::State*) {});  // done by the sampler
   si->setMinMaxControlDuration(1, 1);
   si->setPropagationStepSize(1);
   si->setDirectedControlSamplerAllocator([&](const oc::SpaceInformation* info) {

@@ -8,15 +8,15 @@
 
 namespace microswarm::bench {
 
-/// How far OMPL's RRT got.
+/// Result of growing OMPL's RRT.
 struct OmplGrowth {
   std::size_t nodes = 0;
   double seconds = 0;
 };
 
-/// Grows OMPL's RRT to `nodes` or for `max_seconds` in the space of several robots' places, with
-/// its own nearest neighbours and with the local planner of ours, Alg 2 [global], as its directed
-/// control sampler; each input is one step of its propagator.
+/// Grows OMPL's RRT to `nodes` or for `max_seconds` in the space of several robots' positions, with
+/// its own nearest neighbours and our local planner, Alg 2 [global], as its directed control
+/// sampler. Each input is one step of its propagator.
 OmplGrowth grow_ompl(const Map& map, std::span<const Vec2> starts, const GlobalRrtParams& params,
                      std::size_t nodes, double max_seconds);
 

@@ -72,7 +72,7 @@ std::shared_ptr<Planner> with_range(const ob::SpaceInformationPtr& si, double ra
   return planner;
 }
 
-/// The planner as published: a radius, not a count, makes neighbours.
+/// The planner as published: neighbours within a radius, not a fixed number.
 ob::PlannerPtr fmt_star(const ob::SpaceInformationPtr& si, const OmplQuery& query) {
   auto planner = std::make_shared<og::FMT>(si);
   planner->setNumSamples(query.samples);

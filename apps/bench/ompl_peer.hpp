@@ -15,7 +15,7 @@ enum class OmplPlanner { rrt_connect, rrt_star, informed_rrt_star, bit_star, fmt
 std::string_view name_of(OmplPlanner planner);
 std::string ompl_version();
 
-/// What one OMPL planner did.
+/// Result of an OMPL planner.
 struct OmplResult {
   bool solved = false;
   double seconds = 0;  ///< of solve() alone
@@ -23,8 +23,8 @@ struct OmplResult {
   std::size_t vertices = 0;
 };
 
-/// What it is asked. States and motions are checked by our exact queries with the clearance, so
-/// that both sides search the same space; the goal tolerance and the range are those of ours.
+/// A planning query. States and motions are checked by our exact queries with the clearance, so
+/// both sides search the same space. Goal tolerance and range are the same as ours.
 struct OmplQuery {
   const Snapshot& world;
   Vec2 start;
@@ -34,15 +34,15 @@ struct OmplQuery {
   double range = 80;
   unsigned samples = 1000;     ///< of FMT*
   double radius_factor = 1.1;  ///< of FMT*
-  double free_area = 0;        ///< of FMT* [µm²]; 0: the bounds', as OMPL does by itself
+  double free_area = 0;        ///< of FMT* [µm²]; 0: that of the bounds, OMPL's default
   double max_seconds = 1;
-  bool first_solution = true;  ///< stop at it, or use up the time
+  bool first_solution = true;  ///< stop at the first solution instead of using all the time
 };
 
-/// Runs a planner; `seed` is set once a process by OMPL, so only the first call's counts.
+/// Runs a planner. OMPL sets `seed` once per process, so only the first call's is used.
 OmplResult run_ompl(OmplPlanner planner, const OmplQuery& query);
 
-/// Motion checks a second of OMPL's DiscreteMotionValidator at its default resolution (1 % of the
+/// Motion checks per second of OMPL's DiscreteMotionValidator at its default resolution (1 % of the
 /// space's extent), with our point check.
 double ompl_motion_rate(const Snapshot& world, double clearance, const std::vector<Segment>& edges);
 

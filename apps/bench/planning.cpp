@@ -83,8 +83,8 @@ struct Query {
   Vec2 goal;
 };
 
-/// Pairs of free places at least half the map's width apart. They keep twice the clearance, so that
-/// the peer, which ends exactly at its goal, can get there too.
+/// Pairs of free points at least half the map's width apart. Their clearance is doubled, so that
+/// the peer, which ends exactly at its goal, can reach them too.
 std::vector<Query> far_pairs(const Snapshot& world, double clearance, int count, Rng& rng) {
   const Box& box = world.bounds();
   const auto place = [&] { return uniform_in(box, rng); };
@@ -98,7 +98,8 @@ std::vector<Query> far_pairs(const Snapshot& world, double clearance, int count,
   return pairs;
 }
 
-/// A 2000 × 1000 µm map with 140 discs and 70 polygons: time to the first path between far places.
+/// Time to the first path between distant points on a 2000 × 1000 µm map with 140 discs and 70
+/// polygons.
 std::vector<BenchRow> clutter(bool quick, const Stop& stop) {
   Rng rng(1, Purpose::scene);
   const Snapshot world = scenes::cluttered(rng).snapshot();
@@ -141,7 +142,7 @@ std::vector<BenchRow> clutter(bool quick, const Stop& stop) {
   return rows;
 }
 
-/// The same map: how fast a tree grows that goes on after its first path.
+/// Growth rate of a tree that continues after its first path, on the same map.
 std::vector<BenchRow> tree_growth(bool quick, const Stop& stop) {
   Rng rng(1, Purpose::scene);
   const Snapshot world = scenes::cluttered(rng).snapshot();
@@ -193,7 +194,7 @@ double rate_of(std::size_t count, int repeats, Ask&& ask) {
   return sum > count * static_cast<std::size_t>(repeats) ? 0 : quantile(rate, 0.5);
 }
 
-/// Clearance queries and 40 µm edges, at random places of the same map.
+/// Clearance queries and 40 µm edges at random positions on the same map.
 std::vector<BenchRow> queries(bool quick) {
   Rng rng(1, Purpose::scene);
   const scenes::RawWorld raw = scenes::cluttered(rng);

@@ -10,10 +10,10 @@
 
 namespace microswarm::bench {
 
-/// "CPU, compiler, microswarm version, OMPL version": what a figure belongs to.
+/// "CPU, compiler, microswarm version, OMPL version", for identifying measurements.
 std::string machine_line();
 
-/// Planners, replanning and clearance queries, each beside its peer in the same run on the same
+/// Benchmarks planners, replanning and clearance queries, each with its peer in the same run and
 /// world. `scenarios` is the folder of the scenario files; `quick` repeats less.
 std::vector<BenchRow> planning(const std::filesystem::path& scenarios, bool quick,
                                const Stop& stop);
@@ -22,8 +22,8 @@ std::vector<BenchRow> planning(const std::filesystem::path& scenarios, bool quic
 std::vector<BenchRow> replanning(const std::filesystem::path& scenarios, bool quick,
                                  const Stop& stop);
 
-/// FMT* in the S-channel of Fig 3 [drrt], on both sides the same number of samples and the same
-/// radius: time and length of the first path; part of planning().
+/// FMT* in the S-channel of Fig 3 [drrt], with the same number of samples and radius on both sides:
+/// time and length of the first path. Part of planning().
 std::vector<BenchRow> fmt_star(const std::filesystem::path& scenarios, bool quick,
                                const Stop& stop);
 

@@ -65,13 +65,13 @@ std::vector<double> times(const std::vector<Place>& all, int rounds, const Stop&
       const auto began = Clock::now();
       decide(place);
       const std::chrono::duration<double, std::micro> took = Clock::now() - began;
-      if (round > 0 || rounds == 1) microseconds.push_back(took.count());  // else it warms up
+      if (round > 0 || rounds == 1) microseconds.push_back(took.count());  // else warm-up
     }
   }
   return microseconds;
 }
 
-/// A decision of the radar by the paper, or with the guard that asks about every command.
+/// Rows of a radar decision, as published or with the safety filter.
 void add_rows(std::vector<BenchRow>& rows, const std::string& name, int obstacles, bool discs,
               bool guarded, std::optional<double> aim, bool quick, const Stop& stop) {
   Rng rng(1, Purpose::scene);
@@ -83,7 +83,7 @@ void add_rows(std::vector<BenchRow>& rows, const std::string& name, int obstacle
   params.safety_filter.active = guarded;
   RadarNavigator navigator(params, swarm, {0, 0}, 1, Rng(1, Purpose::planner));
   double now = 0;
-  double sum = 0;  // keeps the results from being thought useless
+  double sum = 0;  // prevents the results from being optimised away
   const std::vector<double> ours = times(all, quick ? 20 : 100, stop, [&](const Place& place) {
     now += 0.1;
     sum += navigator

@@ -8,8 +8,8 @@
 
 namespace microswarm::bench {
 
-/// One decision of the radar among few and among many obstacles, beside the naive way in the same
-/// places; `quick` makes fewer.
+/// Benchmarks one decision of the radar among few and many obstacles against a naive implementation
+/// at the same positions; `quick` makes fewer.
 std::vector<BenchRow> radar(bool quick, const Stop& stop);
 
 }  // namespace microswarm::bench

@@ -9,7 +9,8 @@
 namespace microswarm::bench {
 namespace {
 
-/// Asks the peer for a way to the goal at every place and time at which our navigator planned.
+/// Queries the peer for a path to the goal at every position and time at which our navigator
+/// planned.
 class PeerListener : public RunListener {
  public:
   PeerListener(Vec2 goal, double clearance) : goal_(goal), clearance_(clearance) {}

@@ -32,7 +32,7 @@ std::vector<Vec2> free_places(const Map& map, double clearance, Rng& rng) {
   return places;
 }
 
-/// Headings drawn anew every few moves.
+/// Moves with a new random heading every few moves.
 std::vector<Vec2> moves(double length, int count, Rng& rng) {
   std::vector<Vec2> all;
   Vec2 move;
@@ -43,7 +43,7 @@ std::vector<Vec2> moves(double length, int count, Rng& rng) {
   return all;
 }
 
-/// Robot-steps a second: the median of some repetitions from the same places.
+/// Robot-steps per second: median of several repetitions from the same positions.
 template <class Start>
 double rate(const std::vector<Vec2>& all, int repeats, const Stop& stop, Start&& start) {
   std::vector<double> rates;
@@ -86,7 +86,7 @@ void add_rows(std::vector<BenchRow>& rows, const std::string& name, const Map& m
   }
 }
 
-/// A map as a camera gives it: of square pixels, with stairs for slanting walls.
+/// A map as given by a camera: square pixels, with steps along slanted walls.
 Map of_pixels(const Map& map, double pixel) {
   return {map.bounds(), mask_walls(rasterise(map, pixel), pixel, map.bounds().lo)};
 }

@@ -8,8 +8,8 @@
 
 namespace microswarm::bench {
 
-/// Stepping of robots under one input beside the naive way, on the same maps with the same moves;
-/// `quick` makes fewer.
+/// Benchmarks stepping of robots under one input against a naive implementation, with the same maps
+/// and moves; `quick` makes fewer.
 std::vector<BenchRow> swarm(bool quick, const Stop& stop);
 
 }  // namespace microswarm::bench

@@ -33,7 +33,7 @@ double ms_since(Clock::time_point began) {
   return std::chrono::duration<double, std::milli>(Clock::now() - began).count();
 }
 
-/// Places for robots that do not touch at first.
+/// Initial positions of robots that do not touch.
 std::vector<Vec2> first_places(Rng& rng) {
   std::vector<Vec2> places;
   for (int draw = 0; draw < 1'000'000 && std::ssize(places) < robots; ++draw) {
@@ -61,7 +61,7 @@ Image draw(const std::vector<Vec2>& at_px, Rng& rng) {
   return image;
 }
 
-/// Robots on random walks with a common drift.
+/// Synthetic video of robots on random walks with a common drift.
 std::vector<VideoFrame> video(int frames) {
   Rng rng(1, Purpose::scene);
   std::vector<Vec2> at = first_places(rng);
@@ -77,7 +77,8 @@ std::vector<VideoFrame> video(int frames) {
   return all;
 }
 
-/// OpenCV's plain way: smooth, subtract the ground, threshold, centroids of what hangs together.
+/// Plain OpenCV detection: smooth, subtract the background, threshold, centroids of connected
+/// components.
 std::size_t find_with_opencv(const Image& image) {
   cv::Mat smooth;
   cv::Mat ground;
@@ -119,7 +120,7 @@ Times measure(const std::vector<VideoFrame>& frames, const Stop& stop) {
   return times;
 }
 
-/// A swarm of clumps under uneven light with noise, on its way through the pictures.
+/// Synthetic pictures of a moving swarm of clumps under uneven light with noise.
 std::vector<Image> swarm_pictures(int frames) {
   constexpr int clumps = 600;
   constexpr double radius = 50;  // [px]
@@ -151,8 +152,8 @@ std::vector<Image> swarm_pictures(int frames) {
   return all;
 }
 
-/// OpenCV's plain way to one swarm: smooth, an adaptive threshold, close, the largest contour and
-/// its moments.
+/// Plain OpenCV detection of one swarm: smooth, adaptive threshold, closing, moments of the largest
+/// contour.
 double swarm_with_opencv(const Image& image) {
   cv::Mat smooth;
   cv::Mat set;
@@ -167,7 +168,7 @@ double swarm_with_opencv(const Image& image) {
   return largest;
 }
 
-/// Rows of one swarm found in pictures of 640 × 480 pixels.
+/// Rows for one swarm in pictures of 640 × 480 pixels.
 void add_swarm(std::vector<BenchRow>& rows, bool quick, const Stop& stop) {
   std::vector<double> ours;
   std::vector<double> peer;

@@ -6,19 +6,16 @@
 namespace {
 
 constexpr const char* footer =
-    "microswarm COMMAND --help says more about a command.\n"
-    "Exit codes: 0 done; 2 bad input or command line, told in one line; 3 ran, but the goal was "
-    "not\n"
-    "reached, a row falls short or Ctrl-C came once, which ends with what there is; a second\n"
-    "Ctrl-C ends at once, by its signal;\n"
-    "4 a device is not there or does not answer; 1 anything else.";
+    "microswarm COMMAND --help describes a command.\n"
+    "Exit codes: 0 success; 1 unexpected error; 2 bad input or command line, with a message in\n"
+    "one line; 3 goal not reached, an aim missed, or interrupted by Ctrl-C with partial results;\n"
+    "4 a device is missing or does not answer. A second Ctrl-C kills the program.";
 
 }  // namespace
 
 int main(int argc, char** argv) {
   using namespace microswarm;
-  cli::CommandLine line("microswarm",
-                        "Plans, steers, gathers and measures magnetic microrobot swarms.",
+  cli::CommandLine line("microswarm", "Plan, steer, gather and measure magnetic microrobot swarms.",
                         std::string(version), footer);
   const cli::Command app = line.root();
   cli::Action action;

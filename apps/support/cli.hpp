@@ -23,10 +23,10 @@ inline constexpr int bad_input = 2;
 inline constexpr int not_reached = 3;
 inline constexpr int hardware = 4;
 
-/// What every command is given: the stop that Ctrl-C sets.
+/// Context of every command: the stop set by Ctrl-C.
 struct Context {
   explicit Context(const std::atomic<bool>* flag) : stop(flag), interrupted(flag) {}
-  /// The same with a deadline.
+  /// The stop with an additional deadline.
   Stop within(double seconds) const {
     return Stop(
         std::chrono::duration_cast<Stop::Clock::duration>(std::chrono::duration<double>(seconds)),
@@ -37,14 +37,14 @@ struct Context {
   const std::atomic<bool>* interrupted;
 };
 
-/// A command registers its options on the app and sets an action, which main() calls once the whole
-/// command line is known to be right; it returns the exit code.
+/// A command registers its options on the app and sets an action. main() calls it after the command
+/// line is validated; it returns the exit code.
 using Action = std::function<int(const Context&)>;
 
-/// Writes results to stdout. Throws InputError "stdout: cannot write: REASON"; when nobody reads
-/// stdout any more, the program ends as every program in a pipe does, by SIGPIPE.
+/// Writes results to stdout. Throws InputError "stdout: cannot write: REASON". If the reader of a
+/// pipe has gone, the program ends by SIGPIPE.
 void put(std::string_view text);
-/// Brings to stdout what put() may still hold back; errors as there.
+/// Flushes output buffered by put(); errors as there.
 void flush_output();
 
 template <class... Values>
@@ -52,7 +52,7 @@ void print(fmt::format_string<Values...> format, Values&&... values) {
   put(fmt::format(format, std::forward<Values>(values)...));
 }
 
-/// Says something on stderr, as far as anybody can read it: a closed terminal is no error.
+/// Writes to stderr; errors such as a closed terminal are ignored.
 void say(std::string_view text) noexcept;
 
 template <class... Values>
@@ -60,19 +60,19 @@ void note(fmt::format_string<Values...> format, Values&&... values) {
   say(fmt::format(format, std::forward<Values>(values)...));
 }
 
-/// Each of them as "note: …" on stderr.
+/// Writes each line to stderr as "note: …".
 inline void note_each(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) note("note: {}\n", line);
 }
 
-/// Progress on stderr, only where that is a terminal: "label [#####.....] 50 % 3 s left note".
+/// Progress bar on stderr, shown only on a terminal: "label [#####.....] 50 % 3 s left note".
 class ProgressBar {
  public:
   explicit ProgressBar(std::string label);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
-  /// `share` of the work is done, in [0, 1].
+  /// `share` is the completed fraction of the work, in [0, 1].
   void update(double share, const std::string& doing = {});
 
  private:
@@ -83,32 +83,32 @@ class ProgressBar {
   std::string note_;
 };
 
-/// Progress of library code on such bars, one after the other.
+/// Shows progress of library code on such bars, one after the other.
 BeginProgress progress_bars();
 
-/// A folder that one command at a time fills, so that two do not mix. The hold goes with the
-/// process, however that ends; where a file system has no locks there is none.
+/// An output folder, locked for one command at a time. The lock ends with the process; on file
+/// systems without locks there is none.
 class OutFolder {
  public:
-  /// Makes the folder, as make_folder, and holds it; nothing when its name is empty. Clears away
-  /// the temporary files of programs that were killed. Throws InputError "FOLDER: another command
-  /// is writing to it".
+  /// Creates the folder, as make_folder, and locks it; does nothing for an empty name. Removes
+  /// temporary files of killed programs. Throws InputError "FOLDER: another command is writing to
+  /// it".
   explicit OutFolder(const std::string& folder);
-  /// Takes away what it made and nothing came into.
+  /// Removes the folders it created that are still empty.
   ~OutFolder();
   OutFolder(const OutFolder&) = delete;
   OutFolder& operator=(const OutFolder&) = delete;
 
  private:
   int folder_ = -1;
-  std::vector<std::filesystem::path> made_;  // the innermost first
+  std::vector<std::filesystem::path> made_;  // innermost first
 };
 
-/// Throws InputError when the file to be written is the one that is read.
+/// Throws InputError if the file to be written is the input.
 void keep_input(const std::string& out, const std::string& in);
 
-/// Folder of the scenarios that come with the program: of the source tree it was built in, or of
-/// the installation. Throws InputError when there is none.
+/// Folder of the shipped scenarios, in the source tree of the build or in the installation. Throws
+/// InputError if there is none.
 std::filesystem::path scenario_folder();
 
 }  // namespace microswarm::cli

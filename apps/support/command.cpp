@@ -123,7 +123,7 @@ Command Command::add_group(const char* name, const char* doc) {
 template <class T>
 Option Command::add_option(const char* name, T& value, const char* doc) {
   CLI::Option* option = app_->add_option(name, value, doc);
-  if constexpr (std::is_same_v<T, std::string>)  // as "$NOT_SET" gives
+  if constexpr (std::is_same_v<T, std::string>)  // an unset shell variable gives an empty text
     option->check([](const std::string& text) { return text.empty() ? "is empty" : ""; });
   return Option(option);
 }

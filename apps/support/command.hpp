@@ -15,21 +15,21 @@ class Option;
 
 namespace microswarm::cli {
 
-/// What the text of an option must be.
+/// Condition on the text of an option.
 struct Check {
-  std::function<std::string(const std::string&)> wrong;  ///< why a text is not; empty when it is
+  std::function<std::string(const std::string&)> wrong;  ///< error message; empty if valid
   std::string allowed{};                                 ///< for the help
 };
 
 /// A decimal number within lo..hi: "is -3, allowed 0..100".
 Check number(double lo, double hi);
-/// A whole number within lo..hi.
+/// An integer within lo..hi.
 Check whole(std::uint64_t lo, std::uint64_t hi);
 /// One of these words.
 Check one_of(const std::vector<std::string>& words);
-/// A file's name that ends with one of these, as ".png".
+/// A file name with one of these extensions, such as ".png".
 Check file_kind(const std::vector<std::string>& kinds);
-/// 2 … `most` numbers with commas between them; `form` says what is meant.
+/// 2 … `most` numbers separated by commas; `form` describes the format.
 Check place(std::size_t most, const char* form);
 
 /// An option or an argument of a command.
@@ -39,45 +39,45 @@ class Option {
   Option required();
   Option type_name(const char* name);
   Option check(const Check& check);
-  /// It is given only together with the other.
+  /// Valid only together with the other option.
   Option needs(Option other);
   Option needs(const char* other);
-  /// Not both are given.
+  /// Not valid together with the other option.
   Option excludes(Option other);
   Option excludes(const char* other);
-  /// The help tells the value that it has now.
+  /// Shows the present value as default in the help.
   Option capture_default();
-  /// It may stand several times, with a value each.
+  /// May be given several times, with one value each.
   Option repeatable();
 
  private:
   CLI::Option* option_;
 };
 
-/// A command, or a group of commands. What it fills must outlive the parsing.
+/// A command, or a group of commands. The variables it fills must outlive the parsing.
 class Command {
  public:
   explicit Command(CLI::App* app) : app_(app) {}
-  /// A command with what it does in one line and an example of a whole command line.
+  /// Adds a command with a one-line description and an example command line.
   Command add_command(const char* name, const char* doc, const char* example);
-  /// A group of commands, one of which must be named.
+  /// Adds a group of commands, one of which must be named.
   Command add_group(const char* name, const char* doc);
-  /// The name that this command had in earlier versions, which still works.
+  /// Name of this command in earlier versions, which still works.
   void former_name(const char* name);
-  /// `name` is "--name", or "name" for an argument. T: std::string, a list of them, double, int, a
-  /// whole number, or an optional one of these.
+  /// Adds an option "--name" or an argument "name". T: std::string, a list of strings, double, int,
+  /// an unsigned integer, or an optional number.
   template <class T>
   Option add_option(const char* name, T& value, const char* doc);
   Option add_flag(const char* name, bool& value, const char* doc);
   Option option(const char* name);
-  /// Called when this command was given and all is right with its options.
+  /// Called if this command was given and its options are valid.
   void callback(std::function<void()> given);
 
  private:
   CLI::App* app_;
 };
 
-/// The whole command line of the program.
+/// The complete command line of the program.
 class CommandLine {
  public:
   CommandLine(const char* name, const char* doc, const std::string& version, const char* footer);
@@ -86,8 +86,8 @@ class CommandLine {
   CommandLine& operator=(const CommandLine&) = delete;
 
   Command root() { return Command(app_.get()); }
-  /// The exit code when that is all, as after --help. Throws InputError in one line that says where
-  /// help is.
+  /// Parses the command line. Returns the exit code if nothing remains to be done, as after --help.
+  /// Throws a one-line InputError that refers to the help.
   std::optional<int> parse(int argc, char** argv);
 
  private:

@@ -21,7 +21,7 @@ void add_json(Command command, bool& value) {
 }
 
 void add_photo(Command command, PhotoOptions& options) {
-  command.add_option("--photo", options.file, "Photograph to lay under the pictures")
+  command.add_option("--photo", options.file, "Photograph as background of the pictures")
       .type_name("FILE");
   add_um_per_px(command, options.um_per_px, "µm per pixel of the photograph, 1e-6..1e6");
   command.option("--um-per-px").needs("--photo");

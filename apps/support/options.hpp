@@ -13,22 +13,22 @@
 
 namespace microswarm::cli {
 
-/// Options that several commands have.
+/// Options shared by several commands.
 void add_um_per_px(Command command, std::optional<double>& value, const char* doc);
 void add_settings(Command command, std::vector<std::string>& values, const char* doc);
 void add_json(Command command, bool& value);
 
-/// `--photo` with its `--um-per-px`, for commands that draw reports.
+/// Option `--photo` with its `--um-per-px`, for commands that draw reports.
 struct PhotoOptions {
   std::string file;
   std::optional<double> um_per_px;
 };
 void add_photo(Command command, PhotoOptions& options);
-/// Reads the photograph, if one is named. Throws InputError.
+/// Reads the photograph if one is given. Throws InputError.
 ReportOptions report_options(const PhotoOptions& options);
 
-/// The planner's choice as a file would hold it, so that --set planner.… works as in scenarios;
-/// `Planners` is a variant.
+/// A planner as stored in a file, so that --set planner.… works as in scenarios; `Planners` is a
+/// variant.
 template <class Planners>
 struct PlannerChoice {
   Planners planner;
@@ -38,7 +38,7 @@ struct PlannerChoice {
   }
 };
 
-/// "11 of 14 aims are met, 3 have no verdict", of rows to reproduce or of a bench.
+/// Summary of reproduction or benchmark rows: "11 of 14 aims are met, 3 have no verdict".
 template <class Row>
 std::string aims_met(const std::vector<Row>& rows) {
   const auto count = [&](auto&& is) { return std::count_if(rows.begin(), rows.end(), is); };

@@ -28,7 +28,7 @@ extern "C" void on_interrupt(int signal) {
   }
 }
 
-/// Every line of a complaint begins with the program's name.
+/// Prefixes every line of an error message with the program's name.
 int complain(const char* name, std::string_view what, int code) {
   for (bool more = true; more;) {
     const std::size_t end = what.find('\n');
@@ -39,7 +39,7 @@ int complain(const char* name, std::string_view what, int code) {
   return code;
 }
 
-/// Pictures come and go: their memory is kept, not given back to the system and cleared each time.
+/// Keeps freed memory, because pictures are allocated and freed repeatedly.
 void keep_memory() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
@@ -74,7 +74,7 @@ int run_program(const char* name, CommandLine& line, const Action& action, int a
   std::signal(SIGQUIT, on_interrupt);
   std::signal(SIGHUP, on_interrupt);  // the terminal was closed
   std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing
+  std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit is a write error
   try {
     if (const std::optional<int> code = line.parse(argc, argv)) return *code;
   } catch (const InputError& e) {

@@ -6,9 +6,9 @@
 
 namespace microswarm::cli {
 
-/// The whole of a program: parses its command line, whose commands set `action`, runs that and
-/// tells what goes wrong, "NAME: WHAT" a line. The first Ctrl-C asks for a clean end, a second one
-/// ends at once. The exit code.
+/// Runs a program: parses its command line, whose commands set `action`, calls the action, and
+/// reports errors as lines "NAME: WHAT". The first Ctrl-C requests a clean end, a second one kills
+/// the program. Returns the exit code.
 int run_program(const char* name, CommandLine& line, const Action& action, int argc, char** argv);
 
 }  // namespace microswarm::cli

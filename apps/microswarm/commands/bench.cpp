@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `bench` hands over to microswarm-bench, the program that links what it is measured beside.
+// `bench` executes microswarm-bench, the program that links the peer libraries.
 #include <unistd.h>
 
 #include <memory>
@@ -45,13 +45,14 @@ int measure(const BenchOptions& o) {
 void add_bench(Command app, Action& action) {
   auto o = std::make_shared<BenchOptions>();
   Command cmd = app.add_command(
-      "bench", "Measure speeds beside a peer's in the same run: exit code 3 when one falls short",
+      "bench",
+      "Compare speeds with those of reference implementations; exit code 3 if one misses its aim",
       "bench planning --quick --csv planning.csv");
-  cmd.add_option("group", o->group, "What to measure: planning, swarm, global, radar, vision")
+  cmd.add_option("group", o->group, "Benchmark: planning, swarm, global, radar, vision")
       .required()
       .type_name("GROUP");
-  cmd.add_option("--csv", o->csv, "Write the rows to this file too").type_name("FILE");
-  cmd.add_flag("--quick", o->quick, "Fewer repetitions: ends within 50 s");
+  cmd.add_option("--csv", o->csv, "Also write the rows to this CSV file").type_name("FILE");
+  cmd.add_flag("--quick", o->quick, "Fewer repetitions; takes at most 50 s");
   cmd.add_flag("--json", o->json, "Print JSON");
   cmd.callback([o, &action] { action = [o](const Context&) { return measure(*o); }; });
 }

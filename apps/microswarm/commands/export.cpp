@@ -19,7 +19,7 @@ struct ExportOptions {
   std::string table = "frames";
 };
 
-/// Whether the file begins as an HDF5 file does; anything but a database is refused by its reader.
+/// Whether the file starts like an HDF5 file. The database reader rejects other files.
 bool is_hdf5(const std::string& file) {
   std::array<char, 4> first{};
   std::ifstream(file, std::ios::binary).read(first.data(), first.size());
@@ -66,21 +66,19 @@ int export_command(const ExportOptions& o) {
 
 void add_export(Command app, Action& action) {
   auto o = std::make_shared<ExportOptions>();
-  Command cmd =
-      app.add_command("export",
-                      "Write a sweep's database, or a table of a run's record, in forms that "
-                      "other programs read",
-                      "export first_flight.db --csv trials.csv --hdf5 trials.h5 --ompl logs");
-  cmd.add_option("file", o->file, "Database of a sweep, or record of a run (run.h5)")
+  Command cmd = app.add_command(
+      "export", "Export a sweep's database, or a table of a run's record, to other formats",
+      "export first_flight.db --csv trials.csv --hdf5 trials.h5 --ompl logs");
+  cmd.add_option("file", o->file, "Database of a sweep or record of a run (run.h5)")
       .required()
       .type_name("FILE");
-  cmd.add_option("--csv", o->csv, "CSV, units in the names of its columns").type_name("FILE");
-  cmd.add_option("--hdf5", o->hdf5, "HDF5, a dataset for each column").type_name("FILE");
+  cmd.add_option("--csv", o->csv, "Write CSV with units in the column names").type_name("FILE");
+  cmd.add_option("--hdf5", o->hdf5, "Write HDF5 with one dataset per column").type_name("FILE");
   cmd.add_option("--ompl", o->ompl,
-                 "Folder for logs of OMPL's benchmarks, one for each combination of parameters")
+                 "Write OMPL benchmark logs to this folder, one per combination of parameters")
       .type_name("FOLDER");
   cmd.add_option("--table", o->table,
-                 "Table of a record: frames when not given, events, paths/points, ...")
+                 "Table of a record: frames (default), events, paths/points, ...")
       .type_name("NAME");
   cmd.callback([o, &action] { action = [o](const Context&) { return export_command(*o); }; });
 }

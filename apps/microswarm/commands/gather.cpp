@@ -28,8 +28,8 @@ struct GatherOptions {
   bool json = false;
 };
 
-/// The published lengths and speed [gather], for channels of 10 µm, made as large as this map's
-/// channels: a step a tick, gathered when the mean way is as short as a channel is wide.
+/// Scales the published lengths and speed [gather], for channels of 10 µm, to this map's channels.
+/// One step per tick; gathered when the mean path length is at most a channel width.
 void fit(Scenario& scenario, double width, int max_steps) {
   constexpr double speed = 80;  // [µm/s]
   auto& params = std::get<AggregationParams>(scenario.navigator);
@@ -40,8 +40,8 @@ void fit(Scenario& scenario, double width, int max_steps) {
   scenario.goal_tolerance = width;
 }
 
-/// The usual width of the map's channels: as given, with a note on stderr where that is far from
-/// what is measured, else measured.
+/// Typical width of the map's channels: as given, with a note on stderr if it is far from the
+/// measured one; otherwise measured.
 double width_of(const GatherOptions& o, const Map& map) {
   constexpr double far = 5;
   Rng rng(o.seed, Purpose::planner);
@@ -53,7 +53,7 @@ double width_of(const GatherOptions& o, const Map& map) {
   return *o.channel_width;
 }
 
-/// Its --um-per-px is that of the photograph.
+/// Map specification; the user's --um-per-px belongs to the photograph.
 MapSpec map_spec(const GatherOptions& o) {
   try {
     return guess_map_spec(o.map, o.um_per_px);
@@ -92,32 +92,32 @@ int gather_command(const GatherOptions& o, const Context& context) {
 
 void add_gather(Command app, Action& action) {
   auto o = std::make_shared<GatherOptions>();
-  Command cmd = app.add_command(
-      "gather", "Gather many robots at a goal with one input for all, in a simulation",
-      "gather vessels.geojson --goal 11103,2397 --robots 512 --out out/gather");
+  Command cmd =
+      app.add_command("gather", "Simulate gathering many robots at a goal with one common input",
+                      "gather vessels.geojson --goal 11103,2397 --robots 512 --out out/gather");
   cmd.add_option("map", o->map, "Picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles")
       .required()
       .type_name("FILE");
   cmd.add_option("--map-um-per-px", o->um_per_px, "µm per pixel or cell of the map, 1e-6..1e6")
       .type_name("NUMBER")
       .check(number(1e-6, 1e6));
-  cmd.add_option("--goal", o->goal, "x,y in µm; in a dead end")
+  cmd.add_option("--goal", o->goal, "Goal in µm, in a dead end")
       .required()
       .type_name("X,Y")
       .check(place(2, "x,y in µm"));
-  cmd.add_option("--robots", o->robots, "How many, at random places; 256 when not given")
+  cmd.add_option("--robots", o->robots, "Number of robots, at random positions (default: 256)")
       .type_name("NUMBER")
       .check(whole(1, 1'000'000));
   cmd.add_option("--channel-width", o->channel_width,
-                 "Usual width of a channel in µm, which all lengths go by; measured when not given")
+                 "Typical channel width in µm, which scales all lengths (default: measured)")
       .type_name("NUMBER")
       .check(number(1e-3, 1e6));
-  cmd.add_option("--most-steps", o->max_steps, "Give up after so many; 100000 when not given")
+  cmd.add_option("--most-steps", o->max_steps, "Maximum number of steps (default: 100000)")
       .type_name("NUMBER")
       .check(whole(1, 100'000'000));
   add_settings(cmd, o->settings,
-               "Change a value of the scenario that is run, as navigator.method=heuristic");
-  cmd.add_option("--seed", o->seed, "Seed of the random streams; 1 when not given")
+               "Override a scenario value, e.g. navigator.method=heuristic (repeatable)");
+  cmd.add_option("--seed", o->seed, "Seed of the random streams (default: 1)")
       .type_name("NUMBER")
       .check(whole(0, UINT64_MAX));
   cmd.add_option("--out", o->out, "Folder for run.h5, pictures and index.html").type_name("FOLDER");

@@ -39,7 +39,7 @@ struct GlobalOptions {
   bool json = false;
 };
 
-/// "60,300;60,250"; empty when it is no such list.
+/// Parses "60,300;60,250"; empty if the text is not such a list.
 std::vector<Vec2> places(const std::string& text) {
   std::vector<Vec2> all;
   for (const std::string_view one : split(text, ';')) {
@@ -59,15 +59,15 @@ Check place_list() {
   }};
 }
 
-/// What was found, and what it took.
+/// Result of planning and its effort.
 struct Found {
   GlobalPlan plan;
   std::uint64_t nodes = 0;
-  std::size_t inputs = 0;  ///< before some were dropped
+  std::size_t inputs = 0;  ///< before removal of superfluous inputs
   double seconds = 0;
 };
 
-/// That the planner says itself when there are not as many goals as robots.
+/// Validates starts and goals. The planner itself reports unequal numbers.
 void check_ends(const GlobalOptions& o, const Map& map, std::span<const Vec2> starts,
                 std::span<const Vec2> goals, const GlobalPlay& play) {
   if (goals.size() != starts.size()) return;
@@ -75,7 +75,7 @@ void check_ends(const GlobalOptions& o, const Map& map, std::span<const Vec2> st
       validate_robot_paths(map, starts, goals, play.goal_tolerance, 0));
 }
 
-/// Throws InputError when no planner could have brought the robots there.
+/// Throws InputError if no plan can exist.
 void explain(const GlobalOptions& o, const Map& map, std::span<const Vec2> starts,
              std::span<const Vec2> goals, const GlobalPlay& play, Status status) {
   const Snapshot world = Snapshot::of(map);
@@ -101,7 +101,7 @@ GlobalPlay play_of(const std::variant<GlobalSearchParams, GlobalRrtParams>& plan
       planner);
 }
 
-/// The parameters a tree was grown with; what --set changes of them would not fit the tree.
+/// The parameters with which a tree was grown; changes by --set would not fit it.
 GlobalRrtParams parameters_of(const GlobalOptions& o, const GlobalTree& tree) {
   GlobalChoice choice;
   GlobalRrtParams grown;
@@ -130,7 +130,7 @@ Found search_inputs(const Map& map, std::span<const Vec2> starts, std::span<cons
   return {std::move(found.plan), found.counts.samples};
 }
 
-/// Grows a tree, keeps it where it is to be kept, and asks it.
+/// Grows a tree, saves it if requested, and queries it.
 Found grow(const GlobalOptions& o, const LoadedMap& map, std::span<const Vec2> starts,
            std::span<const Vec2> goals, const GlobalRrtParams& params, Rng& rng, const Stop& stop) {
   const GlobalRrt grown = global_rrt(*map.map, starts, goals, params, rng, stop);
@@ -206,7 +206,7 @@ void check_options(const GlobalOptions& o) {
   if (o.goals.empty() && !o.picture.empty()) throw InputError("global: --picture needs --goals");
 }
 
-/// The plan, from a tree that is there already or by a planner.
+/// The plan from a stored tree or by a planner.
 Found found_plan(const GlobalOptions& o, const LoadedMap& map, std::span<const Vec2> goals,
                  GlobalPlay& play, const Stop& stop) {
   if (!o.tree.empty()) {
@@ -271,8 +271,7 @@ int global_command(const GlobalOptions& o, const Context& context) {
 void add_global(Command app, Action& action) {
   auto o = std::make_shared<GlobalOptions>();
   Command cmd = app.add_command(
-      "global",
-      "Plan inputs that bring each of several robots, which all get the same, to its goal",
+      "global", "Plan common inputs that bring each of several robots to its own goal",
       "global map.csv --robots \"60,300;60,250\" --goals \"330,300;330,200\" --picture ways.png\n"
       "  microswarm global map.csv --robots \"60,300;60,250\" --save-tree tree.h5 \\\n"
       "      --set planner.max_nodes=300000\n"
@@ -281,27 +280,28 @@ void add_global(Command app, Action& action) {
       .required()
       .type_name("FILE");
   add_um_per_px(cmd, o->um_per_px, "µm per pixel or cell of the map, 1e-6..1e6");
-  cmd.add_option("--robots", o->robots, "Where the robots start, in µm; y points up")
+  cmd.add_option("--robots", o->robots, "Start positions of the robots in µm; y points up")
       .type_name("X,Y;X,Y…")
       .check(place_list());
-  cmd.add_option("--goals", o->goals, "Each robot's goal, in the same order")
+  cmd.add_option("--goals", o->goals, "Goal positions of the robots, in the same order")
       .type_name("X,Y;X,Y…")
       .check(place_list());
-  cmd.add_option("--tree", o->tree, "Ask this tree, grown before on the same map")
+  cmd.add_option("--tree", o->tree, "Query this tree, grown earlier on the same map")
       .type_name("FILE");
   Option save = cmd.add_option("--save-tree", o->save_tree,
-                               "Grow a tree to planner.max_nodes and keep it in this HDF5 file");
+                               "Grow a tree to planner.max_nodes and save it to this HDF5 file");
   save.type_name("FILE").excludes("--tree");
-  add_settings(cmd, o->settings,
-               "Choose planner.type, global_search or global_rrt, and change its values");
-  cmd.add_option("--time-limit", o->time_limit, "Give up after so many seconds; none when missing")
+  add_settings(
+      cmd, o->settings,
+      "Select planner.type (global_search or global_rrt) and override its values (repeatable)");
+  cmd.add_option("--time-limit", o->time_limit, "Time limit in seconds (default: none)")
       .type_name("NUMBER")
       .check(number(0, 1e6));
-  cmd.add_flag("--as-found", o->as_found, "Do not leave out inputs that are not needed");
-  cmd.add_option("--seed", o->seed, "Seed of the random stream; 1 when not given")
+  cmd.add_flag("--as-found", o->as_found, "Keep superfluous inputs");
+  cmd.add_option("--seed", o->seed, "Seed of the random stream (default: 1)")
       .type_name("NUMBER")
       .check(whole(0, UINT64_MAX));
-  cmd.add_option("--picture", o->picture, "Draw the robots' ways: .png, .svg or .pdf")
+  cmd.add_option("--picture", o->picture, "Draw the robots' paths to this file: .png, .svg or .pdf")
       .type_name("FILE");
   add_json(cmd, o->json);
   cmd.callback([o, &action] {

@@ -9,7 +9,7 @@
 
 namespace microswarm::cli {
 
-/// What `--set` of the command `global` changes.
+/// Values that `--set` of the command `global` changes.
 using GlobalChoice = PlannerChoice<std::variant<GlobalSearchParams, GlobalRrtParams>>;
 
 }  // namespace microswarm::cli

@@ -45,7 +45,7 @@ std::string hash_of(const std::string& text) {
   return hash.hex();
 }
 
-/// What a reader of the model wants to know of it.
+/// The model card.
 std::string card(const TrainedFollower& trained, const std::string& model, const LearnOptions& o,
                  const std::vector<ReproduceRow>& rows) {
   std::string command = "microswarm learn follower --out DIR";
@@ -115,19 +115,20 @@ int learn_command(const LearnOptions& o, const Context& context) {
 
 void add_learn(Command app, Action& action) {
   auto o = std::make_shared<LearnOptions>();
-  Command cmd = app.add_group("learn", "Train what is learned, and compare it");
+  Command cmd = app.add_group("learn", "Train and compare learned components");
   Command follower =
-      cmd.add_command("follower", "A follower of paths, taught by an expert in simulations",
+      cmd.add_command("follower", "Train a path follower from an expert in simulation",
                       "learn follower --out out/follower --set hidden=32");
   follower
-      .add_option("--out", o->out, "Folder for follower.yaml, its card, the comparison and plots")
+      .add_option("--out", o->out,
+                  "Folder for follower.yaml, its model card, the comparison and plots")
       .required()
       .type_name("FOLDER");
-  add_settings(follower, o->settings, "Change a parameter of the training, as runs=300");
-  follower.add_option("--jobs", o->jobs, "Threads; one a core when not given")
+  add_settings(follower, o->settings, "Override a training parameter, e.g. runs=300 (repeatable)");
+  follower.add_option("--jobs", o->jobs, "Number of threads (default: one per core)")
       .type_name("NUMBER")
       .check(whole(1, 1024));
-  follower.add_flag("--quick", o->quick, "Little training, fewer paths: ends within 50 s");
+  follower.add_flag("--quick", o->quick, "Less training and fewer paths; takes at most 50 s");
   add_json(follower, o->json);
   follower.callback([o, &action] {
     action = [o](const Context& context) { return learn_command(*o, context); };

@@ -114,7 +114,7 @@ struct SegmentOptions {
 std::string share(const std::optional<double>& v) { return v ? fmt::format("{:.3f}", *v) : "–"; }
 Json json_share(const std::optional<double>& v) { return v ? Json(*v) : Json(nullptr); }
 
-/// The observer's mask, nothing without a file.
+/// The ground-truth mask; empty without a file.
 std::optional<Mask> read_truth(const std::string& file, const Image& photo) {
   if (file.empty()) return std::nullopt;
   Mask mask = threshold(read_image(file), 128, false);
@@ -174,21 +174,21 @@ int segment(const SegmentOptions& o) {
 void add_segment(Command map, Action& action) {
   auto o = std::make_shared<SegmentOptions>();
   Command cmd = map.add_command(
-      "segment", "Find the dark vessels of a photograph: writes a map and an overlay picture",
+      "segment", "Segment dark vessels in a photograph; writes a map and an overlay picture",
       "map segment fundus.jpg --um-per-px 6 --out vessels.geojson");
-  cmd.add_option("photo", o->photo, "Photograph of vessels darker than what is around them")
+  cmd.add_option("photo", o->photo, "Photograph of vessels darker than their surroundings")
       .required()
       .type_name("FILE");
   add_um_per_px(cmd, o->um_per_px, "µm per pixel of the photograph, 1e-6..1e6");
   cmd.add_option("--out", o->out,
-                 "Map to write, vessels.geojson when not given; NAME-overlay.png is put beside it")
+                 "Map to write (default: vessels.geojson); NAME-overlay.png is written next to it")
       .type_name("FILE");
   cmd.add_option("--smooth", o->smooth, "Tolerance of the outlines in pixels, 0..100")
       .type_name("NUMBER")
       .check(number(0, 100));
-  cmd.add_option("--truth", o->truth, "Mask drawn by an observer (white vessels) to compare with")
+  cmd.add_option("--truth", o->truth, "Ground-truth mask (white vessels) to compare with")
       .type_name("FILE");
-  add_settings(cmd, o->settings, "Change a value, for example min_width_px=6 (again and again)");
+  add_settings(cmd, o->settings, "Override a value, e.g. min_width_px=6 (repeatable)");
   add_json(cmd, o->json);
   cmd.callback([o, &action] { action = [o](const Context&) { return segment(*o); }; });
 }
@@ -196,21 +196,22 @@ void add_segment(Command map, Action& action) {
 }  // namespace
 
 void add_map(Command app, Action& action) {
-  Command map = app.add_group("map", "Look at maps, check, convert and make them");
+  Command map = app.add_group("map", "Inspect, check, convert and create maps");
 
   auto o = std::make_shared<MapOptions>();
-  Command info_cmd = map.add_command("info", "Size, walls, hash", "map info map.png --um-per-px 5");
+  Command info_cmd =
+      map.add_command("info", "Print size, walls and hash", "map info map.png --um-per-px 5");
   add_input(info_cmd, o);
   add_json(info_cmd, o->json);
   info_cmd.callback([o, &action] { action = [o](const Context&) { return info(*o); }; });
 
   auto resolution = std::make_shared<double>(0);
   Command check_cmd =
-      map.add_command("check", "Pieces, narrowest passage, what fits", "map check vessels.geojson");
+      map.add_command("check", "Print free pieces, narrowest passage and fitting swarm radius",
+                      "map check vessels.geojson");
   add_input(check_cmd, o);
   check_cmd
-      .add_option("--resolution", *resolution,
-                  "Grid spacing of the search in µm; 0: chosen for the map")
+      .add_option("--resolution", *resolution, "Grid spacing of the search in µm; 0: automatic")
       .type_name("NUMBER")
       .check(number(0, 1e6));
   add_json(check_cmd, o->json);
@@ -219,7 +220,7 @@ void add_map(Command app, Action& action) {
 
   auto out = std::make_shared<std::string>();
   auto cell = std::make_shared<std::optional<double>>();
-  Command convert_cmd = map.add_command("convert", "Write the map in another form",
+  Command convert_cmd = map.add_command("convert", "Convert a map to another format",
                                         "map convert vessels.geojson vessels.png --cell 5");
   add_input(convert_cmd, o);
   convert_cmd
@@ -227,7 +228,7 @@ void add_map(Command app, Action& action) {
       .required()
       .type_name("FILE");
   convert_cmd
-      .add_option("--cell", *cell, "Side of a pixel or cell to write in µm; else as --um-per-px")
+      .add_option("--cell", *cell, "Pixel or cell size to write in µm (default: --um-per-px)")
       .type_name("NUMBER")
       .check(number(1e-6, 1e6));
   convert_cmd.callback(

@@ -57,8 +57,8 @@ void draw(const PlanOptions& o, const Snapshot& world, const Pose2& start, Vec2 
   picture.write(o.picture);
 }
 
-/// Throws InputError when no planner could have found a path: an end that is blocked, a swarm too
-/// wide, a goal cut off.
+/// Throws InputError if no path can exist: a blocked start or goal, a swarm too wide, or a goal cut
+/// off.
 void explain(const PlanOptions& o, const Snapshot& world, Vec2 start, Vec2 goal,
              const PlannerParams& planner, Status status) {
   const auto [clearance, tolerance] = ends_of(planner);
@@ -96,7 +96,7 @@ void show(const Plan& made, double start_heading, double ms, bool json) {
   for (const Vec2 p : made.path) print("{:.3f},{:.3f}\n", p.x, p.y);
 }
 
-/// Throws InputError when the planner's parameters do not fit together.
+/// Throws InputError if the planner's parameters are inconsistent.
 void check_planner(const PlannerParams& planner, const Settings& settings) {
   const KeyLocations keys = locations_of({}, "plan", settings);
   Issues issues;
@@ -135,26 +135,28 @@ void add_plan(Command app, Action& action) {
   auto o = std::make_shared<PlanOptions>();
   Command cmd = app.add_command(
       "plan",
-      "Plan one path on a map by drrt_star, rrt_star, uniform_rrt_star, rrt, a_star or fmt_star",
+      "Plan a path on a map with drrt_star, rrt_star, uniform_rrt_star, rrt, a_star or fmt_star",
       "plan map.png --um-per-px 5 --start 200,700,-90 --goal 1750,300 \\\n"
       "      --set planner.type=a_star --set planner.clearance_um=40 --picture path.svg");
   cmd.add_option("map", o->map, "Picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles")
       .required()
       .type_name("FILE");
   add_um_per_px(cmd, o->um_per_px, "µm per pixel or cell of the map, 1e-6..1e6");
-  cmd.add_option("--start", o->start, "x,y or x,y,heading in µm and degrees; y points up")
+  cmd.add_option("--start", o->start,
+                 "Start position in µm and optional heading in degrees; y points up")
       .required()
       .type_name("X,Y[,HEADING]")
       .check(place(3, "x,y or x,y,heading in µm and degrees"));
-  cmd.add_option("--goal", o->goal, "x,y in µm")
+  cmd.add_option("--goal", o->goal, "Goal position in µm")
       .required()
       .type_name("X,Y")
       .check(place(2, "x,y in µm"));
-  add_settings(cmd, o->settings, "Choose planner.type and change its values (again and again)");
-  cmd.add_option("--seed", o->seed, "Seed of the random stream; 1 when not given")
+  add_settings(cmd, o->settings, "Select planner.type and override its values (repeatable)");
+  cmd.add_option("--seed", o->seed, "Seed of the random stream (default: 1)")
       .type_name("NUMBER")
       .check(whole(0, UINT64_MAX));
-  cmd.add_option("--picture", o->picture, "Draw map, tree and path: .png, .svg or .pdf")
+  cmd.add_option("--picture", o->picture,
+                 "Draw map, tree and path to this file: .png, .svg or .pdf")
       .type_name("FILE");
   add_json(cmd, o->json);
   cmd.callback(

@@ -38,9 +38,9 @@ int report_command(const std::string& file, const std::string& out, const PhotoO
 void add_replay(Command app, Action& action) {
   auto file = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
-  Command cmd = app.add_command(
-      "replay", "Run a record again: says identical, or where it parted (exit code 3)",
-      "replay out/first/run.h5");
+  Command cmd =
+      app.add_command("replay", "Run a record again and compare; exit code 3 if it differs",
+                      "replay out/first/run.h5");
   cmd.add_option("record", *file, "Record of a run (run.h5)").required().type_name("FILE");
   add_json(cmd, *json);
   cmd.callback([=, &action] {
@@ -53,10 +53,10 @@ void add_report(Command app, Action& action) {
   auto out = std::make_shared<std::string>("report");
   auto photo = std::make_shared<PhotoOptions>();
   Command cmd =
-      app.add_command("report", "Draw the pictures and the page of a record once more",
+      app.add_command("report", "Write the report of a record: pictures and an HTML page",
                       "report out/first/run.h5 --out out/report --photo photo.jpg --um-per-px 6");
   cmd.add_option("record", *file, "Record of a run (run.h5)").required().type_name("FILE");
-  cmd.add_option("--out", *out, "Folder to write into; report when not given").type_name("FOLDER");
+  cmd.add_option("--out", *out, "Output folder (default: report)").type_name("FOLDER");
   add_photo(cmd, *photo);
   cmd.callback([=, &action] {
     action = [=](const Context&) { return report_command(*file, *out, *photo); };

@@ -57,17 +57,16 @@ void add_reproduce(Command app, Action& action) {
   auto key = std::make_shared<std::string>();
   auto o = std::make_shared<reproduce::ReproduceOptions>();
   auto json = std::make_shared<bool>(false);
-  Command cmd = app.add_command("reproduce",
-                                "A paper's figures beside ours: exit code 3 when one falls short",
-                                "reproduce drrt/fig5a --quick --out out/drrt");
-  cmd.add_option(
-         "key", *key,
-         "Paper, or one of its figures: drrt, drrt/fig3, global, global/fig7, radar, gather …")
+  Command cmd =
+      app.add_command("reproduce", "Reproduce a paper's figures; exit code 3 if one misses its aim",
+                      "reproduce drrt/fig5a --quick --out out/drrt");
+  cmd.add_option("key", *key,
+                 "Paper or figure: drrt, drrt/fig3, global, global/fig7, radar, gather …")
       .required()
       .type_name("KEY");
   cmd.add_option("--out", o->out, "Folder for plots, pictures and the table as CSV")
       .type_name("FOLDER");
-  cmd.add_flag("--quick", o->quick, "Fewer seeds: ends within 50 s");
+  cmd.add_flag("--quick", o->quick, "Fewer seeds; takes at most 50 s");
   add_json(cmd, *json);
   cmd.callback([=, &action] {
     action = [=](const Context& context) { return reproduce_command(*key, *o, *json, context); };

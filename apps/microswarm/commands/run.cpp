@@ -82,7 +82,7 @@ int many_runs(const RunOptions& o, const Scene& scene, const World& world, const
   return solved == o.trials ? ok : not_reached;
 }
 
-/// Through a rig in simulation: camera, coils and field.
+/// Opens the scenario on a simulated rig: camera, coils and field.
 std::unique_ptr<Session> open_on_rig(const RunOptions& o) {
   if (o.rig.empty()) return nullptr;
   const RigExperiment on =
@@ -118,23 +118,23 @@ void add_run(Command app, Action& action) {
       .required()
       .type_name("FILE");
   cmd.add_option("--out", o->out,
-                 "Folder for run.h5, pictures and index.html; with --trials for trials.csv")
+                 "Folder for run.h5, pictures and index.html, or with --trials for trials.csv")
       .type_name("FOLDER");
-  add_settings(cmd, o->settings, "Change a value of the scenario (again and again)");
+  add_settings(cmd, o->settings, "Override a scenario value (repeatable)");
   cmd.add_option("--rig", o->rig,
-                 "Rig file (YAML): run through its simulated camera, coils and field")
+                 "Rig file (YAML); runs through its simulated camera, coils and field")
       .type_name("FILE");
-  cmd.add_option("--set-rig", o->rig_settings, "Change a value of the rig (again and again)")
+  cmd.add_option("--set-rig", o->rig_settings, "Override a rig value (repeatable)")
       .type_name("KEY=VALUE")
       .needs("--rig");
-  cmd.add_option("--seed", o->seed, "Seed of all random streams, in place of the scenario's")
+  cmd.add_option("--seed", o->seed, "Seed of all random streams; overrides the scenario's")
       .type_name("NUMBER")
       .check(whole(0, UINT64_MAX));
-  cmd.add_option("--trials", o->trials, "Run this often, each time with other random streams")
+  cmd.add_option("--trials", o->trials, "Number of trials, each with its own random streams")
       .type_name("NUMBER")
       .excludes("--rig")
       .check(whole(1, 1'000'000));
-  cmd.add_option("--jobs", o->jobs, "Threads for --trials; 0: one a core")
+  cmd.add_option("--jobs", o->jobs, "Number of threads for --trials; 0: one per core")
       .type_name("NUMBER")
       .needs("--trials")
       .check(whole(0, 1024));

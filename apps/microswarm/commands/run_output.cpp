@@ -26,7 +26,7 @@ nlohmann::ordered_json to_json(const RunResult& result, const std::string& hash)
 
 namespace {
 
-/// Why a navigator stood still, by its state.
+/// Why a navigator held, by its state.
 std::string reason(std::string_view state) {
   if (state == "stuck") return "it found no way";
   if (state == "wait") return "it waited for a valve";
@@ -97,7 +97,7 @@ std::string summary(const RunResult& result) {
                             m.planning_events, 1e3 * p.mean, 1e3 * p.max);
 }
 
-/// Settings that are allowed, but hardly meant, on stderr.
+/// Warns on stderr of valid but unusual settings.
 void note_oddities(const Scenario& scenario) {
   if (scenario.robots) return;
   const SwarmLimits swarm = limits_of(scenario.swarm);
@@ -109,7 +109,7 @@ void note_oddities(const Scenario& scenario) {
       scenario.tick, way, 2 * swarm.radius);
 }
 
-/// What [gather] assumes of the ground, on stderr where it does not hold.
+/// Warns on stderr where the map violates the assumptions of [gather].
 void note_assumptions(const Scenario& scenario, const Map& map) {
   const auto* params = std::get_if<AggregationParams>(&scenario.navigator);
   if (!params) return;
@@ -149,7 +149,7 @@ int tell_run(const Session& session, const RunOutput& o, const ReportOptions& re
   const Record& record = session.record();
   const RunResult& result = session.result();
   const std::string hash = record.hash();
-  // A result that cannot be kept is told all the same, and the other way round.
+  // Print a result even if it cannot be saved, and save it even if it cannot be printed.
   std::optional<InputError> lost;
   try {
     if (!o.out.empty()) keep(record, o, report);
@@ -168,7 +168,7 @@ int tell_run(const Session& session, const RunOutput& o, const ReportOptions& re
             (std::filesystem::path(o.out) / (o.no_report ? "run.h5" : "index.html")).string());
   }
   if (lost && result.status != Status::fault) throw InputError(lost->what());
-  if (lost) note("microswarm: {}\n", lost->what());  // the fault is the worse
+  if (lost) note("microswarm: {}\n", lost->what());  // the other error is more serious
   if (result.status == Status::fault) return hardware;
   return result.status == Status::solved ? ok : not_reached;
 }

@@ -14,23 +14,23 @@
 
 namespace microswarm::cli {
 
-/// What is kept and said of a run.
+/// Output options of a run.
 struct RunOutput {
-  std::string out;  ///< folder for run.h5 and the report; empty: nothing is kept
+  std::string out;  ///< folder for run.h5 and the report; empty: none
   bool no_report = false;
   bool json = false;
   std::function<nlohmann::ordered_json()> rig_timing{};  ///< of a real rig
 };
 
-/// Steps a session to its end, with a progress bar: of `seconds`, when it is ended then.
+/// Steps a session to its end with a progress bar. `seconds` is the time limit of the run, if any.
 void finish_run(Session& session, const Stop& stop, std::optional<double> seconds = std::nullopt);
 
-/// Keeps the record and report of a session that has ended, and says how it went. The exit code.
+/// Writes the record and report of a finished session and prints its result. Returns the exit code.
 int tell_run(const Session& session, const RunOutput& output, const ReportOptions& report);
 
 nlohmann::ordered_json to_json(const RunResult& result, const std::string& hash);
 
-/// How a run ended, for people: "goal reached", "held: waited for a valve,".
+/// Describes the end of a run: "goal reached", "held: waited for a valve,".
 std::string ending(const RunResult& result);
 
 }  // namespace microswarm::cli

@@ -15,7 +15,7 @@
 namespace microswarm::cli {
 namespace {
 
-/// A kind of file, or what --set of a command changes.
+/// A kind of file, or the values of a command's --set.
 struct Kind {
   std::string_view name;
   Type type;
@@ -42,16 +42,15 @@ void add_schema(Command app, Action& action) {
   auto name = std::make_shared<std::string>("scenario");
   auto keys = std::make_shared<bool>(false);
   Command cmd = app.add_command(
-      "schema", "Every key a file may have, as JSON Schema (for editors) or as a table",
+      "schema", "Print all keys of a kind of file, as JSON Schema (for editors) or as a table",
       "schema rig --keys");
   std::vector<std::string> names;
   for (const Kind& kind : kinds()) names.emplace_back(kind.name);
   cmd.add_option("kind", *name,
-                 "A file of a scenario, sweep, rig, or coil system, or what --set of track or "
-                 "global changes")
+                 "Scenario, sweep, rig or coil system file, or the --set values of track or global")
       .check(one_of(names))
       .capture_default();
-  cmd.add_flag("--keys", *keys, "A table of every key with unit, default, range and meaning");
+  cmd.add_flag("--keys", *keys, "Print a table with unit, default, range and meaning of each key");
   cmd.callback([=, &action] {
     action = [=](const Context&) {
       show(*name, *keys);

@@ -28,8 +28,8 @@ struct SweepOptions {
   bool json = false;
 };
 
-/// Progress with rate and estimate: a bar on a terminal, a line now and then from under mpirun,
-/// which has no terminal.
+/// Progress with rate and remaining time: a bar on a terminal, otherwise occasional lines, as under
+/// mpirun.
 class Meter {
  public:
   explicit Meter(bool lines) : lines_(lines), bar_("sweep") {}
@@ -90,7 +90,7 @@ Json json_of(const SweepReader& sweep, const CellSummary& cell) {
 
 using Lines = std::vector<std::vector<std::string>>;
 
-/// Columns as wide as they must be; texts to the left, numbers to the right.
+/// Columns with minimum widths, text left-aligned, numbers right-aligned.
 std::string aligned(const Lines& lines) {
   std::vector<std::size_t> widths(lines.front().size());
   for (const auto& line : lines)
@@ -192,20 +192,20 @@ void add_sweep(Command app, Action& action) {
   auto o = std::make_shared<SweepOptions>();
   Command cmd = app.add_command(
       "sweep",
-      "Run a scenario for every combination of parameters and methods, many trials each, into a "
-      "database",
+      "Run trials for all combinations of parameters and methods of a scenario, into a database",
       "sweep scenarios/sweeps/first_flight.yaml --out out/first_flight.db");
-  cmd.add_option("sweep", o->sweep, "Sweep file (YAML); docs/how-to/sweep.md tells its keys")
+  cmd.add_option("sweep", o->sweep, "Sweep file (YAML); its keys are in docs/how-to/sweep.md")
       .required()
       .type_name("FILE");
   cmd.add_option("--out", o->out,
-                 "SQLite database, which a sweep that was ended goes on with; when not given, the "
-                 "sweep's name with .db in this folder")
+                 "SQLite database; an interrupted sweep is resumed (default: sweep name with .db)")
       .type_name("FILE");
-  cmd.add_option("--jobs", o->jobs, "Threads; when not given one a core, under mpirun one a rank")
+  cmd.add_option("--jobs", o->jobs,
+                 "Number of threads (default: one per core, under mpirun one per rank)")
       .type_name("NUMBER")
       .check(whole(0, 1024));
-  cmd.add_option("--csv", o->csv, "Write the table of trials as CSV too").type_name("FILE");
+  cmd.add_option("--csv", o->csv, "Also write the table of trials to this CSV file")
+      .type_name("FILE");
   add_json(cmd, o->json);
   cmd.callback([o, &action] {
     action = [o](const Context& context) { return sweep_command(*o, context); };

@@ -40,7 +40,7 @@ TrackSettings settings_of(const TrackOptions& o) {
   return settings;
 }
 
-/// The pictures one by one until the end or Ctrl-C; `overlay` may be none.
+/// Tracks picture by picture until the end or Ctrl-C; `overlay` may be null.
 void follow(FrameSource& source, TrackResult& result, VideoFileWriter* overlay, const Stop& stop) {
   VideoTracker tracker(result.settings, result.frame_time);
   TrackOverlay drawing(*result.settings.um_per_px);
@@ -80,7 +80,7 @@ int track(const TrackOptions& o, const Context& context) {
 
   write_tracks(result, folder);
   const auto shown = overlay ? overlay->commit() : std::nullopt;
-  std::error_code none;  // an older overlay shows other tracks
+  std::error_code none;  // remove an outdated overlay
   if (!shown || shown->extension() != ".mp4") std::filesystem::remove(folder / "overlay.mp4", none);
   if (o.json)
     print("{}\n", to_json(result).dump(2));
@@ -96,24 +96,24 @@ int track(const TrackOptions& o, const Context& context) {
 
 void add_track(Command app, Action& action) {
   auto o = std::make_shared<TrackOptions>();
-  Command cmd = app.add_command("track", "Find and follow the robots of a video",
+  Command cmd = app.add_command("track", "Detect and track the robots in a video",
                                 "track swarm.mp4 --um-per-px 0.35 --set find.diameter_px=11 --out "
                                 "out/tracks");
   cmd.add_option("video", o->video,
-                 "Video file, folder of pictures (PNG, JPEG, BMP, PGM, PPM) or TIFF of many")
+                 "Video file, folder of pictures (PNG, JPEG, BMP, PGM, PPM) or multi-page TIFF")
       .required()
       .type_name("VIDEO");
   cmd.add_option("--out", o->out, "Folder for tracks.csv, tracks.h5, events.csv and overlay.mp4")
       .required()
       .type_name("FOLDER");
   add_um_per_px(cmd, o->um_per_px, "µm per pixel of the video, 1e-6..1e6");
-  cmd.add_option("--rate", o->rate, "Pictures a second, in place of what the video says")
+  cmd.add_option("--rate", o->rate, "Frames per second; overrides the value in the video")
       .type_name("NUMBER")
       .check(number(1e-6, 1e6));
-  cmd.add_option("--config", o->config, "Settings (YAML); the other options come after it")
+  cmd.add_option("--config", o->config, "Settings file (YAML); other options override it")
       .type_name("FILE");
-  add_settings(cmd, o->settings, "Change a value, for example find.tone=bright (again and again)");
-  cmd.add_flag("--no-overlay", o->no_overlay, "Draw no video");
+  add_settings(cmd, o->settings, "Override a value, e.g. find.tone=bright (repeatable)");
+  cmd.add_flag("--no-overlay", o->no_overlay, "Do not write overlay.mp4");
   add_json(cmd, o->json);
   cmd.callback(
       [o, &action] { action = [o](const Context& context) { return track(*o, context); }; });

@@ -128,7 +128,7 @@ int field(const FieldOptions& o) {
           system.in_workspace(place) ? "" : ", outside of the calibrated workspace");
     const Eigen::Vector3d clean = made.unaryExpr([&](double b) { return tidy(b, made.norm()); });
     print("field {} mT, {:.6g} mT in all\n", text_of(clean), made.norm());
-    // In T/m as if the field were gone a metre away, which it is far sooner.
+    // In T/m; entries negligible relative to the field over one metre are rounded to 0.
     const auto of_slope = [&](Eigen::Index i) { return tidy(slope[i], made.norm() / 1e3); };
     print(
         "gradients dBx/dx {:.6g}, dBx/dy {:.6g}, dBx/dz {:.6g}, dBy/dy {:.6g}, dBy/dz {:.6g} "
@@ -195,15 +195,15 @@ int calibrate(const CalibrateOptions& o) {
 void add_field(Command rig, Action& action) {
   auto o = std::make_shared<FieldOptions>();
   Command cmd = rig.add_command(
-      "field", "The field that currents make at a place, or the currents for a field",
+      "field", "Compute the field of coil currents at a position, or the currents for a field",
       "rig field scenarios/rigs/cube.yaml --at 0,0,0 --field 3,0,0");
   cmd.add_option("system", o->system, "Coil system (YAML)").required().type_name("FILE");
-  cmd.add_option("--at", o->at, "Place in µm, x,y,z; the centre when not given")
+  cmd.add_option("--at", o->at, "Position in µm (default: centre of the system)")
       .type_name("X,Y,Z")
       .check(triple("X,Y,Z", max_place));
   const Option currents =
       cmd.add_option("--currents", o->currents, "Current of each coil in A").type_name("A,A,…");
-  cmd.add_option("--field", o->field, "Field to make in mT, bx,by,bz")
+  cmd.add_option("--field", o->field, "Wanted field in mT")
       .type_name("BX,BY,BZ")
       .check(triple("BX,BY,BZ", max_field))
       .excludes(currents);
@@ -216,11 +216,11 @@ void add_calibrate(Command rig, Action& action) {
   Command cmd = rig.add_command("calibrate", "Fit an actuation matrix to measured fields (CSV)",
                                 "rig calibrate measured.csv --out rig.yaml");
   cmd.add_option("measured", o->measured,
-                 "CSV with i_NAME_a for each coil, bx_mt, by_mt, bz_mt and x_um, y_um, z_um")
+                 "CSV with i_NAME_a per coil, bx_mt, by_mt, bz_mt and optionally x_um, y_um, z_um")
       .required()
       .type_name("FILE");
   cmd.add_option("--out", o->out, "Coil system to write (YAML)").type_name("FILE");
-  cmd.add_flag("--offset", o->offset, "Fit the field without current too");
+  cmd.add_flag("--offset", o->offset, "Also fit the field at zero current");
   add_json(cmd, o->json);
   cmd.callback([o, &action] { action = [o](const Context&) { return calibrate(*o); }; });
 }
@@ -228,7 +228,8 @@ void add_calibrate(Command rig, Action& action) {
 }  // namespace
 
 void add_rig(Command app, Action& action) {
-  Command rig = app.add_group("rig", "A bench: coils, camera, checks, runs in real time");
+  Command rig =
+      app.add_group("rig", "Coils and camera: fields, calibration, checks, real-time runs");
   add_field(rig, action);
   add_rig_map(rig, action);
   add_rig_scale(rig, action);

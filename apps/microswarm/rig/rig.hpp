@@ -14,28 +14,28 @@ namespace microswarm::cli {
 inline constexpr double max_place = 1e9;  ///< [µm]
 inline constexpr double max_field = 1e6;  ///< [mT]
 
-/// Allows three numbers up to `most`; `form` says what is meant.
+/// Check for three numbers of magnitude up to `most`; `form` describes the format.
 Check triple(const char* form, double most);
-/// What it allowed.
+/// The numbers of a text accepted by `triple`.
 Eigen::Vector3d triple_of(const std::string& text);
 
-/// The numbers in "1,0,0", one for each coil. Throws InputError.
+/// Parses "1,0,0", one current for each coil. Throws InputError.
 Eigen::VectorXd currents_of(const std::string& text, const CoilSystem& system);
 
-/// The part `rig map` of `rig`.
+/// Adds `rig map`.
 void add_rig_map(Command rig, Action& action);
-/// The part `rig scale` of `rig`.
+/// Adds `rig scale`.
 void add_rig_scale(Command rig, Action& action);
-/// The part `rig check` of `rig`.
+/// Adds `rig check`.
 void add_rig_check(Command rig, Action& action);
-/// The part `rig simulate` of `rig`.
+/// Adds `rig simulate`.
 void add_rig_simulate(Command rig, Action& action);
-/// The part `rig run` of `rig`.
+/// Adds `rig run`.
 void add_rig_run(Command rig, Action& action);
-/// The part `rig see` of `rig`.
+/// Adds `rig see`.
 void add_rig_see(Command rig, Action& action);
 
-/// Without what is only rounding beside `whole`, the largest that could be there.
+/// Rounds to 0 what is only a rounding error relative to `whole`, the maximum magnitude.
 inline double tidy(double x, double whole) { return std::abs(x) < 1e-12 * whole ? 0.0 : x; }
 
 }  // namespace microswarm::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `rig check`: does everything that a rig's file names work?
+// `rig check` tests every device and value of a rig file.
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -26,7 +26,7 @@ struct CheckOptions {
   bool json = false;
 };
 
-/// Told as they come, or all at once as JSON.
+/// Collects the answers: printed at once, or all together as JSON.
 class Answers {
  public:
   explicit Answers(bool as_json) : as_json_(as_json) {}
@@ -130,7 +130,7 @@ void check_driver(const Rig& rig, const CheckOptions& o, const Stop& stop, Answe
   }
 }
 
-/// Says which limits the coil system's file does not give.
+/// Lists the limits that the coil system file does not set.
 std::string missing_limits(const Rig& rig) {
   bool voltage = true, temperature = true;
   for (const DriveParams& drive : rig.system.drives()) {
@@ -144,7 +144,7 @@ std::string missing_limits(const Rig& rig) {
                                    : "voltage and the temperature");
 }
 
-/// Whether the coils can hold the field that is asked for, whatever its direction.
+/// Checks whether the coils can hold the rig's field in every direction.
 void check_limits(const Rig& rig, Answers& answers) {
   const auto* serial = std::get_if<SerialCoilParams>(&rig.params.driver);
   const double full_scale =
@@ -189,12 +189,11 @@ int rig_check(const CheckOptions& o, const Stop& stop) {
 
 void add_rig_check(Command rig, Action& action) {
   auto o = std::make_shared<CheckOptions>();
-  Command cmd = rig.add_command("check", "Camera, driver, limits, latency: does it all work?",
+  Command cmd = rig.add_command("check", "Check camera, coil driver, limits and latency of a rig",
                                 "rig check rig.yaml");
   cmd.add_option("rig", o->rig, "Rig file (YAML)").required().type_name("FILE");
-  cmd.add_option("--set", o->settings, "Change a value of the rig (again and again)")
-      .type_name("KEY=VALUE");
-  cmd.add_option("--seconds", o->seconds, "How long each device is tried")
+  cmd.add_option("--set", o->settings, "Override a rig value (repeatable)").type_name("KEY=VALUE");
+  cmd.add_option("--seconds", o->seconds, "Test duration per device")
       .type_name("S")
       .check(number(0.1, 600));
   add_json(cmd, o->json);

@@ -35,7 +35,7 @@ struct RigMapOptions {
   bool json = false;
 };
 
-/// Bands of deviation, from even to uneven.
+/// Bands of increasing deviation.
 struct Band {
   double most;
   const char* label;
@@ -53,7 +53,7 @@ const Band& band_of(double deviation) {
                        [&](const Band& band) { return deviation <= band.most; });
 }
 
-/// One pixel a place, the highest row on top.
+/// One pixel per point, the highest row on top.
 Image image_of(const UniformityMap& map) {
   const int n = map.grid.points;
   Image image{n, n, 3, std::vector<std::uint8_t>(static_cast<std::size_t>(n) * n * 3)};
@@ -68,7 +68,7 @@ Image image_of(const UniformityMap& map) {
 }
 
 void draw(const UniformityMap& map, const std::string& title, const std::filesystem::path& out) {
-  // Each place is the middle of its pixel.
+  // Each point is the centre of its pixel.
   const double step = 2 * map.grid.half_width / (map.grid.points - 1);
   const double side = step * map.grid.points;
   Picture picture(Box{{0, 0}, {side, side}}, title, 800);
@@ -91,7 +91,7 @@ std::string csv_of(const UniformityMap& map) {
   return text;
 }
 
-/// Whether all of it lies where the system was measured.
+/// Whether the whole grid is inside the calibrated workspace.
 bool in_workspace(const CoilSystem& system, const UniformityGrid& grid) {
   const UniformityMap map{.grid = grid, .centre_field = {}, .field = {}, .deviation = {}};
   const int last = grid.points - 1;
@@ -99,7 +99,7 @@ bool in_workspace(const CoilSystem& system, const UniformityGrid& grid) {
          system.in_workspace(map.place(0, last)) && system.in_workspace(map.place(last, last));
 }
 
-/// A centimetre, or what the system's workspace allows of it around the centre.
+/// One centimetre, or less if the system's workspace is smaller.
 double usual_half_width(const CoilSystem& system, UniformityGrid grid) {
   const double usual = grid.half_width;
   for (; grid.half_width > 1; grid.half_width *= 0.9)
@@ -107,7 +107,7 @@ double usual_half_width(const CoilSystem& system, UniformityGrid grid) {
   return usual;
 }
 
-/// What is seen: axes, the place unless it is the middle, and the field there.
+/// Title: axes, the centre unless it is that of the system, and the field there.
 std::string title_of(const UniformityMap& map, bool is_middle) {
   const std::string_view plane = enum_name(map.grid.plane);
   const Eigen::Vector3d& c = map.grid.centre;
@@ -180,18 +180,18 @@ int map_field(const RigMapOptions& o, const Stop& stop) {
 
 void add_rig_map(Command rig, Action& action) {
   auto o = std::make_shared<RigMapOptions>();
-  Command cmd = rig.add_command("map", "How even the field is around a place: a picture or a table",
+  Command cmd = rig.add_command("map", "Map the uniformity of the field as a picture or a table",
                                 "rig map scenarios/rigs/helmholtz.yaml --out even.png");
   cmd.add_option("system", o->system, "Coil system (YAML)").required().type_name("FILE");
   cmd.add_option("--out", o->out, "File to write: .png, .svg, .pdf or .csv")
       .type_name("FILE")
       .check(file_kind({".png", ".svg", ".pdf", ".csv"}));
-  cmd.add_option("--at", o->at, "Centre in µm, x,y,z; that of the system when not given")
+  cmd.add_option("--at", o->at, "Centre of the map in µm (default: centre of the system)")
       .type_name("X,Y,Z")
       .check(triple("X,Y,Z", max_place));
   const Option currents =
       cmd.add_option("--currents", o->currents, "Current of each coil in A").type_name("A,A,…");
-  cmd.add_option("--field", o->field, "Field at the centre in mT, 1,0,0 when not given")
+  cmd.add_option("--field", o->field, "Field at the centre in mT (default: 1,0,0)")
       .type_name("BX,BY,BZ")
       .check(triple("BX,BY,BZ", max_field))
       .excludes(currents);
@@ -199,10 +199,10 @@ void add_rig_map(Command rig, Action& action) {
       .type_name("WORD")
       .check(one_of({"xy", "xz", "yz"}));
   cmd.add_option("--half-width", o->half_width,
-                 "Half the side of the map in µm; else 10000, or what lies in the workspace")
+                 "Half the side of the map in µm (default: 10000, or less in a smaller workspace)")
       .type_name("NUMBER")
       .check(number(1, 1e8));
-  cmd.add_option("--points", o->points, "Places along a side, 3..1001")
+  cmd.add_option("--points", o->points, "Points per side, 3..1001")
       .type_name("NUMBER")
       .check(whole(3, 1001));
   add_json(cmd, o->json);

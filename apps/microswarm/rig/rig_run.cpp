@@ -17,8 +17,8 @@
 namespace microswarm::cli {
 namespace {
 
-/// Calls `stop` when a key is pressed, where this program has a terminal to itself. The terminal is
-/// as it was as soon as the program is asked to end.
+/// Calls `stop` when a key is pressed, if the program has a terminal. The terminal settings are
+/// restored when the program is asked to end.
 class EmergencyKey {
  public:
   EmergencyKey(std::function<void()> stop, const Stop& ended)
@@ -40,7 +40,7 @@ class EmergencyKey {
     termios keys = before_;
     keys.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
     while (!over_ && !ended_.requested()) {
-      // Again and again, as a shell sets it back when the program was stopped and goes on.
+      // Repeated, because a shell resets the terminal when the program is suspended and resumed.
       if (::tcgetpgrp(STDIN_FILENO) == ::getpgrp()) ::tcsetattr(STDIN_FILENO, TCSANOW, &keys);
       pollfd in{STDIN_FILENO, POLLIN, 0};
       if (::poll(&in, 1, 20) <= 0) continue;
@@ -93,7 +93,7 @@ nlohmann::ordered_json timing_json(const RigTiming& t) {
           {"currents_weakened", t.scaled}};
 }
 
-/// Where the line or the computer is too slow for the field, on stderr.
+/// Notes on stderr if the connection or the computer is too slow for the field.
 void note_pace(const RigTiming& t, double seconds, const RigParams& rig) {
   const double rate = static_cast<double>(t.round_trip.count()) / std::max(seconds, 1e-3);
   if (seconds < 1 || rate >= 0.8 * rig.drive_rate) return;
@@ -103,7 +103,7 @@ void note_pace(const RigTiming& t, double seconds, const RigParams& rig) {
       rate, rig.drive_rate, rig.field.frequency);
 }
 
-/// Where the coils' limits weakened the field, on stderr.
+/// Notes on stderr if the coils' limits weakened the field.
 void note_limits(const RigTiming& t) {
   if (t.unmade > 0)
     note(
@@ -164,9 +164,9 @@ void add_rig_run(Command rig, Action& action) {
   cmd.add_option("--rig", o->rig, "Rig file (YAML)").required().type_name("FILE");
   cmd.add_option("--out", o->out, "Folder for run.h5, commands.csv and the report")
       .type_name("FOLDER");
-  cmd.add_flag("--dry-run", o->dry_run, "Nothing goes to the coils");
-  add_settings(cmd, o->settings, "Change a value of the scenario (again and again)");
-  cmd.add_option("--set-rig", o->rig_settings, "Change a value of the rig (again and again)")
+  cmd.add_flag("--dry-run", o->dry_run, "Send nothing to the coils");
+  add_settings(cmd, o->settings, "Override a scenario value (repeatable)");
+  cmd.add_option("--set-rig", o->rig_settings, "Override a rig value (repeatable)")
       .type_name("KEY=VALUE");
   cmd.add_option("--seconds", o->seconds, "End after this time")
       .type_name("S")

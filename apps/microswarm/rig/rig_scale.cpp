@@ -31,7 +31,7 @@ struct ScaleOptions {
   bool json = false;
 };
 
-/// What stands in a rig's file under `scale`.
+/// The key `scale` of a rig file.
 struct ScalePiece {
   CameraScale scale;
   template <class Self, class V>
@@ -42,7 +42,7 @@ struct ScalePiece {
 
 std::optional<Vec2> origin_of(const ScaleOptions& o) {
   if (o.origin.empty()) return std::nullopt;
-  constexpr double farthest = 1e6;  // [px], as in a rig's file
+  constexpr double farthest = 1e6;  // [px], as in a rig file
   const std::vector<double> v = numbers(o.origin);
   for (const double x : v)
     if (std::abs(x) > farthest)
@@ -78,7 +78,7 @@ FittedScale from_grid(const ScaleOptions& o, const Image& picture) {
   } catch (const InputError& error) {
     throw InputError(o.picture + ": " + error.what());
   }
-  if (o.mirrored)  // the grid too is seen in the mirror
+  if (o.mirrored)  // the grid is mirrored, too
     for (ScalePoint& p : points) p.place.y = (params.rows - 1) * params.pitch - p.place.y;
   FittedScale fit = fit_scale(points, !o.mirrored);
   if (fit.worst > 0.25 * params.pitch)
@@ -125,41 +125,42 @@ int scale(const ScaleOptions& o) {
 
 void add_rig_scale(Command rig, Action& action) {
   auto o = std::make_shared<ScaleOptions>();
-  Command cmd = rig.add_command("scale", "µm per pixel of a camera, from points or a grid",
-                                "rig scale slide.png --grid 9x6 --pitch 100 --out scale.yaml");
-  cmd.add_option("picture", o->picture, "Picture by the camera").required().type_name("FILE");
+  Command cmd =
+      rig.add_command("scale", "Determine µm per pixel of a camera from two points or a grid",
+                      "rig scale slide.png --grid 9x6 --pitch 100 --out scale.yaml");
+  cmd.add_option("picture", o->picture, "Picture from the camera").required().type_name("FILE");
   const Option points =
-      cmd.add_option("--points", o->points, "Two points in the picture, px, y down")
+      cmd.add_option("--points", o->points, "Two points in the picture in px, y down")
           .type_name("X1,Y1,X2,Y2")
           .check({[](const std::string& text) -> std::string {
             if (numbers(text).size() == 4) return {};
             return "must be X1,Y1,X2,Y2, not " + quote(text);
           }});
-  cmd.add_option("--distance", o->distance, "µm between the two points")
+  cmd.add_option("--distance", o->distance, "Distance between the two points in µm")
       .type_name("NUMBER")
       .check(number(1e-3, 1e7))
       .needs(points);
-  const Option grid = cmd.add_option("--grid", o->grid,
-                                     "Points of a calibration slide, as 9x6; a chessboard's are "
-                                     "its inner corners")
-                          .type_name("COLUMNSxROWS")
-                          .excludes(points);
-  cmd.add_option("--pitch", o->pitch, "µm between neighbours of the grid")
+  const Option grid =
+      cmd.add_option("--grid", o->grid,
+                     "Grid points of a calibration slide, e.g. 9x6; inner corners of a chessboard")
+          .type_name("COLUMNSxROWS")
+          .excludes(points);
+  cmd.add_option("--pitch", o->pitch, "Distance between neighbouring grid points in µm")
       .type_name("NUMBER")
       .check(number(1e-3, 1e6))
       .needs(grid);
-  cmd.add_option("--pattern", o->pattern, "What the points are")
+  cmd.add_option("--pattern", o->pattern, "Kind of grid points")
       .type_name("WORD")
       .check(one_of({"dots", "chessboard"}))
       .capture_default()
       .needs(grid);
   cmd.add_option("--origin", o->origin,
-                 "The world's origin in the picture, px, y down; not given: the lower left corner, "
-                 "mirrored the upper left one, or the grid's first point")
+                 "World origin in the picture in px (default: lower left corner, upper left if "
+                 "mirrored, or the grid's first point)")
       .type_name("X,Y")
       .check(place(2, "X,Y"));
-  cmd.add_flag("--mirrored", o->mirrored, "The world's y goes down in the picture");
-  cmd.add_option("--out", o->out, "File to write (YAML), a piece of a rig's file")
+  cmd.add_flag("--mirrored", o->mirrored, "World y points down in the picture");
+  cmd.add_option("--out", o->out, "Write the scale to this file (YAML), for use in a rig file")
       .type_name("FILE");
   add_json(cmd, o->json);
   cmd.callback([o, &action] { action = [o](const Context&) { return scale(*o); }; });

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What `--config` and `--set` may say.
+/// Keys of `--config` and `--set`.
 struct SeeSettings {
   CameraParams camera;
   SceneParams scene;
@@ -42,7 +42,7 @@ struct SeeOptions {
   bool json = false;
 };
 
-/// The picture of a file, or the newest of a camera once it has had a second to settle.
+/// Picture of a file, or of a camera after one second of settling.
 Image picture_of(const std::string& source, CameraParams camera) {
   if (!source.starts_with("/dev/")) return read_photograph(source);
   camera.device = source;
@@ -54,7 +54,7 @@ Image picture_of(const std::string& source, CameraParams camera) {
   throw HardwareError(source + ": no picture within 10 s");
 }
 
-/// A picture of the same place. Throws InputError when it is of another size.
+/// Reads a picture of the same scene. Throws InputError if its size differs.
 Image still_of(const std::string& file, const Image& picture) {
   Image still = read_photograph(file);
   if (still.width != picture.width || still.height != picture.height)
@@ -81,7 +81,7 @@ std::string text_of(const Blob& b) {
       b.texture, b.is_cut ? ", cut" : "");
 }
 
-/// Those of the rig, or of the settings' file, then of `--set`.
+/// Settings of the rig or the settings file, then of `--set`.
 SeeSettings settings_of(const SeeOptions& o) {
   SeeSettings settings;
   if (!o.rig.empty()) {
@@ -138,23 +138,22 @@ int see(const SeeOptions& o) {
 void add_rig_see(Command rig, Action& action) {
   auto o = std::make_shared<SeeOptions>();
   Command cmd =
-      rig.add_command("see", "What is seen in a picture: the swarm and obstacles",
+      rig.add_command("see", "Detect the swarm and obstacles in a picture",
                       "rig see frame.png --set scene.swarm.look.min_texture=8 --out seen.png");
-  cmd.add_option("picture", o->picture, "Picture, or a camera as /dev/video0")
+  cmd.add_option("picture", o->picture, "Picture, or camera such as /dev/video0")
       .required()
       .type_name("FILE");
-  cmd.add_option("--still", o->still, "Picture without swarm and obstacles: shows the walls")
+  cmd.add_option("--still", o->still, "Picture without swarm and obstacles, for detecting walls")
       .type_name("FILE");
   const Option rig_file =
-      cmd.add_option("--rig", o->rig,
-                     "Rig file (YAML): looks as that rig does; --set comes after it")
+      cmd.add_option("--rig", o->rig, "Use the settings of this rig (YAML); --set overrides them")
           .type_name("FILE");
-  cmd.add_option("--config", o->config, "Settings (YAML); --set comes after it")
+  cmd.add_option("--config", o->config, "Settings file (YAML); --set overrides it")
       .type_name("FILE")
       .excludes(rig_file);
   add_settings(cmd, o->settings,
-               "Change a value, for example scene.swarm.look.min_radius_px=12 (again and again)");
-  cmd.add_option("--out", o->out, "Picture to draw (PNG)")
+               "Override a value, e.g. scene.swarm.look.min_radius_px=12 (repeatable)");
+  cmd.add_option("--out", o->out, "Draw the detections to this file (PNG)")
       .type_name("FILE")
       .check(file_kind({".png"}));
   add_json(cmd, o->json);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `rig simulate`: scenarios through a simulated rig, beside the simulation without one.
+// `rig simulate` compares scenarios through a simulated rig with the kinematic simulation.
 #include <fmt/ranges.h>
 
 #include <array>
@@ -22,7 +22,7 @@
 namespace microswarm::cli {
 namespace {
 
-/// A scenario and the rig that it goes through.
+/// A scenario and its rig.
 struct Pair {
   std::string scenario;
   std::string rig;
@@ -30,7 +30,7 @@ struct Pair {
   std::vector<std::string> rig_settings{};
 };
 
-/// Simulated when no scenario is named: every kind of navigator, scenarios of the papers.
+/// Default scenarios: every kind of navigator, scenarios of the papers.
 std::vector<Pair> usual_pairs() {
   const std::string papers = (scenario_folder() / "papers").string() + "/";
   const std::string rigs = (scenario_folder() / "rigs").string() + "/";
@@ -49,11 +49,11 @@ std::vector<Pair> usual_pairs() {
        {"navigator.method=divide_and_conquer"}}};
 }
 
-/// Some runs by one plant.
+/// Statistics of the runs of one plant.
 struct Summary {
   int arrived = 0;
   int contacts = 0;
-  std::vector<double> times;  ///< of those that arrived [s]
+  std::vector<double> times;  ///< of arrivals [s]
 
   void add(const RunResult& result) {
     contacts += result.metrics.contacts;
@@ -80,7 +80,7 @@ int simulate_trials(const SimulateOptions& o, const Context& context) {
   const std::vector<Pair> pairs =
       o.scenario.empty() ? usual_pairs()
                          : std::vector<Pair>{{o.scenario, o.rig, o.settings, o.rig_settings}};
-  std::vector<RigExperiment> scenes;  // all of them first: what cannot begin is told at once
+  std::vector<RigExperiment> scenes;  // open all first, so that errors are reported before any run
   scenes.reserve(pairs.size());
   for (const Pair& pair : pairs)
     scenes.push_back(
@@ -122,7 +122,7 @@ int simulate_trials(const SimulateOptions& o, const Context& context) {
     std::array<Summary, 2> sums;
     int done = 0;
     for (std::size_t i = 0; i < trials; ++i) {
-      if (!results[i]) continue;  // Ctrl-C
+      if (!results[i]) continue;  // interrupted
       ++done;
       for (const std::size_t plant : {0U, 1U}) {
         const RunResult& r = (*results[i])[plant];
@@ -156,19 +156,21 @@ int simulate_trials(const SimulateOptions& o, const Context& context) {
 void add_rig_simulate(Command rig, Action& action) {
   auto o = std::make_shared<SimulateOptions>();
   Command cmd =
-      rig.add_command("simulate", "Scenarios through a simulated rig, beside runs without one",
+      rig.add_command("simulate", "Compare runs through a simulated rig with runs without one",
                       "rig simulate scenario.yaml --rig rig.yaml --trials 10");
   cmd.former_name("rehearse");
-  cmd.add_option("scenario", o->scenario, "Scenario file (YAML); not given: some of the papers'")
+  cmd.add_option("scenario", o->scenario,
+                 "Scenario file (YAML) (default: a selection from the papers)")
       .type_name("FILE");
   cmd.add_option("--rig", o->rig, "Rig file (YAML)").type_name("FILE");
-  add_settings(cmd, o->settings, "Change a value of the scenario (again and again)");
-  cmd.add_option("--set-rig", o->rig_settings, "Change a value of the rig (again and again)")
+  add_settings(cmd, o->settings, "Override a scenario value (repeatable)");
+  cmd.add_option("--set-rig", o->rig_settings, "Override a rig value (repeatable)")
       .type_name("KEY=VALUE");
-  cmd.add_option("--trials", o->trials, "Runs of each, with other random streams")
+  cmd.add_option("--trials", o->trials,
+                 "Number of trials per scenario, each with its own random streams")
       .type_name("NUMBER")
       .check(whole(1, 100'000));
-  cmd.add_option("--jobs", o->jobs, "Threads; 0: one a core")
+  cmd.add_option("--jobs", o->jobs, "Number of threads; 0: one per core")
       .type_name("NUMBER")
       .check(whole(0, 1024));
   cmd.add_option("--out", o->out, "Folder for simulation.csv").type_name("FOLDER");

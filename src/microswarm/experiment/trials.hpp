@@ -8,26 +8,26 @@
 
 namespace microswarm {
 
-/// One trial's outcome.
+/// Result of one trial.
 struct TrialResult {
-  bool ran = false;  ///< false when the caller stopped before its turn
-  std::string hash;  ///< of all that is physical, as Record::hash()
+  bool ran = false;  ///< false if the caller stopped before it
+  std::string hash;  ///< of all physical data, as Record::hash()
   RunResult result;
 };
 
-/// How to run many trials.
+/// Settings of `run_trials`.
 struct TrialOptions {
   int trials = 1;
-  int jobs = 0;  ///< threads; 0 takes one a core
+  int jobs = 0;  ///< threads; 0: one per core
   /// Called after each trial, from any thread, one call at a time.
   std::function<void(int done, int trials)> progress;
-  /// Changes the scenario of a trial before it runs: start, goal, obstacles (their motion too), but
-  /// not the map. Must be pure.
+  /// Changes the scenario of a trial before it runs: start, goal, obstacles and their motion, but
+  /// not the map. Must be a pure function.
   std::function<void(Scenario& scenario, std::uint32_t trial)> vary;
 };
 
-/// Runs trials 0 … n−1 of a scenario in one world, each with random streams of its own: the results
-/// are the same bits for any number of threads. Wall-clock times are best measured with one job.
+/// Runs trials 0 … n−1 of a scenario in one world, each with its own random streams. The results
+/// are bit-identical for any number of threads. Use one job to measure wall-clock times.
 std::vector<TrialResult> run_trials(const Scenario& scenario, const World& world,
                                     const TrialOptions& options, const Stop& stop = {});
 

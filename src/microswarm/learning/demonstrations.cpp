@@ -12,10 +12,10 @@
 namespace microswarm {
 namespace {
 
-/// Beyond it an answer is next to the jump from π to -π, and no network can learn it [rad].
+/// Beyond this angle answers are next to the jump from π to −π, which no network can learn [rad].
 constexpr double max_off_path = 2.5;
 
-/// Sees as a learned follower does, and asks the expert beside it.
+/// Computes the features of a learned follower and queries the expert.
 class Demonstrator : public Navigator {
  public:
   Demonstrator(const FollowerTask& task, const Scenario& scenario, const Plant& plant,

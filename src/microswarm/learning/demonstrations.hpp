@@ -11,15 +11,14 @@
 
 namespace microswarm {
 
-/// What the expert would have commanded where a learned follower saw this.
+/// Features of a learned follower and the expert's command for them.
 struct Demonstration {
   std::array<double, feature_count> features;
-  std::array<double, 2> answer;  ///< heading off the bearing [rad], share of the speed
+  std::array<double, 2> answer;  ///< heading relative to the bearing [rad], fraction of the speed
 };
 
-/// Runs the task and notes what the expert commands at each tick. With a student, that one drives
-/// and the expert only says what it would have done there (DAgger, Ross 2011); else the expert
-/// drives.
+/// Runs the task and records the expert's command at each tick. With a student, the student drives
+/// and the expert only labels (DAgger, Ross 2011); otherwise the expert drives.
 std::vector<Demonstration> demonstrate(const FollowerTask& task,
                                        const std::shared_ptr<const FollowerModel>& student,
                                        const Stop& stop = {});

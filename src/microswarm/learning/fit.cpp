@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything of dlib stands in this file. Its matrices would hand sums to whichever BLAS a machine
-// has, and each has an order of its own; without one, dlib adds up in plain loops.
+// The only file that uses dlib. Its matrices would use the machine's BLAS, whose order of summation
+// varies; without BLAS, dlib sums in plain loops.
 #include "microswarm/learning/fit.hpp"
 
 #include <dlib/test_for_odr_violations.h>
@@ -16,8 +16,8 @@ namespace {
 
 using Column = dlib::matrix<double, 0, 1>;
 
-/// The loss at one place after another; the gradient of the last one is kept, because dlib asks for
-/// both one by one.
+/// Loss at successive points; caches the last gradient, because dlib asks for value and gradient
+/// separately.
 class Objective {
  public:
   Objective(MultilayerPerceptron& network, const Examples& examples, const FitOptions& options)
@@ -53,7 +53,7 @@ class Objective {
   std::vector<double> gradient_;
 };
 
-/// Tells dlib when to end.
+/// Stopping criterion for dlib.
 class Limit {
  public:
   Limit(const FitOptions& options, const Stop& stop) : options_(options), stop_(stop) {}
@@ -70,7 +70,7 @@ class Limit {
   int done_ = 0;
 };
 
-/// Each output of a layer gets weights that keep the spread of what comes in (Glorot 2010).
+/// Initialises each layer with weights that preserve the variance (Glorot 2010).
 void randomise(MultilayerPerceptron& network, Rng& rng) {
   auto w = network.weights.begin();
   for (std::size_t k = 0; k + 1 < network.layers.size(); ++k) {

@@ -11,31 +11,31 @@
 
 namespace microswarm {
 
-/// What a network is to answer to what: `inputs` and `answers` hold the examples one by one.
+/// Training examples: `inputs` and `answers` one after the other.
 struct Examples {
-  std::size_t in = 0;   ///< numbers of an input
-  std::size_t out = 0;  ///< numbers of an answer
+  std::size_t in = 0;   ///< size of an input
+  std::size_t out = 0;  ///< size of an answer
   std::vector<double> inputs;
   std::vector<double> answers;
 
   std::size_t count() const { return in > 0 ? inputs.size() / in : 0; }
 };
 
-/// How to fit.
+/// Settings of `fit`.
 struct FitOptions {
   int iterations = 300;
-  double decay = 1e-6;  ///< times the sum of squared weights is added to the loss
-  int jobs = 0;         ///< threads; 0 takes one a core
+  double decay = 1e-6;  ///< weight of the sum of squared weights in the loss
+  int jobs = 0;         ///< threads; 0: one per core
   std::function<void(int done)> progress;
 };
 
-/// Mean over the examples of the squared distance between answer and network, with its gradient by
-/// the weights (back-propagation). The sums run in an order that does not depend on `jobs`.
+/// Mean squared distance between answer and network output over the examples, and its gradient with
+/// respect to the weights (back-propagation). The order of summation does not depend on `jobs`.
 double loss_with_gradient(const MultilayerPerceptron& network, const Examples& examples,
                           std::vector<double>& gradient, int jobs);
 
-/// A network of these layers that fits the examples: L-BFGS of dlib from random weights, all
-/// examples at once. The same examples and stream give the same bits on any number of threads.
+/// Fits a network with these layers to all examples by dlib's L-BFGS from random weights. The
+/// result is bit-identical for equal examples and random stream, with any number of threads.
 MultilayerPerceptron fit(std::vector<std::size_t> layers, const Examples& examples,
                          const FitOptions& options, Rng& rng, const Stop& stop = {});
 

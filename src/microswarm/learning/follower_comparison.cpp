@@ -22,7 +22,7 @@ constexpr std::array<double, 8> compared_lookaheads{0.15, 0.2, 0.25, 0.3,
 constexpr std::uint32_t tuning_tasks = 60;
 constexpr std::uint32_t first_tuning_task = 1U << 30;
 
-/// Lets the expert alone drive.
+/// Drives with the expert alone.
 class ExpertNavigator : public Navigator {
  public:
   ExpertNavigator(const FollowerTask& task, const Plant& plant)
@@ -44,7 +44,7 @@ class ExpertNavigator : public Navigator {
   FollowerExpert expert_;
 };
 
-/// Measures at every tick where the swarm really is.
+/// Measures the true distance from the path at every tick.
 class Gauge : public RunListener {
  public:
   explicit Gauge(const std::vector<Vec2>& path) : path_(path) {}
@@ -86,7 +86,7 @@ class Gauge : public RunListener {
   bool driven_ = false;
 };
 
-/// A follower as it is compared.
+/// A follower in the comparison.
 struct Method {
   const char* name;
   FollowerParams follower;
@@ -111,7 +111,7 @@ FollowedPath follow(const FollowerTask& task, const Method& method, const Stop& 
   return gauge.path(result, std::get<RibbonParams>(scenario.swarm).max_speed);
 }
 
-/// The four of them, pure pursuit tuned.
+/// The four followers, with tuned pure pursuits.
 std::array<Method, 4> methods(const ComparisonOptions& options, const Stop& stop) {
   const FollowerParams plain;
   const FollowerParams against_flow{.correct_flow = true};

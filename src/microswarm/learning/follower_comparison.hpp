@@ -12,57 +12,57 @@
 
 namespace microswarm {
 
-/// One task followed by one follower.
+/// Result of one follower on one task.
 struct FollowedPath {
   bool arrived = false;
   double time = 0;            ///< [s]
-  double fair_time = 0;       ///< way at the speed asked for [s]
+  double fair_time = 0;       ///< path length divided by the task's speed [s]
   double rms_off = 0;         ///< root mean square distance from the path [µm]
   double max_off = 0;         ///< [µm]
-  double field_turning = 0;   ///< of the commanded heading, a second [rad/s]
-  double fallback_share = 0;  ///< of the steps in which the learned follower handed over
+  double field_turning = 0;   ///< mean rate of change of the commanded heading [rad/s]
+  double fallback_share = 0;  ///< fraction of steps in which the learned follower used its fallback
 };
 
-/// One of the followers compared, on every task.
+/// Results of one follower on all tasks.
 struct FollowerOutcome {
   std::string name;
   std::vector<FollowedPath> paths;
 };
 
-/// What is compared on which tasks.
+/// Settings of `compare_followers`.
 struct ComparisonOptions {
   int tasks = 200;
   FollowerTaskParams params;
   std::uint64_t seed = 1;
   std::shared_ptr<const FollowerModel> model;  ///< null: the built-in one
-  int jobs = 0;                                ///< threads; 0 takes one a core
+  int jobs = 0;                                ///< threads; 0: one per core
   std::function<void(double share)> progress;
 };
 
-/// Tasks from this number on are for comparing only: no training draws them.
+/// Tasks from this number on are reserved for comparison and never used in training.
 inline constexpr std::uint32_t first_unseen_task = 1U << 31;
 
-/// Pure pursuit, pure pursuit that steers against the flow it tells from what it sees, the learned
-/// follower and the expert, each on the same unseen tasks with the same noise, in the same
-/// simulation, until it arrives or the time limit ends it. The swarm starts on the path.
-/// Both pure pursuits have the lookahead that does best on tasks of their own.
+/// Compares pure pursuit, pure pursuit with estimated-flow correction, the learned follower and the
+/// expert. Each runs the same unseen tasks with the same noise in the same simulation until arrival
+/// or the time limit. The swarm starts on the path. Both pure pursuits use the lookahead that is
+/// best on separate tuning tasks.
 std::vector<FollowerOutcome> compare_followers(const ComparisonOptions& options,
                                                const Stop& stop = {});
 
-/// How far a follower was off the path, tick by tick.
+/// Distance of a follower from the path, tick by tick.
 struct FollowerTrace {
   std::string name;
   std::vector<double> off;  ///< [µm]
 };
 
-/// One of the tasks for looking at.
+/// Traces of all followers on one task.
 std::vector<FollowerTrace> follow_one(const ComparisonOptions& options, std::uint32_t number);
 
-/// A task that it compares on, of a number from first_unseen_task on.
+/// A comparison task; `number` is at least first_unseen_task.
 FollowerTask unseen_task(const ComparisonOptions& options, std::uint32_t number);
 
-/// Mean root mean square distance over some tuning tasks for each lookahead [s]: what the baseline
-/// is tuned by.
+/// RMS distance from the path for each lookahead, averaged over tuning tasks; used to tune the
+/// baseline.
 struct LookaheadTuning {
   std::vector<double> lookahead;  ///< [s]
   std::vector<double> rms_off;    ///< [µm]

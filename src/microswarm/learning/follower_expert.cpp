@@ -15,11 +15,11 @@ namespace {
 constexpr double tick = 0.1;  // [s]
 constexpr int ticks = 15;     // of the preview
 constexpr std::array<double, 7> tried_lookaheads{0.06, 0.1, 0.16, 0.25, 0.4, 0.6, 0.9};  // [s]
-constexpr std::array<double, 4> shares{1, 0.8, 0.6, 0.4};  // of the speed
-// What a way costs, beside the mean square of its distance from the path in seconds of way.
+constexpr std::array<double, 4> shares{1, 0.8, 0.6, 0.4};  // fractions of the speed
+// Cost terms besides the mean squared distance from the path, in seconds of travel.
 constexpr double slow_weight = 0.02;
-constexpr double turn_weight = 0.01;  // of squared turns a tick [1/rad²]
-constexpr double softness = 2e-4;     // ways whose costs differ by less count much alike
+constexpr double turn_weight = 0.01;  // of squared turns per tick [1/rad²]
+constexpr double softness = 2e-4;     // paths whose costs differ by less have similar weights
 
 SwarmLimits limits(const RibbonParams& swarm) {
   return {.radius = swarm.radius,

@@ -9,20 +9,19 @@
 
 namespace microswarm {
 
-/// The expert that a learned follower imitates: a preview controller that knows what no camera
-/// shows, namely where the swarm really is, the flow and its real speed. At every tick it plays
-/// pure pursuits of several lookaheads and speeds through the seconds to come, each crabbing in the
-/// flow, and weighs them by how far they come off the path, how slow they are and how much they
-/// turn. What it commands is the mean over all, the best ones counting most, so that it is a smooth
-/// function of where the swarm is.
+/// The expert imitated by a learned follower: a preview controller with access to the ground truth
+/// of pose, flow and speed. At every tick it simulates pure pursuits with several lookaheads and
+/// speeds, each corrected for the flow. Their cost combines the distance from the path, slowness
+/// and turning. The command is the mean over all, weighted towards low cost, and so a smooth
+/// function of the pose.
 class FollowerExpert {
  public:
-  /// `speed` [µm/s] is that asked for.
+  /// `speed` is the commanded speed [µm/s].
   FollowerExpert(const RibbonParams& swarm, std::span<const Vec2> path, double speed);
 
-  /// What to command at the time `now` [s] to a swarm that is at `pose` then.
+  /// Command at time `now` [s] for a swarm at `pose`.
   Command command(const Pose2& pose, double now);
-  /// Notes what was commanded at that time, whoever chose it.
+  /// Records the command given at that time, by the expert or another navigator.
   void note(double now, const Command& command);
 
  private:
@@ -36,7 +35,7 @@ class FollowerExpert {
   RibbonParams swarm_;
   std::span<const Vec2> path_;
   double speed_;
-  DelayCompensator compensator_;  ///< of the commands as the swarm really obeys them
+  DelayCompensator compensator_;  ///< of the swarm's true response to commands
   PathPlace place_;
   Command last_;
 };

@@ -13,7 +13,8 @@
 namespace microswarm {
 namespace {
 
-/// Cuts the corners once (Chaikin): each inner point gives way to two, a quarter of an edge off.
+/// One step of Chaikin's corner cutting: two points replace each inner point, a quarter of an edge
+/// away.
 std::vector<Vec2> with_cut_corners(const std::vector<Vec2>& path) {
   std::vector<Vec2> cut{path.front()};
   cut.reserve(2 * path.size());
@@ -26,8 +27,8 @@ std::vector<Vec2> with_cut_corners(const std::vector<Vec2>& path) {
   return cut;
 }
 
-/// Legs of random lengths around a main direction, from which none turns off by more than 75°: such
-/// a path does not come near to itself. Half of all are rounded.
+/// Legs of random lengths within 75° of a main direction, so the path never approaches itself. Half
+/// of the paths are rounded.
 std::vector<Vec2> random_path(double unit, Rng& rng) {
   constexpr double max_off = 75 * pi / 180;
   const double main = rng.uniform(-pi, pi);

@@ -9,8 +9,8 @@
 
 namespace microswarm {
 
-/// Random paths to follow, and how much stands against it. Each task draws its own values from
-/// these ranges; lengths of the path are in seconds at the task's speed.
+/// Ranges of random path-following tasks and their disturbances. Each task draws its own values.
+/// Path lengths are in seconds at the task's speed.
 struct FollowerTaskParams {
   double min_speed = 30;
   double max_speed = 90;
@@ -75,19 +75,19 @@ struct FollowerTaskParams {
   }
 };
 
-/// A path to follow, from its first point to its last, as a scenario: a swarm in an open world.
+/// A path to follow from its first to its last point, as a scenario: a swarm in an open world.
 struct FollowerTask {
-  std::uint32_t number = 0;  ///< also that of its plant's noise
+  std::uint32_t number = 0;  ///< also selects the noise of its plant
   std::vector<Vec2> path;
-  Scenario scenario;  ///< its navigator is pure pursuit
+  Scenario scenario;  ///< with pure pursuit as navigator
   World world;
 };
 
-/// The task of this number, drawn from the stream (seed, learning, number).
+/// The task with this number, drawn from the stream (seed, learning, number).
 FollowerTask follower_task(const FollowerTaskParams& params, std::uint64_t seed,
                            std::uint32_t number);
 
-/// The task with a navigator that follows its path so.
+/// The task's scenario with this follower and lookahead.
 Scenario with_follower(const FollowerTask& task, const FollowerParams& follower,
                        double lookahead_time);
 

@@ -18,12 +18,12 @@ namespace {
 
 constexpr std::uint32_t held_out = 10;  // every tenth run
 
-/// Ticks in which the expert was asked, by whether they are learned from.
+/// Demonstrations, split into training and held-out ones.
 struct Collected {
   std::vector<Demonstration> learned, held_out;
 };
 
-/// How much work has been done, counted in runs and in examples that went through the network.
+/// Completed work, in runs and in examples passed through the network.
 class Work {
  public:
   Work(const FollowerTrainingParams& p, const TrainingOptions& options) : options_(options) {
@@ -37,15 +37,15 @@ class Work {
     done_ += cost;
     if (options_.progress) options_.progress(std::min(1.0, done_ / total_), what);
   }
-  /// Of one iteration.
+  /// Cost of one iteration.
   static double fit_cost(const FollowerTrainingParams& p, int round) {
     return examples_of_run * p.runs * (round + 1) * example_cost;
   }
-  static constexpr double run_cost = 15e-3;  // [s], about
+  static constexpr double run_cost = 15e-3;  // [s], approximate
 
  private:
   static constexpr double examples_of_run = 150;
-  static constexpr double example_cost = 4e-6;  // [s], about
+  static constexpr double example_cost = 4e-6;  // [s], approximate
   const TrainingOptions& options_;
   double total_ = 0, done_ = 0;
 };
@@ -70,7 +70,7 @@ void collect(const FollowerTrainingParams& p, int round,
   }
 }
 
-/// The range of each feature: from one rare quantile to the other, and a little beyond.
+/// Sets the range of each feature: between two extreme quantiles, slightly extended.
 void set_ranges(FollowerModel& model, const std::vector<Demonstration>& shown) {
   constexpr double rare = 5e-4;
   constexpr double beyond = 0.05;
@@ -85,7 +85,7 @@ void set_ranges(FollowerModel& model, const std::vector<Demonstration>& shown) {
   }
 }
 
-/// Those within the ranges, scaled as the network takes them.
+/// The demonstrations within the ranges, scaled for the network.
 Examples examples_of(const FollowerModel& model, const std::vector<Demonstration>& shown) {
   Examples examples{.in = feature_count, .out = 2, .inputs = {}, .answers = {}};
   examples.inputs.reserve(shown.size() * feature_count);

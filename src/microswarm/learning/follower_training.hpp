@@ -10,7 +10,7 @@
 
 namespace microswarm {
 
-/// How a follower learns.
+/// Settings of `train_follower`.
 struct FollowerTrainingParams {
   std::uint64_t seed = 1;
   int runs = 150;
@@ -38,26 +38,26 @@ struct FollowerTrainingParams {
   }
 };
 
-/// A trained follower and how well it imitates: root mean square over both answers, of all that it
-/// learned from, and of every tenth run, which it did not.
+/// A trained follower and its imitation error: root mean square over both outputs, on the training
+/// data and on every tenth run, which is held out.
 struct TrainedFollower {
-  bool finished = false;  ///< false when it was stopped: then the model is worth nothing
+  bool finished = false;  ///< false if stopped; the model is then unusable
   FollowerModel model;
   std::size_t demonstrations = 0;
   double training_error = 0;
   double held_out_error = 0;
 };
 
-/// What a caller may want to hear, and how many threads to take; 0 takes one a core. The result is
-/// the same bits with any number.
+/// Progress callback and number of threads; 0: one per core. The result is bit-identical with any
+/// number.
 struct TrainingOptions {
   int jobs = 0;
-  /// `share` of all the work is done, in [0, 1].
+  /// `share` is the completed fraction of the work, in [0, 1].
   std::function<void(double share, const std::string& what)> progress;
 };
 
 /// Trains a follower: demonstrations of the expert, a first network, then rounds in which the
-/// newest network drives and the expert says what it would have done. All demonstrations are kept.
+/// newest network drives and the expert labels. All demonstrations are kept.
 TrainedFollower train_follower(const FollowerTrainingParams& params,
                                const TrainingOptions& options = {}, const Stop& stop = {});
 

@@ -10,12 +10,12 @@
 namespace microswarm {
 namespace {
 
-constexpr std::size_t lanes = 32;  // examples that are worked on side by side
+constexpr std::size_t lanes = 32;  // examples processed in parallel
 constexpr std::size_t per_shard = 64 * lanes;
 using Lanes = std::array<double, lanes>;
-using Layer = std::vector<Lanes>;  // one entry a unit
+using Layer = std::vector<Lanes>;  // one entry per unit
 
-/// The sum of the products, in four parts that run side by side.
+/// Dot product, in four independent partial sums.
 double dot(const Lanes& a, const Lanes& b) {
   std::array<double, 4> sum{};
   for (std::size_t l = 0; l < lanes; l += 4)
@@ -23,7 +23,7 @@ double dot(const Lanes& a, const Lanes& b) {
   return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-/// Loss and gradient of some examples, `lanes` at a time.
+/// Loss and gradient of a subset of examples, `lanes` at a time.
 class Shard {
  public:
   explicit Shard(const MultilayerPerceptron& network)
@@ -99,7 +99,7 @@ class Shard {
 
   const MultilayerPerceptron& net_;
   std::vector<Layer> values_;
-  std::vector<Layer> errors_;  // of the loss by the values
+  std::vector<Layer> errors_;  // derivatives of the loss with respect to the values
 };
 
 }  // namespace

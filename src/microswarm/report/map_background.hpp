@@ -8,10 +8,10 @@
 
 namespace microswarm {
 
-/// What a run is called in reports.
+/// Title of a run in reports.
 std::string title_of(const Record& record);
 
-/// The walls, over the photograph where there is one.
+/// Draws the walls, over the photograph if there is one.
 void draw_ground(Picture& picture, const Map& map, const ReportOptions& options);
 
 }  // namespace microswarm

@@ -8,15 +8,15 @@
 
 namespace microswarm {
 
-/// One part of a page: a heading, some text, a table of two or more columns, and pictures.
+/// One section of a page: a heading, text, a table with two or more columns, and pictures.
 struct PageSection {
   std::string heading;
   std::string text;
-  std::vector<std::vector<std::string>> table;                ///< the first line is the head
-  std::vector<std::pair<std::string, std::string>> pictures;  ///< file beside the page, caption
+  std::vector<std::vector<std::string>> table;                ///< the first row is the header
+  std::vector<std::pair<std::string, std::string>> pictures;  ///< relative file, caption
 };
 
-/// Writes a self-contained HTML page; pictures are named by files that stand beside it. All text is
+/// Writes an HTML page. Pictures are referenced by file names relative to the page. All text is
 /// escaped.
 void write_page(const std::filesystem::path& path, const std::string& title,
                 const std::vector<PageSection>& sections);

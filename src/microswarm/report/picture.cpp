@@ -20,16 +20,16 @@ namespace {
 constexpr double picture_margin = 24;
 constexpr double title_height = 34;
 constexpr double foot_height = 52;
-constexpr double min_disc_radius = 4;  // of a disc that would else be lost
+constexpr double min_disc_radius = 4;  // smaller discs would be invisible
 
-constexpr double key_line = 22;  // height of a line of the legend
+constexpr double key_line = 22;  // line height of the legend
 
 cairo_status_t append(void* out, const unsigned char* data, unsigned int length) {
   static_cast<std::string*>(out)->append(reinterpret_cast<const char*>(data), length);
   return CAIRO_STATUS_SUCCESS;
 }
 
-/// 1, 2 or 5 times a power of ten, at most `most`.
+/// The largest 1, 2 or 5 times a power of ten that is at most `most`.
 double round_length(double most) {
   const double power = maths::power(10.0, static_cast<int>(std::floor(maths::log10(most))));
   for (const double factor : {5.0, 2.0})
@@ -37,7 +37,7 @@ double round_length(double most) {
   return power;
 }
 
-/// What `draw` draws on white, `size` pixels large.
+/// Writes what `draw` draws on a white page of `size` pixels.
 template <class Draw>
 void write_drawing(const std::filesystem::path& path, Vec2 size, Draw&& draw) {
   const std::string kind = path.extension().string();
@@ -70,7 +70,7 @@ struct Picture::Impl {
     std::string label;
     Colour colour;
     bool round;
-    double x = 0;     // of its left end
+    double x = 0;     // of the left end
     double down = 0;  // below the first line
   };
 
@@ -78,13 +78,13 @@ struct Picture::Impl {
   std::string title;
   double scale;
   double width;
-  double height;  // with a legend of one line
+  double height;  // with a one-line legend
   double key_end = 0;
   double key_down = 0;  // of the last line below the first
   cairo_surface_t* recording;
   cairo_t* cr;
   std::vector<LegendEntry> entries;
-  std::vector<Box> texts;  // where they stand [px]
+  std::vector<Box> texts;  // positions of the texts [px]
 
   Impl(const Box& v, std::string_view t, double pixels)
       : view(v), title(t), scale(pixels / std::max(v.width(), v.height())) {
@@ -104,7 +104,7 @@ struct Picture::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  /// Where a text is to begin: as asked for, or a few lines lower or higher where none stands yet.
+  /// Position for a text: the wanted one, or the nearest free one a few lines above or below.
   Vec2 place_for_text(Vec2 wanted, double text_width, double size) {
     constexpr int max_lines = 6;
     constexpr double gap = 3;  // [px]
@@ -187,7 +187,7 @@ void Picture::Impl::scale_bar(cairo_t* out) const {
   cairo_show_text(out, fmt::format("{:g} µm", length).c_str());
 }
 
-/// In lines as long as the picture is wide, beside the scale bar.
+/// Wraps at the picture's width, next to the scale bar.
 void Picture::Impl::add_to_key(std::string_view label, Colour c, bool round) {
   const double left =
       picture_margin + std::max(120.0, round_length(0.25 * view.width()) * scale + 40);

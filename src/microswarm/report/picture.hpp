@@ -15,7 +15,7 @@
 
 namespace microswarm {
 
-/// Colour, each part in [0, 1].
+/// Colour with components in [0, 1].
 struct Colour {
   double red = 0;
   double green = 0;
@@ -23,8 +23,7 @@ struct Colour {
   double alpha = 1;
 };
 
-/// The colours of every picture: one meaning each, readable by the colour-blind (after Okabe &
-/// Ito).
+/// Colours of all pictures: one meaning each, safe for colour-blind readers (after Okabe & Ito).
 namespace colours {
 inline constexpr Colour paper{1, 1, 1, 1};
 inline constexpr Colour ink{0.13, 0.15, 0.18, 1};
@@ -36,7 +35,7 @@ inline constexpr Colour tree{0.55, 0.70, 0.85, 0.9};
 inline constexpr Colour circle{0.80, 0.47, 0.65, 0.9};
 inline constexpr Colour swarm{0.0, 0.62, 0.45, 1};
 inline constexpr Colour goal{0.40, 0.25, 0.65, 1};
-/// Robots that are told apart, one after the other.
+/// Colours of individually tracked robots, in order.
 inline constexpr std::array<Colour, 8> robots{{{0.0, 0.45, 0.70, 1},
                                                {0.84, 0.37, 0.0, 1},
                                                {0.0, 0.62, 0.45, 1},
@@ -47,20 +46,20 @@ inline constexpr std::array<Colour, 8> robots{{{0.0, 0.45, 0.70, 1},
                                                {0.35, 0.35, 0.35, 1}}};
 }  // namespace colours
 
-/// A drawing of a world in its own coordinates [µm, y up], written as PNG, SVG or PDF by the file's
-/// extension. What is drawn later lies on top. Line widths and text are in pixels of the finished
-/// picture. A disc smaller than 4 pixels in radius is drawn with 4, so that it is seen.
+/// A drawing of a world in its own coordinates [µm, y up], written as PNG, SVG or PDF according to
+/// the file's extension. Later drawings are on top. Line widths and text sizes are in pixels of the
+/// finished picture. Discs are drawn with a radius of at least 4 pixels.
 class Picture {
  public:
-  /// Shows `view`; the longer side of the drawing gets `pixels`, and a margin around it holds the
+  /// Shows `view`. The longer side of the drawing is `pixels` long; a margin around it holds the
   /// title, the scale bar and the legend.
   explicit Picture(const Box& view, std::string_view title = {}, double pixels = 1200);
   ~Picture();
   Picture(const Picture&) = delete;
   Picture& operator=(const Picture&) = delete;
 
-  /// A photograph under everything, `um_per_px` µm per pixel, its lower left corner at the origin;
-  /// `fade` in [0, 1] whitens it.
+  /// Draws a photograph as background, `um_per_px` µm per pixel, its lower left corner at the
+  /// origin; `fade` in [0, 1] whitens it.
   void photo(const Image& image, double um_per_px, double fade = 0);
   void walls(const Map& map, Colour fill = colours::wall, Colour edge = colours::wall_edge);
   void bodies(std::span<const Body> bodies, Colour fill = colours::obstacle);
@@ -69,18 +68,18 @@ class Picture {
             bool dashed = false);
   void disc(Disc disc, Colour fill);
   void circle(Disc disc, Colour colour, double width_px = 1.5, bool dashed = true);
-  /// The swarm's body with a tick that shows its heading.
+  /// Draws the swarm's body with a tick at its heading.
   void swarm(const Pose2& pose, double radius, Colour colour = colours::swarm);
-  /// A labelled point: a ring of constant size.
+  /// Draws a labelled point: a ring of constant size.
   void mark(Vec2 at, std::string_view label, Colour colour = colours::ink);
   void text(Vec2 at, std::string_view text, Colour colour = colours::ink, double size_px = 15);
-  /// One entry of the legend, in order; it has as many lines as it needs.
+  /// Adds an entry to the legend, which has as many lines as needed.
   void legend(std::string_view label, Colour colour, bool round = false);
 
-  /// Writes the finished picture; extension .png, .svg or .pdf, else InputError. The picture can be
-  /// written several times.
+  /// Writes the finished picture; throws InputError unless the extension is .png, .svg or .pdf. Can
+  /// be called repeatedly.
   void write(const std::filesystem::path& path) const;
-  /// As stem.png, stem.svg and stem.pdf.
+  /// Writes stem.png, stem.svg and stem.pdf.
   void write_everywhere(const std::filesystem::path& stem) const;
 
  private:
@@ -90,8 +89,8 @@ class Picture {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Writes pictures as one, row by row with at most so many columns; .png, .svg or .pdf as above.
-/// Nothing without pictures.
+/// Writes pictures as one sheet, row by row with at most `columns` columns; .png, .svg or .pdf as
+/// above. Does nothing without pictures.
 void write_sheet(std::span<const std::unique_ptr<Picture>> pictures, int columns,
                  const std::filesystem::path& path);
 

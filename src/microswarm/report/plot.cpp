@@ -26,9 +26,9 @@ namespace {
 constexpr std::array<const char*, 8> palette{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                              "#E69F00", "#56B4E9", "#333333", "#7A5C3E"};
 
-constexpr std::ptrdiff_t max_upright_letters = 4;  // of a label that is not turned
+constexpr std::ptrdiff_t max_upright_letters = 4;  // longer labels are rotated
 constexpr const char* band_colour = "#ececec";
-constexpr std::array<int, 7> markers{7, 5, 9, 11, 13, 8, 4};  // gnuplot's
+constexpr std::array<int, 7> markers{7, 5, 9, 11, 13, 8, 4};  // gnuplot point types
 
 std::string in_quotes(std::string_view s) {
   std::string out = "\"";
@@ -99,7 +99,7 @@ std::string listed(const std::vector<AxisTick>& ticks) {
   return fmt::format("({})", fmt::join(out, ", "));
 }
 
-/// 1, 2, 5, 10, … over what is drawn; none where it is too much or nothing.
+/// Ticks at 1, 2, 5, 10, … over the data; empty if the range is empty or too large.
 std::vector<AxisTick> log_ticks(const Plot& plot) {
   double least = plot.y_min.value_or(std::numeric_limits<double>::infinity());
   double most = plot.y_max.value_or(0);
@@ -147,7 +147,7 @@ std::string axes(const Plot& plot) {
   return out;
 }
 
-/// Bands and marks: gnuplot keeps them from panel to panel.
+/// Bands and marks; resets them first, because gnuplot keeps them from panel to panel.
 std::string ground(const Plot& plot) {
   std::string out = "unset object\nunset arrow\nunset label\n";
   for (const Band& band : plot.bands)
@@ -194,7 +194,7 @@ std::string terminal(const std::string& kind, std::size_t panels) {
                      5.8 * static_cast<double>(panels));
 }
 
-/// What gnuplot draws, as it writes it to its stdout; nothing when it cannot be started or fails.
+/// The stdout of gnuplot for a script; empty if it cannot be started or fails.
 std::optional<std::string> drawn_by_gnuplot(const std::filesystem::path& script) {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) return std::nullopt;
@@ -202,7 +202,7 @@ std::optional<std::string> drawn_by_gnuplot(const std::filesystem::path& script)
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawnattr_t attributes;  // in a group of its own, Ctrl-C does not reach it
+  posix_spawnattr_t attributes;  // own process group, so Ctrl-C does not reach it
   posix_spawnattr_init(&attributes);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   std::string program = "gnuplot";

@@ -8,60 +8,61 @@
 
 namespace microswarm {
 
-/// How a series is drawn: joined, joined with a marker at each point, as points, as rings, as bars
-/// from 0, as one box with whiskers over all its y (x of the first point says where), as filled
-/// outlines (violins), or as the hollow diamonds of values that a paper gives.
+/// Style of a series: joined; joined with a marker at each point; points; rings; bars from 0; one
+/// box with whiskers over all y, at the x of the first point; filled outlines (violins); or hollow
+/// diamonds for values published in a paper.
 enum class PlotStyle { line, marked, points, rings, bars, box, filled, published };
 
-/// Values of one thing, x and y of equal length. With `low` and `high`, as long as those, a marked
-/// series or points have an interval at each value.
+/// Values of one quantity; x and y have equal length. `low` and `high`, if given, have the same
+/// length and add an interval to each value of a marked series or points.
 struct Series {
   std::string label;
   std::vector<double> x;
   std::vector<double> y;
   PlotStyle style = PlotStyle::line;
-  std::optional<std::size_t> colour = {};  ///< as that of the series of this number; else its own
+  std::optional<std::size_t> colour = {};  ///< that of this series; default: its own
   std::vector<double> low = {};
   std::vector<double> high = {};
 };
 
-/// One colour a method in all figures of a paper, measured and published alike: `Series::colour`.
+/// Values of `Series::colour`: one colour per method in all figures of a paper, for measured and
+/// published values alike.
 namespace method_colours {
 inline constexpr std::size_t drrt_star = 0, rrt_star = 1, a_star = 2, uniform_rrt_star = 3,
                              radar = 4, predictive = 5, other = 6;  // [drrt], [radar]
 inline constexpr std::size_t straight_stop = 1, potential_field = 2, velocity_obstacle = 3,
-                             follow_path = 6, radar_as_published = 7;  // beside the navigators
+                             follow_path = 6, radar_as_published = 7;  // besides the navigators
 inline constexpr std::size_t divide_and_conquer = 0, heuristic = 1, heuristic_plain_tree = 2,
                              rollout = 3;                        // [gather]
 inline constexpr std::size_t global_rrt = 0, global_search = 2;  // [global]
 }  // namespace method_colours
 
-/// A horizontal line with its label: a mean, a limit, a paper's value.
+/// A labelled horizontal line: a mean, a limit, a value from a paper.
 struct Level {
   std::string label;
   double y = 0;
 };
 
-/// A vertical line with its label.
+/// A labelled vertical line.
 struct Mark {
   std::string label;
   double x = 0;
 };
 
-/// A stretch of the x axis with a grey ground.
+/// A range of the x axis with grey background.
 struct Band {
   double from = 0;
   double to = 0;
 };
 
-/// A label of an axis.
+/// A tick label of an axis.
 struct AxisTick {
   std::string label;
   double at = 0;
 };
 
-/// One diagram. Labels carry their units. Series of the style `box` label the x axis where no ticks
-/// are given.
+/// One diagram. Labels include their units. Series of style `box` label the x axis unless ticks are
+/// given.
 struct Plot {
   std::string title;
   std::string x_label;
@@ -75,17 +76,17 @@ struct Plot {
   std::vector<AxisTick> y_ticks;
   bool log_x = false;
   bool log_y = false;
-  bool key_below = false;  ///< the legend stands below, not in the diagram
+  bool key_below = false;  ///< puts the legend below the diagram
   std::optional<double> x_min;
   std::optional<double> x_max;
   std::optional<double> y_min;
   std::optional<double> y_max;
 };
 
-/// Draws the plots side by side with gnuplot into .png, .svg or .pdf by the file's extension.
-/// Throws InputError when gnuplot is not installed or the file cannot be written.
+/// Draws the plots side by side with gnuplot as .png, .svg or .pdf, according to the file's
+/// extension. Throws InputError if gnuplot is not installed or the file cannot be written.
 void write_plots(const std::vector<Plot>& plots, const std::filesystem::path& path);
-/// As stem.png, stem.svg and stem.pdf.
+/// Writes stem.png, stem.svg and stem.pdf.
 void write_plots_everywhere(const std::vector<Plot>& plots, const std::filesystem::path& stem);
 
 }  // namespace microswarm

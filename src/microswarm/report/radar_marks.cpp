@@ -19,7 +19,7 @@ constexpr Colour safety{0.90, 0.60, 0.0, 1};
 constexpr Colour then_there{0.35, 0.35, 0.35, 1};
 constexpr Colour prediction{0.80, 0.15, 0.15, 1};
 
-/// Where the swarm's edge was nearest to an obstacle, or to a wall where there are none.
+/// The frame with the minimum gap to an obstacle, or to a wall without obstacles.
 const Frame& tightest(const Record& record) {
   const auto gap = [](const Frame& f) {
     const bool among = std::isfinite(f.obstacle_clearance);

@@ -7,9 +7,9 @@
 
 namespace microswarm {
 
-/// What a radar was given and went by: wait areas and waypoints, and its three circles about the
-/// swarm where the gap to an obstacle was least, or else to a wall, with the outlines of obstacles
-/// as they were then. Nothing for other navigators. `world` is the record's.
+/// Draws the wait zones and waypoints of a radar, its three circles around the swarm at the minimum
+/// gap to an obstacle (or to a wall without obstacles), and the outlines of obstacles at that time.
+/// Does nothing for other navigators. `world` is the record's.
 void draw_radar_marks(Picture& picture, const Record& record, const World& world);
 
 }  // namespace microswarm

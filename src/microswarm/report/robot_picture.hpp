@@ -10,8 +10,8 @@
 
 namespace microswarm {
 
-/// Draws the robots' ways by a plan, each robot in a colour with its start and, dashed, its goal
-/// with the tolerance [µm]. The file's extension says how: .png, .svg or .pdf.
+/// Draws the robots' paths in a plan, each robot in its own colour with its start and, dashed, its
+/// goal with the tolerance [µm]. The file's extension selects the format: .png, .svg or .pdf.
 void draw_robots(const Map& map, const GlobalPlan& plan, std::span<const Vec2> goals,
                  double tolerance, const std::string& title, const std::filesystem::path& file);
 

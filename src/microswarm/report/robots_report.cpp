@@ -17,7 +17,7 @@
 namespace microswarm {
 namespace {
 
-constexpr std::size_t max_numbered = 8;  // robots that get a colour and a number of their own
+constexpr std::size_t max_numbered = 8;  // robots with their own colour and number
 
 struct RobotsSubject {
   const Record& record;
@@ -32,7 +32,7 @@ Colour colour_of(const RobotsSubject& s, std::size_t robot) {
   return s.few() ? colours::robots[robot % colours::robots.size()] : colours::swarm;
 }
 
-/// Robots that are drawn as one spot, since they would cover each other.
+/// Robots drawn as one spot because they would overlap.
 struct Pile {
   Vec2 place;
   int count = 0;
@@ -64,7 +64,7 @@ void draw_robots(Picture& picture, const RobotsSubject& s, const std::vector<Vec
   picture.legend("robots; a larger spot is a pile of them", colours::swarm, true);
 }
 
-/// The way of each of a few robots, as far as its moments tell.
+/// Draws the paths of a few robots from the recorded moments.
 void draw_ways(Picture& picture, const RobotsSubject& s, double until) {
   if (!s.few()) return;
   for (std::size_t i = 0; i < s.record.robots.front().places.size(); ++i) {

@@ -5,8 +5,8 @@
 
 namespace microswarm {
 
-/// write_run_report for a run of robots that are told apart: where they were at first, on the way
-/// and at the end, and how far they had to go over time.
+/// Variant of write_run_report for individually tracked robots: their positions at the start,
+/// halfway and at the end, and the remaining distance over time.
 void write_robots_report(const Record& record, const std::filesystem::path& folder,
                          const ReportOptions& options);
 

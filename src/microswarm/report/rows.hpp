@@ -7,10 +7,11 @@
 
 namespace microswarm {
 
-/// One figure of a paper beside ours. `paper` is empty where the paper gives none, `ours` where
-/// there is nothing to tell (a median over nobody), `aim` where we set none, for which `note` says
-/// why; `at_most` says on which side of the aim ours has to be. Nothing meets no aim. A row that is
-/// not `judged` keeps its aim but has no verdict: too few trials, or the run was interrupted.
+/// One value of a paper and ours. `paper` is empty if the paper gives no value, `ours` if it is
+/// undefined (a median over no trials), `aim` if there is none, for which `note` gives the reason.
+/// `at_most` tells whether `aim` is an upper or a lower bound. An empty `ours` never meets an aim.
+/// A row that is not `judged` keeps its aim but has no verdict: too few trials, or the run was
+/// interrupted.
 struct ReproduceRow {
   std::string figure;
   std::string quantity;
@@ -23,12 +24,12 @@ struct ReproduceRow {
   bool judged = true;
 
   bool has_verdict() const { return aim && judged; }
-  /// False only for a verdict against us.
+  /// False only if a judged row misses its aim.
   bool ok() const { return !has_verdict() || (ours && (at_most ? *ours <= *aim : *ours >= *aim)); }
 };
 
-/// One measured speed beside its peer's in the same run. `ratio` is peer ÷ ours for times and ours
-/// ÷ peer for rates: above 1 we are faster.
+/// One measured speed and that of a peer in the same run. `ratio` is peer ÷ ours for times and ours
+/// ÷ peer for rates: values above 1 mean that ours is faster.
 struct BenchRow {
   std::string name;
   std::string quantity;
@@ -44,18 +45,18 @@ struct BenchRow {
   std::optional<double> ratio() const;
 };
 
-/// {"rows": [...]} for machines; what is not there is null, a verdict too.
+/// The rows as JSON, {"rows": [...]}; missing values and verdicts are null.
 std::string rows_json(const std::vector<ReproduceRow>& rows);
 std::string rows_json(const std::vector<BenchRow>& rows);
-/// The same rows as an aligned table for people; a column says "ok", "falls short",
-/// "no verdict" or, without an aim, nothing.
+/// The rows as an aligned text table. A column says "ok", "falls short", "no verdict" or, without
+/// an aim, nothing.
 std::string rows_table(const std::vector<ReproduceRow>& rows);
 std::string rows_table(const std::vector<BenchRow>& rows);
-/// The same rows as CSV with a header line.
+/// The rows as CSV with a header line.
 std::string rows_csv(const std::vector<ReproduceRow>& rows);
 std::string rows_csv(const std::vector<BenchRow>& rows);
 
-/// Does no row fall short of its aim?
+/// Whether every row meets its aim.
 template <class Row>
 bool all_ok(const std::vector<Row>& rows) {
   for (const Row& row : rows)

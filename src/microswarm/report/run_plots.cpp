@@ -11,7 +11,7 @@ namespace {
 
 constexpr double max_ticks = 8;
 
-/// 1, 2, 5, 10, …: the least such step that gives no more than `max_ticks` up to `count`.
+/// The smallest step of 1, 2, 5, 10, … with at most `max_ticks` ticks up to `count`.
 double whole_step(double count) {
   double power = 1;
   for (;;) {
@@ -21,7 +21,7 @@ double whole_step(double count) {
   }
 }
 
-/// Whole numbers on the axis of events, with room beside the first and the last.
+/// Integer ticks on the axis of events, with room at both ends.
 void number_events(Plot& plot, double count) {
   const double step = whole_step(count);
   for (double at = step; at <= count; at += step)
@@ -59,7 +59,7 @@ Plot clearances(const Record& record) {
   Series walls{.label = "walls and border"};
   Series bodies{.label = "moving obstacles"};
   for (const Frame& f : record.frames) {
-    if (!std::isfinite(f.wall_clearance)) continue;  // the swarm was not seen yet
+    if (!std::isfinite(f.wall_clearance)) continue;  // the swarm has not been detected yet
     walls.x.push_back(f.t);
     walls.y.push_back(f.wall_clearance);
     if (!std::isfinite(f.obstacle_clearance)) continue;
@@ -71,12 +71,12 @@ Plot clearances(const Record& record) {
   plot.levels = {{"swarm's radius", radius}};
   if (margin > 0) plot.levels.push_back({"navigator's margin", margin});
   plot.y_min = 0;
-  // What is near counts; a run that was never near shows at least its nearest.
+  // Limit the range to short distances; a run without any shows at least its minimum.
   const Metrics& m = record.result.metrics;
   const double nearest = std::min(m.walls.clearance, m.obstacles.clearance);
   plot.y_max = 5 * std::max(margin, radius);
   if (std::isfinite(nearest)) plot.y_max = std::max(*plot.y_max, 1.5 * nearest);
-  for (const Series& series : {walls, bodies})  // a line that lies above has no place in the key
+  for (const Series& series : {walls, bodies})  // omit lines above the range
     if (std::any_of(series.y.begin(), series.y.end(), [&](double y) { return y <= *plot.y_max; }))
       plot.series.push_back(series);
   return plot;

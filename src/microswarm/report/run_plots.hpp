@@ -8,8 +8,8 @@
 
 namespace microswarm {
 
-/// The diagrams of a run of one body, where there is something to show: its planning times, its
-/// clearance over time, and its avoidance cost over time.
+/// Diagrams of a run of one body, if there is data: planning times, clearance over time, and
+/// avoidance cost over time.
 std::vector<Plot> run_plots(const Record& record);
 
 }  // namespace microswarm

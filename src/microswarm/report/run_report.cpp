@@ -19,8 +19,8 @@
 namespace microswarm {
 namespace {
 
-constexpr int ghosts = 6;   // earlier places of the obstacles that an overview shows
-constexpr int moments = 3;  // planning events that get a picture
+constexpr int ghosts = 6;   // earlier obstacle positions shown in an overview
+constexpr int moments = 3;  // planning events with a picture
 constexpr double faint = 0.18;
 
 struct RunSubject {
@@ -80,7 +80,7 @@ void overview(const RunSubject& s, std::span<const PlanEvent* const> shown,
   picture.write_everywhere(folder / "overview");
 }
 
-/// The whole map, or what is near the swarm where the map is much larger.
+/// The whole map, or the surroundings of the swarm if the map is much larger.
 Box around(const RunSubject& s, const Frame& frame, const PlanEvent& event) {
   const Box map = s.world.map->bounds();
   double reach = 25 * frame.radius;
@@ -121,7 +121,7 @@ std::string moment_caption(const RunSubject& s, std::size_t number, const PlanEv
   return text + fmt::format(", {:.0f} µm from the nearest wall", frame.wall_clearance);
 }
 
-/// Of some planning events, the one at which an obstacle is nearest.
+/// The planning event in a range at which an obstacle is nearest.
 const PlanEvent& tightest(const Record& record, std::size_t first, std::size_t end) {
   const auto clearance = [&](const PlanEvent& e) {
     return frame_at(record, e.t).obstacle_clearance;
@@ -132,7 +132,7 @@ const PlanEvent& tightest(const Record& record, std::size_t first, std::size_t e
       [&](const PlanEvent& a, const PlanEvent& b) { return clearance(a) < clearance(b); });
 }
 
-/// The status; of a run that ended standing still also the navigator's last state.
+/// The status; for a run that ended while holding, also the navigator's last state.
 std::string ended(const Record& record) {
   std::string text(to_string(record.result.status));
   const std::size_t frames = record.frames.size();

@@ -12,20 +12,21 @@
 
 namespace microswarm::reproduce {
 
-/// A figure of a paper, and what makes its rows.
+/// A figure of a paper and the function that computes its rows.
 struct Figure {
   std::string_view name;
   std::vector<ReproduceRow> (*make)(const ReproduceOptions& options, const Stop& stop);
 };
 
-/// Rows of the one that is asked for, or of all when empty; with a folder, as PAPER.csv too. What
-/// there is of a figure that was stopped has no verdicts. Throws InputError for an unknown one.
+/// Rows of one figure, or of all if `figure` is empty; with an output folder, also written as
+/// PAPER.csv. An interrupted figure gives partial rows without verdicts. Throws InputError for an
+/// unknown figure.
 std::vector<ReproduceRow> reproduce_figures(std::string_view paper, std::span<const Figure> figures,
                                             const std::string& figure,
                                             const ReproduceOptions& options, const Stop& stop);
 
-/// A file of real input outside the repository, in the folder that the environment variable
-/// MICROSWARM_DATA names; nothing, and a note that `what` is left out, where it is absent.
+/// Path of a real input file in the folder named by the environment variable MICROSWARM_DATA. If
+/// the file is missing, the result is empty and a note says that `what` is omitted.
 std::optional<std::filesystem::path> data_file(const ReproduceOptions& options,
                                                std::string_view name, std::string_view what);
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double side_of(int obstacles) { return 1400 + 25.0 * obstacles; }
 
-/// Start on the left and goal on the right, or the other way round, or so from below to above.
+/// Places start and goal at opposite sides, horizontally or vertically, in either order.
 void place_ends(Ground& ground, double off_border, Rng& rng) {
   const double side = ground.map.hi.x;
   const double near = off_border + 0.08 * side * rng.uniform();
@@ -41,8 +41,8 @@ std::vector<Vec2> star(Vec2 centre, double radius, Rng& rng) {
 
 void add_wall(Ground& ground, const Polygon& wall) { ground.map.walls.push_back(wall.outer); }
 
-/// An upright wall from x to x + thickness with two gates, a valve in some of them. A valve lets
-/// the swarm pass for about half of its period.
+/// Adds a vertical wall from x to x + thickness with two gates, some with a valve. A valve is open
+/// to the swarm for about half of its period.
 void add_gates(Ground& ground, const Crosser& swarm, double x, double speed, Rng& rng) {
   constexpr double thickness = 60;
   const double height = ground.map.hi.y;
@@ -136,7 +136,7 @@ Ground vessel_ground(const Crosser& swarm, Rng& rng) {
   const ChannelGraph graph = random_channels(shape, rng);
   Ground ground;
   ground.map.hi = graph.bounds.hi;
-  // Two halves, in which no wall surrounds a vessel: outlines have no holes then.
+  // Split into two halves in which no wall surrounds a vessel, so outlines have no holes.
   const std::vector<Polygon> free = difference(graph.bounds, walls_of(graph));
   const Vec2 middle = graph.bounds.centre();
   for (const Box half : {Box{graph.bounds.lo, {middle.x, graph.bounds.hi.y}},

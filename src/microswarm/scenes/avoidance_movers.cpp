@@ -10,7 +10,7 @@
 namespace microswarm::scenes {
 namespace {
 
-/// A place where a mover may be about: anywhere, or near a lane.
+/// Random position of a mover: anywhere, or near a lane.
 Vec2 random_place(const Ground& ground, Rng& rng) {
   if (ground.lanes.empty()) {
     const double x = rng.uniform(0, ground.map.hi.x);
@@ -23,7 +23,7 @@ Vec2 random_place(const Ground& ground, Rng& rng) {
   return (1 - share) * lane[leg] + share * lane[leg + 1] + aside;
 }
 
-// Shapes, at a pace of their own that is set later.
+// Shapes; their pace is set later.
 
 PolygonShape random_polygon(double extent, Rng& rng) {
   PolygonShape shape;
@@ -54,7 +54,7 @@ Shape random_shape(double most, double& extent, Rng& rng) {
                .phase = rng.uniform()};
 }
 
-// Motions, at a pace that is set later.
+// Motions; their pace is set later.
 
 HarmonicLine random_line(const Ground& ground, Rng& rng) {
   HarmonicLine line{.centre = random_place(ground, rng), .phase = rng.uniform()};
@@ -83,7 +83,7 @@ Waypoints random_waypoints(const Ground& ground, Rng& rng) {
   return way;
 }
 
-/// Comes through near the straight way of the swarm when the swarm may be there.
+/// Passes near the straight path of the swarm at a time when the swarm may be there.
 Straight random_passage(const Ground& ground, const Crosser& swarm, double speed, Rng& rng) {
   const Vec2 way = ground.goal - ground.start;
   const double share = rng.uniform(0.1, 1);
@@ -94,7 +94,7 @@ Straight random_passage(const Ground& ground, const Crosser& swarm, double speed
   return {.start = ground.start + share * way + aside - arrival * velocity, .velocity = velocity};
 }
 
-/// Walks with a heading that strays, and turns back at the border.
+/// Random walk with a varying heading that turns back at the border.
 Track random_walk(const Ground& ground, double speed, double time_limit, Rng& rng) {
   constexpr double step = 0.5;  // [s]
   const Vec2 middle = 0.5 * ground.map.hi;
@@ -117,7 +117,7 @@ Track random_walk(const Ground& ground, double speed, double time_limit, Rng& rn
   return track;
 }
 
-/// Makes everything that takes `period` go at `factor` times the pace.
+/// Speeds up everything that has a `period` by `factor`.
 struct Quicken {
   double factor;
   template <class Periodic>
@@ -130,7 +130,7 @@ struct Quicken {
   void operator()(Other&) const requires(!requires(Other o) { o.period; }) {}
 };
 
-/// Top speed of the shape's own points, and what the motion adds.
+/// Sets the top speed of the shape's own points and that added by the motion.
 void set_pace(Obstacle& obstacle, double shape_speed, double motion_speed) {
   const double own = top_speed(Obstacle{obstacle.shape, Still{}});
   if (own > 0) std::visit(Quicken{shape_speed / own}, obstacle.shape);

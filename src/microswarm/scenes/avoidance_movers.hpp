@@ -5,16 +5,16 @@
 
 namespace microswarm::scenes {
 
-/// An obstacle, and what the rules of a fair world ask about it.
+/// An obstacle with the properties needed to check fairness.
 struct Mover {
   Obstacle obstacle;
-  double extent = 0;    ///< greatest radius around its position [µm]
-  bool rests = false;   ///< its position never moves
-  bool passes = false;  ///< it comes through and is gone
+  double extent = 0;    ///< maximum radius around its position [µm]
+  bool rests = false;   ///< its position is constant
+  bool passes = false;  ///< it crosses the world and leaves
 };
 
-/// Any shape on any motion, its top speed a given share of the swarm's; `rests` only where
-/// `may_rest`. Tracks reach to `time_limit` [s].
+/// Random obstacle of any shape and motion whose top speed is `speed_ratio` times the swarm's. It
+/// may rest only if `may_rest`. Tracks extend to `time_limit` [s].
 Mover random_mover(const Ground& ground, const Crosser& swarm, double speed_ratio, bool may_rest,
                    double time_limit, Rng& rng);
 

@@ -15,10 +15,10 @@
 namespace microswarm::scenes {
 namespace {
 
-constexpr double look = 0.5;           // between two looks at where a mover goes [s]
-constexpr double looked_at = 120;      // how far [s]
-constexpr double off_walls = 5;        // of what comes through [µm]
-constexpr int tries_each = 15;         // to find an obstacle that is fair
+constexpr double look = 0.5;           // time step for checking a mover's motion [s]
+constexpr double looked_at = 120;      // duration of the check [s]
+constexpr double off_walls = 5;        // clearance of crossing obstacles [µm]
+constexpr int tries_each = 15;         // attempts per fair obstacle
 constexpr double goal_tolerance = 30;  // [µm]
 
 VortexParams random_swarm(Rng& rng) {
@@ -39,7 +39,7 @@ SensingParams random_sensing(Rng& rng) {
   return sensing;
 }
 
-/// Takes only obstacles that leave the world fair to cross.
+/// Accepts only obstacles that leave a fair world.
 class Referee {
  public:
   Referee(const Ground& ground, const Map& walls, const Crosser& swarm, double swarm_radius)
@@ -101,7 +101,7 @@ class Referee {
     return room >= mover.extent + (mover.passes ? off_walls : passage_);
   }
 
-  /// Between walls that move: how far they are at least.
+  /// Lower bound of the distance from p to the moving walls.
   double lane_room(Vec2 p) const {
     double off = std::numeric_limits<double>::infinity();
     for (const std::vector<Vec2>& lane : ground_.lanes)
@@ -153,7 +153,7 @@ Scenario avoidance_scenario(std::uint64_t seed, const AvoidanceOptions& options)
   s.stop_at_contact = false;
   s.detection_range = avoidance_detection_range;
 
-  // A coarse field will do for the few questions that are asked here.
+  // A coarse field suffices for the few queries here.
   constexpr double field_cell = 50;
   const MapParts parts = read_map_parts(s.map);
   const Map walls(parts.bounds, parts.walls, parts.discs, field_cell);
@@ -172,7 +172,7 @@ Scenario avoidance_scenario(std::uint64_t seed, const AvoidanceOptions& options)
 }
 
 void see_obstacles_with_noise(Scenario& scenario) {
-  constexpr std::uint32_t sight = 1;  // a stream beside the world's
+  constexpr std::uint32_t sight = 1;  // separate from the world's stream
   Rng rng(scenario.seed, Purpose::scene, sight);
   scenario.sensing.obstacle_noise = rng.uniform(0, 2);
   scenario.sensing.obstacle_missed_share = rng.uniform(0, 0.05);

@@ -10,7 +10,7 @@
 namespace microswarm::scenes {
 namespace {
 
-/// A tube through these joints.
+/// Adds a tube through these joints.
 void add_tube(ChannelGraph& graph, std::initializer_list<Disc> joints) {
   auto next = static_cast<std::uint32_t>(graph.joints.size());
   for (const Disc& joint : joints) {

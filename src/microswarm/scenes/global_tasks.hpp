@@ -8,7 +8,7 @@
 
 namespace microswarm::scenes {
 
-/// Robots under one input with their goals on a map.
+/// Robots under one input, with their goals on a map.
 struct GlobalTask {
   std::string name;
   Map map;
@@ -18,21 +18,21 @@ struct GlobalTask {
   double tolerance = 20;
 };
 
-/// Six robots in Env 1–4: the four of [global], and two more in a row with them.
+/// Six robots in Env 1–4: the four of [global], and two more in line with them.
 GlobalTask six_robots(int env);
-/// Other goals for them in Env 1, each at least 50 µm from the others and all over the map: where
-/// six inputs drawn at random, each held for 5 to 44 steps, bring them.
+/// Other goals for them in Env 1, spread over the map at least 50 µm apart: the positions reached
+/// by six random inputs, each held for 5 to 44 steps.
 std::vector<Vec2> six_goals_apart();
 
-/// Three robots among the veins of a leaf, with the starts and goals of the program that was
-/// published with [global]; goal 3 lies 0.5 µm in a wall, as it does there. The map is that
-/// program's and no part of the repository.
+/// Three robots among the veins of a leaf, with starts and goals of the program published with
+/// [global]. As there, goal 3 is 0.5 µm inside a wall. The map belongs to that program and is not
+/// in the repository.
 GlobalTask leaf_task(Map map);
 
-/// The maps of Fig 8 and 12 [global] are published as pictures only; these and a vascular network
-/// are maps of ours of the same kind: three robots in a vascular network, three in a digestive
-/// system (planar: the duodenum goes around the colon, where a body's lies behind it), and two
-/// magnets between obstacles whose sides are all along the axes.
+/// Substitutes for the maps of Fig 8 and 12 [global], which are published only as pictures, and a
+/// vascular network. Three robots in a vascular network, three in a digestive system (planar: the
+/// duodenum runs around the colon, not in front of it), and two magnets between axis-aligned
+/// obstacles.
 GlobalTask vascular_task();
 GlobalTask digestive_task();
 GlobalTask magnets_task();

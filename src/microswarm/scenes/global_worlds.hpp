@@ -9,7 +9,7 @@
 
 namespace microswarm::scenes {
 
-/// Env 1–4 of [global]: the free square 50…350 of a workspace of 400 × 400 with a border of 50, and
+/// Env 1–4 of [global]: the free square 50…350 of a 400 × 400 workspace with a border of 50, with
 /// rectangles in it, as in scenarios/papers/global.
 inline constexpr int global_worlds = 4;
 /// Env `number`, 1 to global_worlds.

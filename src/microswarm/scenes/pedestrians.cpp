@@ -13,7 +13,7 @@ namespace {
 
 constexpr double um_per_m = 150;
 constexpr double walker_radius = 45;
-constexpr double min_way = 900;  // from start to goal [µm]
+constexpr double min_way = 900;  // minimum distance from start to goal [µm]
 constexpr Box street{{-1300, 550}, {1150, 3300}};
 constexpr Box inner{{-1000, 850}, {850, 3000}};
 

@@ -9,22 +9,22 @@
 
 namespace microswarm::scenes {
 
-/// Recorded walkers of the UCY set (zara01), as discs among which a swarm of 60 µm/s has to cross.
+/// Recorded pedestrians of the UCY set (zara01), as disc obstacles for a swarm of 60 µm/s.
 struct Street {
-  Tracks tracks;         ///< 150 µm for a metre
+  Tracks tracks;         ///< at 150 µm per metre
   double recording = 0;  ///< [s]
 };
 
-/// Where the recording stands in a folder of data.
+/// Path of the recording in a data folder.
 std::filesystem::path street_file(const std::filesystem::path& data);
 
-/// `slower` times as slow as they walked: at 8 the fastest makes 50 µm/s, at 2.9 the usual one is
-/// as fast as the swarm. Throws InputError as read_ucy_obsmat does.
+/// Reads the recording, slowed down by the factor `slower`: at 8 the fastest pedestrian moves at 50
+/// µm/s, at 2.9 a typical one is as fast as the swarm. Throws InputError like read_ucy_obsmat.
 Street read_street(const std::filesystem::path& file, double slower);
 
-/// Another moment of the recording for each seed, and a start and a goal far apart. No walker is
-/// nearer to the swarm's edge at t = 0 than avoidance_start_gap and what it walks in a second. A
-/// pure function of its arguments.
+/// Scenario at a time of the recording chosen by the seed, with a start and a goal far apart. At t
+/// = 0 every pedestrian is farther from the swarm's edge than avoidance_start_gap plus its motion
+/// in one second. Pure function of its arguments.
 Scenario street_scenario(const Street& street, std::uint64_t seed);
 
 }  // namespace microswarm::scenes

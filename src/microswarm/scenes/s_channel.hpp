@@ -8,8 +8,8 @@
 namespace microswarm::scenes {
 
 /// The S-shaped channel with two wider ends of Fig 3(a) [drrt] in a block of 2000 × 1000 µm, as in
-/// scenarios/papers/drrt/s_channel.yaml. The paper shows its outline only as a picture; ours swings
-/// out so far that A* with 40 µm clearance finds about 1702 µm.
+/// scenarios/papers/drrt/s_channel.yaml. The paper shows its outline only as a picture. Ours is
+/// shaped so that A* with 40 µm clearance finds a path of about 1702 µm.
 DeformingChannel s_channel_shape();
 Snapshot s_channel(const DeformingChannel& shape = s_channel_shape());
 inline constexpr Pose2 s_channel_start{{200, 700}, pi};

@@ -38,13 +38,13 @@ double free_area(const Vascular& v) {
   return sum;
 }
 
-/// A place of the generator's grid.
+/// A position on the generator's grid.
 struct Place {
   int column;
   int row;
 };
 
-/// Grows the random network; the root, joint 0, keeps one channel only, so that it is a dead end.
+/// Grows the random network. The root, joint 0, keeps one channel only, so it is a dead end.
 class Generator {
  public:
   Generator(const VascularShape& shape, Rng& rng) : shape_(shape), rng_(rng) {
@@ -58,7 +58,7 @@ class Generator {
     const auto column = static_cast<int>(rng_.below(static_cast<std::uint64_t>(columns_)));
     const auto row = static_cast<int>(rng_.below(static_cast<std::uint64_t>(rows_)));
     open_joint({column, row}, 0);
-    // Any open channel may be the next, so that the tree spreads evenly.
+    // Pick any open channel, so the tree grows evenly.
     while (!open_.empty()) {
       const std::size_t pick = rng_.below(open_.size());
       const auto [from, place] = open_[pick];
@@ -132,7 +132,7 @@ class Generator {
 
 }  // namespace
 
-// A network that has not died out early, or else the largest of some.
+// Retries networks that stop growing early; returns the largest if none is large enough.
 ChannelGraph random_channels(const VascularShape& shape, Rng& rng) {
   constexpr int max_tries = 20;
   const double places =
@@ -178,7 +178,7 @@ Vascular random_vascular(const VascularShape& shape, Rng& rng) {
   v.bounds = graph.bounds;
   v.walls = walls_of(graph);
   v.width = shape.min_half + shape.max_half;
-  // In from the end of the dead end, as in the T-junction: 3 of 10 widths from its wall.
+  // Inside the dead end, as in the T-junction: 3 of 10 widths from its wall.
   const Disc end = graph.joints[0];
   const Vec2 out = end.centre - graph.joints[graph.channels[0].second].centre;
   v.goal = end.centre + (0.4 * end.radius / norm(out)) * out;

@@ -26,7 +26,7 @@ void scatter_boxes(int count, RawWorld& world, Rng& rng) {
   }
 }
 
-/// Upright walls of 1 µm across the world, each with one gap.
+/// Adds vertical 1 µm walls across the world, each with one gap.
 void thin_walls(RawWorld& world, Rng& rng) {
   const Box& b = world.bounds;
   for (double x = b.lo.x + 120; x < b.hi.x - 100; x += rng.uniform(100, 220)) {
@@ -37,7 +37,7 @@ void thin_walls(RawWorld& world, Rng& rng) {
   }
 }
 
-/// Thick walls that leave a way open above and below in turn.
+/// Adds thick walls with an opening alternately above and below.
 void channels(RawWorld& world, Rng& rng) {
   const Box& b = world.bounds;
   bool above = rng.below(2) == 0;

@@ -9,35 +9,35 @@
 
 namespace microswarm::scenes {
 
-/// A world as plain shapes, for tests that must not trust the world's own queries.
+/// A world as plain shapes, for tests that must not rely on the world's own queries.
 struct RawWorld {
   std::string name;
   Box bounds{{0, 0}, {1000, 700}};
   std::vector<Polygon> walls;
   std::vector<Disc> discs;
   std::vector<Disc> movers;
-  double field_cell = 5;  ///< coarse: quick to build, and leaves more to the exact queries
+  double field_cell = 5;  ///< coarse: fast to build, and exercises the exact queries
 
   Snapshot snapshot() const;
-  /// Distance from the segment to the nearest shape or border by asking every one of them.
+  /// Distance from the segment to the nearest shape or border, by brute force.
   double clearance(Segment s) const;
   double clearance(Vec2 p) const { return clearance(Segment{p, p}); }
 };
 
 /// The outline of a box.
 Polygon rectangle(Box box);
-/// A rectangle turned by `angle` [rad] about its centre.
+/// A rectangle rotated by `angle` [rad] about its centre.
 Polygon turned_rectangle(Vec2 centre, double width, double height, double angle);
 
-/// Kinds of random worlds: scattered discs, boxes, walls of 1 µm with gaps, winding channels, and
-/// all of it with moving discs.
+/// Number of kinds of random worlds: scattered discs, boxes, 1 µm thick walls with gaps, winding
+/// channels, and all of these with moving discs.
 inline constexpr int random_kinds = 5;
 RawWorld random_world(int kind, Rng& rng);
 
-/// Free point of the world by brute force; the bounds' centre when none was found.
+/// Random free point of the world by brute force; the bounds' centre if none was found.
 Vec2 random_free_point(const RawWorld& world, double clearance, Rng& rng);
 
-/// 2000 × 1000 µm with 140 discs and 70 polygons, disjoint or not as they fall.
+/// 2000 × 1000 µm with 140 discs and 70 polygons, which may overlap.
 RawWorld cluttered(Rng& rng);
 
 }  // namespace microswarm::scenes

@@ -5,7 +5,7 @@
 
 namespace microswarm {
 
-/// A live rig with the devices that it needs.
+/// A live rig that owns its devices.
 class LiveSession::LivePlant : public Plant {
  public:
   LivePlant(RigExperiment on, bool dry, const std::filesystem::path& folder)

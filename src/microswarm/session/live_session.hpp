@@ -11,21 +11,22 @@
 
 namespace microswarm {
 
-/// A session on a rig in real time: a step takes as long as a tick. Whoever destroys it leaves the
-/// coils at zero.
+/// A session on a rig in real time: a step takes as long as a tick. The destructor sets the coils
+/// to zero.
 class LiveSession : public Session {
  public:
-  /// Opens the rig's devices; with `dry`, nothing goes to the coils. What goes there is logged as
-  /// commands.csv in `folder`, if one is given. Throws HardwareError for a device that fails,
-  /// InputError when rig and scenario do not go together.
+  /// Opens the rig's devices. With `dry`, nothing is sent to the coils. The coil outputs are logged
+  /// as commands.csv in `folder` unless it is empty. Throws HardwareError if a device fails,
+  /// InputError if rig and scenario do not fit.
   static std::unique_ptr<LiveSession> open(const RigExperiment& on, bool dry,
                                            const std::filesystem::path& folder);
 
-  /// Coils to zero, for good; from any thread.
+  /// Sets the coils to zero for good; callable from any thread.
   void stop(const std::string& why);
-  /// The same after the last tick; brings the log to its place. Why that failed, or nothing.
+  /// Sets the coils to zero after the last tick and finishes the log. Returns the reason of a
+  /// failure, or an empty string.
   std::string close();
-  /// After stop(): the device said that the coils are at zero.
+  /// After stop(): the device confirmed that the coils are at zero.
   bool zero_is_confirmed() const;
   RigTiming timing() const;
 
@@ -35,7 +36,7 @@ class LiveSession : public Session {
   LiveSession(const RigExperiment& on, const std::string& name, std::unique_ptr<Plant> owned,
               LivePlant* plant);
 
-  LivePlant* plant_;  ///< the session's
+  LivePlant* plant_;  ///< owned by the session
 };
 
 }  // namespace microswarm

@@ -10,7 +10,7 @@
 namespace microswarm {
 namespace {
 
-/// A simulated rig that keeps what it is made of.
+/// A simulated rig that owns its parameters.
 class OwnedRig : public Plant {
  public:
   OwnedRig(const Scenario& scenario, const World& world, Rig rig, std::uint32_t trial)

@@ -19,65 +19,66 @@
 
 namespace microswarm {
 
-/// How a scenario is opened.
+/// Options for opening a scenario.
 struct SessionOptions {
   std::vector<std::string> settings{};  ///< KEY=VALUE of the scenario, as from --set
-  std::optional<std::uint64_t> seed{};  ///< in place of the scenario's
-  std::uint32_t trial = 0;              ///< chooses the random streams
-  std::filesystem::path rig{};          ///< file of a rig, which is simulated; none: no rig
+  std::optional<std::uint64_t> seed{};  ///< replaces the scenario's seed
+  std::uint32_t trial = 0;              ///< selects the random streams
+  std::filesystem::path rig{};          ///< rig file, simulated; empty: no rig
   std::vector<std::string> rig_settings{};
 };
 
-/// An experiment that is open: what the command line, the lab, Python and C share. It stands still
-/// until it is stepped; what is stepped is recorded. One thread at a time.
+/// An open experiment: the common interface of command line, lab, Python and C. It advances only
+/// when stepped, and records every step. Not thread-safe.
 ///
 ///     const auto session = open_session("scenario.yaml");
 ///     while (session->step()) draw(session->view());
 ///     session->record_to("run.h5");
 class Session {
  public:
-  /// An experiment in the simulation without physics, or through `plant`, with the scenario's
-  /// navigator or another one. `rig` is the name of the rig that the plant is.
+  /// Opens an experiment in the kinematic simulation or through `plant`, with the scenario's
+  /// navigator or `navigator`. `rig` is the name of the rig behind `plant`.
   explicit Session(Experiment experiment, std::uint32_t trial = 0,
                    std::unique_ptr<Plant> plant = nullptr,
                    std::unique_ptr<Navigator> navigator = nullptr, const std::string& rig = {});
-  /// A record, which is played back.
+  /// Opens a record for playback.
   explicit Session(Record record);
   virtual ~Session() = default;
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// The next tick, which the listeners hear too; null after the last one. Valid until the next.
+  /// The next tick, also passed to the listeners; null after the last one. Valid until the next
+  /// call.
   const Tick* step(const Stop& stop = {});
   /// Steps to the end.
   const RunResult& finish(const Stop& stop = {});
-  /// Hears every tick from now on, and the end; must outlive the session.
+  /// Adds a listener for all further ticks and the end; it must outlive the session.
   void listen(RunListener& listener) { listeners_.push_back(&listener); }
 
-  /// Sets a value of the scenario as it would stand in a file, from the next tick on. Where there
-  /// are issues, all of them, nothing has changed. See OpenRun::change for what can be set; a
-  /// record can be changed in nothing.
+  /// Sets a scenario value, written as in a file, from the next tick on. Returns all issues; if
+  /// there are any, nothing changes. See OpenRun::change for the settable values. A record cannot
+  /// be changed.
   Issues set(const std::string& key, const std::string& value);
-  /// Goes to a frame of a record. False for what is no record.
+  /// Goes to a frame of a record; false if the session is not a record.
   bool seek(std::size_t frame);
 
-  /// One line for each former key that was read in the files and settings.
+  /// One line for each outdated key in the files and settings.
   const Notes& notes() const { return notes_; }
 
   bool is_playback() const { return std::holds_alternative<Playback>(source_); }
-  /// As it is by now.
+  /// The present scenario with all changes.
   const Scenario& scenario() const;
   const Map& map() const;
-  /// The present; before the first tick with a frame at t = 0 alone.
+  /// Present state; before the first tick only a frame at t = 0.
   SessionView view() const;
-  /// What robots are gathered by; nothing for other navigators, before the first tick and of a
-  /// record.
+  /// Aggregation tree and map segmentation; empty for other navigators, before the first tick and
+  /// for records.
   std::optional<AggregationView> aggregation() const;
-  /// Up to now; whole after the last tick.
+  /// Result so far; complete after the last tick.
   const RunResult& result() const;
-  /// Up to now; whole after the last tick.
+  /// Record so far; complete after the last tick.
   const Record& record() const;
-  /// Writes the record. Throws InputError, see write_record.
+  /// Writes the record. Throws InputError like write_record.
   void record_to(const std::filesystem::path& file) const { write_record(record(), file); }
 
  private:
@@ -92,20 +93,20 @@ class Session {
   std::variant<std::unique_ptr<Running>, Playback> source_;
   Notes notes_;
   std::vector<RunListener*> listeners_;
-  const Tick* tick_ = nullptr;  ///< the newest
+  const Tick* tick_ = nullptr;  ///< the newest tick
   std::uint64_t ticks_ = 0;
   std::uint64_t plans_ = 0;
 };
 
-/// Opens a scenario (YAML), in the simulation without physics or through a simulated rig, or a
-/// record (.h5), which takes no options. Throws InputError with a line for each thing wrong.
+/// Opens a scenario (YAML) in the kinematic simulation or through a simulated rig, or a record
+/// (.h5), which accepts no options. Throws InputError with one line per issue.
 std::unique_ptr<Session> open_session(const std::filesystem::path& file,
                                       const SessionOptions& options = {});
 
-/// A session through a simulated rig. Throws InputError when rig and scenario do not go together.
+/// Opens a session through a simulated rig. Throws InputError if rig and scenario do not fit.
 std::unique_ptr<Session> rig_session(const RigExperiment& on, std::uint32_t trial = 0);
 
-/// JSON Schema of scenarios: every key with its unit, range, default and doc.
+/// JSON Schema of scenarios: every key with its unit, range, default and description.
 std::string session_schema();
 
 }  // namespace microswarm

@@ -18,34 +18,34 @@
 
 namespace microswarm {
 
-/// An experiment at a moment, as plain values: what a front end draws.
+/// State of an experiment at one time, as plain values for front ends.
 struct SessionView {
-  Frame frame;                        ///< pose, radius, command, distances, state
-  std::uint64_t number = 0;           ///< of the frame, from 0
-  std::optional<Status> end;          ///< of the last frame
-  std::vector<Body> bodies;           ///< the obstacles at the frame's time
-  std::vector<Vec2> robots;           ///< positions [µm] of individually tracked robots
-  std::vector<Vec2> path;             ///< that the navigator follows
-  std::optional<Vec2> target;         ///< that it heads for
-  std::uint64_t plans = 0;            ///< planning events so far: another number, another tree
-  std::vector<TreeNode> tree;         ///< of the newest plan
+  Frame frame;                 ///< pose, radius, command, distances, state
+  std::uint64_t number = 0;    ///< number of the frame, from 0
+  std::optional<Status> end;   ///< set for the last frame
+  std::vector<Body> bodies;    ///< the obstacles at the frame's time
+  std::vector<Vec2> robots;    ///< positions [µm] of individually tracked robots
+  std::vector<Vec2> path;      ///< followed by the navigator
+  std::optional<Vec2> target;  ///< local target of the navigator
+  std::uint64_t plans = 0;     ///< number of planning events so far; it changes with the tree
+  std::vector<TreeNode> tree;  ///< of the newest plan
   std::vector<Detection> detections;  ///< its detection circles [drrt]
   std::vector<RunEvent> events;       ///< of the tick
   std::optional<RadarScan> radar;     ///< the decision of a hierarchical radar
 };
 
-/// What robots are gathered by, as plain values; the same from the first tick on.
+/// Plan of an aggregating navigator as plain values, constant from the first tick on.
 struct AggregationView {
-  std::vector<Vec2> nodes;          ///< of the tree [µm]
-  std::vector<std::uint32_t> next;  ///< node that leads from each to the goal
+  std::vector<Vec2> nodes;          ///< positions of the tree's nodes [µm]
+  std::vector<std::uint32_t> next;  ///< next node from each node towards the goal
   MapSegmentation segmentation;     ///< regions and branches of the nodes
 };
 
-/// The view of a tick of this navigator, which is null for a record's.
+/// View of a tick of this navigator, which is null for a record.
 SessionView view_of(const Tick& tick, std::uint64_t number, std::uint64_t plans,
                     const Navigator* navigator);
 
-/// Nothing for other navigators, and before the first tick.
+/// Aggregation view of a navigator; empty for other navigators and before the first tick.
 std::optional<AggregationView> aggregation_of(const Navigator& navigator);
 
 }  // namespace microswarm

@@ -18,15 +18,15 @@ namespace microswarm {
 namespace {
 
 constexpr std::uint64_t max_bytes = 64ULL << 20;
-constexpr double largest = 1e9;       // of any number in the file
-constexpr double min_current = 1e-9;  // [A] less is none
-// Currents that differ by less than this share are the same current.
+constexpr double largest = 1e9;       // maximum of any number in the file
+constexpr double min_current = 1e-9;  // [A] smaller currents count as zero
+// Currents that differ by less than this relative amount are equal.
 constexpr double min_difference = 1e-6;
 
 constexpr std::array<std::string_view, 3> field_columns{"bx_mt", "by_mt", "bz_mt"};
 constexpr std::array<std::string_view, 3> place_columns{"x_um", "y_um", "z_um"};
 
-/// Where each column stands in the header.
+/// Column indices in the header.
 struct Columns {
   std::size_t count = 0;
   std::vector<std::size_t> currents;
@@ -102,7 +102,7 @@ FieldMeasurements read_measurements(const std::filesystem::path& path) {
 
 namespace {
 
-/// Columns that the matrix takes to nothing, each of length 1.
+/// Basis of the null space; columns have length 1.
 Eigen::MatrixXd null_space(const Eigen::ColPivHouseholderQR<Eigen::MatrixXd>& qr) {
   const Eigen::Index rank = qr.rank();
   const Eigen::Index left = qr.cols() - rank;
@@ -129,7 +129,7 @@ FittedMatrix fit_matrix(const FieldMeasurements& measured, bool with_offset) {
     inputs.row(r).head(n) = row.currents.transpose();
     fields.row(r) = row.field.transpose();
   }
-  // Each column in its own measure, so that small currents count as large ones.
+  // Scale each column by its maximum, so small and large currents count alike.
   Eigen::VectorXd scale = inputs.leftCols(n).cwiseAbs().colwise().maxCoeff().transpose();
   for (double& s : scale)
     if (s < min_current) s = 1;

@@ -11,28 +11,28 @@
 
 namespace microswarm {
 
-/// One measurement: what field a probe saw where under which currents.
+/// One measurement: the currents in the coils and the field of a probe.
 struct FieldMeasurement {
   Eigen::VectorXd currents;  ///< [A]
   Eigen::Vector3d place;     ///< [µm]
-  Eigen::Vector3d field;     ///< [mT]
-  int line = 0;              ///< of the file
+  Eigen::Vector3d field;     ///< measured by the probe [mT]
+  int line = 0;              ///< line in the file
 };
 
 /// Measurements of one system.
 struct FieldMeasurements {
-  std::string file;                ///< as it is named in complaints
+  std::string file;                ///< file name for error messages
   std::vector<std::string> coils;  ///< names
   std::vector<FieldMeasurement> rows;
 };
 
-/// Reads a CSV with a header: a column `i_NAME_a` for the current of each coil, bx_mt, by_mt,
-/// bz_mt, and x_um, y_um, z_um, 0 where they are missing. Throws InputError "NAME:LINE: WHY".
+/// Reads a CSV file with a header. Columns: `i_NAME_a` for the current of each coil; bx_mt, by_mt,
+/// bz_mt; and optionally x_um, y_um, z_um, which default to 0. Throws InputError "NAME:LINE: WHY".
 FieldMeasurements read_measurements(const std::filesystem::path& path);
-/// The same from text.
+/// Parses the same format from text.
 FieldMeasurements parse_measurements(std::string_view text, std::string_view name);
 
-/// An actuation matrix fitted to measurements, and how well it fits.
+/// An actuation matrix fitted to measurements, with its residuals.
 struct FittedMatrix {
   MatrixCoils coils;
   Eigen::Vector3d rms = Eigen::Vector3d::Zero();  ///< of the residuals along x, y, z [mT]
@@ -42,9 +42,9 @@ struct FittedMatrix {
   std::vector<Eigen::Vector3d> residuals;  ///< measured − fitted, row by row [mT]
 };
 
-/// The matrix A and, if asked for, the field b without current that make Σ |B − A I − b|² least.
-/// Throws InputError when the measurements do not tell it, with the coils whose currents were never
-/// changed, or never apart from one another.
+/// Fits the matrix A and, with `with_offset`, the field b at zero current by minimising
+/// Σ |B − A I − b|². Throws InputError if the measurements do not determine the fit; the message
+/// names the coils whose currents were never varied, or never varied independently of others.
 FittedMatrix fit_matrix(const FieldMeasurements& measured, bool with_offset);
 
 }  // namespace microswarm

@@ -28,7 +28,7 @@ CoilController::CoilController(const CoilSystem& system, const FieldGeneratorPar
 CoilController::~CoilController() { stop(); }
 
 void CoilController::aim(const Eigen::Vector3d& place) {
-  constexpr double same_place = 50;  // [µm]; no coil's field changes over so short a way
+  constexpr double same_place = 50;  // [µm]; the field of a coil is constant over such a distance
   if ((place - place_).norm() < same_place) return;
   place_ = place;
   actuation_ = system_.at(place);

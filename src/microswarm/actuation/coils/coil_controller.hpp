@@ -11,44 +11,44 @@
 
 namespace microswarm {
 
-/// What went to the coils last.
+/// The last output to the coils.
 struct CoilOutput {
-  Eigen::Vector3d wanted = Eigen::Vector3d::Zero();  ///< field [mT]
-  Eigen::VectorXd currents;                          ///< sent, one a coil [A]
-  double scale = 1;                                  ///< of the command, by the limits
-  bool reached = true;                               ///< these coils can make such a field at all
+  Eigen::Vector3d wanted = Eigen::Vector3d::Zero();  ///< commanded field [mT]
+  Eigen::VectorXd currents;                          ///< sent currents, one per coil [A]
+  double scale = 1;                                  ///< scale of the command imposed by the limits
+  bool reached = true;                               ///< the coils can produce the commanded field
   DriveStatus status = DriveStatus::driven;
 };
 
-/// From a navigator's commands to currents in coils: the field goes on from what it was, the least
-/// currents make it where the swarm is (Eq 4 [global]), no limit is broken, the driver sends them.
-/// Whoever destroys one leaves the coils without current.
+/// Converts a navigator's commands to coil currents. The field changes continuously. The currents
+/// are the minimum-norm solution at the target position (Eq 4 [global]), scaled to respect all
+/// limits, and sent by the driver. The destructor sets all currents to zero.
 class CoilController {
  public:
-  /// Both outlive it. Throws InputError when the system has more coils than the driver has
-  /// channels.
+  /// `system` and `driver` must outlive the controller. Throws InputError if the system has more
+  /// coils than the driver has channels.
   CoilController(const CoilSystem& system, const FieldGeneratorParams& field, CoilDriver& driver,
                  double heading);
   CoilController(const CoilController&) = delete;
   CoilController& operator=(const CoilController&) = delete;
   ~CoilController();
 
-  /// The command from now on.
+  /// Sets the current command.
   void command(const Command& command) { generator_.command(command); }
-  /// Where the field is meant to be [µm].
+  /// Sets the position at which the field is produced [µm].
   void aim(const Eigen::Vector3d& place);
-  /// Lets `dt` seconds pass and sends the currents for what is then. To be called far more often
+  /// Advances time by `dt` seconds and sends the currents for the new time. Call it much faster
   /// than the field turns, and within the device's watchdog time.
   const CoilOutput& advance(double dt);
-  /// All currents to zero; false when the device did not confirm it. The next advance begins anew
-  /// with the field as it was.
+  /// Sets all currents to zero; false if the device did not confirm it. The next `advance`
+  /// continues with the field from before the stop.
   bool stop() noexcept;
 
   const CoilOutput& output() const { return output_; }
-  /// What is aimed at [µm].
+  /// Target position of the field [µm].
   const Eigen::Vector3d& place() const { return place_; }
   const FieldGenerator& generator() const { return generator_; }
-  /// What currents make at the place that is aimed at.
+  /// Actuation at the target position.
   const Actuation& actuation() const { return actuation_; }
 
  private:

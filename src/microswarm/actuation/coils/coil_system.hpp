@@ -17,8 +17,8 @@
 
 namespace microswarm {
 
-/// Three orthogonal Helmholtz pairs x, y, z around one centre: the two windings of a pair are as
-/// far apart as their radius and carry one current.
+/// Three orthogonal Helmholtz pairs x, y, z around one centre. The two windings of a pair are one
+/// radius apart and carry the same current.
 struct HelmholtzCoils {
   static constexpr std::string_view type_name = "helmholtz";
   std::vector<double> centre{0, 0, 0};
@@ -38,8 +38,9 @@ struct HelmholtzCoils {
   }
 };
 
-/// Six equal coils on the faces of a cube, x- x+ y- y+ z- z+, each with its own current [global],
-/// [gather]. A positive current makes a field towards +x, +y or +z at the centre.
+/// Six equal coils on the faces of a cube, in the order x- x+ y- y+ z- z+, each with its own
+/// current [global], [gather]. A positive current produces a field towards +x, +y or +z at the
+/// centre.
 struct CubeCoils {
   static constexpr std::string_view type_name = "cube";
   std::vector<double> centre{0, 0, 0};
@@ -60,7 +61,7 @@ struct CubeCoils {
   }
 };
 
-/// Any coils, winding by winding.
+/// Arbitrary coils, listed winding by winding.
 struct LoopCoils {
   static constexpr std::string_view type_name = "loops";
   std::vector<CoilParams> coils;
@@ -70,7 +71,7 @@ struct LoopCoils {
   }
 };
 
-/// A calibration as multipoles.
+/// Coils calibrated as multipoles.
 struct MpemCoils {
   static constexpr std::string_view type_name = "mpem";
   std::string file;
@@ -80,7 +81,7 @@ struct MpemCoils {
   }
 };
 
-/// A grid of fields for each coil.
+/// Coils given by one field grid each.
 struct VfieldCoils {
   static constexpr std::string_view type_name = "vfield";
   std::vector<std::string> files;
@@ -90,7 +91,7 @@ struct VfieldCoils {
   }
 };
 
-/// One actuation matrix for the whole workspace, as a calibration fits it: no gradients.
+/// One actuation matrix for the whole workspace, as fitted by a calibration. It has no gradients.
 struct MatrixCoils {
   static constexpr std::string_view type_name = "matrix";
   std::vector<std::string> names;
@@ -108,7 +109,7 @@ struct MatrixCoils {
   }
 };
 
-/// A file of a coil system.
+/// Contents of a coil system file.
 struct CoilSystemParams {
   std::string name;
   std::variant<HelmholtzCoils, CubeCoils, LoopCoils, MpemCoils, VfieldCoils, MatrixCoils> coils;
@@ -123,11 +124,11 @@ struct CoilSystemParams {
   }
 };
 
-/// What the coils make of currents at one place.
+/// Linear map from coil currents to field and gradient at one position.
 struct Actuation {
   Eigen::Matrix3Xd field;                              ///< actuation matrix [mT/A], Eq 3 [global]
-  Eigen::Matrix<double, 5, Eigen::Dynamic> gradients;  ///< five_gradients of each [mT/µm/A]
-  FieldGradient offset;                                ///< without current [mT], [mT/µm]
+  Eigen::Matrix<double, 5, Eigen::Dynamic> gradients;  ///< five_gradients of each coil [mT/µm/A]
+  FieldGradient offset;                                ///< at zero current [mT], [mT/µm]
 
   Eigen::Vector3d field_of(const Eigen::VectorXd& currents) const {
     return field * currents + offset.field;
@@ -137,32 +138,32 @@ struct Actuation {
   }
 };
 
-/// A coil as loops.
+/// A coil made of current loops.
 struct LoopCoil {
   std::string name;
   std::vector<CurrentLoop> loops;
 };
 
-/// A system of coils: what field each makes where, and what their amplifiers bear.
+/// A system of coils: the field of each coil and the limits of its amplifier.
 class CoilSystem {
  public:
-  /// Reads the files that the parameters name, beside `folder`. Throws InputError where `keys`
-  /// stand.
+  /// Reads the files named in the parameters, relative to `folder`. InputErrors point to the
+  /// locations in `keys`.
   explicit CoilSystem(const CoilSystemParams& params, const KeyLocations& keys = {},
                       const std::filesystem::path& folder = {});
 
   const std::string& name() const { return name_; }
   std::size_t size() const { return names_.size(); }
   const std::vector<std::string>& coil_names() const { return names_; }
-  /// One for each coil.
+  /// One entry per coil.
   const std::vector<DriveParams>& drives() const { return drives_; }
-  /// No coil gets more than this from now on [A], as its driver cannot give more.
+  /// Limits the current of every coil to `most` [A], the maximum of the driver.
   void limit_current(double most);
-  /// The middle of the system or of its workspace [µm].
+  /// Centre of the system or of its workspace [µm].
   const Eigen::Vector3d& centre() const { return centre_; }
-  /// Whether the model is known to hold there; windings and a matrix know no bounds.
+  /// Whether the model is valid at `place`. Windings and a matrix are valid everywhere.
   bool in_workspace(const Eigen::Vector3d& place) const;
-  /// What the currents make at a place [µm]. Throws InputError outside of a measured grid.
+  /// Actuation at a position [µm]. Throws InputError outside a measured grid.
   Actuation at(const Eigen::Vector3d& place) const;
 
  private:
@@ -188,7 +189,7 @@ class CoilSystem {
   Model model_;
 };
 
-/// Reads a file of a coil system, strictly. Throws InputError.
+/// Reads a coil system file; unknown keys are errors. Throws InputError.
 CoilSystem read_coil_system(const std::filesystem::path& path);
 
 }  // namespace microswarm

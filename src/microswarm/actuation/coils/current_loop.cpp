@@ -12,14 +12,14 @@ namespace microswarm {
 namespace {
 
 /// Complete elliptic integral of the second kind E(m) of the parameter m, and
-/// G(m) = (K − (2 − m) D) / m with D = (K − E) / m, which stays smooth where m = 0.
+/// G(m) = (K − (2 − m) D) / m with D = (K − E) / m, which is smooth at m = 0.
 struct Elliptic {
   double E = 0;
   double G = 0;
   double dG = 0;  ///< dG/dm
 };
 
-/// Σ g_n mⁿ of G from the series of K and E: exact to rounding for m < 0.1.
+/// Sums G = Σ g_n mⁿ from the series of K and E; exact to rounding for m < 0.1.
 Elliptic by_series(double m) {
   Elliptic sum;
   double c = 1;      // (2n−1)!! / (2n)!!
@@ -41,7 +41,7 @@ Elliptic by_series(double m) {
   return {0.5 * pi * sum.E, 0.5 * pi * sum.G, 0.5 * pi * sum.dG};
 }
 
-/// `rest` is 1 − m, given apart because it may be tiny.
+/// `rest` is 1 − m, passed separately because it may be tiny.
 Elliptic elliptic(double m, double rest) {
   if (m < 0.1) return by_series(m);
   const double K = boost::math::ellint_rf(0.0, rest, 1.0);
@@ -61,7 +61,7 @@ FieldGradient loop_field(const CurrentLoop& loop, const Eigen::Vector3d& place) 
   const Eigen::Vector3d across = off - z * loop.axis;  // ρ times its direction
   const double rho = across.norm();
 
-  // With α, β the least and greatest distance to the wire, m = 4aρ/β² = 1 − α²/β²:
+  // With the minimum and maximum distances α, β to the wire, m = 4aρ/β² = 1 − α²/β²:
   //   B_z = Q (E − ρ² H),  B_ρ = Q ρ z H,  Q = µ0 a² / (π α² β),  H = 4 G / β².
   const double beta2 = (a + rho) * (a + rho) + z * z;
   const double alpha2 = std::max((a - rho) * (a - rho) + z * z, 1e-12 * a * a);
@@ -72,7 +72,7 @@ FieldGradient loop_field(const CurrentLoop& loop, const Eigen::Vector3d& place) 
   const double H = 4 * G / beta2;
   const double h = Q * z * H;  // B_ρ / ρ
 
-  // h = 4 µ0 a² z G / (π α² β³), so its derivatives are those of α², β and G.
+  // h = 4 µ0 a² z G / (π α² β³), so its derivatives follow from those of α², β and G.
   const double q = 4 * Q / beta2;
   const double dm_drho = (4 * a - 2 * m * (rho + a)) / beta2;
   const double dm_dz = -2 * m * z / beta2;

@@ -6,15 +6,15 @@
 namespace microswarm {
 namespace {
 
-// Less than this share of the strongest direction is rounding, no field.
+// Singular values below this fraction of the largest are rounding errors.
 constexpr double weakest_direction = 1e-9;
 constexpr double current_rounding = 1e-9;
 
 }  // namespace
 
 CurrentsForField currents_for(const Actuation& at, const Eigen::Vector3d& field) {
-  // With A = U S Vᵀ the least-norm currents Aᵀ(AAᵀ)⁻¹B are V S⁻¹ Uᵀ B, and directions that no coil
-  // drives are told by S.
+  // With A = U S Vᵀ the minimum-norm currents Aᵀ(AAᵀ)⁻¹B are V S⁻¹ Uᵀ B. Zeros of S mark the
+  // directions that no coil drives.
   const Eigen::MatrixXd A = at.field;
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeFullU | Eigen::ComputeThinV);
   const Eigen::VectorXd& strength = svd.singularValues();

@@ -7,19 +7,19 @@
 
 namespace microswarm {
 
-/// Currents for a field, of all those that make it the ones with the least sum of squares. Where
-/// the coils cannot make every field (rank below 3) they make the nearest one.
+/// Minimum-norm currents for a field. If the rank is below 3 and the field cannot be produced, they
+/// produce the nearest field.
 struct CurrentsForField {
   Eigen::VectorXd currents;  ///< [A]
-  Eigen::Vector3d field;     ///< that they make [mT]
-  int rank = 0;              ///< of the actuation matrix; 3: every field can be made
-  Eigen::Matrix3Xd missing;  ///< unit vectors, one a column, along which no field can be made
+  Eigen::Vector3d field;     ///< produced field [mT]
+  int rank = 0;              ///< rank of the actuation matrix; 3: every field can be produced
+  Eigen::Matrix3Xd missing;  ///< unit vectors, one per column, along which no field can be produced
   double short_by = 0;       ///< |field − wanted| [mT]
-  bool reached = false;      ///< the field is the one wanted
+  bool reached = false;      ///< the produced field is the wanted one
 };
 
-/// I = Aᵀ (A Aᵀ)⁻¹ B, Eq 4 [global] as one would expect it; the field without current is taken off
-/// before.
+/// Solves I = Aᵀ (A Aᵀ)⁻¹ B after subtracting the field at zero current from B. This is our reading
+/// of Eq 4 [global].
 CurrentsForField currents_for(const Actuation& at, const Eigen::Vector3d& field);
 
 }  // namespace microswarm

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double m_per_um = 1e-6;
 
-/// A vector field of degree k in r, r^k (f(c) u − g(c) z), c = cos θ = u·z, and its gradient; all
+/// A vector field of degree k in r, r^k (f(c) u − g(c) z), c = cos θ = u·z, and its gradient. All
 /// multipoles have this form.
 struct Term {
   double coefficient = 0;
@@ -30,7 +30,7 @@ void add(FieldGradient& sum, const Term& t, const Eigen::Vector3d& u, const Eige
                    t.f * (Eigen::Matrix3d::Identity() - u * u.transpose()));
 }
 
-/// P_n', and P_n'' at c for n = 0 … order + 1, by P'_{n+1} = P'_{n−1} + (2n + 1) P_n.
+/// P_n, P_n' and P_n'' at c for n = 0 … order + 1, by P'_{n+1} = P'_{n−1} + (2n + 1) P_n.
 struct Legendre {
   Legendre(std::size_t order, double c)
       : value(order + 2, 1), first(order + 2, 0), second(order + 2, 0) {

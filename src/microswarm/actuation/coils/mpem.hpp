@@ -13,8 +13,8 @@
 namespace microswarm {
 
 /// A multipole: the field −∇Ψ of the potential
-/// Ψ = Σ_n (A_n rⁿ + B_n / rⁿ⁺¹) P_n(cos θ), n = 1, 2, …, in the units of calibration files: m,
-/// T/A.
+/// Ψ = Σ_n (A_n rⁿ + B_n / rⁿ⁺¹) P_n(cos θ), n = 1, 2, …
+/// Units are those of calibration files: m, T/A.
 struct Multipole {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();    ///< [m]
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< unit vector
@@ -22,8 +22,8 @@ struct Multipole {
   std::vector<double> B;                                 ///< B_n at n − 1
 };
 
-/// Field of one multipole for one ampere. A term whose coefficient is 0 adds nothing anywhere; at
-/// the place of a source its B terms, which have no bound there, add nothing either.
+/// Field of one multipole for one ampere. Terms with coefficient 0 contribute nothing anywhere. At
+/// the position of a source its unbounded B terms are omitted.
 FieldGradient multipole_field(const Multipole& source, const Eigen::Vector3d& place);
 
 /// An electromagnet calibrated as a sum of multipoles.
@@ -32,14 +32,14 @@ struct MpemCoil {
   std::vector<Multipole> sources;
 };
 
-/// A calibrated system in the multipole electromagnet model (MPEM).
+/// A calibrated system of the multipole electromagnet model (MPEM).
 struct MpemSystem {
   std::string name;
   std::vector<MpemCoil> coils;
-  std::vector<Multipole> offset;  ///< field without current: the coil "Offset", for one ampere
+  std::vector<Multipole> offset;  ///< field at zero current: the coil "Offset" at one ampere
   Eigen::Vector3d lo, hi;         ///< workspace [µm]
 
-  /// Whether a place [µm] lies in the calibrated workspace, the border included.
+  /// Whether a position [µm] is inside the calibrated workspace, border included.
   bool in_workspace(const Eigen::Vector3d& place) const;
 };
 
@@ -50,7 +50,7 @@ FieldGradient field_of(const std::vector<Multipole>& sources, const Eigen::Vecto
 /// A_Coeff, B_Coeff, Source_Direction and Source_Position. Throws InputError "NAME:LINE:COLUMN:
 /// WHY".
 MpemSystem read_mpem(const std::filesystem::path& path);
-/// The same from text.
+/// Parses the same format from text.
 MpemSystem parse_mpem(std::string_view text, std::string_view name);
 
 }  // namespace microswarm

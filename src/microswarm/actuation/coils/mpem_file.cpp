@@ -21,7 +21,7 @@ using Kind = YamlNode::Kind;
 constexpr std::size_t max_order = 20;
 constexpr std::size_t max_coils_of_file = 1000;
 
-/// Reads one calibration; `label` names a part of it in words: "Src_1 of Coil_0".
+/// Reader of one calibration; `label` names a part of it in error messages: "Src_1 of Coil_0".
 class Reader {
  public:
   explicit Reader(std::string_view name) : name_(name) {}
@@ -94,7 +94,7 @@ class Reader {
     return *value;
   }
 
-  /// A list of numbers; none where nothing stands.
+  /// A list of numbers; empty for a null node.
   std::vector<double> numbers(const YamlNode& node, const std::string& label) const {
     std::vector<double> values;
     if (node.kind == Kind::null) return values;

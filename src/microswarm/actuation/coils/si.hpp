@@ -3,7 +3,7 @@
 
 namespace microswarm {
 
-/// Files that are in SI units hold m and T; µm and mT are what is used inside.
+/// Conversion from SI files (m and T) to internal units (µm and mT).
 inline constexpr double um_per_m = 1e6;
 inline constexpr double mt_per_t = 1e3;
 

@@ -9,25 +9,26 @@
 
 namespace microswarm {
 
-/// The rows of a text of numbers, blank lines and lines that start with '#' passed over.
+/// Reader of text rows of numbers. It skips blank lines and lines that start with '#'.
 class TextRows {
  public:
-  /// `name` stands for the file in messages.
+  /// `name` is the file name in error messages.
   TextRows(std::string_view text, std::string_view name);
 
-  /// The next row, trimmed; false at the end.
+  /// Advances to the next row, trimmed; false at the end.
   bool next();
-  /// The pieces of the row between separators, trimmed; a blank separates by runs of blanks.
+  /// Fields of the row between separators, trimmed. The separator ' ' matches runs of blanks.
   std::vector<std::string_view> pieces(char separator) const;
-  /// The next row as exactly so many finite numbers. `what` names it in complaints.
+  /// Advances to the next row and parses exactly `count` finite numbers. `what` names the row in
+  /// error messages.
   std::vector<double> numbers(std::size_t count, char separator, const char* what);
-  /// The number that one piece of the row spells.
+  /// Parses one field of the row as a number.
   double number(std::string_view piece, std::string_view what) const;
   /// Number of the line last given, from 1.
   int line() const { return lines_.number(); }
   /// Complains of a row that follows.
   void end();
-  /// Throws InputError "NAME:LINE: WHY" at the row last given.
+  /// Throws InputError "NAME:LINE: WHY" for the current row.
   [[noreturn]] void fail(const std::string& why) const;
 
  private:

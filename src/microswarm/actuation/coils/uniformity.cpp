@@ -32,7 +32,7 @@ double UniformityMap::largest() const {
 }
 
 double UniformityMap::radius_within(double share) const {
-  std::vector<std::pair<double, bool>> places;  // how far, and whether it deviates by more
+  std::vector<std::pair<double, bool>> places;  // distance, exceeds `share`
   places.reserve(deviation.size());
   for (int row = 0; row < grid.points; ++row)
     for (int column = 0; column < grid.points; ++column)

@@ -19,15 +19,16 @@ constexpr auto enum_names(Plane) {
       {{Plane::xy, "xy"}, {Plane::xz, "xz"}, {Plane::yz, "yz"}}};
 }
 
-/// Where a uniformity map looks: a square of `points` × `points` places around `centre`.
+/// Sampling square of a uniformity map: `points` × `points` positions around `centre`.
 struct UniformityGrid {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [µm]
   Plane plane = Plane::xy;
   double half_width = 10000;  ///< [µm]
-  int points = 101;           ///< odd or even, at least 2
+  int points = 101;           ///< per side, at least 2
 };
 
-/// How the field differs from that at the centre. Row by row, the plane's first axis fastest.
+/// Deviation of the field from that at the centre. Row-major; the plane's first axis varies
+/// fastest.
 struct UniformityMap {
   UniformityGrid grid;
   Eigen::Vector3d centre_field;        ///< B0 [mT]
@@ -39,13 +40,14 @@ struct UniformityMap {
     return deviation[static_cast<std::size_t>(row) * grid.points + column];
   }
   double largest() const;
-  /// Distance of the farthest place up to which all places deviate by at most `share` [µm], at most
-  /// the half width.
+  /// Distance from the centre of the farthest point inside which all points deviate by at most
+  /// `share` [µm]; at most the half width.
   double radius_within(double share) const;
 };
 
-/// The map under constant currents [A]. Throws InputError when the field at the centre is 0. After
-/// each row `go_on` hears the share that is done; when it says no there is no map.
+/// Computes the map for constant currents [A]. `go_on` is called after each row with the completed
+/// share; if it returns false, the result is empty. Throws InputError if the field at the centre is
+/// 0.
 std::optional<UniformityMap> uniformity(const CoilSystem& system, const Eigen::VectorXd& currents,
                                         const UniformityGrid& grid,
                                         const std::function<bool(double share)>& go_on = {});

@@ -18,12 +18,12 @@
 namespace microswarm {
 namespace {
 
-constexpr int max_nodes = 1000;  // in one direction
+constexpr int max_nodes = 1000;  // per direction
 constexpr std::int64_t max_values = 4'000'000;
 constexpr double min_extent = 1e-9;  // [m]
-constexpr double max_field = 1e3;    // [T] of one ampere
+constexpr double max_field = 1e3;    // [T] per ampere
 
-/// A range of the grid that makes sense, else what is wrong with it.
+/// Error message for an invalid range of the grid; empty if it is valid.
 std::string complaint(int nodes, double least, double most) {
   if (nodes < 2 || nodes > max_nodes)
     return fmt::format("{} nodes in one direction, allowed 2..{}", nodes, max_nodes);
@@ -32,7 +32,7 @@ std::string complaint(int nodes, double least, double most) {
   return {};
 }
 
-/// A field that could be, else what is wrong with it.
+/// Error message for an invalid field; empty if it is valid.
 std::string complaint(std::span<const double> field) {
   for (const double b : field)
     if (!(std::abs(b) <= max_field))
@@ -41,7 +41,7 @@ std::string complaint(std::span<const double> field) {
   return {};
 }
 
-/// The keys of the YAML form.
+/// Keys of the YAML format.
 struct VfieldYaml {
   std::string name;
   std::array<int, 3> nodes{2, 2, 2};

@@ -11,19 +11,18 @@
 
 namespace microswarm {
 
-/// The field of one coil for one ampere, known on an even grid and interpolated between its nodes
-/// in each direction by straight lines.
+/// Field of one coil for one ampere, sampled on a regular grid and interpolated trilinearly.
 class FieldGrid {
  public:
-  /// Values [mT/A] node by node, z fastest, x slowest; at least two nodes in each direction.
+  /// `values` [mT/A] node by node, z fastest, x slowest; at least two nodes per direction.
   FieldGrid(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi, std::array<int, 3> nodes,
             std::vector<Eigen::Vector3d> values);
 
   const Eigen::Vector3d& lo() const { return lo_; }  ///< [µm]
   const Eigen::Vector3d& hi() const { return hi_; }  ///< [µm]
   bool contains(const Eigen::Vector3d& place) const;
-  /// Field and gradient at a place within; the gradient is that of the straight lines, and only
-  /// about symmetric.
+  /// Field and gradient at a position inside the grid. The gradient is that of the interpolant, so
+  /// it is only approximately symmetric.
   FieldGradient at(const Eigen::Vector3d& place) const;
 
  private:
@@ -35,14 +34,14 @@ class FieldGrid {
   std::vector<Eigen::Vector3d> values_;
 };
 
-/// Reads a grid of measured or computed fields for one ampere. As text: the number of nodes, nodes
-/// in x, y, z, three lines "LEAST MOST" [m], then a line "x y z Bx By Bz" [m, T] for each node, z
-/// fastest. As YAML (`.yaml`): dim_x, min_x, max_x, … and the list `data` of [Bx, By, Bz] in the
-/// same order. Throws InputError "NAME:LINE: WHY".
+/// Reads a grid of measured or computed fields for one ampere. Text format: the number of nodes;
+/// the nodes in x, y, z; three lines "MIN MAX" [m]; then a line "x y z Bx By Bz" [m, T] per node, z
+/// fastest. YAML format (`.yaml`): dim_x, min_x, max_x, … and the list `data` of [Bx, By, Bz] in
+/// the same order. Throws InputError "NAME:LINE: WHY".
 FieldGrid read_vfield(const std::filesystem::path& path);
-/// The text form alone.
+/// Parses the text format.
 FieldGrid parse_vfield_text(std::string_view text, std::string_view name);
-/// The YAML form alone.
+/// Parses the YAML format.
 FieldGrid parse_vfield_yaml(std::string_view text, std::string_view name);
 
 }  // namespace microswarm

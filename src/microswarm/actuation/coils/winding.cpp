@@ -13,11 +13,11 @@ namespace {
 
 struct Node {
   double at = 0;      ///< in [-1, 1]
-  double weight = 1;  ///< all together 1
+  double weight = 1;  ///< the weights sum to 1
 };
 
-/// Nodes of Gauss–Legendre, by which turns that lie close together are summed; one in the middle
-/// of no length.
+/// Gauss–Legendre nodes that replace closely wound turns; a single node at the middle if the
+/// winding is not extended.
 template <unsigned points>
 std::vector<Node> nodes(bool extended) {
   if (!extended) return {Node{}};

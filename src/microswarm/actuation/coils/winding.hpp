@@ -10,8 +10,8 @@
 
 namespace microswarm {
 
-/// Turns of wire around one axis: a thin loop, or with length and thickness a solenoid whose turns
-/// fill its cross-section evenly. Its middle turn has `radius`.
+/// Turns of wire around one axis: a thin loop, or a solenoid if length or thickness is set. The
+/// turns fill the cross-section evenly. The middle turn has `radius`.
 struct WindingParams {
   std::vector<double> centre{0, 0, 0};
   std::vector<double> axis{0, 0, 1};
@@ -34,7 +34,7 @@ struct WindingParams {
   }
 };
 
-/// A coil is fed by one current, which flows through all its windings.
+/// A coil: windings that carry one common current.
 struct CoilParams {
   std::string name;
   std::vector<WindingParams> windings;
@@ -45,14 +45,14 @@ struct CoilParams {
   }
 };
 
-/// The loops that stand for a winding: as many as make its field exact to about 1e-9 where the
-/// winding is farther away than half its length and thickness. Throws InputError at `where`.
+/// Loops that approximate a winding. The field is exact to about 1e-9 at distances above half the
+/// winding's length and thickness. Reports invalid parameters to `issues`.
 std::vector<CurrentLoop> loops_of(const WindingParams& winding, Issues& issues);
 
 /// Field of several loops for one ampere.
 FieldGradient field_of(const std::vector<CurrentLoop>& loops, const Eigen::Vector3d& place);
 
-/// Three numbers of a list as a vector; InputError "KEY has 2 numbers, must be [x, y, z]".
+/// List of three numbers as a vector; otherwise the issue "KEY has 2 numbers, must be [x, y, z]".
 Eigen::Vector3d vector_of(const std::vector<double>& numbers, std::string_view key, Issues& issues);
 
 }  // namespace microswarm

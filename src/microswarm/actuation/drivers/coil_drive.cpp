@@ -15,7 +15,7 @@ namespace {
 constexpr double bound_rounding = 1e-12;
 constexpr double h_per_mh = 1e-3;
 
-/// The largest s in [0, 1] for which from + s · way lies within the bounds; nothing if none does.
+/// The largest s in [0, 1] for which from + s · way is within the bounds; empty if there is none.
 std::optional<double> farthest(const Eigen::VectorXd& from, const Eigen::VectorXd& way,
                                const Eigen::VectorXd& lo, const Eigen::VectorXd& hi) {
   double least = 0;
@@ -39,7 +39,7 @@ double steady_temperature(const DriveParams& d, double current) {
   return d.ambient + d.thermal_resistance * d.resistance * current * current;
 }
 
-/// The current that keeps a coil at its highest temperature for ever.
+/// The current at which the final temperature is the maximum temperature.
 double warmest_current(const DriveParams& d) {
   const double warmer = std::max(0.0, *d.max_temperature - d.ambient);
   const double per_square = d.thermal_resistance * d.resistance;
@@ -98,9 +98,9 @@ DrivenCurrents CoilDrive::steady(const Eigen::VectorXd& wanted) const {
   return result;
 }
 
-/// Temperature [°C] after a ramp of the current, or had the current been there from the start,
-/// whichever is warmer: the exact answer of the thermal RC to the mean power. The ramp alone would
-/// let the current swing about what can be held, high and low by turns.
+/// Temperature [°C] after a ramp of the current, or after the final current for the whole time,
+/// whichever is higher: exact solution of the thermal RC for the mean power. With the ramp alone
+/// the current would oscillate about the value that can be held.
 double CoilDrive::temperature_after(std::size_t coil, double to, double dt) const {
   const DriveParams& d = drives_[coil];
   const auto i = static_cast<Eigen::Index>(coil);
@@ -120,7 +120,7 @@ CoilDrive::Bounds CoilDrive::reachable(double dt, bool mind_heat) const {
     const double I = currents_[i];
     if (d.max_current) narrow(lo, hi, -*d.max_current, *d.max_current);
     if (d.max_slew) narrow(lo, hi, I - *d.max_slew * dt, I + *d.max_slew * dt);
-    if (d.max_voltage) {  // V = R I + L dI/dt, greatest at an end of the ramp
+    if (d.max_voltage) {  // V = R I + L dI/dt, largest at an end of the ramp
       const double x = h_per_mh * d.inductance / dt;
       const double V = *d.max_voltage;
       narrow(lo, hi, (x * I - V) / (d.resistance + x), (x * I + V) / (d.resistance + x));
@@ -128,7 +128,7 @@ CoilDrive::Bounds CoilDrive::reachable(double dt, bool mind_heat) const {
     }
     const double per_square = d.thermal_resistance * d.resistance;
     if (mind_heat && d.max_temperature && per_square > 0) {
-      // to² and (to² + I to + I²) / 3 ≤ the mean square that ends at the highest temperature
+      // to² and (to² + I to + I²) / 3 ≤ the mean square that ends at the maximum temperature
       const double keeps = maths::exp(-dt / d.thermal_time);
       const double end = (*d.max_temperature - temperatures_[i] * keeps) / (1 - keeps);
       const double mean_square = (end - d.ambient) / per_square;
@@ -179,7 +179,7 @@ DrivenCurrents CoilDrive::step(const Eigen::VectorXd& wanted, double dt) {
     const Eigen::VectorXd way = held.currents - currents_;
     if (const auto share = farthest(currents_, way, bounds.lo, bounds.hi)) {
       result.currents = currents_ + *share * way;
-    } else {  // too hot: down as fast as it goes
+    } else {  // too hot: reduce as fast as possible
       const Bounds any = reachable(dt, false);
       const Eigen::VectorXd down = -currents_;
       result.scale = 0;

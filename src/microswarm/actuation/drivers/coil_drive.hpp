@@ -12,7 +12,7 @@
 
 namespace microswarm {
 
-/// What may limit a coil.
+/// Limits of a coil and its amplifier.
 enum class DriveLimit { current, voltage, slew, temperature };
 constexpr auto enum_names(DriveLimit) {
   return std::array<std::pair<DriveLimit, std::string_view>, 4>{
@@ -22,10 +22,10 @@ constexpr auto enum_names(DriveLimit) {
        {DriveLimit::temperature, "temperature"}}};
 }
 
-/// Unit of what it limits.
+/// Unit of the limited quantity.
 Unit unit_of(DriveLimit limit);
 
-/// A limit that a command would break: what it asked for and what is allowed [A, V, A/s, °C].
+/// A limit that a command would exceed: requested and allowed value [A, V, A/s, °C].
 struct LimitHit {
   DriveLimit limit = DriveLimit::current;
   std::size_t coil = 0;
@@ -33,39 +33,39 @@ struct LimitHit {
   double allowed = 0;
 };
 
-/// Currents that break no limit.
+/// Currents within all limits.
 struct DrivenCurrents {
   Eigen::VectorXd currents;     ///< [A]
-  double scale = 1;             ///< of the command, in [0, 1]
-  bool keeps_direction = true;  ///< the currents are `scale` times those asked for
-  std::vector<LimitHit> hits;   ///< what the whole command would break, empty when nothing
+  double scale = 1;             ///< scale applied to the command, in [0, 1]
+  bool keeps_direction = true;  ///< the currents are `scale` times the requested ones
+  std::vector<LimitHit> hits;   ///< limits that the unscaled command would exceed
 };
 
-/// The amplifiers and coils of a system with their present currents and temperatures. Every command
-/// is scaled as a whole, all coils alike, so that the field keeps its direction.
+/// Amplifiers and coils of a system with their present currents and temperatures. All currents of a
+/// command are scaled by one factor, so the field keeps its direction.
 class CoilDrive {
  public:
-  /// Without current, as warm as the surroundings.
+  /// Starts at zero current and ambient temperature.
   explicit CoilDrive(std::vector<DriveParams> drives);
 
   const Eigen::VectorXd& currents() const { return currents_; }          ///< [A]
   const Eigen::VectorXd& temperatures() const { return temperatures_; }  ///< [°C]
 
-  /// All currents to zero at once, as when the amplifiers are switched off.
+  /// Sets all currents to zero at once, as when the amplifiers are switched off.
   void cut() { currents_.setZero(); }
 
-  /// The most of a command that can be held for ever.
+  /// The largest fraction of a command that can be held indefinitely.
   DrivenCurrents steady(const Eigen::VectorXd& wanted) const;
 
-  /// Brings the currents to `wanted` in `dt` seconds along a ramp, as far as the limits allow, and
-  /// lets the time pass. Where no share of the command can be reached in that time, as when it
-  /// reverses fast currents, it goes straight towards its share that can be held and
-  /// `keeps_direction` is false. A coil that is too hot already gets less, at last nothing.
+  /// Ramps the currents towards `wanted` over `dt` seconds, as far as the limits allow. If no
+  /// fraction of the command is reachable in that time, for example when large currents are
+  /// reversed, the currents go straight towards the fraction that can be held and `keeps_direction`
+  /// is false. The current of a coil that is too hot is reduced, if necessary to zero.
   DrivenCurrents step(const Eigen::VectorXd& wanted, double dt);
 
  private:
   struct Bounds {
-    Eigen::VectorXd lo, hi;  ///< of the currents that may be reached [A]
+    Eigen::VectorXd lo, hi;  ///< bounds of the reachable currents [A]
   };
   Bounds reachable(double dt, bool mind_heat) const;
   double temperature_after(std::size_t coil, double to, double dt) const;

@@ -8,21 +8,21 @@
 
 namespace microswarm {
 
-/// Share of the full scale by which currents may exceed it, for rounding.
+/// Relative tolerance for currents above the full scale, for rounding.
 inline constexpr double full_scale_slack = 1e-9;
 
-/// What became of a command to the coils.
+/// Result of a command to the coils.
 enum class DriveStatus : std::uint8_t {
   driven,
-  scaled,     ///< the device's own limits made all currents smaller by the same factor
-  resumed,    ///< driven, but the coils had been off: the device restarted or its watchdog struck
-  refused,    ///< more current than the driver can be asked for; the coils are as before
-  not_armed,  ///< the device is off and does not let itself be armed
-  no_answer,  ///< the coils are off within the device's watchdog time, or it is gone
+  scaled,     ///< the device's own limits scaled all currents by the same factor
+  resumed,    ///< driven, but the coils had been off: the device restarted or its watchdog fired
+  refused,    ///< more current than the driver can request; the coils keep their currents
+  not_armed,  ///< the device is off and refuses to be armed
+  no_answer,  ///< the coils switch off within the device's watchdog time, or the device is gone
 };
 std::string_view to_string(DriveStatus status);
 
-/// Sends currents to coils. Whoever destroys one leaves the coils without current.
+/// Interface that sends currents to coils. The destructor sets all currents to zero.
 class CoilDriver {
  public:
   CoilDriver() = default;
@@ -31,18 +31,19 @@ class CoilDriver {
   virtual ~CoilDriver() = default;
 
   virtual int channels() const = 0;
-  /// Currents [A] that the coils have, as far as the device told last.
+  /// Currents of the coils as last reported by the device [A].
   virtual std::span<const double> currents() const = 0;
-  /// Currents [A], one a channel, signed. To be repeated within the watchdog time, changed or not.
+  /// Sends signed currents [A], one per channel. Must be repeated within the watchdog time, even if
+  /// unchanged.
   virtual DriveStatus drive(std::span<const double> currents) = 0;
-  /// All currents to zero; false when the device did not confirm it.
+  /// Sets all currents to zero; false if the device did not confirm it.
   virtual bool stop() noexcept = 0;
 };
 
-/// Coils that are not there.
+/// Driver without hardware.
 class SimulatedCoilDriver final : public CoilDriver {
  public:
-  /// `full_scale` is the largest current [A].
+  /// `full_scale` is the maximum current [A].
   SimulatedCoilDriver(int channels, double full_scale);
 
   int channels() const override { return static_cast<int>(currents_.size()); }

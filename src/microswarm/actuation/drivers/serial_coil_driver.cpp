@@ -27,7 +27,7 @@ constexpr unsigned baud = 115200;
 
 }  // namespace
 
-/// Bytes in and out. Never waits for a device that does not take or give any.
+/// Byte stream of the serial port. Never blocks on a device that neither accepts nor sends bytes.
 class SerialCoilDriver::Port {
  public:
   explicit Port(const std::string& path) : port_(context_) {
@@ -48,7 +48,7 @@ class SerialCoilDriver::Port {
     set(Base::flow_control(Base::flow_control::none));
   }
 
-  /// False when they did not all go out in time.
+  /// False if not all bytes were written in time.
   bool put(std::span<const std::uint8_t> bytes, double timeout) {
     const auto began = Clock::now();
     while (!bytes.empty()) {
@@ -61,7 +61,7 @@ class SerialCoilDriver::Port {
     return true;
   }
 
-  /// Nothing when there is none in time.
+  /// Next byte; empty if none arrives in time.
   std::optional<std::uint8_t> get(double timeout) {
     if (next_ == filled_) {
       if (!ready(POLLIN, timeout)) return std::nullopt;
@@ -88,7 +88,7 @@ class SerialCoilDriver::Port {
 
 SerialCoilDriver::SerialCoilDriver(const SerialCoilParams& params)
     : params_(params), port_(std::make_unique<Port>(params.port)) {
-  const std::array<std::uint8_t, 1> end{0};  // of whatever was half said before
+  const std::array<std::uint8_t, 1> end{0};  // ends any partial message
   port_->put(end, params_.reply_timeout);
   const auto began = Clock::now();
   std::optional<CoilReply> reply;
@@ -113,7 +113,7 @@ DriveStatus SerialCoilDriver::drive(std::span<const double> currents) {
     outputs[c] = static_cast<int>(std::lround(share * coil_link_full_scale));
   }
   DriveStatus status = DriveStatus::driven;
-  if (!armed_) armed_ = arm();  // only now: its watchdog does not wait for the first currents
+  if (!armed_) armed_ = arm();  // arm only now: the watchdog starts immediately
   auto reply = exchange(CoilMessage::set, outputs);
   if (!reply) return DriveStatus::no_answer;
   if (reply->result == CoilResult::not_armed) {
@@ -133,7 +133,7 @@ bool SerialCoilDriver::stop() noexcept {
     armed_ = armed_ && !at_zero;
     return at_zero;
   } catch (...) {
-    return false;  // no memory; the device's watchdog does it
+    return false;  // out of memory; the device's watchdog switches off
   }
 }
 
@@ -144,7 +144,7 @@ bool SerialCoilDriver::arm() {
   return reply && reply->result == CoilResult::ok && reply->state == CoilState::armed;
 }
 
-// The same message with the same number until it is answered: the device obeys it once.
+// Resends the same message with the same number until it is answered; the device executes it once.
 std::optional<CoilReply> SerialCoilDriver::exchange(
     CoilMessage message, const std::array<int, coil_link_channels>& outputs) {
   ++sequence_;

@@ -15,7 +15,7 @@
 
 namespace microswarm {
 
-/// Where the device is and how long it is waited for.
+/// Serial port and timeouts of the device.
 struct SerialCoilParams {
   static constexpr std::string_view type_name = "serial";
   std::string port = "/dev/ttyACM0";
@@ -38,12 +38,13 @@ struct SerialCoilParams {
   }
 };
 
-/// Six coils behind an Arduino Mega 2560 with firmware/coil_driver (docs/reference/protocol.md).
+/// Driver of six coils on an Arduino Mega 2560 with firmware/coil_driver
+/// (docs/reference/protocol.md).
 class SerialCoilDriver final : public CoilDriver {
  public:
-  /// Opens the port and greets the device; it is armed when the first currents come. Throws
-  /// HardwareError when there is no such port, another program has it, nothing answers in time, or
-  /// the device speaks another version.
+  /// Opens the port and identifies the device. The device is armed by the first currents. Throws
+  /// HardwareError if the port does not exist or is used by another program, nothing answers in
+  /// time, or the device speaks another protocol version.
   explicit SerialCoilDriver(const SerialCoilParams& params);
   ~SerialCoilDriver() override;
   SerialCoilDriver(const SerialCoilDriver&) = delete;
@@ -54,9 +55,9 @@ class SerialCoilDriver final : public CoilDriver {
   DriveStatus drive(std::span<const double> currents) override;
   bool stop() noexcept override;
 
-  /// What the device says of itself; nothing when it does not answer.
+  /// Status reported by the device; empty if it does not answer.
   std::optional<CoilReply> ask_status();
-  /// Time of the last exchange [s].
+  /// Duration of the last exchange [s].
   double round_trip() const { return round_trip_; }
 
  private:
@@ -72,8 +73,8 @@ class SerialCoilDriver final : public CoilDriver {
   CoilReplyReader reader_;
   std::uint8_t sequence_ = 0;
   double round_trip_ = 0;
-  bool armed_ = false;                                 // by us, and not stopped since
-  std::array<double, coil_link_channels> currents_{};  // as the last answer says [A]
+  bool armed_ = false;                                 // armed by this driver and not stopped since
+  std::array<double, coil_link_channels> currents_{};  // from the last reply [A]
 };
 
 }  // namespace microswarm

@@ -7,9 +7,9 @@
 
 namespace microswarm {
 
-/// One coil as its amplifier sees it, a resistance and an inductance in series, with what it may
-/// bear. It warms up as one body: T = ambient + thermal_resistance · power in the end, approached
-/// with the time constant. A limit that is not given does not limit.
+/// One coil as a load of its amplifier, a resistance and an inductance in series, with its limits.
+/// It heats as a first-order system: the final temperature is ambient + thermal_resistance · power,
+/// approached with the time constant. A limit that is not set is not applied.
 struct DriveParams {
   double resistance = 1;
   double inductance = 1;

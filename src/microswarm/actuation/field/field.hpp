@@ -5,8 +5,8 @@
 
 namespace microswarm {
 
-/// Flux density at a place and how it changes around it: of a coil, both for one ampere. Where no
-/// current flows the gradient is symmetric and its trace is 0.
+/// Flux density at a position and its gradient; for a coil, both per ampere. In current-free space
+/// the gradient is symmetric and its trace is 0.
 struct FieldGradient {
   Eigen::Vector3d field = Eigen::Vector3d::Zero();     ///< [mT] or [mT/A]
   Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();  ///< ∂B_i/∂x_j [mT/µm] or [mT/µm/A]
@@ -18,18 +18,18 @@ struct FieldGradient {
   }
 };
 
-/// The five entries that tell the others of a gradient in free space, in the order dBx/dx, dBx/dy,
-/// dBx/dz, dBy/dy, dBy/dz.
+/// The five independent entries of a gradient in free space: dBx/dx, dBx/dy, dBx/dz, dBy/dy,
+/// dBy/dz.
 using FiveGradients = Eigen::Matrix<double, 5, 1>;
 
-/// The five entries of a gradient.
+/// The five independent entries of a gradient.
 inline FiveGradients five_gradients(const Eigen::Matrix3d& g) {
   FiveGradients five;
   five << g(0, 0), g(0, 1), g(0, 2), g(1, 1), g(1, 2);
   return five;
 }
 
-/// The gradient that has these entries: curl and divergence are 0.
+/// The gradient with these entries; curl and divergence are 0.
 inline Eigen::Matrix3d gradient_of(const FiveGradients& five) {
   Eigen::Matrix3d g;
   g << five[0], five[1], five[2], five[1], five[3], five[4], five[2], five[4], -five[0] - five[3];

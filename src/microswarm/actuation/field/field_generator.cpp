@@ -10,11 +10,11 @@
 namespace microswarm {
 namespace {
 
-// Of a turn's length: what is owed across the heading is made up for on so long a way, as quicker
-// turns would owe more than they make up for; more than `max_owed` is forgotten; and no more than
-// `max_rolled` is rolled at once, as half a turn has no direction.
+// In units of a turn's length. Missed displacement across the heading is made up over
+// `catch_up_way`; faster turns would miss more than they make up. Displacement beyond `max_owed` is
+// dropped. At most `max_rolled` is rolled per step, since half a turn has no direction.
 constexpr double catch_up_way = 0.25, max_owed = 0.5, max_rolled = 0.4;
-constexpr double max_haste = 2;  // times the commanded speed, when something is owed
+constexpr double max_haste = 2;  // times the commanded speed, while making up displacement
 
 }  // namespace
 
@@ -54,7 +54,8 @@ void FieldGenerator::turn_to(double heading, double dt) {
   heading_ = wrap(heading_ + std::clamp(wrap(heading - heading_), -most, most));
 }
 
-// Backwards where that is the shorter turn. What a turn itself moves is owed too.
+// Rolls backwards if that is the shorter turn. The displacement of the turn itself counts as
+// missed.
 void FieldGenerator::roll(double dt) {
   const double length = params_.length_per_turn;
   owed_ += dt * velocity_;

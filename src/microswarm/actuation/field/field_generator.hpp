@@ -12,8 +12,8 @@
 
 namespace microswarm {
 
-/// How a field drives a swarm: pitched and rotating [radar], rolling [gather], or oscillating
-/// [drrt].
+/// Kind of field that drives the swarm: pitched and rotating [radar], rolling [gather], or
+/// oscillating [drrt].
 enum class FieldKind { rotating, rolling, oscillating };
 constexpr auto enum_names(FieldKind) {
   return std::array<std::pair<FieldKind, std::string_view>, 3>{
@@ -22,8 +22,8 @@ constexpr auto enum_names(FieldKind) {
        {FieldKind::oscillating, "oscillating"}}};
 }
 
-/// How commands become a field. A speed becomes a pitch, speed = c · pitch (Eq 2 [radar]), or with
-/// rolling fields a frequency, speed = length_per_turn · f.
+/// Conversion of commands to a field. A speed becomes a pitch, speed = c · pitch (Eq 2 [radar]), or
+/// for rolling fields a frequency, speed = length_per_turn · f.
 struct FieldGeneratorParams {
   FieldKind kind = FieldKind::rotating;
   double amplitude = 8;
@@ -55,29 +55,28 @@ struct FieldGeneratorParams {
   }
 };
 
-/// Makes the field for a navigator's commands, at 10 Hz or any other rate. Phase, heading and pitch
-/// go on from where they are, so that the field never jumps: it changes by no more than
-/// `max_rate()` · Δt. A rolling field makes the way that was commanded, as long as
-/// it turns by 90° in much less time than a command lasts: what is not rolled while the heading
-/// turns, and what the turn itself rolls, is made up for, at up to twice the speed commanded. Half
-/// a turn's length is the most that can be owed. It rolls backwards rather than turn by more than a
-/// right angle.
+/// Generates the field for a navigator's commands, at 10 Hz or any other rate. Phase, heading and
+/// pitch are continuous, so the field never jumps: it changes by at most `max_rate()` · Δt. A
+/// rolling field follows the commanded path if it can turn by 90° much faster than commands change.
+/// The displacement missed while the heading turns, and the displacement of the turn itself, are
+/// tracked and made up at up to twice the commanded speed. The tracked displacement is limited to
+/// half of `length_per_turn`. The field rolls backwards rather than turn by more than 90°.
 class FieldGenerator {
  public:
   FieldGenerator(const FieldGeneratorParams& params, double heading);
 
-  /// The command from now on. Speed 0 takes the pitch or the frequency to 0; the heading stays.
-  /// What a rolling field owes is forgotten then.
+  /// Sets the current command. Speed 0 takes the pitch or the frequency to 0 and keeps the heading;
+  /// a rolling field also drops its tracked displacement.
   void command(const Command& command);
-  /// Lets `dt` seconds pass; the field [mT] then.
+  /// Advances time by `dt` seconds; the field then [mT].
   const Eigen::Vector3d& advance(double dt);
 
   const Eigen::Vector3d& field() const { return field_; }
   double heading() const { return heading_; }      ///< [rad]
   double pitch() const { return pitch_; }          ///< [rad]
   double phase() const { return phase_; }          ///< [rad], in [0, 2π)
-  double frequency() const { return frequency_; }  ///< [Hz], less than 0 when it rolls backwards
-  /// The fastest that the field can change [mT/s].
+  double frequency() const { return frequency_; }  ///< [Hz], negative when rolling backwards
+  /// Maximum rate of change of the field [mT/s].
   double max_rate() const;
 
  private:
@@ -92,7 +91,7 @@ class FieldGenerator {
   double wanted_pitch_ = 0;
   double phase_ = 0;
   double frequency_ = 0;
-  Vec2 velocity_, owed_;  // of a rolling body: what is commanded [µm/s], what it is behind [µm]
+  Vec2 velocity_, owed_;  // rolling: commanded [µm/s], displacement to make up [µm]
   Eigen::Vector3d field_;
 };
 

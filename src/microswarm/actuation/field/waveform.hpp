@@ -12,29 +12,29 @@
 
 namespace microswarm {
 
-/// Rotating field of amplitude A [mT] whose plane is pitched by `pitch` towards `heading` [rad];
-/// `phase` is 2πft: Eq 1 [radar].
+/// Rotating field of amplitude A [mT]; its plane is pitched by `pitch` towards `heading` [rad], and
+/// `phase` is 2πft. Eq 1 [radar].
 Eigen::Vector3d rotating_field(double amplitude, double pitch, double heading, double phase);
 
-/// Field that rolls bodies on the floor towards `heading`: it turns in the upright plane through
+/// Field that rolls bodies on the floor towards `heading`. It rotates in the vertical plane through
 /// the heading, over the top and forwards. With u across the heading and w up this is Eq 1
-/// [global]; where the phase is a multiple of 2π it points along the heading.
+/// [global]. At phases that are multiples of 2π it points along the heading.
 Eigen::Vector3d rolling_field(double amplitude, double heading, double phase);
 
-/// The way [µm] of a body on the floor whose field turns from one direction to another, of `length`
-/// µm a turn. It turns with the field by the shortest turn, ω, as a field cannot turn it about
-/// itself, and rolls ω × up.
+/// Displacement [µm] of a body on the floor whose field turns from one direction to another. The
+/// body follows the field by the shortest rotation ω, since a field cannot turn it about the
+/// field's own axis, and rolls by ω × up; `length_per_turn` [µm] is the distance per turn.
 Vec2 rolled_distance(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                      double length_per_turn);
 
-/// Field in the plane along `heading`: where steering begins and ends, Eq 2 [global].
+/// Field in the plane along `heading`, in which steering starts and ends: Eq 2 [global].
 Eigen::Vector3d steering_field(double amplitude, double heading);
 
-/// Field that oscillates along `heading`, raised by `pitch` out of the plane; [drrt] uses 16 Hz and
+/// Field that oscillates along `heading`, raised out of the plane by `pitch`. [drrt] uses 16 Hz and
 /// 10 mT in the plane.
 Eigen::Vector3d oscillating_field(double amplitude, double pitch, double heading, double phase);
 
-/// How rollers are driven: [global] takes 3 mT, [gather] 5 Hz.
+/// Settings of rolling fields: [global] uses 3 mT, [gather] 5 Hz.
 struct RollingParams {
   double amplitude = 3;
   double frequency = 1;
@@ -58,17 +58,16 @@ struct Move {
   double length = 0;   ///< [µm]
 };
 
-/// One stretch of a waveform: it steers from one heading to another, or rolls whole turns.
+/// One piece of a waveform: steers from one heading to another, or rolls whole turns.
 struct WaveformPiece {
   double start = 0;  ///< [s]
   double duration = 0;
-  double heading = 0;  ///< at its start [rad]
-  double turn = 0;     ///< of the heading during it [rad]
-  int rolls = 0;       ///< whole turns during it
+  double heading = 0;  ///< at the start [rad]
+  double turn = 0;     ///< change of the heading [rad]
+  int rolls = 0;       ///< number of whole turns
 };
 
-/// A field over time, without a jump from its first instant to its last. Before and after it stands
-/// still.
+/// A field over time, continuous from start to end. It is constant before and after.
 class Waveform {
  public:
   Waveform(double amplitude, std::vector<WaveformPiece> pieces)
@@ -78,9 +77,9 @@ class Waveform {
     return pieces_.empty() ? 0 : pieces_.back().start + pieces_.back().duration;
   }
   const std::vector<WaveformPiece>& pieces() const { return pieces_; }
-  /// The field [mT] at any time [s].
+  /// Field [mT] at any time [s].
   Eigen::Vector3d at(double t) const;
-  /// The field at 0, 1/rate, 2/rate, … up to the end; `rate` in Hz.
+  /// Field at 0, 1/rate, 2/rate, … up to the end; `rate` in Hz.
   std::vector<Eigen::Vector3d> sample(double rate) const;
 
  private:
@@ -88,15 +87,15 @@ class Waveform {
   std::vector<WaveformPiece> pieces_;
 };
 
-/// What a plan becomes.
+/// Waveform of a plan.
 struct RollingPlan {
   Waveform waveform;
-  std::vector<int> rolls;  ///< whole turns of each move, the nearest number to its length
+  std::vector<int> rolls;  ///< whole turns of each move, rounded from its length
 };
 
-/// Moves one after the other as one waveform: for each it steers, the shorter way round, then rolls
-/// a whole number of turns, so that steering begins in the plane: Eq 1, 2 [global]. The field
-/// begins along `heading`. A move shorter than half a turn does nothing.
+/// Converts consecutive moves to one waveform. Each move steers by the shorter rotation, then rolls
+/// a whole number of turns, so steering starts in the plane: Eq 1, 2 [global]. The field starts
+/// along `heading`. A move shorter than half a turn does nothing.
 RollingPlan rolling_plan(std::span<const Move> moves, double heading, const RollingParams& params);
 
 }  // namespace microswarm

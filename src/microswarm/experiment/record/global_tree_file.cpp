@@ -18,7 +18,7 @@ constexpr std::int64_t tree_format_version = 1;
 
 std::string hex(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
-/// "/nodes/robot1_x_um".
+/// Name such as "/nodes/robot1_x_um".
 std::string column(std::size_t k) {
   return fmt::format("/nodes/robot{}_{}_um", k / 2 + 1, k % 2 == 0 ? 'x' : 'y');
 }
@@ -37,7 +37,7 @@ void write_root(Hdf5Writer& out, const GlobalTree& tree, const LoadedMap& map) {
   out.attribute("/", "origin_y_um", tree.origin.y);
 }
 
-/// Every second entry of `places` a node, from entry k on.
+/// Every `stride`-th entry of `places`, from entry k on.
 std::vector<float> every(const std::vector<float>& places, std::size_t stride, std::size_t k) {
   std::vector<float> some;
   some.reserve(places.size() / stride);

@@ -8,17 +8,16 @@
 
 namespace microswarm {
 
-/// Keeps a grown tree in an HDF5 file, one column a quantity: places [µm] in the map's coordinates
-/// less the tree's origin, parents and inputs by their index, and what the tree belongs to: the
-/// map's fingerprint, contact rule, length and directions of the inputs, version of the layout.
-/// The same tree gives the same bytes.
+/// Writes a grown tree to an HDF5 file, one dataset per quantity: positions [µm] in map coordinates
+/// relative to the tree's origin, parent and input indices, and what the tree depends on: the map's
+/// fingerprint, contact rule, length and directions of the inputs, layout version. Equal trees give
+/// equal bytes.
 void write_global_tree(const GlobalTree& tree, const LoadedMap& map,
                        const std::filesystem::path& file);
 
-/// Reads a tree and plays every input of it on the map, so that what is handed on is a tree of this
-/// map to the last bit. Throws InputError "FILE: WHY" when the file is none of a tree, has another
-/// layout, was grown on another map or by another version that moves robots otherwise, or is
-/// damaged.
+/// Reads a tree and replays every input on the map, so the result is bit-exactly a tree of this
+/// map. Throws InputError "FILE: WHY" if the file is damaged, is not a tree, has another layout, or
+/// was grown on another map or by a version with a different motion model.
 GlobalTree read_global_tree(const std::filesystem::path& file, const LoadedMap& map);
 
 }  // namespace microswarm

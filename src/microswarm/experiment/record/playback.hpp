@@ -11,19 +11,19 @@
 
 namespace microswarm {
 
-/// A record seen tick by tick, as the experiment was when it ran. Nothing is computed anew: paths,
-/// plans and robots are the newest that the record holds, the ways between ticks are not there.
+/// Plays back a record tick by tick. Nothing is recomputed: paths, plans and robots are the newest
+/// ones in the record, and the trajectories between ticks are missing.
 class Playback {
  public:
   explicit Playback(Record record);
 
-  /// The next frame's tick; null after the last one. Valid until the next call.
+  /// Tick of the next frame; null after the last one. Valid until the next call.
   const Tick* step();
-  /// The next step gives this frame; beyond the last one, the last. Its number.
+  /// Sets the frame of the next step, clamped to the last one. Returns its number.
   std::size_t seek(std::size_t frame);
 
   const Record& record() const { return record_; }
-  /// The scenario with what was changed up to the present frame.
+  /// The scenario with all changes up to the present frame.
   const Scenario& scenario() const { return scenario_; }
   const World& world() const { return world_; }
 
@@ -34,7 +34,7 @@ class Playback {
   Scenario scenario_;
   World world_;
   std::size_t next_ = 0;
-  std::size_t changed_ = 0;  ///< changes that hold by now
+  std::size_t changed_ = 0;  ///< number of changes applied so far
   Tick tick_;
   std::optional<Snapshot> snapshot_;
   std::vector<std::string> changes_;

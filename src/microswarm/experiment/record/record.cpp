@@ -13,7 +13,7 @@ namespace microswarm {
 
 namespace {
 
-/// Numbers as they are held, so that two records are the same to the bit.
+/// Hashes numbers in their stored types, so equal hashes mean bit-identical records.
 struct TableHasher {
   Hash& hash;
 
@@ -33,7 +33,7 @@ struct TableHasher {
   }
 };
 
-/// Whole numbers as such.
+/// Hashes integers as integers.
 void hash_metrics(Hash& hash, const Metrics& metrics) {
   for (const Column& column : columns_of<Metrics>()) {
     const double value = column.number(&metrics);

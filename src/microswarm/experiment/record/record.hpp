@@ -12,22 +12,22 @@
 
 namespace microswarm {
 
-/// Everything worth keeping of a run: enough to repeat it, to measure it again and to draw it.
+/// Everything kept of a run: enough to repeat, measure and draw it.
 struct Record {
-  std::string version;  ///< of the library that ran it
-  Scene scene;          ///< world included: a record needs no other file
+  std::string version;  ///< library version of the run
+  Scene scene;          ///< includes the world: a record needs no other file
   std::uint32_t trial = 0;
-  std::string rig;  ///< name of the rig it ran on, which no replay has; empty for a simulation
+  std::string rig;  ///< name of the rig; empty for a simulation. Runs on a rig have no replay
   RunResult result;
-  std::vector<Frame> frames;  ///< one a tick, and one for the end, whose state is "end"
+  std::vector<Frame> frames;  ///< one per tick, and one for the end with state "end"
   std::vector<PathChange> paths;
   std::vector<PlanEvent> plans;
   std::vector<RunEvent> events;
-  std::vector<Change> changes;      ///< what was changed while it ran; the scene is as it began
-  std::vector<RobotMoment> robots;  ///< of robots that are told apart: a part of the frames
-  std::string stated_hash;  ///< what the file it was read from says it is; empty for a new one
+  std::vector<Change> changes;      ///< changes during the run; the scene is the initial one
+  std::vector<RobotMoment> robots;  ///< individually tracked robots, at a subset of the frames
+  std::string stated_hash;          ///< hash stated in the file; empty for a new record
 
-  /// The tables.
+  /// The tables of the record.
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.frames, {"frames", Unit::none, {}, "Ticks, and the end."});
@@ -37,16 +37,16 @@ struct Record {
     visit(self.robots, {"robots", Unit::none, {}, "Where individually tracked robots were."});
   }
 
-  /// Fingerprint of all that is physical: frames, paths, plans, events, status and metrics, and of
-  /// the changes, where there are any.
+  /// Fingerprint of all physical data: frames, paths, plans, events, status, metrics and any
+  /// changes.
   std::string hash() const;
 };
 
-/// Compiled once, in record.cpp: it describes all that a record holds.
+/// Compiled once, in record.cpp; describes the whole record.
 extern template const Type& type_of<Record>();
 
-/// Keeps a run in memory. Give it to run(), then take the record. Where robots are it keeps at 64
-/// to 128 moments, evenly from the start on, and at the end.
+/// Keeps a run in memory. Pass it to run(), then take the record. Robot positions are kept at 64 to
+/// 128 equally spaced frames and at the end.
 class Recorder : public RunListener {
  public:
   explicit Recorder(Scene scene, std::uint32_t trial = 0, std::string rig = {});
@@ -65,22 +65,22 @@ class Recorder : public RunListener {
   RobotMoment last_robots_;
 };
 
-/// Writes an HDF5 file, layout in docs/reference/record.md, under a temporary name first. Throws
-/// InputError "FILE: cannot write: REASON" and leaves nothing behind.
+/// Writes an HDF5 file with the layout in docs/reference/record.md, atomically through a temporary
+/// file. Throws InputError "FILE: cannot write: REASON" and leaves nothing behind.
 void write_record(const Record& record, const std::filesystem::path& file);
 
-/// Reads one back. Throws InputError for a file that is none, is damaged or contradicts itself.
+/// Reads a record. Throws InputError if the file is not a record, is damaged or is inconsistent.
 Record read_record(const std::filesystem::path& file);
 
-/// What a replay found.
+/// Result of a replay.
 struct ReplayResult {
   bool identical = false;
-  bool stopped = false;    ///< by the caller, before it came to an end
-  std::string difference;  ///< where they parted, for people; empty when identical
+  bool stopped = false;    ///< stopped by the caller
+  std::string difference;  ///< first difference, as text; empty if identical
 };
 
-/// Runs the stored scene again and compares, up to the frame at which the record ends. Throws
-/// InputError for a run on a rig.
+/// Runs the stored scene again and compares it up to the record's last frame. Throws InputError for
+/// a run on a rig.
 ReplayResult replay(const Record& record, const Stop& stop = {});
 
 }  // namespace microswarm

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view record_format_name = "microswarm record";
 constexpr std::int64_t record_format_version = 4;
-constexpr std::int64_t unchanged_format_version = 3;  // of a record in which nothing was changed
+constexpr std::int64_t unchanged_format_version = 3;  // of a record without changes
 void write_root(Hdf5Writer& out, const Record& record) {
   out.attribute("/", "format", record_format_name);
   out.attribute("/", "format_version",

@@ -35,7 +35,7 @@ std::vector<Vec2> read_points(const Hdf5Reader& in, const std::string& group) {
   return points;
 }
 
-/// Offsets of a list of lists whose parts have `count` entries in all.
+/// Offsets of a list of lists with `count` entries in total.
 Offsets read_offsets(const Hdf5Reader& in, const std::string& path, std::size_t count) {
   Offsets offsets = in.integers(path);
   if (offsets.empty() || offsets.front() != 0 ||

@@ -6,10 +6,10 @@
 
 namespace microswarm {
 
-/// The scene of a record: /scenario, /map and /tracks, layout in docs/reference/record.md.
+/// Writes the scene of a record: /scenario, /map and /tracks, layout in docs/reference/record.md.
 void write_scene(Hdf5Writer& out, const Scene& scene);
 
-/// Reads it back to the same bits. Throws InputError for what does not fit together.
+/// Reads a scene bit-exactly. Throws InputError if its parts are inconsistent.
 Scene read_scene(const Hdf5Reader& in);
 
 }  // namespace microswarm

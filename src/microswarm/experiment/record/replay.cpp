@@ -27,7 +27,7 @@ std::string shown(const Column& column, const void* row) {
                                          : number_text(column.number(row));
 }
 
-/// The first row and quantity in which two lists differ; empty when they do not.
+/// The first row and quantity in which two lists differ; empty if they are equal.
 std::string difference_of(const std::string& row_name, const ListRef<const void*>& stored,
                           const ListRef<const void*>& now) {
   const std::vector<Column> columns = columns_of(stored.row_type());
@@ -49,7 +49,7 @@ std::string difference_of(const std::string& row_name, const ListRef<const void*
          std::to_string(now.size()) + " in the replay";
 }
 
-/// Goes through the tables of both records side by side.
+/// Compares the tables of both records.
 struct Comparison {
   const Record& record;
   const Record& now;
@@ -69,7 +69,7 @@ struct Comparison {
   static std::string row_name(const std::string& group) {
     return group.substr(1, group.size() - 2);  // "/frames" → "frame"
   }
-  /// The list of the other record that stands where this one does.
+  /// The list of the other record at the same member offset.
   ListRef<const void*> of_now(const ListRef<const void*>& stored) const {
     const auto offset =
         static_cast<const std::byte*>(stored.value) - reinterpret_cast<const std::byte*>(&record);
@@ -77,7 +77,7 @@ struct Comparison {
   }
 };
 
-/// Ends a replay where the record was stopped, and when the caller stops.
+/// Stops a replay at the end of a stopped record, or when the caller stops.
 class Ending : public RunListener {
  public:
   Ending(const Record& record, const Stop& stop)
@@ -94,12 +94,12 @@ class Ending : public RunListener {
 
  private:
   Stop stop_;
-  std::size_t left_;  // frames to come, the one for the end included; 0 without a limit
+  std::size_t left_;  // remaining frames including the end frame; 0: no limit
   bool stopped_ = false;
   std::atomic<bool> over_;
 };
 
-/// Changes an experiment when the record did.
+/// Applies the record's changes at their frames.
 class Changes : public RunListener {
  public:
   Changes(const std::vector<Change>& changes, OpenRun& open) : changes_(changes), open_(open) {
@@ -109,7 +109,7 @@ class Changes : public RunListener {
     ++frame_;
     apply();
   }
-  /// Why one could not be made; empty while all could.
+  /// Reason why a change failed; empty if none did.
   const std::string& refused() const { return refused_; }
 
  private:

@@ -13,7 +13,7 @@ namespace microswarm {
 
 namespace {
 
-/// What comes first, and for how long [s].
+/// First phase of a manoeuvre and its duration [s].
 struct Prelude {
   bool holds;
   double time;
@@ -21,14 +21,14 @@ struct Prelude {
 constexpr std::array<Prelude, 5> preludes{
     {{true, 0.5}, {true, 1}, {false, 0.5}, {false, 1}, {false, 2}}};
 
-/// The swarm as it truly was at a tick, with the commands on their way to it.
+/// True state of the swarm at a tick, including commands not yet in effect.
 struct State {
   double t;
   SwarmBody body;
   Rng drift;
 };
 
-/// Two commands, one after the other; the first for `until` seconds.
+/// Two consecutive commands; the first lasts `until` seconds.
 struct Answer {
   Command first;
   Command second;
@@ -48,7 +48,7 @@ std::vector<Answer> answers(double speed, int directions) {
   return out;
 }
 
-/// Was the swarm where the run says, at the contacts in the tick from `t` on?
+/// Whether the swarm is at the logged positions of the contacts in the tick that starts at t.
 [[maybe_unused]] bool is_as_logged(const ContactLog& log, double t, double tick,
                                    const SwarmBody& body) {
   return std::all_of(log.contacts().begin(), log.contacts().end(), [&](const RunEvent& contact) {
@@ -58,7 +58,7 @@ std::vector<Answer> answers(double speed, int directions) {
   });
 }
 
-/// The states at the ticks of a run from which a contact may be judged, in order of time.
+/// States at the ticks of a run from which a contact may be judged, sorted by time.
 std::vector<State> states(const Scenario& scenario, std::uint32_t trial, const ContactLog& log,
                           double lookback) {
   std::vector<State> out;
@@ -83,7 +83,7 @@ bool touches(const World& world, const State& state) {
   return !world.at(state.t).is_free(swarm.pose.position, swarm.radius);
 }
 
-/// The world without the obstacles that cannot reach the swarm between two times, however it moves.
+/// The world without the obstacles that cannot reach the swarm between two times, whatever it does.
 World within_reach(const World& world, const State& from, double until, const SwarmLimits& swarm) {
   World near{world.map, {}};
   const double time = until - from.t;
@@ -95,7 +95,7 @@ World within_reach(const World& world, const State& from, double until, const Sw
     const bool may_touch = std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) {
       return depth_in(body, from.body.pose().pose.position) > -reach;
     });
-    // What is absent may come: a track begins, a valve that is open closes.
+    // An absent obstacle may appear: a track starts, an open valve closes.
     if (may_touch || bodies.empty()) near.obstacles.push_back(obstacle);
   }
   return near;
@@ -140,7 +140,8 @@ class Judge {
   }
 
  private:
-  /// What has only just come into the world nobody can have decided about.
+  /// Whether the obstacle was in view at t. Contacts with obstacles that have just appeared cannot
+  /// be avoided.
   bool is_seen(const RunEvent& contact, double t) const {
     if (contact.kind != EventKind::contact_obstacle) return true;
     const double seen = t - scenario_.sensing.observation_delay;

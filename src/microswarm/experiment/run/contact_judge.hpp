@@ -10,7 +10,7 @@
 
 namespace microswarm {
 
-/// How a contact is judged; see docs/explanation/safety.md.
+/// Settings of `judge_contacts`; see docs/explanation/safety.md.
 struct JudgeParams {
   double lookback = 3;
   double aftermath = 2;
@@ -26,12 +26,12 @@ struct JudgeParams {
   }
 };
 
-/// Hears a run and keeps what a judge asks for: every command, and the contacts.
+/// Records what a judge needs of a run: every command, and the contacts.
 class ContactLog : public RunListener {
  public:
   void on_tick(const Tick& tick) override;
 
-  const std::vector<Command>& commands() const { return commands_; }  ///< one a tick
+  const std::vector<Command>& commands() const { return commands_; }  ///< one per tick
   const std::vector<RunEvent>& contacts() const { return contacts_; }
 
  private:
@@ -39,20 +39,20 @@ class ContactLog : public RunListener {
   std::vector<RunEvent> contacts_;
 };
 
-/// What could have been done about one contact.
+/// Verdict on one contact: whether it was avoidable, and how.
 struct ContactVerdict {
   RunEvent contact;
   bool avoidable = false;
-  double decided = 0;    ///< when at the latest, at a tick [s]; of an avoidable one
-  std::string_view way;  ///< "hold", "retreat", "hold, retreat" or "retreat, hold"; else empty
+  double decided = 0;    ///< time of the last tick at which it was avoidable [s]
+  std::string_view way;  ///< "hold", "retreat", "hold, retreat", "retreat, hold" or empty
 };
 
-/// Judges every contact of a run of KinematicPlant. A contact at t_c was avoidable when from the
-/// swarm's true state at some tick t between t_c − lookback and t_c − (response lag + observation
-/// delay), touching nothing yet and the obstacle in sight, holding or retreating keeps it free of
-/// any contact with walls and obstacles, as they truly moved, until t_c + aftermath. Commands
-/// already given take effect before; the drift is that of the run. `scenario`, `world` and `trial`
-/// are those of the run.
+/// Judges every contact of a run of KinematicPlant. A contact at t_c was avoidable if, from the
+/// true state of the swarm at some tick t between t_c − lookback and t_c − (response lag +
+/// observation delay), a hold or retreat manoeuvre avoids all contacts with walls and obstacles
+/// until t_c + aftermath. At t the swarm must be free of contact and the obstacle in view.
+/// Obstacles follow their true motion, commands already given take effect first, and the drift is
+/// that of the run. `scenario`, `world` and `trial` are those of the run.
 std::vector<ContactVerdict> judge_contacts(const Scenario& scenario, const World& world,
                                            std::uint32_t trial, const ContactLog& log,
                                            const JudgeParams& params = {});

@@ -13,7 +13,7 @@ namespace microswarm {
 
 namespace {
 
-constexpr int max_samples = 20'000;  // of one obstacle in one way
+constexpr int max_samples = 20'000;  // of one obstacle on one trajectory
 
 double top_speed_of(std::span<const PoseStamped> way) {
   double speed = 0;
@@ -23,7 +23,7 @@ double top_speed_of(std::span<const PoseStamped> way) {
   return speed;
 }
 
-/// Of the radius [µm/s].
+/// Maximum growth rate of the radius [µm/s].
 double top_growth_of(std::span<const PoseStamped> way) {
   double growth = 0;
   for (std::size_t i = 1; i < way.size(); ++i)
@@ -97,7 +97,7 @@ ContactMonitor::Sample ContactMonitor::sample(const Way& way, std::uint32_t obst
   return {t, clearance, gap};
 }
 
-// Bisects the way, earlier half first, wherever the obstacle could touch or be nearer than ever.
+// Bisects the trajectory, earlier half first, wherever a contact or a new minimum is possible.
 std::optional<ContactMonitor::Sample> ContactMonitor::first_touch(const Way& way,
                                                                   std::uint32_t obstacle) {
   const double rate = way.top_speed + top_speeds_[obstacle];
@@ -120,7 +120,7 @@ std::optional<ContactMonitor::Sample> ContactMonitor::first_touch(const Way& way
       open.push_back({middle, b});
       open.push_back({a, middle});
     } else if (!touch && b.gap < 0) {
-      // Here the gap falls as fast as it can, hence evenly.
+      // The gap decreases at its maximum rate here, hence linearly.
       const double share = a.gap / (a.gap - b.gap);
       touch = sample(way, obstacle, a.t + share * (b.t - a.t));
     }
@@ -142,7 +142,7 @@ std::optional<RunEvent> ContactMonitor::wall_touch(const Way& way) {
       touching = false;
       continue;
     }
-    // Inside the border its distance is concave along the piece: least at an end.
+    // Inside the border, the distance to it is concave along the piece: minimal at an end.
     const double border = std::min(map.border_clearance(piece.a), map.border_clearance(piece.b));
     const double clearance = map.walls().clearance(piece, border);
     if (clearance < walls_.clearance) walls_ = {clearance, way.t0 + here.t};

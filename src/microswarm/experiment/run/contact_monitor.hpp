@@ -13,37 +13,38 @@
 
 namespace microswarm {
 
-/// `RunEvent::body` of a touch of the map's border.
+/// `RunEvent::body` of a contact with the map's border.
 inline constexpr std::uint32_t border_body = 0xffffffff;
 
-/// Watches how near a moving swarm comes to walls and to moving obstacles, between the ticks too:
-/// distances change by at most the speeds' sum, so that the times at which something could be
-/// nearer than anything before are bisected until the least distance is known to `resolution`.
+/// Monitors the clearance of a moving swarm to walls and moving obstacles, between ticks too. Since
+/// distances change at most by the sum of the speeds, intervals that may contain a new minimum are
+/// bisected until it is known to `resolution`.
 class ContactMonitor {
  public:
   static constexpr double resolution = 0.02;  ///< [µm]
 
-  /// The world must outlive the watch. Closer to the centre than the swarm is wide is a touch.
+  /// `world` must outlive the monitor. A clearance from the centre below the swarm's radius is a
+  /// contact.
   explicit ContactMonitor(const World& world);
 
-  /// To be called when the world's obstacles are others than before.
+  /// Must be called after the world's obstacles change.
   void take_obstacles();
 
-  /// Follows the way `trajectory`, which begins at time t0, and returns the touches that begin in
-  /// it, in order of time. Obstacles that were touched at the end of the last way do not begin
-  /// anew.
+  /// Follows `trajectory`, which starts at time t0, and returns the contacts that begin on it,
+  /// sorted by time. Contacts that last from the end of the previous trajectory are not reported
+  /// again.
   std::vector<RunEvent> follow(double t0, std::span<const PoseStamped> trajectory);
 
   const LeastClearance& walls() const { return walls_; }
   const LeastClearance& obstacles() const { return obstacles_; }
-  /// Least distance from the swarm's edge to an obstacle, below 0 when it touched one [µm].
+  /// Minimum distance from the swarm's edge to an obstacle, negative for a contact [µm].
   double min_gap() const { return min_gap_; }
 
  private:
   struct Sample {
     double t = 0;
     double clearance = 0;
-    double gap = 0;  ///< the same from the swarm's edge, below 0 inside
+    double gap = 0;  ///< clearance from the swarm's edge, negative inside
   };
   struct Way;
 
@@ -61,11 +62,11 @@ class ContactMonitor {
   std::vector<Body> bodies_;
 };
 
-/// When [s, counted as in `trajectory`] the way first comes within `tolerance` of the goal.
+/// First time [s, on the clock of `trajectory`] within `tolerance` of the goal; empty if never.
 std::optional<double> first_arrival(std::span<const PoseStamped> trajectory, Vec2 goal,
                                     double tolerance);
 
-/// Where the swarm is on its way at time t, clamped to its ends; the way must not be empty.
+/// Pose on a non-empty trajectory at time t, clamped to its ends.
 PoseStamped moment_on(std::span<const PoseStamped> trajectory, double t);
 
 }  // namespace microswarm

@@ -13,7 +13,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Ends a way at time t.
+/// Cuts a trajectory at time t.
 void cut(std::vector<PoseStamped>& way, double t) {
   PoseStamped end = moment_on(way, t);
   end.t = t;
@@ -66,7 +66,7 @@ const Tick* Episode::step(const Stop& stop) {
   return &tick_;
 }
 
-/// False where the episode is over before the tick has begun.
+/// False if the episode ends before the tick starts.
 bool Episode::advance(const Stop& stop) {
   const Observation seen = obstacles_.complete(plant_.observe());
   was_seen_ = was_seen_ || seen.swarm || plant_.ground_truth();
@@ -85,7 +85,7 @@ bool Episode::advance(const Stop& stop) {
   const Clock::time_point begin = Clock::now();
   const Command command = navigator_->step(seen, stop);
   const double took = std::chrono::duration<double>(Clock::now() - begin).count();
-  // A step that was told to stop half-way is none: the record must repeat without the telling.
+  // Discard an interrupted step: the record must be reproducible without the interruption.
   if (stop()) {
     ending_ = Status::stopped;
     return false;
@@ -128,12 +128,12 @@ Episode::Present Episode::present(const Observation& seen) {
           passed > 0 ? way / passed : 0, left(seen.swarm->pose.position, seen.robots)};
 }
 
-/// How far it is to the end of the task [µm].
+/// Remaining distance of the task [µm].
 double Episode::left(Vec2 centre, std::span<const Vec2> robots) {
   return task_ ? task_->left(robots) : distance(centre, *scenario_.goal);
 }
 
-/// How long the swarm has been told to hold by now.
+/// Time for which the swarm has been commanded to hold.
 double Episode::hold(const Command& command) {
   const bool holds = command.speed <= 0;
   if (holds != (hold_time_ > 0)) note(holds ? EventKind::hold_begins : EventKind::hold_ends);
@@ -141,7 +141,7 @@ double Episode::hold(const Command& command) {
   return hold_time_;
 }
 
-/// Contact and arrival on the way just made, in the order in which they came.
+/// Detects contact and arrival on the last trajectory, in order of time.
 std::optional<Status> Episode::follow(const GroundTruth& ground_truth) {
   const double t0 = present_.t;
   trajectory_.assign(ground_truth.trajectory.begin(), ground_truth.trajectory.end());
@@ -152,7 +152,7 @@ std::optional<Status> Episode::follow(const GroundTruth& ground_truth) {
   const bool ends = !touches.empty() && scenario_.stop_at_contact;
   if (ends) {
     cut(trajectory_, touches.front().t - t0);
-    *contacts_ = before;  // what would have come after the touch is none of its clearances
+    *contacts_ = before;  // motion after the contact does not count for its clearances
     contacts_->follow(t0, trajectory_);
   }
   touched_ = touched_ || !touches.empty();
@@ -172,7 +172,7 @@ Status Episode::arrived() {
   return Status::solved;
 }
 
-/// The last tick: what it is like at the end.
+/// Fills the last tick with the final state.
 void Episode::end() {
   const Observation seen = plant_.observe();
   if (scenario_.robots && !task_) begin_with_robots(seen);
@@ -183,7 +183,7 @@ void Episode::end() {
   tick_.fault = fault_;
 }
 
-/// Fills in what the world is like at the present.
+/// Fills the tick with the present state of the world.
 void Episode::fill(const Observation& seen) {
   const auto ground_truth = plant_.ground_truth();
   world_ = ground_truth ? ground_truth->world->at(present_.t) : *seen.world;

@@ -17,31 +17,32 @@
 
 namespace microswarm {
 
-/// The only loop, tick by tick: observe, decide, apply. Contacts and arrival are detected in
-/// continuous time; for individually tracked robots the goal is tested once per tick and walls are
-/// no contact.
+/// Runs an experiment tick by tick: observe, decide, apply. Contacts and arrival are detected in
+/// continuous time. For individually tracked robots the goal is tested once per tick, and walls are
+/// not contacts.
 ///
 ///     Episode episode(scenario, plant, navigator);
 ///     while (const Tick* tick = episode.step()) listener.on_tick(*tick);
 class Episode {
  public:
-  /// All three must outlive the episode.
+  /// All arguments must outlive the episode.
   Episode(const Scenario& scenario, Plant& plant, Navigator& navigator);
 
-  /// The next tick; null after the last one, whose `end` says why it is the last: `solved`,
-  /// `collided`, `held` (the navigator stood still for the scenario's hold limit, or up to its time
-  /// limit), `time_limit`, `stopped`, or `fault`.
+  /// The next tick; null after the last one. `end` of the last tick is `solved`, `collided`, `held`
+  /// (held for the scenario's hold limit, or until its time limit), `time_limit`, `stopped`, or
+  /// `fault`.
   const Tick* step(const Stop& stop = {});
 
-  /// Goes on with the scenario and the plant's obstacles as they are by now and with this
-  /// navigator, which may be the one it has. `setting` is what the next tick says of it.
+  /// Continues with the current state of the scenario and of the plant's obstacles, and with this
+  /// navigator, which may be the present one. `setting` is reported with the next tick.
   void change(const std::string& setting, Navigator& navigator);
 
-  /// Where the swarm is, or was last seen.
+  /// Pose of the swarm, or the last observed one.
   const Pose2& pose() const { return present_.pose; }
 
  private:
-  /// The swarm at the present: as it is when the plant knows, else as it was last seen.
+  /// Present state of the swarm: the ground truth if the plant provides it, else the last
+  /// observation.
   struct Present {
     double t = 0;
     Pose2 pose;
@@ -71,13 +72,13 @@ class Episode {
   Present present_;
   bool was_seen_ = false;       ///< the swarm, at least once
   double detection_range_ = 0;  ///< [µm]
-  std::optional<Vec2> goal_;    ///< as it was when its distance was taken
-  double start_distance_ = 0;   ///< from the goal [µm]
-  double hold_time_ = 0;        ///< without a break [s]
-  double done_ = 0;             ///< ticks
+  std::optional<Vec2> goal_;    ///< at the time its distance was measured
+  double start_distance_ = 0;   ///< to the goal [µm]
+  double hold_time_ = 0;        ///< without interruption [s]
+  double done_ = 0;             ///< number of ticks
   bool touched_ = false;
-  bool prepared_ = false;         ///< the navigator
-  std::optional<Status> ending_;  ///< the next tick is the last one
+  bool prepared_ = false;         ///< navigator_->prepare() was called
+  std::optional<Status> ending_;  ///< set if the next tick is the last one
 
   Tick tick_;
   std::optional<Snapshot> world_;

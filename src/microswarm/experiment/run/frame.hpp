@@ -15,21 +15,21 @@
 
 namespace microswarm {
 
-/// One tick of a run. Everything here is physical: it repeats bit for bit.
+/// One tick of a run. All fields are physical and reproducible bit for bit.
 struct Frame {
-  double t = 0;                   ///< when the tick begins [s]
-  Pose2 pose;                     ///< where the swarm is at t (what was last seen, on a rig)
-  double radius = 0;              ///< of the swarm at t [µm]; of robots 0
+  double t = 0;                   ///< start of the tick [s]
+  Pose2 pose;                     ///< of the swarm at t; on a rig, as last observed
+  double radius = 0;              ///< of the swarm at t [µm]; 0 for robots
   double speed = 0;               ///< of the swarm at t [µm/s]
-  double seen = 0;                ///< when the frame that the navigator got was taken [s]
+  double seen = 0;                ///< exposure time of the navigator's frame [s]
   std::optional<Pose2> observed;  ///< the swarm in that frame
-  Command command;                ///< what the navigator answered
-  double goal_distance = 0;       ///< what is left to the goal [µm]; see Metrics::goal_distance
-  double wall_clearance = 0;      ///< from the centre at t to walls and border [µm]; of robots inf
-  double obstacle_clearance = 0;  ///< from the centre at t to moving bodies [µm]; inf without any
+  Command command;                ///< the navigator's command
+  double goal_distance = 0;   ///< remaining distance to the goal [µm]; see Metrics::goal_distance
+  double wall_clearance = 0;  ///< from the centre at t to walls and border [µm]; inf for robots
+  double obstacle_clearance = 0;  ///< from the centre at t to moving bodies [µm], or inf
   double avoidance_cost = 0;      ///< δ at t, Eq 4 [radar]
   std::optional<Vec2> target;     ///< the navigator's local target
-  NavigatorState state = NavigatorState::hold;  ///< what the navigator does
+  NavigatorState state = NavigatorState::hold;  ///< of the navigator
   bool planned = false;                         ///< a planning event
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -63,7 +63,7 @@ struct Frame {
   }
 };
 
-/// A path that the navigator began to follow; it follows it until the next one.
+/// A new path of the navigator, valid until the next one.
 struct PathChange {
   double t = 0;  ///< [s]
   std::vector<Vec2> path;
@@ -74,7 +74,7 @@ struct PathChange {
   }
 };
 
-/// Where robots that are told apart are.
+/// Positions of individually tracked robots.
 struct RobotMoment {
   double t = 0;  ///< [s]
   std::vector<Vec2> places;
@@ -85,7 +85,7 @@ struct RobotMoment {
   }
 };
 
-/// A planning event: what the local planner returned, its tree and detection circles included.
+/// A planning event: the result of the local planner with its tree and detection circles.
 struct PlanEvent {
   double t = 0;  ///< [s]
   Plan plan;
@@ -104,14 +104,14 @@ struct PlanEvent {
   }
 };
 
-/// A value of the scenario that was changed between two ticks.
+/// A change of a scenario value between two ticks.
 struct Change {
-  double t = 0;             ///< of the frame that it comes before [s]
-  std::uint64_t frame = 0;  ///< that frame, from 0
+  double t = 0;             ///< start of the following frame [s]
+  std::uint64_t frame = 0;  ///< index of that frame, from 0
   std::string setting;      ///< "navigator.speed_um_per_s=60"
 };
 
-/// What can happen to a swarm.
+/// Kind of a run event.
 enum class EventKind { contact_wall, contact_obstacle, goal_reached, hold_begins, hold_ends };
 constexpr auto enum_names(EventKind) {
   return std::array<std::pair<EventKind, std::string_view>, 5>{
@@ -122,14 +122,14 @@ constexpr auto enum_names(EventKind) {
        {EventKind::hold_ends, "hold_ends"}}};
 }
 
-/// Something that happened, at its own time between the ticks.
+/// An event at its own time between ticks.
 struct RunEvent {
   double t = 0;  ///< [s]
   EventKind kind = EventKind::goal_reached;
   Vec2 position{};         ///< of the swarm's centre [µm]
   double clearance = 0;    ///< of the centre at t [µm]
-  double speed = 0;        ///< of the swarm at t [µm/s]: 0 when it was run into while holding
-  std::uint32_t body = 0;  ///< wall piece or obstacle that was touched
+  double speed = 0;        ///< of the swarm at t [µm/s]; 0 if it was hit while holding
+  std::uint32_t body = 0;  ///< index of the touched wall piece or obstacle
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.t, {"t", Unit::s, {}, "Time of the event, also between ticks."});

@@ -10,7 +10,7 @@
 
 namespace microswarm {
 
-/// The least clearance of a run and when it was.
+/// Minimum clearance of a run and its time.
 struct LeastClearance {
   double clearance = std::numeric_limits<double>::infinity();  ///< from the swarm's centre [µm]
   double t = 0;                                                ///< [s]
@@ -21,8 +21,8 @@ struct LeastClearance {
   }
 };
 
-/// How a run got out of the way of what moves [radar]. An obstacle counts when it is nearer to the
-/// swarm's edge than the detection range.
+/// Obstacle-avoidance metrics of a run [radar]. Obstacles count while they are within the detection
+/// range of the swarm's edge.
 struct Avoidance {
   double mean_cost = 0;
   double time = 0;
@@ -39,13 +39,13 @@ struct Avoidance {
   }
 };
 
-/// The avoidance cost δ, Eq 3, 4 [radar], while an obstacle is detected. v_t is the direction that
-/// the swarm would take without obstacles, `towards` [µm]: to the goal, or to the phased goal that
-/// it follows. `left` [µm] is the distance to the goal, `start_distance` [µm] that from the start.
-/// A swarm that stands still is taken to move across: it gets no nearer.
+/// Avoidance cost δ, Eq 3, 4 [radar], while an obstacle is detected. `towards` [µm] is the
+/// direction v_t without obstacles: to the goal, or to the phased goal being followed. `left` [µm]
+/// is the distance to the goal, `start_distance` [µm] that from the start. A swarm at rest counts
+/// as moving perpendicular to `towards`: it makes no progress.
 double avoidance_cost(Vec2 towards, double left, double heading, bool moves, double start_distance);
 
-/// What a run amounts to. Physical, hence the same in every repetition.
+/// Metrics of a run. They are physical and therefore equal in every repetition.
 struct Metrics {
   double time = 0;
   double length = 0;
@@ -79,7 +79,7 @@ struct Metrics {
   }
 };
 
-/// Summary of a set of wall-clock times [s]; all zero for none.
+/// Summary of wall-clock times [s]; all zero if there are none.
 struct TimeSummary {
   int count = 0;
   double mean = 0;
@@ -98,13 +98,13 @@ struct TimeSummary {
   }
 };
 
-/// Mean, spread and percentiles of some times [s].
+/// Mean, standard deviation and percentiles of times [s].
 TimeSummary summarise(std::span<const double> seconds);
 
-/// Wall-clock times of a run [s]: they differ from run to run and are no part of its hash.
+/// Wall-clock times of a run [s]. They differ from run to run and are not part of its hash.
 struct Timing {
-  std::vector<double> steps;     ///< navigator's step, one a frame
-  std::vector<double> planning;  ///< steps in which it planned
+  std::vector<double> steps;     ///< of the navigator, one per frame
+  std::vector<double> planning;  ///< of steps with a planning event
 };
 
 }  // namespace microswarm

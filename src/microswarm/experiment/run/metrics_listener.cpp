@@ -37,7 +37,7 @@ void MetricsListener::move_to(const Pose2& pose) {
   at_ = pose;
 }
 
-/// Each tick counts as it begins.
+/// Counts each tick at its start.
 void MetricsListener::note_step(const Tick& tick) {
   Metrics& metrics = result_.metrics;
   result_.state = enum_name(tick.frame.state);

@@ -7,14 +7,14 @@
 
 namespace microswarm {
 
-/// Sums up a run: its metrics, and how long the navigator took. Without the plant's ground_truth,
-/// clearances are those of what was seen.
+/// Accumulates a run's metrics and the navigator's times. If the plant provides no ground truth,
+/// clearances are computed from observations.
 class MetricsListener : public RunListener {
  public:
   explicit MetricsListener(const Scenario& scenario);
   void on_tick(const Tick& tick) override;
 
-  /// After the last tick.
+  /// Valid after the last tick.
   const RunResult& result() const { return result_; }
 
  private:

@@ -17,14 +17,14 @@ constexpr std::array<std::string_view, 7> changeable{
     "navigator",    "goal_um",      "goal_tolerance_um", "obstacles",
     "time_limit_s", "hold_limit_s", "stop_at_contact"};
 
-/// A model is a file, which is read when the scenario is opened.
+/// Whether the model file changes; model files are read only when the scenario is opened.
 bool names_another_model(const Scenario& a, const Scenario& b) {
   const FollowerParams* first = follower_of(a.navigator);
   const FollowerParams* second = follower_of(b.navigator);
   return second && !second->model.empty() && (!first || first->model != second->model);
 }
 
-/// What is wrong with a scenario that was changed in `key` while the swarm is at `pose`.
+/// Issues of a scenario after a change of `key` with the swarm at `pose`.
 Issues validate_change(Scenario scenario, const World& world, std::string_view key, Pose2 pose) {
   Issues issues;
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)

@@ -16,30 +16,30 @@
 
 namespace microswarm {
 
-/// One trial of a scenario under way: its plant, its navigator and the loop over them. It goes on
-/// only when it is stepped, and between two ticks it can be changed.
+/// One trial of a scenario in progress: plant, navigator and episode. It advances only when
+/// stepped, and can be changed between ticks.
 class OpenRun {
  public:
-  /// Without a navigator of the caller's the scenario's is made. `trial` chooses the streams.
+  /// Uses the scenario's navigator if `navigator` is null. `trial` selects the random streams.
   OpenRun(Scenario scenario, World world, std::unique_ptr<Plant> plant, std::uint32_t trial = 0,
           std::unique_ptr<Navigator> navigator = nullptr);
-  /// In the simulation without physics.
+  /// Runs in the kinematic simulation.
   OpenRun(const Scenario& scenario, const World& world, std::uint32_t trial = 0);
   ~OpenRun() = default;
   OpenRun(const OpenRun&) = delete;
   OpenRun& operator=(const OpenRun&) = delete;
 
-  /// As Episode::step.
+  /// Same as Episode::step.
   const Tick* step(const Stop& stop = {});
-  /// Steps to the end; the listeners hear every tick from now on.
+  /// Steps to the end and passes the remaining ticks to the listeners.
   RunResult finish(std::span<RunListener* const> listeners = {}, const Stop& stop = {});
 
-  /// Sets a value of the scenario from the next tick on, "navigator.speed_um_per_s=60": of the
-  /// navigator, which is made anew, the goal, an obstacle, or a limit of the run. Where there are
-  /// issues nothing has changed.
+  /// Sets a scenario value from the next tick on, for example "navigator.speed_um_per_s=60": a
+  /// value of the navigator, which is rebuilt, of the goal, of an obstacle, or a limit of the run.
+  /// If there are issues, nothing changes.
   Issues change(const std::string& setting);
 
-  /// As it is now.
+  /// The present scenario with all changes.
   const Scenario& scenario() const { return scenario_; }
   const World& world() const { return world_; }
   Plant& plant() { return *plant_; }
@@ -54,7 +54,7 @@ class OpenRun {
   std::unique_ptr<Plant> plant_;
   bool has_external_navigator_;
   std::unique_ptr<Navigator> navigator_;
-  std::unique_ptr<Navigator> last_navigator_;  ///< the last tick shows its plan
+  std::unique_ptr<Navigator> last_navigator_;  ///< its plan is in the last tick
   Episode episode_;
 };
 

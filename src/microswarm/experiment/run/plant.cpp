@@ -25,7 +25,7 @@ Observation KinematicPlant::observe() {
                           .swarm = {},
                           .robots = {},
                           .world = std::make_shared<const Snapshot>(frame_at(seen))};
-  // Always the same count of draws, so that one missed frame does not change the noise of the next.
+  // Always draw the same count, so a missed frame does not change the noise of the next.
   const bool missed = noise_.uniform() < sensing_.missed_share;
   const double dx = noise_.normal(), dy = noise_.normal(), turn = noise_.normal();
   if (missed) return observation;
@@ -37,7 +37,7 @@ Observation KinematicPlant::observe() {
   return observation;
 }
 
-// The leaves of a valve are missed together and moved alike: they are one obstacle.
+// The leaves of a valve are one obstacle: they share missed detections and noise.
 Snapshot KinematicPlant::frame_at(double t) {
   Snapshot exact = world_.at(t);
   if (sensing_.obstacle_noise == 0 && sensing_.obstacle_missed_share == 0) return exact;

@@ -11,12 +11,12 @@
 
 namespace microswarm {
 
-/// Simulation without physics: a swarm in a world, seen by a camera that shows both as they were
-/// `observation_delay` ago (at the very beginning: as they were at t = 0). The swarm neither
-/// slides nor stops at walls; whoever runs it watches for contact.
+/// Kinematic simulation of a swarm in a world. The camera shows both as they were
+/// `observation_delay` ago, at first as they were at t = 0. Walls do not stop or deflect the swarm;
+/// the caller checks for contact.
 class KinematicPlant : public Plant {
  public:
-  /// Keeps its own copy of the world. `trial` chooses the streams for drift and for sensor noise.
+  /// Keeps a copy of the world. `trial` selects the random streams of drift and sensor noise.
   KinematicPlant(const Scenario& scenario, World world, std::uint32_t trial = 0);
 
   Observation observe() override;

@@ -8,15 +8,15 @@
 
 namespace microswarm {
 
-/// How far a run is: the share of the way that is behind it (by distance from the goal), and of its
-/// simulated time limit.
+/// Progress of a run: the completed fraction of the initial goal distance and the elapsed fraction
+/// of the simulated time limit.
 struct RunProgress {
   double t = 0;           ///< [s]
   double way_done = 0;    ///< in [0, 1]
   double time_spent = 0;  ///< in [0, 1]
 };
 
-/// Tells a callback at most every `period` seconds of simulated time.
+/// Calls a function at most every `period` seconds of simulated time.
 class ProgressListener : public RunListener {
  public:
   ProgressListener(const Scenario& scenario, std::function<void(const RunProgress&)> report,

@@ -12,12 +12,13 @@
 
 namespace microswarm {
 
-/// Simulation of robots that are told apart, seen by a camera that shows them as they were
-/// `observation_delay` ago. The swarm's pose is their middle, its radius how far they are from that
-/// on average (root mean square).
+/// Simulation of individually tracked robots. The camera shows them as they were
+/// `observation_delay` ago. The swarm's pose is their centroid, its radius their root-mean-square
+/// distance from it.
 class RobotPlant : public Plant {
  public:
-  /// `trial` chooses the streams for places, motion and sensor noise. The scenario has robots.
+  /// `trial` selects the random streams of positions, motion and sensor noise. The scenario must
+  /// have robots.
   RobotPlant(const Scenario& scenario, World world, std::uint32_t trial = 0);
 
   Observation observe() override;
@@ -44,8 +45,8 @@ class RobotPlant : public Plant {
   std::vector<Vec2> seen_;
 };
 
-/// Where the robots of a scenario start: as given, or at random places from which its goal is
-/// reached. Throws InputError when there are too few such places.
+/// Start positions of a scenario's robots: as given, or random positions from which the goal is
+/// reachable. Throws InputError if there are too few such positions.
 std::vector<Vec2> robot_starts(const Scenario& scenario, const Map& map, std::uint32_t trial);
 
 }  // namespace microswarm

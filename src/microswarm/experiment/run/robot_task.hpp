@@ -11,15 +11,15 @@
 
 namespace microswarm {
 
-/// What robots have to do, measured on where they are: come to goals of their own [global], or
-/// gather at one goal [gather].
+/// Task of individually tracked robots, measured on their positions: each reaches its own goal
+/// [global], or all gather at one goal [gather].
 class RobotTask {
  public:
-  /// The scenario has robots; the map must outlive it.
+  /// The scenario must have robots; the map must outlive the task.
   RobotTask(const Scenario& scenario, const Map& map);
 
-  /// How far it is to the end [µm]: the worst robot's distance from its own goal, or the mean way
-  /// to the common goal through the free space, F(n, t) [gather].
+  /// Remaining distance [µm]: the maximum distance of a robot from its own goal, or the mean path
+  /// length to the common goal through free space, F(n, t) [gather].
   double left(std::span<const Vec2> robots);
 
  private:

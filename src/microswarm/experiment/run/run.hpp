@@ -14,37 +14,38 @@
 
 namespace microswarm {
 
-/// What a run came to.
+/// Result of a run.
 struct RunResult {
   Status status = Status::time_limit;
   Metrics metrics;
   Timing timing;
-  std::string state;  ///< the navigator's word for what it did last
+  std::string state;  ///< name of the navigator's last state
 };
 
-/// Hears what happens in a run: recorder, live view, progress bar. References hold during the call.
+/// Interface for observers of a run: recorder, live view, progress bar. References are valid during
+/// the call.
 class RunListener {
  public:
   virtual ~RunListener() = default;
-  /// After every tick; the last one has `end`.
+  /// Called after every tick; the last one has `end`.
   virtual void on_tick(const Tick& tick) = 0;
   virtual void on_end(const RunResult& result) { (void)result; }
 };
 
-/// Calls `step` until it gives no tick and tells every tick to the listeners; with `fault`, the
-/// plant's reason is the result's state.
+/// Calls `step` until it returns null and passes every tick to the listeners. With status `fault`,
+/// the plant's reason becomes the result's state.
 RunResult run(const Scenario& scenario, const std::function<const Tick*()>& step,
               std::span<RunListener* const> listeners = {});
 
-/// The same with an episode of this plant and navigator.
+/// Runs an episode of this plant and navigator.
 RunResult run(const Scenario& scenario, Plant& plant, Navigator& navigator,
               std::span<RunListener* const> listeners = {}, const Stop& stop = {});
 
-/// The simulation without physics that a scenario asks for: of one swarm, or of robots.
+/// Creates the kinematic simulation of a scenario: one swarm, or individual robots.
 std::unique_ptr<Plant> make_kinematic_plant(const Scenario& scenario, const World& world,
                                             std::uint32_t trial = 0);
 
-/// Builds plant and navigator for one trial of a scenario and runs it.
+/// Creates plant and navigator for one trial of a scenario and runs it.
 RunResult simulate(const Scenario& scenario, const World& world, std::uint32_t trial = 0,
                    std::span<RunListener* const> listeners = {}, const Stop& stop = {});
 

@@ -14,22 +14,22 @@
 
 namespace microswarm {
 
-/// One tick of an episode: what it was like when it began, and what happened in it. Valid until the
-/// next one.
+/// One tick of an episode: the state at its start and what happened during it. Valid until the next
+/// one.
 struct Tick {
   Frame frame;
-  NavigatorView view;               ///< what the navigator did; of the end nothing
+  NavigatorView view;               ///< of the navigator; empty for the last tick
   const Snapshot* world = nullptr;  ///< at the frame's time
-  /// Positions at the frame's time [µm] of robots that are tracked one by one.
+  /// Positions of individually tracked robots at the frame's time [µm].
   std::optional<std::span<const Vec2>> robots;
-  /// What was changed since the last tick, "navigator.speed_um_per_s=60", in its order.
+  /// Changes since the last tick, such as "navigator.speed_um_per_s=60", in order.
   std::span<const std::string> changes;
   std::span<const RunEvent> events;
-  std::span<const PoseStamped> trajectory;   ///< the swarm's way in the tick, where it is known
-  const ContactMonitor* contacts = nullptr;  ///< up to the tick's end; null where nobody knows
+  std::span<const PoseStamped> trajectory;   ///< path of the swarm during the tick, if known
+  const ContactMonitor* contacts = nullptr;  ///< up to the tick's end; null if unknown
   double step_time = 0;                      ///< wall-clock time of the navigator's step [s]
-  std::optional<Status> end;                 ///< of the last tick, which has only a frame
-  std::string_view fault;                    ///< why the plant could not go on; of the last tick
+  std::optional<Status> end;                 ///< set for the last tick, which has only a frame
+  std::string_view fault;                    ///< why the plant stopped; set for the last tick
 };
 
 }  // namespace microswarm

@@ -10,7 +10,8 @@
 namespace microswarm {
 namespace {
 
-/// What everything else is measured against: where one of them was misread, only reading is judged.
+/// Whether a key that others are validated against was misread. Then only reading errors are
+/// reported.
 bool misread_basis(const Mistakes& mistakes) {
   constexpr const char* basis[] = {"map",     "obstacles",        "swarm", "robots", "start",
                                    "goal_um", "goal_tolerance_um"};

@@ -13,23 +13,23 @@
 
 namespace microswarm {
 
-/// A scenario that was read, loaded and found right: ready to run.
+/// A validated scenario with its world, ready to run.
 struct Experiment {
   Scene scene;
   World world;
-  KeyLocations keys;  ///< of the scenario's file
+  KeyLocations keys;  ///< of the scenario file
 
   const Scenario& scenario() const { return scene.scenario; }
 };
 
-/// Opens a scenario's file; `settings` are `key.path=value` texts, as from --set, applied after it,
-/// then the seed. Throws InputError with a line for each thing wrong: with a key, a value, a file
-/// that it names, or with what they mean together.
+/// Opens a scenario file. `settings` are `key.path=value` texts, as from --set, applied after the
+/// file; the seed is applied last. Throws InputError with one line per issue: of a key, a value, a
+/// referenced file, or of their combination.
 Experiment open_experiment(const std::filesystem::path& file,
                            const std::vector<std::string>& settings = {},
                            std::optional<std::uint64_t> seed = std::nullopt);
 
-/// The same of a scenario that was read, with the files it names relative to `base`.
+/// Opens a scenario that was already read; file names are relative to `base`.
 Experiment open_experiment(Scenario scenario, const std::filesystem::path& base,
                            const KeyLocations& keys = {});
 

@@ -20,7 +20,7 @@ namespace microswarm {
 
 class KeyLocations;
 
-/// What the camera and the image processing give of the world, and when.
+/// Model of the camera and the image processing: delay, noise and missed detections.
 struct SensingParams {
   double observation_delay = 0.05;
   double position_noise = 0;
@@ -56,9 +56,9 @@ struct SensingParams {
   }
 };
 
-/// One experiment as data: the world, the swarm, where from, where to, and who steers. A swarm seen
-/// as one body has a start and a goal; robots that are told apart have starts and either one goal,
-/// at which they gather, or a goal each. `validate` sees to that.
+/// One experiment as data: world, swarm, start, goal and navigator. A swarm tracked as one body has
+/// a start and a goal. Individually tracked robots have starts and either one common goal, where
+/// they gather, or one goal each. `validate` checks this.
 struct Scenario {
   std::string name;
   std::string description;
@@ -117,17 +117,17 @@ struct Scenario {
 };
 
 /// Reads a scenario; `settings` are `key.path=value` texts, as from --set, applied after the file.
-/// Throws InputError, a line for each mistake with file, line and column. `keys` then tells where
-/// its keys stand.
+/// `keys` receives the locations of its keys. Throws InputError with file, line and column, one
+/// line per issue.
 Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& settings,
                        KeyLocations& keys);
 Scenario read_scenario(const std::filesystem::path& file,
                        const std::vector<std::string>& settings = {});
 
-/// The scenario as YAML with every key written out; reading it gives the same fields back.
+/// The scenario as YAML with every key; reading it gives equal fields.
 std::string scenario_text(const Scenario& scenario);
 
-/// Compiled once, in scenario.cpp: it describes all that a scenario may hold.
+/// Compiled once, in scenario.cpp; describes the whole scenario.
 extern template const Type& type_of<Scenario>();
 
 }  // namespace microswarm

@@ -18,12 +18,12 @@ namespace {
 
 constexpr std::uint64_t max_model_bytes = 1 << 20;
 
-/// Files of tracks, each read once.
+/// Cache of track files, each read once.
 class TrackFiles {
  public:
   explicit TrackFiles(std::filesystem::path base) : base_(std::move(base)) {}
 
-  /// Fills in the samples of a track.
+  /// Loads the samples of a track.
   Issues load(Track& track) {
     Issues issues;
     if (track.file.empty()) {
@@ -46,7 +46,7 @@ class TrackFiles {
   std::map<std::filesystem::path, Tracks> files_;
 };
 
-/// Loads the obstacles' tracks, then looks at each obstacle.
+/// Loads the obstacles' tracks, then validates each obstacle.
 Issues load_obstacles(std::vector<Obstacle>& obstacles, const std::filesystem::path& base) {
   Issues issues;
   TrackFiles files(base);
@@ -62,7 +62,7 @@ Issues load_obstacles(std::vector<Obstacle>& obstacles, const std::filesystem::p
   return issues;
 }
 
-/// Reads the model of a learned follower that the navigator names.
+/// Reads the navigator's learned follower model, if it has one.
 void load_follower(NavigatorParams& navigator, const std::filesystem::path& base) {
   FollowerParams* follower = follower_of(navigator);
   if (!follower || follower->model.empty()) return;

@@ -12,26 +12,26 @@
 
 namespace microswarm {
 
-/// A scenario and what the files that it names held: all that a run depends on.
+/// A scenario and the contents of its files: everything a run depends on.
 struct Scene {
-  Scenario scenario;  ///< the tracks of its obstacles have their samples
+  Scenario scenario;  ///< tracks of obstacles include their samples
   MapParts map;
 
-  /// Fingerprint of all of it.
+  /// Fingerprint of the whole scene.
   std::string hash() const;
 };
 
-/// Reads the scenario's map, tracks and learned follower, relative to the folder `base`. What is
-/// wrong with them or with an obstacle goes into `issues`; then the scene is of no use.
+/// Reads the scenario's map, tracks and learned follower, relative to the folder `base`. Problems
+/// with these or with an obstacle are added to `issues`; the scene is then unusable.
 Scene load_scene(Scenario scenario, const std::filesystem::path& base, Issues& issues);
-/// The same; throws InputError with a line for each issue.
+/// Same, but throws InputError with one line per issue.
 Scene load_scene(Scenario scenario, const std::filesystem::path& base,
                  const KeyLocations& keys = {});
 
-/// What a scenario tells its navigator.
+/// The navigator's task in a scenario.
 Task task_of(const Scenario& scenario);
 
-/// Builds the world of a scene. Throws InputError as Map does.
+/// Builds the world of a scene. Throws InputError like Map.
 World build_world(const Scene& scene);
 
 }  // namespace microswarm

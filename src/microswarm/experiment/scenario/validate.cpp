@@ -13,7 +13,7 @@
 namespace microswarm {
 namespace {
 
-// A navigator that takes what it sees for too old holds for ever.
+// A navigator for which every observation is too old would hold forever.
 Issues validate_sensing(const Scenario& scenario) {
   Issues issues;
   const double timeout = scenario.sensing.frame_timeout;
@@ -31,7 +31,7 @@ std::string goal_text(const std::string& why, const Scenario& scenario) {
                      aim_share * scenario.goal_tolerance);
 }
 
-// What the swarm fits through, its navigator may still refuse.
+// The navigator may require more clearance than the swarm needs.
 Issues validate_margin(const Scenario& scenario, const World& world) {
   Issues issues;
   const double margin = required_clearance(scenario.navigator);
@@ -44,7 +44,7 @@ Issues validate_margin(const Scenario& scenario, const World& world) {
     return issues;
   }
   const WidestPath way = widest_path(*world.map, scenario.start->position, *target, margin);
-  // A start that is nearer to a wall is let go: the navigator leads away from there.
+  // A start closer to a wall is allowed: the navigator leads away from it.
   const double needed = std::min(margin, world.map->clearance(scenario.start->position));
   if (way.clearance + 1.5 * way.resolution >= needed) return issues;
   const std::string left = way.found
@@ -90,7 +90,7 @@ Issues validate_path(const Map& map, Vec2 start, Vec2 goal, double radius) {
     issues.add("goal_um", "goal is cut off from the start by walls");
     return issues;
   }
-  // A way that the search may have missed for its resolution is not denied.
+  // Accept a path that the search may have missed because of its resolution.
   if (way.clearance + 1.5 * way.resolution >= radius) return issues;
   issues.add({"swarm.radius_um", "swarm", "goal_um"},
              fmt::format("swarm is {:.4g} µm wide, wider than every passage to the goal: the "

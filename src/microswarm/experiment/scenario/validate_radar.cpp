@@ -10,7 +10,7 @@
 namespace microswarm {
 namespace {
 
-/// A phased goal, what it is called, and its key.
+/// A phased goal with its name and key.
 struct Stage {
   Vec2 place;
   std::string name;
@@ -30,7 +30,7 @@ Issues validate_legs(const std::vector<Stage>& stages, const Map& map) {
   Issues issues;
   for (std::size_t i = 1; i < stages.size(); ++i) {
     const Stage &a = stages[i - 1], &b = stages[i];
-    if (!map.is_free(a.place, 0) || !map.is_free(b.place, 0)) continue;  // told by others
+    if (!map.is_free(a.place, 0) || !map.is_free(b.place, 0)) continue;  // reported elsewhere
     if (map.is_free(Segment{a.place, b.place}, 0)) continue;
     issues.add(
         {b.key, a.key},
@@ -40,7 +40,7 @@ Issues validate_legs(const std::vector<Stage>& stages, const Map& map) {
   return issues;
 }
 
-/// Why the swarm would never get past a valve in the area, or nothing.
+/// Why the valve in the zone would never let the swarm pass; empty if it does.
 std::string never_opens(const WaitZone& area, const Valve& valve) {
   const bool opens = valve.max_gap >= valve.span ||    // then nothing stands there
                      valve.min_gap >= area.min_gap ||  // it is never too narrow

@@ -7,10 +7,9 @@
 
 namespace microswarm {
 
-/// The part of `validate` that is about a radar's route and wait areas: issues when the straight
-/// way between two given waypoints, or from the start to the first, or from the last to the goal,
-/// crosses a wall; when a wait area is outside the map, has no valve in it, or asks of one for a
-/// gap that it never opens to. A valve that moves counts as being in each.
+/// The part of `validate` for a radar's route and wait zones. Issues: a straight leg between start,
+/// waypoints and goal crosses a wall; a wait zone is outside the map, contains no valve, or
+/// requires a gap that its valve never reaches. A moving valve counts as being in every zone.
 Issues validate_radar(const Scenario& scenario, const World& world);
 
 }  // namespace microswarm

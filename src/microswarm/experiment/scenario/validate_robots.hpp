@@ -9,16 +9,15 @@
 
 namespace microswarm {
 
-/// The part of `validate` that is about a scenario's robots: how many, and what may stand beside
-/// them.
+/// The part of `validate` for a scenario's robots: their number and the keys allowed with them.
 Issues validate_robots(const Scenario& scenario);
 
-/// The part that is about where they are.
+/// The part for their positions.
 Issues validate_robot_positions(const Scenario& scenario, const Map& map);
 
-/// Issues when nothing can bring robots from `starts` to `goals`, one each: a start nearer than
-/// `guard` [µm] to a wall, a goal in one, a goal cut off, or two robots in one place whose goals
-/// are more than two tolerances [µm] apart. Keys are a scenario's.
+/// Issues that prevent robots from getting from `starts` to `goals`, one each: a start closer than
+/// `guard` [µm] to a wall, a goal in a wall, a goal cut off, or two robots at the same position
+/// whose goals are more than two tolerances [µm] apart. Keys are those of a scenario.
 Issues validate_robot_paths(const Map& map, std::span<const Vec2> starts,
                             std::span<const Vec2> goals, double tolerance, double guard);
 

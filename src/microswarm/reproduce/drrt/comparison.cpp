@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The claim of [drrt]: smoother and shorter than the radar of [radar] among moving obstacles.
+// The claim of [drrt]: smoother and shorter paths than the radar of [radar] among moving obstacles.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,28 +16,28 @@
 namespace microswarm::reproduce {
 namespace {
 
-constexpr double kept_margin = 90;      // of all, from the centre [µm]
+constexpr double kept_margin = 90;      // of all navigators, from the centre [µm]
 constexpr double field_amplitude = 10;  // amplitude of the oscillating field [mT]
-// The radar looks a prediction distance ahead and not beside. Of 50, 70, 90, 110 and 130 µm this is
-// the smallest with which it keeps the margin in four trials of five.
+// The radar checks a point one prediction distance ahead, not the sides. Of 50, 70, 90, 110 and 130
+// µm this is the smallest distance with which it keeps the margin in four of five trials.
 constexpr double wide_prediction = 130;
 constexpr double sight_noise = 2;      // of an obstacle's position [µm]
-constexpr double sight_missed = 0.02;  // share of the frames
-constexpr double enough = 0.9;  // of the trials that arrive, for medians of those to say something
-constexpr double max_turning = 500;  // aimed at [°]
+constexpr double sight_missed = 0.02;  // fraction of the frames
+constexpr double enough = 0.9;  // minimum fraction of arrivals for which medians are meaningful
+constexpr double max_turning = 500;  // aim [°]
 constexpr int all_trials = 100, quick_trials = 30;
 
 struct Contestant {
   const char* name;
-  const char* tick;  ///< its name in plots
+  const char* tick;  ///< label in plots
   NavigatorParams params;
   std::size_t colour;
-  bool noisy = false;     ///< are obstacles seen with noise and dropouts?
-  bool held_out = false;  ///< in trials on which nothing was chosen
+  bool noisy = false;     ///< with detection noise and dropouts
+  bool held_out = false;  ///< on trials not used for any choice
 };
 
-/// The radar with circles of a margin in mind: the place that it checks, a prediction distance
-/// ahead, is free of obstacles by radius and prediction distance.
+/// The radar with circles for a given margin: the checked point, one prediction distance ahead, is
+/// free of obstacles within radius plus prediction distance.
 RadarParams radar(const HierarchicalParams& drrt, double prediction_distance, bool as_published) {
   RadarParams params;
   params.speed = drrt.speed;
@@ -68,7 +68,7 @@ std::vector<Contestant> contestants_of(const Scenario& scenario) {
       {"D-RRT*, ours, held-out trials", "D-RRT* held out", ours, colour::drrt_star, false, true}};
 }
 
-/// One value a trial that arrived.
+/// One value per trial that arrived.
 struct Study {
   std::vector<double> turning, length, time, energy;  // [°, µm, s, mT²·s]
   std::vector<double> least;                          // of every trial [µm]
@@ -86,13 +86,13 @@ Study study(const std::vector<TrialResult>& trials) {
     out.turning.push_back(degrees(m.turning));
     out.length.push_back(m.length);
     out.time.push_back(m.time);
-    // The mean square of a field that oscillates while the swarm is driven.
+    // Mean square of an oscillating field while the swarm is driven.
     out.energy.push_back(0.5 * field_amplitude * field_amplitude * (m.time - m.hold_time));
   }
   return out;
 }
 
-/// `aimed`: what is ours has aims of ours.
+/// Rows of one navigator; with `aimed`, ours have aims of our own.
 void add_rows(const char* name, const Study& s, bool aimed, std::vector<ReproduceRow>& rows) {
   const auto add = [&](const char* what, const char* unit, std::optional<double> ours) {
     rows.push_back(
@@ -120,7 +120,7 @@ void add_rows(const char* name, const Study& s, bool aimed, std::vector<Reproduc
   add("energy of the field, median", "mT²·s", median_if_any(s.energy));
 }
 
-/// The claim as a row: how much less D-RRT*'s median is than the radar's.
+/// The claim as a row: reduction of D-RRT*'s median relative to the radar's.
 ReproduceRow claim(const char* what, const Contestant& drrt, const Study& of_drrt,
                    const Contestant& radar, const Study& of_radar,
                    std::vector<double> Study::*measure) {
@@ -180,12 +180,12 @@ std::vector<ReproduceRow> drrt_comparison(const ReproduceOptions& options, const
          .progress = [&](int done, int all) { bar.update(static_cast<double>(done) / all); },
          .vary = vary_phases},
         stop);
-    if (stop()) return rows;  // what was cut off is not told
+    if (stop()) return rows;  // do not report interrupted studies
     studies.push_back(study(trials));
     add_rows(contestant.name, studies.back(), &contestant == &who[1], rows);
   }
   for (std::size_t k = 2; k < 6; ++k) {
-    const std::size_t drrt = k % 2;  // as published against as published, ours against ours
+    const std::size_t drrt = k % 2;  // compare published with published, ours with ours
     rows.push_back(
         claim("turns less", who[drrt], studies[drrt], who[k], studies[k], &Study::turning));
     rows.push_back(

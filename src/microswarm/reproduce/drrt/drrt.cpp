@@ -29,7 +29,7 @@ void vary_phases(Scenario& scenario, std::uint32_t trial) {
 namespace {
 
 #ifdef MICROSWARM_HAS_LEARNING
-// The learned controller, of which the paper gives no figures.
+// The learned controller, for which the paper gives no values.
 std::vector<ReproduceRow> follower(const ReproduceOptions& options, const Stop& stop) {
   const ComparisonOptions comparison{.tasks = options.quick ? 60 : 200};
   const auto outcomes = compare_with_progress(comparison, options.progress, stop);

@@ -6,32 +6,32 @@
 
 namespace microswarm::reproduce {
 
-/// A shipped scenario of [drrt] and its world.
+/// A shipped scenario of [drrt] with its world.
 struct DrrtSetting {
   Scene scene;
   World world;
 };
 DrrtSetting load_drrt(const ReproduceOptions& options, const char* name);
 
-/// By how much less `ours` is than `theirs` [%].
+/// Reduction of `ours` relative to `theirs` [%].
 inline double percent_less(double ours, double theirs) {
   return theirs == 0 ? 0 : 100 * (1 - ours / theirs);
 }
 
 // The figures of [drrt], each in a file of its own.
 
-/// The S-channel: D-RRT* as published and ours beside RRT*, uniform RRT* and A*.
+/// The S-channel: D-RRT* as published and ours, compared with RRT*, uniform RRT* and A*.
 std::vector<ReproduceRow> drrt_fig3(const ReproduceOptions& options, const Stop& stop);
-/// Median planning time [ms] of the published planner through the whole S-channel, for Fig 6.
+/// Median planning time [ms] of the published planner over the whole S-channel, for Fig 6.
 double drrt_global_planning_time(const ReproduceOptions& options, const Stop& stop);
 /// The deforming channel and the moving obstacles, as published and ours.
 std::vector<ReproduceRow> drrt_fig5a(const ReproduceOptions& options, const Stop& stop);
 std::vector<ReproduceRow> drrt_fig5b(const ReproduceOptions& options, const Stop& stop);
-/// D-RRT* and the radar of [radar] among the moving obstacles of Fig 5(b), with the same start,
-/// goal and margin, each as published and ours.
+/// Compares D-RRT* with the radar of [radar] among the moving obstacles of Fig 5(b), with equal
+/// start, goal and margin, each as published and ours.
 std::vector<ReproduceRow> drrt_comparison(const ReproduceOptions& options, const Stop& stop);
 
-/// Obstacles that each trial meets at another phase of their motion.
+/// Gives the obstacles of each trial another phase of their motion.
 void vary_phases(Scenario& scenario, std::uint32_t trial);
 
 }  // namespace microswarm::reproduce

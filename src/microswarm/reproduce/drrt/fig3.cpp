@@ -19,20 +19,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Fig 3: one channel, four planners, one clearance, one stopping rule.
+// Fig 3: one channel, four planners, with equal clearance and stopping rule.
 
 struct Outcome {
   std::string name;
   std::vector<double> length;           // [µm]
-  std::vector<double> turning;          // [°], without the turn out of the start's heading
+  std::vector<double> turning;          // [°], without the initial turn from the start heading
   std::vector<double> turning_in_full;  // [°], with it
   std::vector<double> time;             // [ms]
   int solved = 0;
   Plan first;
 };
 
-// What D-RRT* does to its path, done to another planner's: so that what comes of the planner and
-// what comes of the straightening can be told apart.
+// Applies D-RRT*'s straightening to the path of another planner, to separate the effects of planner
+// and straightening.
 void pull_straight(const Snapshot& world, Pose2 start, const PlannerParams& params, Plan& made) {
   const DrrtStarParams drrt;
   const double clearance = std::visit([](const auto& p) { return p.clearance; }, params);
@@ -71,7 +71,7 @@ DrrtStarParams published_planner() {
   return params;
 }
 
-// Which outcome is whose.
+// Index of each outcome.
 namespace at {
 constexpr std::size_t ours = 0, published = 1, rrt_star = 2, uniform = 3, a_star = 4,
                       rrt_star_straight = 5, a_star_straight = 6, arcs = 7;
@@ -96,7 +96,7 @@ std::vector<Outcome> try_planners(const DrrtSetting& s, int seeds, const Stop& s
 
 const char* const figure3 = "fig3";
 
-/// What the paper says of a planner's medians.
+/// Published medians of a planner.
 struct Published {
   double length, turning, time;  // [µm, °, ms]
 };
@@ -114,7 +114,7 @@ void solved_row(const Outcome& o, std::vector<ReproduceRow>& rows) {
             "aim is ours"));
 }
 
-/// The medians of a planner of which the paper tells nothing, or what we fitted to it.
+/// Medians of a planner for which the paper gives no values, or to which we fitted a parameter.
 void planner_rows(const Outcome& o, const char* why, std::optional<double> length,
                   std::optional<double> turning, std::optional<double> time,
                   std::vector<ReproduceRow>& rows) {
@@ -130,8 +130,8 @@ void planner_rows(const Outcome& o, const char* why, std::optional<double> lengt
   solved_row(o, rows);
 }
 
-/// D-RRT* beside what the paper says of it: the published method is to be near that on either side,
-/// ours at least as good.
+/// D-RRT* and the paper's values: the published method has to match them, ours has to be at least
+/// as good.
 void drrt_rows(const Outcome& o, bool as_published, std::vector<ReproduceRow>& rows) {
   const auto row = [&](const char* what, const char* unit, double paper, double ours) {
     const std::string quantity = o.name + ": " + what;
@@ -152,7 +152,7 @@ std::vector<ReproduceRow> fig3_rows(const std::vector<Outcome>& o) {
   std::vector<ReproduceRow> rows;
   drrt_rows(o[at::ours], false, rows);
   drrt_rows(o[at::published], true, rows);
-  // RRT*'s medians are published only as shares of D-RRT*'s.
+  // RRT*'s medians are published only relative to D-RRT*'s.
   planner_rows(o[at::rrt_star], "r_search is fitted to it",
                published_drrt.length / (1 - shorter_than_rrt / 100),
                published_drrt.turning / (1 - less_turning_than_rrt / 100), {}, rows);
@@ -255,7 +255,7 @@ void fig3_plots(const std::vector<Outcome>& o, const fs::path& folder) {
                              .levels = {{"base step", base}},
                              .y_min = 0,
                              .y_max = 1.15 * base}};
-  // The four methods of the paper; its values as diamonds in the method's colour.
+  // The four methods of the paper, with its values as diamonds in the method's colour.
   struct Shown {
     std::size_t which;
     const char* label;

@@ -13,7 +13,7 @@
 namespace microswarm::reproduce {
 namespace {
 
-/// One value of each path that was followed to its end.
+/// One value for each path that was followed to its end.
 template <class Value>
 std::vector<double> values_of(const FollowerOutcome& outcome, Value&& value) {
   std::vector<double> values;

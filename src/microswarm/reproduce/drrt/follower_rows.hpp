@@ -12,19 +12,19 @@
 
 namespace microswarm::reproduce {
 
-/// The comparison as rows of the figure "follower": the paper gives no figures of its controller,
-/// the aims are ours.
+/// Rows of the figure "follower". The paper gives no values for its controller, so the aims are
+/// ours.
 std::vector<ReproduceRow> follower_rows(const std::vector<FollowerOutcome>& outcomes);
 
-/// Every follower on every task, one line each.
+/// CSV of every follower on every task, one line each.
 std::string follower_csv(const std::vector<FollowerOutcome>& outcomes);
 
-/// follower.csv; distance from the path, turning of the field and time as boxes in follower.png,
-/// .svg and .pdf; the distance along one of the paths in follower-trace.
+/// Writes follower.csv; box plots of distance from the path, field turning and time as
+/// follower.png, .svg and .pdf; and the distance along one path as follower-trace.
 void write_follower_figures(const std::vector<FollowerOutcome>& outcomes,
                             const ComparisonOptions& options, const std::filesystem::path& folder);
 
-/// [drrt]'s learned follower beside pure pursuit and the expert.
+/// Compares the learned follower of [drrt] with pure pursuit and the expert.
 std::vector<FollowerOutcome> compare_with_progress(ComparisonOptions options,
                                                    const BeginProgress& progress, const Stop& stop);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fig 5 and 6 [drrt]: a deforming channel and moving obstacles, the whole loop.
+// Fig 5 and 6 [drrt]: the complete loop in a deforming channel and among moving obstacles.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,16 +24,16 @@ struct LoopFigure {
   const char* figure;
   const char* scenario;
   double events, mean, sd, max;  // published [1, ms, ms, ms]
-  double less_than_global;  // mean planning time against the global one of Fig 3, published [%]
+  double less_than_global;  // published reduction of the mean planning time relative to Fig 3 [%]
 };
 
 constexpr LoopFigure deforming{"fig5a", "deforming_channel.yaml", 16, 8, 3, 15, 85.5};
 constexpr LoopFigure moving{"fig5b", "moving_obstacles.yaml", 34, 44, 41, 100, 20.0};
 
-/// What the trials of one setting amount to.
+/// Results of the trials of one setting.
 struct Loops {
   std::vector<double> planning;                               // [ms]
-  std::vector<double> events, turning, length, time;          // a run; [1, °, µm, s]
+  std::vector<double> events, turning, length, time;          // per run; [1, °, µm, s]
   double least = std::numeric_limits<double>::infinity();     // [µm]
   double min_wall = std::numeric_limits<double>::infinity();  // [µm]
   int reached = 0, below = 0;
@@ -61,7 +61,7 @@ std::vector<ReproduceRow> loop_rows(const LoopFigure& f, const std::string& who,
                                     double global_time) {
   const std::string fig = f.figure;
   const auto named = [&](const char* what) { return who + ": " + what; };
-  const TimeSummary sum = summarise(l.planning);  // of milliseconds
+  const TimeSummary sum = summarise(l.planning);  // in milliseconds
   const auto n = static_cast<double>(l.events.size());
   const auto plain = [&](const char* what, const char* unit, std::optional<double> paper,
                          std::optional<double> ours, const char* why = "") {
@@ -107,7 +107,7 @@ std::vector<ReproduceRow> loop_figure(const LoopFigure& f, const ReproduceOption
     const std::string who = as_published ? "D-RRT*, as published" : "D-RRT*, ours";
     std::get<HierarchicalParams>(s.scene.scenario.navigator).as_published = as_published;
     const Progress bar(options.progress, fmt::format("{}: {}", f.figure, who));
-    // One thread: planning times are measured.
+    // One thread, because planning times are measured.
     const auto trials = run_trials(
         s.scene.scenario, s.world,
         {.trials = options.seed_count(),
@@ -115,7 +115,7 @@ std::vector<ReproduceRow> loop_figure(const LoopFigure& f, const ReproduceOption
          .progress = [&](int done, int all) { bar.update(static_cast<double>(done) / all); },
          .vary = vary_phases},
         stop);
-    if (stop()) return rows;  // what was cut off is not told
+    if (stop()) return rows;  // do not report interrupted trials
     if (!options.out.empty())
       loop_pictures(f, as_published ? "-as-published" : "", s.scene, s.world, options.out, stop);
     for (ReproduceRow& row : loop_rows(f, who, summed(trials), global_time))

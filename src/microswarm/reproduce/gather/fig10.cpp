@@ -16,8 +16,8 @@
 namespace microswarm::reproduce {
 namespace {
 
-// Fig 10: a real swarm in frames of the camera, DCA against HRA; here in a simulation of robots
-// that are not alike, waver and stick: scenarios/papers/gather/maze.yaml.
+// Fig 10: a real swarm in camera frames, DCA against HRA. Here it is a simulation of robots with
+// individual speeds, random motion and sticking: scenarios/papers/gather/maze.yaml.
 
 constexpr double frames_per_s = 45;
 struct RigMethod {
@@ -31,8 +31,8 @@ constexpr std::array<RigMethod, 3> rig_methods{
      {"DCA", Aggregation::divide_and_conquer, 60'628, method_colours::divide_and_conquer},
      {"rollout", Aggregation::rollout, std::nullopt, method_colours::rollout}}};
 
-/// The robots of an experiment's number. The paper counts 600 to 1,485 pixels of robots, "over 300"
-/// of them: we take two pixels for one.
+/// Number of robots in an experiment. The paper counts 600 to 1,485 pixels of robots and "over 300"
+/// robots; we assume two pixels per robot.
 constexpr double pixels_a_robot = 2;
 constexpr double mean_pixels = 0.5 * (600 + 1485);  // of the paper's experiments
 constexpr std::array<int, 5> populations_of_fig10{300, 410, 520, 630, 740};
@@ -129,16 +129,16 @@ void gather_fig10(const ReproduceOptions& options, const Stop& stop,
 
 namespace {
 
-/// Robots seen by a camera and driven by coils: how they are commanded.
+/// A variant of robots observed by a camera and driven by coils.
 struct ThroughRig {
   const char* figure;
   const char* what;
-  std::optional<double> tick;  // [s] between commands; without: a step of the method
+  std::optional<double> tick;  // [s] between commands; empty: one step of the method
   std::size_t trials;
 };
 
-/// The share that is done of runs beside each other, each taken to need 200,000 frames, about what
-/// they do; the last twentieth is done when it has ended.
+/// Completed fraction of parallel runs. Each is expected to need 200,000 frames, a typical number;
+/// the last twentieth is completed when the run ends.
 class Shares {
  public:
   Shares(const BeginProgress& begin, const std::string& label, std::size_t runs)
@@ -160,7 +160,7 @@ class Shares {
   std::vector<double> shares_;
 };
 
-/// The rollout planner is no method of the paper.
+/// The rollout planner is not a method of the paper, so it is omitted.
 void gather_through_rig(const ThroughRig& how, const ReproduceOptions& options, const Stop& stop,
                         std::vector<ReproduceRow>& rows) {
   const World world = build_world(maze(options, Aggregation::heuristic, 1));
@@ -169,7 +169,7 @@ void gather_through_rig(const ThroughRig& how, const ReproduceOptions& options, 
                {"camera.type=simulated", "camera.microscope.um_per_px=53",
                 "camera.microscope.robot_diameter_px=4", "perception.robots.diameter_px=5",
                 "perception.robots.min_mass=60", "eye.robots.separation_px=3"});
-  std::vector<std::optional<RunResult>> results(2 * how.trials);  // of both methods in turn
+  std::vector<std::optional<RunResult>> results(2 * how.trials);  // of both methods alternately
   {
     Shares shares(options.progress, how.figure, results.size());
     for_each_index(results.size(), 0, [&](std::size_t i) {
@@ -186,7 +186,7 @@ void gather_through_rig(const ThroughRig& how, const ReproduceOptions& options, 
       shares.tell(i, 1);
     });
   }
-  std::size_t trials = 0;  // that were not stopped
+  std::size_t trials = 0;  // not interrupted
   while (trials < how.trials && results[2 * trials] && results[2 * trials + 1]) ++trials;
   if (trials == 0) return;
   std::array<double, 2> frames{};

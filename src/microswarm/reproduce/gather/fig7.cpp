@@ -13,13 +13,13 @@
 namespace microswarm::reproduce {
 namespace {
 
-// Fig 7: how the time should depend on ξ, the share of the map that is left when a region of it is
-// done, by the two recurrence models; beside steps of DCA on maps with fewer and fewer regions.
+// Fig 7: predicted time over ξ, the fraction of the map that remains after one region, by the two
+// recurrence models, compared with steps of DCA on maps with decreasing numbers of regions.
 
 constexpr int robots_measured = 1024;
-constexpr double map_area = 100;  // m of the printed figure's curves, in areas of the base case
+constexpr double map_area = 100;  // m of the printed curves, in areas of the base case
 
-/// Eq 9 [gather] over kρm²: the map shrinks by the factor ξ again and again.
+/// Eq 9 [gather] divided by kρm²: the map shrinks repeatedly by the factor ξ.
 double by_factor(double xi, double m) {
   const int levels = static_cast<int>(std::floor(maths::log(m) / maths::log(1 / xi)));
   double sum = 0;
@@ -28,17 +28,17 @@ double by_factor(double xi, double m) {
 }
 /// Eq 10
 double by_factor_smooth(double xi) { return 2 / (1 + xi) - 1; }
-/// Eq 12: by the same area each time.
+/// Eq 12: the map shrinks by equal areas.
 double by_area(double xi) {
   return (1 - xi) * (1 - xi) * (1 + std::floor(1 / (1 - xi) * (1 + 1e-12)));
 }
 /// Eq 13
 double by_area_smooth(double xi) { return (1 - xi) * (2 - xi); }
 
-/// ξ of a map that is parted into so many regions of the same size.
+/// ξ of a map divided into regions of equal size.
 double xi_of(std::size_t regions) { return 1 - 1 / static_cast<double>(regions); }
 
-/// Gives the smallest region to the one that it leads to, until there are only so many.
+/// Merges the smallest region into its successor until `regions` remain.
 MapSegmentation coarsened(MapSegmentation map, const ObstacleWeightedRrt& tree,
                           std::size_t regions) {
   while (map.regions.size() > regions) {
@@ -124,7 +124,7 @@ Plot plot_of_models() {
   Plot plot{.title = "models", .x_label = "ξ", .y_label = "T / (k ρ m^2)", .y_min = 0};
   plot.y_max = 2.1;
   plot.key_below = true;
-  constexpr int rings = 40;  // over the curves that they are nearly the same as
+  constexpr int rings = 40;  // over the nearly coinciding curves
   plot.series.push_back(curve("Eq 10", by_factor_smooth, 0.01, 0.99));
   plot.series.push_back(curve("Eq 13", by_area_smooth, 0.01, 0.99));
   plot.series.push_back(curve(

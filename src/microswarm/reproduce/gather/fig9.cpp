@@ -25,7 +25,8 @@ namespace fs = std::filesystem;
 
 // Fig 9: three maps, n = 2 … 1024 robots, the paper's three methods and ours.
 
-/// The rollout planner's work grows with log n: few robots need little.
+/// Parameters of a method. The rollout planner's budget grows with log n, since few robots need
+/// little.
 AggregationParams parameters(const Ground& ground, std::size_t method, std::size_t population,
                              bool quick) {
   AggregationParams params = gather_params(ground.scene, gather_methods[method].aggregation);
@@ -46,7 +47,7 @@ struct Trial {
   GatherResult result;
 };
 
-/// Trials of one map, by method, population and number.
+/// Trials on one map, by method, population and trial number.
 class Trials {
  public:
   Trials(int count, bool quick)
@@ -58,7 +59,7 @@ class Trials {
   std::size_t count() const { return count_; }
   Trial& operator[](std::size_t i) { return all_[i]; }
   std::size_t method_of(std::size_t i) const { return i / count_ % gather_methods.size(); }
-  /// The largest first: they take the longest.
+  /// Largest population first, since it takes the longest.
   std::size_t population_of(std::size_t i) const {
     return populations - 1 - i / (count_ * gather_methods.size());
   }
@@ -72,7 +73,7 @@ class Trials {
     }
     return out;
   }
-  /// Has every trial of this method and population run?
+  /// Whether every trial of this method and population has run.
   bool all_ran(std::size_t method, std::size_t population) const {
     return has(population) && steps(method, population).size() == count_;
   }
@@ -81,7 +82,7 @@ class Trials {
     const double sum = std::accumulate(all.begin(), all.end(), 0.0);
     return sum / std::max(1.0, static_cast<double>(all.size()));
   }
-  /// How many of a method's trials `is` true for.
+  /// Fraction of a method's trials for which `is` is true.
   template <class Is>
   double share(std::size_t method, Is&& is) const {
     double yes = 0;
@@ -95,7 +96,7 @@ class Trials {
   }
 
   bool quick() const { return quick_; }
-  /// Are there trials of this population?
+  /// Whether there are trials of this population.
   bool has(std::size_t population) const {
     return !quick_ || population == of_8 || population == of_64 || population == of_1024;
   }
@@ -148,7 +149,7 @@ std::optional<double> published(const Ground& ground, std::size_t method, std::s
   return method < published_methods ? ground.published[method][population] : std::nullopt;
 }
 
-/// The means of the methods as published, within `tolerance` of the paper's.
+/// Means of the methods as published, to match the paper within `tolerance`.
 void add_means(const Ground& ground, const Trials& trials, std::vector<ReproduceRow>& rows) {
   constexpr double tolerance = 0.15;
   for (std::size_t m = 0; m < gather_methods.size(); ++m) {
@@ -168,7 +169,7 @@ void add_means(const Ground& ground, const Trials& trials, std::vector<Reproduce
         rows.push_back(trials.quick() ? unjudged(std::move(row), "too few trials") : row);
       }
     }
-    if (!trials.all_ran(m, of_8)) continue;  // the last to run
+    if (!trials.all_ran(m, of_8)) continue;  // population of the last trials
     const auto add_share = [&](const char* what, const char* why, auto&& is,
                                std::optional<double> aim) {
       rows.push_back(
@@ -185,7 +186,7 @@ void add_means(const Ground& ground, const Trials& trials, std::vector<Reproduce
   }
 }
 
-/// From n = 8 on DCA+OWRRT is the best of the paper's methods, and it grows the slowest.
+/// From n = 8 on DCA+OWRRT is the best of the paper's methods and grows the slowest.
 void add_order(const Ground& ground, const Trials& trials, std::vector<ReproduceRow>& rows) {
   for (const std::size_t m : {of_dca, of_ours}) {
     const char* name = gather_methods[m].name;
@@ -220,7 +221,7 @@ void add_order(const Ground& ground, const Trials& trials, std::vector<Reproduce
   }
 }
 
-/// What the rollout planner is for: it begins with our DCA.
+/// Benefit of the rollout planner, which starts from our DCA.
 void add_rollout(const Ground& ground, const Trials& trials, std::vector<ReproduceRow>& rows) {
   if (!trials.all_ran(of_rollout, of_1024) || !trials.all_ran(of_ours, of_1024)) return;
   const double share =
@@ -230,10 +231,10 @@ void add_rollout(const Ground& ground, const Trials& trials, std::vector<Reprodu
   rows.push_back(noted(row_of("fig9", what, "1", {}, share, 1), "aim is ours"));
 }
 
-/// Processor time so far [s]: others may use the machine too.
+/// Processor time so far [s]; wall-clock time would include other processes.
 double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// What a run takes: the median of some.
+/// Median duration of a run.
 double time_of_a_run(const Ground& ground, const Stop& stop) {
   constexpr std::uint32_t runs = 5;
   const AggregationMap map = gather_map(ground.scene, true);
@@ -248,7 +249,7 @@ double time_of_a_run(const Ground& ground, const Stop& stop) {
   return median(times);
 }
 
-/// The longest time that the rollout planner takes for a move.
+/// Maximum time of the rollout planner for one move.
 double longest_decision(const Ground& ground, const Stop& stop) {
   const AggregationMap map = gather_map(ground.scene, true);
   const RobotStepper stepper(map.map, 1);
@@ -288,7 +289,7 @@ std::string superscript(std::size_t n) {
   return n < 10 ? digits[n] : superscript(n / 10) + digits[n % 10];
 }
 
-/// Filled violins side by side for every n, a line through the means, and the paper's means.
+/// Violins for every n, a line through the means, and the paper's means.
 Plot plot_of(const Ground& ground, const Trials& trials) {
   Plot plot{.title = ground.name, .x_label = "robots", .y_label = "steps", .y_min = 0};
   plot.key_below = true;
@@ -323,7 +324,7 @@ Plot plot_of(const Ground& ground, const Trials& trials) {
   return plot;
 }
 
-/// Mean steps of every method, a line a population.
+/// Mean steps of every method, one line per population.
 std::vector<std::vector<std::string>> table_of(const Ground& ground, const Trials& trials) {
   std::vector<std::vector<std::string>> lines{{"n"}};
   for (const GatherMethod& method : gather_methods) lines[0].emplace_back(method.name);
@@ -352,7 +353,7 @@ void write_figure(const std::vector<Ground>& maps, std::vector<Trials>& trials, 
        {},
        {{"fig9.svg", "DCA, HRA and the rollout planner"}}}};
   for (std::size_t g = 0; g < trials.size(); ++g) {
-    if (g != of_anywhere)  // a second time the first map
+    if (g != of_anywhere)  // the same map as the first
       plots.push_back(plot_of(maps[g], trials[g]));
     sections.push_back({maps[g].name, "Mean steps.", table_of(maps[g], trials[g]), {}});
   }
@@ -378,7 +379,7 @@ void gather_fig9(const ReproduceOptions& options, const Stop& stop,
     add_order(map, trials.back(), rows);
     add_rollout(map, trials.back(), rows);
   }
-  if (!options.quick && !stop()) {  // whose rows are the same on every machine
+  if (!options.quick && !stop()) {  // quick rows are the same on every machine
     rows.push_back(noted(row_of("fig9", "(c), DCA+OWRRT, ours, n = 1024: processor time of a run",
                                 "s", {}, time_of_a_run(maps.back(), stop), 0.2),
                          "aim is ours"));

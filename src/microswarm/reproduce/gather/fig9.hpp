@@ -9,17 +9,17 @@
 #include "microswarm/report/plot.hpp"
 #include "microswarm/scenes/vascular.hpp"
 
-// Fig 9 [gather]: its maps, its methods and its means.
+// Fig 9 [gather]: maps, methods and published means.
 namespace microswarm::reproduce {
 
 inline constexpr std::size_t populations = 10;
-/// Robots of the k-th population: 2, 4 … 1024.
+/// Number of robots of the k-th population: 2, 4 … 1024.
 constexpr int population(std::size_t k) { return 2 << k; }
-inline constexpr std::size_t of_8 = 2;  // from which on DCA+OWRRT is best in the paper
+inline constexpr std::size_t of_8 = 2;  // from here on DCA+OWRRT is best in the paper
 inline constexpr std::size_t of_64 = 5;
 inline constexpr std::size_t of_1024 = 9;
 
-/// A method as it is compared.
+/// A method in the comparison.
 struct GatherMethod {
   const char* name;
   Aggregation aggregation;
@@ -40,22 +40,21 @@ inline constexpr std::size_t of_rollout = 3;
 inline constexpr std::size_t of_ours = 4;
 inline constexpr std::size_t of_anywhere = 1;
 
-/// Mean steps as published, for n = 2, 4 … 1024.
+/// Published mean steps for n = 2, 4 … 1024.
 using Means = std::array<std::optional<double>, populations>;
 
 /// A map with the published means on it.
 struct Ground {
   const char* name;
   scenes::Vascular scene;
-  double min_way;  ///< of the places where robots start [µm]
+  double min_way;  ///< minimum path length of the robots' start positions [µm]
   std::array<Means, published_methods> published;
-  int followed_regions;  ///< of DCA in the published program
+  int followed_regions;  ///< parameter of DCA in the published program
   int last_regions;
-  double work;  ///< that the rollout planner may spend for n = 1024, in robot-steps
+  double work;  ///< budget of the rollout planner for n = 1024, in robot-steps
 };
 
-/// In the T-junction the authors' robots start in its arms: nodes of the tree that cost more
-/// than 40.
+/// In the T-junction the authors' robots start in its arms: at tree nodes with a cost above 40.
 inline std::vector<Ground> grounds() {
   const std::array<Means, published_methods> of_t{
       {{112, 160, 221, 260, 276, 287, 287, 292, 294, 290},

@@ -70,7 +70,7 @@ std::vector<ReproduceRow> gather_figures(const std::string& figure, const Reprod
                                            {"fig10", rows_of<gather_fig10>},
                                            {"fig10-rig", rows_of<gather_fig10_rig>},
                                            {"fig10-frames", rows_of<gather_fig10_frames>}}};
-  // Through the rig it takes minutes and more: only when asked for.
+  // The runs through the rig take minutes or longer: only on request.
   const std::size_t with_all = options.quick ? 5 : 6;
   const std::span<const Figure> all(figures);
   return reproduce_figures("gather", figure.empty() ? all.first(with_all) : all, figure, options,

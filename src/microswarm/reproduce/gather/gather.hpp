@@ -10,7 +10,7 @@
 
 namespace microswarm::reproduce {
 
-/// The figures of [gather], each in a file of its own.
+/// Figures of [gather], one per file.
 void gather_fig7(const ReproduceOptions& options, const Stop& stop,
                  std::vector<ReproduceRow>& rows);
 void gather_fig9(const ReproduceOptions& options, const Stop& stop,
@@ -18,8 +18,8 @@ void gather_fig9(const ReproduceOptions& options, const Stop& stop,
 void gather_fig10(const ReproduceOptions& options, const Stop& stop,
                   std::vector<ReproduceRow>& rows);
 
-/// Fig 10 seen by a camera and driven by coils: a picture and a command for every step, or for
-/// every frame at 45 a second.
+/// Fig 10 with camera and coils: one picture and command per step, or per frame at 45 frames per
+/// second.
 void gather_fig10_rig(const ReproduceOptions& options, const Stop& stop,
                       std::vector<ReproduceRow>& rows);
 void gather_fig10_frames(const ReproduceOptions& options, const Stop& stop,
@@ -29,21 +29,21 @@ void gather_fig10_frames(const ReproduceOptions& options, const Stop& stop,
 void gather_maps(const ReproduceOptions& options, const Stop& stop,
                  std::vector<ReproduceRow>& rows);
 
-/// Maps that nothing was tuned on: generated ones, where DCA should be better than HRA too.
+/// Generated maps that were not used for tuning, on which DCA should also be better than HRA.
 void gather_generated(const ReproduceOptions& options, const Stop& stop,
                       std::vector<ReproduceRow>& rows);
 
-/// A map with its tree and its published number of nodes.
+/// The map of a scene with its tree, with the published number of nodes.
 AggregationParams gather_params(const scenes::Vascular& scene, Aggregation method);
 AggregationMap gather_map(const scenes::Vascular& scene, bool obstacle_weighted);
-/// Robots anywhere in free space from where the way costs at least so much; the same ones for every
+/// Random robots in free space where the path cost is at least `min_cost`; the same for every
 /// method.
 Robots gather_robots(const scenes::Vascular& scene, const AggregationMap& map,
                      const RobotStepper& stepper, int count, std::uint32_t trial, double min_cost);
 
-/// Plots beside the page, as .svg, .pdf and .png.
+/// Writes plots as .svg, .pdf and .png.
 void write_everywhere(const std::vector<Plot>& plots, const std::filesystem::path& stem);
-/// Of a sample; 0 for fewer than two values.
+/// Standard deviation of a sample; 0 for fewer than two values.
 double standard_deviation(const std::vector<double>& values);
 
 constexpr int gather_most_steps = 200'000;

@@ -12,7 +12,7 @@
 namespace microswarm::reproduce {
 namespace {
 
-// The paper's claim on maps that nothing was tuned on: DCA is better than HRA.
+// The paper's claim on maps not used for tuning: DCA is better than HRA.
 
 constexpr std::uint64_t first_seed = 101;
 constexpr int robots_on_generated = 64;

@@ -9,7 +9,7 @@
 namespace microswarm::reproduce {
 namespace {
 
-// Fig 3 to 6 on the map of Fig 8(b): what the tree, its weights, the regions and DCA make of it.
+// Fig 3 to 6 on the map of Fig 8(b): the tree, its weights, the regions and DCA.
 
 void draw_routes(Picture& picture, const AggregationMap& map, const Routes& routes, Colour colour) {
   for (std::size_t v = 0; v < map.tree.nodes.size(); ++v)
@@ -31,7 +31,7 @@ void keep(Picture& picture, const AggregationMap& map, const ReproduceOptions& o
   if (!options.out.empty()) picture.write_everywhere(std::filesystem::path(options.out) / name);
 }
 
-/// Fig 4: the tree, and the routes along the middle.
+/// Fig 4: the tree, and the routes along the medial axis.
 void draw_trees(const AggregationMap& map, const ReproduceOptions& options) {
   Picture plain(map.map.bounds(), "RRT, Alg 1");
   draw_routes(with_walls(plain, map), map, map.tree.plain, colours::tree);
@@ -90,8 +90,8 @@ void draw_transitions(const AggregationMap& map, const scenes::Vascular& scene,
   }
 }
 
-/// Fig 3: a swarm in a corner led around it along the middle and along the shortest way; how far
-/// its robots are from their mean at the end.
+/// Fig 3: a swarm led around a corner along the medial axis and along the shortest path. Returns
+/// the final distance of its robots from their mean.
 double spread_when_led(const AggregationMap& map, Vec2 start, const ReproduceOptions& options,
                        const std::string& name) {
   constexpr int count = 64;

@@ -32,7 +32,7 @@ void add_violin(std::vector<double> values, double x, double half_width, Series&
   for (int k = levels; k >= 0; --k) put(k, 1);
   put(0, -1);
   series.x.push_back(x);
-  series.y.push_back(std::nan(""));  // the pen is lifted
+  series.y.push_back(std::nan(""));  // interrupts the line
 }
 
 }  // namespace microswarm::reproduce

@@ -7,7 +7,7 @@
 
 namespace microswarm::reproduce {
 
-/// Adds the outline of a violin around x: as wide as values are frequent, by a Gaussian kernel.
+/// Adds the outline of a violin at x, with widths from a Gaussian kernel density estimate.
 void add_violin(std::vector<double> values, double x, double half_width, Series& series);
 
 }  // namespace microswarm::reproduce

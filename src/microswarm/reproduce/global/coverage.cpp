@@ -27,14 +27,14 @@ using scenes::global_starts;
 constexpr int max_nodes = 7500;
 constexpr std::array tree_sizes{1000, 2500, 5000, max_nodes};
 constexpr double grid_cell =
-    50;  // [µm]: "coverage decreases as grid size decreases", so it is an edge
+    50;  // [µm]: "coverage decreases as grid size decreases", so it is an edge length
 constexpr double best_step = 60;      // [µm], the paper's
-constexpr double published_step = 5;  // [µm], that of Fig 9 and of the published program
+constexpr double published_step = 5;  // [µm], of Fig 9 and of the published program
 constexpr const char* only_drawn = "the paper's value is only in a picture";
 
 int tree_trials(const ReproduceOptions& options) { return options.quick ? 3 : 10; }
 
-/// A tree of two robots that knows no goal, as those of Fig 3–7.
+/// A tree of two robots without a goal, as in Fig 3–7.
 GlobalTree grown(const Map& map, std::span<const Vec2> starts, double step, int nodes, int trial,
                  const Stop& stop) {
   GlobalRrtParams params;
@@ -44,7 +44,7 @@ GlobalTree grown(const Map& map, std::span<const Vec2> starts, double step, int 
   return global_rrt(map, starts, {}, params, rng, stop).tree;
 }
 
-/// The tree as it was with so many nodes.
+/// The first `nodes` nodes of the tree.
 GlobalTree first_nodes(GlobalTree tree, std::size_t nodes) {
   if (nodes >= tree.size()) return tree;
   tree.configurations.resize(2 * tree.robots * nodes);
@@ -53,7 +53,7 @@ GlobalTree first_nodes(GlobalTree tree, std::size_t nodes) {
   return tree;
 }
 
-/// Shares [%] of the configuration space that trees have seen, some trials at each x.
+/// Fractions [%] of the configuration space covered by trees, with several trials per x.
 struct CoverageCurve {
   CoverageCurve(std::span<const double> xs, int trials)
       : x(xs.begin(), xs.end()), shares(xs.size(), std::vector<double>(std::size_t(trials))) {}
@@ -78,7 +78,7 @@ struct CoverageCurve {
   }
 };
 
-/// Calls measure(x's index, trial) for all, on all cores.
+/// Calls measure(index of x, trial) for all combinations, on all cores.
 template <class Measure>
 void for_each_tree(const CoverageCurve& curve, const Stop& stop, Measure&& measure) {
   const std::size_t trials = curve.shares[0].size();
@@ -93,7 +93,7 @@ void write_plot(Plot plot, const ReproduceOptions& options, const char* name) {
   if (!options.out.empty()) write_plots_everywhere({plot}, fs::path(options.out) / name);
 }
 
-/// Walls farther right.
+/// The walls shifted to the right.
 std::vector<Body> moved_right(std::span<const Body> walls, double by) {
   std::vector<Body> moved(walls.begin(), walls.end());
   for (Body& body : moved)
@@ -102,10 +102,10 @@ std::vector<Body> moved_right(std::span<const Body> walls, double by) {
   return moved;
 }
 
-/// Fig 4: trees of two robots by several step lengths, each robot's part beside the other's.
+/// Fig 4: trees of two robots for several step lengths, the robots' parts side by side.
 void draw_trees(const Map& map, const ReproduceOptions& options, const Stop& stop) {
   if (options.out.empty()) return;
-  // The paper gives 0.5 s; the published program makes 3,900 nodes a second here.
+  // The paper uses 0.5 s; the published program creates 3,900 nodes per second here.
   constexpr int nodes = 2000;
   constexpr double gap = 15;
   const Box box = map.bounds();
@@ -141,7 +141,7 @@ void draw_trees(const Map& map, const ReproduceOptions& options, const Stop& sto
 
 }  // namespace
 
-// Coverage against Robostep, for trees of several sizes.
+// Coverage over Robostep, for trees of several sizes.
 std::vector<ReproduceRow> global_step_lengths(const ReproduceOptions& options, const Stop& stop) {
   constexpr std::array steps{1., 3., 5., 10., 20., 40., 50., 60., 70., 80., 100., 150., 200.};
   constexpr std::size_t at_best = 7;
@@ -180,7 +180,7 @@ std::vector<ReproduceRow> global_step_lengths(const ReproduceOptions& options, c
   return rows;
 }
 
-// Coverage against the edge of the hypercubes.
+// Coverage over the edge of the hypercubes.
 std::vector<ReproduceRow> global_cell_sizes(const ReproduceOptions& options, const Stop& stop) {
   constexpr std::array cells{50., 40., 30., 20., 10.};
   const Map map = scenes::global_world(1);
@@ -207,8 +207,8 @@ std::vector<ReproduceRow> global_cell_sizes(const ReproduceOptions& options, con
   return rows;
 }
 
-// Coverage against the distance between the two starts: "little effect until a critical distance,
-// after which the coverage drops quickly". The paper names neither Robostep nor nodes.
+// Coverage over the distance between the two starts: "little effect until a critical distance,
+// after which the coverage drops quickly". The paper states neither Robostep nor number of nodes.
 std::vector<ReproduceRow> global_initial_distances(const ReproduceOptions& options,
                                                    const Stop& stop) {
   constexpr std::array distances{200., 150., 100., 70., 50., 20., 5., 1.};
@@ -218,7 +218,7 @@ std::vector<ReproduceRow> global_initial_distances(const ReproduceOptions& optio
   constexpr double max_left = 60;     // [%]
   std::vector<AxisTick> ticks;
   for (const double d : distances)
-    if (d != 150) ticks.push_back({fmt::format("{:g}", d), d});  // its label would touch 200's
+    if (d != 150) ticks.push_back({fmt::format("{:g}", d), d});  // would touch that of 200
   const Map map = scenes::global_world(1);
   std::vector<Plot> plots;
   std::vector<ReproduceRow> rows;

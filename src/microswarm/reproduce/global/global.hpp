@@ -12,35 +12,35 @@
 
 namespace microswarm::reproduce {
 
-/// Draws the plan in all forms of pictures; not at all without a folder to draw in.
+/// Draws the plan in all picture formats. Does nothing without an output folder.
 void draw_plan(const ReproduceOptions& options, const std::string& name, const std::string& title,
                const Map& map, const GlobalPlan& plan, std::span<const Vec2> goals,
                double tolerance = 20);
 
-/// Least distance between two robots at the ends of a plan's inputs.
+/// Minimum distance between two robots at the ends of a plan's inputs.
 double min_distance(const GlobalPlan& plan);
 
-/// A task by the search beyond the paper, with some seeds; the first one's plan is drawn as `name`.
+/// Solves a task by our search (beyond the paper) with several seeds; the plan of the first is
+/// drawn as `name`.
 std::vector<ReproduceRow> search_task(const char* figure, const char* name,
                                       const scenes::GlobalTask& task, GlobalSearchParams params,
                                       int seeds, const ReproduceOptions& options, const Stop& stop);
 
-/// Coverage of the configuration space by trees of two robots: against the length of an input and
-/// the number of nodes (3–5), the edge of the hypercubes (6) and the distance between the starts
-/// (7).
+/// Coverage of the configuration space by trees of two robots: over input length and number of
+/// nodes (3–5), edge of the hypercubes (6) and distance between the starts (7).
 std::vector<ReproduceRow> global_step_lengths(const ReproduceOptions& options, const Stop& stop);
 std::vector<ReproduceRow> global_cell_sizes(const ReproduceOptions& options, const Stop& stop);
 std::vector<ReproduceRow> global_initial_distances(const ReproduceOptions& options,
                                                    const Stop& stop);
 
-/// Plans by the tree as published, beside those of the search: three robots in vascular networks
-/// (1), four in Env 3 by a tree that is asked again (9, 10), two magnets (12).
+/// Plans of the published tree compared with those of the search: three robots in vascular networks
+/// (1), four in Env 3 by a reused tree (9, 10), two magnets (12).
 std::vector<ReproduceRow> global_vascular(const ReproduceOptions& options, const Stop& stop);
 std::vector<ReproduceRow> global_reuse(const ReproduceOptions& options, const Stop& stop);
 std::vector<ReproduceRow> global_magnets(const ReproduceOptions& options, const Stop& stop);
 
-/// Plans by the search only: three robots in a digestive system (8); beyond: two to four robots in
-/// Env 1–4, and six.
+/// Plans of the search alone: three robots in a digestive system (8); beyond the paper: two to four
+/// robots in Env 1–4, and six.
 std::vector<ReproduceRow> global_digestive(const ReproduceOptions& options, const Stop& stop);
 std::vector<ReproduceRow> global_beyond(const ReproduceOptions& options, const Stop& stop);
 std::vector<ReproduceRow> global_six(const ReproduceOptions& options, const Stop& stop);

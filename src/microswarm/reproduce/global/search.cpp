@@ -14,13 +14,13 @@
 namespace microswarm::reproduce {
 namespace {
 
-constexpr int max_search_nodes = 1'000'000;  // a minute of one core
+constexpr int max_search_nodes = 1'000'000;  // a minute on one core
 constexpr const char* by_the_search = "the search is beyond the paper";
 
-/// What searches with several seeds came to.
+/// Results of searches with several seeds.
 struct Searches {
-  std::vector<double> seconds, nodes, found, brief, apart;  // of those that solved it
-  std::vector<double> worst;                                // of those that did not
+  std::vector<double> seconds, nodes, found, brief, apart;  // of solved searches
+  std::vector<double> worst;                                // of unsolved searches
 
   void add(const scenes::GlobalTask& task, const GlobalSearchParams& params, int seed,
            const ReproduceOptions& options, const std::string& name, const Stop& stop) {
@@ -123,7 +123,7 @@ std::vector<ReproduceRow> global_beyond(const ReproduceOptions& options, const S
   return rows;
 }
 
-// Beyond the paper, which shows four.
+// Beyond the paper, which shows four robots.
 std::vector<ReproduceRow> global_six(const ReproduceOptions& options, const Stop& stop) {
   scenes::GlobalTask task = scenes::six_robots(1);
   task.name = "Env 1";

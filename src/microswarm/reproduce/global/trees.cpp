@@ -27,8 +27,8 @@ constexpr int published_nodes = 341'997;
 constexpr const char* map_of_ours =
     "map, starts and goals are ours, the paper's are only in a picture";
 
-/// How a tree is grown: as the paper says, with the share of samples at the goals that is the
-/// default of OMPL's RRT, which the paper's program uses, and with that program's contact rule too.
+/// A setting of the tree: as in the paper, with the goal bias of OMPL's RRT, which the paper's
+/// program uses, and also with that program's contact rule.
 struct TreeSetting {
   const char* name;
   const char* file;
@@ -54,7 +54,7 @@ double share_of(std::ptrdiff_t part, std::size_t all) {
   return 100 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(1, all));
 }
 
-/// Whether several trees solve what the paper shows one tree to solve.
+/// Whether several trees solve a task for which the paper shows one tree.
 ReproduceRow solved_row(const char* figure, const std::string& what, std::ptrdiff_t solved,
                         std::size_t seeds, const ReproduceOptions& options) {
   return unjudged_if_quick(noted(row_at_least(0, figure, what, "%", 100, share_of(solved, seeds)),
@@ -62,12 +62,12 @@ ReproduceRow solved_row(const char* figure, const std::string& what, std::ptrdif
                            options);
 }
 
-/// A tree's answer to one of the two sets of goals of Fig 9 and 10.
+/// Result of a tree for one of the two sets of goals of Fig 9 and 10.
 struct TreeAnswer {
   GoalAnswer answer;
   GlobalPlan plan;
 };
-using TreeAnswers = std::vector<std::array<TreeAnswer, 2>>;  // one a seed
+using TreeAnswers = std::vector<std::array<TreeAnswer, 2>>;  // one per seed
 
 constexpr std::array<std::span<const Vec2>, 2> goal_sets{scenes::global_goals,
                                                          scenes::global_other_goals};
@@ -91,7 +91,7 @@ TreeAnswers answers_of(const Map& map, const TreeSetting& setting, std::size_t s
   return answers;
 }
 
-/// What keeping a tree costs.
+/// Costs of storing a tree.
 void add_costs(const LoadedMap& map, const ReproduceOptions& options, const Stop& stop,
                std::vector<ReproduceRow>& rows) {
   Rng rng = tree_rng(0);
@@ -120,7 +120,7 @@ void add_costs(const LoadedMap& map, const ReproduceOptions& options, const Stop
   rows.push_back(row_of("fig10", "asking the tree for other goals", "ms", {}, asking));
 }
 
-/// The network that came with the published program, by trees and by the search.
+/// The network shipped with the published program, by trees and by the search.
 void add_leaf(const scenes::GlobalTask& leaf, int search_seeds, const ReproduceOptions& options,
               const Stop& stop, std::vector<ReproduceRow>& rows) {
   const int nodes = options.quick ? 20'000 : 60'000;
@@ -159,7 +159,7 @@ void add_leaf(const scenes::GlobalTask& leaf, int search_seeds, const ReproduceO
 
 }  // namespace
 
-// Which of the published program's two networks the figure shows is not said, and of one there is
+// The paper does not say which of the program's two networks the figure shows, and one of them has
 // no file.
 std::vector<ReproduceRow> global_vascular(const ReproduceOptions& options, const Stop& stop) {
   const int seeds = options.quick ? 1 : 5;
@@ -172,7 +172,7 @@ std::vector<ReproduceRow> global_vascular(const ReproduceOptions& options, const
   return rows;
 }
 
-// Trees of four robots in Env 3 are asked for two sets of goals.
+// Trees of four robots in Env 3 are queried for two sets of goals.
 std::vector<ReproduceRow> global_reuse(const ReproduceOptions& options, const Stop& stop) {
   const LoadedMap map{std::make_shared<const Map>(scenes::global_world(3)), 3};
   const std::size_t seeds = options.quick ? 2 : 20;
@@ -219,8 +219,8 @@ std::vector<ReproduceRow> global_reuse(const ReproduceOptions& options, const St
   return rows;
 }
 
-// Inputs along the axes only, so that cylinders meet walls squarely; then a search that keeps the
-// magnets apart, which the paper leaves open.
+// Inputs along the axes only, so that cylinders meet walls perpendicularly; then a search that
+// keeps the magnets apart, which the paper does not specify.
 std::vector<ReproduceRow> global_magnets(const ReproduceOptions& options, const Stop& stop) {
   const scenes::GlobalTask task = scenes::magnets_task();
   constexpr int nodes = 40'000;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fig 1(b) [radar]: what the avoidance cost says of a deviation.
+// Fig 1(b) [radar]: avoidance cost of a deviation.
 #include <fmt/format.h>
 
 #include <array>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double start_distance = 200;  // l_0 [pixels]
 
-/// δ of Eq 4 [radar] with the deviation α [°] and l [pixels].
+/// δ of Eq 4 [radar] for the deviation α [°] and l [pixels].
 double cost(double deviation, double left) {
   return avoidance_cost({1, 0}, left, radians(deviation), true, start_distance);
 }

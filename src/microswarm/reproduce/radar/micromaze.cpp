@@ -14,7 +14,7 @@
 namespace microswarm::reproduce {
 namespace {
 
-/// When the swarm was nearest to something, which is how far from a place at a time.
+/// Time of the frame with the minimum distance_of(frame).
 template <class Distance>
 double nearest(const Record& record, Distance&& distance_of) {
   return std::min_element(
@@ -23,8 +23,7 @@ double nearest(const Record& record, Distance&& distance_of) {
       ->t;
 }
 
-/// The middle of the first time in which it waits for a valve, from t0 [s] on; none when it does
-/// not.
+/// Middle of the first wait for a valve from t0 [s] on; empty without a wait.
 std::optional<double> middle_of_wait(const Record& record, double t0) {
   const auto waits = [](const Frame& f) { return f.state == NavigatorState::wait; };
   const auto from = record.frames.begin() + static_cast<std::ptrdiff_t>(frame_at(record, t0));
@@ -34,8 +33,8 @@ std::optional<double> middle_of_wait(const Record& record, double t0) {
   return begin->t + 0.5 * (std::prev(end)->t - begin->t);
 }
 
-/// What the figure shows: the plan, a mover that is avoided, the wait at the first valve, the way
-/// through it, past what breathes, at the second valve, and the end.
+/// Moments of the figure: the plan, an avoided mover, the wait at the first valve, the passage
+/// through it, the passage of the breathing obstacle, the second valve, and the end.
 std::vector<double> micromaze_moments(const Record& record) {
   const Scenario& scenario = record.scene.scenario;
   const auto& areas = std::get<RadarParams>(scenario.navigator).wait_zones;

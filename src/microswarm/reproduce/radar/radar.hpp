@@ -13,15 +13,15 @@
 
 namespace microswarm::reproduce {
 
-/// A swarm of 200 px is taken for one of 750 µm: the paper gives no scale, but a gap of 75.31 µm as
-/// 0.10 body lengths.
+/// A swarm of 200 px is taken as 750 µm. The paper gives no scale, but equates a gap of 75.31 µm
+/// with 0.10 body lengths.
 inline constexpr double radar_um_per_px = 3.75;
 
-/// How near to the paper's figures ours are to be, as a share of them.
+/// Relative tolerances around the paper's values.
 inline constexpr double near_cost = 0.15;
 inline constexpr double near_time = 0.10;
 
-/// What a figure is measured with: the paper's navigator, and ours.
+/// A version of the navigator: the paper's, or ours.
 struct RadarVersion {
   const char* name;
   const char* stem;  ///< of file names
@@ -30,12 +30,12 @@ struct RadarVersion {
 inline constexpr std::array<RadarVersion, 2> radar_versions{
     {{"as published", "published", true}, {"ours", "ours", false}}};
 
-/// A row of one version. The paper's figure is the aim of what is published; ours has none.
+/// A row of one version. The paper's value is the aim of the published version; ours has no aim.
 ReproduceRow version_row(const RadarVersion& version, double share, const std::string& figure,
                          const std::string& quantity, const std::string& unit,
                          std::optional<double> paper, std::optional<double> ours);
 
-/// "quartiles 0.12 – 0.31" of some values; nothing for fewer than four.
+/// Text such as "quartiles 0.12 – 0.31"; empty for fewer than four values.
 std::string spread_of(const std::vector<double>& values);
 
 /// A scenario of [radar], ready to run.
@@ -45,12 +45,12 @@ struct RadarSetting {
 
   RadarParams& params() { return std::get<RadarParams>(scene.scenario.navigator); }
 };
-/// Throws InputError as reading a scenario does.
+/// Throws InputError like read_scenario.
 RadarSetting load_radar(const ReproduceOptions& options, const char* name,
                         const RadarVersion& version);
 
-/// Figures of [radar], by subject: one obstacle (5, 6, 7, 10), twelve obstacles (8, 11, 12), the
-/// micromaze (13). What is interrupted gives the rows that were done, or none.
+/// Figures of [radar] by subject: one obstacle (5, 6, 7, 10), twelve obstacles (8, 11, 12), the
+/// micromaze (13). If interrupted, they return the completed rows, or none.
 std::vector<ReproduceRow> radar_cost(const ReproduceOptions& options, const Stop& stop);
 std::vector<ReproduceRow> radar_single(const ReproduceOptions& options, const Stop& stop);
 std::vector<ReproduceRow> radar_series(const ReproduceOptions& options, const Stop& stop);

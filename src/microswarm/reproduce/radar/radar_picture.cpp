@@ -30,20 +30,20 @@ constexpr Colour deviation{0.35, 0.35, 0.35, 1};
 constexpr Colour moment_mark{0.13, 0.15, 0.18, 1};
 
 constexpr double pixels = 900;
-constexpr double dot_px = 4.5;      // radius of a waypoint
+constexpr double dot_px = 4.5;      // radius of a waypoint's dot
 constexpr double head_px = 10;      // length of an arrow's head
-constexpr double arrow_length = 2;  // of the swarm's greatest speed, in its radii
-constexpr double min_cost = 0.005;  // δ from which α is drawn
+constexpr double arrow_length = 2;  // at the swarm's maximum speed, in swarm radii
+constexpr double min_cost = 0.005;  // α is drawn above this δ
 constexpr int max_pictures = 20;
 
-/// As the navigator had them; before its first look as its parameters say.
+/// The navigator's circles; before its first look, those of its parameters.
 RadarCircles circles_at(const RadarRun& run, std::size_t frame) {
   if (run.looks[frame]) return run.looks[frame]->circles;
   return circles_of(std::get<RadarParams>(run.record.scene.scenario.navigator),
                     run.record.frames[frame].radius);
 }
 
-// The safety circle may lie on the detection circle: that one is broad, this one dashed.
+// The safety circle may coincide with the detection circle, so one is dashed and the other wide.
 void draw_circles(Picture& picture, const RadarCircles& circles, Vec2 p) {
   picture.circle({p, circles.detection}, detection, 4.5, false);
   picture.circle({p, circles.safety}, safety, 2, true);
@@ -74,13 +74,14 @@ void arrow(Picture& picture, Vec2 from, Vec2 way, Colour colour, double head) {
   picture.line(std::array{tip - back + aside, tip, tip - back - aside}, colour, 2.5);
 }
 
-/// For so many seconds velocities are drawn.
+/// Time [s] over which velocity arrows extend.
 double arrow_time(const Scenario& scenario) {
   const SwarmLimits swarm = limits_of(scenario.swarm);
   return arrow_length * swarm.radius / swarm.max_speed;
 }
 
-/// Of obstacles and of the swarm, with the direction v_t that it leaves by α.
+/// Draws velocities of the obstacles and the swarm, and the direction v_t from which it deviates by
+/// α.
 void draw_velocities(Picture& picture, const RadarRun& run, const World& world, std::size_t number,
                      double um_per_px) {
   const Frame& frame = run.record.frames[number];
@@ -104,7 +105,7 @@ void draw_velocities(Picture& picture, const RadarRun& run, const World& world, 
       deviation);
 }
 
-/// P0, P1, … with their times on the way, before the moment of this number.
+/// Marks P0, P1, … with their times on the path, up to the moment `last`.
 void mark_moments(Picture& picture, const Record& record, std::span<const double> moments,
                   std::size_t last) {
   for (std::size_t k = 0; k < last; ++k)

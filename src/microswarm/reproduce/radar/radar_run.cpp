@@ -9,7 +9,7 @@
 namespace microswarm::reproduce {
 namespace {
 
-/// Keeps what the navigator looked at.
+/// Records the looks of the navigator.
 class LookListener : public RunListener {
  public:
   explicit LookListener(const RadarNavigator& navigator) : navigator_(navigator) {}

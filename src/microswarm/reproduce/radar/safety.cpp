@@ -17,15 +17,15 @@
 namespace microswarm::reproduce {
 namespace {
 
-constexpr double just_slower = 8;    // of recorded walkers: the fastest makes 50 µm/s of 60
-constexpr double as_fast = 2.9;      // the usual one is as fast as the swarm
-constexpr double aimed_share = 0.2;  // of the radar's contacts, for whoever looks ahead
+constexpr double just_slower = 8;  // for recorded pedestrians: the fastest moves at 50 of 60 µm/s
+constexpr double as_fast = 2.9;    // a typical pedestrian is as fast as the swarm
+constexpr double aimed_share = 0.2;  // of the radar's contacts, for predictive navigators
 
-/// How many worlds each crosses: the more, the quicker its decisions are.
+/// Number of worlds per navigator, larger for those with fast decisions.
 struct Counts {
   int radar;
   int baseline;
-  int planner;  ///< D-RRT* and the one that looks ahead
+  int planner;  ///< D-RRT* and the predictive navigator
 
   int of(std::string_view navigator) const {
     if (navigator == RadarParams::type_name) return radar;
@@ -34,7 +34,7 @@ struct Counts {
   }
 };
 
-/// A course with how many of its worlds are crossed, quick or in full.
+/// A course with its numbers of worlds, quick and full.
 struct Race {
   Course course;
   Counts quick;
@@ -50,7 +50,7 @@ Course generated(std::string name, scenes::AvoidanceOptions options, bool walls)
           .world = scenes::avoidance_world};
 }
 
-/// Nothing where the recording is absent.
+/// Empty if the recording is missing.
 std::optional<Course> recorded(std::string name, double slower, const ReproduceOptions& options) {
   const auto file = data_file(options, scenes::street_file({}).string(), name);
   if (!file) return std::nullopt;
@@ -62,7 +62,7 @@ std::optional<Course> recorded(std::string name, double slower, const ReproduceO
       .world = scenes::avoidance_world};
 }
 
-/// The course with obstacles that are seen with noise and not always.
+/// The course with noisy and missed detections of obstacles.
 Race noisy(Race race) {
   race.course.name += ", noisy";
   race.course.scenario = [exact = race.course.scenario](std::uint64_t seed) {
@@ -91,7 +91,7 @@ void add_rows(const std::string& figure, const CourseResult& result,
               const ReproduceOptions& options, std::vector<ReproduceRow>& rows) {
   for (std::size_t k = 0; k < result.who.size(); ++k) {
     const Tally tally = tally_of(result.crossings[k]);
-    if (tally.runs == 0) continue;  // it was told to stop
+    if (tally.runs == 0) continue;  // interrupted
     const std::string note = tally.runs == 1 ? "1 world" : fmt::format("{} worlds", tally.runs);
     const auto row = [&](const char* what, const char* unit, std::optional<double> ours,
                          std::optional<double> aim = {}, std::optional<int> share = {}) {
@@ -117,7 +117,7 @@ void add_rows(const std::string& figure, const CourseResult& result,
   }
 }
 
-/// Of two navigators over the worlds that both have crossed.
+/// Ratio of contacts of two navigators over the worlds that both have run.
 std::optional<double> contact_ratio(const CourseResult& result, std::string_view ours,
                                     std::string_view other) {
   const auto find = [&](std::string_view name) -> const std::vector<Crossing>* {

@@ -7,15 +7,16 @@
 
 namespace microswarm::reproduce {
 
-/// Generated worlds with obstacles slower than the swarm, with and without walls, and recorded
-/// walkers: contacts, those that holding or retreating could have avoided, arrivals and times of
-/// every navigator. Plots, tables of all runs and contacts, and some worlds go to options.out.
+/// Runs every navigator in generated worlds with obstacles slower than the swarm, with and without
+/// walls, and among recorded pedestrians. Measures contacts, contacts avoidable by holding or
+/// retreating, arrivals and times. Plots, tables of all runs and contacts, and some worlds are
+/// written to options.out.
 std::vector<ReproduceRow> radar_safety(const ReproduceOptions& options, const Stop& stop);
 
-/// The same worlds with obstacles that are seen with noise and not in every frame.
+/// The same worlds with noisy and missed detections of obstacles.
 std::vector<ReproduceRow> radar_safety_noisy(const ReproduceOptions& options, const Stop& stop);
 
-/// The same with obstacles at 1 to 3 times the swarm's speed, and walkers as fast as it.
+/// The same with obstacles at 1 to 3 times the swarm's speed, and pedestrians as fast as the swarm.
 std::vector<ReproduceRow> radar_fast(const ReproduceOptions& options, const Stop& stop);
 
 }  // namespace microswarm::reproduce

@@ -19,7 +19,7 @@
 namespace microswarm::reproduce {
 namespace {
 
-/// Sets what navigators have in common, where they have it.
+/// Sets the parameters that navigators have in common.
 template <class Params>
 Params suited(Params params, const Scenario& scenario, bool walls) {
   const SwarmLimits swarm = limits_of(scenario.swarm);
@@ -45,7 +45,7 @@ Contestant contestant(std::string name, Params params) {
           }};
 }
 
-/// Circles that leave time to decide; the paper's own are for obstacles much slower than the swarm.
+/// Circles that leave time to decide; the published ones suit obstacles much slower than the swarm.
 RadarParams wide_radar() {
   RadarParams params;
   params.safety_distance = 100;
@@ -59,7 +59,7 @@ RadarParams published_radar() {
   return params;
 }
 
-/// One for the alternative of NavigatorParams, if it can do the task; two for the radar.
+/// Adds this alternative of NavigatorParams if it supports the task; the radar twice.
 template <class Params>
 void add(const Task& task, std::vector<Contestant>& out) {
   if (!unsupported_reason(NavigatorParams(Params{}), task).empty()) return;

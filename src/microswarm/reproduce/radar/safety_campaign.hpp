@@ -12,8 +12,7 @@
 
 namespace microswarm::reproduce {
 
-/// Worlds that a swarm has to cross, by seed. Both functions are pure and may be called from any
-/// thread.
+/// Worlds to cross, by seed. Both functions must be pure and thread-safe.
 struct Course {
   std::string name;
   bool walls = false;
@@ -21,26 +20,26 @@ struct Course {
   std::function<World(const Scenario&)> world;
 };
 
-/// A navigator, and how it is set for a scenario.
+/// A navigator and its parameters for a scenario.
 struct Contestant {
   std::string name;
   std::function<NavigatorParams(const Scenario&, bool walls)> params;
 };
 
-/// Every navigator that can steer such a swarm, in the order of NavigatorParams. All of them ask
-/// for the swarm's speed; D-RRT* keeps a margin that fits through every passage, and those that
-/// plan waypoints do so where there are walls. The radar is there with circles that suit such
-/// obstacles and as published. The rest is as by default.
+/// Every navigator that supports such a swarm, in the order of NavigatorParams. All use the swarm's
+/// speed. D-RRT* has a margin that fits every passage; navigators with waypoints plan them where
+/// there are walls. The radar appears with circles suited to such obstacles and as published. Other
+/// parameters are defaults.
 std::vector<Contestant> contestants(const Scenario& example);
 
-/// What came of one run.
+/// Result of one run.
 struct Crossing {
   bool ran = false;
   Status status = Status::stopped;
-  bool arrived = false;  ///< at the goal, touched or not
+  bool arrived = false;  ///< reached the goal, with or without contacts
   std::size_t obstacles = 0;
   double time = 0;       ///< [s]
-  double straight = 0;   ///< what the straight way takes at full speed [s]
+  double straight = 0;   ///< time of the straight path at full speed [s]
   double delta = 0;      ///< mean avoidance cost
   double turning = 0;    ///< [rad]
   double min_gap = 0;    ///< [µm]
@@ -51,16 +50,16 @@ struct Crossing {
   int avoidable() const;
 };
 
-/// Crossings of one course, by contestant and seed.
+/// Results of one course, by contestant and seed.
 using Crossings = std::vector<std::vector<Crossing>>;
 
-/// Crosses the worlds of seeds 0 … most − 1, contestant k those of seeds below counts[k]; in
-/// parallel, the same results for any number of threads. `progress` hears the share done.
+/// Runs contestant k on the worlds of seeds 0 … counts[k] − 1, in parallel. The results do not
+/// depend on the number of threads. `progress` receives the completed fraction.
 Crossings cross(const Course& course, const std::vector<Contestant>& who,
                 const std::vector<int>& counts, const std::function<void(double)>& progress,
                 const Stop& stop);
 
-/// The scenario as stem.yaml, with stem-tracks.csv where it has tracks, for `microswarm run`.
+/// Writes the scenario as stem.yaml, with stem-tracks.csv if it has tracks, for `microswarm run`.
 void write_scenario(Scenario scenario, const std::filesystem::path& folder,
                     const std::string& stem);
 

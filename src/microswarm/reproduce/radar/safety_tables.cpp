@@ -20,12 +20,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int worlds_written = 3;  // a navigator and course
+constexpr int worlds_written = 3;  // per navigator and course
 constexpr std::size_t obstacles_a_bin = 10;
-constexpr int enough_worlds = 10;     // in a bin, to be joined with the next
-constexpr double min_percent = 0.01;  // of time beyond the straight way; the axis has no zero
+constexpr int enough_worlds = 10;     // per bin; bins with fewer are not joined by a line
+constexpr double min_percent = 0.01;  // of extra time; the logarithmic axis has no zero
 
-/// One colour a method in all figures.
+/// One colour per method in all figures.
 std::size_t colour_of(std::string_view navigator) {
   using namespace method_colours;  // NOLINT(google-build-using-namespace)
   constexpr std::array<std::pair<std::string_view, std::size_t>, 8> colours{
@@ -120,8 +120,8 @@ void write_worlds(const std::vector<CourseResult>& results, const fs::path& fold
       });
 }
 
-/// Mean contacts of the runs among so and so many obstacles: joined where there are enough of them,
-/// rings else.
+/// Mean contacts per run over the number of obstacles: lines through bins with enough runs, rings
+/// otherwise.
 Plot contacts_plot(const CourseResult& result) {
   Plot plot{.title = result.course.name,
             .x_label = fmt::format("obstacles (rings: fewer than {} worlds)", enough_worlds),
@@ -167,7 +167,7 @@ Plot contacts_plot(const CourseResult& result) {
   return plot;
 }
 
-/// A column a navigator, also for one that has nothing to show.
+/// One column per navigator, even without data.
 void name_columns(const CourseResult& result, Plot& plot) {
   plot.x_min = 0.5;
   plot.x_max = static_cast<double>(result.who.size()) + 0.5;
@@ -192,7 +192,7 @@ Plot times_plot(const CourseResult& result) {
   return plot;
 }
 
-/// Avoidable contacts a run on a scale of powers, with a place of its own for none.
+/// Avoidable contacts per run on a logarithmic axis, with a separate position for zero.
 Plot avoidable_plot(const CourseResult& result) {
   Plot plot{.title = result.course.name, .y_label = "avoidable contacts a run", .log_y = true};
   name_columns(result, plot);
@@ -225,7 +225,7 @@ Plot avoidable_plot(const CourseResult& result) {
   return plot;
 }
 
-/// "98.7 (98.4 … 98.9)"
+/// Text such as "98.7 (98.4 … 98.9)".
 std::string percent(int some, int all) {
   const ShareInterval interval = share_interval(some, all);
   return fmt::format("{:.3g} ({})", 100.0 * some / std::max(1, all), percent_between(interval));

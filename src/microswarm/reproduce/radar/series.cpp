@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figure 7 of [radar]: the mean avoidance cost over the circles' radii.
+// Figure 7 of [radar]: mean avoidance cost over the circles' radii.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,10 +17,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double swarm_radius = 100, planner_step = 25;  // r_s, d_p [px]
-constexpr double min_fall = 1e-4;                        // of a cost that falls
+constexpr double min_fall = 1e-4;                        // minimum decrease that counts as falling
 
-/// One series: radii of one circle, the other one's fixed [px]. The cases of Fig 5 are ends of
-/// series; `rising_from` is where the paper says that the cost begins to rise (its point A).
+/// One series: varying radii of one circle with a fixed radius of the other [px]. The cases of Fig
+/// 5 are ends of series. `rising_from` is the radius at which the cost begins to rise in the paper
+/// (its point A).
 struct RadarSweep {
   const char* name;
   const char* title;
@@ -35,7 +36,7 @@ constexpr std::array<RadarSweep, 3> published_series{
      {"series II", "series II: r_f varies, r_d = 350 px", 150, 330, {}, 350, 0.18, 0.28, 170},
      {"series III", "series III: r_f varies, r_d = 250 px", 150, 230, {}, 250, {}, {}, 150}}};
 
-/// What was measured at each radius.
+/// Values measured at each radius.
 struct SeriesCurve {
   std::vector<double> radius, cost;
   std::vector<int> side;
@@ -57,7 +58,7 @@ SeriesCurve measured(const RadarSweep& sweep, const RadarVersion& version,
   return curve;
 }
 
-/// Ranks 0, 1, …, equal values sharing the mean of theirs.
+/// Ranks 0, 1, …; ties share their mean rank.
 std::vector<double> ranks(const std::vector<double>& values) {
   std::vector<double> out;
   for (const double v : values) {
@@ -68,7 +69,8 @@ std::vector<double> ranks(const std::vector<double>& values) {
   return out;
 }
 
-/// Spearman's: 1 when y rises all along with x, -1 when it falls. Nothing for fewer than two.
+/// Spearman's rank correlation: 1 if y rises throughout with x, -1 if it falls. Empty for fewer
+/// than two values.
 std::optional<double> rank_correlation(const std::vector<double>& x, const std::vector<double>& y) {
   const std::vector<double> a = ranks(x), b = ranks(y);
   const double mean = 0.5 * (static_cast<double>(a.size()) - 1);
@@ -82,7 +84,7 @@ std::optional<double> rank_correlation(const std::vector<double>& x, const std::
   return ab / std::sqrt(aa * bb);
 }
 
-/// The points from the radius on.
+/// The points from this radius on.
 std::pair<std::vector<double>, std::vector<double>> from(const SeriesCurve& curve, double radius) {
   const auto k =
       std::lower_bound(curve.radius.begin(), curve.radius.end(), radius) - curve.radius.begin();
@@ -90,7 +92,8 @@ std::pair<std::vector<double>, std::vector<double>> from(const SeriesCurve& curv
           {curve.cost.begin() + k, curve.cost.end()}};
 }
 
-/// Of the greatest rise between two radii, in the whole rise: near 1 for a step, small for a slope.
+/// Largest rise between adjacent radii relative to the total rise: near 1 for a step, small for a
+/// slope.
 std::optional<double> greatest_step(const std::vector<double>& y) {
   const double rise = y.back() - y.front();
   if (y.size() < 2 || rise <= 0) return std::nullopt;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figures 5, 6 and 10 of [radar]: one obstacle that comes down at the swarm.
+// Figures 5, 6 and 10 of [radar]: one obstacle that approaches the swarm from above.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,13 +17,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double begun = 0.01;  // an avoidance cost of so much is no rounding of directions
-constexpr double noise = 1;     // [µm] of a place seen
+constexpr double begun = 0.01;  // smaller avoidance costs are rounding errors of directions
+constexpr double noise = 1;     // [µm] of an observed position
 constexpr const char* fitted_to =
     "places, speeds, radius and gains fitted to the costs and times of Fig 5 and 6 and to Fig 7";
 
-/// One case, and what the paper gives of it. "The avoidance cost becomes larger than 0" when the
-/// obstacle enters.
+/// One case with the paper's values. The obstacle enters when "the avoidance cost becomes larger
+/// than 0".
 struct Case {
   const char* name;
   double safety_distance;                                // d_f [px]
@@ -32,14 +32,14 @@ struct Case {
   double cost;
 };
 
-/// Three cases on one geometry.
+/// Three cases with the same geometry.
 struct CaseFigure {
   const char* name;
   const char* scenario;
   double um_per_px;
-  double between;   // a moment that is drawn, between entering and leaving [s]
-  const char* fit;  // what was fitted to what
-  bool has_noise;   // of its own, so that trials differ
+  double between;   // time of a picture between entering and leaving [s]
+  const char* fit;  // description of fitted parameters
+  bool has_noise;   // its trials differ because of noise
   std::array<Case, 3> cases;
 };
 
@@ -77,7 +77,7 @@ Period detected_period(const Record& record) {
   return periods.empty() ? Period{} : Period{periods.front().from, periods.back().to};
 }
 
-/// What is measured of one case and version.
+/// Rows of one case and version.
 class CaseRows {
  public:
   CaseRows(const CaseFigure& figure, const Case& c, const RadarVersion& version,
@@ -99,7 +99,7 @@ class CaseRows {
     add(0, "turning", "°", {}, degrees(m.turning));
   }
 
-  /// Seed after seed, places seen a little wrong: what hangs on a hair.
+  /// Sensitivity: many seeds with slightly noisy positions.
   void add_spread(RadarSetting s, int side, const ReproduceOptions& options, const Stop& stop) {
     if (!figure_.has_noise) s.scene.scenario.sensing.position_noise = noise;
     const std::size_t runs = options.quick ? 10 : 20;
@@ -140,7 +140,7 @@ class CaseRows {
   std::vector<ReproduceRow>& rows_;
 };
 
-/// Curves of both versions; moments of what is published.
+/// Draws curves of both versions, and moments of the published one.
 void draw(const CaseFigure& figure, const RadarVersion& version, const std::vector<RadarRun>& runs,
           const std::vector<RadarSetting>& settings, const fs::path& folder) {
   double most = 0;

@@ -22,12 +22,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int max_draws = 1000;      // of an obstacle's way
-constexpr double max_turning = 1.2;  // with the guard, of that without
+constexpr int max_draws = 1000;      // per obstacle path
+constexpr double max_turning = 1.2;  // relative turning with the guard
 constexpr const char* chosen =
     "one scene, chosen among random ones as its cost was near to the paper's";
 
-/// Twelve obstacles and what the paper gives.
+/// Twelve obstacles with the paper's values.
 struct Twelve {
   const char* figure;
   const char* scenario;
@@ -39,9 +39,9 @@ struct Twelve {
 
 Vec2 rounded(Vec2 p) { return {std::round(p.x), std::round(p.y)}; }
 
-/// The obstacles of a scenario anew: back and forth on lines anywhere across the swarm's way, each
-/// at 30 to 100 % of the top speed, not over the start or the goal. In round numbers, so that a
-/// scene is the same when it was written down.
+/// Redraws the obstacles of a scenario: each moves back and forth on a random line across the
+/// swarm's path, at 30 to 100 % of the top speed and clear of start and goal. Values are rounded so
+/// that a written scene is unchanged.
 void scatter(Scenario& scenario, double top_speed, std::uint32_t trial) {
   Rng rng(scenario.seed, Purpose::scene, trial);
   const auto& map = std::get<PolygonsMap>(scenario.map);
@@ -66,7 +66,7 @@ void scatter(Scenario& scenario, double top_speed, std::uint32_t trial) {
   }
 }
 
-/// Runs a scenario with its obstacles anew, trial after trial.
+/// Runs a scenario, with new obstacles in each trial.
 std::vector<TrialResult> run_all(const Twelve& f, const RadarSetting& s, int trials,
                                  const std::function<void(int, int)>& progress, const Stop& stop) {
   return run_trials(s.scene.scenario, s.world,
@@ -77,7 +77,7 @@ std::vector<TrialResult> run_all(const Twelve& f, const RadarSetting& s, int tri
                     stop);
 }
 
-/// The start, when the cost is greatest in each of the longest times of avoiding, and the end.
+/// The start, the maximum cost in each of the longest avoidance periods, and the end.
 std::vector<double> twelve_moments(const Record& record) {
   constexpr std::size_t most = 4;
   std::vector<Period> periods = periods_detected(record);
@@ -110,10 +110,10 @@ void draw(const Twelve& f, const RadarVersion& version, const RadarSetting& sett
                          folder / fmt::format("{}-cost-{}", f.figure, version.stem));
 }
 
-/// What all scenes amount to, those that were crossed for costs and times.
+/// Totals over all scenes; costs and times only of crossed scenes.
 struct Totals {
   std::vector<double> costs, times, gaps;
-  std::vector<double> turning;  ///< of all [°]
+  std::vector<double> turning;  ///< of all scenes [°]
   int contacts = 0;
 
   explicit Totals(std::span<const TrialResult> trials) {
@@ -178,7 +178,7 @@ void add_drawn(const Twelve& f, const RadarVersion& version, const RadarRun& run
   add("turning", "°", {}, degrees(m.turning));
 }
 
-/// Turning with the guard as a share of that without; runs go on after a touch.
+/// Ratio of turning with and without the guard; runs continue after a contact.
 void add_guard_rows(const Twelve& f, const ReproduceOptions& options, int trials, const Stop& stop,
                     std::vector<ReproduceRow>& rows) {
   std::array<double, 2> of_scene{}, of_random{};

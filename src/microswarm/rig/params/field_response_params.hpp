@@ -6,13 +6,13 @@
 
 namespace microswarm {
 
-/// What a simulated swarm makes of the field around it: the inverse of FieldGenerator, told by the
-/// field alone. A field weaker than `min_amplitude` [mT] moves nothing.
+/// Response of a simulated swarm to the field: the inverse of FieldGenerator. A field weaker than
+/// `min_amplitude` [mT] moves nothing.
 struct FieldResponseParams {
   FieldKind kind = FieldKind::rotating;
   double frequency = 16;                     ///< of the field [Hz]
-  double speed_per_pitch = 20 / radians(1);  ///< [µm/s] a rad, c of Eq 2 [radar]
-  double length_per_turn = 20;               ///< of a rolling field [µm]
+  double speed_per_pitch = 20 / radians(1);  ///< [µm/s] per rad, c of Eq 2 [radar]
+  double length_per_turn = 20;               ///< distance per turn of a rolling field [µm]
   double min_amplitude = 0.5;                ///< [mT]
 };
 

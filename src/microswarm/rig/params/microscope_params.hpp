@@ -5,7 +5,7 @@
 
 namespace microswarm {
 
-/// A simulated microscope with a camera: what it shows of a world, and how badly.
+/// Settings of a simulated microscope camera: scale, light, noise and contrasts.
 struct MicroscopeParams {
   std::optional<double> um_per_px;
   int margin = 16;

@@ -7,7 +7,7 @@
 
 namespace microswarm {
 
-/// How a rig reads its pictures.
+/// Settings of the image processing of a rig.
 struct PerceptionParams {
   SceneParams scene;
   ParticleParams robots{.min_mass = 500};

@@ -9,7 +9,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double min_sends = 10;  // in a turn of the field
+constexpr double min_sends = 10;  // per turn of the field
 
 int channels_of(const RigParams& rig) {
   const auto* simulated = std::get_if<SimulatedCoils>(&rig.driver);

@@ -23,7 +23,7 @@
 
 namespace microswarm {
 
-/// Coils that are not there: any current up to the full scale is taken.
+/// Simulated coils that accept any current up to the full scale.
 struct SimulatedCoils {
   static constexpr std::string_view type_name = "simulated";
   int channels = 6;
@@ -36,7 +36,7 @@ struct SimulatedCoils {
   }
 };
 
-/// A microscope that is not there: it draws the scenario's world.
+/// Simulated microscope that draws the scenario's world.
 struct SimulatedCamera {
   static constexpr std::string_view type_name = "simulated";
   MicroscopeParams microscope;
@@ -51,7 +51,7 @@ struct SimulatedCamera {
   }
 };
 
-/// A video in place of a camera, at its own pace; for trying things out.
+/// A video played at its own pace in place of a camera, for tests.
 struct VideoCamera {
   static constexpr std::string_view type_name = "video";
   std::string file;
@@ -64,7 +64,7 @@ struct VideoCamera {
   }
 };
 
-/// When a run is ended for safety, with the coils at zero.
+/// Conditions that end a run for safety, with the coils at zero.
 struct SafetyParams {
   double lost_swarm = 0.5;
   double max_frame_age = 0.5;
@@ -88,7 +88,7 @@ struct SafetyParams {
   }
 };
 
-/// A file of a rig: camera, coils, and what is between them.
+/// Contents of a rig file: camera, coils, and the processing between them.
 struct RigParams {
   std::string name;
   std::string coils;
@@ -119,7 +119,7 @@ struct RigParams {
   }
 };
 
-/// A rig's file and what it names.
+/// A rig file with the coil system it names.
 struct Rig {
   RigParams params;
   CoilSystem system;
@@ -127,24 +127,23 @@ struct Rig {
   KeyLocations keys;             ///< of the file
 };
 
-/// What it is called in records.
+/// Name of the rig in records.
 std::string name_of(const Rig& rig);
 
-/// Reads the file of a rig and its coil system, whose currents the driver's full scale limits;
-/// `settings` are `key=value` texts as from --set.
-/// Throws InputError in one line, also for currents that are sent too seldom for the field and for
-/// a driver with too few channels.
+/// Reads a rig file and its coil system, whose currents are limited by the driver's full scale.
+/// `settings` are `key=value` texts, as from --set. Throws a one-line InputError, also if the drive
+/// rate is too low for the field or the driver has too few channels.
 Rig read_rig(const std::filesystem::path& file, const Settings& settings = {});
 
-/// The rig's camera, for a simulation. Throws InputError when it is no simulated one.
+/// The rig's camera for a simulation. Throws InputError if it is not a simulated one.
 const SimulatedCamera& simulated_camera(const Rig& rig);
 
-/// An issue when the rig cannot drive the scenario's swarm as fast as it is meant to go; keys are
-/// the scenario's.
+/// Reports an issue if the rig cannot drive the scenario's swarm at its speed; keys are the
+/// scenario's.
 Issues validate(const Rig& rig, const Scenario& scenario);
 
-/// Says it when the scenario's swarm is driven by another kind of field in the papers than this
-/// rig has, or when a rolling field turns too slowly for its commands; empty else.
+/// Warning if the papers drive the scenario's kind of swarm with another kind of field than this
+/// rig's, or if a rolling field turns too slowly for its commands; empty otherwise.
 std::string unusual_field(const Rig& rig, const Scenario& scenario);
 
 }  // namespace microswarm

@@ -10,8 +10,8 @@
 namespace microswarm {
 namespace {
 
-constexpr double dark = 0.8;           // of the background
-constexpr float brighter_rate = 0.1F;  // learned from a picture: robots only make it darker
+constexpr double dark = 0.8;           // relative to the background
+constexpr float brighter_rate = 0.1F;  // learning rate per picture; fast because robots only darken
 constexpr float darker_rate = 0.03F;
 constexpr float min_ground = 0.05F;
 
@@ -26,7 +26,7 @@ MICROSWARM_EACH_CPU void divide(std::span<const std::uint8_t> grey, const float*
     share[i] = static_cast<float>(grey[i]) / (light[i] > 1.0F ? light[i] : 1.0F);
 }
 
-/// The share of the background, in greys; `level` beyond.
+/// Divides by the background and scales to greys; `level` where `beyond` is set.
 MICROSWARM_EACH_CPU void level_out(std::span<const float> share, const float* background,
                                    const std::uint8_t* beyond, std::uint8_t* grey) {
   constexpr auto level = static_cast<float>(BackgroundModel::level);
@@ -37,7 +37,7 @@ MICROSWARM_EACH_CPU void level_out(std::span<const float> share, const float* ba
   }
 }
 
-/// The background goes towards what is seen where `empty` is set.
+/// Moves the background towards the picture where `empty` is set.
 MICROSWARM_EACH_CPU void approach(std::span<const float> seen, const std::uint8_t* empty,
                                   float* background) {
   for (std::size_t i = 0; i < seen.size(); ++i) {

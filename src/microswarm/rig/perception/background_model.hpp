@@ -11,33 +11,32 @@
 
 namespace microswarm {
 
-/// What a camera sees where no robot is: light, and the edges of walls, learned from picture to
-/// picture. Taken out of a picture it leaves robots that are equally dark everywhere, also at
-/// walls.
+/// Background without robots, learned from picture to picture: light and the edges of walls. After
+/// its removal robots are equally dark everywhere, including at walls.
 class BackgroundModel {
  public:
-  /// `walls` are the pixels on walls; `reach` [px] is how far a robot's picture reaches.
+  /// `walls` are the pixels on walls; `reach` [px] is the radius of a robot in the picture.
   BackgroundModel(const Mask& walls, int reach);
 
-  /// The grey of the background in pictures that it is taken out of.
+  /// Grey of the background after its removal.
   static constexpr double level = 180;
-  /// The picture without its background: of `level`, but where robots are. Valid until the next
+  /// The picture without background: `level` everywhere except at robots. Valid until the next
   /// call.
   const Image& take_out(const Image& picture);
-  /// Is it darker there [px], in that picture, than the background is?
+  /// Whether that picture is darker than the background at this position [px].
   bool is_dark(Vec2 at_px) const;
-  /// Learns from that picture where no robot is; robots are at these places [px].
+  /// Learns from that picture where there is no robot; `robots` are the robots' positions [px].
   void learn(std::span<const Vec2> robots);
 
  private:
   void compare_with_light(const Image& picture);
 
   int reach_;
-  cv::Mat free_;                   // 255 where no wall is
-  cv::Mat beyond_;                 // 255 on walls that no robot's picture reaches
+  cv::Mat free_;                   // 255 off walls
+  cv::Mat beyond_;                 // 255 on walls beyond the reach of any robot
   cv::Mat at_edge_;                // 255 within reach of a wall's edge
-  std::vector<float> share_;       // the picture as share of the light
-  std::vector<float> background_;  // the same where no robot is; empty before the first picture
+  std::vector<float> share_;       // the picture divided by the light
+  std::vector<float> background_;  // the same without robots; empty before the first picture
   Image open_;
 };
 

@@ -9,7 +9,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double memory = 1;  // [s]: a body that was hidden is still known
+constexpr double memory = 1;  // [s] for which a hidden body is remembered
 
 }  // namespace
 

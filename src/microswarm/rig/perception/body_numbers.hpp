@@ -9,14 +9,14 @@
 
 namespace microswarm {
 
-/// Knows the bodies of one picture again in the next: `Body::obstacle` gets the number of the body
-/// that was nearest to there, or a new one.
+/// Matches the bodies of consecutive pictures: `Body::obstacle` becomes the number of the nearest
+/// body of the previous pictures, or a new one.
 class BodyNumbers {
  public:
-  /// A body is not known again farther than `reach` [µm] from where it is expected.
+  /// `reach` [µm] is the maximum distance of a body from its predicted position.
   explicit BodyNumbers(double reach) : reach_(reach) {}
 
-  /// The bodies of the next picture, taken at `t` [s].
+  /// Numbers the bodies of the next picture, taken at `t` [s].
   void number(std::vector<Body>& bodies, double t);
 
  private:

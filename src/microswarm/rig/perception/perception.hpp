@@ -16,36 +16,37 @@
 
 namespace microswarm {
 
-/// What a camera's pictures show.
+/// Scale and size of a camera's pictures.
 struct CameraView {
   CameraScale scale;
   int width = 0;   ///< [px]
   int height = 0;  ///< [px]
 };
 
-/// What an perception makes of a picture.
+/// Detections in one picture.
 struct Detections {
   std::optional<SwarmPose> swarm;
-  std::vector<Vec2> robots;  ///< where they are told apart; robot i is always the same
-  std::vector<Body> moving;  ///< obstacles, known again by their number
-  std::string_view trouble;  ///< why there is no swarm: "none", "several"
+  std::vector<Vec2> robots;  ///< individually tracked robots; the order never changes
+  std::vector<Body> moving;  ///< obstacles with persistent numbers
+  std::string_view trouble;  ///< why no swarm was found: "none", "several"
 };
 
-/// Reads a rig's pictures: picture by picture, in world coordinates. Walls are the scenario's map.
+/// Interface of a rig's image processing, picture by picture, in world coordinates. Walls are those
+/// of the scenario's map.
 class Perception {
  public:
   virtual ~Perception() = default;
-  /// The next picture, taken at `t` [s]; a grey one. Valid until the next call.
+  /// Processes the next grey picture, taken at `t` [s]. Valid until the next call.
   virtual const Detections& process(const Image& picture, double t) = 0;
-  /// The command that drives the swarm from now on.
+  /// Reports the command that drives the swarm from time `t` on.
   virtual void commanded(const Command& command, double t) { (void)command, (void)t; }
 };
 
-/// What a navigator is told of a sight, which outlives the observation, as the world does.
+/// Navigator observation of the detections. `sight` and `world` must outlive it.
 Observation observation_of(const Detections& sight, std::shared_ptr<const Snapshot> world,
                            double now, double seen);
 
-/// The perception that a scenario needs: for one swarm among obstacles, or for robots.
+/// Creates the perception of a scenario: for one swarm among obstacles, or for robots.
 std::unique_ptr<Perception> make_perception(const PerceptionParams& params,
                                             const Scenario& scenario, const Map& map,
                                             std::span<const Vec2> starts, const CameraView& view);

@@ -14,7 +14,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double usual_time = 1.0;  // [s] between pictures, for the stepper's grid
+constexpr double usual_time = 1.0;  // [s] typical time between pictures, for the stepper's grid
 
 std::size_t nearest_of(std::span<const Vec2> places, Vec2 to) {
   std::size_t best = 0;
@@ -67,7 +67,7 @@ void RobotPerception::find_spots(const Image& picture) {
     spots_.push_back(scale_.to_world(particle.at_px));
 }
 
-/// Robots that the command takes on, as far as walls let them.
+/// Predicts the robots' positions from the command and the walls.
 void RobotPerception::expect(double passed) {
   std::vector<Vec2>& places = detections_.robots;
   for (Vec2& place : places) place = free_place(map_, place, 2 * stepper_.guard());
@@ -79,7 +79,7 @@ void RobotPerception::expect(double passed) {
 void RobotPerception::pair(double reach) {
   const std::vector<Vec2>& robots = detections_.robots;
   edges_.clear();
-  // In order of x, so that only spots of about the same x are compared.
+  // Sort by x, so that only spots of similar x are compared.
   std::vector<int> by_x(spots_.size());
   std::iota(by_x.begin(), by_x.end(), 0);
   const auto x_of = [&](int spot) { return spots_[static_cast<std::size_t>(spot)].x; };

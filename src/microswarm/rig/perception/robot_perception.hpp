@@ -14,13 +14,13 @@ namespace microswarm {
 
 class BackgroundModel;
 
-/// Sees robots whose number is known. Each is looked for where the command should have taken it,
-/// held by the walls of the map; those that are not told apart, as robots may lie on one another,
-/// are taken to be where they should be, if a spot is there, or else at the nearest spot. No spot
-/// is left without a robot as long as another has several.
+/// Tracks a known number of robots. Each robot's position is predicted from the command and the
+/// walls of the map, and paired with a detected spot. An unpaired spot gets the nearest unpaired
+/// robot. Robots left over, which may overlap others, stay at their predicted position if it is
+/// dark there and otherwise move to the nearest spot.
 class RobotPerception : public Perception {
  public:
-  /// The robots begin at `starts`; with none, those of the first picture are all there are.
+  /// The robots start at `starts`; if empty, they are the spots of the first picture.
   RobotPerception(const PerceptionParams& params, const RobotSwarmParams& robots, const Map& map,
                   std::span<const Vec2> starts, const CameraView& view);
   ~RobotPerception() override;
@@ -45,7 +45,7 @@ class RobotPerception : public Perception {
   ParticleFinder finder_;
   double diameter_;  // of a robot [µm]
   std::unique_ptr<BackgroundModel> background_;
-  double seen_ = 0;  // when the last picture was taken [s]
+  double seen_ = 0;  // time of the last picture [s]
   Command command_;
   std::vector<Vec2> spots_;  // of the newest picture [µm]
   Assignment assignment_;

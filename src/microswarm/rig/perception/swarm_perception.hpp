@@ -9,10 +9,10 @@
 
 namespace microswarm {
 
-/// Sees one swarm among moving obstacles. Its heading is the direction in which it last went.
+/// Detects one swarm among moving obstacles. Its heading is its last direction of motion.
 class SwarmPerception : public Perception {
  public:
-  /// The swarm begins at `start`.
+  /// The swarm starts at `start`.
   SwarmPerception(const PerceptionParams& params, const Map& map, const Pose2& start,
                   const CameraView& view);
 
@@ -25,7 +25,7 @@ class SwarmPerception : public Perception {
   CameraScale scale_;
   Mask walls_;
   BodyNumbers numbers_;
-  Vec2 from_;  // where the swarm was when its heading was told last
+  Vec2 from_;  // position at the last update of the heading
   double heading_;
   std::optional<Vec2> before_px_;
   Detections detections_;

@@ -7,7 +7,7 @@
 
 namespace microswarm {
 
-/// The pixels whose middle is in or on a wall, or outside of the map.
+/// Mask of the pixels whose centre is in or on a wall, or outside the map.
 inline Mask walls_in_picture(const Map& map, const CameraScale& scale, int width, int height) {
   Mask walls(width, height);
   for (int row = 0; row < height; ++row)

@@ -16,7 +16,7 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr int max_misses = 3;  // of the driver in a row; each is tried again by itself
+constexpr int max_misses = 3;  // consecutive ones; the driver retries by itself
 
 }  // namespace
 
@@ -95,7 +95,7 @@ void CoilLoop::run() {
     lock.unlock();
     const std::string trouble = send(moment, place, Seconds(now - last).count());
     last = now;
-    if (now > due + period) due = now;  // what was missed is not made up for
+    if (now > due + period) due = now;  // do not make up for missed outputs
     lock.lock();
     misses = moment.output.status == DriveStatus::no_answer ? misses + 1 : 0;
     if (!trouble.empty() && why_.empty()) why_ = trouble;
@@ -111,7 +111,7 @@ void CoilLoop::run() {
   changed_.notify_all();
 }
 
-/// What is wrong, or nothing.
+/// Error message; empty on success.
 std::string CoilLoop::send(CoilMoment& moment, const Eigen::Vector3d& place, double dt) {
   try {
     controller_.aim(place);

@@ -13,40 +13,42 @@
 
 namespace microswarm {
 
-/// What the loop sent, and when.
+/// One output of the loop.
 struct CoilMoment {
   double t = 0;  ///< [s], by steady_seconds()
   Command command;
   CoilOutput output;
-  double late = 0;        ///< after it was due [s]
-  double round_trip = 0;  ///< that the driver took [s]
+  double late = 0;        ///< delay after the due time [s]
+  double round_trip = 0;  ///< of the driver [s]
 };
 
-/// Sends currents in real time, in a thread of its own, so that the field goes on while a navigator
-/// thinks. It begins with the first command. The coils go to zero for good when it is told to stop,
-/// when no command came for `deadman` seconds, when the driver fails, and when it is destroyed.
+/// Sends currents in real time from its own thread, so the field continues while a navigator
+/// computes. It starts with the first command. It sets the coils to zero for good when it is
+/// stopped, when no command arrives for `deadman` seconds, when the driver fails, and on
+/// destruction.
 class CoilLoop {
  public:
-  /// The controller outlives it and is used by nobody else meanwhile. `heard` is called in the
-  /// loop's thread with each moment; what it throws is a failure. `rate` [Hz], `deadman` [s].
+  /// `controller` must outlive the loop and not be used elsewhere. `heard` is called in the loop's
+  /// thread after each output; an exception from it is a failure. `rate` [Hz], `deadman` [s].
   CoilLoop(CoilController& controller, double rate, double deadman,
            std::function<void(const CoilMoment&)> heard = {});
   ~CoilLoop();
   CoilLoop(const CoilLoop&) = delete;
   CoilLoop& operator=(const CoilLoop&) = delete;
 
-  /// The command from now on, for a swarm at this place among the coils [µm].
+  /// Sets the command, and the position of the swarm among the coils [µm].
   void command(const Command& command, const Eigen::Vector3d& place);
-  /// Coils to zero, for good; from any thread. Returns when they are, or cannot be reached.
+  /// Sets the coils to zero for good; callable from any thread. Returns when they are at zero or
+  /// cannot be reached.
   void stop(const std::string& why);
 
-  /// Waits for `seconds`, or until it stops.
+  /// Waits for `seconds`, or until the loop stops.
   void wait(double seconds);
   /// Why the coils are at zero; empty while they are driven.
   std::string failure() const;
-  /// After stop(): the device said that the coils are at zero.
+  /// After stop(): the device confirmed that the coils are at zero.
   bool zero_is_confirmed() const;
-  /// After stop(): when they were told so [s], by steady_seconds().
+  /// After stop(): when zero was commanded [s], by steady_seconds().
   double zero_at() const;
 
  private:
@@ -62,7 +64,7 @@ class CoilLoop {
   Command command_;
   Eigen::Vector3d place_;
   std::optional<double> commanded_;  // when [s]
-  std::string why_;                  // it stops
+  std::string why_;                  // reason of the stop
   bool at_zero_ = false;
   bool confirmed_ = false;
   double zero_at_ = 0;

@@ -11,18 +11,17 @@
 
 namespace microswarm {
 
-/// commands.csv: what went to the coils. While the run lasts it is commands.csv.part, written as it
-/// goes.
+/// Log of the coil outputs, commands.csv. During the run the file is named commands.csv.part.
 class CommandLog {
  public:
-  /// In this folder; nothing is kept without one. A dry run's rows say so.
+  /// Logs into `folder`; an empty path disables the log. Rows of a dry run are marked.
   CommandLog(const std::filesystem::path& folder, const CoilSystem& system, bool dry);
 
-  /// Throws InputError when it cannot be written.
+  /// Throws InputError if it cannot be written.
   void add(const CoilMoment& moment);
 
-  /// Adds when the coils were told to be at zero [s], by steady_seconds(), and brings the log to
-  /// its place. Why it cannot be there, or nothing.
+  /// Adds the time at which zero was commanded [s], by steady_seconds(), and renames the log to its
+  /// final name. Returns the reason of a failure, or an empty string.
   std::string finish(double zero_at, bool confirmed) noexcept;
 
  private:

@@ -18,7 +18,7 @@ std::unique_ptr<CoilDriver> open_coils(const RigParams& rig, bool dry) {
   return simulated_coils(rig);
 }
 
-/// A video at its own pace.
+/// A video played at its own rate.
 class PacedVideo : public FrameSource {
  public:
   explicit PacedVideo(std::unique_ptr<FrameSource> video)

@@ -13,7 +13,7 @@
 
 namespace microswarm {
 
-/// A scenario and the rig that it runs on, read and checked.
+/// A scenario and its rig, read and validated.
 struct RigExperiment {
   Experiment experiment;
   Rig rig;
@@ -21,17 +21,17 @@ struct RigExperiment {
   const Scenario& scenario() const { return experiment.scenario(); }
 };
 
-/// Reads both files; settings are texts as from --set and --set-rig. Throws InputError with a line
-/// for each thing wrong.
+/// Reads both files; settings are texts as from --set and --set-rig. Throws InputError with one
+/// line per issue.
 RigExperiment open_rig_experiment(const std::filesystem::path& scenario,
                                   const std::vector<std::string>& settings,
                                   const std::filesystem::path& rig,
                                   const std::vector<std::string>& rig_settings,
                                   std::optional<std::uint64_t> seed = std::nullopt);
 
-/// What a rig's file names, opened.
+/// Open devices of a rig.
 struct Devices {
-  std::unique_ptr<RealtimeRigSimulator> bench;  ///< of a simulated camera
+  std::unique_ptr<RealtimeRigSimulator> bench;  ///< set for a simulated camera
   std::unique_ptr<CoilDriver> coils;
   std::unique_ptr<FrameSource> camera;
   CameraScale scale;
@@ -39,12 +39,11 @@ struct Devices {
   CoilDriver& driver() { return bench ? bench->coils() : *coils; }
 };
 
-/// Opens camera and coils of a rig; with `dry`, nothing is sent to any coils. The experiment
-/// outlives them. Throws HardwareError for a device that fails, InputError when the rig has no
-/// scale.
+/// Opens camera and coils of a rig. With `dry`, nothing is sent to the coils. The experiment must
+/// outlive the devices. Throws HardwareError if a device fails, InputError if the rig has no scale.
 Devices open_devices(const RigExperiment& on, bool dry);
 
-/// The camera or video of a rig whose camera is no simulated one; errors as above.
+/// Opens the camera or video of a rig whose camera is not simulated; errors as above.
 std::unique_ptr<FrameSource> open_camera_of(const Rig& rig);
 
 }  // namespace microswarm

@@ -12,7 +12,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double first_frame = 5;  // [s] that a camera may take to begin
+constexpr double first_frame = 5;  // [s] timeout of the first frame
 
 const RigParams& checked(const Rig& rig, const Scenario& scenario) {
   KeyLocations().require_none(validate(rig, scenario));

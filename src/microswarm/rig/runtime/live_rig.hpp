@@ -17,32 +17,31 @@
 
 namespace microswarm {
 
-/// How long the stages of a run took.
+/// Durations and counts of a run on a rig.
 struct RigTiming {
-  Durations frame_age;       ///< of the newest frame when a tick begins
-  Durations vision;          ///< to read a picture
-  Durations tick;            ///< from a tick's begin to its command
-  Durations coil_late;       ///< currents after they were due
+  Durations frame_age;       ///< of the newest frame at the start of a tick
+  Durations vision;          ///< image processing of a frame
+  Durations tick;            ///< from the start of a tick to its command
+  Durations coil_late;       ///< delay of currents after their due time
   Durations round_trip;      ///< of the coil driver
-  int resumed = 0;           ///< times the coils had been off by themselves
-  int unmade = 0;            ///< fields that these coils cannot make
-  int limited = 0;           ///< fields that the coils' limits weakened
-  double min_scale = 1;      ///< the weakest of them, as share of what was wanted
-  int scaled = 0;            ///< currents that the device's own limits made smaller
-  int missed_deadlines = 0;  ///< ticks that ended after the next should have begun
-  int frames = 0;            ///< that were read
-  int dropped_frames = 0;    ///< that came and were not
+  int resumed = 0;           ///< times the coils had switched off by themselves
+  int unmade = 0;            ///< fields that the coils cannot produce
+  int limited = 0;           ///< fields weakened by the coils' limits
+  double min_scale = 1;      ///< minimum scale of these
+  int scaled = 0;            ///< currents reduced by the device's own limits
+  int missed_deadlines = 0;  ///< ticks that ended after the start of the next
+  int frames = 0;            ///< processed
+  int dropped_frames = 0;    ///< received but not processed
 };
 
-/// A rig in real time: the newest frame is read, the command goes to the coils, the next tick
-/// begins when it is due. As soon as something is not as it should be (SafetyParams, a camera or a
-/// coil driver that fails) the coils go to zero for good and `fault` says why.
+/// A rig in real time. Each tick processes the newest frame, sends the command to the coils, and
+/// waits for the next tick. On any fault (SafetyParams, a failing camera or coil driver) the coils
+/// go to zero for good and `fault` gives the reason.
 class LiveRig : public Plant {
  public:
-  /// The rig and the driver outlive it. `scale` is where the camera sees the world. `heard` is
-  /// called in the coils' thread with whatever was sent; what it throws is a fault. Waits for the
-  /// first frame; throws HardwareError when none comes, InputError when rig and scenario do not go
-  /// together.
+  /// `rig` and `driver` must outlive it. `scale` maps camera pixels to the world. `heard` is called
+  /// in the coils' thread after each output; an exception from it is a fault. Waits for the first
+  /// frame. Throws HardwareError if there is none, InputError if rig and scenario do not fit.
   LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const Rig& rig,
           std::unique_ptr<FrameSource> camera, const CameraScale& scale, CoilDriver& driver,
           std::function<void(const CoilMoment&)> heard = {});
@@ -51,14 +50,14 @@ class LiveRig : public Plant {
   void apply(const Command& command, double dt) override;
   std::string_view fault() const override { return fault_; }
 
-  /// Coils to zero, for good; from any thread. The tick that is waited for ends at once.
+  /// Sets the coils to zero for good; callable from any thread. A tick in progress ends at once.
   void stop(const std::string& why);
-  /// After stop(): the device said that the coils are at zero.
+  /// After stop(): the device confirmed that the coils are at zero.
   bool zero_is_confirmed() const { return coils_.zero_is_confirmed(); }
-  /// After stop(): when the device was told so [s], by steady_seconds().
+  /// After stop(): when zero was commanded [s], by steady_seconds().
   double zero_at() const { return coils_.zero_at(); }
   RigTiming timing() const;
-  /// The newest picture and what was seen in it.
+  /// The newest picture and its detections.
   const Image& picture() const { return grey_; }
   const Detections& sight() const { return *detections_; }
 
@@ -79,15 +78,15 @@ class LiveRig : public Plant {
   Detections unseen_;  // before the first picture
   const Detections* detections_ = &unseen_;
   double start_;      // [s], by steady_seconds()
-  double seen_ = 0;   // when the newest frame was taken [s]
-  double found_ = 0;  // when the swarm was seen last [s]
-  double begun_ = 0;  // the tick [s]
-  double next_ = 0;   // when the next one begins [s]
+  double seen_ = 0;   // time of the newest frame [s]
+  double found_ = 0;  // when the swarm was last detected [s]
+  double begun_ = 0;  // start of the tick [s]
+  double next_ = 0;   // start of the next tick [s]
   int missed_in_a_row_ = 0;
   std::string fault_;
   mutable std::mutex timing_mutex_;
   RigTiming timing_;
-  CoilLoop coils_;  // last: its thread uses what is above
+  CoilLoop coils_;  // last member: its thread uses the others
 };
 
 }  // namespace microswarm

@@ -20,7 +20,7 @@ Scenario without_delay(Scenario scenario) {
 
 }  // namespace
 
-/// The driver, after each of whose doings the bench catches up.
+/// Wraps the driver and advances the simulation after each call.
 class RealtimeRigSimulator::Coils : public CoilDriver {
  public:
   Coils(RealtimeRigSimulator& bench, std::unique_ptr<CoilDriver> driver)
@@ -35,7 +35,7 @@ class RealtimeRigSimulator::Coils : public CoilDriver {
   }
   bool stop() noexcept override {
     const std::lock_guard lock(bench_.mutex_);
-    return driver_->stop();  // the time before passes with no current; nothing that may fail here
+    return driver_->stop();  // catches up later without current: nothing may fail here
   }
 
  private:

@@ -11,31 +11,31 @@
 
 namespace microswarm {
 
-/// A simulated bench in real time: its time passes as the clock does, its camera takes pictures at
-/// a rate, and its coils are those of a driver, with what is behind that if it is a real one.
+/// A RigSimulator in real time: simulated time follows the clock, the camera takes pictures at a
+/// fixed rate, and the coils are those of a driver, which may be real hardware.
 class RealtimeRigSimulator {
  public:
-  /// The scenario's observation delay is left out, as real time has its own; `driver` is what the
-  /// coils hang on.
+  /// The scenario's observation delay is ignored, since real time has its own. `driver` drives the
+  /// coils.
   RealtimeRigSimulator(const Scenario& scenario, const World& world, const Rig& rig,
                        std::unique_ptr<CoilDriver> driver);
-  /// Waits until its cameras are gone.
+  /// Waits until its cameras are destroyed.
   ~RealtimeRigSimulator();
   RealtimeRigSimulator(const RealtimeRigSimulator&) = delete;
   RealtimeRigSimulator& operator=(const RealtimeRigSimulator&) = delete;
 
-  /// Pictures at `rate` [Hz]; the bench outlives it.
+  /// Creates a camera at `rate` [Hz]; the simulator must outlive it.
   std::unique_ptr<FrameSource> camera(double rate);
   CoilDriver& coils();
   CameraView view() const { return bench_.camera(); }
-  /// Where the swarm truly is now.
+  /// Current pose of the swarm (ground truth).
   SwarmPose swarm();
 
  private:
   class Coils;
   class Camera;
 
-  void catch_up();  // with the clock; the mutex is held
+  void catch_up();  // advances to the present; requires the mutex
 
   std::mutex mutex_;
   std::condition_variable no_camera_;

@@ -12,8 +12,8 @@
 namespace microswarm {
 namespace {
 
-constexpr double rolling_inertia = 0.02;  // [s] in which a body follows the field
-constexpr double flat_pitch = 1e-3;       // [rad]: less points nowhere
+constexpr double rolling_inertia = 0.02;  // [s] response time of a body
+constexpr double flat_pitch = 1e-3;       // [rad] a smaller pitch defines no heading
 
 }  // namespace
 
@@ -45,7 +45,7 @@ Command FieldResponse::rolling(const Eigen::Vector3d& from, const Eigen::Vector3
   return {heading_, driven.speed};
 }
 
-/// The normal of the plane that Eq 1 [radar] turns in, downwards where the pitch is 0.
+/// Uses the normal of the plane of rotation in Eq 1 [radar], which points down at pitch 0.
 Command FieldResponse::rotating(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double dt) {
   return pitched(-over({dt, from.cross(to)}, 1 / params_.frequency));
 }
@@ -56,12 +56,12 @@ Command FieldResponse::oscillating(const Eigen::Vector3d& field, double dt) {
   axis_ = along.normalized();
   const Vec2 flat{axis_.x(), axis_.y()};
   const double pitch = maths::asin(std::clamp(axis_.z(), -1.0, 1.0));
-  const double sign = pitch < 0 ? -1 : 1;  // forwards is where the axis rises
+  const double sign = pitch < 0 ? -1 : 1;  // the forward direction is where the axis rises
   if (std::abs(pitch) > flat_pitch) heading_ = heading_of(sign * flat);
   return {heading_, params_.speed_per_pitch * std::abs(pitch)};
 }
 
-/// `raised` points upwards, and by the pitch towards the heading.
+/// `raised` points upwards, tilted towards the heading by the pitch.
 Command FieldResponse::pitched(const Eigen::Vector3d& raised) {
   const Vec2 flat{raised.x(), raised.y()};
   const double pitch = maths::atan2(norm(flat), std::abs(raised.z()));

@@ -10,19 +10,18 @@
 
 namespace microswarm {
 
-/// Watches the field and tells how it drives the swarm. Rotating fields: the plane in which the
-/// field turned during the last turn is pitched towards the heading, speed = c · pitch. Oscillating
-/// fields: so is the axis along which it went. Rolling fields: the body rolls with the field.
+/// Estimates the motion that a field drives. Rotating fields: the plane of rotation over the last
+/// turn is pitched towards the heading, speed = c · pitch. Oscillating fields: the same with the
+/// axis of oscillation. Rolling fields: the body rolls with the field.
 class FieldResponse {
  public:
   explicit FieldResponse(const FieldResponseParams& params) : params_(params) {}
 
-  /// The field [mT] is this now, `dt` seconds after it was what it was. Where it drives the swarm,
-  /// and how fast.
+  /// Advances `dt` seconds to the present field [mT]. Returns the driven heading and speed.
   Command step(const Eigen::Vector3d& field, double dt);
 
  private:
-  /// The field's doing in a short time.
+  /// Contribution of a short interval.
   struct Piece {
     double dt;
     Eigen::Vector3d sum;
@@ -35,9 +34,9 @@ class FieldResponse {
   Eigen::Vector3d over(const Piece& piece, double last);
 
   FieldResponseParams params_;
-  std::deque<Piece> turn_;  // those of the last turn, or of the time in which a body follows
+  std::deque<Piece> turn_;  // pieces of the last turn, or of the response time of a rolling body
   Eigen::Vector3d before_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d axis_ = Eigen::Vector3d::UnitX();  // along which the field oscillates
+  Eigen::Vector3d axis_ = Eigen::Vector3d::UnitX();  // axis of oscillation
   double heading_ = 0;
 };
 

@@ -19,10 +19,10 @@ namespace {
 
 constexpr int max_side = 4096;                  // [px]
 constexpr double usual_side = 800;              // [px]
-constexpr std::size_t grains = 1 << 18;         // of noise that are drawn once
+constexpr std::size_t grains = 1 << 18;         // precomputed noise values
 constexpr std::size_t max_particles = 1 << 15;  // of a swarm
-constexpr int corner_bits = 4;                  // sub-pixel bits of corners in OpenCV's polygons
-constexpr double swarm_spin = 0.5;              // [rad/s]; so that its picture is never the same
+constexpr int corner_bits = 4;                  // sub-pixel bits of polygon corners in OpenCV
+constexpr double swarm_spin = 0.5;              // [rad/s]; makes every picture different
 
 cv::Mat as_floats(std::vector<float>& values, int width, int height) {
   return {height, width, CV_32F, values.data()};
@@ -130,7 +130,7 @@ void Microscope::draw_swarm(const SwarmPose& swarm) {
               grain, params_.swarm_depth);
 }
 
-/// Edges are soft over a pixel.
+/// Draws a disc with an edge one pixel soft.
 void Microscope::draw_disc(Vec2 at, double radius, double depth) {
   const int left = std::max(0, static_cast<int>(std::floor(at.x - radius - 1)));
   const int right = std::min(width_ - 1, static_cast<int>(std::ceil(at.x + radius + 1)));

@@ -18,7 +18,7 @@ namespace microswarm {
 /// Draws microscope pictures of a simulated world: grey, y down, the map with a margin around it.
 class Microscope {
  public:
-  /// `seed` draws a swarm's particles and the noise.
+  /// `seed` determines the swarm's particles and the noise.
   Microscope(const MicroscopeParams& params, const Map& map, std::uint64_t seed,
              std::uint32_t trial);
 
@@ -26,8 +26,7 @@ class Microscope {
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /// The picture of a swarm, of robots, or of both, at the snapshot's time. Valid until the next
-  /// call.
+  /// Draws a swarm, robots, or both, at the snapshot's time. Valid until the next call.
   const Image& look(const Snapshot& world, const std::optional<SwarmPose>& swarm,
                     std::span<const Vec2> robots);
 
@@ -42,9 +41,9 @@ class Microscope {
   int width_;
   int height_;
   Rng rng_;
-  std::vector<float> ground_;    // share of the light that walls let through
-  std::vector<float> lamp_;      // grey without anything in the way
-  std::vector<float> grain_;     // noise, of which every picture takes another part
+  std::vector<float> ground_;    // fraction of the light transmitted by the walls
+  std::vector<float> lamp_;      // grey of the light without absorption
+  std::vector<float> grain_;     // precomputed noise; every picture uses another part
   std::vector<Vec2> particles_;  // in a swarm of radius 1
   std::vector<float> view_;
   Image picture_;

@@ -12,10 +12,10 @@
 namespace microswarm {
 namespace {
 
-constexpr double same_place = 20;  // [µm]; no coil's field changes over so short a way
+constexpr double same_place = 20;  // [µm]; the field of a coil is constant over such a distance
 
-/// The scenario for the swarm as it is: its noise is in the pictures, and it may be faster than the
-/// field is made for.
+/// The scenario of the true swarm: noise is added in the pictures, and the swarm may be faster than
+/// the field assumes.
 Scenario true_scenario(Scenario scenario, const Rig& rig) {
   KeyLocations().require_none(validate(rig, scenario));
   const double faster = std::max(1.0, 1 + simulated_camera(rig).speed_error);
@@ -59,7 +59,7 @@ void RigSimulator::pass(std::span<const double> currents, double dt) {
     actuation_ = rig_.system.at(now);
   }
   const Command driven = response_.step(actuation_.field_of(carried), dt);
-  if (robots_) {  // these step once a tick, which is what their randomness is made for
+  if (robots_) {  // robots step once per tick, as their random motion requires
     step_ += displacement(driven, dt);
     waiting_ += dt;
     if (waiting_ < tick_ - 1e-9) return;

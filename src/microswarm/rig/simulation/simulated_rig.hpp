@@ -11,13 +11,13 @@
 
 namespace microswarm {
 
-/// A whole rig in simulation, as fast as the computer can: a command becomes a field, the field
-/// currents, the bench does what it does with them, and the navigator is told what is seen in the
+/// A complete simulated rig, as fast as possible. A command becomes a field, the field becomes
+/// currents, RigSimulator applies them, and the navigator receives the detections in the
 /// microscope's picture.
 class SimulatedRig : public Plant {
  public:
-  /// The rig and, when given, the driver outlive it; without one the coils are simulated. `trial`
-  /// chooses the streams. Throws InputError when rig and scenario do not go together.
+  /// `rig` and `driver` must outlive it; if `driver` is null, the coils are simulated. `trial`
+  /// selects the random streams. Throws InputError if rig and scenario do not fit.
   SimulatedRig(const Scenario& scenario, const World& world, const Rig& rig,
                std::uint32_t trial = 0, CoilDriver* driver = nullptr);
 
@@ -45,13 +45,12 @@ class SimulatedRig : public Plant {
   const Detections* detections_ = nullptr;
 };
 
-/// Builds plant and navigator for one trial of a scenario and runs it through the rig, as
-/// simulate() does without one.
+/// Like simulate(), but runs the trial through a simulated rig.
 RunResult simulate_rig(const Scenario& scenario, const World& world, const Rig& rig,
                        std::uint32_t trial = 0, std::span<RunListener* const> listeners = {},
                        const Stop& stop = {});
 
-/// Coils that are not there, as the rig describes them.
+/// Simulated coils with the rig's settings.
 std::unique_ptr<CoilDriver> simulated_coils(const RigParams& rig);
 
 }  // namespace microswarm

@@ -21,13 +21,13 @@
 namespace microswarm {
 namespace {
 
-constexpr double dot_spread = 0.35;  // of a dot's radius around the median
+constexpr double dot_spread = 0.35;  // relative deviation of a dot's radius from the median
 constexpr double corner_blur = 2;    // [px]
-constexpr int light_side = 41;       // [px] over which the light is even
+constexpr int light_side = 41;       // [px] over which the light is uniform
 constexpr double corner_share =
     0.5;  // of a typical corner's response; a corner of a square alone has 0.25
-constexpr double lattice_slack = 0.25;   // pitches that a point may be off where it is due
-constexpr double neighbour_slack = 0.3;  // of the pitch, in the length of a step to a neighbour
+constexpr double lattice_slack = 0.25;   // [pitches] maximum offset of a point
+constexpr double neighbour_slack = 0.3;  // relative tolerance of the distance between neighbours
 
 std::vector<Vec2> dots_in(const Image& grey) {
   std::vector<Blob> dots;
@@ -47,8 +47,8 @@ std::vector<Vec2> dots_in(const Image& grey) {
   return places;
 }
 
-/// Saddles of the grey: where it curves up one way and down the other. The `wanted` strongest tell
-/// how strong a corner is.
+/// Saddle points of the grey value. The `wanted` strongest responses define the threshold of a
+/// corner.
 std::vector<Vec2> corners_in(const Image& grey, std::size_t wanted) {
   cv::Mat smooth;
   as_mat(grey).convertTo(smooth, CV_32F);
@@ -95,8 +95,8 @@ struct Node {
 };
 using Lattice = std::map<Node, std::size_t>;  ///< the point at each node
 
-/// The way from a point to a typical neighbour, turned to within 45° of the x axis; nothing when
-/// there are no two points.
+/// Vector from a point to a typical neighbour, within 45° of the x axis; empty for fewer than two
+/// points.
 std::optional<Vec2> step_of(const std::vector<Vec2>& points) {
   std::vector<double> nearest;
   nearest.reserve(points.size());
@@ -108,7 +108,7 @@ std::optional<Vec2> step_of(const std::vector<Vec2>& points) {
   }
   const double pitch = median(nearest);
   if (!(pitch > 0 && std::isfinite(pitch))) return std::nullopt;
-  // Neighbours lie in four directions: four times their angles agree.
+  // Neighbours lie in four directions, so four times their angles agree.
   Vec2 sum;
   for (const Vec2 a : points)
     for (const Vec2 b : points)
@@ -117,7 +117,7 @@ std::optional<Vec2> step_of(const std::vector<Vec2>& points) {
   return pitch * unit_vector(heading_of(sum) / 4);
 }
 
-/// The points that hang together by steps along x and y, numbered from any of them.
+/// The points connected to `first` by steps along x and y, with their nodes.
 Lattice lattice_from(const std::vector<Vec2>& points, std::size_t first, Vec2 step) {
   Lattice lattice{{{0, 0}, first}};
   std::vector<bool> used(points.size());
@@ -188,8 +188,8 @@ std::vector<ScalePoint> find_grid(const Image& picture, const GridParams& p) {
   grid.reserve(wanted);
   for (int row = 0; row < p.rows; ++row)
     for (int column = 0; column < p.columns; ++column) {
-      // Rows of the lattice go down in the picture, those of the grid up; a grid that stands is
-      // turned by a quarter to the left.
+      // Rows of the lattice run down in the picture, those of the grid up. An upright grid is
+      // turned left by 90°.
       const Node node =
           lies ? Node{lo.column + column, hi.row - row} : Node{hi.column - row, hi.row - column};
       grid.push_back({points[lattice.at(node)], p.pitch * Vec2{1.0 * column, 1.0 * row}});

@@ -12,19 +12,19 @@
 
 namespace microswarm {
 
-/// What marks the points of a calibration slide.
+/// Marks of a calibration slide.
 enum class GridPattern { dots, chessboard };
 constexpr auto enum_names(GridPattern) {
   return std::array<std::pair<GridPattern, std::string_view>, 2>{
       {{GridPattern::dots, "dots"}, {GridPattern::chessboard, "chessboard"}}};
 }
 
-/// A grid of points with square cells. A chessboard's points are its inner corners.
+/// A grid of points with square cells. The points of a chessboard are its inner corners.
 struct GridParams {
   GridPattern pattern = GridPattern::dots;
   int columns = 9;
   int rows = 6;
-  double pitch = 100;  ///< between neighbours [µm]
+  double pitch = 100;  ///< distance between neighbours [µm]
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -36,10 +36,10 @@ struct GridParams {
   }
 };
 
-/// The grid's points in a picture, row by row from the lower left as maps lie: its columns go along
-/// the direction that is nearest to the picture's x axis and fits the numbers of columns and rows.
-/// Their places are multiples of the pitch from the first. It may be turned, but not seen at a
-/// slant. Throws InputError when the picture does not show exactly such a grid.
+/// Finds the grid's points in a picture, row by row from the lower left. Columns run along the grid
+/// direction nearest to the picture's x axis that matches the numbers of columns and rows. World
+/// positions are multiples of the pitch from the first point. The grid may be rotated in the
+/// picture, but must not be tilted. Throws InputError unless the picture shows exactly such a grid.
 std::vector<ScalePoint> find_grid(const Image& picture, const GridParams& params);
 
 }  // namespace microswarm

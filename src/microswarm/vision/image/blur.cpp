@@ -12,9 +12,9 @@
 namespace microswarm {
 namespace {
 
-constexpr int ends_at = 4;  // spreads
+constexpr int ends_at = 4;  // standard deviations
 
-/// Weights of the pixel itself and of each further one to either side; all together are 1.
+/// Weights of the pixel itself and of its neighbours on either side, normalised to a sum of 1.
 std::vector<float> bell(double spread, int reach) {
   std::vector<double> half;
   double sum = 0;
@@ -28,7 +28,8 @@ std::vector<float> bell(double spread, int reach) {
   return weights;
 }
 
-/// out = Σ weight · (before + after), value by value; those of pixel i are `stride` · i away.
+/// out = Σ weight · (before + after), elementwise; the neighbours at distance i are `stride` · i
+/// away.
 MICROSWARM_EACH_CPU void add_up(const float* middle, std::ptrdiff_t stride, const float* weights,
                                 int reach, int count, float* out) {
   constexpr int block = 32;  // values whose sums stay in registers

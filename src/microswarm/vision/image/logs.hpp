@@ -5,9 +5,8 @@
 
 namespace microswarm {
 
-/// Natural logarithms of the greys of an 8-bit picture, each raised by `by` and taken as 1 at
-/// least, as floats; and exponentials of floats in place. OpenCV's own have other bits on other
-/// CPUs.
+/// Float logarithm of an 8-bit picture after adding `by` and clamping to at least 1, and
+/// exponential of floats in place. OpenCV's versions give different bits on different CPUs.
 cv::Mat logs_of(const cv::Mat& grey, double by);
 void to_exponentials(cv::Mat& values);
 

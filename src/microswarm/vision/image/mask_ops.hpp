@@ -6,10 +6,9 @@
 
 namespace microswarm {
 
-/// Sets of pixels as 8-bit matrices of 0 and 255. Pieces of the set hold together by edges and
-/// corners, holes by edges only.
+/// Pixel sets as 8-bit matrices of 0 and 255. Pieces are 8-connected, holes 4-connected.
 
-/// The piece with the most pixels, the first in reading order among equals.
+/// The piece with the most pixels; the first in reading order among equals.
 cv::Mat largest_piece(const cv::Mat& set);
 
 /// The values, of floats, where the set is, in reading order.
@@ -21,16 +20,16 @@ int count_pieces(const cv::Mat& set);
 /// The pieces of at least `min_area` pixels.
 cv::Mat without_small_pieces(const cv::Mat& set, double min_area);
 
-/// The pieces that share a pixel with `seeds`.
+/// The pieces that contain a pixel of `seeds`.
 cv::Mat pieces_with(const cv::Mat& set, const cv::Mat& seeds);
 
-/// Sets the holes of at most `max_area` pixels that do not touch the border.
+/// Fills the holes of at most `max_area` pixels that do not touch the border.
 void fill_holes(cv::Mat& set, double max_area);
 
-/// What a disc of `diameter` pixels reaches without leaving the set.
+/// Morphological opening with a disc of `diameter` pixels.
 cv::Mat opened(const cv::Mat& set, double diameter);
 
-/// The set grown by all pixels within `radius`.
+/// The set dilated by `radius` pixels.
 cv::Mat grown(const cv::Mat& set, double radius);
 
 /// The highest value in the square around each pixel: `side` pixels wide, of which (side − 1) / 2
@@ -41,7 +40,7 @@ cv::Mat highest_around(const cv::Mat& values, int side);
 /// moves in the set need not squeeze through a point.
 void widen_corners(cv::Mat& set);
 
-/// Radii of the largest inscribed discs: distance [px] of each set pixel to the nearest unset one.
+/// Distance [px] of each set pixel to the nearest unset one: radii of the largest inscribed discs.
 cv::Mat depth_in(const cv::Mat& set);
 
 }  // namespace microswarm

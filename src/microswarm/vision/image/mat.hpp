@@ -9,18 +9,18 @@
 
 namespace microswarm {
 
-/// The picture as OpenCV sees it, 8-bit with 1 or 3 channels; it shares the pixels, read only.
+/// The picture as a read-only OpenCV matrix, 8-bit with 1 or 3 channels, that shares the pixels.
 inline cv::Mat as_mat(const Image& image) {
   return {image.height, image.width, CV_8UC(image.channels),
           const_cast<std::uint8_t*>(image.pixels.data())};
 }
 
-/// The mask as an 8-bit matrix of 0 and 255, a copy.
+/// The mask as a copied 8-bit matrix of 0 and 255.
 inline cv::Mat to_mat(const Mask& mask) {
   return cv::Mat(mask.height, mask.width, CV_8U, const_cast<std::uint8_t*>(mask.cells.data())) != 0;
 }
 
-/// The mask of the elements that are not 0; `mat` is 8-bit, one channel.
+/// Mask of the nonzero elements; `mat` is 8-bit with one channel.
 inline Mask to_mask(const cv::Mat& mat) {
   Mask mask(mat.cols, mat.rows);
   for (int y = 0; y < mat.rows; ++y)
@@ -28,8 +28,8 @@ inline Mask to_mask(const cv::Mat& mat) {
   return mask;
 }
 
-/// OpenCV's picture, 8-bit with 1, 3 or 4 channels, blue first, into ours, whose memory is used
-/// again.
+/// Copies an OpenCV picture, 8-bit with 1, 3 or 4 channels in BGR order, into `picture` and reuses
+/// its memory.
 inline void take_picture(const cv::Mat& mat, Image& picture) {
   const int channels = mat.channels() == 1 ? 1 : 3;
   picture.width = mat.cols;

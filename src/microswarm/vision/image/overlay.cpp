@@ -12,7 +12,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double screen = 1200;  // [px] a line is one pixel thick on a picture of this size
+constexpr double screen = 1200;  // [px] size of a picture in which a line is one pixel thick
 
 Image in_colour(const Image& picture) {
   if (picture.channels == 3) return picture;

@@ -9,9 +9,9 @@
 
 namespace microswarm {
 
-/// The picture in colour with the outline of the mask drawn over it, just outside the mask, so
-/// thick that it shows on the whole picture scaled to a screen. Throws InputError when the sizes
-/// differ.
+/// The picture in colour with the outline of the mask drawn just outside the mask. The line is
+/// thick enough to show when the whole picture is scaled to a screen. Throws InputError if the
+/// sizes differ.
 Image overlay(const Image& picture, const Mask& mask,
               std::array<std::uint8_t, 3> rgb = {0, 255, 255});
 

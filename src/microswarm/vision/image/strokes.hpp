@@ -8,16 +8,16 @@
 
 namespace microswarm {
 
-/// OpenCV draws in sixteenths of a pixel.
+/// OpenCV draws with a resolution of 1/16 pixel.
 inline constexpr int fraction_bits = 4;
 
-/// A place in the picture [px] in these fractions.
+/// A position in the picture [px] in units of 1/16 pixel.
 inline cv::Point fine(Vec2 p) {
   return {static_cast<int>(std::lround(p.x * (1 << fraction_bits))),
           static_cast<int>(std::lround(p.y * (1 << fraction_bits)))};
 }
 
-/// Of lines and text.
+/// Colour of lines and text.
 inline const cv::Scalar white(255, 255, 255);
 
 }  // namespace microswarm

@@ -3,9 +3,9 @@
 
 namespace microswarm {
 
-/// Threads that the whole process lets work on a picture. For programs, not for libraries: a
-/// program that drives a rig sets 1, since more would take the cores that its coils and its camera
-/// need.
+/// Sets the number of threads that OpenCV uses in the whole process. To be called by programs, not
+/// by libraries. A program that controls a rig sets 1, since more threads would occupy the cores
+/// that coils and camera need.
 void set_picture_threads(int threads);
 
 }  // namespace microswarm

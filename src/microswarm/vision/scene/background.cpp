@@ -15,14 +15,14 @@ namespace microswarm {
 namespace {
 
 constexpr int tiles_across = 24;   // along the longer side
-constexpr int ground_rounds = 12;  // of re-weighting
-constexpr double rounding = 0.5;   // [grey] a residual below it is none
-constexpr double fit_limit = 4;    // spreads; what is farther off is no ground
+constexpr int ground_rounds = 12;  // rounds of re-weighting
+constexpr double rounding = 0.5;   // [grey] smaller residuals count as zero
+constexpr double fit_limit = 4;    // spreads; farther tiles are not background
 constexpr int ground_terms = 6;
 
 using Terms = std::array<double, ground_terms>;
 
-/// A surface of second degree; coordinates in units of half the longer side, from the middle.
+/// A quadratic surface; coordinates in units of half the longer side, from the middle.
 struct Surface {
   Terms factor{};
 
@@ -41,8 +41,8 @@ struct Tile {
   double grey;
 };
 
-/// The median of the tile's seen pixels, of every other row and in large tiles every other column;
-/// nothing when less than a quarter is seen.
+/// Median of the tile's seen pixels, using every other row and in large tiles every other column;
+/// empty if less than a quarter is seen.
 std::optional<double> median_of(const cv::Mat& grey, const cv::Mat& seen) {
   const int step = grey.cols < 24 ? 1 : 2;
   std::array<int, 256> count{};
@@ -62,7 +62,7 @@ std::optional<double> median_of(const cv::Mat& grey, const cv::Mat& seen) {
   int sum = 0;
   int value = 0;
   while (2 * (sum + count[value]) < some) sum += count[value++];
-  // Within the grey, as if its pixels were spread evenly over it.
+  // Interpolate within the grey, as if its pixels were spread uniformly over it.
   return value - 0.5 + (0.5 * some - sum) / count[value];
 }
 
@@ -103,7 +103,8 @@ Surface fitted(const std::vector<Tile>& tiles, const std::vector<double>& weight
   return surface;
 }
 
-/// Least absolute residuals first, which half of all tiles cannot spoil, then Tukey's biweight.
+/// Robust fit: least absolute residuals, which tolerate nearly half of the tiles as outliers, then
+/// Tukey's biweight.
 Surface fitted(const std::vector<Tile>& tiles) {
   std::vector<double> weight(tiles.size(), 1);
   std::vector<double> off(tiles.size());
@@ -122,7 +123,7 @@ Surface fitted(const std::vector<Tile>& tiles) {
   return surface;
 }
 
-/// constant + x (slope + x curve) for each x.
+/// Writes constant + x (slope + x curve) for each x.
 MICROSWARM_EACH_CPU void write_parabola(std::span<const double> across, double constant,
                                         double slope, double curve, float* out) {
   for (std::size_t i = 0; i < across.size(); ++i)

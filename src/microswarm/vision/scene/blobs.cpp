@@ -24,17 +24,17 @@
 namespace microswarm {
 namespace {
 
-constexpr int smooth_side = 5;     // working pixels over which a smooth part must reach
-constexpr int ground_rows = 4;     // one working row in so many tells the noise of the ground
-constexpr double noise_limit = 5;  // spreads of the ground that something must stand out
+constexpr int smooth_side = 5;     // working pixels that a smooth part must extend over
+constexpr int ground_rows = 4;     // every so many rows are used for the background noise
+constexpr double noise_limit = 5;  // spreads of the background; smaller differences are ignored
 
-/// Pixels of the picture along a side of a working pixel: the coarser, the less noise and time.
+/// Picture pixels per side of a working pixel. Coarser pixels reduce noise and time.
 int coarseness(const BlobParams& p) {
   const double fine = std::min(p.min_radius / 3, p.gap / 2);
   return fine >= 4 ? 4 : fine >= 2 ? 2 : 1;
 }
 
-/// Means of squares of `side` pixels; the border is repeated to fill the last ones.
+/// Block means over `side` × `side` pixels; the border is replicated to fill the last blocks.
 cv::Mat downsampled(const cv::Mat& mat, int side) {
   if (side == 1) return mat;
   const int right = (side - mat.cols % side) % side;
@@ -46,7 +46,7 @@ cv::Mat downsampled(const cv::Mat& mat, int side) {
   return small;
 }
 
-/// Pixels that are looked at as 255, or an empty matrix when that is all.
+/// Mask of the pixels to search (255), or an empty matrix if all are searched.
 cv::Mat seen_of(const Image& picture, const Mask* walls, int side) {
   if (!walls) return {};
   if (walls->width != picture.width || walls->height != picture.height)
@@ -58,7 +58,8 @@ cv::Mat seen_of(const Image& picture, const Mask* walls, int side) {
   return ~hidden;
 }
 
-/// What rises above the ground, or sinks below it with sign -1, where something is seen.
+/// Replaces the background by the foreground where something is seen: grey minus background, times
+/// `sign`.
 MICROSWARM_EACH_CPU void take_ground(std::span<const std::uint8_t> grey, const std::uint8_t* seen,
                                      float sign, float* ground) {
   for (std::size_t i = 0; i < grey.size(); ++i) {
@@ -67,7 +68,7 @@ MICROSWARM_EACH_CPU void take_ground(std::span<const std::uint8_t> grey, const s
   }
 }
 
-/// Means over what is seen from means over all.
+/// Converts means over all pixels to means over the seen pixels.
 MICROSWARM_EACH_CPU void make_up(std::span<const float> share, const std::uint8_t* seen,
                                  float* foreground) {
   for (std::size_t i = 0; i < share.size(); ++i) {
@@ -76,7 +77,7 @@ MICROSWARM_EACH_CPU void make_up(std::span<const float> share, const std::uint8_
   }
 }
 
-/// How far each pixel stands out of the ground, smoothed; 0 where nothing is seen.
+/// Smoothed difference of each pixel from the background; 0 where nothing is seen.
 cv::Mat rise_of(const cv::Mat& grey, const cv::Mat& seen, bool dark, double spread) {
   assert(grey.isContinuous());
   const cv::Mat all = seen.empty() ? cv::Mat(grey.size(), CV_8U, cv::Scalar(255)) : seen;
@@ -93,11 +94,10 @@ cv::Mat rise_of(const cv::Mat& grey, const cv::Mat& seen, bool dark, double spre
   return foreground;
 }
 
-/// Spread of the ground around its surface, by the median of some ten thousand pixels.
+/// Spread of the background around its surface, from the median of about ten thousand pixels.
 double ground_spread(const cv::Mat& foreground, const cv::Mat& seen) {
   constexpr std::size_t enough = 10'000;
-  const std::size_t step =
-      2 * (foreground.total() / enough / 2) + 7;  // odd: no column again and again
+  const std::size_t step = 2 * (foreground.total() / enough / 2) + 7;  // odd, so that columns vary
   std::vector<double> off;
   off.reserve(foreground.total() / step + 1);
   for (std::size_t i = 0; i < foreground.total(); i += step)
@@ -109,7 +109,7 @@ double ground_spread(const cv::Mat& foreground, const cv::Mat& seen) {
 /// A connected set of working pixels.
 struct Piece {
   cv::Rect box;
-  cv::Mat in;  ///< 255 in it, over the box
+  cv::Mat in;  ///< mask of the piece over the box, 255 inside
 
   cv::Point first() const {
     cv::Point at = box.tl();
@@ -118,14 +118,16 @@ struct Piece {
   }
 };
 
-/// Those of at least `min_area` pixels in a set, of which `corner` is the first pixel.
+/// Connected pieces of at least `min_area` pixels; `corner` is the position of the set's first
+/// pixel.
 std::vector<Piece> pieces_of(const cv::Mat& set, cv::Point corner, double min_area) {
   struct Extent {
     int left, top, right, bottom, area;
   };
   cv::Mat labels;
   const int count = cv::connectedComponents(set, labels, 4, CV_32S);
-  // OpenCV's statistics take three times as long as its labels: they sum up the ground too.
+  // OpenCV's statistics take three times as long as its labels, because they include the
+  // background.
   std::vector<Extent> extents(static_cast<std::size_t>(count), {set.cols, set.rows, -1, -1, 0});
   for (int y = 0; y < labels.rows; ++y) {
     const int* row = labels.ptr<int>(y);
@@ -161,7 +163,7 @@ float median_within(const cv::Mat& foreground, const Piece& piece) {
   return static_cast<float>(median(std::move(values)));
 }
 
-/// Area, middle and ellipse of what the outline encloses; false for a line without area.
+/// Measures area, centroid and ellipse of the region inside the outline; false if the area is zero.
 bool measure(Blob& blob) {
   std::vector<cv::Point2f> ring;
   ring.reserve(blob.outline_px.size());
@@ -181,8 +183,8 @@ bool measure(Blob& blob) {
   return true;
 }
 
-/// What is searched: the picture, the pixels that are looked at and how far they stand out of the
-/// ground, the latter two in working pixels.
+/// Data of the search: the picture, the searched pixels and the foreground, the latter two in
+/// working pixels.
 struct BlobContext {
   int side = 1;  ///< of a working pixel
   cv::Mat fine;
@@ -190,8 +192,8 @@ struct BlobContext {
   cv::Mat foreground;
 };
 
-/// Mean square of the differences between neighbours in a row of the picture, in every `step`th row
-/// of the working pixels that `chosen` (over `box`) sets.
+/// Mean squared difference of neighbours in a picture row, over every `step`th row of the working
+/// pixels set in `chosen` (over `box`).
 double roughness(const BlobContext& field, const cv::Rect& box, const cv::Mat& chosen, int step) {
   const int side = field.side;
   double squares = 0;
@@ -222,13 +224,15 @@ bool is_cut(const Piece& piece, const cv::Mat& seen, const cv::Size& size) {
   return cv::countNonZero(grown & ~seen(around)) > 0;
 }
 
-/// Mean difference of neighbours whose greys spread by `texture` beyond a noise of this roughness.
+/// Expected absolute difference of neighbours for a texture of this spread plus noise of this
+/// roughness.
 double mean_step(double noise, double texture) {
   return std::sqrt((noise + 2 * texture * texture) * 2 / std::numbers::pi);
 }
 
-/// The parts of a piece that are smooth over more than `smooth_side` working pixels. A pixel's
-/// texture is a median over its surroundings, so that the edge of a smooth thing is no texture.
+/// The parts of a piece that are smooth over more than `smooth_side` working pixels. The texture of
+/// a pixel is a median over its surroundings, so the edge of a smooth object does not count as
+/// texture.
 cv::Mat smooth_parts(const BlobContext& field, const Piece& piece, double least) {
   const int side = field.side;
   const cv::Rect all(0, 0, field.fine.cols, field.fine.rows);
@@ -252,7 +256,7 @@ cv::Mat smooth_parts(const BlobContext& field, const Piece& piece, double least)
   return core & smooth;
 }
 
-/// The blob that a piece is, whose outline runs at `level`; `noise` is the roughness of the ground.
+/// Blob of a piece with its outline at `level`; `noise` is the roughness of the background.
 std::optional<Blob> blob_of(const BlobContext& field, const Piece& piece, float level,
                             double noise) {
   Blob blob;
@@ -260,7 +264,7 @@ std::optional<Blob> blob_of(const BlobContext& field, const Piece& piece, float 
   for (Vec2& q : blob.outline_px) q = field.side * q + 0.5 * (field.side - 1) * Vec2{1, 1};
   if (!measure(blob)) return std::nullopt;
   blob.contrast = median_within(field.foreground, piece);
-  cv::Mat inner;  // the edge tells nothing of the texture
+  cv::Mat inner;  // exclude the edge from the texture
   cv::erode(piece.in, inner, cv::Mat::ones(5, 5, CV_8U), {-1, -1}, 1, cv::BORDER_CONSTANT, 0);
   blob.texture = std::sqrt(std::max(0.0, roughness(field, piece.box, inner, 1) - noise) / 2);
   blob.is_cut = is_cut(piece, field.seen, field.foreground.size());
@@ -292,7 +296,7 @@ std::vector<Blob> find_blobs(const Image& picture, const BlobParams& p, const Ma
   const cv::Mat ground = field.seen.empty() ? cv::Mat(~high) : cv::Mat(~high & field.seen);
   const double noise = roughness(field, {0, 0, ground.cols, ground.rows}, ground, ground_rows);
 
-  // What stands out, then what of each piece does so by half as much as its middle.
+  // Threshold the foreground, then keep of each piece what reaches half the contrast of its middle.
   const double min_area = std::numbers::pi * maths::power(0.5 * p.min_radius / field.side, 2);
   std::vector<Blob> blobs;
   for (Piece& piece : pieces_of(high, {}, min_area)) {

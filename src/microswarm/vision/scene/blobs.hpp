@@ -39,28 +39,28 @@ struct BlobParams {
   }
 };
 
-/// An issue when the radii leave nothing to be found.
+/// Reports an issue if the radii exclude every blob.
 Issues validate(const BlobParams& params);
 
-/// Something compact in a picture. All in pixels: x right, y down, (0, 0) is the middle of the
-/// first pixel.
+/// A compact region that differs from the background. All in pixels: x right, y down, (0, 0) is the
+/// centre of the first pixel.
 struct Blob {
-  Vec2 centre_px;            ///< of the area within the outline
-  double radius_px = 0;      ///< of the disc of the same area
-  double semi_major_px = 0;  ///< of the ellipse with the same second moments
+  Vec2 centre_px;            ///< centroid of the area inside the outline
+  double radius_px = 0;      ///< of the disc of equal area
+  double semi_major_px = 0;  ///< of the ellipse with equal second moments
   double semi_minor_px = 0;
-  double angle = 0;              ///< of its major axis [rad], from x towards y: clockwise as seen
-  std::vector<Vec2> outline_px;  ///< where it is half as far from the ground as its middle
-  double contrast = 0;           ///< median difference to the ground [grey]
-  double texture = 0;            ///< spread of the greys within beyond that of the noise [grey]
-  bool is_cut = false;           ///< it goes on beyond the picture or behind a wall
+  double angle = 0;  ///< of the major axis [rad], from x towards y: clockwise as displayed
+  std::vector<Vec2> outline_px;  ///< where the contrast is half that of the middle
+  double contrast = 0;           ///< median difference from the background [grey]
+  double texture = 0;            ///< standard deviation of the greys inside, minus the noise [grey]
+  bool is_cut = false;           ///< it extends beyond the picture or behind a wall
 };
 
-/// What stands out of the ground in a picture, those of the most area first: uneven light is taken
-/// away, clumps nearer to each other than `gap` become one, and an outline runs, between pixels,
-/// where half of the contrast is reached. Pixels set in `walls`, of the picture's size, and the
-/// next ones to them are not looked at. Colours are turned grey. The same picture gives the same
-/// bits. Throws InputError when `walls` has another size.
+/// Finds regions that differ from the background, sorted by decreasing area. Uneven light is
+/// removed first. Clumps closer than `gap` are merged. Outlines have subpixel resolution and run at
+/// half of the contrast. Pixels set in `walls`, which has the picture's size, and their neighbours
+/// are ignored. Colour pictures are converted to grey. The result is bit-reproducible. Throws
+/// InputError if `walls` has another size.
 std::vector<Blob> find_blobs(const Image& picture, const BlobParams& params,
                              const Mask* walls = nullptr);
 

@@ -7,7 +7,7 @@
 namespace microswarm {
 namespace {
 
-/// The way to a neighbour: 0 is up, each more a quarter turn to the right, as one sees the picture.
+/// Offset to a neighbour: 0 is up; each increment turns right by 90° as displayed.
 cv::Point step(int way) {
   constexpr std::array<int, 4> along{0, 1, 0, -1};
   return {along[way & 3], along[(way + 3) & 3]};
@@ -15,8 +15,8 @@ cv::Point step(int way) {
 
 }  // namespace
 
-/// Walks around the piece with the outside on the left: at an inner pixel with an outer one towards
-/// `out`, the line crosses between the two; the next crossing is at the same pixel, at the one
+/// Walks around the piece with the outside on the left. At an inner pixel with an outer one towards
+/// `out`, the line crosses between the two. The next crossing is at the same pixel, at the one
 /// ahead, or at the one ahead and to the left.
 std::vector<Vec2> level_line(const cv::Mat& field, float level, cv::Point start) {
   const cv::Rect all(0, 0, field.cols, field.rows);

@@ -10,8 +10,8 @@ namespace microswarm {
 namespace {
 
 constexpr double hull_tolerance = 0.5;  // [px]
-constexpr double min_gap = 8;  // [px] between points of an outline with something hidden between
-constexpr int soft_edge = 2;   // [px]
+constexpr double min_gap = 8;           // [px] larger gaps between outline points are hidden parts
+constexpr int soft_edge = 2;            // [px]
 
 cv::Point2f point_of(Vec2 p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
 
@@ -22,7 +22,7 @@ std::vector<cv::Point2f> points_of(const std::vector<Vec2>& ring) {
   return points;
 }
 
-/// The walls and what a blob covers, a little more than its outline.
+/// The walls and the area of a blob, grown slightly.
 Mask hidden_by(const Blob& blob, const Image& picture, const Mask* walls, double margin) {
   Mask hidden = walls ? *walls : Mask(picture.width, picture.height);
   std::vector<cv::Point> ring;
@@ -35,9 +35,9 @@ Mask hidden_by(const Blob& blob, const Image& picture, const Mask* walls, double
   return hidden;
 }
 
-/// The outline without what runs along something hidden or the picture's edge.
+/// The outline without the parts along hidden regions or the picture's edge.
 std::vector<Vec2> own_outline(const Blob& blob, const cv::Size& size, const Mask* hidden) {
-  constexpr int margin = 9;  // [px] as far as what is hidden bends the outline
+  constexpr int margin = 9;  // [px] range over which a hidden region distorts the outline
   std::vector<Vec2> own;
   for (const Vec2 p : blob.outline_px) {
     const cv::Rect all(0, 0, size.width, size.height);
@@ -51,11 +51,11 @@ std::vector<Vec2> own_outline(const Blob& blob, const cv::Size& size, const Mask
   return own;
 }
 
-/// The circle that the outline is, as far as it is its own, of which a third must be seen.
+/// Circle fitted to the visible outline, at least a third of which must be visible.
 std::optional<Ring> disc_of(const Blob& blob, const std::vector<Vec2>& own, double roundness) {
   const auto ring = blob.is_cut ? circle_through(own) : Ring{blob.centre_px, blob.radius_px};
   if (!ring) return std::nullopt;
-  double arc = 0;  // of the circle, by the share of the outline that is seen
+  double arc = 0;  // of the circle, as the fraction of the outline that is seen
   for (std::size_t i = 1; i < own.size(); ++i)
     if (const double step = distance(own[i - 1], own[i]); step < min_gap) arc += step;
   if (3 * arc < 2 * std::numbers::pi * ring->radius_px) return std::nullopt;

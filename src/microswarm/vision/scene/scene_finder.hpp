@@ -11,8 +11,8 @@
 
 namespace microswarm {
 
-/// Settings of `find_scene`. Where obstacles have the swarm's tone, `swarm.look.min_texture` tells
-/// them apart.
+/// Settings of `find_scene`. If obstacles have the swarm's tone, `swarm.look.min_texture`
+/// distinguishes them from it.
 struct SceneParams {
   SwarmFinderParams swarm{.look = {.min_texture = 5}};
   BlobParams obstacles{.gap = 4};
@@ -29,24 +29,25 @@ struct SceneParams {
   }
 };
 
-/// A moving obstacle in a picture [px]; x right, y down, (0, 0) is the middle of the first pixel.
+/// A moving obstacle in a picture [px]; x right, y down, (0, 0) is the centre of the first pixel.
 struct SeenObstacle {
-  Blob blob;                  ///< what is seen of it
-  std::optional<Ring> disc;   ///< when it is one, with what is hidden of it; else the hull
-  std::vector<Vec2> hull_px;  ///< convex, holds the outline to half a pixel
+  Blob blob;                  ///< its visible part
+  std::optional<Ring> disc;   ///< if round, with hidden parts; else the hull is used
+  std::vector<Vec2> hull_px;  ///< convex; contains the outline to half a pixel
 
-  /// In the world [µm], as a Body has it.
+  /// Shape in the world [µm], as in a Body.
   std::variant<Disc, Polygon> shape(const CameraScale& scale) const;
 };
 
-/// What a picture shows: the swarm and what else moves.
+/// The swarm and the obstacles of a picture.
 struct SeenScene {
   SwarmSighting swarm;
-  std::vector<SeenObstacle> obstacles;  ///< the largest first
+  std::vector<SeenObstacle> obstacles;  ///< sorted by decreasing size
 };
 
-/// The swarm and the obstacles in a picture; `before_px`, `walls` and errors as for `find_swarm`.
-/// Obstacles are what stands out besides the swarm, also where they touch it.
+/// Finds the swarm and the obstacles in a picture. Obstacles are all other regions that differ from
+/// the background, including those that touch the swarm. `before_px`, `walls` and errors as in
+/// `find_swarm`.
 SeenScene find_scene(const Image& picture, const SceneParams& params = {},
                      std::optional<Vec2> before_px = std::nullopt, const Mask* walls = nullptr);
 

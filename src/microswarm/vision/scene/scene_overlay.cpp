@@ -13,7 +13,7 @@
 namespace microswarm {
 namespace {
 
-// Of Okabe & Ito's colours, which the colour-blind can tell apart.
+// From Okabe & Ito's palette, which is safe for colour-blind readers.
 const cv::Scalar swarm_green(0, 158, 115);
 const cv::Scalar yellow(240, 228, 66);
 const cv::Scalar orange(230, 159, 0);

@@ -7,9 +7,9 @@
 
 namespace microswarm {
 
-/// The picture in colours with what was seen in it: the swarm's outline in green (of several that
-/// may be it, each in yellow) with ellipse and axes in white, obstacles as discs or hulls in
-/// orange, walls in blue.
+/// Draws detections over the picture in colour: the swarm's outline in green (yellow for each of
+/// several candidates) with ellipse and axes in white, obstacles as discs or hulls in orange, walls
+/// in blue.
 Image draw_scene(const Image& picture, const SeenScene& scene, const Mask* walls = nullptr);
 
 }  // namespace microswarm

@@ -27,27 +27,27 @@ struct SwarmFinderParams {
   }
 };
 
-/// What came of the search for one swarm.
+/// Result of the search for one swarm.
 enum class SwarmSight {
-  found,    ///< exactly one
-  none,     ///< nothing that may be it, or not where it can be by now
-  several,  ///< more than one, and nothing tells them apart
+  found,    ///< exactly one candidate
+  none,     ///< no candidate, or none within `jump` of the last position
+  several,  ///< several candidates that cannot be distinguished
 };
 constexpr auto enum_names(SwarmSight) {
   return std::array<std::pair<SwarmSight, std::string_view>, 3>{
       {{SwarmSight::found, "found"}, {SwarmSight::none, "none"}, {SwarmSight::several, "several"}}};
 }
 
-/// One swarm as a picture shows it.
+/// The swarm in a picture.
 struct SwarmSighting {
   SwarmSight sight = SwarmSight::none;
-  std::optional<Blob> swarm;     ///< when found
-  std::vector<Blob> candidates;  ///< all that may be it, the one of the most area first
+  std::optional<Blob> swarm;     ///< set if found
+  std::vector<Blob> candidates;  ///< all candidates, sorted by decreasing area
 };
 
-/// Looks for one swarm, a cloud of particles or clumps, in a microscope picture. With `before_px`,
-/// where it was seen last, only what is within `jump` of that may be it. `walls`, pictures and
-/// errors as for `find_blobs`.
+/// Searches a microscope picture for one swarm: a cloud of particles or clumps. With `before_px`,
+/// its last known position, only blobs within `jump` of it are candidates. `walls`, pictures and
+/// errors as in `find_blobs`.
 SwarmSighting find_swarm(const Image& picture, const SwarmFinderParams& params = {},
                          std::optional<Vec2> before_px = std::nullopt, const Mask* walls = nullptr);
 

@@ -16,19 +16,19 @@
 namespace microswarm {
 namespace {
 
-constexpr int tile = 16;           // [px] a side, in which the slope of the light is told
-constexpr int slope_rounds = 15;   // of re-weighting
-constexpr double min_off = 1e-4;   // [1/px] a slope that is off by less fits
-constexpr double two_sorts = 0.6;  // separability of greys that are walls and channels
-constexpr int middle_grey = 100;   // of the picture in even light
+constexpr int tile = 16;  // [px] side of a tile in which the slope of the light is estimated
+constexpr int slope_rounds = 15;   // rounds of re-weighting
+constexpr double min_off = 1e-4;   // [1/px] lower bound of the residual when re-weighting
+constexpr double two_sorts = 0.6;  // minimum separability of walls and channels
+constexpr int middle_grey = 100;   // mean grey of the corrected picture
 
-/// How the logarithm of the light changes in a tile; x and y from the picture's middle [px].
+/// Gradient of the logarithm of the light in a tile; x and y from the picture's middle [px].
 struct Slope {
   Vec2 at;
   Vec2 rise;  ///< [1/px]
 };
 
-/// Slopes of the planes that fit the tiles of the logarithms best.
+/// Gradients of the planes fitted to the tiles of the logarithms.
 std::vector<Slope> slopes_of(const cv::Mat& logs) {
   const Vec2 middle{0.5 * (logs.cols - 1), 0.5 * (logs.rows - 1)};
   constexpr double spread = (tile * tile - 1) * tile * tile / 12.0;  // sum of squares of an offset
@@ -46,8 +46,8 @@ std::vector<Slope> slopes_of(const cv::Mat& logs) {
   return slopes;
 }
 
-/// The surface a x + b y + c x² + d x y + e y² whose slopes are nearest to those told, by their
-/// distances, not the squares: tiles with an edge of a wall spoil little.
+/// The surface a x + b y + c x² + d x y + e y² fitted to the slopes by least absolute distances, so
+/// tiles with a wall's edge have little influence.
 struct Light {
   std::array<double, 5> factor{};
 
@@ -83,7 +83,7 @@ struct Light {
   }
 };
 
-/// The picture as it were in even light, its mean at the middle grey.
+/// The picture corrected for uneven light, with its mean at the middle grey.
 cv::Mat in_even_light(const cv::Mat& grey) {
   cv::Mat even = logs_of(grey, 0);
   const Light light(slopes_of(even));
@@ -137,7 +137,7 @@ Mask find_walls(const Image& background, const WallParams& p) {
 }
 
 std::vector<Polygon> walls_in_world(const Mask& walls, const CameraScale& scale, double tolerance) {
-  // Outlines come with y up from the picture's lower left corner, a pixel wide as 1.
+  // Outlines have y up from the picture's lower left corner and a pixel size of 1.
   std::vector<Polygon> polygons = outline(walls, 1, tolerance / scale.um_per_px);
   const auto to_picture = [&](std::vector<Vec2>& ring) {
     for (Vec2& p : ring) p = Vec2{p.x - 0.5, walls.height - 0.5 - p.y};

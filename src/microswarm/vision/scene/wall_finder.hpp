@@ -32,17 +32,17 @@ struct WallParams {
   }
 };
 
-/// What stands still: each pixel's median over the pictures. Throws InputError when there is none
-/// or their sizes differ.
+/// Static background: the median of each pixel over the pictures. Throws InputError if there are no
+/// pictures or their sizes differ.
 Image still_background(std::span<const Image> pictures);
 
-/// The walls in a picture without swarm and obstacles, 1 = wall: one of two greys. Uneven light is
-/// taken away before; as the light changes slowly and walls have edges, it is told by how the greys
-/// rise and fall everywhere but at edges, so that walls may be most of the picture. No walls where
-/// there is one grey, or the two differ by less than `min_contrast`.
+/// Segments the walls in a picture without swarm and obstacles, 1 = wall, by a threshold between
+/// two greys. Uneven light is removed first. It is estimated from grey gradients everywhere except
+/// at edges, so walls may cover most of the picture. The result is empty if there is only one grey
+/// or the two differ by less than `min_contrast`.
 Mask find_walls(const Image& background, const WallParams& params = {});
 
-/// Smooth outlines [µm] of walls, for a Map, within `tolerance` [µm] of the mask's.
+/// Smooth outlines [µm] of walls for a Map, within `tolerance` [µm] of the mask's outline.
 std::vector<Polygon> walls_in_world(const Mask& walls, const CameraScale& scale, double tolerance);
 
 }  // namespace microswarm

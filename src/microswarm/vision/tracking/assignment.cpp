@@ -36,8 +36,8 @@ void Assignment::begin(int rows, int columns, const std::vector<AssignmentEdge>&
   done_.assign(static_cast<std::size_t>(columns), false);
 }
 
-/// Starts the row's potential at its least reduced cost; pairs it right away where that is to be
-/// had without disturbing another row, or leaves it alone where nothing is cheaper.
+/// Sets the row's potential to its minimum reduced cost. Pairs the row at once if this disturbs no
+/// other row, or leaves it alone if nothing is cheaper.
 bool Assignment::take_cheapest(int row, const std::vector<AssignmentEdge>& edges, double alone) {
   double least = alone;
   std::optional<int> cheapest;
@@ -55,15 +55,15 @@ bool Assignment::take_cheapest(int row, const std::vector<AssignmentEdge>& edges
   return true;
 }
 
-/// Dijkstra's search over reduced costs, from an unpaired row to the nearest free column or to the
-/// nearest row that is better left alone; then the pairs along the way change over.
+/// Dijkstra's search over reduced costs from an unpaired row to the nearest free column, or to the
+/// nearest row that is better left alone. Then flips the pairs along the path.
 void Assignment::augment(int start, const std::vector<AssignmentEdge>& edges, double alone) {
   touched_.clear();
   heap_.clear();
   double shortest = infinity;
   int row = start;
   double so_far = 0;
-  std::optional<int> lone_row;  // the way ends with this row left alone
+  std::optional<int> lone_row;  // the path ends with this row left alone
   std::optional<int> free_column;
   for (;;) {
     const double leave = so_far + alone - row_potential_[row];
@@ -123,7 +123,7 @@ void Assignment::reach(int column, int from, double distance) {
   std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
 }
 
-/// Keeps every reduced cost at or above 0, and that of each pair at 0.
+/// Keeps every reduced cost non-negative and that of each pair at 0.
 void Assignment::settle_potentials(double shortest) {
   for (const int column : touched_) {
     if (!done_[column]) continue;

@@ -7,25 +7,25 @@
 
 namespace microswarm {
 
-/// A pair that may be made, and what it costs.
+/// An allowed pair and its cost.
 struct AssignmentEdge {
   int row = 0;
   int column = 0;
   double cost = 0;
 };
 
-/// Pairs rows with columns, each with one at most, so that the sum of the pairs' costs and of
-/// `alone` for each row left alone is least: shortest augmenting paths with potentials
-/// [jonker]. A search never leaves the rows and columns that edges join to where it began, so that
-/// scattered robots cost little more than a pass over the edges.
+/// Minimum-cost assignment of rows to columns, at most one each. The total cost is the sum of the
+/// pairs' costs plus `alone` for each unpaired row. Uses shortest augmenting paths with potentials
+/// [jonker]. A search stays within the rows and columns connected to its start, so scattered robots
+/// cost little more than a pass over the edges.
 ///
 /// [jonker] R. Jonker and A. Volgenant, A shortest augmenting path algorithm for dense and sparse
 /// linear assignment problems, Computing 38, 325 (1987).
 class Assignment {
  public:
-  /// The column of each row, nothing for a row left alone. `edges` ascend by row; several between
-  /// the same two are allowed. Costs are finite; those above `alone` are never taken. Among equally
-  /// good solutions the same is given every time. Valid until the next call.
+  /// The column of each row; empty for an unpaired row. `edges` are sorted by row; duplicates are
+  /// allowed. Costs are finite; those above `alone` are never used. The choice among equally good
+  /// solutions is deterministic. Valid until the next call.
   const std::vector<std::optional<int>>& solve(int rows, int columns,
                                                const std::vector<AssignmentEdge>& edges,
                                                double alone);
@@ -50,9 +50,9 @@ class Assignment {
   std::vector<std::optional<int>> row_of_;
   std::vector<double> row_potential_;
   std::vector<double> column_potential_;
-  // Of one search:
-  std::vector<double> distance_;  ///< of each column, infinite where it was not reached
-  std::vector<int> from_;         ///< the row a column was reached from
+  // State of one search:
+  std::vector<double> distance_;  ///< of each column; infinite if not reached
+  std::vector<int> from_;         ///< row from which a column was reached
   std::vector<bool> done_;
   std::vector<int> touched_;  ///< columns reached
   std::vector<Reached> heap_;

@@ -11,7 +11,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double cut = 4;  // spreads at which the Gaussian ends
+constexpr double cut = 4;  // standard deviations at which the Gaussian is cut
 
 std::vector<float> gaussian(double spread) {
   if (spread <= 0) return {1.0F};
@@ -32,15 +32,15 @@ const std::uint8_t* row_of(const Image& grey, int row) {
   return grey.pixels.data() + grey.index(0, std::clamp(row, 0, grey.height - 1));
 }
 
-/// Fills the margins to the left and right of `width` values with the first and the last.
+/// Fills the margins on both sides of `width` values with the first and the last value.
 template <class T>
 void extend(std::vector<T>& row, int margin, int width) {
   std::fill_n(row.begin(), margin, row[margin]);
   std::fill_n(row.begin() + margin + width, margin, row[margin + width - 1]);
 }
 
-/// Whole parts of (offset + sign · in) / by. The sums are far below 2^22, so that half a one more
-/// decides every division rightly.
+/// Integer part of (offset + sign · in) / by. The sums are far below 2^22, so adding one half to
+/// the numerator makes the truncated float product exact.
 MICROSWARM_EACH_CPU void divide(const std::int32_t* in, int count, std::int32_t sign,
                                 std::int32_t offset, int by, std::int32_t* out) {
   const float share = 1.0F / static_cast<float>(by);

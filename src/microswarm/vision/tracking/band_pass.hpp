@@ -8,19 +8,19 @@
 
 namespace microswarm {
 
-/// What counts as noise and what as ground.
+/// Settings of BandPass.
 struct BandPassParams {
-  double noise_px = 1;        ///< spread of the Gaussian that takes the noise away; 0: none
-  int box_px = 11;            ///< side of the box whose mean is the ground, odd
-  double min_foreground = 1;  ///< greys above the ground below which a pixel counts as ground
-  bool dark_rises = false;    ///< what is darker than the ground rises, not what is brighter
+  double noise_px = 1;        ///< standard deviation of the Gaussian that removes noise; 0: none
+  int box_px = 11;            ///< side of the box whose mean is the background, odd
+  double min_foreground = 1;  ///< difference from the background below which a pixel is background
+  bool dark_rises = false;    ///< dark pixels are foreground instead of bright ones
 };
 
-/// What stands between noise and uneven ground (Eqs 1 to 3 [crocker]): the picture smoothed by a
-/// Gaussian, cut at four spreads, less the mean of the box around each pixel. The mean is rounded
-/// down to whole greys down the columns and again along the rows, as trackpy does with bytes; the
-/// ground is so about one grey low. Beyond its border the picture goes on as it ends. Sums in a
-/// fixed order, the same bits on every machine.
+/// Band-pass filter between noise and uneven background (Eqs 1 to 3 [crocker]): the picture
+/// smoothed by a Gaussian, cut at four standard deviations, minus the box mean around each pixel.
+/// The mean is rounded down to whole greys along the columns and again along the rows, like in
+/// trackpy with bytes. This makes the background about one grey too low. The border is replicated.
+/// Sums are in a fixed order, so the bits are the same on every machine.
 ///
 /// [crocker] J. C. Crocker and D. G. Grier, Methods of digital video microscopy for colloidal
 /// studies, J. Colloid Interface Sci. 179, 298 (1996).
@@ -28,8 +28,8 @@ class BandPass {
  public:
   explicit BandPass(const BandPassParams& params);
 
-  /// How far each pixel of the picture, of one channel, rises above the ground [grey]: row by row,
-  /// 0 for ground. Valid until the next call.
+  /// Difference of each pixel of a one-channel picture from the background [grey]: row-major, 0 for
+  /// background. Valid until the next call.
   const std::vector<float>& filter(const Image& grey);
 
  private:
@@ -39,11 +39,11 @@ class BandPass {
   void write_row(int width, float* out) const;
 
   BandPassParams params_;
-  std::vector<float> taps_;                 ///< the Gaussian from its middle outwards
-  std::vector<float> smoothed_;             ///< a row after the pass downwards, with margins
-  std::vector<std::int32_t> column_sums_;   ///< of the rows in the box
+  std::vector<float> taps_;                 ///< Gaussian weights from the middle outwards
+  std::vector<float> smoothed_;             ///< a row after the vertical pass, with margins
+  std::vector<std::int32_t> column_sums_;   ///< sums over the rows in the box
   std::vector<std::int32_t> column_means_;  ///< with margins
-  std::vector<std::int32_t> ground_;        ///< under each pixel of a row
+  std::vector<std::int32_t> ground_;        ///< background of each pixel of a row
   std::vector<float> result_;
 };
 

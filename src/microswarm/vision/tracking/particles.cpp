@@ -20,7 +20,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double move_from = 0.6;  // [px] a mask farther off its centroid moves
+constexpr double move_from = 0.6;  // [px] a mask farther from its centroid moves
 
 int odd(int diameter) { return diameter | 1; }
 
@@ -31,13 +31,13 @@ BandPassParams band_of(const ParticleParams& p) {
   return {p.noise, odd(p.diameter), p.min_foreground, p.tone == ParticleTone::dark};
 }
 
-/// Side of the largest square in the circle of radius `separation`.
+/// Side of the largest square inside the circle of radius `separation`.
 int square_in(int separation) {
   return std::max(1, static_cast<int>(2 * separation / std::numbers::sqrt2));
 }
 
 MICROSWARM_EACH_CPU float highest_of(std::span<const float> values) {
-  std::array<float, 16> lanes{};  // each looks at every sixteenth, so that none waits
+  std::array<float, 16> lanes{};  // 16 independent lanes, for parallel execution
   std::size_t i = 0;
   for (; i + lanes.size() <= values.size(); i += lanes.size())
     for (std::size_t k = 0; k < lanes.size(); ++k) lanes[k] = std::max(lanes[k], values[i + k]);
@@ -51,7 +51,7 @@ MICROSWARM_EACH_CPU void scale_down(std::span<const float> values, float scale,
     bytes[i] = static_cast<std::uint8_t>(static_cast<int>(scale * values[i]));
 }
 
-/// Whether any of `count` values is above the threshold and the highest around it.
+/// Whether any of `count` values is above the threshold and equals the maximum around it.
 MICROSWARM_EACH_CPU bool has_peak(const std::uint8_t* values, const std::uint8_t* highest,
                                   std::uint8_t threshold, int count) {
   std::uint8_t any = 0;
@@ -98,7 +98,7 @@ void ParticleFinder::scale_to_bytes(const std::vector<float>& rise) {
 }
 
 int ParticleFinder::peak_threshold() const {
-  std::array<std::array<int, 256>, 4> counts{};  // four, so that equal neighbours do not wait
+  std::array<std::array<int, 256>, 4> counts{};  // four, so that equal neighbours do not stall
   for (std::size_t i = 0; i < bytes_.size(); ++i) ++counts[i % 4][bytes_[i]];
   std::array<int, 256> count{};
   for (const auto& part : counts)
@@ -113,7 +113,7 @@ int ParticleFinder::peak_threshold() const {
 
 void ParticleFinder::find_peaks() {
   peaks_.clear();
-  constexpr int stretch = 64;  // of a row, looked at as one
+  constexpr int stretch = 64;  // values of a row tested at once
   const auto threshold = static_cast<std::uint8_t>(peak_threshold());
   const int margin = std::max(radius_, separation_ / 2 - 1);
   const cv::Mat around =

@@ -15,25 +15,25 @@
 
 namespace microswarm {
 
-/// How particles differ from the ground.
+/// Tone of particles relative to the background.
 enum class ParticleTone { dark, bright };
 constexpr auto enum_names(ParticleTone) {
   return std::array<std::pair<ParticleTone, std::string_view>, 2>{
       {{ParticleTone::dark, "dark"}, {ParticleTone::bright, "bright"}}};
 }
 
-/// What of a particle is measured.
+/// How a particle is measured.
 enum class ParticleShape {
-  spot,  ///< the centroid of its greys
-  ring,  ///< the circle of the opposite tone around it, as in bright field
+  spot,  ///< centroid of its greys
+  ring,  ///< circle of the opposite tone around it, as in bright field
 };
 constexpr auto enum_names(ParticleShape) {
   return std::array<std::pair<ParticleShape, std::string_view>, 2>{
       {{ParticleShape::spot, "spot"}, {ParticleShape::ring, "ring"}}};
 }
 
-/// Settings of ParticleFinder. `diameter` is what one measures in a picture, a little too large
-/// rather than too small; the others have values that follow from it or seldom change.
+/// Settings of ParticleFinder. `diameter` is measured in a picture; rather too large than too
+/// small. The other settings have defaults that depend on it or rarely need a change.
 struct ParticleParams {
   int diameter = 11;
   ParticleTone tone = ParticleTone::dark;
@@ -77,28 +77,28 @@ struct ParticleParams {
 
 /// A particle in a picture.
 struct Particle {
-  Vec2 at_px;               ///< centre: x right, y down, (0, 0) is the middle of the first pixel
-  double mass = 0;          ///< sum of the greys above the ground
-  double signal = 0;        ///< the highest of them
-  double radius_px = 0;     ///< of a ring, or of the even disc with the same gyration
+  Vec2 at_px;               ///< centre: x right, y down, (0, 0) is the centre of the first pixel
+  double mass = 0;          ///< sum of the greys above the background
+  double signal = 0;        ///< maximum grey above the background
+  double radius_px = 0;     ///< of a ring, or of the uniform disc with equal gyration
   double gyration_px = 0;   ///< radius of gyration of the greys
-  double eccentricity = 0;  ///< 0 for a round one, towards 1 for a line
+  double eccentricity = 0;  ///< 0 for a circle, towards 1 for a line
 };
 
-/// Finds particles with sub-pixel centres as Crocker and Grier do [crocker], in the conventions of
-/// trackpy: the picture is band-passed, peaks are the brightest of their surroundings and above a
-/// percentile, a round mask moves from each to its centroid, and of two that come too near each
-/// other the fainter is dropped.
+/// Finds particles with subpixel centres by the method of Crocker and Grier [crocker], with the
+/// conventions of trackpy. The picture is band-passed. Peaks are local maxima above a percentile. A
+/// round mask moves from each peak to the centroid. Of two particles that are too close, the
+/// fainter is dropped.
 class ParticleFinder {
  public:
-  /// Throws InputError when the Gaussian of `noise` is as wide as a particle.
+  /// Throws InputError if the Gaussian of `noise` is as wide as a particle.
   explicit ParticleFinder(const ParticleParams& params);
 
-  /// The particles of a picture of one channel, in the order of their peaks, row by row. Those
-  /// nearer to the border than their radius are left out. Valid until the next call.
+  /// The particles of a one-channel picture, in the order of their peaks, row by row. Particles
+  /// closer to the border than their radius are omitted. Valid until the next call.
   const std::vector<Particle>& find(const Image& grey);
 
-  /// Largest distance between the greys of a particle and its centre: half the diameter [px].
+  /// Maximum distance of a particle's pixels from its centre: half the diameter [px].
   int radius_px() const { return radius_; }
 
  private:

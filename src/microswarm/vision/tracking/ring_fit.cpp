@@ -37,12 +37,12 @@ std::optional<Ring> circle_through(const std::vector<Vec2>& points) {
 namespace {
 
 constexpr int max_fit_rounds = 10;
-constexpr double still = 1e-3;    // [px] a centre that moves less has arrived
+constexpr double still = 1e-3;    // [px] smaller moves of the centre count as convergence
 constexpr double ray_step = 0.5;  // [px]
 constexpr double min_agreeing = 1.0 / 3;
-constexpr double far_off = 3;  // median deviations from the circle
+constexpr double far_off = 3;  // median deviations; farther points are outliers
 
-/// Grey between pixels; nothing outside the picture.
+/// Bilinearly interpolated grey; empty outside the picture.
 std::optional<double> grey_at(const Image& grey, Vec2 p) {
   const double column = std::floor(p.x);
   const double row = std::floor(p.y);
@@ -56,8 +56,8 @@ std::optional<double> grey_at(const Image& grey, Vec2 p) {
   return (1 - v) * ((1 - u) * upper[0] + u * upper[1]) + v * ((1 - u) * lower[0] + u * lower[1]);
 }
 
-/// Distance from the centre of the darkest place on a ray between `from` and `to`; nothing when
-/// that is at one of its ends.
+/// Distance from the centre to the darkest point on a ray between `from` and `to`; empty if that is
+/// an end of the range.
 std::optional<double> darkest(const Image& grey, Vec2 centre, Vec2 direction, double from,
                               double to, double sign) {
   std::vector<double> values;
@@ -85,7 +85,7 @@ std::vector<Vec2> ring_points(const Image& grey, const Ring& guess, double reach
   return points;
 }
 
-/// The circle through those points that lie near the first one.
+/// Circle through points, refitted without outliers of the first fit.
 std::optional<Ring> robust_circle(std::vector<Vec2> points) {
   auto ring = circle_through(points);
   if (!ring) return std::nullopt;

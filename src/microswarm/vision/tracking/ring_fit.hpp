@@ -9,20 +9,19 @@
 
 namespace microswarm {
 
-/// A circle in a picture [px]; (0, 0) is the middle of the first pixel, y goes down.
+/// A circle in a picture [px]; (0, 0) is the centre of the first pixel, y points down.
 struct Ring {
   Vec2 centre_px;
   double radius_px = 0;
 };
 
-/// The circle through points by least squares of |p − c|² − r² (Kåsa 1976); nothing for points on a
-/// line.
+/// Circle through points by least squares of |p − c|² − r² (Kåsa 1976); empty for collinear points.
 std::optional<Ring> circle_through(const std::vector<Vec2>& points);
 
-/// The dark circle (or bright one, unless `dark`) around `start`, whose radius is within half of
-/// `radius` to either side: the extreme grey on each of many rays, a circle through these by least
-/// squares (Kåsa 1976) without those far off, again from its centre until it stays. Nothing when
-/// fewer than a third of the rays agree. `grey` has one channel.
+/// Fits the dark circle (bright unless `dark`) around `start` with a radius between 0.5 and 1.5
+/// times `radius`. Takes the extreme grey on each of many rays, fits a circle by least squares
+/// (Kåsa 1976) without outliers, and repeats from the new centre until it converges. Empty if fewer
+/// than a third of the rays agree. `grey` has one channel.
 std::optional<Ring> fit_ring(const Image& grey, Vec2 start, double radius, bool dark);
 
 }  // namespace microswarm

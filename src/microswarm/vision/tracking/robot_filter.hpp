@@ -5,25 +5,25 @@
 
 namespace microswarm {
 
-/// Spreads of what a RobotFilter reckons with, each along one axis.
+/// Standard deviations in the model of RobotFilter, each along one axis.
 struct RobotNoise {
-  double measurement = 0;   ///< of a seen place [µm]
-  double jitter = 0;        ///< of random displacement from a frame to the next [µm]
-  double speed_change = 0;  ///< of the velocity from a frame to the next [µm/s]
+  double measurement = 0;   ///< of a measured position [µm]
+  double jitter = 0;        ///< of the random displacement between frames [µm]
+  double speed_change = 0;  ///< of the velocity change between frames [µm/s]
   double start_speed = 0;   ///< of the velocity of a robot seen once [µm/s]
 };
 
-/// Where a robot is and how it moves: a Kalman filter of constant velocity. Both axes are alike and
-/// independent, so that one 2 × 2 covariance serves both.
+/// Constant-velocity Kalman filter of a robot's position and velocity. The axes are independent and
+/// have the same noise, so one 2 × 2 covariance serves both.
 class RobotFilter {
  public:
-  /// A robot seen for the first time.
+  /// Starts at the first measured position.
   RobotFilter(Vec2 seen, const RobotNoise& noise)
       : place_(seen),
         var_place_(noise.measurement * noise.measurement),
         var_velocity_(noise.start_speed * noise.start_speed) {}
 
-  /// A frame on, `dt` seconds.
+  /// Predicts the state after `dt` seconds.
   void predict(double dt, const RobotNoise& noise) {
     place_ += dt * velocity_;
     var_place_ += dt * (2 * covariance_ + dt * var_velocity_) + noise.jitter * noise.jitter;
@@ -31,10 +31,10 @@ class RobotFilter {
     var_velocity_ += noise.speed_change * noise.speed_change;
   }
 
-  /// Takes in where it was seen.
+  /// Updates the state with a measured position.
   void correct(Vec2 seen, const RobotNoise& noise) {
     const double variance = seen_variance(noise);
-    if (variance <= 0) {  // nothing is uncertain
+    if (variance <= 0) {  // no uncertainty
       place_ = seen;
       return;
     }
@@ -48,7 +48,7 @@ class RobotFilter {
     var_place_ -= gain * var_place_;
   }
 
-  /// Variance of a seen place about `place()`, along one axis [µm²].
+  /// Variance of a measured position about `place()` along one axis [µm²].
   double seen_variance(const RobotNoise& noise) const {
     return var_place_ + noise.measurement * noise.measurement;
   }

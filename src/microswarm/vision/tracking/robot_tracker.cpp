@@ -38,8 +38,8 @@ void RobotTracker::finish() {
   bury();
 }
 
-/// Pairs within reach, at the cost of their likelihood: a robot that could be anywhere claims a
-/// place less than one that is due there.
+/// Collects pairs within reach, with the negative log-likelihood as cost: an uncertain robot has a
+/// weaker claim to a position than one predicted there.
 void RobotTracker::find_candidates(std::span<const Vec2> seen) {
   by_height_.resize(seen.size());
   std::iota(by_height_.begin(), by_height_.end(), 0);
@@ -89,7 +89,7 @@ void RobotTracker::match(int frame, std::span<const Vec2> seen) {
   }
 }
 
-/// One that vanished by another and stays away has merged with it.
+/// A robot that vanished next to another and stays away has merged with it.
 void RobotTracker::miss(Robot& robot, int frame, std::span<const Vec2> seen) {
   if (robot.missed == 1) {
     robot.vanished.reset();
@@ -104,7 +104,7 @@ void RobotTracker::miss(Robot& robot, int frame, std::span<const Vec2> seen) {
   }
 }
 
-/// One that comes back from a merge has split off if it stays.
+/// A robot that returns from a merge has split off if it stays.
 void RobotTracker::meet(Robot& robot, int frame, Vec2 place, std::span<const Vec2> seen) {
   if (robot.merged) robot.appeared = touched(place, robot.id, frame, seen);
   robot.merged = false;
@@ -120,7 +120,8 @@ void RobotTracker::note_split(Robot& robot) {
   robot.appeared.reset();
 }
 
-/// The nearest other robot seen in this frame within touch of a place that has been seen for long.
+/// The nearest other robot seen in this frame within touching distance of `place` that has been
+/// seen for long enough.
 std::optional<RobotTracker::Touch> RobotTracker::touched(Vec2 place, int of, int frame,
                                                          std::span<const Vec2> seen) const {
   std::optional<Touch> nearest;

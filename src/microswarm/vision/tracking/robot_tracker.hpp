@@ -16,8 +16,7 @@
 
 namespace microswarm {
 
-/// Settings of RobotTracker. What is not given follows from the robots' diameter and the time
-/// between frames.
+/// Settings of RobotTracker. Unset values are derived from the robots' diameter and the frame time.
 struct TrackerParams {
   int memory = 3;
   int min_lifetime = 4;
@@ -62,14 +61,14 @@ struct TrackerParams {
   }
 };
 
-/// A robot that was seen in a frame.
+/// A robot seen in a frame.
 struct SeenRobot {
-  int id = 0;     ///< of the robot, from 0 in the order of birth
+  int id = 0;     ///< numbered from 0 in the order of birth
   Vec2 place;     ///< filtered [µm]
   Vec2 velocity;  ///< filtered [µm/s]
 };
 
-/// What happens to robots as a camera sees them.
+/// Kind of a track event.
 enum class TrackChange { birth, death, merge, split };
 constexpr auto enum_names(TrackChange) {
   return std::array<std::pair<TrackChange, std::string_view>, 4>{{{TrackChange::birth, "birth"},
@@ -78,10 +77,11 @@ constexpr auto enum_names(TrackChange) {
                                                                   {TrackChange::split, "split"}}};
 }
 
-/// A birth; a death, noted for the frame in which the robot was last seen; a merge: `id` vanished
-/// where it touched `other`; a split: `id` was born or came back where it touched `other`. Merges
-/// and splits are noted when they have lasted, for the frame in which they were; a robot that is
-/// born of a split has its birth too, one that does not come back from a merge its death.
+/// A track event. A death is dated to the last frame in which the robot was seen. A merge: `id`
+/// vanished where it touched `other`. A split: `id` was born or reappeared where it touched
+/// `other`. Merges and splits are reported once they have lasted, dated to the frame in which they
+/// occurred. A robot born of a split also has its birth event; one that does not return from a
+/// merge also has its death event.
 struct TrackEvent {
   int frame = 0;
   TrackChange change = TrackChange::birth;
@@ -89,28 +89,28 @@ struct TrackEvent {
   std::optional<int> other;
 };
 
-/// Follows robots through the frames of a video: each is foreseen by a RobotFilter, those within
-/// its gate are candidates, and of all ways to pair robots with seen places the likeliest is taken.
-/// A robot that is not seen goes on unseen for a while. The same places give the same tracks.
+/// Tracks robots through the frames of a video. A RobotFilter predicts each robot; positions within
+/// its gate are candidates. The most likely assignment of robots to positions is chosen. A robot
+/// that is not seen is predicted for some frames. The tracker is deterministic.
 class RobotTracker {
  public:
   /// `diameter` [µm] of the robots and `frame_time` [s] between frames, both above 0.
   RobotTracker(const TrackerParams& params, double diameter, double frame_time);
 
-  /// The next frame: where robots are seen [µm]. Gives the robot of each place, in the order of
-  /// the places. Valid until the next call.
+  /// Processes the next frame with the detected positions [µm]. Returns the robot at each position,
+  /// in the same order. Valid until the next call.
   const std::vector<SeenRobot>& step(int frame, std::span<const Vec2> seen);
 
-  /// No more frames: those not yet dead die.
+  /// Ends the video: all remaining tracks die.
   void finish();
 
-  /// All that has happened so far; all but births come when they are certain.
+  /// All events so far. Births are reported at once, other events when they are certain.
   const std::vector<TrackEvent>& events() const { return events_; }
-  /// Robots ever seen.
+  /// Number of robots ever seen.
   int births() const { return next_id_; }
 
  private:
-  /// Where a robot vanished or appeared beside another.
+  /// A disappearance or appearance next to another robot.
   struct Touch {
     int frame;
     int other;
@@ -119,10 +119,10 @@ class RobotTracker {
     int id;
     int last_frame;
     int missed = 0;
-    int run = 1;                      ///< frames in a row that it has been seen
-    bool merged = false;              ///< it is gone in another
-    std::optional<Touch> vanished{};  ///< by the other, when it had been there for long enough
-    std::optional<Touch> appeared{};  ///< likewise; it is not yet there for long enough
+    int run = 1;                      ///< number of consecutive frames in which it was seen
+    bool merged = false;              ///< it has merged with another robot
+    std::optional<Touch> vanished{};  ///< set if the other robot had been seen for long enough
+    std::optional<Touch> appeared{};  ///< likewise; until the robot itself has lasted
     RobotFilter filter;
   };
 
@@ -143,10 +143,10 @@ class RobotTracker {
   int memory_;
   int lasting_;
   int next_id_ = 0;
-  std::optional<int> frame_;  ///< the last one
+  std::optional<int> frame_;  ///< the last frame
   std::vector<Robot> robots_;
-  std::vector<int> by_height_;                ///< the seen places in the order of y
-  std::vector<std::optional<int>> robot_at_;  ///< index of the robot at each of them
+  std::vector<int> by_height_;                ///< indices of the detected positions, sorted by y
+  std::vector<std::optional<int>> robot_at_;  ///< index of the robot at each detected position
   std::vector<AssignmentEdge> edges_;
   Assignment assignment_;
   std::vector<SeenRobot> sightings_;

@@ -21,11 +21,11 @@ namespace {
 
 constexpr std::size_t trail_length = 20;  // frames
 constexpr int forgotten_after = 20;       // frames unseen
-constexpr int max_numbered = 100;         // robots; of more, no numbers are shown
+constexpr int max_numbered = 100;         // robots; beyond this, numbers are omitted
 
 const cv::Scalar black(0, 0, 0);
 
-/// One of six colours that the colour-blind can tell apart (after Okabe & Ito), by number.
+/// One of six colours safe for colour-blind readers (Okabe & Ito), by id.
 cv::Scalar colour_of(int id) {
   static const std::array<cv::Scalar, 6> colours{
       {{230, 159, 0}, {86, 180, 233}, {0, 158, 115}, {240, 228, 66}, {0, 114, 178}, {213, 94, 0}}};
@@ -56,7 +56,7 @@ void take_in_colour(const Image& picture, Image& colour) {
     cv::cvtColor(as_mat(picture), out, cv::COLOR_GRAY2RGB);
 }
 
-/// Bar and label at the lower left, time and count at the upper left.
+/// Draws the scale bar at the lower left, and time and count at the upper left.
 void draw_legend(cv::Mat& picture, double um_per_px, double t, std::size_t robots) {
   const double size = std::clamp(picture.cols / 1200.0, 0.35, 2.0);
   const int step = static_cast<int>(30 * size);
@@ -126,7 +126,7 @@ struct VideoFileWriter::Parts {
 
   std::filesystem::path file;
   double rate;
-  std::optional<StagedFile> staged;  ///< nothing when there is no codec
+  std::optional<StagedFile> staged;  ///< empty if there is no codec
   cv::VideoWriter video;
   cv::Mat bgr;
   int pictures = 0;

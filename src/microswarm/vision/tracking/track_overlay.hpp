@@ -11,12 +11,12 @@
 
 namespace microswarm {
 
-/// Draws what was tracked over the pictures: a circle around each robot, the way it came, its
-/// number where there is room, a scale bar, time and count.
+/// Draws tracks over the pictures: a circle around each robot, its trail, its number where there is
+/// room, a scale bar, time and count.
 class TrackOverlay {
  public:
   explicit TrackOverlay(double um_per_px) : um_per_px_(um_per_px) {}
-  /// The frame in colours with its robots, `rows`. Valid until the next call.
+  /// The frame in colour with its robots `rows`. Valid until the next call.
   const Image& draw(const VideoFrame& frame, const std::vector<TrackRow>& rows);
 
  private:
@@ -27,27 +27,27 @@ class TrackOverlay {
   void follow(const std::vector<TrackRow>& rows, int frame, int height);
 
   double um_per_px_;
-  std::vector<std::optional<Trail>> trails_;  ///< by id; nothing for robots long gone
+  std::vector<std::optional<Trail>> trails_;  ///< by id; empty for robots not seen for long
   Image shown_;
 };
 
-/// Length of the scale bar of a picture that shows `width` [µm]: 1, 2 or 5 times a power of ten,
-/// about a fifth of it.
+/// Length of the scale bar for a picture `width` [µm] wide: 1, 2 or 5 times a power of ten, about a
+/// fifth of the width.
 double scale_bar_length(double width);
 
-/// Pictures to a video file (MPEG-4) or, where there is no codec for it, to PNG files in a folder
-/// beside it, of its name without extension. The file appears under its name on commit().
+/// Writes pictures to an MPEG-4 video file or, without a codec, to PNG files in a folder next to
+/// it, named like the file without extension. The file appears under its name on commit().
 class VideoFileWriter {
  public:
-  /// `rate` [1/s]. Throws InputError "PATH: cannot write: REASON".
+  /// `rate` is in 1/s. Throws InputError "PATH: cannot write: REASON".
   VideoFileWriter(std::filesystem::path file, double rate);
   ~VideoFileWriter();
   VideoFileWriter(const VideoFileWriter&) = delete;
   VideoFileWriter& operator=(const VideoFileWriter&) = delete;
 
-  /// A picture in colours, all of one size.
+  /// Appends a colour picture; all have one size.
   void add(const Image& picture);
-  /// Ends the video; gives where it is: the file or the folder. Nothing when there was no picture.
+  /// Ends the video; the path of the file or folder, or empty if there was no picture.
   std::optional<std::filesystem::path> commit();
 
  private:

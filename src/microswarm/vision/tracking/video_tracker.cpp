@@ -57,7 +57,7 @@ TrackSummary summarise(const std::vector<TrackRow>& rows, int frames) {
   std::vector<const TrackRow*> last(static_cast<std::size_t>(ids), nullptr);
   double way = 0;
   double time = 0;
-  Vec2 moved;  // in this frame, by `movers`
+  Vec2 moved;  // in this frame, summed over `movers`
   int movers = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const TrackRow& row = rows[i];

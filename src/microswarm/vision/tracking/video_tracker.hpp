@@ -11,9 +11,9 @@
 
 namespace microswarm {
 
-/// All that tracking of a video needs to know, as in a file for `microswarm track --config`.
+/// Settings of video tracking, as in a file for `microswarm track --config`.
 struct TrackSettings {
-  std::optional<double> um_per_px;  ///< must be given before anything is tracked
+  std::optional<double> um_per_px;  ///< required for tracking
   std::optional<double> rate;
   std::optional<int> depth;
   VideoChannel channel = VideoChannel::grey;
@@ -32,28 +32,29 @@ struct TrackSettings {
   }
 };
 
-/// A robot seen in a frame. The world's origin is the picture's lower left corner, y goes up.
+/// A robot seen in a frame. The world's origin is the picture's lower left corner, y points up.
 struct TrackRow {
   int frame = 0;
   double t = 0;  ///< [s]
   int id = 0;
-  Vec2 place;         ///< where it was seen [µm]
-  Vec2 velocity;      ///< by the filter [µm/s]
+  Vec2 place;         ///< measured position [µm]
+  Vec2 velocity;      ///< filtered [µm/s]
   double radius = 0;  ///< [µm]
   double mass = 0;    ///< [grey]
   double signal = 0;  ///< [grey]
   double eccentricity = 0;
 };
 
-/// Finds and follows the robots of a video, picture by picture.
+/// Finds and tracks the robots of a video, picture by picture.
 class VideoTracker {
  public:
-  /// `frame_time` [s] between pictures. Throws InputError for settings that do not go together.
+  /// `frame_time` is the time between pictures [s]. Throws InputError for inconsistent settings.
   VideoTracker(const TrackSettings& settings, double frame_time);
 
-  /// The next picture; the rows of the robots seen in it, valid until the next call.
+  /// Processes the next picture. Returns the rows of the robots seen in it, valid until the next
+  /// call.
   const std::vector<TrackRow>& step(const VideoFrame& frame);
-  /// No more pictures.
+  /// Ends the video.
   void finish() { tracker_.finish(); }
   const std::vector<TrackEvent>& events() const { return tracker_.events(); }
 
@@ -67,30 +68,30 @@ class VideoTracker {
   std::vector<TrackRow> rows_;
 };
 
-/// World place [µm] of a point in a picture of `height` pixels, where (0, 0) is the middle of the
-/// first pixel and y goes down; as cells of a map lie (formats/mask.hpp).
+/// World position [µm] of a point in a picture of `height` pixels, where (0, 0) is the centre of
+/// the first pixel and y points down. Same convention as cells of a map (formats/mask.hpp).
 inline Vec2 place_in_world(Vec2 at_px, int height, double um_per_px) {
   return um_per_px * Vec2{at_px.x + 0.5, height - 0.5 - at_px.y};
 }
-/// The point in the picture of a world place.
+/// Picture coordinates of a world position.
 inline Vec2 place_in_picture(Vec2 place, int height, double um_per_px) {
   return {place.x / um_per_px - 0.5, height - 0.5 - place.y / um_per_px};
 }
 
-/// What tracks say as a whole. Long tracks are those of at least `long_track` frames.
+/// Summary of tracks. Long tracks have at least `long_track` frames.
 struct TrackSummary {
   static constexpr int long_track = 10;
 
   int frames = 0;
-  int features = 0;  ///< robots seen, over all frames
+  int features = 0;  ///< robots seen, summed over all frames
   int tracks = 0;
   int long_tracks = 0;
-  /// Mean displacement of long tracks, summed over the frames [µm]; nothing without such tracks.
+  /// Mean displacement of long tracks, summed over the frames [µm]; empty without such tracks.
   std::optional<Vec2> drift{};
-  std::optional<double> mean_speed{};  ///< of long tracks from frame to frame [µm/s]
+  std::optional<double> mean_speed{};  ///< of long tracks between consecutive frames [µm/s]
 };
 
-/// `rows` ascend by frame; `frames` were looked at.
+/// Summarises tracks. `rows` are sorted by frame; `frames` is the number of processed frames.
 TrackSummary summarise(const std::vector<TrackRow>& rows, int frames);
 
 }  // namespace microswarm

@@ -8,22 +8,22 @@
 
 namespace microswarm {
 
-/// How well one mask tells what another holds for true, pixel by pixel.
+/// Pixelwise confusion matrix of a mask and a ground-truth mask.
 struct Agreement {
   std::int64_t true_positive = 0;
   std::int64_t false_positive = 0;
   std::int64_t true_negative = 0;
   std::int64_t false_negative = 0;
 
-  /// Share of the true pixels that were found; nothing when there is none.
+  /// True positives as a fraction of the true pixels; empty if there are none.
   std::optional<double> sensitivity() const;
-  /// Share of the other pixels that were left alone; nothing when there is none.
+  /// True negatives as a fraction of the other pixels; empty if there are none.
   std::optional<double> specificity() const;
-  /// Twice the common area over the sum of both areas; nothing when both are empty.
+  /// Twice the intersection divided by the sum of both areas; empty if both are empty.
   std::optional<double> dice() const;
 };
 
-/// Compares `test` with `truth` where `view` is set, everywhere without it. Throws InputError when
+/// Compares `test` with `truth` inside `view`, or everywhere if it is null. Throws InputError if
 /// the sizes differ.
 Agreement compare(const Mask& truth, const Mask& test, const Mask* view = nullptr);
 

@@ -18,11 +18,11 @@ namespace {
 const cv::Point neighbours[] = {{1, 0}, {0, 1},  {-1, 0},  {0, -1},
                                 {1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
 
-/// Where the cheapest way from the pieces to each pixel comes from.
+/// Cheapest paths from the pieces to each pixel.
 struct Reach {
-  cv::Mat label;   ///< piece, 0 where nothing comes
-  cv::Mat cost;    ///< of the way, 0 in the pieces
-  cv::Mat parent;  ///< index of the neighbour it comes from, −1 in the pieces
+  cv::Mat label;   ///< piece, 0 if not reached
+  cv::Mat cost;    ///< cost of the path, 0 in the pieces
+  cv::Mat parent;  ///< index of the predecessor, −1 in the pieces
 };
 
 struct Meeting {
@@ -43,7 +43,7 @@ Reach reach_from_pieces(const cv::Mat& set, const cv::Mat& cost, double most) {
   reach.cost = cv::Mat(set.size(), CV_32F, cv::Scalar(std::numeric_limits<float>::max()));
   reach.cost.setTo(0, set);
   reach.parent = cv::Mat(set.size(), CV_32S, cv::Scalar(-1));
-  using Entry = std::tuple<float, int>;  // cost so far, pixel; equal costs in reading order
+  using Entry = std::tuple<float, int>;  // cost so far, pixel; ties in reading order
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   for (int i = 0; i < static_cast<int>(set.total()); ++i)
     if (set.data[i]) queue.emplace(0.0F, i);
@@ -89,7 +89,7 @@ std::vector<Meeting> meetings(const Reach& reach, const cv::Mat& cost, double mo
   return found;
 }
 
-/// Half the width of the piece near its pixel p: the depth where climbing on it ends.
+/// Half the width of the piece near its pixel p: the depth at the end of an ascent.
 float radius_near(const cv::Mat& depth, cv::Point p) {
   const cv::Rect frame({0, 0}, depth.size());
   for (bool climbing = true; climbing;) {
@@ -104,7 +104,7 @@ float radius_near(const cv::Mat& depth, cv::Point p) {
   return depth.at<float>(p);
 }
 
-/// The pixels from `p` back to its piece, that piece's first pixel last.
+/// The pixels from `p` back to its piece; the last one belongs to the piece.
 std::vector<cv::Point> way_back(const Reach& reach, cv::Point p) {
   std::vector<cv::Point> way{p};
   for (int i = reach.parent.at<int>(p); i >= 0; i = reach.parent.at<int>(p)) {

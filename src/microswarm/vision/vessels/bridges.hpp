@@ -5,10 +5,11 @@
 
 namespace microswarm {
 
-/// Joins the pieces of a set over gaps: shortest paths grow from all pieces at once, a pixel
-/// costing `cost` (32-bit, above 0) times its length, and where those of two pieces meet for no
-/// more than `most` in all, the cheapest first, the path is set as wide as the narrower of its two
-/// ends. Returns how many bridges were built; a pair of pieces that is joined already gets none.
+/// Connects the pieces of a set across gaps. Shortest paths grow from all pieces at once; the cost
+/// of a pixel is `cost` (32-bit, above 0) times its length. Paths of two pieces that meet at a
+/// total cost of at most `most` become bridges, cheapest first. A bridge is as wide as the narrower
+/// of its two ends. Pieces that are already connected get no further bridge. Returns the number of
+/// bridges.
 int bridge_gaps(cv::Mat& set, const cv::Mat& cost, double most);
 
 }  // namespace microswarm

@@ -12,8 +12,8 @@ namespace {
 constexpr int darkest_view = 20;       // of 255: a surround is darker in every channel
 constexpr double min_surround = 0.02;  // share of the picture
 constexpr double min_view = 0.2;
-constexpr double min_of_bright = 0.98;  // share of the bright pixels that are one piece
-constexpr double min_solidity = 0.95;   // of that piece in its convex hull
+constexpr double min_of_bright = 0.98;  // fraction of the bright pixels in one piece
+constexpr double min_solidity = 0.95;   // area of that piece relative to its convex hull
 
 cv::Mat brightest_channel(const cv::Mat& picture) {
   if (picture.channels() == 1) return picture.clone();

@@ -6,9 +6,9 @@
 
 namespace microswarm {
 
-/// The part of the picture that the optics show: a fundus camera leaves a black surround. Where the
-/// dark rim that touches the border does not enclose one nearly convex bright piece, there is no
-/// surround, and the whole picture is the field of view.
+/// The part of the picture inside the optical field of view; a fundus camera leaves a black
+/// surround. If the dark rim along the border does not enclose one nearly convex bright piece, the
+/// field of view is the whole picture.
 Mask field_of_view(const Image& image);
 
 }  // namespace microswarm

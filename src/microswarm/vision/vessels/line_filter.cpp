@@ -13,13 +13,13 @@
 namespace microswarm {
 namespace {
 
-// Half widths of the bank as shares of the wide radius.
+// Half widths of the bank relative to the wide radius.
 constexpr double bank[] = {0.23, 0.35, 0.51, 0.77, 1.16, 1.63};
 constexpr double blur = 0.6;           // of the half width
 constexpr double side_distance = 2.0;  // of the half width, from the middle of the line
 constexpr double length_growth = 2.0;  // half length: this many half widths ...
 constexpr double min_length = 1.9;     // ... and this many wide radii
-constexpr double flat_spread = 1e-4;   // answers that vary less are rounding, not lines
+constexpr double flat_spread = 1e-4;   // responses that vary less are rounding errors
 constexpr double finest_on_half =
     1.5;  // [px] half width that a picture of half the size still shows
 
@@ -28,7 +28,7 @@ struct Shift {
   int y = 0;
 };
 
-/// Pixels of the line through the middle, one for each step along its longer axis.
+/// Offsets of the line's pixels from its middle, one per step along the longer axis.
 std::vector<Shift> line_steps(double angle, int half_length) {
   const auto [sine, cosine] = maths::sincos(angle);
   std::vector<Shift> steps;
@@ -37,7 +37,7 @@ std::vector<Shift> line_steps(double angle, int half_length) {
   return steps;
 }
 
-/// Means along the line around each pixel of `padded` that is at least `pad` from its border.
+/// Means along the line at each pixel of `padded` that is at least `pad` from its border.
 cv::Mat line_means(const cv::Mat& padded, int pad, const std::vector<Shift>& steps) {
   cv::Mat means(padded.rows - 2 * pad, padded.cols - 2 * pad, CV_32F);
   const float share = 1.0F / static_cast<float>(steps.size());
@@ -69,7 +69,7 @@ struct Sampler {
   }
 };
 
-/// Raises `best` to the line answer of one orientation, from the means along that orientation.
+/// Raises `best` to the line response of one orientation, given the means along it.
 void keep_better(cv::Mat& best, const cv::Mat& padded_means, int pad, double nx, double ny,
                  float weaker) {
   const Sampler left(nx, ny);
@@ -94,7 +94,7 @@ void keep_better(cv::Mat& best, const cv::Mat& padded_means, int pad, double nx,
   }
 }
 
-/// Best answer over the orientations for lines of one half width, all in pixels of `picture`.
+/// Maximum response over the orientations for lines of one half width, all in pixels of `picture`.
 cv::Mat answers(const cv::Mat& picture, double half_width, int half_length,
                 const LineFilter& filter) {
   const cv::Mat smooth = blurred(picture, std::max(0.3, blur * half_width));

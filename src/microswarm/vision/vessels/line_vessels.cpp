@@ -18,19 +18,19 @@
 namespace microswarm {
 namespace {
 
-constexpr double working_radius = 4.3;      // [px] of the wide vessels, where the filter works best
-constexpr double first_diameter = 900;      // [px] of the view when the widths are first measured
-constexpr double max_diameter = 2000;       // [px] of the view at work
-constexpr double wide_line_quantile = 0.8;  // of the depths of vessel pixels ...
+constexpr double working_radius = 4.3;      // [px] of the wide vessels; optimal for the filter
+constexpr double first_diameter = 900;      // [px] of the view in the first measurement of widths
+constexpr double max_diameter = 2000;       // [px] maximum of the view at working resolution
+constexpr double wide_line_quantile = 0.8;  // quantile of the depths of vessel pixels ...
 constexpr double wide_factor = 1.35;        // ... times this is the wide radius
-constexpr double first_blur = 2.2;          // [px] by which the first look widens vessels
+constexpr double first_blur = 2.2;          // [px] widening of vessels in the first measurement
 constexpr double soft_rim = 0.01;           // of the view's diameter
-constexpr double dark_noise = 15;           // [grey levels] below which absorbance means little
-constexpr double opening = 8;               // wide radii across the disc of the opening
-constexpr double min_disc = 10;             // [px] to which that disc may be shrunk
+constexpr double dark_noise = 15;           // [grey levels] below which absorbance is unreliable
+constexpr double opening = 8;               // diameter of the opening's disc in wide radii
+constexpr double min_disc = 10;             // [px] minimum diameter of that disc after downsampling
 constexpr double sure_margin = 0.5;         // spreads above the threshold
-constexpr double small_piece = 0.2;         // of the least piece: too small to be bridged
-constexpr double reflex = 0.3;  // squares of the wide width: holes that light reflexes leave
+constexpr double small_piece = 0.2;  // relative to the minimum piece: too small to be bridged
+constexpr double reflex = 0.3;       // squares of the wide width: holes left by light reflexes
 
 /// The picture at working resolution.
 struct Working {
@@ -40,8 +40,8 @@ struct Working {
 };
 
 struct Lines {
-  cv::Mat fitted;  ///< as wide as the picture has them
-  cv::Mat sure;    ///< what is hardly anything else, so that fitted walls do not cut it
+  cv::Mat fitted;  ///< with walls fitted to the picture
+  cv::Mat sure;    ///< almost certainly vessel, so fitted walls do not cut it
   cv::Mat score;   ///< in spreads above the median
 };
 
@@ -53,7 +53,7 @@ double diameter_of(const cv::Mat& view) {
   return 2 * std::sqrt(cv::countNonZero(view) / std::numbers::pi);
 }
 
-/// Every pixel outside `view` takes the value of the nearest one inside, so that vessels run on.
+/// Replaces every pixel outside `view` by the nearest one inside, so vessels continue.
 void continue_outside(cv::Mat& picture, const cv::Mat& view) {
   if (is_whole(view) || cv::countNonZero(view) == 0) return;
   cv::Mat distance, labels;
@@ -71,8 +71,8 @@ cv::Size shrunk(cv::Size size, double scale) {
   return {std::max(1, cvRound(size.width * scale)), std::max(1, cvRound(size.height * scale))};
 }
 
-/// What stands out of its surroundings: the picture less its grey-scale opening by a disc wider
-/// than any vessel. A step stands out on neither side, so the bright disc of the eye gets no rim.
+/// Top-hat transform: the picture minus its grey opening by a disc wider than any vessel. A step
+/// has no response on either side, so the bright optic disc gets no rim.
 cv::Mat standing_out(const cv::Mat& picture, double wide_radius) {
   const double diameter = opening * wide_radius;
   const int shrink = std::max(1, cvFloor(diameter / min_disc));
@@ -104,7 +104,7 @@ Working at_scale(const cv::Mat& grey, const cv::Mat& view, double scale, double 
   return w;
 }
 
-/// Quantile of the values where `where` is set; 0 where nothing is.
+/// Quantile of the values inside `where`; 0 if it is empty.
 double quantile(const cv::Mat& values, const cv::Mat& where, double q) {
   std::vector<float> list = values_in(values, where);
   if (list.empty()) return 0;
@@ -112,7 +112,7 @@ double quantile(const cv::Mat& values, const cv::Mat& where, double q) {
   return ranked(std::move(list), static_cast<std::size_t>(std::lround(q * last)));
 }
 
-/// Hysteresis on the line score, then walls where the picture has them.
+/// Hysteresis threshold on the line score, then fitted walls.
 Lines find_lines(const Working& w, double wide_radius, const VesselParams& params) {
   cv::Mat score = line_score(w.absorbance, w.view, {.wide_radius = wide_radius});
   const double median = quantile(score, w.view, 0.5);
@@ -128,7 +128,8 @@ Lines find_lines(const Working& w, double wide_radius, const VesselParams& param
   return {fitted, rough & (score > params.threshold + sure_margin), score};
 }
 
-/// Radius of the wide vessels in pixels of the picture, from a first look at a coarse one.
+/// Radius of the wide vessels in pixels of the picture, from a first segmentation at low
+/// resolution.
 double measured_radius(const cv::Mat& grey, const cv::Mat& view, bool bright,
                        const VesselParams& params) {
   const double scale = std::min(1.0, first_diameter / diameter_of(view));

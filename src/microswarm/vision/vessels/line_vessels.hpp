@@ -7,7 +7,7 @@
 
 namespace microswarm {
 
-/// Vessels as pixels of the whole picture (8-bit, 0 and 255), and what was measured on the way.
+/// Vessel pixels of the whole picture (8-bit, 0 and 255) and measured quantities.
 struct FoundVessels {
   cv::Mat vessels;
   double wide_width_px = 0;
@@ -15,8 +15,8 @@ struct FoundVessels {
   int bridges = 0;
 };
 
-/// Vessels as lines that are darker (brighter when `bright`) than the ground beside them. `grey` is
-/// 8-bit, one channel; `view` an 8-bit mask of the same size.
+/// Segments vessels as lines darker (brighter if `bright`) than the adjacent background. `grey` is
+/// 8-bit with one channel; `view` is an 8-bit mask of the same size.
 FoundVessels line_vessels(const cv::Mat& grey, const cv::Mat& view, bool bright,
                           const VesselParams& params);
 

@@ -13,7 +13,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double max_smoothing = 0.5;  // cells that a vertex may move
+constexpr double max_smoothing = 0.5;  // cells; maximum move of a vertex
 
 struct Cell {
   int column = 0;
@@ -21,8 +21,8 @@ struct Cell {
   friend Cell operator+(Cell a, Cell b) { return {a.column + b.column, a.row + b.row}; }
 };
 
-/// Directions east, north, west, south, as steps in a picture whose rows go down. A cell's side k
-/// runs along direction k, with the cell on its left and direction k − 1 outwards.
+/// Directions east, north, west, south as picture steps with rows down. Side k of a cell runs along
+/// direction k with the cell on its left; direction k − 1 points outwards.
 constexpr std::array<Cell, 4> side_directions{{{1, 0}, {0, -1}, {-1, 0}, {0, 1}}};
 
 bool is_set(const Mask& mask, Cell c) {
@@ -35,7 +35,7 @@ struct PixelSide {
   int k = 0;
 };
 
-/// The side after `side` with set cells on the left. Cells that touch by a corner stay apart.
+/// The next side with set cells on the left. Cells that touch only at a corner are separate.
 PixelSide next(const Mask& mask, PixelSide side) {
   const Cell ahead = side.cell + side_directions[side.k];
   if (!is_set(mask, ahead)) return {side.cell, (side.k + 1) % 4};
@@ -45,7 +45,7 @@ PixelSide next(const Mask& mask, PixelSide side) {
   return {beside, outwards};
 }
 
-/// Piece of each set cell, counted from 0 in the order of the pieces' first cells; −1 where unset.
+/// Piece index of each set cell, from 0 in the order of the pieces' first cells; −1 where unset.
 std::pair<std::vector<int>, int> pieces_by_edges(const Mask& mask) {
   std::vector<int> piece(mask.cells.size(), -1);
   std::vector<Cell> open;
@@ -70,7 +70,7 @@ std::pair<std::vector<int>, int> pieces_by_edges(const Mask& mask) {
   return {std::move(piece), count};
 }
 
-/// Tracer of all rings; each exposed side belongs to exactly one.
+/// Traces all rings; each exposed side belongs to exactly one.
 class Tracer {
  public:
   Tracer(const Mask& mask, double cell, Vec2 lo)

@@ -8,18 +8,17 @@
 
 namespace microswarm {
 
-/// Smooth outlines of the set cells: a polygon for each piece of cells that touch by an edge, with
-/// its holes, in the order of the pieces' first cells. Cell (column, row) covers
-/// lo + [column, column + 1] · cell × [height − row − 1, height − row] · cell, in µm. An outline
-/// starts as the line through the middles of the cells' edges and ends within `tolerance` [µm] of
-/// it: half is spent on smoothing (at most half a cell), half on leaving out vertices. So a passage
-/// becomes at most twice the tolerance narrower or wider, and no ring ever touches itself or
-/// another, by exact tests of every step. Throws InputError when `cell` is not above 0 or
-/// `tolerance` is below 0 or something is not finite.
+/// Smooth outlines of the set cells: a polygon with holes for each 4-connected piece, in the order
+/// of the pieces' first cells. Cell (column, row) covers lo + [column, column + 1] · cell × [height
+/// − row − 1, height − row] · cell, in µm. An outline starts as the line through the midpoints of
+/// the cells' edges and stays within `tolerance` [µm] of it: half is used for smoothing (at most
+/// half a cell), half for removing vertices. A passage therefore changes its width by at most twice
+/// the tolerance. Exact tests at every step ensure that no ring touches itself or another. Throws
+/// InputError if `cell` is not above 0, `tolerance` is below 0, or a value is not finite.
 std::vector<Polygon> outline(const Mask& mask, double cell, double tolerance, Vec2 lo = {});
 
-/// The walls around a network of set cells: the outline of all other cells and of one more ring of
-/// cells around the mask, so that walls reach beyond its border.
+/// Walls around a network of set cells: the outline of all other cells, extended by one ring of
+/// cells around the mask so that walls reach beyond its border.
 std::vector<Polygon> walls_around(const Mask& network, double cell, double tolerance, Vec2 lo = {});
 
 }  // namespace microswarm

@@ -18,13 +18,13 @@ namespace microswarm {
 namespace {
 
 constexpr int ring_sigma = 2;               // vertices
-constexpr int ring_reach = 3 * ring_sigma;  // vertices on either side that count
+constexpr int ring_reach = 3 * ring_sigma;  // vertices on either side
 constexpr std::size_t min_smoothed = 2 * ring_reach + 4;
 constexpr int max_untangling_rounds = 20;
 constexpr double cells_per_bucket = 4;
 
-/// All rings as one list of vertices that are linked both ways, with the edges in square buckets.
-/// An edge is known by its first vertex.
+/// All rings as one doubly linked list of vertices, with the edges in square buckets. An edge is
+/// identified by its first vertex.
 class Chains {
  public:
   Chains(const Rings& rings, double cell) : bucket_(cells_per_bucket * cell) {
@@ -61,7 +61,7 @@ class Chains {
     enter(previous_[i]);
   }
 
-  /// Calls visit(edge) for the edges near the box, some more than once, until it returns false.
+  /// Calls visit(edge) for the edges near the box, some repeatedly, until it returns false.
   template <class Visit>
   bool each_near(const Box& box, Visit&& visit) const {
     for (int r = row(box.lo.y); r <= row(box.hi.y); ++r)
@@ -71,8 +71,8 @@ class Chains {
     return true;
   }
 
-  /// Do the new edge from vertex `a` to vertex `b` and the edge `i` have more in common than a
-  /// vertex that they share?
+  /// Whether the new edge from vertex `a` to vertex `b` and the edge `i` share more than a common
+  /// vertex.
   bool conflict(int a, int b, int i) const {
     const Segment s{points_[a], points_[b]};
     const int j = next_[i];
@@ -109,7 +109,7 @@ Box box_of(Segment s) {
   return bounding_box(ends);
 }
 
-/// For each vertex of the rings in order: does one of its two edges touch another edge?
+/// For each vertex of the rings in order: whether one of its two edges touches another edge.
 std::vector<char> touching(const Rings& rings, double cell) {
   const Chains chains(rings, cell);
   std::vector<char> found(static_cast<std::size_t>(chains.size()), 0);
@@ -147,7 +147,7 @@ std::vector<Vec2> smoothed(const std::vector<Vec2>& ring, double limit) {
   return result;
 }
 
-/// Puts vertices marked in `back`, and their neighbours, where they were.
+/// Moves the vertices marked in `back` and their neighbours to their previous positions.
 void undo(Rings& rings, const Rings& before, const std::vector<char>& back) {
   std::size_t first = 0;
   for (std::size_t r = 0; r < rings.size(); ++r) {
@@ -166,7 +166,8 @@ bool in_triangle(Vec2 p, Vec2 a, Vec2 b, Vec2 c) {
   return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
 }
 
-/// Thins chains; `first_[i]` is where the vertices left out after vertex i stand in the old order.
+/// Greedy removal of vertices from chains; `successor_[i]` is the vertex after i before any
+/// removal.
 class Thinner {
  public:
   Thinner(Chains& chains, const Rings& rings, double tolerance)
@@ -202,7 +203,8 @@ class Thinner {
     if (cost <= tolerance2_) queue_.emplace(cost, i, version_[i]);
   }
 
-  /// Largest squared distance of the old vertices between i's neighbours from the edge over them.
+  /// Maximum squared distance of the old vertices between i's neighbours from the edge that
+  /// replaces them.
   double worst_distance2(int i) const {
     const int a = chains_.previous(i);
     const int b = chains_.next(i);

@@ -7,19 +7,19 @@
 
 namespace microswarm {
 
-/// Closed chains of vertices, none of which touches itself or another.
+/// Closed chains of vertices that touch neither themselves nor each other.
 using Rings = std::vector<std::vector<Vec2>>;
 
-/// Do two rings touch, or one itself? Exact. `cell` [µm] is the size of the buckets it searches,
-/// about the length of an edge.
+/// Whether two rings touch, or one touches itself. Exact. `cell` [µm] is the size of the search
+/// buckets, about the length of an edge.
 bool touch(const Rings& rings, double cell);
 
-/// Smooths rings of vertices about `cell` apart (Gaussian along the ring); no vertex moves by more
-/// than `limit` [µm], and one whose move would make rings touch stays where it is.
+/// Smooths rings whose vertices are about `cell` apart (Gaussian along the ring). No vertex moves
+/// by more than `limit` [µm]; a vertex whose move would make rings touch stays in place.
 void smooth_rings(Rings& rings, double cell, double limit);
 
-/// Leaves out vertices, those first that matter least, as long as every vertex left out is within
-/// `tolerance` [µm] of the new edge over it, the rings do not touch, and none passes over another.
+/// Removes vertices, least significant first. Every removed vertex stays within `tolerance` [µm] of
+/// the new edge, rings never touch, and none passes over another.
 void thin_rings(Rings& rings, double cell, double tolerance);
 
 }  // namespace microswarm

@@ -14,7 +14,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double clearly_two = 0.9;  // separability of two greys from which they are regions
+constexpr double clearly_two = 0.9;  // separability above which two greys are segmented as regions
 
 void require_picture(const Image& image) {
   if (image.width < 1 || image.height < 1) throw InputError("picture to segment: no pixels");
@@ -23,7 +23,7 @@ void require_picture(const Image& image) {
                      " channels, expected 1 or 3");
 }
 
-/// The channel in which blood and ground differ most.
+/// The channel with the highest contrast of blood.
 cv::Mat green_of(const Image& image) {
   cv::Mat picture = as_mat(image);
   if (image.channels == 1) return picture;

@@ -11,10 +11,10 @@
 
 namespace microswarm {
 
-/// How vessels are told from tissue.
+/// Method of separating vessels from tissue.
 enum class VesselMethod {
-  automatic,  ///< regions when the picture has two clearly different greys, else lines
-  lines,      ///< dark lines of a few widths on uneven ground: a fundus photograph
+  automatic,  ///< regions if the picture has two clearly different greys, else lines
+  lines,      ///< dark lines of a few widths on uneven background: a fundus photograph
   regions,    ///< one threshold: a stained or filled network
 };
 constexpr auto enum_names(VesselMethod) {
@@ -24,9 +24,9 @@ constexpr auto enum_names(VesselMethod) {
        {VesselMethod::regions, "regions"}}};
 }
 
-/// How vessels differ from what is beside them.
+/// Tone of vessels relative to their surroundings.
 enum class Polarity {
-  automatic,  ///< lines are dark; of two greys, the one that hangs together better
+  automatic,  ///< lines are dark; of two greys, the better connected one
   dark,
   bright,
 };
@@ -35,15 +35,15 @@ constexpr auto enum_names(Polarity) {
       {{Polarity::automatic, "automatic"}, {Polarity::dark, "dark"}, {Polarity::bright, "bright"}}};
 }
 
-/// Which pieces of the network remain.
+/// Pieces of the network to keep.
 enum class KeepPieces { largest, all };
 constexpr auto enum_names(KeepPieces) {
   return std::array<std::pair<KeepPieces, std::string_view>, 2>{
       {{KeepPieces::largest, "largest"}, {KeepPieces::all, "all"}}};
 }
 
-/// Settings of `segment_vessels`. Thresholds are in spreads (interquartile ranges of the line
-/// score over the picture) above its median.
+/// Settings of `segment_vessels`. Thresholds are in interquartile ranges of the line score above
+/// its median.
 struct VesselParams {
   VesselMethod method = VesselMethod::automatic;
   Polarity polarity = Polarity::automatic;
@@ -87,25 +87,25 @@ struct VesselParams {
   }
 };
 
-/// What `segment_vessels` found.
+/// Result of `segment_vessels`.
 struct VesselSegmentation {
   Mask vessels;        ///< 1 = vessel
-  Mask field_of_view;  ///< 1 = shown by the optics
+  Mask field_of_view;  ///< 1 = inside the optical field of view
   VesselMethod method = VesselMethod::lines;
-  double wide_width_px = 0;  ///< measured, or as given
+  double wide_width_px = 0;  ///< measured, or as set
   double scale = 1;          ///< working pixels per picture pixel
-  int bridges = 0;           ///< gaps that were closed
-  int pieces = 0;            ///< connected networks before the choice of `keep`
-  double kept_share = 0;     ///< of the vessel area, by the choice of `keep`; 0 when there is none
-  double view_share = 0;     ///< vessel area in the field of view
+  int bridges = 0;           ///< number of closed gaps
+  int pieces = 0;            ///< connected networks before `keep` is applied
+  double kept_share = 0;  ///< fraction of the vessel area kept by `keep`; 0 if there are no vessels
+  double view_share = 0;  ///< vessel area as a fraction of the field of view
 };
 
-/// Finds dark vessels in a fundus or microscope picture (green channel of colours), without
-/// anything learned and without chance: absorbance, line detectors over widths and orientations,
-/// hysteresis threshold, walls fitted to the local contrast, gaps bridged, and of the pieces the
-/// largest kept. Works at the resolution at which the wide vessels are as wide as the detectors
-/// were made for, so that the same settings hold for pictures of any size. Throws InputError when
-/// the picture has no pixels or neither 1 nor 3 channels.
+/// Segments vessels in a fundus or microscope picture (green channel of colour pictures). The
+/// method is deterministic and untrained: absorbance, line detectors over widths, hysteresis
+/// threshold, walls fitted to the local contrast, gaps bridged, largest piece kept. It works at the
+/// resolution at which wide vessels have the detectors' design width, so the same settings apply to
+/// pictures of any size. Throws InputError if the picture has no pixels or neither 1 nor 3
+/// channels.
 VesselSegmentation segment_vessels(const Image& image, const VesselParams& params = {});
 
 }  // namespace microswarm

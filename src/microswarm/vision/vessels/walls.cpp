@@ -9,12 +9,12 @@
 namespace microswarm {
 namespace {
 
-constexpr double outward = 1.0 / 3;  // of the wide radius, how far a wall may move
-constexpr double around = 3;         // of the wide radius, over which the surroundings are averaged
-constexpr double along = 1;          // the same for the line itself
-constexpr double noise_blur = 1;     // [px]
+constexpr double outward = 1.0 / 3;  // relative to the wide radius: how far a wall may move
+constexpr double around = 3;  // relative to the wide radius: averaging range of the surroundings
+constexpr double along = 1;   // the same for the line itself
+constexpr double noise_blur = 1;  // [px]
 
-/// Gaussian mean of the picture over the pixels of `where` only; 0 far from all of them.
+/// Gaussian mean over the pixels of `where` only; 0 far from all of them.
 cv::Mat mean_over(const cv::Mat& picture, const cv::Mat& where, double sigma) {
   cv::Mat weight;
   where.convertTo(weight, CV_32F, 1.0 / 255);

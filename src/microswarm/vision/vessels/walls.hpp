@@ -5,9 +5,9 @@
 
 namespace microswarm {
 
-/// Sets the walls of roughly found bright lines where the picture itself has them: at `level`
-/// between the brightness around (0) and the brightness within (1), both averaged nearby. A wall
-/// moves outwards by at most a third of `wide_radius` [px], and only within `view`.
+/// Fits the walls of roughly found bright lines to the picture: the wall is at `level` between the
+/// local mean brightness around the line (0) and inside it (1). A wall moves outwards by at most a
+/// third of `wide_radius` [px], and only within `view`.
 cv::Mat fitted_walls(const cv::Mat& picture, const cv::Mat& lines, const cv::Mat& view,
                      double wide_radius, double level);
 
