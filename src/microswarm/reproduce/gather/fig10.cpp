@@ -168,7 +168,7 @@ void gather_through_rig(const ThroughRig& how, const ReproduceOptions& options, 
       read_rig(options.scenarios / "rigs/rollers.yaml",
                {"camera.type=simulated", "camera.microscope.um_per_px=53",
                 "camera.microscope.robot_diameter_px=4", "perception.robots.diameter_px=5",
-                "perception.robots.min_mass=60", "eye.robots.separation_px=3"});
+                "perception.robots.min_mass=60", "perception.robots.separation_px=3"});
   std::vector<std::optional<RunResult>> results(2 * how.trials);  // of both methods alternately
   {
     Shares shares(options.progress, how.figure, results.size());
