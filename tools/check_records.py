@@ -61,8 +61,8 @@ def stored():
 
 
 def shipped():
-    """Every scenario that ships with all that it needs."""
-    folders = ("rigs", "sweeps", "demo.yaml")  # the demo's map is made by the demo
+    """Every shipped scenario."""
+    folders = ("maps", "rigs", "sweeps")
     files = (file.relative_to(ROOT) for file in (ROOT / "scenarios").rglob("*.yaml"))
     return sorted(str(file) for file in files if file.parts[1] not in folders)
 

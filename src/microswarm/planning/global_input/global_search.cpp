@@ -150,44 +150,56 @@ class Round {
   }
   bool is_solved() const { return worst_ <= problem_.params.goal_tolerance; }
 
-  // Nodes after 1, 2, 4, 8 … steps, where what hinders the robots changes, and where they rest.
+  // Holds an input until it leads on no more. Three rules place nodes along it:
+  // - end: the last configuration before all robots rest or two come too near;
+  // - contact: both sides of a step in which the set of hindered robots changes;
+  // - doubling: after 1, 2, 4, 8 … steps.
   void hold(std::uint32_t from, std::size_t input) {
     const PointF move = problem_.moves[input];
-    const auto still = static_cast<float>(still_of_step * problem_.params.robostep);
     std::ranges::copy(configuration(from), now_.begin());
+    at_rest_ = 0;
     std::uint64_t hindered_before = 0;
-    std::uint64_t at_rest = 0;
-    std::uint16_t next = 1;
-    const auto node_at = [&](HeldPlaces c, std::uint16_t steps) {
-      add(c, from, {static_cast<std::uint8_t>(input), steps});
+    std::uint16_t doubling = 1;
+    const auto node_at = [&](HeldPlaces c, int steps) {
+      add(c, from, {static_cast<std::uint8_t>(input), static_cast<std::uint16_t>(steps)});
     };
     for (std::uint16_t steps = 1; steps <= problem_.max_steps; ++steps) {
-      std::swap(before_, now_);
-      std::uint64_t hindered = 0;
-      bool is_moving = false;
-      for (std::size_t i = 0; i < problem_.n; ++i) {
-        const PointF p = before_[i];
-        const PointF q = (at_rest >> i & 1) != 0 ? p : problem_.moved(p, move);
-        if (q.x == p.x && q.y == p.y) at_rest |= std::uint64_t{1} << i;
-        now_[i] = q;
-        const float lost = std::abs(q.x - p.x - move.x) + std::abs(q.y - p.y - move.y);
-        if (lost > still) hindered |= std::uint64_t{1} << i;
-        is_moving |= std::abs(q.x - p.x) + std::abs(q.y - p.y) > still;
-      }
+      const Advance advance = advance_all(move);
       counts_.edge_checks += 1;
-      const bool is_apart = separation_.holds(before_, now_, move);
-      if (!is_moving || !is_apart) {
-        if (steps > 1) node_at(before_, static_cast<std::uint16_t>(steps - 1));
-        return;
-      }
-      const bool changes = steps > 1 && hindered != hindered_before;
-      if (changes) node_at(before_, static_cast<std::uint16_t>(steps - 1));
-      if (changes || steps == next || problem_.worst(now_) <= problem_.params.goal_tolerance)
+      const bool ends = !separation_.holds(before_, now_, move) || !advance.is_moving;
+      const bool is_contact = !ends && steps > 1 && advance.hindered != hindered_before;
+      if (steps > 1 && (ends || is_contact)) node_at(before_, steps - 1);
+      if (ends) return;
+      const bool is_doubling = steps == doubling;
+      if (is_contact || is_doubling || problem_.worst(now_) <= problem_.params.goal_tolerance)
         node_at(now_, steps);
       if (is_solved()) return;
-      if (steps == next) next = static_cast<std::uint16_t>(2 * next);
-      hindered_before = hindered;
+      if (is_doubling) doubling = static_cast<std::uint16_t>(2 * doubling);
+      hindered_before = advance.hindered;
     }
+  }
+
+  /// What happened in one step of all robots.
+  struct Advance {
+    std::uint64_t hindered = 0;  ///< a bit for each robot that a wall held back
+    bool is_moving = false;
+  };
+
+  /// Moves all robots from `now_`, which becomes `before_`. A robot that has come to rest stays.
+  Advance advance_all(PointF move) {
+    const auto still = static_cast<float>(still_of_step * problem_.params.robostep);
+    std::swap(before_, now_);
+    Advance out;
+    for (std::size_t i = 0; i < problem_.n; ++i) {
+      const PointF p = before_[i];
+      const PointF q = (at_rest_ >> i & 1) != 0 ? p : problem_.moved(p, move);
+      if (q.x == p.x && q.y == p.y) at_rest_ |= std::uint64_t{1} << i;
+      now_[i] = q;
+      const float lost = std::abs(q.x - p.x - move.x) + std::abs(q.y - p.y - move.y);
+      if (lost > still) out.hindered |= std::uint64_t{1} << i;
+      out.is_moving |= std::abs(q.x - p.x) + std::abs(q.y - p.y) > still;
+    }
+    return out;
   }
 
   void add(HeldPlaces c, std::uint32_t parent, Held held) {
@@ -229,6 +241,7 @@ class Round {
   float per_cell_;
   std::vector<PointF> offset_;  // of the hypercubes
   std::vector<PointF> before_, now_;
+  std::uint64_t at_rest_ = 0;  // a bit for each robot
   std::vector<Node> nodes_;
   std::vector<PointF> places_;  // n a node
   std::unordered_set<std::uint64_t> seen_;
