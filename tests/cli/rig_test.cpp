@@ -187,8 +187,7 @@ TEST_F(WholeRig, ADeviceThatIsNotThereLeavesNoEmptyFolder) {
 TEST_F(WholeRig, ARehearsalOnTheBenchIsRefusedBeforeItBegins) {
   const std::string scenario = MICROSWARM_SOURCE_DIR "/scenarios/papers/radar/single.yaml";
   refused({"rig", "simulate", scenario, "--rig", rig("bench.yaml")},
-          rig("bench.yaml") +
-              ":8:9: the camera is not simulated: set camera.type");
+          rig("bench.yaml") + ":8:9: the camera is not simulated: set camera.type");
 }
 
 TEST_F(WholeRig, WhatIsWrongIsToldWhereItWasGiven) {

@@ -95,8 +95,9 @@ TEST(SweepPlan, BadSettingsNameWhereTheyStand) {
     const std::string what = error_of([&] { check(load_sweep(file, 2), 2); });
     return what.starts_with(file + ": ") ? what.substr(file.size() + 2) : "elsewhere: " + what;
   };
-  EXPECT_EQ(refused("navigator.clearance_um", "navigator.magrin_um"),
-            "grid: --set navigator.magrin_um: unknown key 'magrin_um', did you mean 'clearance_um'?");
+  EXPECT_EQ(
+      refused("navigator.clearance_um", "navigator.magrin_um"),
+      "grid: --set navigator.magrin_um: unknown key 'magrin_um', did you mean 'clearance_um'?");
   EXPECT_EQ(refused("guide=straight", "guide=sideways"),
             "method 'straight on': --set navigator.guide: guide is 'sideways', allowed: straight, "
             "route");

@@ -13,7 +13,7 @@ namespace microswarm {
 struct Settings {
   Settings() = default;
   Settings(std::initializer_list<std::string> list) : texts(list) {}
-  // a plain list belongs to --set
+  // NOLINTNEXTLINE(google-explicit-constructor): a plain list belongs to --set
   Settings(std::vector<std::string> list, std::string from = "--set")
       : texts(std::move(list)), option(std::move(from)) {}
 

@@ -30,7 +30,7 @@ class Id {
   Id(const Id&) = delete;
   Id& operator=(const Id&) = delete;
   Id& operator=(Id&&) = delete;
-  operator hid_t() const { return id_; }  // for HDF5 calls
+  operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): as HDF5 wants it
   bool valid() const { return id_ >= 0; }
 
  private:
