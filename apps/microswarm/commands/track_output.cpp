@@ -4,64 +4,42 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
 
 #include "microswarm/config/write.hpp"
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/version.hpp"
+#include "microswarm/io/columns.hpp"
 #include "microswarm/io/hdf5_image.hpp"
 #include "support/cli.hpp"
 
 namespace microswarm::cli {
 namespace {
 
-struct Column {
-  const char* key;
-  const char* unit;
-  const char* doc;
-  double (*value)(const TrackRow&);
+/// An event as in events.csv.
+struct EventRow {
+  int frame = 0;
+  double t = 0;
+  TrackChange event = TrackChange::birth;
+  int id = 0;
+  std::optional<int> other;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.frame, {"frame", Unit::none, {}, "Picture, from 0."});
+    visit(self.t, {"t", Unit::s, {}, "Time since the first picture."});
+    visit(self.event, {"event", Unit::none, {}, "Kind of the event."});
+    visit(self.id, {"id", Unit::none, {}, "Robot."});
+    visit(self.other, {"other", Unit::none, {}, "Robot it merged with or split from."});
+  }
 };
 
-constexpr std::array<Column, 9> columns{{
-    {"t_s", "s", "Time since the first picture.", [](const TrackRow& r) { return r.t; }},
-    {"x_um", "µm", "Centre, to the right from the picture's left border.",
-     [](const TrackRow& r) { return r.place.x; }},
-    {"y_um", "µm", "Centre, up from the picture's lower border.",
-     [](const TrackRow& r) { return r.place.y; }},
-    {"vx_um_per_s", "µm/s", "Velocity by the filter.",
-     [](const TrackRow& r) { return r.velocity.x; }},
-    {"vy_um_per_s", "µm/s", "Velocity by the filter.",
-     [](const TrackRow& r) { return r.velocity.y; }},
-    {"radius_um", "µm", "Radius of the ring, or of the even disc with the same gyration.",
-     [](const TrackRow& r) { return r.radius; }},
-    {"mass", "", "Sum of greys above the ground.", [](const TrackRow& r) { return r.mass; }},
-    {"signal", "", "Highest grey above the ground.", [](const TrackRow& r) { return r.signal; }},
-    {"eccentricity", "", "0 for a round one, towards 1 for a line.",
-     [](const TrackRow& r) { return r.eccentricity; }},
-}};
-
-std::string tracks_csv(const TrackResult& result) {
-  fmt::memory_buffer text;
-  const auto out = std::back_inserter(text);
-  fmt::format_to(out, "frame,id");
-  for (const Column& column : columns) fmt::format_to(out, ",{}", column.key);
-  fmt::format_to(out, "\n");
-  for (const TrackRow& row : result.rows) {
-    fmt::format_to(out, "{},{}", row.frame, row.id);
-    for (const Column& column : columns) fmt::format_to(out, ",{:.8g}", column.value(row));
-    fmt::format_to(out, "\n");
-  }
-  return fmt::to_string(text);
-}
-
 std::string events_csv(const TrackResult& result) {
-  std::string text = "frame,t_s,event,id,other\n";
+  std::vector<EventRow> rows;
   for (const TrackEvent& e : result.events)
-    text += fmt::format("{},{:.8g},{},{},{}\n", e.frame, e.frame * result.frame_time,
-                        enum_name(e.change), e.id, e.other ? fmt::format("{}", *e.other) : "");
-  return text;
+    rows.push_back({e.frame, e.frame * result.frame_time, e.change, e.id, e.other});
+  return csv_table(rows);
 }
 
 void put_integers(Hdf5Writer& file, const std::string& path,
@@ -81,20 +59,19 @@ std::string tracks_h5(const TrackResult& result) {
   file.attribute("/", "um_per_px", result.settings.um_per_px.value_or(0));
   file.attribute("/", "frame_time_s", result.frame_time);
   file.text("/settings", to_yaml(result.settings));
-  std::vector<std::int64_t> frames;
-  std::vector<std::int64_t> ids;
-  for (const TrackRow& row : result.rows) {
-    frames.push_back(row.frame);
-    ids.push_back(row.id);
-  }
-  put_integers(file, "/tracks/frame", frames, "Picture, from 0.");
-  put_integers(file, "/tracks/id", ids, "Robot, from 0 in the order of birth.");
-  std::vector<double> values(result.rows.size());
-  for (const Column& column : columns) {
-    std::transform(result.rows.begin(), result.rows.end(), values.begin(), column.value);
-    const std::string path = std::string("/tracks/") + column.key;
+  for (const Column& column : columns_of<TrackRow>(ColumnUnits::shown)) {
+    const std::string path = "/tracks/" + column.key;
+    if (column.kind == ColumnKind::integer) {
+      std::vector<std::int64_t> values;
+      for (const TrackRow& row : result.rows)
+        values.push_back(static_cast<std::int64_t>(column.number(&row)));
+      put_integers(file, path, values, column.doc.c_str());
+      continue;
+    }
+    std::vector<double> values;
+    for (const TrackRow& row : result.rows) values.push_back(column.number(&row));
     file.dataset(path, values);
-    file.attribute(path, "unit", column.unit);
+    file.attribute(path, "unit", std::string(unit_symbol(column.unit)));
     file.attribute(path, "description", column.doc);
   }
   std::vector<std::int64_t> event_frames;
@@ -123,7 +100,7 @@ void keep_track_input(const std::filesystem::path& folder, const std::string& in
 }
 
 void write_tracks(const TrackResult& result, const std::filesystem::path& folder) {
-  write_file_atomically(folder / "tracks.csv", tracks_csv(result));
+  write_file_atomically(folder / "tracks.csv", csv_table(result.rows));
   write_file_atomically(folder / "events.csv", events_csv(result));
   write_file_atomically(folder / "tracks.h5", tracks_h5(result));
 }

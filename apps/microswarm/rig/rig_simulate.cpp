@@ -13,6 +13,7 @@
 #include "microswarm/core/statistics.hpp"
 #include "microswarm/core/text.hpp"
 #include "microswarm/experiment/run/run.hpp"
+#include "microswarm/io/columns.hpp"
 #include "microswarm/rig/runtime/devices.hpp"
 #include "microswarm/rig/simulation/simulated_rig.hpp"
 #include "rig/rig.hpp"
@@ -74,6 +75,29 @@ struct SimulateOptions {
   int jobs = 0;
 };
 
+/// A run as in simulation.csv.
+struct SimulatedRunRow {
+  std::string scenario;
+  std::string settings;
+  int trial = 0;
+  std::string plant;
+  Status status = Status::stopped;
+  double time = 0;
+  int contacts = 0;
+  double goal_distance = 0;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.scenario, {"scenario", Unit::none, {}, "Name of the scenario's file."});
+    visit(self.settings, {"settings", Unit::none, {}, "Settings of the scenario."});
+    visit(self.trial, {"trial", Unit::none, {}, "Number of the trial."});
+    visit(self.plant, {"plant", Unit::none, {}, "kinematic or rig."});
+    visit(self.status, {"status", Unit::none, {}, "How it ended."});
+    visit(self.time, {"time", Unit::s, {}, "Time of the run."});
+    visit(self.contacts, {"contacts", Unit::none, {}, "Number of contacts."});
+    visit(self.goal_distance, {"goal_distance", Unit::um, {}, "Remaining distance."});
+  }
+};
+
 int simulate_trials(const SimulateOptions& o, const Context& context) {
   if (o.scenario.empty() != o.rig.empty())
     throw InputError("rig simulate: a scenario and --rig go together");
@@ -90,7 +114,7 @@ int simulate_trials(const SimulateOptions& o, const Context& context) {
     simulated_camera(on.rig);
   }
   const OutFolder hold(o.out);
-  std::string csv = "scenario,settings,trial,plant,status,time_s,contacts,goal_distance_um\n";
+  std::vector<SimulatedRunRow> rows;
   print("{:<42} {:>7}  {:^24}  {:^24}\n", "", "", "without a rig", "through the rig");
   print("{:<42} {:>7}  {:>7} {:>8} {:>7}  {:>7} {:>8} {:>7}\n", "scenario", "trials", "arrived",
         "contacts", "time s", "arrived", "contacts", "time s");
@@ -127,10 +151,14 @@ int simulate_trials(const SimulateOptions& o, const Context& context) {
       for (const std::size_t plant : {0U, 1U}) {
         const RunResult& r = (*results[i])[plant];
         sums[plant].add(r);
-        csv += fmt::format("{},{},{},{},{},{:.3f},{},{:.3f}\n", file.stem().string(),
-                           fmt::join(pair.settings, " "), i, plant == 0 ? "kinematic" : "rig",
-                           to_string(r.status), r.metrics.time, r.metrics.contacts,
-                           r.metrics.goal_distance);
+        rows.push_back({.scenario = file.stem().string(),
+                        .settings = fmt::format("{}", fmt::join(pair.settings, " ")),
+                        .trial = static_cast<int>(i),
+                        .plant = plant == 0 ? "kinematic" : "rig",
+                        .status = r.status,
+                        .time = r.metrics.time,
+                        .contacts = static_cast<int>(r.metrics.contacts),
+                        .goal_distance = r.metrics.goal_distance});
       }
     }
     if (done == 0) break;
@@ -144,7 +172,7 @@ int simulate_trials(const SimulateOptions& o, const Context& context) {
   }
   if (!o.out.empty()) {
     const std::filesystem::path table = std::filesystem::path(o.out) / "simulation.csv";
-    write_file_atomically(table, csv);
+    write_file_atomically(table, csv_table(rows));
     print("wrote {}\n", table.string());
   }
   if (context.stop()) print("interrupted\n");

@@ -68,7 +68,6 @@ class ColumnLister {
         return;
       case TypeKind::list:
       case TypeKind::variant:
-      case TypeKind::text:
         return;
       default:
         add(type, info, name, doc, 0);
@@ -91,9 +90,10 @@ class ColumnLister {
     column.key = std::move(name);
     if (column.unit != Unit::none) column.key.append("_").append(unit_suffix(column.unit));
     column.doc = doc;
-    column.kind = type.kind == TypeKind::number   ? ColumnKind::real
-                  : type.kind == TypeKind::choice ? ColumnKind::word
-                                                  : ColumnKind::integer;
+    column.kind = type.kind == TypeKind::number ? ColumnKind::real
+                  : type.kind == TypeKind::choice || type.kind == TypeKind::text
+                      ? ColumnKind::word
+                      : ColumnKind::integer;
     column.type_ = &type;
     column.steps_ = steps_;
     column.steps_.push_back({offset, nullptr});
@@ -171,10 +171,16 @@ bool Column::set_number(void* row, double value) const {
 
 std::string_view Column::word(const void* row) const {
   const void* value = in(row);
-  return value ? type_->words[type_->count(value)] : std::string_view{};
+  if (!value) return {};
+  if (type_->kind == TypeKind::text) return *static_cast<const std::string*>(value);
+  return type_->words[type_->count(value)];
 }
 
 bool Column::set_word(void* row, std::string_view word) const {
+  if (type_->kind == TypeKind::text) {
+    *static_cast<std::string*>(const_cast<void*>(in(row))) = word;
+    return true;
+  }
   const auto found = std::ranges::find(type_->words, word);
   if (found == type_->words.end()) return false;
   void* value = const_cast<void*>(in(row));

@@ -69,4 +69,13 @@ std::string csv_text(std::string_view text);
 std::string csv_head(const std::vector<Column>& columns);
 std::string csv_line(const std::vector<Column>& columns, const void* row);
 
+/// CSV of rows described by `fields`: the header and a line each, in the units of people.
+template <class Rows>
+std::string csv_table(const Rows& rows) {
+  const auto columns = columns_of<typename Rows::value_type>(ColumnUnits::shown);
+  std::string csv = csv_head(columns) + "\n";
+  for (const auto& row : rows) csv.append(csv_line(columns, &row)).append("\n");
+  return csv;
+}
+
 }  // namespace microswarm

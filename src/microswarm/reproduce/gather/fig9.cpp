@@ -13,6 +13,7 @@
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/parallel.hpp"
 #include "microswarm/core/statistics.hpp"
+#include "microswarm/io/columns.hpp"
 #include "microswarm/report/page.hpp"
 #include "microswarm/reproduce/gather/fig9.hpp"
 #include "microswarm/reproduce/gather/gather.hpp"
@@ -267,20 +268,46 @@ double longest_decision(const Ground& ground, const Stop& stop) {
   return longest;
 }
 
+/// A trial as in trials.csv.
+struct TrialRow {
+  std::string map;
+  std::string method;
+  int robots = 0;
+  int trial = 0;
+  Status status = Status::stopped;
+  int steps = 0;
+  double mean_way = 0;
+  int guard_count = 0;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.map, {"map", Unit::none, {}, "Map."});
+    visit(self.method, {"method", Unit::none, {}, "Method."});
+    visit(self.robots, {"robots", Unit::none, {}, "Number of robots."});
+    visit(self.trial, {"trial", Unit::none, {}, "Number of the trial."});
+    visit(self.status, {"status", Unit::none, {}, "How it ended."});
+    visit(self.steps, {"steps", Unit::none, {}, "Number of steps."});
+    visit(self.mean_way, {"mean_way", Unit::um, {}, "Mean distance to the goal at the end."});
+    visit(self.guard_count, {"guard_count", Unit::none, {}, "1 after a livelock."});
+  }
+};
+
 std::string trials_csv(const std::vector<Ground>& maps, std::vector<Trials>& trials) {
-  std::string out = "map,method,robots,trial,status,steps,mean_way_um,guard_count\n";
+  std::vector<TrialRow> rows;
   for (std::size_t g = 0; g < trials.size(); ++g) {
     for (std::size_t i = 0; i < trials[g].size(); ++i) {
       const Trial& t = trials[g][i];
       if (!t.ran) continue;
-      out += fmt::format("\"{}\",\"{}\",{},{},{},{},{:.9g},{}\n", maps[g].name,
-                         gather_methods[trials[g].method_of(i)].name,
-                         population(trials[g].population_of(i)), trials[g].number_of(i),
-                         to_string(t.result.status), t.result.steps, t.result.mean_distance,
-                         t.result.guard_count);
+      rows.push_back({.map = maps[g].name,
+                      .method = std::string(gather_methods[trials[g].method_of(i)].name),
+                      .robots = population(trials[g].population_of(i)),
+                      .trial = static_cast<int>(trials[g].number_of(i)),
+                      .status = t.result.status,
+                      .steps = t.result.steps,
+                      .mean_way = t.result.mean_distance,
+                      .guard_count = t.result.guard_count});
     }
   }
-  return out;
+  return csv_table(rows);
 }
 
 std::string superscript(std::size_t n) {

@@ -12,6 +12,7 @@
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/maths.hpp"
 #include "microswarm/core/statistics.hpp"
+#include "microswarm/io/columns.hpp"
 #include "microswarm/report/page.hpp"
 #include "microswarm/reproduce/gather/gather.hpp"
 
@@ -52,53 +53,172 @@ void for_each_run(const std::vector<CourseResult>& results, Visit&& visit) {
         if (result.crossings[k][seed].ran) visit(result, k, seed, result.crossings[k][seed]);
 }
 
+/// A run of a navigator in a world.
+struct RunRow {
+  std::string course;
+  std::string navigator;
+  std::uint64_t seed = 0;
+  Status status = Status::stopped;
+  bool arrived = false;
+  int obstacles = 0;
+  double time = 0;
+  double straight = 0;
+  double delta = 0;
+  double turning = 0;
+  double least_gap = 0;
+  double hold = 0;
+  std::uint64_t contacts = 0;
+  int avoidable = 0;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.course, {"course", Unit::none, {}, "Course."});
+    visit(self.navigator, {"navigator", Unit::none, {}, "Navigator."});
+    visit(self.seed, {"seed", Unit::none, {}, "Seed of the world."});
+    visit(self.status, {"status", Unit::none, {}, "How the run ended."});
+    visit(self.arrived, {"arrived", Unit::none, {}, "1 if the goal was reached."});
+    visit(self.obstacles, {"obstacles", Unit::none, {}, "Number of obstacles."});
+    visit(self.time, {"time", Unit::s, {}, "Time of the run."});
+    visit(self.straight, {"straight", Unit::s, {}, "Time of the straight path."});
+    visit(self.delta, {"delta", Unit::none, {}, "Mean avoidance cost."});
+    visit(self.turning, {"turning", Unit::deg, {}, "Total turning."});
+    visit(self.least_gap, {"least_gap", Unit::um, {}, "Smallest gap."});
+    visit(self.hold, {"hold", Unit::s, {}, "Time in hold."});
+    visit(self.contacts, {"contacts", Unit::none, {}, "Contacts."});
+    visit(self.avoidable, {"avoidable", Unit::none, {}, "Avoidable contacts."});
+  }
+};
+
+/// All runs of a navigator in a course.
+struct SummaryRow {
+  std::string course;
+  std::string navigator;
+  int worlds = 0;
+  double contacts_a_run = 0;
+  double avoidable_a_run = 0;
+  int worlds_avoidable = 0;
+  int worlds_arrived = 0;
+  std::optional<double> slowness_median;
+  double delta_mean = 0;
+  std::optional<double> turning_median;
+  std::string extent;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.course, {"course", Unit::none, {}, "Course."});
+    visit(self.navigator, {"navigator", Unit::none, {}, "Navigator."});
+    visit(self.worlds, {"worlds", Unit::none, {}, "Number of worlds."});
+    visit(self.contacts_a_run, {"contacts_a_run", Unit::none, {}, "Mean contacts."});
+    visit(self.avoidable_a_run, {"avoidable_a_run", Unit::none, {}, "Mean avoidable contacts."});
+    visit(self.worlds_avoidable,
+          {"worlds_avoidable", Unit::none, {}, "Worlds with an avoidable contact."});
+    visit(self.worlds_arrived,
+          {"worlds_arrived", Unit::none, {}, "Worlds in which the goal was reached."});
+    visit(self.slowness_median,
+          {"slowness_median", Unit::none, {}, "Median time over that of the straight path."});
+    visit(self.delta_mean, {"delta_mean", Unit::none, {}, "Mean avoidance cost."});
+    visit(self.turning_median, {"turning_median", Unit::deg, {}, "Median turning."});
+    visit(self.extent, {"extent", Unit::none, {}, "Extent of the campaign."});
+  }
+};
+
+/// A contact in a run.
+struct ContactRow {
+  std::string course;
+  std::string navigator;
+  std::uint64_t seed = 0;
+  double t = 0;
+  std::string kind;
+  std::uint32_t body = 0;
+  double x = 0;
+  double y = 0;
+  double speed = 0;
+  bool avoidable = false;
+  std::optional<double> decided;
+  std::string way;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.course, {"course", Unit::none, {}, "Course."});
+    visit(self.navigator, {"navigator", Unit::none, {}, "Navigator."});
+    visit(self.seed, {"seed", Unit::none, {}, "Seed of the world."});
+    visit(self.t, {"t", Unit::s, {}, "Time of the contact."});
+    visit(self.kind, {"kind", Unit::none, {}, "wall or obstacle."});
+    visit(self.body, {"body", Unit::none, {}, "Index of the body."});
+    visit(self.x, {"x", Unit::um, {}, "Position of the swarm, to the right."});
+    visit(self.y, {"y", Unit::um, {}, "Position of the swarm, upwards."});
+    visit(self.speed, {"speed", Unit::um_per_s, {}, "Speed of the swarm."});
+    visit(self.avoidable, {"avoidable", Unit::none, {}, "1 if it could have been avoided."});
+    visit(self.decided,
+          {"decided", Unit::s, {}, "Time before the contact of the last decision that avoids it."});
+    visit(self.way, {"way", Unit::none, {}, "Manoeuvre that avoids it."});
+  }
+};
+
 std::string runs_csv(const std::vector<CourseResult>& results) {
-  std::string out =
-      "course,navigator,seed,status,arrived,obstacles,time_s,straight_s,delta,turning_deg,"
-      "least_gap_um,hold_s,contacts,avoidable\n";
+  std::vector<RunRow> rows;
   for_each_run(results,
                [&](const CourseResult& result, std::size_t k, std::size_t seed, const Crossing& c) {
-                 out += fmt::format(
-                     "\"{}\",{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{}\n",
-                     result.course.name, result.who[k].name, seed, to_string(c.status),
-                     c.arrived ? 1 : 0, c.obstacles, c.time, c.straight, c.delta,
-                     degrees(c.turning), c.min_gap, c.hold_time, c.contacts.size(), c.avoidable());
+                 rows.push_back({.course = result.course.name,
+                                 .navigator = result.who[k].name,
+                                 .seed = seed,
+                                 .status = c.status,
+                                 .arrived = c.arrived,
+                                 .obstacles = static_cast<int>(c.obstacles),
+                                 .time = c.time,
+                                 .straight = c.straight,
+                                 .delta = c.delta,
+                                 .turning = c.turning,
+                                 .least_gap = c.min_gap,
+                                 .hold = c.hold_time,
+                                 .contacts = c.contacts.size(),
+                                 .avoidable = c.avoidable()});
                });
-  return out;
+  return csv_table(rows);
 }
 
 std::string summary_csv(const std::vector<CourseResult>& results) {
-  std::string out =
-      "course,navigator,worlds,contacts_a_run,avoidable_a_run,worlds_avoidable,worlds_arrived,"
-      "slowness_median,delta_mean,turning_median_deg,extent\n";
-  const auto number = [](std::optional<double> x) { return x ? fmt::format("{:.6g}", *x) : ""; };
+  std::vector<SummaryRow> rows;
   for (const CourseResult& result : results)
     for (std::size_t k = 0; k < result.who.size(); ++k) {
       const Tally t = tally_of(result.crossings[k]);
       if (t.runs == 0) continue;
-      out += fmt::format("\"{}\",{},{},{:.6g},{:.6g},{},{},{},{:.6g},{},{}\n", result.course.name,
-                         result.who[k].name, t.runs, t.contacts, t.avoidable, t.runs_avoidable,
-                         t.runs_arrived, number(t.slowness), t.delta, number(t.turning),
-                         result.extent);
+      SummaryRow& row = rows.emplace_back(SummaryRow{.course = result.course.name,
+                                                     .navigator = result.who[k].name,
+                                                     .worlds = t.runs,
+                                                     .contacts_a_run = t.contacts,
+                                                     .avoidable_a_run = t.avoidable,
+                                                     .worlds_avoidable = t.runs_avoidable,
+                                                     .worlds_arrived = t.runs_arrived,
+                                                     .slowness_median = t.slowness,
+                                                     .delta_mean = t.delta,
+                                                     .turning_median = {},
+                                                     .extent = result.extent});
+      if (t.turning) row.turning_median = radians(*t.turning);
     }
-  return out;
+  return csv_table(rows);
 }
 
 std::string contacts_csv(const std::vector<CourseResult>& results) {
-  std::string out =
-      "course,navigator,seed,t_s,kind,body,x_um,y_um,speed_um_per_s,avoidable,"
-      "decided_s,way\n";
+  std::vector<ContactRow> rows;
   for_each_run(
       results, [&](const CourseResult& result, std::size_t k, std::size_t seed, const Crossing& c) {
-        for (const ContactVerdict& v : c.contacts)
-          out += fmt::format("\"{}\",{},{},{:.6g},{},{},{:.6g},{:.6g},{:.6g},{},{},\"{}\"\n",
-                             result.course.name, result.who[k].name, seed, v.contact.t,
-                             v.contact.kind == EventKind::contact_wall ? "wall" : "obstacle",
-                             v.contact.body, v.contact.position.x, v.contact.position.y,
-                             v.contact.speed, v.avoidable ? 1 : 0,
-                             v.avoidable ? fmt::format("{:.6g}", v.decided) : "", v.way);
+        for (const ContactVerdict& v : c.contacts) {
+          const RunEvent& contact = v.contact;
+          ContactRow& row = rows.emplace_back(
+              ContactRow{.course = result.course.name,
+                         .navigator = result.who[k].name,
+                         .seed = seed,
+                         .t = contact.t,
+                         .kind = contact.kind == EventKind::contact_wall ? "wall" : "obstacle",
+                         .body = contact.body,
+                         .x = contact.position.x,
+                         .y = contact.position.y,
+                         .speed = contact.speed,
+                         .avoidable = v.avoidable,
+                         .decided = {},
+                         .way = std::string(v.way)});
+          if (v.avoidable) row.decided = v.decided;
+        }
       });
-  return out;
+  return csv_table(rows);
 }
 
 void write_worlds(const std::vector<CourseResult>& results, const fs::path& folder) {

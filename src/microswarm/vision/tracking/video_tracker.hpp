@@ -43,6 +43,20 @@ struct TrackRow {
   double mass = 0;    ///< [grey]
   double signal = 0;  ///< [grey]
   double eccentricity = 0;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.frame, {"frame", Unit::none, {}, "Picture, from 0."});
+    visit(self.id, {"id", Unit::none, {}, "Robot, from 0 in the order of birth."});
+    visit(self.t, {"t", Unit::s, {}, "Time since the first picture."});
+    visit(self.place.x, {"x", Unit::um, {}, "Centre, to the right from the picture's left."});
+    visit(self.place.y, {"y", Unit::um, {}, "Centre, up from the picture's lower border."});
+    visit(self.velocity.x, {"vx", Unit::um_per_s, {}, "Velocity by the filter, to the right."});
+    visit(self.velocity.y, {"vy", Unit::um_per_s, {}, "Velocity by the filter, upwards."});
+    visit(self.radius, {"radius", Unit::um, {}, "Radius of the ring, or of the even disc alike."});
+    visit(self.mass, {"mass", Unit::none, {}, "Sum of greys above the background."});
+    visit(self.signal, {"signal", Unit::none, {}, "Highest grey above the background."});
+    visit(self.eccentricity, {"eccentricity", Unit::none, {}, "0 if round, towards 1 for a line."});
+  }
 };
 
 /// Finds and tracks the robots of a video, picture by picture.
