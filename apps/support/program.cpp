@@ -4,6 +4,7 @@
 #include <malloc.h>  // of glibc
 
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -17,12 +18,21 @@
 namespace microswarm::cli {
 namespace {
 
-std::atomic<bool> was_interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
+using Clock = std::chrono::steady_clock;
 
-// The first Ctrl-C asks for a clean end; a second one ends at once.
+std::atomic<bool> was_interrupted{false};
+std::atomic<Clock::rep> first_signal{0};
+static_assert(std::atomic<bool>::is_always_lock_free &&
+              std::atomic<Clock::rep>::is_always_lock_free);
+
+// The first Ctrl-C asks for a clean end; a second one ends at once. Programs such as `timeout` send
+// the same signal to the process and to its group: what follows at once is the first one still.
 extern "C" void on_interrupt(int signal) {
-  if (was_interrupted.exchange(true)) {
+  constexpr Clock::duration same = std::chrono::milliseconds(250);
+  const Clock::rep now = Clock::now().time_since_epoch().count();
+  if (!was_interrupted.exchange(true)) {
+    first_signal = now;
+  } else if (now - first_signal > same.count()) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
   }
@@ -51,7 +61,7 @@ int act(const char* name, const Action& action) {
   try {
     const int code = action(Context(&was_interrupted));
     flush_output();
-    return code;
+    return code == ok && was_interrupted ? not_reached : code;
   } catch (const InputError& e) {
     return complain(name, e.what(), bad_input);
   } catch (const HardwareError& e) {

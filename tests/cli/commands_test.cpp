@@ -157,7 +157,7 @@ TEST_F(Commands, GatherBringsRobotsTogether) {
   EXPECT_TRUE(exists("out/before.png"));
   EXPECT_TRUE(exists("out/after.png"));
   Arguments few_steps = command;
-  few_steps.insert(few_steps.end(), {"--most-steps", "3", "--json"});
+  few_steps.insert(few_steps.end(), {"--max-steps", "3", "--json"});
   const Outcome outcome = run(few_steps);
   EXPECT_EQ(outcome.code, 3);
   EXPECT_EQ(Json::parse(outcome.out).at("status"), "time_limit");

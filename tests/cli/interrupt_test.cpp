@@ -58,6 +58,33 @@ TEST_F(Interrupted, CtrlCKeepsWhatThereIs) {
   }
 }
 
+// `timeout` sends it to the process and to its group; a second Ctrl-C by hand comes later.
+TEST_F(Interrupted, TheSameCtrlCTwiceIsOne) {
+  write("flight.yaml", endless());
+  Program program({"run", "flight.yaml", "--out", "out"}, at);
+  program.let_work(500);
+  ASSERT_TRUE(program.running());
+  program.send(SIGINT);
+  program.let_work(1);
+  Outcome outcome;
+  EXPECT_LT(end_with(program, SIGINT, outcome), max_seconds);
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  EXPECT_TRUE(exists("out/run.h5"));
+}
+
+TEST_F(Interrupted, APlanThatWasCutShortIsToldByItsCode) {
+  write("map.csv", "0,0,1,1\n1999,999,1,1\n");
+  Program program({"plan", "map.csv", "--start", "100,500", "--goal", "1900,500", "--set",
+                   "planner.type=rrt_star", "--set", "planner.stop_at_first=false", "--set",
+                   "planner.max_nodes=10000000", "--set", "planner.max_iterations=100000000"},
+                  at);
+  program.let_work(500);
+  ASSERT_TRUE(program.running());
+  Outcome outcome;
+  EXPECT_LT(end_with(program, SIGINT, outcome), max_seconds);
+  EXPECT_EQ(outcome.code, 3) << outcome.out << outcome.err;
+}
+
 /// Output and errors can no longer be written then, and the progress bar was on that terminal.
 TEST_F(Interrupted, AClosedTerminalEndsItWithEverythingKept) {
   write("flight.yaml", endless());

@@ -137,7 +137,7 @@ TEST_F(Sweeps, BadInputIsOneLine) {
   refused({"sweep", "none.yaml"}, naming("none.yaml:8:9", {"0", "1..1e6"}));
   write("key.yaml", with(sweep_of(1), "key:", "  - {key: navigator.magrin_um, values: [60]}"));
   refused({"sweep", "key.yaml"},
-          naming("key.yaml", {"--set", "navigator.magrin_um", "magrin_um", "clearance_um"}));
+          naming("key.yaml", {"navigator.magrin_um", "magrin_um", "clearance_um"}));
   write("wide.yaml", with(sweep_of(1), "key:", "  - {key: swarm.radius_um, values: [40, 170]}"));
   const Outcome wide = run({"sweep", "wide.yaml"});
   EXPECT_EQ(wide.code, 2);

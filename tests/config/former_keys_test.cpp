@@ -45,7 +45,8 @@ struct House {
   std::vector<Round> rooms;
   std::optional<Square> cellar;
   Sensing sensing;
-  static constexpr std::array<MovedKey, 1> moved_keys{{{"body.timeout_s", "sensing.timeout_s"}}};
+  static constexpr std::array<MovedKey, 2> moved_keys{
+      {{"body.timeout_s", "sensing.timeout_s"}, {"body.colour", ""}}};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.body, {"body", Unit::none, {}, "Body.", false, "shape"});
@@ -101,26 +102,66 @@ TEST(FormerKeys, MistakesInTheirValuesNameThePresentKeyAtTheirPlace) {
 
 TEST(FormerKeys, AreUnknownBesideThePresentKeyAndInOtherAlternatives) {
   EXPECT_EQ(read("body: {type: round, margin_um: 5, gap_um: 6}\n").mistakes,
-            "house.yaml:1:21: unknown key 'margin_um', did you mean 'gap_um'?\n");
+            "house.yaml:1:21: 'margin_um' is the former name of 'gap_um', which is given too\n");
   EXPECT_EQ(read("cellar: {gap_um: 5}\n").mistakes,
             "house.yaml:1:10: unknown key 'gap_um', allowed: clearance_um\n");
+}
+
+TEST(FormerKeys, AMistakeInTheOtherPartStays) {
+  EXPECT_EQ(read("body: {type: round, timeout_s: 4}\nsensing: 5\n").mistakes,
+            "house.yaml:1:21: unknown key 'timeout_s', allowed: gap_um\n"
+            "house.yaml:2:10: sensing must be a mapping of keys, not '5'\n");
+}
+
+TEST(FormerKeys, ARetiredKeyIsIgnored) {
+  const Read r = read("body: {type: round, colour: 4}\n");
+  EXPECT_EQ(r.mistakes, "");
+  EXPECT_EQ(r.notes, Notes{"house.yaml:1:21: 'body.colour' has no meaning any more"});
+  House house;
+  Notes notes;
+  EXPECT_EQ(set_value(house, "body.colour=4", "--set", notes), std::nullopt);
+  EXPECT_EQ(set_value(house, "body={type: round, colour: 4}", "--set", notes),
+            "body={type: round}");
+  EXPECT_EQ(notes, (Notes{"--set body.colour: has no meaning any more",
+                          "--set body: 'body.colour' has no meaning any more"}));
 }
 
 TEST(FormerKeys, AssignmentsGetThePresentKeyOfTheAlternativeThatIsHeld) {
   House house;
   house.rooms.resize(2);
-  EXPECT_EQ(set_value(house, "body.margin_um=5"), "body.gap_um=5");
-  EXPECT_EQ(set_value(house, "shape.type=square"), "body.type=square");
-  EXPECT_EQ(set_value(house, "shape.margin_um=6"), "body.clearance_um=6");
-  EXPECT_EQ(set_value(house, "rooms.1.margin_um=7"), "rooms.1.gap_um=7");
-  EXPECT_EQ(set_value(house, "body.timeout_s=4"), "sensing.timeout_s=4");
-  EXPECT_EQ(set_value(house, "sensing.timeout_s=5"), "sensing.timeout_s=5");
+  Notes notes;
+  const auto set = [&](std::string_view text) {
+    return set_value(house, text, "--set", notes).value_or("");
+  };
+  EXPECT_EQ(set("body.margin_um=5"), "body.gap_um=5");
+  EXPECT_EQ(set("shape.type=square"), "body.type=square");
+  EXPECT_EQ(set("shape.margin_um=6"), "body.clearance_um=6");
+  EXPECT_EQ(set("rooms.1.margin_um=7"), "rooms.1.gap_um=7");
+  EXPECT_EQ(set("body.timeout_s=4"), "sensing.timeout_s=4");
+  EXPECT_EQ(set("sensing.timeout_s=5"), "sensing.timeout_s=5");
   EXPECT_EQ(std::get<Square>(house.body).clearance, 6);
   EXPECT_EQ(house.rooms[1].gap, 7);
+  EXPECT_EQ(notes.size(), 5u);
   EXPECT_EQ(set_values(house, {"shape.margin_um=9", "sensing.timeout_s=1"}),
             Notes{"--set shape.margin_um: is now 'body.clearance_um'"});
   EXPECT_EQ(sample::message_of([&] { set_value(house, "rooms.9.margin_um=1"); }),
             "--set rooms.9.margin_um: rooms has 2 entries, counted from 0, and none is '9'");
+}
+
+TEST(FormerKeys, AreReadWithinAnAssignedValue) {
+  House house;
+  Notes notes;
+  EXPECT_EQ(set_value(house, "shape={type: square, margin_um: 5}", "--set", notes),
+            "body={type: square, clearance_um: 5}");
+  EXPECT_EQ(std::get<Square>(house.body).clearance, 5);
+  EXPECT_EQ(set_value(house, "rooms=[{margin_um: 1}, {gap_um: 2}]", "--set", notes),
+            "rooms=[{gap_um: 1}, {gap_um: 2}]");
+  EXPECT_EQ(house.rooms[0].gap, 1);
+  EXPECT_EQ(notes,
+            (Notes{"--set shape: 'margin_um' is now 'clearance_um'", "--set shape: is now 'body'",
+                   "--set rooms: 'margin_um' is now 'gap_um'"}));
+  EXPECT_EQ(sample::message_of([&] { set_value(house, "body={type: round, timeout_s: 4}"); }),
+            "--set body: 'body.timeout_s' is now 'sensing.timeout_s': set that");
 }
 
 }  // namespace

@@ -230,7 +230,7 @@ TEST(ImageErrors, DamageIsNamed) {
   std::string text = test::png(1, 1, 8, test::grey, "\0\x2a"s, test::chunk("tEXt", "a\0b"s));
   text[text.find("tEXt") + 4] = 'c';
   EXPECT_EQ(image_complaint(text), "x.png: damaged PNG: invalid chunk checksum");
-  EXPECT_EQ(image_complaint("\xff\xd8\xff\xd9"), "x.png: 0 × 0 pixels, at least 1 × 1");
+  EXPECT_EQ(image_complaint("\xff\xd8\xff\xd9"), "x.png: truncated JPEG: no header of the picture");
   std::string jpeg = encoded(".jpg", cv::Mat(16, 16, CV_8UC1, cv::Scalar(200)));
   const std::string cut = jpeg.substr(0, jpeg.size() - 2);
   EXPECT_EQ(image_complaint(cut), "x.png: damaged JPEG: Premature end of JPEG file");
@@ -248,6 +248,9 @@ TEST(ImageErrors, DamageIsNamed) {
   EXPECT_TRUE(
       test::is_one_line_naming(image_complaint("P1 2 1\n12"), "x.png", {"pixel", "0", "1"}));
   std::string bmp = encoded(".bmp", cv::Mat(1, 1, CV_8UC1, cv::Scalar(0)));
+  std::string colours = bmp;
+  colours.replace(28, 2, "\x08\0"s).replace(46, 4, "\x2c\1\0\0"s);
+  EXPECT_EQ(image_complaint(colours), "x.png: damaged BMP: a palette of 300 colours");
   bmp[30] = 1;
   EXPECT_TRUE(test::is_one_line_naming(image_complaint(bmp), "x.png", {"BMP", "pixels"}));
 }

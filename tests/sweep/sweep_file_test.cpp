@@ -95,18 +95,36 @@ TEST(SweepPlan, BadSettingsNameWhereTheyStand) {
     const std::string what = error_of([&] { check(load_sweep(file, 2), 2); });
     return what.starts_with(file + ": ") ? what.substr(file.size() + 2) : "elsewhere: " + what;
   };
-  EXPECT_EQ(
-      refused("navigator.clearance_um", "navigator.magrin_um"),
-      "grid: --set navigator.magrin_um: unknown key 'magrin_um', did you mean 'clearance_um'?");
+  EXPECT_EQ(refused("navigator.clearance_um", "navigator.magrin_um"),
+            "grid: navigator.magrin_um: unknown key 'magrin_um', did you mean 'clearance_um'?");
   EXPECT_EQ(refused("guide=straight", "guide=sideways"),
-            "method 'straight on': --set navigator.guide: guide is 'sideways', allowed: straight, "
+            "method 'straight on': navigator.guide: guide is 'sideways', allowed: straight, "
             "route");
   EXPECT_EQ(refused("time_limit_s=20", "time_limit_s=-1"),
-            "--set time_limit_s: time_limit_s is -1 s, allowed 0..1e5 s");
+            "set: time_limit_s: time_limit_s is -1 s, allowed 0..1e5 s");
   EXPECT_TRUE(
       refused("[800, 600]", "[1000, 100]")
           .starts_with("navigator.clearance_um=60, goal_um=[1000, 100], method 'straight on': "
                        "goal "));
+}
+
+TEST(SweepPlan, FormerKeysAreNotedOnceAndAreNoSecondParameter) {
+  std::string text = sweep_text();
+  const std::string key = "key: navigator.clearance_um";
+  text.replace(text.find(key), key.size(), "key: navigator.margin_um");
+  const auto folder = sweep_folder("sweep_former", text);
+  const std::string file = (folder / "sweep.yaml").string();
+  const SweepPlan plan = load_sweep(folder / "sweep.yaml", 2);
+  EXPECT_EQ(plan.notes,
+            Notes{file + ": grid: navigator.margin_um: is now 'navigator.clearance_um'"});
+  EXPECT_EQ(required_clearance(plan.cells[7].scenario.navigator), 90.5);
+
+  const std::string goal = "key: goal_um, values: [\"[700, 500]\", \"[800, 600]\"]";
+  text.replace(text.find(goal), goal.size(), "key: navigator.clearance_um, values: [50]");
+  const auto both = sweep_folder("sweep_both", text);
+  EXPECT_EQ(error_of([&] { load_sweep(both / "sweep.yaml", 2); }),
+            (both / "sweep.yaml").string() +
+                ": the grid has 'navigator.clearance_um' twice, under two names");
 }
 
 TEST(SweepPlan, AsPublishedBesideAKeyOfOursIsRefused) {

@@ -112,7 +112,8 @@ void add_gather(Command app, Action& action) {
                  "Typical channel width in µm, which scales all lengths (default: measured)")
       .type_name("NUMBER")
       .check(number(1e-3, 1e6));
-  cmd.add_option("--most-steps", o->max_steps, "Maximum number of steps (default: 100000)")
+  cmd.add_option("--max-steps,--most-steps", o->max_steps,
+                 "Maximum number of steps (default: 100000)")
       .type_name("NUMBER")
       .check(whole(1, 100'000'000));
   add_settings(cmd, o->settings,

@@ -124,7 +124,7 @@ std::optional<Mask> read_truth(const std::string& file, const Image& photo) {
   return mask;
 }
 
-int segment(const SegmentOptions& o) {
+int segment(const SegmentOptions& o, const Context& context) {
   VesselParams params;
   note_each(set_values(params, o.settings));
   const Image photo = read_photograph(o.photo);
@@ -135,6 +135,10 @@ int segment(const SegmentOptions& o) {
   if (found.kept_share == 0) throw InputError(o.photo + ": no vessels found");
   const Map map(cell_bounds(found.vessels, cell),
                 walls_around(found.vessels, cell, o.smooth * cell));
+  if (context.stop()) {
+    note("interrupted: nothing was written\n");
+    return not_reached;
+  }
   const std::filesystem::path out = o.out;
   std::filesystem::path picture = out;
   picture.replace_filename(out.stem().string() + "-overlay.png");
@@ -190,7 +194,8 @@ void add_segment(Command map, Action& action) {
       .type_name("FILE");
   add_settings(cmd, o->settings, "Override a value, e.g. min_width_px=6 (repeatable)");
   add_json(cmd, o->json);
-  cmd.callback([o, &action] { action = [o](const Context&) { return segment(*o); }; });
+  cmd.callback(
+      [o, &action] { action = [o](const Context& context) { return segment(*o, context); }; });
 }
 
 }  // namespace

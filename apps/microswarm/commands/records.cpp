@@ -20,7 +20,7 @@ int replay_command(const std::string& file, bool json, const Context& context) {
   else if (result.identical)
     print("identical: record {}\n", record.hash());
   else
-    print("{}\n", result.stopped ? "stopped" : "parted: " + result.difference);
+    print("{}\n", result.stopped ? "stopped" : "differs: " + result.difference);
   return result.identical ? ok : not_reached;
 }
 

@@ -194,7 +194,7 @@ void add_sweep(Command app, Action& action) {
       "sweep",
       "Run trials for all combinations of parameters and methods of a scenario, into a database",
       "sweep scenarios/sweeps/first_flight.yaml --out out/first_flight.db");
-  cmd.add_option("sweep", o->sweep, "Sweep file (YAML); its keys are in docs/how-to/sweep.md")
+  cmd.add_option("sweep", o->sweep, "Sweep file (YAML); `schema sweep --keys` lists its keys")
       .required()
       .type_name("FILE");
   cmd.add_option("--out", o->out,

@@ -69,14 +69,14 @@ Json json_of(const Blob& b) {
           {"semi_axes_px", {b.semi_major_px, b.semi_minor_px}},
           {"angle_rad", b.angle},
           {"contrast", b.contrast},
-          {"grain", b.texture},
+          {"texture", b.texture},
           {"is_cut", b.is_cut}};
 }
 
 std::string text_of(const Blob& b) {
   return fmt::format(
       "({:.2f}, {:.2f}) px, radius {:.2f} px, axes {:.1f} and {:.1f} px, contrast "
-      "{:.0f}, grain {:.1f}{}",
+      "{:.0f}, texture {:.1f}{}",
       b.centre_px.x, b.centre_px.y, b.radius_px, b.semi_major_px, b.semi_minor_px, b.contrast,
       b.texture, b.is_cut ? ", cut" : "");
 }

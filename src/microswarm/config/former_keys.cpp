@@ -4,11 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 
 #include "microswarm/config/type.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/error.hpp"
 
 namespace microswarm {
 namespace {
@@ -24,20 +23,22 @@ std::optional<std::size_t> value_of(const YamlNode& map, std::string_view key) {
 }
 
 struct Renaming {
-  std::string_view name;  ///< of the document
+  std::string_view name;  ///< of the document or the assignment
+  bool has_lines;
   Notes& notes;
 
+  void note(const YamlNode& key, const std::string& what) const {
+    notes.push_back(has_lines ? fmt::format("{}:{}:{}: {}", name, key.line, key.column, what)
+                              : fmt::format("{}: {}", name, what));
+  }
   void note(const YamlNode& key, std::string_view from, std::string_view to) const {
-    notes.push_back(
-        fmt::format("{}:{}:{}: '{}' is now '{}'", name, key.line, key.column, from, to));
+    note(key, fmt::format("'{}' is now '{}'", from, to));
   }
 
   /// Drops a key that no longer has a meaning.
   void retire(std::vector<YamlNode>& part, std::size_t value, std::string_view from) const {
     const auto at = part.begin() + static_cast<std::ptrdiff_t>(value);
-    const YamlNode& key = *(at - 1);
-    notes.push_back(
-        fmt::format("{}:{}:{}: '{}' has no meaning any more", name, key.line, key.column, from));
+    note(*(at - 1), fmt::format("'{}' has no meaning any more", from));
     part.erase(at - 1, at + 1);
   }
 
@@ -50,7 +51,11 @@ struct Renaming {
     if (!value) return;
     if (moved.to.empty()) return retire(document.items[*source].items, *value, moved.from);
     auto target = value_of(document, moved.to.substr(0, to));
-    if (target && value_of(document.items[*target], moved.to.substr(to + 1))) return;
+    if (target) {
+      const YamlNode& part = document.items[*target];
+      const bool is_map = part.kind == Kind::map || part.kind == Kind::null;
+      if (!is_map || value_of(part, moved.to.substr(to + 1))) return;
+    }
     if (!target) {
       YamlNode part = document.items[*source], word;
       part.items.clear();
@@ -112,71 +117,31 @@ struct Renaming {
   }
 };
 
-/// Enters the content of optionals and the current alternative of variants; null if the optional is
-/// empty.
-const Type* held_type(const Type* type, const void*& value) {
-  while (type->kind == TypeKind::optional || type->kind == TypeKind::variant) {
-    const std::size_t count = type->count(value);
-    const bool is_optional = type->kind == TypeKind::optional;
-    if (is_optional && count == 0) return nullptr;
-    const Type* held = type->parts[is_optional ? 0 : count];
-    value = type->part_of(value);
-    type = held;
-  }
-  return type;
-}
-
 }  // namespace
 
 void use_present_keys(const Type& type, YamlNode& document, std::string_view name,
                       std::span<const MovedKey> moved, Notes& notes) {
-  const Renaming renaming{name, notes};
+  const Renaming renaming{name, true, notes};
   for (const MovedKey& one : moved) renaming.move(document, one);
   renaming.rename(type, document);
 }
 
-std::string with_present_key(const Type& of, const void* value, std::string_view assignment,
-                             std::span<const MovedKey> moved) {
-  std::string_view path = assignment.substr(0, assignment.find('='));
-  const std::string_view rest = assignment.substr(path.size());
-  for (const MovedKey& one : moved)
-    if (path == one.from && !one.to.empty()) return fmt::format("{}{}", one.to, rest);
-  std::string present;
-  const Type* type = &of;
-  for (bool more = true; more;) {
-    const std::string_view word = path.substr(0, path.find('.'));
-    more = word.size() < path.size();
-    std::string_view now = word;
-    if (type) type = held_type(type, value);
-    if (type && type->kind == TypeKind::record) {
-      const Field* field = type->field(word);
-      if (!field) field = type->former_field(word);
-      type = field ? field->type : nullptr;
-      if (field) {
-        now = field->key;
-        value = field->in(value);
-      }
-    } else if (type && type->kind == TypeKind::list) {
-      std::size_t i = type->count(value);
-      std::from_chars(word.data(), word.data() + word.size(), i);
-      const bool is_entry = i < type->count(value);
-      if (is_entry) value = type->part_of(value, i);
-      type = is_entry ? type->parts[0] : nullptr;
-    } else {
-      type = nullptr;
-    }
-    present += now;
-    path.remove_prefix(word.size() + (more ? 1 : 0));
-    if (more) present += '.';
+bool use_present_keys_in_value(const Type& type, YamlNode& value, std::string_view name,
+                               std::string_view key, std::span<const MovedKey> moved,
+                               Notes& notes) {
+  const std::size_t before = notes.size();
+  const Renaming renaming{name, false, notes};
+  for (const MovedKey& one : moved) {
+    const std::size_t dot = one.from.rfind('.');
+    const auto at =
+        one.from.substr(0, dot) == key ? value_of(value, one.from.substr(dot + 1)) : std::nullopt;
+    if (at && one.to.empty())
+      renaming.retire(value.items, *at, one.from);
+    else if (at)
+      throw InputError(fmt::format("{}: '{}' is now '{}': set that", name, one.from, one.to));
   }
-  return present + std::string(rest);
-}
-
-std::string renaming_note(std::string_view option, std::string_view assignment,
-                          std::string_view present) {
-  const std::string_view now = present.substr(0, present.find('='));
-  return fmt::format("{} {}: is now '{}'", option,
-                     one_line(assignment.substr(0, assignment.find('='))), now);
+  renaming.rename(type, value);
+  return notes.size() > before;
 }
 
 }  // namespace microswarm

@@ -17,18 +17,13 @@ struct Type;
 using Notes = std::vector<std::string>;
 
 /// Renames the former keys in a parsed document of this type and moves the keys listed in `moved`.
-/// Lines and columns stay. A former key beside its present one is left alone, so it is reported as
-/// unknown.
+/// Lines and columns stay. A former key beside its present one is left alone and becomes an error.
 void use_present_keys(const Type& type, YamlNode& document, std::string_view name,
                       std::span<const MovedKey> moved, Notes& notes);
 
-/// The assignment "KEY=VALUE" with the present key; `value` gives the alternative that a variant
-/// holds.
-std::string with_present_key(const Type& type, const void* value, std::string_view assignment,
-                             std::span<const MovedKey> moved);
-
-/// Note on an assignment whose key was renamed.
-std::string renaming_note(std::string_view option, std::string_view assignment,
-                          std::string_view present);
+/// The same for a value of this type that is assigned to `key`; notes begin with `name` alone.
+/// Throws InputError for a key in it that is now elsewhere. True if the value was changed.
+bool use_present_keys_in_value(const Type& type, YamlNode& value, std::string_view name,
+                               std::string_view key, std::span<const MovedKey> moved, Notes& notes);
 
 }  // namespace microswarm

@@ -117,6 +117,9 @@ void ValueReader::fail_kind(const Type& type, std::string_view label, const Yaml
 }
 
 void ValueReader::fail_unknown_key(const Type& record, const YamlNode& key) const {
+  if (const Field* former = record.former_field(key.text))
+    fail(key, fmt::format("{} is the former name of '{}', which is given too", quote(key.text),
+                          former->key));
   if (const Field* near = nearest_field(record, key.text))
     fail(key, fmt::format("unknown key {}, did you mean '{}'?", quote(key.text), near->key));
   std::vector<std::string_view> keys;

@@ -2,8 +2,11 @@
 #include "microswarm/config/yaml.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
+#include <nlohmann/json.hpp>
 
 #include "microswarm/config/value_reader.hpp"
 #include "microswarm/core/error.hpp"
@@ -46,11 +49,13 @@ void enter_entry(Place& place, const YamlNode& word, const ValueReader& reader) 
 
 void enter_key(Place& place, const YamlNode& word, const ValueReader& reader) {
   const Field* field = place.type->field(word.text);
+  if (!field) field = place.type->former_field(word.text);
   if (!field) reader.fail_unknown_key(*place.type, word);
   place = {field->type, field->info, field->key, field->in(place.value)};
 }
 
-void enter(Place& place, std::string_view word, const ValueReader& reader) {
+/// Enters the part of that name or index; returns its present name.
+std::string enter(Place& place, std::string_view word, const ValueReader& reader) {
   const YamlNode node = word_node(word);
   enter_content(place);
   switch (place.type->kind) {
@@ -59,9 +64,11 @@ void enter(Place& place, std::string_view word, const ValueReader& reader) {
                place.type->part(place.value, 0)};
       [[fallthrough]];
     case TypeKind::record:
-      return enter_key(place, node, reader);
+      enter_key(place, node, reader);
+      return place.label;
     case TypeKind::list:
-      return enter_entry(place, node, reader);
+      enter_entry(place, node, reader);
+      return std::string(word);
     default:
       reader.fail(node, fmt::format("{} has no parts, so no {}", place.label, quote(word)));
   }
@@ -70,6 +77,25 @@ void enter(Place& place, std::string_view word, const ValueReader& reader) {
 bool holds_text(const Type& type) {
   return type.kind == TypeKind::text ||
          (type.kind == TypeKind::optional && holds_text(*type.parts[0]));
+}
+
+/// The value on one line, as it may stand in an assignment.
+std::string flow_text(const YamlNode& node) {
+  std::vector<std::string> items;
+  switch (node.kind) {
+    case YamlNode::Kind::null:
+      return "null";
+    case YamlNode::Kind::scalar:
+      return node.quoted ? nlohmann::json(node.text).dump() : node.text;
+    case YamlNode::Kind::list:
+      for (const YamlNode& item : node.items) items.push_back(flow_text(item));
+      return fmt::format("[{}]", fmt::join(items, ", "));
+    case YamlNode::Kind::map:
+      for (std::size_t i = 0; i < node.items.size(); i += 2)
+        items.push_back(flow_text(node.items[i]) + ": " + flow_text(node.items[i + 1]));
+      return fmt::format("{{{}}}", fmt::join(items, ", "));
+  }
+  return "";
 }
 
 YamlNode value_node(const Type& type, std::string_view text, std::string_view name) {
@@ -101,17 +127,31 @@ YamlNode read_yaml(const Type& type, void* value, std::string_view text, std::st
   return node;
 }
 
-void set_value(const Type& type, void* value, std::string_view assignment,
-               std::string_view option) {
+std::optional<std::string> set_value(const Type& type, void* value, std::string_view assignment,
+                                     std::string_view option, std::span<const MovedKey> moved,
+                                     Notes& notes) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string_view::npos || equals == 0)
     throw InputError(fmt::format("{} {}: must be KEY=VALUE", option, quote(assignment)));
-  std::string_view path = assignment.substr(0, equals);
-  const std::string_view text = assignment.substr(equals + 1);
+  const std::string_view given = assignment.substr(0, equals);
+  std::string_view path = given;
+  std::string text(assignment.substr(equals + 1));
   const std::string name = fmt::format("{} {}", option, one_line(path));
+  if (const auto at = std::ranges::find(moved, path, &MovedKey::from); at != moved.end()) {
+    if (at->to.empty()) {
+      notes.push_back(name + ": has no meaning any more");
+      return std::nullopt;
+    }
+    path = at->to;
+  }
   ValueReader reader(name, false);
 
   Place place{&type, {}, "", value};
+  std::string key;
+  const auto present = [&] {
+    if (key != given) notes.push_back(fmt::format("{}: is now '{}'", name, key));
+    return key + "=" + text;
+  };
   for (bool more = true; more;) {
     const std::size_t dot = path.find('.');
     const std::string_view word = path.substr(0, dot);
@@ -121,17 +161,19 @@ void set_value(const Type& type, void* value, std::string_view assignment,
       enter_content(place);
       if (place.type->kind == TypeKind::variant) {
         const YamlNode chosen = parse_yaml(text, name);
-        const std::size_t held = place.type->count(place.value);
-        if (chosen.text == place.type->words[held]) return;  // keeps its settings
-        return reader.choose(*place.type, fmt::format("type of {}", place.label), place.value,
-                             chosen);
+        key += "type";
+        if (chosen.text != place.type->words[place.type->count(place.value)])  // else it stays
+          reader.choose(*place.type, fmt::format("type of {}", place.label), place.value, chosen);
+        return present();
       }
     }
-    enter(place, word, reader);
+    key += enter(place, word, reader) + (more ? "." : "");
   }
-  reader.read(*place.type, place.info, place.label, place.value,
-              value_node(*place.type, text, name));
+  YamlNode node = value_node(*place.type, text, name);
+  if (use_present_keys_in_value(*place.type, node, name, key, moved, notes)) text = flow_text(node);
+  reader.read(*place.type, place.info, place.label, place.value, node);
   reader.mistakes().require_none();
+  return present();
 }
 
 void check_types_first(const Settings& given) {

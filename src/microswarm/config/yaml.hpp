@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -38,8 +39,10 @@ constexpr std::span<const MovedKey> moved_keys_of() {
     return {};
 }
 
-/// Type-erased implementation of `set_value<T>`, for present keys.
-void set_value(const Type& type, void* value, std::string_view assignment, std::string_view option);
+/// Type-erased implementation of `set_value<T>`.
+std::optional<std::string> set_value(const Type& type, void* value, std::string_view assignment,
+                                     std::string_view option, std::span<const MovedKey> moved,
+                                     Notes& notes);
 
 /// Parameter struct from YAML text; `name` stands for the file in messages. Strict: throws
 /// InputError with a line for each unknown or missing key, wrong type, number that is out of range
@@ -62,14 +65,20 @@ T read_yaml_file(const std::filesystem::path& path) {
 /// dots, list entries by index, then a value as in a file (text needs no quotes). Setting a
 /// variant's `type` to another alternative resets it to that alternative's defaults; its other keys
 /// can only be set once it is chosen. Errors are as in a file, after "--set planner.stpe_um: ", and
-/// leave `value` unchanged. Returns the assignment with its present key.
+/// leave `value` unchanged. Returns the assignment with its present keys; nothing for a key that no
+/// longer has a meaning.
 template <HasFields T>
-std::string set_value(T& value, std::string_view assignment, std::string_view option = "--set") {
+std::optional<std::string> set_value(T& value, std::string_view assignment, std::string_view option,
+                                     Notes& notes) {
   T changed = value;
-  std::string present = with_present_key(type_of<T>(), &changed, assignment, moved_keys_of<T>());
-  set_value(type_of<T>(), &changed, present, option);
+  auto present = set_value(type_of<T>(), &changed, assignment, option, moved_keys_of<T>(), notes);
   value = std::move(changed);
   return present;
+}
+template <HasFields T>
+void set_value(T& value, std::string_view assignment, std::string_view option = "--set") {
+  Notes notes;
+  set_value(value, assignment, option, notes);
 }
 
 /// Throws InputError if an assignment chooses a variant's `type` after another has set a part of
@@ -81,10 +90,8 @@ template <HasFields T>
 Notes set_values(T& value, const Settings& assignments) {
   Notes notes;
   check_types_first(assignments);
-  for (const std::string& text : assignments.texts) {
-    const std::string present = set_value(value, text, assignments.option);
-    if (present != text) notes.push_back(renaming_note(assignments.option, text, present));
-  }
+  for (const std::string& text : assignments.texts)
+    set_value(value, text, assignments.option, notes);
   return notes;
 }
 
@@ -100,12 +107,11 @@ T read_yaml_file(const std::filesystem::path& path, const Settings& assignments,
   YamlNode document = read_yaml(type_of<T>(), &value, read_file(path, max_yaml_bytes), name,
                                 mistakes, notes, moved_keys_of<T>());
   check_types_first(assignments);
-  Settings present = assignments;
-  for (std::string& text : present.texts) {
+  Settings present({}, assignments.option);
+  for (const std::string& text : assignments.texts) {
     try {
-      std::string applied = set_value(value, text, assignments.option);
-      if (applied != text) notes.push_back(renaming_note(assignments.option, text, applied));
-      text = std::move(applied);
+      auto applied = set_value(value, text, assignments.option, notes);
+      if (applied) present.texts.push_back(std::move(*applied));
     } catch (const InputError& error) {
       mistakes.add(text.substr(0, text.find_first_of(".=")), error.what());
     }

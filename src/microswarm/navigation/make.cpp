@@ -64,31 +64,10 @@ Made make(const PathNavigatorParams& p, const Task& task, Rng) {
                                          task.frame_timeout);
 }
 
-std::string_view missing_for_body(const Task& task) {
+template <class OneBody>
+std::string_view missing_requirement(const OneBody&, const Task& task) {
   if (task.robots) return "a swarm that is one body: it cannot steer robots one by one";
   return task.goal ? "" : "a goal";
-}
-
-std::string_view missing_requirement(const HierarchicalParams&, const Task& task) {
-  return missing_for_body(task);
-}
-std::string_view missing_requirement(const StraightParams&, const Task& task) {
-  return missing_for_body(task);
-}
-std::string_view missing_requirement(const PotentialFieldParams&, const Task& task) {
-  return missing_for_body(task);
-}
-std::string_view missing_requirement(const VelocityObstacleParams&, const Task& task) {
-  return missing_for_body(task);
-}
-std::string_view missing_requirement(const PredictiveParams&, const Task& task) {
-  return missing_for_body(task);
-}
-std::string_view missing_requirement(const RadarParams&, const Task& task) {
-  return missing_for_body(task);
-}
-std::string_view missing_requirement(const PathNavigatorParams&, const Task& task) {
-  return missing_for_body(task);
 }
 
 std::string_view missing_requirement(const PlanExecutorParams&, const Task& task) {
@@ -111,8 +90,29 @@ Issues validate(const RadarParams& p, const Task& task, const Map& map, const Is
       issues.add(fmt::format("waypoints_um.{}", i), fmt::format("waypoint {} {}", i + 1, why));
   return issues;
 }
+/// An issue if a list without which nothing can be chosen is empty.
+template <class Value>
+void require_values(const std::vector<Value>& values, const char* key, Issues& issues) {
+  if (values.empty()) issues.add(key, fmt::format("{} is empty, must have a value", key));
+}
+
 Issues validate(const HierarchicalParams& p, const Task&, const Map&, const IsGiven& is_given) {
-  return validate(p, is_given);
+  Issues issues = validate(p, is_given);
+  const std::vector<double>& waits = p.tuning.wait_times;
+  require_values(p.tuning.speed_shares, "tuning.speed_shares", issues);
+  if (waits.empty() || waits.front() != 0 || !std::ranges::is_sorted(waits))
+    issues.add("tuning.wait_times_s", "tuning.wait_times_s must ascend from 0");
+  return issues;
+}
+Issues validate(const PredictiveParams& p, const Task&, const Map&, const IsGiven&) {
+  Issues issues;
+  require_values(p.tuning.speed_shares, "tuning.speed_shares", issues);
+  return issues;
+}
+Issues validate(const AggregationParams& p, const Task&, const Map&, const IsGiven&) {
+  Issues issues;
+  require_values(p.rollout.tuning.change_lengths, "rollout.tuning.change_lengths", issues);
+  return issues;
 }
 template <class Other>
 Issues validate(const Other&, const Task&, const Map&, const IsGiven&) {

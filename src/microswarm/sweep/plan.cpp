@@ -79,53 +79,52 @@ struct Loader {
   std::filesystem::path folder;
   MapCache& maps;
 
-  void apply(Scenario& scenario, std::string& setting, const std::string& what) const {
+  /// Applies a setting and keeps it with its present keys; messages call it `what`.
+  void apply(SweepCell& cell, const std::string& setting, const std::string& what) const {
     try {
-      setting = set_value(scenario, setting);
+      Notes notes;
+      if (auto present = set_value(cell.scenario, setting, what, notes))
+        cell.settings.push_back(std::move(*present));
+      for (const std::string& note : notes)
+        cell.notes.push_back(fmt::format("{}: {}", plan.file, note));
     } catch (const InputError& error) {
-      throw InputError(fmt::format("{}: {}{}", plan.file, what, error.what()));
+      throw InputError(fmt::format("{}: {}", plan.file, error.what()));
     }
-  }
-
-  std::vector<std::string> settings_of(const SweepCell& cell, const SweepMethod& method) const {
-    std::vector<std::string> all = plan.sweep.set;
-    all.insert(all.end(), method.set.begin(), method.set.end());
-    for (std::size_t i = 0; i < cell.values.size(); ++i)
-      all.push_back(plan.sweep.grid[i].key + "=" + cell.values[i]);
-    return all;
   }
 
   void check_order(const SweepCell& cell, const SweepMethod& method) const {
+    std::vector<std::string> all = plan.sweep.set;
+    all.insert(all.end(), method.set.begin(), method.set.end());
+    for (std::size_t i = 0; i < cell.values.size(); ++i) all.push_back(grid_setting(cell, i));
     try {
-      check_types_first(cell.settings);
+      check_types_first({all, fmt::format("method '{}':", method.name)});
     } catch (const InputError& error) {
-      throw InputError(fmt::format("{}: method '{}': {}", plan.file, method.name, error.what()));
+      throw InputError(fmt::format("{}: {}", plan.file, error.what()));
     }
   }
 
-  /// The base with the cell's settings, which get their present keys.
-  Scenario scenario_of(SweepCell& cell, const SweepMethod& method) const {
-    Scenario scenario = base;
+  std::string grid_setting(const SweepCell& cell, std::size_t parameter) const {
+    return plan.sweep.grid[parameter].key + "=" + cell.values[parameter];
+  }
+
+  /// The base with the cell's settings.
+  void set_up(SweepCell& cell, const SweepMethod& method) const {
+    cell.scenario = base;
     check_order(cell, method);
-    const std::size_t common = plan.sweep.set.size(), own = common + method.set.size();
-    const std::string in_method = fmt::format("method '{}': ", method.name);
-    for (std::size_t i = 0; i < cell.settings.size(); ++i)
-      apply(scenario, cell.settings[i], i < common ? "" : i < own ? in_method : "grid: ");
-    if (plan.sweep.seed) scenario.seed = *plan.sweep.seed;
-    return scenario;
-  }
-
-  /// One note for each former key in the sweep's settings.
-  void note_former_keys(Notes& notes) const {
-    for (std::size_t index = 0; index < plan.cells.size(); ++index) {
-      const SweepCell& cell = plan.cells[index];
-      const auto given = settings_of(cell, method_of(index));
-      for (std::size_t i = 0; i < given.size(); ++i) {
-        if (given[i] == cell.settings[i]) continue;
-        std::string note = renaming_note(plan.file + ": setting", given[i], cell.settings[i]);
-        if (std::ranges::find(notes, note) == notes.end()) notes.push_back(std::move(note));
-      }
+    for (const std::string& setting : plan.sweep.set) apply(cell, setting, "set:");
+    for (const std::string& setting : method.set)
+      apply(cell, setting, fmt::format("method '{}':", method.name));
+    const auto of_grid = static_cast<std::ptrdiff_t>(cell.settings.size());
+    for (std::size_t i = 0; i < cell.values.size(); ++i) {
+      apply(cell, grid_setting(cell, i), "grid:");
+      const std::string& last = cell.settings.back();
+      const std::string key = last.substr(0, last.find('=') + 1);
+      if (std::any_of(cell.settings.begin() + of_grid, cell.settings.end() - 1,
+                      [&](const std::string& other) { return other.starts_with(key); }))
+        throw InputError(fmt::format("{}: the grid has {} twice, under two names", plan.file,
+                                     quote(key.substr(0, key.size() - 1))));
     }
+    if (plan.sweep.seed) cell.scenario.seed = *plan.sweep.seed;
   }
 
   const SweepMethod& method_of(std::size_t index) const {
@@ -143,8 +142,8 @@ struct Loader {
       cell.values[i] = values[index % values.size()];
       index /= values.size();
     }
-    cell.settings = settings_of(cell, method);
-    const Scene scene = load_scene(scenario_of(cell, method), folder, cell_name(plan, cell));
+    set_up(cell, method);
+    const Scene scene = load_scene(cell.scenario, folder, cell_name(plan, cell));
     cell.input_hash = scene.hash();
     cell.world = maps.world_of(scene);
     cell.scenario = scene.scenario;
@@ -178,7 +177,9 @@ SweepPlan load_sweep(const std::filesystem::path& file, int jobs) {
   for_each_in_order(cells.size() - 1, jobs,
                     [&](std::size_t i) { cells[i + 1] = loader.cell_of(i + 1); });
   plan.cells = std::move(cells);
-  loader.note_former_keys(plan.notes);
+  for (const SweepCell& cell : plan.cells)
+    for (const std::string& note : cell.notes)
+      if (std::ranges::find(plan.notes, note) == plan.notes.end()) plan.notes.push_back(note);
   return plan;
 }
 

@@ -19,6 +19,7 @@ struct SweepCell {
   std::vector<std::string> settings;  ///< all, in order of application
   Scenario scenario;                  ///< with the samples of its tracks
   World world;                        ///< cells with the same walls share their map
+  Notes notes;                        ///< on former keys in the settings
   std::string input_hash;             ///< of scenario, map and tracks, as Scene::hash()
 };
 

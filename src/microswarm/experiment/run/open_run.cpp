@@ -68,25 +68,27 @@ const Tick* OpenRun::step(const Stop& stop) {
 
 Issues OpenRun::change(const std::string& wanted) {
   Issues issues;
-  const std::string setting =
-      with_present_key(type_of<Scenario>(), &scenario_, wanted, moved_keys_of<Scenario>());
+  Scenario changed = scenario_;
+  std::string setting = wanted, mistake;
+  try {
+    Notes notes;
+    const auto present = set_value(changed, wanted, "set", notes);
+    if (!present) return issues;
+    setting = *present;
+  } catch (const InputError& error) {
+    mistake = error.what();
+  }
   const std::string key = setting.substr(0, setting.find_first_of(".="));
   if (std::ranges::find(changeable, key) == changeable.end())
     issues.add(key, key + " cannot be changed while the experiment runs");
-  if (setting.find_first_of("\n\r") != std::string::npos)
+  if (wanted.find_first_of("\n\r") != std::string::npos)
     issues.add(key, key + " is set in more than one line");
   const bool steers_anew = key == "navigator" || key == "goal_um" || key == "goal_tolerance_um";
   if (steers_anew && has_external_navigator_)
     issues.add(key, "an external navigator cannot be told of another " + key);
+  if (issues.empty() && !mistake.empty()) issues.add({}, mistake);
   if (!issues.empty()) return issues;
 
-  Scenario changed = scenario_;
-  try {
-    set_value(changed, setting, "set");
-  } catch (const InputError& error) {
-    issues.add({}, error.what());
-    return issues;
-  }
   if (names_another_model(scenario_, changed))
     issues.add(key, "a model of a learned follower cannot be read while the experiment runs");
   else

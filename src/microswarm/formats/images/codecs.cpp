@@ -85,6 +85,7 @@ void check_jpeg(Bytes bytes, std::string_view name) {
       tjDecompressHeader3(jpeg.get(), data, bytes.size(), &width, &height, &subsampling, &colours);
   check(code == 0 ||
         (subsampling < 0 && width > 0 && height > 0));  // one without a name can be decoded
+  if (width == 0 && height == 0) fail_image(name, "truncated JPEG: no header of the picture");
   check_image_size(width, height, name);
 
   constexpr tjscalingfactor eighth{1, 8};
@@ -119,6 +120,9 @@ void check_bmp(Bytes bytes, std::string_view name) {
     fail_image(name, "compressed BMP: only plain pixels are read");
   if (bits != 1 && bits != 4 && bits != 8 && bits != 16 && bits != 24 && bits != 32)
     fail_image(name, "damaged BMP: " + std::to_string(bits) + " bits a pixel");
+  const std::int64_t colours = old ? 0 : number(46, 4);
+  if (bits <= 8 && colours > (1 << bits))
+    fail_image(name, "damaged BMP: a palette of " + std::to_string(colours) + " colours");
   const std::int64_t needed = (width * bits + 31) / 32 * 4 * height;
   if (pixels > bytes.size() || static_cast<std::int64_t>(bytes.size() - pixels) < needed)
     fail_image(name, "truncated BMP: " + std::to_string(needed) + " bytes of pixels expected");

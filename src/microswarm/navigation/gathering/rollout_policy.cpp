@@ -2,6 +2,7 @@
 #include "microswarm/navigation/gathering/rollout_policy.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "microswarm/core/angles.hpp"
@@ -191,8 +192,8 @@ void RolloutPolicy::perturb() {
 void RolloutPolicy::change(PartialPlan& partial) {
   const std::size_t at = partial.steps();
   const std::vector<int>& lengths = params_.tuning.change_lengths;
-  const auto length =
-      static_cast<std::size_t>(lengths.empty() ? 1 : lengths[rng_.below(lengths.size())]);
+  assert(!lengths.empty());
+  const auto length = static_cast<std::size_t>(lengths[rng_.below(lengths.size())]);
   const std::size_t most = steps();
   std::size_t goes_on_at = at;
   bool goes_on = rng_.below(3) == 0;

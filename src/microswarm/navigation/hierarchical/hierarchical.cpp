@@ -66,12 +66,11 @@ Command HierarchicalNavigator::step(const Observation& seen, const Stop& stop) {
   if (params_.guide == Guide::route && seen.world) view.phased_goal = towards(seen.world->map());
   view.path = path_;
   view.plan = plan_ ? &*plan_ : nullptr;
-  return steering_.command(decision.command, decision.state);
+  return steering_.command(decision);
 }
 
 // Algorithm 4 [drrt], one pass of its loop
-HierarchicalNavigator::Decision HierarchicalNavigator::decide(const Observation& seen,
-                                                              const Stop& stop) {
+Decision HierarchicalNavigator::decide(const Observation& seen, const Stop& stop) {
   if (steering_.sees_swarm(seen)) follower_.update(seen, steering_.compensator());
   if (!steering_.begin(seen)) return {{}, NavigatorState::blind};
   pose_ = steering_.compensate(seen);
@@ -91,8 +90,7 @@ HierarchicalNavigator::Decision HierarchicalNavigator::decide(const Observation&
 }
 
 // Follows the path, more slowly if only that is safe.
-std::optional<HierarchicalNavigator::Decision> HierarchicalNavigator::keep_path(
-    const Observation& seen) {
+std::optional<Decision> HierarchicalNavigator::keep_path(const Observation& seen) {
   if (!has_path()) return std::nullopt;
   for (const double ease : params_.tuning.speed_shares) {
     const double speed = ease * params_.speed;
@@ -314,7 +312,7 @@ HierarchicalNavigator::Rollout HierarchicalNavigator::look_along_path(const Obse
 
 // Of the hold and the manoeuvres of one leg, or two if one is not enough, takes the one with the
 // largest clearance.
-HierarchicalNavigator::Decision HierarchicalNavigator::escape(const Observation& seen) {
+Decision HierarchicalNavigator::escape(const Observation& seen) {
   constexpr int directions = 16;
   const double goal_heading = heading_of(aim().position - pose_.position);
   Command best{pose_.heading, 0};

@@ -39,11 +39,6 @@ class HierarchicalNavigator : public Navigator {
     double last = 0;   ///< clearance at its end [µm]
   };
 
-  struct Decision {
-    Command command;
-    NavigatorState state;
-  };
-
   Decision decide(const Observation& seen, const Stop& stop);
   std::optional<Decision> keep_path(const Observation& seen);
   bool hold_is_safe(const Observation& seen) const;

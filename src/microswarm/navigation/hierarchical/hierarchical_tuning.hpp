@@ -21,7 +21,7 @@ struct HierarchicalTuning {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.speed_shares,
-          {"speed_shares", Unit::none, {0, 1}, "Shares of the speed tried along the path."});
+          {"speed_shares", Unit::none, {1e-3, 1}, "Shares of the speed tried along the path."});
     visit(self.check_step,
           {"check_step", Unit::s, {1e-3, 10}, "Time step of the check of a command."});
     visit(self.max_sweep,

@@ -39,7 +39,7 @@ struct PredictiveTuning {
           {"closing_time", Unit::s, {0, 60}, "Time for which a non-convex obstacle closes in."});
     visit(self.speed_shares, {"speed_shares",
                               Unit::none,
-                              {0, 1},
+                              {1e-3, 1},
                               "Shares of the speed tried; the last to turn in place."});
   }
 };

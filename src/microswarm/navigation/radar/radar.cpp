@@ -42,12 +42,11 @@ Command RadarNavigator::step(const Observation& seen, const Stop& stop) {
   view.path = route_.rest();
   if (!route_.empty()) view.phased_goal = view.path.front();
   if (plan_) view.plan = &*plan_;
-  return steering_.command(decision.command, decision.state);
+  return steering_.command(decision);
 }
 
 // Remembers the last position over frames without a swarm.
-RadarNavigator::Decision RadarNavigator::filtered(const Decision& decision,
-                                                  const Observation& seen) {
+Decision RadarNavigator::filtered(const Decision& decision, const Observation& seen) {
   filter_.update(seen);
   Vec2 position = pose_.position;
   if (look_) {
@@ -73,7 +72,7 @@ RadarNavigator::Decision RadarNavigator::filtered(const Decision& decision,
   return {*instead, instead->speed > 0 ? NavigatorState::guard : NavigatorState::hold};
 }
 
-RadarNavigator::Decision RadarNavigator::decide(const Observation& seen, const Stop& stop) {
+Decision RadarNavigator::decide(const Observation& seen, const Stop& stop) {
   if (!steering_.begin(seen) || !(seen.swarm->radius > 0)) return {{}, NavigatorState::blind};
   const Pose2& at_effect = steering_.compensate(seen);
   pose_ = params_.compensate_delay ? at_effect : seen.swarm->pose;
@@ -171,7 +170,7 @@ void RadarNavigator::look_around(const Observation& seen, Vec2 target) {
   look_ = look;
 }
 
-std::optional<RadarNavigator::Decision> RadarNavigator::retreat(const Observation& seen) {
+std::optional<Decision> RadarNavigator::retreat(const Observation& seen) {
   if (!params_.retreat) return std::nullopt;
   const auto heading = scanner_.retreat(*look_, *seen.world);
   if (!heading) return std::nullopt;
@@ -179,7 +178,7 @@ std::optional<RadarNavigator::Decision> RadarNavigator::retreat(const Observatio
 }
 
 // Holds, unless an obstacle is too close.
-RadarNavigator::Decision RadarNavigator::rest(const Observation& seen, NavigatorState state) {
+Decision RadarNavigator::rest(const Observation& seen, NavigatorState state) {
   const bool pressed = contact_ && contact_->distance < look_->circles.prediction;
   if (pressed)
     if (const auto retreat = this->retreat(seen)) return *retreat;

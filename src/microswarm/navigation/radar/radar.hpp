@@ -37,10 +37,6 @@ class RadarNavigator : public Navigator {
   int directions() const { return directions_of(params_); }
 
  private:
-  struct Decision {
-    Command command;
-    NavigatorState state;
-  };
   /// Last observed swarm.
   struct Sighting {
     double time = 0;  ///< [s]

@@ -10,6 +10,12 @@
 
 namespace microswarm {
 
+/// What a navigator decides in a step.
+struct Decision {
+  Command command;
+  NavigatorState state = NavigatorState::hold;
+};
+
 /// Common step cycle of single-body navigators: hold without an observed swarm, delay compensation,
 /// hold at the goal, and recording of the command and its state.
 ///
@@ -40,6 +46,7 @@ class SteeringCycle {
   Command hold() { return command({pose_.heading, 0}, why_hold_); }
   /// Ends a step: records its command and state. Call it once per step.
   Command command(const Command& command, NavigatorState state);
+  Command command(const Decision& decision) { return command(decision.command, decision.state); }
 
   const SwarmLimits& swarm() const { return swarm_; }
   /// Commanded speed, at most the swarm's [µm/s].
