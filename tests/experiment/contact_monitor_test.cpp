@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/run/contact_monitor.hpp"
+#include "microswarm/experiment/monitors/contact_monitor.hpp"
 
 #include <gtest/gtest.h>
 
@@ -111,13 +111,6 @@ TEST(ContactMonitor, ASwarmThatWidensTouchesWhatItDidNotReach) {
   EXPECT_NEAR(touches[0].t, 0.15, 0.001);
   EXPECT_NEAR(watch.min_gap(), -10, 1e-9);
   EXPECT_NEAR(watch.obstacles().clearance, 50, 1e-9);
-}
-
-TEST(ContactMonitor, ArrivalIsTheFirstMomentWithinTheTolerance) {
-  const Way way{{0, {{0, 0}, 0}}, {0.1, {{10, 0}, 0}}, {0.2, {{20, 0}, 0}}};
-  EXPECT_NEAR(first_arrival(way, {30, 0}, 15).value(), 0.15, 1e-12);
-  EXPECT_EQ(first_arrival(way, {3, 0}, 5).value(), 0);
-  EXPECT_FALSE(first_arrival(way, {30, 0}, 5).has_value());
 }
 
 }  // namespace

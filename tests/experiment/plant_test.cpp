@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/run/plant.hpp"
+#include "microswarm/experiment/plant/plant.hpp"
 
 #include <gtest/gtest.h>
 

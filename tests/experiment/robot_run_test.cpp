@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "microswarm/core/error.hpp"
+#include "microswarm/experiment/plant/robot_plant.hpp"
 #include "microswarm/experiment/record/record.hpp"
-#include "microswarm/experiment/run/robot_plant.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "tests/experiment/scenes.hpp"
 #include "tests/messages.hpp"

@@ -188,7 +188,8 @@ TEST(Scenario, KeysOfEarlierVersionsAreRead) {
       90);
   EXPECT_NE(error_of([&] { opened(vortex + ", field_phase: 1}\n"); }).find("unknown key"),
             std::string::npos);
-  EXPECT_NO_THROW(opened("swarm: {type: vortex}\n", {"swarm.field_amplitude_mt=8"}));
+  const std::string small = "swarm: {type: vortex, radius_um: 90, moving_radius_um: 90}\n";
+  EXPECT_NO_THROW(opened(small, {"swarm.field_amplitude_mt=8"}));
   // Given in both places, the old one is unknown; its line is told for what is wrong with it.
   EXPECT_NE(error_of([&] {
               opened(old + "sensing: {frame_timeout_s: 0.2}\n");

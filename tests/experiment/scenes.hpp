@@ -10,8 +10,8 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/error.hpp"
+#include "microswarm/experiment/plant/plant.hpp"
 #include "microswarm/experiment/record/record.hpp"
-#include "microswarm/experiment/run/plant.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/experiment/scenario/validate.hpp"
 

@@ -9,7 +9,7 @@
 #include "microswarm/actuation/coils/coil_system.hpp"
 #include "microswarm/config/type.hpp"
 #include "microswarm/experiment/record/record.hpp"
-#include "microswarm/experiment/run/metrics.hpp"
+#include "microswarm/experiment/results/metrics.hpp"
 #include "microswarm/experiment/scenario/scenario.hpp"
 #include "microswarm/learning/follower_training.hpp"
 #include "microswarm/rig/params/rig_params.hpp"

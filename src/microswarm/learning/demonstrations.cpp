@@ -2,7 +2,7 @@
 #include "microswarm/learning/demonstrations.hpp"
 
 #include "microswarm/core/angles.hpp"
-#include "microswarm/experiment/run/plant.hpp"
+#include "microswarm/experiment/plant/plant.hpp"
 #include "microswarm/experiment/run/run.hpp"
 #include "microswarm/learning/follower_expert.hpp"
 #include "microswarm/navigation/following/follower_model.hpp"

@@ -8,7 +8,7 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/parallel.hpp"
-#include "microswarm/experiment/run/plant.hpp"
+#include "microswarm/experiment/plant/plant.hpp"
 #include "microswarm/experiment/run/run.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/learning/follower_expert.hpp"

@@ -6,7 +6,7 @@
 #include <cassert>
 
 #include "microswarm/core/angles.hpp"
-#include "microswarm/experiment/run/contact_monitor.hpp"
+#include "microswarm/experiment/monitors/contact_monitor.hpp"
 #include "microswarm/swarm/body/swarm_body.hpp"
 
 namespace microswarm {

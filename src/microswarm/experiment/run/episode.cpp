@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "microswarm/experiment/run/metrics.hpp"
+#include "microswarm/experiment/results/metrics.hpp"
 
 namespace microswarm {
 namespace {
@@ -28,25 +28,21 @@ Episode::Episode(const Scenario& scenario, Plant& plant, Navigator& navigator)
       plant_(plant),
       navigator_(&navigator),
       obstacles_(scenario.sensing.obstacle_memory),
+      goal_(scenario),
+      hold_(scenario),
       detection_range_(scenario.detection_range.value_or(detection_range_of(scenario.navigator))) {
   if (scenario.start) present_.pose = *scenario.start;
-  take_goal();
+  goal_.take_goal(present_.pose.position);
   const auto ground_truth = plant.ground_truth();
   if (ground_truth && !scenario.robots) contacts_.emplace(*ground_truth->world);
-}
-
-void Episode::take_goal() {
-  goal_ = scenario_.goal;
-  if (goal_) start_distance_ = distance(present_.pose.position, *goal_);
 }
 
 void Episode::change(const std::string& setting, Navigator& navigator) {
   coming_changes_.push_back(setting);
   prepared_ = prepared_ && navigator_ == &navigator;
   navigator_ = &navigator;
-  if (goal_ != scenario_.goal) take_goal();
+  goal_.take_goal(present_.pose.position);
   if (contacts_) contacts_->take_obstacles();
-  task_.reset();
 }
 
 const Tick* Episode::step(const Stop& stop) {
@@ -57,7 +53,7 @@ const Tick* Episode::step(const Stop& stop) {
   changes_ = std::exchange(coming_changes_, {});
   tick_.changes = changes_;
   const double ticks = std::ceil(scenario_.time_limit / scenario_.tick - 1e-9);
-  if (!ending_ && done_++ >= ticks) ending_ = hold_time_ > 0 ? Status::held : Status::time_limit;
+  if (!ending_ && done_++ >= ticks) ending_ = hold_.holds() ? Status::held : Status::time_limit;
   if (!ending_ && stop()) ending_ = Status::stopped;
   if (ending_ || !advance(stop)) end();
   tick_.events = events_;
@@ -70,12 +66,12 @@ const Tick* Episode::step(const Stop& stop) {
 bool Episode::advance(const Stop& stop) {
   const Observation seen = obstacles_.complete(plant_.observe());
   was_seen_ = was_seen_ || seen.swarm || plant_.ground_truth();
-  if (scenario_.robots && !task_) begin_with_robots(seen);
+  take_robots(seen);
   present_ = present(seen);
   if (!plant_.fault().empty()) {
     fault_ = plant_.fault();
     ending_ = Status::fault;
-  } else if (present_.goal_distance <= scenario_.goal_tolerance) {
+  } else if (goal_.reached(present_.goal_distance)) {
     ending_ = arrived();
   }
   if (ending_) return false;
@@ -98,8 +94,8 @@ bool Episode::advance(const Stop& stop) {
   tick_.frame.state = tick_.view.state;
   tick_.frame.planned = tick_.view.planned;
   fill(seen);
-  const double held = hold(command);
-  if (held > 0 && held >= scenario_.hold_limit - 1e-9) {
+  if (const auto change = hold_.take(command)) note(*change);
+  if (hold_.at_limit()) {
     ending_ = Status::held;
     return true;
   }
@@ -108,8 +104,8 @@ bool Episode::advance(const Stop& stop) {
   return true;
 }
 
-void Episode::begin_with_robots(const Observation& seen) {
-  task_.emplace(scenario_, seen.world->map());
+void Episode::take_robots(const Observation& seen) {
+  if (!goal_.take_robots(seen.world->map())) return;
   const auto ground_truth = plant_.ground_truth();
   if (ground_truth || seen.swarm)
     present_.pose = ground_truth ? ground_truth->swarm.pose : seen.swarm->pose;
@@ -119,33 +115,20 @@ Episode::Present Episode::present(const Observation& seen) {
   if (const auto ground_truth = plant_.ground_truth())
     return {ground_truth->now, ground_truth->swarm.pose,
             scenario_.robots ? 0 : ground_truth->swarm.radius, ground_truth->speed,
-            left(ground_truth->swarm.pose.position, ground_truth->robots)};
+            goal_.left(ground_truth->swarm.pose.position, ground_truth->robots)};
   if (!seen.swarm)
     return {seen.now, present_.pose, present_.radius, present_.speed, present_.goal_distance};
   const double passed = seen.now - present_.t;
   const double way = distance(present_.pose.position, seen.swarm->pose.position);
   return {seen.now, seen.swarm->pose, scenario_.robots ? 0 : seen.swarm->radius,
-          passed > 0 ? way / passed : 0, left(seen.swarm->pose.position, seen.robots)};
-}
-
-/// Remaining distance of the task [µm].
-double Episode::left(Vec2 centre, std::span<const Vec2> robots) {
-  return task_ ? task_->left(robots) : distance(centre, *scenario_.goal);
-}
-
-/// Time for which the swarm has been commanded to hold.
-double Episode::hold(const Command& command) {
-  const bool holds = command.speed <= 0;
-  if (holds != (hold_time_ > 0)) note(holds ? EventKind::hold_begins : EventKind::hold_ends);
-  hold_time_ = holds ? hold_time_ + scenario_.tick : 0;
-  return hold_time_;
+          passed > 0 ? way / passed : 0, goal_.left(seen.swarm->pose.position, seen.robots)};
 }
 
 /// Detects contact and arrival on the last trajectory, in order of time.
 std::optional<Status> Episode::follow(const GroundTruth& ground_truth) {
   const double t0 = present_.t;
   trajectory_.assign(ground_truth.trajectory.begin(), ground_truth.trajectory.end());
-  const auto arrival = first_arrival(trajectory_, *scenario_.goal, scenario_.goal_tolerance);
+  const auto arrival = goal_.first_arrival(trajectory_);
   if (arrival) cut(trajectory_, *arrival);
   const ContactMonitor before = *contacts_;
   const std::vector<RunEvent> touches = contacts_->follow(t0, trajectory_);
@@ -160,7 +143,8 @@ std::optional<Status> Episode::follow(const GroundTruth& ground_truth) {
   if (!trajectory_.empty()) {
     const PoseStamped& last = trajectory_.back();
     present_ = {t0 + last.t, last.pose, last.radius,
-                ends ? touches.front().speed : ground_truth.speed, left(last.pose.position, {})};
+                ends ? touches.front().speed : ground_truth.speed,
+                goal_.left(last.pose.position, {})};
   }
   if (ends) return Status::collided;
   if (!arrival) return std::nullopt;
@@ -175,7 +159,7 @@ Status Episode::arrived() {
 /// Fills the last tick with the final state.
 void Episode::end() {
   const Observation seen = plant_.observe();
-  if (scenario_.robots && !task_) begin_with_robots(seen);
+  take_robots(seen);
   if (*ending_ != Status::solved && *ending_ != Status::collided) present_ = present(seen);
   tick_.frame.state = NavigatorState::end;
   fill(seen);
@@ -188,7 +172,7 @@ void Episode::fill(const Observation& seen) {
   const auto ground_truth = plant_.ground_truth();
   world_ = ground_truth ? ground_truth->world->at(present_.t) : *seen.world;
   tick_.world = &*world_;
-  if (task_) {
+  if (goal_.has_robots()) {
     const std::span<const Vec2> robots = ground_truth ? ground_truth->robots : seen.robots;
     robots_.assign(robots.begin(), robots.end());
     tick_.robots = robots_;
@@ -201,14 +185,14 @@ void Episode::fill(const Observation& seen) {
   frame.seen = seen.seen;
   if (seen.swarm) frame.observed = seen.swarm->pose;
   frame.goal_distance = present_.goal_distance;
-  const bool one_is_there = !task_ && was_seen_;
+  const bool one_is_there = !goal_.has_robots() && was_seen_;
   frame.wall_clearance = one_is_there ? world_->map().clearance(frame.pose.position) : infinity;
   frame.obstacle_clearance =
       one_is_there ? world_->moving().clearance(frame.pose.position, infinity) : infinity;
-  if (!task_ && frame.obstacle_clearance - frame.radius < detection_range_)
-    frame.avoidance_cost =
-        avoidance_cost(tick_.view.phased_goal.value_or(*scenario_.goal) - frame.pose.position,
-                       frame.goal_distance, frame.pose.heading, frame.speed > 0, start_distance_);
+  if (!goal_.has_robots() && frame.obstacle_clearance - frame.radius < detection_range_)
+    frame.avoidance_cost = avoidance_cost(
+        tick_.view.phased_goal.value_or(*scenario_.goal) - frame.pose.position, frame.goal_distance,
+        frame.pose.heading, frame.speed > 0, goal_.start_distance());
 }
 
 void Episode::note(EventKind kind) {

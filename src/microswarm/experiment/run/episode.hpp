@@ -9,8 +9,9 @@
 #include "microswarm/contracts/navigator.hpp"
 #include "microswarm/contracts/plant.hpp"
 #include "microswarm/core/infinity.hpp"
-#include "microswarm/experiment/run/contact_monitor.hpp"
-#include "microswarm/experiment/run/robot_task.hpp"
+#include "microswarm/experiment/monitors/contact_monitor.hpp"
+#include "microswarm/experiment/monitors/goal_monitor.hpp"
+#include "microswarm/experiment/monitors/hold_monitor.hpp"
 #include "microswarm/experiment/run/tick.hpp"
 #include "microswarm/experiment/scenario/scenario.hpp"
 #include "microswarm/navigation/prediction/obstacle_memory.hpp"
@@ -51,13 +52,10 @@ class Episode {
     double goal_distance = infinity;
   };
 
-  void take_goal();
   bool advance(const Stop& stop);
   void end();
-  void begin_with_robots(const Observation& seen);
+  void take_robots(const Observation& seen);
   Present present(const Observation& seen);
-  double left(Vec2 centre, std::span<const Vec2> robots);
-  double hold(const Command& command);
   std::optional<Status> follow(const GroundTruth& ground_truth);
   void fill(const Observation& seen);
   Status arrived();
@@ -67,14 +65,12 @@ class Episode {
   Plant& plant_;
   Navigator* navigator_;
   ObstacleMemory obstacles_;
+  GoalMonitor goal_;
+  HoldMonitor hold_;
   std::optional<ContactMonitor> contacts_;
-  std::optional<RobotTask> task_;  ///< of individually tracked robots
   Present present_;
   bool was_seen_ = false;       ///< the swarm, at least once
   double detection_range_ = 0;  ///< [µm]
-  std::optional<Vec2> goal_;    ///< at the time its distance was measured
-  double start_distance_ = 0;   ///< to the goal [µm]
-  double hold_time_ = 0;        ///< without interruption [s]
   double done_ = 0;             ///< number of ticks
   bool touched_ = false;
   bool prepared_ = false;         ///< navigator_->prepare() was called

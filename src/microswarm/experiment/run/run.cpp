@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/experiment/run/run.hpp"
 
+#include "microswarm/experiment/plant/plant.hpp"
+#include "microswarm/experiment/plant/robot_plant.hpp"
 #include "microswarm/experiment/run/episode.hpp"
 #include "microswarm/experiment/run/metrics_listener.hpp"
 #include "microswarm/experiment/run/open_run.hpp"
-#include "microswarm/experiment/run/plant.hpp"
-#include "microswarm/experiment/run/robot_plant.hpp"
 
 namespace microswarm {
 

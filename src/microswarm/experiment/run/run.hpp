@@ -7,7 +7,7 @@
 
 #include "microswarm/contracts/navigator.hpp"
 #include "microswarm/contracts/plant.hpp"
-#include "microswarm/experiment/run/metrics.hpp"
+#include "microswarm/experiment/results/metrics.hpp"
 #include "microswarm/experiment/run/tick.hpp"
 #include "microswarm/experiment/scenario/scenario.hpp"
 #include "microswarm/world/world.hpp"

@@ -9,8 +9,8 @@
 #include "microswarm/contracts/navigator.hpp"
 #include "microswarm/contracts/observation.hpp"
 #include "microswarm/core/status.hpp"
-#include "microswarm/experiment/run/contact_monitor.hpp"
-#include "microswarm/experiment/run/frame.hpp"
+#include "microswarm/experiment/monitors/contact_monitor.hpp"
+#include "microswarm/experiment/results/frame.hpp"
 
 namespace microswarm {
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "microswarm/core/angles.hpp"
-#include "microswarm/experiment/run/metrics.hpp"
+#include "microswarm/experiment/results/metrics.hpp"
 #include "microswarm/report/plot.hpp"
 #include "microswarm/reproduce/radar/radar.hpp"
 

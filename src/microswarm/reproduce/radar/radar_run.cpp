@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "microswarm/experiment/run/plant.hpp"
+#include "microswarm/experiment/plant/plant.hpp"
 #include "microswarm/navigation/radar/radar.hpp"
 
 namespace microswarm::reproduce {

@@ -13,7 +13,7 @@
 
 #include "microswarm/core/file.hpp"
 #include "microswarm/core/parallel.hpp"
-#include "microswarm/experiment/run/plant.hpp"
+#include "microswarm/experiment/plant/plant.hpp"
 #include "microswarm/scenes/avoidance_worlds.hpp"
 
 namespace microswarm::reproduce {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/run/robot_plant.hpp"
+#include "microswarm/experiment/plant/robot_plant.hpp"
 
 #include <fmt/format.h>
 

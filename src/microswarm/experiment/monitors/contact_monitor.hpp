@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "microswarm/contracts/observation.hpp"
-#include "microswarm/experiment/run/frame.hpp"
-#include "microswarm/experiment/run/metrics.hpp"
+#include "microswarm/experiment/results/frame.hpp"
+#include "microswarm/experiment/results/metrics.hpp"
 #include "microswarm/world/world.hpp"
 
 namespace microswarm {
@@ -61,10 +61,6 @@ class ContactMonitor {
   bool touching_wall_ = false;
   std::vector<Body> bodies_;
 };
-
-/// First time [s, on the clock of `trajectory`] within `tolerance` of the goal; empty if never.
-std::optional<double> first_arrival(std::span<const PoseStamped> trajectory, Vec2 goal,
-                                    double tolerance);
 
 /// Pose on a non-empty trajectory at time t, clamped to its ends.
 PoseStamped moment_on(std::span<const PoseStamped> trajectory, double t);

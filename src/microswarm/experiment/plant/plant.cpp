@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/run/plant.hpp"
+#include "microswarm/experiment/plant/plant.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include "microswarm/core/angles.hpp"
-#include "microswarm/experiment/run/contact_monitor.hpp"
+#include "microswarm/experiment/monitors/contact_monitor.hpp"
 
 namespace microswarm {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/run/robot_task.hpp"
+#include "microswarm/experiment/monitors/robot_task.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/run/metrics.hpp"
+#include "microswarm/experiment/results/metrics.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/experiment/run/contact_monitor.hpp"
+#include "microswarm/experiment/monitors/contact_monitor.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -162,18 +162,6 @@ std::optional<RunEvent> ContactMonitor::wall_touch(const Way& way) {
   }
   touching_wall_ = touching;
   return event;
-}
-
-std::optional<double> first_arrival(std::span<const PoseStamped> trajectory, Vec2 goal,
-                                    double tolerance) {
-  for (std::size_t i = 0; i < trajectory.size(); ++i) {
-    const PoseStamped& a = trajectory[i > 0 ? i - 1 : 0];
-    const PoseStamped& b = trajectory[i];
-    const double share =
-        first_contact(Segment{a.pose.position, b.pose.position}, tolerance, Disc{goal, 0});
-    if (share <= 1) return a.t + share * (b.t - a.t);
-  }
-  return std::nullopt;
 }
 
 PoseStamped moment_on(std::span<const PoseStamped> trajectory, double t) {
