@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/session/session.hpp"
 
 namespace {

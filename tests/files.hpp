@@ -12,8 +12,8 @@
 #include <string>
 #include <string_view>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/file.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
 
 namespace microswarm::test {
 

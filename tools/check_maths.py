@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Fails on calls of the C library's transcendental functions, whose last bits depend on CPU and version.
 
-What results depend on goes through src/microswarm/core/maths.hpp; the length of a vector is norm().
+What results depend on goes through src/microswarm/core/maths/maths.hpp; the length of a vector is norm().
 Functions that IEEE 754 defines to the bit (sqrt, fma, floor, remainder …) are the standard library's.
 """
 
@@ -10,7 +10,7 @@ import re
 import sys
 from pathlib import Path
 
-HOME = "src/microswarm/core/maths."
+HOME = "src/microswarm/core/maths/maths."
 NAMES = ("sin cos tan sincos asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 expm1 log "
          "log2 log10 log1p pow hypot cbrt erf erfc lgamma tgamma")
 # Of the standard library alone: algorithms that differ from one library to the next, or call those.
@@ -35,7 +35,7 @@ def check_text(name, text):
         if not found:
             found = next((call for call in PLAIN.finditer(line) if is_call(line[:call.start()])), None)
         if found:
-            yield f"{name}:{number}: '{found.group(1)}' has other bits on other CPUs: core/maths.hpp"
+            yield f"{name}:{number}: '{found.group(1)}' has other bits on other CPUs: core/maths/maths.hpp"
 
 
 def is_call(before):

@@ -6,7 +6,7 @@
 
 #include "bench/ompl_peer.hpp"
 #include "bench/planning.hpp"
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 
 namespace microswarm::bench {

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "bench/ompl_global.hpp"
-#include "microswarm/core/statistics.hpp"
-#include "microswarm/core/stop.hpp"
+#include "microswarm/core/execution/stop.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/experiment/record/global_tree_file.hpp"
 #include "microswarm/formats/images/mask.hpp"
 #include "microswarm/geometry/bucket_kd_tree.hpp"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "microswarm/core/stop.hpp"
+#include "microswarm/core/execution/stop.hpp"
 #include "microswarm/report/rows.hpp"
 
 namespace microswarm::bench {

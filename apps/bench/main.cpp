@@ -7,7 +7,7 @@
 #include "bench/radar.hpp"
 #include "bench/swarm.hpp"
 #include "bench/vision.hpp"
-#include "microswarm/core/file.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/core/version.hpp"
 #include "microswarm/report/rows.hpp"
 #include "support/options.hpp"

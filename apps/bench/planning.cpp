@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "bench/ompl_peer.hpp"
-#include "microswarm/core/statistics.hpp"
-#include "microswarm/core/stop.hpp"
+#include "microswarm/core/execution/stop.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/geometry/distance.hpp"
 #include "microswarm/geometry/uniform_in.hpp"

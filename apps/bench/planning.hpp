@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "microswarm/core/stop.hpp"
+#include "microswarm/core/execution/stop.hpp"
 #include "microswarm/report/rows.hpp"
 
 namespace microswarm::bench {

@@ -7,9 +7,9 @@
 #include <memory>
 #include <string>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/rng.hpp"
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/rng.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/navigation/radar/radar.hpp"
 #include "microswarm/scenes/worlds.hpp"
 

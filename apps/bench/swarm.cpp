@@ -5,9 +5,9 @@
 #include <string>
 
 #include "bench/naive_robots.hpp"
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/rng.hpp"
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/rng.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/formats/images/mask.hpp"
 #include "microswarm/formats/images/rasterise.hpp"
 #include "microswarm/geometry/uniform_in.hpp"

@@ -7,9 +7,9 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "microswarm/core/maths.hpp"
-#include "microswarm/core/rng.hpp"
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/maths/maths.hpp"
+#include "microswarm/core/maths/rng.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/vision/image/mat.hpp"
 #include "microswarm/vision/scene/scene_finder.hpp"
 #include "microswarm/vision/tracking/video_tracker.hpp"

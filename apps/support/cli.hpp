@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "microswarm/core/progress.hpp"
-#include "microswarm/core/stop.hpp"
+#include "microswarm/core/execution/progress.hpp"
+#include "microswarm/core/execution/stop.hpp"
 
 namespace microswarm::cli {
 

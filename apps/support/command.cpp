@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <sstream>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "support/cli.hpp"
 #include "support/options.hpp"
 #include "support/usage.hpp"

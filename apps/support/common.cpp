@@ -11,8 +11,8 @@
 #include <cstdio>
 #include <system_error>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/file.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "support/cli.hpp"
 
 namespace microswarm::cli {

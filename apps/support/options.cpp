@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/options.hpp"
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/lines.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/lines.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/formats/images/image.hpp"
 
 namespace microswarm::cli {

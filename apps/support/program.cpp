@@ -13,7 +13,7 @@
 #include <string>
 #include <string_view>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 
 namespace microswarm::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <vector>
 
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/text/text.hpp"
 
 namespace microswarm::cli {
 namespace {

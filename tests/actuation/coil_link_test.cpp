@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/rng.hpp"
 
 namespace microswarm {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "microswarm/actuation/coils/winding.hpp"
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "tests/actuation/support.hpp"
 #include "tests/files.hpp"
 #include "tests/messages.hpp"

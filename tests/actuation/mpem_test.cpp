@@ -7,7 +7,7 @@
 
 #include "microswarm/actuation/coils/coil_system.hpp"
 #include "microswarm/actuation/coils/text_rows.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "tests/actuation/support.hpp"
 #include "tests/files.hpp"
 #include "tests/messages.hpp"

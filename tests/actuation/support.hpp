@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/rng.hpp"
 
 namespace microswarm::test {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "microswarm/actuation/field/field_generator.hpp"
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "tests/actuation/support.hpp"
 
 namespace microswarm {

@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-#include "microswarm/core/file.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "tests/messages.hpp"
 
 namespace microswarm::test {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "microswarm/config/yaml.hpp"
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "tests/config/message.hpp"
 
 namespace microswarm {

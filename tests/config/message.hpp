@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 
 namespace microswarm::sample {
 

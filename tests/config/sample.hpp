@@ -9,8 +9,8 @@
 #include <variant>
 #include <vector>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/geometry/vec2.hpp"
 
 namespace microswarm::sample {

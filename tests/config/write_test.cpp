@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "microswarm/config/yaml.hpp"
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "tests/config/sample.hpp"
 
 namespace microswarm::sample {

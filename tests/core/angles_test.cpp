@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 
 #include <gtest/gtest.h>
 
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/rng.hpp"
 
 namespace microswarm {
 namespace {

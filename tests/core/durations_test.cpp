@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/core/durations.hpp"
+#include "microswarm/core/execution/durations.hpp"
 
 #include <gtest/gtest.h>
 
-#include "microswarm/core/rng.hpp"
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/maths/rng.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 
 namespace microswarm {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 #include <string>
 
-#include "microswarm/core/status.hpp"
+#include "microswarm/core/execution/status.hpp"
 #include "microswarm/core/version.hpp"
 
 namespace microswarm {

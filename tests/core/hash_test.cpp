@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/core/hash.hpp"
+#include "microswarm/core/maths/hash.hpp"
 
 #include <gtest/gtest.h>
 

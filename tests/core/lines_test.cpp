@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/core/lines.hpp"
+#include "microswarm/core/text/lines.hpp"
 
 #include <gtest/gtest.h>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 
 namespace microswarm {
 namespace {

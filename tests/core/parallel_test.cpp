@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/core/parallel.hpp"
+#include "microswarm/core/execution/parallel.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 
 #include <gtest/gtest.h>
 

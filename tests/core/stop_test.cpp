@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/core/stop.hpp"
+#include "microswarm/core/execution/stop.hpp"
 
 #include <gtest/gtest.h>
 

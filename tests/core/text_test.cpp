@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/text/text.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/rng.hpp"
 
 namespace microswarm {
 namespace {

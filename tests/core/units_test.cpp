@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/core/units.hpp"
+#include "microswarm/core/fields/units.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 
 namespace microswarm {
 namespace {

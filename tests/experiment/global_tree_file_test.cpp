@@ -7,8 +7,8 @@
 #include <functional>
 #include <string>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/file.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/planning/global_input/global_rrt.hpp"
 
 namespace microswarm {

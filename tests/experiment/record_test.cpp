@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "microswarm/core/file.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/io/columns.hpp"
 #include "microswarm/io/hdf5_image.hpp"

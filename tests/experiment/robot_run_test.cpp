@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/experiment/plant/robot_plant.hpp"
 #include "microswarm/experiment/record/record.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"

@@ -6,7 +6,7 @@
 
 #include <sstream>
 
-#include "microswarm/core/file.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/experiment/scenario/validate.hpp"
 #include "tests/experiment/scenes.hpp"
 #include "tests/messages.hpp"

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <string>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/experiment/plant/plant.hpp"
 #include "microswarm/experiment/record/record.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"

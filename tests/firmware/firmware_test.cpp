@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "microswarm/actuation/drivers/serial_coil_driver.hpp"
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/rng.hpp"
 
 namespace microswarm {
 namespace {

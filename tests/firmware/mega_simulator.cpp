@@ -21,7 +21,7 @@
 #include <string>
 #include <string_view>
 
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/rng.hpp"
 
 extern "C" {
 #include <simavr/avr_uart.h>

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/formats/json_place.hpp"
 #include "tests/files.hpp"
 #include "tests/messages.hpp"

@@ -8,8 +8,8 @@
 #include <set>
 #include <string>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/geometry/distance.hpp"
 
 namespace microswarm {

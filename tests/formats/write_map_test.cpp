@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/formats/images/rasterise.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "tests/files.hpp"

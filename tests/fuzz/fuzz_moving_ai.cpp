@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/formats/moving_ai.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

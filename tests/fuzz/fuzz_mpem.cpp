@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "microswarm/actuation/coils/mpem.hpp"
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace microswarm;

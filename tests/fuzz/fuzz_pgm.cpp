@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/formats/images/mask.hpp"
 #include "microswarm/formats/images/pnm.hpp"

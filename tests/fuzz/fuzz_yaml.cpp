@@ -8,7 +8,7 @@
 
 #include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "tests/config/sample.hpp"
 
 namespace microswarm::sample {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "tests/each_target.hpp"
 
 namespace microswarm {

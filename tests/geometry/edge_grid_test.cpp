@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/geometry/edge_grid.hpp"
-#include "microswarm/core/infinity.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 
 #include <gtest/gtest.h>
 

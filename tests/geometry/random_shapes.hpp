@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/geometry/shapes.hpp"
 #include "microswarm/geometry/uniform_in.hpp"
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/io/hdf5_tables.hpp"
 #include "microswarm/io/tables.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "tests/files.hpp"
 #include "tests/messages.hpp"
 

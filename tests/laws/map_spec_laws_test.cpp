@@ -7,7 +7,7 @@
 #include <functional>
 #include <sstream>
 
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/formats/images/pnm.hpp"
 #include "microswarm/formats/images/rasterise.hpp"

@@ -6,8 +6,8 @@
 #include <memory>
 #include <optional>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/geometry/shapes.hpp"
 #include "microswarm/world/obstacles/motion.hpp"
 #include "tests/laws/fields_laws.hpp"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "microswarm/core/hash.hpp"
-#include "microswarm/core/infinity.hpp"
+#include "microswarm/core/maths/hash.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/navigation/make.hpp"
 #include "microswarm/navigation/radar/radar.hpp"
 #include "microswarm/scenes/worlds.hpp"

@@ -7,8 +7,8 @@
 #include <chrono>
 #include <thread>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/hash.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/hash.hpp"
 #include "microswarm/planning/path/planners.hpp"
 #include "microswarm/planning/path/search_tree.hpp"
 #include "microswarm/planning/path/turn_edge.hpp"

@@ -8,7 +8,7 @@
 #include <limits>
 #include <optional>
 
-#include "microswarm/core/hash.hpp"
+#include "microswarm/core/maths/hash.hpp"
 #include "microswarm/navigation/make.hpp"
 #include "microswarm/scenes/global_worlds.hpp"
 #include "microswarm/scenes/vascular.hpp"

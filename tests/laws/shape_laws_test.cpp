@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/hash.hpp"
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/hash.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/geometry/area.hpp"
 #include "microswarm/geometry/distance.hpp"
 #include "microswarm/geometry/predicates.hpp"

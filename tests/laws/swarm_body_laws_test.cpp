@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/hash.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/hash.hpp"
 #include "microswarm/swarm/body/swarm_body.hpp"
 #include "tests/laws/fields_laws.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <atomic>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "tests/cases.hpp"
 #include "tests/navigation/gathering.hpp"
 

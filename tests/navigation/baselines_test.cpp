@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/navigation/baselines/potential_field.hpp"
 #include "microswarm/navigation/baselines/straight.hpp"
 #include "microswarm/navigation/baselines/velocity_obstacle.hpp"

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/geometry/distance.hpp"
 
 namespace microswarm {

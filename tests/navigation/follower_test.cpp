@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/swarm/body/unicycle.hpp"
 
 namespace microswarm {

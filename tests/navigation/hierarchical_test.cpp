@@ -5,9 +5,9 @@
 
 #include <limits>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/hash.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/hash.hpp"
 #include "microswarm/navigation/make.hpp"
 #include "microswarm/swarm/body/swarm_body.hpp"
 #include "microswarm/swarm/body/unicycle.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/navigation/following/path_navigator.hpp"
 #include "microswarm/swarm/body/ribbon.hpp"
 #include "tests/messages.hpp"

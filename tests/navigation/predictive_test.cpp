@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/navigation/predictive/predictive.hpp"
-#include "microswarm/core/infinity.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/hash.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/hash.hpp"
 #include "microswarm/swarm/body/unicycle.hpp"
 #include "microswarm/world/world.hpp"
 #include "tests/navigation/room.hpp"

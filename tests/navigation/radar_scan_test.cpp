@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/geometry/distance.hpp"
 #include "microswarm/navigation/radar/radar_scanner.hpp"
 #include "microswarm/scenes/worlds.hpp"

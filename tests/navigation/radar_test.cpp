@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/navigation/make.hpp"
 #include "microswarm/scenes/worlds.hpp"
 #include "tests/navigation/discs.hpp"

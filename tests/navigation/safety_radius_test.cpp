@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/rng.hpp"
 
 namespace microswarm {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/experiment/run/run.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 

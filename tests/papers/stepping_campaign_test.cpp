@@ -3,7 +3,7 @@
 // --gtest_also_run_disabled_tests --gtest_filter='*BillionSteps*'.
 #include <gtest/gtest.h>
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/scenes/vascular.hpp"

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/scenes/global_worlds.hpp"
 #include "microswarm/scenes/worlds.hpp"
 

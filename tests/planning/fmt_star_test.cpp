@@ -5,7 +5,7 @@
 
 #include <map>
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/scenes/worlds.hpp"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/planning/global_input/coverage.hpp"
 #include "microswarm/scenes/global_worlds.hpp"
 #include "tests/planning/global_ends.hpp"

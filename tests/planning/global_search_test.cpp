@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/scenes/global_worlds.hpp"
 #include "microswarm/scenes/worlds.hpp"
 #include "tests/cases.hpp"

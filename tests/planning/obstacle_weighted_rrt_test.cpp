@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/planning/gathering/obstacle_weighted_rrt.hpp"
-#include "microswarm/core/infinity.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 
-#include "microswarm/core/hash.hpp"
+#include "microswarm/core/maths/hash.hpp"
 #include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/scenes/vascular.hpp"
 #include "microswarm/scenes/worlds.hpp"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/rng.hpp"
 
 namespace microswarm {
 namespace {

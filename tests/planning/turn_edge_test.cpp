@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/planning/path/planners.hpp"
 #include "microswarm/scenes/worlds.hpp"
 

@@ -4,8 +4,8 @@
 #include <atomic>
 #include <filesystem>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/file.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/experiment/run/run.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/report/page.hpp"

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/rng.hpp"
 
 namespace microswarm {
 namespace {

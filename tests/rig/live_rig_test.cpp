@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <thread>
 
-#include "microswarm/core/clock.hpp"
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/execution/clock.hpp"
 #include "microswarm/experiment/run/run.hpp"
 #include "microswarm/navigation/make.hpp"
 #include "microswarm/rig/runtime/realtime_rig_simulator.hpp"

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/rig/perception/body_numbers.hpp"
 #include "microswarm/rig/perception/robot_perception.hpp"
 #include "microswarm/rig/perception/swarm_perception.hpp"

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/experiment/run/run.hpp"
 #include "microswarm/navigation/make.hpp"
 #include "tests/files.hpp"

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/swarm/body/swarm_body.hpp"
 
 namespace microswarm {

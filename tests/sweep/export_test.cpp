@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/sweep/summary.hpp"
 #include "tests/sweep/sweeps.hpp"
 

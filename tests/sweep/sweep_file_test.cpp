@@ -124,7 +124,20 @@ TEST(SweepPlan, FormerKeysAreNotedOnceAndAreNoSecondParameter) {
   const auto both = sweep_folder("sweep_both", text);
   EXPECT_EQ(error_of([&] { load_sweep(both / "sweep.yaml", 2); }),
             (both / "sweep.yaml").string() +
-                ": the grid has 'navigator.clearance_um' twice, under two names");
+                ": 'navigator.clearance_um' is varied by the grid and set a second time, in the "
+                "grid, in 'set' or by method 'straight on'");
+}
+
+TEST(SweepPlan, AKeyOfTheGridIsNotSetElsewhere) {
+  const auto refused = [](const std::string& from, const std::string& to) {
+    std::string text = sweep_text();
+    text.replace(text.find(from), from.size(), to);
+    const auto folder = sweep_folder("sweep_twice", text);
+    return error_of([&] { load_sweep(folder / "sweep.yaml", 2); });
+  };
+  EXPECT_NE(refused("navigator.guide=straight", "navigator.clearance_um=77")
+                .find("'navigator.clearance_um' is varied by the grid"),
+            std::string::npos);
 }
 
 TEST(SweepPlan, AsPublishedBesideAKeyOfOursIsRefused) {

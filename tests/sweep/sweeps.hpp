@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "microswarm/core/file.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/sweep/sweep.hpp"
 #include "tests/experiment/scenes.hpp"
 

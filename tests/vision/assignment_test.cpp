@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/rng.hpp"
 
 namespace microswarm {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/vision/camera/camera_scale.hpp"
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/vision/calibration/calibration_grid.hpp"
 #include "microswarm/vision/tracking/video_tracker.hpp"
 #include "tests/cases.hpp"

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/formats/images/mask.hpp"
 #include "microswarm/geometry/vec2.hpp"

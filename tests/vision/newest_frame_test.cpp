@@ -8,8 +8,8 @@
 #include <functional>
 #include <thread>
 
-#include "microswarm/core/clock.hpp"
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/execution/clock.hpp"
 #include "microswarm/vision/camera/camera.hpp"
 #include "tests/files.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/vision/image/mask_ops.hpp"
 #include "microswarm/vision/tracking/ring_fit.hpp"
 #include "tests/vision/spots.hpp"

@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <map>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/rng.hpp"
 
 namespace microswarm {
 namespace {

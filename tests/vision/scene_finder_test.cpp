@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/vision/scene/scene_overlay.hpp"
 #include "microswarm/vision/scene/wall_finder.hpp"
 #include "tests/cases.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/geometry/vec2.hpp"
 

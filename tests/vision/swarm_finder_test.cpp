@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/vision/scene/swarm_finder.hpp"
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <cstdio>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 #include "tests/cases.hpp"
 #include "tests/files.hpp"
 #include "tests/vision/microscope.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/vision/image/overlay.hpp"
 #include "microswarm/vision/vessels/agreement.hpp"
 #include "microswarm/vision/vessels/outline.hpp"

@@ -10,8 +10,8 @@
 #include <set>
 #include <sstream>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/file.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/vision/tracking/track_overlay.hpp"
 #include "microswarm/vision/tracking/video_tracker.hpp"
 #include "tests/files.hpp"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/geometry/distance.hpp"
 #include "microswarm/geometry/predicates.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "tests/cases.hpp"
 #include "tests/world/random_worlds.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 
 namespace microswarm {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/geometry/distance.hpp"
 #include "microswarm/world/world.hpp"
 #include "tests/messages.hpp"

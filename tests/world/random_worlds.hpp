@@ -5,8 +5,8 @@
 #include <limits>
 #include <vector>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/geometry/distance.hpp"
 #include "microswarm/geometry/predicates.hpp"
 #include "microswarm/geometry/uniform_in.hpp"

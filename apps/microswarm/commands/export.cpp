@@ -3,8 +3,8 @@
 #include <fstream>
 #include <memory>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/file.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/sweep/export.hpp"
 #include "support/options.hpp"
 

@@ -5,7 +5,7 @@
 #include "commands/run_output.hpp"
 #include "microswarm/config/key_locations.hpp"
 #include "microswarm/config/yaml.hpp"
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/experiment/scenario/validate.hpp"
 #include "microswarm/formats/map_file.hpp"

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "microswarm/config/yaml.hpp"
-#include "microswarm/core/file.hpp"
-#include "microswarm/core/hash.hpp"
+#include "microswarm/core/maths/hash.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/core/version.hpp"
 #include "microswarm/learning/follower_training.hpp"
 #include "microswarm/navigation/following/follower_model.hpp"

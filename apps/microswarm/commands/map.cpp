@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "microswarm/config/yaml.hpp"
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/formats/write_map.hpp"
 #include "microswarm/vision/image/overlay.hpp"

@@ -6,8 +6,8 @@
 
 #include "microswarm/config/key_locations.hpp"
 #include "microswarm/config/yaml.hpp"
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/experiment/scenario/validate.hpp"
 #include "microswarm/formats/map_file.hpp"

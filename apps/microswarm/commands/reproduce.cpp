@@ -6,7 +6,7 @@
 #include <array>
 #include <memory>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "support/options.hpp"
 
 namespace microswarm::cli {

@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "commands/run_output.hpp"
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/file.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/experiment/trials.hpp"
 #include "microswarm/io/columns.hpp"
 #include "microswarm/session/session.hpp"

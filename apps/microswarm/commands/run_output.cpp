@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "microswarm/config/write.hpp"
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/experiment/record/record.hpp"
 #include "microswarm/experiment/run/progress.hpp"
 #include "microswarm/navigation/gathering/aggregation_check.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "microswarm/core/stop.hpp"
+#include "microswarm/core/execution/stop.hpp"
 #include "microswarm/report/run_report.hpp"
 #include "microswarm/session/session.hpp"
 #include "support/options.hpp"

@@ -8,9 +8,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/file.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/sweep/export.hpp"
 #include "microswarm/sweep/summary.hpp"
 #include "support/options.hpp"

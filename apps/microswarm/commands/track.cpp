@@ -7,7 +7,7 @@
 
 #include "commands/track_output.hpp"
 #include "microswarm/config/yaml.hpp"
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/vision/tracking/track_overlay.hpp"
 #include "support/options.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "microswarm/config/write.hpp"
-#include "microswarm/core/file.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/core/version.hpp"
 #include "microswarm/io/columns.hpp"
 #include "microswarm/io/hdf5_image.hpp"

@@ -11,9 +11,9 @@
 #include "microswarm/actuation/coils/currents.hpp"
 #include "microswarm/actuation/drivers/coil_drive.hpp"
 #include "microswarm/config/write.hpp"
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/file.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "rig/rig.hpp"
 #include "support/options.hpp"
 

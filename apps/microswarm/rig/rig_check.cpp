@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "microswarm/actuation/coils/coil_controller.hpp"
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/clock.hpp"
-#include "microswarm/core/durations.hpp"
+#include "microswarm/core/execution/clock.hpp"
+#include "microswarm/core/execution/durations.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/rig/runtime/devices.hpp"
 #include "microswarm/vision/camera/newest_frame.hpp"
 #include "rig/rig.hpp"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "microswarm/core/durations.hpp"
+#include "microswarm/core/execution/durations.hpp"
 #include "microswarm/rig/params/rig_params.hpp"
 
 namespace microswarm::cli {

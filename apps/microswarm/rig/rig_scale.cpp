@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "microswarm/config/write.hpp"
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/file.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/vision/calibration/calibration_grid.hpp"
 #include "rig/rig.hpp"

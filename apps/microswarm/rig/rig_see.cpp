@@ -5,8 +5,8 @@
 
 #include "microswarm/config/key_locations.hpp"
 #include "microswarm/config/yaml.hpp"
-#include "microswarm/core/clock.hpp"
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/execution/clock.hpp"
 #include "microswarm/rig/params/rig_params.hpp"
 #include "microswarm/vision/camera/camera.hpp"
 #include "microswarm/vision/scene/scene_overlay.hpp"

@@ -7,11 +7,11 @@
 #include <mutex>
 #include <optional>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/file.hpp"
-#include "microswarm/core/parallel.hpp"
-#include "microswarm/core/statistics.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/execution/parallel.hpp"
+#include "microswarm/core/maths/statistics.hpp"
+#include "microswarm/core/text/file.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/experiment/run/run.hpp"
 #include "microswarm/io/columns.hpp"
 #include "microswarm/rig/runtime/devices.hpp"

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "microswarm/config/type.hpp"
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 
 namespace microswarm {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "microswarm/config/yaml_node.hpp"
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 
 namespace microswarm {
 

@@ -8,8 +8,8 @@
 #include <memory>
 #include <utility>
 
-#include "microswarm/core/issue.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/issue.hpp"
+#include "microswarm/core/text/text.hpp"
 
 namespace microswarm {
 namespace {

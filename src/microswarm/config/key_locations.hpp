@@ -11,8 +11,8 @@
 #include "microswarm/config/former_keys.hpp"
 #include "microswarm/config/settings.hpp"
 #include "microswarm/config/yaml_node.hpp"
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/issue.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/errors/issue.hpp"
 
 namespace microswarm {
 

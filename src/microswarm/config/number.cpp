@@ -9,8 +9,8 @@
 #include <numbers>
 
 #include "microswarm/config/type.hpp"
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/text/text.hpp"
 
 namespace microswarm {
 namespace {

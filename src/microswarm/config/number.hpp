@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 
 namespace microswarm {
 

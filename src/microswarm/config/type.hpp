@@ -11,12 +11,12 @@
 #include <variant>
 #include <vector>
 
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 #include "microswarm/geometry/vec2.hpp"
 
 namespace microswarm {
 
-/// Kind of a field's type; see core/fields.hpp.
+/// Kind of a field's type; see core/fields/fields.hpp.
 enum class TypeKind {
   boolean,   ///< bool
   integer,   ///< int
@@ -90,7 +90,7 @@ namespace detail {
 template <class T>
 struct Describe {
   static_assert(!std::is_same_v<T, T>,
-                "no type for a field: see core/fields.hpp for those allowed");
+                "no type for a field: see core/fields/fields.hpp for those allowed");
 };
 
 template <TypeKind kind>

@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "microswarm/config/number.hpp"
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/text.hpp"
 
 namespace microswarm {
 namespace {

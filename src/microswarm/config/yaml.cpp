@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "microswarm/config/value_reader.hpp"
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/text.hpp"
 
 namespace microswarm {
 namespace {

@@ -15,7 +15,7 @@
 #include "microswarm/config/settings.hpp"
 #include "microswarm/config/type.hpp"
 #include "microswarm/config/value_reader.hpp"
-#include "microswarm/core/file.hpp"
+#include "microswarm/core/text/file.hpp"
 
 namespace microswarm {
 

@@ -10,8 +10,8 @@
 #include <sstream>
 
 #include "microswarm/config/yaml.hpp"
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/text.hpp"
 
 namespace microswarm {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 
 namespace microswarm {
 namespace {

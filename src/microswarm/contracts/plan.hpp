@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "microswarm/core/fields.hpp"
-#include "microswarm/core/rng.hpp"
-#include "microswarm/core/status.hpp"
-#include "microswarm/core/stop.hpp"
+#include "microswarm/core/execution/status.hpp"
+#include "microswarm/core/execution/stop.hpp"
+#include "microswarm/core/fields/fields.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/world/snapshot.hpp"
 
 namespace microswarm {

@@ -3,7 +3,7 @@
 
 #include <mutex>
 
-#include "microswarm/core/parallel.hpp"
+#include "microswarm/core/execution/parallel.hpp"
 #include "microswarm/experiment/record/record.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cctype>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/file.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/formats/geojson.hpp"
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/formats/images/mask.hpp"

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "microswarm/config/key_locations.hpp"
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 #include "microswarm/formats/map_parts.hpp"
 #include "microswarm/formats/map_spec.hpp"
 #include "microswarm/world/map/map.hpp"

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/hash.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/hash.hpp"
+#include "microswarm/core/text/text.hpp"
 
 namespace microswarm {
 namespace {

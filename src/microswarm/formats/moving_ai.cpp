@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "microswarm/core/file.hpp"
-#include "microswarm/core/lines.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/text/file.hpp"
+#include "microswarm/core/text/lines.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/formats/images/image.hpp"
 
 namespace microswarm {

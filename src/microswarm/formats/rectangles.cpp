@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/file.hpp"
-#include "microswarm/core/lines.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
+#include "microswarm/core/text/lines.hpp"
+#include "microswarm/core/text/text.hpp"
 
 namespace microswarm {
 namespace {

@@ -2,8 +2,8 @@
 #include "microswarm/formats/ros.hpp"
 
 #include "microswarm/config/yaml.hpp"
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/text.hpp"
 
 namespace microswarm {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 #include "microswarm/formats/images/mask.hpp"
 
 namespace microswarm {

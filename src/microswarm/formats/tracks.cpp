@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/file.hpp"
-#include "microswarm/core/lines.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
+#include "microswarm/core/text/lines.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/formats/map_parts.hpp"
 
 namespace microswarm {

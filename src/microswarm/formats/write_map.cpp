@@ -3,8 +3,8 @@
 
 #include <variant>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/file.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/formats/geojson.hpp"
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/formats/images/pnm.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/geometry/area.hpp"
 
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/maths/maths.hpp"
 #include "microswarm/geometry/predicates.hpp"
 
 namespace microswarm {

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/geometry/edge_grid.hpp"
 #include "microswarm/geometry/shapes.hpp"
 

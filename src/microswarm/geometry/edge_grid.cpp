@@ -3,7 +3,7 @@
 
 #include <cassert>
 
-#include "microswarm/core/infinity.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/geometry/distance.hpp"
 #include "microswarm/geometry/predicates.hpp"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/maths/maths.hpp"
 #include "microswarm/geometry/predicates.hpp"
 
 namespace microswarm {

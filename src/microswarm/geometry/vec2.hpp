@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/maths/maths.hpp"
 
 namespace microswarm {
 

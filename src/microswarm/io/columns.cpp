@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/text/text.hpp"
 
 namespace microswarm {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 
 namespace microswarm {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "microswarm/core/lines.hpp"
+#include "microswarm/core/text/lines.hpp"
 #include "microswarm/io/columns.hpp"
 #include "microswarm/io/tables.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/learning/demonstrations.hpp"
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/experiment/plant/plant.hpp"
 #include "microswarm/experiment/run/run.hpp"
 #include "microswarm/learning/follower_expert.hpp"

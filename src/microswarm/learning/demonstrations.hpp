@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "microswarm/core/stop.hpp"
+#include "microswarm/core/execution/stop.hpp"
 #include "microswarm/learning/follower_tasks.hpp"
 #include "microswarm/navigation/following/follower_model.hpp"
 

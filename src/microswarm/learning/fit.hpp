@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "microswarm/core/rng.hpp"
-#include "microswarm/core/stop.hpp"
+#include "microswarm/core/execution/stop.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/navigation/following/multilayer_perceptron.hpp"
 
 namespace microswarm {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <mutex>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/parallel.hpp"
+#include "microswarm/core/execution/parallel.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/experiment/plant/plant.hpp"
 #include "microswarm/experiment/run/run.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "microswarm/core/stop.hpp"
+#include "microswarm/core/execution/stop.hpp"
 #include "microswarm/learning/follower_tasks.hpp"
 #include "microswarm/navigation/following/follower_model.hpp"
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/maths.hpp"
 #include "microswarm/navigation/following/path_follower.hpp"
 
 namespace microswarm {

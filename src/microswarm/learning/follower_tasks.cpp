@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/navigation/following/follower.hpp"
 #include "microswarm/world/map/map.hpp"
 #include "microswarm/world/world.hpp"

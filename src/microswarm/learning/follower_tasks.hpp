@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/experiment/scenario/scenario.hpp"
 #include "microswarm/world/world.hpp"
 

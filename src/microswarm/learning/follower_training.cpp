@@ -8,8 +8,8 @@
 #include <mutex>
 
 #include "microswarm/config/write.hpp"
-#include "microswarm/core/parallel.hpp"
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/execution/parallel.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/learning/fit.hpp"
 #include "microswarm/navigation/following/follower_model.hpp"
 

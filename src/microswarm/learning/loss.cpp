@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "microswarm/core/maths.hpp"
-#include "microswarm/core/parallel.hpp"
+#include "microswarm/core/execution/parallel.hpp"
+#include "microswarm/core/maths/maths.hpp"
 #include "microswarm/learning/fit.hpp"
 
 namespace microswarm {

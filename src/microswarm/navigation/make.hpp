@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "microswarm/contracts/navigator.hpp"
-#include "microswarm/core/issue.hpp"
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/errors/issue.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/navigation/params.hpp"
 #include "microswarm/swarm/body/swarm_limits.hpp"
 #include "microswarm/swarm/robots/robot_swarm_params.hpp"

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "microswarm/core/file.hpp"
+#include "microswarm/core/text/file.hpp"
 
 namespace microswarm {
 namespace {

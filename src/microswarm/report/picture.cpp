@@ -9,10 +9,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/file.hpp"
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/maths.hpp"
+#include "microswarm/core/text/file.hpp"
 
 namespace microswarm {
 namespace {

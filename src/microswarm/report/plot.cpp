@@ -14,9 +14,9 @@
 #include <cmath>
 #include <limits>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/file.hpp"
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/maths.hpp"
+#include "microswarm/core/text/file.hpp"
 
 extern char** environ;
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <span>
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/planning/common/detection.hpp"
 #include "microswarm/report/map_background.hpp"

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/file.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
 
 namespace microswarm::reproduce {
 namespace {

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "microswarm/core/progress.hpp"
-#include "microswarm/core/stop.hpp"
+#include "microswarm/core/execution/progress.hpp"
+#include "microswarm/core/execution/stop.hpp"
 #include "microswarm/report/rows.hpp"
 
 namespace microswarm::reproduce {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/world/obstacles/obstacle.hpp"
 

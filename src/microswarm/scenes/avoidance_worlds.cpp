@@ -8,7 +8,7 @@
 #include <cmath>
 #include <memory>
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/geometry/distance.hpp"
 #include "microswarm/scenes/avoidance_movers.hpp"
 

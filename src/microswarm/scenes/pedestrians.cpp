@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/scenes/avoidance_worlds.hpp"
 

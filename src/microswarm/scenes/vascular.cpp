@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/maths.hpp"
 #include "microswarm/scenes/worlds.hpp"
 #include "microswarm/world/obstacles/clip.hpp"
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/geometry/shapes.hpp"
 #include "microswarm/world/map/map.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/geometry/distance.hpp"
 #include "microswarm/geometry/uniform_in.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/world/snapshot.hpp"
 
 namespace microswarm::scenes {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "microswarm/config/schema.hpp"
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/rig/simulation/simulated_rig.hpp"
 
 namespace microswarm {

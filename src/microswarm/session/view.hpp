@@ -9,7 +9,7 @@
 #include "microswarm/contracts/navigator.hpp"
 #include "microswarm/contracts/navigator_state.hpp"
 #include "microswarm/contracts/plan.hpp"
-#include "microswarm/core/status.hpp"
+#include "microswarm/core/execution/status.hpp"
 #include "microswarm/experiment/run/tick.hpp"
 #include "microswarm/navigation/radar/radar_scan.hpp"
 #include "microswarm/planning/common/detection.hpp"

@@ -11,8 +11,8 @@
 #include <system_error>
 #include <vector>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/text.hpp"
 
 namespace microswarm {
 namespace {

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/io/columns.hpp"
 #include "microswarm/io/hdf5_image.hpp"
 #include "microswarm/io/tables.hpp"

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 
 namespace microswarm {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "microswarm/config/yaml.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/sweep/export.hpp"
 
 namespace microswarm {

@@ -11,9 +11,9 @@
 
 #include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/hash.hpp"
-#include "microswarm/core/parallel.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/execution/parallel.hpp"
+#include "microswarm/core/maths/hash.hpp"
 #include "microswarm/experiment/scenario/validate.hpp"
 
 namespace microswarm {
@@ -80,13 +80,15 @@ struct Loader {
   MapCache& maps;
 
   /// Applies a setting and keeps it with its present keys; messages call it `what`.
-  void apply(SweepCell& cell, const std::string& setting, const std::string& what) const {
+  /// False for a key that no longer exists, which is only noted.
+  bool apply(SweepCell& cell, const std::string& setting, const std::string& what) const {
     try {
       Notes notes;
-      if (auto present = set_value(cell.scenario, setting, what, notes))
-        cell.settings.push_back(std::move(*present));
+      auto present = set_value(cell.scenario, setting, what, notes);
       for (const std::string& note : notes)
         cell.notes.push_back(fmt::format("{}: {}", plan.file, note));
+      if (present) cell.settings.push_back(std::move(*present));
+      return present.has_value();
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}: {}", plan.file, error.what()));
     }
@@ -114,15 +116,15 @@ struct Loader {
     for (const std::string& setting : plan.sweep.set) apply(cell, setting, "set:");
     for (const std::string& setting : method.set)
       apply(cell, setting, fmt::format("method '{}':", method.name));
-    const auto of_grid = static_cast<std::ptrdiff_t>(cell.settings.size());
     for (std::size_t i = 0; i < cell.values.size(); ++i) {
-      apply(cell, grid_setting(cell, i), "grid:");
+      if (!apply(cell, grid_setting(cell, i), "grid:")) continue;
       const std::string& last = cell.settings.back();
       const std::string key = last.substr(0, last.find('=') + 1);
-      if (std::any_of(cell.settings.begin() + of_grid, cell.settings.end() - 1,
+      if (std::any_of(cell.settings.begin(), cell.settings.end() - 1,
                       [&](const std::string& other) { return other.starts_with(key); }))
-        throw InputError(fmt::format("{}: the grid has {} twice, under two names", plan.file,
-                                     quote(key.substr(0, key.size() - 1))));
+        throw InputError(fmt::format("{}: {} is varied by the grid and set a second time, in the "
+                                     "grid, in 'set' or by method '{}'",
+                                     plan.file, quote(key.substr(0, key.size() - 1)), method.name));
     }
     if (plan.sweep.seed) cell.scenario.seed = *plan.sweep.seed;
   }

@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 
 #ifdef MICROSWARM_HAS_MPI
 #include <mpi.h>

@@ -7,7 +7,7 @@
 #include <memory>
 #include <utility>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/sweep/worker_pool.hpp"
 
 namespace microswarm {

@@ -5,9 +5,9 @@
 
 #include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/hash.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/hash.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/core/version.hpp"
 
 namespace microswarm {

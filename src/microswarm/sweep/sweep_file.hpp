@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 
 namespace microswarm {
 

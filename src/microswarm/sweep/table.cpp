@@ -9,8 +9,8 @@
 
 #include "microswarm/config/number.hpp"
 #include "microswarm/config/write.hpp"
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/io/columns.hpp"
 
 namespace microswarm {

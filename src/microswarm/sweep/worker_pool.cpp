@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "microswarm/core/parallel.hpp"
+#include "microswarm/core/execution/parallel.hpp"
 #include "microswarm/experiment/record/record.hpp"
 
 namespace microswarm {

@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "microswarm/core/infinity.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/maths/infinity.hpp"
+#include "microswarm/core/text/text.hpp"
 
 namespace microswarm {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "microswarm/actuation/coils/currents.hpp"
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 
 namespace microswarm {
 

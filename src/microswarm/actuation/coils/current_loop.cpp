@@ -6,7 +6,7 @@
 #include <boost/math/special_functions/ellint_rf.hpp>
 #include <cmath>
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 
 namespace microswarm {
 namespace {

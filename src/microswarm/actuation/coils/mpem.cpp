@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "microswarm/actuation/coils/si.hpp"
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/maths/maths.hpp"
 
 namespace microswarm {
 namespace {

@@ -9,9 +9,9 @@
 #include "microswarm/actuation/coils/si.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/config/yaml_node.hpp"
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/file.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
+#include "microswarm/core/text/text.hpp"
 
 namespace microswarm {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/text.hpp"
 
 namespace microswarm {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "microswarm/core/lines.hpp"
+#include "microswarm/core/text/lines.hpp"
 
 namespace microswarm {
 

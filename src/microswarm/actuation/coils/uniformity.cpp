@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 
 namespace microswarm {
 namespace {

@@ -11,9 +11,9 @@
 #include "microswarm/actuation/coils/si.hpp"
 #include "microswarm/actuation/coils/text_rows.hpp"
 #include "microswarm/config/yaml.hpp"
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/file.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
+#include "microswarm/core/text/text.hpp"
 
 namespace microswarm {
 namespace {

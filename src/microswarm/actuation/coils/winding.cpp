@@ -5,8 +5,8 @@
 
 #include <boost/math/quadrature/gauss.hpp>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/text.hpp"
 
 namespace microswarm {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "microswarm/actuation/coils/current_loop.hpp"
-#include "microswarm/core/fields.hpp"
-#include "microswarm/core/issue.hpp"
+#include "microswarm/core/errors/issue.hpp"
+#include "microswarm/core/fields/fields.hpp"
 
 namespace microswarm {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 
-#include "microswarm/core/infinity.hpp"
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/maths/infinity.hpp"
+#include "microswarm/core/maths/maths.hpp"
 
 namespace microswarm {
 namespace {

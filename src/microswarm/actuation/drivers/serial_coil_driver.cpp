@@ -14,8 +14,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/stop.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/execution/stop.hpp"
 
 namespace microswarm {
 namespace {

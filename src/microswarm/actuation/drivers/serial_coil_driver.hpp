@@ -11,7 +11,7 @@
 
 #include "microswarm/actuation/drivers/coil_driver.hpp"
 #include "microswarm/actuation/drivers/coil_link.hpp"
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 
 namespace microswarm {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "microswarm/actuation/field/waveform.hpp"
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 
 namespace microswarm {
 namespace {

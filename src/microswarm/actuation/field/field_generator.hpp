@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "microswarm/contracts/command.hpp"
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
+#include "microswarm/core/maths/angles.hpp"
 
 namespace microswarm {
 

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/geometry/vec2.hpp"
 
 namespace microswarm {

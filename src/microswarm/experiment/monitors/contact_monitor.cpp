@@ -5,8 +5,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/infinity.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/geometry/distance.hpp"
 
 namespace microswarm {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "microswarm/core/hash.hpp"
+#include "microswarm/core/maths/hash.hpp"
 
 namespace microswarm {
 

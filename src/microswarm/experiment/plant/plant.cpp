@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/experiment/monitors/contact_monitor.hpp"
 
 namespace microswarm {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/planning/common/distance_field.hpp"
 

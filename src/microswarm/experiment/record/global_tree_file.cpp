@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "microswarm/core/fields.hpp"
-#include "microswarm/core/file.hpp"
+#include "microswarm/core/fields/fields.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/core/version.hpp"
 #include "microswarm/io/hdf5_image.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "microswarm/core/hash.hpp"
+#include "microswarm/core/maths/hash.hpp"
 #include "microswarm/core/version.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/io/columns.hpp"

@@ -4,8 +4,8 @@
 #include <sstream>
 
 #include "microswarm/config/yaml.hpp"
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/file.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/experiment/record/record.hpp"
 #include "microswarm/experiment/record/record_scene.hpp"
 #include "microswarm/io/hdf5_image.hpp"

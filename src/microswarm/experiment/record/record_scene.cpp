@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "microswarm/config/yaml.hpp"
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/navigation/following/follower_model.hpp"
 
 namespace microswarm {

@@ -3,9 +3,9 @@
 #include <atomic>
 #include <cstddef>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/hash.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/hash.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/experiment/record/record.hpp"
 #include "microswarm/experiment/run/open_run.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"

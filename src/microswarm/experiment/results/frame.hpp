@@ -11,7 +11,7 @@
 #include "microswarm/contracts/command.hpp"
 #include "microswarm/contracts/navigator_state.hpp"
 #include "microswarm/contracts/plan.hpp"
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 
 namespace microswarm {
 

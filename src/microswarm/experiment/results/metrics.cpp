@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 
 namespace microswarm {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cassert>
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/experiment/monitors/contact_monitor.hpp"
 #include "microswarm/swarm/body/swarm_body.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "microswarm/contracts/navigator.hpp"
 #include "microswarm/contracts/plant.hpp"
-#include "microswarm/core/infinity.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/experiment/monitors/contact_monitor.hpp"
 #include "microswarm/experiment/monitors/goal_monitor.hpp"
 #include "microswarm/experiment/monitors/hold_monitor.hpp"

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "microswarm/config/yaml.hpp"
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/experiment/scenario/validate.hpp"
 #include "microswarm/navigation/make.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "microswarm/contracts/navigator.hpp"
 #include "microswarm/contracts/plant.hpp"
-#include "microswarm/core/issue.hpp"
+#include "microswarm/core/errors/issue.hpp"
 #include "microswarm/experiment/run/episode.hpp"
 #include "microswarm/experiment/run/run.hpp"
 #include "microswarm/experiment/scenario/scenario.hpp"

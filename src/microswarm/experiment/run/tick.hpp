@@ -8,7 +8,7 @@
 
 #include "microswarm/contracts/navigator.hpp"
 #include "microswarm/contracts/observation.hpp"
-#include "microswarm/core/status.hpp"
+#include "microswarm/core/execution/status.hpp"
 #include "microswarm/experiment/monitors/contact_monitor.hpp"
 #include "microswarm/experiment/results/frame.hpp"
 

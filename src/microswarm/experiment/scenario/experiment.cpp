@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "microswarm/config/yaml.hpp"
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/experiment/scenario/validate.hpp"
 
 namespace microswarm {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "microswarm/config/type.hpp"
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 #include "microswarm/formats/map_spec.hpp"
 #include "microswarm/navigation/params.hpp"
 #include "microswarm/swarm/body/swarm_params.hpp"

@@ -6,9 +6,9 @@
 #include <map>
 #include <memory>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/file.hpp"
-#include "microswarm/core/hash.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/hash.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/formats/tracks.hpp"
 #include "microswarm/navigation/following/follower_model.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "microswarm/core/issue.hpp"
+#include "microswarm/core/errors/issue.hpp"
 #include "microswarm/experiment/scenario/scenario.hpp"
 #include "microswarm/world/world.hpp"
 

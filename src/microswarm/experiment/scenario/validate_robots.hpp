@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "microswarm/core/issue.hpp"
+#include "microswarm/core/errors/issue.hpp"
 #include "microswarm/experiment/scenario/scenario.hpp"
 #include "microswarm/world/map/map.hpp"
 

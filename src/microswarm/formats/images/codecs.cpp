@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/formats/images/image.hpp"
 
 namespace microswarm {

@@ -10,8 +10,8 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/file.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/formats/images/codecs.hpp"
 #include "microswarm/formats/images/pnm.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/formats/images/pnm.hpp"
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/formats/images/image.hpp"
 
 namespace microswarm {

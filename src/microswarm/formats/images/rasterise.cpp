@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/formats/images/image.hpp"
 
 namespace microswarm {

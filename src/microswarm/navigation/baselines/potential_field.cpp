@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/geometry/distance.hpp"
 
 namespace microswarm {

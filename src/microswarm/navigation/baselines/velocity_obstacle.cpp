@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/geometry/distance.hpp"
 
 namespace microswarm {

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 #include "microswarm/navigation/baselines/velocity_obstacle_tuning.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker_params.hpp"
 #include "microswarm/navigation/steering/guide_kind.hpp"

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <vector>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/text/text.hpp"
 
 namespace microswarm {
 

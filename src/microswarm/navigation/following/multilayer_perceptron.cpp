@@ -6,7 +6,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/maths/maths.hpp"
 
 namespace microswarm {
 

@@ -5,8 +5,8 @@
 #include <cassert>
 #include <cmath>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/maths.hpp"
 
 namespace microswarm {
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 #include "microswarm/geometry/vec2.hpp"
 #include "microswarm/navigation/following/follower_params.hpp"
 

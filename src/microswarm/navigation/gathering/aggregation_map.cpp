@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/navigation/gathering/aggregation_map.hpp"
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 
 namespace microswarm {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/navigation/gathering/aggregation_params.hpp"
 #include "microswarm/planning/gathering/map_segmentation.hpp"
 #include "microswarm/planning/gathering/obstacle_weighted_rrt.hpp"

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 #include "microswarm/navigation/gathering/rollout_params.hpp"
 #include "microswarm/planning/gathering/map_segmentation_params.hpp"
 #include "microswarm/planning/gathering/obstacle_weighted_rrt_params.hpp"

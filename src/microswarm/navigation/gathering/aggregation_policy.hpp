@@ -4,9 +4,9 @@
 #include <optional>
 #include <span>
 
-#include "microswarm/core/rng.hpp"
-#include "microswarm/core/status.hpp"
-#include "microswarm/core/stop.hpp"
+#include "microswarm/core/execution/status.hpp"
+#include "microswarm/core/execution/stop.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/navigation/gathering/divide_and_conquer.hpp"
 #include "microswarm/navigation/gathering/leaders.hpp"
 #include "microswarm/navigation/gathering/merged_robots.hpp"

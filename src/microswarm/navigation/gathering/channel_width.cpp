@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/navigation/gathering/channel_width.hpp"
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/geometry/uniform_in.hpp"
 
 namespace microswarm {

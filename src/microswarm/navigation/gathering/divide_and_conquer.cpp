@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "microswarm/core/infinity.hpp"
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/maths/infinity.hpp"
+#include "microswarm/core/maths/maths.hpp"
 
 namespace microswarm {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "microswarm/core/status.hpp"
-#include "microswarm/core/stop.hpp"
+#include "microswarm/core/execution/status.hpp"
+#include "microswarm/core/execution/stop.hpp"
 #include "microswarm/navigation/gathering/aggregation_policy.hpp"
 #include "microswarm/navigation/gathering/rollout_policy.hpp"
 #include "microswarm/swarm/robots/robot_stepper.hpp"

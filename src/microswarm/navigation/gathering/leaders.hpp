@@ -3,8 +3,8 @@
 
 #include <cstddef>
 
-#include "microswarm/core/infinity.hpp"
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/infinity.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/navigation/gathering/aggregation_map.hpp"
 
 namespace microswarm {

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 
 namespace microswarm {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "microswarm/core/stop.hpp"
+#include "microswarm/core/execution/stop.hpp"
 #include "microswarm/navigation/gathering/rollout_simulator.hpp"
 
 namespace microswarm {

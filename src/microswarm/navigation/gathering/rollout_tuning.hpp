@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 
 namespace microswarm {
 

@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/published.hpp"
+#include "microswarm/core/fields/published.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/swarm/body/unicycle.hpp"
 
 namespace microswarm {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "microswarm/contracts/navigator.hpp"
-#include "microswarm/core/infinity.hpp"
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/infinity.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/navigation/following/path_follower.hpp"
 #include "microswarm/navigation/hierarchical/hierarchical_params.hpp"
 #include "microswarm/navigation/hierarchical/local_target.hpp"

@@ -4,9 +4,9 @@
 #include <optional>
 #include <string_view>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/fields.hpp"
-#include "microswarm/core/issue.hpp"
+#include "microswarm/core/errors/issue.hpp"
+#include "microswarm/core/fields/fields.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/navigation/following/follower_params.hpp"
 #include "microswarm/navigation/hierarchical/hierarchical_tuning.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker_params.hpp"

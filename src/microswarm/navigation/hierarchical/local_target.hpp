@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/navigation/hierarchical/hierarchical_params.hpp"
 #include "microswarm/planning/path/planners.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 
 namespace microswarm {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "microswarm/core/infinity.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/navigation/prediction/obstacle_predictor.hpp"
 
 namespace microswarm {

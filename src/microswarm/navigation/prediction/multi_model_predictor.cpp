@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/maths.hpp"
 
 namespace microswarm {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "microswarm/core/infinity.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/geometry/distance.hpp"
 
 namespace microswarm {

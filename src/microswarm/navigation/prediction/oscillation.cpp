@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/maths/maths.hpp"
 
 namespace microswarm {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/maths.hpp"
 #include "microswarm/geometry/distance.hpp"
 
 namespace microswarm {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/navigation/prediction/convex_outline.hpp"
 #include "microswarm/navigation/prediction/multi_model_predictor.hpp"
 #include "microswarm/navigation/predictive/predictive_params.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/maths/maths.hpp"
 #include "microswarm/navigation/radar/wait_zone.hpp"
 #include "microswarm/planning/path/fmt_star.hpp"
 #include "microswarm/world/connectivity/free_place.hpp"

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "microswarm/contracts/navigator.hpp"
-#include "microswarm/core/infinity.hpp"
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/infinity.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/navigation/radar/radar_circles.hpp"
 #include "microswarm/navigation/radar/radar_route.hpp"
 #include "microswarm/navigation/radar/radar_scan.hpp"

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "microswarm/core/published.hpp"
+#include "microswarm/core/fields/published.hpp"
 
 namespace microswarm {
 

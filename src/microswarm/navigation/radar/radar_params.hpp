@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/navigation/radar/radar_tuning.hpp"
 #include "microswarm/navigation/radar/safety_filter_params.hpp"
 #include "microswarm/navigation/radar/safety_radius_params.hpp"

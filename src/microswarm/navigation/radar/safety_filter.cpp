@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/infinity.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 
 namespace microswarm {
 namespace {

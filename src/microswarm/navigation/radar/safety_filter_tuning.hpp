@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
+#include "microswarm/core/maths/angles.hpp"
 
 namespace microswarm {
 

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 #include "microswarm/geometry/vec2.hpp"
 #include "microswarm/navigation/radar/wait_zone_params.hpp"
 #include "microswarm/world/obstacles/body_set.hpp"

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "microswarm/core/infinity.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/world/snapshot.hpp"
 
 namespace microswarm {

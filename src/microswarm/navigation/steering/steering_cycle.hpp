@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "microswarm/contracts/navigator.hpp"
-#include "microswarm/core/infinity.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/navigation/steering/aim.hpp"
 #include "microswarm/navigation/steering/delay_compensator.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "microswarm/core/status.hpp"
+#include "microswarm/core/execution/status.hpp"
 #include "microswarm/world/snapshot.hpp"
 
 namespace microswarm {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/planning/gathering/map_segmentation_params.hpp"
 #include "microswarm/planning/gathering/obstacle_weighted_rrt.hpp"
 

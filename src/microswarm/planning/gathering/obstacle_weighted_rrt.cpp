@@ -6,9 +6,9 @@
 #include <queue>
 #include <utility>
 
-#include "microswarm/core/heap_entry.hpp"
-#include "microswarm/core/infinity.hpp"
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/maths/heap_entry.hpp"
+#include "microswarm/core/maths/infinity.hpp"
+#include "microswarm/core/maths/maths.hpp"
 #include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/planning/gathering/tree_cover.hpp"
 

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "microswarm/core/rng.hpp"
-#include "microswarm/core/status.hpp"
-#include "microswarm/core/stop.hpp"
+#include "microswarm/core/execution/status.hpp"
+#include "microswarm/core/execution/stop.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/planning/gathering/node_lookup.hpp"
 #include "microswarm/planning/gathering/obstacle_weighted_rrt_params.hpp"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <unordered_set>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/maths.hpp"
 
 namespace microswarm {
 namespace {

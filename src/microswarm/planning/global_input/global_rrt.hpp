@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "microswarm/contracts/plan.hpp"
-#include "microswarm/core/rng.hpp"
-#include "microswarm/core/stop.hpp"
+#include "microswarm/core/execution/stop.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/planning/global_input/global_rrt_params.hpp"
 #include "microswarm/planning/global_input/global_tree.hpp"
 

@@ -8,8 +8,8 @@
 #include <queue>
 #include <unordered_set>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/heap_entry.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/heap_entry.hpp"
 #include "microswarm/planning/common/distance_field.hpp"
 #include "microswarm/planning/global_input/global_rrt.hpp"
 #include "microswarm/planning/global_input/global_separation.hpp"

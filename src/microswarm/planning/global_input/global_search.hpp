@@ -2,8 +2,8 @@
 #pragma once
 
 #include "microswarm/contracts/plan.hpp"
-#include "microswarm/core/rng.hpp"
-#include "microswarm/core/stop.hpp"
+#include "microswarm/core/execution/stop.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/planning/global_input/global_search_params.hpp"
 #include "microswarm/planning/global_input/global_tree.hpp"
 

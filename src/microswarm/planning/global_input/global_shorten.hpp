@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "microswarm/core/stop.hpp"
+#include "microswarm/core/execution/stop.hpp"
 #include "microswarm/planning/global_input/global_tree.hpp"
 #include "microswarm/world/map/map.hpp"
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <string>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/angles.hpp"
 
 namespace microswarm {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "microswarm/core/status.hpp"
+#include "microswarm/core/execution/status.hpp"
 #include "microswarm/swarm/robots/robot_stepper.hpp"
 
 namespace microswarm {

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 
 namespace microswarm {
 

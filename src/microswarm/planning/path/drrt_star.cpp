@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/published.hpp"
+#include "microswarm/core/fields/published.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/planning/common/detection.hpp"
 #include "microswarm/planning/path/straighten.hpp"
 #include "microswarm/planning/path/tree_growth.hpp"

@@ -6,10 +6,10 @@
 #include <optional>
 #include <string>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/heap_entry.hpp"
-#include "microswarm/core/infinity.hpp"
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/heap_entry.hpp"
+#include "microswarm/core/maths/infinity.hpp"
+#include "microswarm/core/maths/maths.hpp"
 #include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/planning/common/free_goal.hpp"
 #include "microswarm/planning/path/sample_buckets.hpp"

@@ -3,8 +3,8 @@
 
 #include <string_view>
 
-#include "microswarm/core/fields.hpp"
-#include "microswarm/core/issue.hpp"
+#include "microswarm/core/errors/issue.hpp"
+#include "microswarm/core/fields/fields.hpp"
 
 namespace microswarm {
 

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/planning/path/turn_edge.hpp"
 
 namespace microswarm {

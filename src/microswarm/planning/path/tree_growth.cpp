@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/maths.hpp"
 #include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/planning/common/free_goal.hpp"
 #include "microswarm/planning/path/turn_edge.hpp"

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "microswarm/core/heap_entry.hpp"
+#include "microswarm/core/maths/heap_entry.hpp"
 #include "microswarm/planning/path/rrt_star.hpp"
 #include "microswarm/planning/path/search_tree.hpp"
 

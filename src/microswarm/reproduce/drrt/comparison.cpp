@@ -7,8 +7,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/experiment/trials.hpp"
 #include "microswarm/report/plot.hpp"
 #include "microswarm/reproduce/drrt/drrt.hpp"

@@ -5,8 +5,8 @@
 #include <array>
 #include <filesystem>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/planning/common/detection.hpp"
 #include "microswarm/planning/path/planners.hpp"
 #include "microswarm/planning/path/straighten.hpp"

@@ -3,10 +3,10 @@
 
 #include <array>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/file.hpp"
-#include "microswarm/core/statistics.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/statistics.hpp"
+#include "microswarm/core/text/file.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/report/plot.hpp"
 #include "microswarm/reproduce/reproduce.hpp"
 

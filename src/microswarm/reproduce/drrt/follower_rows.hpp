@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "microswarm/core/progress.hpp"
-#include "microswarm/core/stop.hpp"
+#include "microswarm/core/execution/progress.hpp"
+#include "microswarm/core/execution/stop.hpp"
 #include "microswarm/learning/follower_comparison.hpp"
 #include "microswarm/report/rows.hpp"
 

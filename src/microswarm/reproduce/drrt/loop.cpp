@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <limits>
 
-#include "microswarm/core/file.hpp"
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/maths/statistics.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/experiment/record/record.hpp"
 #include "microswarm/experiment/trials.hpp"
 #include "microswarm/report/run_report.hpp"

@@ -5,9 +5,9 @@
 #include <array>
 #include <mutex>
 
-#include "microswarm/core/file.hpp"
-#include "microswarm/core/parallel.hpp"
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/execution/parallel.hpp"
+#include "microswarm/core/maths/statistics.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/experiment/run/progress.hpp"
 #include "microswarm/experiment/run/run.hpp"
 #include "microswarm/reproduce/gather/gather.hpp"

@@ -10,9 +10,9 @@
 #include <mutex>
 #include <numeric>
 
-#include "microswarm/core/file.hpp"
-#include "microswarm/core/parallel.hpp"
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/execution/parallel.hpp"
+#include "microswarm/core/maths/statistics.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/io/columns.hpp"
 #include "microswarm/report/page.hpp"
 #include "microswarm/reproduce/gather/fig9.hpp"

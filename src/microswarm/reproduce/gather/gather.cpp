@@ -5,7 +5,7 @@
 #include <cmath>
 #include <span>
 
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/reproduce/figures.hpp"
 

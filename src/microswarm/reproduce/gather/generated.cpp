@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "microswarm/core/file.hpp"
-#include "microswarm/core/maths.hpp"
-#include "microswarm/core/parallel.hpp"
+#include "microswarm/core/execution/parallel.hpp"
+#include "microswarm/core/maths/maths.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/reproduce/gather/gather.hpp"
 
 namespace microswarm::reproduce {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/maths/maths.hpp"
 
 namespace microswarm::reproduce {
 

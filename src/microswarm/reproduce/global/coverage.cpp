@@ -8,8 +8,8 @@
 #include <variant>
 #include <vector>
 
-#include "microswarm/core/parallel.hpp"
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/execution/parallel.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/planning/global_input/coverage.hpp"
 #include "microswarm/planning/global_input/global_rrt.hpp"
 #include "microswarm/report/picture.hpp"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 
-#include "microswarm/core/statistics.hpp"
-#include "microswarm/core/stop.hpp"
+#include "microswarm/core/execution/stop.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/planning/global_input/global_search.hpp"
 #include "microswarm/planning/global_input/global_shorten.hpp"
 #include "microswarm/reproduce/global/global.hpp"

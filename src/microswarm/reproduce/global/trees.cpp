@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <limits>
 
-#include "microswarm/core/parallel.hpp"
-#include "microswarm/core/statistics.hpp"
-#include "microswarm/core/stop.hpp"
+#include "microswarm/core/execution/parallel.hpp"
+#include "microswarm/core/execution/stop.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/experiment/record/global_tree_file.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/planning/global_input/global_rrt.hpp"

@@ -5,7 +5,7 @@
 #include <array>
 #include <filesystem>
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/experiment/results/metrics.hpp"
 #include "microswarm/report/plot.hpp"
 #include "microswarm/reproduce/radar/radar.hpp"

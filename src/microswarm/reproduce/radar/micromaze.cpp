@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/experiment/trials.hpp"
 #include "microswarm/reproduce/radar/radar.hpp"
 #include "microswarm/reproduce/radar/radar_picture.hpp"

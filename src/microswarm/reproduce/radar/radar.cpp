@@ -8,7 +8,7 @@
 #include <array>
 #include <filesystem>
 
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/reproduce/figures.hpp"
 #include "microswarm/reproduce/radar/safety.hpp"
 

@@ -8,8 +8,8 @@
 #include <array>
 #include <memory>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/file.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/report/picture.hpp"
 
 namespace microswarm::reproduce {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <optional>
 
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/reproduce/figures.hpp"
 #include "microswarm/reproduce/radar/safety_campaign.hpp"
 #include "microswarm/reproduce/radar/safety_tables.hpp"

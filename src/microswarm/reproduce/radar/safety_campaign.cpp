@@ -11,8 +11,8 @@
 #include <numeric>
 #include <utility>
 
-#include "microswarm/core/file.hpp"
-#include "microswarm/core/parallel.hpp"
+#include "microswarm/core/execution/parallel.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/experiment/plant/plant.hpp"
 #include "microswarm/scenes/avoidance_worlds.hpp"
 

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <iterator>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/file.hpp"
-#include "microswarm/core/maths.hpp"
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/maths.hpp"
+#include "microswarm/core/maths/statistics.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/io/columns.hpp"
 #include "microswarm/report/page.hpp"
 #include "microswarm/reproduce/gather/gather.hpp"

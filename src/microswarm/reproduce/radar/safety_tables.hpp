@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/reproduce/radar/safety_campaign.hpp"
 
 namespace microswarm::reproduce {

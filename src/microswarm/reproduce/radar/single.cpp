@@ -6,9 +6,9 @@
 #include <array>
 #include <filesystem>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/parallel.hpp"
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/execution/parallel.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/reproduce/radar/radar.hpp"
 #include "microswarm/reproduce/radar/radar_picture.hpp"
 

@@ -9,8 +9,8 @@
 #include <functional>
 #include <span>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/experiment/run/progress.hpp"
 #include "microswarm/experiment/trials.hpp"
 #include "microswarm/geometry/distance.hpp"

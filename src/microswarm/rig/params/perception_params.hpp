@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 #include "microswarm/vision/scene/scene_finder.hpp"
 #include "microswarm/vision/tracking/particles.hpp"
 

@@ -4,7 +4,7 @@
 #include <fmt/core.h>
 
 #include "microswarm/config/yaml.hpp"
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 
 namespace microswarm {
 namespace {

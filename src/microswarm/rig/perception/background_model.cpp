@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "microswarm/core/each_cpu.hpp"
+#include "microswarm/core/execution/each_cpu.hpp"
 #include "microswarm/vision/scene/background.hpp"
 
 namespace microswarm {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/rig/perception/background_model.hpp"
 #include "microswarm/rig/perception/walls_in_picture.hpp"
 #include "microswarm/swarm/robots/robot_swarm.hpp"

@@ -8,7 +8,7 @@
 #include <exception>
 #include <utility>
 
-#include "microswarm/core/clock.hpp"
+#include "microswarm/core/execution/clock.hpp"
 #include "microswarm/vision/camera/newest_frame.hpp"
 
 namespace microswarm {

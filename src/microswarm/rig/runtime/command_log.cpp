@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/angles.hpp"
 
 namespace microswarm {
 

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <thread>
 
-#include "microswarm/core/clock.hpp"
+#include "microswarm/core/execution/clock.hpp"
 #include "microswarm/rig/simulation/simulated_rig.hpp"
 
 namespace microswarm {

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "microswarm/core/clock.hpp"
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/execution/clock.hpp"
 #include "microswarm/rig/simulation/rig_simulator.hpp"
 
 namespace microswarm {

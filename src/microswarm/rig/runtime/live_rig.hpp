@@ -8,8 +8,8 @@
 
 #include "microswarm/actuation/coils/coil_controller.hpp"
 #include "microswarm/contracts/plant.hpp"
-#include "microswarm/core/clock.hpp"
-#include "microswarm/core/durations.hpp"
+#include "microswarm/core/execution/clock.hpp"
+#include "microswarm/core/execution/durations.hpp"
 #include "microswarm/rig/params/rig_params.hpp"
 #include "microswarm/rig/perception/perception.hpp"
 #include "microswarm/rig/runtime/coil_loop.hpp"

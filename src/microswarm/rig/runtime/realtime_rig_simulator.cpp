@@ -5,7 +5,7 @@
 #include <chrono>
 #include <thread>
 
-#include "microswarm/core/clock.hpp"
+#include "microswarm/core/execution/clock.hpp"
 #include "microswarm/vision/camera/newest_frame.hpp"
 
 namespace microswarm {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "microswarm/actuation/field/waveform.hpp"
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/maths.hpp"
 
 namespace microswarm {
 namespace {

@@ -5,7 +5,7 @@
 #include <deque>
 
 #include "microswarm/actuation/field/field_generator.hpp"
-#include "microswarm/core/angles.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/rig/params/field_response_params.hpp"
 
 namespace microswarm {

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/each_cpu.hpp"
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/execution/each_cpu.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/maths.hpp"
 #include "microswarm/rig/perception/walls_in_picture.hpp"
 #include "microswarm/vision/image/blur.hpp"
 

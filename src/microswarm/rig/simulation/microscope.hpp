@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "microswarm/contracts/observation.hpp"
-#include "microswarm/core/fields.hpp"
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/fields/fields.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/rig/params/microscope_params.hpp"
 #include "microswarm/vision/camera/camera_scale.hpp"

@@ -6,7 +6,7 @@
 
 #include "microswarm/contracts/command.hpp"
 #include "microswarm/contracts/observation.hpp"
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/swarm/body/lagging_commands.hpp"
 #include "microswarm/swarm/body/ribbon_params.hpp"
 

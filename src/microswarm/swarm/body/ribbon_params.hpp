@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 #include "microswarm/geometry/vec2.hpp"
 
 namespace microswarm {

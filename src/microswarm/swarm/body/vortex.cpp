@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/maths/maths.hpp"
 #include "microswarm/swarm/body/unicycle.hpp"
 
 namespace microswarm {

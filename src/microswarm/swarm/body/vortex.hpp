@@ -6,8 +6,8 @@
 
 #include "microswarm/contracts/command.hpp"
 #include "microswarm/contracts/observation.hpp"
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/rng.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/swarm/body/lagging_commands.hpp"
 #include "microswarm/swarm/body/vortex_params.hpp"
 

@@ -3,8 +3,8 @@
 
 #include <string_view>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/geometry/vec2.hpp"
 
 namespace microswarm {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 #include "microswarm/geometry/vec2.hpp"
 #include "microswarm/swarm/robots/contact_rule.hpp"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <map>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/maths.hpp"
 #include "microswarm/geometry/distance.hpp"
 
 namespace microswarm {

@@ -12,8 +12,8 @@
 #include <string>
 #include <tuple>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/vision/image/blur.hpp"
 #include "microswarm/vision/image/mat.hpp"
 #include "microswarm/vision/scene/blobs.hpp"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/vision/camera/camera_scale.hpp"
 

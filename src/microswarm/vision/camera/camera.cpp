@@ -10,8 +10,8 @@
 #include <opencv2/videoio.hpp>
 #include <system_error>
 
-#include "microswarm/core/clock.hpp"
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/execution/clock.hpp"
 #include "microswarm/vision/image/mat.hpp"
 
 namespace microswarm {

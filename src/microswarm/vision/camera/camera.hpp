@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 #include "microswarm/vision/camera/newest_frame.hpp"
 
 namespace microswarm {

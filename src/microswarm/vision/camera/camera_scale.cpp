@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/maths.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/maths.hpp"
+#include "microswarm/core/text/text.hpp"
 
 namespace microswarm {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 #include "microswarm/geometry/shapes.hpp"
 
 namespace microswarm {

@@ -14,7 +14,7 @@
 #include <opencv2/videoio.hpp>
 #include <vector>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/vision/image/mat.hpp"
 
 namespace microswarm {

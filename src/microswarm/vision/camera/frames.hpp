@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 #include "microswarm/formats/images/image.hpp"
 
 namespace microswarm {

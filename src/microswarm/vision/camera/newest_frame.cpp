@@ -7,9 +7,9 @@
 #include <mutex>
 #include <thread>
 
-#include "microswarm/core/clock.hpp"
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/execution/clock.hpp"
+#include "microswarm/core/text/text.hpp"
 
 namespace microswarm {
 namespace {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 #include "microswarm/vision/camera/frames.hpp"
 
 namespace microswarm {

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "microswarm/core/each_cpu.hpp"
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/execution/each_cpu.hpp"
+#include "microswarm/core/maths/maths.hpp"
 
 namespace microswarm {
 namespace {

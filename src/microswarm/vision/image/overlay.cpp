@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <string>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/vision/image/mask_ops.hpp"
 #include "microswarm/vision/image/mat.hpp"
 

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "microswarm/core/each_cpu.hpp"
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/execution/each_cpu.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 
 namespace microswarm {
 namespace {

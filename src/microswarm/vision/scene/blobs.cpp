@@ -12,10 +12,10 @@
 #include <span>
 #include <string>
 
-#include "microswarm/core/each_cpu.hpp"
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/maths.hpp"
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/execution/each_cpu.hpp"
+#include "microswarm/core/maths/maths.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/vision/image/blur.hpp"
 #include "microswarm/vision/image/mat.hpp"
 #include "microswarm/vision/scene/background.hpp"

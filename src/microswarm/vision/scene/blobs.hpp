@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "microswarm/core/fields.hpp"
-#include "microswarm/core/issue.hpp"
+#include "microswarm/core/errors/issue.hpp"
+#include "microswarm/core/fields/fields.hpp"
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/formats/images/mask.hpp"
 #include "microswarm/geometry/vec2.hpp"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 #include "microswarm/vision/scene/blobs.hpp"
 
 namespace microswarm {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/vision/image/logs.hpp"
 #include "microswarm/vision/image/mask_ops.hpp"
 #include "microswarm/vision/image/mat.hpp"

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <functional>
 
-#include "microswarm/core/infinity.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 
 namespace microswarm {
 

@@ -5,8 +5,8 @@
 #include <cassert>
 #include <cmath>
 
-#include "microswarm/core/each_cpu.hpp"
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/execution/each_cpu.hpp"
+#include "microswarm/core/maths/maths.hpp"
 
 namespace microswarm {
 namespace {

@@ -10,10 +10,10 @@
 #include <span>
 #include <string>
 
-#include "microswarm/core/each_cpu.hpp"
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/maths.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/execution/each_cpu.hpp"
+#include "microswarm/core/maths/maths.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/vision/image/mask_ops.hpp"
 #include "microswarm/vision/tracking/ring_fit.hpp"
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/geometry/vec2.hpp"
 #include "microswarm/vision/tracking/band_pass.hpp"

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 
 namespace microswarm {
 std::optional<Ring> circle_through(const std::vector<Vec2>& points) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/maths/maths.hpp"
 
 namespace microswarm {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 #include "microswarm/geometry/vec2.hpp"
 #include "microswarm/vision/tracking/assignment.hpp"
 #include "microswarm/vision/tracking/robot_filter.hpp"

@@ -10,9 +10,9 @@
 #include <opencv2/videoio.hpp>
 #include <string>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/file.hpp"
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/maths.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/vision/image/mat.hpp"
 #include "microswarm/vision/image/strokes.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 
 namespace microswarm {
 namespace {

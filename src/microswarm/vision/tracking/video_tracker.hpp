@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 #include "microswarm/vision/camera/frames.hpp"
 #include "microswarm/vision/tracking/particles.hpp"
 #include "microswarm/vision/tracking/robot_tracker.hpp"

@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/vision/image/blur.hpp"
 #include "microswarm/vision/image/logs.hpp"
 #include "microswarm/vision/image/mask_ops.hpp"

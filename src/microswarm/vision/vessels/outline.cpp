@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/vision/vessels/rings.hpp"
 
 namespace microswarm {

@@ -5,7 +5,7 @@
 #include <array>
 #include <opencv2/imgproc.hpp>
 
-#include "microswarm/core/statistics.hpp"
+#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/vision/image/mask_ops.hpp"
 
 namespace microswarm {

@@ -10,7 +10,7 @@
 #include <tuple>
 #include <utility>
 
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/maths/maths.hpp"
 #include "microswarm/geometry/distance.hpp"
 #include "microswarm/geometry/predicates.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/vision/image/mask_ops.hpp"
 #include "microswarm/vision/image/mat.hpp"
 #include "microswarm/vision/vessels/field_of_view.hpp"

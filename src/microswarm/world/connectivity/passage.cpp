@@ -6,8 +6,8 @@
 #include <numeric>
 #include <queue>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/maths.hpp"
 #include "microswarm/geometry/predicates.hpp"
 #include "microswarm/world/connectivity/neck.hpp"
 #include "microswarm/world/map/lattice.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "microswarm/core/infinity.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 
 namespace microswarm {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/infinity.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/infinity.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/world/map/pieces.hpp"
 
 namespace microswarm {

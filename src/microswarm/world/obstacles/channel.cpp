@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/error.hpp"
-#include "microswarm/core/maths.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/maths.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/geometry/predicates.hpp"
 
 namespace microswarm {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "microswarm/core/infinity.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 
 namespace microswarm {
 namespace {

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "microswarm/core/fields.hpp"
+#include "microswarm/core/fields/fields.hpp"
 #include "microswarm/geometry/vec2.hpp"
 
 namespace microswarm {

@@ -6,9 +6,9 @@
 #include <functional>
 #include <utility>
 
-#include "microswarm/core/angles.hpp"
-#include "microswarm/core/maths.hpp"
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/maths.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/world/obstacles/channel.hpp"
 
 namespace microswarm {

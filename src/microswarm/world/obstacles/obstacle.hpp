@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "microswarm/core/issue.hpp"
+#include "microswarm/core/errors/issue.hpp"
 #include "microswarm/world/obstacles/body.hpp"
 #include "microswarm/world/obstacles/motion.hpp"
 

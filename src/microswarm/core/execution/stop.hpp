@@ -5,7 +5,7 @@
 #include <chrono>
 #include <optional>
 
-#include "microswarm/core/status.hpp"
+#include "microswarm/core/execution/status.hpp"
 
 namespace microswarm {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/core/units.hpp"
+#include "microswarm/core/fields/units.hpp"
 
 #include <cassert>
 #include <numbers>

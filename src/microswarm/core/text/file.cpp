@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/core/file.hpp"
+#include "microswarm/core/text/file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 
 namespace microswarm {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/core/issue.hpp"
+#include "microswarm/core/errors/issue.hpp"
 
 #include <algorithm>
 

@@ -7,8 +7,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "microswarm/core/fields.hpp"
-#include "microswarm/core/issue.hpp"
+#include "microswarm/core/errors/issue.hpp"
+#include "microswarm/core/fields/fields.hpp"
 
 namespace microswarm {
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/maths/maths.hpp"
 
 namespace microswarm {
 

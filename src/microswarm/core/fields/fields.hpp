@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "microswarm/core/units.hpp"
+#include "microswarm/core/fields/units.hpp"
 
 namespace microswarm {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/core/text.hpp"
+#include "microswarm/core/text/text.hpp"
 
 #include <fmt/format.h>
 

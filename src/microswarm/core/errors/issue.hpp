@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "microswarm/core/error.hpp"
+#include "microswarm/core/errors/error.hpp"
 
 namespace microswarm {
 

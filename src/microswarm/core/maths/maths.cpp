@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/core/maths.hpp"
+#include "microswarm/core/maths/maths.hpp"
 
 #include <sleef.h>
 
