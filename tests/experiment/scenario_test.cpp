@@ -288,6 +288,21 @@ TEST(ScenarioCheck, ListsWithoutWhichNothingCanBeChosen) {
   EXPECT_EQ(check_error(scenario), "s.yaml: tuning.speed_shares is empty, must have a value");
 }
 
+TEST(ScenarioCheck, TuningOfThePredictionMustAscend) {
+  Scenario scenario = open_room();
+  PredictiveParams predictive;
+  predictive.prediction.tuning.oscillation.medium_window = 10;
+  scenario.navigator = predictive;
+  EXPECT_TRUE(test::is_one_line_naming(
+      check_error(scenario), "s.yaml",
+      {"prediction.tuning.oscillation.medium_window_s", "oscillation.long_window_s"}));
+  predictive = {};
+  predictive.prediction.tuning.recurrence.min_age = 0.1;
+  scenario.navigator = predictive;
+  EXPECT_TRUE(test::is_one_line_naming(check_error(scenario), "s.yaml",
+                                       {"recurrence.max_time_offset_s", "recurrence.min_age_s"}));
+}
+
 TEST(ScenarioCheck, GoalCutOff) {
   Scenario scenario = open_room();
   std::get<PolygonsMap>(scenario.map).walls = {bar(1000, 0, 20, 1000).outer};

@@ -51,5 +51,21 @@ TEST(ConvexOutline, OfADiscIsTheDisc) {
   EXPECT_DOUBLE_EQ(outline.distance_at({0, 0}), -30);
 }
 
+TEST(ConvexOutline, HowHollowABodyMayBeIsTuned) {
+  const Polygon angle{
+      .outer = {{0, 0}, {100, 0}, {100, 10}, {10, 10}, {10, 100}, {0, 100}}};  // 0.62 hollow
+  const std::vector<Vec2> inside{{40, 40}};
+  const auto misleads = [&](const ConvexOutlineTuning& tuning, std::span<const Vec2> places) {
+    ConvexOutliner outliner(tuning);
+    ConvexOutline outline;
+    outliner.take({.shape = angle}, outline);
+    return outliner.misleads(outline, places);
+  };
+  EXPECT_TRUE(misleads({}, {}));
+  EXPECT_FALSE(misleads({.max_hollow = 0.9}, {}));
+  EXPECT_TRUE(misleads({.max_hollow = 0.9}, inside));
+  EXPECT_FALSE(misleads({.ignored_hollow = 0.9}, inside));
+}
+
 }  // namespace
 }  // namespace microswarm

@@ -136,5 +136,52 @@ TEST(MultiModelPredictor, WhatVanishesIsForgotten) {
   EXPECT_LT(w.error(2), 1e-6);
 }
 
+/// How often one of the models from `first` up to `end` is selected while the obstacle moves.
+int selections(const Motion& motion, const MultiModelPredictorTuning& tuning, std::size_t first,
+               std::size_t end) {
+  MultiModelPredictorParams params;
+  params.tuning = tuning;
+  Watched w{.obstacles = {moving_disc(motion)}, .prediction = MultiModelPredictor(params)};
+  int count = 0;
+  for (int k = 0; k < 180; ++k) {
+    w.watch(0.1);
+    count += w.prediction.model(0) >= first && w.prediction.model(0) < end;
+  }
+  return count;
+}
+
+TEST(MultiModelPredictor, CirclesBeyondTheTunedRadiusAreNoCircles) {
+  const HarmonicArc motion{{0, 0}, 260, 0.4, 1.1, 9, 0.3};
+  MultiModelPredictorTuning tuning;
+  EXPECT_GT(selections(motion, tuning, MotionModels::arc, MotionModels::again), 20);
+  tuning.models.max_circle_radius = 200;
+  EXPECT_EQ(selections(motion, tuning, MotionModels::arc, MotionModels::again), 0);
+}
+
+TEST(MultiModelPredictor, ABodySlowerThanTheTunedSpeedNeverRecurs) {
+  const Waypoints round{{{0, 0}, {400, 0}, {400, 300}}, 150, AtEnd::loop};
+  MultiModelPredictorTuning tuning;
+  EXPECT_GT(selections(round, tuning, MotionModels::again, MotionModels::count), 20);
+  tuning.recurrence.min_speed = 200;
+  EXPECT_EQ(selections(round, tuning, MotionModels::again, MotionModels::count), 0);
+}
+
+TEST(MultiModelPredictor, OscillationsAreFoundAmongTunedFrequenciesAndWindows) {
+  const HarmonicLine motion{{0, 0}, {250, 100}, 11, 0.1};
+  MultiModelPredictorTuning tuning;
+  const int usual = selections(motion, tuning, MotionModels::swing, MotionModels::again);
+  EXPECT_GT(usual, 20);
+  tuning.oscillation.min_sightings = 1000;
+  EXPECT_EQ(selections(motion, tuning, MotionModels::swing, MotionModels::again), 0);
+  tuning = {};
+  tuning.oscillation.min_frequency = 2;
+  EXPECT_LT(selections(motion, tuning, MotionModels::swing, MotionModels::again), usual);
+  tuning = {};
+  tuning.oscillation.short_window = 0.1;
+  tuning.oscillation.medium_window = 0.2;
+  tuning.oscillation.long_window = 0.3;
+  EXPECT_EQ(selections(motion, tuning, MotionModels::swing, MotionModels::again), 0);
+}
+
 }  // namespace
 }  // namespace microswarm

@@ -135,5 +135,22 @@ TEST(ObstaclePredictor, SweptObstaclesCoverTheWay) {
   EXPECT_GT(swept.clearance({260, 500}), 20);
 }
 
+TEST(ObstaclePredictor, TheTimeOfGrowthIsTuned) {
+  PredictedScene scene{.movers = {{Disc{{500, 500}, 10}, {}, 5}},
+                       .predictor = ObstaclePredictor({}, {.growth_time = 1})};
+  scene.watch();
+  EXPECT_NEAR(scene.predictor.clearance(scene.newest, {{600, 500}, {600, 500}}, 0, 2, 1000), 85,
+              1e-6);
+}
+
+TEST(ObstaclePredictor, TheSignificanceOfAVelocityIsTuned) {
+  for (const double significance : {2.0, 1e6}) {
+    PredictedScene scene{.movers = {{Disc{{500, 500}, 10}, {20, 0}}},
+                         .predictor = ObstaclePredictor({}, {.min_significance = significance})};
+    scene.watch();
+    EXPECT_EQ(scene.predictor.all_rest(), significance > 2);
+  }
+}
+
 }  // namespace
 }  // namespace microswarm

@@ -181,5 +181,68 @@ TEST(ObstacleTracker, ObstaclesComeAndGo) {
   EXPECT_EQ(tracker.size(), 1u);
 }
 
+TEST(ObstacleTracker, TheNoiseAssumedAtFirstAndAtLeastIsTuned) {
+  ObstacleTrackerParams params;
+  params.tuning.fit.initial_noise = 1.25;
+  params.tuning.fit.min_noise = 0.75;
+  Camera camera{.obstacles = {moving_disc(Straight{{}, {60, 30}})},
+                .tracker = ObstacleTracker(params)};
+  camera.watch(0.35);
+  EXPECT_EQ(camera.body().noise, 1.25);
+  camera.watch(2);
+  EXPECT_EQ(camera.body().noise, 0.75);
+}
+
+TEST(ObstacleTracker, TheNumberOfSightingsForTheNoiseIsTuned) {
+  ObstacleTrackerParams params;
+  params.tuning.fit.min_noise_sightings = 4;
+  const std::vector<Obstacle> obstacles{moving_disc(Straight{{}, {60, 30}})};
+  Camera usual{.obstacles = obstacles};
+  Camera early{.obstacles = obstacles, .tracker = ObstacleTracker(params)};
+  usual.watch(0.45);
+  early.watch(0.45);
+  EXPECT_EQ(usual.body().noise, MotionFitTuning{}.initial_noise);
+  EXPECT_EQ(early.body().noise, MotionFitTuning{}.min_noise);
+}
+
+TEST(ObstacleTracker, ATurnIsNoticedLateWhenLargeResidualsAreAllowed) {
+  ObstacleTrackerParams params;
+  params.tuning.fit.max_residual = 100'000;
+  Camera camera{.obstacles = {moving_disc(Waypoints{{{0, 0}, {300, 0}}, 60, AtEnd::back})},
+                .tracker = ObstacleTracker(params)};
+  camera.watch(5.32);  // turned round at 5 s
+  EXPECT_GT(camera.body().velocity.x, -50);
+}
+
+TEST(ObstacleTracker, FramesForTheNoiseAreTuned) {
+  ObstacleTrackerParams params;
+  params.tuning.noise_windows = 1;
+  params.memory = 10;
+  const auto noise_after_a_calm = [](const ObstacleTrackerParams& p) {
+    Camera camera{.obstacles = {moving_disc(Straight{{}, {60, 30}})},
+                  .noise = 5,
+                  .tracker = ObstacleTracker(p)};
+    camera.watch(3);
+    camera.noise = 0;
+    camera.watch(1.6);
+    return camera.body().noise;
+  };
+  EXPECT_EQ(noise_after_a_calm(params), MotionFitTuning{}.min_noise);
+  params.tuning.noise_windows = 4;
+  EXPECT_GT(noise_after_a_calm(params), 1);
+}
+
+TEST(ObstacleTracker, OutlinesAreComparedOverATunedTime) {
+  ObstacleTrackerParams params;
+  params.tuning.outline_spacing = 60;
+  const std::vector<Obstacle> obstacles{
+      {BoxShape{200, 40}, HarmonicArc{{0, 0}, 260, 0.4, 1.1, 9, 0.3}}};
+  Camera usual{.obstacles = obstacles};
+  Camera slow{.obstacles = obstacles, .tracker = ObstacleTracker(params)};
+  usual.watch(5);
+  slow.watch(5);
+  EXPECT_NE(usual.body().outline_speed, slow.body().outline_speed);
+}
+
 }  // namespace
 }  // namespace microswarm

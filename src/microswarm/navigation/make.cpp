@@ -104,9 +104,34 @@ Issues validate(const HierarchicalParams& p, const Task&, const Map&, const IsGi
     issues.add("tuning.wait_times_s", "tuning.wait_times_s must ascend from 0");
   return issues;
 }
+/// An issue if the value of the first key is not less than that of the second.
+void require_less(double a, double b, std::string_view first, std::string_view second,
+                  Issues& issues) {
+  constexpr std::string_view group = "prediction.tuning";
+  if (a < b) return;
+  issues.add(fmt::format("{}.{}", group, first),
+             fmt::format("{0}.{1} must be less than {0}.{2}", group, first, second));
+}
+
+Issues validate(const MultiModelPredictorTuning& p) {
+  Issues issues;
+  const OscillationTuning& o = p.oscillation;
+  require_less(o.short_window, o.medium_window, "oscillation.short_window_s",
+               "oscillation.medium_window_s", issues);
+  require_less(o.medium_window, o.long_window, "oscillation.medium_window_s",
+               "oscillation.long_window_s", issues);
+  require_less(o.min_frequency, o.max_frequency, "oscillation.min_frequency_per_s",
+               "oscillation.max_frequency_per_s", issues);
+  // A recurrence must lie in the past.
+  require_less(p.recurrence.max_time_offset, p.recurrence.min_age, "recurrence.max_time_offset_s",
+               "recurrence.min_age_s", issues);
+  return issues;
+}
+
 Issues validate(const PredictiveParams& p, const Task&, const Map&, const IsGiven&) {
   Issues issues;
   require_values(p.tuning.speed_shares, "tuning.speed_shares", issues);
+  issues.add(validate(p.prediction.tuning));
   return issues;
 }
 Issues validate(const AggregationParams& p, const Task&, const Map&, const IsGiven&) {

@@ -4,18 +4,19 @@
 #include <optional>
 
 #include "microswarm/core/execution/stop.hpp"
+#include "microswarm/navigation/gathering/rollout_execution.hpp"
+#include "microswarm/navigation/gathering/rollout_search.hpp"
 #include "microswarm/navigation/gathering/rollout_simulator.hpp"
 
 namespace microswarm {
 
 /// Gathers robots at the goal by a complete plan, beyond [gather]. The initial plan is the shorter
 /// one of simulated HRA and DCA. Every decision then spends a budget of simulated robot-steps on
-/// finding shorter plans. A plan is replaced only after the new one was simulated with all robots.
-/// Without noise it therefore never needs more steps than the better of the two policies, and meets
-/// the same criterion at the end. When the robots deviate from the plan by more than
-/// `max_deviation`, it replans from their observed positions: by the rest of the plan or by either
-/// policy, whichever is shortest. When plans fail as fast as they are executed, the better policy
-/// leads to the end. Deterministic unless a deadline stops the search.
+/// finding shorter plans (RolloutSearch). Without noise it therefore never needs more steps than
+/// the better of the two policies, and meets the same criterion at the end. When the robots deviate
+/// from the plan by more than `max_deviation`, it replans from their observed positions: by the
+/// rest of the plan or by either policy, whichever is shortest. When plans fail as fast as they are
+/// executed, the better policy leads to the end. Deterministic unless a deadline stops the search.
 class RolloutPolicy {
  public:
   /// Map and stepper must outlive it; the stepper is used with the rule "stop". Uses
@@ -31,11 +32,11 @@ class RolloutPolicy {
   /// value.
   double mean_distance() const { return mean_distance_; }
   /// Moves left in the plan; 0 if neither policy reached the end.
-  std::size_t steps_left() const { return plan_.moves.size() - done_; }
+  std::size_t steps_left() const { return plan_.left(); }
   /// Number of times it replanned because robots deviated.
   int replans() const { return replans_; }
   /// Number of shorter plans found.
-  int improvements() const { return improvements_; }
+  int improvements() const { return search_.improvements(); }
   /// Simulated robot-steps so far.
   double work() const { return simulator_.work(); }
   int guard_count() const { return base_.guard_count(); }
@@ -43,38 +44,21 @@ class RolloutPolicy {
  private:
   bool leads() const;
   bool on_plan(const Robots& robots) const;
-  void look(const Robots& robots, bool always);
+  void measure(const Robots& robots, bool always);
   void start(const Robots& robots);
   void plan_anew(const Robots& robots);
-  std::optional<PartialPlan> simulated(const Robots& robots, Aggregation method, std::size_t most);
-  void improve(double budget, const Stop& stop);
-  bool extend();
-  void perturb();
-  void change(PartialPlan& partial);
-  void verify(const PartialPlan& partial);
-  void adopt(PartialPlan&& partial);
-  PartialPlan partial_at(std::size_t step, std::size_t max_places);
-  std::size_t steps() const { return plan_.moves.size(); }
 
   RolloutSimulator simulator_;
-  RolloutParams params_;
   const RobotStepper* stepper_;
-  Rng rng_;
   const AggregationMap* map_;
   AggregationPolicy base_;  ///< leads when there is no plan
-  RolloutPlan plan_;
-  std::size_t done_ = 0;                 ///< executed moves of the plan
-  MergedRobots expected_;                ///< positions of robots that follow the plan
-  std::optional<PartialPlan> extended_;  ///< plan extended by the lookahead
-  std::size_t head_start_ = 0;           ///< steps after which the lookahead begins
-  bool looks_ahead_ = true;
-  double thought_ = 0;  ///< work spent on better plans
+  RolloutExecution plan_;
+  RolloutSearch search_;
   double mean_distance_ = 0;
   int unmeasured_ = 0;          ///< moves until F is measured again
   std::size_t made_ = 0;        ///< executed moves of plans
   std::size_t base_steps_ = 0;  ///< steps of the base policy in simulation
   int replans_ = 0;
-  int improvements_ = 0;
 };
 
 }  // namespace microswarm

@@ -40,7 +40,7 @@ HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params,
     : params_(params.in_effect()),
       rng_(rng),
       steering_(swarm, params.speed, goal, goal_tolerance, frame_timeout),
-      obstacles_(params.tracker),
+      obstacles_(params.tracker, params.tuning.prediction),
       follower_(params.follower, swarm) {
   params_.speed = steering_.speed();
   // Deviation of a tick's arc from its chord; 0 for a swarm that turns at once.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "microswarm/core/fields/fields.hpp"
+#include "microswarm/navigation/prediction/obstacle_predictor_tuning.hpp"
 
 namespace microswarm {
 
@@ -18,6 +19,7 @@ struct HierarchicalTuning {
   std::vector<double> wait_times{0, 1, 2, 4, 8};
   double wait_weight = 2;
   double contact_weight = 3;
+  ObstaclePredictorTuning prediction;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.speed_shares,
@@ -40,6 +42,7 @@ struct HierarchicalTuning {
                                 Unit::none,
                                 {0, 1e3},
                                 "Cost of a contact, per distance left in the horizon."});
+    visit(self.prediction, {"prediction", Unit::none, {}, "Prediction of obstacles."});
   }
 };
 

@@ -8,12 +8,6 @@
 #include "microswarm/navigation/prediction/obstacle_tracker.hpp"
 
 namespace microswarm {
-namespace {
-
-constexpr double hollow = 0.02;  // share of a hull that is not in the body
-constexpr double very_hollow = 0.4;
-
-}  // namespace
 
 double ConvexOutline::distance_at(Vec2 from_centre) const {
   if (edges.empty()) return norm(from_centre) - radius;
@@ -51,10 +45,10 @@ void ConvexOutliner::take(const Body& body, ConvexOutline& out) {
 }
 
 bool ConvexOutliner::misleads(const ConvexOutline& out, std::span<const Vec2> places) const {
-  if (hollow_share_ <= hollow) return false;
-  return hollow_share_ > very_hollow || std::any_of(places.begin(), places.end(), [&](Vec2 p) {
-           return out.distance_at(p - out.centre) < 0;
-         });
+  if (hollow_share_ <= tuning_.ignored_hollow) return false;
+  return hollow_share_ > tuning_.max_hollow ||
+         std::any_of(places.begin(), places.end(),
+                     [&](Vec2 p) { return out.distance_at(p - out.centre) < 0; });
 }
 
 // Monotone chain (Andrew).

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "microswarm/geometry/shapes.hpp"
+#include "microswarm/navigation/prediction/convex_outline_tuning.hpp"
 #include "microswarm/world/obstacles/body.hpp"
 
 namespace microswarm {
@@ -27,6 +28,8 @@ struct ConvexOutline {
 /// Computes outlines of bodies; reuses its buffer.
 class ConvexOutliner {
  public:
+  explicit ConvexOutliner(const ConvexOutlineTuning& tuning = {}) : tuning_(tuning) {}
+
   /// Computes the outline of the body into `out`, whose memory is reused.
   void take(const Body& body, ConvexOutline& out);
   /// Fraction of the hull of the last body that is not in the body; 0 for a disc.
@@ -38,6 +41,7 @@ class ConvexOutliner {
  private:
   void find_hull(const std::vector<Vec2>& outline);
 
+  ConvexOutlineTuning tuning_;
   std::vector<Vec2> sorted_;
   std::vector<Vec2> hull_;
   double hollow_share_ = 0;

@@ -9,16 +9,14 @@
 namespace microswarm {
 namespace {
 
-constexpr double min_noise = 0.02;   // [µm], above what rounding makes
-constexpr double first_noise = 0.5;  // [µm], while too few sightings tell
-constexpr double max_off = 3;        // root mean square residual of a fit, in noises
+/// Size of a buffer: a median of more differences is hardly more certain.
 constexpr std::size_t max_differences = 64;
 
 /// Third difference of four sightings, in standard deviations of one coordinate's noise.
 double third_difference(std::span<const Sighting, 4> s) {
   const double dt = s[1].t - s[0].t;
   const double uneven = std::abs(s[2].t - s[1].t - dt) + std::abs(s[3].t - s[2].t - dt);
-  if (uneven < 1e-6 * dt)
+  if (uneven < 1e-6 * dt)  // rounding of frame times
     return norm(s[3].place - s[0].place + 3 * (s[1].place - s[2].place)) / std::sqrt(20.0);
   Vec2 sum;
   double variance = 0;
@@ -32,10 +30,10 @@ double third_difference(std::span<const Sighting, 4> s) {
   return norm(sum) / std::sqrt(variance);
 }
 
-double noise_of(std::span<const Sighting> sightings) {
+double noise_of(std::span<const Sighting> sightings, const MotionFitTuning& tuning) {
   constexpr double rayleigh_median = 1.1774100225154747;  // √(2 ln 2)
-  constexpr std::size_t enough = 7;
-  if (sightings.size() < enough) return first_noise;
+  if (sightings.size() < static_cast<std::size_t>(tuning.min_noise_sightings))
+    return tuning.initial_noise;
   std::array<double, max_differences> differences{};
   const std::size_t count = std::min(sightings.size() - 3, max_differences);
   const auto newest = sightings.last(count + 3);
@@ -44,7 +42,7 @@ double noise_of(std::span<const Sighting> sightings) {
   const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(differences.begin(), middle,
                    differences.begin() + static_cast<std::ptrdiff_t>(count));
-  return std::max(min_noise, *middle / rayleigh_median);
+  return std::max(tuning.min_noise, *middle / rayleigh_median);
 }
 
 /// Sums over sightings, relative to the newest.
@@ -111,7 +109,8 @@ struct Window {
 };
 
 /// Longest window back from the newest sighting that a curve of `order` + 1 terms fits.
-Window longest(std::span<const Sighting> sightings, std::size_t order, double noise) {
+Window longest(std::span<const Sighting> sightings, std::size_t order, double noise,
+               double max_residual) {
   const Sighting newest = sightings.back();
   Moments m;
   Window out;
@@ -121,7 +120,8 @@ Window longest(std::span<const Sighting> sightings, std::size_t order, double no
     if (n <= order) continue;
     const Curve curve = order == 1 ? straight_through(m) : curved_through(m);
     const double freedom = 2.0 * static_cast<double>(n - order - 1);
-    if (n > order + 1 && curve.residual > freedom * max_off * max_off * noise * noise) break;
+    if (n > order + 1 && curve.residual > freedom * max_residual * max_residual * noise * noise)
+      break;
     out = {curve, static_cast<int>(n)};
   }
   return out;
@@ -129,18 +129,18 @@ Window longest(std::span<const Sighting> sightings, std::size_t order, double no
 
 }  // namespace
 
-MotionFit fit_motion(std::span<const Sighting> sightings, int most) {
+MotionFit fit_motion(std::span<const Sighting> sightings, int most, const MotionFitTuning& tuning) {
   if (sightings.empty()) return {};
   MotionFit out;
   out.place = sightings.back().place;
-  out.noise = noise_of(sightings);
+  out.noise = noise_of(sightings, tuning);
   out.velocity_error = std::numeric_limits<double>::infinity();
   out.sightings = 1;
   if (sightings.size() < 2) return out;
   const auto newest = sightings.last(std::min(sightings.size(), static_cast<std::size_t>(most)));
-  Window best = longest(newest, 1, out.noise);
+  Window best = longest(newest, 1, out.noise, tuning.max_residual);
   if (newest.size() > 3) {
-    const Window curved = longest(newest, 2, out.noise);
+    const Window curved = longest(newest, 2, out.noise, tuning.max_residual);
     if (curved.curve.rate_variance < best.curve.rate_variance) best = curved;
   }
   out.place += best.curve.c[0];

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "microswarm/geometry/vec2.hpp"
+#include "microswarm/navigation/prediction/motion_fit_tuning.hpp"
 
 namespace microswarm {
 
@@ -29,6 +30,7 @@ struct MotionFit {
 /// The noise is estimated from the median third difference of all sightings, which is robust
 /// against a few jumps. `sightings` ascend in time; a single one is at rest with infinite velocity
 /// error. Does not allocate.
-MotionFit fit_motion(std::span<const Sighting> sightings, int most);
+MotionFit fit_motion(std::span<const Sighting> sightings, int most,
+                     const MotionFitTuning& tuning = {});
 
 }  // namespace microswarm

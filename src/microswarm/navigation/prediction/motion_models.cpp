@@ -9,26 +9,21 @@
 namespace microswarm {
 namespace {
 
-constexpr double acceleration_time = 1;      // for which it is assumed to last [s]
-constexpr double turning_time = 1;           // the same for a rotation that no model explains [s]
-constexpr std::size_t newest_explained = 3;  // sightings that a model must explain
-constexpr double largest_circle = 5000;      // [µm]
-constexpr double unturned = 1e-6;            // [rad]
+constexpr double unturned = 1e-6;    // smaller turns are rounding [rad]
+constexpr double time_slack = 1e-6;  // rounding of times [s]
 
-double tolerance(double noise) { return 0.3 + 3 * noise; }
-
-/// Whether the model passes near the newest sightings.
+/// Whether the model passes within `off` of the newest sightings, as many as `frames`.
 template <class At>
-bool explains(At&& at, std::span<const Sighting> seen, double off) {
+bool explains(At&& at, std::span<const Sighting> seen, int frames, double off) {
   const Sighting& last = seen.back();
-  const auto tail = seen.last(std::min(newest_explained, seen.size()));
+  const auto tail = seen.last(std::min(static_cast<std::size_t>(frames), seen.size()));
   return std::all_of(tail.begin(), tail.end(),
                      [&](const Sighting& s) { return distance(at(s.t - last.t), s.place) < off; });
 }
 
-/// Least-squares circle through the sightings (Kåsa); nothing if they are on a line or farther than
-/// `off` from it.
-std::optional<Disc> circle_through(std::span<const Sighting> seen, double off) {
+/// Least-squares circle through the sightings (Kåsa); nothing if they are on a line, farther than
+/// `off` from it, or it is larger than `max_radius`.
+std::optional<Disc> circle_through(std::span<const Sighting> seen, double off, double max_radius) {
   const Vec2 origin = seen.back().place;
   Vec2 sum, cube;
   double xx = 0, xy = 0, yy = 0;
@@ -53,7 +48,7 @@ std::optional<Disc> circle_through(std::span<const Sighting> seen, double off) {
       origin + Vec2{c * right.x - b * right.y, a * right.y - b * right.x} / determinant;
   double radius = 0;
   for (const Sighting& s : seen) radius += distance(s.place, centre) / n;
-  if (radius > largest_circle) return std::nullopt;
+  if (radius > max_radius) return std::nullopt;
   const bool fits = std::all_of(seen.begin(), seen.end(), [&](const Sighting& s) {
     return std::abs(distance(s.place, centre) - radius) <= off;
   });
@@ -61,7 +56,7 @@ std::optional<Disc> circle_through(std::span<const Sighting> seen, double off) {
 }
 
 std::span<const Sighting> newer_than(std::span<const Sighting> seen, double age) {
-  const double oldest = seen.back().t - age - 1e-6;
+  const double oldest = seen.back().t - age - time_slack;
   const auto from =
       std::find_if(seen.begin(), seen.end(), [&](const Sighting& s) { return s.t >= oldest; });
   return {from, seen.end()};
@@ -69,14 +64,17 @@ std::span<const Sighting> newer_than(std::span<const Sighting> seen, double age)
 
 }  // namespace
 
-MotionModels::MotionModels() { along_.reserve(MotionTrail::max_points); }
+MotionModels::MotionModels(const MotionModelsTuning& tuning, const RecurrenceTuning& recurrence)
+    : tuning_(tuning), recurrence_(recurrence) {
+  along_.reserve(MotionTrail::max_points);
+}
 
 void MotionModels::fit(const MotionTrail& trail, const TrackedBody& motion,
                        std::span<const Sighting> seen, OscillationFit& fit) {
   motion_ = motion;
   holds_ = {};
   holds_[straight] = true;
-  holds_[curved] = motion.frames > 4;
+  holds_[curved] = motion.frames >= tuning_.min_curved_frames;
   const auto& points = trail.points();
   turn_rate_ = 0;
   if (points.size() > 1) {
@@ -84,10 +82,10 @@ void MotionModels::fit(const MotionTrail& trail, const TrackedBody& motion,
     turn_rate_ = (trail.back().turn - before.turn) / (trail.back().t - before.t);
   }
   turns_ = std::any_of(points.begin(), points.end(), [&](const TrailPoint& p) {
-    return p.t > trail.back().t - OscillationFit::windows.back() &&
+    return p.t > trail.back().t - fit.windows().back() &&
            std::abs(p.turn - trail.back().turn) > unturned;
   });
-  if (const auto found = trail.recurrence(motion.noise)) {
+  if (const auto found = trail.recurrence(motion.noise, recurrence_)) {
     again_ = *found;
     holds_[again] = true;
   }
@@ -101,16 +99,17 @@ void MotionModels::fit_swings(std::span<const Sighting> seen, double noise, Osci
   for (std::size_t k = 0; k < windows; ++k) {
     if (!fits[k]) continue;
     swings_[k] = *fits[k];
-    holds_[swing + k] =
-        explains([&](double t) { return swings_[k].at(t); }, seen, tolerance(noise));
+    holds_[swing + k] = explains([&](double t) { return swings_[k].at(t); }, seen,
+                                 tuning_.explained_frames, tolerance(noise));
   }
 }
 
 void MotionModels::fit_arcs(std::span<const Sighting> seen, double noise, OscillationFit& fit) {
   for (std::size_t k = 0; k < windows; ++k) {
-    const auto part = newer_than(seen, OscillationFit::windows[k]);
-    if (k > 0 && part.size() == newer_than(seen, OscillationFit::windows[k - 1]).size()) return;
-    const auto circle = circle_through(part, 1 + 2 * tolerance(noise));
+    const auto part = newer_than(seen, fit.windows()[k]);
+    if (k > 0 && part.size() == newer_than(seen, fit.windows()[k - 1]).size()) return;
+    const auto circle = circle_through(part, tuning_.circle_offset + 2 * tolerance(noise),
+                                       tuning_.max_circle_radius);
     if (!circle) continue;
     along_.resize(part.size());
     double angle = heading_of(part.back().place - circle->centre);
@@ -121,7 +120,8 @@ void MotionModels::fit_arcs(std::span<const Sighting> seen, double noise, Oscill
     const auto fits = fit.fit(along_);
     if (!fits[k]) continue;
     arcs_[k] = {circle->centre, circle->radius, *fits[k]};
-    holds_[arc + k] = explains([&](double t) { return arcs_[k].at(t); }, seen, tolerance(noise));
+    holds_[arc + k] = explains([&](double t) { return arcs_[k].at(t); }, seen,
+                               tuning_.explained_frames, tolerance(noise));
   }
 }
 
@@ -131,7 +131,7 @@ Vec2 MotionModels::place(std::size_t model, const MotionTrail& trail, double s) 
   if (model >= swing) return swings_[model - swing].at(s);
   const Vec2 ahead = motion_.centre_after(s);
   if (model == straight) return ahead;
-  const double bent = std::min(s, acceleration_time);
+  const double bent = std::min(s, tuning_.acceleration_time);
   return ahead + (bent * (s - 0.5 * bent)) * motion_.acceleration;
 }
 
@@ -143,7 +143,7 @@ double MotionModels::turn(std::size_t model, const MotionTrail& trail, double s)
   // A body that oscillates on a circle and rotates is assumed to be fixed to the radius.
   if (model >= arc && model < again)
     return arcs_[model - arc].angle(s) - arcs_[model - arc].angle(0);
-  return std::min(s, turning_time) * turn_rate_;
+  return std::min(s, tuning_.turning_time) * turn_rate_;
 }
 
 }  // namespace microswarm

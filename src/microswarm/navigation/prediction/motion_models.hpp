@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "microswarm/navigation/prediction/motion_models_tuning.hpp"
 #include "microswarm/navigation/prediction/motion_trail.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker.hpp"
 #include "microswarm/navigation/prediction/oscillation.hpp"
@@ -24,11 +25,11 @@ struct ArcSwing {
 };
 
 /// Independent predictions of a body's motion: straight; with the present acceleration for a
-/// second; oscillating on a line or ellipse, and oscillating on a circle, both fitted to the newest
-/// 1.2, 3 and 8 s; repeating a past motion from the same state.
+/// while; oscillating on a line or ellipse, and oscillating on a circle, both fitted to the newest
+/// sightings in three windows; repeating a past motion from the same state.
 class MotionModels {
  public:
-  static constexpr std::size_t windows = OscillationFit::windows.size();
+  static constexpr std::size_t windows = OscillationFit::window_count;
   static constexpr std::size_t straight = 0;
   static constexpr std::size_t curved = 1;
   static constexpr std::size_t swing = 2;
@@ -36,7 +37,8 @@ class MotionModels {
   static constexpr std::size_t again = arc + windows;
   static constexpr std::size_t count = again + 1;
 
-  MotionModels();
+  explicit MotionModels(const MotionModelsTuning& tuning = {},
+                        const RecurrenceTuning& recurrence = {});
 
   /// Fits the models to the body, whose newest sighting is the trail's last point. `seen` holds the
   /// sightings used by `fit`; if empty, no oscillation is fitted.
@@ -53,6 +55,11 @@ class MotionModels {
   void fit_swings(std::span<const Sighting> seen, double noise, OscillationFit& fit);
   void fit_arcs(std::span<const Sighting> seen, double noise, OscillationFit& fit);
 
+  /// Maximum distance of an oscillation from sightings with this noise [µm].
+  double tolerance(double noise) const { return tuning_.max_offset + tuning_.noise_gain * noise; }
+
+  MotionModelsTuning tuning_;
+  RecurrenceTuning recurrence_;
   TrackedBody motion_;
   double turn_rate_ = 0;  ///< [rad/s]
   bool turns_ = false;    ///< whether it has turned recently

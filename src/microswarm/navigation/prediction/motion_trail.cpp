@@ -8,15 +8,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double at_rest = 5;            // slower bodies rest [µm/s]
-constexpr double min_age = 1;            // of a recurrence [s]
-constexpr double min_way_back = 3;       // that is remembered, of a reversed one [s]
-constexpr double max_off_time = 0.12;    // of a point from the recurrence [s]
-constexpr double place_off = 2;          // and 3 times the noise [µm]
-constexpr double velocity_off = 0.05;    // share of the speed
-constexpr double velocity_noise = 20;    // of a velocity, for a noise of 1 µm [1/s]
-constexpr double velocity_weight = 0.3;  // [s]
-constexpr double much_better = 0.5;      // than a newer recurrence [µm]
+constexpr double min_squared_speed = 1;  // [µm²/s²] slower points cannot be divided by
 
 TrailPoint moved(const TrailPoint& p, double t) {
   TrailPoint out = p;
@@ -54,33 +46,36 @@ TrailPoint MotionTrail::at(double t) const {
           g * a.turn + f * b.turn};
 }
 
-std::optional<Recurrence> MotionTrail::recurrence(double noise) const {
+std::optional<Recurrence> MotionTrail::recurrence(double noise,
+                                                  const RecurrenceTuning& tuning) const {
   if (points_.empty()) return std::nullopt;
   const TrailPoint now = points_.back();
   const double speed = norm(now.velocity);
-  if (speed < at_rest) return std::nullopt;
-  const double near = max_off_time * speed + place_off + 3 * noise;
-  const double max_place_off = place_off + 3 * noise;
-  const double max_velocity_off = velocity_off * speed + velocity_noise * noise;
+  if (speed < tuning.min_speed) return std::nullopt;
+  const double near =
+      tuning.max_time_offset * speed + tuning.max_place_offset + tuning.place_noise_gain * noise;
+  const double max_place_off = tuning.max_place_offset + tuning.place_noise_gain * noise;
+  const double max_velocity_off =
+      tuning.max_velocity_offset * speed + tuning.velocity_noise_gain * noise;
   std::optional<Recurrence> best;
   double min_off = std::numeric_limits<double>::infinity();
   for (std::size_t i = points_.size(); i-- > 0;) {
     const TrailPoint& p = points_[i];
-    if (p.t > now.t - min_age) continue;
+    if (p.t > now.t - tuning.min_age) continue;
     const Vec2 off = now.place - p.place;
     const double speed2 = squared_norm(p.velocity);
-    if (squared_norm(off) > near * near || speed2 < 1) continue;
+    if (squared_norm(off) > near * near || speed2 < min_squared_speed) continue;
     const double shift = dot(off, p.velocity) / speed2;
-    if (std::abs(shift) > max_off_time || p.t + shift < points_.front().t) continue;
+    if (std::abs(shift) > tuning.max_time_offset || p.t + shift < points_.front().t) continue;
     const TrailPoint was = at(p.t + shift);
     const double place = distance(was.place, now.place);
     if (place > max_place_off) continue;
     for (const bool reversed : {false, true}) {
-      if (reversed && was.t < points_.front().t + min_way_back) continue;
+      if (reversed && was.t < points_.front().t + tuning.min_reversed_time) continue;
       const double velocity =
           norm(reversed ? was.velocity + now.velocity : was.velocity - now.velocity);
-      const double sum = place + velocity_weight * velocity;
-      if (velocity > max_velocity_off || sum > min_off - much_better) continue;
+      const double sum = place + tuning.velocity_weight * velocity;
+      if (velocity > max_velocity_off || sum > min_off - tuning.min_improvement) continue;
       min_off = sum;
       best = Recurrence{was.t, reversed};
     }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "microswarm/geometry/vec2.hpp"
+#include "microswarm/navigation/prediction/motion_trail_tuning.hpp"
 
 namespace microswarm {
 
@@ -29,7 +30,7 @@ struct Recurrence {
 /// construction.
 class MotionTrail {
  public:
-  static constexpr std::size_t max_points = 1200;
+  static constexpr std::size_t max_points = 1200;  ///< size of the buffer; `memory` shapes it
 
   MotionTrail() { points_.reserve(max_points); }
 
@@ -46,7 +47,7 @@ class MotionTrail {
 
   /// Past time most similar to the newest point, which was seen with the `noise` [µm]. Nothing if
   /// the body was never close to this position and velocity, or is at rest.
-  std::optional<Recurrence> recurrence(double noise) const;
+  std::optional<Recurrence> recurrence(double noise, const RecurrenceTuning& tuning = {}) const;
   /// Past point that corresponds to `s` seconds after the newest point, given the recurrence. A
   /// recurrence in the same direction repeats periodically.
   TrailPoint after(const Recurrence& recurrence, double s) const;

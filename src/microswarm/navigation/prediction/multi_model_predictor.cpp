@@ -11,7 +11,7 @@
 namespace microswarm {
 namespace {
 
-constexpr std::size_t max_open = 24;  // forecasts that are not due
+constexpr std::size_t max_open = 24;  // size of a buffer of forecasts that are not due
 
 /// Error expected of a model before it has shown any, as a share of the predicted distance.
 double prior_of(std::size_t model, const MultiModelPredictorTuning& tuning) {
@@ -35,7 +35,10 @@ double turn_against(std::span<const Vec2> then, std::span<const Vec2> now, Vec2 
 }  // namespace
 
 MultiModelPredictor::MultiModelPredictor(const MultiModelPredictorParams& params)
-    : params_(params), tracker_(params.tracker), now_(-std::numeric_limits<double>::infinity()) {
+    : params_(params),
+      tracker_(params.tracker),
+      oscillations_(params.tuning.oscillation),
+      now_(-std::numeric_limits<double>::infinity()) {
   sightings_.reserve(MotionTrail::max_points);
   radii_.reserve(MotionTrail::max_points);
 }
@@ -45,7 +48,7 @@ void MultiModelPredictor::update(const Observation& observation) {
   if (tracker_.seen() == now_ && tracker_.size() == seen_bodies_.size()) return;
   if (tracker_.seen() < now_) {
     histories_.clear();
-    oscillations_ = OscillationFit();
+    oscillations_ = OscillationFit(params_.tuning.oscillation);
   }
   if (tracker_.seen() != now_ || histories_.empty()) oscillations_.begin(tracker_.seen());
   now_ = tracker_.seen();
@@ -78,6 +81,7 @@ std::size_t MultiModelPredictor::history_of(std::uint32_t obstacle, std::uint32_
   BodyHistory& fresh = histories_.emplace_back();
   fresh.obstacle = obstacle;
   fresh.leaf = leaf;
+  fresh.models = MotionModels(params_.tuning.models, params_.tuning.recurrence);
   for (auto& open : fresh.open) open.reserve(max_open);
   return histories_.size() - 1;
 }
@@ -130,7 +134,7 @@ void MultiModelPredictor::model(BodyHistory& history, const TrackedBody& motion)
   double least = std::numeric_limits<double>::infinity();
   double greatest = 0;
   for (const TrailPoint& p : history.trail.points()) {
-    if (p.t < now_ - OscillationFit::windows.back()) continue;
+    if (p.t < now_ - oscillations_.windows().back()) continue;
     sightings_.push_back({p.t, p.place});
     radii_.push_back({p.t, {p.radius, 0}});
     least = std::min(least, p.radius);

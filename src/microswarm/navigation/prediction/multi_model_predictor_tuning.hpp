@@ -2,6 +2,9 @@
 #pragma once
 
 #include "microswarm/core/fields/fields.hpp"
+#include "microswarm/navigation/prediction/motion_models_tuning.hpp"
+#include "microswarm/navigation/prediction/motion_trail_tuning.hpp"
+#include "microswarm/navigation/prediction/oscillation_tuning.hpp"
 
 namespace microswarm {
 
@@ -19,6 +22,9 @@ struct MultiModelPredictorTuning {
   double swing_prior = 0.20;
   double arc_prior = 0.20;
   double recurrence_prior = 0.14;
+  MotionModelsTuning models;
+  RecurrenceTuning recurrence;
+  OscillationTuning oscillation;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.max_gap,
@@ -43,6 +49,9 @@ struct MultiModelPredictorTuning {
     visit(self.arc_prior, {"arc_prior", Unit::none, {0, 10}, "Prior of swings on a circle."});
     visit(self.recurrence_prior,
           {"recurrence_prior", Unit::none, {0, 10}, "Prior of the recurrent motion."});
+    visit(self.models, {"models", Unit::none, {}, "Models of a body's motion."});
+    visit(self.recurrence, {"recurrence", Unit::none, {}, "Search for a recurrence of a motion."});
+    visit(self.oscillation, {"oscillation", Unit::none, {}, "Fit of oscillations."});
   }
 };
 

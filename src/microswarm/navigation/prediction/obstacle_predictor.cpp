@@ -10,9 +10,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double rest_speed = 1e-6;       // smaller values are rounding [µm/s]
-constexpr double sure = 2;                // standard errors; a smaller velocity counts as zero
-constexpr double swept_growing_time = 2;  // for which an outline goes on growing [s]
+constexpr double rest_speed = 1e-6;  // smaller values are rounding [µm/s]
 
 double inradius_bound(const Body& body) {
   if (const auto* disc = std::get_if<Disc>(&body.shape)) return disc->radius;
@@ -30,7 +28,8 @@ void ObstaclePredictor::update(const Observation& observation) {
   all_rest_ = true;
   for (std::size_t i = 0; i < bodies.size() && i < tracker_.size(); ++i) {
     const TrackedBody tracked = tracker_.body(i);
-    const bool moves = norm(tracked.velocity) > std::max(rest_speed, sure * tracked.velocity_error);
+    const bool moves = norm(tracked.velocity) >
+                       std::max(rest_speed, tuning_.min_significance * tracked.velocity_error);
     motions_[i] = {moves ? tracked.velocity : Vec2{}, outward_speed(bodies[i], tracked)};
     all_rest_ = all_rest_ && !moves;
   }
@@ -43,7 +42,7 @@ double ObstaclePredictor::clearance(const Snapshot& frame, Segment s, double t0,
   if (all_rest_) {  // the indexed query suffices
     double growth = 0;
     for (const Motion& m : motions_) growth = std::max(growth, m.growth);
-    growth *= std::min(t1, swept_growing_time);
+    growth *= std::min(t1, tuning_.growth_time);
     return std::min(limit, frame.moving().clearance(s, limit + growth) - growth);
   }
   double least = limit;
@@ -51,12 +50,13 @@ double ObstaclePredictor::clearance(const Snapshot& frame, Segment s, double t0,
     const Motion& motion = motions_[i];
     const Segment own_frame{s.a - t0 * motion.velocity, s.b - t1 * motion.velocity};
     const double d = distance(own_frame, bodies[i]);
-    least = std::min(least, d - motion.growth * std::min(t1, swept_growing_time));
+    least = std::min(least, d - motion.growth * std::min(t1, tuning_.growth_time));
   }
   return least;
 }
 
 Snapshot ObstaclePredictor::swept_obstacles(const Snapshot& frame, double horizon, double r) const {
+  // Resolution of the sweep and limit of its cost; the horizon and the clearance shape it.
   constexpr double enough_copies = 8;
   constexpr double max_copies = 100;
   const auto bodies = frame.moving().bodies();

@@ -3,16 +3,19 @@
 
 #include <vector>
 
+#include "microswarm/navigation/prediction/obstacle_predictor_tuning.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker.hpp"
 #include "microswarm/world/snapshot.hpp"
 
 namespace microswarm {
 
 /// Predicts moving obstacles for a few seconds. Each moves straight with the velocity that
-/// ObstacleTracker estimates from the frames; its outline keeps growing for 2 s.
+/// ObstacleTracker estimates from the frames; its outline keeps growing for a while.
 class ObstaclePredictor {
  public:
-  explicit ObstaclePredictor(const ObstacleTrackerParams& params = {}) : tracker_(params) {}
+  explicit ObstaclePredictor(const ObstacleTrackerParams& tracker = {},
+                             const ObstaclePredictorTuning& tuning = {})
+      : tuning_(tuning), tracker_(tracker) {}
 
   /// Processes a frame; see ObstacleTracker::update. The other members refer to the newest frame.
   void update(const Observation& observation);
@@ -36,6 +39,7 @@ class ObstaclePredictor {
     double growth = 0;  ///< of the outline, outwards [µm/s]
   };
 
+  ObstaclePredictorTuning tuning_;
   ObstacleTracker tracker_;
   std::vector<Motion> motions_;  ///< of the frame's bodies
   bool all_rest_ = true;

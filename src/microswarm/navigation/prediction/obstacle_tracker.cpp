@@ -11,10 +11,11 @@
 namespace microswarm {
 namespace {
 
-/// Sightings from which the noise is told, in windows of a fit.
-constexpr std::size_t windows = 4;
-
-constexpr double outline_spacing = 0.4;  // between outlines that are kept [s]
+/// Number of sightings from which the noise is estimated.
+std::size_t max_sightings(const ObstacleTrackerParams& params) {
+  return static_cast<std::size_t>(params.tuning.noise_windows) *
+         static_cast<std::size_t>(params.frames);
+}
 
 /// Maximum distance by which vertices of `polygon` protrude from the solid `before`, given relative
 /// to its centre; only those for which `counts(ring, i)` holds.
@@ -88,7 +89,7 @@ void ObstacleTracker::find_trails(std::span<const Body> bodies) {
     if (at != trails_.end() && at->key == key) return;
     Trail& fresh = *trails_.insert(at, Trail{});
     fresh.key = key;
-    const std::size_t most = windows * static_cast<std::size_t>(params_.frames);
+    const std::size_t most = max_sightings(params_);
     fresh.places.reserve(most);
     fresh.radii.reserve(most);
   });
@@ -112,7 +113,7 @@ void ObstacleTracker::extend(Trail& trail, const Body& body, Disc within) const 
   std::erase_if(trail.radii, outdated);
   if (const auto* polygon = std::get_if<Polygon>(&body.shape))
     compare_outline(trail, *polygon, extent.centre);
-  const std::size_t most = windows * static_cast<std::size_t>(params_.frames);
+  const std::size_t most = max_sightings(params_);
   remember(trail.places, {seen_, extent.centre}, most);
   remember(trail.radii, {seen_, {extent.radius, 0}}, most);
 }
@@ -125,7 +126,7 @@ void ObstacleTracker::compare_outline(Trail& trail, const Polygon& polygon, Vec2
   const bool known = !trail.places.empty() && !older.shape.outer.empty();
   trail.outline_speed =
       known ? outward_distance(polygon, centre, older.shape, every_vertex) / (seen_ - older.t) : 0;
-  if (known && seen_ - newer.t < outline_spacing) return;
+  if (known && seen_ - newer.t < params_.tuning.outline_spacing) return;
   std::swap(older, newer);
   newer.t = seen_;
   newer.shape = polygon;
@@ -154,8 +155,8 @@ double ObstacleTracker::outline_speed_within(std::size_t body, const Body& shape
 
 TrackedBody ObstacleTracker::estimate(const Trail& trail) const {
   if (trail.places.empty()) return {.velocity_error = std::numeric_limits<double>::infinity()};
-  const MotionFit place = fit_motion(trail.places, params_.frames);
-  const MotionFit radius = fit_motion(trail.radii, params_.frames);
+  const MotionFit place = fit_motion(trail.places, params_.frames, params_.tuning.fit);
+  const MotionFit radius = fit_motion(trail.radii, params_.frames, params_.tuning.fit);
   return {.centre = place.place,
           .velocity = place.velocity,
           .acceleration = place.acceleration,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "microswarm/core/fields/fields.hpp"
+#include "microswarm/navigation/prediction/obstacle_tracker_tuning.hpp"
 
 namespace microswarm {
 
@@ -9,6 +10,7 @@ namespace microswarm {
 struct ObstacleTrackerParams {
   int frames = 12;
   double memory = 4;
+  ObstacleTrackerTuning tuning;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.frames,
@@ -16,6 +18,7 @@ struct ObstacleTrackerParams {
     visit(
         self.memory,
         {"memory", Unit::s, {1e-2, 60}, "Time for which frames are kept for the noise estimate."});
+    visit(self.tuning, {"tuning", Unit::none, {}, "Constants that seldom need a change."});
   }
 };
 

@@ -9,11 +9,9 @@
 namespace microswarm {
 namespace {
 
-constexpr double slowest = 0.08;  // [rad/s]
-constexpr double fastest = 3.5;   // [rad/s]
-constexpr double spacing = 0.08;  // between frames used [s]
-constexpr int min_sightings = 6;
-constexpr double same_time = 1e-9;  // [s]
+constexpr double same_time = 1e-9;     // rounding of times [s]
+constexpr double no_rotation = 1e-6;   // half angle at which the limit of the quotients is exact
+constexpr std::size_t extra_rows = 4;  // beyond those that the spacing allows: the newest ones
 
 /// Coefficients of the three terms, and the residual of Σ |place|².
 struct Terms {
@@ -25,7 +23,7 @@ struct Terms {
 
 Vec2 Oscillation::at(double t) const {
   const double half = 0.5 * frequency * t;
-  if (std::abs(half) < 1e-6) return value + t * rate + (0.5 * t * t) * curve;
+  if (std::abs(half) < no_rotation) return value + t * rate + (0.5 * t * t) * curve;
   const auto [sine, cosine] = maths::sincos(half);
   return value + (2 * sine * cosine / frequency) * rate +
          (2 * sine * sine / (frequency * frequency)) * curve;
@@ -81,18 +79,23 @@ struct OscillationFit::Sums {
   }
 };
 
-OscillationFit::OscillationFit() {
-  const double step = maths::log(fastest / slowest) / (rungs - 1);
+OscillationFit::OscillationFit(const OscillationTuning& tuning)
+    : tuning_(tuning),
+      windows_{tuning.short_window, tuning.medium_window, tuning.long_window},
+      max_rows_(static_cast<std::size_t>(std::ceil(tuning.long_window / tuning.frame_spacing)) +
+                extra_rows) {
+  const double step = maths::log(tuning.max_frequency / tuning.min_frequency) / (rungs - 1);
   for (std::size_t k = 0; k < rungs; ++k)
-    frequencies_[k] = slowest * maths::exp(step * static_cast<double>(k));
-  rows_.reserve(max_rows);
+    frequencies_[k] = tuning.min_frequency * maths::exp(step * static_cast<double>(k));
+  rows_.reserve(max_rows_);
 }
 
 void OscillationFit::begin(double now) {
   now_ = now;
-  if (rows_.size() > 1 && rows_.back().t - rows_[rows_.size() - 2].t < spacing) rows_.pop_back();
-  std::erase_if(rows_, [&](const Row& row) { return row.t < now - windows.back(); });
-  if (rows_.size() == max_rows) rows_.erase(rows_.begin());
+  if (rows_.size() > 1 && rows_.back().t - rows_[rows_.size() - 2].t < tuning_.frame_spacing)
+    rows_.pop_back();
+  std::erase_if(rows_, [&](const Row& row) { return row.t < now - windows_.back(); });
+  if (rows_.size() == max_rows_) rows_.erase(rows_.begin());
   rows_.emplace_back().t = now;
   for (Row& row : rows_) fill(row);
 }
@@ -119,17 +122,17 @@ OscillationFit::Fits OscillationFit::fit(std::span<const Sighting> sightings) {
     while (row > 0 && rows_[row - 1].t > seen.t + same_time) --row;
     if (row == 0) break;
     if (rows_[row - 1].t < seen.t - same_time) continue;
-    for (; window < windows.size() && now_ - seen.t > windows[window]; ++window)
+    for (; window < window_count && now_ - seen.t > windows_[window]; ++window)
       out[window] = best_of(sums, origin);
-    if (window == windows.size()) return out;
+    if (window == window_count) return out;
     sums.add(rows_[row - 1], seen.place - origin);
   }
-  if (window < windows.size()) out[window] = best_of(sums, origin);
+  if (window < window_count) out[window] = best_of(sums, origin);
   return out;
 }
 
 std::optional<Oscillation> OscillationFit::best_of(const Sums& sums, Vec2 origin) const {
-  if (sums.count < min_sightings) return std::nullopt;
+  if (sums.count < tuning_.min_sightings) return std::nullopt;
   std::array<std::optional<Terms>, rungs> terms;
   std::size_t best = rungs;
   for (std::size_t k = 0; k < rungs; ++k) {

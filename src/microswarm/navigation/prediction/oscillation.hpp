@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "microswarm/navigation/prediction/motion_fit.hpp"
+#include "microswarm/navigation/prediction/oscillation_tuning.hpp"
 
 namespace microswarm {
 
@@ -27,11 +28,13 @@ struct Oscillation {
 /// for all bodies in it. Does not allocate after construction.
 class OscillationFit {
  public:
-  static constexpr std::array<double, 3> windows{1.2, 3, 8};  ///< [s]
-  using Fits = std::array<std::optional<Oscillation>, windows.size()>;
+  static constexpr std::size_t window_count = 3;
+  using Fits = std::array<std::optional<Oscillation>, window_count>;
 
-  OscillationFit();
+  explicit OscillationFit(const OscillationTuning& tuning = {});
 
+  /// Lengths of the windows [s], ascending.
+  const std::array<double, window_count>& windows() const { return windows_; }
   /// Starts a frame taken at `now` [s], later than the previous one; no sighting may be newer.
   void begin(double now);
   /// Best oscillation through the sightings in each window; the newest sighting is from the present
@@ -40,8 +43,7 @@ class OscillationFit {
   Fits fit(std::span<const Sighting> sightings);
 
  private:
-  static constexpr std::size_t rungs = 48;
-  static constexpr std::size_t max_rows = 104;
+  static constexpr std::size_t rungs = 48;  ///< frequencies; the parabola refines them
   struct Row {
     double t = 0;
     std::array<double, rungs> sine;    ///< sin(ωt) / ω
@@ -52,6 +54,9 @@ class OscillationFit {
   void fill(Row& row) const;
   std::optional<Oscillation> best_of(const Sums& sums, Vec2 origin) const;
 
+  OscillationTuning tuning_;
+  std::array<double, window_count> windows_;
+  std::size_t max_rows_;  ///< of frames in the longest window
   std::array<double, rungs> frequencies_{};
   double now_ = 0;
   std::vector<Row> rows_;  ///< ascending in time

@@ -44,7 +44,8 @@ PredictiveNavigator::PredictiveNavigator(const PredictiveParams& params, const S
       reached_{goal, params_.tuning.goal_share * goal_tolerance},
       radius_(swarm.radius + params.gap),
       predictor_(params.prediction),
-      field_(steering_.speed(), params.horizon, params.step) {
+      field_(steering_.speed(), params.horizon, params.step),
+      outliner_(params.tuning.outline) {
   path_.reserve(static_cast<std::size_t>(field_.steps()) + 1);
 }
 

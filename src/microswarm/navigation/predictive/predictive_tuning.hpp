@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "microswarm/core/fields/fields.hpp"
+#include "microswarm/navigation/prediction/convex_outline_tuning.hpp"
 
 namespace microswarm {
 
@@ -17,6 +18,7 @@ struct PredictiveTuning {
   double slow_share = 0.1;
   double closing_time = 1;
   std::vector<double> speed_shares{1, 0.5, 0.25};
+  ConvexOutlineTuning outline;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.wall_contact_cost,
@@ -41,6 +43,7 @@ struct PredictiveTuning {
                               Unit::none,
                               {1e-3, 1},
                               "Shares of the speed tried; the last to turn in place."});
+    visit(self.outline, {"outline", Unit::none, {}, "Use of convex hulls of obstacles."});
   }
 };
 

@@ -8,10 +8,13 @@
 namespace microswarm {
 namespace {
 
-constexpr double longest_path = 3.25;  // cells
+// The stencil of moves, in cells. The values belong together: the long moves are those from
+// long_way to longest_path, cells_a_step is their mean length and stride_cells their greatest
+// extent. `predictive.step` sets the resolution.
+constexpr double longest_path = 3.25;
 constexpr double long_way = 2.4;
 constexpr double short_way = 1.5;
-constexpr double cells_a_step = 3.1;  // mean length of the long moves
+constexpr double cells_a_step = 3.1;
 constexpr float not_ended = std::numeric_limits<float>::infinity();
 
 }  // namespace

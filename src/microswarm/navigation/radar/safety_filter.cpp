@@ -33,7 +33,8 @@ SafetyFilter::SafetyFilter(const SafetyFilterParams& params, double speed)
       speed_(speed),
       samples_(static_cast<int>(std::ceil(params.horizon / params.step))),
       tracker_(params.tracker),
-      velocities_(1) {
+      velocities_(1),
+      outliner_(params.tuning.outline) {
   for (int k = 0; k < params.directions; ++k)
     velocities_.push_back(speed * unit_vector(wrap(2 * pi * k / params.directions)));
   choices_.reserve(static_cast<std::size_t>(params_.tuning.refinement * params.directions) + 1);

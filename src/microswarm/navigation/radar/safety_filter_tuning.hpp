@@ -5,6 +5,7 @@
 
 #include "microswarm/core/fields/fields.hpp"
 #include "microswarm/core/maths/angles.hpp"
+#include "microswarm/navigation/prediction/convex_outline_tuning.hpp"
 
 namespace microswarm {
 
@@ -25,6 +26,7 @@ struct SafetyFilterTuning {
   int refinement = 2;
   int min_escapes = 4;
   double impatience = 0.25 * pi;
+  ConvexOutlineTuning outline;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.recovery_rate, {"recovery_rate",
@@ -64,6 +66,7 @@ struct SafetyFilterTuning {
           {"min_escapes", Unit::none, {1, 360}, "Number of escapes a replacement must leave."});
     visit(self.impatience,
           {"impatience", Unit::deg_per_s, {0, 3600}, "Growth of the cost of a hold."});
+    visit(self.outline, {"outline", Unit::none, {}, "Use of convex hulls of obstacles."});
   }
 };
 

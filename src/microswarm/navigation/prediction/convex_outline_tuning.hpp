@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "microswarm/core/fields/fields.hpp"
+
+namespace microswarm {
+
+/// Constants of ConvexOutliner that seldom need a change. Hollow is the fraction of a hull that is
+/// not in the body.
+struct ConvexOutlineTuning {
+  double ignored_hollow = 0.02;
+  double max_hollow = 0.4;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(
+        self.ignored_hollow,
+        {"ignored_hollow", Unit::none, {0, 1}, "Hollow share up to which the hull always serves."});
+    visit(self.max_hollow,
+          {"max_hollow", Unit::none, {0, 1}, "Hollow share above which the hull never serves."});
+  }
+};
+
+}  // namespace microswarm
