@@ -10,6 +10,7 @@
 
 #include "microswarm/core/angles.hpp"
 #include "microswarm/core/file.hpp"
+#include "microswarm/io/columns.hpp"
 #include "microswarm/report/picture.hpp"
 
 namespace microswarm::reproduce {
@@ -144,6 +145,29 @@ std::string title_of(const RadarRun& run, const std::string& title, const Frame&
   return out;
 }
 
+/// A frame as in the table of the curves.
+struct CurveRow {
+  double t = 0;
+  Vec2 at;
+  double delta = 0;
+  double gap = 0;
+  double prediction = 0;
+  double safety = 0;
+  double detection = 0;
+  NavigatorState state = NavigatorState::hold;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.t, {"t", Unit::s, {}, "Time."});
+    visit(self.at, {"", Unit::um, {}, "Position of the swarm."});
+    visit(self.delta, {"delta", Unit::none, {}, "Avoidance cost."});
+    visit(self.gap, {"gap", Unit::um, {}, "Gap to the nearest obstacle."});
+    visit(self.prediction, {"r_p", Unit::um, {}, "Radius of the prediction circle."});
+    visit(self.safety, {"r_f", Unit::um, {}, "Radius of the safety circle."});
+    visit(self.detection, {"r_d", Unit::um, {}, "Radius of the detection circle."});
+    visit(self.state, {"state", Unit::none, {}, "State of the navigator."});
+  }
+};
+
 }  // namespace
 
 Plot cost_plot(const RadarRun& run, const std::string& title, double paper_mean, double y_max) {
@@ -232,16 +256,20 @@ void draw_radar_moments(const RadarRun& run, const World& world, std::span<const
 }
 
 void write_radar_run(const RadarRun& run, const fs::path& stem) {
-  std::string csv = "t_s,x_um,y_um,delta,gap_um,r_p_um,r_f_um,r_d_um,state\n";
+  std::vector<CurveRow> rows;
   for (std::size_t k = 0; k < run.record.frames.size(); ++k) {
     const Frame& f = run.record.frames[k];
     const RadarCircles c = circles_at(run, k);
-    csv += fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{}\n", f.t,
-                       f.pose.position.x, f.pose.position.y, f.avoidance_cost,
-                       f.obstacle_clearance - f.radius, c.prediction, c.safety, c.detection,
-                       enum_name(f.state));
+    rows.push_back({.t = f.t,
+                    .at = f.pose.position,
+                    .delta = f.avoidance_cost,
+                    .gap = f.obstacle_clearance - f.radius,
+                    .prediction = c.prediction,
+                    .safety = c.safety,
+                    .detection = c.detection,
+                    .state = f.state});
   }
-  write_file_atomically(stem.string() + ".csv", csv);
+  write_file_atomically(stem.string() + ".csv", csv_table(rows));
   write_record(run.record, stem.string() + ".h5");
 }
 
