@@ -28,6 +28,16 @@ TEST_F(BadMaps, NoFile) {
   refused({"report", "none.h5"}, "none.h5: cannot read: No such file or directory");
 }
 
+TEST_F(BadMaps, APictureNamedInAScenario) {
+  write("flight.yaml",
+        "start: {x_um: 10, y_um: 10}\ngoal_um: [90, 90]\nmap:\n  type: image\n  file: none.png\n"
+        "  um_per_px: 5\n");
+  const std::string why = "none.png: cannot read: No such file or directory";
+  refused({"run", "flight.yaml"}, "flight.yaml:5:9: " + why);
+  refused({"run", "flight.yaml", "--set", "map.file=lost.png"},
+          "--set map.file: lost.png: cannot read: No such file or directory");
+}
+
 TEST_F(BadMaps, NotAnImage) {
   write("text.png", "hello, I am a picture\n");
   info_refused("text.png", naming("", {"PNG", "JPEG", "BMP", "PGM", "PPM", "PBM"}));

@@ -114,7 +114,14 @@ TEST_F(Commands, TrialsAreTheSameOnAnyNumberOfThreads) {
   EXPECT_EQ(one.size(), 4U);
   EXPECT_EQ(one, hashes("2"));
   const std::string csv = read("1/trials.csv");
-  EXPECT_TRUE(csv.starts_with("trial,status,time_s,length_um,")) << csv;
+  EXPECT_TRUE(
+      csv.starts_with("trial,status,time_s,length_um,turning_deg,goal_distance_um,"
+                      "hold_time_s,walls_clearance_um,walls_t_s,obstacles_clearance_um,"
+                      "obstacles_t_s,avoidance_mean_cost,avoidance_time_s,"
+                      "avoidance_mean_gap_um,avoidance_least_gap_um,planning_events,"
+                      "contacts,avoidable_contacts,planning_mean_s,planning_max_s,"
+                      "record_hash\n"))
+      << csv;
   for (const Json& hash : one) EXPECT_NE(csv.find(hash.get<std::string>()), std::string::npos);
   EXPECT_EQ(Json::parse(good({"run", "flight.yaml", "--json"})).at("record_hash"), one[0]);
 }

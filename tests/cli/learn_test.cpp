@@ -26,6 +26,9 @@ TEST_F(Learn, WritesModelCardTableAndPlots) {
   for (const char* file : {"out/follower.yaml", "out/follower.md", "out/follower.csv",
                            "out/follower.png", "out/follower-trace.svg"})
     EXPECT_TRUE(exists(file)) << file;
+  EXPECT_TRUE(read("out/follower.csv")
+                  .starts_with("follower,task,arrived,time_s,way_over_speed_s,rms_off_um,"
+                               "most_off_um,field_turning_deg_per_s,fallback_share\n"));
   EXPECT_NE(read("out/follower.yaml").find("\nlayers: [18, 4, 4, 2]\n"), std::string::npos);
   EXPECT_NE(read("out/follower.md").find("--set hidden=4"), std::string::npos);
 }

@@ -118,6 +118,34 @@ TEST(Scenario, AnUnknownTrackIsOneLine) {
             std::string::npos);
 }
 
+// Of a file that the scenario names, the line tells where it is named.
+TEST(Scenario, AFileThatCannotBeReadIsNamedWhereItStands) {
+  const auto folder = empty_folder("scenario_files");
+  const auto complaint = [&](const std::string& text) {
+    write_file_atomically(folder / "s.yaml", text);
+    const std::string what = error_of([&] { open_experiment(folder / "s.yaml", {}, {}); });
+    return what.substr(std::min(what.size(), what.find("s.yaml")));
+  };
+  const std::string ends = "start: {x_um: 10, y_um: 10}\ngoal_um: [90, 90]\n";
+  const std::string missing = ": cannot read: No such file or directory";
+  EXPECT_EQ(complaint(ends + "map:\n  type: image\n  file: none.png\n  um_per_px: 5\n"),
+            "s.yaml:5:9: " + (folder / "none.png").string() + missing);
+  write_file_atomically(folder / "text.png", "no picture");
+  EXPECT_TRUE(complaint(ends + "map: {type: image, file: text.png, um_per_px: 5}\n")
+                  .starts_with("s.yaml:3:26: " + (folder / "text.png").string() + ": "));
+  const std::string room = ends + "map: {type: polygons, hi_um: [100, 100]}\n";
+  EXPECT_EQ(complaint(room + "obstacles:\n  - shape: {type: disc, radius_um: 5}\n"
+                             "    motion: {type: track, file: no.csv, id: 1}\n"),
+            "s.yaml:6:33: " + (folder / "no.csv").string() + missing);
+  // Each line of a file with several mistakes.
+  write_file_atomically(folder / "ros.yaml", "imag: a.pgm\nresolution: -1\n");
+  std::istringstream lines(complaint(ends + "map: {type: ros, file: ros.yaml}\n"));
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count)
+    EXPECT_NE(line.find("s.yaml:3:24: "), std::string::npos) << line;
+  EXPECT_GE(count, 2);
+}
+
 TEST(Scenario, AnObstacleThatMakesNoSenseIsNamed) {
   Scenario scenario = open_room();
   scenario.obstacles = {{PolygonShape{{{0, 0}, {1, 1}}}, Still{}}};

@@ -109,10 +109,19 @@ TEST(Image, PaletteIsLookedUp) {
                {1, 2, 3, 4, 5, 6});
 }
 
-TEST(Image, TransparencyIsDropped) {
-  expect_image(decode(test::png(1, 1, 8, test::rgb_alpha, "\0\1\2\3\0"s)), 1, 1, 3, {1, 2, 3});
-  expect_image(decode(test::png(2, 1, 8, test::grey_alpha, "\0\x1e\0\x1f\xff"s)), 2, 1, 1,
-               {30, 31});
+TEST(Image, TransparencyShowsWhite) {
+  expect_image(decode(test::png(2, 1, 8, test::rgb_alpha, "\0\1\2\3\xff\0\0\0\0"s)), 2, 1, 3,
+               {1, 2, 3, 255, 255, 255});
+  expect_image(decode(test::png(3, 1, 8, test::grey_alpha, "\0\x1e\0\x1f\xff\0\x80"s)), 3, 1, 1,
+               {255, 31, 127});
+  expect_image(decode(test::png(2, 1, 16, test::grey_alpha, "\0\0\0\0\0\0\0\xff\xff"s)), 2, 1, 1,
+               {255, 0});
+  // One colour, or an entry of the palette, that the chunk tRNS declares as transparent.
+  expect_image(decode(test::png(2, 1, 8, test::grey, "\0\5\6"s, test::chunk("tRNS", "\0\5"s))), 2,
+               1, 1, {255, 6});
+  const std::string palette = test::chunk("PLTE", "\1\2\3\4\5\6") + test::chunk("tRNS", "\0"s);
+  expect_image(decode(test::png(2, 1, 1, test::palette, "\0\x40"s, palette)), 2, 1, 3,
+               {255, 255, 255, 4, 5, 6});
 }
 
 TEST(Image, ChunksBesideThePixelsDoNotMatter) {
@@ -174,6 +183,16 @@ TEST(Image, NoProperPrefixIsRead) {
 
 std::string image_complaint(std::string_view bytes) {
   return error_of([&] { decode(bytes); });
+}
+
+TEST(ImageErrors, AColourBeyondThePalette) {
+  const std::string three = test::chunk("PLTE", "\1\2\3\4\5\6\7\x8\x9");
+  EXPECT_TRUE(test::is_one_line_naming(
+      image_complaint(test::png(3, 1, 8, test::palette, "\0\2\0\5"s, three)), "x.png",
+      {"palette", "5", "3 colours"}));
+  EXPECT_TRUE(test::is_one_line_naming(
+      image_complaint(test::png(5, 1, 2, test::palette, "\0\x06\xc0"s, three)), "x.png",
+      {"palette", "3", "3 colours"}));
 }
 
 TEST(ImageErrors, NothingThere) {

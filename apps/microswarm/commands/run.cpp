@@ -31,18 +31,39 @@ struct RunOptions {
   PhotoOptions photo;
 };
 
+/// A trial as in trials.csv.
+struct TrialRow {
+  int trial = 0;
+  Status status = Status::stopped;
+  Metrics metrics;
+  double planning_mean = 0;
+  double planning_max = 0;
+  std::string record_hash;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.trial, {"trial", Unit::none, {}, "Number of the trial."});
+    visit(self.status, {"status", Unit::none, {}, "How it ended."});
+    Metrics::fields(self.metrics, visit);
+    visit(self.planning_mean, {"planning_mean", Unit::s, {}, "Mean time of a plan."});
+    visit(self.planning_max, {"planning_max", Unit::s, {}, "Longest time of a plan."});
+    visit(self.record_hash, {"record_hash", Unit::none, {}, "Hash of the record."});
+  }
+};
+
 std::string trials_csv(const std::vector<TrialResult>& trials) {
-  const std::vector<Column> columns = columns_of<Metrics>(ColumnUnits::shown);
-  std::string text =
-      "trial,status," + csv_head(columns) + ",planning_mean_s,planning_max_s,record_hash\n";
+  std::vector<TrialRow> rows;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     if (!trials[i].ran) continue;
     const RunResult& r = trials[i].result;
     const TimeSummary p = summarise(r.timing.planning);
-    text += fmt::format("{},{},{},{:.6g},{:.6g},{}\n", i, to_string(r.status),
-                        csv_line(columns, &r.metrics), p.mean, p.max, trials[i].hash);
+    rows.push_back({.trial = static_cast<int>(i),
+                    .status = r.status,
+                    .metrics = r.metrics,
+                    .planning_mean = p.mean,
+                    .planning_max = p.max,
+                    .record_hash = trials[i].hash});
   }
-  return text;
+  return csv_table(rows);
 }
 
 int many_runs(const RunOptions& o, const Scene& scene, const World& world, const Stop& stop) {

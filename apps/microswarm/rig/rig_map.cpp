@@ -14,6 +14,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
+#include "microswarm/io/columns.hpp"
 #include "microswarm/report/picture.hpp"
 #include "rig/rig.hpp"
 #include "support/options.hpp"
@@ -78,17 +79,33 @@ void draw(const UniformityMap& map, const std::string& title, const std::filesys
   picture.write(out);
 }
 
+/// A point of the grid as in the table.
+struct FieldRow {
+  std::array<double, 3> place{};
+  std::array<double, 3> field{};
+  double deviation = 0;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.place[0], {"x", Unit::um, {}, "Place among the coils."});
+    visit(self.place[1], {"y", Unit::um, {}, "Place among the coils."});
+    visit(self.place[2], {"z", Unit::um, {}, "Place among the coils."});
+    visit(self.field[0], {"bx", Unit::mt, {}, "Field."});
+    visit(self.field[1], {"by", Unit::mt, {}, "Field."});
+    visit(self.field[2], {"bz", Unit::mt, {}, "Field."});
+    visit(self.deviation, {"deviation", Unit::none, {}, "From the field at the centre."});
+  }
+};
+
 std::string csv_of(const UniformityMap& map) {
-  std::string text = "x_um,y_um,z_um,bx_mt,by_mt,bz_mt,deviation\n";
+  std::vector<FieldRow> rows;
   for (int row = 0; row < map.grid.points; ++row)
     for (int column = 0; column < map.grid.points; ++column) {
       const auto i = static_cast<std::size_t>(row) * map.grid.points + column;
       const Eigen::Vector3d p = map.place(column, row);
       const Eigen::Vector3d& b = map.field[i];
-      text += fmt::format("{},{},{},{},{},{},{}\n", p[0], p[1], p[2], b[0], b[1], b[2],
-                          map.deviation[i]);
+      rows.push_back({{p[0], p[1], p[2]}, {b[0], b[1], b[2]}, map.deviation[i]});
     }
-  return text;
+  return csv_table(rows);
 }
 
 /// Whether the whole grid is inside the calibrated workspace.

@@ -25,7 +25,8 @@ enum class NavigatorState {
   gather,    ///< moves robots towards the goal
   arrived,   ///< at the goal
   blind,     ///< no swarm detected, or the frame is stale
-  end        ///< last frame of a record: the run is over
+  // No navigator returns it: the hash of every record covers this word in the last frame.
+  end  ///< last frame of a record: the run is over
 };
 constexpr auto enum_names(NavigatorState) {
   return std::array<std::pair<NavigatorState, std::string_view>, 17>{

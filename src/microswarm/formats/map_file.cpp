@@ -141,7 +141,7 @@ MapParts read_map_parts(const MapSpec& spec, const fs::path& base, Issues& issue
   if (file && file->empty() && !std::holds_alternative<RectanglesMap>(spec))
     of_map.add("map.file", "missing key map.file");
   else
-    attempt(of_map, from_file ? "" : "map", [&] {
+    attempt(of_map, from_file ? "map.file" : "map", [&] {
       parts = std::visit([&](const auto& s) { return read(s, base, of_map); }, spec);
       if (of_map.empty()) check(parts, from_file ? (base / *file).string() : "map");
     });

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "microswarm/core/execution/stop.hpp"
+#include "microswarm/core/fields/fields.hpp"
 #include "microswarm/learning/follower_tasks.hpp"
 #include "microswarm/navigation/following/follower_model.hpp"
 
@@ -21,6 +22,19 @@ struct FollowedPath {
   double max_off = 0;         ///< [µm]
   double field_turning = 0;   ///< mean rate of change of the commanded heading [rad/s]
   double fallback_share = 0;  ///< fraction of steps in which the learned follower used its fallback
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.arrived, {"arrived", Unit::none, {}, "1 if the end of the path was reached."});
+    visit(self.time, {"time", Unit::s, {}, "Time of the run."});
+    visit(self.fair_time,
+          {"way_over_speed", Unit::s, {}, "Path length divided by the task's speed."});
+    visit(self.rms_off, {"rms_off", Unit::um, {}, "Root mean square distance from the path."});
+    visit(self.max_off, {"most_off", Unit::um, {}, "Greatest distance from the path."});
+    visit(self.field_turning,
+          {"field_turning", Unit::deg_per_s, {}, "Mean rate of change of the commanded heading."});
+    visit(self.fallback_share,
+          {"fallback_share", Unit::none, {}, "Fraction of steps that used the fallback."});
+  }
 };
 
 /// Results of one follower on all tasks.

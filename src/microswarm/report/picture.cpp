@@ -246,6 +246,8 @@ Picture::Picture(const Box& view, std::string_view title, double pixels)
     : impl_(std::make_unique<Impl>(view, title, pixels)) {}
 Picture::~Picture() = default;
 
+double Picture::um_per_px() const { return 1 / impl_->scale; }
+
 void Picture::photo(const Image& image, double um_per_px, double fade) {
   cairo_surface_t* surface =
       cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width, image.height);

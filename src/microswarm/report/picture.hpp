@@ -58,6 +58,9 @@ class Picture {
   Picture(const Picture&) = delete;
   Picture& operator=(const Picture&) = delete;
 
+  /// Length that one pixel of the finished picture shows [µm].
+  double um_per_px() const;
+
   /// Draws a photograph as background, `um_per_px` µm per pixel, its lower left corner at the
   /// origin; `fade` in [0, 1] whitens it.
   void photo(const Image& image, double um_per_px, double fade = 0);

@@ -8,16 +8,12 @@
 
 #include "microswarm/navigation/radar/radar_circles.hpp"
 #include "microswarm/navigation/radar/safety_radius.hpp"
-#include "microswarm/navigation/radar/wait_zone.hpp"
+#include "microswarm/report/radar_view.hpp"
 
 namespace microswarm {
 namespace {
 
-constexpr Colour waiting{0.40, 0.30, 0.65, 1};
-constexpr Colour detection{0.55, 0.35, 0.15, 1};
-constexpr Colour safety{0.90, 0.60, 0.0, 1};
 constexpr Colour then_there{0.35, 0.35, 0.35, 1};
-constexpr Colour prediction{0.80, 0.15, 0.15, 1};
 
 /// The frame with the minimum gap to an obstacle, or to a wall without obstacles.
 const Frame& tightest(const Record& record) {
@@ -50,12 +46,13 @@ void draw_circles(Picture& picture, const Frame& frame, const RadarParams& param
   Colour body = colours::swarm;
   body.alpha = 0.5;
   picture.swarm(frame.pose, frame.radius, body);
-  picture.circle({at, circles.detection}, detection, 2, false);
-  picture.circle({at, circles.safety}, safety, 2, false);
-  picture.circle({at, circles.prediction}, prediction, 2, false);
-  picture.legend(fmt::format("circles at {:.1f} s, the least gap: detection", frame.t), detection);
-  picture.legend("safety", safety);
-  picture.legend("prediction", prediction);
+  picture.circle({at, circles.detection}, colours::detection_circle, 2, false);
+  picture.circle({at, circles.safety}, colours::safety_circle, 2, false);
+  picture.circle({at, circles.prediction}, colours::prediction_circle, 2, false);
+  picture.legend(fmt::format("circles at {:.1f} s, the least gap: detection", frame.t),
+                 colours::detection_circle);
+  picture.legend("safety", colours::safety_circle);
+  picture.legend("prediction", colours::prediction_circle);
 }
 
 }  // namespace
@@ -63,14 +60,10 @@ void draw_circles(Picture& picture, const Frame& frame, const RadarParams& param
 void draw_radar_marks(Picture& picture, const Record& record, const World& world) {
   const auto* params = std::get_if<RadarParams>(&record.scene.scenario.navigator);
   if (!params || record.frames.empty()) return;
-  for (const WaitZone& area : params->wait_zones) {
-    std::vector<Vec2> outline = outline_of(area).outer;
-    outline.push_back(outline.front());
-    picture.line(outline, waiting, 2, true);
-  }
+  draw_wait_zones(picture, *params, 2);
   for (std::size_t i = 0; i < params->waypoints.size(); ++i)
-    picture.mark(params->waypoints[i], fmt::format("waypoint {}", i + 1), waiting);
-  if (!params->wait_zones.empty()) picture.legend("wait areas", waiting);
+    picture.mark(params->waypoints[i], fmt::format("waypoint {}", i + 1), colours::wait_zone);
+  if (!params->wait_zones.empty()) picture.legend("wait areas", colours::wait_zone);
   const Frame& frame = tightest(record);
   const Snapshot then = world.at(frame.t);
   for (const Body& body : then.moving().bodies()) draw_outline(picture, body);

@@ -13,6 +13,17 @@ void Issues::add(const Issues& more) {
   list_.insert(list_.end(), more.list_.begin(), more.list_.end());
 }
 
+void Issues::add_lines(std::string_view key, std::string_view text) {
+  while (true) {
+    const std::size_t end = text.find('\n');
+    Issue issue{{}, std::string(text.substr(0, end))};
+    if (!key.empty()) issue.keys.emplace_back(key);
+    list_.push_back(std::move(issue));
+    if (end == text.npos) return;
+    text.remove_prefix(end + 1);
+  }
+}
+
 void Issues::add_within(std::string_view key, const Issues& part, const std::string& words) {
   for (Issue issue : part) {
     for (std::string& inner : issue.keys)

@@ -27,6 +27,8 @@ class Issues {
   void add(std::initializer_list<std::string_view> keys, std::string text);
   void add(std::string_view key, std::string text) { add({key}, std::move(text)); }
   void add(const Issues& more);
+  /// Adds an issue about `key` for each line of the text; an empty key means the text names a file.
+  void add_lines(std::string_view key, std::string_view text);
   /// Adds the issues of the part held by `key`; `words` (e.g. "obstacle 4") is put before each
   /// text.
   void add_within(std::string_view key, const Issues& part, const std::string& words = {});
@@ -42,17 +44,14 @@ class Issues {
   std::vector<Issue> list_;
 };
 
-/// Calls `read` and adds its InputError as an issue about `key`; an empty key means the text names
-/// a file.
+/// Calls `read` and adds the lines of its InputError as issues about `key`; an empty key means the
+/// text names a file.
 template <class Read>
 void attempt(Issues& issues, std::string_view key, Read&& read) {
   try {
     read();
   } catch (const InputError& error) {
-    if (key.empty())
-      issues.add({}, error.what());
-    else
-      issues.add(key, error.what());
+    issues.add_lines(key, error.what());
   }
 }
 

@@ -54,7 +54,8 @@ Issues load_obstacles(std::vector<Obstacle>& obstacles, const std::filesystem::p
     Issues of_obstacle;
     const std::size_t before = issues.size();
     if (auto* track = std::get_if<Track>(&obstacles[i].motion))
-      attempt(issues, "", [&] { of_obstacle.add_within("motion", files.load(*track)); });
+      attempt(issues, fmt::format("obstacles.{}.motion.file", i),
+              [&] { of_obstacle.add_within("motion", files.load(*track)); });
     if (of_obstacle.empty() && issues.size() == before) of_obstacle = validate(obstacles[i]);
     issues.add_within(fmt::format("obstacles.{}", i), of_obstacle,
                       fmt::format("obstacle {}", i + 1));
@@ -110,7 +111,7 @@ std::string Scene::hash() const {
 
 Scene load_scene(Scenario scenario, const std::filesystem::path& base, Issues& issues) {
   issues.add(load_obstacles(scenario.obstacles, base));
-  attempt(issues, "", [&] { load_follower(scenario.navigator, base); });
+  attempt(issues, "navigator.follower.model", [&] { load_follower(scenario.navigator, base); });
   MapParts map = read_map_parts(scenario.map, base, issues);
   return {std::move(scenario), std::move(map)};
 }

@@ -5,9 +5,9 @@
 #include <turbojpeg.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <limits>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -37,6 +37,48 @@ bool starts_with(Bytes bytes, std::string_view text) {
 
 constexpr std::size_t max_chunk_bytes = 64 << 20;  // of a text or profile, also when inflated
 
+constexpr int alpha_bit = 4;  // of a colour type
+
+/// A sample with its alpha in front of white.
+template <class Sample>
+Sample over_white(Sample sample, std::uint64_t alpha) {
+  constexpr std::uint64_t white = std::numeric_limits<Sample>::max();
+  return static_cast<Sample>((sample * alpha + white * (white - alpha) + white / 2) / white);
+}
+
+template <class Sample>
+cv::Mat over_white(const cv::Mat& rgba) {
+  cv::Mat rgb(rgba.rows, rgba.cols, CV_MAKETYPE(rgba.depth(), 3));
+  const auto* in = rgba.ptr<Sample>();
+  auto* out = rgb.ptr<Sample>();
+  for (std::size_t i = 0; i < rgba.total(); ++i, in += 4)
+    for (int k = 0; k < 3; ++k) *out++ = over_white(in[k], in[3]);
+  return rgb;
+}
+
+/// Colours of packed indices. libspng takes an index beyond the palette as black.
+cv::Mat looked_up(const cv::Mat& packed, const spng_ihdr& header, const spng_plte& palette,
+                  const spng_trns& of_colours, std::string_view name) {
+  const std::uint32_t bits = header.bit_depth;
+  cv::Mat rgb(packed.rows, static_cast<int>(header.width), CV_8UC3);
+  for (int row = 0; row < rgb.rows; ++row) {
+    const auto* in = packed.ptr<std::uint8_t>(row);
+    auto* out = rgb.ptr<std::uint8_t>(row);
+    for (std::uint32_t column = 0; column < header.width; ++column) {
+      const std::uint32_t at = column * bits;
+      const std::uint32_t index = (in[at / 8] >> (8 - bits - at % 8)) & ((1U << bits) - 1);
+      if (index >= palette.n_entries)
+        fail_image(name, "damaged PNG: index " + std::to_string(index) + " of a palette of " +
+                             std::to_string(palette.n_entries) + " colours");
+      const spng_plte_entry& c = palette.entries[index];
+      const std::uint8_t alpha =
+          index < of_colours.n_type3_entries ? of_colours.type3_alpha[index] : 255;
+      for (const std::uint8_t sample : {c.red, c.green, c.blue}) *out++ = over_white(sample, alpha);
+    }
+  }
+  return rgb;
+}
+
 cv::Mat decode_png(Bytes bytes, std::string_view name) {
   const std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> png(spng_ctx_new(0), spng_ctx_free);
   const auto check = [&](int code) {
@@ -52,22 +94,35 @@ cv::Mat decode_png(Bytes bytes, std::string_view name) {
   const auto width = static_cast<int>(header.width), height = static_cast<int>(header.height);
   const bool grey = header.color_type == SPNG_COLOR_TYPE_GRAYSCALE ||
                     header.color_type == SPNG_COLOR_TYPE_GRAYSCALE_ALPHA;
+  spng_trns of_colours{};
+  const int no_trns = spng_get_trns(png.get(), &of_colours);
+  if (no_trns != SPNG_ECHUNKAVAIL) check(no_trns);
+  const bool transparent = (header.color_type & alpha_bit) != 0 || no_trns == 0;
   cv::Mat pixels;
-  int format = SPNG_FMT_RGB8;
-  if (header.bit_depth == 16) {
-    static constexpr std::array<int, 7> samples{1, 0, 3, 0, 2, 0, 4};  // by colour type
-    pixels.create(height, width, CV_16UC(samples[header.color_type]));
-    format = SPNG_FMT_PNG;
-  } else if (header.color_type == SPNG_COLOR_TYPE_GRAYSCALE) {
-    pixels.create(height, width, CV_8UC1);
-    format = SPNG_FMT_G8;
+  int format = SPNG_FMT_PNG;
+  if (header.color_type == SPNG_COLOR_TYPE_INDEXED) {
+    pixels.create(height, (width * header.bit_depth + 7) / 8, CV_8UC1);
+  } else if (transparent) {
+    pixels.create(height, width, header.bit_depth == 16 ? CV_16UC4 : CV_8UC4);
+    format = header.bit_depth == 16 ? SPNG_FMT_RGBA16 : SPNG_FMT_RGBA8;
+  } else if (header.bit_depth == 16) {
+    pixels.create(height, width, grey ? CV_16UC1 : CV_16UC3);
   } else {
-    pixels.create(height, width, CV_8UC3);
+    pixels.create(height, width, grey ? CV_8UC1 : CV_8UC3);
+    format = grey ? SPNG_FMT_G8 : SPNG_FMT_RGB8;
   }
-  check(spng_decode_image(png.get(), pixels.data, pixels.total() * pixels.elemSize(), format, 0));
+  check(spng_decode_image(png.get(), pixels.data, pixels.total() * pixels.elemSize(), format,
+                          SPNG_DECODE_TRNS));
   check(spng_decode_chunks(png.get()));  // up to IEND
+  if (header.color_type == SPNG_COLOR_TYPE_INDEXED) {
+    spng_plte palette{};
+    check(spng_get_plte(png.get(), &palette));
+    return looked_up(pixels, header, palette, of_colours, name);
+  }
+  if (transparent)
+    pixels = pixels.depth() == CV_16U ? over_white<std::uint16_t>(pixels)
+                                      : over_white<std::uint8_t>(pixels);
   if (grey && pixels.channels() > 1) cv::extractChannel(pixels, pixels, 0);
-  if (pixels.channels() == 4) cv::cvtColor(pixels, pixels, cv::COLOR_RGBA2RGB);
   return pixels;
 }
 

@@ -36,9 +36,9 @@ void check_image_size(std::int64_t width, std::int64_t height, std::string_view 
 
 /// Reads PNG, JPEG, BMP, PGM, PPM or PBM: 16-bit samples are scaled to 8 bits, those of PNG as
 /// numbers of `depth` bits (8 to 16; what is larger becomes white), palettes and 1-bit
-/// pictures expanded, transparency dropped. The structure is checked before anything is decoded;
-/// throws InputError "x.png: WHY" for no file, an empty one, no image, a truncated or damaged one,
-/// 0 pixels, or more than max_image_side or max_image_pixels.
+/// pictures expanded, transparency shown in front of white. The structure is checked before
+/// anything is decoded; throws InputError "x.png: WHY" for no file, an empty one, no image, a
+/// truncated or damaged one, 0 pixels, or more than max_image_side or max_image_pixels.
 Image read_image(const std::filesystem::path& path, int depth = 16);
 
 /// The same from memory; `name` stands for the file in messages.

@@ -6,7 +6,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/core/text/file.hpp"
-#include "microswarm/core/text/text.hpp"
+#include "microswarm/io/columns.hpp"
 #include "microswarm/report/plot.hpp"
 #include "microswarm/reproduce/reproduce.hpp"
 
@@ -31,6 +31,19 @@ double arrived_share(const FollowerOutcome& o) {
   return 100 * static_cast<double>(values_of(o, rms_off).size()) /
          std::max<double>(1, static_cast<double>(o.paths.size()));
 }
+
+/// A path of a follower as in follower.csv.
+struct FollowerRow {
+  std::string follower;
+  std::uint64_t task = 0;
+  FollowedPath path;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.follower, {"follower", Unit::none, {}, "Follower."});
+    visit(self.task, {"task", Unit::none, {}, "Number of the task."});
+    FollowedPath::fields(self.path, visit);
+  }
+};
 
 }  // namespace
 
@@ -61,18 +74,10 @@ std::vector<ReproduceRow> follower_rows(const std::vector<FollowerOutcome>& outc
 }
 
 std::string follower_csv(const std::vector<FollowerOutcome>& outcomes) {
-  std::string csv =
-      "follower,task,arrived,time_s,way_over_speed_s,rms_off_um,most_off_um,"
-      "field_turning_deg_per_s,fallback_share\n";
+  std::vector<FollowerRow> rows;
   for (const FollowerOutcome& o : outcomes)
-    for (std::size_t i = 0; i < o.paths.size(); ++i) {
-      const FollowedPath& p = o.paths[i];
-      csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", o.name, i, p.arrived ? 1 : 0,
-                         number_text(p.time), number_text(p.fair_time), number_text(p.rms_off),
-                         number_text(p.max_off), number_text(turning(p)),
-                         number_text(p.fallback_share));
-    }
-  return csv;
+    for (std::size_t i = 0; i < o.paths.size(); ++i) rows.push_back({o.name, i, o.paths[i]});
+  return csv_table(rows);
 }
 
 void write_follower_figures(const std::vector<FollowerOutcome>& outcomes,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <mutex>
 
 #include "microswarm/core/execution/parallel.hpp"
@@ -10,6 +11,7 @@
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/experiment/run/progress.hpp"
 #include "microswarm/experiment/run/run.hpp"
+#include "microswarm/io/columns.hpp"
 #include "microswarm/reproduce/gather/gather.hpp"
 #include "microswarm/rig/simulation/simulated_rig.hpp"
 
@@ -65,6 +67,40 @@ ReproduceRow reduction_row(const char* figure, const std::string& what, double d
       row_at_most(0, figure, what, "%", -34.9, 100 * (dca / std::max(1.0, hra) - 1)), options);
 }
 
+/// A trial as in fig10-trials.csv.
+struct Fig10Row {
+  std::string method;
+  int robots = 0;
+  std::uint64_t trial = 0;
+  Status status = Status::stopped;
+  std::uint64_t frames = 0;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.method, {"method", Unit::none, {}, "Method."});
+    visit(self.robots, {"robots", Unit::none, {}, "Number of robots."});
+    visit(self.trial, {"trial", Unit::none, {}, "Number of the trial."});
+    visit(self.status, {"status", Unit::none, {}, "How it ended."});
+    visit(self.frames, {"frames", Unit::none, {}, "Frames at 45 a second."});
+  }
+};
+
+/// A trial through the rig.
+struct RigTrialRow {
+  std::string method;
+  std::uint64_t trial = 0;
+  Status status = Status::stopped;
+  std::uint64_t frames = 0;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.method, {"method", Unit::none, {}, "Method."});
+    visit(self.trial, {"trial", Unit::none, {}, "Number of the trial."});
+    visit(self.status, {"status", Unit::none, {}, "How it ended."});
+    visit(self.frames, {"frames", Unit::none, {}, "Frames at 45 a second."});
+  }
+};
+
+std::uint64_t whole(double frames) { return static_cast<std::uint64_t>(std::llround(frames)); }
+
 }  // namespace
 
 void gather_fig10(const ReproduceOptions& options, const Stop& stop,
@@ -82,7 +118,7 @@ void gather_fig10(const ReproduceOptions& options, const Stop& stop,
   });
   if (stop()) return;
   std::vector<double> frames;
-  std::string csv = "method,robots,trial,status,frames\n";
+  std::vector<Fig10Row> table;
   Plot plot{.title = "",
             .x_label = "pixels of robots, two a robot",
             .y_label = "frames at 45 a second",
@@ -99,8 +135,11 @@ void gather_fig10(const ReproduceOptions& options, const Stop& stop,
       series.x.push_back(pixels_a_robot * population_of_fig10(t));
       series.y.push_back(frames_per_s * result.metrics.time);
       gathered += result.status == Status::solved;
-      csv += fmt::format("{},{},{},{},{:.0f}\n", rig_methods[m].name, population_of_fig10(t), t,
-                         to_string(result.status), series.y.back());
+      table.push_back({.method = rig_methods[m].name,
+                       .robots = population_of_fig10(t),
+                       .trial = t,
+                       .status = result.status,
+                       .frames = whole(series.y.back())});
     }
     frames.push_back(mean(series.y));
     const std::string what =
@@ -123,7 +162,7 @@ void gather_fig10(const ReproduceOptions& options, const Stop& stop,
     rows.push_back(row_without_aim("not in the paper", "fig10", "rollout against HRA", "%", {},
                                    100 * (frames[2] / std::max(1.0, frames[0]) - 1)));
   if (options.out.empty()) return;
-  write_file_atomically(std::filesystem::path(options.out) / "fig10-trials.csv", csv);
+  write_file_atomically(std::filesystem::path(options.out) / "fig10-trials.csv", csv_table(table));
   write_plots_everywhere({plot}, std::filesystem::path(options.out) / "fig10");
 }
 
@@ -190,7 +229,7 @@ void gather_through_rig(const ThroughRig& how, const ReproduceOptions& options, 
   while (trials < how.trials && results[2 * trials] && results[2 * trials + 1]) ++trials;
   if (trials == 0) return;
   std::array<double, 2> frames{};
-  std::string csv = "method,trial,status,frames\n";
+  std::vector<RigTrialRow> table;
   for (std::size_t m = 0; m < frames.size(); ++m) {
     std::vector<double> times;
     double gathered = 0;
@@ -198,8 +237,10 @@ void gather_through_rig(const ThroughRig& how, const ReproduceOptions& options, 
       const RunResult& result = *results[2 * t + m];
       times.push_back(frames_per_s * result.metrics.time);
       gathered += result.status == Status::solved;
-      csv += fmt::format("{},{},{},{:.0f}\n", rig_methods[m].name, t, to_string(result.status),
-                         times.back());
+      table.push_back({.method = rig_methods[m].name,
+                       .trial = t,
+                       .status = result.status,
+                       .frames = whole(times.back())});
     }
     frames[m] = mean(times);
     const std::string method =
@@ -211,7 +252,8 @@ void gather_through_rig(const ThroughRig& how, const ReproduceOptions& options, 
                                frames[0], options));
   if (options.out.empty()) return;
   write_file_atomically(
-      std::filesystem::path(options.out) / fmt::format("{}-trials.csv", how.figure), csv);
+      std::filesystem::path(options.out) / fmt::format("{}-trials.csv", how.figure),
+      csv_table(table));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "microswarm/core/execution/parallel.hpp"
 #include "microswarm/core/maths/maths.hpp"
 #include "microswarm/core/text/file.hpp"
+#include "microswarm/io/columns.hpp"
 #include "microswarm/reproduce/gather/gather.hpp"
 
 namespace microswarm::reproduce {
@@ -41,6 +42,23 @@ struct OnGenerated {
   double hra = 0;
 };
 
+/// A map as in generated.csv.
+struct GeneratedRow {
+  std::string size;
+  std::uint64_t seed = 0;
+  std::uint64_t regions = 0;
+  double dca_steps = 0;
+  double hra_steps = 0;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.size, {"size", Unit::none, {}, "Size in pixels."});
+    visit(self.seed, {"seed", Unit::none, {}, "Seed of the map."});
+    visit(self.regions, {"regions", Unit::none, {}, "Number of regions."});
+    visit(self.dca_steps, {"dca_steps", Unit::none, {}, "Mean steps of DCA."});
+    visit(self.hra_steps, {"hra_steps", Unit::none, {}, "Mean steps of HRA."});
+  }
+};
+
 OnGenerated gather_on_generated(const scenes::Vascular& scene, std::uint32_t trials,
                                 const Stop& stop) {
   const AggregationMap map = gather_map(scene, true);
@@ -61,7 +79,7 @@ OnGenerated gather_on_generated(const scenes::Vascular& scene, std::uint32_t tri
 
 void gather_generated(const ReproduceOptions& options, const Stop& stop,
                       std::vector<ReproduceRow>& rows) {
-  std::string csv = "size,seed,regions,dca_steps,hra_steps\n";
+  std::vector<GeneratedRow> table;
   const std::uint32_t trials = options.quick ? 2 : 4;
   for (const GeneratedSize& size : generated_sizes(options.quick)) {
     std::vector<OnGenerated> all(size.maps);
@@ -72,8 +90,11 @@ void gather_generated(const ReproduceOptions& options, const Stop& stop,
     });
     if (stop()) return;
     for (std::size_t i = 0; i < all.size(); ++i)
-      csv += fmt::format("{},{},{},{},{}\n", size.name, first_seed + i, all[i].regions,
-                         all[i].dca / trials, all[i].hra / trials);
+      table.push_back({.size = size.name,
+                       .seed = first_seed + i,
+                       .regions = all[i].regions,
+                       .dca_steps = all[i].dca / trials,
+                       .hra_steps = all[i].hra / trials});
     for (const bool many : {true, false}) {
       double count = 0;
       double best = 0;
@@ -99,7 +120,7 @@ void gather_generated(const ReproduceOptions& options, const Stop& stop,
     }
   }
   if (!options.out.empty())
-    write_file_atomically(std::filesystem::path(options.out) / "generated.csv", csv);
+    write_file_atomically(std::filesystem::path(options.out) / "generated.csv", csv_table(table));
 }
 
 }  // namespace microswarm::reproduce

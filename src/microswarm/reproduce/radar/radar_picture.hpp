@@ -19,12 +19,10 @@ Plot cost_plot(const RadarRun& run, const std::string& title, double paper_mean,
 /// obstacles that are near enough to be detected, at their positions at these moments [s].
 Box part_that_matters(const RadarRun& run, const World& world, std::span<const double> moments);
 
-/// Draws a run of the radar at several moments [s], one picture each: the navigator's three
-/// circles; the obstacles, lighter inside the detection circle; velocities as arrows; the deviation
-/// α during avoidance; the travelled path with the earlier moments as P0, P1, …; the planned path
-/// with its tree; and the wait zones. Titles mention a final contact. `stem` is the path of the
-/// pictures without "-1.png", "-1.svg", "-1.pdf", …; older files with these names are removed.
-/// stem-moments shows all moments on one sheet.
+/// Draws a run of the radar at several moments [s], one picture each: draw_radar_view, with the
+/// earlier moments as P0, P1, … on the travelled path. Titles mention a final contact. `stem` is
+/// the path of the pictures without "-1.png", "-1.svg", "-1.pdf", …; older files with these names
+/// are removed. stem-moments shows all moments on one sheet.
 void draw_radar_moments(const RadarRun& run, const World& world, std::span<const double> moments,
                         const std::string& title, const std::filesystem::path& stem,
                         std::optional<Box> part = {});

@@ -14,6 +14,7 @@
 #include "microswarm/core/execution/parallel.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/experiment/plant/plant.hpp"
+#include "microswarm/io/columns.hpp"
 #include "microswarm/scenes/avoidance_worlds.hpp"
 
 namespace microswarm::reproduce {
@@ -44,6 +45,19 @@ Contestant contestant(std::string name, Params params) {
             return suited(params, scenario, walls);
           }};
 }
+
+/// A sample of a body's track, as formats/tracks.hpp reads it.
+struct SampleRow {
+  std::string id;
+  double t = 0;
+  Vec2 at;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.id, {"id", Unit::none, {}, "Body."});
+    visit(self.t, {"t", Unit::s, {}, "Time."});
+    visit(self.at, {"", Unit::um, {}, "Position."});
+  }
+};
 
 /// Circles that leave time to decide; the published ones suit obstacles much slower than the swarm.
 RadarParams wide_radar() {
@@ -148,21 +162,18 @@ Crossings cross(const Course& course, const std::vector<Contestant>& who,
 void write_scenario(Scenario scenario, const std::filesystem::path& folder,
                     const std::string& stem) {
   const std::string file = stem + "-tracks.csv";
-  std::string tracks = "id,t_s,x_um,y_um\n";
-  bool some = false;
+  std::vector<SampleRow> tracks;
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i) {
     auto* track = std::get_if<Track>(&scenario.obstacles[i].motion);
     if (!track || !track->samples) continue;
-    some = true;
     track->file = file;
     track->id = std::to_string(i + 1);
     const Samples& samples = *track->samples;
     for (std::size_t k = 0; k < samples.times.size(); ++k)
-      tracks += fmt::format("{},{},{},{}\n", track->id, samples.times[k], samples.points[k].x,
-                            samples.points[k].y);
+      tracks.push_back({track->id, samples.times[k], samples.points[k]});
   }
   scenario.name = stem;
-  if (some) write_file_atomically(folder / file, tracks);
+  if (!tracks.empty()) write_file_atomically(folder / file, csv_table(tracks));
   write_file_atomically(folder / (stem + ".yaml"), scenario_text(scenario));
 }
 

@@ -3,10 +3,66 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <optional>
+
 #include "microswarm/core/errors/error.hpp"
-#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/text/text.hpp"
+#include "microswarm/io/columns.hpp"
 
 namespace microswarm {
+namespace {
+
+/// Columns before the currents.
+struct Commanded {
+  double t = 0;
+  std::optional<double> heading;
+  double speed = 0;
+  double bx = 0;
+  double by = 0;
+  double bz = 0;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.t, {"t", Unit::s, {}, "Time since the first output."});
+    visit(self.heading, {"heading", Unit::deg, {}, "Commanded heading."});
+    visit(self.speed, {"speed", Unit::um_per_s, {}, "Commanded speed."});
+    visit(self.bx, {"bx", Unit::mt, {}, "Commanded field."});
+    visit(self.by, {"by", Unit::mt, {}, "Commanded field."});
+    visit(self.bz, {"bz", Unit::mt, {}, "Commanded field."});
+  }
+};
+
+/// Columns after the currents.
+struct Driven {
+  double scale = 1;
+  std::string status;
+  std::optional<double> late;
+  std::optional<double> round_trip;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.scale, {"scale", Unit::none, {}, "Scale of the command imposed by the limits."});
+    visit(self.status, {"status", Unit::none, {}, "Status of the driver, or dry."});
+    visit(self.late, {"late", Unit::s, {}, "Delay after the due time."});
+    visit(self.round_trip, {"round_trip", Unit::s, {}, "Round trip of the driver."});
+  }
+};
+
+/// The nearest number with so many decimals, which keeps the lines short.
+double rounded(double value, double per_one) { return std::round(value * per_one) / per_one; }
+
+template <class Row>
+const std::vector<Column>& columns() {
+  static const std::vector<Column> all = columns_of<Row>(ColumnUnits::shown);
+  return all;
+}
+
+std::string line_of(const Commanded& before, const Eigen::VectorXd& currents, const Driven& after) {
+  std::string line = csv_line(columns<Commanded>(), &before);
+  for (const double i : currents) line += "," + number_text(rounded(i, 1e5));
+  return line + "," + csv_line(columns<Driven>(), &after) + "\n";
+}
+
+}  // namespace
 
 CommandLog::CommandLog(const std::filesystem::path& folder, const CoilSystem& system, bool dry)
     : coils_(system.size()), dry_(dry) {
@@ -14,30 +70,35 @@ CommandLog::CommandLog(const std::filesystem::path& folder, const CoilSystem& sy
   file_ = folder / "commands.csv";
   part_ = file_.string() + ".part";
   out_.open(part_);
-  std::string head = "t_s,heading_deg,speed_um_per_s,bx_mt,by_mt,bz_mt";
+  std::string head = csv_head(columns<Commanded>());
   for (const std::string& coil : system.coil_names()) head += ",i_" + coil + "_a";
-  write(head + ",scale,status,late_s,round_trip_s\n");
+  write(head + "," + csv_head(columns<Driven>()) + "\n");
 }
 
 void CommandLog::add(const CoilMoment& m) {
   if (file_.empty()) return;
   if (began_ == 0) began_ = m.t;
-  std::string row = fmt::format("{:.4f},{:.3f},{:.3f},{:.5f},{:.5f},{:.5f}", m.t - began_,
-                                degrees(m.command.heading), m.command.speed, m.output.wanted.x(),
-                                m.output.wanted.y(), m.output.wanted.z());
-  for (const double i : m.output.currents) row += fmt::format(",{:.5f}", i);
-  row += fmt::format(",{:.4f},{},{:.6f},{:.6f}\n", m.output.scale,
-                     dry_ ? "dry" : to_string(m.output.status), m.late, m.round_trip);
-  write(row);
+  const Eigen::Vector3d& b = m.output.wanted;
+  write(line_of({.t = rounded(m.t - began_, 1e4),
+                 .heading = m.command.heading,
+                 .speed = rounded(m.command.speed, 1e3),
+                 .bx = rounded(b.x(), 1e5),
+                 .by = rounded(b.y(), 1e5),
+                 .bz = rounded(b.z(), 1e5)},
+                m.output.currents,
+                {.scale = rounded(m.output.scale, 1e4),
+                 .status = std::string(dry_ ? "dry" : to_string(m.output.status)),
+                 .late = rounded(m.late, 1e6),
+                 .round_trip = rounded(m.round_trip, 1e6)}));
 }
 
 std::string CommandLog::finish(double zero_at, bool confirmed) noexcept {
   if (file_.empty()) return {};
-  if (began_ > 0) {
-    out_ << fmt::format("{:.4f},,0,0,0,0", zero_at - began_);
-    for (std::size_t i = 0; i < coils_; ++i) out_ << ",0";
-    out_ << (dry_ ? ",1,dry,,\n" : confirmed ? ",1,zero,,\n" : ",1,zero_not_confirmed,,\n");
-  }
+  if (began_ > 0)
+    out_ << line_of({.t = rounded(zero_at - began_, 1e4)}, Eigen::VectorXd::Zero(coils_),
+                    {.status = dry_        ? "dry"
+                               : confirmed ? "zero"
+                                           : "zero_not_confirmed"});
   out_.close();
   std::error_code error;
   if (out_) std::filesystem::rename(part_, file_, error);

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "microswarm/experiment/record/record.hpp"
+#include "microswarm/navigation/radar/radar_scan.hpp"
+#include "microswarm/report/picture.hpp"
+#include "microswarm/world/world.hpp"
+
+namespace microswarm {
+
+/// Colours of a radar's circles and zones in all pictures.
+namespace colours {
+inline constexpr Colour detection_circle{0.55, 0.35, 0.15, 1};
+inline constexpr Colour safety_circle{0.95, 0.65, 0.0, 1};
+inline constexpr Colour prediction_circle{0.80, 0.15, 0.15, 1};
+inline constexpr Colour wait_zone{0.5, 0.5, 0.5, 1};
+}  // namespace colours
+
+/// Outlines the wait zones, dashed.
+void draw_wait_zones(Picture& picture, const RadarParams& params, double width_px);
+
+/// The radar's circles in frame `number`: those of its look, or without one those of its
+/// parameters. The record's navigator must be the radar, here and below.
+RadarCircles radar_circles(const Record& record, std::size_t number,
+                           const std::optional<RadarLook>& look = {});
+
+/// Draws what the radar sees in frame `number`: its three circles; the obstacles, lighter inside
+/// the detection circle; velocities as arrows; the travelled path and the goal; the planned path
+/// with its tree; the wait zones; and the legend. With the `look` of that decision, also the
+/// deviation α during avoidance. `world` is the record's.
+void draw_radar_view(Picture& picture, const Record& record, const World& world, std::size_t number,
+                     const std::optional<RadarLook>& look = {});
+
+}  // namespace microswarm
