@@ -22,7 +22,7 @@ TEST_F(BadScenarios, NotANumberInTracks) {
                   "obstacles:\n"
                   "  - shape: {type: disc, radius_um: 30}\n"
                   "    motion: {type: track, file: tracks.csv, id: 1}\n",
-              naming("tracks.csv:3", {"x_um", "nan"}));
+              naming("flight.yaml:18:33", {"tracks.csv:3", "x_um", "nan"}));
 }
 
 TEST_F(BadScenarios, StartInAWall) {

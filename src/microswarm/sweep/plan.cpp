@@ -122,9 +122,10 @@ struct Loader {
       const std::string key = last.substr(0, last.find('=') + 1);
       if (std::any_of(cell.settings.begin(), cell.settings.end() - 1,
                       [&](const std::string& other) { return other.starts_with(key); }))
-        throw InputError(fmt::format("{}: {} is varied by the grid and set a second time, in the "
-                                     "grid, in 'set' or by method '{}'",
-                                     plan.file, quote(key.substr(0, key.size() - 1)), method.name));
+        throw InputError(
+            fmt::format("{}: {} is varied by the grid and set a second time, in the "
+                        "grid, in 'set' or by method '{}'",
+                        plan.file, quote(key.substr(0, key.size() - 1)), method.name));
     }
     if (plan.sweep.seed) cell.scenario.seed = *plan.sweep.seed;
   }
