@@ -18,7 +18,7 @@ APART = {f"src/microswarm/{name}" for name in ("navigation", "actuation", "visio
 # Headers of parameters, up to a scenario's, and what they may include: no algorithm, so that a change
 # in a navigator does not compile whoever reads a scenario.
 PARAMETERS = re.compile(
-    r"src/microswarm/((planning|navigation|swarm)/(\w+/)?((\w+_)?params|\w+_tuning)|formats/map_spec"
+    r"src/microswarm/((planning|navigation|swarm)/(\w+/)*((\w+_)?params|\w+_tuning)|formats/map_spec"
     r"|experiment/scenario/scenario)\.hpp")
 PLAIN = re.compile(
     r"src/microswarm/(core/.*|geometry/(vec2|shapes)\.hpp|config/type\.hpp|world/obstacles/(motion|obstacle)\.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/gathering/merged_robots.hpp"
+#include "microswarm/navigation/gathering/policies/merged_robots.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "microswarm/navigation/gathering/rollout_execution.hpp"
-#include "microswarm/navigation/gathering/rollout_planning.hpp"
-#include "microswarm/navigation/gathering/rollout_search.hpp"
+#include "microswarm/navigation/gathering/rollout/rollout_execution.hpp"
+#include "microswarm/navigation/gathering/rollout/rollout_planning.hpp"
+#include "microswarm/navigation/gathering/rollout/rollout_search.hpp"
 #include "tests/navigation/gathering.hpp"
 
 namespace microswarm {

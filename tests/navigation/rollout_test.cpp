@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/gathering/rollout_policy.hpp"
+#include "microswarm/navigation/gathering/rollout/rollout_policy.hpp"
 
 #include <gtest/gtest.h>
 

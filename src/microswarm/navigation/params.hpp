@@ -7,7 +7,7 @@
 #include "microswarm/navigation/baselines/straight_params.hpp"
 #include "microswarm/navigation/baselines/velocity_obstacle_params.hpp"
 #include "microswarm/navigation/following/path_navigator_params.hpp"
-#include "microswarm/navigation/gathering/aggregation_params.hpp"
+#include "microswarm/navigation/gathering/policies/aggregation_params.hpp"
 #include "microswarm/navigation/global_input/plan_executor_params.hpp"
 #include "microswarm/navigation/hierarchical/hierarchical_params.hpp"
 #include "microswarm/navigation/predictive/predictive_params.hpp"

@@ -46,9 +46,7 @@ void draw_circles(Picture& picture, const Frame& frame, const RadarParams& param
   Colour body = colours::swarm;
   body.alpha = 0.5;
   picture.swarm(frame.pose, frame.radius, body);
-  picture.circle({at, circles.detection}, colours::detection_circle, 2, false);
-  picture.circle({at, circles.safety}, colours::safety_circle, 2, false);
-  picture.circle({at, circles.prediction}, colours::prediction_circle, 2, false);
+  draw_radar_circles(picture, circles, at);
   picture.legend(fmt::format("circles at {:.1f} s, the least gap: detection", frame.t),
                  colours::detection_circle);
   picture.legend("safety", colours::safety_circle);
@@ -63,7 +61,7 @@ void draw_radar_marks(Picture& picture, const Record& record, const World& world
   draw_wait_zones(picture, *params, 2);
   for (std::size_t i = 0; i < params->waypoints.size(); ++i)
     picture.mark(params->waypoints[i], fmt::format("waypoint {}", i + 1), colours::wait_zone);
-  if (!params->wait_zones.empty()) picture.legend("wait areas", colours::wait_zone);
+  if (!params->wait_zones.empty()) picture.legend("wait zones", colours::wait_zone);
   const Frame& frame = tightest(record);
   const Snapshot then = world.at(frame.t);
   for (const Body& body : then.moving().bodies()) draw_outline(picture, body);

@@ -23,13 +23,6 @@ constexpr double head_px = 10;      // length of an arrow's head
 constexpr double arrow_length = 2;  // at the swarm's maximum speed, in swarm radii
 constexpr double min_cost = 0.005;  // α is drawn above this δ
 
-// The safety circle may coincide with the detection circle, so one is dashed and the other wide.
-void draw_all_circles(Picture& picture, const RadarCircles& circles, Vec2 p) {
-  picture.circle({p, circles.detection}, colours::detection_circle, 4.5, false);
-  picture.circle({p, circles.safety}, colours::safety_circle, 2, true);
-  picture.circle({p, circles.prediction}, colours::prediction_circle, 2, false);
-}
-
 void draw_obstacles(Picture& picture, const Snapshot& world, Disc circle) {
   for (const Body& body : world.moving().bodies())
     picture.bodies({&body, 1}, distance(circle.centre, body) < circle.radius ? detected_colour
@@ -86,18 +79,18 @@ void draw_velocities(Picture& picture, const Record& record, const World& world,
 
 void add_legend(Picture& picture, const RadarParams& params, const Record& record) {
   picture.legend("swarm", colours::swarm, true);
-  picture.legend("its way", colours::path);
+  picture.legend("travelled path", colours::path);
   picture.legend("obstacle", colours::obstacle, true);
   picture.legend("detected", detected_colour, true);
   picture.legend("detection circle", colours::detection_circle);
   picture.legend("safety circle", colours::safety_circle);
   picture.legend("prediction circle", colours::prediction_circle);
   const double seconds = arrow_time(record.scene.scenario);
-  picture.legend(fmt::format("way in {:.1f} s: swarm", seconds), driven);
+  picture.legend(fmt::format("motion in {:.1f} s: swarm", seconds), driven);
   picture.legend("of obstacles", velocity);
-  if (!record.plans.empty()) picture.legend("way planned", planned);
+  if (!record.plans.empty()) picture.legend("planned path", planned);
   if (!record.plans.empty()) picture.legend("FMT* tree", tree_colour);
-  if (!params.wait_zones.empty()) picture.legend("wait area", colours::wait_zone);
+  if (!params.wait_zones.empty()) picture.legend("wait zone", colours::wait_zone);
 }
 
 }  // namespace
@@ -108,6 +101,12 @@ void draw_wait_zones(Picture& picture, const RadarParams& params, double width_p
     outline.push_back(outline.front());
     picture.line(outline, colours::wait_zone, width_px, true);
   }
+}
+
+void draw_radar_circles(Picture& picture, const RadarCircles& circles, Vec2 p) {
+  picture.circle({p, circles.detection}, colours::detection_circle, 4.5, false);
+  picture.circle({p, circles.safety}, colours::safety_circle, 2, true);
+  picture.circle({p, circles.prediction}, colours::prediction_circle, 2, false);
 }
 
 RadarCircles radar_circles(const Record& record, std::size_t number,
@@ -132,7 +131,7 @@ void draw_radar_view(Picture& picture, const Record& record, const World& world,
   picture.line(way, colours::path, 2.5);
   picture.mark(*record.scene.scenario.goal, "goal", colours::goal);
   picture.swarm(frame.pose, frame.radius);
-  draw_all_circles(picture, circles, p);
+  draw_radar_circles(picture, circles, p);
   draw_velocities(picture, record, world, frame, look);
   add_legend(picture, params, record);
 }

@@ -22,6 +22,10 @@ inline constexpr Colour wait_zone{0.5, 0.5, 0.5, 1};
 /// Outlines the wait zones, dashed.
 void draw_wait_zones(Picture& picture, const RadarParams& params, double width_px);
 
+/// Draws the radar's circles around `p`. The safety circle may coincide with the detection circle,
+/// so one is dashed and the other wide.
+void draw_radar_circles(Picture& picture, const RadarCircles& circles, Vec2 p);
+
 /// The radar's circles in frame `number`: those of its look, or without one those of its
 /// parameters. The record's navigator must be the radar, here and below.
 RadarCircles radar_circles(const Record& record, std::size_t number,

@@ -73,7 +73,7 @@ void overview(const RunSubject& s, std::span<const PlanEvent* const> shown,
     picture.mark(frame_at(record, shown[k]->t).pose.position, fmt::format("{}", k + 1),
                  colours::path);
   picture.legend("swarm", colours::swarm, true);
-  picture.legend("its way", colours::path);
+  picture.legend("travelled path", colours::path);
   if (!shown.empty()) picture.legend("moments of the report", colours::path, true);
   if (!s.world.obstacles.empty())
     picture.legend("moving obstacles, earlier places faint", colours::obstacle, true);

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "microswarm/navigation/gathering/channel_width.hpp"
+#include "microswarm/navigation/gathering/policies/channel_width.hpp"
 
 namespace microswarm {
 

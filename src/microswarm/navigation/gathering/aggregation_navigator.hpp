@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "microswarm/contracts/navigator.hpp"
-#include "microswarm/navigation/gathering/aggregation_policy.hpp"
-#include "microswarm/navigation/gathering/rollout_policy.hpp"
+#include "microswarm/navigation/gathering/policies/aggregation_policy.hpp"
+#include "microswarm/navigation/gathering/rollout/rollout_policy.hpp"
 #include "microswarm/navigation/steering/robot_steering_cycle.hpp"
 
 namespace microswarm {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "microswarm/navigation/gathering/merged_robots.hpp"
+#include "microswarm/navigation/gathering/policies/merged_robots.hpp"
 
 namespace microswarm {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "microswarm/core/execution/status.hpp"
 #include "microswarm/core/execution/stop.hpp"
-#include "microswarm/navigation/gathering/aggregation_policy.hpp"
-#include "microswarm/navigation/gathering/rollout_policy.hpp"
+#include "microswarm/navigation/gathering/policies/aggregation_policy.hpp"
+#include "microswarm/navigation/gathering/rollout/rollout_policy.hpp"
 #include "microswarm/swarm/robots/robot_stepper.hpp"
 
 namespace microswarm {

@@ -67,7 +67,7 @@ ReproduceRow reduction_row(const char* figure, const std::string& what, double d
       row_at_most(0, figure, what, "%", -34.9, 100 * (dca / std::max(1.0, hra) - 1)), options);
 }
 
-/// A trial as in fig10-trials.csv.
+/// A trial as in fig10-trials.csv and fig10-rig-trials.csv.
 struct Fig10Row {
   std::string method;
   int robots = 0;
@@ -78,21 +78,6 @@ struct Fig10Row {
   static void fields(Self& self, V&& visit) {
     visit(self.method, {"method", Unit::none, {}, "Method."});
     visit(self.robots, {"robots", Unit::none, {}, "Number of robots."});
-    visit(self.trial, {"trial", Unit::none, {}, "Number of the trial."});
-    visit(self.status, {"status", Unit::none, {}, "How it ended."});
-    visit(self.frames, {"frames", Unit::none, {}, "Frames at 45 a second."});
-  }
-};
-
-/// A trial through the rig.
-struct RigTrialRow {
-  std::string method;
-  std::uint64_t trial = 0;
-  Status status = Status::stopped;
-  std::uint64_t frames = 0;
-  template <class Self, class V>
-  static void fields(Self& self, V&& visit) {
-    visit(self.method, {"method", Unit::none, {}, "Method."});
     visit(self.trial, {"trial", Unit::none, {}, "Number of the trial."});
     visit(self.status, {"status", Unit::none, {}, "How it ended."});
     visit(self.frames, {"frames", Unit::none, {}, "Frames at 45 a second."});
@@ -229,7 +214,7 @@ void gather_through_rig(const ThroughRig& how, const ReproduceOptions& options, 
   while (trials < how.trials && results[2 * trials] && results[2 * trials + 1]) ++trials;
   if (trials == 0) return;
   std::array<double, 2> frames{};
-  std::vector<RigTrialRow> table;
+  std::vector<Fig10Row> table;
   for (std::size_t m = 0; m < frames.size(); ++m) {
     std::vector<double> times;
     double gathered = 0;
@@ -238,6 +223,7 @@ void gather_through_rig(const ThroughRig& how, const ReproduceOptions& options, 
       times.push_back(frames_per_s * result.metrics.time);
       gathered += result.status == Status::solved;
       table.push_back({.method = rig_methods[m].name,
+                       .robots = populations_of_fig10[0],
                        .trial = t,
                        .status = result.status,
                        .frames = whole(times.back())});

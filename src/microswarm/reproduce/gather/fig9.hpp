@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "microswarm/navigation/gathering/aggregation_params.hpp"
+#include "microswarm/navigation/gathering/policies/aggregation_params.hpp"
 #include "microswarm/report/plot.hpp"
 #include "microswarm/scenes/vascular.hpp"
 

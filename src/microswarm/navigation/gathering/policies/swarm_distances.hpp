@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "microswarm/navigation/gathering/aggregation_map.hpp"
+#include "microswarm/navigation/gathering/policies/aggregation_map.hpp"
 #include "microswarm/swarm/robots/robot_stepper.hpp"
 
 namespace microswarm {

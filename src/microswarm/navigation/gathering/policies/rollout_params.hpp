@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "microswarm/core/fields/fields.hpp"
-#include "microswarm/navigation/gathering/rollout_tuning.hpp"
+#include "microswarm/navigation/gathering/policies/rollout_tuning.hpp"
 
 namespace microswarm {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "microswarm/core/maths/rng.hpp"
-#include "microswarm/navigation/gathering/aggregation_params.hpp"
+#include "microswarm/navigation/gathering/policies/aggregation_params.hpp"
 #include "microswarm/planning/gathering/map_segmentation.hpp"
 #include "microswarm/planning/gathering/obstacle_weighted_rrt.hpp"
 #include "microswarm/world/map/map.hpp"

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "microswarm/navigation/gathering/aggregation_map.hpp"
+#include "microswarm/navigation/gathering/policies/aggregation_map.hpp"
 
 namespace microswarm {
 

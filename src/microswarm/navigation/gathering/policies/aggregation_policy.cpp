@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/gathering/aggregation_policy.hpp"
+#include "microswarm/navigation/gathering/policies/aggregation_policy.hpp"
 
 #include <algorithm>
 

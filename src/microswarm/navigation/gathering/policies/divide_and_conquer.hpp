@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "microswarm/navigation/gathering/aggregation_map.hpp"
+#include "microswarm/navigation/gathering/policies/aggregation_map.hpp"
 
 namespace microswarm {
 

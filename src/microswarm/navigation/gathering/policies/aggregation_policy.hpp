@@ -7,11 +7,11 @@
 #include "microswarm/core/execution/status.hpp"
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/core/maths/rng.hpp"
-#include "microswarm/navigation/gathering/divide_and_conquer.hpp"
-#include "microswarm/navigation/gathering/leaders.hpp"
-#include "microswarm/navigation/gathering/merged_robots.hpp"
-#include "microswarm/navigation/gathering/swarm_distances.hpp"
-#include "microswarm/navigation/gathering/waypoint_follower.hpp"
+#include "microswarm/navigation/gathering/policies/divide_and_conquer.hpp"
+#include "microswarm/navigation/gathering/policies/leaders.hpp"
+#include "microswarm/navigation/gathering/policies/swarm_distances.hpp"
+#include "microswarm/navigation/gathering/policies/waypoint_follower.hpp"
+#include "microswarm/navigation/gathering/policies/merged_robots.hpp"
 #include "microswarm/swarm/robots/robot_stepper.hpp"
 
 namespace microswarm {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/gathering/aggregation_map.hpp"
+#include "microswarm/navigation/gathering/policies/aggregation_map.hpp"
 
 #include "microswarm/core/errors/error.hpp"
 

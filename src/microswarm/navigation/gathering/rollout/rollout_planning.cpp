@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/gathering/rollout_planning.hpp"
+#include "microswarm/navigation/gathering/rollout/rollout_planning.hpp"
 
 #include <utility>
 

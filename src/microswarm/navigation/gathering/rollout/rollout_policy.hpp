@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "microswarm/core/execution/stop.hpp"
-#include "microswarm/navigation/gathering/rollout_execution.hpp"
-#include "microswarm/navigation/gathering/rollout_search.hpp"
-#include "microswarm/navigation/gathering/rollout_simulator.hpp"
+#include "microswarm/navigation/gathering/rollout/rollout_execution.hpp"
+#include "microswarm/navigation/gathering/rollout/rollout_search.hpp"
+#include "microswarm/navigation/gathering/rollout/rollout_simulator.hpp"
 
 namespace microswarm {
 

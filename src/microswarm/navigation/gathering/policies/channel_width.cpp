@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/gathering/channel_width.hpp"
+#include "microswarm/navigation/gathering/policies/channel_width.hpp"
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/geometry/uniform_in.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/gathering/leaders.hpp"
+#include "microswarm/navigation/gathering/policies/leaders.hpp"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "microswarm/navigation/gathering/aggregation_policy.hpp"
+#include "microswarm/navigation/gathering/policies/aggregation_policy.hpp"
 #include "microswarm/planning/gathering/obstacle_weighted_rrt.hpp"
 
 namespace microswarm {

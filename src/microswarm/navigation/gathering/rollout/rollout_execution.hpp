@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "microswarm/navigation/gathering/rollout_simulator.hpp"
+#include "microswarm/navigation/gathering/rollout/rollout_simulator.hpp"
 
 namespace microswarm {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "microswarm/navigation/gathering/rollout_simulator.hpp"
+#include "microswarm/navigation/gathering/rollout/rollout_simulator.hpp"
 
 namespace microswarm {
 

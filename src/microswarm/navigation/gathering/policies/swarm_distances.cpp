@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/gathering/swarm_distances.hpp"
+#include "microswarm/navigation/gathering/policies/swarm_distances.hpp"
 
 #include <limits>
 #include <numeric>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/gathering/rollout_simulator.hpp"
+#include "microswarm/navigation/gathering/rollout/rollout_simulator.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "microswarm/core/fields/fields.hpp"
-#include "microswarm/navigation/gathering/rollout_params.hpp"
+#include "microswarm/navigation/gathering/policies/rollout_params.hpp"
 #include "microswarm/planning/gathering/map_segmentation_params.hpp"
 #include "microswarm/planning/gathering/obstacle_weighted_rrt_params.hpp"
 

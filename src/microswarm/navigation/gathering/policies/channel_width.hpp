@@ -2,7 +2,7 @@
 #pragma once
 
 #include "microswarm/core/maths/rng.hpp"
-#include "microswarm/navigation/gathering/aggregation_policy.hpp"
+#include "microswarm/navigation/gathering/policies/aggregation_policy.hpp"
 
 namespace microswarm {
 

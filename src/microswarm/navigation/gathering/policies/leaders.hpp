@@ -5,7 +5,7 @@
 
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/core/maths/rng.hpp"
-#include "microswarm/navigation/gathering/aggregation_map.hpp"
+#include "microswarm/navigation/gathering/policies/aggregation_map.hpp"
 
 namespace microswarm {
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "microswarm/core/execution/stop.hpp"
-#include "microswarm/navigation/gathering/rollout_execution.hpp"
+#include "microswarm/navigation/gathering/rollout/rollout_execution.hpp"
 
 namespace microswarm {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/gathering/rollout_policy.hpp"
+#include "microswarm/navigation/gathering/rollout/rollout_policy.hpp"
 
 #include <algorithm>
 #include <utility>
 
-#include "microswarm/navigation/gathering/rollout_planning.hpp"
+#include "microswarm/navigation/gathering/rollout/rollout_planning.hpp"
 
 namespace microswarm {
 

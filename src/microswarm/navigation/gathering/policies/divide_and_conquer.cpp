@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/gathering/divide_and_conquer.hpp"
+#include "microswarm/navigation/gathering/policies/divide_and_conquer.hpp"
 
 #include <algorithm>
 #include <cmath>

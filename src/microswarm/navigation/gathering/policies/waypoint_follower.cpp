@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/navigation/gathering/waypoint_follower.hpp"
+#include "microswarm/navigation/gathering/policies/waypoint_follower.hpp"
 
 #include <algorithm>
 
