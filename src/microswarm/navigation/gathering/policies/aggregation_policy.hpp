@@ -9,9 +9,9 @@
 #include "microswarm/core/maths/rng.hpp"
 #include "microswarm/navigation/gathering/policies/divide_and_conquer.hpp"
 #include "microswarm/navigation/gathering/policies/leaders.hpp"
+#include "microswarm/navigation/gathering/policies/merged_robots.hpp"
 #include "microswarm/navigation/gathering/policies/swarm_distances.hpp"
 #include "microswarm/navigation/gathering/policies/waypoint_follower.hpp"
-#include "microswarm/navigation/gathering/policies/merged_robots.hpp"
 #include "microswarm/swarm/robots/robot_stepper.hpp"
 
 namespace microswarm {
