@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <memory>
@@ -14,8 +13,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
-#include "microswarm/io/columns.hpp"
-#include "microswarm/report/picture.hpp"
+#include "microswarm/report/uniformity_picture.hpp"
 #include "rig/rig.hpp"
 #include "support/options.hpp"
 
@@ -36,112 +34,13 @@ struct RigMapOptions {
   bool json = false;
 };
 
-/// Bands of increasing deviation.
-struct Band {
-  double most;
-  const char* label;
-  Colour colour;
-};
-constexpr std::array<Band, 6> bands{{{0.001, "to 0.1 %", {0.99, 0.96, 0.80, 1}},
-                                     {0.01, "to 1 %", {0.78, 0.89, 0.70, 1}},
-                                     {0.02, "to 2 %", {0.47, 0.78, 0.72, 1}},
-                                     {0.05, "to 5 %", {0.25, 0.60, 0.72, 1}},
-                                     {0.10, "to 10 %", {0.20, 0.40, 0.65, 1}},
-                                     {1e300, "more", {0.17, 0.20, 0.42, 1}}}};
-
-const Band& band_of(double deviation) {
-  return *std::find_if(bands.begin(), bands.end() - 1,
-                       [&](const Band& band) { return deviation <= band.most; });
-}
-
-/// One pixel per point, the highest row on top.
-Image image_of(const UniformityMap& map) {
-  const int n = map.grid.points;
-  Image image{n, n, 3, std::vector<std::uint8_t>(static_cast<std::size_t>(n) * n * 3)};
-  for (int row = 0; row < n; ++row)
-    for (int column = 0; column < n; ++column) {
-      const Colour c = band_of(map.at(column, row)).colour;
-      std::uint8_t* pixel = &image.pixels[image.index(column, n - 1 - row)];
-      for (const double part : {c.red, c.green, c.blue})
-        *pixel++ = static_cast<std::uint8_t>(std::lround(255 * part));
-    }
-  return image;
-}
-
-void draw(const UniformityMap& map, const std::string& title, const std::filesystem::path& out) {
-  // Each point is the centre of its pixel.
-  const double step = 2 * map.grid.half_width / (map.grid.points - 1);
-  const double side = step * map.grid.points;
-  Picture picture(Box{{0, 0}, {side, side}}, title, 800);
-  picture.photo(image_of(map), step);
-  picture.mark({0.5 * side, 0.5 * side}, "B0");
-  for (const Band& band : bands) picture.legend(band.label, band.colour);
-  picture.write(out);
-}
-
-/// A point of the grid as in the table.
-struct FieldRow {
-  std::array<double, 3> place{};
-  std::array<double, 3> field{};
-  double deviation = 0;
-  template <class Self, class V>
-  static void fields(Self& self, V&& visit) {
-    visit(self.place[0], {"x", Unit::um, {}, "Place among the coils."});
-    visit(self.place[1], {"y", Unit::um, {}, "Place among the coils."});
-    visit(self.place[2], {"z", Unit::um, {}, "Place among the coils."});
-    visit(self.field[0], {"bx", Unit::mt, {}, "Field."});
-    visit(self.field[1], {"by", Unit::mt, {}, "Field."});
-    visit(self.field[2], {"bz", Unit::mt, {}, "Field."});
-    visit(self.deviation, {"deviation", Unit::none, {}, "From the field at the centre."});
-  }
-};
-
-std::string csv_of(const UniformityMap& map) {
-  std::vector<FieldRow> rows;
-  for (int row = 0; row < map.grid.points; ++row)
-    for (int column = 0; column < map.grid.points; ++column) {
-      const auto i = static_cast<std::size_t>(row) * map.grid.points + column;
-      const Eigen::Vector3d p = map.place(column, row);
-      const Eigen::Vector3d& b = map.field[i];
-      rows.push_back({{p[0], p[1], p[2]}, {b[0], b[1], b[2]}, map.deviation[i]});
-    }
-  return csv_table(rows);
-}
-
-/// Whether the whole grid is inside the calibrated workspace.
-bool in_workspace(const CoilSystem& system, const UniformityGrid& grid) {
-  const UniformityMap map{.grid = grid, .centre_field = {}, .field = {}, .deviation = {}};
-  const int last = grid.points - 1;
-  return system.in_workspace(map.place(0, 0)) && system.in_workspace(map.place(last, 0)) &&
-         system.in_workspace(map.place(0, last)) && system.in_workspace(map.place(last, last));
-}
-
-/// One centimetre, or less if the system's workspace is smaller.
-double usual_half_width(const CoilSystem& system, UniformityGrid grid) {
-  const double usual = grid.half_width;
-  for (; grid.half_width > 1; grid.half_width *= 0.9)
-    if (in_workspace(system, grid)) return grid.half_width;
-  return usual;
-}
-
-/// Title: axes, the centre unless it is that of the system, and the field there.
-std::string title_of(const UniformityMap& map, bool is_middle) {
-  const std::string_view plane = enum_name(map.grid.plane);
-  const Eigen::Vector3d& c = map.grid.centre;
-  const Eigen::Vector3d& b = map.centre_field;
-  return fmt::format(
-      "|B − B0| / |B0|, {} to the right, {} up{}, B0 = ({:.3g}, {:.3g}, {:.3g}) mT", plane[0],
-      plane[1], is_middle ? "" : fmt::format(", around ({:g}, {:g}, {:g}) µm", c[0], c[1], c[2]),
-      b[0], b[1], b[2]);
-}
-
 int map_field(const RigMapOptions& o, const Stop& stop) {
   keep_input(o.out, o.system);
   const CoilSystem system = read_coil_system(o.system);
   UniformityGrid grid{.centre = o.at.empty() ? system.centre() : triple_of(o.at),
                       .plane = *enum_value<Plane>(o.plane),
                       .points = static_cast<int>(o.points)};
-  grid.half_width = o.half_width ? *o.half_width : usual_half_width(system, grid);
+  grid.half_width = o.half_width ? *o.half_width : fitting_half_width(system, grid);
   const Eigen::VectorXd currents =
       o.currents.empty() ? currents_for(system.at(grid.centre), triple_of(o.field)).currents
                          : currents_of(o.currents, system);
@@ -164,9 +63,9 @@ int map_field(const RigMapOptions& o, const Stop& stop) {
   if (!o.out.empty()) {
     const std::filesystem::path out = o.out;
     if (out.extension() == ".csv")
-      write_file_atomically(out, csv_of(map));
+      write_file_atomically(out, uniformity_table(map));
     else
-      draw(map, title_of(map, o.at.empty()), out);
+      draw_uniformity(map, !o.at.empty(), out);
   }
   const std::array<double, 3> shares{0.01, 0.05, 0.1};
   if (o.json) {

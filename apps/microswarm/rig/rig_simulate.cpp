@@ -2,20 +2,15 @@
 // `rig simulate` compares scenarios through a simulated rig with the kinematic simulation.
 #include <fmt/ranges.h>
 
-#include <array>
+#include <cmath>
 #include <memory>
-#include <mutex>
-#include <optional>
 
 #include "microswarm/core/errors/error.hpp"
-#include "microswarm/core/execution/parallel.hpp"
-#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
-#include "microswarm/experiment/run/run.hpp"
 #include "microswarm/io/columns.hpp"
-#include "microswarm/rig/runtime/devices.hpp"
-#include "microswarm/rig/simulation/simulated_rig.hpp"
+#include "microswarm/rig/params/rig_experiment.hpp"
+#include "microswarm/rig/simulation/rig_comparison.hpp"
 #include "rig/rig.hpp"
 #include "rig/rig_notes.hpp"
 #include "support/options.hpp"
@@ -50,21 +45,6 @@ std::vector<Pair> usual_pairs() {
        {"navigator.method=divide_and_conquer"}}};
 }
 
-/// Statistics of the runs of one plant.
-struct Summary {
-  int arrived = 0;
-  int contacts = 0;
-  std::vector<double> times;  ///< of arrivals [s]
-
-  void add(const RunResult& result) {
-    contacts += result.metrics.contacts;
-    if (result.status != Status::solved) return;
-    ++arrived;
-    times.push_back(result.metrics.time);
-  }
-  std::string time() const { return times.empty() ? "–" : fmt::format("{:.1f}", median(times)); }
-};
-
 struct SimulateOptions {
   std::string scenario;
   std::string rig;
@@ -75,28 +55,9 @@ struct SimulateOptions {
   int jobs = 0;
 };
 
-/// A run as in simulation.csv.
-struct SimulatedRunRow {
-  std::string scenario;
-  std::string settings;
-  int trial = 0;
-  std::string plant;
-  Status status = Status::stopped;
-  double time = 0;
-  int contacts = 0;
-  double goal_distance = 0;
-  template <class Self, class V>
-  static void fields(Self& self, V&& visit) {
-    visit(self.scenario, {"scenario", Unit::none, {}, "Name of the scenario's file."});
-    visit(self.settings, {"settings", Unit::none, {}, "Settings of the scenario."});
-    visit(self.trial, {"trial", Unit::none, {}, "Number of the trial."});
-    visit(self.plant, {"plant", Unit::none, {}, "kinematic or rig."});
-    visit(self.status, {"status", Unit::none, {}, "How it ended."});
-    visit(self.time, {"time", Unit::s, {}, "Time of the run."});
-    visit(self.contacts, {"contacts", Unit::none, {}, "Number of contacts."});
-    visit(self.goal_distance, {"goal_distance", Unit::um, {}, "Remaining distance."});
-  }
-};
+std::string time_text(const RunSummary& of) {
+  return std::isnan(of.time) ? "–" : fmt::format("{:.1f}", of.time);
+}
 
 int simulate_trials(const SimulateOptions& o, const Context& context) {
   if (o.scenario.empty() != o.rig.empty())
@@ -114,61 +75,34 @@ int simulate_trials(const SimulateOptions& o, const Context& context) {
     simulated_camera(on.rig);
   }
   const OutFolder hold(o.out);
-  std::vector<SimulatedRunRow> rows;
+  std::vector<ComparisonRow> rows;
   print("{:<42} {:>7}  {:^24}  {:^24}\n", "", "", "without a rig", "through the rig");
   print("{:<42} {:>7}  {:>7} {:>8} {:>7}  {:>7} {:>8} {:>7}\n", "scenario", "trials", "arrived",
         "contacts", "time s", "arrived", "contacts", "time s");
   bool all = true;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const Pair& pair = pairs[k];
-    const RigExperiment& on = scenes[k];
     const std::filesystem::path file = pair.scenario;
-    const Scenario& scenario = on.scenario();
-    const World& world = on.experiment.world;
-    const auto trials = static_cast<std::size_t>(o.trials);
-    std::vector<std::optional<std::array<RunResult, 2>>> results(trials);
+    std::vector<ComparedTrial> trials;
     {
       ProgressBar bar(file.stem().string());
-      std::mutex mutex;
-      int done = 0;
-      for_each_index(trials, o.jobs, [&](std::size_t i) {
-        const auto trial = static_cast<std::uint32_t>(i);
-        if (context.stop()) return;
-        const std::array<RunResult, 2> both{
-            simulate(scenario, world, trial, {}, context.stop),
-            microswarm::simulate_rig(scenario, world, on.rig, trial, {}, context.stop)};
-        if (context.stop()) return;
-        results[i] = both;
-        const std::lock_guard lock(mutex);
-        bar.update(++done / static_cast<double>(o.trials));
-      });
+      trials = compare_with_rig(
+          scenes[k], o.trials, o.jobs, [&](double share) { bar.update(share); }, context.stop);
     }
-    std::array<Summary, 2> sums;
-    int done = 0;
-    for (std::size_t i = 0; i < trials; ++i) {
-      if (!results[i]) continue;  // interrupted
-      ++done;
-      for (const std::size_t plant : {0U, 1U}) {
-        const RunResult& r = (*results[i])[plant];
-        sums[plant].add(r);
-        rows.push_back({.scenario = file.stem().string(),
-                        .settings = fmt::format("{}", fmt::join(pair.settings, " ")),
-                        .trial = static_cast<int>(i),
-                        .plant = plant == 0 ? "kinematic" : "rig",
-                        .status = r.status,
-                        .time = r.metrics.time,
-                        .contacts = static_cast<int>(r.metrics.contacts),
-                        .goal_distance = r.metrics.goal_distance});
-      }
-    }
-    if (done == 0) break;
+    if (trials.empty()) break;  // interrupted
+    for (ComparisonRow& row : comparison_rows(trials, file.stem().string(),
+                                              fmt::format("{}", fmt::join(pair.settings, " "))))
+      rows.push_back(std::move(row));
+    const RunSummary kinematic = summarise(trials, &ComparedTrial::kinematic);
+    const RunSummary rig = summarise(trials, &ComparedTrial::rig);
     std::string name = file.stem().string();
     for (const std::string& setting : pair.settings)
       name += " " + setting.substr(setting.find('=') + 1);
-    print("{:<42} {:>7}  {:>7} {:>8} {:>7}  {:>7} {:>8} {:>7}\n", name, done, sums[0].arrived,
-          sums[0].contacts, sums[0].time(), sums[1].arrived, sums[1].contacts, sums[1].time());
+    print("{:<42} {:>7}  {:>7} {:>8} {:>7}  {:>7} {:>8} {:>7}\n", name, trials.size(),
+          kinematic.arrived, kinematic.contacts, time_text(kinematic), rig.arrived, rig.contacts,
+          time_text(rig));
     flush_output();
-    all = all && sums[1].arrived == o.trials;
+    all = all && rig.arrived == o.trials;
   }
   if (!o.out.empty()) {
     const std::filesystem::path table = std::filesystem::path(o.out) / "simulation.csv";

@@ -14,7 +14,7 @@
 #include "microswarm/experiment/run/metrics_listener.hpp"
 #include "microswarm/experiment/run/open_run.hpp"
 #include "microswarm/experiment/scenario/experiment.hpp"
-#include "microswarm/rig/runtime/devices.hpp"
+#include "microswarm/rig/params/rig_experiment.hpp"
 #include "microswarm/session/view.hpp"
 
 namespace microswarm {

@@ -63,4 +63,18 @@ std::optional<UniformityMap> uniformity(const CoilSystem& system, const Eigen::V
   return map;
 }
 
+bool in_workspace(const CoilSystem& system, const UniformityGrid& grid) {
+  const UniformityMap map{.grid = grid, .centre_field = {}, .field = {}, .deviation = {}};
+  const int last = grid.points - 1;
+  return system.in_workspace(map.place(0, 0)) && system.in_workspace(map.place(last, 0)) &&
+         system.in_workspace(map.place(0, last)) && system.in_workspace(map.place(last, last));
+}
+
+double fitting_half_width(const CoilSystem& system, UniformityGrid grid) {
+  const double usual = grid.half_width;
+  for (; grid.half_width > 1; grid.half_width *= 0.9)
+    if (in_workspace(system, grid)) return grid.half_width;
+  return usual;
+}
+
 }  // namespace microswarm

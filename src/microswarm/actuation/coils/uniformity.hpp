@@ -52,4 +52,10 @@ std::optional<UniformityMap> uniformity(const CoilSystem& system, const Eigen::V
                                         const UniformityGrid& grid,
                                         const std::function<bool(double share)>& go_on = {});
 
+/// Whether the whole grid is inside the calibrated workspace.
+bool in_workspace(const CoilSystem& system, const UniformityGrid& grid);
+
+/// The grid's half width [µm], or less if the calibrated workspace is smaller.
+double fitting_half_width(const CoilSystem& system, UniformityGrid grid);
+
 }  // namespace microswarm

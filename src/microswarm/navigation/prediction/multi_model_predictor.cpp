@@ -11,7 +11,11 @@
 namespace microswarm {
 namespace {
 
-constexpr std::size_t max_open = 24;  // size of a buffer of forecasts that are not due
+/// Size of a buffer of forecasts that are not due.
+std::size_t max_open(const MultiModelPredictorTuning& tuning) {
+  const double most = std::max(tuning.near_forecast, tuning.far_forecast);
+  return static_cast<std::size_t>(most / std::max(tuning.forecast_interval, 1e-2)) + 6;
+}
 
 /// Error expected of a model before it has shown any, as a share of the predicted distance.
 double prior_of(std::size_t model, const MultiModelPredictorTuning& tuning) {
@@ -36,6 +40,7 @@ double turn_against(std::span<const Vec2> then, std::span<const Vec2> now, Vec2 
 
 MultiModelPredictor::MultiModelPredictor(const MultiModelPredictorParams& params)
     : params_(params),
+      spans_{params.tuning.near_forecast, params.tuning.far_forecast},
       tracker_(params.tracker),
       oscillations_(params.tuning.oscillation),
       now_(-std::numeric_limits<double>::infinity()) {
@@ -82,7 +87,7 @@ std::size_t MultiModelPredictor::history_of(std::uint32_t obstacle, std::uint32_
   fresh.obstacle = obstacle;
   fresh.leaf = leaf;
   fresh.models = MotionModels(params_.tuning.models, params_.tuning.recurrence);
-  for (auto& open : fresh.open) open.reserve(max_open);
+  for (auto& open : fresh.open) open.reserve(max_open(params_.tuning));
   return histories_.size() - 1;
 }
 
@@ -109,7 +114,7 @@ void MultiModelPredictor::append(BodyHistory& history, const Body& body,
 // Looks up what was said of the time that has come.
 void MultiModelPredictor::update_errors(BodyHistory& history) const {
   const double kept = maths::exp(-0.1 / params_.error_time_constant);
-  for (std::size_t k = 0; k < spans.size(); ++k) {
+  for (std::size_t k = 0; k < span_count; ++k) {
     auto& open = history.open[k];
     std::size_t done = 0;
     for (; done < open.size() && open[done].due <= now_; ++done) {
@@ -162,12 +167,12 @@ void MultiModelPredictor::select_model(BodyHistory& history, double speed) const
     if (!history.models.holds(m)) continue;
     double sum = 0;
     double last = 0;
-    for (std::size_t k = 0; k < spans.size(); ++k) {
+    for (std::size_t k = 0; k < span_count; ++k) {
       const Record& record = history.records[m][k];
       const double prior =
-          prior_of(m, params_.tuning) * speed * spans[k] * params_.tuning.prior_weight;
+          prior_of(m, params_.tuning) * speed * spans_[k] * params_.tuning.prior_weight;
       last = (record.errors + prior) / (record.weight + params_.tuning.prior_weight);
-      sum += last / spans[k];
+      sum += last / spans_[k];
     }
     if (sum >= least) continue;
     least = sum;
@@ -177,16 +182,16 @@ void MultiModelPredictor::select_model(BodyHistory& history, double speed) const
 }
 
 void MultiModelPredictor::issue_forecasts(BodyHistory& history) const {
-  for (std::size_t k = 0; k < spans.size(); ++k) {
+  for (std::size_t k = 0; k < span_count; ++k) {
     auto& open = history.open[k];
-    const double due = now_ + spans[k];
-    if (open.size() == max_open) continue;
+    const double due = now_ + spans_[k];
+    if (open.size() == max_open(params_.tuning)) continue;
     if (!open.empty() && due - open.back().due < params_.tuning.forecast_interval) continue;
     Forecast& told = open.emplace_back();
     told.due = due;
     for (std::size_t m = 0; m < MotionModels::count; ++m) {
       told.holds[m] = history.models.holds(m);
-      if (told.holds[m]) told.places[m] = history.models.place(m, history.trail, spans[k]);
+      if (told.holds[m]) told.places[m] = history.models.place(m, history.trail, spans_[k]);
     }
   }
 }
@@ -205,7 +210,7 @@ PredictedBody MultiModelPredictor::at(std::size_t body, double t) const {
                             : motion.radius_rate * std::min(s, params_.tuning.growth_time);
   out.growth = std::clamp(growth, -unseen, unseen);
   out.uncertainty =
-      std::min(params_.max_uncertainty, params_.uncertainty * history.error * s / spans.back());
+      std::min(params_.max_uncertainty, params_.uncertainty * history.error * s / spans_.back());
   return out;
 }
 

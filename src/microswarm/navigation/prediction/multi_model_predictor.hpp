@@ -22,10 +22,9 @@ struct PredictedBody {
 };
 
 /// Foresees where moving bodies will be, from nothing but where they were seen. Every body has
-/// several models of how it may go on (MotionModels). Each is asked at every frame where the body
-/// will be half a second and one and a half later, and when that time has come it is seen how wrong
-/// it was: the model that was least wrong of late is selected. Allocates nothing once it has seen
-/// the bodies.
+/// several models of how it may go on (MotionModels). Each forecasts the body a shorter and a
+/// longer time ahead. When that time has come, its error is measured; the model with the smallest
+/// recent errors is selected. Allocates nothing once it has seen the bodies.
 class MultiModelPredictor {
  public:
   explicit MultiModelPredictor(const MultiModelPredictorParams& params = {});
@@ -43,7 +42,7 @@ class MultiModelPredictor {
   }
 
  private:
-  static constexpr std::array<double, 2> spans{0.5, 1.5};  ///< of the forecasts that are proved [s]
+  static constexpr std::size_t span_count = 2;
 
   /// What the models once said of a time to come.
   struct Forecast {
@@ -64,8 +63,8 @@ class MultiModelPredictor {
     MotionTrail trail;
     MotionModels models;
     std::vector<Vec2> outline;  ///< when its turn was 0, about the centre
-    std::array<std::vector<Forecast>, spans.size()> open;
-    std::array<std::array<Record, spans.size()>, MotionModels::count> records{};
+    std::array<std::vector<Forecast>, span_count> open;
+    std::array<std::array<Record, span_count>, MotionModels::count> records{};
     std::size_t selected = 0;
     double error = 0;  ///< of the selected model over the longest span [µm]
     std::optional<Oscillation> breath;
@@ -81,6 +80,7 @@ class MultiModelPredictor {
   void select_model(BodyHistory& history, double speed) const;
 
   MultiModelPredictorParams params_;
+  std::array<double, span_count> spans_;  ///< of the forecasts [s]
   ObstacleTracker tracker_;
   OscillationFit oscillations_;
   double now_;

@@ -13,6 +13,8 @@ namespace microswarm {
 struct MultiModelPredictorTuning {
   double max_gap = 1;
   double forecast_interval = 0.08;
+  double near_forecast = 0.5;
+  double far_forecast = 1.5;
   double max_error = 300;
   double error_tolerance = 0.5;
   double growth_time = 1.5;
@@ -31,6 +33,10 @@ struct MultiModelPredictorTuning {
           {"max_gap", Unit::s, {0, 1e3}, "Time without a sighting after which a body is new."});
     visit(self.forecast_interval,
           {"forecast_interval", Unit::s, {0, 10}, "Minimum time between two forecasts."});
+    visit(self.near_forecast,
+          {"near_forecast", Unit::s, {1e-2, 60}, "Shorter time ahead at which models are judged."});
+    visit(self.far_forecast,
+          {"far_forecast", Unit::s, {1e-2, 60}, "Longer time ahead at which models are judged."});
     visit(self.max_error,
           {"max_error", Unit::um, {0, 1e6}, "Upper bound of an error that counts."});
     visit(self.error_tolerance,

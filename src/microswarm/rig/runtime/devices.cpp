@@ -47,18 +47,6 @@ std::unique_ptr<FrameSource> open_camera_of(const Rig& rig) {
   return std::make_unique<PacedVideo>(open_frames(rig.folder / video.file, video.rate));
 }
 
-RigExperiment open_rig_experiment(const std::filesystem::path& scenario,
-                                  const std::vector<std::string>& settings,
-                                  const std::filesystem::path& rig,
-                                  const std::vector<std::string>& rig_settings,
-                                  std::optional<std::uint64_t> seed) {
-  RigExperiment on{open_experiment(scenario, settings, seed),
-                   read_rig(rig, {rig_settings, "--set-rig"})};
-  on.experiment.keys.require_none(validate(on.rig, on.scenario()));
-  on.experiment.keys.add_notes(on.rig.keys.notes());
-  return on;
-}
-
 Devices open_devices(const RigExperiment& on, bool dry) {
   const RigParams& rig = on.rig.params;
   Devices devices;

@@ -26,14 +26,14 @@ RolloutSimulator::RolloutSimulator(const AggregationMap& map, const RobotStepper
     : map_(&map), stepper_(&stepper), params_(params), routes_(&map.routes()) {}
 
 void RolloutSimulator::move(PartialPlan& partial, Vec2 move) {
-  constexpr double rest_of_a_step = 20;
   if (partial.steps() % RolloutPlan::checkpoint_interval == 0) {
     partial.merged.merge_coincident();
     if (partial.keeps_checkpoints) partial.checkpoints.push_back(partial.merged);
   }
   stepper_->step(partial.merged.places(), move, ContactRule::stop);
   partial.moves.push_back(move);
-  work_ += static_cast<double>(partial.merged.places().size()) + rest_of_a_step;
+  work_ +=
+      static_cast<double>(partial.merged.places().size()) + params_.rollout.tuning.step_overhead;
 }
 
 void RolloutSimulator::follow(PartialPlan& partial, std::span<const Vec2> moves, std::size_t most) {
@@ -80,7 +80,8 @@ std::vector<Vec2> RolloutSimulator::look_ahead(const MergedRobots& merged, Rng& 
   const RolloutParams& p = params_.rollout;
   const auto horizon = static_cast<std::size_t>(p.horizon);
   MergedRobots some = merged;
-  some.coarsen(static_cast<std::size_t>(p.lookahead_representatives), 0.25 * params_.step);
+  some.coarsen(static_cast<std::size_t>(p.lookahead_representatives),
+               p.tuning.finest_cell * params_.step);
   std::vector<Vec2> best;
   double least = std::numeric_limits<double>::infinity();
   for (int k = -2; k < p.candidates; ++k) {
@@ -116,12 +117,12 @@ double RolloutSimulator::mean_distance(const MergedRobots& merged) const {
 /// Positions count more than the robots at them, since robots at one position are led together. Far
 /// positions count more than near ones. The exponents gave the shortest plans on three maps.
 double RolloutSimulator::left_to_do(MergedRobots merged) const {
-  constexpr double weight_of_robots = 0.3;
-  merged.merge_coincident(0.5 * params_.step);
+  const RolloutTuning& tuning = params_.rollout.tuning;
+  merged.merge_coincident(tuning.merge_cell * params_.step);
   double sum = 0;
   for (std::size_t i = 0; i < merged.places().size(); ++i) {
     const double far = way(merged.places(), i);
-    sum += maths::pow(merged.counts()[i], weight_of_robots) * far * far;
+    sum += maths::pow(merged.counts()[i], tuning.robots_exponent) * far * far;
   }
   return sum;
 }

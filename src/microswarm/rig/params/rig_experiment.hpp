@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "microswarm/experiment/scenario/experiment.hpp"
+#include "microswarm/rig/params/rig_params.hpp"
+
+namespace microswarm {
+
+/// A scenario and its rig, read and validated.
+struct RigExperiment {
+  Experiment experiment;
+  Rig rig;
+
+  const Scenario& scenario() const { return experiment.scenario(); }
+};
+
+/// Reads both files; settings are texts as from --set and --set-rig. Throws InputError with one
+/// line per issue.
+RigExperiment open_rig_experiment(const std::filesystem::path& scenario,
+                                  const std::vector<std::string>& settings,
+                                  const std::filesystem::path& rig,
+                                  const std::vector<std::string>& rig_settings,
+                                  std::optional<std::uint64_t> seed = std::nullopt);
+
+}  // namespace microswarm

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/rig/simulation/rig_comparison.hpp"
+
+#include <limits>
+#include <mutex>
+#include <optional>
+
+#include "microswarm/core/execution/parallel.hpp"
+#include "microswarm/core/maths/statistics.hpp"
+#include "microswarm/rig/simulation/simulated_rig.hpp"
+
+namespace microswarm {
+
+std::vector<ComparedTrial> compare_with_rig(const RigExperiment& on, int trials, int jobs,
+                                            const std::function<void(double)>& progress,
+                                            const Stop& stop) {
+  const Scenario& scenario = on.scenario();
+  const World& world = on.experiment.world;
+  std::vector<std::optional<ComparedTrial>> results(static_cast<std::size_t>(trials));
+  std::mutex mutex;
+  int done = 0;
+  for_each_index(results.size(), jobs, [&](std::size_t i) {
+    const auto trial = static_cast<std::uint32_t>(i);
+    if (stop()) return;
+    ComparedTrial both{static_cast<int>(i), simulate(scenario, world, trial, {}, stop),
+                       simulate_rig(scenario, world, on.rig, trial, {}, stop)};
+    if (stop()) return;
+    results[i] = std::move(both);
+    const std::lock_guard lock(mutex);
+    if (progress) progress(++done / static_cast<double>(trials));
+  });
+  std::vector<ComparedTrial> completed;
+  for (std::optional<ComparedTrial>& both : results)
+    if (both) completed.push_back(std::move(*both));
+  return completed;
+}
+
+RunSummary summarise(std::span<const ComparedTrial> trials, RunResult ComparedTrial::*plant) {
+  RunSummary summary;
+  std::vector<double> times;
+  for (const ComparedTrial& both : trials) {
+    const RunResult& result = both.*plant;
+    summary.contacts += static_cast<int>(result.metrics.contacts);
+    if (result.status == Status::solved) times.push_back(result.metrics.time);
+  }
+  summary.arrived = static_cast<int>(times.size());
+  summary.time = times.empty() ? std::numeric_limits<double>::quiet_NaN() : median(times);
+  return summary;
+}
+
+std::vector<ComparisonRow> comparison_rows(std::span<const ComparedTrial> trials,
+                                           const std::string& scenario,
+                                           const std::string& settings) {
+  std::vector<ComparisonRow> rows;
+  for (const ComparedTrial& both : trials)
+    for (const bool is_rig : {false, true}) {
+      const RunResult& result = is_rig ? both.rig : both.kinematic;
+      rows.push_back({.scenario = scenario,
+                      .settings = settings,
+                      .trial = both.trial,
+                      .plant = is_rig ? "rig" : "kinematic",
+                      .status = result.status,
+                      .time = result.metrics.time,
+                      .contacts = static_cast<int>(result.metrics.contacts),
+                      .goal_distance = result.metrics.goal_distance});
+    }
+  return rows;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "microswarm/core/execution/stop.hpp"
+#include "microswarm/core/fields/fields.hpp"
+#include "microswarm/experiment/run/run.hpp"
+#include "microswarm/rig/params/rig_experiment.hpp"
+
+namespace microswarm {
+
+/// One trial in the kinematic simulation and through the simulated rig.
+struct ComparedTrial {
+  int trial = 0;
+  RunResult kinematic;
+  RunResult rig;
+};
+
+/// Runs the trials 0 to `trials` − 1 in both simulations, on `jobs` threads (0: one per core).
+/// `progress` is called with the completed share, one call at a time. Returns the trials that were
+/// completed before a stop, in order.
+std::vector<ComparedTrial> compare_with_rig(const RigExperiment& on, int trials, int jobs,
+                                            const std::function<void(double share)>& progress,
+                                            const Stop& stop = {});
+
+/// Statistics of the runs in one of the two simulations.
+struct RunSummary {
+  int arrived = 0;
+  int contacts = 0;
+  double time = 0;  ///< median of the runs that arrived [s]; NaN if none did
+};
+
+/// Summary of one of the two results of each trial.
+RunSummary summarise(std::span<const ComparedTrial> trials, RunResult ComparedTrial::*plant);
+
+/// A run as in simulation.csv.
+struct ComparisonRow {
+  std::string scenario;
+  std::string settings;
+  int trial = 0;
+  std::string plant;
+  Status status = Status::stopped;
+  double time = 0;
+  int contacts = 0;
+  double goal_distance = 0;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.scenario, {"scenario", Unit::none, {}, "Name of the scenario's file."});
+    visit(self.settings, {"settings", Unit::none, {}, "Settings of the scenario."});
+    visit(self.trial, {"trial", Unit::none, {}, "Number of the trial."});
+    visit(self.plant, {"plant", Unit::none, {}, "kinematic or rig."});
+    visit(self.status, {"status", Unit::none, {}, "How it ended."});
+    visit(self.time, {"time", Unit::s, {}, "Time of the run."});
+    visit(self.contacts, {"contacts", Unit::none, {}, "Number of contacts."});
+    visit(self.goal_distance, {"goal_distance", Unit::um, {}, "Remaining distance."});
+  }
+};
+
+/// Two rows for each trial.
+std::vector<ComparisonRow> comparison_rows(std::span<const ComparedTrial> trials,
+                                           const std::string& scenario,
+                                           const std::string& settings);
+
+}  // namespace microswarm
