@@ -30,6 +30,8 @@ class WatchedCoils : public CoilDriver {
     std::atomic<int> drives = 0;
     std::atomic<int> stops = 0;
     std::atomic<DriveStatus> answer = DriveStatus::driven;
+    std::atomic<bool> dead = false;       // the amplifiers give nothing
+    std::atomic<bool> exchanged = false;  // the first two coils
   };
   explicit WatchedCoils(std::shared_ptr<Log> log) : log_(std::move(log)) {}
 
@@ -38,8 +40,12 @@ class WatchedCoils : public CoilDriver {
   DriveStatus drive(std::span<const double> currents) override {
     ++log_->drives;
     const DriveStatus answer = log_->answer;
-    if (answer != DriveStatus::driven) return answer;
-    set(currents);
+    if (answer != DriveStatus::driven && answer != DriveStatus::resumed) return answer;
+    std::array<double, 6> made{};
+    std::copy(currents.begin(), currents.end(), made.begin());
+    if (log_->exchanged) std::swap(made[0], made[1]);
+    if (log_->dead) made = {};
+    set(made);
     return answer;
   }
   bool stop() noexcept override {
@@ -66,7 +72,7 @@ class TroubledCamera : public FrameSource {
  public:
   struct Trouble {
     std::atomic<bool> drop = false, freeze = false, black = false, unplug = false, no_swarm = false,
-                      jump = false;
+                      jump = false, cycle = false;
     std::atomic<double> late = 0;  // [s]
   };
   TroubledCamera(std::unique_ptr<FrameSource> camera, std::shared_ptr<Trouble> trouble)
@@ -78,6 +84,10 @@ class TroubledCamera : public FrameSource {
       if (!camera_->next(frame)) return false;
     } while (trouble_->drop && frame.index % 4 != 0);
     if (trouble_->freeze && !still_.pixels.empty()) frame.picture = still_;
+    if (trouble_->cycle && !still_.pixels.empty()) {
+      if (ring_.size() < 3) ring_.push_back(frame.picture);
+      frame.picture = ring_[static_cast<std::size_t>(frame.index) % ring_.size()];
+    }
     still_ = frame.picture;
     if (trouble_->black) paint(frame.picture, 0, {}, 1e9);
     if (trouble_->no_swarm) paint(frame.picture, still_.pixels[still_.index(60, 60)], {}, 1e9);
@@ -102,6 +112,7 @@ class TroubledCamera : public FrameSource {
   std::unique_ptr<FrameSource> camera_;
   std::shared_ptr<Trouble> trouble_;
   Image still_;
+  std::vector<Image> ring_;
 };
 
 class LiveRigs : public testing::Test {
@@ -116,7 +127,7 @@ class LiveRigs : public testing::Test {
                          {"camera.type=simulated", "camera.microscope.um_per_px=6"}));
     // A busy computer stalls: a test sets the limit that it is about.
     rig->params.safety = {
-        .lost_swarm = 3, .max_frame_age = 3, .deadman = 3, .missed_deadlines = 100};
+        .lost_swarm = 3, .max_frame_age = 3, .deadman = 3, .missed_deadlines = 100, .max_pause = 3};
   }
 
   /// Runs until `seconds` have passed or it ends; `then` is called after 0.5 s.
@@ -189,6 +200,52 @@ TEST_F(LiveRigs, FrozenPicturesEndIt) {
   EXPECT_EQ(result.state, "the camera's pictures are frozen");
   EXPECT_EQ(at_end, 0);
   EXPECT_LT(zero_after, patience * 0.8);
+}
+
+TEST_F(LiveRigs, PicturesThatComeAgainAndAgainEndIt) {
+  const RunResult result = go(6, [&](LiveRig&) { trouble->cycle = true; });
+  EXPECT_EQ(result.status, Status::fault);
+  EXPECT_EQ(result.state, "the camera's pictures are frozen");
+  EXPECT_EQ(at_end, 0);
+  EXPECT_LT(zero_after, patience * 0.8);
+}
+
+TEST_F(LiveRigs, ADeviceThatTripsAgainEndsIt) {
+  const RunResult result = go(6, [&](LiveRig&) { coils->answer = DriveStatus::resumed; });
+  EXPECT_EQ(result.status, Status::fault);
+  EXPECT_EQ(result.state, "the coils had been off by themselves 2 times in 10 s, allowed 1");
+  EXPECT_EQ(at_end, 0);
+  EXPECT_EQ(timing.resumed, 2);
+  EXPECT_LT(zero_after, patience * 0.1);
+}
+
+TEST_F(LiveRigs, OneTripIsNoFault) {
+  const RunResult result = go(2, [&](LiveRig&) {
+    coils->answer = DriveStatus::resumed;
+    const int before = coils->drives;
+    while (coils->drives == before) std::this_thread::yield();
+    coils->answer = DriveStatus::driven;
+  });
+  EXPECT_LE(timing.resumed, 2);
+  EXPECT_EQ(result.status, timing.resumed == 1 ? Status::stopped : Status::fault);
+}
+
+TEST_F(LiveRigs, DeadAmplifiersEndIt) {
+  rig->params.safety.follow_distance = 60;
+  const RunResult result = go(20, [&](LiveRig&) { coils->dead = true; });
+  EXPECT_EQ(result.status, Status::fault);
+  EXPECT_NE(result.state.find("the swarm does not follow: of 6"), std::string::npos)
+      << result.state;
+}
+
+TEST_F(LiveRigs, ExchangedCoilsEndIt) {
+  rig->params.safety.follow_distance = 60;
+  coils->exchanged = true;
+  const RunResult result = go(20, [&](LiveRig&) {});
+  EXPECT_EQ(result.status, Status::fault);
+  EXPECT_NE(result.state.find("the swarm does not follow: of 6"), std::string::npos)
+      << result.state;
+  EXPECT_EQ(at_end, 0);
 }
 
 TEST_F(LiveRigs, BlackPicturesEndIt) {

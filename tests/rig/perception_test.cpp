@@ -43,7 +43,7 @@ TEST(SwarmPerception, FollowsASwarmAmongObstacles) {
   MicroscopeParams optics;
   optics.um_per_px = 2;
   Microscope microscope(optics, *map, 1, 0);
-  SwarmPerception perception(eye_params(), *map, {{200, 300}, 0}, view_of(microscope));
+  SwarmPerception perception(eye_params(), 100, *map, {{200, 300}, 0}, view_of(microscope));
   std::uint32_t standing_number = 0;
   for (int i = 0; i < 60; ++i) {
     const double t = 0.1 * i;
@@ -75,7 +75,7 @@ TEST(SwarmPerception, FollowsASwarmAmongObstacles) {
 TEST(SwarmPerception, SaysWhyThereIsNone) {
   const auto map = channel();
   Microscope microscope({}, *map, 1, 0);
-  SwarmPerception perception(eye_params(), *map, {{200, 300}, 0}, view_of(microscope));
+  SwarmPerception perception(eye_params(), 100, *map, {{200, 300}, 0}, view_of(microscope));
   const Detections& empty = perception.process(microscope.look(Snapshot(map), std::nullopt, {}), 0);
   EXPECT_FALSE(empty.swarm);
   EXPECT_EQ(empty.trouble, "none");
@@ -87,7 +87,7 @@ TEST(SwarmPerception, SaysWhyThereIsNone) {
 TEST(SwarmPerception, TwoSwarmsAreNotGuessedBetween) {
   const auto map = channel();
   Microscope microscope({}, *map, 1, 0);
-  SwarmPerception perception(eye_params(), *map, {{300, 400}, 0}, view_of(microscope));
+  SwarmPerception perception(eye_params(), 100, *map, {{300, 400}, 0}, view_of(microscope));
   Image both = microscope.look(Snapshot(map), SwarmPose{{{260, 400}, 0}, 30}, {});
   const Image right = microscope.look(Snapshot(map), SwarmPose{{{340, 400}, 0}, 30}, {});
   for (std::size_t i = 0; i < both.pixels.size(); ++i)
@@ -95,6 +95,113 @@ TEST(SwarmPerception, TwoSwarmsAreNotGuessedBetween) {
   const Detections& seen = perception.process(both, 0);
   EXPECT_FALSE(seen.swarm);
   EXPECT_EQ(seen.trouble, "several");
+}
+
+/// A swarm that goes to the right, seen for two seconds.
+struct Followed {
+  std::shared_ptr<const Map> map = channel();
+  Microscope microscope{{}, *map, 1, 0};
+  SwarmPerception perception{eye_params(), 40, *map, {{300, 400}, 0}, view_of(microscope)};
+  double t = 0;
+  Vec2 place{300, 400};
+
+  const Detections& see(Vec2 at, double radius) {
+    t += 0.1;
+    return perception.process(microscope.look(Snapshot(map, t), SwarmPose{{at, 0}, radius}, {}), t);
+  }
+  Followed() {
+    for (int i = 0; i < 20; ++i) {
+      perception.commanded({0, 40}, t);
+      place.x += 4;
+      EXPECT_TRUE(see(place, 60).swarm) << i;
+    }
+  }
+};
+
+TEST(SwarmPerception, WhatItCannotHaveReachedIsNotTheSwarm) {
+  Followed f;
+  const Detections& seen = f.see(f.place + Vec2{120, 60}, 60);
+  EXPECT_FALSE(seen.swarm);
+  EXPECT_EQ(seen.trouble, "far");
+  // It may come back to where it can have gone meanwhile.
+  EXPECT_TRUE(f.see(f.place + Vec2{8, 0}, 60).swarm);
+}
+
+TEST(SwarmPerception, WhatIsOfAnotherSizeIsNotTheSwarm) {
+  Followed f;
+  for (int i = 0; i < 10; ++i) {
+    const Detections& seen = f.see(f.place, 30);
+    EXPECT_FALSE(seen.swarm);
+    EXPECT_EQ(seen.trouble, "size");
+  }
+  EXPECT_TRUE(f.see(f.place, 55).swarm);
+}
+
+TEST(SwarmPerception, MeasuresHowItFollows) {
+  Followed f;
+  f.perception.commanded({0, 40}, f.t);
+  const Detections& along = f.see(f.place += Vec2{4, 0}, 60);
+  EXPECT_NEAR(along.commanded_way, 4, 1e-9);
+  EXPECT_NEAR(along.followed_way, 4, 2);
+  double followed = 0;
+  for (int i = 0; i < 20; ++i) {
+    f.perception.commanded({0, 40}, f.t);
+    followed += f.see(f.place += Vec2{0, 4}, 60).followed_way;
+  }
+  EXPECT_NEAR(followed, 0, 5);  // of 80 µm
+}
+
+/// Robots that are seen for a second, then vanish but for a few.
+class VanishingRobots : public testing::Test {
+ protected:
+  VanishingRobots() {
+    for (int i = 0; i < 20; ++i) robots.push_back({150.0 + 90 * (i % 5), 250.0 + 100 * (i / 5)});
+    for (int i = 0; i < 10; ++i) {
+      const Detections& all = see(robots);
+      EXPECT_TRUE(all.swarm);
+      EXPECT_EQ(all.unseen, 0);
+    }
+  }
+  const Detections& see(const std::vector<Vec2>& there) {
+    t += 0.1;
+    return perception->process(microscope.look(Snapshot(map, t), std::nullopt, there), t);
+  }
+
+  std::shared_ptr<const Map> map = channel();
+  MicroscopeParams optics{.um_per_px = 2};
+  Microscope microscope{optics, *map, 1, 0};
+  std::vector<Vec2> robots;
+  double t = 0;
+  std::unique_ptr<RobotPerception> perception = std::make_unique<RobotPerception>(
+      eye_params(), RobotSwarmParams{}, *map, std::vector<Vec2>{}, view_of(microscope));
+};
+
+TEST_F(VanishingRobots, DustIsNotTwentyRobots) {
+  for (int i = 0; i < 20; ++i) {
+    const Detections& seen = see({{1000, 600}});
+    EXPECT_FALSE(seen.swarm);
+    EXPECT_EQ(seen.trouble, "robots");
+    EXPECT_GE(seen.unseen, 19);
+  }
+}
+
+TEST_F(VanishingRobots, AFewUnseenAreCountedAndStayWhereTheyAreExpected) {
+  const std::vector<Vec2> most(robots.begin(), robots.end() - 3);
+  for (int i = 0; i < 20; ++i) {
+    const Detections& seen = see(most);
+    EXPECT_TRUE(seen.swarm);
+    EXPECT_EQ(seen.unseen, 3);
+    for (const Vec2 robot : robots)
+      EXPECT_TRUE(std::any_of(seen.robots.begin(), seen.robots.end(),
+                              [&](Vec2 place) { return distance(place, robot) < 3; }));
+  }
+  EXPECT_EQ(see(robots).unseen, 0);
+}
+
+TEST_F(VanishingRobots, NoneAtAllIsNoSwarm) {
+  EXPECT_EQ(see({}).unseen, 20);
+  EXPECT_FALSE(see({}).swarm);
+  EXPECT_EQ(see(robots).unseen, 0);
 }
 
 TEST(RobotPerception, KnowsEveryRobotWhileTheyAreApart) {

@@ -67,6 +67,9 @@ void tell(const RigTiming& t) {
   print("    coil driver      {}\n", quantiles(t.round_trip));
   print("  {} ticks, {} missed their deadline; {} frames read, {} dropped\n", t.tick.count(),
         t.missed_deadlines, t.frames, t.dropped_frames);
+  if (t.unseen_frames > 0)
+    print("  robots were unseen in {} frames, at most {} of them\n", t.unseen_frames,
+          t.most_unseen);
   if (t.resumed > 0) print("  the coils had been off by themselves {} times\n", t.resumed);
   if (t.scaled > 0) print("  the device weakened the currents {} times\n", t.scaled);
 }
@@ -86,6 +89,8 @@ nlohmann::ordered_json timing_json(const RigTiming& t) {
           {"missed_deadlines", t.missed_deadlines},
           {"frames_read", t.frames},
           {"frames_dropped", t.dropped_frames},
+          {"frames_with_unseen_robots", t.unseen_frames},
+          {"max_unseen_robots", t.most_unseen},
           {"fields_not_made", t.unmade},
           {"fields_weakened", t.limited},
           {"least_field_share", t.min_scale},
@@ -115,6 +120,21 @@ void note_limits(const RigTiming& t) {
          t.limited, t.round_trip.count(), 100 * t.min_scale);
 }
 
+/// Says it as it happens when the coils had been off by themselves.
+class TripNotes : public RunListener {
+ public:
+  explicit TripNotes(const LiveSession& session) : session_(session) {}
+  void on_tick(const Tick&) override {
+    const int resumed = session_.resumed();
+    if (resumed > resumed_) note("\nnote: the coils had been off by themselves; armed again\n");
+    resumed_ = resumed;
+  }
+
+ private:
+  const LiveSession& session_;
+  int resumed_ = 0;
+};
+
 struct RigRunOptions {
   std::string scenario;
   std::string rig;
@@ -137,6 +157,8 @@ int rig_run(const RigRunOptions& o, const Context& context) {
   if (o.dry_run) note("dry run: nothing goes to the coils\n");
   const EmergencyKey key([&] { session.stop("the emergency key was pressed"); }, context.stop);
   if (key.is_there()) note("space, e or Esc: coils to zero at once\n");
+  TripNotes trips(session);
+  session.listen(trips);
   finish_run(session, o.seconds ? context.within(*o.seconds) : context.stop, o.seconds);
   const std::string log_lost = session.close();
   const RigTiming timing = session.timing();

@@ -36,6 +36,7 @@ struct Observation {
   double seen = 0;  ///< capture time of the frame [s]
   std::optional<SwarmPose> swarm;
   std::span<const Vec2> robots;  ///< [µm]
+  int unseen = 0;                ///< of the robots, which are where they are expected
   std::shared_ptr<const Snapshot> world;
 
   double age() const { return now - seen; }

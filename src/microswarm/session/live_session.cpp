@@ -5,11 +5,22 @@
 
 namespace microswarm {
 
+namespace {
+
+/// A swarm cannot follow if nothing goes to the coils or a video plays.
+RigExperiment without_following(RigExperiment on, bool dry) {
+  if (dry || std::holds_alternative<VideoCamera>(on.rig.params.camera))
+    on.rig.params.safety.min_follow_share = 0;
+  return on;
+}
+
+}  // namespace
+
 /// A live rig that owns its devices.
 class LiveSession::LivePlant : public Plant {
  public:
   LivePlant(RigExperiment on, bool dry, const std::filesystem::path& folder)
-      : on_(std::move(on)),
+      : on_(without_following(std::move(on), dry)),
         devices_(open_devices(on_, dry)),
         log_(folder, on_.rig.system, dry),
         rig_(on_.scenario(), on_.experiment.world.map, on_.rig, std::move(devices_.camera),
@@ -49,6 +60,8 @@ std::string LiveSession::close() {
 }
 
 bool LiveSession::zero_is_confirmed() const { return plant_->rig().zero_is_confirmed(); }
+
+int LiveSession::resumed() const { return plant_->rig().resumed(); }
 
 RigTiming LiveSession::timing() const { return plant_->rig().timing(); }
 

@@ -29,6 +29,8 @@ class LiveSession : public Session {
   /// After stop(): the device confirmed that the coils are at zero.
   bool zero_is_confirmed() const;
   RigTiming timing() const;
+  /// How often the coils had switched off by themselves so far.
+  int resumed() const;
 
  private:
   class LivePlant;

@@ -112,24 +112,33 @@ struct Change {
 };
 
 /// Kind of a run event.
-enum class EventKind { contact_wall, contact_obstacle, goal_reached, hold_begins, hold_ends };
+enum class EventKind {
+  contact_wall,
+  contact_obstacle,
+  goal_reached,
+  hold_begins,
+  hold_ends,
+  robots_unseen
+};
 constexpr auto enum_names(EventKind) {
-  return std::array<std::pair<EventKind, std::string_view>, 5>{
+  return std::array<std::pair<EventKind, std::string_view>, 6>{
       {{EventKind::contact_wall, "contact_wall"},
        {EventKind::contact_obstacle, "contact_obstacle"},
        {EventKind::goal_reached, "goal_reached"},
        {EventKind::hold_begins, "hold_begins"},
-       {EventKind::hold_ends, "hold_ends"}}};
+       {EventKind::hold_ends, "hold_ends"},
+       {EventKind::robots_unseen, "robots_unseen"}}};
 }
 
 /// An event at its own time between ticks.
 struct RunEvent {
   double t = 0;  ///< [s]
   EventKind kind = EventKind::goal_reached;
-  Vec2 position{};         ///< of the swarm's centre [µm]
-  double clearance = 0;    ///< of the centre at t [µm]
-  double speed = 0;        ///< of the swarm at t [µm/s]; 0 if it was hit while holding
-  std::uint32_t body = 0;  ///< index of the touched wall piece or obstacle
+  Vec2 position{};       ///< of the swarm's centre [µm]
+  double clearance = 0;  ///< of the centre at t [µm]
+  double speed = 0;      ///< of the swarm at t [µm/s]; 0 if it was hit while holding
+  /// Index of the touched wall piece or obstacle, or number of robots that are unseen.
+  std::uint32_t body = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.t, {"t", Unit::s, {}, "Time of the event, also between ticks."});
@@ -138,7 +147,8 @@ struct RunEvent {
     visit(self.position.y, {"y", Unit::um, {}, "The swarm's centre at the event, upwards."});
     visit(self.clearance, {"clearance", Unit::um, {}, "Distance from the centre at a contact."});
     visit(self.speed, {"speed", Unit::um_per_s, {}, "The swarm's speed at the event."});
-    visit(self.body, {"body", Unit::none, {}, "Obstacle touched; 4294967295 is the border."});
+    visit(self.body,
+          {"body", Unit::none, {}, "Obstacle touched, 4294967295: border; or unseen robots."});
   }
 };
 

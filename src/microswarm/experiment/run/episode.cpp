@@ -68,10 +68,11 @@ bool Episode::advance(const Stop& stop) {
   was_seen_ = was_seen_ || seen.swarm || plant_.ground_truth();
   take_robots(seen);
   present_ = present(seen);
+  note_unseen(seen);
   if (!plant_.fault().empty()) {
     fault_ = plant_.fault();
     ending_ = Status::fault;
-  } else if (goal_.reached(present_.goal_distance)) {
+  } else if (goal_.reached(present_.goal_distance) && unseen_ == 0) {
     ending_ = arrived();
   }
   if (ending_) return false;
@@ -102,6 +103,14 @@ bool Episode::advance(const Stop& stop) {
   plant_.apply(command, scenario_.tick);
   if (contacts_) ending_ = follow(*plant_.ground_truth());
   return true;
+}
+
+/// Robots that a rig does not see may be anywhere. The truth of a simulation knows all of them.
+void Episode::note_unseen(const Observation& seen) {
+  if (plant_.ground_truth() || seen.unseen == unseen_) return;
+  unseen_ = seen.unseen;
+  note(EventKind::robots_unseen);
+  events_.back().body = static_cast<std::uint32_t>(unseen_);
 }
 
 void Episode::take_robots(const Observation& seen) {

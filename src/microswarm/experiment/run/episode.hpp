@@ -59,6 +59,7 @@ class Episode {
   std::optional<Status> follow(const GroundTruth& ground_truth);
   void fill(const Observation& seen);
   Status arrived();
+  void note_unseen(const Observation& seen);
   void note(EventKind kind);
 
   const Scenario& scenario_;
@@ -70,6 +71,7 @@ class Episode {
   std::optional<ContactMonitor> contacts_;
   Present present_;
   bool was_seen_ = false;       ///< the swarm, at least once
+  int unseen_ = 0;              ///< robots
   double detection_range_ = 0;  ///< [µm]
   double done_ = 0;             ///< number of ticks
   bool touched_ = false;

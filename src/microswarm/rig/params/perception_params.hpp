@@ -13,6 +13,10 @@ struct PerceptionParams {
   ParticleParams robots{.min_mass = 500};
   double edge = 0;
   double heading_distance = 15;
+  double speed_gain = 2;
+  double position_noise = 8;
+  double radius_tolerance = 0.35;
+  double min_seen_robots = 0.5;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.scene, {"scene", Unit::none, {}, "Detection of a one-body swarm and of obstacles."});
@@ -25,6 +29,20 @@ struct PerceptionParams {
                                   "Distance travelled over which the heading is measured.",
                                   false,
                                   "heading_way_um"});
+    visit(self.speed_gain, {"speed_gain",
+                            Unit::none,
+                            {1, 100},
+                            "Speed at which a swarm is searched, in maximum speeds."});
+    visit(self.position_noise, {"position_noise",
+                                Unit::px,
+                                {0, 1e4},
+                                "Distance at which it is searched, besides its motion."});
+    visit(self.radius_tolerance, {"radius_tolerance",
+                                  Unit::none,
+                                  {0.01, 100},
+                                  "Maximum relative deviation from its median radius."});
+    visit(self.min_seen_robots,
+          {"min_seen_robots", Unit::none, {0, 1}, "Share of the robots that must be seen."});
   }
 };
 

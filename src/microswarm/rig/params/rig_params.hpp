@@ -70,6 +70,11 @@ struct SafetyParams {
   double max_frame_age = 0.5;
   double deadman = 0.5;
   int missed_deadlines = 10;
+  int max_trips = 1;
+  double trip_window = 10;
+  double max_pause = 0.3;
+  std::optional<double> follow_distance;
+  double min_follow_share = 0.25;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.lost_swarm,
@@ -85,6 +90,21 @@ struct SafetyParams {
         {"deadman", Unit::s, {0.02, 100}, "Longest time without a new command of the navigator."});
     visit(self.missed_deadlines,
           {"missed_deadlines", Unit::none, {1, 1e6}, "Maximum number of consecutive late ticks."});
+    visit(self.max_trips, {"max_trips",
+                           Unit::none,
+                           {0, 1000},
+                           "Times the device may be armed again in `trip_window_s`."});
+    visit(self.trip_window,
+          {"trip_window", Unit::s, {0.1, 1e5}, "Time for which such a trip counts."});
+    visit(self.max_pause,
+          {"max_pause", Unit::s, {0.05, 100}, "Longest standstill of program or computer."});
+    visit(self.follow_distance, {"follow_distance",
+                                 Unit::um,
+                                 {1e-3, 1e6},
+                                 "Commanded way the swarm must follow; none: by its size."});
+    visit(
+        self.min_follow_share,
+        {"min_follow_share", Unit::none, {0, 1}, "Share of it that must be seen; 0: not checked."});
   }
 };
 

@@ -8,8 +8,12 @@ namespace microswarm {
 
 Observation observation_of(const Detections& sight, std::shared_ptr<const Snapshot> world,
                            double now, double seen) {
-  Observation observation{
-      .now = now, .seen = seen, .swarm = sight.swarm, .robots = {}, .world = std::move(world)};
+  Observation observation{.now = now,
+                          .seen = seen,
+                          .swarm = sight.swarm,
+                          .robots = {},
+                          .unseen = sight.unseen,
+                          .world = std::move(world)};
   if (sight.swarm) observation.robots = sight.robots;
   return observation;
 }
@@ -19,7 +23,8 @@ std::unique_ptr<Perception> make_perception(const PerceptionParams& params,
                                             std::span<const Vec2> starts, const CameraView& view) {
   if (scenario.robots)
     return std::make_unique<RobotPerception>(params, *scenario.robots, map, starts, view);
-  return std::make_unique<SwarmPerception>(params, map, *scenario.start, view);
+  return std::make_unique<SwarmPerception>(params, limits_of(scenario.swarm).max_speed, map,
+                                           *scenario.start, view);
 }
 
 }  // namespace microswarm

@@ -28,7 +28,12 @@ struct Detections {
   std::optional<SwarmPose> swarm;
   std::vector<Vec2> robots;  ///< individually tracked robots; the order never changes
   std::vector<Body> moving;  ///< obstacles with persistent numbers
-  std::string_view trouble;  ///< why no swarm was found: "none", "several"
+  /// Why no swarm was found: "none", "far" from where it can be, "several", of another "size", or
+  /// too few "robots".
+  std::string_view trouble;
+  int unseen = 0;            ///< robots without a spot of their own or of a pile that they joined
+  double commanded_way = 0;  ///< that the command drives since the last picture [µm]
+  double followed_way = 0;   ///< part of it that was seen [µm]; negative in the opposite direction
 };
 
 /// Interface of a rig's image processing, picture by picture, in world coordinates. Walls are those
@@ -39,7 +44,9 @@ class Perception {
   /// Processes the next grey picture, taken at `t` [s]. Valid until the next call.
   virtual const Detections& process(const Image& picture, double t) = 0;
   /// Reports the command that drives the swarm from time `t` on.
-  virtual void commanded(const Command& command, double t) { (void)command, (void)t; }
+  virtual void commanded(const Command& command, double t) = 0;
+  /// Commanded way over which it can be judged whether the swarm follows [µm].
+  virtual double follow_distance() const = 0;
 };
 
 /// Navigator observation of the detections. `sight` and `world` must outlive it.

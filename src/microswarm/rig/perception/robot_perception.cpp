@@ -14,7 +14,9 @@
 namespace microswarm {
 namespace {
 
-constexpr double usual_time = 1.0;  // [s] typical time between pictures, for the stepper's grid
+constexpr double speed_margin = 3;     // of the speed of a robot between two pictures
+constexpr double longest_blink = 0.5;  // [s] unseen, after which a robot does not join a pile
+constexpr double usual_time = 1.0;     // [s] typical time between pictures, for the stepper's grid
 
 std::size_t nearest_of(std::span<const Vec2> places, Vec2 to) {
   std::size_t best = 0;
@@ -35,6 +37,7 @@ RobotPerception::RobotPerception(const PerceptionParams& params, const RobotSwar
       max_speed_(robots.max_speed),
       finder_(params.robots),
       diameter_(2 * finder_.radius_px() * scale_.um_per_px),
+      min_seen_(params.min_seen_robots),
       background_(std::make_unique<BackgroundModel>(
           walls_in_picture(map, view.scale, view.width, view.height), finder_.radius_px())) {
   detections_.robots.assign(starts.begin(), starts.end());
@@ -47,17 +50,24 @@ void RobotPerception::commanded(const Command& command, double) { command_ = com
 const Detections& RobotPerception::process(const Image& picture, double t) {
   find_spots(picture);
   if (detections_.robots.empty()) detections_.robots = spots_;
+  const std::size_t count = detections_.robots.size();
+  if (seen_at_.size() != count) seen_at_.assign(count, t);
   const double passed = std::max(0.0, t - seen_);
   seen_ = t;
   detections_.swarm.reset();
   detections_.trouble = "none";
-  if (spots_.empty()) return detections_;
+  detections_.unseen = static_cast<int>(count);
+  detections_.commanded_way = detections_.followed_way = 0;
   expect(passed);
-  pair(diameter_ + 3 * max_speed_ * passed);
-  place_the_unseen();
+  if (spots_.empty()) return detections_;
+  const double reach = diameter_ + speed_margin * max_speed_ * passed;
+  pair(reach);
+  place_the_unpaired(t, reach);
+  measure_following();
   learn_ground();
-  detections_.trouble = "";
-  detections_.swarm = body_of(detections_.robots, command_.heading);
+  const double share = 1 - static_cast<double>(detections_.unseen) / static_cast<double>(count);
+  detections_.trouble = share < min_seen_ ? "robots" : "";
+  if (share >= min_seen_) detections_.swarm = body_of(detections_.robots, command_.heading);
   return detections_;
 }
 
@@ -70,10 +80,12 @@ void RobotPerception::find_spots(const Image& picture) {
 /// Predicts the robots' positions from the command and the walls.
 void RobotPerception::expect(double passed) {
   std::vector<Vec2>& places = detections_.robots;
+  before_ = places;
   for (Vec2& place : places) place = free_place(map_, place, 2 * stepper_.guard());
   Robots robots = stepper_.place(places);
   stepper_.step(robots, displacement(command_, passed), contact_);
   places = robots.positions();
+  expected_ = places;
 }
 
 void RobotPerception::pair(double reach) {
@@ -96,31 +108,64 @@ void RobotPerception::pair(double reach) {
                                edges_, reach * reach);
 }
 
-void RobotPerception::place_the_unseen() {
+/// How far from its expected position a robot can be that was last seen some time ago.
+double RobotPerception::reach_of(std::size_t robot, double t) const {
+  return diameter_ + speed_margin * max_speed_ * (t - seen_at_[robot]);
+}
+
+void RobotPerception::place_the_unpaired(double t, double reach) {
   std::vector<Vec2>& robots = detections_.robots;
   std::vector<bool> taken(spots_.size());
-  std::vector<std::size_t> unseen;
+  std::vector<std::size_t> left;
   for (std::size_t r = 0; r < robots.size(); ++r) {
     if (!spot_of_[r]) {
-      unseen.push_back(r);
+      left.push_back(r);
       continue;
     }
     const auto spot = static_cast<std::size_t>(*spot_of_[r]);
     robots[r] = spots_[spot];
     taken[spot] = true;
+    seen_at_[r] = t;
   }
-  for (std::size_t s = 0; s < spots_.size() && !unseen.empty(); ++s) {
+  for (std::size_t s = 0; s < spots_.size() && !left.empty(); ++s) {
     if (taken[s]) continue;
     const auto nearest =
-        std::min_element(unseen.begin(), unseen.end(), [&](std::size_t a, std::size_t b) {
+        std::min_element(left.begin(), left.end(), [&](std::size_t a, std::size_t b) {
           return squared_norm(robots[a] - spots_[s]) < squared_norm(robots[b] - spots_[s]);
         });
+    if (distance(robots[*nearest], spots_[s]) > reach_of(*nearest, t)) continue;
     robots[*nearest] = spots_[s];
-    unseen.erase(nearest);
+    seen_at_[*nearest] = t;
+    left.erase(nearest);
   }
-  for (const std::size_t r : unseen)
-    if (!background_->is_dark(scale_.to_picture(robots[r])))
-      robots[r] = spots_[nearest_of(spots_, robots[r])];
+  detections_.unseen = 0;
+  for (const std::size_t r : left) {
+    const Vec2 spot = spots_[nearest_of(spots_, robots[r])];
+    const bool is_dark = background_->is_dark(scale_.to_picture(robots[r]));
+    const bool joins = is_dark || distance(robots[r], spot) <= reach;
+    if (!joins || t - seen_at_[r] > longest_blink) {
+      ++detections_.unseen;
+      continue;
+    }
+    if (!is_dark) robots[r] = spot;
+    seen_at_[r] = t;
+  }
+}
+
+/// Compares the motion of the robots that have spots of their own with the expected one.
+void RobotPerception::measure_following() {
+  double count = 0;
+  for (std::size_t r = 0; r < before_.size(); ++r) {
+    const Vec2 wanted = expected_[r] - before_[r];
+    const double way = norm(wanted);
+    if (!spot_of_[r] || way == 0) continue;
+    ++count;
+    detections_.commanded_way += way;
+    detections_.followed_way += dot(detections_.robots[r] - before_[r], wanted) / way;
+  }
+  if (count == 0) return;
+  detections_.commanded_way /= count;
+  detections_.followed_way /= count;
 }
 
 void RobotPerception::learn_ground() {

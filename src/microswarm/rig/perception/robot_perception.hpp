@@ -16,8 +16,10 @@ class BackgroundModel;
 
 /// Tracks a known number of robots. Each robot's position is predicted from the command and the
 /// walls of the map, and paired with a detected spot. An unpaired spot gets the nearest unpaired
-/// robot. Robots left over, which may overlap others, stay at their predicted position if it is
-/// dark there and otherwise move to the nearest spot.
+/// robot that can have come there. A robot left over joins a pile: it stays at its predicted
+/// position if it is dark there, or moves to a spot that it can have reached. If there is none, it
+/// is unseen and stays where it is expected; a robot that was unseen for a while needs a spot of
+/// its own to be seen again. There is no swarm if too few robots are seen.
 class RobotPerception : public Perception {
  public:
   /// The robots start at `starts`; if empty, they are the spots of the first picture.
@@ -29,12 +31,17 @@ class RobotPerception : public Perception {
 
   const Detections& process(const Image& picture, double t) override;
   void commanded(const Command& command, double t) override;
+  double follow_distance() const override { return follow_diameters * diameter_; }
 
  private:
+  static constexpr double follow_diameters = 10;
+
   void find_spots(const Image& picture);
   void expect(double passed);
   void pair(double reach);
-  void place_the_unseen();
+  void place_the_unpaired(double t, double reach);
+  double reach_of(std::size_t robot, double t) const;
+  void measure_following();
   void learn_ground();
 
   CameraScale scale_;
@@ -44,6 +51,7 @@ class RobotPerception : public Perception {
   double max_speed_;  // [µm/s]
   ParticleFinder finder_;
   double diameter_;  // of a robot [µm]
+  double min_seen_;  // share of the robots
   std::unique_ptr<BackgroundModel> background_;
   double seen_ = 0;  // time of the last picture [s]
   Command command_;
@@ -51,6 +59,9 @@ class RobotPerception : public Perception {
   Assignment assignment_;
   std::vector<AssignmentEdge> edges_;
   std::vector<std::optional<int>> spot_of_;  // of each robot, if it has one
+  std::vector<double> seen_at_;              // when each robot was last seen [s]
+  std::vector<Vec2> before_;                 // positions in the picture before
+  std::vector<Vec2> expected_;               // positions expected in this one
   Detections detections_;
 };
 

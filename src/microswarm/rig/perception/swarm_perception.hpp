@@ -9,16 +9,22 @@
 
 namespace microswarm {
 
-/// Detects one swarm among moving obstacles. Its heading is its last direction of motion.
+/// Detects one swarm among moving obstacles, where it can have come since it was last seen and of
+/// about the size that it had. Its heading is its last direction of motion.
 class SwarmPerception : public Perception {
  public:
-  /// The swarm starts at `start`.
-  SwarmPerception(const PerceptionParams& params, const Map& map, const Pose2& start,
-                  const CameraView& view);
+  /// The swarm starts at `start` and goes at most `max_speed` [µm/s].
+  SwarmPerception(const PerceptionParams& params, double max_speed, const Map& map,
+                  const Pose2& start, const CameraView& view);
 
   const Detections& process(const Image& picture, double t) override;
+  void commanded(const Command& command, double t) override;
+  double follow_distance() const override;
 
  private:
+  double reach_px(double t) const;
+  bool is_of_its_size(double radius_px);
+  void measure_following(Vec2 place, double t);
   void tell_heading(Vec2 place);
 
   PerceptionParams params_;
@@ -27,7 +33,12 @@ class SwarmPerception : public Perception {
   BodyNumbers numbers_;
   Vec2 from_;  // position at the last update of the heading
   double heading_;
+  double max_speed_;  // [µm/s]
   std::optional<Vec2> before_px_;
+  std::optional<double> found_;   // when the swarm was last seen [s]
+  std::vector<double> radii_px_;  // of the last sightings, a ring
+  std::size_t sightings_ = 0;     // so far
+  Command command_;
   Detections detections_;
 };
 

@@ -18,13 +18,52 @@ using Seconds = std::chrono::duration<double>;
 
 constexpr int max_misses = 3;  // consecutive ones; the driver retries by itself
 
+/// Notices that the program was stopped or the computer was suspended while it waited.
+class Standstill {
+ public:
+  explicit Standstill(double most) : most_(most), suspended_(suspended_seconds()) {}
+  /// A wait begins that should last for `seconds`.
+  void begin(double seconds) { until_ = steady_seconds() + std::max(0.0, seconds); }
+  /// The wait is over. Returns what happened, or an empty string.
+  std::string end() {
+    const double asleep = suspended_seconds() - suspended_;
+    if (asleep > most_) return fmt::format("the computer was suspended for {:.2g} s", asleep);
+    const double late = steady_seconds() - until_;
+    return late > most_ ? fmt::format("the program stood still for {:.2g} s", late) : "";
+  }
+
+ private:
+  double most_;
+  double suspended_;
+  double until_ = 0;
+};
+
+/// Counts how often the coils had been off by themselves.
+class Trips {
+ public:
+  explicit Trips(const CoilLoopLimits& limits) : limits_(limits) {}
+  /// Adds one at `t` [s], found in an exchange of `took` s. Returns why it is too much, or an empty
+  /// string.
+  std::string add(double t, double took) {
+    if (took > limits_.max_pause) return fmt::format("the program stood still for {:.2g} s", took);
+    std::erase_if(times_, [&](double before) { return before < t - limits_.trip_window; });
+    times_.push_back(t);
+    if (std::ssize(times_) <= limits_.max_trips) return {};
+    return fmt::format("the coils had been off by themselves {} times in {:g} s, allowed {}",
+                       times_.size(), limits_.trip_window, limits_.max_trips);
+  }
+
+ private:
+  CoilLoopLimits limits_;
+  std::vector<double> times_;
+};
+
 }  // namespace
 
-CoilLoop::CoilLoop(CoilController& controller, double rate, double deadman,
+CoilLoop::CoilLoop(CoilController& controller, const CoilLoopLimits& limits,
                    std::function<void(const CoilMoment&)> heard)
     : controller_(controller),
-      period_(1 / rate),
-      deadman_(deadman),
+      limits_(limits),
       heard_(std::move(heard)),
       place_(controller.place()),
       thread_([this] { run(); }) {}
@@ -70,25 +109,30 @@ std::string CoilLoop::failure() const {
 
 void CoilLoop::run() {
   using Clock = std::chrono::steady_clock;
-  const auto period = std::chrono::duration_cast<Clock::duration>(Seconds(period_));
+  const auto period = std::chrono::duration_cast<Clock::duration>(Seconds(1 / limits_.rate));
   auto due = Clock::now();
   auto last = due;
+  Standstill standstill(limits_.max_pause);
+  Trips trips(limits_);
   int misses = 0;
   std::unique_lock lock(mutex_);
   while (why_.empty()) {
     due += period;
+    standstill.begin(Seconds(due - Clock::now()).count());
     if (changed_.wait_until(lock, due, [this] { return !why_.empty(); })) break;
     const auto now = Clock::now();
     if (!commanded_) {
       due = last = now;
       continue;
     }
+    why_ = standstill.end();
+    if (!why_.empty()) break;
     CoilMoment moment;
     moment.t = steady_seconds();
     moment.command = command_;
     moment.late = Seconds(now - due).count();
     const Eigen::Vector3d place = place_;
-    if (moment.t - *commanded_ > deadman_) {
+    if (moment.t - *commanded_ > limits_.deadman) {
       why_ = fmt::format("no command for {:.2g} s", moment.t - *commanded_);
       break;
     }
@@ -97,9 +141,12 @@ void CoilLoop::run() {
     last = now;
     if (now > due + period) due = now;  // do not make up for missed outputs
     lock.lock();
-    misses = moment.output.status == DriveStatus::no_answer ? misses + 1 : 0;
+    const DriveStatus status = moment.output.status;
+    misses = status == DriveStatus::no_answer ? misses + 1 : 0;
     if (!trouble.empty() && why_.empty()) why_ = trouble;
     if (misses >= max_misses && why_.empty()) why_ = "the coil driver does not answer";
+    if (status == DriveStatus::resumed && why_.empty())
+      why_ = trips.add(moment.t, moment.round_trip);
   }
   lock.unlock();
   const bool confirmed = controller_.stop();

@@ -22,15 +22,25 @@ struct CoilMoment {
   double round_trip = 0;  ///< of the driver [s]
 };
 
+/// Rate and limits of a CoilLoop.
+struct CoilLoopLimits {
+  double rate = 200;        ///< of sendings [Hz]
+  double deadman = 0.5;     ///< longest time without a command [s]
+  int max_trips = 1;        ///< times the coils may have been off by themselves in a window
+  double trip_window = 10;  ///< [s]
+  double max_pause = 0.3;   ///< longest standstill of the program or the computer [s]
+};
+
 /// Sends currents in real time from its own thread, so the field continues while a navigator
 /// computes. It starts with the first command. It sets the coils to zero for good when it is
-/// stopped, when no command arrives for `deadman` seconds, when the driver fails, and on
+/// stopped, when no command arrives for the dead man's time, when the driver fails, when the coils
+/// were off by themselves too often, when the program or the computer stood still, and on
 /// destruction.
 class CoilLoop {
  public:
   /// `controller` must outlive the loop and not be used elsewhere. `heard` is called in the loop's
-  /// thread after each output; an exception from it is a failure. `rate` [Hz], `deadman` [s].
-  CoilLoop(CoilController& controller, double rate, double deadman,
+  /// thread after each output; an exception from it is a failure.
+  CoilLoop(CoilController& controller, const CoilLoopLimits& limits,
            std::function<void(const CoilMoment&)> heard = {});
   ~CoilLoop();
   CoilLoop(const CoilLoop&) = delete;
@@ -56,8 +66,7 @@ class CoilLoop {
   std::string send(CoilMoment& moment, const Eigen::Vector3d& place, double dt);
 
   CoilController& controller_;
-  const double period_;
-  const double deadman_;
+  const CoilLoopLimits limits_;
   std::function<void(const CoilMoment&)> heard_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;

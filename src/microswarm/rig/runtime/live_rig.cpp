@@ -25,6 +25,20 @@ const RigParams& checked(const Rig& rig, const Scenario& scenario) {
   return rig.params;
 }
 
+CoilLoopLimits loop_limits(const RigParams& rig) {
+  const SafetyParams& safety = rig.safety;
+  return {rig.drive_rate, safety.deadman, safety.max_trips, safety.trip_window, safety.max_pause};
+}
+
+std::string why_not_found(const Detections& seen) {
+  if (seen.trouble == "several") return " (there are several)";
+  if (seen.trouble == "far") return " (what is seen is too far from where it was)";
+  if (seen.trouble == "size") return " (what is seen is of another size)";
+  if (seen.trouble == "robots")
+    return fmt::format(" ({} of {} robots are not seen)", seen.unseen, seen.robots.size());
+  return {};
+}
+
 void check_picture(const Rig& rig, const Scenario& scenario, const CameraScale& scale,
                    const Image& picture) {
   for (const Vec2 place : places_of(scenario)) {
@@ -47,8 +61,9 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
       camera_(std::move(camera), "camera"),
       controller_(rig.system, checked(rig, scenario).field, driver,
                   scenario.start ? scenario.start->heading : 0),
+      following_(rig.params.safety.min_follow_share),
       start_(steady_seconds()),
-      coils_(controller_, rig.params.drive_rate, rig.params.safety.deadman,
+      coils_(controller_, loop_limits(rig.params),
              [this, heard = std::move(heard)](const CoilMoment& moment) {
                {
                  const std::lock_guard lock(timing_mutex_);
@@ -98,8 +113,16 @@ void LiveRig::read_frame() {
   detections_ = &perception_->process(grey_, seen_);
   const double took = steady_seconds() - began;
   if (detections_->swarm) found_ = seen_;
+  const double distance =
+      rig_.params.safety.follow_distance.value_or(perception_->follow_distance());
+  if (!following_.take(detections_->commanded_way, detections_->followed_way, distance))
+    fail(
+        fmt::format("the swarm does not follow: of {:.3g} µm that were commanded it went {:.3g} µm",
+                    following_.commanded(), following_.followed()));
   const std::lock_guard lock(timing_mutex_);
   timing_.vision.add(took);
+  timing_.unseen_frames += detections_->unseen > 0;
+  timing_.most_unseen = std::max(timing_.most_unseen, detections_->unseen);
 }
 
 void LiveRig::look_for_faults(double now) {
@@ -115,8 +138,7 @@ void LiveRig::look_for_faults(double now) {
         fmt::format("the newest picture is {:.2f} s old, allowed {} s", age, safety.max_frame_age));
   if (now - found_ > safety.lost_swarm)
     return fail(fmt::format("the swarm was not found for {:.2f} s{}, allowed {} s", now - found_,
-                            detections_->trouble == "several" ? " (there are several)" : "",
-                            safety.lost_swarm));
+                            why_not_found(*detections_), safety.lost_swarm));
   if (missed_in_a_row_ >= safety.missed_deadlines)
     return fail(fmt::format("{} ticks in a row ended too late", missed_in_a_row_));
   const std::lock_guard lock(timing_mutex_);
@@ -148,6 +170,11 @@ void LiveRig::fail(const std::string& why) {
 }
 
 void LiveRig::stop(const std::string& why) { coils_.stop(why); }
+
+int LiveRig::resumed() const {
+  const std::lock_guard lock(timing_mutex_);
+  return timing_.resumed;
+}
 
 RigTiming LiveRig::timing() const {
   const std::lock_guard lock(timing_mutex_);

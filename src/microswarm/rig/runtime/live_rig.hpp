@@ -13,6 +13,7 @@
 #include "microswarm/rig/params/rig_params.hpp"
 #include "microswarm/rig/perception/perception.hpp"
 #include "microswarm/rig/runtime/coil_loop.hpp"
+#include "microswarm/rig/runtime/follow_monitor.hpp"
 #include "microswarm/vision/camera/newest_frame.hpp"
 
 namespace microswarm {
@@ -32,6 +33,8 @@ struct RigTiming {
   int missed_deadlines = 0;  ///< ticks that ended after the start of the next
   int frames = 0;            ///< processed
   int dropped_frames = 0;    ///< received but not processed
+  int unseen_frames = 0;     ///< processed, in which robots were unseen
+  int most_unseen = 0;       ///< robots that were unseen in one frame
 };
 
 /// A rig in real time. Each tick processes the newest frame, sends the command to the coils, and
@@ -57,6 +60,8 @@ class LiveRig : public Plant {
   /// After stop(): when zero was commanded [s], by steady_seconds().
   double zero_at() const { return coils_.zero_at(); }
   RigTiming timing() const;
+  /// How often the coils had switched off by themselves so far.
+  int resumed() const;
   /// The newest picture and its detections.
   const Image& picture() const { return grey_; }
   const Detections& sight() const { return *detections_; }
@@ -72,6 +77,7 @@ class LiveRig : public Plant {
   std::shared_ptr<const Map> map_;
   NewestFrame camera_;
   CoilController controller_;
+  FollowMonitor following_;
   std::unique_ptr<Perception> perception_;
   LiveFrame frame_;
   Image grey_;

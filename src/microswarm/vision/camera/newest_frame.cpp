@@ -2,8 +2,10 @@
 #include "microswarm/vision/camera/newest_frame.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <condition_variable>
+#include <cstring>
 #include <mutex>
 #include <thread>
 
@@ -22,6 +24,40 @@ bool is_black(const Pixels& pixels, int below) {
   return std::all_of(pixels.begin(), pixels.end(), [&](std::uint8_t g) { return g < below; });
 }
 
+/// Fingerprint of a picture, eight bytes at a time.
+std::uint64_t fingerprint(const Pixels& pixels) {
+  std::uint64_t digest = pixels.size();
+  const auto mix = [&](std::uint64_t word) {
+    digest = (digest ^ word) * 0x9E3779B97F4A7C15ULL;
+    digest ^= digest >> 32;
+  };
+  std::size_t at = 0;
+  for (std::uint64_t word = 0; at + sizeof word <= pixels.size(); at += sizeof word) {
+    std::memcpy(&word, pixels.data() + at, sizeof word);
+    mix(word);
+  }
+  for (; at < pixels.size(); ++at) mix(pixels[at]);
+  return digest;
+}
+
+/// The last pictures, to notice one that comes again: a ring of buffers that got stuck shows a few
+/// in turn. No camera gives the same picture twice.
+class PastPictures {
+ public:
+  /// Whether the picture is one of the last; it is one of them from now on.
+  bool has(const Pixels& pixels) {
+    const std::uint64_t digest = fingerprint(pixels);
+    const auto end = past_.begin() + std::min<std::ptrdiff_t>(count_, std::ssize(past_));
+    const bool found = std::find(past_.begin(), end, digest) != end;
+    past_[static_cast<std::size_t>(count_++ % std::ssize(past_))] = digest;
+    return found;
+  }
+
+ private:
+  std::array<std::uint64_t, 32> past_{};
+  std::ptrdiff_t count_ = 0;
+};
+
 }  // namespace
 
 /// What the thread and its owner share; it lives as long as either.
@@ -37,7 +73,7 @@ struct NewestFrame::Shared {
   bool fresh = false;  ///< nobody took the newest yet
   int frames = 0;
   int dropped = 0;
-  int same = 0;  ///< pictures in a row that are like the newest
+  int same = 0;  ///< pictures in a row that had come before
   bool black = false;
 
   /// The mutex is held.
@@ -82,16 +118,16 @@ struct NewestFrame::Shared {
 
   void fetch_all(FrameSource& source, int black_below) {
     VideoFrame frame;
-    Pixels before;
+    PastPictures past;
     while (!is_closing()) {
       if (!source.next(frame)) {
         const std::lock_guard lock(mutex);
         ended = true;
         return;
       }
-      const bool is_same = frame.picture.pixels == before;
-      before = frame.picture.pixels;
-      publish(frame, is_same, is_black(before, black_below));
+      const bool is_same = past.has(frame.picture.pixels);
+      const bool is_dark = is_black(frame.picture.pixels, black_below);
+      publish(frame, is_same, is_dark);
     }
   }
 

@@ -17,7 +17,7 @@ enum class CameraState {
   opening,  ///< no picture yet
   live,
   black,   ///< pictures without light
-  frozen,  ///< the same picture again and again
+  frozen,  ///< the same pictures again and again
   silent,  ///< no picture for too long
   ended,   ///< the source has no more, as a file at its end
   failed,  ///< unplugged, or it cannot be read any more
@@ -44,9 +44,10 @@ struct NewestFrameParams {
                               Unit::s,
                               {1e-3, 3600},
                               "Time without a frame after which the camera is silent."});
-    visit(
-        self.frozen_after,
-        {"frozen_after", Unit::none, {2, 1e6}, "Number of equal frames after which it is frozen."});
+    visit(self.frozen_after, {"frozen_after",
+                              Unit::none,
+                              {2, 1e6},
+                              "Number of repeated frames after which it is frozen."});
     visit(self.black_below,
           {"black_below", Unit::none, {0, 255}, "Grey value below which an image is black."});
   }

@@ -9,10 +9,14 @@ SwarmSighting find_swarm(const Image& picture, const SwarmFinderParams& params,
                          std::optional<Vec2> before_px, const Mask* walls) {
   SwarmSighting seen{.candidates = find_blobs(picture, params.look, walls)};
   std::vector<Blob>& all = seen.candidates;
+  if (all.empty()) return seen;
   if (before_px)
     std::erase_if(all,
                   [&](const Blob& b) { return distance(b.centre_px, *before_px) > params.jump; });
-  if (all.empty()) return seen;
+  if (all.empty()) {
+    seen.sight = SwarmSight::far;
+    return seen;
+  }
   const double least = std::sqrt(params.rival) * all[0].radius_px;
   std::erase_if(all, [&](const Blob& b) { return b.radius_px < least; });
   if (all.size() == 1) {

@@ -30,12 +30,15 @@ struct SwarmFinderParams {
 /// Result of the search for one swarm.
 enum class SwarmSight {
   found,    ///< exactly one candidate
-  none,     ///< no candidate, or none within `jump` of the last position
+  none,     ///< no candidate
+  far,      ///< no candidate within `jump` of the last position
   several,  ///< several candidates that cannot be distinguished
 };
 constexpr auto enum_names(SwarmSight) {
-  return std::array<std::pair<SwarmSight, std::string_view>, 3>{
-      {{SwarmSight::found, "found"}, {SwarmSight::none, "none"}, {SwarmSight::several, "several"}}};
+  return std::array<std::pair<SwarmSight, std::string_view>, 4>{{{SwarmSight::found, "found"},
+                                                                 {SwarmSight::none, "none"},
+                                                                 {SwarmSight::far, "far"},
+                                                                 {SwarmSight::several, "several"}}};
 }
 
 /// The swarm in a picture.
