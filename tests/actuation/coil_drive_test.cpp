@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "microswarm/core/maths/rng.hpp"
 #include "tests/actuation/support.hpp"
 
 namespace microswarm {
@@ -14,6 +15,7 @@ DriveParams limited() {
   DriveParams d;
   d.resistance = 2;
   d.inductance = 10;
+  d.temperature_coefficient = 0;
   d.thermal_resistance = 1.5;
   d.thermal_time = 20;
   d.max_current = 20;
@@ -134,6 +136,7 @@ TEST(CoilDrive, WarmsUpAsTheThermalModelSays) {
 
 TEST(CoilDrive, HeatTakesCurrentAwayTillItCanBeHeld) {
   DriveParams d = limited();
+  d.temperature_coefficient = 0.00393;
   d.max_voltage.reset();
   d.max_slew.reset();
   CoilDrive drive({d});
@@ -147,6 +150,61 @@ TEST(CoilDrive, HeatTakesCurrentAwayTillItCanBeHeld) {
   EXPECT_NEAR(last.currents[0], drive.steady(current).currents[0], 0.05);
   ASSERT_EQ(last.hits.size(), 1u);
   EXPECT_EQ(last.hits[0].limit, DriveLimit::temperature);
+}
+
+TEST(CoilDrive, ACurrentThatCanBeHeldEndsAtTheMaximumTemperature) {
+  DriveParams d = limited();
+  d.temperature_coefficient = 0.00393;
+  d.max_voltage.reset();
+  CoilDrive drive({d});
+  const Eigen::VectorXd held = drive.steady(Eigen::VectorXd::Constant(1, 20)).currents;
+  // (150 − 22) K = 1.5 K/W · 2 Ω · (1 + 0.00393 · 130) · I²
+  EXPECT_NEAR(held[0], std::sqrt(128 / (3 * (1 + 0.00393 * 130))), 1e-9);
+  for (int i = 0; i < 4000; ++i) drive.step(held, 0.1);
+  EXPECT_NEAR(drive.temperatures()[0], 150, 1e-3);
+}
+
+/// Temperature after a ramp of the current, by many small steps of the equation itself.
+double integrated(const DriveParams& d, double temperature, double from, double to, double dt) {
+  constexpr int steps = 400;
+  const double h = dt / steps;
+  const auto rate = [&](double t, double T) {
+    const double current = from + (to - from) * t / dt;
+    const double resistance = d.resistance * (1 + d.temperature_coefficient * (T - 20));
+    return (d.ambient + d.thermal_resistance * resistance * current * current - T) / d.thermal_time;
+  };
+  for (int k = 0; k < steps; ++k) {
+    const double t = k * h;
+    const double middle = temperature + 0.5 * h * rate(t, temperature);
+    temperature += h * rate(t + 0.5 * h, middle);
+  }
+  return temperature;
+}
+
+TEST(CoilDriveLaw, IsNeverColderThanAnIndependentIntegration) {
+  Rng rng(7, Purpose::test);
+  for (int trial = 0; trial < 40; ++trial) {
+    DriveParams d = limited();
+    d.temperature_coefficient = rng.uniform(0, 0.01);
+    d.thermal_time = rng.uniform(1, 600);
+    d.thermal_resistance = rng.uniform(0.2, 4);
+    CoilDrive drive({d});
+    double real = d.ambient;
+    for (int k = 0; k < 300; ++k) {
+      if (rng.below(40) == 0) {  // the program ends; the coil cools; the next one begins
+        const double pause = rng.uniform(0, 100);
+        CoilDrive next({d});
+        next.warm(cooled({d}, drive.temperatures(), pause));
+        drive = next;
+        real = integrated(d, real, 0, 0, pause);
+      }
+      const double dt = rng.below(3) == 0 ? rng.uniform(1, 20) : rng.uniform(1e-3, 0.1);
+      const double from = drive.currents()[0];
+      drive.step(Eigen::VectorXd::Constant(1, rng.uniform(-20, 20)), dt);
+      real = integrated(d, real, from, drive.currents()[0], dt);
+      ASSERT_GE(drive.temperatures()[0], real - 1e-4) << trial << " " << k;
+    }
+  }
 }
 
 }  // namespace

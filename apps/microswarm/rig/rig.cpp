@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -69,6 +70,9 @@ std::string text_of(const Eigen::Vector3d& v) {
 
 std::string text_of(const LimitHit& hit, const CoilSystem& system) {
   const std::string_view unit = unit_symbol(unit_of(hit.limit));
+  if (!std::isfinite(hit.asked))
+    return fmt::format("{} of coil {}: rises without end, allowed {:.6g} {}", enum_name(hit.limit),
+                       system.coil_names()[hit.coil], hit.allowed, unit);
   return fmt::format("{} of coil {}: {:.6g} {}, allowed {:.6g} {}: {:.6g} {} too much",
                      enum_name(hit.limit), system.coil_names()[hit.coil], hit.asked, unit,
                      hit.allowed, unit, hit.asked - hit.allowed, unit);

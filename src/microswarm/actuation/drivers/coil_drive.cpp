@@ -22,6 +22,7 @@ std::optional<double> farthest(const Eigen::VectorXd& from, const Eigen::VectorX
   double most = 1;
   for (Eigen::Index i = 0; i < way.size(); ++i) {
     const double slack = bound_rounding * (1 + std::abs(from[i]) + std::abs(way[i]));
+    if (lo[i] > hi[i] + slack) return std::nullopt;
     if (way[i] == 0) {
       if (from[i] < lo[i] - slack || from[i] > hi[i] + slack) return std::nullopt;
       continue;
@@ -35,20 +36,76 @@ std::optional<double> farthest(const Eigen::VectorXd& from, const Eigen::VectorX
   return std::clamp(most, 0.0, 1.0);
 }
 
-double steady_temperature(const DriveParams& d, double current) {
-  return d.ambient + d.thermal_resistance * d.resistance * current * current;
+/// Resistance of a coil at a temperature [Ω].
+double resistance_at(const DriveParams& d, double temperature) {
+  constexpr double reference = 20;  // [°C]
+  return d.resistance * std::max(0.0, 1 + d.temperature_coefficient * (temperature - reference));
+}
+
+/// Resistance for a voltage limit: that of the hottest coil allowed [Ω].
+double hot_resistance(const DriveParams& d) {
+  return d.max_temperature ? resistance_at(d, *d.max_temperature) : d.resistance;
+}
+
+/// Growth of the power's heat with the temperature at this mean square current: at 1 the coil gains
+/// as much as it gives off, and there is no final temperature.
+double feedback(const DriveParams& d, double mean_square) {
+  return d.temperature_coefficient * d.thermal_resistance * d.resistance * mean_square;
+}
+
+/// Final temperature [°C] at this mean square current [A²]; infinity if there is none.
+double steady_temperature(const DriveParams& d, double mean_square) {
+  const double kept = 1 - feedback(d, mean_square);
+  if (kept <= 0) return infinity;
+  return (d.ambient + d.thermal_resistance * resistance_at(d, 0) * mean_square) / kept;
+}
+
+/// Temperature [°C] after `dt` seconds at this mean square current [A²], from `temperature`: the
+/// exact solution of the thermal RC with a resistance that grows linearly.
+double temperature_later(const DriveParams& d, double temperature, double mean_square, double dt) {
+  const double heat = d.thermal_resistance * resistance_at(d, temperature) * mean_square;
+  const double rate = (d.ambient + heat - temperature) / d.thermal_time;  // [K/s], at the start
+  const double x = (1 - feedback(d, mean_square)) * dt / d.thermal_time;
+  constexpr double small = 1e-9;
+  return temperature + rate * dt * (std::abs(x) < small ? 1 - 0.5 * x : (1 - maths::exp(-x)) / x);
 }
 
 /// The current at which the final temperature is the maximum temperature.
 double warmest_current(const DriveParams& d) {
   const double warmer = std::max(0.0, *d.max_temperature - d.ambient);
-  const double per_square = d.thermal_resistance * d.resistance;
+  const double per_square = d.thermal_resistance * hot_resistance(d);
   return per_square > 0 ? std::sqrt(warmer / per_square) : infinity;
 }
 
 void narrow(double& lo, double& hi, double least, double most) {
   lo = std::max(lo, least);
   hi = std::min(hi, most);
+}
+
+/// Narrows the bounds to currents after a ramp from `I` [A] in `dt` seconds that heat the coil to
+/// at most its maximum temperature, and can be ramped down within another such step. The power of
+/// the hottest coil allowed is assumed: at least that of the step, and exact at the limit.
+void narrow_by_heat(double& lo, double& hi, const DriveParams& d, double temperature, double I,
+                    double dt) {
+  const double per_square = d.thermal_resistance * hot_resistance(d);
+  if (per_square <= 0) return;
+  // The mean square current that ends at the maximum temperature after `seconds`.
+  const auto mean_square_for = [&](double seconds) {
+    const double keeps = maths::exp(-seconds / d.thermal_time);
+    const double end = (*d.max_temperature - temperature * keeps) / (1 - keeps);
+    return (end - d.ambient) / per_square;
+  };
+  const auto root = [](double square) { return square >= 0 ? std::sqrt(square) : -infinity; };
+  // to² and (to² + I to + I²) / 3 in this step
+  const double one = mean_square_for(dt);
+  const double half = root(3 * one - 0.75 * I * I);
+  narrow(lo, hi, -0.5 * I - half, -0.5 * I + half);
+  narrow(lo, hi, -root(one), root(one));
+  // to² / 3 more in the next step
+  const double two = mean_square_for(2 * dt);
+  const double half_of_two = 0.25 * root(48 * two - 7 * I * I);
+  narrow(lo, hi, -0.25 * I - half_of_two, -0.25 * I + half_of_two);
+  narrow(lo, hi, -root(1.5 * two), root(1.5 * two));
 }
 
 }  // namespace
@@ -76,6 +133,11 @@ CoilDrive::CoilDrive(std::vector<DriveParams> drives)
     temperatures_[static_cast<Eigen::Index>(i)] = drives_[i].ambient;
 }
 
+void CoilDrive::warm(const Eigen::VectorXd& temperatures) {
+  assert(temperatures.size() == temperatures_.size());
+  temperatures_ = temperatures;
+}
+
 DrivenCurrents CoilDrive::steady(const Eigen::VectorXd& wanted) const {
   assert(wanted.size() == currents_.size());
   DrivenCurrents result;
@@ -89,9 +151,10 @@ DrivenCurrents CoilDrive::steady(const Eigen::VectorXd& wanted) const {
     };
     if (d.max_current) check(DriveLimit::current, I, *d.max_current, *d.max_current);
     if (d.max_voltage)
-      check(DriveLimit::voltage, I * d.resistance, *d.max_voltage, *d.max_voltage / d.resistance);
+      check(DriveLimit::voltage, I * hot_resistance(d), *d.max_voltage,
+            *d.max_voltage / hot_resistance(d));
     if (d.max_temperature && I > 0)
-      check(DriveLimit::temperature, steady_temperature(d, I), *d.max_temperature,
+      check(DriveLimit::temperature, steady_temperature(d, I * I), *d.max_temperature,
             warmest_current(d));
   }
   result.currents = result.scale * wanted;
@@ -99,15 +162,13 @@ DrivenCurrents CoilDrive::steady(const Eigen::VectorXd& wanted) const {
 }
 
 /// Temperature [°C] after a ramp of the current, or after the final current for the whole time,
-/// whichever is higher: exact solution of the thermal RC for the mean power. With the ramp alone
-/// the current would oscillate about the value that can be held.
+/// whichever is higher. With the ramp alone the current would oscillate about the value that can be
+/// held.
 double CoilDrive::temperature_after(std::size_t coil, double to, double dt) const {
-  const DriveParams& d = drives_[coil];
   const auto i = static_cast<Eigen::Index>(coil);
   const double from = currents_[i];
   const double mean_square = std::max((from * from + from * to + to * to) / 3, to * to);
-  const double end = d.ambient + d.thermal_resistance * d.resistance * mean_square;
-  return end + (temperatures_[i] - end) * maths::exp(-dt / d.thermal_time);
+  return temperature_later(drives_[coil], temperatures_[i], mean_square, dt);
 }
 
 CoilDrive::Bounds CoilDrive::reachable(double dt, bool mind_heat) const {
@@ -123,21 +184,11 @@ CoilDrive::Bounds CoilDrive::reachable(double dt, bool mind_heat) const {
     if (d.max_voltage) {  // V = R I + L dI/dt, largest at an end of the ramp
       const double x = h_per_mh * d.inductance / dt;
       const double V = *d.max_voltage;
-      narrow(lo, hi, (x * I - V) / (d.resistance + x), (x * I + V) / (d.resistance + x));
-      if (x > 0) narrow(lo, hi, I - (V + d.resistance * I) / x, I + (V - d.resistance * I) / x);
+      const double R = hot_resistance(d);
+      narrow(lo, hi, (x * I - V) / (R + x), (x * I + V) / (R + x));
+      if (x > 0) narrow(lo, hi, I - (V + R * I) / x, I + (V - R * I) / x);
     }
-    const double per_square = d.thermal_resistance * d.resistance;
-    if (mind_heat && d.max_temperature && per_square > 0) {
-      // to² and (to² + I to + I²) / 3 ≤ the mean square that ends at the maximum temperature
-      const double keeps = maths::exp(-dt / d.thermal_time);
-      const double end = (*d.max_temperature - temperatures_[i] * keeps) / (1 - keeps);
-      const double mean_square = (end - d.ambient) / per_square;
-      const double root = 3 * mean_square - 0.75 * I * I;
-      const double half = root >= 0 ? std::sqrt(root) : -infinity;
-      narrow(lo, hi, -0.5 * I - half, -0.5 * I + half);
-      const double held = mean_square >= 0 ? std::sqrt(mean_square) : -infinity;
-      narrow(lo, hi, -held, held);
-    }
+    if (mind_heat && d.max_temperature) narrow_by_heat(lo, hi, d, temperatures_[i], I, dt);
   }
   return bounds;
 }
@@ -155,8 +206,8 @@ std::vector<LimitHit> CoilDrive::broken(const Eigen::VectorXd& to, double dt) co
     const double kick = h_per_mh * d.inductance * rate;
     check(DriveLimit::current, std::abs(to[i]), d.max_current);
     check(DriveLimit::voltage,
-          std::max(std::abs(d.resistance * currents_[i] + kick),
-                   std::abs(d.resistance * to[i] + kick)),
+          std::max(std::abs(hot_resistance(d) * currents_[i] + kick),
+                   std::abs(hot_resistance(d) * to[i] + kick)),
           d.max_voltage);
     check(DriveLimit::slew, std::abs(rate), d.max_slew);
     check(DriveLimit::temperature, temperature_after(k, to[i], dt), d.max_temperature);
@@ -192,6 +243,16 @@ DrivenCurrents CoilDrive::step(const Eigen::VectorXd& wanted, double dt) {
   }
   currents_ = result.currents;
   return result;
+}
+
+Eigen::VectorXd cooled(const std::vector<DriveParams>& drives, const Eigen::VectorXd& temperatures,
+                       double seconds) {
+  Eigen::VectorXd now = temperatures;
+  for (std::size_t k = 0; k < drives.size(); ++k) {
+    double& temperature = now[static_cast<Eigen::Index>(k)];
+    temperature = temperature_later(drives[k], temperature, 0, std::max(0.0, seconds));
+  }
+  return now;
 }
 
 }  // namespace microswarm

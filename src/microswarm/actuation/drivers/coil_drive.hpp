@@ -51,6 +51,9 @@ class CoilDrive {
   const Eigen::VectorXd& currents() const { return currents_; }          ///< [A]
   const Eigen::VectorXd& temperatures() const { return temperatures_; }  ///< [°C]
 
+  /// Sets the present temperatures [°C], one for each coil.
+  void warm(const Eigen::VectorXd& temperatures);
+
   /// Sets all currents to zero at once, as when the amplifiers are switched off.
   void cut() { currents_.setZero(); }
 
@@ -75,5 +78,10 @@ class CoilDrive {
   Eigen::VectorXd currents_;
   Eigen::VectorXd temperatures_;
 };
+
+/// Temperatures [°C] of coils without current, `seconds` after they had `temperatures`. A negative
+/// time cools nothing.
+Eigen::VectorXd cooled(const std::vector<DriveParams>& drives, const Eigen::VectorXd& temperatures,
+                       double seconds);
 
 }  // namespace microswarm

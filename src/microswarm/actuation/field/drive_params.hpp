@@ -8,10 +8,12 @@
 namespace microswarm {
 
 /// One coil as a load of its amplifier, a resistance and an inductance in series, with its limits.
-/// It heats as a first-order system: the final temperature is ambient + thermal_resistance · power,
-/// approached with the time constant. A limit that is not set is not applied.
+/// Its resistance grows with its temperature. It heats as a first-order system: at constant power
+/// the final temperature is ambient + thermal_resistance · power, approached with the time
+/// constant. A limit that is not set is not applied.
 struct DriveParams {
   double resistance = 1;
+  double temperature_coefficient = 0.00393;
   double inductance = 1;
   double thermal_resistance = 1;
   double thermal_time = 300;
@@ -22,7 +24,12 @@ struct DriveParams {
   std::optional<double> max_temperature;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.resistance, {"resistance", Unit::ohm, {1e-6, 1e6}, "Resistance of the coil."});
+    visit(self.resistance,
+          {"resistance", Unit::ohm, {1e-6, 1e6}, "Resistance of the coil at 20 °C."});
+    visit(self.temperature_coefficient, {"temperature_coefficient",
+                                         Unit::per_k,
+                                         {0, 0.1},
+                                         "Growth of the resistance per kelvin; that of copper."});
     visit(self.inductance, {"inductance", Unit::mh, {0, 1e6}, "Inductance of the coil."});
     visit(self.thermal_resistance, {"thermal_resistance",
                                     Unit::k_per_w,

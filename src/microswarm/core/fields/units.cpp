@@ -61,6 +61,8 @@ UnitText text_of(Unit unit) {
       return {"degc", "°C"};
     case Unit::k_per_w:
       return {"k_per_w", "K/W"};
+    case Unit::per_k:
+      return {"per_k", "1/K"};
   }
   assert(false);
   return {};

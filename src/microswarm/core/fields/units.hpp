@@ -29,7 +29,8 @@ enum class Unit {
   ohm,
   mh,
   degc,
-  k_per_w
+  k_per_w,
+  per_k
 };
 
 /// Suffix of a key or column in this unit: "um" in `step_um`; empty for `none`.
