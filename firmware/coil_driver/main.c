@@ -138,6 +138,7 @@ int main(void) {
   TIMSK0 = _BV(OCIE0A);
   wdt_enable(WDTO_120MS);  // should this program itself hang, the reset turns the outputs off
   sei();
+  reply(message_started, 0, result_ok, 0);
   uint16_t ticked = 0;
   for (;;) {
     sleep_mode();  // till a byte or a millisecond comes

@@ -13,7 +13,7 @@
 #define LONGEST_FRAME 44   // as sent, with its end
 
 enum MessageType { message_hello = 1, message_arm, message_set, message_stop, message_status };
-enum { reply_bit = 0x80 };
+enum { message_started = 7, reply_bit = 0x80 };  // started: sent unasked, once
 
 enum Result {
   result_ok,

@@ -13,6 +13,7 @@
 #include <condition_variable>
 #include <cstdio>
 #include <mutex>
+#include <set>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -37,14 +38,14 @@ const Outputs some_outputs{100, -200, 300, -400, 500, -1000};
 /// The simulator as a child, and what it prints.
 class Simulator {
  public:
-  Simulator() {
+  explicit Simulator(const char* bootloader = nullptr) {
     std::array<int, 2> to{}, from{};
     if (pipe2(to.data(), O_CLOEXEC) != 0 || pipe2(from.data(), O_CLOEXEC) != 0) std::abort();
     child_ = fork();
     if (child_ == 0) {
       dup2(to[0], STDIN_FILENO);
       dup2(from[1], STDOUT_FILENO);
-      execl(MEGA_SIMULATOR, MEGA_SIMULATOR, FIRMWARE, nullptr);
+      execl(MEGA_SIMULATOR, MEGA_SIMULATOR, FIRMWARE, bootloader, nullptr);
       _exit(127);
     }
     close(to[0]);
@@ -274,6 +275,37 @@ TEST_F(Firmware, RestartedDeviceIsOffUntilItIsArmedAgain) {
   EXPECT_LE(*zero - restarted, zero_within_ms);
   EXPECT_EQ(driver.drive(some), DriveStatus::resumed);
   EXPECT_TRUE(reaches(driver));
+}
+
+// A stock Mega: its bootloader listens first, and a byte keeps it listening for five seconds more.
+class StockMega : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (access(BOOTLOADER, R_OK) != 0) GTEST_SKIP() << "no bootloader: install arduino-core-avr";
+    mega.emplace(BOOTLOADER);
+  }
+  std::optional<Simulator> mega;
+};
+
+TEST_F(StockMega, IsNotSpokenToUntilItsBootloaderHasEnded) {
+  SerialCoilDriver driver(params(mega->port()));
+  EXPECT_EQ(driver.drive(some), DriveStatus::driven);
+  EXPECT_TRUE(mega->when(some_outputs));
+}
+
+TEST_F(StockMega, IsLeftAloneWhenItIsResetInARun) {
+  auto hasty = params(mega->port());
+  hasty.attempts = 3;
+  SerialCoilDriver driver(hasty);
+  ASSERT_EQ(driver.drive(some), DriveStatus::driven);
+  mega->order("reset");
+  std::set<DriveStatus> seen;
+  for (const auto began = std::chrono::steady_clock::now();
+       !seen.count(DriveStatus::resumed) && std::chrono::steady_clock::now() < began + patience;
+       std::this_thread::sleep_for(20ms))
+    seen.insert(driver.drive(some));
+  EXPECT_EQ(seen, (std::set{DriveStatus::no_answer, DriveStatus::resumed}));
+  EXPECT_TRUE(mega->when(some_outputs));
 }
 
 // A frame that is wrong is never obeyed: outputs are ever only what was sent.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// mega_simulator FIRMWARE.elf: an ATmega2560 in real time whose serial line is a pseudo-terminal.
+// mega_simulator FIRMWARE.elf [BOOTLOADER.hex]: an ATmega2560 in real time whose serial line is a
+// pseudo-terminal. As on a Mega, opening the port resets it; with a bootloader, that runs first.
 // Prints `port PATH`, then `out MS o1 … o6` whenever an output changes (per mille, by the pins'
 // registers). Takes lines: `cut`, `join` (the cable), `lose P` and `flip P` (a share of the bytes
 // to the device), `reset`, `mark`; answers each with `mark MS`. MS is the device's own time, which
@@ -27,6 +28,7 @@ extern "C" {
 #include <simavr/avr_uart.h>
 #include <simavr/sim_avr.h>
 #include <simavr/sim_elf.h>
+#include <simavr/sim_hex.h>
 }
 
 namespace microswarm {
@@ -36,9 +38,12 @@ using Clock = std::chrono::steady_clock;
 using Outputs = std::array<int, 6>;
 
 constexpr double frequency = 16e6;
-constexpr double slice = 0.001;    // [s] simulated between looks at the line
-constexpr double max_late = 0.02;  // [s]
+constexpr double slice = 0.001;     // [s] simulated between looks at the line
+constexpr double max_late = 0.02;   // [s]
+constexpr double start_up = 0.065;  // [s] after a reset, by the fuses of a Mega
 constexpr int top = 799;
+constexpr int reset_cause = 0x54;  // MCUSR
+enum Cause : std::uint8_t { power_on = 1, reset_line = 2 };
 
 /// What the pins do, by the registers' addresses in the data sheet.
 Outputs outputs_of(const avr_t& avr) {
@@ -60,7 +65,7 @@ Outputs outputs_of(const avr_t& avr) {
 
 class Mega {
  public:
-  explicit Mega(const char* firmware) {
+  Mega(const char* firmware, const char* bootloader) {
     elf_firmware_t elf{};
     if (elf_read_firmware(firmware, &elf) != 0) fail("cannot read the firmware");
     avr_ = avr_make_mcu_by_name("atmega2560");
@@ -68,6 +73,8 @@ class Mega {
     avr_init(avr_);
     elf.frequency = static_cast<std::uint32_t>(frequency);
     avr_load_firmware(avr_, &elf);
+    avr_->codeend = avr_->flashend;
+    if (bootloader) load(bootloader);
     avr_->sleep = [](avr_t*, avr_cycle_count_t) {};  // run() keeps the time
     std::uint32_t flags = 0;
     avr_ioctl(avr_, AVR_IOCTL_UART_GET_FLAGS('0'), &flags);
@@ -79,6 +86,7 @@ class Mega {
     avr_irq_register_notify(irq(UART_IRQ_OUT_XON), on_room, this);
     avr_irq_register_notify(irq(UART_IRQ_OUT_XOFF), on_full, this);
     open_port();
+    restart(power_on);
   }
 
   /// Until the standard input ends.
@@ -112,6 +120,25 @@ class Mega {
     std::exit(1);
   }
 
+  // What a bootloader's file begins with is where the processor begins.
+  void load(const char* bootloader) {
+    ihex_chunk_p chunks = nullptr;
+    const int count = read_ihex_chunks(bootloader, &chunks);
+    if (count <= 0) fail("cannot read the bootloader");
+    for (int k = 0; k < count; ++k)
+      avr_loadcode(avr_, chunks[k].data, chunks[k].size, chunks[k].baseaddr);
+    avr_->reset_pc = chunks[0].baseaddr;
+    free_ihex_chunks(chunks);
+  }
+
+  void restart(Cause cause) {
+    avr_reset(avr_);
+    avr_->data[reset_cause] = cause;
+    room_ = true;
+    waiting_.clear();
+    avr_->cycle += static_cast<avr_cycle_count_t>(start_up * frequency);
+  }
+
   double milliseconds() const { return 1e3 * static_cast<double>(avr_->cycle) / frequency; }
 
   void show(const Outputs& o) const {
@@ -125,7 +152,7 @@ class Mega {
     std::array<char, 128> name{};
     int other = -1;
     if (openpty(&port_, &other, name.data(), &raw, nullptr) != 0) fail("no pseudo-terminal");
-    // The other end stays open, so that a host may come and go.
+    close(other);
     fcntl(port_, F_SETFL, O_NONBLOCK);
     fmt::print("port {}\n", name.data());
     std::fflush(stdout);
@@ -134,7 +161,7 @@ class Mega {
   static void on_output(avr_irq_t*, std::uint32_t byte, void* self) {
     Mega& mega = *static_cast<Mega*>(self);
     const auto sent = static_cast<std::uint8_t>(byte);
-    if (!mega.cut_ && write(mega.port_, &sent, 1) < 0) return;  // nobody reads: lost
+    if (!mega.cut_ && mega.open_ && write(mega.port_, &sent, 1) < 0) return;  // nobody reads: lost
   }
   static void on_room(avr_irq_t*, std::uint32_t, void* self) {
     Mega& mega = *static_cast<Mega*>(self);
@@ -155,15 +182,20 @@ class Mega {
 
   /// Waits for so long [ms] when nothing comes.
   bool exchange(int wait) {
-    std::array<pollfd, 2> ready{{{port_, POLLIN, 0}, {STDIN_FILENO, POLLIN, 0}}};
-    if (poll(ready.data(), ready.size(), wait) <= 0) return true;
+    // A port that nobody has open is always ready, to say so.
+    std::array<pollfd, 2> ready{{{STDIN_FILENO, POLLIN, 0}, {port_, POLLIN, 0}}};
+    if (poll(ready.data(), open_ ? 2 : 1, wait) < 0) return true;
+    if (!open_) poll(&ready[1], 1, 0);
+    const bool opened = !(ready[1].revents & POLLHUP);
+    if (opened && !open_) restart(reset_line);
+    open_ = opened;
     std::array<std::uint8_t, 256> bytes{};
-    if (ready[0].revents & POLLIN) {
+    if (ready[1].revents & POLLIN) {
       const auto n = read(port_, bytes.data(), bytes.size());
       for (std::size_t k = 0; n > 0 && k < static_cast<std::size_t>(n); ++k) take(bytes[k]);
     }
     feed();
-    if (!(ready[1].revents & (POLLIN | POLLHUP))) return true;
+    if (!(ready[0].revents & (POLLIN | POLLHUP))) return true;
     const auto n = read(STDIN_FILENO, bytes.data(), bytes.size());
     if (n <= 0) return false;
     orders_.append(bytes.begin(), bytes.begin() + n);
@@ -187,7 +219,7 @@ class Mega {
     if (order == "join") cut_ = false;
     if (order == "lose") words >> lost_;
     if (order == "flip") words >> flipped_;
-    if (order == "reset") avr_reset(avr_);
+    if (order == "reset") restart(reset_line);
     fmt::print("mark {}\n", milliseconds());
     std::fflush(stdout);
   }
@@ -195,7 +227,7 @@ class Mega {
   avr_t* avr_ = nullptr;
   avr_irq_t* input_ = nullptr;
   int port_ = -1;
-  bool room_ = true, cut_ = false;
+  bool room_ = true, cut_ = false, open_ = false;
   double lost_ = 0, flipped_ = 0;
   std::deque<std::uint8_t> waiting_;
   std::string orders_;
@@ -206,10 +238,10 @@ class Mega {
 }  // namespace microswarm
 
 int main(int count, char** arguments) {
-  if (count != 2) {
-    fmt::print(stderr, "usage: mega_simulator FIRMWARE.elf\n");
+  if (count != 2 && count != 3) {
+    fmt::print(stderr, "usage: mega_simulator FIRMWARE.elf [BOOTLOADER.hex]\n");
     return 2;
   }
-  microswarm::Mega(arguments[1]).run();
+  microswarm::Mega(arguments[1], count == 3 ? arguments[2] : nullptr).run();
   return 0;
 }

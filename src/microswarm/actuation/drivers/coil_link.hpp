@@ -14,8 +14,8 @@ inline constexpr int coil_link_version = 1;
 inline constexpr int coil_link_channels = 6;
 inline constexpr int coil_link_full_scale = 1000;  ///< of an output: per mille
 
-/// What the host tells the device.
-enum class CoilMessage : std::uint8_t { hello = 1, arm, set, stop, status };
+/// What the host tells the device; `started` comes from the device when its program starts.
+enum class CoilMessage : std::uint8_t { hello = 1, arm, set, stop, status, started = 7 };
 /// What the device made of it.
 enum class CoilResult : std::uint8_t {
   ok,

@@ -15,6 +15,7 @@
 #include <cmath>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/execution/clock.hpp"
 #include "microswarm/core/execution/stop.hpp"
 
 namespace microswarm {
@@ -24,6 +25,10 @@ namespace asio = boost::asio;
 using Clock = std::chrono::steady_clock;
 
 constexpr unsigned baud = 115200;
+constexpr double left_over = 0.03;  // [s] after opening; a reset takes longer
+constexpr int max_failures = 3;     // exchanges in a row
+// A bootloader that was spoken to listens for 5 s more.
+constexpr double silence_per_boot_time = 3;
 
 }  // namespace
 
@@ -46,6 +51,14 @@ class SerialCoilDriver::Port {
     set(Base::parity(Base::parity::none));
     set(Base::stop_bits(Base::stop_bits::one));
     set(Base::flow_control(Base::flow_control::none));
+    discard(left_over);
+  }
+
+  /// Discards what comes within so many seconds.
+  void discard(double timeout) {
+    const auto began = Clock::now();
+    for (double left = timeout; left > 0; left = timeout - seconds_since(began)) get(left);
+    next_ = filled_;
   }
 
   /// False if not all bytes were written in time.
@@ -88,12 +101,15 @@ class SerialCoilDriver::Port {
 
 SerialCoilDriver::SerialCoilDriver(const SerialCoilParams& params)
     : params_(params), port_(std::make_unique<Port>(params.port)) {
+  hears_start(params_.boot_time);
   const std::array<std::uint8_t, 1> end{0};  // ends any partial message
   port_->put(end, params_.reply_timeout);
   const auto began = Clock::now();
   std::optional<CoilReply> reply;
-  while (!reply && seconds_since(began) < params_.connect_timeout)
+  while (!reply && seconds_since(began) < params_.connect_timeout) {
+    failures_ = 0;  // it may be no stock Mega
     reply = exchange(CoilMessage::hello);
+  }
   if (!reply)
     throw HardwareError(
         fmt::format("{}: no answer within {} s", params_.port, params_.connect_timeout));
@@ -147,6 +163,7 @@ bool SerialCoilDriver::arm() {
 // Resends the same message with the same number until it is answered; the device executes it once.
 std::optional<CoilReply> SerialCoilDriver::exchange(
     CoilMessage message, const std::array<int, coil_link_channels>& outputs) {
+  if (message != CoilMessage::stop && keeps_silent()) return std::nullopt;
   ++sequence_;
   const auto bytes = message == CoilMessage::set     ? encode_set(sequence_, outputs)
                      : message == CoilMessage::hello ? encode_hello(sequence_)
@@ -156,12 +173,34 @@ std::optional<CoilReply> SerialCoilDriver::exchange(
     if (!port_->put(bytes, params_.reply_timeout)) continue;
     if (auto reply = answer_to(message, params_.reply_timeout)) {
       round_trip_ = seconds_since(began);
+      failures_ = 0;
       for (std::size_t c = 0; c < currents_.size(); ++c)
         currents_[c] = params_.full_scale * reply->outputs[c] / coil_link_full_scale;
       return reply;
     }
   }
+  if (++failures_ >= max_failures)
+    silent_until_ = steady_seconds() + silence_per_boot_time * params_.boot_time;
   return std::nullopt;
+}
+
+bool SerialCoilDriver::keeps_silent() {
+  if (failures_ < max_failures) return false;
+  if (!hears_start(0) && steady_seconds() < silent_until_) return true;
+  failures_ = 0;
+  return false;
+}
+
+/// Whether the device reports its start within so many seconds.
+bool SerialCoilDriver::hears_start(double timeout) {
+  const auto began = Clock::now();
+  for (;;) {
+    const auto byte = port_->get(timeout - seconds_since(began));
+    if (!byte && seconds_since(began) >= timeout) return false;
+    if (!byte) continue;
+    const auto reply = reader_.take(*byte);
+    if (reply && reply->to == CoilMessage::started) return true;
+  }
 }
 
 std::optional<CoilReply> SerialCoilDriver::answer_to(CoilMessage message, double timeout) {

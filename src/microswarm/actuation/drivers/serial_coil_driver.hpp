@@ -22,6 +22,7 @@ struct SerialCoilParams {
   double full_scale = 20;
   double reply_timeout = 0.02;
   int attempts = 3;
+  double boot_time = 2;
   double connect_timeout = 5;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -31,15 +32,18 @@ struct SerialCoilParams {
     visit(self.reply_timeout,
           {"reply_timeout", Unit::s, {0.001, 1}, "Longest wait for an answer."});
     visit(self.attempts, {"attempts", Unit::none, {1, 20}, "Number of times a message is sent."});
-    visit(self.connect_timeout, {"connect_timeout",
-                                 Unit::s,
-                                 {0.1, 60},
-                                 "Longest wait for the device after its port is opened."});
+    visit(self.boot_time,
+          {"boot_time", Unit::s, {0, 10}, "Silence after opening the port, for a bootloader."});
+    visit(self.connect_timeout,
+          {"connect_timeout", Unit::s, {0.1, 60}, "Longest wait for the first answer."});
   }
 };
 
 /// Driver of six coils on an Arduino Mega 2560 with firmware/coil_driver
-/// (docs/reference/protocol.md).
+/// (docs/reference/protocol.md). A Mega that was reset runs its bootloader, which takes any byte
+/// for the start of an upload and then listens for seconds. The driver therefore says nothing after
+/// opening the port until the firmware reports its start or `boot_time` is over, and nothing but
+/// stop after three exchanges without an answer until the former or three times the latter.
 class SerialCoilDriver final : public CoilDriver {
  public:
   /// Opens the port and identifies the device. The device is armed by the first currents. Throws
@@ -66,6 +70,8 @@ class SerialCoilDriver final : public CoilDriver {
   std::optional<CoilReply> exchange(CoilMessage message,
                                     const std::array<int, coil_link_channels>& outputs = {});
   std::optional<CoilReply> answer_to(CoilMessage message, double timeout);
+  bool hears_start(double timeout);
+  bool keeps_silent();
   bool arm();
 
   SerialCoilParams params_;
@@ -73,6 +79,8 @@ class SerialCoilDriver final : public CoilDriver {
   CoilReplyReader reader_;
   std::uint8_t sequence_ = 0;
   double round_trip_ = 0;
+  int failures_ = 0;                                   // exchanges without an answer, in a row
+  double silent_until_ = 0;                            // [s], by steady_seconds()
   bool armed_ = false;                                 // armed by this driver and not stopped since
   std::array<double, coil_link_channels> currents_{};  // from the last reply [A]
 };
