@@ -46,6 +46,8 @@ class CoilController {
   /// Sets all currents to zero; false if the device did not confirm it. The next `advance`
   /// continues with the field from before the stop.
   bool stop() noexcept;
+  /// Lets an `advance` that another thread is in return early, so that `stop` can follow.
+  void interrupt() noexcept { driver_.interrupt(); }
 
   const CoilOutput& output() const { return output_; }
   /// Target position of the field [µm].

@@ -17,7 +17,7 @@ enum class DriveStatus : std::uint8_t {
   scaled,     ///< the device's own limits scaled all currents by the same factor
   resumed,    ///< driven, but the coils had been off: the device restarted or its watchdog fired
   refused,    ///< more current than the driver can request; the coils keep their currents
-  not_armed,  ///< the device is off and refuses to be armed
+  not_armed,  ///< the device is off and refuses to be armed, or may only be armed by a person
   no_answer,  ///< the coils switch off within the device's watchdog time, or the device is gone
 };
 std::string_view to_string(DriveStatus status);
@@ -38,6 +38,9 @@ class CoilDriver {
   virtual DriveStatus drive(std::span<const double> currents) = 0;
   /// Sets all currents to zero; false if the device did not confirm it.
   virtual bool stop() noexcept = 0;
+  /// Lets a `drive` that another thread is in return without its answer, so that `stop` can follow.
+  /// Callable from any thread; lasts until the next `stop`.
+  virtual void interrupt() noexcept {}
 };
 
 /// Driver without hardware.

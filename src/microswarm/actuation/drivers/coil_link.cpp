@@ -44,24 +44,6 @@ std::vector<std::uint8_t> frame_of(std::vector<std::uint8_t> packet) {
   return frame;
 }
 
-/// Without its check sum; nothing when it is no frame.
-std::optional<std::vector<std::uint8_t>> packet_of(std::span<const std::uint8_t> frame) {
-  std::vector<std::uint8_t> packet;
-  for (std::size_t at = 0; at < frame.size();) {
-    const std::size_t next = at + frame[at];
-    if (next > frame.size()) return std::nullopt;
-    packet.insert(packet.end(), frame.begin() + static_cast<std::ptrdiff_t>(at) + 1,
-                  frame.begin() + static_cast<std::ptrdiff_t>(next));
-    if (next < frame.size()) packet.push_back(0);
-    at = next;
-  }
-  if (packet.size() < 4) return std::nullopt;
-  const std::size_t size = packet.size() - 2;
-  if (crc16(std::span(packet).first(size)) != unsigned16(packet, size)) return std::nullopt;
-  packet.resize(size);
-  return packet;
-}
-
 std::optional<CoilReply> reply_of(std::span<const std::uint8_t> p) {
   if (p.size() != reply_size - 2 || !(p[0] & reply_bit)) return std::nullopt;
   CoilReply reply{.to = CoilMessage{static_cast<std::uint8_t>(p[0] & ~reply_bit)},
@@ -117,6 +99,23 @@ std::vector<std::uint8_t> encode(const CoilReply& reply) {
   return frame_of(std::move(packet));
 }
 
+std::optional<std::vector<std::uint8_t>> decode(std::span<const std::uint8_t> frame) {
+  std::vector<std::uint8_t> packet;
+  for (std::size_t at = 0; at < frame.size();) {
+    const std::size_t next = at + frame[at];
+    if (next > frame.size()) return std::nullopt;
+    packet.insert(packet.end(), frame.begin() + static_cast<std::ptrdiff_t>(at) + 1,
+                  frame.begin() + static_cast<std::ptrdiff_t>(next));
+    if (next < frame.size()) packet.push_back(0);
+    at = next;
+  }
+  if (packet.size() < 4) return std::nullopt;
+  const std::size_t size = packet.size() - 2;
+  if (crc16(std::span(packet).first(size)) != unsigned16(packet, size)) return std::nullopt;
+  packet.resize(size);
+  return packet;
+}
+
 std::optional<CoilReply> CoilReplyReader::take(std::uint8_t byte) {
   if (byte != 0) {
     if (frame_.size() <= longest_frame) frame_.push_back(byte);
@@ -125,7 +124,7 @@ std::optional<CoilReply> CoilReplyReader::take(std::uint8_t byte) {
   if (frame_.empty()) return std::nullopt;
   std::optional<CoilReply> reply;
   if (frame_.size() <= longest_frame)
-    if (const auto packet = packet_of(frame_)) reply = reply_of(*packet);
+    if (const auto packet = decode(frame_)) reply = reply_of(*packet);
   if (!reply) ++bad_;
   frame_.clear();
   return reply;

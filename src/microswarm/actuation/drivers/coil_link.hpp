@@ -54,6 +54,10 @@ std::vector<std::uint8_t> encode_hello(std::uint8_t sequence);
 /// A reply as the device sends it; for what plays the device.
 std::vector<std::uint8_t> encode(const CoilReply& reply);
 
+/// Content of a frame without its end and check sum: type, sequence number and payload; empty if it
+/// is no frame. For what plays the device.
+std::optional<std::vector<std::uint8_t>> decode(std::span<const std::uint8_t> frame);
+
 /// Finds replies in whatever comes in. Garbage is passed over and counted.
 class CoilReplyReader {
  public:

@@ -26,7 +26,9 @@ using Clock = std::chrono::steady_clock;
 
 constexpr unsigned baud = 115200;
 constexpr double left_over = 0.03;  // [s] after opening; a reset takes longer
-constexpr int max_failures = 3;     // exchanges in a row
+constexpr double slice = 0.01;      // [s] between looks for an interruption
+constexpr std::chrono::seconds max_stop{2};
+constexpr int max_failures = 3;  // exchanges in a row
 // A bootloader that was spoken to listens for 5 s more.
 constexpr double silence_per_boot_time = 3;
 
@@ -61,12 +63,13 @@ class SerialCoilDriver::Port {
     next_ = filled_;
   }
 
-  /// False if not all bytes were written in time.
-  bool put(std::span<const std::uint8_t> bytes, double timeout) {
+  /// False if not all bytes were written in time, or it was given up.
+  bool put(std::span<const std::uint8_t> bytes, double timeout, const Stop& gives_up) {
     const auto began = Clock::now();
     while (!bytes.empty()) {
       const double left = timeout - seconds_since(began);
-      if (left <= 0 || !ready(POLLOUT, left)) return false;
+      if (left <= 0 || gives_up()) return false;
+      if (!ready(POLLOUT, std::min(left, slice))) continue;
       const auto n = ::write(port_.native_handle(), bytes.data(), bytes.size());
       if (n < 0 && errno != EAGAIN && errno != EINTR) return false;
       if (n > 0) bytes = bytes.subspan(static_cast<std::size_t>(n));
@@ -103,7 +106,7 @@ SerialCoilDriver::SerialCoilDriver(const SerialCoilParams& params)
     : params_(params), port_(std::make_unique<Port>(params.port)) {
   hears_start(params_.boot_time);
   const std::array<std::uint8_t, 1> end{0};  // ends any partial message
-  port_->put(end, params_.reply_timeout);
+  port_->put(end, params_.reply_timeout, {});
   const auto began = Clock::now();
   std::optional<CoilReply> reply;
   while (!reply && seconds_since(began) < params_.connect_timeout) {
@@ -129,19 +132,22 @@ DriveStatus SerialCoilDriver::drive(std::span<const double> currents) {
     outputs[c] = static_cast<int>(std::lround(share * coil_link_full_scale));
   }
   DriveStatus status = DriveStatus::driven;
-  if (!armed_) armed_ = arm();  // arm only now: the watchdog starts immediately
+  if (!armed_)  // only now: the watchdog starts immediately
+    if (const DriveStatus armed = arm(); armed != DriveStatus::driven) return armed;
   auto reply = exchange(CoilMessage::set, outputs);
-  if (!reply) return DriveStatus::no_answer;
-  if (reply->result == CoilResult::not_armed) {
-    if (!arm() || !(reply = exchange(CoilMessage::set, outputs))) return DriveStatus::no_answer;
-    if (reply->result == CoilResult::not_armed) return DriveStatus::not_armed;
+  if (reply && reply->result == CoilResult::not_armed) {
+    if (const DriveStatus armed = arm(); armed != DriveStatus::driven) return armed;
+    reply = exchange(CoilMessage::set, outputs);
     status = DriveStatus::resumed;
   }
+  if (!reply) return DriveStatus::no_answer;
+  if (reply->result == CoilResult::not_armed) return DriveStatus::not_armed;
   if (reply->result == CoilResult::limited) return DriveStatus::scaled;
   return reply->result == CoilResult::ok ? status : DriveStatus::no_answer;
 }
 
 bool SerialCoilDriver::stop() noexcept {
+  interrupted_ = false;
   try {
     const auto reply = exchange(CoilMessage::stop);
     const bool at_zero = reply && std::all_of(reply->outputs.begin(), reply->outputs.end(),
@@ -155,9 +161,11 @@ bool SerialCoilDriver::stop() noexcept {
 
 std::optional<CoilReply> SerialCoilDriver::ask_status() { return exchange(CoilMessage::status); }
 
-bool SerialCoilDriver::arm() {
+DriveStatus SerialCoilDriver::arm() {
   const auto reply = exchange(CoilMessage::arm);
-  return reply && reply->result == CoilResult::ok && reply->state == CoilState::armed;
+  if (!reply) return DriveStatus::no_answer;
+  armed_ = reply->result == CoilResult::ok && reply->state == CoilState::armed;
+  return armed_ ? DriveStatus::driven : DriveStatus::not_armed;
 }
 
 // Resends the same message with the same number until it is answered; the device executes it once.
@@ -168,10 +176,11 @@ std::optional<CoilReply> SerialCoilDriver::exchange(
   const auto bytes = message == CoilMessage::set     ? encode_set(sequence_, outputs)
                      : message == CoilMessage::hello ? encode_hello(sequence_)
                                                      : encode(message, sequence_);
-  for (int k = 0; k < params_.attempts; ++k) {
+  const Stop gives_up = message == CoilMessage::stop ? Stop(max_stop) : Stop(&interrupted_);
+  for (int k = 0; k < params_.attempts && !gives_up(); ++k) {
     const auto began = Clock::now();
-    if (!port_->put(bytes, params_.reply_timeout)) continue;
-    if (auto reply = answer_to(message, params_.reply_timeout)) {
+    if (!port_->put(bytes, params_.reply_timeout, gives_up)) continue;
+    if (auto reply = answer_to(message, params_.reply_timeout, gives_up)) {
       round_trip_ = seconds_since(began);
       failures_ = 0;
       for (std::size_t c = 0; c < currents_.size(); ++c)
@@ -203,12 +212,13 @@ bool SerialCoilDriver::hears_start(double timeout) {
   }
 }
 
-std::optional<CoilReply> SerialCoilDriver::answer_to(CoilMessage message, double timeout) {
+std::optional<CoilReply> SerialCoilDriver::answer_to(CoilMessage message, double timeout,
+                                                     const Stop& gives_up) {
   const auto began = Clock::now();
   for (;;) {
     const double left = timeout - seconds_since(began);
-    if (left <= 0) return std::nullopt;
-    const auto byte = port_->get(left);
+    if (left <= 0 || gives_up()) return std::nullopt;
+    const auto byte = port_->get(std::min(left, slice));
     if (!byte) continue;
     auto reply = reader_.take(*byte);
     if (reply && reply->to == message && reply->sequence == sequence_) return reply;

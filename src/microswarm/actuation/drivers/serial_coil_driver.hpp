@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -11,6 +12,7 @@
 
 #include "microswarm/actuation/drivers/coil_driver.hpp"
 #include "microswarm/actuation/drivers/coil_link.hpp"
+#include "microswarm/core/execution/stop.hpp"
 #include "microswarm/core/fields/fields.hpp"
 
 namespace microswarm {
@@ -57,7 +59,9 @@ class SerialCoilDriver final : public CoilDriver {
   int channels() const override { return coil_link_channels; }
   std::span<const double> currents() const override { return currents_; }
   DriveStatus drive(std::span<const double> currents) override;
+  /// Also from three exchanges without an answer on. Waits 2 s at most to have it confirmed.
   bool stop() noexcept override;
+  void interrupt() noexcept override { interrupted_ = true; }
 
   /// Status reported by the device; empty if it does not answer.
   std::optional<CoilReply> ask_status();
@@ -69,16 +73,17 @@ class SerialCoilDriver final : public CoilDriver {
 
   std::optional<CoilReply> exchange(CoilMessage message,
                                     const std::array<int, coil_link_channels>& outputs = {});
-  std::optional<CoilReply> answer_to(CoilMessage message, double timeout);
+  std::optional<CoilReply> answer_to(CoilMessage message, double timeout, const Stop& gives_up);
   bool hears_start(double timeout);
   bool keeps_silent();
-  bool arm();
+  DriveStatus arm();
 
   SerialCoilParams params_;
   std::unique_ptr<Port> port_;
   CoilReplyReader reader_;
   std::uint8_t sequence_ = 0;
   double round_trip_ = 0;
+  std::atomic<bool> interrupted_ = false;
   int failures_ = 0;                                   // exchanges without an answer, in a row
   double silent_until_ = 0;                            // [s], by steady_seconds()
   bool armed_ = false;                                 // armed by this driver and not stopped since

@@ -82,7 +82,10 @@ void CoilLoop::command(const Command& command, const Eigen::Vector3d& place) {
 
 void CoilLoop::stop(const std::string& why) {
   std::unique_lock lock(mutex_);
-  if (why_.empty()) why_ = why;
+  if (why_.empty()) {
+    why_ = why;
+    controller_.interrupt();
+  }
   changed_.notify_all();
   changed_.wait(lock, [this] { return at_zero_; });
 }

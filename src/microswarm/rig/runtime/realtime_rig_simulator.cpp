@@ -37,6 +37,7 @@ class RealtimeRigSimulator::Coils : public CoilDriver {
     const std::lock_guard lock(bench_.mutex_);
     return driver_->stop();  // catches up later without current: nothing may fail here
   }
+  void interrupt() noexcept override { driver_->interrupt(); }
 
  private:
   RealtimeRigSimulator& bench_;

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <pty.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "microswarm/actuation/drivers/coil_link.hpp"
+#include "microswarm/core/execution/clock.hpp"
+
+namespace microswarm::test {
+
+/// Plays the coils' device at a pseudo-terminal: arms, sets, stops. Its answers pass through
+/// `answer`, which may change them; false keeps them back.
+class FakeDevice {
+ public:
+  explicit FakeDevice(std::function<bool(CoilReply&)> answer = {}) : answer_(std::move(answer)) {
+    termios raw{};
+    cfmakeraw(&raw);
+    std::array<char, 128> name{};
+    if (openpty(&line_, &other_, name.data(), &raw, nullptr) != 0) ADD_FAILURE() << "no pty";
+    port_ = name.data();
+    thread_ = std::thread([this] { run(); });
+  }
+  ~FakeDevice() {
+    ended_ = true;
+    thread_.join();
+    close(line_);
+    close(other_);
+  }
+  FakeDevice(const FakeDevice&) = delete;
+  FakeDevice& operator=(const FakeDevice&) = delete;
+
+  const std::string& port() const { return port_; }
+  /// When a message of this kind came first [s], by steady_seconds(); 0: never.
+  double first(CoilMessage message) {
+    const std::lock_guard lock(mutex_);
+    return first_[message];
+  }
+  int count(CoilMessage message) {
+    const std::lock_guard lock(mutex_);
+    return counts_[message];
+  }
+
+ private:
+  void run() {
+    std::vector<std::uint8_t> frame;
+    while (!ended_) {
+      pollfd ready{line_, POLLIN, 0};
+      if (poll(&ready, 1, 5) <= 0) continue;
+      std::array<std::uint8_t, 256> bytes{};
+      const auto n = read(line_, bytes.data(), bytes.size());
+      for (std::size_t k = 0; n > 0 && k < static_cast<std::size_t>(n); ++k) {
+        if (bytes[k] != 0) {
+          frame.push_back(bytes[k]);
+          continue;
+        }
+        if (const auto packet = decode(frame)) obey(*packet);
+        frame.clear();
+      }
+    }
+  }
+
+  void obey(const std::vector<std::uint8_t>& packet) {
+    const auto message = static_cast<CoilMessage>(packet[0]);
+    {
+      const std::lock_guard lock(mutex_);
+      if (first_[message] == 0) first_[message] = steady_seconds();
+      ++counts_[message];
+    }
+    if (message == CoilMessage::arm) state_ = CoilState::armed;
+    if (message == CoilMessage::stop) state_ = CoilState::stopped;
+    if (state_ != CoilState::armed) outputs_ = {};
+    if (message == CoilMessage::set && state_ == CoilState::armed)
+      for (std::size_t c = 0; c < outputs_.size(); ++c)
+        outputs_[c] = static_cast<std::int16_t>(packet[packet.size() - 12 + 2 * c] |
+                                                packet[packet.size() - 11 + 2 * c] << 8);
+    CoilReply reply;
+    reply.to = message;
+    reply.sequence = packet[1];
+    reply.version = coil_link_version;
+    reply.state = state_;
+    reply.outputs = outputs_;
+    if (message == CoilMessage::set && state_ != CoilState::armed)
+      reply.result = CoilResult::not_armed;
+    if (answer_ && !answer_(reply)) return;
+    const auto bytes = encode(reply);
+    EXPECT_EQ(write(line_, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
+  }
+
+  std::function<bool(CoilReply&)> answer_;
+  int line_ = -1, other_ = -1;
+  std::string port_;
+  std::atomic<bool> ended_ = false;
+  std::mutex mutex_;
+  std::map<CoilMessage, double> first_;
+  std::map<CoilMessage, int> counts_;
+  CoilState state_ = CoilState::idle;
+  std::array<int, coil_link_channels> outputs_{};
+  std::thread thread_;
+};
+
+}  // namespace microswarm::test
