@@ -5,27 +5,48 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define PROTOCOL_VERSION 1
+#define PROTOCOL_VERSION 2
 #define CHANNELS 6
-#define FULL_SCALE 1000    // of an output: per mille
-#define WATCHDOG_MS 100    // without a valid message
-#define LONGEST_PACKET 40  // decoded, with its check sum
-#define LONGEST_FRAME 44   // as sent, with its end
+#define FULL_SCALE 1000       // of an output: per mille
+#define MAX_FREQUENCY 500000  // of a waveform [mHz]
+#define WATCHDOG_MS 100       // without an obeyed set or waveform
+#define LONGEST_PACKET 48     // decoded, with its check sum
+#define LONGEST_FRAME 52      // as sent, with its end
+#define FORMER_REPLY 24       // bytes of a reply of version 1 without its check sum
 
-enum MessageType { message_hello = 1, message_arm, message_set, message_stop, message_status };
-enum { message_started = 7, reply_bit = 0x80 };  // started: sent unasked, once
+enum MessageType {
+  message_hello = 1,
+  message_arm,
+  message_set,
+  message_stop,
+  message_status,
+  message_waveform,
+  message_started  // sent by the device unasked, once
+};
+enum { reply_bit = 0x80 };
 
 enum Result {
   result_ok,
-  result_limited,  // scaled to this device's limits
-  result_not_armed,
-  result_stale,  // older than what was last set
+  result_limited,    // scaled to this device's limits
+  result_not_armed,  // or refuses to be armed
+  result_stale,      // older than what was last set, or past its deadline
   result_bad_length,
   result_unknown,
-  result_wrong_version
+  result_wrong_version,
+  result_out_of_range  // a frequency
 };
 
 enum State { state_idle, state_armed, state_tripped, state_stopped };
+
+// Why the state is tripped, and a bit that is set while the emergency stop is open.
+enum Trip { trip_none, trip_silence, trip_emergency, trip_open_now = 0x80 };
+
+// Outputs as functions of the phase φ: constant + cosine cos φ + sine sin φ [per mille], φ turning
+// at `frequency` [mHz]. Without cosine and sine it is what a set asks for.
+typedef struct {
+  int32_t frequency;
+  int16_t constant[CHANNELS], cosine[CHANNELS], sine[CHANNELS];
+} Waveform;
 
 // CRC-16/CCITT-FALSE.
 uint16_t crc16(const uint8_t* bytes, uint8_t length);

@@ -10,5 +10,5 @@ void serial_begin(void);
 // False when there is none.
 bool serial_get(uint8_t* byte);
 
-// Waits for room; a byte is gone after 0.1 ms whatever the host does.
-void serial_put(uint8_t byte);
+// Never waits: without room for all of it, it is lost, and the host asks again.
+void serial_send(const uint8_t* frame, uint8_t length);

@@ -20,7 +20,15 @@ CoilReply some_reply(Rng& rng) {
                   .limited = 0x21,
                   .good = static_cast<int>(rng.below(65536)),
                   .bad = static_cast<int>(rng.below(3)),
-                  .trips = 0};
+                  .trips = 0,
+                  .clock = static_cast<int>(rng.below(65536)),
+                  .reset_cause = static_cast<int>(rng.below(16)),
+                  .trip = CoilTrip::emergency,
+                  .emergency_open = rng.below(2) == 1,
+                  .slew = 100,
+                  .scale = static_cast<int>(rng.below(32769)),
+                  .aim_sum = static_cast<int>(rng.below(65536)),
+                  .phase = static_cast<int>(rng.below(65536))};
   for (int& output : reply.outputs) output = static_cast<int>(rng.below(2001)) - 1000;
   return reply;
 }
@@ -42,9 +50,16 @@ TEST(CoilLink, CheckSumIsTheKnownOne) {
 
 TEST(CoilLink, TheBytesOnTheWireArePinned) {
   using Bytes = std::vector<std::uint8_t>;
-  EXPECT_EQ(encode_hello(7), (Bytes{6, 1, 7, 1, 0x1a, 0x72, 0}));
-  EXPECT_EQ(encode_set(200, {0, 1000, -1000, 1, 256, -2}),
-            (Bytes{3, 3, 200, 1, 6, 0xe8, 3, 0x18, 0xfc, 1, 1, 6, 1, 0xfe, 0xff, 0xfc, 10, 0}));
+  EXPECT_EQ(encode_hello(7), (Bytes{6, 1, 7, 2, 0x79, 0x42, 0}));
+  EXPECT_EQ(encode_set(200, 0x1234, {0, 1000, -1000, 1, 256, -2}),
+            (Bytes{0x5,  0x3, 0xc8, 0x34, 0x12, 0x1,  0x6,  0xe8, 0x3,  0x18,
+                   0xfc, 0x1, 0x1,  0x6,  0x1,  0xfe, 0xff, 0xe9, 0x2b, 0x0}));
+  EXPECT_EQ(
+      encode_waveform(201, 0x1234, 16384, {.frequency = -70000, .constant = {5}, .sine = {0, -7}}),
+      (Bytes{0x5, 0x6, 0xc9, 0x34, 0x12, 0x7, 0x40, 0x90, 0xee, 0xfe, 0xff, 0x5,  0x1,
+             0x1, 0x1, 0x1,  0x1,  0x1,  0x1, 0x1,  0x1,  0x1,  0x1,  0x1,  0x1,  0x1,
+             0x1, 0x1, 0x1,  0x1,  0x1,  0x1, 0x1,  0x1,  0x1,  0x1,  0x3,  0xf9, 0xff,
+             0x1, 0x1, 0x1,  0x1,  0x1,  0x1, 0x1,  0x3,  0xa5, 0x8,  0x0}));
 }
 
 TEST(CoilLink, FramesEndWithTheirOnlyZero) {
@@ -53,10 +68,10 @@ TEST(CoilLink, FramesEndWithTheirOnlyZero) {
     std::array<int, coil_link_channels> outputs{};
     for (int& output : outputs)
       output = rng.below(2) ? 0 : static_cast<int>(rng.below(2001)) - 1000;
-    const auto frame = encode_set(static_cast<std::uint8_t>(k), outputs);
+    const auto frame = encode_set(static_cast<std::uint8_t>(k), 257, outputs);
     EXPECT_EQ(std::count(frame.begin(), frame.end(), 0), 1);
     EXPECT_EQ(frame.back(), 0);
-    EXPECT_EQ(frame.size(), 18u);
+    EXPECT_EQ(frame.size(), 20u);
   }
 }
 
@@ -71,6 +86,19 @@ TEST(CoilLink, RepliesComeBackAsTheyWere) {
     EXPECT_EQ(read[0].outputs, reply.outputs);
   }
   EXPECT_EQ(reader.bad(), 0);
+}
+
+// Whatever version a device has, its answer to a hello says so.
+TEST(CoilLink, RepliesOfOtherVersionsBeginAlike) {
+  Rng rng(5, Purpose::test);
+  CoilReply reply = some_reply(rng);
+  reply.version = 1;
+  CoilReplyReader reader;
+  const auto read = replies_in(reader, encode(reply));
+  ASSERT_EQ(read.size(), 1u);
+  EXPECT_EQ(read[0].version, 1);
+  EXPECT_EQ(read[0].outputs, reply.outputs);
+  EXPECT_EQ(read[0].clock, 0);
 }
 
 TEST(CoilLink, NoFlippedBitIsTakenForAReply) {

@@ -82,7 +82,7 @@ class FakeDevice {
     }
     if (message == CoilMessage::arm) state_ = CoilState::armed;
     if (message == CoilMessage::stop) state_ = CoilState::stopped;
-    if (state_ != CoilState::armed) outputs_ = {};
+    if (state_ != CoilState::armed) outputs_ = reported_ = {};
     if (message == CoilMessage::set && state_ == CoilState::armed)
       for (std::size_t c = 0; c < outputs_.size(); ++c)
         outputs_[c] = static_cast<std::int16_t>(packet[packet.size() - 12 + 2 * c] |
@@ -92,7 +92,12 @@ class FakeDevice {
     reply.sequence = packet[1];
     reply.version = coil_link_version;
     reply.state = state_;
-    reply.outputs = outputs_;
+    reply.outputs = reported_;
+    reply.slew = 100;
+    reply.scale = coil_link_unscaled;
+    reply.aim_sum = check_sum({.constant = outputs_});
+    reply.clock = static_cast<int>(1e3 * steady_seconds()) & 0xFFFF;
+    reported_ = outputs_;  // as if there at once
     if (message == CoilMessage::set && state_ != CoilState::armed)
       reply.result = CoilResult::not_armed;
     if (answer_ && !answer_(reply)) return;
@@ -108,7 +113,7 @@ class FakeDevice {
   std::map<CoilMessage, double> first_;
   std::map<CoilMessage, int> counts_;
   CoilState state_ = CoilState::idle;
-  std::array<int, coil_link_channels> outputs_{};
+  CoilOutputs outputs_{}, reported_{};
   std::thread thread_;
 };
 

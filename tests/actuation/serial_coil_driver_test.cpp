@@ -9,6 +9,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "tests/actuation/fake_device.hpp"
+#include "tests/messages.hpp"
 
 namespace microswarm {
 namespace {
@@ -60,6 +61,40 @@ TEST(SerialCoilDriverPty, AStopDoesNotWaitForAnswersThatDoNotCome) {
     EXPECT_LT(steady_seconds() - asked, 3);
     mute = false;
     EXPECT_EQ(driver.drive(some_amperes), DriveStatus::resumed);  // it heard the stop
+  }
+}
+
+TEST(SerialCoilDriverPty, ADeviceThatAcknowledgesSomethingElseIsAFault) {
+  test::FakeDevice device([](CoilReply& reply) {
+    if (reply.to == CoilMessage::set) reply.aim_sum ^= 1;
+    return true;
+  });
+  SerialCoilDriver driver(params_of(device));
+  EXPECT_EQ(driver.drive(some_amperes), DriveStatus::mismatched);
+}
+
+TEST(SerialCoilDriverPty, ADeviceThatReportsSomethingElseIsAFault) {
+  test::FakeDevice device([](CoilReply& reply) {
+    reply.outputs = {};
+    return true;
+  });
+  SerialCoilDriver driver(params_of(device));
+  EXPECT_EQ(driver.drive(some_amperes), DriveStatus::driven);  // it may not be there yet
+  std::this_thread::sleep_for(std::chrono::milliseconds(30));
+  EXPECT_EQ(driver.drive(some_amperes), DriveStatus::mismatched);
+}
+
+TEST(SerialCoilDriverPty, FormerFirmwareIsToldHowToRenewIt) {
+  test::FakeDevice device([](CoilReply& reply) {
+    reply.version = 1;
+    reply.result = CoilResult::wrong_version;
+    return true;
+  });
+  try {
+    SerialCoilDriver driver(params_of(device));
+    FAIL();
+  } catch (const HardwareError& e) {
+    EXPECT_TRUE(test::is_one_line_naming(e.what(), device.port(), {"version 1", "make", "upload"}));
   }
 }
 

@@ -2,10 +2,11 @@
 // mega_simulator FIRMWARE.elf [BOOTLOADER.hex]: an ATmega2560 in real time whose serial line is a
 // pseudo-terminal. As on a Mega, opening the port resets it; with a bootloader, that runs first.
 // Prints `port PATH`, then `out MS o1 … o6` whenever an output changes (per mille, by the pins'
-// registers). Takes lines: `cut`, `join` (the cable), `lose P` and `flip P` (a share of the bytes
-// to the device), `reset`, `mark`; answers each with `mark MS`. MS is the device's own time, which
-// stands still while the computer has other work.
-// Ends with its standard input.
+// registers), `enable 0` or `enable 1`. Takes lines: `cut`, `join` (the cable), `lose P` and `flip
+// P` (a share of the bytes to the device), `mute` (the device is heard no more), `reset`,
+// `brownout`, `press`, `release` (the emergency stop), `trace FILE` (writes the cycle of each
+// change of an output, and the outputs), `mark`; answers each with `mark MS`. MS is the device's
+// own time, which stands still while the computer has other work. Ends with its standard input.
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <poll.h>
@@ -25,6 +26,7 @@
 #include "microswarm/core/maths/rng.hpp"
 
 extern "C" {
+#include <simavr/avr_ioport.h>
 #include <simavr/avr_uart.h>
 #include <simavr/sim_avr.h>
 #include <simavr/sim_elf.h>
@@ -43,7 +45,7 @@ constexpr double max_late = 0.02;   // [s]
 constexpr double start_up = 0.065;  // [s] after a reset, by the fuses of a Mega
 constexpr int top = 799;
 constexpr int reset_cause = 0x54;  // MCUSR
-enum Cause : std::uint8_t { power_on = 1, reset_line = 2 };
+enum Cause : std::uint8_t { power_on = 1, reset_line = 2, brown_out = 4 };
 
 /// What the pins do, by the registers' addresses in the data sheet.
 Outputs outputs_of(const avr_t& avr) {
@@ -85,6 +87,7 @@ class Mega {
     avr_irq_register_notify(irq(UART_IRQ_OUTPUT), on_output, this);
     avr_irq_register_notify(irq(UART_IRQ_OUT_XON), on_room, this);
     avr_irq_register_notify(irq(UART_IRQ_OUT_XOFF), on_full, this);
+    contact_ = avr_io_getirq(avr_, AVR_IOCTL_IOPORT_GETIRQ('C'), 7);
     open_port();
     restart(power_on);
   }
@@ -107,9 +110,14 @@ class Mega {
       while (avr_->cycle < until) {
         const int state = avr_run(avr_);
         if (state == cpu_Crashed || state == cpu_Done) fail("the firmware crashed");
+        if (trace_) follow();
       }
       const Outputs now = outputs_of(*avr_);
       if (now != shown) show(shown = now);
+      if (const bool enabled = (avr_->data[0x22] >> 6) & 1; enabled != enabled_) {
+        fmt::print("enable {}\n", int{enabled_ = enabled});
+        std::fflush(stdout);
+      }
       if (!exchange(late > slice ? 0 : 1)) return;
     }
   }
@@ -136,6 +144,7 @@ class Mega {
     avr_->data[reset_cause] = cause;
     room_ = true;
     waiting_.clear();
+    set_contact();
     avr_->cycle += static_cast<avr_cycle_count_t>(start_up * frequency);
   }
 
@@ -144,6 +153,26 @@ class Mega {
   void show(const Outputs& o) const {
     fmt::print("out {} {} {} {} {} {} {}\n", milliseconds(), o[0], o[1], o[2], o[3], o[4], o[5]);
     std::fflush(stdout);
+  }
+
+  // Closed, it pulls the pin down against the pull-up.
+  void set_contact() {
+    constexpr unsigned pin = 1U << 7;
+    avr_ioport_external_t contact{};
+    contact.name = 'C';
+    contact.mask = pin;
+    contact.value = pressed_ ? pin : 0;
+    avr_ioctl(avr_, AVR_IOCTL_IOPORT_SET_EXTERNAL('C'), &contact);
+    avr_raise_irq(contact_, pressed_);
+  }
+
+  // After each instruction, so that times are exact.
+  void follow() {
+    const Outputs now = outputs_of(*avr_);
+    if (now == traced_) return;
+    traced_ = now;
+    fmt::print(trace_, "{} {} {} {} {} {} {}\n", avr_->cycle, now[0], now[1], now[2], now[3],
+               now[4], now[5]);
   }
 
   void open_port() {
@@ -161,7 +190,8 @@ class Mega {
   static void on_output(avr_irq_t*, std::uint32_t byte, void* self) {
     Mega& mega = *static_cast<Mega*>(self);
     const auto sent = static_cast<std::uint8_t>(byte);
-    if (!mega.cut_ && mega.open_ && write(mega.port_, &sent, 1) < 0) return;  // nobody reads: lost
+    if (!mega.cut_ && !mega.mute_ && mega.open_ && write(mega.port_, &sent, 1) < 0)
+      return;  // nobody reads: lost
   }
   static void on_room(avr_irq_t*, std::uint32_t, void* self) {
     Mega& mega = *static_cast<Mega*>(self);
@@ -219,7 +249,18 @@ class Mega {
     if (order == "join") cut_ = false;
     if (order == "lose") words >> lost_;
     if (order == "flip") words >> flipped_;
+    if (order == "mute") mute_ = true;
     if (order == "reset") restart(reset_line);
+    if (order == "brownout") restart(brown_out);
+    if (order == "press" || order == "release") {
+      pressed_ = order == "press";
+      set_contact();
+    }
+    if (order == "trace") {
+      std::string file;
+      if (trace_) std::fclose(trace_);
+      trace_ = words >> file ? std::fopen(file.c_str(), "w") : nullptr;
+    }
     fmt::print("mark {}\n", milliseconds());
     std::fflush(stdout);
   }
@@ -227,7 +268,11 @@ class Mega {
   avr_t* avr_ = nullptr;
   avr_irq_t* input_ = nullptr;
   int port_ = -1;
-  bool room_ = true, cut_ = false, open_ = false;
+  bool room_ = true, cut_ = false, open_ = false, mute_ = false;
+  bool pressed_ = false, enabled_ = false;
+  avr_irq_t* contact_ = nullptr;
+  std::FILE* trace_ = nullptr;
+  Outputs traced_{};
   double lost_ = 0, flipped_ = 0;
   std::deque<std::uint8_t> waiting_;
   std::string orders_;

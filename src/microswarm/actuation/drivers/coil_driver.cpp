@@ -9,8 +9,9 @@
 namespace microswarm {
 
 std::string_view to_string(DriveStatus status) {
-  constexpr std::array<std::string_view, 6> names{"driven",  "scaled",    "resumed",
-                                                  "refused", "not_armed", "no_answer"};
+  constexpr std::array<std::string_view, 8> names{"driven",     "scaled",    "resumed",
+                                                  "refused",    "not_armed", "emergency",
+                                                  "mismatched", "no_answer"};
   return names[static_cast<std::size_t>(status)];
 }
 

@@ -14,11 +14,13 @@ inline constexpr double full_scale_slack = 1e-9;
 /// Result of a command to the coils.
 enum class DriveStatus : std::uint8_t {
   driven,
-  scaled,     ///< the device's own limits scaled all currents by the same factor
-  resumed,    ///< driven, but the coils had been off: the device restarted or its watchdog fired
-  refused,    ///< more current than the driver can request; the coils keep their currents
-  not_armed,  ///< the device is off and refuses to be armed, or may only be armed by a person
-  no_answer,  ///< the coils switch off within the device's watchdog time, or the device is gone
+  scaled,      ///< the device's own limits scaled all currents by the same factor
+  resumed,     ///< driven, but the coils had been off: the device restarted or its watchdog fired
+  refused,     ///< more current than the driver can request; the coils keep their currents
+  not_armed,   ///< the device is off and refuses to be armed, or may only be armed by a person
+  emergency,   ///< the emergency stop of the device is or was open
+  mismatched,  ///< the device acknowledges or reports something else than it was told
+  no_answer,   ///< the coils switch off within the device's watchdog time, or the device is gone
 };
 std::string_view to_string(DriveStatus status);
 

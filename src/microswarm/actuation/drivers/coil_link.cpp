@@ -8,13 +8,23 @@ namespace microswarm {
 namespace {
 
 constexpr std::uint8_t reply_bit = 0x80;
-constexpr std::size_t longest_frame = 44;
-constexpr std::size_t reply_size = 26;
+constexpr std::size_t longest_frame = 52;
+constexpr std::size_t former_reply = 24, reply_size = 35;  // without the check sum
+constexpr std::uint8_t emergency_bit = 0x80;
 
 void append16(std::vector<std::uint8_t>& to, int value) {
   const auto bits = static_cast<std::uint16_t>(value);
   to.push_back(static_cast<std::uint8_t>(bits & 0xFF));
   to.push_back(static_cast<std::uint8_t>(bits >> 8));
+}
+
+void append(std::vector<std::uint8_t>& to, const CoilOutputs& outputs) {
+  for (const int output : outputs) append16(to, output);
+}
+
+void append_frequency(std::vector<std::uint8_t>& to, const CoilAim& aim) {
+  append16(to, aim.frequency);
+  append16(to, aim.frequency >> 16);
 }
 
 int unsigned16(std::span<const std::uint8_t> bytes, std::size_t at) {
@@ -45,7 +55,9 @@ std::vector<std::uint8_t> frame_of(std::vector<std::uint8_t> packet) {
 }
 
 std::optional<CoilReply> reply_of(std::span<const std::uint8_t> p) {
-  if (p.size() != reply_size - 2 || !(p[0] & reply_bit)) return std::nullopt;
+  if (p.size() < former_reply || !(p[0] & reply_bit)) return std::nullopt;
+  const bool ours = p[2] == coil_link_version;
+  if (p.size() != (ours ? reply_size : former_reply)) return std::nullopt;
   CoilReply reply{.to = CoilMessage{static_cast<std::uint8_t>(p[0] & ~reply_bit)},
                   .sequence = p[1],
                   .version = p[2],
@@ -56,6 +68,15 @@ std::optional<CoilReply> reply_of(std::span<const std::uint8_t> p) {
                   .bad = unsigned16(p, 8),
                   .trips = unsigned16(p, 10)};
   for (std::size_t c = 0; c < reply.outputs.size(); ++c) reply.outputs[c] = signed16(p, 12 + 2 * c);
+  if (!ours) return reply;
+  reply.clock = unsigned16(p, 24);
+  reply.reset_cause = p[26];
+  reply.trip = CoilTrip{static_cast<std::uint8_t>(p[27] & ~emergency_bit)};
+  reply.emergency_open = p[27] & emergency_bit;
+  reply.slew = p[28];
+  reply.scale = unsigned16(p, 29);
+  reply.aim_sum = unsigned16(p, 31);
+  reply.phase = unsigned16(p, 33);
   return reply;
 }
 
@@ -74,11 +95,22 @@ std::vector<std::uint8_t> encode(CoilMessage message, std::uint8_t sequence,
   return frame_of(std::move(packet));
 }
 
-std::vector<std::uint8_t> encode_set(std::uint8_t sequence,
-                                     const std::array<int, coil_link_channels>& outputs) {
+std::vector<std::uint8_t> encode_set(std::uint8_t sequence, int deadline,
+                                     const CoilOutputs& outputs) {
   std::vector<std::uint8_t> payload;
-  for (const int output : outputs) append16(payload, output);
+  append16(payload, deadline);
+  append(payload, outputs);
   return encode(CoilMessage::set, sequence, payload);
+}
+
+std::vector<std::uint8_t> encode_waveform(std::uint8_t sequence, int deadline, int phase,
+                                          const CoilAim& aim) {
+  std::vector<std::uint8_t> payload;
+  append16(payload, deadline);
+  append16(payload, phase);
+  append_frequency(payload, aim);
+  for (const CoilOutputs& part : {aim.constant, aim.cosine, aim.sine}) append(payload, part);
+  return encode(CoilMessage::waveform, sequence, payload);
 }
 
 std::vector<std::uint8_t> encode_hello(std::uint8_t sequence) {
@@ -95,8 +127,30 @@ std::vector<std::uint8_t> encode(const CoilReply& reply) {
       static_cast<std::uint8_t>(reply.state),
       reply.limited};
   for (const int count : {reply.good, reply.bad, reply.trips}) append16(packet, count);
-  for (const int output : reply.outputs) append16(packet, output);
+  append(packet, reply.outputs);
+  if (reply.version == coil_link_version) {
+    append16(packet, reply.clock);
+    packet.push_back(static_cast<std::uint8_t>(reply.reset_cause));
+    packet.push_back(static_cast<std::uint8_t>(static_cast<std::uint8_t>(reply.trip) |
+                                               (reply.emergency_open ? emergency_bit : 0)));
+    packet.push_back(static_cast<std::uint8_t>(reply.slew));
+    for (const int value : {reply.scale, reply.aim_sum, reply.phase}) append16(packet, value);
+  }
   return frame_of(std::move(packet));
+}
+
+CoilAim scaled(const CoilAim& aim, int scale) {
+  CoilAim result = aim;
+  for (CoilOutputs* part : {&result.constant, &result.cosine, &result.sine})
+    for (int& output : *part) output = output * scale / coil_link_unscaled;
+  return result;
+}
+
+std::uint16_t check_sum(const CoilAim& aim) {
+  std::vector<std::uint8_t> bytes;
+  append_frequency(bytes, aim);
+  for (const CoilOutputs& part : {aim.constant, aim.cosine, aim.sine}) append(bytes, part);
+  return crc16(bytes);
 }
 
 std::optional<std::vector<std::uint8_t>> decode(std::span<const std::uint8_t> frame) {

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 #include <poll.h>
 #include <sys/file.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -32,6 +33,10 @@ constexpr int max_failures = 3;  // exchanges in a row
 // A bootloader that was spoken to listens for 5 s more.
 constexpr double silence_per_boot_time = 3;
 
+DriveStatus refusal(const CoilReply& reply) {
+  return reply.trip == CoilTrip::emergency ? DriveStatus::emergency : DriveStatus::not_armed;
+}
+
 }  // namespace
 
 /// Byte stream of the serial port. Never blocks on a device that neither accepts nor sends bytes.
@@ -40,9 +45,15 @@ class SerialCoilDriver::Port {
   explicit Port(const std::string& path) : port_(context_) {
     boost::system::error_code error;
     port_.open(path, error);
-    if (error) throw HardwareError(fmt::format("{}: cannot open: {}", path, error.message()));
-    if (::flock(port_.native_handle(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    const bool taken = error == boost::system::errc::device_or_resource_busy;
+    if (error && !taken)
+      throw HardwareError(fmt::format("{}: cannot open: {}", path, error.message()));
+    if (taken || (::flock(port_.native_handle(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK))
       throw HardwareError(path + ": another program drives coils there");
+    // Keeps programs out that know no locks. A pseudo-terminal would stay closed for ever.
+    int lines = 0;
+    if (::ioctl(port_.native_handle(), TIOCMGET, &lines) == 0)
+      ::ioctl(port_.native_handle(), TIOCEXCL);
     using Base = asio::serial_port_base;
     const auto set = [&](const auto& option) {
       port_.set_option(option, error);
@@ -117,33 +128,44 @@ SerialCoilDriver::SerialCoilDriver(const SerialCoilParams& params)
     throw HardwareError(
         fmt::format("{}: no answer within {} s", params_.port, params_.connect_timeout));
   if (reply->version != coil_link_version || reply->result != CoilResult::ok)
-    throw HardwareError(fmt::format("{}: the device speaks version {} of the protocol, this is {}",
-                                    params_.port, reply->version, coil_link_version));
+    throw HardwareError(fmt::format(
+        "{0}: its firmware speaks version {1} of the protocol, this program {2}; renew it: make -C "
+        "firmware/coil_driver upload PORT={0}",
+        params_.port, reply->version, coil_link_version));
 }
 
 SerialCoilDriver::~SerialCoilDriver() { stop(); }
 
 DriveStatus SerialCoilDriver::drive(std::span<const double> currents) {
   assert(currents.size() == coil_link_channels);
-  std::array<int, coil_link_channels> outputs{};
-  for (std::size_t c = 0; c < outputs.size(); ++c) {
+  CoilAim aim;
+  for (std::size_t c = 0; c < currents.size(); ++c) {
     const double share = currents[c] / params_.full_scale;
     if (!(std::abs(share) <= 1 + full_scale_slack)) return DriveStatus::refused;
-    outputs[c] = static_cast<int>(std::lround(share * coil_link_full_scale));
+    aim.constant[c] = static_cast<int>(std::lround(share * coil_link_full_scale));
   }
+  return follow(CoilMessage::set, aim);
+}
+
+DriveStatus SerialCoilDriver::follow(CoilMessage message, const CoilAim& aim) {
   DriveStatus status = DriveStatus::driven;
   if (!armed_)  // only now: the watchdog starts immediately
     if (const DriveStatus armed = arm(); armed != DriveStatus::driven) return armed;
-  auto reply = exchange(CoilMessage::set, outputs);
+  auto reply = exchange(message, aim);
   if (reply && reply->result == CoilResult::not_armed) {
+    if (reply->trip == CoilTrip::emergency) return DriveStatus::emergency;
     if (const DriveStatus armed = arm(); armed != DriveStatus::driven) return armed;
-    reply = exchange(CoilMessage::set, outputs);
+    reply = exchange(message, aim);
     status = DriveStatus::resumed;
   }
-  if (!reply) return DriveStatus::no_answer;
-  if (reply->result == CoilResult::not_armed) return DriveStatus::not_armed;
-  if (reply->result == CoilResult::limited) return DriveStatus::scaled;
-  return reply->result == CoilResult::ok ? status : DriveStatus::no_answer;
+  if (!reply || reply->result == CoilResult::stale) {
+    check_.forget();
+    return DriveStatus::no_answer;
+  }
+  if (reply->result == CoilResult::not_armed) return refusal(*reply);
+  const bool obeyed = reply->result == CoilResult::ok || reply->result == CoilResult::limited;
+  if (!obeyed || !check_.agrees(aim, *reply)) return DriveStatus::mismatched;
+  return reply->result == CoilResult::limited ? DriveStatus::scaled : status;
 }
 
 bool SerialCoilDriver::stop() noexcept {
@@ -165,24 +187,34 @@ DriveStatus SerialCoilDriver::arm() {
   const auto reply = exchange(CoilMessage::arm);
   if (!reply) return DriveStatus::no_answer;
   armed_ = reply->result == CoilResult::ok && reply->state == CoilState::armed;
-  return armed_ ? DriveStatus::driven : DriveStatus::not_armed;
+  if (!armed_) return refusal(*reply);
+  check_.begin(*reply);
+  return DriveStatus::driven;
+}
+
+std::vector<std::uint8_t> SerialCoilDriver::bytes_of(CoilMessage message,
+                                                     const CoilAim& aim) const {
+  if (message == CoilMessage::hello) return encode_hello(sequence_);
+  if (message != CoilMessage::set) return encode(message, sequence_);
+  // Twice the longest round trip after now, since the device's clock is known late by one.
+  const double validity = steady_seconds() - clock_at_ + 2 * params_.reply_timeout;
+  const int deadline = clock_ + static_cast<int>(std::lround(1e3 * validity));
+  return encode_set(sequence_, deadline, aim.constant);
 }
 
 // Resends the same message with the same number until it is answered; the device executes it once.
-std::optional<CoilReply> SerialCoilDriver::exchange(
-    CoilMessage message, const std::array<int, coil_link_channels>& outputs) {
+std::optional<CoilReply> SerialCoilDriver::exchange(CoilMessage message, const CoilAim& aim) {
   if (message != CoilMessage::stop && keeps_silent()) return std::nullopt;
   ++sequence_;
-  const auto bytes = message == CoilMessage::set     ? encode_set(sequence_, outputs)
-                     : message == CoilMessage::hello ? encode_hello(sequence_)
-                                                     : encode(message, sequence_);
   const Stop gives_up = message == CoilMessage::stop ? Stop(max_stop) : Stop(&interrupted_);
   for (int k = 0; k < params_.attempts && !gives_up(); ++k) {
     const auto began = Clock::now();
-    if (!port_->put(bytes, params_.reply_timeout, gives_up)) continue;
+    if (!port_->put(bytes_of(message, aim), params_.reply_timeout, gives_up)) continue;
     if (auto reply = answer_to(message, params_.reply_timeout, gives_up)) {
       round_trip_ = seconds_since(began);
       failures_ = 0;
+      clock_ = reply->clock;
+      clock_at_ = steady_seconds();
       for (std::size_t c = 0; c < currents_.size(); ++c)
         currents_[c] = params_.full_scale * reply->outputs[c] / coil_link_full_scale;
       return reply;

@@ -9,9 +9,11 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "microswarm/actuation/drivers/coil_driver.hpp"
 #include "microswarm/actuation/drivers/coil_link.hpp"
+#include "microswarm/actuation/drivers/output_check.hpp"
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/core/fields/fields.hpp"
 
@@ -71,8 +73,9 @@ class SerialCoilDriver final : public CoilDriver {
  private:
   class Port;
 
-  std::optional<CoilReply> exchange(CoilMessage message,
-                                    const std::array<int, coil_link_channels>& outputs = {});
+  DriveStatus follow(CoilMessage message, const CoilAim& aim);
+  std::vector<std::uint8_t> bytes_of(CoilMessage message, const CoilAim& aim) const;
+  std::optional<CoilReply> exchange(CoilMessage message, const CoilAim& aim = {});
   std::optional<CoilReply> answer_to(CoilMessage message, double timeout, const Stop& gives_up);
   bool hears_start(double timeout);
   bool keeps_silent();
@@ -81,7 +84,10 @@ class SerialCoilDriver final : public CoilDriver {
   SerialCoilParams params_;
   std::unique_ptr<Port> port_;
   CoilReplyReader reader_;
+  OutputCheck check_;
   std::uint8_t sequence_ = 0;
+  int clock_ = 0;        // of the device, in its last reply [ms]
+  double clock_at_ = 0;  // when that came [s], by steady_seconds()
   double round_trip_ = 0;
   std::atomic<bool> interrupted_ = false;
   int failures_ = 0;                                   // exchanges without an answer, in a row

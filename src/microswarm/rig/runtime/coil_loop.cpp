@@ -172,6 +172,10 @@ std::string CoilLoop::send(CoilMoment& moment, const Eigen::Vector3d& place, dou
     if (moment.output.status == DriveStatus::refused) return "the coil driver refuses the currents";
     if (moment.output.status == DriveStatus::not_armed)
       return "the coils' device is off and does not let itself be armed";
+    if (moment.output.status == DriveStatus::emergency)
+      return "the emergency stop of the coils' device was pressed";
+    if (moment.output.status == DriveStatus::mismatched)
+      return "the coils' device does something else than it was told";
     if (heard_) heard_(moment);
     return {};
   } catch (const std::exception& e) {

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// What turns the outputs off and what keeps them on, message by message.
+#include <poll.h>
+
+#include "tests/firmware/simulator.hpp"
+
+namespace microswarm {
+namespace {
+
+using namespace std::chrono_literals;
+using namespace test;
+
+/// The serial line without the driver's own care.
+class RawLine {
+ public:
+  explicit RawLine(const std::string& port) : line_(open(port.c_str(), O_RDWR | O_NOCTTY)) {
+    EXPECT_GE(line_, 0);
+    const auto started = next();
+    EXPECT_TRUE(started && started->to == CoilMessage::started);
+    if (started) last = *started;
+  }
+  ~RawLine() { close(line_); }
+  RawLine(const RawLine&) = delete;
+  RawLine& operator=(const RawLine&) = delete;
+
+  /// The answer to these bytes.
+  CoilReply ask(const std::vector<std::uint8_t>& bytes) {
+    EXPECT_EQ(write(line_, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
+    const auto reply = next();
+    EXPECT_TRUE(reply);
+    return last = reply.value_or(CoilReply{});
+  }
+  CoilReply hello() { return ask(encode_hello(++sequence)); }
+  CoilReply arm() { return ask(encode(CoilMessage::arm, ++sequence)); }
+  CoilReply status() { return ask(encode(CoilMessage::status, ++sequence)); }
+  /// With a deadline so many ms after the last answer.
+  CoilReply set(const CoilOutputs& outputs, int ms = 1000) {
+    return ask(encode_set(++sequence, last.clock + ms, outputs));
+  }
+
+  CoilReply last;
+  std::uint8_t sequence = 0;
+
+ private:
+  std::optional<CoilReply> next() {
+    for (const auto began = std::chrono::steady_clock::now();
+         std::chrono::steady_clock::now() < began + patience;) {
+      pollfd ready{line_, POLLIN, 0};
+      std::uint8_t byte = 0;
+      if (poll(&ready, 1, 100) <= 0 || read(line_, &byte, 1) != 1) continue;
+      if (auto reply = reader_.take(byte)) return reply;
+    }
+    return std::nullopt;
+  }
+
+  int line_;
+  CoilReplyReader reader_;
+};
+
+class FirmwareSafety : public testing::Test {
+ protected:
+  /// Armed, and the outputs there. A computer that is busy may need several attempts.
+  void drive(RawLine& line) {
+    for (const auto began = std::chrono::steady_clock::now();
+         mega.outputs() != some_outputs && std::chrono::steady_clock::now() < began + patience;
+         std::this_thread::sleep_for(5ms))
+      if (line.set(some_outputs).result == CoilResult::not_armed) line.arm();
+    ASSERT_EQ(mega.outputs(), some_outputs);
+  }
+
+  Simulator mega;
+};
+
+// Of what a host says without setting outputs, nothing keeps them on.
+TEST_F(FirmwareSafety, OnlyAnObeyedSetFeedsTheWatchdog) {
+  RawLine line(mega.port());
+  for (const int kind : {0, 1, 2, 3}) {
+    drive(line);
+    const std::uint8_t last_set = line.sequence;
+    const double began = mega.order("mark");
+    for (int k = 0; k < 30 && line.last.state == CoilState::armed; ++k) {
+      if (kind == 0) line.status();
+      if (kind == 1) line.set(some_outputs, -20);                          // late
+      if (kind == 2) line.ask(encode(CoilMessage::set, ++line.sequence));  // too short
+      if (kind == 3) line.ask(encode_set(last_set, line.last.clock + 1000, some_outputs));
+      std::this_thread::sleep_for(10ms);
+    }
+    const auto zero = mega.when(off);
+    ASSERT_TRUE(zero) << kind;
+    EXPECT_LE(*zero - began, zero_within_ms) << kind;
+    EXPECT_EQ(line.status().trip, CoilTrip::silence) << kind;
+  }
+}
+
+TEST_F(FirmwareSafety, ALateSetIsStale) {
+  RawLine line(mega.port());
+  drive(line);
+  EXPECT_EQ(line.set({}, -20).result, CoilResult::stale);
+  EXPECT_NE(mega.outputs(), off);
+  EXPECT_EQ(line.set({}, 20).result, CoilResult::ok);
+  EXPECT_TRUE(mega.when(off));
+}
+
+TEST_F(FirmwareSafety, AHelloTurnsOff) {
+  RawLine line(mega.port());
+  drive(line);
+  const double began = mega.order("mark");
+  EXPECT_EQ(line.hello().state, CoilState::idle);
+  const auto zero = mega.when(off);
+  ASSERT_TRUE(zero);
+  EXPECT_LE(*zero - began, 20);
+}
+
+TEST_F(FirmwareSafety, AmplifiersAreEnabledWhileArmed) {
+  RawLine line(mega.port());
+  EXPECT_FALSE(mega.enabled());
+  drive(line);
+  EXPECT_TRUE(mega.enabled());
+  ASSERT_TRUE(mega.when(off));  // by silence
+  mega.order("mark");
+  EXPECT_FALSE(mega.enabled());
+}
+
+TEST_F(FirmwareSafety, ThePressedEmergencyStopTurnsOffAndRefusesToArm) {
+  SerialCoilDriver driver(params(mega.port()));
+  ASSERT_EQ(driver.drive(some), DriveStatus::driven);
+  const double pressed = mega.order("press");
+  const auto zero = mega.when(off);
+  ASSERT_TRUE(zero);
+  EXPECT_LE(*zero - pressed, 10);
+  EXPECT_EQ(driver.drive(some), DriveStatus::emergency);
+  EXPECT_EQ(driver.ask_status()->trip, CoilTrip::emergency);
+  EXPECT_TRUE(driver.ask_status()->emergency_open);
+  EXPECT_TRUE(driver.stop());
+  EXPECT_EQ(driver.drive(some), DriveStatus::emergency);  // does not let itself be armed
+  mega.order("release");
+  std::this_thread::sleep_for(200ms);
+  EXPECT_EQ(driver.drive(some), DriveStatus::driven);  // after a stop it may be armed again
+}
+
+TEST_F(FirmwareSafety, AReleasedEmergencyStopDoesNotTurnOnByItself) {
+  SerialCoilDriver driver(params(mega.port()));
+  ASSERT_EQ(driver.drive(some), DriveStatus::driven);
+  mega.order("press");
+  ASSERT_TRUE(mega.when(off));
+  mega.order("release");
+  std::this_thread::sleep_for(200ms);
+  EXPECT_EQ(driver.drive(some), DriveStatus::emergency);
+  EXPECT_EQ(mega.outputs(), off);
+}
+
+TEST_F(FirmwareSafety, TellsWhyItRestarted) {
+  RawLine line(mega.port());
+  EXPECT_EQ(line.last.reset_cause, 2);  // the port was opened
+  mega.order("brownout");
+  std::this_thread::sleep_for(200ms);
+  line.status();
+  EXPECT_EQ(line.status().reset_cause, 4);
+}
+
+TEST(FirmwareLimits, AreThoseGivenToMakeAndKeepTheDirection) {
+  Simulator mega(nullptr, LIMITED_FIRMWARE);  // LIMITS=500,1000,1000,1000,1000,800 SLEW=50
+  SerialCoilDriver driver(params(mega.port()));
+  const std::array<double, 6> uneven{20, -4, 6, -8, 10, -8};
+  EXPECT_EQ(driver.drive(uneven), DriveStatus::scaled);
+  EXPECT_TRUE(mega.when({500, -100, 150, -200, 250, -200}));
+}
+
+}  // namespace
+}  // namespace microswarm
