@@ -129,27 +129,28 @@ uint8_t outputs_aim(Waveform* aim, uint16_t begin, uint16_t* scale) {
   return beyond;
 }
 
+static int16_t value_of(const Waveform* aim, uint8_t c, int16_t cosine, int16_t sine_) {
+  int16_t value = aim->constant[c];
+  if (!turning) return value;
+  const int32_t turned = (int32_t)aim->cosine[c] * cosine + (int32_t)aim->sine[c] * sine_;
+  return value + (int16_t)((uint32_t)(2 * turned) >> 16);
+}
+
 // Puts out what the last tick computed, so that all channels change at the same time, and computes.
 void outputs_tick(void) {
   for (uint8_t c = 0; c < CHANNELS; ++c) put(c, planned[c]);
   angle_now = (uint16_t)(phase >> 16);
-  const bool news = fresh;
-  if (news) {
+  phase += step;
+  const uint16_t angle = (uint16_t)(phase >> 16);
+  const int16_t cosine = sine(angle + 16384), sine_ = sine(angle);
+  if (fresh) {  // what changes is the aim, not the outputs
+    for (uint8_t c = 0; c < CHANNELS; ++c)
+      rest[c] += value_of(&followed, c, cosine, sine_) - value_of(&next, c, cosine, sine_);
     followed = next;
     step = next_step;
     fresh = false;
   }
-  phase += step;
-  const uint16_t angle = (uint16_t)(phase >> 16);
-  const int16_t cosine = sine(angle + 16384), sine_ = sine(angle);
   for (uint8_t c = 0; c < CHANNELS; ++c) {
-    int16_t value = followed.constant[c];
-    if (turning) {
-      const int32_t turned =
-          (int32_t)followed.cosine[c] * cosine + (int32_t)followed.sine[c] * sine_;
-      value += (int16_t)((uint32_t)(2 * turned) >> 16);
-    }
-    if (news) rest[c] = planned[c] - value;
     int16_t left = rest[c];
     if (left > SLEW / TICKS_PER_MS)
       left -= SLEW / TICKS_PER_MS;
@@ -158,7 +159,7 @@ void outputs_tick(void) {
     else
       left = 0;
     rest[c] = left;
-    value += left;
+    int16_t value = value_of(&followed, c, cosine, sine_) + left;
     if (value > limits[c]) value = limits[c];
     if (value < -limits[c]) value = -limits[c];
     planned[c] = value;
