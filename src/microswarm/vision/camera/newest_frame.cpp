@@ -92,9 +92,9 @@ struct NewestFrame::Shared {
     } else if (frames == 0) {
       s.state = CameraState::opening;
     } else {
-      s.state = same >= p.frozen_after ? CameraState::frozen
-                : black                ? CameraState::black
-                                       : CameraState::live;
+      s.state = black                    ? CameraState::black
+                : same >= p.frozen_after ? CameraState::frozen
+                                         : CameraState::live;
     }
     return s;
   }
