@@ -37,12 +37,29 @@ struct Context {
   const std::atomic<bool>* interrupted;
 };
 
+/// Input is being read and nothing has been begun yet: while an instance lives, the first Ctrl-C
+/// ends the program at once, with exit code 3.
+class Reading {
+ public:
+  Reading();
+  ~Reading();
+  Reading(const Reading&) = delete;
+  Reading& operator=(const Reading&) = delete;
+};
+
+/// The result of `read`, which reads input.
+template <class Read>
+auto reading(Read&& read) {
+  const Reading now;
+  return read();
+}
+
 /// A command registers its options on the app and sets an action. main() calls it after the command
 /// line is validated; it returns the exit code.
 using Action = std::function<int(const Context&)>;
 
-/// Writes results to stdout. Throws InputError "stdout: cannot write: REASON". If the reader of a
-/// pipe has gone, the program ends by SIGPIPE.
+/// Writes results to stdout, as `printable`. Throws InputError "stdout: cannot write: REASON". If
+/// the reader of a pipe has gone, the program ends by SIGPIPE.
 void put(std::string_view text);
 /// Flushes output buffered by put(); errors as there.
 void flush_output();
@@ -52,7 +69,7 @@ void print(fmt::format_string<Values...> format, Values&&... values) {
   put(fmt::format(format, std::forward<Values>(values)...));
 }
 
-/// Writes to stderr; errors such as a closed terminal are ignored.
+/// Writes to stderr, as `printable`; errors such as a closed terminal are ignored.
 void say(std::string_view text) noexcept;
 
 template <class... Values>
@@ -68,7 +85,7 @@ inline void note_each(const std::vector<std::string>& lines) {
 /// Progress bar on stderr, shown only on a terminal: "label [#####.....] 50 % 3 s left note".
 class ProgressBar {
  public:
-  explicit ProgressBar(std::string label);
+  explicit ProgressBar(const std::string& label);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;

@@ -9,10 +9,12 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <new>
 #include <system_error>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "support/cli.hpp"
 
 namespace microswarm::cli {
@@ -26,10 +28,17 @@ namespace {
   throw InputError("stdout: cannot write: " + std::generic_category().message(error));
 }
 
+/// Writes to stderr as it is, control characters included.
+void say_raw(std::string_view text) noexcept {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
 }  // namespace
 
 void put(std::string_view text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) output_failed(errno);
+  const std::string safe = printable(text);
+  if (std::fwrite(safe.data(), 1, safe.size(), stdout) != safe.size()) output_failed(errno);
 }
 
 void flush_output() {
@@ -37,15 +46,18 @@ void flush_output() {
 }
 
 void say(std::string_view text) noexcept {
-  std::fwrite(text.data(), 1, text.size(), stderr);
-  std::fflush(stderr);
+  try {
+    say_raw(printable(text));
+  } catch (const std::bad_alloc&) {
+    say_raw("out of memory\n");
+  }
 }
 
-ProgressBar::ProgressBar(std::string label)
-    : label_(std::move(label)), shown_(isatty(STDERR_FILENO) == 1), began_(Stop::Clock::now()) {}
+ProgressBar::ProgressBar(const std::string& label)
+    : label_(one_line(label)), shown_(isatty(STDERR_FILENO) == 1), began_(Stop::Clock::now()) {}
 
 ProgressBar::~ProgressBar() {
-  if (shown_ && last_ >= 0) note("\r\033[K");
+  if (shown_ && last_ >= 0) say_raw("\r\033[K");
 }
 
 void ProgressBar::update(double share, const std::string& doing) {
@@ -56,8 +68,9 @@ void ProgressBar::update(double share, const std::string& doing) {
   const double spent = std::chrono::duration<double>(Stop::Clock::now() - began_).count();
   const double left = share > 0 ? spent * (1 - share) / share : 0;
   const auto done = static_cast<std::size_t>(percent / 4);
-  note("\r\033[K{} [{}{}] {:3} % {:.0f} s left {}", label_, std::string(done, '#'),
-       std::string(25 - done, '.'), percent, left, doing);
+  say_raw("\r\033[K");
+  note("{} [{}{}] {:3} % {:.0f} s left {}", label_, std::string(done, '#'),
+       std::string(25 - done, '.'), percent, left, one_line(doing));
 }
 
 void keep_input(const std::string& out, const std::string& in) {

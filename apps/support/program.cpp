@@ -2,6 +2,7 @@
 #include "support/program.hpp"
 
 #include <malloc.h>  // of glibc
+#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
@@ -21,14 +22,17 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 std::atomic<bool> was_interrupted{false};
+std::atomic<bool> is_reading{false};
 std::atomic<Clock::rep> first_signal{0};
 static_assert(std::atomic<bool>::is_always_lock_free &&
               std::atomic<Clock::rep>::is_always_lock_free);
 
-// The first Ctrl-C asks for a clean end; a second one ends at once. Programs such as `timeout` send
-// the same signal to the process and to its group: what follows at once is the first one still.
+// The first Ctrl-C asks for a clean end, unless there is nothing to end yet; a second one ends at
+// once. Programs such as `timeout` send the same signal to the process and to its group: what
+// follows at once is the first one still.
 extern "C" void on_interrupt(int signal) {
   constexpr Clock::duration same = std::chrono::milliseconds(250);
+  if (is_reading) ::_exit(not_reached);
   const Clock::rep now = Clock::now().time_since_epoch().count();
   if (!was_interrupted.exchange(true)) {
     first_signal = now;
@@ -42,7 +46,7 @@ extern "C" void on_interrupt(int signal) {
 int complain(const char* name, std::string_view what, int code) {
   for (bool more = true; more;) {
     const std::size_t end = what.find('\n');
-    std::fprintf(stderr, "%s: %s\n", name, std::string(what.substr(0, end)).c_str());
+    note("{}: {}\n", name, what.substr(0, end));
     more = end != std::string_view::npos;
     if (more) what.remove_prefix(end + 1);
   }
@@ -76,6 +80,10 @@ int act(const char* name, const Action& action) {
 }
 
 }  // namespace
+
+Reading::Reading() { is_reading = true; }
+
+Reading::~Reading() { is_reading = false; }
 
 int run_program(const char* name, CommandLine& line, const Action& action, int argc, char** argv) {
   keep_memory();

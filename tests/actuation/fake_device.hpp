@@ -80,6 +80,8 @@ class FakeDevice {
       if (first_[message] == 0) first_[message] = steady_seconds();
       ++counts_[message];
     }
+    if (message == CoilMessage::hello) state_ = CoilState::idle;
+    if (message == CoilMessage::arm) outputs_ = reported_ = {};
     if (message == CoilMessage::arm) state_ = CoilState::armed;
     if (message == CoilMessage::stop) state_ = CoilState::stopped;
     if (state_ != CoilState::armed) outputs_ = reported_ = {};

@@ -107,6 +107,24 @@ TEST_F(Interrupted, AClosedTerminalEndsItWithEverythingKept) {
   expect_no_temporary_files();
 }
 
+TEST_F(Interrupted, TheFirstCtrlCEndsTheReadingOfAMap) {
+  std::string map = R"({"type":"FeatureCollection","features":[)";
+  for (int i = 0; i < 100'000; ++i) {
+    const std::string x = std::to_string(20 * i), y = std::to_string(20 * i + 8);
+    map += std::string(i > 0 ? "," : "") +
+           R"({"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[[[)" +
+           x + ",0],[" + y + ",0],[" + y + ",8],[" + x + ",0]]]}}";
+  }
+  write("map.geojson", map + "]}");
+  Program program({"map", "info", "map.geojson"}, at);
+  program.let_work(300);
+  ASSERT_TRUE(program.running());
+  Outcome outcome;
+  EXPECT_LT(end_with(program, SIGINT, outcome), 0.5 * max_seconds);
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_EQ(outcome.out, "");
+}
+
 TEST_F(Interrupted, CtrlCWithoutOutLeavesNothing) {
   write("flight.yaml", endless());
   Program program({"run", "flight.yaml"}, at);

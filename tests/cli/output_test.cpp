@@ -64,6 +64,23 @@ TEST_F(Output, DiskFullAmongThePictures) {
   }
 }
 
+TEST_F(Output, NoControlCharacterReachesTheTerminal) {
+  const std::string evil = "\x1b]0;title\x07.yaml";
+  const auto clean = [](const Outcome& outcome) {
+    EXPECT_EQ(outcome.out.find('\x1b'), std::string::npos) << outcome.out;
+    EXPECT_EQ(outcome.err.find('\x1b'), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find('\x07'), std::string::npos) << outcome.err;
+  };
+  clean(run({"run", evil}));
+  write(evil, "map: {}\n");
+  clean(run({"run", evil}));
+  clean(run({"run", "x.yaml", "--set", "a\x1b[31m=1"}));
+  clean(run({"map", "info", evil}));
+  fs::create_directories(at.folder / "pictures");
+  write("pictures/\x1b[2J.png", "none");
+  clean(run({"track", "pictures", "--um-per-px", "1", "--out", "out"}));
+}
+
 TEST_F(Output, FolderThatIsAFile) {
   write("file", "");
   const std::string reason = ": cannot make the folder: Not a directory";

@@ -63,6 +63,7 @@ class Program {
       ::setrlimit(RLIMIT_FSIZE, &limit);
       std::signal(SIGXFSZ, SIG_IGN);
     }
+    ::setenv("XDG_STATE_HOME", (at.folder / ".state").c_str(), 1);
     if (!at.path.empty()) ::setenv("PATH", at.path.c_str(), 1);
     if (::chdir(at.folder.c_str()) != 0 || ::dup2(out, STDOUT_FILENO) < 0 ||
         ::dup2(fileno(err_), STDERR_FILENO) < 0)

@@ -128,9 +128,17 @@ TEST_F(Track, BadInputIsRefused) {
   fs::create_directories(at.folder / "nothing");
   bad({"nothing", "--um-per-px", "1", "--out", "out"},
       naming("nothing", {"PNG", "JPEG", "BMP", "PGM", "PPM"}));
+}
+
+TEST_F(Track, APictureThatCannotBeReadEndsAFolder) {
+  film("video", 3, 300);
   write("video/f9.pgm", pgm(20, 20, [](int, int) { return 7; }));
-  bad({"video", "--um-per-px", "1", "--rate", "10", "--out", "out"},
-      naming("video/f9.pgm", {"pixels", "picture"}));
+  const Outcome outcome =
+      run({"track", "video", "--um-per-px", "1", "--rate", "10", "--out", "out"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_TRUE(names(outcome.err, "the tracks end at picture 3: video/f9.pgm: ")) << outcome.err;
+  EXPECT_TRUE(outcome.out.starts_with("3 frames, ")) << outcome.out;
+  EXPECT_TRUE(exists("out/tracks.csv"));
 }
 
 TEST_F(Track, CtrlCKeepsWhatThereIs) {

@@ -24,6 +24,23 @@ TEST(Text, NumbersAreShort) {
   EXPECT_EQ(number_text(std::numeric_limits<double>::infinity()), "inf");
 }
 
+TEST(Text, ControlCharactersDoNotPass) {
+  EXPECT_EQ(printable("µm → 1\n\ttab 𝛿"), "µm → 1\n\ttab 𝛿");
+  EXPECT_EQ(printable("a\x1b[31mb\rc\x7f"), "a?[31mb?c?");
+  EXPECT_EQ(printable("\xc2\x9b"
+                      "31m \xc2\xa0"),
+            "?31m \xc2\xa0");
+  EXPECT_EQ(printable("a\u202eb\u2066c\u200f"), "a?b?c?");
+  // No UTF-8: cut short, too long a form, a surrogate, beyond the last character.
+  EXPECT_EQ(printable("\xe2\x82"), "??");
+  EXPECT_EQ(printable("\xc0\xaf"), "??");
+  EXPECT_EQ(printable("\xed\xa0\x80"), "???");
+  EXPECT_EQ(printable("\xf4\x90\x80\x80"), "????");
+  EXPECT_EQ(printable("\xff"), "?");
+  EXPECT_EQ(printable(std::string_view("\0", 1)), "?");
+  EXPECT_EQ(one_line("a\nb\x1b"), "a?b?");
+}
+
 TEST(Text, NumbersReadBackToTheSameBits) {
   Rng rng(1, Purpose::test);
   for (int i = 0; i < 100'000; ++i) {

@@ -60,5 +60,14 @@ TEST(Hdf5Image, WhatIsMissingOrOfAnotherKindIsNamed) {
             "x.h5: has no attribute name at /numbers");
 }
 
+TEST(Hdf5Image, SeveralAreOpenAtATime) {
+  Hdf5Writer first, second;
+  first.dataset("/column", std::vector<double>{1});
+  second.dataset("/column", std::vector<double>{2});
+  const Hdf5Reader a(first.finish(), "a.h5"), b(second.finish(), "b.h5");
+  EXPECT_EQ(a.numbers("/column"), std::vector<double>{1});
+  EXPECT_EQ(b.numbers("/column"), std::vector<double>{2});
+}
+
 }  // namespace
 }  // namespace microswarm

@@ -45,7 +45,8 @@ TEST(FollowerModel, IsReadBackToTheSameBits) {
 TEST(FollowerModel, DamagedOnesAreRefusedInOneLine) {
   const std::string whole = follower_model_text(default_follower_model());
   EXPECT_EQ(complaint(whole), "");
-  EXPECT_EQ(complaint(""), "m.yaml: '' where 'version: ' must stand");
+  EXPECT_EQ(complaint(""), "m.yaml: 'version: ' must stand here");
+  EXPECT_EQ(complaint("root:x:0:0:root:/root\n").find("root"), std::string::npos);
   EXPECT_TRUE(test::is_one_line_naming(complaint(with_line("version", "version: 2")), "m.yaml:2",
                                        {"version", "2", "1"}));
   EXPECT_TRUE(test::is_one_line_naming(complaint(with_line("seed", "seed: -1")), "m.yaml:3",

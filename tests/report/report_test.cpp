@@ -89,6 +89,18 @@ TEST_F(Report, PlotsAreWrittenAndNothingElseIsLeft) {
   EXPECT_THROW(write_plots({}, folder_ / "missing" / "p.png"), InputError);
 }
 
+TEST_F(Report, NoTextOfAPlotIsACommand) {
+  const fs::path made = folder_ / "made";
+  const std::string evil = "`touch " + made.string() + "` \"\n!touch " + made.string();
+  write_plots({{.title = evil,
+                .x_label = evil,
+                .y_label = evil,
+                .series = {{.label = evil, .x = {0, 1}, .y = {0, 1}}},
+                .x_ticks = {{evil, 1}}}},
+              folder_ / "evil.png");
+  EXPECT_FALSE(fs::exists(made));
+}
+
 TEST_F(Report, EveryStyleIsUnderstoodByGnuplotInEveryKindOfFile) {
   Plot plot{.title = "styles", .x_ticks = {{"2¹⁰", 2}}, .log_x = true, .log_y = true};
   for (const PlotStyle style :

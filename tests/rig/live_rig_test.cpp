@@ -375,6 +375,46 @@ TEST_F(LiveRigs, AGoalOutsideThePictureIsRefused) {
   EXPECT_EQ(coils->drives, 0);
 }
 
+TEST_F(LiveRigs, ObstaclesOfTheScenarioAreVirtualBesideThoseOfARealCamera) {
+  Rig bench_rig = *rig;
+  bench_rig.params.camera = VideoCamera{};
+  Scenario s = scene.scenario;
+  Straight motion{.start = s.start->position + Vec2{400, 300}, .velocity = {0, -30}};
+  s.obstacles = {{DiscShape{80}, motion}};
+  RealtimeRigSimulator bench(scene.scenario, world, *rig, std::make_unique<WatchedCoils>(coils));
+  {
+    LiveRig plant(s, world.map, bench_rig, bench.camera(40), bench.view().scale, bench.coils());
+    const Observation first = plant.observe();
+    ASSERT_EQ(first.world->moving().bodies().size(), 1u);
+    const Body& body = first.world->moving().bodies()[0];
+    EXPECT_EQ(body.obstacle, 0u);
+    EXPECT_NEAR(distance(extent_of(body).centre, motion.start + first.seen * motion.velocity), 0,
+                1e-9);
+    EXPECT_TRUE(plant.set_obstacles({}));
+    EXPECT_TRUE(plant.observe().world->moving().empty());
+  }
+  bench_rig.params.virtual_obstacles = false;
+  LiveRig plant(s, world.map, bench_rig, bench.camera(40), bench.view().scale, bench.coils());
+  EXPECT_TRUE(plant.observe().world->moving().empty());
+  EXPECT_FALSE(plant.set_obstacles(s.obstacles));
+}
+
+TEST_F(LiveRigs, AVirtualObstacleInTheWayIsAvoided) {
+  Rig bench_rig = *rig;
+  bench_rig.params.camera = VideoCamera{};
+  const Pose2 start = *scene.scenario.start;
+  const Vec2 ahead = *scene.scenario.goal - start.position;
+  Scenario s = scene.scenario;
+  s.obstacles = {{DiscShape{60}, Straight{.start = start.position + (220 / norm(ahead)) * ahead}}};
+  RealtimeRigSimulator bench(scene.scenario, world, *rig, std::make_unique<WatchedCoils>(coils));
+  LiveRig plant(s, world.map, bench_rig, bench.camera(40), bench.view().scale, bench.coils());
+  const auto navigator = make_navigator(s.navigator, task_of(s), Rng(s.seed, Purpose::planner, 0));
+  const RunResult result = run(s, plant, *navigator, {}, Stop(std::chrono::seconds(12)));
+  EXPECT_EQ(result.status, Status::stopped) << result.state;
+  EXPECT_GT(result.metrics.obstacles.clearance, 60);
+  EXPECT_LT(result.metrics.obstacles.clearance, 240);
+}
+
 /// Gives one picture, then fails.
 class OnePicture : public FrameSource {
  public:

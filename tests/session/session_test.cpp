@@ -101,16 +101,91 @@ TEST(Session, WhatIsSetIsRecordedAndPlayedBack) {
   EXPECT_FALSE(playback->set("hold_limit_s", "3").empty());
 
   ASSERT_TRUE(playback->seek(4));
-  ASSERT_TRUE(playback->step());
   EXPECT_EQ(playback->view().number, 4u);
+  EXPECT_EQ(playback->view().frame.t, session.record().frames[4].t);
   EXPECT_EQ(std::get<Disc>(playback->view().bodies[0].shape).radius, 60);
-  ASSERT_TRUE(playback->seek(1'000'000));
   ASSERT_TRUE(playback->step());
+  EXPECT_EQ(playback->view().number, 5u);
+  ASSERT_TRUE(playback->seek(1'000'000));
   EXPECT_TRUE(playback->view().end);
   EXPECT_EQ(playback->view().number, frames - 1);
   EXPECT_EQ(playback->view().plans, session.view().plans);
   EXPECT_EQ(playback->step(), nullptr);
   EXPECT_FALSE(session.seek(0));
+}
+
+TEST(Session, AnotherNavigatorMovesTheDetectionRangeInTheReplayToo) {
+  for (const int before : {0, 15}) {
+    const auto session = open_session(scenarios / "papers/radar/single.yaml");
+    for (int i = 0; i < before; ++i) session->step();
+    ASSERT_TRUE(session->set("navigator.type", "predictive").empty());
+    ASSERT_TRUE(session->set("time_limit_s", "30").empty());
+    session->finish();
+    EXPECT_EQ(replay(session->record()).difference, "");
+  }
+}
+
+TEST(Session, ARecordOfARunThatGoesOnReplaysAsFar) {
+  const test::Folder folder;
+  for (const int ticks : {0, 1, 12}) {
+    Session session(flight());
+    EXPECT_EQ(session.result().status, Status::running);
+    for (int i = 0; i < ticks; ++i) session.step();
+    const auto file = folder / "part.h5";
+    session.record_to(file);
+    const ReplayResult again = replay(read_record(file));
+    EXPECT_TRUE(again.identical) << again.difference;
+    const auto playback = open_session(file);
+    EXPECT_EQ(playback->result().status, Status::running);
+    int frames = 0;
+    for (; const Tick* tick = playback->step(); ++frames) EXPECT_FALSE(tick->end);
+    EXPECT_EQ(frames, ticks);
+    EXPECT_EQ(playback->seek(0), ticks > 0);
+    // It goes on as if it had not been recorded.
+    Session other(flight());
+    EXPECT_EQ(hash_of(session), hash_of(other));
+  }
+}
+
+TEST(Session, EachMistakeInAValueIsAnIssueOfItsKey) {
+  Session session(flight());
+  const Issues several =
+      session.set("navigator", "{type: radar, typo: 1, speed_um_per_s: bad, foo: 3}");
+  EXPECT_EQ(several.size(), 3u);
+  const Issues range = session.set("obstacles.0.shape.radius_um", "0");
+  ASSERT_EQ(range.size(), 1u);
+  EXPECT_TRUE(range.begin()->text.starts_with("radius_um is 0 µm")) << range.begin()->text;
+  for (const Issue& issue : several) {
+    EXPECT_EQ(issue.keys, std::vector<std::string>{"navigator"});
+    EXPECT_EQ(issue.text.find("set navigator"), std::string::npos) << issue.text;
+  }
+  EXPECT_EQ(session.set("goal_um=[1,1]", "3").size(), 1u);
+}
+
+TEST(Session, ValuesOfARigNeedARig) {
+  const auto file = scenarios / "papers/drrt/s_channel.yaml";
+  EXPECT_THROW(open_session(file, {.rig_settings = {"drive_rate_hz=100"}}), InputError);
+}
+
+TEST(Session, AfterTheEndNothingIsSet) {
+  Session session(flight());
+  session.finish();
+  const Issues issues = session.set("time_limit_s", "30");
+  ASSERT_EQ(issues.size(), 1u);
+  EXPECT_EQ(issues.begin()->text, "the run has ended");
+  EXPECT_EQ(session.set("", "30").begin()->text, "a key is missing");
+}
+
+TEST(Session, ARecordAcceptsNoOptions) {
+  const test::Folder folder;
+  const auto file = folder / "run.h5";
+  Session session(flight());
+  session.finish();
+  session.record_to(file);
+  EXPECT_TRUE(open_session(file)->is_playback());
+  EXPECT_THROW(open_session(file, {.settings = {"time_limit_s=30"}}), InputError);
+  EXPECT_THROW(open_session(file, {.seed = 3}), InputError);
+  EXPECT_THROW(open_session(file, {.rig = "rig.yaml"}), InputError);
 }
 
 TEST(Session, TheViewIsTheLastTicksUntilTheNext) {

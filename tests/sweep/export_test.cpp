@@ -10,6 +10,7 @@
 
 #include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/sweep/summary.hpp"
+#include "tests/messages.hpp"
 #include "tests/sweep/sweeps.hpp"
 
 namespace microswarm {
@@ -164,6 +165,48 @@ TEST_F(DatabaseFile, ErrorsAreOneLine) {
   std::filesystem::remove(file);
   EXPECT_EQ(refused("SELECT 1", Database::Access::read), "cannot read: No such file or directory");
   EXPECT_EQ(refused("SELECT 1"), "cannot write: No such file or directory");
+}
+
+TEST_F(DatabaseFile, ViewsAndTriggersDoNothing) {
+  {
+    Database database(file, Database::Access::write);
+    database.run("CREATE TABLE t(a)");
+    database.run("CREATE TRIGGER more AFTER INSERT ON t BEGIN INSERT INTO t VALUES(7); END");
+    database.run("INSERT INTO t VALUES(1)");
+    EXPECT_EQ(database.number("SELECT count(*) FROM t"), 1);
+    database.run("CREATE VIEW seen AS SELECT a FROM t");
+    database.run(
+        "CREATE VIEW endless AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) "
+        "SELECT i FROM n");
+  }
+  EXPECT_TRUE(test::is_one_line_naming(refused("SELECT * FROM seen"), "", {"view", "seen"}));
+  EXPECT_NE(refused("SELECT * FROM endless"), "nothing was thrown");
+}
+
+TEST_F(DatabaseFile, StatementsWithoutARowEnd) {
+  EXPECT_TRUE(test::is_one_line_naming(
+      refused("WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) "
+              "SELECT i FROM n WHERE i < 0"),
+      "", {"end"}));
+}
+
+TEST_F(DatabaseFile, LongValuesAreRefused) {
+  Database(file, Database::Access::write).run("CREATE TABLE t(a)");
+  EXPECT_TRUE(test::is_one_line_naming(refused("INSERT INTO t VALUES(zeroblob(50000000))"), "",
+                                       {"16777216"}));
+}
+
+TEST_F(SweepExport, AViewInPlaceOfTheTrialsIsRefused) {
+  const auto file = folder() / "view.db";
+  std::filesystem::copy_file(folder() / "sweep.db", file,
+                             std::filesystem::copy_options::overwrite_existing);
+  {
+    Database database(file, Database::Access::write);
+    database.run("ALTER TABLE trials RENAME TO others");
+    database.run("CREATE VIEW trials AS SELECT * FROM others");
+  }
+  EXPECT_TRUE(test::is_one_line_naming(error_of([&] { SweepReader reader(file); }), file.string(),
+                                       {"trials", "no table"}));
 }
 
 TEST(RecordExport, TablesAsCsv) {

@@ -66,7 +66,8 @@ TEST_F(Videos, PicturesComeInTheOrderOfTheirNumbers) {
 
 TEST_F(Videos, BadSourcesAreRefused) {
   const std::string at = folder.string();
-  EXPECT_EQ(refusal(folder), at + ": no pictures in this folder (PNG, JPEG, BMP, PGM or PPM)");
+  EXPECT_EQ(refusal(folder),
+            at + ": no pictures in this folder (PNG, JPEG, BMP, TIFF, PGM or PPM)");
   EXPECT_EQ(refusal(folder / "none.mp4"), at + "/none.mp4: cannot read: No such file or directory");
   write_file_atomically(folder / "bad.mp4", std::string(5000, 'x'));
   EXPECT_EQ(refusal(folder / "bad.mp4"), at + "/bad.mp4: is no video that can be read");
@@ -74,9 +75,45 @@ TEST_F(Videos, BadSourcesAreRefused) {
   EXPECT_EQ(refusal(folder / "bad.tif"), at + "/bad.tif: is no TIFF that can be read");
   write_file_atomically(folder / "empty.avi", "");
   EXPECT_EQ(refusal(folder / "empty.avi"), at + "/empty.avi: is empty");
-  write_png(folder / "1.png", flat(8, 6, 1, 0));
-  write_png(folder / "2.png", flat(8, 7, 1, 0));
-  EXPECT_EQ(refusal(folder), at + "/2.png: 8x7 pixels, the first picture has 8x6");
+  EXPECT_EQ(refusal(folder), at + "/bad.tif: is no TIFF that can be read");
+}
+
+TEST_F(Videos, AnUnreadablePictureEndsAFolder) {
+  for (const char* bad : {"3.png", "3.tif"}) {
+    write_png(folder / "1.png", flat(8, 6, 1, 0));
+    write_png(folder / "2.png", flat(8, 6, 1, 0));
+    write_file_atomically(folder / bad, read_file(folder / "2.png").substr(0, 40));
+    write_png(folder / "4.png", flat(8, 6, 1, 0));
+    const auto frames = open_frames(folder);
+    VideoFrame frame;
+    EXPECT_TRUE(frames->next(frame));
+    EXPECT_TRUE(frames->next(frame));
+    EXPECT_EQ(frames->why_ended(), "");
+    EXPECT_FALSE(frames->next(frame));
+    EXPECT_TRUE(frames->why_ended().starts_with((folder / bad).string() + ": "));
+    EXPECT_FALSE(frames->next(frame));
+    fs::remove(folder / bad);
+  }
+  write_png(folder / "3.png", flat(8, 7, 1, 0));
+  const auto frames = open_frames(folder);
+  VideoFrame frame;
+  while (frames->next(frame)) {
+  }
+  EXPECT_EQ(frame.index, 1);
+  EXPECT_EQ(frames->why_ended(),
+            (folder / "3.png").string() + ": 8x7 pixels, the first picture has 8x6");
+}
+
+TEST_F(Videos, AFolderHasOnePictureAFile) {
+  std::vector<cv::Mat> pages(3, cv::Mat(6, 8, CV_8U, cv::Scalar(9)));
+  cv::imwritemulti((folder / "1.tif").string(), pages);
+  EXPECT_EQ(refusal(folder),
+            (folder / "1.tif").string() + ": holds 3 pictures: name the file, not its folder");
+  pages.resize(1);
+  cv::imwritemulti((folder / "1.tif").string(), pages);
+  VideoFrame frame;
+  EXPECT_TRUE(open_frames(folder)->next(frame));
+  EXPECT_EQ(frame.picture.pixels[0], 9);
 }
 
 TEST_F(Videos, WhatIsWrittenAsVideoIsReadAgain) {

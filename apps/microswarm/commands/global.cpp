@@ -247,7 +247,7 @@ int global_command(const GlobalOptions& o, const Context& context) {
   for (const std::string& out : {o.save_tree, o.picture})
     for (const std::string& in : {o.map, o.tree}) keep_input(out, in);
   const Stop stop = o.time_limit ? context.within(*o.time_limit) : context.stop;
-  const LoadedMap map = load_map(guess_map_spec(o.map, o.um_per_px));
+  const LoadedMap map = reading([&] { return load_map(guess_map_spec(o.map, o.um_per_px)); });
   const std::vector<Vec2> goals = places(o.goals);
   GlobalPlay play;
   Found found = found_plan(o, map, goals, play, stop);

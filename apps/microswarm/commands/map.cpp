@@ -32,7 +32,9 @@ void add_input(Command cmd, const std::shared_ptr<MapOptions>& o) {
   add_um_per_px(cmd, o->um_per_px, "µm per pixel or cell of the map, 1e-6..1e6");
 }
 
-LoadedMap load(const MapOptions& o) { return load_map(guess_map_spec(o.map, o.um_per_px)); }
+LoadedMap load(const MapOptions& o) {
+  return reading([&] { return load_map(guess_map_spec(o.map, o.um_per_px)); });
+}
 
 int info(const MapOptions& o) {
   const LoadedMap loaded = load(o);

@@ -117,7 +117,7 @@ int plan_command(const PlanOptions& o, const Context& context) {
   const std::vector<double> to = numbers(o.goal);
   const Pose2 start{{from[0], from[1]}, from.size() > 2 ? radians(from[2]) : 0.0};
   const Vec2 goal{to[0], to[1]};
-  const Snapshot world(load_map(guess_map_spec(o.map, o.um_per_px)).map);
+  const Snapshot world(reading([&] { return load_map(guess_map_spec(o.map, o.um_per_px)).map; }));
   Rng rng(o.seed, Purpose::planner);
   const auto began = Stop::Clock::now();
   const Plan made = plan(world, start, goal, choice.planner, rng, context.stop);

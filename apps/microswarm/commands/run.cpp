@@ -98,7 +98,7 @@ int many_runs(const RunOptions& o, const Scene& scene, const World& world, const
     print("{}\n", Json{{"trials", list}}.dump(2));
   else
     print("{} of {} trials reached the goal{}\n", solved, ran,
-          ran < o.trials ? fmt::format(", {} were not begun", o.trials - ran) : "");
+          ran < o.trials ? fmt::format(", {} were not finished", o.trials - ran) : "");
   if (!o.json && !o.out.empty()) print("wrote {}\n", csv.string());
   return solved == o.trials ? ok : not_reached;
 }
@@ -106,8 +106,8 @@ int many_runs(const RunOptions& o, const Scene& scene, const World& world, const
 /// Opens the scenario on a simulated rig: camera, coils and field.
 std::unique_ptr<Session> open_on_rig(const RunOptions& o) {
   if (o.rig.empty()) return nullptr;
-  const RigExperiment on =
-      open_rig_experiment(o.scenario, o.settings, o.rig, o.rig_settings, o.seed);
+  const RigExperiment on = reading(
+      [&] { return open_rig_experiment(o.scenario, o.settings, o.rig, o.rig_settings, o.seed); });
   note_each(on.experiment.keys.notes());
   note_field(on.rig, on.scenario());
   return rig_session(on);
@@ -117,7 +117,7 @@ int run_command(const RunOptions& o, const Context& context) {
   std::unique_ptr<Session> session = open_on_rig(o);
   std::optional<Experiment> experiment;
   if (!session) {
-    experiment = open_experiment(o.scenario, o.settings, o.seed);
+    experiment = reading([&] { return open_experiment(o.scenario, o.settings, o.seed); });
     note_each(experiment->keys.notes());
   }
   const ReportOptions report = report_options(o.photo);

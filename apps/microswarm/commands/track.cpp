@@ -74,7 +74,9 @@ int track(const TrackOptions& o, const Context& context) {
   if (!o.no_overlay) overlay.emplace(folder / "overlay.mp4", rate);
   result.promised = source->count();
   follow(*source, result, overlay ? &*overlay : nullptr, context.stop);
-  if (!context.stop.requested() && result.frames + 1 < result.promised.value_or(0))
+  if (const std::string why = source->why_ended(); !why.empty())
+    note("note: the tracks end at picture {}: {}\n", result.frames, why);
+  else if (!context.stop.requested() && result.frames + 1 < result.promised.value_or(0))
     note("note: {} says that it has {} pictures, after {} no more could be read\n", o.video,
          *result.promised, result.frames);
 

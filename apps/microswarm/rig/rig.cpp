@@ -239,6 +239,7 @@ void add_rig(Command app, Action& action) {
   add_rig_scale(rig, action);
   add_rig_see(rig, action);
   add_rig_check(rig, action);
+  add_rig_drive(rig, action);
   add_rig_simulate(rig, action);
   add_rig_run(rig, action);
   add_calibrate(rig, action);

@@ -28,6 +28,8 @@ void add_rig_map(Command rig, Action& action);
 void add_rig_scale(Command rig, Action& action);
 /// Adds `rig check`.
 void add_rig_check(Command rig, Action& action);
+/// Adds `rig drive`.
+void add_rig_drive(Command rig, Action& action);
 /// Adds `rig simulate`.
 void add_rig_simulate(Command rig, Action& action);
 /// Adds `rig run`.

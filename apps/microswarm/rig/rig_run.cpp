@@ -1,62 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // `rig run`: a scenario on a rig, in real time.
-#include <poll.h>
-#include <termios.h>
-#include <unistd.h>
-
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "commands/run_output.hpp"
+#include "microswarm/rig/runtime/rig_checks.hpp"
 #include "microswarm/session/live_session.hpp"
 #include "microswarm/vision/image/threads.hpp"
+#include "rig/real_coils.hpp"
 #include "rig/rig.hpp"
 #include "rig/rig_notes.hpp"
 
 namespace microswarm::cli {
 namespace {
-
-/// Calls `stop` when a key is pressed, if the program has a terminal. The terminal settings are
-/// restored when the program is asked to end.
-class EmergencyKey {
- public:
-  EmergencyKey(std::function<void()> stop, const Stop& ended)
-      : stop_(std::move(stop)), ended_(ended) {
-    if (::isatty(STDIN_FILENO) == 0 || ::tcgetpgrp(STDIN_FILENO) != ::getpgrp()) return;
-    if (::tcgetattr(STDIN_FILENO, &before_) != 0) return;
-    thread_ = std::thread([this] { listen(); });
-  }
-  ~EmergencyKey() {
-    over_ = true;
-    if (thread_.joinable()) thread_.join();
-  }
-  EmergencyKey(const EmergencyKey&) = delete;
-  EmergencyKey& operator=(const EmergencyKey&) = delete;
-  bool is_there() const { return thread_.joinable(); }
-
- private:
-  void listen() {
-    termios keys = before_;
-    keys.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
-    while (!over_ && !ended_.requested()) {
-      // Repeated, because a shell resets the terminal when the program is suspended and resumed.
-      if (::tcgetpgrp(STDIN_FILENO) == ::getpgrp()) ::tcsetattr(STDIN_FILENO, TCSANOW, &keys);
-      pollfd in{STDIN_FILENO, POLLIN, 0};
-      if (::poll(&in, 1, 20) <= 0) continue;
-      char key = 0;
-      if (::read(STDIN_FILENO, &key, 1) != 1) break;
-      if (key == ' ' || key == 'e' || key == 'E' || key == '\x1b') stop_();
-    }
-    if (::tcgetpgrp(STDIN_FILENO) == ::getpgrp()) ::tcsetattr(STDIN_FILENO, TCSANOW, &before_);
-  }
-
-  std::function<void()> stop_;
-  Stop ended_;
-  termios before_{};
-  std::atomic<bool> over_ = false;
-  std::thread thread_;
-};
 
 void tell(const RigTiming& t) {
   print("  latency   p50 / p95 / p99\n");
@@ -135,6 +91,26 @@ class TripNotes : public RunListener {
   int resumed_ = 0;
 };
 
+/// Throws InputError if the folder has an experiment, also one that was killed.
+void require_new(const std::filesystem::path& folder) {
+  if (folder.empty()) return;
+  for (const char* name : {"run.h5", "commands.csv", "commands.csv.part"})
+    if (std::error_code none; std::filesystem::exists(folder / name, none))
+      throw InputError(
+          fmt::format("{}: is there from another experiment: choose another folder, "
+                      "or run with --overwrite",
+                      (folder / name).string()));
+}
+
+void note_virtual_obstacles(const RigExperiment& on) {
+  const std::size_t count = on.scenario().obstacles.size();
+  if (count == 0 || std::holds_alternative<SimulatedCamera>(on.rig.params.camera)) return;
+  if (on.rig.params.virtual_obstacles)
+    note("note: {} obstacles of the scenario are virtual: avoided and recorded\n", count);
+  else
+    note("note: {} obstacles of the scenario count only where the camera sees them\n", count);
+}
+
 struct RigRunOptions {
   std::string scenario;
   std::string rig;
@@ -143,17 +119,38 @@ struct RigRunOptions {
   std::vector<std::string> rig_settings;
   std::optional<double> seconds;
   bool dry_run = false;
+  bool drawn_swarm = false;
+  CoilOptions coils;
+  bool overwrite = false;
   bool json = false;
 };
 
+/// Throws InputError unless a person knows what the coils are driven for and can stop them.
+void require_person(const Rig& rig, const RigRunOptions& o) {
+  if (o.dry_run || !has_coil_device(rig)) return;
+  require_emergency_stop(o.coils);
+  if (std::holds_alternative<SimulatedCamera>(rig.params.camera) && !o.drawn_swarm)
+    throw rig.keys.error("camera",
+                         "the camera is simulated and the coil driver is not: real coils would be "
+                         "driven for a drawn swarm; for a test, run with --drawn-swarm");
+}
+
 int rig_run(const RigRunOptions& o, const Context& context) {
-  const RigExperiment on = open_rig_experiment(o.scenario, o.settings, o.rig, o.rig_settings);
+  const RigExperiment on =
+      reading([&] { return open_rig_experiment(o.scenario, o.settings, o.rig, o.rig_settings); });
   note_each(on.experiment.keys.notes());
   note_field(on.rig, on.scenario());
+  require_person(on.rig, o);
+  if (!o.overwrite) require_new(o.out);
   const OutFolder hold(o.out);
   set_picture_threads(1);
-  const auto opened = LiveSession::open(on, o.dry_run, o.out);
+  const auto opened = LiveSession::open(on, {.dry = o.dry_run,
+                                             .folder = o.out,
+                                             .without_limits = o.coils.without_limits,
+                                             .coils_cold = o.coils.coils_cold});
   LiveSession& session = *opened;
+  note_each(session.warnings());
+  note_virtual_obstacles(on);
   if (o.dry_run) note("dry run: nothing goes to the coils\n");
   const EmergencyKey key([&] { session.stop("the emergency key was pressed"); }, context.stop);
   if (key.is_there()) note("space, e or Esc: coils to zero at once\n");
@@ -163,16 +160,13 @@ int rig_run(const RigRunOptions& o, const Context& context) {
   const std::string log_lost = session.close();
   const RigTiming timing = session.timing();
   if (!log_lost.empty()) note("microswarm: {}\n", log_lost);
-  if (!session.zero_is_confirmed())
-    note(
-        "note: the coil driver did not confirm that the coils are at zero; its own watchdog must "
-        "do "
-        "it\n");
+  const bool at_zero = note_zero(session.zero_is_confirmed());
   note_limits(timing);
   const int code =
       tell_run(session, {o.out, false, o.json, [&] { return timing_json(timing); }}, {});
   note_pace(timing, session.result().metrics.time, on.rig.params);
   if (!o.json) tell(timing);
+  if (!at_zero) return hardware;
   return code == ok && !log_lost.empty() ? bad_input : code;
 }
 
@@ -187,6 +181,9 @@ void add_rig_run(Command rig, Action& action) {
   cmd.add_option("--out", o->out, "Folder for run.h5, commands.csv and the report")
       .type_name("FOLDER");
   cmd.add_flag("--dry-run", o->dry_run, "Send nothing to the coils");
+  cmd.add_flag("--drawn-swarm", o->drawn_swarm, "Drive coils for a simulated camera's swarm");
+  add_coil_options(cmd, o->coils);
+  cmd.add_flag("--overwrite", o->overwrite, "Replace the experiment in the folder").needs("--out");
   add_settings(cmd, o->settings, "Override a scenario value (repeatable)");
   cmd.add_option("--set-rig", o->rig_settings, "Override a rig value (repeatable)")
       .type_name("KEY=VALUE");

@@ -36,7 +36,9 @@ std::vector<TrialResult> run_trials(const Scenario& scenario, const World& world
   int done = 0;
   for_each_index(results.size(), options.jobs, [&](std::size_t i) {
     if (stop()) return;
-    results[i] = run_trial(scene, world, static_cast<std::uint32_t>(i), options, stop);
+    TrialResult trial = run_trial(scene, world, static_cast<std::uint32_t>(i), options, stop);
+    if (trial.result.status == Status::stopped) return;  // cut short, it is no trial
+    results[i] = std::move(trial);
     const std::lock_guard lock(mutex);
     ++done;
     if (options.progress) options.progress(done, options.trials);

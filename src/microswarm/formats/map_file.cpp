@@ -172,16 +172,18 @@ MapSpec guess_map_spec(const fs::path& path, std::optional<double> um_per_px) {
     fail("µm per px is " + number_text(*um_per_px) + ", must be within 1e-6..1e6");
 
   const std::string extension = lower_case(path.extension().string());
-  if (is_one_of(extension, {".png", ".jpg", ".jpeg", ".bmp", ".pgm", ".ppm", ".pbm", ".pnm"})) {
+  if (is_one_of(extension, {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm", ".ppm",
+                            ".pbm", ".pnm"})) {
     if (!um_per_px) fail("µm per px is missing: give --um-per-px");
     return ImageMap{.file = file, .um_per_px = *um_per_px};
   }
   if (is_one_of(extension, {".yaml", ".yml"})) return guess_ros(path, um_per_px);
   if (extension == ".map") return MovingAiMap{.file = file, .um_per_cell = um_per_px.value_or(1)};
-  if (um_per_px) fail("has no pixels: leave out --um-per-px");
-  if (is_one_of(extension, {".geojson", ".json"})) return GeoJsonMap{.file = file};
-  if (!is_one_of(extension, {".csv", ".txt"}))
+  const bool is_geojson = is_one_of(extension, {".geojson", ".json"});
+  if (!is_geojson && !is_one_of(extension, {".csv", ".txt"}))
     fail("no map that is known: a picture, ROS .yaml, MovingAI .map, GeoJSON or a .csv expected");
+  if (um_per_px) fail("has no pixels: leave out --um-per-px");
+  if (is_geojson) return GeoJsonMap{.file = file};
   return RectanglesMap{.file = file};
 }
 

@@ -31,7 +31,7 @@ struct ImageMap {
   double simplify = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.file, {"file", Unit::none, {}, "PNG, JPEG, BMP, PGM or PPM image.", true});
+    visit(self.file, {"file", Unit::none, {}, "PNG, JPEG, BMP, TIFF, PGM or PPM image.", true});
     visit(
         self.um_per_px,
         {"um_per_px", Unit::none, {1e-6, 1e6}, "Scale of the image: side of a pixel in µm.", true});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,8 +11,8 @@
 namespace microswarm {
 
 /// HDF5 file built in memory from plain one-dimensional datasets, which every HDF5 reader accepts.
-/// The same calls give the same bytes. Groups are created with their contents. HDF5 must not be
-/// used by several threads at the same time.
+/// The same calls give the same bytes. Groups are created with their contents. Several
+/// threads may use writers and readers of their own; HDF5 works for one of them at a time.
 class Hdf5Writer {
  public:
   Hdf5Writer();
@@ -42,7 +43,9 @@ class Hdf5Writer {
 };
 
 /// Reads files of Hdf5Writer from untrusted bytes. Throws InputError "NAME: WHY" if something is
-/// missing, has another shape or is too large.
+/// missing, has another shape, is too large or is in another file: external and virtual datasets
+/// and external links are refused. A column needs the storage of its values, and no two share it,
+/// so that what is read is at most 1032 times the file, what deflate can pack.
 class Hdf5Reader {
  public:
   Hdf5Reader(std::string bytes, std::string name);
@@ -50,6 +53,8 @@ class Hdf5Reader {
   Hdf5Reader(const Hdf5Reader&) = delete;
   Hdf5Reader& operator=(const Hdf5Reader&) = delete;
 
+  /// Number of values of a column, which are not read.
+  std::size_t length(const std::string& path) const;
   std::vector<double> numbers(const std::string& path) const;
   std::vector<std::int64_t> integers(const std::string& path) const;
   std::string text(const std::string& path) const;
@@ -62,11 +67,16 @@ class Hdf5Reader {
   const std::string& name() const { return name_; }
   /// Throws InputError "NAME: WHY".
   [[noreturn]] void fail(const std::string& why) const;
+  /// Counts the stored bytes of a dataset once. Throws if all of them are more than the file.
+  void claim(const std::string& path, std::uint64_t stored) const;
 
  private:
   std::string bytes_;
   std::string name_;
   std::int64_t file_;
+  std::uint64_t file_bytes_ = 0;
+  mutable std::set<std::string> claimed_;
+  mutable std::uint64_t claimed_bytes_ = 0;
 };
 
 }  // namespace microswarm

@@ -97,6 +97,7 @@ struct TableReader {
     // Checked before memory is allocated for rows that do not exist.
     if (size_of(group, columns.front()) != static_cast<std::size_t>(offsets.back()))
       file.fail(group + "/offset does not fit its table");
+    check_lengths(group, columns, static_cast<std::size_t>(offsets.back()));
     for (std::size_t i = 0; i < outer.size(); ++i) {
       const auto part = outer.part(i, field);
       part.resize(static_cast<std::size_t>(offsets[i + 1] - offsets[i]));
@@ -109,14 +110,20 @@ struct TableReader {
   void read(const std::string& group, const std::vector<Column>& columns,
             const ListRef<void*>& list) {
     const std::size_t size = size_of(group, columns.front());
+    check_lengths(group, columns, size);
     list.resize(size);
     std::vector<void*> rows;
     for (std::size_t i = 0; i < size; ++i) rows.push_back(list.row(i));
     for (const Column& column : columns) read(group, column, rows);
   }
   std::size_t size_of(const std::string& group, const Column& column) {
-    const std::string path = group + "/" + column.key;
-    return column.kind == ColumnKind::real ? file.numbers(path).size() : file.integers(path).size();
+    return file.length(group + "/" + column.key);
+  }
+  /// All columns before memory is allocated for their rows.
+  void check_lengths(const std::string& group, const std::vector<Column>& columns,
+                     std::size_t rows) {
+    for (const Column& column : columns)
+      check_length(group + "/" + column.key, size_of(group, column), rows);
   }
   void read(const std::string& group, const Column& column, const std::vector<void*>& rows) {
     const std::string path = group + "/" + column.key;

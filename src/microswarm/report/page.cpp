@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "microswarm/core/text/file.hpp"
+#include "microswarm/core/text/text.hpp"
 
 namespace microswarm {
 namespace {
@@ -18,7 +19,7 @@ figure { margin: 1rem 0; } img { max-width: 100%; border: 1px solid #ddd; } figc
 
 std::string escaped(const std::string& s) {
   std::string out;
-  for (char c : s) {
+  for (const char c : printable(s)) {
     if (c == '&')
       out += "&amp;";
     else if (c == '<')

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/report/picture.hpp"
+#include "microswarm/core/text/text.hpp"
 
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
@@ -194,14 +195,15 @@ void Picture::Impl::add_to_key(std::string_view label, Colour c, bool round) {
   cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(cr, 15);
   cairo_text_extents_t extents;
-  cairo_text_extents(cr, std::string(label).c_str(), &extents);
+  const std::string shown = printable(label);
+  cairo_text_extents(cr, shown.c_str(), &extents);
   const double length = (round ? 20 : 24) + extents.x_advance;
   if (entries.empty()) key_end = left;
   if (key_end > left && key_end + length > width - picture_margin) {
     key_end = left;
     key_down += key_line;
   }
-  entries.push_back({std::string(label), c, round, key_end, key_down});
+  entries.push_back({shown, c, round, key_end, key_down});
   key_end += length + 22;
 }
 
@@ -230,7 +232,7 @@ void Picture::Impl::frame(cairo_t* out) const {
   if (!title.empty()) {
     cairo_set_font_size(out, 20);
     cairo_move_to(out, picture_margin, picture_margin + 18);
-    cairo_show_text(out, title.c_str());
+    cairo_show_text(out, printable(title).c_str());
   }
   scale_bar(out);
   key(out);
@@ -349,11 +351,12 @@ void Picture::text(Vec2 at, std::string_view text, Colour colour, double size_px
   cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(cr, size_px);
   cairo_text_extents_t extents;
-  cairo_text_extents(cr, std::string(text).c_str(), &extents);
+  const std::string shown = printable(text);
+  cairo_text_extents(cr, shown.c_str(), &extents);
   const double right = picture_margin + impl_->view.width() * impl_->scale - extents.x_advance - 6;
   const Vec2 place = impl_->place_for_text({std::min(p.x, right), p.y}, extents.x_advance, size_px);
   cairo_move_to(cr, place.x, place.y);
-  cairo_text_path(cr, std::string(text).c_str());
+  cairo_text_path(cr, shown.c_str());
   impl_->colour({1, 1, 1, 0.85});
   cairo_set_line_width(cr, 4);
   cairo_stroke_preserve(cr);

@@ -17,6 +17,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/maths.hpp"
 #include "microswarm/core/text/file.hpp"
+#include "microswarm/core/text/text.hpp"
 
 extern char** environ;
 
@@ -30,10 +31,12 @@ constexpr std::ptrdiff_t max_upright_letters = 4;  // longer labels are rotated
 constexpr const char* band_colour = "#ececec";
 constexpr std::array<int, 7> markers{7, 5, 9, 11, 13, 8, 4};  // gnuplot point types
 
+/// gnuplot runs what stands between back quotes, also within a text.
 std::string in_quotes(std::string_view s) {
   std::string out = "\"";
-  for (char c : s) {
+  for (char c : printable(s)) {
     if (c == '\n') continue;
+    if (c == '`') c = '\'';
     if (c == '"' || c == '\\') out += '\\';
     out += c;
   }
@@ -206,7 +209,7 @@ std::optional<std::string> drawn_by_gnuplot(const std::filesystem::path& script)
   posix_spawnattr_init(&attributes);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   std::string program = "gnuplot";
-  std::string argument = script.string();
+  std::string argument = std::filesystem::absolute(script).string();  // no option
   char* const arguments[] = {program.data(), argument.data(), nullptr};
   pid_t child = 0;
   const int error = posix_spawnp(&child, "gnuplot", &actions, &attributes, arguments, environ);

@@ -9,6 +9,7 @@
 #include <map>
 #include <utility>
 
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/report/map_background.hpp"
 #include "microswarm/report/page.hpp"
@@ -129,7 +130,8 @@ std::vector<std::vector<std::string>> robots_numbers(const Record& record) {
 
 void write_robots_report(const Record& record, const std::filesystem::path& folder,
                          const ReportOptions& options) {
-  if (record.frames.empty() || record.robots.empty()) return;
+  if (record.frames.empty() || record.robots.empty())
+    throw InputError("the record has no frames to report");
   const RobotsSubject s{record, options, build_world(record.scene)};
   const std::vector<RobotMoment>& moments = record.robots;
   PageSection stills{.heading = "Moments"};

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <span>
 
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/planning/common/detection.hpp"
@@ -173,7 +174,7 @@ std::vector<std::vector<std::string>> run_numbers(const Record& record) {
 
 void write_run_report(const Record& record, const std::filesystem::path& folder,
                       const ReportOptions& options) {
-  if (record.frames.empty()) return;
+  if (record.frames.empty()) throw InputError("the record has no frames to report");
   if (record.scene.scenario.robots) return write_robots_report(record, folder, options);
   const RunSubject s{record, options, build_world(record.scene)};
   PageSection stills{.heading = "Moments",

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/session/live_session.hpp"
 
+#include "microswarm/rig/runtime/coil_temperatures.hpp"
 #include "microswarm/rig/runtime/command_log.hpp"
+#include "microswarm/rig/runtime/rig_checks.hpp"
 
 namespace microswarm {
 
@@ -19,24 +21,67 @@ RigExperiment without_following(RigExperiment on, bool dry) {
 /// A live rig that owns its devices.
 class LiveSession::LivePlant : public Plant {
  public:
-  LivePlant(RigExperiment on, bool dry, const std::filesystem::path& folder)
-      : on_(without_following(std::move(on), dry)),
-        devices_(open_devices(on_, dry)),
-        log_(folder, on_.rig.system, dry),
+  LivePlant(RigExperiment on, const LiveOptions& options)
+      : on_(without_following(checked(std::move(on), options), options.dry)),
+        devices_(open_devices(on_, options.dry)),
+        log_(options.folder, on_.rig.system, options.dry),
         rig_(on_.scenario(), on_.experiment.world.map, on_.rig, std::move(devices_.camera),
-             devices_.scale, devices_.driver(), [this](const CoilMoment& m) { log_.add(m); }) {}
+             devices_.scale, devices_.driver(), [this](const CoilMoment& m) { take(m); }) {
+    if (std::holds_alternative<CameraParams>(on_.rig.params.camera))
+      require(check_camera(rig_.camera(), on_.rig, devices_.camera_rate, device_check));
+    if (has_coil_device(on_.rig) && !options.dry) open_coils(options);
+  }
 
   Observation observe() override { return rig_.observe(); }
   void apply(const Command& command, double dt) override { rig_.apply(command, dt); }
+  bool set_obstacles(const std::vector<Obstacle>& obstacles) override {
+    return rig_.set_obstacles(obstacles);
+  }
   std::string_view fault() const override { return rig_.fault(); }
 
   LiveRig& rig() { return rig_; }
   CommandLog& log() { return log_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
+  static constexpr double device_check = 0.3;  // [s]
+
+  static RigExperiment checked(RigExperiment on, const LiveOptions& options) {
+    Issues issues;
+    if (const RigCheck field = check_field(on.rig); !field.good)
+      issues.add({"field.amplitude_mt", "field"}, field.answer);
+    if (has_coil_device(on.rig) && !options.dry && !options.without_limits)
+      issues.add(missing_limits(on.rig));
+    on.rig.keys.require_none(issues);
+    return on;
+  }
+
+  void require(const std::vector<RigCheck>& checks) {
+    for (const RigCheck& check : checks) {
+      if (check.good) continue;
+      const std::string line = check.what + ": " + check.answer;
+      if (check.required) throw HardwareError(line);
+      warnings_.push_back(line);
+    }
+  }
+
+  void open_coils(const LiveOptions& options) {
+    require(check_driver(devices_.driver(), on_.rig, device_check));
+    temperatures_.emplace(on_.rig, options.coils_cold);
+    rig_.warm(temperatures_->at_start());
+    if (!temperatures_->known()) warnings_.push_back(temperatures_->why_hot());
+  }
+
+  void take(const CoilMoment& moment) {
+    log_.add(moment);
+    if (temperatures_) temperatures_->take(moment.output.temperatures);
+  }
+
   RigExperiment on_;
   Devices devices_;
   CommandLog log_;
+  std::vector<std::string> warnings_;
+  std::optional<CoilTemperatures> temperatures_;
   LiveRig rig_;
 };
 
@@ -44,13 +89,15 @@ LiveSession::LiveSession(const RigExperiment& on, const std::string& name,
                          std::unique_ptr<Plant> owned, LivePlant* plant)
     : Session(on.experiment, 0, std::move(owned), nullptr, name), plant_(plant) {}
 
-std::unique_ptr<LiveSession> LiveSession::open(const RigExperiment& on, bool dry,
-                                               const std::filesystem::path& folder) {
-  auto plant = std::make_unique<LivePlant>(on, dry, folder);
+std::unique_ptr<LiveSession> LiveSession::open(const RigExperiment& on,
+                                               const LiveOptions& options) {
+  auto plant = std::make_unique<LivePlant>(on, options);
   LivePlant* const live = plant.get();
-  return std::unique_ptr<LiveSession>(
-      new LiveSession(on, name_of(on.rig) + (dry ? ", dry run" : ""), std::move(plant), live));
+  return std::unique_ptr<LiveSession>(new LiveSession(
+      on, name_of(on.rig) + (options.dry ? ", dry run" : ""), std::move(plant), live));
 }
+
+const std::vector<std::string>& LiveSession::warnings() const { return plant_->warnings(); }
 
 void LiveSession::stop(const std::string& why) { plant_->rig().stop(why); }
 

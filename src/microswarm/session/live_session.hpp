@@ -11,16 +11,24 @@
 
 namespace microswarm {
 
+/// Options for opening a rig in real time.
+struct LiveOptions {
+  bool dry = false;                ///< nothing is sent to the coils
+  std::filesystem::path folder{};  ///< of commands.csv; empty: the coil outputs are not logged
+  bool without_limits = false;     ///< the coil system need not limit current and temperature
+  bool coils_cold = false;         ///< the coils are at ambient temperature
+};
+
 /// A session on a rig in real time: a step takes as long as a tick. The destructor sets the coils
 /// to zero.
 class LiveSession : public Session {
  public:
-  /// Opens the rig's devices. With `dry`, nothing is sent to the coils. The coil outputs are logged
-  /// as commands.csv in `folder` unless it is empty. Throws HardwareError if a device fails,
-  /// InputError if rig and scenario do not fit.
-  static std::unique_ptr<LiveSession> open(const RigExperiment& on, bool dry,
-                                           const std::filesystem::path& folder);
+  /// Checks and opens the rig's devices. Throws HardwareError if a device fails, InputError if rig
+  /// and scenario do not fit, if the coils cannot hold the field, or if a limit is missing.
+  static std::unique_ptr<LiveSession> open(const RigExperiment& on, const LiveOptions& options);
 
+  /// One line for each weakness of the rig that was found when it was opened.
+  const std::vector<std::string>& warnings() const;
   /// Sets the coils to zero for good; callable from any thread.
   void stop(const std::string& why);
   /// Sets the coils to zero after the last tick and finishes the log. Returns the reason of a

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/session/session.hpp"
 
+#include <array>
+#include <fstream>
+#include <string_view>
+
 #include <algorithm>
 
 #include "microswarm/config/schema.hpp"
@@ -26,6 +30,14 @@ class OwnedRig : public Plant {
   Rig rig_;
   SimulatedRig plant_;
 };
+
+/// Whether the file begins as an HDF5 file does, or is named like one.
+bool is_hdf5(const std::filesystem::path& file) {
+  constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
+  std::array<char, signature.size()> begin{};
+  std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
+  return file.extension() == ".h5" || std::string_view(begin.data(), begin.size()) == signature;
+}
 
 }  // namespace
 
@@ -73,22 +85,27 @@ const RunResult& Session::finish(const Stop& stop) {
 }
 
 Issues Session::set(const std::string& key, const std::string& value) {
-  if (!is_playback()) return std::get<0>(source_)->run.change(key + "=" + value);
   Issues issues;
-  issues.add(key, "a record cannot be changed");
+  if (is_playback())
+    issues.add(key, "a record cannot be changed");
+  else if (key.empty() || key.find('=') != std::string::npos)
+    issues.add(key, key.empty() ? "a key is missing" : "a key has no '='");
+  else
+    issues = std::get<0>(source_)->run.change(key + "=" + value);
   return issues;
 }
 
 bool Session::seek(std::size_t frame) {
   if (!is_playback()) return false;
   auto& playback = std::get<Playback>(source_);
-  tick_ = nullptr;
   ticks_ = playback.seek(frame);
+  tick_ = playback.step();
+  ticks_ += tick_ != nullptr;
   const auto& frames = playback.record().frames;
   plans_ = static_cast<std::uint64_t>(
       std::count_if(frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(ticks_),
                     [](const Frame& f) { return f.planned; }));
-  return true;
+  return tick_ != nullptr;
 }
 
 const Scenario& Session::scenario() const {
@@ -122,13 +139,23 @@ const RunResult& Session::result() const {
 }
 
 const Record& Session::record() const {
-  return is_playback() ? std::get<Playback>(source_).record()
-                       : std::get<0>(source_)->recorder.record();
+  if (is_playback()) return std::get<Playback>(source_).record();
+  Running& running = *std::get<0>(source_);
+  if (running.metrics.result().status == Status::running)
+    running.recorder.keep(running.metrics.result());
+  return running.recorder.record();
 }
 
 std::unique_ptr<Session> open_session(const std::filesystem::path& file,
                                       const SessionOptions& options) {
-  if (file.extension() == ".h5") return std::make_unique<Session>(read_record(file));
+  if (is_hdf5(file)) {
+    if (!options.settings.empty() || !options.rig_settings.empty() || options.seed ||
+        options.trial != 0 || !options.rig.empty())
+      throw InputError(file.string() + ": a record accepts no options");
+    return std::make_unique<Session>(read_record(file));
+  }
+  if (options.rig.empty() && !options.rig_settings.empty())
+    throw InputError("values of a rig are set, but there is no rig");
   if (options.rig.empty())
     return std::make_unique<Session>(open_experiment(file, options.settings, options.seed),
                                      options.trial);

@@ -29,7 +29,8 @@ struct SessionOptions {
 };
 
 /// An open experiment: the common interface of command line, lab, Python and C. It advances only
-/// when stepped, and records every step. Not thread-safe.
+/// when stepped, and records every step. Use one session from one thread at a time; several
+/// sessions may run in threads of their own.
 ///
 ///     const auto session = open_session("scenario.yaml");
 ///     while (session->step()) draw(session->view());
@@ -59,7 +60,8 @@ class Session {
   /// there are any, nothing changes. See OpenRun::change for the settable values. A record cannot
   /// be changed.
   Issues set(const std::string& key, const std::string& value);
-  /// Goes to a frame of a record; false if the session is not a record.
+  /// Goes to a frame of a record, at most to its last: view() shows it, step() gives the next one.
+  /// False if the session is not a record, or has no frames.
   bool seek(std::size_t frame);
 
   /// One line for each outdated key in the files and settings.
@@ -74,9 +76,9 @@ class Session {
   /// Aggregation tree and map segmentation; empty for other navigators, before the first tick and
   /// for records.
   std::optional<AggregationView> aggregation() const;
-  /// Result so far; complete after the last tick.
+  /// Result so far, with status `running` before the last tick.
   const RunResult& result() const;
-  /// Record so far; complete after the last tick.
+  /// Record so far, which replays as far; complete after the last tick.
   const Record& record() const;
   /// Writes the record. Throws InputError like write_record.
   void record_to(const std::filesystem::path& file) const { write_record(record(), file); }

@@ -22,6 +22,10 @@ constexpr int busy_timeout_ms = 60'000;  // for a reader that keeps the file to 
 // SQLite locks bytes from 2^30 on; nobody has a byte here.
 constexpr off_t lock_byte = off_t{1} << 62;
 
+constexpr int max_value_bytes = 16 << 20;   // of a value or a row
+constexpr int steps_at_a_time = 1'000'000;  // of SQLite's machine
+constexpr int max_steps_a_row = 200;        // times the above: a second or more
+
 std::string reason(int error) { return std::generic_category().message(error); }
 
 void bind(SQLite::Statement& statement, int place, const SqlValue& value) {
@@ -41,6 +45,21 @@ SqlValue value_of(const SQLite::Column& column) {
   if (column.isNull()) return std::monostate{};
   return column.getString();
 }
+
+/// Lets nothing in the file act by itself: no views, triggers, functions with effects, or changes
+/// of the schema by other means than statements; long values are refused.
+void harden(sqlite3* database) {
+  for (const auto& [option, on] :
+       {std::pair{SQLITE_DBCONFIG_DEFENSIVE, 1}, std::pair{SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0},
+        std::pair{SQLITE_DBCONFIG_ENABLE_VIEW, 0}, std::pair{SQLITE_DBCONFIG_ENABLE_TRIGGER, 0},
+        std::pair{SQLITE_DBCONFIG_DQS_DDL, 0}, std::pair{SQLITE_DBCONFIG_DQS_DML, 0}})
+    sqlite3_db_config(database, option, on, nullptr);
+  sqlite3_limit(database, SQLITE_LIMIT_LENGTH, max_value_bytes);
+  sqlite3_limit(database, SQLITE_LIMIT_ATTACHED, 0);
+}
+
+/// Ends a statement of too many steps without a row.
+int count_steps(void* steps) { return ++*static_cast<int*>(steps) > max_steps_a_row; }
 
 }  // namespace
 
@@ -80,6 +99,8 @@ Database::Database(const std::filesystem::path& file, Access access) : name_(fil
     connection_ = std::make_unique<SQLite::Database>(std::filesystem::absolute(file).string(),
                                                      SQLite::OPEN_READWRITE | SQLite::OPEN_NOMUTEX,
                                                      busy_timeout_ms);
+    harden(connection_->getHandle());
+    sqlite3_progress_handler(connection_->getHandle(), steps_at_a_time, count_steps, &steps_);
   } catch (const SQLite::Exception& error) {
     fail(fmt::format("cannot {}: {}", write ? "write" : "read", error.getErrorStr()));
   }
@@ -106,18 +127,34 @@ void Database::fail(const SQLite::Exception& error) const {
     case SQLITE_READONLY:
     case SQLITE_CANTOPEN:
       fail("cannot write: " + (system ? reason(system) : why));
+    case SQLITE_INTERRUPT:
+      fail("a statement does not come to an end");
+    case SQLITE_TOOBIG:
+      fail(fmt::format("holds a value of more than {} bytes", max_value_bytes));
     default:
       fail(why);
   }
 }
 
+void Database::require_tables(std::span<const std::string_view> tables) const {
+  for (const std::string_view table : tables) {
+    bool found = false;
+    const std::vector<SqlValue> name{std::string(table)};
+    select("SELECT 1 FROM sqlite_master WHERE type = 'table' AND rootpage > 0 AND name = ?", name,
+           [&](std::span<const SqlValue>) { found = true; });
+    if (!found) fail(fmt::format("is damaged: {} is no table", table));
+  }
+}
+
 void Database::select(const std::string& sql, std::span<const SqlValue> values,
                       const std::function<void(std::span<const SqlValue>)>& each) const try {
+  steps_ = 0;
   SQLite::Statement statement(*connection_, sql);
   for (std::size_t i = 0; i < values.size(); ++i)
     bind(statement, static_cast<int>(i + 1), values[i]);
   std::vector<SqlValue> row(static_cast<std::size_t>(statement.getColumnCount()));
   while (statement.executeStep()) {
+    steps_ = 0;
     if (!each) continue;
     for (std::size_t i = 0; i < row.size(); ++i)
       row[i] = value_of(statement.getColumn(static_cast<int>(i)));
@@ -128,6 +165,7 @@ void Database::select(const std::string& sql, std::span<const SqlValue> values,
 }
 
 std::int64_t Database::number(const std::string& sql) const try {
+  steps_ = 0;
   SQLite::Statement statement(*connection_, sql);
   return statement.executeStep() ? statement.getColumn(0).getInt64() : 0;
 } catch (const SQLite::Exception& error) {
@@ -135,8 +173,10 @@ std::int64_t Database::number(const std::string& sql) const try {
 }
 
 void Database::transaction(const std::function<void()>& statements) try {
+  steps_ = 0;
   SQLite::Transaction whole(*connection_, SQLite::TransactionBehavior::IMMEDIATE);
   statements();
+  steps_ = 0;
   whole.commit();
 } catch (const SQLite::Exception& error) {
   fail(error);

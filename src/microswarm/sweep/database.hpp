@@ -38,8 +38,10 @@ class WriterLock {
   int file_;
 };
 
-/// An SQLite database in a file that exists; an empty file is a database without tables. Every
-/// error is an InputError of one line that begins with the file's name.
+/// An SQLite database in a file that exists; an empty file is a database without tables. The file
+/// is not trusted: views and triggers do nothing, values above 16 MiB are refused, and a statement
+/// that goes on without a row is ended. Every error is an InputError of one line that begins with
+/// the file's name.
 class Database {
  public:
   enum class Access { read, write };
@@ -60,6 +62,10 @@ class Database {
   /// Executes `statements` in one transaction, which is rolled back when they throw.
   void transaction(const std::function<void()>& statements);
 
+  /// Throws InputError if one of these is no table with rows of its own, but a view, a virtual
+  /// table or missing.
+  void require_tables(std::span<const std::string_view> tables) const;
+
   const std::string& name() const { return name_; }
   /// Throws InputError "FILE: WHY".
   [[noreturn]] void fail(const std::string& why) const;
@@ -68,6 +74,7 @@ class Database {
   [[noreturn]] void fail(const SQLite::Exception& error) const;
 
   std::string name_;
+  mutable int steps_ = 0;  ///< since the last row
   std::unique_ptr<SQLite::Database> connection_;
 };
 

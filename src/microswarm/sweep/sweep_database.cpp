@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 #include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
@@ -33,6 +35,8 @@ void check_layout(const Database& database) {
   if (written != layout)
     database.fail(
         fmt::format("has sweep layout {}, this program knows layout {}", written, layout));
+  constexpr std::array<std::string_view, 4> tables{"sweep", "columns", "cells", "trials"};
+  database.require_tables(tables);
 }
 
 std::map<std::string, std::string> read_about(const Database& database) {

@@ -41,6 +41,7 @@ const CoilOutput& CoilController::advance(double dt) {
   output_.currents = driven.currents;
   output_.scale = driven.scale;
   output_.reached = found.reached;
+  output_.temperatures = drive_.temperatures();
   std::copy(driven.currents.begin(), driven.currents.end(), channels_.begin());
   output_.status = driver_.drive(channels_);
   return output_;

@@ -18,6 +18,7 @@ struct CoilOutput {
   double scale = 1;                                  ///< scale of the command imposed by the limits
   bool reached = true;                               ///< the coils can produce the commanded field
   DriveStatus status = DriveStatus::driven;
+  Eigen::VectorXd temperatures;  ///< of the coils, by their thermal model [°C]
 };
 
 /// Converts a navigator's commands to coil currents. The field changes continuously. The currents

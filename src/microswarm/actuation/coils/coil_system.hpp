@@ -102,10 +102,10 @@ struct MatrixCoils {
     visit(self.names, {"names", Unit::none, {}, "Names of the coils.", true});
     visit(self.field, {"field",
                        Unit::mt_per_a,
-                       {-1e6, 1e6},
+                       {-1e3, 1e3},
                        "Rows Bx, By, Bz of the actuation matrix, one column a coil.",
                        true});
-    visit(self.offset, {"offset", Unit::mt, {-1e6, 1e6}, "Field without current, [x, y, z]."});
+    visit(self.offset, {"offset", Unit::mt, {-100, 100}, "Field without current, [x, y, z]."});
   }
 };
 

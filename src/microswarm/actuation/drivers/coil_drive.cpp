@@ -245,6 +245,29 @@ DrivenCurrents CoilDrive::step(const Eigen::VectorXd& wanted, double dt) {
   return result;
 }
 
+Eigen::VectorXd hottest(const std::vector<DriveParams>& drives) {
+  Eigen::VectorXd most(static_cast<Eigen::Index>(drives.size()));
+  for (std::size_t k = 0; k < drives.size(); ++k)
+    most[static_cast<Eigen::Index>(k)] = drives[k].max_temperature.value_or(drives[k].ambient);
+  return most;
+}
+
+Eigen::VectorXd heated(const std::vector<DriveParams>& drives, const Eigen::VectorXd& temperatures,
+                       double seconds) {
+  Eigen::VectorXd now = temperatures;
+  for (std::size_t k = 0; k < drives.size(); ++k) {
+    const DriveParams& d = drives[k];
+    double& temperature = now[static_cast<Eigen::Index>(k)];
+    const double most = std::max(temperature, d.max_temperature.value_or(infinity));
+    if (d.max_current)
+      temperature = std::min(
+          most, temperature_later(d, temperature, *d.max_current * *d.max_current, seconds));
+    else if (d.max_temperature)
+      temperature = most;
+  }
+  return now;
+}
+
 Eigen::VectorXd cooled(const std::vector<DriveParams>& drives, const Eigen::VectorXd& temperatures,
                        double seconds) {
   Eigen::VectorXd now = temperatures;

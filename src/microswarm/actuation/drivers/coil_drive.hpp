@@ -79,6 +79,13 @@ class CoilDrive {
   Eigen::VectorXd temperatures_;
 };
 
+/// Temperatures [°C] of coils at their maximum temperature, ambient for those without one.
+Eigen::VectorXd hottest(const std::vector<DriveParams>& drives);
+
+/// Temperatures [°C] after `seconds` of maximum current, at most the maximum temperatures.
+Eigen::VectorXd heated(const std::vector<DriveParams>& drives, const Eigen::VectorXd& temperatures,
+                       double seconds);
+
 /// Temperatures [°C] of coils without current, `seconds` after they had `temperatures`. A negative
 /// time cools nothing.
 Eigen::VectorXd cooled(const std::vector<DriveParams>& drives, const Eigen::VectorXd& temperatures,

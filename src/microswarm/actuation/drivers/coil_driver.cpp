@@ -15,6 +15,26 @@ std::string_view to_string(DriveStatus status) {
   return names[static_cast<std::size_t>(status)];
 }
 
+std::string_view trouble_of(DriveStatus status) {
+  switch (status) {
+    case DriveStatus::refused:
+      return "the coil driver refuses the currents";
+    case DriveStatus::not_armed:
+      return "the coils' device is off and does not let itself be armed";
+    case DriveStatus::emergency:
+      return "the emergency stop of the coils' device was pressed";
+    case DriveStatus::mismatched:
+      return "the coils' device does something else than it was told";
+    case DriveStatus::driven:
+    case DriveStatus::scaled:
+    case DriveStatus::resumed:
+    case DriveStatus::no_answer:
+      return {};
+  }
+  assert(false);
+  return {};
+}
+
 SimulatedCoilDriver::SimulatedCoilDriver(int channels, double full_scale)
     : currents_(static_cast<std::size_t>(channels)), full_scale_(full_scale) {}
 

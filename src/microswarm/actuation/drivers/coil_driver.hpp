@@ -11,6 +11,9 @@ namespace microswarm {
 /// Relative tolerance for currents above the full scale, for rounding.
 inline constexpr double full_scale_slack = 1e-9;
 
+/// Commands in a row without an answer at which a driver counts as gone.
+inline constexpr int max_missed_answers = 3;
+
 /// Result of a command to the coils.
 enum class DriveStatus : std::uint8_t {
   driven,
@@ -23,6 +26,8 @@ enum class DriveStatus : std::uint8_t {
   no_answer,   ///< the coils switch off within the device's watchdog time, or the device is gone
 };
 std::string_view to_string(DriveStatus status);
+/// Why such a status ends a run, in words; empty if it does not by itself.
+std::string_view trouble_of(DriveStatus status);
 
 /// Interface that sends currents to coils. The destructor sets all currents to zero.
 class CoilDriver {

@@ -36,7 +36,7 @@ struct FieldGeneratorParams {
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.kind, {"kind", Unit::none, {}, "Kind of the field that drives the swarm."});
-    visit(self.amplitude, {"amplitude", Unit::mt, {0, 1e4}, "Flux density."});
+    visit(self.amplitude, {"amplitude", Unit::mt, {0, 1e3}, "Flux density."});
     visit(
         self.frequency,
         {"frequency", Unit::hz, {1e-6, 1e4}, "Turns per second; the maximum for rolling fields."});

@@ -22,9 +22,10 @@ enum class Status {
   held,           ///< run: the swarm held its position until the end because no motion was safe
   collided,       ///< run: the swarm touched an obstacle or a wall
   fault,          ///< run: the plant failed, e.g. a rig lost its swarm
+  running,        ///< run: it has not ended yet
 };
 constexpr auto enum_names(Status) {
-  return std::array<std::pair<Status, std::string_view>, 10>{
+  return std::array<std::pair<Status, std::string_view>, 11>{
       {{Status::solved, "solved"},
        {Status::no_path, "no_path"},
        {Status::node_limit, "node_limit"},
@@ -34,7 +35,8 @@ constexpr auto enum_names(Status) {
        {Status::goal_blocked, "goal_blocked"},
        {Status::held, "held"},
        {Status::collided, "collided"},
-       {Status::fault, "fault"}}};
+       {Status::fault, "fault"},
+       {Status::running, "running"}}};
 }
 
 /// The status in one word with underscores, as in records and JSON.

@@ -7,6 +7,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace microswarm {
@@ -26,13 +28,60 @@ std::string tidy_exponent(std::string text) {
   return text.erase(sign + negative, digits - sign - negative);
 }
 
+namespace {
+
+/// A character of UTF-8 text, and its bytes; no value if they are not UTF-8.
+struct Utf8 {
+  std::optional<std::uint32_t> value;
+  std::size_t bytes = 1;
+};
+
+Utf8 first_character(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  if (byte(0) < 0x80) return {byte(0), 1};
+  const std::size_t length = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
+  if (byte(0) < 0xc2 || byte(0) > 0xf4 || length > text.size()) return {};
+  std::uint32_t value = byte(0) & (0x7fu >> length);
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) return {};
+    value = value << 6 | (byte(i) & 0x3fu);
+  }
+  constexpr std::array<std::uint32_t, 5> least{0, 0, 0x80, 0x800, 0x10000};
+  const bool surrogate = value >= 0xd800 && value < 0xe000;
+  if (value < least[length] || value > 0x10ffff || surrogate) return {};
+  return {value, length};
+}
+
+/// Control characters, also those of the second set, and those that turn the direction of writing.
+bool is_control(std::uint32_t c) {
+  if (c == '\n' || c == '\t') return false;
+  return c < 0x20 || (c >= 0x7f && c < 0xa0) || c == 0x61c || c == 0x200e || c == 0x200f ||
+         (c >= 0x2028 && c <= 0x202e) || (c >= 0x2066 && c <= 0x2069);
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+  std::string result;
+  result.reserve(text.size());
+  while (!text.empty()) {
+    const Utf8 next = first_character(text);
+    if (next.value && !is_control(*next.value))
+      result += text.substr(0, next.bytes);
+    else
+      result += '?';
+    text.remove_prefix(next.bytes);
+  }
+  return result;
+}
+
 std::string one_line(std::string_view text, std::size_t most) {
   std::size_t end = std::min(text.size(), most);
   if (end < text.size())  // do not split a UTF-8 character
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
-  std::string line(text.substr(0, end));
-  for (char& c : line)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  std::string line = printable(text.substr(0, end));
+  std::ranges::replace(line, '\n', '?');
+  std::ranges::replace(line, '\t', '?');
   if (end < text.size()) line += "…";
   return line;
 }

@@ -17,6 +17,10 @@ std::string number_text(double value);
 /// becomes "1e5".
 std::string tidy_exponent(std::string text);
 
+/// Text that is safe on a terminal and in a page: control characters other than newline and tab,
+/// characters that turn the direction of writing, and bytes that are no UTF-8 become '?'.
+std::string printable(std::string_view text);
+
 /// Text for a one-line message: control characters become '?', text after `most` bytes becomes "…".
 std::string one_line(std::string_view text, std::size_t most = 200);
 

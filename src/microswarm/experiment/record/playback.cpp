@@ -63,7 +63,7 @@ const Tick* Playback::step() {
       is_last ? events.end()
               : std::ranges::lower_bound(events, record_.frames[next_].t, {}, &RunEvent::t);
   tick_.events = {begin, end};
-  if (is_last) tick_.end = record_.result.status;
+  if (is_last && record_.result.status != Status::running) tick_.end = record_.result.status;
   return &tick_;
 }
 

@@ -90,7 +90,7 @@ void Recorder::keep_robots(double t, std::span<const Vec2> robots) {
 }
 
 void Recorder::on_end(const RunResult& result) {
-  record_.result = result;
+  keep(result);
   if (!record_.robots.empty() && record_.robots.back().t < last_robots_.t)
     record_.robots.push_back(std::move(last_robots_));
 }

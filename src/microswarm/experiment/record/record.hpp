@@ -52,6 +52,8 @@ class Recorder : public RunListener {
   explicit Recorder(Scene scene, std::uint32_t trial = 0, std::string rig = {});
   void on_tick(const Tick& tick) override;
   void on_end(const RunResult& result) override;
+  /// Sets the result so far of a run that has not ended.
+  void keep(const RunResult& result) { record_.result = result; }
 
   const Record& record() const { return record_; }
   Record take() { return std::move(record_); }

@@ -7,6 +7,7 @@
 #include "microswarm/core/maths/hash.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/experiment/record/record.hpp"
+#include "microswarm/experiment/run/metrics_listener.hpp"
 #include "microswarm/experiment/run/open_run.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/io/columns.hpp"
@@ -129,6 +130,19 @@ class Changes : public RunListener {
   std::string refused_;
 };
 
+/// Repeats the ticks of a run that had not ended when it was recorded.
+void repeat(const Record& record, OpenRun& open, std::span<RunListener* const> listeners,
+            Recorder& recorder) {
+  MetricsListener metrics(record.scene.scenario);
+  for (std::size_t i = 0; i < record.frames.size(); ++i) {
+    const Tick* tick = open.step();
+    if (!tick) break;
+    metrics.on_tick(*tick);
+    for (RunListener* listener : listeners) listener->on_tick(*tick);
+  }
+  recorder.keep(metrics.result());
+}
+
 std::string difference_of(const Metrics& stored, const Metrics& now) {
   for (const Column& column : columns_of<Metrics>()) {
     const double was = column.number(&stored), is = column.number(&now);
@@ -149,7 +163,10 @@ ReplayResult replay(const Record& record, const Stop& stop) {
   OpenRun open(record.scene.scenario, build_world(record.scene), record.trial);
   Changes changes(record.changes, open);
   RunListener* const listeners[] = {&recorder, &ending, &changes};
-  open.finish(listeners, Stop(&ending.over()));
+  if (record.result.status == Status::running)
+    repeat(record, open, listeners, recorder);
+  else
+    open.finish(listeners, Stop(&ending.over()));
   const Record now = recorder.take();
   if (ending.stopped()) return {.identical = false, .stopped = true, .difference = {}};
 

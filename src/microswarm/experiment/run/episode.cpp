@@ -29,8 +29,7 @@ Episode::Episode(const Scenario& scenario, Plant& plant, Navigator& navigator)
       navigator_(&navigator),
       obstacles_(scenario.sensing.obstacle_memory),
       goal_(scenario),
-      hold_(scenario),
-      detection_range_(scenario.detection_range.value_or(detection_range_of(scenario.navigator))) {
+      hold_(scenario) {
   if (scenario.start) present_.pose = *scenario.start;
   goal_.take_goal(present_.pose.position);
   const auto ground_truth = plant.ground_truth();
@@ -198,7 +197,9 @@ void Episode::fill(const Observation& seen) {
   frame.wall_clearance = one_is_there ? world_->map().clearance(frame.pose.position) : infinity;
   frame.obstacle_clearance =
       one_is_there ? world_->moving().clearance(frame.pose.position, infinity) : infinity;
-  if (!goal_.has_robots() && frame.obstacle_clearance - frame.radius < detection_range_)
+  const double range = scenario_.detection_range.value_or(detection_range_of(scenario_.navigator));
+  tick_.detects = !goal_.has_robots() && frame.obstacle_clearance - frame.radius < range;
+  if (tick_.detects)
     frame.avoidance_cost = avoidance_cost(
         tick_.view.phased_goal.value_or(*scenario_.goal) - frame.pose.position, frame.goal_distance,
         frame.pose.heading, frame.speed > 0, goal_.start_distance());

@@ -33,6 +33,8 @@ class Episode {
   /// (held for the scenario's hold limit, or until its time limit), `time_limit`, `stopped`, or
   /// `fault`.
   const Tick* step(const Stop& stop = {});
+  /// The last tick was taken.
+  bool over() const { return tick_.end.has_value(); }
 
   /// Continues with the current state of the scenario and of the plant's obstacles, and with this
   /// navigator, which may be the present one. `setting` is reported with the next tick.
@@ -70,10 +72,9 @@ class Episode {
   HoldMonitor hold_;
   std::optional<ContactMonitor> contacts_;
   Present present_;
-  bool was_seen_ = false;       ///< the swarm, at least once
-  int unseen_ = 0;              ///< robots
-  double detection_range_ = 0;  ///< [µm]
-  double done_ = 0;             ///< number of ticks
+  bool was_seen_ = false;  ///< the swarm, at least once
+  int unseen_ = 0;         ///< robots
+  double done_ = 0;        ///< number of ticks
   bool touched_ = false;
   bool prepared_ = false;         ///< navigator_->prepare() was called
   std::optional<Status> ending_;  ///< set if the next tick is the last one

@@ -7,10 +7,9 @@
 
 namespace microswarm {
 
-MetricsListener::MetricsListener(const Scenario& scenario)
-    : tick_(scenario.tick),
-      detection_range_(scenario.detection_range.value_or(detection_range_of(scenario.navigator))) {
+MetricsListener::MetricsListener(const Scenario& scenario) : tick_(scenario.tick) {
   if (!scenario.robots) at_ = scenario.start;
+  result_.status = Status::running;
 }
 
 void MetricsListener::on_tick(const Tick& tick) {
@@ -27,6 +26,7 @@ void MetricsListener::on_tick(const Tick& tick) {
     note_end(tick);
   else
     note_step(tick);
+  summarise(tick.frame);
 }
 
 void MetricsListener::move_to(const Pose2& pose) {
@@ -45,10 +45,9 @@ void MetricsListener::note_step(const Tick& tick) {
   if (tick.frame.planned) result_.timing.planning.push_back(tick.step_time);
   metrics.planning_events += tick.frame.planned;
   if (tick.frame.command.speed <= 0) metrics.hold_time += tick_;
-  const double gap = tick.frame.obstacle_clearance - tick.frame.radius;
-  if (tick.robots || gap >= detection_range_) return;
+  if (!tick.detects) return;
   cost_sum_ += tick.frame.avoidance_cost;
-  gap_sum_ += gap;
+  gap_sum_ += tick.frame.obstacle_clearance - tick.frame.radius;
   ++detected_ticks_;
 }
 
@@ -70,11 +69,14 @@ void MetricsListener::note_clearances(const Tick& tick) {
 }
 
 void MetricsListener::note_end(const Tick& tick) {
-  Metrics& metrics = result_.metrics;
   result_.status = *tick.end;
   if (!tick.fault.empty()) result_.state = tick.fault;
-  metrics.time = tick.frame.t;
-  metrics.goal_distance = tick.frame.goal_distance;
+}
+
+void MetricsListener::summarise(const Frame& newest) {
+  Metrics& metrics = result_.metrics;
+  metrics.time = newest.t;
+  metrics.goal_distance = newest.goal_distance;
   if (detected_ticks_ == 0) return;
   metrics.avoidance.mean_cost = cost_sum_ / static_cast<double>(result_.timing.steps.size());
   metrics.avoidance.time = detected_ticks_ * tick_;

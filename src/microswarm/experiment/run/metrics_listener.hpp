@@ -14,7 +14,7 @@ class MetricsListener : public RunListener {
   explicit MetricsListener(const Scenario& scenario);
   void on_tick(const Tick& tick) override;
 
-  /// Valid after the last tick.
+  /// Result so far; its status is `running` until the last tick.
   const RunResult& result() const { return result_; }
 
  private:
@@ -22,9 +22,9 @@ class MetricsListener : public RunListener {
   void note_step(const Tick& tick);
   void note_clearances(const Tick& tick);
   void note_end(const Tick& tick);
+  void summarise(const Frame& newest);
 
-  double tick_;             ///< [s]
-  double detection_range_;  ///< [µm]
+  double tick_;  ///< [s]
   std::optional<Pose2> at_;
   double cost_sum_ = 0;
   double gap_sum_ = 0;  ///< [µm]

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <sstream>
 #include <string_view>
 
 #include "microswarm/config/yaml.hpp"
@@ -22,6 +23,18 @@ bool names_another_model(const Scenario& a, const Scenario& b) {
   const FollowerParams* first = follower_of(a.navigator);
   const FollowerParams* second = follower_of(b.navigator);
   return second && !second->model.empty() && (!first || first->model != second->model);
+}
+
+/// Adds an issue for each line "set KEY: TEXT" or "set KEY:1:8: TEXT" of a mistake.
+void add_mistakes(Issues& issues, const std::string& wanted, const std::string& mistake) {
+  const std::string key = wanted.substr(0, wanted.find('='));
+  std::istringstream lines(mistake);
+  for (std::string line; std::getline(lines, line);) {
+    const std::string begin = "set " + key + ":";
+    if (line.starts_with(begin)) line.erase(0, begin.size());
+    if (line.starts_with(' ')) line.erase(0, 1);
+    issues.add(key, line);
+  }
 }
 
 /// Issues of a scenario after a change of `key` with the swarm at `pose`.
@@ -68,6 +81,10 @@ const Tick* OpenRun::step(const Stop& stop) {
 
 Issues OpenRun::change(const std::string& wanted) {
   Issues issues;
+  if (episode_.over()) {
+    issues.add({}, "the run has ended");
+    return issues;
+  }
   Scenario changed = scenario_;
   std::string setting = wanted, mistake;
   try {
@@ -86,7 +103,7 @@ Issues OpenRun::change(const std::string& wanted) {
   const bool steers_anew = key == "navigator" || key == "goal_um" || key == "goal_tolerance_um";
   if (steers_anew && has_external_navigator_)
     issues.add(key, "an external navigator cannot be told of another " + key);
-  if (issues.empty() && !mistake.empty()) issues.add({}, mistake);
+  if (issues.empty()) add_mistakes(issues, wanted, mistake);
   if (!issues.empty()) return issues;
 
   if (names_another_model(scenario_, changed))

@@ -36,7 +36,8 @@ class OpenRun {
 
   /// Sets a scenario value from the next tick on, for example "navigator.speed_um_per_s=60": a
   /// value of the navigator, which is rebuilt, of the goal, of an obstacle, or a limit of the run.
-  /// If there are issues, nothing changes.
+  /// If there are issues, nothing changes. An obstacle may be set onto the swarm, which is a
+  /// contact.
   Issues change(const std::string& setting);
 
   /// The present scenario with all changes.

@@ -27,9 +27,10 @@ struct Tick {
   std::span<const RunEvent> events;
   std::span<const PoseStamped> trajectory;   ///< path of the swarm during the tick, if known
   const ContactMonitor* contacts = nullptr;  ///< up to the tick's end; null if unknown
-  double step_time = 0;                      ///< wall-clock time of the navigator's step [s]
-  std::optional<Status> end;                 ///< set for the last tick, which has only a frame
-  std::string_view fault;                    ///< why the plant stopped; set for the last tick
+  bool detects = false;       ///< an obstacle is in the detection circle of Eq 3 [radar]
+  double step_time = 0;       ///< wall-clock time of the navigator's step [s]
+  std::optional<Status> end;  ///< set for the last tick, which has only a frame
+  std::string_view fault;     ///< why the plant stopped; set for the last tick
 };
 
 }  // namespace microswarm

@@ -5,6 +5,7 @@
 #include <turbojpeg.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
@@ -17,6 +18,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/formats/images/image.hpp"
+#include "microswarm/formats/images/tiff.hpp"
 
 namespace microswarm {
 namespace {
@@ -208,11 +210,28 @@ cv::Mat decode_pixels(Bytes bytes, std::string_view name) {
     check_jpeg(bytes, name);
     return decode_with_opencv(bytes, name);
   }
-  if (!starts_with(bytes, "BM")) fail_image(name, "not an image (PNG, JPEG, BMP, PGM, PPM or PBM)");
+  if (is_tiff(bytes)) return TiffPages(bytes, name).next();
+  if (!starts_with(bytes, "BM"))
+    fail_image(name, "not an image (PNG, JPEG, BMP, TIFF, PGM, PPM or PBM)");
   check_bmp(bytes, name);
   cv::Mat pixels = decode_with_opencv(bytes, name);
   if (pixels.channels() == 1) cv::cvtColor(pixels, pixels, cv::COLOR_GRAY2RGB);
   return pixels;
+}
+
+int depth_of(const cv::Mat& pixels) {
+  double largest = 0;
+  cv::minMaxIdx(pixels.reshape(1), nullptr, &largest);
+  return std::clamp(static_cast<int>(std::bit_width(static_cast<unsigned>(largest))), 8, 16);
+}
+
+void take_pixels(const cv::Mat& pixels, int depth, Image& image) {
+  image.width = pixels.cols;
+  image.height = pixels.rows;
+  image.channels = pixels.channels();
+  image.pixels.resize(image.index(0, image.height));
+  cv::Mat out(image.height, image.width, CV_8UC(image.channels), image.pixels.data());
+  pixels.convertTo(out, CV_8U, pixels.depth() == CV_16U ? 255.0 / ((1 << depth) - 1) : 1.0);
 }
 
 }  // namespace microswarm

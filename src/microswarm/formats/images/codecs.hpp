@@ -5,6 +5,8 @@
 #include <span>
 #include <string_view>
 
+#include "microswarm/formats/images/image.hpp"
+
 namespace cv {
 class Mat;
 }  // namespace cv
@@ -14,10 +16,17 @@ namespace microswarm {
 /// Whether the bytes begin as a PNG does.
 bool is_png(std::span<const std::byte> bytes);
 
-/// Pixels of a PNG, JPEG or BMP: one channel (grey) or three (red, green, blue) of 8 or 16 bits,
-/// transparency in front of white. Strict: a warning of the decoder, a wrong checksum and a file
-/// that ends early are errors, and the size is checked before anything is decoded. A JPEG is turned
-/// as its EXIF says; a BMP has three channels always. Throws InputError "NAME: WHY".
+/// Pixels of a PNG, JPEG, BMP, or of the first page of a TIFF: one channel (grey) or three (red,
+/// green, blue) of 8 or 16 bits, transparency in front of white. Strict: a warning of the decoder,
+/// a wrong checksum and a file that ends early are errors, and the size is checked before anything
+/// is decoded. A JPEG is turned as its EXIF says; a BMP has three channels always. Throws
+/// InputError "NAME: WHY".
 cv::Mat decode_pixels(std::span<const std::byte> bytes, std::string_view name);
+
+/// Bits, 8 to 16, that the largest sample of 16-bit pixels needs.
+int depth_of(const cv::Mat& pixels);
+
+/// Copies pixels into `image` and reuses its memory; 16-bit samples are numbers of `depth` bits.
+void take_pixels(const cv::Mat& pixels, int depth, Image& image);
 
 }  // namespace microswarm

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -14,6 +13,7 @@
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/formats/images/codecs.hpp"
 #include "microswarm/formats/images/pnm.hpp"
+#include "microswarm/formats/images/tiff.hpp"
 
 namespace microswarm {
 namespace {
@@ -41,11 +41,8 @@ void check_image_size(std::int64_t width, std::int64_t height, std::string_view 
 
 Image decode_image(std::span<const std::byte> bytes, std::string_view name, int depth) {
   if (is_pnm(bytes)) return decode_pnm(bytes, name);
-  const cv::Mat pixels = decode_pixels(bytes, name);
-  Image image{pixels.cols, pixels.rows, pixels.channels(), {}};
-  image.pixels.resize(image.index(0, image.height));
-  cv::Mat out(image.height, image.width, CV_8UC(image.channels), image.pixels.data());
-  pixels.convertTo(out, CV_8U, pixels.depth() == CV_16U ? 255.0 / ((1 << depth) - 1) : 1.0);
+  Image image;
+  take_pixels(decode_pixels(bytes, name), depth, image);
   return image;
 }
 
@@ -57,12 +54,10 @@ Image read_image(const std::filesystem::path& path, int depth) {
 std::optional<int> sample_depth(const std::filesystem::path& path) {
   const std::string bytes = read_file(path, max_file_bytes);
   const auto raw = std::as_bytes(std::span(bytes.data(), bytes.size()));
-  if (!is_png(raw)) return std::nullopt;
-  const cv::Mat mat = decode_pixels(raw, path.string());
-  if (mat.depth() != CV_16U) return std::nullopt;
-  double largest = 0;
-  cv::minMaxIdx(mat.reshape(1), nullptr, &largest);
-  return std::clamp(static_cast<int>(std::bit_width(static_cast<unsigned>(largest))), 8, 16);
+  if (!is_png(raw) && !is_tiff(raw)) return std::nullopt;
+  const cv::Mat pixels = decode_pixels(raw, path.string());
+  if (pixels.depth() != CV_16U) return std::nullopt;
+  return depth_of(pixels);
 }
 
 Image read_photograph(const std::filesystem::path& path) {

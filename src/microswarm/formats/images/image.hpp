@@ -34,22 +34,22 @@ inline constexpr std::int64_t max_image_pixels = 64'000'000;
 void check_image_size(std::int64_t width, std::int64_t height, std::string_view name,
                       std::string_view unit = "pixels");
 
-/// Reads PNG, JPEG, BMP, PGM, PPM or PBM: 16-bit samples are scaled to 8 bits, those of PNG as
-/// numbers of `depth` bits (8 to 16; what is larger becomes white), palettes and 1-bit
-/// pictures expanded, transparency shown in front of white. The structure is checked before
-/// anything is decoded; throws InputError "x.png: WHY" for no file, an empty one, no image, a
-/// truncated or damaged one, 0 pixels, or more than max_image_side or max_image_pixels.
+/// Reads PNG, JPEG, BMP, TIFF (its first page), PGM, PPM or PBM: deeper samples are scaled to 8
+/// bits, those of PNG and TIFF as numbers of `depth` bits (8 to 16; what is larger becomes white),
+/// palettes and 1-bit pictures expanded, transparency of PNG shown in front of white. The structure
+/// is checked before anything is decoded; throws InputError "x.png: WHY" for no file, an empty one,
+/// no image, a truncated or damaged one, 0 pixels, or more than max_image_side or max_image_pixels.
 Image read_image(const std::filesystem::path& path, int depth = 16);
 
 /// The same from memory; `name` stands for the file in messages.
 Image decode_image(std::span<const std::byte> bytes, std::string_view name, int depth = 16);
 
-/// Bits, 8 to 16, that the largest sample of a PNG with 16-bit samples needs; nothing for another
-/// picture or file. Throws as `read_image` for a damaged PNG.
+/// Bits, 8 to 16, that the largest sample of a PNG or TIFF with more than 8 bits needs; nothing for
+/// another picture or file. Throws as `read_image` for a damaged one.
 std::optional<int> sample_depth(const std::filesystem::path& path);
 
-/// Reads a camera image. The depth of a 16-bit PNG is taken from its largest sample, 12 bits for
-/// many cameras. Throws as `read_image`.
+/// Reads a camera image. The depth of a 16-bit picture is taken from its largest sample, 12 bits
+/// for many cameras. Throws as `read_image`.
 Image read_photograph(const std::filesystem::path& path);
 
 /// The image as one grey channel. The luma of a colour is 0.299 R + 0.587 G + 0.114 B, rounded.

@@ -52,7 +52,8 @@ std::string list_text(const Values& values) {
   return text + "]\n";
 }
 
-/// Reads a model line by line; skips blank lines and comments.
+/// Reads a model line by line; skips blank lines and comments. Before the first line that is one of
+/// a model, messages do not quote the file: it may be another one, named by mistake or malice.
 class Reader {
  public:
   Reader(std::string_view text, std::string_view name) : rest_(text), name_(name) {}
@@ -62,8 +63,7 @@ class Reader {
   /// Rest of the next line, which must start with `begin`.
   std::string_view after(std::string_view begin) {
     const std::string_view line = next();
-    if (!line.starts_with(begin))
-      fail(fmt::format("{} where {} must stand", quote(line), quote(begin)));
+    if (!line.starts_with(begin)) fail(fmt::format("{} must stand here", quote(begin)));
     return line.substr(begin.size());
   }
 
@@ -91,8 +91,7 @@ class Reader {
   }
 
   void end() {
-    if (const std::string_view line = next(); !line.empty())
-      fail(fmt::format("{} where the model must end", quote(line)));
+    if (const std::string_view line = next(); !line.empty()) fail("the model must end here");
   }
 
  private:

@@ -3,6 +3,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/maths/angles.hpp"
 
@@ -14,10 +16,6 @@ constexpr double min_sends = 10;  // per turn of the field
 int channels_of(const RigParams& rig) {
   const auto* simulated = std::get_if<SimulatedCoils>(&rig.driver);
   return simulated ? simulated->channels : coil_link_channels;
-}
-
-double full_scale_of(const RigParams& rig) {
-  return std::visit([](const auto& driver) { return driver.full_scale; }, rig.driver);
 }
 
 Issues validate(const RigParams& rig, const CoilSystem& system) {
@@ -45,12 +43,22 @@ Rig read_rig(const std::filesystem::path& file, const Settings& settings) {
   auto params = read_yaml_file<RigParams>(file, settings, keys);
   CoilSystem system = read_coil_system(file.parent_path() / params.coils);
   keys.require_none(validate(params, system));
+  const bool limits_current = std::ranges::all_of(
+      system.drives(), [](const DriveParams& drive) { return drive.max_current.has_value(); });
   system.limit_current(full_scale_of(params));
-  return {std::move(params), std::move(system), file.parent_path(), keys};
+  return {std::move(params), std::move(system), file.parent_path(), keys, limits_current};
+}
+
+double full_scale_of(const RigParams& rig) {
+  return std::visit([](const auto& driver) { return driver.full_scale; }, rig.driver);
 }
 
 std::string name_of(const Rig& rig) {
   return rig.params.name.empty() ? "unnamed rig" : rig.params.name;
+}
+
+bool has_coil_device(const Rig& rig) {
+  return !std::holds_alternative<SimulatedCoils>(rig.params.driver);
 }
 
 const SimulatedCamera& simulated_camera(const Rig& rig) {

@@ -118,6 +118,7 @@ struct RigParams {
   std::variant<SimulatedCamera, CameraParams, VideoCamera> camera;
   std::optional<CameraScale> scale;
   PerceptionParams perception;
+  bool virtual_obstacles = true;
   SafetyParams safety;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -135,6 +136,10 @@ struct RigParams {
     visit(
         self.perception,
         {"perception", Unit::none, {}, "Detection of swarm, robots and obstacles.", false, "eye"});
+    visit(self.virtual_obstacles, {"virtual_obstacles",
+                                   Unit::none,
+                                   {},
+                                   "Add the scenario's obstacles to those a real camera sees."});
     visit(self.safety, {"safety", Unit::none, {}, "Limits that end a run."});
   }
 };
@@ -145,7 +150,12 @@ struct Rig {
   CoilSystem system;
   std::filesystem::path folder;  ///< of the file
   KeyLocations keys;             ///< of the file
+  /// The coil system file limits the current of every coil, not only the driver's full scale.
+  bool limits_current = false;
 };
+
+/// Current of a channel at full output [A].
+double full_scale_of(const RigParams& rig);
 
 /// Name of the rig in records.
 std::string name_of(const Rig& rig);
@@ -154,6 +164,9 @@ std::string name_of(const Rig& rig);
 /// `settings` are `key=value` texts, as from --set. Throws a one-line InputError, also if the drive
 /// rate is too low for the field or the driver has too few channels.
 Rig read_rig(const std::filesystem::path& file, const Settings& settings = {});
+
+/// Whether the rig's coils are driven by a device, not simulated.
+bool has_coil_device(const Rig& rig);
 
 /// The rig's camera for a simulation. Throws InputError if it is not a simulated one.
 const SimulatedCamera& simulated_camera(const Rig& rig);

@@ -16,8 +16,6 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr int max_misses = 3;  // consecutive ones; the driver retries by itself
-
 /// Notices that the program was stopped or the computer was suspended while it waited.
 class Standstill {
  public:
@@ -147,7 +145,7 @@ void CoilLoop::run() {
     const DriveStatus status = moment.output.status;
     misses = status == DriveStatus::no_answer ? misses + 1 : 0;
     if (!trouble.empty() && why_.empty()) why_ = trouble;
-    if (misses >= max_misses && why_.empty()) why_ = "the coil driver does not answer";
+    if (misses >= max_missed_answers && why_.empty()) why_ = "the coil driver does not answer";
     if (status == DriveStatus::resumed && why_.empty())
       why_ = trips.add(moment.t, moment.round_trip);
   }
@@ -169,13 +167,8 @@ std::string CoilLoop::send(CoilMoment& moment, const Eigen::Vector3d& place, dou
     const double began = steady_seconds();
     moment.output = controller_.advance(dt);
     moment.round_trip = steady_seconds() - began;
-    if (moment.output.status == DriveStatus::refused) return "the coil driver refuses the currents";
-    if (moment.output.status == DriveStatus::not_armed)
-      return "the coils' device is off and does not let itself be armed";
-    if (moment.output.status == DriveStatus::emergency)
-      return "the emergency stop of the coils' device was pressed";
-    if (moment.output.status == DriveStatus::mismatched)
-      return "the coils' device does something else than it was told";
+    if (const std::string_view trouble = trouble_of(moment.output.status); !trouble.empty())
+      return std::string(trouble);
     if (heard_) heard_(moment);
     return {};
   } catch (const std::exception& e) {

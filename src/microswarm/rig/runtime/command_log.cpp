@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cmath>
+#include <exception>
 #include <optional>
+#include <system_error>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/text.hpp"
@@ -62,6 +65,17 @@ std::string line_of(const Commanded& before, const Eigen::VectorXd& currents, co
   return line + "," + csv_line(columns<Driven>(), &after) + "\n";
 }
 
+/// Opens a new file in place of what has this name. A link is not followed.
+std::FILE* create(const std::filesystem::path& file) {
+  std::error_code none;
+  std::filesystem::remove(file, none);
+  std::FILE* const made = std::fopen(file.c_str(), "wxe");
+  if (!made)
+    throw InputError(
+        fmt::format("{}: cannot write: {}", file.string(), std::generic_category().message(errno)));
+  return made;
+}
+
 }  // namespace
 
 CommandLog::CommandLog(const std::filesystem::path& folder, const CoilSystem& system, bool dry)
@@ -69,7 +83,7 @@ CommandLog::CommandLog(const std::filesystem::path& folder, const CoilSystem& sy
   if (folder.empty()) return;
   file_ = folder / "commands.csv";
   part_ = file_.string() + ".part";
-  out_.open(part_);
+  out_.reset(create(part_));
   std::string head = csv_head(columns<Commanded>());
   for (const std::string& coil : system.coil_names()) head += ",i_" + coil + "_a";
   write(head + "," + csv_head(columns<Driven>()) + "\n");
@@ -94,21 +108,25 @@ void CommandLog::add(const CoilMoment& m) {
 
 std::string CommandLog::finish(double zero_at, bool confirmed) noexcept {
   if (file_.empty()) return {};
-  if (began_ > 0)
-    out_ << line_of({.t = rounded(zero_at - began_, 1e4)}, Eigen::VectorXd::Zero(coils_),
+  try {
+    if (began_ > 0)
+      write(line_of({.t = rounded(zero_at - began_, 1e4)}, Eigen::VectorXd::Zero(coils_),
                     {.status = dry_        ? "dry"
                                : confirmed ? "zero"
-                                           : "zero_not_confirmed"});
-  out_.close();
-  std::error_code error;
-  if (out_) std::filesystem::rename(part_, file_, error);
-  if (out_ && !error) return {};
+                                           : "zero_not_confirmed"}));
+    if (std::fclose(out_.release()) == 0) {
+      std::filesystem::rename(part_, file_);
+      return {};
+    }
+  } catch (const std::exception&) {  // told below
+    out_.reset();
+  }
   return fmt::format("{}: write failed; partial log kept as {}", file_.string(), part_.string());
 }
 
 void CommandLog::write(const std::string& text) {
-  out_ << text;
-  if (!out_) throw InputError(part_.string() + ": cannot write");
+  if (std::fwrite(text.data(), 1, text.size(), out_.get()) != text.size())
+    throw InputError(part_.string() + ": cannot write");
 }
 
 }  // namespace microswarm

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdio>
 #include <filesystem>
-#include <fstream>
+#include <memory>
 #include <string>
 
 #include "microswarm/actuation/coils/coil_system.hpp"
@@ -29,7 +30,10 @@ class CommandLog {
 
   std::filesystem::path file_;
   std::filesystem::path part_;
-  std::ofstream out_;
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  std::unique_ptr<std::FILE, Close> out_;
   std::size_t coils_;
   bool dry_;
   double began_ = 0;

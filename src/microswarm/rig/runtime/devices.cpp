@@ -12,12 +12,6 @@ namespace {
 
 constexpr double simulated_rate = 60;  // [Hz] of a simulated camera
 
-std::unique_ptr<CoilDriver> open_coils(const RigParams& rig, bool dry) {
-  if (const auto* serial = std::get_if<SerialCoilParams>(&rig.driver); serial && !dry)
-    return std::make_unique<SerialCoilDriver>(*serial);
-  return simulated_coils(rig);
-}
-
 /// A video played at its own rate.
 class PacedVideo : public FrameSource {
  public:
@@ -39,6 +33,12 @@ class PacedVideo : public FrameSource {
 
 }  // namespace
 
+std::unique_ptr<CoilDriver> open_coils(const Rig& rig) {
+  if (const auto* serial = std::get_if<SerialCoilParams>(&rig.params.driver))
+    return std::make_unique<SerialCoilDriver>(*serial);
+  return simulated_coils(rig.params);
+}
+
 std::unique_ptr<FrameSource> open_camera_of(const Rig& rig) {
   if (const auto* camera = std::get_if<CameraParams>(&rig.params.camera))
     return open_camera(*camera);
@@ -50,7 +50,7 @@ std::unique_ptr<FrameSource> open_camera_of(const Rig& rig) {
 Devices open_devices(const RigExperiment& on, bool dry) {
   const RigParams& rig = on.rig.params;
   Devices devices;
-  devices.coils = open_coils(rig, dry);
+  devices.coils = dry ? simulated_coils(rig) : open_coils(on.rig);
   if (std::holds_alternative<SimulatedCamera>(rig.camera)) {
     devices.bench = std::make_unique<RealtimeRigSimulator>(on.scenario(), on.experiment.world,
                                                            on.rig, std::move(devices.coils));
@@ -63,6 +63,7 @@ Devices open_devices(const RigExperiment& on, bool dry) {
                             "`scale` is missing: it says where the camera sees the world, see "
                             "`microswarm rig scale`");
   devices.camera = open_camera_of(on.rig);
+  devices.camera_rate = devices.camera->rate();
   devices.scale = *rig.scale;
   return devices;
 }

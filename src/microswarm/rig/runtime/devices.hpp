@@ -13,6 +13,7 @@ struct Devices {
   std::unique_ptr<RealtimeRigSimulator> bench;  ///< set for a simulated camera
   std::unique_ptr<CoilDriver> coils;
   std::unique_ptr<FrameSource> camera;
+  std::optional<double> camera_rate;  ///< [Hz]; empty if unknown
   CameraScale scale;
 
   CoilDriver& driver() { return bench ? bench->coils() : *coils; }
@@ -21,6 +22,9 @@ struct Devices {
 /// Opens camera and coils of a rig. With `dry`, nothing is sent to the coils. The experiment must
 /// outlive the devices. Throws HardwareError if a device fails, InputError if the rig has no scale.
 Devices open_devices(const RigExperiment& on, bool dry);
+
+/// Opens the coil driver of a rig. Throws HardwareError if the device fails.
+std::unique_ptr<CoilDriver> open_coils(const Rig& rig);
 
 /// Opens the camera or video of a rig whose camera is not simulated; errors as above.
 std::unique_ptr<FrameSource> open_camera_of(const Rig& rig);

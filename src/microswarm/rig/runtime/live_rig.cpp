@@ -57,7 +57,9 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
                  std::unique_ptr<FrameSource> camera, const CameraScale& scale, CoilDriver& driver,
                  std::function<void(const CoilMoment&)> heard)
     : rig_(rig),
-      map_(std::move(map)),
+      has_virtual_(rig.params.virtual_obstacles &&
+                   !std::holds_alternative<SimulatedCamera>(rig.params.camera)),
+      world_{std::move(map), has_virtual_ ? scenario.obstacles : std::vector<Obstacle>{}},
       camera_(std::move(camera), "camera"),
       controller_(rig.system, checked(rig, scenario).field, driver,
                   scenario.start ? scenario.start->heading : 0),
@@ -77,13 +79,13 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
                }
                if (heard) heard(moment);
              }) {
-  check_workspace(rig, scenario, *map_);
+  check_workspace(rig, scenario, *world_.map);
   if (!camera_.wait(frame_, first_frame))
     throw HardwareError(fmt::format("camera: no picture within {} s", first_frame));
   const Image& picture = frame_.frame.picture;
   check_picture(rig, scenario, scale, picture);
   const std::vector<Vec2> starts = scenario.robots ? scenario.robots->starts : std::vector<Vec2>{};
-  perception_ = make_perception(rig.params.perception, scenario, *map_, starts,
+  perception_ = make_perception(rig.params.perception, scenario, *world_.map, starts,
                                 {scale, picture.width, picture.height});
   start_ = steady_seconds();
   read_frame();
@@ -94,8 +96,22 @@ Observation LiveRig::observe() {
   if (fault_.empty()) take_frame();
   const double now = since_start();
   look_for_faults(now);
-  return observation_of(
-      *detections_, std::make_shared<const Snapshot>(map_, seen_, detections_->moving), now, seen_);
+  return observation_of(*detections_, std::make_shared<const Snapshot>(world_then()), now, seen_);
+}
+
+/// The bodies that the newest picture shows, numbered after the virtual obstacles of its time.
+Snapshot LiveRig::world_then() const {
+  std::vector<Body> moving = detections_->moving;
+  const auto virtual_ones = static_cast<std::uint32_t>(world_.obstacles.size());
+  for (Body& body : moving) body.obstacle += virtual_ones;
+  for (std::uint32_t i = 0; i < virtual_ones; ++i)
+    append_bodies(world_.obstacles[i], i, seen_, moving);
+  return Snapshot(world_.map, seen_, std::move(moving));
+}
+
+bool LiveRig::set_obstacles(const std::vector<Obstacle>& obstacles) {
+  if (has_virtual_) world_.obstacles = obstacles;
+  return has_virtual_;
 }
 
 void LiveRig::take_frame() {
@@ -159,8 +175,8 @@ void LiveRig::apply(const Command& command, double dt) {
   if (missed) next_ = now;
   perception_->commanded(command, now);
   const Vec2 place =
-      detections_->swarm ? detections_->swarm->pose.position : map_->bounds().centre();
-  coils_.command(command, place_among_coils(rig_.system, *map_, place));
+      detections_->swarm ? detections_->swarm->pose.position : world_.map->bounds().centre();
+  coils_.command(command, place_among_coils(rig_.system, *world_.map, place));
   coils_.wait(next_ - since_start());
 }
 

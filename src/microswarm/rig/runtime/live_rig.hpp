@@ -39,7 +39,9 @@ struct RigTiming {
 
 /// A rig in real time. Each tick processes the newest frame, sends the command to the coils, and
 /// waits for the next tick. On any fault (SafetyParams, a failing camera or coil driver) the coils
-/// go to zero for good and `fault` gives the reason.
+/// go to zero for good and `fault` gives the reason. Unless the camera is simulated, the scenario's
+/// obstacles are virtual: observed with the bodies that the camera sees, as in the experiments of
+/// [radar] (Section V).
 class LiveRig : public Plant {
  public:
   /// `rig` and `driver` must outlive it. `scale` maps camera pixels to the world. `heard` is called
@@ -49,8 +51,13 @@ class LiveRig : public Plant {
           std::unique_ptr<FrameSource> camera, const CameraScale& scale, CoilDriver& driver,
           std::function<void(const CoilMoment&)> heard = {});
 
+  /// Sets the present temperatures of the coils [°C], before the first command.
+  void warm(const Eigen::VectorXd& temperatures) { controller_.warm(temperatures); }
+  NewestFrame& camera() { return camera_; }
   Observation observe() override;
   void apply(const Command& command, double dt) override;
+  /// Replaces the virtual obstacles; false if there can be none.
+  bool set_obstacles(const std::vector<Obstacle>& obstacles) override;
   std::string_view fault() const override { return fault_; }
 
   /// Sets the coils to zero for good; callable from any thread. A tick in progress ends at once.
@@ -69,12 +76,14 @@ class LiveRig : public Plant {
  private:
   void take_frame();
   void read_frame();
+  Snapshot world_then() const;
   void look_for_faults(double now);
   void fail(const std::string& why);
   double since_start() const { return steady_seconds() - start_; }
 
   const Rig& rig_;
-  std::shared_ptr<const Map> map_;
+  const bool has_virtual_;  // obstacles
+  World world_;             // map and virtual obstacles
   NewestFrame camera_;
   CoilController controller_;
   FollowMonitor following_;

@@ -2,19 +2,19 @@
 #include "microswarm/vision/camera/frames.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 #include <vector>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/formats/images/codecs.hpp"
+#include "microswarm/formats/images/tiff.hpp"
 #include "microswarm/vision/image/mat.hpp"
 
 namespace microswarm {
@@ -33,8 +33,8 @@ std::string lower_extension(const fs::path& file) {
 }
 
 bool is_picture(const fs::path& file) {
-  constexpr std::array<std::string_view, 7> known{".png", ".jpg", ".jpeg", ".bmp",
-                                                  ".pgm", ".ppm", ".pbm"};
+  constexpr std::array<std::string_view, 9> known{".png", ".jpg", ".jpeg", ".bmp", ".pgm",
+                                                  ".ppm", ".pbm", ".tif",  ".tiff"};
   return std::find(known.begin(), known.end(), lower_extension(file)) != known.end();
 }
 
@@ -43,8 +43,21 @@ class Source : public FrameSource {
  public:
   Source(fs::path name, std::optional<double> rate) : name_(std::move(name)), rate_(rate) {}
   std::optional<double> rate() const override { return rate_; }
+  bool next(VideoFrame& frame) final {
+    if (!why_ended_.empty()) return false;
+    try {
+      return read(frame);
+    } catch (const InputError& error) {
+      if (next_ == 0) throw;
+      why_ended_ = error.what();
+      return false;
+    }
+  }
+  std::string why_ended() const override { return why_ended_; }
 
  protected:
+  /// The next picture; false at the end. Throws InputError.
+  virtual bool read(VideoFrame& frame) = 0;
   const fs::path& name() const { return name_; }
   void set_rate(double rate) {
     if (!rate_ && std::isfinite(rate) && rate > 0 && rate < 1e6) rate_ = rate;
@@ -71,6 +84,7 @@ class Source : public FrameSource {
 
   fs::path name_;
   std::optional<double> rate_;
+  std::string why_ended_;
   int next_ = 0;
   int width_ = 0;
   int height_ = 0;
@@ -87,16 +101,41 @@ std::string last_number(const fs::path& file) {
   return digits;
 }
 
+bool is_tiff(const fs::path& file) {
+  const std::string extension = lower_extension(file);
+  return extension == ".tif" || extension == ".tiff";
+}
+
+/// The next page; the first one that needs a depth sets it.
+void take_page(TiffPages& pages, std::optional<int>& depth, Image& picture) {
+  const cv::Mat page = pages.next();
+  if (!depth && page.depth() == CV_16U) depth = depth_of(page);
+  take_pixels(page, depth.value_or(16), picture);
+}
+
+/// The only picture of a TIFF; a folder has one picture a file.
+void read_only_page(const fs::path& file, std::optional<int>& depth, Image& picture) {
+  TiffPages pages(file);
+  if (pages.count() > 1)
+    fail(file,
+         "holds " + std::to_string(pages.count()) + " pictures: name the file, not its folder");
+  take_page(pages, depth, picture);
+}
+
 class Pictures : public Source {
  public:
   Pictures(const fs::path& name, std::vector<fs::path> files, std::optional<double> rate,
            std::optional<int> depth)
       : Source(name, rate), files_(std::move(files)), depth_(depth) {}
-  bool next(VideoFrame& frame) override {
+  bool read(VideoFrame& frame) override {
     const auto at = static_cast<std::size_t>(given());
     if (at >= files_.size()) return false;
-    if (!depth_) depth_ = sample_depth(files_[at]).value_or(16);
-    frame.picture = read_image(files_[at], *depth_);
+    if (is_tiff(files_[at])) {
+      read_only_page(files_[at], depth_, frame.picture);
+    } else {
+      if (!depth_) depth_ = sample_depth(files_[at]).value_or(16);
+      frame.picture = read_image(files_[at], *depth_);
+    }
     number(frame, files_[at]);
     return true;
   }
@@ -112,7 +151,7 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder))
     if (is_picture(entry.path()) && entry.path().filename().string()[0] != '.')
       files.push_back(entry.path());
-  if (files.empty()) fail(folder, "no pictures in this folder (PNG, JPEG, BMP, PGM or PPM)");
+  if (files.empty()) fail(folder, "no pictures in this folder (PNG, JPEG, BMP, TIFF, PGM or PPM)");
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
     const std::string p = last_number(a);
     const std::string q = last_number(b);
@@ -135,53 +174,20 @@ void require_fit(const fs::path& source, const cv::Size& size) {
                      std::to_string(max_image_pixels) + " in all");
 }
 
-/// Bits, 8 to 16, that the largest sample needs.
-int bits_of(const cv::Mat& mat) {
-  double largest = 0;
-  cv::minMaxIdx(mat.reshape(1), nullptr, &largest);
-  return std::clamp(static_cast<int>(std::bit_width(static_cast<unsigned>(largest))), 8, 16);
-}
-
 class TiffStack : public Source {
  public:
   TiffStack(const fs::path& file, std::optional<double> rate, std::optional<int> depth)
-      : Source(file, rate), count_(pages(file)), depth_(depth) {}
-  bool next(VideoFrame& frame) override {
-    if (given() >= count_) return false;
-    std::vector<cv::Mat> page;
-    try {
-      cv::imreadmulti(name().string(), page, given(), 1, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
-    } catch (const cv::Exception&) {
-      page.clear();
-    }
-    if (page.empty() || page[0].empty())
-      fail(name(), "picture " + std::to_string(given()) + " cannot be read");
-    require_fit(name(), page[0].size());
-    if (page[0].depth() == CV_16U) {
-      if (!depth_) depth_ = bits_of(page[0]);
-      page[0].convertTo(page[0], CV_8U, 255.0 / ((1 << *depth_) - 1));
-    }
-    if (page[0].depth() != CV_8U)
-      fail(name(), "picture " + std::to_string(given()) + " has neither 8 nor 16 bits a sample");
-    take_picture(page[0], frame.picture);
+      : Source(file, rate), pages_(file), depth_(depth) {}
+  bool read(VideoFrame& frame) override {
+    if (given() >= pages_.count()) return false;
+    take_page(pages_, depth_, frame.picture);
     number(frame, name());
     return true;
   }
-  std::optional<int> count() const override { return count_; }
+  std::optional<int> count() const override { return pages_.count(); }
 
  private:
-  static int pages(const fs::path& file) {
-    std::size_t found = 0;
-    try {
-      found = cv::imcount(file.string(), cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
-    } catch (const cv::Exception&) {
-      found = 0;
-    }
-    if (found == 0) fail(file, "is no TIFF that can be read");
-    return static_cast<int>(found);
-  }
-
-  int count_;
+  TiffPages pages_;
   std::optional<int> depth_;
 };
 
@@ -196,7 +202,7 @@ class VideoFile : public Source {
                        static_cast<int>(video_.get(cv::CAP_PROP_FRAME_HEIGHT))});
     set_rate(video_.get(cv::CAP_PROP_FPS));
   }
-  bool next(VideoFrame& frame) override {
+  bool read(VideoFrame& frame) override {
     if (!video_.read(mat_) || mat_.empty()) {
       if (given() == 0) fail(name(), "holds no picture that can be read");
       return false;
@@ -227,11 +233,9 @@ std::unique_ptr<FrameSource> open_frames(const fs::path& source, std::optional<d
     return std::make_unique<Pictures>(source, pictures_in(source), rate, depth);
   if (!fs::is_regular_file(status)) fail(source, "is neither a file nor a folder");
   if (fs::file_size(source) == 0) fail(source, "is empty");
+  if (is_tiff(source)) return std::make_unique<TiffStack>(source, rate, depth);
   if (is_picture(source))
     return std::make_unique<Pictures>(source, std::vector<fs::path>{source}, rate, depth);
-  const std::string extension = lower_extension(source);
-  if (extension == ".tif" || extension == ".tiff")
-    return std::make_unique<TiffStack>(source, rate, depth);
   return std::make_unique<VideoFile>(source, rate);
 }
 

@@ -27,17 +27,20 @@ class FrameSource {
  public:
   virtual ~FrameSource() = default;
 
-  /// The next picture into `frame`, whose memory is used again; false at the end. Throws InputError
-  /// "SOURCE: WHY" for one that cannot be read or has another size than the first.
+  /// The next picture into `frame`, whose memory is used again; false at the end, and from one on
+  /// that cannot be read or has another size than the first. Throws InputError "SOURCE: WHY" if
+  /// that is the first one.
   virtual bool next(VideoFrame& frame) = 0;
+  /// Why it ended before its last picture, "SOURCE: WHY"; empty if it did not.
+  virtual std::string why_ended() const { return {}; }
   /// Pictures in all, where that is known beforehand; a video file may hold fewer.
   virtual std::optional<int> count() const = 0;
   /// Pictures a second, where the source tells.
   virtual std::optional<double> rate() const = 0;
 };
 
-/// Opens a video file, a folder of pictures (PNG, JPEG, BMP, PGM, PPM; in the order of the last
-/// number in their names) or a TIFF of many pictures. `rate` [1/s] is taken in place of the
+/// Opens a video file, a folder of pictures (PNG, JPEG, BMP, TIFF, PGM, PPM; in the order of the
+/// last number in their names) or a TIFF of many pictures. `rate` [1/s] is taken in place of the
 /// source's; one that tells none, as a folder, has one picture a second. 16-bit samples of PNG and
 /// TIFF are numbers of `depth` bits, 8 to 16, by default as many as the first picture needs; all
 /// pictures are scaled to 8 bits alike, and what is larger becomes white. Throws InputError

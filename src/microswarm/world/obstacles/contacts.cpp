@@ -2,6 +2,9 @@
 #include "microswarm/world/obstacles/contacts.hpp"
 
 #include <algorithm>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry/index/rtree.hpp>
 #include <cstdint>
 #include <numeric>
 
@@ -11,6 +14,8 @@
 
 namespace microswarm {
 namespace {
+
+namespace index = boost::geometry::index;
 
 /// Directions at a vertex that lead into the solid: counter-clockwise from `start` to `end`.
 struct Sector {
@@ -40,8 +45,16 @@ class Rings {
     for (std::size_t i = 0; i < polygons.size(); ++i) {
       add(polygons[i].outer, i);
       for (const auto& hole : polygons[i].holes) add(hole, i);
+      boxes_.push_back(bounding_box(polygons[i]));
     }
     grid_.assign(edges_, polygon_of_);
+    std::vector<Entry> entries;
+    for (std::size_t i = 0; i < boxes_.size(); ++i)
+      if (!polygons[i].outer.empty())
+        entries.emplace_back(
+            TreeBox({boxes_[i].lo.x, boxes_[i].lo.y}, {boxes_[i].hi.x, boxes_[i].hi.y}),
+            static_cast<std::uint32_t>(i));
+    tree_ = BoxTree(entries);
   }
 
   const EdgeGrid& grid() const { return grid_; }
@@ -67,11 +80,16 @@ class Rings {
   /// Polygons whose solid contains p, which is on none of their edges.
   void holding(Vec2 p, std::vector<std::uint32_t>& out) {
     out.clear();
-    if (edges_.empty()) return;
     crossed_.clear();
-    const Box ray{{std::min(grid_.box().lo.x, p.x), p.y}, p};
+    // No ring of a polygon around p is left of the boxes that hold p.
+    Box ray{p, p};
+    const auto around = tree_.qbegin(index::intersects(TreeBox({p.x, p.y}, {p.x, p.y})));
+    if (around == tree_.qend()) return;
+    for (auto found = around; found != tree_.qend(); ++found)
+      ray.lo.x = std::min(ray.lo.x, boxes_[found->second].lo.x);
     grid_.for_each_in(ray, [&](std::size_t i) {
       const Segment& e = edges_[i];
+      if (!boxes_[polygon_of_[i]].contains(p)) return;
       if ((e.a.y <= p.y) == (e.b.y <= p.y)) return;
       const bool is_left = orientation(e.a, e.b, p) == (e.b.y > e.a.y ? -1 : 1);
       if (is_left) crossed_.push_back({polygon_of_[i], e.b.y > e.a.y ? 1 : -1});
@@ -88,6 +106,11 @@ class Rings {
   }
 
  private:
+  using TreePoint = boost::geometry::model::point<double, 2, boost::geometry::cs::cartesian>;
+  using TreeBox = boost::geometry::model::box<TreePoint>;
+  using Entry = std::pair<TreeBox, std::uint32_t>;
+  using BoxTree = index::rtree<Entry, index::rstar<16>>;
+
   struct Crossed {
     std::uint32_t polygon;
     int turn;
@@ -152,6 +175,8 @@ class Rings {
   std::vector<std::size_t> next_;
   std::vector<Vec2> before_;
   EdgeGrid grid_;
+  std::vector<Box> boxes_;  // of the polygons
+  BoxTree tree_;            // of the same
   std::vector<Crossed> crossed_;
 };
 

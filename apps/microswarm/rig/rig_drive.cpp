@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// `rig drive`: currents or a field by hand.
+#include <fmt/ranges.h>
+
+#include <atomic>
+#include <memory>
+#include <optional>
+
+#include "microswarm/actuation/coils/currents.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/rig/runtime/coil_temperatures.hpp"
+#include "microswarm/rig/runtime/devices.hpp"
+#include "microswarm/rig/runtime/manual_drive.hpp"
+#include "microswarm/rig/runtime/rig_checks.hpp"
+#include "rig/real_coils.hpp"
+#include "rig/rig.hpp"
+#include "support/options.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+struct DriveOptions {
+  std::string rig;
+  std::vector<std::string> settings;
+  std::string currents;
+  std::string field;
+  std::optional<double> heading;
+  double speed = 0;
+  std::optional<double> each;
+  double seconds = 5;
+  double ramp = 0.5;
+  CoilOptions coils;
+};
+
+/// The coils of a rig that are driven by hand.
+struct Bench {
+  Bench(const Rig& of, const CoilOptions& o) : rig(of) {
+    const bool real = has_coil_device(rig);
+    if (real) require_emergency_stop(o);
+    if (real && !o.without_limits) rig.keys.require_none(missing_limits(rig));
+    driver = open_coils(rig);
+    if (real) kept.emplace(rig, o.coils_cold);
+    temperatures = kept ? kept->at_start() : CoilDrive(rig.system.drives()).temperatures();
+    if (kept && !kept->known()) note("note: {}\n", kept->why_hot());
+  }
+
+  const Rig& rig;
+  std::unique_ptr<CoilDriver> driver;
+  std::optional<CoilTemperatures> kept;
+  Eigen::VectorXd temperatures;  ///< [°C]
+};
+
+/// Drives and says how it ended. Returns the exit code.
+int drive(Bench& bench, const ManualCommand& command, const Context& context) {
+  std::atomic<bool> pressed = false;
+  const EmergencyKey key([&] { pressed = true; }, context.stop);
+  if (key.is_there() && bench.kept) note("space, e or Esc: coils to zero at once\n");
+  ProgressBar bar("drive");
+  const auto heard = [&](const ManualMoment& moment) {
+    bench.temperatures = moment.output.temperatures;
+    if (bench.kept) bench.kept->take(bench.temperatures);
+    bar.update(moment.t / command.seconds,
+               fmt::format("{:.3g} A", fmt::join(moment.output.currents, ", ")));
+    if (pressed) throw HardwareError("the emergency key was pressed");
+  };
+  const ManualResult result =
+      drive_by_hand(bench.rig, *bench.driver, command, bench.temperatures, heard, context.stop);
+  if (!result.why.empty()) note("microswarm: {}\n", result.why);
+  const bool at_zero = note_zero(result.zero_confirmed);
+  if (result.min_scale < 1 - 1e-9)
+    note("note: the coils' limits weakened this to {:.0f} %\n", 100 * result.min_scale);
+  if (result.status == Status::fault || !at_zero) return hardware;
+  return result.status == Status::stopped ? not_reached : ok;
+}
+
+std::string field_text(const Eigen::Vector3d& field) {
+  const double whole = field.norm();
+  return fmt::format("({:.4g}, {:.4g}, {:.4g}) mT", tidy(field[0], whole), tidy(field[1], whole),
+                     tidy(field[2], whole));
+}
+
+/// One coil after the other, so that a compass or a probe shows its polarity and its channel.
+int drive_each(Bench& bench, const DriveOptions& o, const Context& context) {
+  const Actuation actuation = bench.rig.system.at(bench.rig.system.centre());
+  for (std::size_t k = 0; k < bench.rig.system.size(); ++k) {
+    Eigen::VectorXd currents = Eigen::VectorXd::Zero(bench.temperatures.size());
+    currents[static_cast<Eigen::Index>(k)] = *o.each;
+    print("coil {}, channel {}: {:.4g} A, expect {} more at the centre\n",
+          bench.rig.system.coil_names()[k], k + 1, *o.each, field_text(actuation.field * currents));
+    flush_output();
+    const int code = drive(bench, {currents, o.seconds, o.ramp}, context);
+    if (code != ok) return code;
+  }
+  return ok;
+}
+
+ManualCommand command_of(const DriveOptions& o, const CoilSystem& system) {
+  ManualCommand command{.wanted = {}, .seconds = o.seconds, .ramp = o.ramp};
+  if (!o.currents.empty())
+    command.wanted = currents_of(o.currents, system);
+  else if (!o.field.empty())
+    command.wanted = triple_of(o.field);
+  else
+    command.wanted = microswarm::Command{radians(*o.heading), o.speed};
+  return command;
+}
+
+int rig_drive(const DriveOptions& o, const Context& context) {
+  const int kinds =
+      !o.currents.empty() + !o.field.empty() + o.heading.has_value() + o.each.has_value();
+  if (kinds != 1) throw InputError("rig drive: give one of --currents, --field, --heading, --each");
+  if (2 * o.ramp > o.seconds)
+    throw InputError(fmt::format("--ramp: two ramps of {:.6g} s are longer than --seconds {:.6g}",
+                                 o.ramp, o.seconds));
+  const Rig rig = reading([&] { return read_rig(o.rig, {o.settings, "--set"}); });
+  if (o.each) {
+    Bench bench(rig, o.coils);
+    return drive_each(bench, o, context);
+  }
+  const ManualCommand command = command_of(o, rig.system);
+  const auto* field = std::get_if<Eigen::Vector3d>(&command.wanted);
+  if (field && !currents_for(rig.system.at(rig.system.centre()), *field).reached)
+    throw InputError("--field: the coils cannot make this field, see `microswarm rig field`");
+  Bench bench(rig, o.coils);
+  return drive(bench, command, context);
+}
+
+}  // namespace
+
+void add_rig_drive(Command rig, Action& action) {
+  auto o = std::make_shared<DriveOptions>();
+  Command cmd = rig.add_command("drive", "Drive the coils by hand: currents, a field, or each coil",
+                                "rig drive rig.yaml --field 2,0,0 --seconds 5");
+  cmd.add_option("rig", o->rig, "Rig file (YAML)").required().type_name("FILE");
+  cmd.add_option("--currents", o->currents, "Current of each coil in A").type_name("A,A,…");
+  cmd.add_option("--field", o->field, "Constant field at the centre in mT")
+      .type_name("BX,BY,BZ")
+      .check(triple("BX,BY,BZ", max_field));
+  cmd.add_option("--heading", o->heading, "The rig's own field, with this heading in degrees")
+      .type_name("DEG")
+      .check(number(-360, 360));
+  cmd.add_option("--speed", o->speed, "Speed for --heading in µm/s, by the field's calibration")
+      .type_name("UM/S")
+      .check(number(0, 1e6));
+  cmd.add_option("--each", o->each, "One coil after the other with this current in A")
+      .type_name("A")
+      .check(number(-1e6, 1e6));
+  cmd.add_option("--seconds", o->seconds, "Duration, of each coil with --each")
+      .type_name("S")
+      .check(number(0.1, 1e5));
+  cmd.add_option("--ramp", o->ramp, "Time of each ramp").type_name("S").check(number(0, 1e4));
+  add_coil_options(cmd, o->coils);
+  cmd.add_option("--set", o->settings, "Override a rig value (repeatable)").type_name("KEY=VALUE");
+  cmd.callback(
+      [o, &action] { action = [o](const Context& context) { return rig_drive(*o, context); }; });
+}
+
+}  // namespace microswarm::cli

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace cv {
+class Mat;
+}  // namespace cv
+
+namespace microswarm {
+
+/// Whether the bytes begin as a TIFF or a BigTIFF does.
+bool is_tiff(std::span<const std::byte> bytes);
+
+/// Pages of a TIFF or BigTIFF, read one after the other in linear time. Strips and tiles, in every
+/// compression of libtiff. The size of a page is checked before anything is decoded.
+class TiffPages {
+ public:
+  /// Opens a file. Throws InputError "FILE: WHY", as all members.
+  explicit TiffPages(const std::filesystem::path& file);
+  /// Opens a file in memory, which must outlive the object; `name` stands for it in messages.
+  TiffPages(std::span<const std::byte> bytes, std::string_view name);
+  ~TiffPages();
+  TiffPages(const TiffPages&) = delete;
+  TiffPages& operator=(const TiffPages&) = delete;
+
+  int count() const { return count_; }
+  /// Pixels of the next page: one channel (grey) or three (red, green, blue) of 8 or 16 bits,
+  /// which hold samples of up to 8 or of 9 to 16 bits; without transparency. Call it `count()`
+  /// times at most.
+  cv::Mat next();
+
+ private:
+  struct File;
+  void count_pages();
+
+  std::string name_;
+  std::unique_ptr<File> file_;
+  int count_ = 0;
+  int next_ = 0;
+};
+
+}  // namespace microswarm

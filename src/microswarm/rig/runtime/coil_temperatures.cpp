@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/rig/runtime/coil_temperatures.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+
+#include "microswarm/actuation/drivers/coil_drive.hpp"
+#include "microswarm/config/write.hpp"
+#include "microswarm/config/yaml.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
+
+namespace microswarm {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::milliseconds between_entries{500};
+/// Longest time of a killed program after its last entry, with that of the device's watchdog [s].
+constexpr double unwritten = 2;
+
+/// Contents of the file.
+struct KeptTemperatures {
+  std::string coils;
+  double clock = 0;
+  bool driven = false;
+  std::vector<double> temperatures;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.coils, {"coils", Unit::none, {}, "File of the coil system.", true});
+    visit(self.clock, {"clock", Unit::s, {0, 1e12}, "Wall clock, from 1970.", true});
+    visit(self.driven, {"driven", Unit::none, {}, "A program drove the coils.", true});
+    visit(self.temperatures,
+          {"temperatures", Unit::degc, {-273, 1e4}, "Temperatures of the coils.", true});
+  }
+};
+
+double wall_clock() {
+  using Clock = std::chrono::system_clock;
+  return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+}
+
+fs::path state_folder() {
+  if (const char* state = std::getenv("XDG_STATE_HOME"); state && *state == '/')
+    return fs::path(state) / "microswarm";
+  if (const char* home = std::getenv("HOME"); home && *home)
+    return fs::path(home) / ".local/state/microswarm";
+  throw InputError("there is no folder for the coils' temperatures: set HOME or XDG_STATE_HOME");
+}
+
+/// Name of the file for a coil system: its own name, and a number for its path (FNV-1a).
+std::string name_for(const fs::path& coils) {
+  std::uint64_t sum = 0xcbf29ce484222325;
+  for (const char c : coils.string()) sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return fmt::format("{}-{:016x}.yaml", coils.stem().string(), sum);
+}
+
+}  // namespace
+
+CoilTemperatures::CoilTemperatures(const Rig& rig, bool cold)
+    : coils_(fs::weakly_canonical(rig.folder / rig.params.coils).string()),
+      file_(state_folder() / name_for(coils_)) {
+  make_folder(file_.parent_path().string());
+  const auto& drives = rig.system.drives();
+  const auto coils = static_cast<Eigen::Index>(drives.size());
+  at_start_.resize(coils);
+  for (Eigen::Index i = 0; i < coils; ++i)
+    at_start_[i] = drives[static_cast<std::size_t>(i)].ambient;
+  if (!cold && !fs::exists(file_)) {
+    known_ = false;
+    at_start_ = hottest(drives);
+  } else if (!cold) {
+    const auto kept = read_yaml_file<KeptTemperatures>(file_);
+    if (kept.temperatures.size() != drives.size())
+      throw InputError(
+          fmt::format("{}: {} temperatures, the system has {} coils: correct it, or "
+                      "run with --coils-cold",
+                      file_.string(), kept.temperatures.size(), drives.size()));
+    Eigen::VectorXd then = Eigen::Map<const Eigen::VectorXd>(kept.temperatures.data(), coils);
+    if (kept.driven) then = heated(drives, then, unwritten);
+    at_start_ = cooled(drives, then, wall_clock() - kept.clock - (kept.driven ? unwritten : 0));
+  }
+  newest_ = at_start_;
+  write(newest_, true);
+  thread_ = std::thread([this] { run(); });
+}
+
+CoilTemperatures::~CoilTemperatures() {
+  {
+    const std::lock_guard lock(mutex_);
+    over_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+  try {
+    write(newest_, false);
+  } catch (const std::exception&) {  // the last entry counts
+    return;
+  }
+}
+
+std::string CoilTemperatures::why_hot() const {
+  return "no temperatures of these coils are known: they are taken at their limit; if they are "
+         "cold, "
+         "run with --coils-cold (" +
+         file_.string() + ")";
+}
+
+void CoilTemperatures::take(const Eigen::VectorXd& temperatures) {
+  const std::lock_guard lock(mutex_);
+  if (!why_.empty()) throw InputError(why_);
+  newest_ = temperatures;
+}
+
+void CoilTemperatures::run() {
+  std::unique_lock lock(mutex_);
+  while (!changed_.wait_for(lock, between_entries, [this] { return over_; })) {
+    const Eigen::VectorXd now = newest_;
+    lock.unlock();
+    std::string why;
+    try {
+      write(now, true);
+    } catch (const std::exception& e) {
+      why = e.what();
+    }
+    lock.lock();
+    why_ = why;
+  }
+}
+
+void CoilTemperatures::write(const Eigen::VectorXd& temperatures, bool driven) const {
+  const KeptTemperatures kept{
+      coils_, wall_clock(), driven, {temperatures.begin(), temperatures.end()}};
+  write_file_atomically(file_, to_yaml(kept));
+}
+
+}  // namespace microswarm

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/rig/runtime/manual_drive.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "microswarm/actuation/coils/currents.hpp"
+#include "microswarm/core/execution/clock.hpp"
+
+namespace microswarm {
+namespace {
+
+/// The currents that are wanted at full share, as time goes on.
+class Wanted {
+ public:
+  Wanted(const Rig& rig, const ManualCommand& command)
+      : command_(command), actuation_(rig.system.at(rig.system.centre())) {
+    if (const auto* steering = std::get_if<Command>(&command.wanted)) {
+      generator_.emplace(rig.params.field, steering->heading);
+      generator_->command(*steering);
+    }
+  }
+
+  /// After `dt` more seconds, in `output`.
+  void advance(double dt, CoilOutput& output) {
+    if (const auto* currents = std::get_if<Eigen::VectorXd>(&command_.wanted)) {
+      output.wanted = actuation_.field_of(*currents);
+      output.currents = *currents;
+      return;
+    }
+    output.wanted =
+        generator_ ? generator_->advance(dt) : std::get<Eigen::Vector3d>(command_.wanted);
+    const CurrentsForField found = currents_for(actuation_, output.wanted);
+    output.currents = found.currents;
+    output.reached = found.reached;
+  }
+
+ private:
+  const ManualCommand& command_;
+  Actuation actuation_;
+  std::optional<FieldGenerator> generator_;
+};
+
+/// Share of the command at t: both ramps are straight.
+double share_at(double t, const ManualCommand& command) {
+  if (command.ramp <= 0) return 1;
+  return std::clamp(std::min(t, command.seconds - t) / command.ramp, 0.0, 1.0);
+}
+
+/// Counts answers that do not come; says why it cannot go on, or nothing.
+class Watch {
+ public:
+  std::string take(DriveStatus status) {
+    misses_ = status == DriveStatus::no_answer ? misses_ + 1 : 0;
+    if (misses_ >= max_missed_answers) return "the coil driver does not answer";
+    if (status == DriveStatus::resumed) return "the coils had been off by themselves";
+    return std::string(trouble_of(status));
+  }
+
+ private:
+  int misses_ = 0;
+};
+
+}  // namespace
+
+ManualResult drive_by_hand(const Rig& rig, CoilDriver& driver, const ManualCommand& command,
+                           const Eigen::VectorXd& temperatures,
+                           const std::function<void(const ManualMoment&)>& heard,
+                           const Stop& stop) {
+  CoilDrive drive(rig.system.drives());
+  drive.warm(temperatures);
+  Wanted wanted(rig, command);
+  Watch watch;
+  ManualResult result;
+  std::vector<double> channels(static_cast<std::size_t>(driver.channels()));
+  const double period = 1 / rig.params.drive_rate;
+  const double began = steady_seconds();
+  double before = -period;
+  ManualMoment moment;
+  while (moment.t < command.seconds && result.why.empty() && !stop()) {
+    const double dt = moment.t - before;
+    before = moment.t;
+    CoilOutput& output = moment.output;
+    wanted.advance(dt, output);
+    const DrivenCurrents driven = drive.step(share_at(moment.t, command) * output.currents, dt);
+    output.currents = driven.currents;
+    output.scale = driven.scale;
+    output.temperatures = drive.temperatures();
+    result.min_scale = std::min(result.min_scale, driven.scale);
+    std::ranges::copy(driven.currents, channels.begin());
+    output.status = driver.drive(channels);
+    result.why = watch.take(output.status);
+    try {
+      if (heard) heard(moment);
+    } catch (const std::exception& e) {
+      if (result.why.empty()) result.why = e.what();
+    }
+    const double due = began + moment.t + period;
+    if (const double left = due - steady_seconds(); left > 0)
+      std::this_thread::sleep_for(std::chrono::duration<double>(left));
+    moment.t = steady_seconds() - began;
+    if (const double pause = moment.t - before;
+        result.why.empty() && pause > rig.params.safety.max_pause)
+      result.why = fmt::format("the program stood still for {:.2g} s", pause);
+  }
+  if (!result.why.empty())
+    result.status = Status::fault;
+  else if (moment.t < command.seconds)
+    result.status = Status::stopped;
+  result.zero_confirmed = driver.stop();
+  return result;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/rig/runtime/rig_checks.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "microswarm/actuation/coils/coil_controller.hpp"
+#include "microswarm/core/execution/clock.hpp"
+#include "microswarm/core/maths/angles.hpp"
+
+namespace microswarm {
+namespace {
+
+std::string unlimited(const Rig& rig) {
+  const auto& drives = rig.system.drives();
+  const bool voltage = std::ranges::all_of(
+      drives, [](const DriveParams& drive) { return drive.max_voltage.has_value(); });
+  const bool temperature = std::ranges::all_of(
+      drives, [](const DriveParams& drive) { return drive.max_temperature.has_value(); });
+  if (voltage && temperature) return {};
+  return fmt::format("; {} does not limit the {}", rig.params.coils,
+                     voltage       ? "temperature"
+                     : temperature ? "voltage"
+                                   : "voltage and the temperature");
+}
+
+/// The most that limits weaken the field while it turns in one direction.
+struct Weakening {
+  double scale = 1;
+  bool reached = true;
+};
+
+Weakening weakening_of(const Rig& rig) {
+  constexpr double settled = 0.5;  // [s]
+  constexpr double lasts = 2;      // [s]
+  SimulatedCoilDriver driver(static_cast<int>(rig.system.size()), full_scale_of(rig.params));
+  CoilController controller(rig.system, rig.params.field, driver, 0);
+  Weakening most;
+  const double dt = 1 / rig.params.drive_rate;
+  for (const double heading : {0.0, 0.5 * pi, 1.0, -2.0}) {
+    controller.command({heading, 1e9});
+    for (int i = 0; i < static_cast<int>(lasts / dt); ++i) {
+      const CoilOutput& output = controller.advance(dt);
+      if (i * dt > settled) most.scale = std::min(most.scale, output.scale);
+      most.reached = most.reached && output.reached;
+    }
+  }
+  return most;
+}
+
+/// Durations between frames, and the last one.
+struct Watched {
+  Durations gaps;
+  LiveFrame frame;
+  double seconds = 0;
+};
+
+Watched watch(NewestFrame& camera, double seconds, const Stop& stop) {
+  Watched watched;
+  double before = 0;
+  const double began = steady_seconds();
+  while (steady_seconds() < began + seconds && !stop()) {
+    if (!camera.wait(watched.frame, 0.1)) continue;
+    if (before > 0) watched.gaps.add(watched.frame.taken - before);
+    before = watched.frame.taken;
+  }
+  watched.seconds = steady_seconds() - began;
+  return watched;
+}
+
+}  // namespace
+
+RigCheck check_field(const Rig& rig) {
+  const double amplitude = rig.params.field.amplitude;
+  const Weakening most = weakening_of(rig);
+  if (!most.reached) return {"limits", false, "these coils cannot make every field that is needed"};
+  if (most.scale < 1)
+    return {"limits", false,
+            fmt::format("the coils' limits weaken the field to {:.3g} mT, {:.6g} mT is meant",
+                        most.scale * amplitude, amplitude)};
+  return {"limits", true,
+          fmt::format("the coils hold {:.6g} mT in every direction{}", amplitude, unlimited(rig))};
+}
+
+Issues missing_limits(const Rig& rig) {
+  Issues issues;
+  const auto& drives = rig.system.drives();
+  const bool temperature = std::ranges::all_of(
+      drives, [](const DriveParams& drive) { return drive.max_temperature.has_value(); });
+  if (rig.limits_current && temperature) return issues;
+  const char* const what = temperature          ? "current"
+                           : rig.limits_current ? "temperature"
+                                                : "current and the temperature";
+  issues.add("coils",
+             fmt::format("{} does not limit the {} of every coil: `drives` needs max_current_a and "
+                         "max_temperature_degc, or the run --without-limits",
+                         rig.params.coils, what));
+  return issues;
+}
+
+std::vector<RigCheck> check_camera(NewestFrame& camera, const Rig& rig, std::optional<double> rate,
+                                   double seconds, const Stop& stop) {
+  const Watched seen = watch(camera, seconds, stop);
+  const CameraStatus status = camera.status();
+  const bool is_video = std::holds_alternative<VideoCamera>(rig.params.camera);
+  const bool runs =
+      status.state == CameraState::live || (is_video && status.state == CameraState::ended);
+  const bool timed = seen.gaps.count() > 0;
+  const Image& picture = seen.frame.frame.picture;
+  std::vector<RigCheck> checks;
+  checks.push_back(
+      {"camera", timed && runs,
+       fmt::format("{}, {} frames of {} × {} in {:.3g} s; {}", enum_name(status.state),
+                   status.frames, picture.width, picture.height, seen.seconds,
+                   timed ? fmt::format("between frames {} (p50 / p95 / p99)", quantiles(seen.gaps))
+                         : "too few to tell the time between them")});
+  if (const double usual = seen.gaps.quantile(0.5); rate && timed)
+    checks.push_back({"frames", usual <= 1.1 / *rate,
+                      fmt::format("{:.4g} ms apart as a rule, {:.6g} Hz means {:.4g}", 1e3 * usual,
+                                  *rate, 1e3 / *rate),
+                      false});
+  if (const double longest = seen.gaps.quantile(1); longest > rig.params.safety.max_frame_age)
+    checks.push_back({"frames", false,
+                      fmt::format("{:.3g} s apart, safety.max_frame_age_s is {:.6g}", longest,
+                                  rig.params.safety.max_frame_age)});
+  return checks;
+}
+
+std::vector<RigCheck> check_driver(CoilDriver& driver, const Rig& rig, double seconds,
+                                   const Stop& stop) {
+  Durations times;
+  int failures = 0;
+  int resumed = 0;
+  DriveStatus trouble = DriveStatus::driven;
+  const std::vector<double> nothing(static_cast<std::size_t>(driver.channels()));
+  for (const double end = steady_seconds() + seconds; steady_seconds() < end && !stop();) {
+    const double began = steady_seconds();
+    const DriveStatus status = driver.drive(nothing);
+    failures += status == DriveStatus::no_answer;
+    resumed += status == DriveStatus::resumed;
+    if (!trouble_of(status).empty()) trouble = status;
+    times.add(steady_seconds() - began);
+  }
+  const bool zero = driver.stop();
+  std::vector<RigCheck> checks;
+  checks.push_back(
+      {"driver", failures == 0,
+       fmt::format("{} exchanges with all currents at zero, {} without an answer; {} (p50 / p95 / "
+                   "p99)",
+                   times.count(), failures, quantiles(times))});
+  if (trouble != DriveStatus::driven)
+    checks.push_back({"driver", false, std::string(trouble_of(trouble))});
+  if (resumed > 0)
+    checks.push_back(
+        {"driver", false, fmt::format("the coils had been off by themselves {} times", resumed)});
+  checks.push_back({"stop", zero, zero ? "confirmed" : "not confirmed"});
+  const double slow = times.quantile(0.99);
+  const double rate = rig.params.drive_rate;
+  checks.push_back({"pace", slow < 1 / rate,
+                    fmt::format("an exchange takes {:.2f} ms at p99, drive_rate_hz {:.6g} allows "
+                                "{:.2f}",
+                                1e3 * slow, rate, 1e3 / rate),
+                    false});
+  return checks;
+}
+
+std::string quantiles(const Durations& times) {
+  if (times.count() == 0) return "–";
+  return fmt::format("{:.2f} / {:.2f} / {:.2f} ms", 1e3 * times.quantile(0.5),
+                     1e3 * times.quantile(0.95), 1e3 * times.quantile(0.99));
+}
+
+}  // namespace microswarm

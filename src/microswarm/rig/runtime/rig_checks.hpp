@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "microswarm/core/errors/issue.hpp"
+#include "microswarm/core/execution/durations.hpp"
+#include "microswarm/core/execution/stop.hpp"
+#include "microswarm/rig/params/rig_params.hpp"
+#include "microswarm/vision/camera/newest_frame.hpp"
+
+namespace microswarm {
+
+/// Result of one check of a rig.
+struct RigCheck {
+  std::string what;
+  bool good = true;
+  std::string answer;
+  bool required = true;  ///< a run is refused if it is not good
+};
+
+/// Checks whether the coils hold the rig's field in every direction, from ambient temperature.
+RigCheck check_field(const Rig& rig);
+
+/// Reports the limits that a coil system driven by a real device needs and does not have.
+Issues missing_limits(const Rig& rig);
+
+/// Watches the rig's camera for so many seconds: its state, and the time between frames.
+std::vector<RigCheck> check_camera(NewestFrame& camera, const Rig& rig, std::optional<double> rate,
+                                   double seconds, const Stop& stop = {});
+
+/// Exchanges zero currents with the device for so many seconds, then stops it.
+std::vector<RigCheck> check_driver(CoilDriver& driver, const Rig& rig, double seconds,
+                                   const Stop& stop = {});
+
+/// "p50 / p95 / p99 ms" of durations, "–" if there are none.
+std::string quantiles(const Durations& times);
+
+}  // namespace microswarm

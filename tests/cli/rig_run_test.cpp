@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: Apache-2.0
+// `rig run` as a program that drives a device at a pseudo-terminal.
+#include <algorithm>
+#include <array>
+#include <mutex>
+
+#include "program.hpp"
+#include "tests/actuation/fake_device.hpp"
+
+namespace microswarm::test {
+namespace {
+
+class RigRun : public CommandLine {
+ protected:
+  RigRun() {
+    write_coils("max_current_a: 10, max_voltage_v: 24, max_temperature_degc: 90");
+    write("flight.yaml",
+          "map: {type: polygons, lo_um: [0, 0], hi_um: [2000, 1000]}\n"
+          "start: {x_um: 400, y_um: 500}\ngoal_um: [1500, 500]\ntime_limit_s: 20\n"
+          "swarm: {type: vortex}\nnavigator: {type: radar}\n");
+  }
+  void write_coils(const std::string& limits) const {
+    write("coils.yaml",
+          "coils: {type: helmholtz}\ndrives:\n  - {resistance_ohm: 0.9, inductance_mh: 2.5, "
+          "thermal_resistance_k_per_w: 2.5, thermal_time_s: 400, " +
+              limits + "}\n");
+  }
+  void write_rig(const FakeDevice& device, const std::string& more = {}) const {
+    write("rig.yaml",
+          "name: bench\ncoils: coils.yaml\n"
+          "field: {kind: rotating, amplitude_mt: 8, frequency_hz: 10, max_pitch_deg: 7.5}\n"
+          "drive_rate_hz: 100\n"
+          "driver: {type: serial, boot_time_s: 0, reply_timeout_s: 0.1, full_scale_a: 10, port: " +
+              device.port() +
+              "}\n"
+              "camera: {type: simulated, microscope: {um_per_px: 6}}\n"
+              "safety: {lost_swarm_s: 3, max_frame_age_s: 3, deadman_s: 3, missed_deadlines: 100, "
+              "max_pause_s: 3}\n" +
+              more);
+  }
+  /// Lets it drive for `ms`. It arms once for its check of the driver, and again for the run.
+  static void let_drive(FakeDevice& device, int ms) {
+    for (int i = 0; i < 1000 && device.count(CoilMessage::arm) < 2; ++i) sleep_ms(10);
+    sleep_ms(ms);
+  }
+  Arguments arguments(const Arguments& more = {}) const {
+    Arguments all{"rig",      "run",          "flight.yaml",   "--rig",
+                  "rig.yaml", "--other-stop", "--drawn-swarm", "--coils-cold"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+};
+
+TEST_F(RigRun, DrivesTheDeviceUntilItsTimeIsUp) {
+  FakeDevice device;
+  write_rig(device);
+  const Outcome outcome = run(arguments({"--seconds", "2", "--out", "out"}));
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  EXPECT_GT(device.count(CoilMessage::set), 30);
+  EXPECT_TRUE(exists("out/commands.csv"));
+}
+
+TEST_F(RigRun, AStopThatIsNotConfirmedIsAHardwareFault) {
+  FakeDevice device([stops = 0](CoilReply& reply) mutable {
+    // The first stop ends the check before the run.
+    if (reply.to == CoilMessage::stop && ++stops > 1) reply.outputs[0] = 300;
+    return true;
+  });
+  write_rig(device);
+  const Outcome outcome = run(arguments({"--seconds", "1.5"}));
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+  EXPECT_TRUE(names(outcome.err, "did not confirm")) << outcome.err;
+}
+
+TEST_F(RigRun, ARefusedArmSaysSoBeforeTheRun) {
+  FakeDevice device([](CoilReply& reply) {
+    if (reply.to == CoilMessage::arm) reply.result = CoilResult::not_armed;
+    return true;
+  });
+  write_rig(device);
+  const Outcome outcome = run(arguments());
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+  EXPECT_TRUE(names(outcome.err, "does not let itself be armed")) << outcome.err;
+  EXPECT_EQ(device.count(CoilMessage::set), 0);
+}
+
+TEST_F(RigRun, ADeviceThatIsOffAgainWithoutCurrentIsNotUsed) {
+  FakeDevice device([sets = 0](CoilReply& reply) mutable {
+    if (reply.to == CoilMessage::set && ++sets % 40 == 0) reply.result = CoilResult::not_armed;
+    return true;
+  });
+  write_rig(device);
+  const Outcome outcome = run(arguments());
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+  EXPECT_TRUE(names(outcome.err, "off by themselves")) << outcome.err;
+}
+
+TEST_F(RigRun, ADeviceThatLosesItsCurrentsAgainAndAgainEndsIt) {
+  FakeDevice device([stops = 0, sets = 0](CoilReply& reply) mutable {
+    stops += reply.to == CoilMessage::stop;  // the first ends the check before the run
+    if (reply.to == CoilMessage::set && stops > 0 && ++sets % 40 == 0)
+      reply.result = CoilResult::not_armed;
+    return true;
+  });
+  write_rig(device);
+  const Outcome outcome = run(arguments({"--seconds", "15"}));
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+  EXPECT_TRUE(names(outcome.err, "had been off by themselves; armed again")) << outcome.err;
+  EXPECT_TRUE(names(outcome.out + outcome.err, "2 times in 10 s, allowed 1")) << outcome.out;
+}
+
+TEST_F(RigRun, AfterAStandstillItIsNotDrivenOn) {
+  FakeDevice device;
+  write_rig(device);
+  Program program(arguments({"--seconds", "15", "--set-rig", "safety.max_pause_s=0.3"}), at);
+  let_drive(device, 500);
+  program.send(SIGSTOP);
+  sleep_ms(800);
+  const int before = device.count(CoilMessage::arm);
+  program.send(SIGCONT);
+  const Outcome outcome = program.wait();
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+  EXPECT_EQ(device.count(CoilMessage::arm), before);
+  EXPECT_TRUE(names(outcome.out + outcome.err, "stood still")) << outcome.out << outcome.err;
+}
+
+TEST_F(RigRun, WhatTheCheckRefusesIsRefusedBeforeTheFirstCurrent) {
+  FakeDevice device;
+  write_rig(device);
+  const auto refused_with = [&](const Arguments& more, const std::string& part) {
+    const Outcome outcome = run(arguments(more));
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_TRUE(names(outcome.err, part)) << outcome.err;
+    EXPECT_EQ(device.count(CoilMessage::hello), 0);
+  };
+  refused_with({"--set-rig", "field.amplitude_mt=500"}, "weaken the field");
+  write_coils("max_current_a: 10, max_voltage_v: 24");
+  refused_with({}, "does not limit the temperature of every coil");
+  write_coils("max_voltage_v: 24, max_temperature_degc: 90");
+  refused_with({}, "does not limit the current of every coil");
+  EXPECT_EQ(run(arguments({"--without-limits", "--seconds", "1"})).code, 3);
+}
+
+TEST_F(RigRun, NobodyWatchingOrADrawnSwarmIsRefused) {
+  FakeDevice device;
+  write_rig(device);
+  const Outcome unwatched =
+      run({"rig", "run", "flight.yaml", "--rig", "rig.yaml", "--drawn-swarm"});
+  EXPECT_EQ(unwatched.code, 2);
+  EXPECT_TRUE(names(unwatched.err, "--other-stop")) << unwatched.err;
+  const Outcome drawn = run({"rig", "run", "flight.yaml", "--rig", "rig.yaml", "--other-stop"});
+  EXPECT_EQ(drawn.code, 2);
+  EXPECT_TRUE(names(drawn.err, "rig.yaml:6:") && names(drawn.err, "--drawn-swarm")) << drawn.err;
+  EXPECT_EQ(device.count(CoilMessage::hello), 0);
+}
+
+TEST_F(RigRun, AnExperimentIsNotOverwrittenAndALinkNotFollowed) {
+  FakeDevice device;
+  write_rig(device);
+  EXPECT_EQ(run(arguments({"--seconds", "1", "--out", "out"})).code, 3);
+  const std::string before = read("out/run.h5");
+  const Outcome again = run(arguments({"--seconds", "1", "--out", "out"}));
+  EXPECT_EQ(again.code, 2);
+  EXPECT_TRUE(names(again.err, "out/run.h5: ") && names(again.err, "--overwrite")) << again.err;
+  EXPECT_EQ(read("out/run.h5"), before);
+  // A log that a killed run left is an experiment as well.
+  fs::create_directories(at.folder / "killed");
+  write("killed/commands.csv.part", "t_s\n");
+  EXPECT_EQ(run(arguments({"--seconds", "1", "--out", "killed"})).code, 2);
+  EXPECT_EQ(read("killed/commands.csv.part"), "t_s\n");
+  write("precious", "mine");
+  fs::create_directories(at.folder / "trap");
+  fs::create_symlink("../precious", at.folder / "trap/commands.csv.part");
+  EXPECT_EQ(run(arguments({"--seconds", "1", "--out", "trap", "--overwrite"})).code, 3);
+  EXPECT_EQ(read("precious"), "mine");
+  EXPECT_TRUE(exists("trap/commands.csv"));
+}
+
+TEST_F(RigRun, TemperaturesOutliveTheProgram) {
+  FakeDevice device;
+  write_rig(device);
+  const auto kept = [&] {
+    for (const std::string& file : files())
+      if (file.starts_with(".state/")) return read(file);
+    return std::string("none");
+  };
+  const auto temperature = [&] {
+    const std::string text = kept();
+    const std::size_t key = text.find("temperatures_degc");
+    return key == std::string::npos ? 0
+                                    : std::stod(text.substr(text.find_first_of("0123456789", key)));
+  };
+  // Nothing is known: at the limit, until somebody says that they are cold.
+  Arguments unknown = arguments({"--seconds", "1"});
+  std::erase(unknown, "--coils-cold");
+  const Outcome first = run(unknown);
+  EXPECT_EQ(first.code, 3) << first.err;
+  EXPECT_TRUE(names(first.err, "--coils-cold")) << first.err;
+  EXPECT_TRUE(names(kept(), "driven: false")) << kept();
+  EXPECT_GT(temperature(), 89) << kept();
+  // From then on they are known, also after a program that was killed.
+  Program program(arguments(), at);
+  let_drive(device, 1500);
+  program.send(SIGKILL);
+  EXPECT_EQ(program.wait().signal, SIGKILL);
+  EXPECT_TRUE(names(kept(), "driven: true")) << kept();
+  EXPECT_LT(temperature(), 30);
+  const Outcome last = run(unknown);
+  EXPECT_EQ(last.code, 3) << last.err;
+  EXPECT_FALSE(names(last.err, "--coils-cold")) << last.err;
+  // Two seconds of 10 A count that the killed program may have driven.
+  EXPECT_GT(temperature(), 22.5);
+  EXPECT_LT(temperature(), 40);
+}
+
+class RigDrive : public RigRun {
+ protected:
+  Outcome drive(const Arguments& more) const {
+    Arguments all{"rig", "drive", "rig.yaml", "--other-stop", "--coils-cold"};
+    all.insert(all.end(), more.begin(), more.end());
+    return run(all);
+  }
+};
+
+TEST_F(RigDrive, ACurrentComesAndGoesByItsRamps) {
+  std::vector<int> x, y;
+  std::mutex mutex;
+  FakeDevice device([&](CoilReply& reply) {
+    const std::lock_guard lock(mutex);
+    x.push_back(reply.outputs[0]);
+    y.push_back(reply.outputs[1]);
+    return true;
+  });
+  write_rig(device);
+  const Outcome outcome = drive({"--currents", "4,0,0", "--seconds", "2", "--ramp", "0.5"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const std::lock_guard lock(mutex);
+  EXPECT_EQ(*std::max_element(x.begin(), x.end()), 400);
+  EXPECT_EQ(*std::max_element(y.begin(), y.end()), 0);
+  EXPECT_EQ(x.back(), 0);
+  int steepest = 0;
+  for (std::size_t i = 1; i < x.size(); ++i)
+    steepest = std::max(steepest, std::abs(x[i] - x[i - 1]));
+  EXPECT_LT(steepest, 200);  // 8 per mille a sending are meant; the computer may be busy
+}
+
+TEST_F(RigDrive, EachCoilInTurn) {
+  std::array<int, 3> most{};
+  std::mutex mutex;
+  FakeDevice device([&](CoilReply& reply) {
+    const std::lock_guard lock(mutex);
+    for (std::size_t c = 0; c < 3; ++c) most[c] = std::max(most[c], reply.outputs[c]);
+    return true;
+  });
+  write_rig(device);
+  const Outcome outcome = drive({"--each", "2", "--seconds", "0.6", "--ramp", "0.2"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  for (const char* coil : {"coil x, channel 1: 2 A", "coil y, channel 2", "coil z, channel 3"})
+    EXPECT_TRUE(names(outcome.out, coil)) << outcome.out;
+  const std::lock_guard lock(mutex);
+  EXPECT_EQ(most, (std::array<int, 3>{200, 200, 200}));
+}
+
+TEST_F(RigDrive, TheRigsFieldTurnsAndCtrlCEndsIt) {
+  FakeDevice device;
+  write_rig(device);
+  Program program({"rig", "drive", "rig.yaml", "--other-stop", "--coils-cold", "--heading", "30",
+                   "--speed", "20", "--seconds", "60"},
+                  at);
+  for (int i = 0; i < 1000 && device.count(CoilMessage::set) < 50; ++i) sleep_ms(10);
+  const int stops = device.count(CoilMessage::stop);
+  program.send(SIGINT);
+  const Outcome outcome = program.wait();
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  EXPECT_GT(device.count(CoilMessage::stop), stops);
+}
+
+TEST_F(RigDrive, WhatCannotBeIsRefused) {
+  FakeDevice device;
+  write_rig(device);
+  for (const Arguments& wrong :
+       std::vector<Arguments>{{},
+                              {"--currents", "1,2"},
+                              {"--currents", "1,0,0", "--field", "1,0,0"},
+                              {"--field", "nan,0,0"},
+                              {"--currents", "1,0,0", "--seconds", "1", "--ramp", "2"}}) {
+    const Outcome outcome = drive(wrong);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+  }
+  EXPECT_EQ(run({"rig", "drive", "rig.yaml", "--currents", "1,0,0"}).code, 2);  // nobody watches
+  write_coils("max_current_a: 10");
+  const Outcome outcome = drive({"--currents", "1,0,0"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_TRUE(names(outcome.err, "does not limit the temperature")) << outcome.err;
+  EXPECT_EQ(device.count(CoilMessage::set), 0);
+}
+
+TEST_F(RigDrive, ADeviceThatFallsSilentIsAFault) {
+  FakeDevice device(
+      [sets = 0](CoilReply& reply) mutable { return reply.to != CoilMessage::set || ++sets < 30; });
+  write_rig(device);
+  const Outcome outcome = drive({"--currents", "1,0,0", "--seconds", "10"});
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+  EXPECT_TRUE(names(outcome.err, "does not answer")) << outcome.err;
+}
+
+}  // namespace
+}  // namespace microswarm::test
