@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/rng.hpp"
 #include "tests/actuation/support.hpp"
 
@@ -203,6 +204,108 @@ TEST(CoilDriveLaw, IsNeverColderThanAnIndependentIntegration) {
       drive.step(Eigen::VectorXd::Constant(1, rng.uniform(-20, 20)), dt);
       real = integrated(d, real, from, drive.currents()[0], dt);
       ASSERT_GE(drive.temperatures()[0], real - 1e-4) << trial << " " << k;
+    }
+  }
+}
+
+TurningCurrents turning(const Eigen::VectorXd& constant, const Eigen::VectorXd& cosine,
+                        const Eigen::VectorXd& sine, double frequency) {
+  return {.frequency = frequency,
+          .max_frequency = std::abs(frequency),
+          .constant = constant,
+          .cosine = cosine,
+          .sine = sine};
+}
+
+TEST(CoilDrive, NoTurnBreaksALimit) {
+  test::Dice dice(12);
+  const DriveParams d = limited();
+  int scaled = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    CoilDrive drive({d, d, d});
+    const double frequency = 20 * dice.number();
+    const double omega = 2 * pi * std::abs(frequency);
+    for (int i = 0; i < 300; ++i) {
+      const TurningCurrents before = drive.turning();
+      const double size = 20 * std::abs(dice.number());
+      const double dt = std::pow(10, -2 + dice.number());
+      TurningCurrents wanted = turning(0.1 * size * dice.vector(), size * dice.vector(),
+                                       size * dice.vector(), frequency);
+      wanted.phase = before.phase + 2 * pi * frequency * dt;
+      scaled += drive.turn(wanted, dt) < 1;
+      const TurningCurrents& now = drive.turning();
+      for (Eigen::Index c = 0; c < 3; ++c) {
+        const double A = std::hypot(now.cosine[c], now.sine[c]);
+        const double rate =
+            (std::abs(now.constant[c] - before.constant[c]) +
+             std::hypot(now.cosine[c] - before.cosine[c], now.sine[c] - before.sine[c])) /
+            dt;
+        EXPECT_LE(std::abs(now.constant[c]) + A, *d.max_current * (1 + 1e-9));
+        EXPECT_LE(omega * A + rate, *d.max_slew * (1 + 1e-9));
+        EXPECT_LE(d.resistance * std::abs(now.constant[c]) +
+                      A * std::hypot(d.resistance, 1e-3 * d.inductance * omega) +
+                      1e-3 * d.inductance * rate,
+                  *d.max_voltage * (1 + 1e-9));
+        EXPECT_LE(drive.temperatures()[c], *d.max_temperature + 1e-6);
+      }
+    }
+  }
+  EXPECT_GT(scaled, 1000);
+}
+
+TEST(CoilDrive, ATurnThatIsTooHotIsScaledWithoutChangingItsShape) {
+  DriveParams d = limited();
+  d.max_voltage.reset();
+  d.max_slew.reset();
+  CoilDrive drive({d});
+  const auto one = [](double value) {
+    return Eigen::VectorXd(Eigen::VectorXd::Constant(1, value));
+  };
+  double scale = 1;
+  for (int i = 0; i < 20000; ++i) {
+    TurningCurrents wanted = turning(one(0), one(16), one(12), 16);
+    wanted.phase = drive.turning().phase + 2 * pi * 16 * 0.01;
+    scale = drive.turn(wanted, 0.01);
+    ASSERT_LE(drive.temperatures()[0], 150 + 1e-9);
+  }
+  // The mean square of a turn is half of the amplitude's: (150 − 22) K = 1.5 K/W · 2 Ω · A² / 2.
+  EXPECT_NEAR(20 * scale, std::sqrt(2 * 128 / 3.0), 0.6);
+  EXPECT_NEAR(drive.turning().cosine[0] / drive.turning().sine[0], 4.0 / 3, 1e-9);
+}
+
+TEST(CoilDriveLaw, ATurnIsNeverColderThanAnIndependentIntegration) {
+  Rng rng(8, Purpose::test);
+  const auto one = [](double value) {
+    return Eigen::VectorXd(Eigen::VectorXd::Constant(1, value));
+  };
+  for (int trial = 0; trial < 40; ++trial) {
+    DriveParams d = limited();
+    d.max_slew.reset();
+    d.temperature_coefficient = rng.uniform(0, 0.01);
+    d.thermal_time = rng.uniform(5, 600);
+    d.thermal_resistance = rng.uniform(0.2, 4);
+    CoilDrive drive({d});
+    const double frequency = rng.uniform(-100, 100);
+    double real = d.ambient;
+    for (int k = 0; k < 200; ++k) {
+      const double dt = rng.uniform(1e-3, 0.03);
+      TurningCurrents wanted = turning(one(rng.uniform(-2, 2)), one(rng.uniform(-15, 15)),
+                                       one(rng.uniform(-15, 15)), frequency);
+      const TurningCurrents before = drive.turning();
+      wanted.phase = before.phase + 2 * pi * frequency * dt;
+      drive.turn(wanted, dt);
+      constexpr int steps = 400;
+      const double h = dt / steps;
+      const TurningCurrents& now = drive.turning();
+      for (int m = 0; m < steps; ++m) {  // the device follows the new currents at once
+        const double angle = before.phase + 2 * pi * frequency * (m + 0.5) * h;
+        const double current =
+            now.constant[0] + now.cosine[0] * std::cos(angle) + now.sine[0] * std::sin(angle);
+        const double resistance = d.resistance * (1 + d.temperature_coefficient * (real - 20));
+        real += h * (d.ambient + d.thermal_resistance * resistance * current * current - real) /
+                d.thermal_time;
+      }
+      ASSERT_GE(drive.temperatures()[0], real - 5e-3) << trial << " " << k;
     }
   }
 }

@@ -10,9 +10,11 @@
 
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -84,7 +86,12 @@ class FakeDevice {
     if (message == CoilMessage::arm) outputs_ = reported_ = {};
     if (message == CoilMessage::arm) state_ = CoilState::armed;
     if (message == CoilMessage::stop) state_ = CoilState::stopped;
-    if (state_ != CoilState::armed) outputs_ = reported_ = {};
+    if (state_ != CoilState::armed) {
+      outputs_ = reported_ = {};
+      waveform_.reset();
+    }
+    if (message == CoilMessage::set) waveform_.reset();
+    if (message == CoilMessage::waveform && state_ == CoilState::armed) turn(packet);
     if (message == CoilMessage::set && state_ == CoilState::armed)
       for (std::size_t c = 0; c < outputs_.size(); ++c)
         outputs_[c] = static_cast<std::int16_t>(packet[packet.size() - 12 + 2 * c] |
@@ -100,11 +107,39 @@ class FakeDevice {
     reply.aim_sum = check_sum({.constant = outputs_});
     reply.clock = static_cast<int>(1e3 * steady_seconds()) & 0xFFFF;
     reported_ = outputs_;  // as if there at once
-    if (message == CoilMessage::set && state_ != CoilState::armed)
+    if (waveform_ && state_ == CoilState::armed) {
+      const double turns = phase_ + 1e-3 * waveform_->frequency * (steady_seconds() - turned_at_);
+      reply.phase = static_cast<int>(std::lround(65536 * (turns - std::floor(turns)))) & 0xFFFF;
+      reply.aim_sum = check_sum(*waveform_);
+      const double angle = 2 * 3.14159265358979 * reply.phase / 65536;
+      for (std::size_t c = 0; c < outputs_.size(); ++c)
+        reply.outputs[c] = static_cast<int>(std::lround(waveform_->constant[c] +
+                                                        waveform_->cosine[c] * std::cos(angle) +
+                                                        waveform_->sine[c] * std::sin(angle)));
+    }
+    if ((message == CoilMessage::set || message == CoilMessage::waveform) &&
+        state_ != CoilState::armed)
       reply.result = CoilResult::not_armed;
     if (answer_ && !answer_(reply)) return;
     const auto bytes = encode(reply);
     EXPECT_EQ(write(line_, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
+  }
+
+  void turn(const std::vector<std::uint8_t>& packet) {
+    const auto number = [&](std::size_t at) {
+      return static_cast<std::int16_t>(packet[at] | packet[at + 1] << 8);
+    };
+    const double now = steady_seconds();
+    phase_ = waveform_ ? phase_ + 1e-3 * waveform_->frequency * (now - turned_at_)
+                       : static_cast<std::uint16_t>(number(4)) / 65536.0;
+    turned_at_ = now;
+    waveform_.emplace();
+    waveform_->frequency = static_cast<std::uint16_t>(number(6)) | number(8) * 65536;
+    for (std::size_t c = 0; c < coil_link_channels; ++c) {
+      waveform_->constant[c] = number(10 + 2 * c);
+      waveform_->cosine[c] = number(22 + 2 * c);
+      waveform_->sine[c] = number(34 + 2 * c);
+    }
   }
 
   std::function<bool(CoilReply&)> answer_;
@@ -116,6 +151,8 @@ class FakeDevice {
   std::map<CoilMessage, int> counts_;
   CoilState state_ = CoilState::idle;
   CoilOutputs outputs_{}, reported_{};
+  std::optional<CoilAim> waveform_;
+  double phase_ = 0, turned_at_ = 0;  // [turns] at a time [s]
   std::thread thread_;
 };
 

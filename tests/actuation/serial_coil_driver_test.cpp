@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "tests/actuation/fake_device.hpp"
 #include "tests/messages.hpp"
 
@@ -96,6 +98,39 @@ TEST(SerialCoilDriverPty, FormerFirmwareIsToldHowToRenewIt) {
   } catch (const HardwareError& e) {
     EXPECT_TRUE(test::is_one_line_naming(e.what(), device.port(), {"version 1", "make", "upload"}));
   }
+}
+
+TEST(SerialCoilDriverPty, AWaveformGoesOnByItselfAndTellsItsPhase) {
+  test::FakeDevice device;
+  SerialCoilParams p = params_of(device);
+  p.waveforms = true;
+  SerialCoilDriver driver(p);
+  const std::array<double, 6> none{}, cosine{10, 0, 0, 0, 0, 5}, sine{0, -10, 0, 0, 0, 5};
+  const double phase = 1.5;
+  const double began = steady_seconds();
+  ASSERT_EQ(driver.drive_waveform({100, phase, none, cosine, sine}), DriveStatus::driven);
+  for (int k = 0; k < 20; ++k) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(7));
+    // A new phase is not asked for: the waveform that runs goes on at its own.
+    ASSERT_EQ(driver.drive_waveform({100, 0, none, cosine, sine}), DriveStatus::driven);
+    ASSERT_TRUE(driver.phase());
+    const double turns = 100 * (steady_seconds() - began) + phase / (2 * pi);
+    EXPECT_LT(std::abs(wrap(*driver.phase() - 2 * pi * turns)), 2.5);
+    EXPECT_NEAR(driver.currents()[0], 10 * std::cos(*driver.phase()), 0.05);
+    EXPECT_NEAR(driver.currents()[1], -10 * std::sin(*driver.phase()), 0.05);
+  }
+  EXPECT_EQ(driver.drive(some_amperes), DriveStatus::driven);
+  EXPECT_FALSE(driver.phase());
+}
+
+TEST(SerialCoilDriverPty, RefusesWaveformsBeyondItsScale) {
+  test::FakeDevice device;
+  SerialCoilDriver driver(params_of(device));
+  const std::array<double, 6> none{}, most{20, 0, 0, 0, 0, 0}, little{1, 0, 0, 0, 0, 0};
+  EXPECT_EQ(driver.drive_waveform({501, 0, none, little, none}), DriveStatus::refused);
+  EXPECT_EQ(driver.drive_waveform({16, 0, little, most, none}), DriveStatus::refused);
+  EXPECT_EQ(driver.drive_waveform({16, 0, none, most, little}), DriveStatus::refused);
+  EXPECT_EQ(driver.drive_waveform({-16, 0, none, most, none}), DriveStatus::driven);
 }
 
 }  // namespace

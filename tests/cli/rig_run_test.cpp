@@ -60,6 +60,17 @@ TEST_F(RigRun, DrivesTheDeviceUntilItsTimeIsUp) {
   EXPECT_TRUE(exists("out/commands.csv"));
 }
 
+TEST_F(RigRun, TheDeviceTurnsAFieldOfHundredHertz) {
+  FakeDevice device;
+  write_rig(device);
+  const Outcome outcome =
+      run(arguments({"--seconds", "3", "--out", "out", "--set-rig", "driver.waveforms=true",
+                     "--set-rig", "drive_rate_hz=50", "--set-rig", "field.frequency_hz=100"}));
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  EXPECT_GT(device.count(CoilMessage::waveform), 60);
+  EXPECT_TRUE(exists("out/commands.csv"));
+}
+
 TEST_F(RigRun, AStopThatIsNotConfirmedIsAHardwareFault) {
   FakeDevice device([stops = 0](CoilReply& reply) mutable {
     // The first stop ends the check before the run.
@@ -273,6 +284,16 @@ TEST_F(RigDrive, TheRigsFieldTurnsAndCtrlCEndsIt) {
   const Outcome outcome = program.wait();
   EXPECT_EQ(outcome.code, 3) << outcome.err;
   EXPECT_GT(device.count(CoilMessage::stop), stops);
+}
+
+TEST_F(RigDrive, TheDeviceTurnsTheField) {
+  FakeDevice device;
+  write_rig(device);
+  const Outcome outcome = run({"rig", "drive", "rig.yaml", "--other-stop", "--coils-cold",
+                               "--heading", "30", "--speed", "20", "--seconds", "1.5", "--set",
+                               "driver.waveforms=true", "--set", "drive_rate_hz=50"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_GT(device.count(CoilMessage::waveform), 40);
 }
 
 TEST_F(RigDrive, WhatCannotBeIsRefused) {

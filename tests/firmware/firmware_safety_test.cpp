@@ -7,7 +7,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "microswarm/actuation/coils/coil_controller.hpp"
+#include "microswarm/actuation/coils/coil_system.hpp"
 #include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 #include "tests/files.hpp"
 #include "tests/firmware/simulator.hpp"
 
@@ -223,6 +226,48 @@ TEST_F(FirmwareSafety, MakesAWaveformWithoutTheHost) {
   std::printf("%.3f Hz, worst step %.4f rad off, %zu ticks in %.3f s\n",
               turned / (2 * pi) / seconds, worst_step, ticks.size(), seconds);
   EXPECT_TRUE(mega.when(off));  // by silence
+}
+
+// The whole way: a heading and a speed become a waveform of the device, whose field keeps turning
+// at 100 Hz while the host tells it 50 times a second.
+TEST_F(FirmwareSafety, AControllerSteersAFieldThatTheDeviceTurns) {
+  const Folder folder;
+  SerialCoilParams serial = params(mega.port());
+  serial.waveforms = true;
+  SerialCoilDriver driver(serial);
+  const CoilSystem system = read_coil_system(std::filesystem::path(MICROSWARM_SOURCE_DIR) /
+                                             "scenarios/rigs/helmholtz.yaml");
+  FieldGeneratorParams field;
+  field.frequency = 100;
+  field.amplitude = 2;
+  CoilController controller(system, field, driver, 0);
+  const auto drive = [&](double seconds, double heading) {
+    controller.command({.heading = heading, .speed = 20});
+    for (double t = 0; t < seconds; t += 0.02) {
+      ASSERT_EQ(controller.advance(0.02).status, DriveStatus::driven) << t;
+      std::this_thread::sleep_for(12ms);
+    }
+  };
+  drive(0.5, 0);
+  mega.order("trace " + (folder / "trace").string());
+  drive(0.4, 0.5);
+  mega.order("trace");
+  double before = 0, turned = 0, least = infinity, most = 0;
+  const std::vector<Moment> moments = read_trace(folder / "trace");
+  ASSERT_GT(moments.size(), 600u);
+  for (std::size_t k = 0; k < moments.size(); ++k) {
+    const Moment& m = moments[k];
+    const double size = std::hypot(m.x, m.y, m.z);
+    least = std::min(least, size);
+    most = std::max(most, size);
+    const double angle = std::atan2(m.y, m.x);
+    if (k > 0) turned += std::remainder(angle - before, 2 * pi);
+    before = angle;
+  }
+  const double turns = turned / (2 * pi) / (moments.back().t - moments.front().t);
+  std::printf("%.2f Hz, outputs of %.0f to %.0f per mille\n", turns, least, most);
+  EXPECT_NEAR(std::abs(turns), 100, 3);
+  EXPECT_GT(least, 0.5 * most);  // never a gap
 }
 
 TEST(FirmwareLimits, AreThoseGivenToMakeAndKeepTheDirection) {

@@ -119,6 +119,19 @@ TEST(SimulatedRig, WhatDoesNotGoTogetherIsRefused) {
   };
   EXPECT_PRED2(ends_with, refusal({"drive_rate_hz=100"}),
                ": drive_rate_hz is 100, the field turns 16 times a second and needs at least 160");
+  const auto on_device = [&](const std::string& rate, const std::string& frequency) {
+    return test::error_of([&] {
+      read_rig(
+          scenarios / "rigs/vortex.yaml",
+          std::vector<std::string>{"driver.type=serial", "driver.waveforms=true",
+                                   "drive_rate_hz=" + rate, "field.frequency_hz=" + frequency});
+    });
+  };
+  EXPECT_EQ(on_device("50", "100"), "nothing was thrown");
+  EXPECT_PRED2(ends_with, on_device("160", "16"),
+               ": drive_rate_hz is 160, the line carries at most 100 waveforms a second");
+  EXPECT_PRED2(ends_with, on_device("50", "501"),
+               ": field.frequency_hz is 501, the device makes at most 500");
   EXPECT_PRED2(ends_with, refusal({"field.max_pitch_deg=1"}),
                "the swarm is meant to go 33.8 µm/s, this rig's field drives it at most 20 µm/s");
   EXPECT_PRED2(ends_with, refusal({"driver.type=simulated", "driver.channels=2"}),

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "microswarm/actuation/coils/currents.hpp"
+#include "microswarm/actuation/coils/turning_currents.hpp"
 #include "microswarm/core/errors/error.hpp"
 
 namespace microswarm {
@@ -36,15 +37,29 @@ void CoilController::aim(const Eigen::Vector3d& place) {
 
 const CoilOutput& CoilController::advance(double dt) {
   output_.wanted = generator_.advance(dt);
+  if (driver_.makes_waveforms())
+    send_waveform(dt);
+  else
+    send_currents(dt);
+  output_.temperatures = drive_.temperatures();
+  return output_;
+}
+
+void CoilController::send_currents(double dt) {
   const CurrentsForField found = currents_for(actuation_, output_.wanted);
   const DrivenCurrents driven = drive_.step(found.currents, dt);
   output_.currents = driven.currents;
   output_.scale = driven.scale;
   output_.reached = found.reached;
-  output_.temperatures = drive_.temperatures();
   std::copy(driven.currents.begin(), driven.currents.end(), channels_.begin());
   output_.status = driver_.drive(channels_);
-  return output_;
+}
+
+void CoilController::send_waveform(double dt) {
+  output_.scale = drive_.turn(turning_currents(actuation_, generator_, output_.reached), dt);
+  output_.currents = drive_.currents();
+  output_.status = send(driver_, drive_.turning());
+  if (const auto phase = driver_.phase()) generator_.follow_phase(*phase);
 }
 
 bool CoilController::stop() noexcept {

@@ -23,7 +23,8 @@ struct CoilOutput {
 
 /// Converts a navigator's commands to coil currents. The field changes continuously. The currents
 /// are the minimum-norm solution at the target position (Eq 4 [global]), scaled to respect all
-/// limits, and sent by the driver. The destructor sets all currents to zero.
+/// limits, and sent by the driver; as a waveform, to a device that makes them. The destructor sets
+/// all currents to zero.
 class CoilController {
  public:
   /// `system` and `driver` must outlive the controller. Throws InputError if the system has more
@@ -58,6 +59,9 @@ class CoilController {
   const Actuation& actuation() const { return actuation_; }
 
  private:
+  void send_currents(double dt);
+  void send_waveform(double dt);
+
   const CoilSystem& system_;
   CoilDriver& driver_;
   FieldGenerator generator_;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/core/maths/maths.hpp"
 
@@ -77,6 +78,58 @@ double warmest_current(const DriveParams& d) {
   return per_square > 0 ? std::sqrt(warmer / per_square) : infinity;
 }
 
+/// The mean square current [A²] of the hottest coil allowed that takes it from `temperature` to
+/// `margin` below its maximum temperature in `seconds`; negative if it is too hot already.
+double mean_square_to_limit(const DriveParams& d, double temperature, double seconds,
+                            double margin = 0) {
+  const double keeps = maths::exp(-seconds / d.thermal_time);
+  const double end = (*d.max_temperature - margin - temperature * keeps) / (1 - keeps);
+  return (end - d.ambient) / (d.thermal_resistance * hot_resistance(d));
+}
+
+/// sin x / x
+double sinc(double x) {
+  constexpr double small = 1e-4;
+  return std::abs(x) < small ? 1 - x * x / 6 : maths::sin(x) / x;
+}
+
+/// What turns in one coil: constant + cosine cos φ + sine sin φ [A].
+struct Turning {
+  double constant = 0, cosine = 0, sine = 0;
+
+  double amplitude() const { return std::sqrt(cosine * cosine + sine * sine); }
+  /// Mean square [A²] over phases from `phase - way` to `phase`.
+  double mean_square(double phase, double way) const {
+    const double middle = phase - way / 2;
+    const auto [s1, c1] = maths::sincos(middle);
+    const auto [s2, c2] = maths::sincos(2 * middle);
+    const double one = sinc(way / 2), two = sinc(way);
+    return constant * constant + 2 * constant * one * (cosine * c1 + sine * s1) +
+           0.5 * (cosine * cosine * (1 + two * c2) + sine * sine * (1 - two * c2)) +
+           cosine * sine * two * s2;
+  }
+  /// The largest mean square [A²] over any phases of this extent.
+  double max_mean_square(double way) const {
+    const double A = amplitude();
+    return constant * constant + 2 * std::abs(constant) * A * std::abs(sinc(way / 2)) +
+           0.5 * A * A * (1 + std::abs(sinc(way)));
+  }
+};
+
+/// Bound of how far [K] a coil gets above its mean temperature within a turn, or within `seconds`.
+double ripple_of(const DriveParams& d, const Turning& coil, double omega, double seconds) {
+  const double A = coil.amplitude(), c = std::abs(coil.constant);
+  const double per_square = d.thermal_resistance * hot_resistance(d) / d.thermal_time;
+  return per_square * std::min((A * A / 4 + 2 * c * A) / omega, (c + A) * (c + A) * seconds);
+}
+
+Turning coil_of(const TurningCurrents& currents, Eigen::Index i) {
+  return {currents.constant[i], currents.cosine[i], currents.sine[i]};
+}
+
+// Share of the slew and voltage limits that a turn may take; the rest is for changes.
+constexpr double share_of_turn = 0.9;
+
 void narrow(double& lo, double& hi, double least, double most) {
   lo = std::max(lo, least);
   hi = std::min(hi, most);
@@ -91,9 +144,7 @@ void narrow_by_heat(double& lo, double& hi, const DriveParams& d, double tempera
   if (per_square <= 0) return;
   // The mean square current that ends at the maximum temperature after `seconds`.
   const auto mean_square_for = [&](double seconds) {
-    const double keeps = maths::exp(-seconds / d.thermal_time);
-    const double end = (*d.max_temperature - temperature * keeps) / (1 - keeps);
-    return (end - d.ambient) / per_square;
+    return mean_square_to_limit(d, temperature, seconds);
   };
   const auto root = [](double square) { return square >= 0 ? std::sqrt(square) : -infinity; };
   // to² and (to² + I to + I²) / 3 in this step
@@ -131,6 +182,17 @@ CoilDrive::CoilDrive(std::vector<DriveParams> drives)
       temperatures_(currents_.size()) {
   for (std::size_t i = 0; i < drives_.size(); ++i)
     temperatures_[static_cast<Eigen::Index>(i)] = drives_[i].ambient;
+  cut();
+}
+
+void CoilDrive::cut() {
+  currents_.setZero();
+  turning_ = {.constant = currents_, .cosine = currents_, .sine = currents_};
+}
+
+Eigen::VectorXd TurningCurrents::now() const {
+  const auto [s, c] = maths::sincos(phase);
+  return constant + c * cosine + s * sine;
 }
 
 void CoilDrive::warm(const Eigen::VectorXd& temperatures) {
@@ -243,6 +305,87 @@ DrivenCurrents CoilDrive::step(const Eigen::VectorXd& wanted, double dt) {
   }
   currents_ = result.currents;
   return result;
+}
+
+double CoilDrive::turn(const TurningCurrents& wanted, double dt) {
+  assert(wanted.constant.size() == currents_.size() && dt > 0);
+  const double most = most_of_turn(wanted, dt);
+  TurningCurrents to = wanted;
+  for (Eigen::VectorXd* part : {&to.constant, &to.cosine, &to.sine}) *part *= most;
+  const double share = share_of_change(to, dt);
+  const auto toward = [&](const Eigen::VectorXd& from, Eigen::VectorXd& part) {
+    part = from + share * (part - from);
+  };
+  toward(turning_.constant, to.constant);
+  toward(turning_.cosine, to.cosine);
+  toward(turning_.sine, to.sine);
+  const double way = 2 * pi * to.frequency * dt;
+  for (std::size_t k = 0; k < drives_.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    const double square = std::max(coil_of(turning_, i).mean_square(to.phase, way),
+                                   coil_of(to, i).mean_square(to.phase, way));
+    temperatures_[i] = temperature_later(drives_[k], temperatures_[i], square, dt);
+  }
+  turning_ = std::move(to);
+  currents_ = turning_.now();
+  return most;
+}
+
+/// The largest scale at which a turn is within the limits, and keeps the coils below their maximum
+/// temperature for some steps.
+double CoilDrive::most_of_turn(const TurningCurrents& wanted, double dt) const {
+  constexpr double steps_ahead = 10;
+  const double omega = 2 * pi * std::max(std::abs(wanted.frequency), wanted.max_frequency);
+  double most = 1;
+  const auto limit = [&](double asked, double allowed) {
+    if (asked > allowed) most = std::min(most, allowed / asked);
+  };
+  for (std::size_t k = 0; k < drives_.size(); ++k) {
+    const DriveParams& d = drives_[k];
+    const Turning coil = coil_of(wanted, static_cast<Eigen::Index>(k));
+    const double A = coil.amplitude();
+    if (d.max_current) limit(std::abs(coil.constant) + A, *d.max_current);
+    if (d.max_slew) limit(omega * A, share_of_turn * *d.max_slew);
+    if (d.max_voltage) {
+      const double R = hot_resistance(d), X = h_per_mh * d.inductance * omega;
+      limit(R * std::abs(coil.constant) + std::sqrt(R * R + X * X) * A,
+            share_of_turn * *d.max_voltage);
+    }
+    if (d.max_temperature && d.thermal_resistance > 0) {
+      const double ahead = steps_ahead * dt;
+      const double turning = 2 * pi * std::abs(wanted.frequency);
+      const double allowed = mean_square_to_limit(d, temperatures_[static_cast<Eigen::Index>(k)],
+                                                  ahead, ripple_of(d, coil, turning, ahead));
+      limit(std::sqrt(coil.max_mean_square(turning * ahead)), std::sqrt(std::max(0.0, allowed)));
+    }
+  }
+  return most;
+}
+
+/// The share of a change of the turning currents that `dt` seconds allow.
+double CoilDrive::share_of_change(const TurningCurrents& to, double dt) const {
+  const double omega = 2 * pi * std::max(std::abs(to.frequency), to.max_frequency);
+  double share = 1;
+  for (std::size_t k = 0; k < drives_.size(); ++k) {
+    const DriveParams& d = drives_[k];
+    const auto i = static_cast<Eigen::Index>(k);
+    const Turning a = coil_of(turning_, i), b = coil_of(to, i);
+    const Turning change{b.constant - a.constant, b.cosine - a.cosine, b.sine - a.sine};
+    const double rate = (std::abs(change.constant) + change.amplitude()) / dt;
+    const double A = std::max(a.amplitude(), b.amplitude());
+    const auto limit = [&](double asked, double taken, double allowed) {
+      const double left = std::max(allowed - taken, (1 - share_of_turn) * allowed);
+      if (asked > left) share = std::min(share, left / asked);
+    };
+    if (d.max_slew) limit(rate, omega * A, *d.max_slew);
+    if (d.max_voltage) {
+      const double R = hot_resistance(d), X = h_per_mh * d.inductance * omega;
+      const double constant = std::max(std::abs(a.constant), std::abs(b.constant));
+      limit(h_per_mh * d.inductance * rate, R * constant + std::sqrt(R * R + X * X) * A,
+            *d.max_voltage);
+    }
+  }
+  return share;
 }
 
 Eigen::VectorXd hottest(const std::vector<DriveParams>& drives) {

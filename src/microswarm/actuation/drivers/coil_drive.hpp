@@ -41,6 +41,17 @@ struct DrivenCurrents {
   std::vector<LimitHit> hits;   ///< limits that the unscaled command would exceed
 };
 
+/// Currents that turn: constant + cosine cos φ + sine sin φ [A], one of each per coil.
+struct TurningCurrents {
+  double frequency = 0;      ///< of the phase φ [Hz]
+  double max_frequency = 0;  ///< that may follow; the limits are those of a turn at it [Hz]
+  double phase = 0;          ///< φ now [rad]
+  Eigen::VectorXd constant, cosine, sine;
+
+  /// The currents at their phase [A].
+  Eigen::VectorXd now() const;
+};
+
 /// Amplifiers and coils of a system with their present currents and temperatures. All currents of a
 /// command are scaled by one factor, so the field keeps its direction.
 class CoilDrive {
@@ -55,7 +66,7 @@ class CoilDrive {
   void warm(const Eigen::VectorXd& temperatures);
 
   /// Sets all currents to zero at once, as when the amplifiers are switched off.
-  void cut() { currents_.setZero(); }
+  void cut();
 
   /// The largest fraction of a command that can be held indefinitely.
   DrivenCurrents steady(const Eigen::VectorXd& wanted) const;
@@ -66,7 +77,18 @@ class CoilDrive {
   /// is false. The current of a coil that is too hot is reduced, if necessary to zero.
   DrivenCurrents step(const Eigen::VectorXd& wanted, double dt);
 
+  /// Turns the currents for `dt` seconds up to the phase of `wanted`, within the limits of a whole
+  /// turn, and changes amplitudes no faster than the coils allow. Returns the scale applied to
+  /// `wanted`; all parts have the same one, so the field keeps its direction. Temperatures follow
+  /// the currents of each instant.
+  double turn(const TurningCurrents& wanted, double dt);
+  /// The last turning currents.
+  const TurningCurrents& turning() const { return turning_; }
+
  private:
+  double most_of_turn(const TurningCurrents& wanted, double dt) const;
+  double share_of_change(const TurningCurrents& to, double dt) const;
+
   struct Bounds {
     Eigen::VectorXd lo, hi;  ///< bounds of the reachable currents [A]
   };
@@ -77,6 +99,7 @@ class CoilDrive {
   std::vector<DriveParams> drives_;
   Eigen::VectorXd currents_;
   Eigen::VectorXd temperatures_;
+  TurningCurrents turning_;
 };
 
 /// Temperatures [°C] of coils at their maximum temperature, ambient for those without one.

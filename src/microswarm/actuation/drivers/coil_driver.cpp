@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "microswarm/core/maths/maths.hpp"
+
 namespace microswarm {
 
 std::string_view to_string(DriveStatus status) {
@@ -35,8 +37,10 @@ std::string_view trouble_of(DriveStatus status) {
   return {};
 }
 
-SimulatedCoilDriver::SimulatedCoilDriver(int channels, double full_scale)
-    : currents_(static_cast<std::size_t>(channels)), full_scale_(full_scale) {}
+SimulatedCoilDriver::SimulatedCoilDriver(int channels, double full_scale, bool waveforms)
+    : currents_(static_cast<std::size_t>(channels)),
+      full_scale_(full_scale),
+      waveforms_(waveforms) {}
 
 DriveStatus SimulatedCoilDriver::drive(std::span<const double> currents) {
   assert(currents.size() == currents_.size());
@@ -45,11 +49,25 @@ DriveStatus SimulatedCoilDriver::drive(std::span<const double> currents) {
   });
   if (!possible) return DriveStatus::refused;
   std::copy(currents.begin(), currents.end(), currents_.begin());
+  phase_.reset();
+  return DriveStatus::driven;
+}
+
+DriveStatus SimulatedCoilDriver::drive_waveform(const CurrentWaveform& waveform) {
+  const auto [sine, cosine] = maths::sincos(waveform.phase);
+  for (std::size_t c = 0; c < currents_.size(); ++c) {
+    const double along = waveform.cosine[c], across = waveform.sine[c];
+    const double most = std::abs(waveform.constant[c]) + std::sqrt(along * along + across * across);
+    if (!(most <= full_scale_ * (1 + full_scale_slack))) return DriveStatus::refused;
+    currents_[c] = waveform.constant[c] + along * cosine + across * sine;
+  }
+  phase_ = waveform.phase;
   return DriveStatus::driven;
 }
 
 bool SimulatedCoilDriver::stop() noexcept {
   std::fill(currents_.begin(), currents_.end(), 0.0);
+  phase_.reset();
   return true;
 }
 

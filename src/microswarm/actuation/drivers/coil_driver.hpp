@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,14 @@ std::string_view to_string(DriveStatus status);
 /// Why such a status ends a run, in words; empty if it does not by itself.
 std::string_view trouble_of(DriveStatus status);
 
+/// Currents that turn without the host: constant + cosine cos φ + sine sin φ [A], one of each per
+/// channel, with a phase φ that turns at `frequency` [Hz].
+struct CurrentWaveform {
+  double frequency = 0;  ///< [Hz], negative backwards
+  double phase = 0;      ///< of a waveform that begins [rad]; one that runs goes on at its own
+  std::span<const double> constant, cosine, sine;
+};
+
 /// Interface that sends currents to coils. The destructor sets all currents to zero.
 class CoilDriver {
  public:
@@ -43,6 +52,12 @@ class CoilDriver {
   /// Sends signed currents [A], one per channel. Must be repeated within the watchdog time, even if
   /// unchanged.
   virtual DriveStatus drive(std::span<const double> currents) = 0;
+  /// Whether the device makes waveforms.
+  virtual bool makes_waveforms() const { return false; }
+  /// Begins a waveform or changes the one that runs; repeated as `drive`, which ends it.
+  virtual DriveStatus drive_waveform(const CurrentWaveform&) { return DriveStatus::refused; }
+  /// Phase of the waveform when the device last answered [rad]; empty if it is not known.
+  virtual std::optional<double> phase() const { return std::nullopt; }
   /// Sets all currents to zero; false if the device did not confirm it.
   virtual bool stop() noexcept = 0;
   /// Lets a `drive` that another thread is in return without its answer, so that `stop` can follow.
@@ -53,17 +68,23 @@ class CoilDriver {
 /// Driver without hardware.
 class SimulatedCoilDriver final : public CoilDriver {
  public:
-  /// `full_scale` is the maximum current [A].
-  SimulatedCoilDriver(int channels, double full_scale);
+  /// `full_scale` is the maximum current [A]; with `waveforms` it makes them, at
+  /// the phase that it is told.
+  SimulatedCoilDriver(int channels, double full_scale, bool waveforms = false);
 
   int channels() const override { return static_cast<int>(currents_.size()); }
   DriveStatus drive(std::span<const double> currents) override;
+  bool makes_waveforms() const override { return waveforms_; }
+  DriveStatus drive_waveform(const CurrentWaveform& waveform) override;
+  std::optional<double> phase() const override { return phase_; }
   bool stop() noexcept override;
   std::span<const double> currents() const override { return currents_; }
 
  private:
   std::vector<double> currents_;
   double full_scale_;
+  bool waveforms_;
+  std::optional<double> phase_;  // as last told
 };
 
 }  // namespace microswarm

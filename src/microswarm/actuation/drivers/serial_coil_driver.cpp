@@ -18,6 +18,7 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/clock.hpp"
 #include "microswarm/core/execution/stop.hpp"
+#include "microswarm/core/maths/angles.hpp"
 
 namespace microswarm {
 namespace {
@@ -35,6 +36,12 @@ constexpr double silence_per_boot_time = 3;
 
 DriveStatus refusal(const CoilReply& reply) {
   return reply.trip == CoilTrip::emergency ? DriveStatus::emergency : DriveStatus::not_armed;
+}
+
+/// Amplitude of what turns in a channel [A].
+double size_of(const CurrentWaveform& waveform, std::size_t c) {
+  const double cosine = waveform.cosine[c], sine = waveform.sine[c];
+  return std::sqrt(cosine * cosine + sine * sine);
 }
 
 }  // namespace
@@ -139,12 +146,35 @@ SerialCoilDriver::~SerialCoilDriver() { stop(); }
 DriveStatus SerialCoilDriver::drive(std::span<const double> currents) {
   assert(currents.size() == coil_link_channels);
   CoilAim aim;
+  if (!outputs_of(currents, aim.constant)) return DriveStatus::refused;
+  phase_.reset();
+  return follow(CoilMessage::set, aim);
+}
+
+DriveStatus SerialCoilDriver::drive_waveform(const CurrentWaveform& waveform) {
+  const double mhz = 1e3 * waveform.frequency;
+  if (!(std::abs(mhz) <= coil_link_max_frequency)) return DriveStatus::refused;
+  CoilAim aim{.frequency = static_cast<int>(std::lround(mhz))};
+  if (!outputs_of(waveform.constant, aim.constant) || !outputs_of(waveform.cosine, aim.cosine) ||
+      !outputs_of(waveform.sine, aim.sine))
+    return DriveStatus::refused;
+  for (std::size_t c = 0; c < currents_.size(); ++c) {
+    const double most = std::abs(waveform.constant[c]) + size_of(waveform, c);
+    if (!(most <= params_.full_scale * (1 + full_scale_slack))) return DriveStatus::refused;
+  }
+  constexpr int turn = 65536;
+  begin_phase_ = static_cast<int>(std::lround(waveform.phase / (2 * pi) * turn)) & (turn - 1);
+  return follow(CoilMessage::waveform, aim);
+}
+
+bool SerialCoilDriver::outputs_of(std::span<const double> currents, CoilOutputs& outputs) const {
+  assert(currents.size() == outputs.size());
   for (std::size_t c = 0; c < currents.size(); ++c) {
     const double share = currents[c] / params_.full_scale;
-    if (!(std::abs(share) <= 1 + full_scale_slack)) return DriveStatus::refused;
-    aim.constant[c] = static_cast<int>(std::lround(share * coil_link_full_scale));
+    if (!(std::abs(share) <= 1 + full_scale_slack)) return false;
+    outputs[c] = static_cast<int>(std::lround(share * coil_link_full_scale));
   }
-  return follow(CoilMessage::set, aim);
+  return true;
 }
 
 DriveStatus SerialCoilDriver::follow(CoilMessage message, const CoilAim& aim) {
@@ -195,11 +225,13 @@ DriveStatus SerialCoilDriver::arm() {
 std::vector<std::uint8_t> SerialCoilDriver::bytes_of(CoilMessage message,
                                                      const CoilAim& aim) const {
   if (message == CoilMessage::hello) return encode_hello(sequence_);
-  if (message != CoilMessage::set) return encode(message, sequence_);
+  if (message != CoilMessage::set && message != CoilMessage::waveform)
+    return encode(message, sequence_);
   // Twice the longest round trip after now, since the device's clock is known late by one.
   const double validity = steady_seconds() - clock_at_ + 2 * params_.reply_timeout;
   const int deadline = clock_ + static_cast<int>(std::lround(1e3 * validity));
-  return encode_set(sequence_, deadline, aim.constant);
+  if (message == CoilMessage::set) return encode_set(sequence_, deadline, aim.constant);
+  return encode_waveform(sequence_, deadline, begin_phase_, aim);
 }
 
 // Resends the same message with the same number until it is answered; the device executes it once.
@@ -215,6 +247,7 @@ std::optional<CoilReply> SerialCoilDriver::exchange(CoilMessage message, const C
       failures_ = 0;
       clock_ = reply->clock;
       clock_at_ = steady_seconds();
+      if (message == CoilMessage::waveform) phase_ = 2 * pi * reply->phase / 65536;
       for (std::size_t c = 0; c < currents_.size(); ++c)
         currents_[c] = params_.full_scale * reply->outputs[c] / coil_link_full_scale;
       return reply;

@@ -28,6 +28,7 @@ struct SerialCoilParams {
   int attempts = 3;
   double boot_time = 2;
   double connect_timeout = 5;
+  bool waveforms = false;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.port, {"port", Unit::none, {}, "Serial port of the device."});
@@ -40,6 +41,8 @@ struct SerialCoilParams {
           {"boot_time", Unit::s, {0, 10}, "Silence after opening the port, for a bootloader."});
     visit(self.connect_timeout,
           {"connect_timeout", Unit::s, {0.1, 60}, "Longest wait for the first answer."});
+    visit(self.waveforms,
+          {"waveforms", Unit::none, {}, "The device turns the field; the host only steers it."});
   }
 };
 
@@ -61,6 +64,9 @@ class SerialCoilDriver final : public CoilDriver {
   int channels() const override { return coil_link_channels; }
   std::span<const double> currents() const override { return currents_; }
   DriveStatus drive(std::span<const double> currents) override;
+  bool makes_waveforms() const override { return params_.waveforms; }
+  DriveStatus drive_waveform(const CurrentWaveform& waveform) override;
+  std::optional<double> phase() const override { return phase_; }
   /// Also from three exchanges without an answer on. Waits 2 s at most to have it confirmed.
   bool stop() noexcept override;
   void interrupt() noexcept override { interrupted_ = true; }
@@ -74,6 +80,7 @@ class SerialCoilDriver final : public CoilDriver {
   class Port;
 
   DriveStatus follow(CoilMessage message, const CoilAim& aim);
+  bool outputs_of(std::span<const double> currents, CoilOutputs& outputs) const;
   std::vector<std::uint8_t> bytes_of(CoilMessage message, const CoilAim& aim) const;
   std::optional<CoilReply> exchange(CoilMessage message, const CoilAim& aim = {});
   std::optional<CoilReply> answer_to(CoilMessage message, double timeout, const Stop& gives_up);
@@ -88,6 +95,8 @@ class SerialCoilDriver final : public CoilDriver {
   std::uint8_t sequence_ = 0;
   int clock_ = 0;        // of the device, in its last reply [ms]
   double clock_at_ = 0;  // when that came [s], by steady_seconds()
+  int begin_phase_ = 0;  // of the next waveform [turns / 65536]
+  std::optional<double> phase_;
   double round_trip_ = 0;
   std::atomic<bool> interrupted_ = false;
   int failures_ = 0;                                   // exchanges without an answer, in a row

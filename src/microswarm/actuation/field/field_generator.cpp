@@ -2,6 +2,7 @@
 #include "microswarm/actuation/field/field_generator.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "microswarm/actuation/field/waveform.hpp"
@@ -81,18 +82,26 @@ double FieldGenerator::max_rate() const {
          (2 * pi * params_.frequency + params_.max_turn_rate + params_.max_pitch_rate);
 }
 
-void FieldGenerator::update_field() {
+TurningField FieldGenerator::turning() const { return {field_at(0), field_at(pi / 2)}; }
+
+void FieldGenerator::follow_phase(double phase) {
+  constexpr double share = 0.1;
+  phase_ = std::fmod(phase_ + share * wrap(phase - phase_) + 2 * pi, 2 * pi);
+}
+
+void FieldGenerator::update_field() { field_ = field_at(phase_); }
+
+Eigen::Vector3d FieldGenerator::field_at(double phase) const {
   switch (params_.kind) {
     case FieldKind::rotating:
-      field_ = rotating_field(params_.amplitude, pitch_, heading_, phase_);
-      return;
+      return rotating_field(params_.amplitude, pitch_, heading_, phase);
     case FieldKind::rolling:
-      field_ = rolling_field(params_.amplitude, heading_, phase_);
-      return;
+      return rolling_field(params_.amplitude, heading_, phase);
     case FieldKind::oscillating:
-      field_ = oscillating_field(params_.amplitude, pitch_, heading_, phase_);
-      return;
+      return oscillating_field(params_.amplitude, pitch_, heading_, phase);
   }
+  assert(false);
+  return Eigen::Vector3d::Zero();
 }
 
 }  // namespace microswarm

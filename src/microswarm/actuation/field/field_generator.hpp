@@ -55,6 +55,11 @@ struct FieldGeneratorParams {
   }
 };
 
+/// A field as a function of the phase φ: cosine cos φ + sine sin φ [mT].
+struct TurningField {
+  Eigen::Vector3d cosine, sine;
+};
+
 /// Generates the field for a navigator's commands, at 10 Hz or any other rate. Phase, heading and
 /// pitch are continuous, so the field never jumps: it changes by at most `max_rate()` · Δt. A
 /// rolling field follows the commanded path if it can turn by 90° much faster than commands change.
@@ -72,10 +77,16 @@ class FieldGenerator {
   const Eigen::Vector3d& advance(double dt);
 
   const Eigen::Vector3d& field() const { return field_; }
+  /// The field at any phase, with heading and pitch as they are.
+  TurningField turning() const;
+  /// Moves the phase by a tenth of what it lacks to `phase` [rad], that of a device which turns the
+  /// field by its own clock. A jump would disturb what a rolling field makes up.
+  void follow_phase(double phase);
   double heading() const { return heading_; }      ///< [rad]
   double pitch() const { return pitch_; }          ///< [rad]
   double phase() const { return phase_; }          ///< [rad], in [0, 2π)
   double frequency() const { return frequency_; }  ///< [Hz], negative when rolling backwards
+  double max_frequency() const { return params_.frequency; }  ///< [Hz]
   /// Maximum rate of change of the field [mT/s].
   double max_rate() const;
 
@@ -83,6 +94,7 @@ class FieldGenerator {
   void turn_to(double heading, double dt);
   void roll(double dt);
   void update_field();
+  Eigen::Vector3d field_at(double phase) const;
 
   FieldGeneratorParams params_;
   double heading_;

@@ -11,7 +11,8 @@
 namespace microswarm {
 namespace {
 
-constexpr double min_sends = 10;  // per turn of the field
+constexpr double min_sends = 10;            // per turn of the field
+constexpr double max_waveform_sends = 100;  // [Hz]; one takes 7.7 ms at 115200 baud
 
 int channels_of(const RigParams& rig) {
   const auto* simulated = std::get_if<SimulatedCoils>(&rig.driver);
@@ -20,8 +21,19 @@ int channels_of(const RigParams& rig) {
 
 Issues validate(const RigParams& rig, const CoilSystem& system) {
   Issues issues;
+  const bool on_device = turns_on_device(rig);
   const double min_rate = min_sends * rig.field.frequency;
-  if (rig.drive_rate < min_rate)
+  constexpr double max_frequency = 1e-3 * coil_link_max_frequency;
+  if (on_device && rig.drive_rate > max_waveform_sends)
+    issues.add({"drive_rate_hz", "driver.waveforms"},
+               fmt::format("drive_rate_hz is {:.6g}, the line carries at most {:g} waveforms a "
+                           "second",
+                           rig.drive_rate, max_waveform_sends));
+  if (on_device && rig.field.frequency > max_frequency)
+    issues.add({"field.frequency_hz", "driver.waveforms"},
+               fmt::format("field.frequency_hz is {:.6g}, the device makes at most {:g}",
+                           rig.field.frequency, max_frequency));
+  if (!on_device && rig.drive_rate < min_rate)
     issues.add({"drive_rate_hz", "field.frequency_hz"},
                fmt::format("drive_rate_hz is {:.6g}, the field turns {:.6g} times a second and "
                            "needs at least {:.6g}",
@@ -51,6 +63,10 @@ Rig read_rig(const std::filesystem::path& file, const Settings& settings) {
 
 double full_scale_of(const RigParams& rig) {
   return std::visit([](const auto& driver) { return driver.full_scale; }, rig.driver);
+}
+
+bool turns_on_device(const RigParams& rig) {
+  return std::visit([](const auto& driver) { return driver.waveforms; }, rig.driver);
 }
 
 std::string name_of(const Rig& rig) {

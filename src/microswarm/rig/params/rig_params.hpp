@@ -28,11 +28,14 @@ struct SimulatedCoils {
   static constexpr std::string_view type_name = "simulated";
   int channels = 6;
   double full_scale = 20;
+  bool waveforms = false;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.channels, {"channels", Unit::none, {1, 64}, "Number of coil channels."});
     visit(self.full_scale,
           {"full_scale", Unit::a, {1e-6, 1e6}, "Current of a channel at full output."});
+    visit(self.waveforms,
+          {"waveforms", Unit::none, {}, "The coils turn the field; the host only steers it."});
   }
 };
 
@@ -156,6 +159,9 @@ struct Rig {
 
 /// Current of a channel at full output [A].
 double full_scale_of(const RigParams& rig);
+
+/// Whether the rig's driver turns the field, see CoilDriver::makes_waveforms.
+bool turns_on_device(const RigParams& rig);
 
 /// Name of the rig in records.
 std::string name_of(const Rig& rig);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "microswarm/actuation/coils/currents.hpp"
+#include "microswarm/actuation/coils/turning_currents.hpp"
 #include "microswarm/core/execution/clock.hpp"
 
 namespace microswarm {
@@ -40,6 +41,16 @@ class Wanted {
     output.currents = found.currents;
     output.reached = found.reached;
   }
+
+  bool turns() const { return generator_.has_value(); }
+  /// `share` of the turning currents now, and whether the coils can produce the field.
+  TurningCurrents turning(double share, bool& reached) const {
+    TurningCurrents currents = turning_currents(actuation_, *generator_, reached);
+    for (Eigen::VectorXd* part : {&currents.constant, &currents.cosine, &currents.sine})
+      *part *= share;
+    return currents;
+  }
+  void follow_phase(double phase) { generator_->follow_phase(phase); }
 
  private:
   const ManualCommand& command_;
@@ -88,13 +99,19 @@ ManualResult drive_by_hand(const Rig& rig, CoilDriver& driver, const ManualComma
     before = moment.t;
     CoilOutput& output = moment.output;
     wanted.advance(dt, output);
-    const DrivenCurrents driven = drive.step(share_at(moment.t, command) * output.currents, dt);
-    output.currents = driven.currents;
-    output.scale = driven.scale;
+    const double share = share_at(moment.t, command);
+    if (wanted.turns() && driver.makes_waveforms()) {
+      output.scale = drive.turn(wanted.turning(share, output.reached), dt);
+      output.status = send(driver, drive.turning());
+      if (const auto phase = driver.phase()) wanted.follow_phase(*phase);
+    } else {
+      output.scale = drive.step(share * output.currents, dt).scale;
+      std::ranges::copy(drive.currents(), channels.begin());
+      output.status = driver.drive(channels);
+    }
+    output.currents = drive.currents();
     output.temperatures = drive.temperatures();
-    result.min_scale = std::min(result.min_scale, driven.scale);
-    std::ranges::copy(driven.currents, channels.begin());
-    output.status = driver.drive(channels);
+    result.min_scale = std::min(result.min_scale, output.scale);
     result.why = watch.take(output.status);
     try {
       if (heard) heard(moment);

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <thread>
 
+#include "microswarm/actuation/drivers/coil_drive.hpp"
 #include "microswarm/core/execution/clock.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/vision/camera/newest_frame.hpp"
 
 namespace microswarm {
@@ -31,10 +34,42 @@ class RealtimeRigSimulator::Coils : public CoilDriver {
   DriveStatus drive(std::span<const double> currents) override {
     const std::lock_guard lock(bench_.mutex_);
     bench_.catch_up();
+    turning_.reset();
     return driver_->drive(currents);
+  }
+  bool makes_waveforms() const override { return driver_->makes_waveforms(); }
+  std::optional<double> phase() const override { return driver_->phase(); }
+  DriveStatus drive_waveform(const CurrentWaveform& waveform) override {
+    const std::lock_guard lock(bench_.mutex_);
+    bench_.catch_up();
+    turning_.reset();
+    const DriveStatus status = driver_->drive_waveform(waveform);
+    const auto phase = driver_->phase();
+    if (phase && (status == DriveStatus::driven || status == DriveStatus::resumed)) {
+      const auto vector = [](std::span<const double> values) {
+        return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(
+            values.data(), static_cast<Eigen::Index>(values.size())));
+      };
+      turning_ = {.frequency = waveform.frequency,
+                  .phase = *phase,
+                  .constant = vector(waveform.constant),
+                  .cosine = vector(waveform.cosine),
+                  .sine = vector(waveform.sine)};
+      told_at_ = steady_seconds();
+    }
+    return status;
+  }
+  /// Currents of the coils at a time [s]: between two messages a waveform goes on by itself.
+  std::span<const double> currents_at(double t) {
+    if (!turning_) return driver_->currents();
+    TurningCurrents then = *turning_;
+    then.phase += 2 * pi * then.frequency * (t - told_at_);
+    now_ = then.now();
+    return {now_.data(), static_cast<std::size_t>(now_.size())};
   }
   bool stop() noexcept override {
     const std::lock_guard lock(bench_.mutex_);
+    turning_.reset();
     return driver_->stop();  // catches up later without current: nothing may fail here
   }
   void interrupt() noexcept override { driver_->interrupt(); }
@@ -42,6 +77,9 @@ class RealtimeRigSimulator::Coils : public CoilDriver {
  private:
   RealtimeRigSimulator& bench_;
   std::unique_ptr<CoilDriver> driver_;
+  std::optional<TurningCurrents> turning_;  // as acknowledged
+  double told_at_ = 0;                      // [s], by steady_seconds()
+  Eigen::VectorXd now_;
 };
 
 class RealtimeRigSimulator::Camera : public FrameSource {
@@ -109,7 +147,7 @@ void RealtimeRigSimulator::catch_up() {
   bench_.start_trajectory();
   while (now - now_ > 1e-6) {
     const double step = std::min(longest_step, now - now_);
-    bench_.pass(coils_->currents(), step);
+    bench_.pass(coils_->currents_at(now_), step);
     now_ += step;
   }
 }

@@ -34,7 +34,8 @@ struct Weakening {
 Weakening weakening_of(const Rig& rig) {
   constexpr double settled = 0.5;  // [s]
   constexpr double lasts = 2;      // [s]
-  SimulatedCoilDriver driver(static_cast<int>(rig.system.size()), full_scale_of(rig.params));
+  SimulatedCoilDriver driver(static_cast<int>(rig.system.size()), full_scale_of(rig.params),
+                             turns_on_device(rig.params));
   CoilController controller(rig.system, rig.params.field, driver, 0);
   Weakening most;
   const double dt = 1 / rig.params.drive_rate;

@@ -53,7 +53,7 @@ RunResult simulate_rig(const Scenario& scenario, const World& world, const Rig& 
 std::unique_ptr<CoilDriver> simulated_coils(const RigParams& rig) {
   const auto* given = std::get_if<SimulatedCoils>(&rig.driver);
   const SimulatedCoils coils = given ? *given : SimulatedCoils{};
-  return std::make_unique<SimulatedCoilDriver>(coils.channels, coils.full_scale);
+  return std::make_unique<SimulatedCoilDriver>(coils.channels, coils.full_scale, coils.waveforms);
 }
 
 }  // namespace microswarm
