@@ -4,6 +4,9 @@
 #include <array>
 #include <mutex>
 
+#include "microswarm/core/text/file.hpp"
+#include "microswarm/core/text/lines.hpp"
+#include "microswarm/experiment/record/record.hpp"
 #include "program.hpp"
 #include "tests/actuation/fake_device.hpp"
 
@@ -54,10 +57,34 @@ class RigRun : public CommandLine {
 TEST_F(RigRun, DrivesTheDeviceUntilItsTimeIsUp) {
   FakeDevice device;
   write_rig(device);
-  const Outcome outcome = run(arguments({"--seconds", "2", "--out", "out"}));
+  const Outcome outcome =
+      run(arguments({"--seconds", "2", "--out", "out", "--note", "water, 3rd \x1b[2J chip"}));
   EXPECT_EQ(outcome.code, 3) << outcome.err;
   EXPECT_GT(device.count(CoilMessage::set), 30);
   EXPECT_TRUE(exists("out/commands.csv"));
+  // The record says under which circumstances, what was driven and what was seen, by one clock.
+  const Record record = read_record(at.folder / "out/run.h5");
+  const RigLog& log = record.rig_log;
+  EXPECT_EQ(log.note, "water, 3rd \x1b[2J chip");
+  EXPECT_EQ(log.began.substr(0, 2), "20");
+  EXPECT_NE(log.rig_file.find("name: bench"), std::string::npos) << log.rig_file;
+  EXPECT_NE(log.coils_file.find("helmholtz"), std::string::npos);
+  ASSERT_GT(log.driven_at.size(), 30u);
+  EXPECT_EQ(log.currents.size(), log.coils.size() * log.driven_at.size());
+  EXPECT_GE(log.driven_at.front(), 0);
+  EXPECT_LE(log.driven_at.back(), record.frames.back().t + 0.5);
+  ASSERT_GT(log.seen_at.size(), 5u);
+  EXPECT_EQ(log.bodies.front(), -1);
+  const Frame& frame = record.frames[record.frames.size() / 2];
+  ASSERT_TRUE(frame.observed);
+  const auto seen = std::ranges::find(log.seen_at, frame.seen);
+  ASSERT_NE(seen, log.seen_at.end());
+  EXPECT_EQ(log.places[static_cast<std::size_t>(seen - log.seen_at.begin())].x,
+            frame.observed->position.x);
+  const auto rows = split(read("out/commands.csv"), '\n');
+  EXPECT_NEAR(std::stod(std::string(rows[1])), log.driven_at.front(), 1e-3);
+  write_record(record, at.folder / "again.h5");
+  EXPECT_EQ(read("again.h5"), read("out/run.h5"));
 }
 
 TEST_F(RigRun, TheDeviceTurnsAFieldOfHundredHertz) {

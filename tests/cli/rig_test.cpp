@@ -151,7 +151,7 @@ TEST_F(WholeRig, IsCheckedInWordsAndInJson) {
 
 TEST_F(WholeRig, TheBenchToStartFromIsWholeButForItsDevices) {
   good({"rig", "check", rig("bench.yaml"), "--set", "driver.type=simulated", "--set",
-        "camera.type=simulated", "--seconds", "0.1"});
+        "driver.waveforms=true", "--set", "camera.type=simulated", "--seconds", "0.1"});
   const Outcome outcome = run({"rig", "check", rig("bench.yaml"), "--seconds", "0.1", "--set",
                                "driver.port=/dev/none", "--set", "camera.device=/dev/none"});
   EXPECT_EQ(outcome.code, 4);

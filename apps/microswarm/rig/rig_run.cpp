@@ -118,6 +118,7 @@ struct RigRunOptions {
   std::vector<std::string> settings;
   std::vector<std::string> rig_settings;
   std::optional<double> seconds;
+  std::string note;
   bool dry_run = false;
   bool drawn_swarm = false;
   CoilOptions coils;
@@ -147,7 +148,8 @@ int rig_run(const RigRunOptions& o, const Context& context) {
   const auto opened = LiveSession::open(on, {.dry = o.dry_run,
                                              .folder = o.out,
                                              .without_limits = o.coils.without_limits,
-                                             .coils_cold = o.coils.coils_cold});
+                                             .coils_cold = o.coils.coils_cold,
+                                             .note = o.note});
   LiveSession& session = *opened;
   note_each(session.warnings());
   note_virtual_obstacles(on);
@@ -190,6 +192,7 @@ void add_rig_run(Command rig, Action& action) {
   cmd.add_option("--seconds", o->seconds, "End after this time")
       .type_name("S")
       .check(number(0.1, 1e6));
+  cmd.add_option("--note", o->note, "Note of the operator, kept in the record").type_name("TEXT");
   add_json(cmd, o->json);
   cmd.callback(
       [o, &action] { action = [o](const Context& context) { return rig_run(*o, context); }; });

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/session/live_session.hpp"
 
+#include <array>
+#include <ctime>
+#include <utility>
+
+#include "microswarm/config/write.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/rig/runtime/coil_temperatures.hpp"
 #include "microswarm/rig/runtime/command_log.hpp"
 #include "microswarm/rig/runtime/rig_checks.hpp"
@@ -15,6 +21,29 @@ RigExperiment without_following(RigExperiment on, bool dry) {
     on.rig.params.safety.min_follow_share = 0;
   return on;
 }
+
+/// Date and local time, ISO 8601.
+std::string date_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  std::array<char, 64> text{};
+  const std::size_t size = std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%S%z", &local);
+  return {text.data(), size};
+}
+
+/// What is known of an experiment before it begins.
+RigLog log_of(const Rig& rig, const std::string& note) {
+  RigLog log;
+  log.began = date_now();
+  log.note = note;
+  log.rig_file = to_yaml(rig.params);
+  log.coils_file = read_file(rig.folder / rig.params.coils, 1 << 24);
+  log.coils = rig.system.coil_names();
+  return log;
+}
+
+constexpr std::size_t max_logged = 10'000'000;  // values
 
 }  // namespace
 
@@ -32,7 +61,11 @@ class LiveSession::LivePlant : public Plant {
     if (has_coil_device(on_.rig) && !options.dry) open_coils(options);
   }
 
-  Observation observe() override { return rig_.observe(); }
+  Observation observe() override {
+    Observation observation = rig_.observe();
+    keep_sight(observation.seen);
+    return observation;
+  }
   void apply(const Command& command, double dt) override { rig_.apply(command, dt); }
   bool set_obstacles(const std::vector<Obstacle>& obstacles) override {
     return rig_.set_obstacles(obstacles);
@@ -41,6 +74,8 @@ class LiveSession::LivePlant : public Plant {
 
   LiveRig& rig() { return rig_; }
   CommandLog& log() { return log_; }
+  /// What was logged; after the rig's stop.
+  RigLog& kept() { return kept_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
@@ -72,13 +107,32 @@ class LiveSession::LivePlant : public Plant {
     if (!temperatures_->known()) warnings_.push_back(temperatures_->why_hot());
   }
 
+  /// What a new picture showed, the swarm and other bodies.
+  void keep_sight(double t) {
+    if (t <= seen_ || kept_.seen_at.size() >= max_logged) return;
+    seen_ = t;
+    const Detections& sight = rig_.sight();
+    if (sight.swarm) kept_.see(t, -1, sight.swarm->pose.position, sight.swarm->radius);
+    for (const Body& body : sight.moving) {
+      const Disc extent = extent_of(body);
+      kept_.see(t, body.obstacle, extent.centre, extent.radius);
+    }
+  }
+
   void take(const CoilMoment& moment) {
-    log_.add(moment);
+    log_.add(moment, rig_.start());
+    if (kept_.currents.size() < max_logged) {
+      kept_.driven_at.push_back(moment.t - rig_.start());
+      kept_.currents.insert(kept_.currents.end(), moment.output.currents.begin(),
+                            moment.output.currents.end());
+    }
     if (temperatures_) temperatures_->take(moment.output.temperatures);
   }
 
   RigExperiment on_;
   Devices devices_;
+  RigLog kept_;  // currents by the coils' thread, the rest by the run's
+  double seen_ = -1;
   CommandLog log_;
   std::vector<std::string> warnings_;
   std::optional<CoilTemperatures> temperatures_;
@@ -93,8 +147,10 @@ std::unique_ptr<LiveSession> LiveSession::open(const RigExperiment& on,
                                                const LiveOptions& options) {
   auto plant = std::make_unique<LivePlant>(on, options);
   LivePlant* const live = plant.get();
-  return std::unique_ptr<LiveSession>(new LiveSession(
+  std::unique_ptr<LiveSession> session(new LiveSession(
       on, name_of(on.rig) + (options.dry ? ", dry run" : ""), std::move(plant), live));
+  session->rig_log() = log_of(on.rig, options.note);
+  return session;
 }
 
 const std::vector<std::string>& LiveSession::warnings() const { return plant_->warnings(); }
@@ -103,6 +159,14 @@ void LiveSession::stop(const std::string& why) { plant_->rig().stop(why); }
 
 std::string LiveSession::close() {
   stop("the run has ended");
+  RigLog& log = rig_log();
+  RigLog& kept = plant_->kept();
+  log.driven_at = std::exchange(kept.driven_at, {});
+  log.currents = std::exchange(kept.currents, {});
+  log.seen_at = std::exchange(kept.seen_at, {});
+  log.bodies = std::exchange(kept.bodies, {});
+  log.places = std::exchange(kept.places, {});
+  log.radii = std::exchange(kept.radii, {});
   return plant_->log().finish(plant_->rig().zero_at(), zero_is_confirmed());
 }
 

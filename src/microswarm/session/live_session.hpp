@@ -17,6 +17,7 @@ struct LiveOptions {
   std::filesystem::path folder{};  ///< of commands.csv; empty: the coil outputs are not logged
   bool without_limits = false;     ///< the coil system need not limit current and temperature
   bool coils_cold = false;         ///< the coils are at ambient temperature
+  std::string note{};              ///< of the operator, kept in the record
 };
 
 /// A session on a rig in real time: a step takes as long as a tick. The destructor sets the coils
@@ -31,7 +32,8 @@ class LiveSession : public Session {
   const std::vector<std::string>& warnings() const;
   /// Sets the coils to zero for good; callable from any thread.
   void stop(const std::string& why);
-  /// Sets the coils to zero after the last tick and finishes the log. Returns the reason of a
+  /// Sets the coils to zero after the last tick, finishes the log and gives the record what was
+  /// driven and seen, up to 10,000,000 values of each. Returns the reason of a
   /// failure, or an empty string.
   std::string close();
   /// After stop(): the device confirmed that the coils are at zero.

@@ -83,6 +83,10 @@ class Session {
   /// Writes the record. Throws InputError like write_record.
   void record_to(const std::filesystem::path& file) const { write_record(record(), file); }
 
+ protected:
+  /// What a rig logs into the record of a running session.
+  RigLog& rig_log() { return std::get<0>(source_)->recorder.rig_log(); }
+
  private:
   struct Running {
     Running(Experiment experiment, std::uint32_t trial, std::unique_ptr<Plant> plant,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "microswarm/config/type.hpp"
+#include "microswarm/experiment/record/rig_log.hpp"
 #include "microswarm/experiment/run/run.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 
@@ -25,6 +26,7 @@ struct Record {
   std::vector<RunEvent> events;
   std::vector<Change> changes;      ///< changes during the run; the scene is the initial one
   std::vector<RobotMoment> robots;  ///< individually tracked robots, at a subset of the frames
+  RigLog rig_log;                   ///< of a run on a rig
   std::string stated_hash;          ///< hash stated in the file; empty for a new record
 
   /// The tables of the record.
@@ -55,6 +57,8 @@ class Recorder : public RunListener {
   /// Sets the result so far of a run that has not ended.
   void keep(const RunResult& result) { record_.result = result; }
 
+  /// For what a rig logs beside the run.
+  RigLog& rig_log() { return record_.rig_log; }
   const Record& record() const { return record_; }
   Record take() { return std::move(record_); }
 

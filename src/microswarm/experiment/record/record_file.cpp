@@ -98,6 +98,7 @@ void write_record(const Record& record, const std::filesystem::path& file) {
   write_scene(out, record.scene);
   write_tables(out, type_of<Record>(), &record);
   write_changes(out, record.changes);
+  write_rig_log(out, record.rig_log);
   out.group("/metrics");
   write_attributes(out, "/metrics", type_of<Metrics>(), &record.result.metrics);
   write_times(out, "/timing/step_s", record.result.timing.steps,
@@ -118,6 +119,7 @@ Record read_record(const std::filesystem::path& file) {
   if (in.has_attribute("/", "rig")) record.rig = in.text_attribute("/", "rig");
   record.scene = read_scene(in);
   read_tables(in, type_of<Record>(), &record);
+  record.rig_log = read_rig_log(in);
   if (format == record_format_version) record.changes = read_changes(in);
   record.result.status = status_of(in, in.text_attribute("/", "status"));
   read_attributes(in, "/metrics", type_of<Metrics>(), &record.result.metrics);

@@ -89,11 +89,11 @@ CommandLog::CommandLog(const std::filesystem::path& folder, const CoilSystem& sy
   write(head + "," + csv_head(columns<Driven>()) + "\n");
 }
 
-void CommandLog::add(const CoilMoment& m) {
+void CommandLog::add(const CoilMoment& m, double start) {
   if (file_.empty()) return;
-  if (began_ == 0) began_ = m.t;
+  start_ = start;
   const Eigen::Vector3d& b = m.output.wanted;
-  write(line_of({.t = rounded(m.t - began_, 1e4),
+  write(line_of({.t = rounded(m.t - start, 1e4),
                  .heading = m.command.heading,
                  .speed = rounded(m.command.speed, 1e3),
                  .bx = rounded(b.x(), 1e5),
@@ -109,8 +109,8 @@ void CommandLog::add(const CoilMoment& m) {
 std::string CommandLog::finish(double zero_at, bool confirmed) noexcept {
   if (file_.empty()) return {};
   try {
-    if (began_ > 0)
-      write(line_of({.t = rounded(zero_at - began_, 1e4)}, Eigen::VectorXd::Zero(coils_),
+    if (start_)
+      write(line_of({.t = rounded(zero_at - *start_, 1e4)}, Eigen::VectorXd::Zero(coils_),
                     {.status = dry_        ? "dry"
                                : confirmed ? "zero"
                                            : "zero_not_confirmed"}));

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "microswarm/actuation/coils/coil_system.hpp"
@@ -18,8 +19,9 @@ class CommandLog {
   /// Logs into `folder`; an empty path disables the log. Rows of a dry run are marked.
   CommandLog(const std::filesystem::path& folder, const CoilSystem& system, bool dry);
 
-  /// Throws InputError if it cannot be written.
-  void add(const CoilMoment& moment);
+  /// Times are counted from `start` [s], by steady_seconds(), as those of the record. Throws
+  /// InputError if it cannot be written.
+  void add(const CoilMoment& moment, double start);
 
   /// Adds the time at which zero was commanded [s], by steady_seconds(), and renames the log to its
   /// final name. Returns the reason of a failure, or an empty string.
@@ -36,7 +38,7 @@ class CommandLog {
   std::unique_ptr<std::FILE, Close> out_;
   std::size_t coils_;
   bool dry_;
-  double began_ = 0;
+  std::optional<double> start_;  // once there is a row
 };
 
 }  // namespace microswarm

@@ -66,6 +66,8 @@ class LiveRig : public Plant {
   bool zero_is_confirmed() const { return coils_.zero_is_confirmed(); }
   /// After stop(): when zero was commanded [s], by steady_seconds().
   double zero_at() const { return coils_.zero_at(); }
+  /// When the record's time is 0 [s], by steady_seconds().
+  double start() const { return start_; }
   RigTiming timing() const;
   /// How often the coils had switched off by themselves so far.
   int resumed() const;

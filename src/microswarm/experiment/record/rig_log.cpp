@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/experiment/record/rig_log.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+namespace microswarm {
+namespace {
+
+void write_column(Hdf5Writer& out, const std::string& path, const auto& values,
+                  std::string_view unit, std::string_view doc) {
+  out.dataset(path, values);
+  out.attribute(path, "unit", unit);
+  out.attribute(path, "description", doc);
+}
+
+/// Entries k, k + stride, k + 2 stride, …
+std::vector<double> every_nth(const std::vector<double>& values, std::size_t stride,
+                              std::size_t k) {
+  std::vector<double> some;
+  for (std::size_t i = k; i < values.size(); i += stride) some.push_back(values[i]);
+  return some;
+}
+
+std::string current_path(std::size_t coil) { return fmt::format("/rig/currents/i_{}_a", coil + 1); }
+
+constexpr std::int64_t max_coils = 64;
+
+}  // namespace
+
+void RigLog::see(double t, std::int64_t body, Vec2 place, double radius) {
+  seen_at.push_back(t);
+  bodies.push_back(body);
+  places.push_back(place);
+  radii.push_back(radius);
+}
+
+void write_rig_log(Hdf5Writer& out, const RigLog& log) {
+  if (log.empty()) return;
+  out.text("/rig/file", log.rig_file);
+  out.attribute("/rig/file", "description", "All parameters of the rig, YAML.");
+  out.text("/rig/coil_system", log.coils_file);
+  out.attribute("/rig/coil_system", "description", "The coil system's file, YAML.");
+  out.attribute("/rig", "began", log.began);
+  out.attribute("/rig", "note", log.note);
+  out.attribute("/rig", "coils", static_cast<std::int64_t>(log.coils.size()));
+  write_column(out, "/rig/currents/t_s", log.driven_at, "s", "Time of the sending.");
+  for (std::size_t c = 0; c < log.coils.size(); ++c) {
+    const std::string path = current_path(c);
+    write_column(out, path, every_nth(log.currents, log.coils.size(), c), "A",
+                 "Commanded current.");
+    out.attribute(path, "coil", log.coils[c]);
+  }
+  std::vector<double> x, y;
+  for (const Vec2& place : log.places) {
+    x.push_back(place.x);
+    y.push_back(place.y);
+  }
+  write_column(out, "/rig/seen/t_s", log.seen_at, "s", "Time of the picture.");
+  write_column(out, "/rig/seen/body", log.bodies, "", "-1: the swarm; else an obstacle's number.");
+  write_column(out, "/rig/seen/x_um", x, "µm", "Centre of the body.");
+  write_column(out, "/rig/seen/y_um", y, "µm", "Centre of the body.");
+  write_column(out, "/rig/seen/radius_um", log.radii, "µm", "Radius of a circle around the body.");
+}
+
+RigLog read_rig_log(const Hdf5Reader& in) {
+  RigLog log;
+  if (!in.has_attribute("/", "rig") || !in.has_attribute("/rig", "began")) return log;
+  log.began = in.text_attribute("/rig", "began");
+  log.note = in.text_attribute("/rig", "note");
+  log.rig_file = in.text("/rig/file");
+  log.coils_file = in.text("/rig/coil_system");
+  const std::int64_t coils = in.integer_attribute("/rig", "coils");
+  if (coils < 0 || coils > max_coils) in.fail("attribute coils of /rig is out of range");
+  log.driven_at = in.numbers("/rig/currents/t_s");
+  const auto count = static_cast<std::size_t>(coils);
+  std::vector<std::vector<double>> columns;
+  for (std::size_t c = 0; c < count; ++c) {
+    const std::string path = current_path(c);
+    if (in.length(path) != log.driven_at.size()) in.fail(path + " is not as long as its table");
+    log.coils.push_back(in.text_attribute(path, "coil"));
+    columns.push_back(in.numbers(path));
+  }
+  for (std::size_t i = 0; i < log.driven_at.size(); ++i)
+    for (const std::vector<double>& column : columns) log.currents.push_back(column[i]);
+  log.seen_at = in.numbers("/rig/seen/t_s");
+  log.bodies = in.integers("/rig/seen/body");
+  log.radii = in.numbers("/rig/seen/radius_um");
+  const std::vector<double> x = in.numbers("/rig/seen/x_um"), y = in.numbers("/rig/seen/y_um");
+  for (const std::size_t size : {log.bodies.size(), log.radii.size(), x.size(), y.size()})
+    if (size != log.seen_at.size()) in.fail("/rig/seen has columns of different lengths");
+  for (std::size_t i = 0; i < x.size(); ++i) log.places.push_back({x[i], y[i]});
+  return log;
+}
+
+}  // namespace microswarm
