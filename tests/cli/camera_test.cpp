@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cameras of V4L2 and how they fail, through the program and fake_camera.cpp.
 #include <chrono>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "program.hpp"
@@ -123,6 +124,59 @@ TEST_F(DeviceCamera, ADamagedFrameNowAndThenIsLeftOut) {
     plug("every=3 formats=" + format);
     EXPECT_EQ(see().code, 0) << format;
   }
+}
+
+TEST_F(DeviceCamera, AStillIsStoredAsItCame) {
+  plug("formats=GREY");
+  const std::string said = good({"rig", "still", "/dev/video90", "--set", "width_px=320", "--set",
+                                 "height_px=240", "--out", "still.png"});
+  EXPECT_TRUE(names(said, "still.png: 320 × 240 px, grey")) << said;
+  EXPECT_EQ(run({"rig", "see", "still.png", "--set", "scene.swarm.look.min_texture=0"}).code, 0);
+  write("rig.yaml",
+        "coils: coils.yaml\ndriver: {type: simulated}\n"
+        "camera: {type: v4l2, width_px: 200, height_px: 100}\n");
+  write("coils.yaml", "coils: {type: helmholtz}\n");
+  const std::string small =
+      good({"rig", "still", "/dev/video90", "--rig", "rig.yaml", "--out", "small.png"});
+  EXPECT_TRUE(names(small, "200 × 100")) << small;
+  refused({"rig", "still", "still.png"}, naming("still.png", {"camera"}));
+  plug("unplug=3");
+  const Outcome outcome = run({"rig", "still", "/dev/video90", "--out", "none.png"});
+  EXPECT_EQ(outcome.code, 4);
+  EXPECT_FALSE(exists("none.png"));
+}
+
+TEST_F(DeviceCamera, ItsScaleIsTakenFromAStill) {
+  std::string slide = "P5\n320 240\n255\n";
+  for (int y = 0; y < 240; ++y)
+    for (int x = 0; x < 320; ++x) {
+      const int dx = (x + 15) % 30 - 15, dy = (y + 15) % 30 - 15;
+      const bool dot = x > 15 && x < 285 && y > 15 && y < 195 && dx * dx + dy * dy < 36;
+      slide += static_cast<char>(dot ? 60 : 120);
+    }
+  write("slide.pgm", slide);
+  plug("scene=slide.pgm formats=GREY");
+  const Json told =
+      Json::parse(good({"rig", "scale", "/dev/video90", "--grid", "9x6", "--pitch", "100", "--set",
+                        "width_px=320", "--set", "height_px=240", "--json"}));
+  EXPECT_NEAR(told["scale"]["um_per_px"].get<double>(), 100 / 30.0, 1e-3);
+  EXPECT_EQ(told["points"], 54);
+}
+
+TEST_F(DeviceCamera, AMapIsSegmentedFromAStill) {
+  std::string photo = "P5\n640 480\n255\n";
+  for (int y = 0; y < 480; ++y)
+    for (int x = 0; x < 640; ++x)
+      photo += static_cast<char>(std::abs(y - 240) < 12 || std::abs(x - 320) < 9 ? 70 : 180);
+  write("photo.pgm", photo);
+  plug("scene=photo.pgm formats=GREY");
+  const Arguments segment{"--um-per-px", "5", "--out", "vessels.geojson", "--json"};
+  const auto share_of = [&](const std::string& source) {
+    Arguments all{"map", "segment", source};
+    all.insert(all.end(), segment.begin(), segment.end());
+    return Json::parse(good(all))["vessel_share"].get<double>();
+  };
+  EXPECT_NEAR(share_of("/dev/video90"), share_of("photo.pgm"), 0.005);
 }
 
 /// A run with a camera that fails in it; the coils are simulated.

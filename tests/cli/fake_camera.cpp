@@ -51,7 +51,8 @@ struct Traits {
   int no_camera = number_of("no_camera", 0);
   int output = number_of("output", 0);  // it shows pictures
   int controls = number_of("controls", 1);
-  int region = number_of("region", 0);  // it has one, in steps of 8
+  std::string scene = word_of("scene", "");  // a PGM of the size that is asked for
+  int region = number_of("region", 0);       // it has one, in steps of 8
 };
 
 const Traits& traits() {
@@ -116,16 +117,39 @@ Control* control_of(std::uint32_t id) {
   return nullptr;
 }
 
+/// The scene's pixels; empty without one of this size.
+std::vector<std::uint8_t> scene_pixels(std::size_t count) {
+  std::vector<std::uint8_t> pixels;
+  std::FILE* const file =
+      traits().scene.empty() ? nullptr : std::fopen(traits().scene.c_str(), "rb");
+  if (!file) return pixels;
+  std::fseek(file, 0, SEEK_END);
+  const long size = std::ftell(file);
+  if (size >= static_cast<long>(count)) {
+    pixels.resize(count);
+    std::fseek(file, -static_cast<long>(count), SEEK_END);
+    if (std::fread(pixels.data(), 1, count, file) != count) pixels.clear();
+  }
+  std::fclose(file);
+  return pixels;
+}
+
 /// Grey 120, brighter by the gain, with a dark disc in the middle and a bit of noise.
 std::vector<std::uint8_t> grey_picture() {
   const int width = static_cast<int>(camera.form.width);
   const int height = static_cast<int>(camera.form.height);
   const int gain = control_of(V4L2_CID_GAIN) ? control_of(V4L2_CID_GAIN)->value : 0;
   std::vector<std::uint8_t> grey(static_cast<std::size_t>(width) * height);
+  static const std::vector<std::uint8_t> scene = scene_pixels(grey.size());
   std::uint32_t noise = 12345u + static_cast<std::uint32_t>(camera.pictures);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       noise = noise * 1664525u + 1013904223u;
+      if (!scene.empty()) {
+        const std::size_t at = static_cast<std::size_t>(y) * width + x;
+        grey[at] = static_cast<std::uint8_t>(scene[at] + (noise >> 31));
+        continue;
+      }
       const int dx = x - width / 2, dy = y - height / 2;
       grey[static_cast<std::size_t>(y) * width + x] = static_cast<std::uint8_t>(
           (dx * dx + dy * dy < 25 * 25 ? 60 : 120 + gain) + static_cast<int>(noise >> 30) - 1);
