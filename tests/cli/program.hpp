@@ -42,6 +42,7 @@ struct Surroundings {
   std::uint64_t largest_file = 0;  ///< [bytes] beyond which writing fails; 0: no limit
   std::string out;                 ///< stdout goes to this file
   std::string path;                ///< PATH, when not empty
+  std::vector<std::pair<std::string, std::string>> environment;  ///< more of it
 };
 
 inline void sleep_ms(int ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); }
@@ -65,6 +66,7 @@ class Program {
     }
     ::setenv("XDG_STATE_HOME", (at.folder / ".state").c_str(), 1);
     if (!at.path.empty()) ::setenv("PATH", at.path.c_str(), 1);
+    for (const auto& [key, value] : at.environment) ::setenv(key.c_str(), value.c_str(), 1);
     if (::chdir(at.folder.c_str()) != 0 || ::dup2(out, STDOUT_FILENO) < 0 ||
         ::dup2(fileno(err_), STDERR_FILENO) < 0)
       ::_exit(126);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a rig's camera shows, through the program: its scale, and what is seen in a picture.
+#include <array>
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "microswarm/formats/images/image.hpp"
 #include "program.hpp"
 
 namespace microswarm::test {
@@ -94,6 +96,83 @@ TEST_F(RigCamera, RefusesInOneLine) {
           naming("", {"max_radius_px", "5", "min_radius_px", "8"}));
   refused({"rig", "see", "slide.pgm", "--out", "seen.txt"},
           naming("--out", {"seen.txt", "microswarm rig see --help"}));
+}
+
+/// Of a picture with 320 × 240 pixels of 6 µm.
+const char* const seen_rig =
+    "coils: coils.yaml\ndriver: {type: simulated}\ncamera: {type: v4l2}\n"
+    "scale: {um_per_px: 6, origin_px: [-0.5, 239.5]}\n"
+    "perception: {scene: {swarm: {look: {min_texture: 0}}}}\n";
+
+TEST_F(RigCamera, AScenarioIsDrawnWhereTheCameraSeesIt) {
+  draw("frame.pgm", [](int x, int y) { return std::hypot(x - 40, y - 40) < 25; });
+  write("coils.yaml", "coils: {type: helmholtz}\n");
+  write("rig.yaml", seen_rig);
+  write("flight.yaml",
+        "map: {type: polygons, lo_um: [0, 0], hi_um: [1920, 1440], walls_um: [[[1407, 651], [1503, "
+        "651], [1503, 747], [1407, 747]]]}\n"
+        "start: {x_um: 501, y_um: 699}\ngoal_um: [1005, 699]\n"
+        "swarm: {type: vortex}\nnavigator: {type: radar}\n");
+  const Arguments see{"rig", "see", "frame.pgm", "--rig", "rig.yaml", "--out", "seen.png"};
+  good(see);
+  const Image without = read_image(at.folder / "seen.png");
+  Arguments with = see;
+  with.insert(with.end(), {"--scenario", "flight.yaml"});
+  good(with);
+  const Image drawn = read_image(at.folder / "seen.png");
+  const auto colour = [&](const Image& image, int x, int y) {
+    const std::size_t i = image.index(x, y);
+    return std::array<int, 3>{image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]};
+  };
+  // The start is at pixel (83, 123), the goal at (167, 123), the wall from (234, 131) to (250,
+  // 115).
+  EXPECT_EQ(colour(drawn, 87, 127), (std::array<int, 3>{86, 180, 233}));
+  EXPECT_EQ(colour(drawn, 171, 127), (std::array<int, 3>{204, 121, 167}));
+  EXPECT_EQ(colour(drawn, 242, 131), (std::array<int, 3>{213, 94, 0}));
+  EXPECT_EQ(colour(drawn, 234, 123), (std::array<int, 3>{213, 94, 0}));
+  for (const auto& [x, y] : {std::pair{242, 123}, {40, 40}, {120, 200}})
+    EXPECT_EQ(colour(drawn, x, y), colour(without, x, y));
+}
+
+TEST_F(RigCamera, WhatCannotBeDrawnIsSaid) {
+  draw("frame.pgm", [](int x, int y) { return std::hypot(x - 100, y - 90) < 25; });
+  write("coils.yaml", "coils: {type: helmholtz}\n");
+  write("rig.yaml", seen_rig);
+  write("flight.yaml",
+        "map: {type: polygons, lo_um: [0, 0], hi_um: [90000, 90000]}\n"
+        "start: {x_um: 500, y_um: 500}\ngoal_um: [80000, 80000]\n"
+        "swarm: {type: vortex}\nnavigator: {type: radar}\n");
+  const Outcome outside = run({"rig", "see", "frame.pgm", "--rig", "rig.yaml", "--out", "seen.png",
+                               "--scenario", "flight.yaml"});
+  EXPECT_EQ(outside.code, 0) << outside.err;
+  EXPECT_TRUE(names(outside.err, "1 of 2")) << outside.err;
+  refused({"rig", "see", "frame.pgm", "--scenario", "flight.yaml", "--out", "other.png"},
+          naming("", {"--scenario", "--rig", "--out"}));
+  write("rig.yaml", "coils: coils.yaml\ndriver: {type: simulated}\ncamera: {type: v4l2}\n");
+  refused({"rig", "see", "frame.pgm", "--rig", "rig.yaml", "--scenario", "flight.yaml", "--out",
+           "other.png"},
+          naming("rig.yaml", {"scale"}));
+}
+
+TEST_F(RigCamera, ALensThatBendsIsTold) {
+  // Dots of a grid of 26 px, seen by a lens with k1 = 0.04: true = seen (1 + k1 r²).
+  draw("bent.pgm", [](int x, int y) {
+    const double dx = x - 159.5, dy = y - 119.5;
+    const double stretch = 1 + 0.04 * (dx * dx + dy * dy) / (200 * 200);
+    const double u = stretch * dx + 4 * 26, v = stretch * dy + 3 * 26;
+    const double column = std::round(u / 26), row = std::round(v / 26);
+    return column >= 0 && column < 9 && row >= 0 && row < 7 &&
+           std::hypot(u - 26 * column, v - 26 * row) < 6;
+  });
+  const Arguments scale{"rig", "scale", "bent.pgm", "--grid", "9x7", "--pitch", "100"};
+  Arguments as_json = scale;
+  as_json.push_back("--json");
+  const Json lens = Json::parse(good(as_json))["lens_distortion"];
+  EXPECT_NEAR(lens["k1"].get<double>(), 0.04, 0.01);
+  EXPECT_NEAR(lens["corner_shift_px"].get<double>(), 8, 2);
+  EXPECT_TRUE(lens["found"].get<bool>());
+  const std::string told = good(scale);
+  EXPECT_TRUE(names(told, "barrel") && names(told, "px")) << told;
 }
 
 TEST_F(RigCamera, NoSuchCameraIsAHardwareError) {

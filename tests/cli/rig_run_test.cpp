@@ -81,7 +81,8 @@ TEST_F(RigRun, DrivesTheDeviceUntilItsTimeIsUp) {
   ASSERT_NE(seen, log.seen_at.end());
   EXPECT_EQ(log.places[static_cast<std::size_t>(seen - log.seen_at.begin())].x,
             frame.observed->position.x);
-  const auto rows = split(read("out/commands.csv"), '\n');
+  const std::string commands = read("out/commands.csv");
+  const auto rows = split(commands, '\n');
   EXPECT_NEAR(std::stod(std::string(rows[1])), log.driven_at.front(), 1e-3);
   write_record(record, at.folder / "again.h5");
   EXPECT_EQ(read("again.h5"), read("out/run.h5"));

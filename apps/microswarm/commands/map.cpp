@@ -12,6 +12,7 @@
 #include "microswarm/vision/vessels/outline.hpp"
 #include "microswarm/vision/vessels/vessels.hpp"
 #include "microswarm/world/connectivity/passage.hpp"
+#include "rig/still.hpp"
 #include "support/options.hpp"
 
 namespace microswarm::cli {
@@ -105,6 +106,7 @@ int convert(const MapOptions& o, const std::string& out, const std::optional<dou
 
 struct SegmentOptions {
   std::string photo;
+  std::string rig;
   std::string out = "vessels.geojson";
   std::string truth;
   std::vector<std::string> settings;
@@ -129,7 +131,9 @@ std::optional<Mask> read_truth(const std::string& file, const Image& photo) {
 int segment(const SegmentOptions& o, const Context& context) {
   VesselParams params;
   note_each(set_values(params, o.settings));
-  const Image photo = read_photograph(o.photo);
+  if (!o.um_per_px && is_camera(o.photo))
+    throw InputError(o.photo + ": µm per px is missing: give --um-per-px");
+  const Image photo = picture_of(o.photo, camera_of(o.rig));
   if (!o.um_per_px) throw InputError(o.photo + ": µm per px is missing: give --um-per-px");
   const std::optional<Mask> truth = read_truth(o.truth, photo);
   const double cell = *o.um_per_px;
@@ -182,9 +186,12 @@ void add_segment(Command map, Action& action) {
   Command cmd = map.add_command(
       "segment", "Segment dark vessels in a photograph; writes a map and an overlay picture",
       "map segment fundus.jpg --um-per-px 6 --out vessels.geojson");
-  cmd.add_option("photo", o->photo, "Photograph of vessels darker than their surroundings")
+  cmd.add_option(
+         "photo", o->photo,
+         "Photograph of vessels darker than their surroundings, or camera such as /dev/video0")
       .required()
       .type_name("FILE");
+  cmd.add_option("--rig", o->rig, "Use the camera's settings of this rig (YAML)").type_name("FILE");
   add_um_per_px(cmd, o->um_per_px, "µm per pixel of the photograph, 1e-6..1e6");
   cmd.add_option("--out", o->out,
                  "Map to write (default: vessels.geojson); NAME-overlay.png is written next to it")

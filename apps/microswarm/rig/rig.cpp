@@ -238,6 +238,7 @@ void add_rig(Command app, Action& action) {
   add_rig_map(rig, action);
   add_rig_scale(rig, action);
   add_rig_see(rig, action);
+  add_rig_still(rig, action);
   add_rig_check(rig, action);
   add_rig_drive(rig, action);
   add_rig_simulate(rig, action);

@@ -5,12 +5,15 @@
 #include <numbers>
 
 #include "microswarm/config/write.hpp"
+#include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/vision/calibration/calibration_grid.hpp"
+#include "microswarm/vision/calibration/lens_distortion.hpp"
 #include "rig/rig.hpp"
+#include "rig/still.hpp"
 #include "support/options.hpp"
 
 namespace microswarm::cli {
@@ -20,6 +23,8 @@ using Json = nlohmann::ordered_json;
 
 struct ScaleOptions {
   std::string picture;
+  std::string rig;
+  std::vector<std::string> settings;
   std::string points;
   std::optional<double> distance;
   std::string grid;
@@ -51,7 +56,13 @@ std::optional<Vec2> origin_of(const ScaleOptions& o) {
   return Vec2{v[0], v[1]};
 }
 
-FittedScale from_points(const ScaleOptions& o, const Image& picture) {
+/// A scale and, from a grid, what the lens does.
+struct FoundScale {
+  FittedScale fit;
+  std::optional<LensDistortion> lens;
+};
+
+FoundScale from_points(const ScaleOptions& o, const Image& picture) {
   if (!o.distance) throw InputError("rig scale: --points needs --distance");
   const std::vector<double> v = numbers(o.points);
   const Vec2 a{v[0], v[1]}, b{v[2], v[3]};
@@ -61,10 +72,10 @@ FittedScale from_points(const ScaleOptions& o, const Image& picture) {
                                    p.x, p.y, o.picture, picture.width, picture.height));
   const CameraScale scale =
       scale_of_distance(a, b, *o.distance, picture.height, origin_of(o), !o.mirrored);
-  return {.scale = scale, .residuals = {}};
+  return {.fit = {.scale = scale, .residuals = {}}, .lens = {}};
 }
 
-FittedScale from_grid(const ScaleOptions& o, const Image& picture) {
+FoundScale from_grid(const ScaleOptions& o, const Image& picture) {
   if (!o.pitch) throw InputError("rig scale: --grid needs --pitch");
   GridParams params{.pattern = *enum_value<GridPattern>(o.pattern), .pitch = *o.pitch};
   int used = 0;
@@ -85,15 +96,44 @@ FittedScale from_grid(const ScaleOptions& o, const Image& picture) {
     throw InputError(fmt::format("{}: a point is {:.3g} µm off a grid of {:.6g} µm", o.picture,
                                  fit.worst, params.pitch));
   if (const auto origin = origin_of(o)) fit.scale.origin_px = *origin;
-  return fit;
+  return {fit, fit_distortion(points, !o.mirrored, picture.width, picture.height)};
+}
+
+Json json_of_lens(const LensDistortion& lens) {
+  return {{"k1", lens.k1},
+          {"corner_shift_px", lens.shift_px},
+          {"standard_deviation_px", lens.deviation_px},
+          {"corner_error_px", lens.error_px},
+          {"rms_um_without", lens.rms},
+          {"found", lens.is_found()}};
+}
+
+void tell_lens(const LensDistortion& lens) {
+  if (!lens.is_found()) {
+    print("# no lens distortion stands out: {:.2g} ± {:.2g} px in the corners\n", lens.shift_px,
+          lens.deviation_px);
+    return;
+  }
+  print(
+      "# lens distortion: {}, moves the corners by {:.3g} ± {:.2g} px (k1 {:.3g}, 1 in the "
+      "corners)\n# with this scale positions are up to {:.3g} px off in the corners; without the "
+      "distortion the RMS residual is {:.3g} µm\n",
+      lens.k1 > 0 ? "barrel" : "pincushion", lens.shift_px, lens.deviation_px, lens.k1,
+      lens.error_px, lens.rms);
+}
+
+Image picture_for(const ScaleOptions& o) {
+  CameraParams camera = camera_of(o.rig);
+  note_each(set_values(camera, o.settings));
+  return picture_of(o.picture, camera);
 }
 
 int scale(const ScaleOptions& o) {
-  keep_input(o.out, o.picture);
+  for (const std::string& input : {o.picture, o.rig}) keep_input(o.out, input);
   if (o.points.empty() == o.grid.empty())
     throw InputError("rig scale: give either --points or --grid");
-  const Image picture = read_photograph(o.picture);
-  const FittedScale fit = o.grid.empty() ? from_points(o, picture) : from_grid(o, picture);
+  const Image picture = picture_for(o);
+  const auto [fit, lens] = o.grid.empty() ? from_points(o, picture) : from_grid(o, picture);
   const CameraScale& s = fit.scale;
   const std::string yaml = to_yaml(ScalePiece{s});
   if (!o.out.empty()) write_file_atomically(o.out, yaml);
@@ -107,6 +147,7 @@ int scale(const ScaleOptions& o) {
     if (!fit.residuals.empty()) {
       json["rms_um"] = fit.rms;
       json["worst_um"] = fit.worst;
+      if (lens) json["lens_distortion"] = json_of_lens(*lens);
     }
     print("{}\n", json.dump(2));
     return ok;
@@ -117,6 +158,7 @@ int scale(const ScaleOptions& o) {
   if (!fit.residuals.empty())
     print("# {} points, RMS residual {:.3g} µm ({:.3g} px), the worst {:.3g} µm\n",
           fit.residuals.size(), fit.rms, fit.rms / s.um_per_px, fit.worst);
+  if (lens) tell_lens(*lens);
   if (!o.out.empty()) print("# wrote {}\n", o.out);
   return ok;
 }
@@ -128,7 +170,12 @@ void add_rig_scale(Command rig, Action& action) {
   Command cmd =
       rig.add_command("scale", "Determine µm per pixel of a camera from two points or a grid",
                       "rig scale slide.png --grid 9x6 --pitch 100 --out scale.yaml");
-  cmd.add_option("picture", o->picture, "Picture from the camera").required().type_name("FILE");
+  cmd.add_option("picture", o->picture, "Picture from the camera, or camera such as /dev/video0")
+      .required()
+      .type_name("FILE");
+  cmd.add_option("--rig", o->rig, "Use the camera's settings of this rig (YAML)").type_name("FILE");
+  add_settings(cmd, o->settings,
+               "Override a setting of the camera, e.g. width_px=1280 (repeatable)");
   const Option points =
       cmd.add_option("--points", o->points, "Two points in the picture in px, y down")
           .type_name("X1,Y1,X2,Y2")

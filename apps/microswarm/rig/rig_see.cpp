@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <variant>
@@ -6,12 +7,14 @@
 #include "microswarm/config/key_locations.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
-#include "microswarm/core/execution/clock.hpp"
+#include "microswarm/experiment/scenario/experiment.hpp"
 #include "microswarm/rig/params/rig_params.hpp"
-#include "microswarm/vision/camera/camera.hpp"
+#include "microswarm/rig/perception/scenario_overlay.hpp"
+#include "microswarm/rig/simulation/rig_simulator.hpp"
 #include "microswarm/vision/scene/scene_overlay.hpp"
 #include "microswarm/vision/scene/wall_finder.hpp"
 #include "rig/rig.hpp"
+#include "rig/still.hpp"
 #include "support/options.hpp"
 
 namespace microswarm::cli {
@@ -38,21 +41,10 @@ struct SeeOptions {
   std::string still;
   std::string config;
   std::vector<std::string> settings;
+  std::string scenario;
   std::string out;
   bool json = false;
 };
-
-/// Picture of a file, or of a camera after one second of settling.
-Image picture_of(const std::string& source, CameraParams camera) {
-  if (!source.starts_with("/dev/")) return read_photograph(source);
-  camera.device = source;
-  NewestFrame live = live_camera(camera);
-  LiveFrame frame;
-  const double began = steady_seconds();
-  while (live.wait(frame, 0.5) || steady_seconds() < began + 10)
-    if (frame.frame.index > 0 && steady_seconds() > began + 1) return frame.frame.picture;
-  throw HardwareError(source + ": no picture within 10 s");
-}
 
 /// Reads a picture of the same scene. Throws InputError if its size differs.
 Image still_of(const std::string& file, const Image& picture) {
@@ -100,18 +92,52 @@ SeeSettings settings_of(const SeeOptions& o) {
   return settings;
 }
 
+/// A scenario and where the rig's camera sees it.
+struct Overlay {
+  Experiment experiment;
+  CameraScale scale;
+};
+
+std::optional<Overlay> overlay_of(const SeeOptions& o) {
+  if (o.scenario.empty()) return std::nullopt;
+  if (o.out.empty() || o.rig.empty())
+    throw InputError("rig see: --scenario needs --rig, whose scale it takes, and --out");
+  const Rig rig = read_rig(o.rig);
+  if (!rig.params.scale)
+    throw rig.keys.error("scale", "`scale` is missing, see `microswarm rig scale`");
+  return Overlay{reading([&] { return open_experiment(o.scenario); }), *rig.params.scale};
+}
+
+void draw_overlay(Image& shown, const Overlay& over) {
+  const Scenario& scenario = over.experiment.scenario();
+  draw_scenario(shown, scenario, *over.experiment.world.map, over.scale);
+  const std::vector<Vec2> places = places_of(scenario);
+  const auto outside = std::ranges::count_if(places, [&](Vec2 place) {
+    const Vec2 at = over.scale.to_picture(place);
+    return at.x < -0.5 || at.y < -0.5 || at.x > shown.width - 0.5 || at.y > shown.height - 0.5;
+  });
+  if (outside > 0)
+    note("note: {} of {} starts and goals are outside the picture\n", outside, places.size());
+}
+
 int see(const SeeOptions& o) {
-  for (const std::string& input : {o.picture, o.still, o.config, o.rig}) keep_input(o.out, input);
+  for (const std::string& input : {o.picture, o.still, o.config, o.rig, o.scenario})
+    keep_input(o.out, input);
   const SeeSettings settings = settings_of(o);
   Issues issues = validate(settings.scene.swarm.look);
   issues.add(validate(settings.scene.obstacles));
   KeyLocations().require_none(issues);
+  const std::optional<Overlay> over = overlay_of(o);
   const Image picture = picture_of(o.picture, settings.camera);
   std::optional<Mask> walls;
   if (!o.still.empty()) walls = find_walls(still_of(o.still, picture), settings.walls);
   const Mask* hidden = walls ? &*walls : nullptr;
   const SeenScene scene = find_scene(picture, settings.scene, std::nullopt, hidden);
-  if (!o.out.empty()) write_png(o.out, draw_scene(picture, scene, hidden));
+  if (!o.out.empty()) {
+    Image shown = draw_scene(picture, scene, hidden);
+    if (over) draw_overlay(shown, *over);
+    write_png(o.out, shown);
+  }
   const SwarmSighting& s = scene.swarm;
   if (o.json) {
     Json json{
@@ -151,6 +177,9 @@ void add_rig_see(Command rig, Action& action) {
   cmd.add_option("--config", o->config, "Settings file (YAML); --set overrides it")
       .type_name("FILE")
       .excludes(rig_file);
+  cmd.add_option("--scenario", o->scenario,
+                 "Draw map, start and goal of this scenario over the picture, by the rig's scale")
+      .type_name("FILE");
   add_settings(cmd, o->settings,
                "Override a value, e.g. scene.swarm.look.min_radius_px=12 (repeatable)");
   cmd.add_option("--out", o->out, "Draw the detections to this file (PNG)")

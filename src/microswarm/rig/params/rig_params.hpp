@@ -18,7 +18,7 @@
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/rig/params/microscope_params.hpp"
 #include "microswarm/rig/params/perception_params.hpp"
-#include "microswarm/vision/camera/camera.hpp"
+#include "microswarm/vision/camera/camera_params.hpp"
 #include "microswarm/vision/camera/camera_scale.hpp"
 
 namespace microswarm {

@@ -6,6 +6,7 @@
 
 #include "microswarm/core/execution/clock.hpp"
 #include "microswarm/rig/simulation/simulated_rig.hpp"
+#include "microswarm/vision/camera/camera.hpp"
 
 namespace microswarm {
 namespace {

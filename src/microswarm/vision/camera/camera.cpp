@@ -1,81 +1,66 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/vision/camera/camera.hpp"
 
-#include <unistd.h>
-
-#include <cerrno>
 #include <cmath>
-#include <filesystem>
-#include <opencv2/core/utils/logger.hpp>
-#include <opencv2/videoio.hpp>
-#include <system_error>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/clock.hpp"
-#include "microswarm/vision/image/mat.hpp"
+#include "microswarm/core/text/text.hpp"
+#include "microswarm/vision/camera/v4l2_controls.hpp"
+#include "microswarm/vision/camera/v4l2_device.hpp"
 
 namespace microswarm {
 namespace {
 
-constexpr double exposure_steps_per_ms = 10;  // V4L2 counts exposure in units of 100 µs
-constexpr double manual_exposure = 1;         // V4L2_EXPOSURE_MANUAL
-
-std::string size_text(int width, int height) {
-  return std::to_string(width) + "x" + std::to_string(height);
-}
+constexpr double longest_pause = 5;     // [s] between pictures, beyond their exposure
+constexpr int max_damaged_frames = 10;  // in a row
 
 class Camera : public FrameSource {
  public:
-  explicit Camera(const CameraParams& p) : name_(p.device) {
-    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-    check_device();
-    if (!video_.open(name_, cv::CAP_V4L2)) fail("is no camera that can be opened");
-    video_.set(cv::CAP_PROP_FRAME_WIDTH, p.width);
-    video_.set(cv::CAP_PROP_FRAME_HEIGHT, p.height);
-    video_.set(cv::CAP_PROP_FPS, p.rate);
-    if (p.exposure) set_exposure(*p.exposure);
-    const auto width = static_cast<int>(video_.get(cv::CAP_PROP_FRAME_WIDTH));
-    const auto height = static_cast<int>(video_.get(cv::CAP_PROP_FRAME_HEIGHT));
-    if (width != p.width || height != p.height)
-      fail("gives pictures of " + size_text(width, height) + " pixels, asked for were " +
-           size_text(p.width, p.height));
+  explicit Camera(const CameraParams& p)
+      : device_(p.device),
+        pause_(std::ceil(longest_pause + 1e-3 * p.exposure.value_or(0) +
+                         (p.rate < 1 ? 2 / p.rate : 0))) {
+    if (p.region) device_.set_region(*p.region);
+    device_.set_format(p.pixel_format, p.width, p.height);
+    rate_ = device_.set_rate(p.rate);
+    set_controls(device_, p);
+    device_.start();
   }
 
   bool next(VideoFrame& frame) override {
-    if (!video_.read(mat_) || mat_.empty()) fail("gives no more pictures");
-    const double now = steady_seconds();
-    if (frames_ == 0) began_ = now;
-    frame.index = frames_++;
-    frame.t = now - began_;
-    take_picture(mat_, frame.picture);
-    return true;
+    std::string why;
+    for (int damaged = 0; damaged < max_damaged_frames; ++damaged) {
+      const auto raw = device_.take(pause_);
+      if (!raw) device_.fail("gives no picture for " + number_text(pause_) + " s");
+      why = take(*raw, frame.picture);
+      if (!why.empty()) continue;
+      const double now = steady_seconds();
+      if (frames_ == 0) began_ = now;
+      frame.index = frames_++;
+      frame.t = now - began_;
+      return true;
+    }
+    device_.fail("gives damaged pictures, " + why);
   }
   std::optional<int> count() const override { return std::nullopt; }
-  std::optional<double> rate() const override {
-    const double told = video_.get(cv::CAP_PROP_FPS);
-    if (!(told > 0 && told < 1e6)) return std::nullopt;
-    return told;
-  }
+  std::optional<double> rate() const override { return rate_; }
 
  private:
-  [[noreturn]] void fail(const std::string& why) const { throw HardwareError(name_ + ": " + why); }
-
-  void check_device() const {
-    if (::access(name_.c_str(), R_OK | W_OK) != 0)
-      fail("cannot open: " + std::generic_category().message(errno));
-    if (!std::filesystem::is_character_file(name_)) fail("is no camera");
+  /// What is wrong with the data; empty when they became a picture.
+  static std::string take(const RawPicture& raw, Image& picture) {
+    if (raw.bytes.empty()) return "the last: the driver calls it damaged";
+    try {
+      take_raw(raw, "the last", picture);
+      return {};
+    } catch (const InputError& error) {
+      return error.what();
+    }
   }
 
-  void set_exposure(double ms) {
-    const double steps = std::round(exposure_steps_per_ms * ms);
-    if (!video_.set(cv::CAP_PROP_AUTO_EXPOSURE, manual_exposure) ||
-        !video_.set(cv::CAP_PROP_EXPOSURE, steps))
-      fail("takes no exposure");
-  }
-
-  std::string name_;
-  cv::VideoCapture video_;
-  cv::Mat mat_;
+  V4l2Device device_;
+  double pause_;
+  std::optional<double> rate_;
   int frames_ = 0;
   double began_ = 0;
 };

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/vision/camera/raw_pixels.hpp"
+
+#include <opencv2/imgproc.hpp>
+
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/fields/fields.hpp"
+#include "microswarm/formats/images/jpeg.hpp"
+#include "microswarm/vision/image/mat.hpp"
+
+namespace microswarm {
+namespace {
+
+bool is_jpeg(PixelFormat format) {
+  return format == PixelFormat::MJPG || format == PixelFormat::JPEG;
+}
+
+std::size_t bytes_of_pixel(PixelFormat format) {
+  switch (format) {
+    case PixelFormat::YUYV:
+    case PixelFormat::UYVY:
+    case PixelFormat::Y10:
+    case PixelFormat::Y12:
+    case PixelFormat::Y16:
+      return 2;
+    case PixelFormat::RGB3:
+    case PixelFormat::BGR3:
+      return 3;
+    default:
+      return 1;
+  }
+}
+
+/// Conversion of OpenCV to red, green, blue; -1 where it is a copy.
+int conversion_of(PixelFormat format) {
+  switch (format) {
+    case PixelFormat::YUYV:
+      return cv::COLOR_YUV2RGB_YUYV;
+    case PixelFormat::UYVY:
+      return cv::COLOR_YUV2RGB_UYVY;
+    case PixelFormat::BGR3:
+      return cv::COLOR_BGR2RGB;
+    default:
+      return -1;
+  }
+}
+
+int bits_of(PixelFormat format) {
+  return format == PixelFormat::Y10 ? 10 : format == PixelFormat::Y12 ? 12 : 16;
+}
+
+void take_deep(const cv::Mat& samples, int bits, cv::Mat& out) {
+  for (int row = 0; row < samples.rows; ++row) {
+    const auto* in = samples.ptr<std::uint8_t>(row);  // little-endian
+    auto* grey = out.ptr<std::uint8_t>(row);
+    for (int column = 0; column < samples.cols; ++column) {
+      const int sample = in[2 * column] | in[2 * column + 1] << 8;
+      grey[column] = cv::saturate_cast<std::uint8_t>(sample >> (bits - 8));
+    }
+  }
+}
+
+void convert(const RawPicture& raw, std::size_t step, Image& image) {
+  auto* data = const_cast<std::byte*>(raw.bytes.data());
+  cv::Mat out = as_mat(image);
+  const auto rows = [&](int type) { return cv::Mat(raw.height, raw.width, type, data, step); };
+  switch (raw.format) {
+    case PixelFormat::Y10:
+    case PixelFormat::Y12:
+    case PixelFormat::Y16:
+      return take_deep(rows(CV_8UC2), bits_of(raw.format), out);
+    case PixelFormat::NV12: {
+      const cv::Mat colours(raw.height / 2, raw.width / 2, CV_8UC2,
+                            data + step * static_cast<std::size_t>(raw.height), step);
+      return cv::cvtColorTwoPlane(rows(CV_8UC1), colours, out, cv::COLOR_YUV2RGB_NV12);
+    }
+    default: {
+      const cv::Mat in = rows(CV_8UC(static_cast<int>(bytes_of_pixel(raw.format))));
+      const int how = conversion_of(raw.format);
+      if (how < 0)
+        in.copyTo(out);
+      else
+        cv::cvtColor(in, out, how);
+    }
+  }
+}
+
+}  // namespace
+
+std::uint32_t fourcc_of(PixelFormat format) {
+  std::uint32_t code = 0;
+  const std::string_view name = enum_name(format);
+  for (std::size_t i = 4; i-- > 0;)
+    code = code << 8 | static_cast<unsigned char>(i < name.size() ? name[i] : ' ');
+  return code;
+}
+
+std::optional<PixelFormat> format_of(std::uint32_t fourcc) {
+  for (const auto& [format, name] : enum_names(PixelFormat{}))
+    if (fourcc_of(format) == fourcc) return format;
+  return std::nullopt;
+}
+
+std::string fourcc_text(std::uint32_t fourcc) {
+  std::string text;
+  for (int i = 0; i < 4; ++i, fourcc >>= 8) {
+    const auto letter = static_cast<char>(fourcc & 0x7f);
+    text += letter >= ' ' && letter < 0x7f ? letter : '?';
+  }
+  while (text.ends_with(' ')) text.pop_back();
+  return text;
+}
+
+void take_raw(const RawPicture& raw, std::string_view name, Image& image) {
+  const auto fail = [&](const std::string& why) {
+    throw InputError(std::string(name) + ": " + why);
+  };
+  if (is_jpeg(raw.format)) {
+    decode_jpeg_frame(raw.bytes, name, image);
+    if (image.width != raw.width || image.height != raw.height)
+      fail("a JPEG of " + std::to_string(image.width) + "x" + std::to_string(image.height) +
+           " pixels among pictures of " + std::to_string(raw.width) + "x" +
+           std::to_string(raw.height));
+    return;
+  }
+  const bool nv12 = raw.format == PixelFormat::NV12;
+  const bool pairs = nv12 || raw.format == PixelFormat::YUYV || raw.format == PixelFormat::UYVY;
+  if ((pairs && raw.width % 2 != 0) || (nv12 && raw.height % 2 != 0))
+    fail(std::string(enum_name(raw.format)) + " with an odd number of pixels");
+  const std::size_t line = static_cast<std::size_t>(raw.width) * bytes_of_pixel(raw.format);
+  const std::size_t step = std::max(raw.bytes_per_line, line);
+  const auto lines = static_cast<std::size_t>(nv12 ? raw.height * 3 / 2 : raw.height);
+  const std::size_t needed = step * (lines - 1) + line;
+  if (raw.bytes.size() < needed)
+    fail("only " + std::to_string(raw.bytes.size()) + " of " + std::to_string(needed) +
+         " bytes of a picture came");
+  const bool colours = pairs || bytes_of_pixel(raw.format) == 3;
+  image.width = raw.width;
+  image.height = raw.height;
+  image.channels = colours ? 3 : 1;
+  image.pixels.resize(image.index(0, image.height));
+  convert(raw, step, image);
+}
+
+}  // namespace microswarm
