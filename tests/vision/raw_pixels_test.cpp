@@ -27,8 +27,8 @@ std::string refusal(PixelFormat format, int width, int height, const Bytes& data
 }
 
 TEST(RawPixels, NamesAreThoseOfV4l2) {
-  EXPECT_EQ(fourcc_of(PixelFormat::MJPG), 0x47504a4dU);
-  EXPECT_EQ(fourcc_text(fourcc_of(PixelFormat::Y16)), "Y16");
+  EXPECT_EQ(fourcc_of(PixelFormat::mjpg), 0x47504a4dU);
+  EXPECT_EQ(fourcc_text(fourcc_of(PixelFormat::y16)), "Y16");
   for (const auto& [format, name] : enum_names(PixelFormat{})) {
     EXPECT_EQ(format_of(fourcc_of(format)), format);
     EXPECT_EQ(fourcc_text(fourcc_of(format)), name);
@@ -38,28 +38,28 @@ TEST(RawPixels, NamesAreThoseOfV4l2) {
 }
 
 TEST(RawPixels, GreyAndColoursKeepTheirValuesAndGapsAreLeftOut) {
-  EXPECT_EQ(pixels_of(PixelFormat::GREY, 2, 2, {1, 2, 9, 3, 4}, 3).pixels, (Bytes{1, 2, 3, 4}));
-  EXPECT_EQ(pixels_of(PixelFormat::RGB3, 1, 2, {1, 2, 3, 4, 5, 6}).pixels,
+  EXPECT_EQ(pixels_of(PixelFormat::grey, 2, 2, {1, 2, 9, 3, 4}, 3).pixels, (Bytes{1, 2, 3, 4}));
+  EXPECT_EQ(pixels_of(PixelFormat::rgb3, 1, 2, {1, 2, 3, 4, 5, 6}).pixels,
             (Bytes{1, 2, 3, 4, 5, 6}));
-  EXPECT_EQ(pixels_of(PixelFormat::BGR3, 1, 1, {1, 2, 3}).pixels, (Bytes{3, 2, 1}));
+  EXPECT_EQ(pixels_of(PixelFormat::bgr3, 1, 1, {1, 2, 3}).pixels, (Bytes{3, 2, 1}));
 }
 
 TEST(RawPixels, DeepSamplesKeepTheirUpperBits) {
   const Bytes two{0x34, 0x12, 0xff, 0x0f};  // 0x1234, 0x0fff
-  EXPECT_EQ(pixels_of(PixelFormat::Y16, 2, 1, two).pixels, (Bytes{0x12, 0x0f}));
-  EXPECT_EQ(pixels_of(PixelFormat::Y12, 2, 1, two).pixels, (Bytes{0xff, 0xff}));
-  EXPECT_EQ(pixels_of(PixelFormat::Y10, 1, 1, {0xff, 0x03}).pixels, (Bytes{0xff}));
-  EXPECT_EQ(pixels_of(PixelFormat::Y10, 1, 1, {0x00, 0x02}).pixels, (Bytes{0x80}));
+  EXPECT_EQ(pixels_of(PixelFormat::y16, 2, 1, two).pixels, (Bytes{0x12, 0x0f}));
+  EXPECT_EQ(pixels_of(PixelFormat::y12, 2, 1, two).pixels, (Bytes{0xff, 0xff}));
+  EXPECT_EQ(pixels_of(PixelFormat::y10, 1, 1, {0xff, 0x03}).pixels, (Bytes{0xff}));
+  EXPECT_EQ(pixels_of(PixelFormat::y10, 1, 1, {0x00, 0x02}).pixels, (Bytes{0x80}));
 }
 
 TEST(RawPixels, BlackWhiteAndRedOfAVideo) {
   // BT.601: Y of 16 is black, of 235 white; red is Y 81, U 90, V 240.
-  EXPECT_EQ(pixels_of(PixelFormat::YUYV, 2, 1, {16, 128, 235, 128}).pixels,
+  EXPECT_EQ(pixels_of(PixelFormat::yuyv, 2, 1, {16, 128, 235, 128}).pixels,
             (Bytes{0, 0, 0, 255, 255, 255}));
-  EXPECT_EQ(pixels_of(PixelFormat::UYVY, 2, 1, {128, 16, 128, 235}).pixels,
+  EXPECT_EQ(pixels_of(PixelFormat::uyvy, 2, 1, {128, 16, 128, 235}).pixels,
             (Bytes{0, 0, 0, 255, 255, 255}));
-  for (const Image& red : {pixels_of(PixelFormat::YUYV, 2, 1, {81, 90, 81, 240}),
-                           pixels_of(PixelFormat::NV12, 2, 2, {81, 81, 81, 81, 90, 240})}) {
+  for (const Image& red : {pixels_of(PixelFormat::yuyv, 2, 1, {81, 90, 81, 240}),
+                           pixels_of(PixelFormat::nv12, 2, 2, {81, 81, 81, 81, 90, 240})}) {
     EXPECT_NEAR(red.pixels[0], 255, 2);
     EXPECT_NEAR(red.pixels[1], 0, 2);
     EXPECT_NEAR(red.pixels[2], 0, 2);
@@ -72,8 +72,8 @@ TEST(RawPixels, TooFewBytesAndOddSizesAreRefused) {
     EXPECT_TRUE(test::is_one_line_naming(why, "/dev/video0", {})) << why;
     EXPECT_NE(refusal(format, 4, 4, {}), "") << name;
   }
-  EXPECT_NE(refusal(PixelFormat::YUYV, 3, 1, Bytes(100)), "");
-  EXPECT_NE(refusal(PixelFormat::NV12, 2, 3, Bytes(100)), "");
+  EXPECT_NE(refusal(PixelFormat::yuyv, 3, 1, Bytes(100)), "");
+  EXPECT_NE(refusal(PixelFormat::nv12, 2, 3, Bytes(100)), "");
 }
 
 class JpegFrames : public testing::Test {
@@ -83,7 +83,7 @@ class JpegFrames : public testing::Test {
       for (int x = 0; x < picture_.cols; ++x)
         picture_.at<cv::Vec3b>(y, x) = cv::Vec3b::all(static_cast<std::uint8_t>(3 * x + y));
     cv::imencode(".jpg", picture_, jpeg_);
-    whole_ = pixels_of(PixelFormat::MJPG, 64, 48, jpeg_);
+    whole_ = pixels_of(PixelFormat::mjpg, 64, 48, jpeg_);
   }
   cv::Mat picture_;
   Bytes jpeg_;
@@ -95,7 +95,7 @@ TEST_F(JpegFrames, AreDecoded) {
   for (int y = 0; y < 48; ++y)
     for (int x = 0; x < 64; ++x)
       EXPECT_NEAR(whole_.pixels[whole_.index(x, y)], picture_.at<cv::Vec3b>(y, x)[0], 6);
-  EXPECT_TRUE(test::is_one_line_naming(refusal(PixelFormat::MJPG, 64, 40, jpeg_), "/dev/video0",
+  EXPECT_TRUE(test::is_one_line_naming(refusal(PixelFormat::mjpg, 64, 40, jpeg_), "/dev/video0",
                                        {"64x48", "64x40"}));
 }
 
@@ -109,13 +109,13 @@ TEST_F(JpegFrames, MayHaveNoHuffmanTables) {
     without.push_back(jpeg_[at++]);
   }
   ASSERT_LT(without.size(), jpeg_.size() - 300);
-  EXPECT_EQ(pixels_of(PixelFormat::MJPG, 64, 48, without).pixels, whole_.pixels);
+  EXPECT_EQ(pixels_of(PixelFormat::mjpg, 64, 48, without).pixels, whole_.pixels);
 }
 
 TEST_F(JpegFrames, MayHaveBytesTooManyBeforeTheirEnd) {
   Bytes longer = jpeg_;
   longer.insert(longer.end() - 2, {0x12, 0x34, 0x56});
-  EXPECT_EQ(pixels_of(PixelFormat::MJPG, 64, 48, longer).pixels, whole_.pixels);
+  EXPECT_EQ(pixels_of(PixelFormat::mjpg, 64, 48, longer).pixels, whole_.pixels);
 }
 
 TEST_F(JpegFrames, ThatAreCutOrDamagedAreRefused) {
@@ -123,7 +123,7 @@ TEST_F(JpegFrames, ThatAreCutOrDamagedAreRefused) {
     Bytes cut = jpeg_;
     cut.resize(size);
     EXPECT_TRUE(
-        test::is_one_line_naming(refusal(PixelFormat::MJPG, 64, 48, cut), "/dev/video0", {"JPEG"}))
+        test::is_one_line_naming(refusal(PixelFormat::mjpg, 64, 48, cut), "/dev/video0", {"JPEG"}))
         << size;
   }
 }

@@ -12,19 +12,19 @@ namespace microswarm {
 namespace {
 
 bool is_jpeg(PixelFormat format) {
-  return format == PixelFormat::MJPG || format == PixelFormat::JPEG;
+  return format == PixelFormat::mjpg || format == PixelFormat::jpeg;
 }
 
 std::size_t bytes_of_pixel(PixelFormat format) {
   switch (format) {
-    case PixelFormat::YUYV:
-    case PixelFormat::UYVY:
-    case PixelFormat::Y10:
-    case PixelFormat::Y12:
-    case PixelFormat::Y16:
+    case PixelFormat::yuyv:
+    case PixelFormat::uyvy:
+    case PixelFormat::y10:
+    case PixelFormat::y12:
+    case PixelFormat::y16:
       return 2;
-    case PixelFormat::RGB3:
-    case PixelFormat::BGR3:
+    case PixelFormat::rgb3:
+    case PixelFormat::bgr3:
       return 3;
     default:
       return 1;
@@ -34,11 +34,11 @@ std::size_t bytes_of_pixel(PixelFormat format) {
 /// Conversion of OpenCV to red, green, blue; -1 where it is a copy.
 int conversion_of(PixelFormat format) {
   switch (format) {
-    case PixelFormat::YUYV:
+    case PixelFormat::yuyv:
       return cv::COLOR_YUV2RGB_YUYV;
-    case PixelFormat::UYVY:
+    case PixelFormat::uyvy:
       return cv::COLOR_YUV2RGB_UYVY;
-    case PixelFormat::BGR3:
+    case PixelFormat::bgr3:
       return cv::COLOR_BGR2RGB;
     default:
       return -1;
@@ -46,7 +46,7 @@ int conversion_of(PixelFormat format) {
 }
 
 int bits_of(PixelFormat format) {
-  return format == PixelFormat::Y10 ? 10 : format == PixelFormat::Y12 ? 12 : 16;
+  return format == PixelFormat::y10 ? 10 : format == PixelFormat::y12 ? 12 : 16;
 }
 
 void take_deep(const cv::Mat& samples, int bits, cv::Mat& out) {
@@ -65,11 +65,11 @@ void convert(const RawPicture& raw, std::size_t step, Image& image) {
   cv::Mat out = as_mat(image);
   const auto rows = [&](int type) { return cv::Mat(raw.height, raw.width, type, data, step); };
   switch (raw.format) {
-    case PixelFormat::Y10:
-    case PixelFormat::Y12:
-    case PixelFormat::Y16:
+    case PixelFormat::y10:
+    case PixelFormat::y12:
+    case PixelFormat::y16:
       return take_deep(rows(CV_8UC2), bits_of(raw.format), out);
-    case PixelFormat::NV12: {
+    case PixelFormat::nv12: {
       const cv::Mat colours(raw.height / 2, raw.width / 2, CV_8UC2,
                             data + step * static_cast<std::size_t>(raw.height), step);
       return cv::cvtColorTwoPlane(rows(CV_8UC1), colours, out, cv::COLOR_YUV2RGB_NV12);
@@ -123,8 +123,8 @@ void take_raw(const RawPicture& raw, std::string_view name, Image& image) {
            std::to_string(raw.height));
     return;
   }
-  const bool nv12 = raw.format == PixelFormat::NV12;
-  const bool pairs = nv12 || raw.format == PixelFormat::YUYV || raw.format == PixelFormat::UYVY;
+  const bool nv12 = raw.format == PixelFormat::nv12;
+  const bool pairs = nv12 || raw.format == PixelFormat::yuyv || raw.format == PixelFormat::uyvy;
   if ((pairs && raw.width % 2 != 0) || (nv12 && raw.height % 2 != 0))
     fail(std::string(enum_name(raw.format)) + " with an odd number of pixels");
   const std::size_t line = static_cast<std::size_t>(raw.width) * bytes_of_pixel(raw.format);

@@ -15,19 +15,19 @@
 namespace microswarm {
 
 /// Formats of a camera's data that can be read, by their V4L2 names.
-enum class PixelFormat { MJPG, JPEG, YUYV, UYVY, NV12, GREY, Y10, Y12, Y16, RGB3, BGR3 };
+enum class PixelFormat { mjpg, jpeg, yuyv, uyvy, nv12, grey, y10, y12, y16, rgb3, bgr3 };
 constexpr auto enum_names(PixelFormat) {
-  return std::array<std::pair<PixelFormat, std::string_view>, 11>{{{PixelFormat::MJPG, "MJPG"},
-                                                                   {PixelFormat::JPEG, "JPEG"},
-                                                                   {PixelFormat::YUYV, "YUYV"},
-                                                                   {PixelFormat::UYVY, "UYVY"},
-                                                                   {PixelFormat::NV12, "NV12"},
-                                                                   {PixelFormat::GREY, "GREY"},
-                                                                   {PixelFormat::Y10, "Y10"},
-                                                                   {PixelFormat::Y12, "Y12"},
-                                                                   {PixelFormat::Y16, "Y16"},
-                                                                   {PixelFormat::RGB3, "RGB3"},
-                                                                   {PixelFormat::BGR3, "BGR3"}}};
+  return std::array<std::pair<PixelFormat, std::string_view>, 11>{{{PixelFormat::mjpg, "MJPG"},
+                                                                   {PixelFormat::jpeg, "JPEG"},
+                                                                   {PixelFormat::yuyv, "YUYV"},
+                                                                   {PixelFormat::uyvy, "UYVY"},
+                                                                   {PixelFormat::nv12, "NV12"},
+                                                                   {PixelFormat::grey, "GREY"},
+                                                                   {PixelFormat::y10, "Y10"},
+                                                                   {PixelFormat::y12, "Y12"},
+                                                                   {PixelFormat::y16, "Y16"},
+                                                                   {PixelFormat::rgb3, "RGB3"},
+                                                                   {PixelFormat::bgr3, "BGR3"}}};
 }
 
 /// Four letters in a number, as V4L2 names formats; shorter names end in spaces.
@@ -39,7 +39,7 @@ std::string fourcc_text(std::uint32_t fourcc);
 
 /// Data of a picture as they came from a camera.
 struct RawPicture {
-  PixelFormat format = PixelFormat::GREY;
+  PixelFormat format = PixelFormat::grey;
   int width = 0;
   int height = 0;
   std::size_t bytes_per_line = 0;  ///< 0: rows without gaps
