@@ -53,6 +53,7 @@ class LiveSession::LivePlant : public Plant {
   LivePlant(RigExperiment on, const LiveOptions& options)
       : on_(without_following(checked(std::move(on), options), options.dry)),
         devices_(open_devices(on_, options.dry)),
+        kept_(log_of(on_.rig, options.note)),
         log_(options.folder, on_.rig.system, options.dry),
         rig_(on_.scenario(), on_.experiment.world.map, on_.rig, std::move(devices_.camera),
              devices_.scale, devices_.driver(), [this](const CoilMoment& m) { take(m); }) {
@@ -74,7 +75,7 @@ class LiveSession::LivePlant : public Plant {
 
   LiveRig& rig() { return rig_; }
   CommandLog& log() { return log_; }
-  /// What was logged; after the rig's stop.
+  /// What is logged, beside the coils' thread only before the first command and after the stop.
   RigLog& kept() { return kept_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
 
@@ -149,7 +150,7 @@ std::unique_ptr<LiveSession> LiveSession::open(const RigExperiment& on,
   LivePlant* const live = plant.get();
   std::unique_ptr<LiveSession> session(new LiveSession(
       on, name_of(on.rig) + (options.dry ? ", dry run" : ""), std::move(plant), live));
-  session->rig_log() = log_of(on.rig, options.note);
+  session->rig_log() = live->kept();
   return session;
 }
 
@@ -159,14 +160,7 @@ void LiveSession::stop(const std::string& why) { plant_->rig().stop(why); }
 
 std::string LiveSession::close() {
   stop("the run has ended");
-  RigLog& log = rig_log();
-  RigLog& kept = plant_->kept();
-  log.driven_at = std::exchange(kept.driven_at, {});
-  log.currents = std::exchange(kept.currents, {});
-  log.seen_at = std::exchange(kept.seen_at, {});
-  log.bodies = std::exchange(kept.bodies, {});
-  log.places = std::exchange(kept.places, {});
-  log.radii = std::exchange(kept.radii, {});
+  if (RigLog& kept = plant_->kept(); !kept.empty()) rig_log() = std::exchange(kept, {});
   return plant_->log().finish(plant_->rig().zero_at(), zero_is_confirmed());
 }
 

@@ -37,6 +37,11 @@ std::string_view trouble_of(DriveStatus status) {
   return {};
 }
 
+double CurrentWaveform::largest(std::size_t channel) const {
+  const double along = cosine[channel], across = sine[channel];
+  return std::abs(constant[channel]) + std::sqrt(along * along + across * across);
+}
+
 SimulatedCoilDriver::SimulatedCoilDriver(int channels, double full_scale, bool waveforms)
     : currents_(static_cast<std::size_t>(channels)),
       full_scale_(full_scale),
@@ -56,10 +61,8 @@ DriveStatus SimulatedCoilDriver::drive(std::span<const double> currents) {
 DriveStatus SimulatedCoilDriver::drive_waveform(const CurrentWaveform& waveform) {
   const auto [sine, cosine] = maths::sincos(waveform.phase);
   for (std::size_t c = 0; c < currents_.size(); ++c) {
-    const double along = waveform.cosine[c], across = waveform.sine[c];
-    const double most = std::abs(waveform.constant[c]) + std::sqrt(along * along + across * across);
-    if (!(most <= full_scale_ * (1 + full_scale_slack))) return DriveStatus::refused;
-    currents_[c] = waveform.constant[c] + along * cosine + across * sine;
+    if (!(waveform.largest(c) <= full_scale_ * (1 + full_scale_slack))) return DriveStatus::refused;
+    currents_[c] = waveform.constant[c] + waveform.cosine[c] * cosine + waveform.sine[c] * sine;
   }
   phase_ = waveform.phase;
   return DriveStatus::driven;

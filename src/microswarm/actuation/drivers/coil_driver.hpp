@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -36,6 +37,9 @@ struct CurrentWaveform {
   double frequency = 0;  ///< [Hz], negative backwards
   double phase = 0;      ///< of a waveform that begins [rad]; one that runs goes on at its own
   std::span<const double> constant, cosine, sine;
+
+  /// The largest current of a channel within a turn [A].
+  double largest(std::size_t channel) const;
 };
 
 /// Interface that sends currents to coils. The destructor sets all currents to zero.

@@ -38,12 +38,6 @@ DriveStatus refusal(const CoilReply& reply) {
   return reply.trip == CoilTrip::emergency ? DriveStatus::emergency : DriveStatus::not_armed;
 }
 
-/// Amplitude of what turns in a channel [A].
-double size_of(const CurrentWaveform& waveform, std::size_t c) {
-  const double cosine = waveform.cosine[c], sine = waveform.sine[c];
-  return std::sqrt(cosine * cosine + sine * sine);
-}
-
 }  // namespace
 
 /// Byte stream of the serial port. Never blocks on a device that neither accepts nor sends bytes.
@@ -158,10 +152,9 @@ DriveStatus SerialCoilDriver::drive_waveform(const CurrentWaveform& waveform) {
   if (!outputs_of(waveform.constant, aim.constant) || !outputs_of(waveform.cosine, aim.cosine) ||
       !outputs_of(waveform.sine, aim.sine))
     return DriveStatus::refused;
-  for (std::size_t c = 0; c < currents_.size(); ++c) {
-    const double most = std::abs(waveform.constant[c]) + size_of(waveform, c);
-    if (!(most <= params_.full_scale * (1 + full_scale_slack))) return DriveStatus::refused;
-  }
+  for (std::size_t c = 0; c < currents_.size(); ++c)
+    if (!(waveform.largest(c) <= params_.full_scale * (1 + full_scale_slack)))
+      return DriveStatus::refused;
   constexpr int turn = 65536;
   begin_phase_ = static_cast<int>(std::lround(waveform.phase / (2 * pi) * turn)) & (turn - 1);
   return follow(CoilMessage::waveform, aim);

@@ -16,34 +16,32 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-/// Notices that the program was stopped or the computer was suspended while it waited.
+/// Notices that the program was stopped or the computer was suspended, wherever it was then.
 class Standstill {
  public:
-  explicit Standstill(double most) : most_(most), suspended_(suspended_seconds()) {}
-  /// A wait begins that should last for `seconds`.
-  void begin(double seconds) { until_ = steady_seconds() + std::max(0.0, seconds); }
-  /// The wait is over. Returns what happened, or an empty string.
-  std::string end() {
+  explicit Standstill(double most)
+      : most_(most), at_(steady_seconds()), suspended_(suspended_seconds()) {}
+  /// The time since the last call was meant to take `seconds` at most. Returns what happened, or an
+  /// empty string.
+  std::string pass(double seconds) {
     const double asleep = suspended_seconds() - suspended_;
+    const double late = steady_seconds() - std::exchange(at_, steady_seconds()) - seconds;
     if (asleep > most_) return fmt::format("the computer was suspended for {:.2g} s", asleep);
-    const double late = steady_seconds() - until_;
     return late > most_ ? fmt::format("the program stood still for {:.2g} s", late) : "";
   }
 
  private:
   double most_;
+  double at_;
   double suspended_;
-  double until_ = 0;
 };
 
 /// Counts how often the coils had been off by themselves.
 class Trips {
  public:
   explicit Trips(const CoilLoopLimits& limits) : limits_(limits) {}
-  /// Adds one at `t` [s], found in an exchange of `took` s. Returns why it is too much, or an empty
-  /// string.
-  std::string add(double t, double took) {
-    if (took > limits_.max_pause) return fmt::format("the program stood still for {:.2g} s", took);
+  /// Adds one at `t` [s]. Returns why it is too much, or an empty string.
+  std::string add(double t) {
     std::erase_if(times_, [&](double before) { return before < t - limits_.trip_window; });
     times_.push_back(t);
     if (std::ssize(times_) <= limits_.max_trips) return {};
@@ -119,14 +117,15 @@ void CoilLoop::run() {
   std::unique_lock lock(mutex_);
   while (why_.empty()) {
     due += period;
-    standstill.begin(Seconds(due - Clock::now()).count());
+    const double wait = std::max(0.0, Seconds(due - Clock::now()).count());
     if (changed_.wait_until(lock, due, [this] { return !why_.empty(); })) break;
     const auto now = Clock::now();
     if (!commanded_) {
       due = last = now;
+      standstill.pass(0);  // nothing is driven yet
       continue;
     }
-    why_ = standstill.end();
+    why_ = standstill.pass(wait);
     if (!why_.empty()) break;
     CoilMoment moment;
     moment.t = steady_seconds();
@@ -143,11 +142,15 @@ void CoilLoop::run() {
     if (now > due + period) due = now;  // do not make up for missed outputs
     lock.lock();
     const DriveStatus status = moment.output.status;
+    // An exchange without an answer takes its time; one with an answer is short, or the coils were
+    // off meanwhile.
+    const bool answered = status != DriveStatus::no_answer;
+    const std::string stood = standstill.pass(answered ? 0 : moment.round_trip);
     misses = status == DriveStatus::no_answer ? misses + 1 : 0;
     if (!trouble.empty() && why_.empty()) why_ = trouble;
+    if (!stood.empty() && why_.empty()) why_ = stood;
     if (misses >= max_missed_answers && why_.empty()) why_ = "the coil driver does not answer";
-    if (status == DriveStatus::resumed && why_.empty())
-      why_ = trips.add(moment.t, moment.round_trip);
+    if (status == DriveStatus::resumed && why_.empty()) why_ = trips.add(moment.t);
   }
   lock.unlock();
   const bool confirmed = controller_.stop();

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/rig/runtime/coil_loop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include "microswarm/config/yaml.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr std::chrono::milliseconds standstill{800};
+
+/// Stands still in its tenth exchange, as a program that is stopped there.
+class StoppedInAnExchange : public CoilDriver {
+ public:
+  int channels() const override { return 3; }
+  std::span<const double> currents() const override { return currents_; }
+  DriveStatus drive(std::span<const double>) override {
+    if (++sendings_ == 10) std::this_thread::sleep_for(standstill);
+    return DriveStatus::driven;
+  }
+  bool stop() noexcept override { return true; }
+  int sendings() const { return sendings_; }
+
+ private:
+  std::array<double, 3> currents_{};
+  std::atomic<int> sendings_ = 0;
+};
+
+/// Why a loop ends that is commanded all the time, for two seconds at most.
+std::string end_of(CoilDriver& driver, const std::function<void(const CoilMoment&)>& heard) {
+  const CoilSystem system(read_yaml_text<CoilSystemParams>("coils: {type: helmholtz}", "coils"),
+                          "coils");
+  CoilController controller(system, {}, driver, 0);
+  CoilLoop loop(controller, {.max_pause = 0.4}, heard);
+  for (int i = 0; i < 40 && loop.failure().empty(); ++i) {
+    loop.command({0, 20}, controller.place());
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return loop.failure();
+}
+
+TEST(CoilLoop, AStandstillInAnExchangeEndsIt) {
+  StoppedInAnExchange driver;
+  const std::string why = end_of(driver, {});
+  EXPECT_TRUE(why.starts_with("the program stood still for ")) << why;
+  EXPECT_LE(driver.sendings(), 10);
+}
+
+TEST(CoilLoop, AStandstillWhileItIsLoggedEndsIt) {
+  SimulatedCoilDriver driver(3, 20);
+  int heard = 0;
+  const std::string why = end_of(driver, [&](const CoilMoment&) {
+    if (++heard == 10) std::this_thread::sleep_for(standstill);
+  });
+  EXPECT_TRUE(why.starts_with("the program stood still for ")) << why;
+  EXPECT_LE(heard, 10);
+}
+
+}  // namespace
+}  // namespace microswarm
