@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cameras of V4L2 and how they fail, through the program and fake_camera.cpp.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "microswarm/experiment/record/record.hpp"
+#include "microswarm/vision/camera/frames.hpp"
 #include "program.hpp"
 
 namespace microswarm::test {
@@ -221,6 +225,74 @@ TEST_F(DeviceCameraRun, ACameraThatFailsEndsIt) {
   ends_it("damaged=60", "/dev/video90: gives damaged pictures");
   ends_it("stall=60", "s old, allowed 0.5 s");
   ends_it("hang=60", "s old, allowed 0.5 s");
+}
+
+TEST_F(DeviceCameraRun, ItsWatchIsThatOfTheRig) {
+  plug("");
+  for (const char* command : {"run", "check"}) {
+    const Arguments arguments =
+        command == std::string("run")
+            ? Arguments{"rig",
+                        "run",
+                        "flight.yaml",
+                        "--rig",
+                        "rig.yaml",
+                        "--set-rig",
+                        "camera.watch.black_below=200"}
+            : Arguments{"rig", "check", "rig.yaml", "--set", "camera.watch.black_below=200"};
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 4) << outcome.out << outcome.err;
+    EXPECT_TRUE(names(outcome.out + outcome.err, "black")) << outcome.out << outcome.err;
+  }
+}
+
+TEST_F(DeviceCameraRun, ItsVideoHasTheRecordsClock) {
+  plug("formats=GREY");
+  const Outcome outcome =
+      fly({"--seconds", "2", "--out", "out", "--video", "out/camera.mkv", "--json"});
+  EXPECT_EQ(outcome.code, 3) << outcome.out << outcome.err;
+  std::istringstream rows(read("out/camera.csv"));
+  std::string line;
+  std::getline(rows, line);
+  std::vector<double> times;
+  while (std::getline(rows, line)) times.push_back(std::stod(line.substr(line.rfind(',') + 1)));
+  const auto video = open_frames(at.folder / "out/camera.mkv");
+  VideoFrame frame;
+  std::size_t count = 0;
+  while (video->next(frame)) ++count;
+  EXPECT_EQ(count, times.size());
+  EXPECT_GT(count, 80U);  // at 50 a second
+  EXPECT_TRUE(names(outcome.out, "\"frames\": " + std::to_string(count))) << outcome.out;
+  EXPECT_FALSE(exists("out/camera.part.mkv") || exists("out/camera.part.csv"));
+  // Every frame that the navigator saw is in the video, with its time.
+  const Record record = read_record(at.folder / "out/run.h5");
+  EXPECT_GT(record.frames.size(), 10U);
+  for (const Frame& tick : record.frames) {
+    const double nearest =
+        *std::ranges::min_element(times, {}, [&](double t) { return std::abs(t - tick.seen); });
+    EXPECT_NEAR(nearest, tick.seen, 1e-6);
+  }
+  // It is not overwritten, and can be seen in place of the camera.
+  const Outcome again = fly({"--seconds", "1", "--video", "out/camera.mkv"});
+  EXPECT_EQ(again.code, 2);
+  EXPECT_TRUE(names(again.err, "out/camera.mkv: ") && names(again.err, "--overwrite")) << again.err;
+  EXPECT_EQ(fly({"--seconds", "1", "--set-rig", "camera.type=video", "--set-rig",
+                 "camera.file=out/camera.mkv"})
+                .code,
+            3);
+}
+
+TEST_F(DeviceCameraRun, AVideoThatFindsNoRoomIsToldAndTheRunGoesOn) {
+  plug("formats=GREY");
+  at.largest_file = 300'000;
+  const Outcome outcome = fly({"--seconds", "2", "--video", "camera.mkv"});
+  EXPECT_EQ(outcome.code, 3) << outcome.out << outcome.err;
+  EXPECT_TRUE(names(outcome.err, "camera.mkv: write failed")) << outcome.err;
+  EXPECT_FALSE(exists("camera.mkv"));
+  const Outcome nowhere = fly({"--video", "none/camera.mkv"});
+  EXPECT_EQ(nowhere.code, 2);
+  EXPECT_TRUE(is_one_line_naming(nowhere.err, "microswarm: none/camera.mkv", {"cannot write"}))
+      << nowhere.err;
 }
 
 TEST_F(DeviceCameraRun, WhatTheCameraDoesNotTakeIsRefusedBeforeIt) {

@@ -212,6 +212,28 @@ TEST(NewestFrame, ManyMayAsk) {
   EXPECT_LE(taken, camera.status().frames);
 }
 
+TEST(NewestFrame, AListenerHearsEveryFrameAndItsTime) {
+  std::vector<std::pair<int, double>> heard;  // of the camera's thread alone until it has ended
+  NewestFrame camera(made([&](int index, Image& picture) {
+                       std::this_thread::sleep_for(2ms);
+                       picture.pixels[0] = static_cast<std::uint8_t>(index);
+                       return index < 50;
+                     }),
+                     "camera", {}, [&](const VideoFrame& frame, double taken) {
+                       heard.emplace_back(frame.index, taken);
+                     });
+  std::vector<std::pair<int, double>> taken;
+  LiveFrame frame;
+  while (camera.status().state != CameraState::ended) {
+    if (camera.wait(frame, 0.05)) taken.emplace_back(frame.frame.index, frame.taken);
+    std::this_thread::sleep_for(5ms);
+  }
+  ASSERT_EQ(heard.size(), 50U);
+  for (int i = 0; i < 50; ++i) EXPECT_EQ(heard[static_cast<std::size_t>(i)].first, i);
+  EXPECT_LT(taken.size(), 50U);
+  for (const auto& one : taken) EXPECT_EQ(heard[static_cast<std::size_t>(one.first)], one);
+}
+
 TEST(Camera, NoSuchDeviceIsRefusedInOneLine) {
   const auto refusal = [](const std::string& device) {
     CameraParams params;

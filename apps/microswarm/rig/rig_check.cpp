@@ -58,7 +58,7 @@ void ask_camera(const Rig& rig, const CheckOptions& o, const Stop& stop, Answers
   try {
     std::unique_ptr<FrameSource> source = open_camera_of(rig);
     const std::optional<double> rate = source->rate();
-    NewestFrame camera(std::move(source), "camera");
+    NewestFrame camera(std::move(source), "camera", camera_watch(rig.params));
     answer(answers, check_camera(camera, rig, rate, o.seconds, stop));
   } catch (const std::runtime_error& e) {
     answers.say(false, "camera", e.what());

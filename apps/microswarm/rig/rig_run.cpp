@@ -30,28 +30,33 @@ void tell(const RigTiming& t) {
   if (t.scaled > 0) print("  the device weakened the currents {} times\n", t.scaled);
 }
 
-nlohmann::ordered_json timing_json(const RigTiming& t) {
+nlohmann::ordered_json timing_json(const RigTiming& t, const std::optional<RecordedVideo>& video) {
   const auto ms = [](const Durations& d) {
     return nlohmann::ordered_json{{"p50_ms", 1e3 * d.quantile(0.5)},
                                   {"p95_ms", 1e3 * d.quantile(0.95)},
                                   {"p99_ms", 1e3 * d.quantile(0.99)}};
   };
-  return {{"frame_age", ms(t.frame_age)},
-          {"vision", ms(t.vision)},
-          {"tick", ms(t.tick)},
-          {"currents_late", ms(t.coil_late)},
-          {"coil_driver", ms(t.round_trip)},
-          {"ticks", t.tick.count()},
-          {"missed_deadlines", t.missed_deadlines},
-          {"frames_read", t.frames},
-          {"frames_dropped", t.dropped_frames},
-          {"frames_with_unseen_robots", t.unseen_frames},
-          {"max_unseen_robots", t.most_unseen},
-          {"fields_not_made", t.unmade},
-          {"fields_weakened", t.limited},
-          {"least_field_share", t.min_scale},
-          {"coils_resumed", t.resumed},
-          {"currents_weakened", t.scaled}};
+  nlohmann::ordered_json json{{"frame_age", ms(t.frame_age)},
+                              {"vision", ms(t.vision)},
+                              {"tick", ms(t.tick)},
+                              {"currents_late", ms(t.coil_late)},
+                              {"coil_driver", ms(t.round_trip)},
+                              {"ticks", t.tick.count()},
+                              {"missed_deadlines", t.missed_deadlines},
+                              {"frames_read", t.frames},
+                              {"frames_dropped", t.dropped_frames},
+                              {"frames_with_unseen_robots", t.unseen_frames},
+                              {"max_unseen_robots", t.most_unseen},
+                              {"fields_not_made", t.unmade},
+                              {"fields_weakened", t.limited},
+                              {"least_field_share", t.min_scale},
+                              {"coils_resumed", t.resumed},
+                              {"currents_weakened", t.scaled}};
+  if (video)
+    json["video"] = {{"file", video->file.string()},
+                     {"frames", video->frames},
+                     {"frames_dropped", video->dropped}};
+  return json;
 }
 
 /// Notes on stderr if the connection or the computer is too slow for the field.
@@ -91,15 +96,24 @@ class TripNotes : public RunListener {
   int resumed_ = 0;
 };
 
-/// Throws InputError if the folder has an experiment, also one that was killed.
-void require_new(const std::filesystem::path& folder) {
-  if (folder.empty()) return;
-  for (const char* name : {"run.h5", "commands.csv", "commands.csv.part"})
-    if (std::error_code none; std::filesystem::exists(folder / name, none))
+/// Throws InputError if the folder has an experiment, also one that was killed, or there is a
+/// video.
+void require_new(const std::filesystem::path& folder, const std::filesystem::path& video) {
+  std::vector<std::filesystem::path> files;
+  if (!folder.empty())
+    for (const char* name : {"run.h5", "commands.csv", "commands.csv.part"})
+      files.push_back(folder / name);
+  if (!video.empty()) files.insert(files.end(), {video, VideoRecorder::times_of(video)});
+  for (const std::filesystem::path& file : files)
+    if (std::error_code none; std::filesystem::exists(file, none))
       throw InputError(
-          fmt::format("{}: is there from another experiment: choose another folder, "
+          fmt::format("{}: is there from another experiment: choose another name, "
                       "or run with --overwrite",
-                      (folder / name).string()));
+                      file.string()));
+}
+
+void tell(const RecordedVideo& video) {
+  print("  video: {} frames in {}, {} dropped\n", video.frames, video.file.string(), video.dropped);
 }
 
 void note_virtual_obstacles(const RigExperiment& on) {
@@ -115,6 +129,7 @@ struct RigRunOptions {
   std::string scenario;
   std::string rig;
   std::string out;
+  std::string video;
   std::vector<std::string> settings;
   std::vector<std::string> rig_settings;
   std::optional<double> seconds;
@@ -142,11 +157,12 @@ int rig_run(const RigRunOptions& o, const Context& context) {
   note_each(on.experiment.keys.notes());
   note_field(on.rig, on.scenario());
   require_person(on.rig, o);
-  if (!o.overwrite) require_new(o.out);
+  if (!o.overwrite) require_new(o.out, o.video);
   const OutFolder hold(o.out);
   set_picture_threads(1);
   const auto opened = LiveSession::open(on, {.dry = o.dry_run,
                                              .folder = o.out,
+                                             .video = o.video,
                                              .without_limits = o.coils.without_limits,
                                              .coils_cold = o.coils.coils_cold,
                                              .note = o.note});
@@ -159,17 +175,20 @@ int rig_run(const RigRunOptions& o, const Context& context) {
   TripNotes trips(session);
   session.listen(trips);
   finish_run(session, o.seconds ? context.within(*o.seconds) : context.stop, o.seconds);
-  const std::string log_lost = session.close();
+  std::string lost = session.close();
+  const std::optional<RecordedVideo> video = session.video();
   const RigTiming timing = session.timing();
-  if (!log_lost.empty()) note("microswarm: {}\n", log_lost);
+  if (!lost.empty()) note("microswarm: {}\n", lost);
+  if (video && !video->trouble.empty()) note("microswarm: {}\n", lost = video->trouble);
   const bool at_zero = note_zero(session.zero_is_confirmed());
   note_limits(timing);
   const int code =
-      tell_run(session, {o.out, false, o.json, [&] { return timing_json(timing); }}, {});
+      tell_run(session, {o.out, false, o.json, [&] { return timing_json(timing, video); }}, {});
   note_pace(timing, session.result().metrics.time, on.rig.params);
   if (!o.json) tell(timing);
+  if (!o.json && video && video->trouble.empty()) tell(*video);
   if (!at_zero) return hardware;
-  return code == ok && !log_lost.empty() ? bad_input : code;
+  return code == ok && !lost.empty() ? bad_input : code;
 }
 
 }  // namespace
@@ -182,10 +201,15 @@ void add_rig_run(Command rig, Action& action) {
   cmd.add_option("--rig", o->rig, "Rig file (YAML)").required().type_name("FILE");
   cmd.add_option("--out", o->out, "Folder for run.h5, commands.csv and the report")
       .type_name("FOLDER");
+  cmd.add_option("--video", o->video,
+                 "Record the camera without loss to this file (.mkv, .avi), and the frames' times "
+                 "beside it (CSV)")
+      .type_name("FILE")
+      .check(file_kind({".mkv", ".avi"}));
   cmd.add_flag("--dry-run", o->dry_run, "Send nothing to the coils");
   cmd.add_flag("--drawn-swarm", o->drawn_swarm, "Drive coils for a simulated camera's swarm");
   add_coil_options(cmd, o->coils);
-  cmd.add_flag("--overwrite", o->overwrite, "Replace the experiment in the folder").needs("--out");
+  cmd.add_flag("--overwrite", o->overwrite, "Replace the experiment in the folder, or the video");
   add_settings(cmd, o->settings, "Override a scenario value (repeatable)");
   cmd.add_option("--set-rig", o->rig_settings, "Override a rig value (repeatable)")
       .type_name("KEY=VALUE");

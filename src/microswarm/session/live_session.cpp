@@ -55,8 +55,12 @@ class LiveSession::LivePlant : public Plant {
         devices_(open_devices(on_, options.dry)),
         kept_(log_of(on_.rig, options.note)),
         log_(options.folder, on_.rig.system, options.dry),
-        rig_(on_.scenario(), on_.experiment.world.map, on_.rig, std::move(devices_.camera),
-             devices_.scale, devices_.driver(), [this](const CoilMoment& m) { take(m); }) {
+        video_(recorder(options.video, devices_.camera_rate)),
+        rig_(
+            on_.scenario(), on_.experiment.world.map, on_.rig, std::move(devices_.camera),
+            devices_.scale, devices_.driver(), [this](const CoilMoment& m) { take(m); },
+            video_ ? video_->input() : FrameListener()) {
+    if (video_) video_->begin(rig_.clock_zero());
     if (std::holds_alternative<CameraParams>(on_.rig.params.camera))
       require(check_camera(rig_.camera(), on_.rig, devices_.camera_rate, device_check));
     if (has_coil_device(on_.rig) && !options.dry) open_coils(options);
@@ -77,6 +81,7 @@ class LiveSession::LivePlant : public Plant {
   CommandLog& log() { return log_; }
   /// What is logged, beside the coils' thread only before the first command and after the stop.
   RigLog& kept() { return kept_; }
+  VideoRecorder* video() { return video_.get(); }
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
@@ -90,6 +95,13 @@ class LiveSession::LivePlant : public Plant {
       issues.add(missing_limits(on.rig));
     on.rig.keys.require_none(issues);
     return on;
+  }
+
+  static std::unique_ptr<VideoRecorder> recorder(const std::filesystem::path& file,
+                                                 std::optional<double> rate) {
+    constexpr double usual_rate = 30;  // [Hz]
+    if (file.empty()) return nullptr;
+    return std::make_unique<VideoRecorder>(file, rate.value_or(usual_rate));
   }
 
   void require(const std::vector<RigCheck>& checks) {
@@ -135,6 +147,7 @@ class LiveSession::LivePlant : public Plant {
   RigLog kept_;  // currents by the coils' thread, the rest by the run's
   double seen_ = -1;
   CommandLog log_;
+  std::unique_ptr<VideoRecorder> video_;
   std::vector<std::string> warnings_;
   std::optional<CoilTemperatures> temperatures_;
   LiveRig rig_;
@@ -161,10 +174,17 @@ void LiveSession::stop(const std::string& why) { plant_->rig().stop(why); }
 std::string LiveSession::close() {
   stop("the run has ended");
   if (RigLog& kept = plant_->kept(); !kept.empty()) rig_log() = std::exchange(kept, {});
+  if (VideoRecorder* const video = plant_->video()) video->finish();
   return plant_->log().finish(plant_->rig().zero_at(), zero_is_confirmed());
 }
 
 bool LiveSession::zero_is_confirmed() const { return plant_->rig().zero_is_confirmed(); }
+
+std::optional<RecordedVideo> LiveSession::video() const {
+  VideoRecorder* const video = plant_->video();
+  if (!video) return std::nullopt;
+  return video->finish();
+}
 
 int LiveSession::resumed() const { return plant_->rig().resumed(); }
 

@@ -3,11 +3,13 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "microswarm/rig/runtime/devices.hpp"
 #include "microswarm/rig/runtime/live_rig.hpp"
 #include "microswarm/session/session.hpp"
+#include "microswarm/vision/camera/video_recorder.hpp"
 
 namespace microswarm {
 
@@ -15,6 +17,7 @@ namespace microswarm {
 struct LiveOptions {
   bool dry = false;                ///< nothing is sent to the coils
   std::filesystem::path folder{};  ///< of commands.csv; empty: the coil outputs are not logged
+  std::filesystem::path video{};   ///< of the camera; empty: none
   bool without_limits = false;     ///< the coil system need not limit current and temperature
   bool coils_cold = false;         ///< the coils are at ambient temperature
   std::string note{};              ///< of the operator, kept in the record
@@ -38,6 +41,8 @@ class LiveSession : public Session {
   std::string close();
   /// After stop(): the device confirmed that the coils are at zero.
   bool zero_is_confirmed() const;
+  /// After close(): the recorded video, if one was asked for.
+  std::optional<RecordedVideo> video() const;
   RigTiming timing() const;
   /// How often the coils had switched off by themselves so far.
   int resumed() const;

@@ -69,6 +69,11 @@ bool turns_on_device(const RigParams& rig) {
   return std::visit([](const auto& driver) { return driver.waveforms; }, rig.driver);
 }
 
+NewestFrameParams camera_watch(const RigParams& rig) {
+  if (const auto* camera = std::get_if<CameraParams>(&rig.camera)) return camera->watch;
+  return {};
+}
+
 std::string name_of(const Rig& rig) {
   return rig.params.name.empty() ? "unnamed rig" : rig.params.name;
 }

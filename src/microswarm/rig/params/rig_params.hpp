@@ -162,6 +162,8 @@ double full_scale_of(const RigParams& rig);
 
 /// Whether the rig's driver turns the field, see CoilDriver::makes_waveforms.
 bool turns_on_device(const RigParams& rig);
+/// How a silent, frozen or black camera of the rig is noticed.
+NewestFrameParams camera_watch(const RigParams& rig);
 
 /// Name of the rig in records.
 std::string name_of(const Rig& rig);

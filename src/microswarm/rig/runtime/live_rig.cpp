@@ -55,12 +55,12 @@ void check_picture(const Rig& rig, const Scenario& scenario, const CameraScale& 
 
 LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const Rig& rig,
                  std::unique_ptr<FrameSource> camera, const CameraScale& scale, CoilDriver& driver,
-                 std::function<void(const CoilMoment&)> heard)
+                 std::function<void(const CoilMoment&)> heard, FrameListener pictures)
     : rig_(rig),
       has_virtual_(rig.params.virtual_obstacles &&
                    !std::holds_alternative<SimulatedCamera>(rig.params.camera)),
       world_{std::move(map), has_virtual_ ? scenario.obstacles : std::vector<Obstacle>{}},
-      camera_(std::move(camera), "camera"),
+      camera_(std::move(camera), "camera", camera_watch(rig.params), std::move(pictures)),
       controller_(rig.system, checked(rig, scenario).field, driver,
                   scenario.start ? scenario.start->heading : 0),
       following_(rig.params.safety.min_follow_share),

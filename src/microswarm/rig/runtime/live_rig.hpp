@@ -45,15 +45,18 @@ struct RigTiming {
 class LiveRig : public Plant {
  public:
   /// `rig` and `driver` must outlive it. `scale` maps camera pixels to the world. `heard` is called
-  /// in the coils' thread after each output; an exception from it is a fault. Waits for the first
+  /// in the coils' thread after each output; an exception from it is a fault. `pictures` is called
+  /// in the camera's thread for each frame, also before the clock starts. Waits for the first
   /// frame. Throws HardwareError if there is none, InputError if rig and scenario do not fit.
   LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const Rig& rig,
           std::unique_ptr<FrameSource> camera, const CameraScale& scale, CoilDriver& driver,
-          std::function<void(const CoilMoment&)> heard = {});
+          std::function<void(const CoilMoment&)> heard = {}, FrameListener pictures = {});
 
   /// Sets the present temperatures of the coils [°C], before the first command.
   void warm(const Eigen::VectorXd& temperatures) { controller_.warm(temperatures); }
   NewestFrame& camera() { return camera_; }
+  /// When the clock of its observations was zero [s], by steady_seconds().
+  double clock_zero() const { return start_; }
   Observation observe() override;
   void apply(const Command& command, double dt) override;
   /// Replaces the virtual obstacles; false if there can be none.

@@ -75,6 +75,7 @@ struct NewestFrame::Shared {
   int dropped = 0;
   int same = 0;  ///< pictures in a row that had come before
   bool black = false;
+  FrameListener heard;
 
   /// The mutex is held.
   CameraStatus status(const std::string& name, const NewestFrameParams& p) const {
@@ -99,11 +100,11 @@ struct NewestFrame::Shared {
     return s;
   }
 
-  void publish(VideoFrame& frame, bool is_same, bool is_dark) {
+  void publish(VideoFrame& frame, double taken, bool is_same, bool is_dark) {
     const std::lock_guard lock(mutex);
     dropped += fresh;
     std::swap(newest.frame, frame);
-    newest.taken = steady_seconds();
+    newest.taken = taken;
     fresh = true;
     ++frames;
     same = is_same ? same + 1 : 1;
@@ -127,7 +128,9 @@ struct NewestFrame::Shared {
       }
       const bool is_same = past.has(frame.picture.pixels);
       const bool is_dark = is_black(frame.picture.pixels, black_below);
-      publish(frame, is_same, is_dark);
+      const double taken = steady_seconds();
+      if (heard) heard(frame, taken);
+      publish(frame, taken, is_same, is_dark);
     }
   }
 
@@ -152,8 +155,9 @@ struct NewestFrame::Shared {
 };
 
 NewestFrame::NewestFrame(std::unique_ptr<FrameSource> source, std::string name,
-                         const NewestFrameParams& params)
+                         const NewestFrameParams& params, FrameListener heard)
     : name_(std::move(name)), params_(params), shared_(std::make_shared<Shared>()) {
+  shared_->heard = std::move(heard);
   // Detached, because a device that hangs must not hang its owner: the thread keeps what it needs.
   std::thread([shared = shared_, source = std::move(source), below = params.black_below]() mutable {
     shared->run(std::move(source), below);

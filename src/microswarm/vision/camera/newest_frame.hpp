@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -59,6 +60,9 @@ struct LiveFrame {
   double taken = 0;  ///< when it reached the program [s], by steady_seconds()
 };
 
+/// Hears of every frame with the time at which it reached the program [s], by steady_seconds().
+using FrameListener = std::function<void(const VideoFrame& frame, double taken)>;
+
 /// How a camera does.
 struct CameraStatus {
   CameraState state = CameraState::opening;
@@ -73,8 +77,10 @@ struct CameraStatus {
 class NewestFrame {
  public:
   /// `name` stands before the complaint that it is silent; what the source throws names it itself.
+  /// `heard` is called in the camera's thread, also after this object's end until the source comes
+  /// back.
   NewestFrame(std::unique_ptr<FrameSource> source, std::string name,
-              const NewestFrameParams& params = {});
+              const NewestFrameParams& params = {}, FrameListener heard = {});
   /// Returns within a second, even when the source never does; it is then given up when it does.
   ~NewestFrame();
   NewestFrame(const NewestFrame&) = delete;

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/vision/camera/video_recorder.hpp"
+
+#include <sys/resource.h>
+
+#include <cerrno>
+#include <cmath>
+#include <condition_variable>
+#include <cstdio>
+#include <cstdlib>
+#include <deque>
+#include <mutex>
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+#include <optional>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/text.hpp"
+#include "microswarm/vision/image/mat.hpp"
+
+namespace microswarm {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t max_queued_frames = 64;
+constexpr std::size_t max_queued_bytes = std::size_t{256} << 20;
+constexpr int lower_priority = 10;  // of the writing thread
+
+fs::path part_of(const fs::path& file) {
+  fs::path part = file;
+  return part.replace_extension(".part" + file.extension().string());
+}
+
+/// Opens a new file in place of what has this name. A link is not followed.
+std::FILE* create_new(const fs::path& file, const fs::path& called) {
+  std::error_code none;
+  fs::remove(file, none);
+  std::FILE* const made = std::fopen(file.c_str(), "wxe");
+  if (!made)
+    throw InputError(called.string() + ": cannot write: " + std::generic_category().message(errno));
+  return made;
+}
+
+bool open_video(cv::VideoWriter& video, const fs::path& file, double rate, cv::Size size,
+                bool colours) {
+  const int codec = colours ? cv::VideoWriter::fourcc('H', 'F', 'Y', 'U')
+                            : cv::VideoWriter::fourcc('F', 'F', 'V', '1');
+  return video.open(fs::absolute(file).string(), cv::CAP_FFMPEG, codec, rate, size,
+                    {cv::VIDEOWRITER_PROP_IS_COLOR, colours ? 1 : 0});
+}
+
+/// Frames in a video, without decoding them.
+int frames_in(const fs::path& file) {
+  cv::VideoCapture video;
+  if (!video.open(fs::absolute(file).string(), cv::CAP_FFMPEG, {cv::CAP_PROP_FORMAT, -1})) return 0;
+  int count = 0;
+  while (video.grab()) ++count;
+  return count;
+}
+
+}  // namespace
+
+/// What the camera's thread and the writer share; it lives as long as either.
+struct VideoRecorder::Shared {
+  struct QueuedFrame {
+    Image picture;
+    int index = 0;
+    double taken = 0;
+  };
+
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool open = true;
+  std::optional<double> zero;
+  std::deque<QueuedFrame> queue;
+  std::size_t bytes = 0;       ///< in the queue
+  std::vector<Image> buffers;  ///< to be used again
+  int dropped = 0;
+
+  void add(const VideoFrame& frame, double taken) {
+    QueuedFrame next{.picture = {}, .index = frame.index, .taken = taken};
+    {
+      const std::lock_guard lock(mutex);
+      if (!open) return;
+      const std::size_t size = frame.picture.pixels.size();
+      if (queue.size() >= max_queued_frames || bytes + size > max_queued_bytes) {
+        ++dropped;
+        return;
+      }
+      bytes += size;
+      if (!buffers.empty()) {
+        next.picture = std::move(buffers.back());
+        buffers.pop_back();
+      }
+    }
+    next.picture = frame.picture;  // outside of the lock: the writer need not wait
+    const std::lock_guard lock(mutex);
+    queue.push_back(std::move(next));
+    changed.notify_one();
+  }
+
+  /// The next frame, waited for; nothing after the end.
+  std::optional<QueuedFrame> take() {
+    std::unique_lock lock(mutex);
+    changed.wait(lock, [&] { return (zero && !queue.empty()) || !open; });
+    if (!zero || queue.empty()) return std::nullopt;
+    QueuedFrame next = std::move(queue.front());
+    queue.pop_front();
+    bytes -= next.picture.pixels.size();
+    return next;
+  }
+
+  void give_back(Image buffer) {
+    const std::lock_guard lock(mutex);
+    buffers.push_back(std::move(buffer));
+  }
+
+  void close() {
+    const std::lock_guard lock(mutex);
+    open = false;
+    changed.notify_all();
+  }
+};
+
+/// Writes in its own thread.
+class VideoRecorder::Writer {
+ public:
+  Writer(std::shared_ptr<Shared> shared, const fs::path& file, double rate)
+      : shared_(std::move(shared)),
+        rate_(std::isfinite(rate) && rate > 0 ? rate : 1),
+        part_(part_of(file)),
+        times_file_(times_of(file)),
+        result_{.file = file} {
+    ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    std::fclose(create_new(part_, file));
+    cv::VideoWriter trial;
+    if (!open_video(trial, part_, rate_, {64, 64}, true))
+      throw InputError(file.string() + ": cannot write: no encoder for it");
+    times_.reset(create_new(part_of(times_file_), times_file_));
+    std::fputs("frame,camera_frame,t_s\n", times_.get());
+    thread_ = std::thread([this] { run(); });
+  }
+  ~Writer() {
+    const bool unfinished = thread_.joinable();
+    join();
+    if (!unfinished || result_.frames > 0) return;
+    std::error_code none;
+    for (const fs::path& empty : {part_, part_of(times_file_)}) fs::remove(empty, none);
+  }
+
+  const RecordedVideo& finish() {
+    if (!thread_.joinable()) return result_;
+    join();
+    video_.release();
+    result_.dropped = shared_->dropped;
+    bool good = std::ferror(times_.get()) == 0;
+    good = std::fclose(times_.release()) == 0 && good;
+    if (result_.trouble.empty() && result_.frames == 0) result_.trouble = "no picture came";
+    if (result_.trouble.empty() && (!good || frames_in(part_) < result_.frames))
+      result_.trouble = "write failed";
+    if (result_.trouble.empty()) give_names();
+    if (!result_.trouble.empty())
+      result_.trouble = result_.file.string() + ": " + result_.trouble +
+                        "; partial video kept as " + part_.string();
+    return result_;
+  }
+
+ private:
+  struct CloseFile {
+    void operator()(std::FILE* open) const { std::fclose(open); }
+  };
+
+  void join() {
+    shared_->close();
+    if (thread_.joinable()) thread_.join();
+  }
+
+  void give_names() {
+    std::error_code error;
+    fs::rename(part_of(times_file_), times_file_, error);
+    if (!error) fs::rename(part_, result_.file, error);
+    if (error) result_.trouble = error.message();
+  }
+
+  void run() {
+    ::setpriority(PRIO_PROCESS, 0, lower_priority);  // of this thread only, on Linux
+    while (auto frame = shared_->take()) {
+      if (result_.trouble.empty()) {
+        try {
+          write(*frame);
+        } catch (const std::exception& e) {
+          result_.trouble = one_line(e.what());
+        }
+      }
+      shared_->give_back(std::move(frame->picture));
+    }
+  }
+
+  void write(const Shared::QueuedFrame& frame) {
+    const Image& p = frame.picture;
+    if (!video_.isOpened() &&
+        !open_video(video_, part_, rate_, {p.width, p.height}, p.channels == 3))
+      throw InputError("no encoder for its pictures");
+    if (p.channels == 3) {
+      cv::cvtColor(as_mat(p), bgr_, cv::COLOR_RGB2BGR);
+      video_.write(bgr_);
+    } else {
+      video_.write(as_mat(p));
+    }
+    std::fprintf(times_.get(), "%d,%d,%.6f\n", result_.frames, frame.index,
+                 frame.taken - *shared_->zero);
+    ++result_.frames;
+  }
+
+  std::shared_ptr<Shared> shared_;
+  double rate_;
+  fs::path part_;
+  fs::path times_file_;
+  RecordedVideo result_;
+  cv::VideoWriter video_;
+  cv::Mat bgr_;
+  std::unique_ptr<std::FILE, CloseFile> times_;
+  std::thread thread_;
+};
+
+VideoRecorder::VideoRecorder(const fs::path& file, double rate)
+    : shared_(std::make_shared<Shared>()), writer_(std::make_unique<Writer>(shared_, file, rate)) {}
+
+VideoRecorder::~VideoRecorder() = default;
+
+fs::path VideoRecorder::times_of(const fs::path& video) {
+  fs::path times = video;
+  return times.replace_extension(".csv");
+}
+
+FrameListener VideoRecorder::input() const {
+  return [shared = shared_](const VideoFrame& frame, double taken) { shared->add(frame, taken); };
+}
+
+void VideoRecorder::begin(double zero) {
+  const std::lock_guard lock(shared_->mutex);
+  if (!shared_->zero) shared_->zero = zero;
+  shared_->changed.notify_all();
+}
+
+const RecordedVideo& VideoRecorder::finish() { return writer_->finish(); }
+
+}  // namespace microswarm
