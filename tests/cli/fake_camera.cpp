@@ -51,7 +51,7 @@ struct Traits {
   int no_camera = number_of("no_camera", 0);
   int output = number_of("output", 0);  // it shows pictures
   int controls = number_of("controls", 1);
-  std::string scene = word_of("scene", "");  // a PGM of the size that is asked for
+  std::string scene = word_of("scene", "");  // a PGM of the size asked for, which may change
   int region = number_of("region", 0);       // it has one, in steps of 8
 };
 
@@ -140,7 +140,7 @@ std::vector<std::uint8_t> grey_picture() {
   const int height = static_cast<int>(camera.form.height);
   const int gain = control_of(V4L2_CID_GAIN) ? control_of(V4L2_CID_GAIN)->value : 0;
   std::vector<std::uint8_t> grey(static_cast<std::size_t>(width) * height);
-  static const std::vector<std::uint8_t> scene = scene_pixels(grey.size());
+  const std::vector<std::uint8_t> scene = scene_pixels(grey.size());
   std::uint32_t noise = 12345u + static_cast<std::uint32_t>(camera.pictures);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // mega_simulator FIRMWARE.elf [BOOTLOADER.hex]: an ATmega2560 in real time whose serial line is a
-// pseudo-terminal. As on a Mega, opening the port resets it; with a bootloader, that runs first.
-// Prints `port PATH`, then `out MS o1 … o6` whenever an output changes (per mille, by the pins'
-// registers), `enable 0` or `enable 1`. Takes lines: `cut`, `join` (the cable), `lose P` and `flip
-// P` (a share of the bytes to the device), `mute` (the device is heard no more), `reset`,
-// `brownout`, `press`, `release` (the emergency stop), `trace FILE` (writes the cycle of each
-// change of an output, and the outputs), `mark`; answers each with `mark MS`. MS is the device's
-// own time, which stands still while the computer has other work. Ends with its standard input.
+// pseudo-terminal. As on a Mega, opening the port resets it; with a bootloader, that runs first,
+// and takes uploads. FIRMWARE.elf may be `-`: a board as it is sold. Prints `port PATH`, then `out
+// MS o1 … o6` whenever an output changes (per mille, by the pins' registers), `enable 0` or `enable
+// 1`. Takes lines: `cut`, `join` (the cable), `lose P` and `flip P` (a share of the bytes to the
+// device), `mute` (the device is heard no more), `reset`, `brownout`, `press`, `release` (the
+// emergency stop), `trace FILE` (writes the cycle of each change of an output, and the outputs),
+// `mark`; answers each with `mark MS`. MS is the device's own time, which stands still while the
+// computer has other work. Ends with its standard input.
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <poll.h>
@@ -69,12 +70,16 @@ class Mega {
  public:
   Mega(const char* firmware, const char* bootloader) {
     elf_firmware_t elf{};
-    if (elf_read_firmware(firmware, &elf) != 0) fail("cannot read the firmware");
+    const bool is_bare = std::string_view(firmware) == "-";
+    if (!is_bare && elf_read_firmware(firmware, &elf) != 0) fail("cannot read the firmware");
     avr_ = avr_make_mcu_by_name("atmega2560");
     if (!avr_) fail("knows no atmega2560");
     avr_init(avr_);
     elf.frequency = static_cast<std::uint32_t>(frequency);
-    avr_load_firmware(avr_, &elf);
+    if (is_bare)
+      avr_->frequency = elf.frequency;
+    else
+      avr_load_firmware(avr_, &elf);
     avr_->codeend = avr_->flashend;
     if (bootloader) load(bootloader);
     avr_->sleep = [](avr_t*, avr_cycle_count_t) {};  // run() keeps the time

@@ -11,11 +11,13 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <sstream>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "microswarm/actuation/drivers/serial_coil_driver.hpp"
@@ -34,7 +36,10 @@ inline constexpr Outputs some_outputs{100, -200, 300, -400, 500, -1000};
 /// The simulator as a child, and what it prints.
 class Simulator {
  public:
-  explicit Simulator(const char* bootloader = nullptr, const char* firmware = FIRMWARE) {
+  /// `heard` is called with every change of the outputs, in a thread of the simulator's own.
+  explicit Simulator(const char* bootloader = nullptr, const char* firmware = FIRMWARE,
+                     std::function<void(const Outputs&)> heard = {})
+      : heard_(std::move(heard)) {
     std::array<int, 2> to{}, from{};
     if (pipe2(to.data(), O_CLOEXEC) != 0 || pipe2(from.data(), O_CLOEXEC) != 0) std::abort();
     child_ = fork();
@@ -108,12 +113,14 @@ class Simulator {
         words >> changed_;
         for (int& o : outputs_) words >> o;
         if (outputs_ == wanted_ && !matched_) matched_ = changed_;  // it may not stay so
+        if (heard_) heard_(outputs_);
       }
       news_.notify_all();
     }
     std::fclose(file);
   }
 
+  std::function<void(const Outputs&)> heard_;
   pid_t child_ = -1;
   int orders_ = -1;
   std::thread listener_;

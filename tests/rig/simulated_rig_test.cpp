@@ -142,6 +142,18 @@ TEST(SimulatedRig, WhatDoesNotGoTogetherIsRefused) {
                ": the camera is not simulated: set camera.type");
 }
 
+TEST(SimulatedRig, ANamedDeviceIsSimulatedLikeItAndNotOpened) {
+  const Rehearsal r(
+      "first_rig.yaml", "bench.yaml",
+      {"camera.type=simulated", "camera.microscope.um_per_px=6", "driver.port=/dev/none"});
+  const auto coils = simulated_coils(r.rig.params);
+  EXPECT_EQ(coils->channels(), 6);
+  EXPECT_TRUE(coils->makes_waveforms());
+  EXPECT_EQ(coils->drive(std::vector<double>{10, 0, 0, 0, 0, 0}), DriveStatus::driven);
+  EXPECT_EQ(coils->drive(std::vector<double>{10.1, 0, 0, 0, 0, 0}), DriveStatus::refused);
+  EXPECT_EQ(r.in_rig().status, Status::solved);
+}
+
 TEST(SimulatedRig, AScenarioBeyondTheGridOfTheFieldIsRefused) {
   const test::Folder folder;
   std::string grid = "8\n2 2 2\n-0.0002 0.0002\n-0.0002 0.0002\n-0.0002 0.0002\n";

@@ -14,11 +14,6 @@ namespace {
 constexpr double min_sends = 10;            // per turn of the field
 constexpr double max_waveform_sends = 100;  // [Hz]; one takes 7.7 ms at 115200 baud
 
-int channels_of(const RigParams& rig) {
-  const auto* simulated = std::get_if<SimulatedCoils>(&rig.driver);
-  return simulated ? simulated->channels : coil_link_channels;
-}
-
 Issues validate(const RigParams& rig, const CoilSystem& system) {
   Issues issues;
   const bool on_device = turns_on_device(rig);
@@ -59,6 +54,11 @@ Rig read_rig(const std::filesystem::path& file, const Settings& settings) {
       system.drives(), [](const DriveParams& drive) { return drive.max_current.has_value(); });
   system.limit_current(full_scale_of(params));
   return {std::move(params), std::move(system), file.parent_path(), keys, limits_current};
+}
+
+int channels_of(const RigParams& rig) {
+  const auto* simulated = std::get_if<SimulatedCoils>(&rig.driver);
+  return simulated ? simulated->channels : coil_link_channels;
 }
 
 double full_scale_of(const RigParams& rig) {

@@ -157,6 +157,8 @@ struct Rig {
   bool limits_current = false;
 };
 
+/// Channels of the rig's driver.
+int channels_of(const RigParams& rig);
 /// Current of a channel at full output [A].
 double full_scale_of(const RigParams& rig);
 

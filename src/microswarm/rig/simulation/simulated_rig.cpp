@@ -51,9 +51,8 @@ RunResult simulate_rig(const Scenario& scenario, const World& world, const Rig& 
 }
 
 std::unique_ptr<CoilDriver> simulated_coils(const RigParams& rig) {
-  const auto* given = std::get_if<SimulatedCoils>(&rig.driver);
-  const SimulatedCoils coils = given ? *given : SimulatedCoils{};
-  return std::make_unique<SimulatedCoilDriver>(coils.channels, coils.full_scale, coils.waveforms);
+  return std::make_unique<SimulatedCoilDriver>(channels_of(rig), full_scale_of(rig),
+                                               turns_on_device(rig));
 }
 
 }  // namespace microswarm

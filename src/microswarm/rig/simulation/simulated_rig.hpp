@@ -50,7 +50,7 @@ RunResult simulate_rig(const Scenario& scenario, const World& world, const Rig& 
                        std::uint32_t trial = 0, std::span<RunListener* const> listeners = {},
                        const Stop& stop = {});
 
-/// Simulated coils with the rig's settings.
+/// Simulated coils like those of the rig's driver, whatever its kind; opens no device.
 std::unique_ptr<CoilDriver> simulated_coils(const RigParams& rig);
 
 }  // namespace microswarm
