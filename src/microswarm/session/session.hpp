@@ -60,6 +60,9 @@ class Session {
   /// there are any, nothing changes. See OpenRun::change for the settable values. A record cannot
   /// be changed.
   Issues set(const std::string& key, const std::string& value);
+  /// How a person operates the experiment: pause, steer by hand, end; usable from any thread. Null
+  /// for a record.
+  Operation* operation();
   /// Goes to a frame of a record, at most to its last: view() shows it, step() gives the next one.
   /// False if the session is not a record, or has no frames.
   bool seek(std::size_t frame);
