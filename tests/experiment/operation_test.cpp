@@ -15,9 +15,7 @@ namespace {
 /// A run that is recorded tick by tick.
 struct Operated {
   explicit Operated(const Scenario& scenario)
-      : open(scenario, world_of(scenario)),
-        recorder(load_scene(scenario, {})),
-        metrics(scenario) {}
+      : open(scenario, world_of(scenario)), recorder(load_scene(scenario, {})), metrics(scenario) {}
   bool step(const Stop& stop = {}) {
     const Tick* tick = open.step(stop);
     if (!tick) return false;

@@ -97,8 +97,8 @@ std::string summary(const RunResult& result) {
                             m.planning_events, 1e3 * p.mean, 1e3 * p.max);
 }
 
-/// Warns on stderr of valid but unusual settings.
-void note_oddities(const Scenario& scenario) {
+/// Warns on stderr of ticks in which a swarm drives far.
+void note_tick(const Scenario& scenario) {
   if (scenario.robots) return;
   const SwarmLimits swarm = limits_of(scenario.swarm);
   const double way = swarm.max_speed * scenario.tick;
@@ -133,15 +133,17 @@ void keep(const Record& record, const RunOutput& o, const ReportOptions& report)
 
 }  // namespace
 
-void finish_run(Session& session, const Stop& stop, std::optional<double> seconds) {
+void note_oddities(const Session& session) {
+  note_tick(session.scenario());
+  note_assumptions(session.scenario(), session.map());
+}
+
+void finish_run(Session& session, const Stop& stop) {
+  note_oddities(session);
   const Scenario& scenario = session.scenario();
-  note_oddities(scenario);
-  note_assumptions(scenario, session.map());
   ProgressBar bar(scenario.name.empty() ? "run" : scenario.name);
-  ProgressListener progress(scenario, [&](const RunProgress& p) {
-    const double spent = seconds ? p.t / *seconds : p.time_spent;
-    bar.update(std::max(p.way_done, spent));
-  });
+  ProgressListener progress(
+      scenario, [&](const RunProgress& p) { bar.update(std::max(p.way_done, p.time_spent)); });
   while (const Tick* tick = session.step(stop)) progress.on_tick(*tick);
 }
 

@@ -87,6 +87,8 @@ class Session {
   void record_to(const std::filesystem::path& file) const { write_record(record(), file); }
 
  protected:
+  /// The newest tick; null before the first.
+  const Tick* newest() const { return tick_; }
   /// What a rig logs into the record of a running session.
   RigLog& rig_log() { return std::get<0>(source_)->recorder.rig_log(); }
 

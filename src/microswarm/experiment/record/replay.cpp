@@ -90,8 +90,7 @@ std::size_t frames_to_repeat(const Record& record) {
 /// Stops a replay at the end of a stopped record, or when the caller stops.
 class Ending : public RunListener {
  public:
-  Ending(const Record& record, const Stop& stop)
-      : stop_(stop), left_(frames_to_repeat(record)) {
+  Ending(const Record& record, const Stop& stop) : stop_(stop), left_(frames_to_repeat(record)) {
     over_ = left_ == 1;
   }
   void on_tick(const Tick&) override {

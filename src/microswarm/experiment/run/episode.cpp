@@ -23,8 +23,7 @@ void cut(std::vector<PoseStamped>& way, double t) {
 
 }  // namespace
 
-Episode::Episode(const Scenario& scenario, Plant& plant, Navigator& navigator,
-                 Operation* operation)
+Episode::Episode(const Scenario& scenario, Plant& plant, Navigator& navigator, Operation* operation)
     : scenario_(scenario),
       plant_(plant),
       navigator_(&navigator),

@@ -21,8 +21,8 @@ namespace microswarm {
 
 /// Runs an experiment tick by tick: observe, decide, apply. Contacts and arrival are detected in
 /// continuous time. For individually tracked robots the goal is tested once per tick, and walls are
-/// not contacts. After the arrival it goes on for the scenario's `hold_at_goal`: the navigator keeps
-/// the swarm there, and takes it back if it drifts away.
+/// not contacts. After the arrival it goes on for the scenario's `hold_at_goal`: the navigator
+/// keeps the swarm there, and takes it back if it drifts away.
 ///
 ///     Episode episode(scenario, plant, navigator);
 ///     while (const Tick* tick = episode.step()) listener.on_tick(*tick);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::array<std::string_view, 8> changeable{
     "navigator",    "goal_um",      "goal_tolerance_um", "obstacles",
-    "time_limit_s", "hold_limit_s", "hold_at_goal_s", "stop_at_contact"};
+    "time_limit_s", "hold_limit_s", "hold_at_goal_s",    "stop_at_contact"};
 
 double max_speed_of(const Scenario& scenario) {
   return scenario.robots ? scenario.robots->max_speed : limits_of(scenario.swarm).max_speed;

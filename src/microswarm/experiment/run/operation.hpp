@@ -37,6 +37,8 @@ class Operation {
   /// Ends the run in order, as a stop: `solved` at the goal, else `stopped`.
   void end() { ended_ = true; }
 
+  /// Largest speed that steer() commands [µm/s].
+  double max_speed() const { return by_hand_.max_speed(); }
   bool is_paused() const { return paused_; }
   bool is_manual() const { return manual_; }
   bool is_ended() const { return ended_; }

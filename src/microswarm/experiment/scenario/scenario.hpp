@@ -105,8 +105,9 @@ struct Scenario {
           {"time_limit", Unit::s, {0, 1e5}, "Simulated time after which the run ends."});
     visit(self.hold_limit,
           {"hold_limit", Unit::s, {0, 1e5}, "Longest uninterrupted hold before the run ends."});
-    visit(self.hold_at_goal,
-          {"hold_at_goal", Unit::s, {0, 1e6}, "Time to hold the swarm at the goal before the end."});
+    visit(
+        self.hold_at_goal,
+        {"hold_at_goal", Unit::s, {0, 1e6}, "Time to hold the swarm at the goal before the end."});
     visit(self.stop_at_contact, {"stop_at_contact",
                                  Unit::none,
                                  {},

@@ -25,6 +25,7 @@ class ManualNavigator : public Navigator {
   /// Drops the command, from any thread: the swarm holds.
   void release();
   Command step(const Observation& seen, const Stop& stop) override;
+  double max_speed() const { return max_speed_; }  ///< [µm/s]
   NavigatorView view() const override { return view_; }
 
  private:
