@@ -219,6 +219,7 @@ TEST_F(RigOperation, AtTheGoalItIsHeldUntilCtrlC) {
   EXPECT_NEAR(run.result.metrics.time, arrival, 1e-9);
   EXPECT_GT(run.frames.back().t, arrival + 1.5);
   EXPECT_LT(run.frames.back().goal_distance, 60);
+  EXPECT_TRUE(names(terminal.said(), "held there for ")) << terminal.said();
 }
 
 TEST_F(RigOperation, TheHoldEndsByItsTimeOrItsKey) {
@@ -333,6 +334,21 @@ TEST_F(RigOperation, ASuspendedComputerIsNotDrivenOn) {
   EXPECT_EQ(outcome.code, 4) << outcome.err;
   EXPECT_TRUE(names(outcome.out, "the computer was suspended for 7 s")) << outcome.out;
   EXPECT_EQ(device.count(CoilMessage::arm), arms);
+  EXPECT_EQ(strongest, 0);
+}
+
+TEST_F(RigOperation, NorByHand) {
+  write("asleep", "0");
+  at.environment = {{"LD_PRELOAD", MICROSWARM_FAKE_SUSPEND},
+                    {"FAKE_SUSPEND", (at.folder / "asleep").string()}};
+  Program program({"rig", "drive", "rig.yaml", "--other-stop", "--coils-cold", "--currents",
+                   "2,0,0", "--seconds", "60"},
+                  at);
+  for (int i = 0; i < 1000 && device.count(CoilMessage::set) < 50; ++i) sleep_ms(10);
+  write("asleep", "5");
+  const Outcome outcome = program.wait();
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+  EXPECT_TRUE(names(outcome.err, "the computer was suspended for 5 s")) << outcome.err;
   EXPECT_EQ(strongest, 0);
 }
 

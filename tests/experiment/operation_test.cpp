@@ -175,6 +175,36 @@ TEST(Operation, DrivenAwayFromTheGoalByHandItComesBack) {
   expect_repeated(record);
 }
 
+TEST(Operation, EveryNavigatorHoldsAtTheGoalAndComesBack) {
+  for (const NavigatorParams& navigator :
+       {NavigatorParams{HierarchicalParams{}}, NavigatorParams{RadarParams{}},
+        NavigatorParams{StraightParams{}}, NavigatorParams{PotentialFieldParams{}},
+        NavigatorParams{VelocityObstacleParams{}}, NavigatorParams{PredictiveParams{}}}) {
+    Scenario scenario = open_room();
+    scenario.navigator = navigator;
+    scenario.goal = Vec2{500, 500};
+    scenario.hold_at_goal = 40;
+    SCOPED_TRACE(navigator.index());
+    Operated run(scenario);
+    run.arrive();
+    for (int i = 0; i < 30; ++i) {
+      run.step(1);
+      EXPECT_LE(run.newest().goal_distance, 1.2 * scenario.goal_tolerance);
+    }
+    run.operation().manual();
+    for (int i = 0; i < 50; ++i) {
+      run.operation().steer({std::numbers::pi / 2, 60});
+      run.step(1);
+    }
+    EXPECT_GT(run.newest().goal_distance, 2 * scenario.goal_tolerance);
+    run.operation().manual(false);
+    const Record record = run.finish();
+    EXPECT_EQ(record.result.status, Status::solved);
+    EXPECT_LE(record.frames.back().goal_distance, 1.2 * scenario.goal_tolerance);
+    expect_repeated(record);
+  }
+}
+
 TEST(Operation, AHoldThatIsEndedHasReachedTheGoal) {
   Scenario scenario = open_room();
   scenario.hold_at_goal = 1e6;

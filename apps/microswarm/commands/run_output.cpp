@@ -125,6 +125,13 @@ void note_assumptions(const Scenario& scenario, const Map& map) {
   if (!few.empty()) note("note: {}\n", few);
 }
 
+/// Time for which the swarm was held at the goal, as a line; nothing without a hold.
+std::string hold_text(const Record& record) {
+  if (record.result.status != Status::solved || record.frames.empty()) return {};
+  const double held = record.frames.back().t - record.result.metrics.time;
+  return held > 1e-3 ? fmt::format("  at goal   held there for {:.1f} s\n", held) : "";
+}
+
 void keep(const Record& record, const RunOutput& o, const ReportOptions& report) {
   const std::filesystem::path folder = o.out;
   write_record(record, folder / "run.h5");
@@ -164,7 +171,8 @@ int tell_run(const Session& session, const RunOutput& o, const ReportOptions& re
     print("{}\n", json.dump(2));
   } else {
     const auto& robots = session.scenario().robots;
-    print("{}  record    {}\n", robots ? robots_summary(result, *robots) : summary(result), hash);
+    print("{}{}  record    {}\n", robots ? robots_summary(result, *robots) : summary(result),
+          hold_text(record), hash);
     if (!o.out.empty() && !lost)
       print("wrote {}\n",
             (std::filesystem::path(o.out) / (o.no_report ? "run.h5" : "index.html")).string());

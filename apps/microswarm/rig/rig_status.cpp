@@ -36,6 +36,10 @@ std::string swarm_text(const LiveStatus& s) {
   return "unseen";
 }
 
+std::string gap_text(double gap) {
+  return gap > 0 ? fmt::format("gap {:.0f} µm", gap) : std::string("touches");
+}
+
 std::string of_limit(double value, const std::optional<double>& limit, const char* unit) {
   if (!limit) return fmt::format("{:.3g} {}", value, unit);
   return fmt::format("{:.3g}/{:.3g} {}", value, *limit, unit);
@@ -52,6 +56,7 @@ std::vector<Part> parts_of(const LiveStatus& s) {
   if (std::isfinite(s.goal_distance))
     parts.push_back({4, fmt::format("goal {:.0f} µm", s.goal_distance)});
   parts.push_back({2, swarm_text(s)});
+  if (s.gap < s.radius) parts.push_back({3, gap_text(s.gap)});
   parts.push_back({6, of_limit(s.coils.current, s.coils.max_current, "A")});
   parts.push_back({7, of_limit(std::round(s.coils.temperature), s.coils.max_temperature, "°C")});
   if (s.coils.scale < 0.995)

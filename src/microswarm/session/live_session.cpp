@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/session/live_session.hpp"
 
+#include <algorithm>
 #include <array>
 #include <ctime>
 #include <utility>
@@ -207,6 +208,8 @@ LiveStatus LiveSession::status() const {
   status.holding = tick->holding;
   status.goal_distance = tick->frame.goal_distance;
   status.command_speed = tick->frame.command.speed;
+  status.radius = tick->frame.radius;
+  status.gap = std::min(tick->frame.wall_clearance, tick->frame.obstacle_clearance) - status.radius;
   return status;
 }
 

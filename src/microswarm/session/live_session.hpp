@@ -31,6 +31,8 @@ struct LiveStatus {
   bool holding = false;      ///< the goal was reached, and the swarm is held there
   double goal_distance = 0;  ///< [µm], infinite before the swarm was seen
   double command_speed = 0;  ///< [µm/s]
+  double radius = 0;         ///< of the swarm [µm]
+  double gap = infinity;     ///< from its edge to walls and obstacles [µm]; infinite for robots
   std::string_view trouble;  ///< why the swarm is not seen, see Detections; empty: it is seen
   int robots = 0;            ///< individually tracked robots
   int unseen = 0;            ///< of them

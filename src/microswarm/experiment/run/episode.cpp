@@ -88,10 +88,8 @@ bool Episode::advance(const Stop& stop) {
     ending_ = arrive();
   }
   if (ending_) return false;
-  if (!prepared_ && is_autonomous()) {
-    navigator_->prepare(*seen.world);
-    prepared_ = true;
-  }
+  if (!prepared_) navigator_->prepare(*seen.world);
+  prepared_ = true;
 
   const Clock::time_point begin = Clock::now();
   const Command command = decide(seen, stop);
@@ -135,7 +133,7 @@ Command Episode::decide(const Observation& seen, const Stop& stop) {
     tick_.view.planned = false;
     tick_.view.state = NavigatorState::paused;
   }
-  if (prepared_) navigator_->overruled(seen.now, command);
+  navigator_->overruled(seen.now, command);
   return command;
 }
 
