@@ -13,6 +13,7 @@
 
 #include "microswarm/core/execution/progress.hpp"
 #include "microswarm/core/execution/stop.hpp"
+#include "support/status_line.hpp"
 
 namespace microswarm::cli {
 
@@ -22,6 +23,9 @@ inline constexpr int failed = 1;
 inline constexpr int bad_input = 2;
 inline constexpr int not_reached = 3;
 inline constexpr int hardware = 4;
+/// Returned by an action in place of `ok` if a Ctrl-C did not cut it short; the program ends with
+/// 0.
+inline constexpr int complete = -1;
 
 /// Context of every command: the stop set by Ctrl-C.
 struct Context {
@@ -69,7 +73,8 @@ void print(fmt::format_string<Values...> format, Values&&... values) {
   put(fmt::format(format, std::forward<Values>(values)...));
 }
 
-/// Writes to stderr, as `printable`; errors such as a closed terminal are ignored.
+/// Writes to stderr, as `printable`, above a status line; errors such as a closed terminal are
+/// ignored.
 void say(std::string_view text) noexcept;
 
 template <class... Values>
@@ -81,24 +86,6 @@ void note(fmt::format_string<Values...> format, Values&&... values) {
 inline void note_each(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) note("note: {}\n", line);
 }
-
-/// Progress bar on stderr, shown only on a terminal: "label [#####.....] 50 % 3 s left note".
-class ProgressBar {
- public:
-  explicit ProgressBar(const std::string& label);
-  ~ProgressBar();
-  ProgressBar(const ProgressBar&) = delete;
-  ProgressBar& operator=(const ProgressBar&) = delete;
-  /// `share` is the completed fraction of the work, in [0, 1].
-  void update(double share, const std::string& doing = {});
-
- private:
-  std::string label_;
-  bool shown_;
-  Stop::Clock::time_point began_;
-  int last_ = -1;
-  std::string note_;
-};
 
 /// Shows progress of library code on such bars, one after the other.
 BeginProgress progress_bars();

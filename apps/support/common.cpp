@@ -28,12 +28,6 @@ namespace {
   throw InputError("stdout: cannot write: " + std::generic_category().message(error));
 }
 
-/// Writes to stderr as it is, control characters included.
-void say_raw(std::string_view text) noexcept {
-  std::fwrite(text.data(), 1, text.size(), stderr);
-  std::fflush(stderr);
-}
-
 }  // namespace
 
 void put(std::string_view text) {
@@ -43,34 +37,6 @@ void put(std::string_view text) {
 
 void flush_output() {
   if (std::fflush(stdout) != 0) output_failed(errno);
-}
-
-void say(std::string_view text) noexcept {
-  try {
-    say_raw(printable(text));
-  } catch (const std::bad_alloc&) {
-    say_raw("out of memory\n");
-  }
-}
-
-ProgressBar::ProgressBar(const std::string& label)
-    : label_(one_line(label)), shown_(isatty(STDERR_FILENO) == 1), began_(Stop::Clock::now()) {}
-
-ProgressBar::~ProgressBar() {
-  if (shown_ && last_ >= 0) say_raw("\r\033[K");
-}
-
-void ProgressBar::update(double share, const std::string& doing) {
-  const int percent = static_cast<int>(100 * std::clamp(share, 0.0, 1.0));
-  if (!shown_ || (percent == last_ && doing == note_)) return;
-  last_ = percent;
-  note_ = doing;
-  const double spent = std::chrono::duration<double>(Stop::Clock::now() - began_).count();
-  const double left = share > 0 ? spent * (1 - share) / share : 0;
-  const auto done = static_cast<std::size_t>(percent / 4);
-  say_raw("\r\033[K");
-  note("{} [{}{}] {:3} % {:.0f} s left {}", label_, std::string(done, '#'),
-       std::string(25 - done, '.'), percent, left, one_line(doing));
 }
 
 void keep_input(const std::string& out, const std::string& in) {

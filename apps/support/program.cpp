@@ -65,6 +65,7 @@ int act(const char* name, const Action& action) {
   try {
     const int code = action(Context(&was_interrupted));
     flush_output();
+    if (code == complete) return ok;
     return code == ok && was_interrupted ? not_reached : code;
   } catch (const InputError& e) {
     return complain(name, e.what(), bad_input);

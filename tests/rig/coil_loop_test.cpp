@@ -64,5 +64,42 @@ TEST(CoilLoop, AStandstillWhileItIsLoggedEndsIt) {
   EXPECT_LE(heard, 10);
 }
 
+/// A loop whose computer can be suspended.
+struct Sleeper {
+  CoilSystem system{read_yaml_text<CoilSystemParams>("coils: {type: helmholtz}", "coils"), "coils"};
+  StoppedInAnExchange driver;
+  CoilController controller{system, {}, driver, 0};
+  std::atomic<double> asleep = 100;  // [s], before the program started
+  CoilLoop loop{controller, {.max_pause = 0.4}, {}, [this] { return asleep.load(); }};
+
+  void command() { loop.command({0, 20}, controller.place()); }
+  /// Waits until the loop ends, two seconds at most.
+  std::string end() const {
+    for (int i = 0; i < 200 && loop.failure().empty(); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return loop.failure();
+  }
+};
+
+TEST(CoilLoop, ASuspendedComputerEndsIt) {
+  Sleeper sleeper;
+  sleeper.command();
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_EQ(sleeper.loop.failure(), "");
+  sleeper.asleep = 130;
+  EXPECT_EQ(sleeper.end(), "the computer was suspended for 30 s");
+}
+
+TEST(CoilLoop, WhatIsCommandedAfterASuspensionBeforeTheFirstCommandIsNotDriven) {
+  Sleeper sleeper;
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  sleeper.asleep = 101;
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_EQ(sleeper.loop.failure(), "");
+  sleeper.command();
+  EXPECT_EQ(sleeper.end(), "the computer was suspended for 1 s");
+  EXPECT_EQ(sleeper.driver.sendings(), 0);
+}
+
 }  // namespace
 }  // namespace microswarm

@@ -167,6 +167,22 @@ TEST(Session, ValuesOfARigNeedARig) {
   EXPECT_THROW(open_session(file, {.rig_settings = {"drive_rate_hz=100"}}), InputError);
 }
 
+TEST(Session, IsOperatedAndPlayedBack) {
+  Session session(flight());
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(session.step());
+  session.operation()->pause();
+  ASSERT_TRUE(session.step());
+  EXPECT_EQ(session.view().frame.state, NavigatorState::paused);
+  session.operation()->pause(false);
+  session.operation()->end();
+  EXPECT_EQ(session.finish().status, Status::stopped);
+  EXPECT_TRUE(replay(session.record()).identical);
+  Session playback(session.record());
+  EXPECT_EQ(playback.operation(), nullptr);
+  playback.seek(5);
+  EXPECT_EQ(playback.view().frame.state, NavigatorState::paused);
+}
+
 TEST(Session, AfterTheEndNothingIsSet) {
   Session session(flight());
   session.finish();

@@ -97,8 +97,8 @@ std::string summary(const RunResult& result) {
                             m.planning_events, 1e3 * p.mean, 1e3 * p.max);
 }
 
-/// Warns on stderr of valid but unusual settings.
-void note_oddities(const Scenario& scenario) {
+/// Warns on stderr of ticks in which a swarm drives far.
+void note_tick(const Scenario& scenario) {
   if (scenario.robots) return;
   const SwarmLimits swarm = limits_of(scenario.swarm);
   const double way = swarm.max_speed * scenario.tick;
@@ -125,6 +125,13 @@ void note_assumptions(const Scenario& scenario, const Map& map) {
   if (!few.empty()) note("note: {}\n", few);
 }
 
+/// Time for which the swarm was held at the goal, as a line; nothing without a hold.
+std::string hold_text(const Record& record) {
+  if (record.result.status != Status::solved || record.frames.empty()) return {};
+  const double held = record.frames.back().t - record.result.metrics.time;
+  return held > 1e-3 ? fmt::format("  at goal   held there for {:.1f} s\n", held) : "";
+}
+
 void keep(const Record& record, const RunOutput& o, const ReportOptions& report) {
   const std::filesystem::path folder = o.out;
   write_record(record, folder / "run.h5");
@@ -133,15 +140,17 @@ void keep(const Record& record, const RunOutput& o, const ReportOptions& report)
 
 }  // namespace
 
-void finish_run(Session& session, const Stop& stop, std::optional<double> seconds) {
+void note_oddities(const Session& session) {
+  note_tick(session.scenario());
+  note_assumptions(session.scenario(), session.map());
+}
+
+void finish_run(Session& session, const Stop& stop) {
+  note_oddities(session);
   const Scenario& scenario = session.scenario();
-  note_oddities(scenario);
-  note_assumptions(scenario, session.map());
   ProgressBar bar(scenario.name.empty() ? "run" : scenario.name);
-  ProgressListener progress(scenario, [&](const RunProgress& p) {
-    const double spent = seconds ? p.t / *seconds : p.time_spent;
-    bar.update(std::max(p.way_done, spent));
-  });
+  ProgressListener progress(
+      scenario, [&](const RunProgress& p) { bar.update(std::max(p.way_done, p.time_spent)); });
   while (const Tick* tick = session.step(stop)) progress.on_tick(*tick);
 }
 
@@ -162,7 +171,8 @@ int tell_run(const Session& session, const RunOutput& o, const ReportOptions& re
     print("{}\n", json.dump(2));
   } else {
     const auto& robots = session.scenario().robots;
-    print("{}  record    {}\n", robots ? robots_summary(result, *robots) : summary(result), hash);
+    print("{}{}  record    {}\n", robots ? robots_summary(result, *robots) : summary(result),
+          hold_text(record), hash);
     if (!o.out.empty() && !lost)
       print("wrote {}\n",
             (std::filesystem::path(o.out) / (o.no_report ? "run.h5" : "index.html")).string());

@@ -3,7 +3,6 @@
 
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -22,8 +21,11 @@ struct RunOutput {
   std::function<nlohmann::ordered_json()> rig_timing{};  ///< of a real rig
 };
 
-/// Steps a session to its end with a progress bar. `seconds` is the time limit of the run, if any.
-void finish_run(Session& session, const Stop& stop, std::optional<double> seconds = std::nullopt);
+/// Warns on stderr of what is unusual about a session before it runs.
+void note_oddities(const Session& session);
+
+/// Steps a session to its end with a progress bar.
+void finish_run(Session& session, const Stop& stop);
 
 /// Writes the record and report of a finished session and prints its result. Returns the exit code.
 int tell_run(const Session& session, const RunOutput& output, const ReportOptions& report);

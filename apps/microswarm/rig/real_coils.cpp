@@ -1,41 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rig/real_coils.hpp"
 
-#include <poll.h>
 #include <unistd.h>
 
-#include <utility>
-
 #include "microswarm/core/errors/error.hpp"
+#include "rig/rig_keys.hpp"
 
 namespace microswarm::cli {
-
-EmergencyKey::EmergencyKey(std::function<void()> stop, const Stop& ended)
-    : stop_(std::move(stop)), ended_(ended) {
-  if (::isatty(STDIN_FILENO) == 0 || ::tcgetpgrp(STDIN_FILENO) != ::getpgrp()) return;
-  if (::tcgetattr(STDIN_FILENO, &before_) != 0) return;
-  thread_ = std::thread([this] { listen(); });
-}
-
-EmergencyKey::~EmergencyKey() {
-  over_ = true;
-  if (thread_.joinable()) thread_.join();
-}
-
-void EmergencyKey::listen() {
-  termios keys = before_;
-  keys.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
-  while (!over_ && !ended_.requested()) {
-    // Repeated, because a shell resets the terminal when the program is suspended and resumed.
-    if (::tcgetpgrp(STDIN_FILENO) == ::getpgrp()) ::tcsetattr(STDIN_FILENO, TCSANOW, &keys);
-    pollfd in{STDIN_FILENO, POLLIN, 0};
-    if (::poll(&in, 1, 20) <= 0) continue;
-    char key = 0;
-    if (::read(STDIN_FILENO, &key, 1) != 1) break;
-    if (key == ' ' || key == 'e' || key == 'E' || key == '\x1b') stop_();
-  }
-  if (::tcgetpgrp(STDIN_FILENO) == ::getpgrp()) ::tcsetattr(STDIN_FILENO, TCSANOW, &before_);
-}
 
 void add_coil_options(Command cmd, CoilOptions& o) {
   cmd.add_flag("--without-limits", o.without_limits,
@@ -45,10 +16,17 @@ void add_coil_options(Command cmd, CoilOptions& o) {
 }
 
 void require_emergency_stop(const CoilOptions& o) {
-  if (::isatty(STDIN_FILENO) == 0 && !o.other_stop)
+  if (!has_keys() && !o.other_stop)
     throw InputError(
         "no terminal, so no emergency key: with an emergency stop of another kind, run with "
         "--other-stop (Ctrl-C and SIGTERM set the coils to zero, too)");
+}
+
+void note_how_to_stop(bool has_keys, const char* keys) {
+  if (has_keys)
+    note("space, e or Esc: coils to zero at once{}\n", keys);
+  else
+    note("to stop: `kill -INT {}`, or the emergency stop of the device\n", ::getpid());
 }
 
 bool note_zero(bool confirmed) {

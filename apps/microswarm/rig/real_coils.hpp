@@ -1,36 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <termios.h>
-
-#include <atomic>
-#include <functional>
-#include <thread>
-
 #include "support/cli.hpp"
 #include "support/command.hpp"
 
 namespace microswarm::cli {
-
-/// Calls `stop` when a key is pressed, if the program has a terminal. The terminal settings are
-/// restored when the program is asked to end.
-class EmergencyKey {
- public:
-  EmergencyKey(std::function<void()> stop, const Stop& ended);
-  ~EmergencyKey();
-  EmergencyKey(const EmergencyKey&) = delete;
-  EmergencyKey& operator=(const EmergencyKey&) = delete;
-  bool is_there() const { return thread_.joinable(); }
-
- private:
-  void listen();
-
-  std::function<void()> stop_;
-  Stop ended_;
-  termios before_{};
-  std::atomic<bool> over_ = false;
-  std::thread thread_;
-};
 
 /// Options of every command that drives coils.
 struct CoilOptions {
@@ -44,6 +18,9 @@ void add_coil_options(Command cmd, CoilOptions& o);
 
 /// Throws InputError if there is no terminal, so no emergency key, and no other emergency stop.
 void require_emergency_stop(const CoilOptions& o);
+
+/// Says on stderr how to stop: by keys, of which `keys` are further ones, or from elsewhere.
+void note_how_to_stop(bool has_keys, const char* keys);
 
 /// Says it on stderr if the coils are not known to be at zero. Returns whether they are.
 bool note_zero(bool confirmed);

@@ -14,6 +14,7 @@
 #include "microswarm/rig/runtime/rig_checks.hpp"
 #include "rig/real_coils.hpp"
 #include "rig/rig.hpp"
+#include "rig/rig_keys.hpp"
 #include "support/options.hpp"
 
 namespace microswarm::cli {
@@ -53,8 +54,8 @@ struct Bench {
 /// Drives and says how it ended. Returns the exit code.
 int drive(Bench& bench, const ManualCommand& command, const Context& context) {
   std::atomic<bool> pressed = false;
-  const EmergencyKey key([&] { pressed = true; }, context.stop);
-  if (key.is_there() && bench.kept) note("space, e or Esc: coils to zero at once\n");
+  const RigKeys keys([&] { pressed = true; }, {}, context.stop);
+  if (bench.kept) note_how_to_stop(keys.are_there(), "");
   ProgressBar bar("drive");
   const auto heard = [&](const ManualMoment& moment) {
     bench.temperatures = moment.output.temperatures;

@@ -4,12 +4,16 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/run_output.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/rig/runtime/rig_checks.hpp"
 #include "microswarm/session/live_session.hpp"
 #include "microswarm/vision/image/threads.hpp"
 #include "rig/real_coils.hpp"
 #include "rig/rig.hpp"
+#include "rig/rig_keys.hpp"
 #include "rig/rig_notes.hpp"
+#include "rig/rig_operator.hpp"
+#include "rig/rig_status.hpp"
 
 namespace microswarm::cli {
 namespace {
@@ -87,7 +91,7 @@ class TripNotes : public RunListener {
   explicit TripNotes(const LiveSession& session) : session_(session) {}
   void on_tick(const Tick&) override {
     const int resumed = session_.resumed();
-    if (resumed > resumed_) note("\nnote: the coils had been off by themselves; armed again\n");
+    if (resumed > resumed_) note("note: the coils had been off by themselves; armed again\n");
     resumed_ = resumed;
   }
 
@@ -125,6 +129,15 @@ void note_virtual_obstacles(const RigExperiment& on) {
     note("note: {} obstacles of the scenario count only where the camera sees them\n", count);
 }
 
+/// Steps a session to its end with its status in a line.
+void drive(LiveSession& session, const Stop& stop) {
+  TripNotes trips(session);
+  session.listen(trips);
+  note_oddities(session);
+  RigStatusLine status(session);
+  while (session.step(stop)) status.update();
+}
+
 struct RigRunOptions {
   std::string scenario;
   std::string rig;
@@ -133,6 +146,7 @@ struct RigRunOptions {
   std::vector<std::string> settings;
   std::vector<std::string> rig_settings;
   std::optional<double> seconds;
+  std::optional<double> hold;
   std::string note;
   bool dry_run = false;
   bool drawn_swarm = false;
@@ -152,8 +166,10 @@ void require_person(const Rig& rig, const RigRunOptions& o) {
 }
 
 int rig_run(const RigRunOptions& o, const Context& context) {
+  std::vector<std::string> settings = o.settings;
+  if (o.hold) settings.push_back("hold_at_goal_s=" + number_text(*o.hold));
   const RigExperiment on =
-      reading([&] { return open_rig_experiment(o.scenario, o.settings, o.rig, o.rig_settings); });
+      reading([&] { return open_rig_experiment(o.scenario, settings, o.rig, o.rig_settings); });
   note_each(on.experiment.keys.notes());
   note_field(on.rig, on.scenario());
   require_person(on.rig, o);
@@ -170,11 +186,14 @@ int rig_run(const RigRunOptions& o, const Context& context) {
   note_each(session.warnings());
   note_virtual_obstacles(on);
   if (o.dry_run) note("dry run: nothing goes to the coils\n");
-  const EmergencyKey key([&] { session.stop("the emergency key was pressed"); }, context.stop);
-  if (key.is_there()) note("space, e or Esc: coils to zero at once\n");
-  TripNotes trips(session);
-  session.listen(trips);
-  finish_run(session, o.seconds ? context.within(*o.seconds) : context.stop, o.seconds);
+  {
+    RigOperator person(session);
+    const RigKeys keys([&] { session.stop("the emergency key was pressed"); },
+                       [&](const Key& key) { person.press(key); }, context.stop);
+    if (keys.are_there() || (has_coil_device(on.rig) && !o.dry_run))
+      note_how_to_stop(keys.are_there(), RigOperator::keys);
+    drive(session, o.seconds ? context.within(*o.seconds) : context.stop);
+  }
   std::string lost = session.close();
   const std::optional<RecordedVideo> video = session.video();
   const RigTiming timing = session.timing();
@@ -188,7 +207,8 @@ int rig_run(const RigRunOptions& o, const Context& context) {
   if (!o.json) tell(timing);
   if (!o.json && video && video->trouble.empty()) tell(*video);
   if (!at_zero) return hardware;
-  return code == ok && !lost.empty() ? bad_input : code;
+  if (code == ok) return lost.empty() ? complete : bad_input;
+  return code;
 }
 
 }  // namespace
@@ -216,6 +236,9 @@ void add_rig_run(Command rig, Action& action) {
   cmd.add_option("--seconds", o->seconds, "End after this time")
       .type_name("S")
       .check(number(0.1, 1e6));
+  cmd.add_option("--hold", o->hold, "Hold the swarm at the goal for this time, or until stopped")
+      .type_name("S")
+      .check(number(0, 1e6));
   cmd.add_option("--note", o->note, "Note of the operator, kept in the record").type_name("TEXT");
   add_json(cmd, o->json);
   cmd.callback(

@@ -32,6 +32,9 @@ class Navigator {
   /// Called once before the first step with the initial world; do slow preparation here.
   virtual void prepare(const Snapshot&) {}
   virtual Command step(const Observation& observation, const Stop& stop) = 0;
+  /// Another command was given in place of a step at `now` [s], because the experiment is paused or
+  /// steered by hand.
+  virtual void overruled(double now, const Command& command) { (void)now, (void)command; }
   /// Valid until the next step.
   virtual NavigatorView view() const = 0;
 };

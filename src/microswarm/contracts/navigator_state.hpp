@@ -25,11 +25,13 @@ enum class NavigatorState {
   gather,    ///< moves robots towards the goal
   arrived,   ///< at the goal
   blind,     ///< no swarm detected, or the frame is stale
+  paused,    ///< a person paused the experiment: hold
+  manual,    ///< a person steers
   // No navigator returns it: the hash of every record covers this word in the last frame.
   end  ///< last frame of a record: the run is over
 };
 constexpr auto enum_names(NavigatorState) {
-  return std::array<std::pair<NavigatorState, std::string_view>, 17>{
+  return std::array<std::pair<NavigatorState, std::string_view>, 19>{
       {{NavigatorState::hold, "hold"},
        {NavigatorState::follow, "follow"},
        {NavigatorState::fallback, "fallback"},
@@ -46,6 +48,8 @@ constexpr auto enum_names(NavigatorState) {
        {NavigatorState::gather, "gather"},
        {NavigatorState::arrived, "arrived"},
        {NavigatorState::blind, "blind"},
+       {NavigatorState::paused, "paused"},
+       {NavigatorState::manual, "manual"},
        {NavigatorState::end, "end"}}};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/session/live_session.hpp"
 
+#include <algorithm>
 #include <array>
 #include <ctime>
 #include <utility>
@@ -187,6 +188,30 @@ std::optional<RecordedVideo> LiveSession::video() const {
 }
 
 int LiveSession::resumed() const { return plant_->rig().resumed(); }
+
+LiveStatus LiveSession::status() const {
+  const LiveRig& rig = plant_->rig();
+  const Detections& sight = rig.sight();
+  const RigTiming timing = rig.timing();
+  LiveStatus status{.trouble = sight.trouble,
+                    .robots = static_cast<int>(sight.robots.size()),
+                    .unseen = sight.unseen,
+                    .coils = rig.load(),
+                    .frame_age = rig.frame_age(),
+                    .tick_p95 = timing.tick.quantile(0.95),
+                    .missed_deadlines = timing.missed_deadlines};
+  if (sight.swarm) status.trouble = {};
+  const Tick* const tick = newest();
+  if (!tick) return status;
+  status.t = tick->frame.t;
+  status.state = tick->frame.state;
+  status.holding = tick->holding;
+  status.goal_distance = tick->frame.goal_distance;
+  status.command_speed = tick->frame.command.speed;
+  status.radius = tick->frame.radius;
+  status.gap = std::min(tick->frame.wall_clearance, tick->frame.obstacle_clearance) - status.radius;
+  return status;
+}
 
 RigTiming LiveSession::timing() const { return plant_->rig().timing(); }
 

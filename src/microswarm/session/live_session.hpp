@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "microswarm/rig/runtime/devices.hpp"
 #include "microswarm/rig/runtime/live_rig.hpp"
@@ -21,6 +22,24 @@ struct LiveOptions {
   bool without_limits = false;     ///< the coil system need not limit current and temperature
   bool coils_cold = false;         ///< the coils are at ambient temperature
   std::string note{};              ///< of the operator, kept in the record
+};
+
+/// Live numbers of a run on a rig.
+struct LiveStatus {
+  double t = 0;  ///< on the record's clock [s]
+  NavigatorState state = NavigatorState::hold;
+  bool holding = false;      ///< the goal was reached, and the swarm is held there
+  double goal_distance = 0;  ///< [µm], infinite before the swarm was seen
+  double command_speed = 0;  ///< [µm/s]
+  double radius = 0;         ///< of the swarm [µm]
+  double gap = infinity;     ///< from its edge to walls and obstacles [µm]; infinite for robots
+  std::string_view trouble;  ///< why the swarm is not seen, see Detections; empty: it is seen
+  int robots = 0;            ///< individually tracked robots
+  int unseen = 0;            ///< of them
+  CoilLoad coils;
+  double frame_age = 0;      ///< of the newest picture [s]
+  double tick_p95 = 0;       ///< time that 95 % of the ticks take at most [s]
+  int missed_deadlines = 0;  ///< ticks that ended too late
 };
 
 /// A session on a rig in real time: a step takes as long as a tick. The destructor sets the coils
@@ -44,6 +63,8 @@ class LiveSession : public Session {
   /// After close(): the recorded video, if one was asked for.
   std::optional<RecordedVideo> video() const;
   RigTiming timing() const;
+  /// Numbers of the newest tick, in the thread that steps.
+  LiveStatus status() const;
   /// How often the coils had switched off by themselves so far.
   int resumed() const;
 

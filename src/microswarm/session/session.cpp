@@ -95,6 +95,10 @@ Issues Session::set(const std::string& key, const std::string& value) {
   return issues;
 }
 
+Operation* Session::operation() {
+  return is_playback() ? nullptr : &std::get<0>(source_)->run.operation();
+}
+
 bool Session::seek(std::size_t frame) {
   if (!is_playback()) return false;
   auto& playback = std::get<Playback>(source_);

@@ -60,6 +60,9 @@ class Session {
   /// there are any, nothing changes. See OpenRun::change for the settable values. A record cannot
   /// be changed.
   Issues set(const std::string& key, const std::string& value);
+  /// How a person operates the experiment: pause, steer by hand, end; usable from any thread. Null
+  /// for a record.
+  Operation* operation();
   /// Goes to a frame of a record, at most to its last: view() shows it, step() gives the next one.
   /// False if the session is not a record, or has no frames.
   bool seek(std::size_t frame);
@@ -84,6 +87,8 @@ class Session {
   void record_to(const std::filesystem::path& file) const { write_record(record(), file); }
 
  protected:
+  /// The newest tick; null before the first.
+  const Tick* newest() const { return tick_; }
   /// What a rig logs into the record of a running session.
   RigLog& rig_log() { return std::get<0>(source_)->recorder.rig_log(); }
 

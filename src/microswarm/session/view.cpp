@@ -18,7 +18,11 @@ std::optional<RadarScan> radar_of(const Navigator* navigator, const Snapshot& wo
 
 SessionView view_of(const Tick& tick, std::uint64_t number, std::uint64_t plans,
                     const Navigator* navigator) {
-  SessionView view{.frame = tick.frame, .number = number, .end = tick.end, .plans = plans};
+  SessionView view{.frame = tick.frame,
+                   .number = number,
+                   .end = tick.end,
+                   .holding = tick.holding,
+                   .plans = plans};
   const auto bodies = tick.world->moving().bodies();
   view.bodies.assign(bodies.begin(), bodies.end());
   if (tick.robots) view.robots.assign(tick.robots->begin(), tick.robots->end());

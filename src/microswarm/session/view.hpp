@@ -23,6 +23,7 @@ struct SessionView {
   Frame frame;                 ///< pose, radius, command, distances, state
   std::uint64_t number = 0;    ///< number of the frame, from 0
   std::optional<Status> end;   ///< set for the last frame
+  bool holding = false;        ///< the goal was reached, and the swarm is held there
   std::vector<Body> bodies;    ///< the obstacles at the frame's time
   std::vector<Vec2> robots;    ///< positions [µm] of individually tracked robots
   std::vector<Vec2> path;      ///< followed by the navigator

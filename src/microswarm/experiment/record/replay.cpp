@@ -78,11 +78,19 @@ struct Comparison {
   }
 };
 
+/// Frames after which a replay is stopped, including the end frame; 0: it ends by itself. A hold at
+/// the goal may have been stopped.
+std::size_t frames_to_repeat(const Record& record) {
+  const bool may_be_stopped =
+      record.result.status == Status::stopped ||
+      (record.result.status == Status::solved && record.scene.scenario.hold_at_goal > 0);
+  return may_be_stopped ? record.frames.size() : 0;
+}
+
 /// Stops a replay at the end of a stopped record, or when the caller stops.
 class Ending : public RunListener {
  public:
-  Ending(const Record& record, const Stop& stop)
-      : stop_(stop), left_(record.result.status == Status::stopped ? record.frames.size() : 0) {
+  Ending(const Record& record, const Stop& stop) : stop_(stop), left_(frames_to_repeat(record)) {
     over_ = left_ == 1;
   }
   void on_tick(const Tick&) override {
@@ -100,30 +108,42 @@ class Ending : public RunListener {
   std::atomic<bool> over_;
 };
 
-/// Applies the record's changes at their frames.
+/// Applies the record's changes at their frames, and operates the run as it was.
 class Changes : public RunListener {
  public:
-  Changes(const std::vector<Change>& changes, OpenRun& open) : changes_(changes), open_(open) {
+  Changes(const Record& record, OpenRun& open) : record_(record), open_(open) {
     apply();
+    operate();
   }
   void on_tick(const Tick&) override {
     ++frame_;
     apply();
+    operate();
   }
   /// Reason why a change failed; empty if none did.
   const std::string& refused() const { return refused_; }
 
  private:
   void apply() {
-    for (; next_ < changes_.size() && changes_[next_].frame == frame_; ++next_) {
-      const Issues issues = open_.change(changes_[next_].setting);
+    const std::vector<Change>& changes = record_.changes;
+    for (; next_ < changes.size() && changes[next_].frame == frame_; ++next_) {
+      const Issues issues = open_.change(changes[next_].setting);
       if (!issues.empty() && refused_.empty())
-        refused_ = "change '" + changes_[next_].setting + "' before frame " +
+        refused_ = "change '" + changes[next_].setting + "' before frame " +
                    std::to_string(frame_) + " is refused: " + issues.begin()->text;
     }
   }
 
-  const std::vector<Change>& changes_;
+  void operate() {
+    if (frame_ >= record_.frames.size()) return;
+    const Frame& frame = record_.frames[frame_];
+    Operation& operation = open_.operation();
+    operation.pause(frame.state == NavigatorState::paused);
+    operation.manual(frame.state == NavigatorState::manual);
+    operation.steer(frame.command);
+  }
+
+  const Record& record_;
   OpenRun& open_;
   std::uint64_t frame_ = 0;
   std::size_t next_ = 0;
@@ -161,7 +181,7 @@ ReplayResult replay(const Record& record, const Stop& stop) {
   Recorder recorder(record.scene, record.trial);
   Ending ending(record, stop);
   OpenRun open(record.scene.scenario, build_world(record.scene), record.trial);
-  Changes changes(record.changes, open);
+  Changes changes(record, open);
   RunListener* const listeners[] = {&recorder, &ending, &changes};
   if (record.result.status == Status::running)
     repeat(record, open, listeners, recorder);

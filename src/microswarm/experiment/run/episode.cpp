@@ -23,10 +23,11 @@ void cut(std::vector<PoseStamped>& way, double t) {
 
 }  // namespace
 
-Episode::Episode(const Scenario& scenario, Plant& plant, Navigator& navigator)
+Episode::Episode(const Scenario& scenario, Plant& plant, Navigator& navigator, Operation* operation)
     : scenario_(scenario),
       plant_(plant),
       navigator_(&navigator),
+      operation_(operation),
       obstacles_(scenario.sensing.obstacle_memory),
       goal_(scenario),
       hold_(scenario) {
@@ -40,6 +41,7 @@ void Episode::change(const std::string& setting, Navigator& navigator) {
   coming_changes_.push_back(setting);
   prepared_ = prepared_ && navigator_ == &navigator;
   navigator_ = &navigator;
+  if (setting.starts_with("goal_um")) at_goal_ = false;
   goal_.take_goal(present_.pose.position);
   if (contacts_) contacts_->take_obstacles();
 }
@@ -51,14 +53,24 @@ const Tick* Episode::step(const Stop& stop) {
   trajectory_.clear();
   changes_ = std::exchange(coming_changes_, {});
   tick_.changes = changes_;
-  const double ticks = std::ceil(scenario_.time_limit / scenario_.tick - 1e-9);
-  if (!ending_ && done_++ >= ticks) ending_ = hold_.holds() ? Status::held : Status::time_limit;
-  if (!ending_ && stop()) ending_ = Status::stopped;
+  if (operation_) mode_ = operation_->mode();
+  tick_.holding = at_goal_;
+  if (!ending_) take_time();
+  if (!ending_ && (stop() || (operation_ && operation_->is_ended()))) ending_ = stopped();
   if (ending_ || !advance(stop)) end();
   tick_.events = events_;
   tick_.trajectory = trajectory_;
   if (contacts_) tick_.contacts = &*contacts_;
   return &tick_;
+}
+
+/// Ends it if the time is up, which does not run in a pause.
+void Episode::take_time() {
+  if (mode_ == OperatingMode::paused) return;
+  const auto ticks = [&](double time) { return std::ceil(time / scenario_.tick - 1e-9); };
+  if (at_goal_ && held_++ >= ticks(scenario_.hold_at_goal)) ending_ = Status::solved;
+  if (!at_goal_ && done_++ >= ticks(scenario_.time_limit))
+    ending_ = hold_.holds() ? Status::held : Status::time_limit;
 }
 
 /// False if the episode ends before the tick starts.
@@ -71,37 +83,58 @@ bool Episode::advance(const Stop& stop) {
   if (!plant_.fault().empty()) {
     fault_ = plant_.fault();
     ending_ = Status::fault;
-  } else if (goal_.reached(present_.goal_distance) && unseen_ == 0) {
-    ending_ = arrived();
+  } else if (is_autonomous() && !at_goal_ && goal_.reached(present_.goal_distance) &&
+             unseen_ == 0) {
+    ending_ = arrive();
   }
   if (ending_) return false;
   if (!prepared_) navigator_->prepare(*seen.world);
   prepared_ = true;
 
   const Clock::time_point begin = Clock::now();
-  const Command command = navigator_->step(seen, stop);
+  const Command command = decide(seen, stop);
   const double took = std::chrono::duration<double>(Clock::now() - begin).count();
   // Discard an interrupted step: the record must be reproducible without the interruption.
   if (stop()) {
-    ending_ = Status::stopped;
+    ending_ = stopped();
     return false;
   }
 
   tick_.step_time = took;
-  tick_.view = navigator_->view();
   tick_.frame.command = command;
   tick_.frame.target = tick_.view.local_target;
   tick_.frame.state = tick_.view.state;
   tick_.frame.planned = tick_.view.planned;
   fill(seen);
-  if (const auto change = hold_.take(command)) note(*change);
-  if (hold_.at_limit()) {
-    ending_ = Status::held;
-    return true;
+  if (is_autonomous() && !at_goal_) {
+    if (const auto change = hold_.take(command)) note(*change);
+    if (hold_.at_limit()) {
+      ending_ = Status::held;
+      return true;
+    }
   }
   plant_.apply(command, scenario_.tick);
   if (contacts_) ending_ = follow(*plant_.ground_truth());
   return true;
+}
+
+Command Episode::decide(const Observation& seen, const Stop& stop) {
+  if (is_autonomous()) {
+    const Command command = navigator_->step(seen, stop);
+    tick_.view = navigator_->view();
+    return command;
+  }
+  Command command{present_.pose.heading, 0};
+  if (mode_ == OperatingMode::manual) {
+    command = operation_->by_hand().step(seen, stop);
+    tick_.view = operation_->by_hand().view();
+  } else {
+    tick_.view = navigator_->view();
+    tick_.view.planned = false;
+    tick_.view.state = NavigatorState::paused;
+  }
+  navigator_->overruled(seen.now, command);
+  return command;
 }
 
 /// Robots that a rig does not see may be anywhere. The truth of a simulation knows all of them.
@@ -136,8 +169,9 @@ Episode::Present Episode::present(const Observation& seen) {
 std::optional<Status> Episode::follow(const GroundTruth& ground_truth) {
   const double t0 = present_.t;
   trajectory_.assign(ground_truth.trajectory.begin(), ground_truth.trajectory.end());
-  const auto arrival = goal_.first_arrival(trajectory_);
-  if (arrival) cut(trajectory_, *arrival);
+  const bool arrives = is_autonomous() && !at_goal_;
+  const auto arrival = arrives ? goal_.first_arrival(trajectory_) : std::nullopt;
+  if (arrival && scenario_.hold_at_goal <= 0) cut(trajectory_, *arrival);
   const ContactMonitor before = *contacts_;
   const std::vector<RunEvent> touches = contacts_->follow(t0, trajectory_);
   const bool ends = !touches.empty() && scenario_.stop_at_contact;
@@ -156,19 +190,30 @@ std::optional<Status> Episode::follow(const GroundTruth& ground_truth) {
   }
   if (ends) return Status::collided;
   if (!arrival) return std::nullopt;
-  return arrived();
+  const auto ending = arrive();
+  if (ending) return ending;
+  events_.back().t = t0 + *arrival;
+  events_.back().position = moment_on(trajectory_, *arrival).pose.position;
+  std::ranges::stable_sort(events_, {}, &RunEvent::t);
+  return std::nullopt;
 }
 
-Status Episode::arrived() {
+/// The swarm is at the goal: the end, unless it is to be held there.
+std::optional<Status> Episode::arrive() {
   note(EventKind::goal_reached);
-  return Status::solved;
+  if (scenario_.hold_at_goal <= 0) return Status::solved;
+  at_goal_ = true;
+  held_ = 0;
+  return std::nullopt;
 }
 
 /// Fills the last tick with the final state.
 void Episode::end() {
   const Observation seen = plant_.observe();
   take_robots(seen);
-  if (*ending_ != Status::solved && *ending_ != Status::collided) present_ = present(seen);
+  const bool ends_between_ticks =
+      *ending_ == Status::collided || (*ending_ == Status::solved && !at_goal_);
+  if (!ends_between_ticks) present_ = present(seen);
   tick_.frame.state = NavigatorState::end;
   fill(seen);
   tick_.end = touched_ && *ending_ != Status::stopped ? Status::collided : *ending_;

@@ -12,6 +12,7 @@
 #include "microswarm/experiment/monitors/contact_monitor.hpp"
 #include "microswarm/experiment/monitors/goal_monitor.hpp"
 #include "microswarm/experiment/monitors/hold_monitor.hpp"
+#include "microswarm/experiment/run/operation.hpp"
 #include "microswarm/experiment/run/tick.hpp"
 #include "microswarm/experiment/scenario/scenario.hpp"
 #include "microswarm/navigation/prediction/obstacle_memory.hpp"
@@ -20,14 +21,16 @@ namespace microswarm {
 
 /// Runs an experiment tick by tick: observe, decide, apply. Contacts and arrival are detected in
 /// continuous time. For individually tracked robots the goal is tested once per tick, and walls are
-/// not contacts.
+/// not contacts. After the arrival it goes on for the scenario's `hold_at_goal`: the navigator
+/// keeps the swarm there, and takes it back if it drifts away.
 ///
 ///     Episode episode(scenario, plant, navigator);
 ///     while (const Tick* tick = episode.step()) listener.on_tick(*tick);
 class Episode {
  public:
-  /// All arguments must outlive the episode.
-  Episode(const Scenario& scenario, Plant& plant, Navigator& navigator);
+  /// All arguments must outlive the episode. `operation` is that of a person, if any.
+  Episode(const Scenario& scenario, Plant& plant, Navigator& navigator,
+          Operation* operation = nullptr);
 
   /// The next tick; null after the last one. `end` of the last tick is `solved`, `collided`, `held`
   /// (held for the scenario's hold limit, or until its time limit), `time_limit`, `stopped`, or
@@ -55,18 +58,24 @@ class Episode {
   };
 
   bool advance(const Stop& stop);
+  Command decide(const Observation& seen, const Stop& stop);
+  void take_time();
   void end();
   void take_robots(const Observation& seen);
   Present present(const Observation& seen);
   std::optional<Status> follow(const GroundTruth& ground_truth);
   void fill(const Observation& seen);
-  Status arrived();
+  std::optional<Status> arrive();
+  Status stopped() const { return at_goal_ ? Status::solved : Status::stopped; }
+  bool is_autonomous() const { return mode_ == OperatingMode::autonomous; }
   void note_unseen(const Observation& seen);
   void note(EventKind kind);
 
   const Scenario& scenario_;
   Plant& plant_;
   Navigator* navigator_;
+  Operation* operation_;
+  OperatingMode mode_ = OperatingMode::autonomous;  ///< of the tick
   ObstacleMemory obstacles_;
   GoalMonitor goal_;
   HoldMonitor hold_;
@@ -74,7 +83,9 @@ class Episode {
   Present present_;
   bool was_seen_ = false;  ///< the swarm, at least once
   int unseen_ = 0;         ///< robots
-  double done_ = 0;        ///< number of ticks
+  double done_ = 0;        ///< number of ticks that count for the time limit
+  bool at_goal_ = false;   ///< it was reached, and the swarm is held there
+  double held_ = 0;        ///< number of ticks since then
   bool touched_ = false;
   bool prepared_ = false;         ///< navigator_->prepare() was called
   std::optional<Status> ending_;  ///< set if the next tick is the last one

@@ -7,26 +7,59 @@
 
 namespace microswarm {
 
+namespace {
+
+/// The event of the arrival in this tick; null for none.
+const RunEvent* arrival_of(const Tick& tick) {
+  const auto found = std::ranges::find(tick.events, EventKind::goal_reached, &RunEvent::kind);
+  return found == tick.events.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
 MetricsListener::MetricsListener(const Scenario& scenario) : tick_(scenario.tick) {
   if (!scenario.robots) at_ = scenario.start;
   result_.status = Status::running;
 }
 
 void MetricsListener::on_tick(const Tick& tick) {
-  move_to(tick.frame.pose);
-  for (const PoseStamped& pose : tick.trajectory) move_to(pose.pose);
-  for (const RunEvent& event : tick.events) {
-    const bool touch =
-        event.kind == EventKind::contact_wall || event.kind == EventKind::contact_obstacle;
-    result_.metrics.contacts += touch;
-    result_.metrics.avoidable_contacts += touch && event.speed > 0;
-  }
+  note_contacts(tick);
+  if (tick.holding) return hold(tick);
+  is_held_ = false;
+  note_way(tick);
   note_clearances(tick);
   if (tick.end)
     note_end(tick);
   else
     note_step(tick);
   summarise(tick.frame);
+  if (const RunEvent* arrival = arrival_of(tick)) result_.metrics.time = arrival->t;
+}
+
+/// The swarm is held at the goal: the metrics are those of the way there.
+void MetricsListener::hold(const Tick& tick) {
+  if (!is_held_) result_.metrics.goal_distance = tick.frame.goal_distance;
+  is_held_ = true;
+  if (tick.end) return note_end(tick);
+  result_.state = enum_name(tick.frame.state);
+  result_.timing.steps.push_back(tick.step_time);
+}
+
+void MetricsListener::note_contacts(const Tick& tick) {
+  for (const RunEvent& event : tick.events) {
+    const bool touch =
+        event.kind == EventKind::contact_wall || event.kind == EventKind::contact_obstacle;
+    result_.metrics.contacts += touch;
+    result_.metrics.avoidable_contacts += touch && event.speed > 0;
+  }
+}
+
+void MetricsListener::note_way(const Tick& tick) {
+  move_to(tick.frame.pose);
+  const RunEvent* const arrival = tick.end ? nullptr : arrival_of(tick);
+  for (const PoseStamped& pose : tick.trajectory)
+    if (!arrival || tick.frame.t + pose.t <= arrival->t) move_to(pose.pose);
+  if (arrival && at_) move_to({arrival->position, at_->heading});
 }
 
 void MetricsListener::move_to(const Pose2& pose) {

@@ -7,7 +7,8 @@
 
 namespace microswarm {
 
-/// Accumulates a run's metrics and the navigator's times. If the plant provides no ground truth,
+/// Accumulates a run's metrics, up to the arrival if the swarm is held at the goal, and the
+/// navigator's times. If the plant provides no ground truth,
 /// clearances are computed from observations.
 class MetricsListener : public RunListener {
  public:
@@ -19,6 +20,9 @@ class MetricsListener : public RunListener {
 
  private:
   void move_to(const Pose2& pose);
+  void note_way(const Tick& tick);
+  void note_contacts(const Tick& tick);
+  void hold(const Tick& tick);
   void note_step(const Tick& tick);
   void note_clearances(const Tick& tick);
   void note_end(const Tick& tick);
@@ -29,6 +33,7 @@ class MetricsListener : public RunListener {
   double cost_sum_ = 0;
   double gap_sum_ = 0;  ///< [µm]
   int detected_ticks_ = 0;
+  bool is_held_ = false;  ///< at the goal
   RunResult result_;
 };
 

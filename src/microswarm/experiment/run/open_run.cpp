@@ -14,9 +14,13 @@
 namespace microswarm {
 namespace {
 
-constexpr std::array<std::string_view, 7> changeable{
+constexpr std::array<std::string_view, 8> changeable{
     "navigator",    "goal_um",      "goal_tolerance_um", "obstacles",
-    "time_limit_s", "hold_limit_s", "stop_at_contact"};
+    "time_limit_s", "hold_limit_s", "hold_at_goal_s",    "stop_at_contact"};
+
+double max_speed_of(const Scenario& scenario) {
+  return scenario.robots ? scenario.robots->max_speed : limits_of(scenario.swarm).max_speed;
+}
 
 /// Whether the model file changes; model files are read only when the scenario is opened.
 bool names_another_model(const Scenario& a, const Scenario& b) {
@@ -63,7 +67,8 @@ OpenRun::OpenRun(Scenario scenario, World world, std::unique_ptr<Plant> plant, s
       plant_(std::move(plant)),
       has_external_navigator_(navigator != nullptr),
       navigator_(navigator ? std::move(navigator) : made()),
-      episode_(scenario_, *plant_, *navigator_) {}
+      operation_(max_speed_of(scenario_)),
+      episode_(scenario_, *plant_, *navigator_, &operation_) {}
 
 OpenRun::OpenRun(const Scenario& scenario, const World& world, std::uint32_t trial)
     : OpenRun(scenario, world, make_kinematic_plant(scenario, world, trial), trial) {}

@@ -10,6 +10,7 @@
 #include "microswarm/contracts/plant.hpp"
 #include "microswarm/core/errors/issue.hpp"
 #include "microswarm/experiment/run/episode.hpp"
+#include "microswarm/experiment/run/operation.hpp"
 #include "microswarm/experiment/run/run.hpp"
 #include "microswarm/experiment/scenario/scenario.hpp"
 #include "microswarm/world/world.hpp"
@@ -40,6 +41,9 @@ class OpenRun {
   /// contact.
   Issues change(const std::string& setting);
 
+  /// How a person operates it: pause, steer by hand, end.
+  Operation& operation() { return operation_; }
+
   /// The present scenario with all changes.
   const Scenario& scenario() const { return scenario_; }
   const World& world() const { return world_; }
@@ -56,6 +60,7 @@ class OpenRun {
   bool has_external_navigator_;
   std::unique_ptr<Navigator> navigator_;
   std::unique_ptr<Navigator> last_navigator_;  ///< its plan is in the last tick
+  Operation operation_;
   Episode episode_;
 };
 

@@ -27,6 +27,7 @@ struct Tick {
   std::span<const RunEvent> events;
   std::span<const PoseStamped> trajectory;   ///< path of the swarm during the tick, if known
   const ContactMonitor* contacts = nullptr;  ///< up to the tick's end; null if unknown
+  bool holding = false;       ///< the goal was reached before, and the swarm is held there
   bool detects = false;       ///< an obstacle is in the detection circle of Eq 3 [radar]
   double step_time = 0;       ///< wall-clock time of the navigator's step [s]
   std::optional<Status> end;  ///< set for the last tick, which has only a frame

@@ -74,6 +74,7 @@ struct Scenario {
   double tick = 0.1;
   double time_limit = 300;
   double hold_limit = 60;
+  double hold_at_goal = 0;
   bool stop_at_contact = true;
   std::optional<double> detection_range;
   std::uint64_t seed = 1;
@@ -104,6 +105,9 @@ struct Scenario {
           {"time_limit", Unit::s, {0, 1e5}, "Simulated time after which the run ends."});
     visit(self.hold_limit,
           {"hold_limit", Unit::s, {0, 1e5}, "Longest uninterrupted hold before the run ends."});
+    visit(
+        self.hold_at_goal,
+        {"hold_at_goal", Unit::s, {0, 1e6}, "Time to hold the swarm at the goal before the end."});
     visit(self.stop_at_contact, {"stop_at_contact",
                                  Unit::none,
                                  {},

@@ -25,6 +25,7 @@ class AggregationNavigator : public Navigator {
   /// Grows the tree. Throws InputError as AggregationMap does.
   void prepare(const Snapshot& world) override;
   Command step(const Observation& observation, const Stop& stop) override;
+  void overruled(double now, const Command& command) override { steering_.overruled(now, command); }
   NavigatorView view() const override { return steering_.view(); }
   /// The policy; null before prepare().
   const AggregationPolicy* policy() const { return policy_ ? &*policy_ : nullptr; }

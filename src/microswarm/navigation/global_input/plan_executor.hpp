@@ -23,6 +23,7 @@ class PlanExecutor : public Navigator {
 
   void prepare(const Snapshot& world) override { steering_.prepare(world); }
   Command step(const Observation& observation, const Stop& stop) override;
+  void overruled(double now, const Command& command) override { steering_.overruled(now, command); }
   NavigatorView view() const override { return steering_.view(); }
 
   /// Executes this plan instead of one of its own, as long as it leads to the goals.

@@ -30,6 +30,7 @@ class HierarchicalNavigator : public Navigator {
 
   void prepare(const Snapshot& world) override;
   Command step(const Observation& observation, const Stop& stop) override;
+  void overruled(double now, const Command& command) override { steering_.overruled(now, command); }
   NavigatorView view() const override { return steering_.view(); }
 
  private:

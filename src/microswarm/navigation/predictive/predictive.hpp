@@ -24,6 +24,7 @@ class PredictiveNavigator : public Navigator {
 
   void prepare(const Snapshot& world) override;
   Command step(const Observation& observation, const Stop& stop) override;
+  void overruled(double now, const Command& command) override { steering_.overruled(now, command); }
   NavigatorView view() const override;
 
   const MultiModelPredictor& prediction() const { return predictor_; }

@@ -28,6 +28,7 @@ class RadarNavigator : public Navigator {
 
   void prepare(const Snapshot& world) override;
   Command step(const Observation& observation, const Stop& stop) override;
+  void overruled(double now, const Command& command) override { steering_.overruled(now, command); }
   NavigatorView view() const override { return steering_.view(); }
 
   /// Input of the last decision by Eq 9–17, for `scan`; empty if the last step made none: blind, or

@@ -33,6 +33,9 @@ class RobotSteeringCycle {
     return command(command_for(displacement, tick_), state);
   }
 
+  /// Records a command that was given in place of a step; see Navigator::overruled.
+  void overruled(double now, const Command& command) { compensator_->note(now, command); }
+
   const RobotSwarmParams& robots() const { return robots_; }
   double tick() const { return tick_; }
   /// Maximum move in a tick [µm].

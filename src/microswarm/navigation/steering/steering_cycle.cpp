@@ -57,4 +57,9 @@ Command SteeringCycle::command(const Command& command, NavigatorState state) {
   return command;
 }
 
+void SteeringCycle::overruled(double now, const Command& command) {
+  last_command_ = now;
+  compensator_.note(now, command);
+}
+
 }  // namespace microswarm

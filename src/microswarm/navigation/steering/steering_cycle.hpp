@@ -48,6 +48,9 @@ class SteeringCycle {
   Command command(const Command& command, NavigatorState state);
   Command command(const Decision& decision) { return command(decision.command, decision.state); }
 
+  /// Records a command that was given in place of a step; see Navigator::overruled.
+  void overruled(double now, const Command& command);
+
   const SwarmLimits& swarm() const { return swarm_; }
   /// Commanded speed, at most the swarm's [µm/s].
   double speed() const { return speed_; }

@@ -9,32 +9,13 @@
 #include <utility>
 
 #include "microswarm/core/execution/clock.hpp"
+#include "microswarm/rig/runtime/standstill.hpp"
 #include "microswarm/vision/camera/newest_frame.hpp"
 
 namespace microswarm {
 namespace {
 
 using Seconds = std::chrono::duration<double>;
-
-/// Notices that the program was stopped or the computer was suspended, wherever it was then.
-class Standstill {
- public:
-  explicit Standstill(double most)
-      : most_(most), at_(steady_seconds()), suspended_(suspended_seconds()) {}
-  /// The time since the last call was meant to take `seconds` at most. Returns what happened, or an
-  /// empty string.
-  std::string pass(double seconds) {
-    const double asleep = suspended_seconds() - suspended_;
-    const double late = steady_seconds() - std::exchange(at_, steady_seconds()) - seconds;
-    if (asleep > most_) return fmt::format("the computer was suspended for {:.2g} s", asleep);
-    return late > most_ ? fmt::format("the program stood still for {:.2g} s", late) : "";
-  }
-
- private:
-  double most_;
-  double at_;
-  double suspended_;
-};
 
 /// Counts how often the coils had been off by themselves.
 class Trips {
@@ -57,10 +38,11 @@ class Trips {
 }  // namespace
 
 CoilLoop::CoilLoop(CoilController& controller, const CoilLoopLimits& limits,
-                   std::function<void(const CoilMoment&)> heard)
+                   std::function<void(const CoilMoment&)> heard, std::function<double()> suspended)
     : controller_(controller),
       limits_(limits),
       heard_(std::move(heard)),
+      suspended_(std::move(suspended)),
       place_(controller.place()),
       thread_([this] { run(); }) {}
 
@@ -111,7 +93,7 @@ void CoilLoop::run() {
   const auto period = std::chrono::duration_cast<Clock::duration>(Seconds(1 / limits_.rate));
   auto due = Clock::now();
   auto last = due;
-  Standstill standstill(limits_.max_pause);
+  Standstill standstill(limits_.max_pause, suspended_);
   Trips trips(limits_);
   int misses = 0;
   std::unique_lock lock(mutex_);
@@ -122,7 +104,7 @@ void CoilLoop::run() {
     const auto now = Clock::now();
     if (!commanded_) {
       due = last = now;
-      standstill.pass(0);  // nothing is driven yet
+      standstill.pass(0);  // nothing is driven yet; a suspension counts at the first command
       continue;
     }
     why_ = standstill.pass(wait);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "microswarm/actuation/coils/coil_controller.hpp"
+#include "microswarm/core/execution/clock.hpp"
 
 namespace microswarm {
 
@@ -34,14 +35,16 @@ struct CoilLoopLimits {
 /// Sends currents in real time from its own thread, so the field continues while a navigator
 /// computes. It starts with the first command. It sets the coils to zero for good when it is
 /// stopped, when no command arrives for the dead man's time, when the driver fails, when the coils
-/// were off by themselves too often, when the program or the computer stood still, and on
-/// destruction.
+/// were off by themselves too often, when the program or the computer stood still (a suspension
+/// also before the first command, which is then not driven), and on destruction.
 class CoilLoop {
  public:
   /// `controller` must outlive the loop and not be used elsewhere. `heard` is called in the loop's
-  /// thread after each output; an exception from it is a failure.
+  /// thread after each output; an exception from it is a failure. `suspended` is the clock of
+  /// suspensions [s], another one in a test.
   CoilLoop(CoilController& controller, const CoilLoopLimits& limits,
-           std::function<void(const CoilMoment&)> heard = {});
+           std::function<void(const CoilMoment&)> heard = {},
+           std::function<double()> suspended = suspended_seconds);
   ~CoilLoop();
   CoilLoop(const CoilLoop&) = delete;
   CoilLoop& operator=(const CoilLoop&) = delete;
@@ -68,6 +71,7 @@ class CoilLoop {
   CoilController& controller_;
   const CoilLoopLimits limits_;
   std::function<void(const CoilMoment&)> heard_;
+  const std::function<double()> suspended_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   Command command_;

@@ -65,6 +65,7 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
                   scenario.start ? scenario.start->heading : 0),
       following_(rig.params.safety.min_follow_share),
       start_(steady_seconds()),
+      load_(rig.system),
       coils_(controller_, loop_limits(rig.params),
              [this, heard = std::move(heard)](const CoilMoment& moment) {
                {
@@ -76,6 +77,7 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
                  timing_.min_scale = std::min(timing_.min_scale, moment.output.scale);
                  timing_.resumed += moment.output.status == DriveStatus::resumed;
                  timing_.scaled += moment.output.status == DriveStatus::scaled;
+                 load_.take(moment.t, moment.output);
                }
                if (heard) heard(moment);
              }) {
@@ -190,6 +192,11 @@ void LiveRig::stop(const std::string& why) { coils_.stop(why); }
 int LiveRig::resumed() const {
   const std::lock_guard lock(timing_mutex_);
   return timing_.resumed;
+}
+
+CoilLoad LiveRig::load() const {
+  const std::lock_guard lock(timing_mutex_);
+  return load_.load();
 }
 
 RigTiming LiveRig::timing() const {

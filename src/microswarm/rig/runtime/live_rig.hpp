@@ -12,6 +12,7 @@
 #include "microswarm/core/execution/durations.hpp"
 #include "microswarm/rig/params/rig_params.hpp"
 #include "microswarm/rig/perception/perception.hpp"
+#include "microswarm/rig/runtime/coil_load.hpp"
 #include "microswarm/rig/runtime/coil_loop.hpp"
 #include "microswarm/rig/runtime/follow_monitor.hpp"
 #include "microswarm/vision/camera/newest_frame.hpp"
@@ -72,6 +73,10 @@ class LiveRig : public Plant {
   /// When the record's time is 0 [s], by steady_seconds().
   double start() const { return start_; }
   RigTiming timing() const;
+  /// How near the coils are to their limits.
+  CoilLoad load() const;
+  /// Age of the newest processed picture [s].
+  double frame_age() const { return since_start() - seen_; }
   /// How often the coils had switched off by themselves so far.
   int resumed() const;
   /// The newest picture and its detections.
@@ -106,7 +111,8 @@ class LiveRig : public Plant {
   std::string fault_;
   mutable std::mutex timing_mutex_;
   RigTiming timing_;
-  CoilLoop coils_;  // last member: its thread uses the others
+  CoilLoadMeter load_;  // with the timing's mutex
+  CoilLoop coils_;      // last member: its thread uses the others
 };
 
 }  // namespace microswarm

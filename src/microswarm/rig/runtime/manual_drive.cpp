@@ -13,6 +13,7 @@
 #include "microswarm/actuation/coils/currents.hpp"
 #include "microswarm/actuation/coils/turning_currents.hpp"
 #include "microswarm/core/execution/clock.hpp"
+#include "microswarm/rig/runtime/standstill.hpp"
 
 namespace microswarm {
 namespace {
@@ -91,6 +92,7 @@ ManualResult drive_by_hand(const Rig& rig, CoilDriver& driver, const ManualComma
   ManualResult result;
   std::vector<double> channels(static_cast<std::size_t>(driver.channels()));
   const double period = 1 / rig.params.drive_rate;
+  Standstill standstill(rig.params.safety.max_pause);
   const double began = steady_seconds();
   double before = -period;
   ManualMoment moment;
@@ -122,9 +124,8 @@ ManualResult drive_by_hand(const Rig& rig, CoilDriver& driver, const ManualComma
     if (const double left = due - steady_seconds(); left > 0)
       std::this_thread::sleep_for(std::chrono::duration<double>(left));
     moment.t = steady_seconds() - began;
-    if (const double pause = moment.t - before;
-        result.why.empty() && pause > rig.params.safety.max_pause)
-      result.why = fmt::format("the program stood still for {:.2g} s", pause);
+    const std::string stood = standstill.pass(0);
+    if (result.why.empty()) result.why = stood;
   }
   if (!result.why.empty())
     result.status = Status::fault;

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <termios.h>
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include "rig/key_input.hpp"
+#include "support/cli.hpp"
+
+namespace microswarm::cli {
+
+/// Whether the program has the keys of a terminal: it is not in the background.
+bool has_keys();
+
+/// Calls `stop` when an emergency key is pressed, and `other` for other keys, if the program has a
+/// terminal. A lone Esc is known 20 ms after it. The terminal settings are restored when the
+/// program is asked to end.
+class RigKeys {
+ public:
+  /// Both are called in a thread of its own.
+  RigKeys(std::function<void()> stop, std::function<void(const Key&)> other, const Stop& ended);
+  ~RigKeys();
+  RigKeys(const RigKeys&) = delete;
+  RigKeys& operator=(const RigKeys&) = delete;
+  bool are_there() const { return thread_.joinable(); }
+
+ private:
+  void listen();
+  bool read_keys(std::string& input);
+  void act(const std::vector<Key>& keys);
+
+  std::function<void()> stop_;
+  std::function<void(const Key&)> other_;
+  Stop ended_;
+  termios before_{};
+  std::atomic<bool> over_ = false;
+  std::thread thread_;
+};
+
+}  // namespace microswarm::cli

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/status_line.hpp"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <mutex>
+#include <new>
+#include <optional>
+
+#include "microswarm/core/text/text.hpp"
+#include "support/cli.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+/// What is shown at the end of stderr. Several threads may write.
+struct Screen {
+  std::mutex mutex;
+  const StatusLine* owner = nullptr;  ///< of the line that is there
+  std::string line;
+};
+
+Screen& screen() {
+  static Screen* const one = new Screen;  // lives as long as the program can still complain
+  return *one;
+}
+
+constexpr std::string_view clear_line = "\r\033[K";
+
+/// Writes to stderr as it is, control characters included.
+void write_raw(std::string_view text) noexcept {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
+/// Begin of the next character, and the columns of the one at `i`.
+std::size_t next_character(std::string_view text, std::size_t& i) {
+  const auto byte = static_cast<unsigned char>(text[i]);
+  const std::size_t length = byte < 0x80 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : 4;
+  unsigned code = byte & (0xFFU >> (length == 1 ? 0 : length + 1));
+  for (std::size_t k = 1; k < length && i + k < text.size(); ++k)
+    code = code << 6 | (static_cast<unsigned char>(text[i + k]) & 0x3FU);
+  i = std::min(i + length, text.size());
+  if (code >= 0x300 && code < 0x370) return 0;  // combining
+  const bool is_wide = (code >= 0x1100 && code < 0x1160) || (code >= 0x2E80 && code < 0xA4D0) ||
+                       (code >= 0xAC00 && code < 0xD7A4) || (code >= 0xF900 && code < 0xFB00) ||
+                       (code >= 0xFE30 && code < 0xFE70) || (code >= 0xFF00 && code < 0xFF61) ||
+                       code >= 0x1F300;
+  return is_wide ? 2 : 1;
+}
+
+std::string_view cut(std::string_view text, std::size_t columns) {
+  std::size_t used = 0;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t begin = i;
+    used += next_character(text, i);
+    if (used > columns) return text.substr(0, begin);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::size_t columns_of(std::string_view text) {
+  std::size_t columns = 0;
+  for (std::size_t i = 0; i < text.size();) columns += next_character(text, i);
+  return columns;
+}
+
+void say(std::string_view text) noexcept {
+  try {
+    const std::string safe = printable(text);
+    Screen& at = screen();
+    const std::lock_guard lock(at.mutex);
+    if (at.line.empty()) return write_raw(safe);
+    write_raw(std::string(clear_line) + safe + (safe.ends_with('\n') ? "" : "\n") + at.line);
+  } catch (const std::bad_alloc&) {
+    write_raw("out of memory\n");
+  }
+}
+
+StatusLine::StatusLine() : is_there_(::isatty(STDERR_FILENO) == 1) {}
+
+StatusLine::~StatusLine() {
+  Screen& at = screen();
+  const std::lock_guard lock(at.mutex);
+  if (at.owner != this) return;
+  write_raw(clear_line);
+  at.owner = nullptr;
+  at.line.clear();
+}
+
+std::size_t StatusLine::columns() const {
+  constexpr std::size_t usual = 80;
+  winsize size{};
+  const bool is_known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
+  return (is_known ? size.ws_col : usual) - 1;  // some terminals wrap after the last column
+}
+
+void StatusLine::show(std::string_view text) {
+  if (!is_there_) return;
+  const std::string whole = one_line(text, text.size());
+  const std::string_view line = cut(whole, columns());
+  Screen& at = screen();
+  const std::lock_guard lock(at.mutex);
+  if (at.owner == this && at.line == line) return;
+  at.owner = this;
+  at.line = line;
+  write_raw(std::string(clear_line) + at.line);
+}
+
+ProgressBar::ProgressBar(const std::string& label) : label_(label), began_(Stop::Clock::now()) {}
+
+void ProgressBar::update(double share, const std::string& doing) {
+  const int percent = static_cast<int>(100 * std::clamp(share, 0.0, 1.0));
+  if (!line_.is_there() || (percent == last_ && doing == note_)) return;
+  last_ = percent;
+  note_ = doing;
+  const double spent = seconds_since(began_);
+  const double left = share > 0 ? spent * (1 - share) / share : 0;
+  const auto done = static_cast<std::size_t>(percent / 4);
+  line_.show(fmt::format("{} [{}{}] {:3} % {:.0f} s left {}", label_, std::string(done, '#'),
+                         std::string(25 - done, '.'), percent, left, doing));
+}
+
+}  // namespace microswarm::cli

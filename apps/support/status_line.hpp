@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "microswarm/core/execution/stop.hpp"
+
+namespace microswarm::cli {
+
+/// Columns that a text takes on a terminal.
+std::size_t columns_of(std::string_view text);
+
+/// A line at the end of stderr that is renewed in place, only on a terminal. What say() and note()
+/// write comes above it. Of several, the last one that was shown is there.
+class StatusLine {
+ public:
+  StatusLine();
+  /// Removes the line.
+  ~StatusLine();
+  StatusLine(const StatusLine&) = delete;
+  StatusLine& operator=(const StatusLine&) = delete;
+
+  /// Whether stderr is a terminal.
+  bool is_there() const { return is_there_; }
+  /// Columns that a line may take: it never wraps.
+  std::size_t columns() const;
+  /// Shows a text in place of the last one, cut to the columns.
+  void show(std::string_view text);
+
+ private:
+  bool is_there_;
+};
+
+/// Progress bar as a status line: "label [#####.....] 50 % 3 s left note".
+class ProgressBar {
+ public:
+  explicit ProgressBar(const std::string& label);
+  /// `share` is the completed fraction of the work, in [0, 1].
+  void update(double share, const std::string& doing = {});
+
+ private:
+  std::string label_;
+  StatusLine line_;
+  Stop::Clock::time_point began_;
+  int last_ = -1;
+  std::string note_;
+};
+
+}  // namespace microswarm::cli

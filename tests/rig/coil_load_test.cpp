@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/rig/runtime/coil_load.hpp"
+
+#include <gtest/gtest.h>
+
+#include "microswarm/config/yaml.hpp"
+
+namespace microswarm {
+namespace {
+
+TEST(CoilLoad, IsThatOfTheMostLoadedCoilWithinTheLastSecond) {
+  const CoilSystem system(
+      read_yaml_text<CoilSystemParams>(
+          "{coils: {type: helmholtz}, drives: [{max_current_a: 10, max_temperature_degc: 90}, "
+          "{max_current_a: 2, max_temperature_degc: 60}, {max_temperature_degc: 200}]}",
+          "coils"),
+      "coils");
+  CoilLoadMeter meter(system);
+  CoilOutput output;
+  output.currents = Eigen::Vector3d(-5, 1.6, 0.1);
+  output.temperatures = Eigen::Vector3d(40, 35, 100);
+  output.scale = 0.7;
+  meter.take(100, output);
+  EXPECT_NEAR(meter.load().current, 1.6, 1e-12);  // 80 % of its limit
+  EXPECT_EQ(meter.load().max_current, 2);
+  EXPECT_EQ(meter.load().temperature, 35);
+  EXPECT_EQ(meter.load().max_temperature, 60);
+  EXPECT_NEAR(meter.load().scale, 0.7, 1e-12);
+  output.currents = Eigen::Vector3d(0.1, 0.1, 0.01);
+  output.scale = 1;
+  meter.take(100.3, output);
+  EXPECT_NEAR(meter.load().current, 1.6, 1e-12);
+  EXPECT_NEAR(meter.load().scale, 0.7, 1e-12);
+  for (double t = 100.4; t < 101.2; t += 0.1) meter.take(t, output);
+  EXPECT_NEAR(meter.load().current, 0.1, 1e-12);
+  EXPECT_EQ(meter.load().scale, 1);
+}
+
+TEST(CoilLoad, WithoutALimitItIsTheLargestCurrent) {
+  const CoilSystem system(read_yaml_text<CoilSystemParams>("coils: {type: helmholtz}", "coils"),
+                          "coils");
+  CoilLoadMeter meter(system);
+  CoilOutput output;
+  output.currents = Eigen::Vector3d(-5, 1.6, 0.1);
+  output.temperatures = Eigen::Vector3d(40, 35, 41);
+  meter.take(0, output);
+  EXPECT_EQ(meter.load().current, 5);
+  EXPECT_EQ(meter.load().max_current, std::nullopt);
+  EXPECT_EQ(meter.load().temperature, 41);
+  EXPECT_EQ(meter.load().max_temperature, std::nullopt);
+}
+
+}  // namespace
+}  // namespace microswarm
