@@ -50,9 +50,8 @@ void add_rig_cameras(Command rig, Action& action) {
   Command cmd = rig.add_command(
       "cameras", "List the cameras of V4L2 and GenICam, their formats and sizes", "rig cameras");
   add_json(cmd, *as_json);
-  cmd.callback([as_json, &action] {
-    action = [as_json](const Context&) { return cameras(*as_json); };
-  });
+  cmd.callback(
+      [as_json, &action] { action = [as_json](const Context&) { return cameras(*as_json); }; });
 }
 
 }  // namespace microswarm::cli

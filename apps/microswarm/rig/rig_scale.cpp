@@ -168,7 +168,8 @@ void add_rig_scale(Command rig, Action& action) {
   Command cmd =
       rig.add_command("scale", "Determine µm per pixel of a camera from two points or a grid",
                       "rig scale slide.png --grid 9x6 --pitch 100 --out scale.yaml");
-  cmd.add_option("picture", o->picture, "Picture from the camera, or camera such as /dev/video0 or genicam:ID")
+  cmd.add_option("picture", o->picture,
+                 "Picture from the camera, or camera such as /dev/video0 or genicam:ID")
       .required()
       .type_name("FILE");
   cmd.add_option("--rig", o->rig, "Use the camera's settings of this rig (YAML)").type_name("FILE");

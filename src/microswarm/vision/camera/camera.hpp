@@ -20,8 +20,8 @@ std::string device_name(const AnyCameraParams& params);
 /// Opens a camera whose pictures come one by one, each waited for. The rate that the camera really
 /// has is `rate()` of the source. Throws HardwareError "DEVICE: WHY" when there is no such device,
 /// it is no camera or in use, or it does not take a setting; next() does so when it is unplugged,
-/// gives no picture for 5 s beyond its exposure, or ten damaged ones in a row. Throws InputError for
-/// a GenICam camera in a build without Aravis.
+/// gives no picture for 5 s beyond its exposure, or ten damaged ones in a row. Throws InputError
+/// for a GenICam camera in a build without Aravis.
 std::unique_ptr<FrameSource> open_camera(const AnyCameraParams& params);
 
 /// A camera whose newest frame is at hand; errors as above.

@@ -100,9 +100,9 @@ std::vector<FoundDevice> found_devices() {
   std::vector<FoundDevice> found;
   for (unsigned i = 0; i < arv_get_n_devices(); ++i) {
     if (text_of(arv_get_device_protocol(i)) == "Fake") continue;
-    found.push_back({.id = text_of(arv_get_device_id(i)),
-                     .model = text_of(arv_get_device_vendor(i)) + " " +
-                              text_of(arv_get_device_model(i))});
+    found.push_back(
+        {.id = text_of(arv_get_device_id(i)),
+         .model = text_of(arv_get_device_vendor(i)) + " " + text_of(arv_get_device_model(i))});
   }
   return found;
 }
@@ -191,10 +191,10 @@ void set_format(const Features& device, std::optional<GenicamFormat> wanted) {
   if (wanted && has != known(*wanted).code)
     device.fail("does not take the format " + std::string(enum_name(*wanted)));
   if (!known(has))
-    device.fail("gives pictures in the format " +
-                text_of(device.ask(key, arv_camera_get_pixel_format_as_string)) +
-                ", which is not read: set pixel_format to one of its others: " +
-                offered_formats(device));
+    device.fail(
+        "gives pictures in the format " +
+        text_of(device.ask(key, arv_camera_get_pixel_format_as_string)) +
+        ", which is not read: set pixel_format to one of its others: " + offered_formats(device));
 }
 
 /// A whole number of the camera and what it takes.
@@ -203,11 +203,14 @@ struct Measure {
   void (*bounds)(ArvCamera*, gint*, gint*, GError**);
   gint (*step)(ArvCamera*, GError**);
 };
-constexpr Measure width_limits{"width_px", arv_camera_get_width_bounds, arv_camera_get_width_increment};
+constexpr Measure width_limits{"width_px", arv_camera_get_width_bounds,
+                               arv_camera_get_width_increment};
 constexpr Measure height_limits{"height_px", arv_camera_get_height_bounds,
-                         arv_camera_get_height_increment};
-constexpr Measure left_limits{"x_px", arv_camera_get_x_offset_bounds, arv_camera_get_x_offset_increment};
-constexpr Measure top_limits{"y_px", arv_camera_get_y_offset_bounds, arv_camera_get_y_offset_increment};
+                                arv_camera_get_height_increment};
+constexpr Measure left_limits{"x_px", arv_camera_get_x_offset_bounds,
+                              arv_camera_get_x_offset_increment};
+constexpr Measure top_limits{"y_px", arv_camera_get_y_offset_bounds,
+                             arv_camera_get_y_offset_increment};
 
 void check(const Features& device, const Measure& measure, std::optional<int> wanted) {
   if (!wanted) return;
@@ -246,8 +249,8 @@ void set_region(const Features& device, const GenicamParams& p) {
   if (!moves && (p.x.value_or(0) != 0 || p.y.value_or(0) != 0))
     device.fail("x_px, y_px: its region cannot be moved");
   const Region before = region_of(device);
-  const Region wanted{p.x.value_or(before.x), p.y.value_or(before.y), p.width.value_or(before.width),
-                      p.height.value_or(before.height)};
+  const Region wanted{p.x.value_or(before.x), p.y.value_or(before.y),
+                      p.width.value_or(before.width), p.height.value_or(before.height)};
   // The largest size depends on the place, and the other way round.
   if (moves && before != wanted)
     device.ask("region", arv_camera_set_region, 0, 0, before.width, before.height);
@@ -277,30 +280,30 @@ struct Adjustable {
   void (*let_choose)(ArvCamera*, ArvAuto, GError**) = nullptr;
 };
 constexpr Adjustable exposure_time{"exposure_ms",
-                              "exposure time",
-                              1e3,  // µs
-                              arv_camera_is_exposure_time_available,
-                              arv_camera_get_exposure_time_bounds,
-                              arv_camera_set_exposure_time,
-                              arv_camera_get_exposure_time,
-                              arv_camera_is_exposure_auto_available,
-                              arv_camera_set_exposure_time_auto};
+                                   "exposure time",
+                                   1e3,  // µs
+                                   arv_camera_is_exposure_time_available,
+                                   arv_camera_get_exposure_time_bounds,
+                                   arv_camera_set_exposure_time,
+                                   arv_camera_get_exposure_time,
+                                   arv_camera_is_exposure_auto_available,
+                                   arv_camera_set_exposure_time_auto};
 constexpr Adjustable gain_of_camera{"gain",
-                          "gain",
-                          1,
-                          arv_camera_is_gain_available,
-                          arv_camera_get_gain_bounds,
-                          arv_camera_set_gain,
-                          arv_camera_get_gain,
-                          arv_camera_is_gain_auto_available,
-                          arv_camera_set_gain_auto};
+                                    "gain",
+                                    1,
+                                    arv_camera_is_gain_available,
+                                    arv_camera_get_gain_bounds,
+                                    arv_camera_set_gain,
+                                    arv_camera_get_gain,
+                                    arv_camera_is_gain_auto_available,
+                                    arv_camera_set_gain_auto};
 constexpr Adjustable frame_rate{"rate_hz",
-                          "frame rate",
-                          1,
-                          arv_camera_is_frame_rate_available,
-                          arv_camera_get_frame_rate_bounds,
-                          arv_camera_set_frame_rate,
-                          arv_camera_get_frame_rate};
+                                "frame rate",
+                                1,
+                                arv_camera_is_frame_rate_available,
+                                arv_camera_get_frame_rate_bounds,
+                                arv_camera_set_frame_rate,
+                                arv_camera_get_frame_rate};
 
 void adjust(const Features& device, const Adjustable& what, std::optional<double> wanted) {
   if (!wanted) return;
@@ -325,7 +328,8 @@ void adjust(const Features& device, const Adjustable& what, std::optional<double
 /// Lets pictures come one after the other at the camera's own pace.
 void run_freely(const Features& device) {
   if (device.has("AcquisitionMode"))
-    device.ask("acquisition mode", arv_camera_set_acquisition_mode, ARV_ACQUISITION_MODE_CONTINUOUS);
+    device.ask("acquisition mode", arv_camera_set_acquisition_mode,
+               ARV_ACQUISITION_MODE_CONTINUOUS);
   if (device.has("TriggerSelector"))
     device.ask("trigger", arv_camera_clear_triggers);
   else if (device.has("TriggerMode"))
@@ -431,10 +435,10 @@ class GenicamDevice : public CameraDevice {
       fail("is in use by another program");
     // The signal comes in a thread of Aravis, maybe while this object ends.
     g_signal_connect_data(
-        device, "control-lost",
-        reinterpret_cast<GCallback>(+[](ArvDevice*, gpointer lost) { **static_cast<Flag*>(lost) = true; }),
-        new Flag(lost_),
-        [](gpointer lost, GClosure*) { delete static_cast<Flag*>(lost); },
+        device, "control-lost", reinterpret_cast<GCallback>(+[](ArvDevice*, gpointer lost) {
+          **static_cast<Flag*>(lost) = true;
+        }),
+        new Flag(lost_), [](gpointer lost, GClosure*) { delete static_cast<Flag*>(lost); },
         static_cast<GConnectFlags>(0));
   }
 
@@ -485,9 +489,9 @@ class GenicamDevice : public CameraDevice {
     const void* const data = arv_buffer_get_image_data(taken_, &size);
     raw.bytes = {static_cast<const std::byte*>(data), data ? size : 0};
     if (gap > 0)
-      raw.bytes_per_line = static_cast<std::size_t>(form_.width) *
-                               (ARV_PIXEL_FORMAT_BIT_PER_PIXEL(code_) / 8) +
-                           static_cast<std::size_t>(gap);
+      raw.bytes_per_line =
+          static_cast<std::size_t>(form_.width) * (ARV_PIXEL_FORMAT_BIT_PER_PIXEL(code_) / 8) +
+          static_cast<std::size_t>(gap);
     return raw;
   }
 

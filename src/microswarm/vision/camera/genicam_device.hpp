@@ -11,9 +11,9 @@
 namespace microswarm {
 
 /// Opens a GenICam camera through Aravis and starts its stream. Finding it takes about a second.
-/// Throws HardwareError "genicam:ID: WHY" when there is no such camera, it is in use, or it does not
-/// take a setting; InputError when this build is without Aravis. While it is open, what Aravis says
-/// by GLib's log is not printed.
+/// Throws HardwareError "genicam:ID: WHY" when there is no such camera, it is in use, or it does
+/// not take a setting; InputError when this build is without Aravis. While it is open, what Aravis
+/// says by GLib's log is not printed.
 std::unique_ptr<CameraDevice> open_genicam(const GenicamParams& params);
 
 /// The GenICam cameras that are found on the networks and at USB, without simulated ones; none when

@@ -141,8 +141,7 @@ void take_raw(const RawPicture& raw, std::string_view name, Image& image) {
   const bool pairs = nv12 || raw.format == PixelFormat::yuyv || raw.format == PixelFormat::uyvy;
   if ((pairs && raw.width % 2 != 0) || (nv12 && raw.height % 2 != 0))
     fail(std::string(enum_name(raw.format)) + " with an odd number of pixels");
-  if (bayer && std::min(raw.width, raw.height) < 4)
-    fail("a Bayer pattern of less than 4x4 pixels");
+  if (bayer && std::min(raw.width, raw.height) < 4) fail("a Bayer pattern of less than 4x4 pixels");
   const std::size_t line = static_cast<std::size_t>(raw.width) * bytes_of_pixel(raw.format);
   const std::size_t step = std::max(raw.bytes_per_line, line);
   const auto lines = static_cast<std::size_t>(nv12 ? raw.height * 3 / 2 : raw.height);

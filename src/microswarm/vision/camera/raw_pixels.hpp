@@ -68,8 +68,9 @@ struct RawPicture {
 };
 
 /// Turns the data into grey (GREY, Y10, Y12, Y16, a grey JPEG) or colours, in `image`, whose memory
-/// is used again. Colours of Bayer are interpolated between neighbours. Samples of 10, 12 and 16 bits keep their upper 8. Throws InputError "NAME: WHY"
-/// when data are missing, or a JPEG is damaged or of another size.
+/// is used again. Colours of Bayer are interpolated between neighbours. Samples of 10, 12 and 16
+/// bits keep their upper 8. Throws InputError "NAME: WHY" when data are missing, or a JPEG is
+/// damaged or of another size.
 void take_raw(const RawPicture& raw, std::string_view name, Image& image);
 
 }  // namespace microswarm
