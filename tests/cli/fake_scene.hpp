@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#pragma once
+
 // What the cameras that are not there show, and how tests say what they are like: FAKE_CAMERA is
 // "device=/dev/video90 unplug=20".
-#pragma once
 
 #include <cstdint>
 #include <cstdio>
