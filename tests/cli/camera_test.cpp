@@ -1,55 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cameras of V4L2 and how they fail, through the program and fake_camera.cpp.
+// Cameras and how they fail, through the program. What holds for both kinds is EachCamera.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "microswarm/experiment/record/record.hpp"
 #include "microswarm/vision/camera/frames.hpp"
-#include "program.hpp"
+#include "tests/cli/device_camera.hpp"
 
 namespace microswarm::test {
 namespace {
 
 using Json = nlohmann::json;
 
-class DeviceCamera : public CommandLine {
+/// Both kinds of cameras.
+class EachCamera : public DeviceCamera, public testing::WithParamInterface<CameraKind> {
  protected:
-  /// The program sees a camera at /dev/video90 that is like this.
-  void plug(const std::string& traits) {
-    at.environment = {{"LD_PRELOAD", MICROSWARM_FAKE_CAMERA},
-                      {"ASAN_OPTIONS", "verify_asan_link_order=0"},
-                      {"FAKE_CAMERA", "device=/dev/video90 " + traits}};
-  }
-  Outcome see(const Arguments& more = {}) const {
-    // A smooth disc, where swarms have grain.
-    Arguments all{"rig",
-                  "see",
-                  "/dev/video90",
-                  "--set",
-                  "camera.width_px=320",
-                  "--set",
-                  "camera.height_px=240",
-                  "--set",
-                  "scene.swarm.look.min_texture=0"};
-    all.insert(all.end(), more.begin(), more.end());
-    return run(all);
-  }
-  /// A fault of the hardware: one line that names the device, exit code 4, within ten seconds.
-  void fails(const Arguments& more, const std::vector<std::string>& parts) const {
-    const auto began = std::chrono::steady_clock::now();
-    const Outcome outcome = see(more);
-    EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(10));
-    EXPECT_EQ(outcome.code, 4) << outcome.out << outcome.err;
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_TRUE(is_one_line_naming(outcome.err, "microswarm: /dev/video90", parts)) << outcome.err;
-  }
+  EachCamera() : DeviceCamera(GetParam()) {}
 };
 
-TEST_F(DeviceCamera, ShowsTheSwarmInEveryFormat) {
-  for (const std::string format : {"YUYV", "GREY", "MJPG"}) {
+std::vector<CameraKind> kinds() {
+#ifdef MICROSWARM_FAKE_GENICAM
+  return {v4l2_kind(), genicam_kind()};
+#else
+  return {v4l2_kind()};
+#endif
+}
+constexpr auto name_of_kind = [](const testing::TestParamInfo<CameraKind>& info) {
+  return info.param.name;
+};
+INSTANTIATE_TEST_SUITE_P(Of, EachCamera, testing::ValuesIn(kinds()), name_of_kind);
+
+TEST_P(EachCamera, ShowsTheSwarmInEveryFormat) {
+  for (const std::string& format : kind_.formats) {
     plug("");
     const Outcome outcome = see({"--json", "--set", "camera.pixel_format=" + format});
     ASSERT_EQ(outcome.code, 0) << format << outcome.err;
@@ -70,19 +54,15 @@ TEST_F(DeviceCamera, AnotherSizeOrFormatIsRefused) {
   fails({}, {"H264", "pixel_format", "H264, MJPG"});
 }
 
-TEST_F(DeviceCamera, SettingsReachTheCamera) {
+TEST_P(EachCamera, SettingsReachTheCamera) {
   plug("");
-  const auto contrast = [&](const Arguments& more) {
-    Arguments all{"--json", "--set", "camera.pixel_format=GREY"};
-    all.insert(all.end(), more.begin(), more.end());
-    const Outcome outcome = see(all);
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
-    return Json::parse(outcome.out)["candidates"][0]["contrast"].get<double>();
-  };
-  // The fake camera's background is brighter by its gain. The others must be let go by automatics.
-  EXPECT_NEAR(contrast({"--set", "camera.gain=40", "--set", "camera.exposure_ms=20", "--set",
-                        "camera.white_balance=5000"}),
-              100, 3);
+  // The fake camera's background is brighter by its gain. What is automatic must be let go.
+  const Outcome outcome =
+      see({"--json", "--set", "camera.pixel_format=" + kind_.grey, "--set",
+           "camera.gain=" + std::to_string(kind_.gain), "--set", "camera.exposure_ms=20"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NEAR(Json::parse(outcome.out)["candidates"][0]["contrast"].get<double>(), 60 + kind_.gain,
+              3);
 }
 
 TEST_F(DeviceCamera, WhatItDoesNotTakeIsRefused) {
@@ -91,12 +71,18 @@ TEST_F(DeviceCamera, WhatItDoesNotTakeIsRefused) {
   fails({"--set", "camera.exposure_ms=500"}, {"exposure_ms", "500", "0.3..204.7"});
   fails({"--set", "camera.gain=101"}, {"gain", "101", "0..100"});
   fails({"--set", "camera.region.x_px=8"}, {"region"});
+  EXPECT_EQ(see({"--set", "camera.white_balance=5000"}).code, 0);
   plug("controls=0");
-  for (const std::string key : {"exposure_ms=20", "gain=3", "white_balance=4000"})
-    fails({"--set", "camera." + key}, {key.substr(0, key.find('='))});
+  fails({"--set", "camera.white_balance=4000"}, {"white_balance"});
   plug("region=1");
   fails({"--set", "camera.region.x_px=12"}, {"640x480 at 8,0", "640x480 at 12,0"});
   EXPECT_EQ(see({"--set", "camera.region.x_px=16"}).code, 0);
+}
+
+TEST_P(EachCamera, SettingsThatItDoesNotHaveAreRefused) {
+  plug("controls=0");
+  for (const std::string key : {"exposure_ms=20", "gain=3"})
+    fails({"--set", "camera." + key}, {key.substr(0, key.find('='))});
 }
 
 TEST_F(DeviceCamera, WhatIsNoCameraOrBusyIsRefused) {
@@ -108,7 +94,7 @@ TEST_F(DeviceCamera, WhatIsNoCameraOrBusyIsRefused) {
   fails({}, {"no camera"});
 }
 
-TEST_F(DeviceCamera, UnpluggedStalledOrDamagedItFails) {
+TEST_P(EachCamera, UnpluggedStalledOrDamagedItFails) {
   plug("unplug=5");
   fails({}, {"unplugged"});
   plug("stall=5");
@@ -116,41 +102,46 @@ TEST_F(DeviceCamera, UnpluggedStalledOrDamagedItFails) {
   plug("stall=0");
   fails({}, {"no picture for 1 s"});
   plug("damaged=5");
-  fails({}, {"damaged", "76800 of 153600 bytes"});
-  plug("damaged=5 formats=MJPG");
-  fails({}, {"damaged", "JPEG"});
+  fails({}, {"damaged"});
   plug("hang=3");
   fails({}, {"no picture for 1 s"});
 }
 
-TEST_F(DeviceCamera, ADamagedFrameNowAndThenIsLeftOut) {
-  for (const std::string format : {"YUYV", "GREY", "MJPG"}) {
-    plug("every=3 formats=" + format);
-    EXPECT_EQ(see().code, 0) << format;
+TEST_F(DeviceCamera, WhatIsDamagedIsTold) {
+  plug("damaged=5");
+  fails({}, {"damaged", "76800 of 153600 bytes"});
+  plug("damaged=5 formats=MJPG");
+  fails({}, {"damaged", "JPEG"});
+}
+
+TEST_P(EachCamera, ADamagedFrameNowAndThenIsLeftOut) {
+  for (const std::string& format : kind_.formats) {
+    plug("every=3");
+    EXPECT_EQ(see({"--set", "camera.pixel_format=" + format}).code, 0) << format;
   }
 }
 
-TEST_F(DeviceCamera, AStillIsStoredAsItCame) {
-  plug("formats=GREY");
-  const std::string said = good({"rig", "still", "/dev/video90", "--set", "width_px=320", "--set",
-                                 "height_px=240", "--out", "still.png"});
+TEST_P(EachCamera, AStillIsStoredAsItCame) {
+  plug("");
+  const std::string said =
+      good({"rig", "still", kind_.device, "--set", "width_px=320", "--set", "height_px=240",
+            "--set", "pixel_format=" + kind_.grey, "--out", "still.png"});
   EXPECT_TRUE(names(said, "still.png: 320 × 240 px, grey")) << said;
   EXPECT_EQ(run({"rig", "see", "still.png", "--set", "scene.swarm.look.min_texture=0"}).code, 0);
-  write("rig.yaml",
-        "coils: coils.yaml\ndriver: {type: simulated}\n"
-        "camera: {type: v4l2, width_px: 200, height_px: 100}\n");
+  write("rig.yaml", "coils: coils.yaml\ndriver: {type: simulated}\ncamera: {" + kind_.yaml +
+                        ", width_px: 200, height_px: 100}\n");
   write("coils.yaml", "coils: {type: helmholtz}\n");
   const std::string small =
-      good({"rig", "still", "/dev/video90", "--rig", "rig.yaml", "--out", "small.png"});
+      good({"rig", "still", kind_.device, "--rig", "rig.yaml", "--out", "small.png"});
   EXPECT_TRUE(names(small, "200 × 100")) << small;
   refused({"rig", "still", "still.png"}, naming("still.png", {"camera"}));
   plug("unplug=3");
-  const Outcome outcome = run({"rig", "still", "/dev/video90", "--out", "none.png"});
+  const Outcome outcome = run({"rig", "still", kind_.device, "--out", "none.png"});
   EXPECT_EQ(outcome.code, 4);
   EXPECT_FALSE(exists("none.png"));
 }
 
-TEST_F(DeviceCamera, ItsScaleIsTakenFromAStill) {
+TEST_P(EachCamera, ItsScaleIsTakenFromAStill) {
   std::string slide = "P5\n320 240\n255\n";
   for (int y = 0; y < 240; ++y)
     for (int x = 0; x < 320; ++x) {
@@ -161,51 +152,36 @@ TEST_F(DeviceCamera, ItsScaleIsTakenFromAStill) {
   write("slide.pgm", slide);
   plug("scene=slide.pgm formats=GREY");
   const Json told =
-      Json::parse(good({"rig", "scale", "/dev/video90", "--grid", "9x6", "--pitch", "100", "--set",
+      Json::parse(good({"rig", "scale", kind_.device, "--grid", "9x6", "--pitch", "100", "--set",
                         "width_px=320", "--set", "height_px=240", "--json"}));
   EXPECT_NEAR(told["scale"]["um_per_px"].get<double>(), 100 / 30.0, 1e-3);
   EXPECT_EQ(told["points"], 54);
 }
 
-TEST_F(DeviceCamera, AMapIsSegmentedFromAStill) {
+TEST_P(EachCamera, AMapIsSegmentedFromAStill) {
   std::string photo = "P5\n640 480\n255\n";
   for (int y = 0; y < 480; ++y)
     for (int x = 0; x < 640; ++x)
       photo += static_cast<char>(std::abs(y - 240) < 12 || std::abs(x - 320) < 9 ? 70 : 180);
   write("photo.pgm", photo);
   plug("scene=photo.pgm formats=GREY");
-  const Arguments segment{"--um-per-px", "5", "--out", "vessels.geojson", "--json"};
+  write("coils.yaml", "coils: {type: helmholtz}\n");
+  write("rig.yaml", "coils: coils.yaml\ndriver: {type: simulated}\ncamera: {" + kind_.yaml +
+                        ", width_px: 640, height_px: 480}\n");
+  const Arguments segment{"--um-per-px", "5",        "--out", "vessels.geojson",
+                          "--rig",       "rig.yaml", "--json"};
   const auto share_of = [&](const std::string& source) {
     Arguments all{"map", "segment", source};
     all.insert(all.end(), segment.begin(), segment.end());
     return Json::parse(good(all))["vessel_share"].get<double>();
   };
-  EXPECT_NEAR(share_of("/dev/video90"), share_of("photo.pgm"), 0.005);
+  EXPECT_NEAR(share_of(kind_.device), share_of("photo.pgm"), 0.005);
 }
 
 /// A run with a camera that fails in it; the coils are simulated.
-class DeviceCameraRun : public DeviceCamera {
+class EachCameraRun : public EachCamera {
  protected:
-  DeviceCameraRun() {
-    write("coils.yaml", "coils: {type: helmholtz}\n");
-    write("rig.yaml",
-          "coils: coils.yaml\n"
-          "field: {kind: rotating, amplitude_mt: 8, frequency_hz: 10, max_pitch_deg: 7.5}\n"
-          "drive_rate_hz: 100\ndriver: {type: simulated}\n"
-          "camera: {type: v4l2, device: /dev/video90, width_px: 320, height_px: 240}\n"
-          "scale: {um_per_px: 6, origin_px: [-0.5, 239.5]}\n"
-          "perception: {scene: {swarm: {look: {min_texture: 0}}}}\n"
-          "safety: {min_follow_share: 0, missed_deadlines: 100, max_pause_s: 3}\n");
-    write("flight.yaml",
-          "map: {type: polygons, lo_um: [0, 0], hi_um: [1920, 1440]}\n"
-          "start: {x_um: 960, y_um: 720}\ngoal_um: [1500, 720]\ntime_limit_s: 20\n"
-          "swarm: {type: vortex}\nnavigator: {type: radar}\n");
-  }
-  Outcome fly(const Arguments& more = {}) const {
-    Arguments all{"rig", "run", "flight.yaml", "--rig", "rig.yaml"};
-    all.insert(all.end(), more.begin(), more.end());
-    return run(all);
-  }
+  EachCameraRun() { write_flight(); }
   void ends_it(const std::string& traits, const std::string& reason) {
     plug(traits);
     const Outcome outcome = fly({"--seconds", "15"});
@@ -214,20 +190,22 @@ class DeviceCameraRun : public DeviceCamera {
   }
 };
 
-TEST_F(DeviceCameraRun, GoesOnUntilItsTimeIsUp) {
+INSTANTIATE_TEST_SUITE_P(Of, EachCameraRun, testing::ValuesIn(kinds()), name_of_kind);
+
+TEST_P(EachCameraRun, GoesOnUntilItsTimeIsUp) {
   plug("every=5");
   const Outcome outcome = fly({"--seconds", "2"});
   EXPECT_EQ(outcome.code, 3) << outcome.out << outcome.err;
 }
 
-TEST_F(DeviceCameraRun, ACameraThatFailsEndsIt) {
-  ends_it("unplug=60", "/dev/video90: was unplugged");
-  ends_it("damaged=60", "/dev/video90: gives damaged pictures");
+TEST_P(EachCameraRun, ACameraThatFailsEndsIt) {
+  ends_it("unplug=60", kind_.device + ": was unplugged");
+  ends_it("damaged=60", kind_.device + ": gives damaged pictures");
   ends_it("stall=60", "s old, allowed 0.5 s");
   ends_it("hang=60", "s old, allowed 0.5 s");
 }
 
-TEST_F(DeviceCameraRun, ItsWatchIsThatOfTheRig) {
+TEST_P(EachCameraRun, ItsWatchIsThatOfTheRig) {
   plug("");
   for (const char* command : {"run", "check"}) {
     const Arguments arguments =
@@ -246,7 +224,7 @@ TEST_F(DeviceCameraRun, ItsWatchIsThatOfTheRig) {
   }
 }
 
-TEST_F(DeviceCameraRun, ItsVideoHasTheRecordsClock) {
+TEST_P(EachCameraRun, ItsVideoHasTheRecordsClock) {
   plug("formats=GREY");
   const Outcome outcome =
       fly({"--seconds", "2", "--out", "out", "--video", "out/camera.mkv", "--json"});
@@ -282,7 +260,7 @@ TEST_F(DeviceCameraRun, ItsVideoHasTheRecordsClock) {
             3);
 }
 
-TEST_F(DeviceCameraRun, AVideoThatFindsNoRoomIsToldAndTheRunGoesOn) {
+TEST_P(EachCameraRun, AVideoThatFindsNoRoomIsToldAndTheRunGoesOn) {
   plug("formats=GREY");
   at.largest_file = 300'000;
   const Outcome outcome = fly({"--seconds", "2", "--video", "camera.mkv"});
@@ -295,12 +273,29 @@ TEST_F(DeviceCameraRun, AVideoThatFindsNoRoomIsToldAndTheRunGoesOn) {
       << nowhere.err;
 }
 
-TEST_F(DeviceCameraRun, WhatTheCameraDoesNotTakeIsRefusedBeforeIt) {
+TEST_F(DeviceCamera, WhatItDoesNotTakeIsRefusedBeforeARun) {
+  write_flight();
   plug("width=640 height=480");
   const Outcome outcome = fly();
   EXPECT_EQ(outcome.code, 4) << outcome.out << outcome.err;
   EXPECT_TRUE(is_one_line_naming(outcome.err, "microswarm: /dev/video90", {"640x480", "320x240"}))
       << outcome.err;
+}
+
+TEST_F(DeviceCamera, IsListedWithItsFormats) {
+  plug("formats=YUYV,H264");
+  const Json told = Json::parse(good({"rig", "cameras", "--json"}));
+  const auto& list = told["cameras"];
+  const auto found = std::ranges::find_if(
+      list, [](const Json& camera) { return camera["device"] == "/dev/video90"; });
+  ASSERT_NE(found, list.end()) << told;
+  ASSERT_EQ((*found)["formats"].size(), 2U);
+  EXPECT_EQ((*found)["formats"][0]["name"], "YUYV");
+  EXPECT_EQ((*found)["formats"][0]["readable"], true);
+  EXPECT_EQ((*found)["formats"][0]["sizes"], "320x240, 640x480");
+  EXPECT_EQ((*found)["formats"][1]["readable"], false);
+  EXPECT_EQ((*found)["model"], "a ?fake camera");
+  EXPECT_TRUE(names(good({"rig", "cameras"}), "/dev/video90"));
 }
 
 }  // namespace

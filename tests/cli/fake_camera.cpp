@@ -21,20 +21,12 @@
 #include <string>
 #include <vector>
 
+#include "tests/cli/fake_scene.hpp"
+
 namespace {
 
-std::string word_of(const char* key, const char* otherwise) {
-  const char* const all = std::getenv("FAKE_CAMERA");
-  const std::string text = all ? " " + std::string(all) + " " : " ";
-  const std::string sought = " " + std::string(key) + "=";
-  const std::size_t at = text.find(sought);
-  if (at == std::string::npos) return otherwise;
-  const std::size_t from = at + sought.size();
-  return text.substr(from, text.find(' ', from) - from);
-}
-int number_of(const char* key, int otherwise) {
-  return std::atoi(word_of(key, std::to_string(otherwise).c_str()).c_str());
-}
+using fake::number_of;
+using fake::word_of;
 
 struct Traits {
   std::string device = word_of("device", "");
@@ -51,8 +43,7 @@ struct Traits {
   int no_camera = number_of("no_camera", 0);
   int output = number_of("output", 0);  // it shows pictures
   int controls = number_of("controls", 1);
-  std::string scene = word_of("scene", "");  // a PGM of the size asked for, which may change
-  int region = number_of("region", 0);       // it has one, in steps of 8
+  int region = number_of("region", 0);  // it has one, in steps of 8
 };
 
 const Traits& traits() {
@@ -117,44 +108,11 @@ Control* control_of(std::uint32_t id) {
   return nullptr;
 }
 
-/// The scene's pixels; empty without one of this size.
-std::vector<std::uint8_t> scene_pixels(std::size_t count) {
-  std::vector<std::uint8_t> pixels;
-  std::FILE* const file =
-      traits().scene.empty() ? nullptr : std::fopen(traits().scene.c_str(), "rb");
-  if (!file) return pixels;
-  std::fseek(file, 0, SEEK_END);
-  const long size = std::ftell(file);
-  if (size >= static_cast<long>(count)) {
-    pixels.resize(count);
-    std::fseek(file, -static_cast<long>(count), SEEK_END);
-    if (std::fread(pixels.data(), 1, count, file) != count) pixels.clear();
-  }
-  std::fclose(file);
-  return pixels;
-}
-
-/// Grey 120, brighter by the gain, with a dark disc in the middle and a bit of noise.
+/// Grey 120, brighter by the gain, with a dark disc; or the scene.
 std::vector<std::uint8_t> grey_picture() {
-  const int width = static_cast<int>(camera.form.width);
-  const int height = static_cast<int>(camera.form.height);
   const int gain = control_of(V4L2_CID_GAIN) ? control_of(V4L2_CID_GAIN)->value : 0;
-  std::vector<std::uint8_t> grey(static_cast<std::size_t>(width) * height);
-  const std::vector<std::uint8_t> scene = scene_pixels(grey.size());
-  std::uint32_t noise = 12345u + static_cast<std::uint32_t>(camera.pictures);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      noise = noise * 1664525u + 1013904223u;
-      if (!scene.empty()) {
-        const std::size_t at = static_cast<std::size_t>(y) * width + x;
-        grey[at] = static_cast<std::uint8_t>(scene[at] + (noise >> 31));
-        continue;
-      }
-      const int dx = x - width / 2, dy = y - height / 2;
-      grey[static_cast<std::size_t>(y) * width + x] = static_cast<std::uint8_t>(
-          (dx * dx + dy * dy < 25 * 25 ? 60 : 120 + gain) + static_cast<int>(noise >> 30) - 1);
-    }
-  return grey;
+  return fake::grey_picture(static_cast<int>(camera.form.width),
+                            static_cast<int>(camera.form.height), gain, camera.pictures);
 }
 
 /// Writes a picture; how many bytes it has.
@@ -253,6 +211,7 @@ int answer(unsigned long request, void* p) {
     case VIDIOC_QUERYCAP: {
       if (traits().no_camera) return refuse(ENOTTY);
       auto& can = *static_cast<v4l2_capability*>(p);
+      std::strcpy(reinterpret_cast<char*>(can.card), "a \033fake camera");
       can.capabilities = V4L2_CAP_DEVICE_CAPS;
       can.device_caps =
           (traits().output ? V4L2_CAP_VIDEO_OUTPUT : V4L2_CAP_VIDEO_CAPTURE) | V4L2_CAP_STREAMING;
@@ -263,6 +222,14 @@ int answer(unsigned long request, void* p) {
       const auto known = formats();
       if (offer.index >= known.size()) return refuse(EINVAL);
       offer.pixelformat = known[offer.index];
+      return 0;
+    }
+    case VIDIOC_ENUM_FRAMESIZES: {
+      auto& size = *static_cast<v4l2_frmsizeenum*>(p);
+      if (size.index >= 2) return refuse(EINVAL);
+      size.type = V4L2_FRMSIZE_TYPE_DISCRETE;
+      size.discrete.width = 320 * (size.index + 1);
+      size.discrete.height = 240 * (size.index + 1);
       return 0;
     }
     case VIDIOC_G_FMT:

@@ -133,8 +133,9 @@ class CommandLine : public testing::Test {
  protected:
   CommandLine() {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    at.folder = fs::path(testing::TempDir()) /
-                ("microswarm_cli_" + std::string(info->name()) + "_" + std::to_string(::getpid()));
+    std::string name = "microswarm_cli_" + std::string(info->name());
+    std::ranges::replace(name, '/', '_');  // of a parameter
+    at.folder = fs::path(testing::TempDir()) / (name + "_" + std::to_string(::getpid()));
     fs::remove_all(at.folder);
     fs::create_directories(at.folder);
   }

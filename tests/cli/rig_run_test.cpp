@@ -190,6 +190,11 @@ TEST_F(RigRun, NobodyWatchingOrADrawnSwarmIsRefused) {
   const Outcome drawn = run({"rig", "run", "flight.yaml", "--rig", "rig.yaml", "--other-stop"});
   EXPECT_EQ(drawn.code, 2);
   EXPECT_TRUE(names(drawn.err, "rig.yaml:6:") && names(drawn.err, "--drawn-swarm")) << drawn.err;
+  const Outcome drawn_by_aravis =
+      run({"rig", "run", "flight.yaml", "--rig", "rig.yaml", "--other-stop", "--set-rig",
+           "camera.type=genicam", "--set-rig", "camera.device=Fake_1"});
+  EXPECT_EQ(drawn_by_aravis.code, 2);
+  EXPECT_TRUE(names(drawn_by_aravis.err, "--drawn-swarm")) << drawn_by_aravis.err;
   EXPECT_EQ(device.count(CoilMessage::hello), 0);
 }
 

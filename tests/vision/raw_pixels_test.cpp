@@ -44,6 +44,30 @@ TEST(RawPixels, GreyAndColoursKeepTheirValuesAndGapsAreLeftOut) {
   EXPECT_EQ(pixels_of(PixelFormat::bgr3, 1, 1, {1, 2, 3}).pixels, (Bytes{3, 2, 1}));
 }
 
+TEST(RawPixels, AFlatColourOfBayerIsThatColour) {
+  // Red, green and blue of the first two pixels of the first two rows.
+  const std::pair<PixelFormat, std::string_view> orders[]{{PixelFormat::rggb, "RGGB"},
+                                                          {PixelFormat::grbg, "GRBG"},
+                                                          {PixelFormat::gbrg, "GBRG"},
+                                                          {PixelFormat::bggr, "BGGR"}};
+  for (const auto& [format, order] : orders)
+    for (const int width : {4, 5, 8}) {
+      Bytes data;
+      for (int y = 0; y < 6; ++y)
+        for (int x = 0; x < width; ++x) {
+          const char colour = order[static_cast<std::size_t>(2 * (y % 2) + x % 2)];
+          data.push_back(colour == 'R' ? 200 : colour == 'G' ? 100 : 30);
+        }
+      const Image image = pixels_of(format, width, 6, data);
+      ASSERT_EQ(image.channels, 3);
+      for (std::size_t i = 0; i < image.pixels.size(); i += 3)
+        EXPECT_TRUE(image.pixels[i] == 200 && image.pixels[i + 1] == 100 &&
+                    image.pixels[i + 2] == 30)
+            << order << " pixel " << i / 3;
+    }
+  EXPECT_NE(refusal(PixelFormat::rggb, 2, 6, Bytes(100)), "");
+}
+
 TEST(RawPixels, DeepSamplesKeepTheirUpperBits) {
   const Bytes two{0x34, 0x12, 0xff, 0x0f};  // 0x1234, 0x0fff
   EXPECT_EQ(pixels_of(PixelFormat::y16, 2, 1, two).pixels, (Bytes{0x12, 0x0f}));

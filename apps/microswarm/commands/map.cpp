@@ -133,7 +133,7 @@ int segment(const SegmentOptions& o, const Context& context) {
   note_each(set_values(params, o.settings));
   if (!o.um_per_px && is_camera(o.photo))
     throw InputError(o.photo + ": µm per px is missing: give --um-per-px");
-  const Image photo = picture_of(o.photo, camera_of(o.rig));
+  const Image photo = picture_of(o.photo, camera_of(o.photo, o.rig));
   if (!o.um_per_px) throw InputError(o.photo + ": µm per px is missing: give --um-per-px");
   const std::optional<Mask> truth = read_truth(o.truth, photo);
   const double cell = *o.um_per_px;
@@ -188,7 +188,8 @@ void add_segment(Command map, Action& action) {
       "map segment fundus.jpg --um-per-px 6 --out vessels.geojson");
   cmd.add_option(
          "photo", o->photo,
-         "Photograph of vessels darker than their surroundings, or camera such as /dev/video0")
+         "Photograph of vessels darker than their surroundings, or camera such as /dev/video0 or "
+         "genicam:ID")
       .required()
       .type_name("FILE");
   cmd.add_option("--rig", o->rig, "Use the camera's settings of this rig (YAML)").type_name("FILE");

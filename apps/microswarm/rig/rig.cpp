@@ -236,6 +236,7 @@ void add_rig(Command app, Action& action) {
       app.add_group("rig", "Coils and camera: fields, calibration, checks, real-time runs");
   add_field(rig, action);
   add_rig_map(rig, action);
+  add_rig_cameras(rig, action);
   add_rig_scale(rig, action);
   add_rig_see(rig, action);
   add_rig_still(rig, action);

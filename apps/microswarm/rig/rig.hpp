@@ -26,6 +26,8 @@ Eigen::VectorXd currents_of(const std::string& text, const CoilSystem& system);
 void add_rig_map(Command rig, Action& action);
 /// Adds `rig scale`.
 void add_rig_scale(Command rig, Action& action);
+/// Adds `rig cameras`.
+void add_rig_cameras(Command rig, Action& action);
 /// Adds `rig check`.
 void add_rig_check(Command rig, Action& action);
 /// Adds `rig drive`.

@@ -159,7 +159,7 @@ struct RigRunOptions {
 void require_person(const Rig& rig, const RigRunOptions& o) {
   if (o.dry_run || !has_coil_device(rig)) return;
   require_emergency_stop(o.coils);
-  if (std::holds_alternative<SimulatedCamera>(rig.params.camera) && !o.drawn_swarm)
+  if (shows_drawn_swarm(rig.params) && !o.drawn_swarm)
     throw rig.keys.error("camera",
                          "the camera is simulated and the coil driver is not: real coils would be "
                          "driven for a drawn swarm; for a test, run with --drawn-swarm");

@@ -123,9 +123,7 @@ void tell_lens(const LensDistortion& lens) {
 }
 
 Image picture_for(const ScaleOptions& o) {
-  CameraParams camera = camera_of(o.rig);
-  note_each(set_values(camera, o.settings));
-  return picture_of(o.picture, camera);
+  return picture_of(o.picture, camera_of(o.picture, o.rig, o.settings));
 }
 
 int scale(const ScaleOptions& o) {
@@ -170,7 +168,8 @@ void add_rig_scale(Command rig, Action& action) {
   Command cmd =
       rig.add_command("scale", "Determine µm per pixel of a camera from two points or a grid",
                       "rig scale slide.png --grid 9x6 --pitch 100 --out scale.yaml");
-  cmd.add_option("picture", o->picture, "Picture from the camera, or camera such as /dev/video0")
+  cmd.add_option("picture", o->picture,
+                 "Picture from the camera, or camera such as /dev/video0 or genicam:ID")
       .required()
       .type_name("FILE");
   cmd.add_option("--rig", o->rig, "Use the camera's settings of this rig (YAML)").type_name("FILE");

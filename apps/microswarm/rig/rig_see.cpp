@@ -24,7 +24,7 @@ using Json = nlohmann::ordered_json;
 
 /// Keys of `--config` and `--set`.
 struct SeeSettings {
-  CameraParams camera;
+  AnyCameraParams camera;
   SceneParams scene;
   WallParams walls;
   template <class Self, class V>
@@ -79,9 +79,9 @@ SeeSettings settings_of(const SeeOptions& o) {
   if (!o.rig.empty()) {
     const Rig rig = read_rig(o.rig);
     settings.scene = rig.params.perception.scene;
-    if (const auto* camera = std::get_if<CameraParams>(&rig.params.camera))
-      settings.camera = *camera;
+    settings.camera = device_camera(rig.params).value_or(settings.camera);
   }
+  settings.camera = camera_for(o.picture, settings.camera);
   if (o.config.empty()) {
     note_each(set_values(settings, o.settings));
     return settings;
@@ -166,7 +166,7 @@ void add_rig_see(Command rig, Action& action) {
   Command cmd =
       rig.add_command("see", "Detect the swarm and obstacles in a picture",
                       "rig see frame.png --set scene.swarm.look.min_texture=8 --out seen.png");
-  cmd.add_option("picture", o->picture, "Picture, or camera such as /dev/video0")
+  cmd.add_option("picture", o->picture, "Picture, or camera such as /dev/video0 or genicam:ID")
       .required()
       .type_name("FILE");
   cmd.add_option("--still", o->still, "Picture without swarm and obstacles, for detecting walls")

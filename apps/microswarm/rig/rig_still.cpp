@@ -2,8 +2,6 @@
 // `rig still`: a picture of a camera as it came.
 #include <memory>
 
-#include "microswarm/config/key_locations.hpp"
-#include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "rig/rig.hpp"
 #include "rig/still.hpp"
@@ -20,11 +18,9 @@ struct StillOptions {
 };
 
 int still(const StillOptions& o) {
-  if (!is_camera(o.camera)) throw InputError(o.camera + ": is no camera, such as /dev/video0");
+  if (!is_camera(o.camera)) throw InputError(o.camera + ": is no " + camera_names);
   keep_input(o.out, o.rig);
-  CameraParams camera = camera_of(o.rig);
-  note_each(set_values(camera, o.settings));
-  const Image picture = picture_of(o.camera, camera);
+  const Image picture = picture_of(o.camera, camera_of(o.camera, o.rig, o.settings));
   write_png(o.out, picture);
   print("wrote {}: {} × {} px, {}\n", o.out, picture.width, picture.height,
         picture.channels == 1 ? "grey" : "in colours");
@@ -37,7 +33,9 @@ void add_rig_still(Command rig, Action& action) {
   auto o = std::make_shared<StillOptions>();
   Command cmd = rig.add_command("still", "Store a picture of a camera as it comes, as a PNG",
                                 "rig still /dev/video0 --rig bench.yaml --out empty.png");
-  cmd.add_option("camera", o->camera, "Camera such as /dev/video0").required().type_name("FILE");
+  cmd.add_option("camera", o->camera, "Camera such as /dev/video0 or genicam:ID")
+      .required()
+      .type_name("FILE");
   cmd.add_option("--rig", o->rig, "Use the camera's settings of this rig (YAML)").type_name("FILE");
   add_settings(cmd, o->settings, "Override a setting, e.g. exposure_ms=5 (repeatable)");
   cmd.add_option("--out", o->out, "File to write (PNG)")

@@ -1,26 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rig/still.hpp"
 
-#include <variant>
+#include <string_view>
 
+#include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/clock.hpp"
 #include "microswarm/rig/params/rig_params.hpp"
-#include "microswarm/vision/camera/camera.hpp"
+#include "support/options.hpp"
 
 namespace microswarm::cli {
+namespace {
 
-CameraParams camera_of(const std::string& rig) {
-  if (rig.empty()) return {};
-  const Rig read = read_rig(rig);
-  if (const auto* camera = std::get_if<CameraParams>(&read.params.camera)) return *camera;
-  return {};
+constexpr std::string_view genicam = "genicam:";
+
+bool is_genicam(const std::string& source) { return source.starts_with(genicam); }
+
+}  // namespace
+
+bool is_camera(const std::string& source) {
+  return source.starts_with("/dev/") || is_genicam(source);
 }
 
-Image picture_of(const std::string& source, CameraParams camera) {
+AnyCameraParams camera_for(const std::string& source, const AnyCameraParams& given) {
+  if (!is_camera(source)) return given;
+  AnyCameraParams camera = given;
+  if (is_genicam(source)) {
+    if (!std::holds_alternative<GenicamParams>(camera)) camera = GenicamParams{};
+    std::get<GenicamParams>(camera).device = source.substr(genicam.size());
+  } else {
+    if (!std::holds_alternative<CameraParams>(camera)) camera = CameraParams{};
+    std::get<CameraParams>(camera).device = source;
+  }
+  return camera;
+}
+
+AnyCameraParams camera_of(const std::string& source, const std::string& rig,
+                          const std::vector<std::string>& settings) {
+  AnyCameraParams given;
+  if (!rig.empty()) given = device_camera(read_rig(rig).params).value_or(given);
+  AnyCameraParams camera = camera_for(source, given);
+  std::visit([&](auto& params) { note_each(set_values(params, settings)); }, camera);
+  return camera;
+}
+
+Image picture_of(const std::string& source, const AnyCameraParams& camera) {
   if (!is_camera(source)) return read_photograph(source);
-  camera.device = source;
-  NewestFrame live = live_camera(camera);
+  NewestFrame live = live_camera(camera_for(source, camera));
   LiveFrame frame;
   const double began = steady_seconds();
   while (live.wait(frame, 0.5) || steady_seconds() < began + 10)

@@ -62,7 +62,7 @@ class LiveSession::LivePlant : public Plant {
             devices_.scale, devices_.driver(), [this](const CoilMoment& m) { take(m); },
             video_ ? video_->input() : FrameListener()) {
     if (video_) video_->begin(rig_.clock_zero());
-    if (std::holds_alternative<CameraParams>(on_.rig.params.camera))
+    if (device_camera(on_.rig.params))
       require(check_camera(rig_.camera(), on_.rig, devices_.camera_rate, device_check));
     if (has_coil_device(on_.rig) && !options.dry) open_coils(options);
   }

@@ -69,9 +69,21 @@ bool turns_on_device(const RigParams& rig) {
   return std::visit([](const auto& driver) { return driver.waveforms; }, rig.driver);
 }
 
+std::optional<AnyCameraParams> device_camera(const RigParams& rig) {
+  if (const auto* v4l2 = std::get_if<CameraParams>(&rig.camera)) return *v4l2;
+  if (const auto* genicam = std::get_if<GenicamParams>(&rig.camera)) return *genicam;
+  return std::nullopt;
+}
+
+bool shows_drawn_swarm(const RigParams& rig) {
+  const auto* genicam = std::get_if<GenicamParams>(&rig.camera);
+  return std::holds_alternative<SimulatedCamera>(rig.camera) || (genicam && is_fake(*genicam));
+}
+
 NewestFrameParams camera_watch(const RigParams& rig) {
-  if (const auto* camera = std::get_if<CameraParams>(&rig.camera)) return camera->watch;
-  return {};
+  const std::optional<AnyCameraParams> camera = device_camera(rig);
+  if (!camera) return {};
+  return std::visit([](const auto& params) { return params.watch; }, *camera);
 }
 
 std::string name_of(const Rig& rig) {

@@ -18,7 +18,7 @@
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/rig/params/microscope_params.hpp"
 #include "microswarm/rig/params/perception_params.hpp"
-#include "microswarm/vision/camera/camera_params.hpp"
+#include "microswarm/vision/camera/camera.hpp"
 #include "microswarm/vision/camera/camera_scale.hpp"
 
 namespace microswarm {
@@ -118,7 +118,7 @@ struct RigParams {
   FieldGeneratorParams field;
   double drive_rate = 200;
   std::variant<SimulatedCoils, SerialCoilParams> driver;
-  std::variant<SimulatedCamera, CameraParams, VideoCamera> camera;
+  std::variant<SimulatedCamera, CameraParams, GenicamParams, VideoCamera> camera;
   std::optional<CameraScale> scale;
   PerceptionParams perception;
   bool virtual_obstacles = true;
@@ -164,6 +164,10 @@ double full_scale_of(const RigParams& rig);
 
 /// Whether the rig's driver turns the field, see CoilDriver::makes_waveforms.
 bool turns_on_device(const RigParams& rig);
+/// The rig's camera if it is a device; nothing for a simulated one or a video.
+std::optional<AnyCameraParams> device_camera(const RigParams& rig);
+/// Whether the camera shows a swarm that is not there: a simulated camera, also Aravis's.
+bool shows_drawn_swarm(const RigParams& rig);
 /// How a silent, frozen or black camera of the rig is noticed.
 NewestFrameParams camera_watch(const RigParams& rig);
 

@@ -6,7 +6,6 @@
 
 #include "microswarm/core/execution/clock.hpp"
 #include "microswarm/rig/simulation/simulated_rig.hpp"
-#include "microswarm/vision/camera/camera.hpp"
 
 namespace microswarm {
 namespace {
@@ -41,8 +40,7 @@ std::unique_ptr<CoilDriver> open_coils(const Rig& rig) {
 }
 
 std::unique_ptr<FrameSource> open_camera_of(const Rig& rig) {
-  if (const auto* camera = std::get_if<CameraParams>(&rig.params.camera))
-    return open_camera(*camera);
+  if (const auto camera = device_camera(rig.params)) return open_camera(*camera);
   const auto& video = std::get<VideoCamera>(rig.params.camera);
   if (video.file.empty()) throw rig.keys.error("camera.file", "which video is missing");
   return std::make_unique<PacedVideo>(open_frames(rig.folder / video.file, video.rate));

@@ -11,6 +11,11 @@
 namespace microswarm {
 namespace {
 
+bool is_bayer(PixelFormat format) {
+  return format == PixelFormat::rggb || format == PixelFormat::grbg ||
+         format == PixelFormat::gbrg || format == PixelFormat::bggr;
+}
+
 bool is_jpeg(PixelFormat format) {
   return format == PixelFormat::mjpg || format == PixelFormat::jpeg;
 }
@@ -40,6 +45,14 @@ int conversion_of(PixelFormat format) {
       return cv::COLOR_YUV2RGB_UYVY;
     case PixelFormat::bgr3:
       return cv::COLOR_BGR2RGB;
+    case PixelFormat::rggb:
+      return cv::COLOR_BayerRGGB2RGB;
+    case PixelFormat::grbg:
+      return cv::COLOR_BayerGRBG2RGB;
+    case PixelFormat::gbrg:
+      return cv::COLOR_BayerGBRG2RGB;
+    case PixelFormat::bggr:
+      return cv::COLOR_BayerBGGR2RGB;
     default:
       return -1;
   }
@@ -124,9 +137,11 @@ void take_raw(const RawPicture& raw, std::string_view name, Image& image) {
     return;
   }
   const bool nv12 = raw.format == PixelFormat::nv12;
+  const bool bayer = is_bayer(raw.format);
   const bool pairs = nv12 || raw.format == PixelFormat::yuyv || raw.format == PixelFormat::uyvy;
   if ((pairs && raw.width % 2 != 0) || (nv12 && raw.height % 2 != 0))
     fail(std::string(enum_name(raw.format)) + " with an odd number of pixels");
+  if (bayer && std::min(raw.width, raw.height) < 4) fail("a Bayer pattern of less than 4x4 pixels");
   const std::size_t line = static_cast<std::size_t>(raw.width) * bytes_of_pixel(raw.format);
   const std::size_t step = std::max(raw.bytes_per_line, line);
   const auto lines = static_cast<std::size_t>(nv12 ? raw.height * 3 / 2 : raw.height);
@@ -134,7 +149,7 @@ void take_raw(const RawPicture& raw, std::string_view name, Image& image) {
   if (raw.bytes.size() < needed)
     fail("only " + std::to_string(raw.bytes.size()) + " of " + std::to_string(needed) +
          " bytes of a picture came");
-  const bool colours = pairs || bytes_of_pixel(raw.format) == 3;
+  const bool colours = pairs || bayer || bytes_of_pixel(raw.format) == 3;
   image.width = raw.width;
   image.height = raw.height;
   image.channels = colours ? 3 : 1;

@@ -15,9 +15,25 @@
 namespace microswarm {
 
 /// Formats of a camera's data that can be read, by their V4L2 names.
-enum class PixelFormat { mjpg, jpeg, yuyv, uyvy, nv12, grey, y10, y12, y16, rgb3, bgr3 };
+enum class PixelFormat {
+  mjpg,
+  jpeg,
+  yuyv,
+  uyvy,
+  nv12,
+  grey,
+  y10,
+  y12,
+  y16,
+  rgb3,
+  bgr3,
+  rggb,  ///< Bayer, 8 bits, by its first four pixels
+  grbg,
+  gbrg,
+  bggr
+};
 constexpr auto enum_names(PixelFormat) {
-  return std::array<std::pair<PixelFormat, std::string_view>, 11>{{{PixelFormat::mjpg, "MJPG"},
+  return std::array<std::pair<PixelFormat, std::string_view>, 15>{{{PixelFormat::mjpg, "MJPG"},
                                                                    {PixelFormat::jpeg, "JPEG"},
                                                                    {PixelFormat::yuyv, "YUYV"},
                                                                    {PixelFormat::uyvy, "UYVY"},
@@ -27,7 +43,11 @@ constexpr auto enum_names(PixelFormat) {
                                                                    {PixelFormat::y12, "Y12"},
                                                                    {PixelFormat::y16, "Y16"},
                                                                    {PixelFormat::rgb3, "RGB3"},
-                                                                   {PixelFormat::bgr3, "BGR3"}}};
+                                                                   {PixelFormat::bgr3, "BGR3"},
+                                                                   {PixelFormat::rggb, "RGGB"},
+                                                                   {PixelFormat::grbg, "GRBG"},
+                                                                   {PixelFormat::gbrg, "GBRG"},
+                                                                   {PixelFormat::bggr, "BA81"}}};
 }
 
 /// Four letters in a number, as V4L2 names formats; shorter names end in spaces.
@@ -44,11 +64,13 @@ struct RawPicture {
   int height = 0;
   std::size_t bytes_per_line = 0;  ///< 0: rows without gaps
   std::span<const std::byte> bytes;
+  std::string_view damage;  ///< what is wrong with them, where the device tells
 };
 
 /// Turns the data into grey (GREY, Y10, Y12, Y16, a grey JPEG) or colours, in `image`, whose memory
-/// is used again. Samples of 10, 12 and 16 bits keep their upper 8. Throws InputError "NAME: WHY"
-/// when data are missing, or a JPEG is damaged or of another size.
+/// is used again. Colours of Bayer are interpolated between neighbours. Samples of 10, 12 and 16
+/// bits keep their upper 8. Throws InputError "NAME: WHY" when data are missing, or a JPEG is
+/// damaged or of another size.
 void take_raw(const RawPicture& raw, std::string_view name, Image& image);
 
 }  // namespace microswarm

@@ -14,7 +14,6 @@
 #include <cmath>
 #include <system_error>
 
-#include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/clock.hpp"
 #include "microswarm/core/fields/fields.hpp"
 
@@ -42,8 +41,8 @@ std::string region_text(const v4l2_rect& r) {
 
 }  // namespace
 
-V4l2Device::V4l2Device(std::string name) : name_(std::move(name)) {
-  file_ = ::open(name_.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+V4l2Device::V4l2Device(std::string name) : CameraDevice(std::move(name)) {
+  file_ = ::open(this->name().c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
   if (file_ < 0) fail("cannot open: " + reason(errno));
   try {
     struct stat about {};
@@ -66,8 +65,6 @@ V4l2Device::~V4l2Device() {
   for (const auto& buffer : buffers_) ::munmap(buffer.data(), buffer.size());
   ::close(file_);
 }
-
-void V4l2Device::fail(const std::string& why) const { throw HardwareError(name_ + ": " + why); }
 
 int V4l2Device::ask(unsigned long request, void* argument) const {
   int result = 0;
@@ -141,19 +138,20 @@ void V4l2Device::set_format(std::optional<PixelFormat> format, int width, int he
          size_text(width, height));
 }
 
-std::optional<double> V4l2Device::set_rate(double rate) {
+void V4l2Device::set_rate(double rate) {
+  rate_.reset();
   v4l2_streamparm parameters{};
   parameters.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   v4l2_captureparm& capture = parameters.parm.capture;
-  if (ask(VIDIOC_G_PARM, &parameters) != 0) return std::nullopt;
+  if (ask(VIDIOC_G_PARM, &parameters) != 0) return;
   if ((capture.capability & V4L2_CAP_TIMEPERFRAME) != 0) {
     capture.timeperframe = {.numerator = 1000,
                             .denominator = static_cast<std::uint32_t>(std::lround(1000 * rate))};
-    if (ask(VIDIOC_S_PARM, &parameters) != 0) return std::nullopt;
+    if (ask(VIDIOC_S_PARM, &parameters) != 0) return;
   }
   const v4l2_fract& time = capture.timeperframe;
-  if (time.numerator == 0 || time.denominator == 0) return std::nullopt;
-  return static_cast<double>(time.denominator) / time.numerator;
+  if (time.numerator > 0 && time.denominator > 0)
+    rate_ = static_cast<double>(time.denominator) / time.numerator;
 }
 
 void V4l2Device::start() {
@@ -220,7 +218,9 @@ std::optional<RawPicture> V4l2Device::take(double seconds) {
   taken_ = buffer.index;
   RawPicture raw = form_;
   const std::span<std::byte> memory = buffers_[buffer.index];
-  if ((buffer.flags & V4L2_BUF_FLAG_ERROR) == 0)
+  if ((buffer.flags & V4L2_BUF_FLAG_ERROR) != 0)
+    raw.damage = "the driver calls it damaged";
+  else
     raw.bytes = memory.first(std::min<std::size_t>(buffer.bytesused, memory.size()));
   return raw;
 }

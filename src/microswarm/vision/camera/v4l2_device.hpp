@@ -8,22 +8,19 @@
 #include <string>
 #include <vector>
 
+#include "microswarm/vision/camera/camera_device.hpp"
 #include "microswarm/vision/camera/camera_params.hpp"
 
 namespace microswarm {
 
 /// An open camera of V4L2 and its buffers. No call waits for long. All throw HardwareError
 /// "DEVICE: WHY".
-class V4l2Device {
+class V4l2Device : public CameraDevice {
  public:
   /// Opens the device. Throws if it is no camera that gives pictures.
   explicit V4l2Device(std::string name);
-  ~V4l2Device();
-  V4l2Device(const V4l2Device&) = delete;
-  V4l2Device& operator=(const V4l2Device&) = delete;
+  ~V4l2Device() override;
 
-  const std::string& name() const { return name_; }
-  [[noreturn]] void fail(const std::string& why) const;
   /// Asks the driver; the result is 0 or the number of the error.
   int ask(unsigned long request, void* argument) const;
 
@@ -31,14 +28,13 @@ class V4l2Device {
   void set_region(const SensorRegion& region);
   /// Sets format and size of the pictures; what the camera really has must be the same.
   void set_format(std::optional<PixelFormat> format, int width, int height);
-  /// Asks for a rate [Hz]; the one that the camera really has, if it tells.
-  std::optional<double> set_rate(double rate);
+  /// Asks for a rate [Hz]; rate() is then the one that the camera really has, if it tells.
+  void set_rate(double rate);
 
   /// Starts the stream.
   void start();
-  /// The next picture's data, empty when the driver calls them damaged, after waiting for up to
-  /// `seconds`; nothing when none came. They are valid until the next call.
-  std::optional<RawPicture> take(double seconds);
+  std::optional<double> rate() const override { return rate_; }
+  std::optional<RawPicture> take(double seconds) override;
 
  private:
   bool wait(double seconds) const;
@@ -47,8 +43,8 @@ class V4l2Device {
   [[noreturn]] void fail_format(std::uint32_t wanted) const;
   std::string offered_formats() const;
 
-  std::string name_;
   int file_ = -1;
+  std::optional<double> rate_;
   std::vector<std::span<std::byte>> buffers_;
   std::optional<std::uint32_t> taken_;
   RawPicture form_;

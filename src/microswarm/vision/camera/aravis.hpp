@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Aravis for genicam_*.cpp alone: its headers and GLib's macros go no further.
+
+#include <arv.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/text.hpp"
+#include "microswarm/vision/camera/genicam_params.hpp"
+#include "microswarm/vision/camera/raw_pixels.hpp"
+
+namespace microswarm {
+
+/// Gives an object of GLib back.
+struct Release {
+  void operator()(gpointer object) const { g_object_unref(object); }
+};
+template <class T>
+using Owned = std::unique_ptr<T, Release>;
+/// Keeps GLib's log of Aravis, which has no domain, away from the terminal.
+class QuietLog {
+ public:
+  QuietLog()
+      : handler_(g_log_set_handler(
+            nullptr, static_cast<GLogLevelFlags>(G_LOG_LEVEL_MASK | G_LOG_FLAG_RECURSION),
+            [](const gchar*, GLogLevelFlags, const gchar*, gpointer) {}, nullptr)) {}
+  ~QuietLog() { g_log_remove_handler(nullptr, handler_); }
+  QuietLog(const QuietLog&) = delete;
+  QuietLog& operator=(const QuietLog&) = delete;
+
+ private:
+  guint handler_;
+};
+
+/// What Aravis complains of in one call.
+class Complaint {
+ public:
+  Complaint() = default;
+  ~Complaint() { g_clear_error(&error_); }
+  Complaint(const Complaint&) = delete;
+  Complaint& operator=(const Complaint&) = delete;
+  GError** out() { return &error_; }
+  explicit operator bool() const { return error_ != nullptr; }
+  std::string text() const { return error_ ? one_line(error_->message) : "no reason is told"; }
+
+ private:
+  GError* error_ = nullptr;
+};
+
+/// A text of Aravis as one line; empty for none.
+inline std::string text_of(const char* text) { return text ? one_line(text) : ""; }
+
+/// An open camera, which is asked by functions of Aravis.
+class Features {
+ public:
+  Features(std::string name, Owned<ArvCamera> camera)
+      : name_(std::move(name)), camera_(std::move(camera)) {}
+
+  ArvCamera* camera() const { return camera_.get(); }
+  [[noreturn]] void fail(const std::string& why) const { throw HardwareError(name_ + ": " + why); }
+
+  /// Calls a function of Aravis, whose last argument is the place for a complaint.
+  template <class F, class... Arguments>
+  auto ask(const char* what, F function, Arguments... arguments) const {
+    Complaint complaint;
+    const auto check = [&] {
+      if (complaint) fail(std::string(what) + ": " + complaint.text());
+    };
+    if constexpr (std::is_void_v<decltype(function(camera(), arguments..., complaint.out()))>) {
+      function(camera(), arguments..., complaint.out());
+      check();
+    } else {
+      const auto result = function(camera(), arguments..., complaint.out());
+      check();
+      return result;
+    }
+  }
+  bool has(const char* feature) const {
+    Complaint complaint;
+    return arv_camera_is_feature_available(camera(), feature, complaint.out()) != 0;
+  }
+
+ private:
+  std::string name_;
+  Owned<ArvCamera> camera_;
+};
+
+/// Data of an Aravis format; nothing for one that is not read.
+std::optional<PixelFormat> data_of(ArvPixelFormat code);
+/// Codes of the formats that the camera offers.
+std::vector<ArvPixelFormat> offered_codes(const Features& camera);
+/// Their names, in the same order.
+std::vector<std::string> offered_names(const Features& camera);
+/// "1x1..2048x2048": the sizes that it offers.
+std::string offered_sizes(const Features& camera);
+
+/// Part of the sensor that is read: the size of the pictures.
+struct Region {
+  gint x = 0;
+  gint y = 0;
+  gint width = 0;
+  gint height = 0;
+  bool operator==(const Region&) const = default;
+};
+/// "320x240 at 0,0".
+std::string text_of(const Region& region);
+/// The region that the camera has.
+Region region_of(const Features& camera);
+
+/// Sets what is given and lets pictures come at the camera's own pace. Throws HardwareError for
+/// what it does not take.
+void apply(const GenicamParams& params, const Features& camera);
+/// The rate at which pictures come [Hz], where the camera tells.
+std::optional<double> rate_of(const Features& camera, bool was_set);
+
+}  // namespace microswarm

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "microswarm/core/fields/fields.hpp"
+#include "microswarm/formats/images/image.hpp"
+#include "microswarm/vision/camera/newest_frame.hpp"
+
+namespace microswarm {
+
+/// Formats of a GenICam camera's data that can be read, by their names in GenICam's standard.
+enum class GenicamFormat {
+  mono8,
+  mono10,
+  mono12,
+  mono16,
+  bayer_rg8,
+  bayer_gr8,
+  bayer_gb8,
+  bayer_bg8,
+  rgb8,
+  bgr8,
+  yuv422_8,
+  yuv422_8_uyvy
+};
+constexpr auto enum_names(GenicamFormat) {
+  return std::array<std::pair<GenicamFormat, std::string_view>, 12>{
+      {{GenicamFormat::mono8, "Mono8"},
+       {GenicamFormat::mono10, "Mono10"},
+       {GenicamFormat::mono12, "Mono12"},
+       {GenicamFormat::mono16, "Mono16"},
+       {GenicamFormat::bayer_rg8, "BayerRG8"},
+       {GenicamFormat::bayer_gr8, "BayerGR8"},
+       {GenicamFormat::bayer_gb8, "BayerGB8"},
+       {GenicamFormat::bayer_bg8, "BayerBG8"},
+       {GenicamFormat::rgb8, "RGB8"},
+       {GenicamFormat::bgr8, "BGR8"},
+       {GenicamFormat::yuv422_8, "YUV422_8"},
+       {GenicamFormat::yuv422_8_uyvy, "YUV422_8_UYVY"}}};
+}
+
+/// Settings of a GenICam camera (GigE Vision, USB3 Vision). What is not given stays as the camera
+/// has it. Pictures come at the camera's own pace: triggers are switched off.
+struct GenicamParams {
+  static constexpr std::string_view type_name = "genicam";
+  std::string device;
+  std::optional<int> width;
+  std::optional<int> height;
+  std::optional<int> x;
+  std::optional<int> y;
+  std::optional<double> rate;
+  std::optional<GenicamFormat> pixel_format;
+  std::optional<double> exposure;
+  std::optional<double> gain;
+  std::optional<int> packet_size;
+  NewestFrameParams watch;
+
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.device,
+          {"device", Unit::none, {}, "Id, serial number or address; empty: the first one found."});
+    visit(self.width,
+          {"width", Unit::px, {1, max_image_side}, "Width of a picture; none: as it is."});
+    visit(self.height,
+          {"height", Unit::px, {1, max_image_side}, "Height of a picture; none: as it is."});
+    visit(self.x, {"x", Unit::px, {0, 1e6}, "Left edge on the sensor; none: as it is."});
+    visit(self.y, {"y", Unit::px, {0, 1e6}, "Upper edge on the sensor; none: as it is."});
+    visit(self.rate, {"rate", Unit::hz, {0.01, 1e4}, "Frame rate; none: as it is."});
+    visit(self.pixel_format,
+          {"pixel_format", Unit::none, {}, "Format of the data; none: as it is."});
+    visit(self.exposure, {"exposure", Unit::ms, {1e-3, 1e5}, "Exposure time; none: as it is."});
+    visit(self.gain,
+          {"gain", Unit::none, {-1e6, 1e6}, "Gain in the camera's own unit; none: as it is."});
+    visit(self.packet_size, {"packet_size",
+                             Unit::none,
+                             {576, 65535},
+                             "Bytes of a GigE Vision packet; none: negotiated."});
+    visit(self.watch, {"watch", Unit::none, {}, "Detection of a silent, frozen or black camera."});
+  }
+};
+
+/// Whether it is the camera of tests that Aravis simulates: "Fake_1". It is only found by this id.
+inline bool is_fake(const GenicamParams& params) { return params.device.starts_with("Fake_"); }
+
+}  // namespace microswarm

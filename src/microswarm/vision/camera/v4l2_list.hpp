@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "microswarm/vision/camera/camera_list.hpp"
+
+namespace microswarm {
+
+/// The cameras of V4L2 that are there.
+std::vector<ListedCamera> list_v4l2_cameras();
+
+}  // namespace microswarm
