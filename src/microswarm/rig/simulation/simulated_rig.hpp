@@ -50,7 +50,7 @@ RunResult simulate_rig(const Scenario& scenario, const World& world, const Rig& 
                        std::uint32_t trial = 0, std::span<RunListener* const> listeners = {},
                        const Stop& stop = {});
 
-/// Simulated coils with the rig's settings.
-std::unique_ptr<CoilDriver> simulated_coils(const RigParams& rig);
+/// Simulated coils with the rig's settings; at least as many channels as the rig's own driver has.
+std::unique_ptr<CoilDriver> simulated_coils(const Rig& rig);
 
 }  // namespace microswarm
