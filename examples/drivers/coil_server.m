@@ -42,7 +42,7 @@ function coil_server(port, apply)
           armed = false;
       end
       apply(values);
-      write(server, uint8([answer, ' ', message{2}, sprintf(' %.6f', values), 10]));
+      write(server, uint8([answer, ' ', message{2}, sprintf(' %.6f', values), char(10)]));
     end
   end
 end

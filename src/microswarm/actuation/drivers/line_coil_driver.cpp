@@ -51,7 +51,7 @@ LineCoilDriver::LineCoilDriver(std::unique_ptr<LineConnection> connection,
     throw HardwareError(fmt::format("{}: {}", connection_->name(), why));
   };
   const auto reply = exchange("hello", params_.connect_timeout, {});
-  if (!reply && gone_) fail(reason_);
+  if (!reply && gone_) throw HardwareError(reason_);
   if (!reply)
     fail(fmt::format("no answer within {:g} s{}{}", params_.connect_timeout,
                      reason_.empty() ? "" : "; ", reason_));
