@@ -32,7 +32,7 @@ using std::chrono::milliseconds;
 
 TEST(LineProtocol, TheLinesArePinned) {
   EXPECT_EQ(line_hello(1, "currents", 8, 200), "hello 1 1 currents 8 200\n");
-  EXPECT_EQ(line_message("set", 7, std::vector<double>{1.5, -2, 1e-7}),
+  EXPECT_EQ(line_message("set", 7, std::vector<double>{1.5, -2, -1e-7}),
             "set 7 1.500000 -2.000000 0.000000\n");
   EXPECT_EQ(line_message("stop", 8), "stop 8\n");
 }

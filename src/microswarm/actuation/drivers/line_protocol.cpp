@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <utility>
 
 #include "microswarm/core/text/lines.hpp"
@@ -50,7 +51,9 @@ std::string line_hello(std::uint32_t sequence, std::string_view send, std::size_
 std::string line_message(std::string_view word, std::uint32_t sequence,
                          std::span<const double> values) {
   std::string line = fmt::format("{} {}", word, sequence);
-  for (const double value : values) line += fmt::format(" {:.6f}", value);
+  constexpr double least = 5e-7;  // the rest would be written as -0.000000
+  for (const double value : values)
+    line += fmt::format(" {:.6f}", std::abs(value) < least ? 0.0 : value);
   return line + '\n';
 }
 
