@@ -146,7 +146,7 @@ TEST(SimulatedRig, ANamedDeviceIsSimulatedLikeItAndNotOpened) {
   const Rehearsal r(
       "first_rig.yaml", "bench.yaml",
       {"camera.type=simulated", "camera.microscope.um_per_px=6", "driver.port=/dev/none"});
-  const auto coils = simulated_coils(r.rig.params);
+  const auto coils = simulated_coils(r.rig);
   EXPECT_EQ(coils->channels(), 6);
   EXPECT_TRUE(coils->makes_waveforms());
   EXPECT_EQ(coils->drive(std::vector<double>{10, 0, 0, 0, 0, 0}), DriveStatus::driven);

@@ -69,11 +69,10 @@ void ask_camera(const Rig& rig, const CheckOptions& o, const Stop& stop, Answers
 }
 
 void ask_driver(const Rig& rig, const CheckOptions& o, const Stop& stop, Answers& answers) {
-  const auto* serial = std::get_if<SerialCoilParams>(&rig.params.driver);
-  if (!serial) return answers.say(true, "driver", "simulated");
+  if (!has_coil_device(rig)) return answers.say(true, "driver", "simulated");
   try {
-    SerialCoilDriver driver(*serial);
-    answer(answers, check_driver(driver, rig, o.seconds, stop));
+    const std::unique_ptr<CoilDriver> driver = open_coils(rig);
+    answer(answers, check_driver(*driver, rig, o.seconds, stop));
   } catch (const std::runtime_error& e) {
     answers.say(false, "driver", e.what());
   }

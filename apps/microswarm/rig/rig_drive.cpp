@@ -114,6 +114,8 @@ int rig_drive(const DriveOptions& o, const Context& context) {
     throw InputError(fmt::format("--ramp: two ramps of {:.6g} s are longer than --seconds {:.6g}",
                                  o.ramp, o.seconds));
   const Rig rig = reading([&] { return read_rig(o.rig, {o.settings, "--set"}); });
+  if (takes_field(rig.params) && (o.each || !o.currents.empty()))
+    throw InputError("--currents and --each are for a driver that is sent currents: give --field");
   if (o.each) {
     Bench bench(rig, o.coils);
     return drive_each(bench, o, context);

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <span>
 
 #include "microswarm/actuation/coils/currents.hpp"
 #include "microswarm/actuation/coils/turning_currents.hpp"
@@ -52,7 +53,8 @@ void CoilController::send_currents(double dt) {
   output_.scale = driven.scale;
   output_.reached = found.reached;
   std::copy(driven.currents.begin(), driven.currents.end(), channels_.begin());
-  output_.status = driver_.drive(channels_);
+  const Eigen::Vector3d field = actuation_.field * driven.currents;
+  output_.status = driver_.drive_field(std::span<const double, 3>(field.data(), 3), channels_);
 }
 
 void CoilController::send_waveform(double dt) {
@@ -61,6 +63,8 @@ void CoilController::send_waveform(double dt) {
   output_.status = send(driver_, drive_.turning());
   if (const auto phase = driver_.phase()) generator_.follow_phase(*phase);
 }
+
+std::string CoilController::trouble() const { return trouble_of(driver_, output_.status); }
 
 bool CoilController::stop() noexcept {
   drive_.cut();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "microswarm/actuation/coils/coil_system.hpp"
@@ -50,6 +51,9 @@ class CoilController {
   bool stop() noexcept;
   /// Lets an `advance` that another thread is in return early, so that `stop` can follow.
   void interrupt() noexcept { driver_.interrupt(); }
+
+  /// Why the last `advance` ends a run, in words; empty if it does not. Three without an answer do.
+  std::string trouble() const;
 
   const CoilOutput& output() const { return output_; }
   /// Target position of the field [µm].

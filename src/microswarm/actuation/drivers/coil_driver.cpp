@@ -11,9 +11,9 @@
 namespace microswarm {
 
 std::string_view to_string(DriveStatus status) {
-  constexpr std::array<std::string_view, 8> names{"driven",     "scaled",    "resumed",
+  constexpr std::array<std::string_view, 9> names{"driven",     "scaled",    "resumed",
                                                   "refused",    "not_armed", "emergency",
-                                                  "mismatched", "no_answer"};
+                                                  "mismatched", "no_answer", "gone"};
   return names[static_cast<std::size_t>(status)];
 }
 
@@ -27,6 +27,8 @@ std::string_view trouble_of(DriveStatus status) {
       return "the emergency stop of the coils' device was pressed";
     case DriveStatus::mismatched:
       return "the coils' device does something else than it was told";
+    case DriveStatus::gone:
+      return "the coil driver has ended";
     case DriveStatus::driven:
     case DriveStatus::scaled:
     case DriveStatus::resumed:
@@ -35,6 +37,17 @@ std::string_view trouble_of(DriveStatus status) {
   }
   assert(false);
   return {};
+}
+
+std::string trouble_of(const CoilDriver& driver, DriveStatus status) {
+  std::string trouble(status == DriveStatus::no_answer ? "the coil driver does not answer"
+                                                       : trouble_of(status));
+  const std::string reason = trouble.empty() ? std::string() : driver.reason();
+  return reason.empty() ? trouble : trouble + ": " + reason;
+}
+
+DriveStatus CoilDriver::drive_field(std::span<const double, 3>, std::span<const double> currents) {
+  return drive(currents);
 }
 
 double CurrentWaveform::largest(std::size_t channel) const {

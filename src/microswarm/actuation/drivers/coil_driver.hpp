@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -26,6 +27,7 @@ enum class DriveStatus : std::uint8_t {
   emergency,   ///< the emergency stop of the device is or was open
   mismatched,  ///< the device acknowledges or reports something else than it was told
   no_answer,   ///< the coils switch off within the device's watchdog time, or the device is gone
+  gone,        ///< the driver's program or connection has ended
 };
 std::string_view to_string(DriveStatus status);
 /// Why such a status ends a run, in words; empty if it does not by itself.
@@ -42,6 +44,10 @@ struct CurrentWaveform {
   double largest(std::size_t channel) const;
 };
 
+class CoilDriver;
+/// The same with what the driver knows of it, CoilDriver::reason; also for no_answer.
+std::string trouble_of(const CoilDriver& driver, DriveStatus status);
+
 /// Interface that sends currents to coils. The destructor sets all currents to zero.
 class CoilDriver {
  public:
@@ -56,6 +62,12 @@ class CoilDriver {
   /// Sends signed currents [A], one per channel. Must be repeated within the watchdog time, even if
   /// unchanged.
   virtual DriveStatus drive(std::span<const double> currents) = 0;
+  /// Whether the device takes a field and finds currents of its own: then `drive` takes nothing but
+  /// zeros.
+  virtual bool takes_field() const { return false; }
+  /// As `drive`, with the field [mT] that these currents add where the swarm is.
+  virtual DriveStatus drive_field(std::span<const double, 3> field,
+                                  std::span<const double> currents);
   /// Whether the device makes waveforms.
   virtual bool makes_waveforms() const { return false; }
   /// Begins a waveform or changes the one that runs; repeated as `drive`, which ends it.
@@ -67,6 +79,8 @@ class CoilDriver {
   /// Lets a `drive` that another thread is in return without its answer, so that `stop` can follow.
   /// Callable from any thread; lasts until the next `stop`.
   virtual void interrupt() noexcept {}
+  /// What is known of the last trouble, in one printable line; empty if nothing is.
+  virtual std::string reason() const { return {}; }
 };
 
 /// Driver without hardware.

@@ -2,10 +2,8 @@
 #include "microswarm/actuation/drivers/serial_coil_driver.hpp"
 
 #include <fmt/core.h>
-#include <poll.h>
 #include <sys/file.h>
 #include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <boost/asio/io_context.hpp>
@@ -15,6 +13,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "microswarm/actuation/drivers/byte_stream.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/clock.hpp"
 #include "microswarm/core/execution/stop.hpp"
@@ -28,7 +27,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr unsigned baud = 115200;
 constexpr double left_over = 0.03;  // [s] after opening; a reset takes longer
-constexpr double slice = 0.01;      // [s] between looks for an interruption
 constexpr std::chrono::seconds max_stop{2};
 constexpr int max_failures = 3;  // exchanges in a row
 // A bootloader that was spoken to listens for 5 s more.
@@ -40,7 +38,7 @@ DriveStatus refusal(const CoilReply& reply) {
 
 }  // namespace
 
-/// Byte stream of the serial port. Never blocks on a device that neither accepts nor sends bytes.
+/// The serial port, open for this program alone.
 class SerialCoilDriver::Port {
  public:
   explicit Port(const std::string& path) : port_(context_) {
@@ -65,60 +63,22 @@ class SerialCoilDriver::Port {
     set(Base::parity(Base::parity::none));
     set(Base::stop_bits(Base::stop_bits::one));
     set(Base::flow_control(Base::flow_control::none));
-    discard(left_over);
+    stream_.emplace(port_.native_handle(), port_.native_handle());
+    stream_->discard(left_over);
   }
-
-  /// Discards what comes within so many seconds.
-  void discard(double timeout) {
-    const auto began = Clock::now();
-    for (double left = timeout; left > 0; left = timeout - seconds_since(began)) get(left);
-    next_ = filled_;
-  }
-
-  /// False if not all bytes were written in time, or it was given up.
-  bool put(std::span<const std::uint8_t> bytes, double timeout, const Stop& gives_up) {
-    const auto began = Clock::now();
-    while (!bytes.empty()) {
-      const double left = timeout - seconds_since(began);
-      if (left <= 0 || gives_up()) return false;
-      if (!ready(POLLOUT, std::min(left, slice))) continue;
-      const auto n = ::write(port_.native_handle(), bytes.data(), bytes.size());
-      if (n < 0 && errno != EAGAIN && errno != EINTR) return false;
-      if (n > 0) bytes = bytes.subspan(static_cast<std::size_t>(n));
-    }
-    return true;
-  }
-
-  /// Next byte; empty if none arrives in time.
-  std::optional<std::uint8_t> get(double timeout) {
-    if (next_ == filled_) {
-      if (!ready(POLLIN, timeout)) return std::nullopt;
-      const auto n = ::read(port_.native_handle(), bytes_.data(), bytes_.size());
-      if (n <= 0) return std::nullopt;
-      next_ = 0;
-      filled_ = static_cast<std::size_t>(n);
-    }
-    return bytes_[next_++];
-  }
+  ByteStream* operator->() { return &*stream_; }
 
  private:
-  bool ready(short what, double timeout) {
-    pollfd port{port_.native_handle(), what, 0};
-    const int ms = static_cast<int>(std::ceil(1e3 * std::max(timeout, 0.0)));
-    return ::poll(&port, 1, ms) > 0 && (port.revents & what) != 0;
-  }
-
   asio::io_context context_;
   asio::serial_port port_;
-  std::array<std::uint8_t, 256> bytes_{};
-  std::size_t next_ = 0, filled_ = 0;
+  std::optional<ByteStream> stream_;
 };
 
 SerialCoilDriver::SerialCoilDriver(const SerialCoilParams& params)
     : params_(params), port_(std::make_unique<Port>(params.port)) {
   hears_start(params_.boot_time);
   const std::array<std::uint8_t, 1> end{0};  // ends any partial message
-  port_->put(end, params_.reply_timeout, {});
+  (*port_)->put(end, params_.reply_timeout, {});
   const auto began = Clock::now();
   std::optional<CoilReply> reply;
   while (!reply && seconds_since(began) < params_.connect_timeout) {
@@ -234,7 +194,7 @@ std::optional<CoilReply> SerialCoilDriver::exchange(CoilMessage message, const C
   const Stop gives_up = message == CoilMessage::stop ? Stop(max_stop) : Stop(&interrupted_);
   for (int k = 0; k < params_.attempts && !gives_up(); ++k) {
     const auto began = Clock::now();
-    if (!port_->put(bytes_of(message, aim), params_.reply_timeout, gives_up)) continue;
+    if (!(*port_)->put(bytes_of(message, aim), params_.reply_timeout, gives_up)) continue;
     if (auto reply = answer_to(message, params_.reply_timeout, gives_up)) {
       round_trip_ = seconds_since(began);
       failures_ = 0;
@@ -262,7 +222,7 @@ bool SerialCoilDriver::keeps_silent() {
 bool SerialCoilDriver::hears_start(double timeout) {
   const auto began = Clock::now();
   for (;;) {
-    const auto byte = port_->get(timeout - seconds_since(began));
+    const auto byte = (*port_)->get(timeout - seconds_since(began));
     if (!byte && seconds_since(began) >= timeout) return false;
     if (!byte) continue;
     const auto reply = reader_.take(*byte);
@@ -276,7 +236,7 @@ std::optional<CoilReply> SerialCoilDriver::answer_to(CoilMessage message, double
   for (;;) {
     const double left = timeout - seconds_since(began);
     if (left <= 0 || gives_up()) return std::nullopt;
-    const auto byte = port_->get(std::min(left, slice));
+    const auto byte = (*port_)->get(std::min(left, stream_slice));
     if (!byte) continue;
     auto reply = reader_.take(*byte);
     if (reply && reply->to == message && reply->sequence == sequence_) return reply;

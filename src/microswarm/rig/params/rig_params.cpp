@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <type_traits>
 
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/maths/angles.hpp"
@@ -13,6 +14,34 @@ namespace {
 
 constexpr double min_sends = 10;            // per turn of the field
 constexpr double max_waveform_sends = 100;  // [Hz]; one takes 7.7 ms at 115200 baud
+
+template <class Driver>
+constexpr bool is_own_driver = std::is_base_of_v<LineDriverParams, Driver>;
+
+/// Issues of a program or a socket of the rig's owner.
+Issues validate_own(const RigParams& rig) {
+  Issues issues;
+  if (const auto* program = std::get_if<ProgramDriverParams>(&rig.driver))
+    if (program->command.empty() || program->command.front().empty())
+      issues.add({"driver.command", "driver"}, "the command of the driver is empty");
+  std::visit(
+      [&](const auto& driver) {
+        if constexpr (is_own_driver<std::decay_t<decltype(driver)>>) {
+          constexpr double periods = 2;
+          const double least = periods / rig.drive_rate;
+          if (driver.watchdog < least)
+            issues.add({"driver.watchdog_s", "drive_rate_hz"},
+                       fmt::format("driver.watchdog_s is {:.6g}, two updates at drive_rate_hz "
+                                   "{:.6g} take {:.6g}",
+                                   driver.watchdog, rig.drive_rate, least));
+          if (driver.send == DriverInput::field && driver.channels)
+            issues.add({"driver.channels", "driver"},
+                       "driver.channels is of currents, the driver is sent the field");
+        }
+      },
+      rig.driver);
+  return issues;
+}
 
 Issues validate(const RigParams& rig, const CoilSystem& system) {
   Issues issues;
@@ -35,7 +64,8 @@ Issues validate(const RigParams& rig, const CoilSystem& system) {
                            rig.drive_rate, rig.field.frequency, min_rate));
   issues.add_within("perception.scene.swarm.look", validate(rig.perception.scene.swarm.look));
   issues.add_within("perception.scene.obstacles", validate(rig.perception.scene.obstacles));
-  const int channels = channels_of(rig);
+  issues.add(validate_own(rig));
+  const int channels = channels_of(rig, system);
   if (static_cast<int>(system.size()) > channels)
     issues.add(
         {"driver.channels", "driver"},
@@ -56,17 +86,44 @@ Rig read_rig(const std::filesystem::path& file, const Settings& settings) {
   return {std::move(params), std::move(system), file.parent_path(), keys, limits_current};
 }
 
-int channels_of(const RigParams& rig) {
-  const auto* simulated = std::get_if<SimulatedCoils>(&rig.driver);
-  return simulated ? simulated->channels : coil_link_channels;
-}
-
 double full_scale_of(const RigParams& rig) {
   return std::visit([](const auto& driver) { return driver.full_scale; }, rig.driver);
 }
 
+int channels_of(const RigParams& rig, const CoilSystem& system) {
+  return std::visit(
+      [&](const auto& driver) {
+        using Driver = std::decay_t<decltype(driver)>;
+        if constexpr (is_own_driver<Driver>)
+          return driver.channels.value_or(static_cast<int>(system.size()));
+        else if constexpr (std::is_same_v<Driver, SimulatedCoils>)
+          return driver.channels;
+        else
+          return coil_link_channels;
+      },
+      rig.driver);
+}
+
+bool takes_field(const RigParams& rig) {
+  return std::visit(
+      [](const auto& driver) {
+        if constexpr (is_own_driver<std::decay_t<decltype(driver)>>)
+          return driver.send == DriverInput::field;
+        else
+          return false;
+      },
+      rig.driver);
+}
+
 bool turns_on_device(const RigParams& rig) {
-  return std::visit([](const auto& driver) { return driver.waveforms; }, rig.driver);
+  return std::visit(
+      [](const auto& driver) {
+        if constexpr (is_own_driver<std::decay_t<decltype(driver)>>)
+          return false;
+        else
+          return driver.waveforms;
+      },
+      rig.driver);
 }
 
 std::optional<AnyCameraParams> device_camera(const RigParams& rig) {

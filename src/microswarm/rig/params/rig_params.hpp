@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "microswarm/actuation/coils/coil_system.hpp"
+#include "microswarm/actuation/drivers/line_coil_driver.hpp"
 #include "microswarm/actuation/drivers/serial_coil_driver.hpp"
 #include "microswarm/actuation/field/field_generator.hpp"
 #include "microswarm/config/key_locations.hpp"
@@ -117,7 +118,7 @@ struct RigParams {
   std::string coils;
   FieldGeneratorParams field;
   double drive_rate = 200;
-  std::variant<SimulatedCoils, SerialCoilParams> driver;
+  std::variant<SimulatedCoils, SerialCoilParams, ProgramDriverParams, SocketDriverParams> driver;
   std::variant<SimulatedCamera, CameraParams, GenicamParams, VideoCamera> camera;
   std::optional<CameraScale> scale;
   PerceptionParams perception;
@@ -157,10 +158,14 @@ struct Rig {
   bool limits_current = false;
 };
 
-/// Channels of the rig's driver.
-int channels_of(const RigParams& rig);
 /// Current of a channel at full output [A].
 double full_scale_of(const RigParams& rig);
+
+/// Channels of the rig's driver, as many as the system has coils unless it says otherwise.
+int channels_of(const RigParams& rig, const CoilSystem& system);
+
+/// Whether the rig's driver is sent the field, see CoilDriver::takes_field.
+bool takes_field(const RigParams& rig);
 
 /// Whether the rig's driver turns the field, see CoilDriver::makes_waveforms.
 bool turns_on_device(const RigParams& rig);

@@ -131,7 +131,7 @@ void CoilLoop::run() {
     misses = status == DriveStatus::no_answer ? misses + 1 : 0;
     if (!trouble.empty() && why_.empty()) why_ = trouble;
     if (!stood.empty() && why_.empty()) why_ = stood;
-    if (misses >= max_missed_answers && why_.empty()) why_ = "the coil driver does not answer";
+    if (misses >= max_missed_answers && why_.empty()) why_ = controller_.trouble();
     if (status == DriveStatus::resumed && why_.empty()) why_ = trips.add(moment.t);
   }
   lock.unlock();
@@ -152,8 +152,7 @@ std::string CoilLoop::send(CoilMoment& moment, const Eigen::Vector3d& place, dou
     const double began = steady_seconds();
     moment.output = controller_.advance(dt);
     moment.round_trip = steady_seconds() - began;
-    if (const std::string_view trouble = trouble_of(moment.output.status); !trouble.empty())
-      return std::string(trouble);
+    if (!trouble_of(moment.output.status).empty()) return controller_.trouble();
     if (heard_) heard_(moment);
     return {};
   } catch (const std::exception& e) {

@@ -31,12 +31,28 @@ class PacedVideo : public FrameSource {
   double began_;
 };
 
+/// A Unix socket's path is relative to the rig's file.
+std::string beside(const Rig& rig, const std::string& host) {
+  return host.find('/') == std::string::npos ? host : (rig.folder / host).string();
+}
+
 }  // namespace
 
 std::unique_ptr<CoilDriver> open_coils(const Rig& rig) {
-  if (const auto* serial = std::get_if<SerialCoilParams>(&rig.params.driver))
+  const RigParams& params = rig.params;
+  if (const auto* serial = std::get_if<SerialCoilParams>(&params.driver))
     return std::make_unique<SerialCoilDriver>(*serial);
-  return simulated_coils(rig.params);
+  const auto* program = std::get_if<ProgramDriverParams>(&params.driver);
+  const auto* socket = std::get_if<SocketDriverParams>(&params.driver);
+  if (!program && !socket) return simulated_coils(rig);
+  auto lock = std::make_unique<DeviceLock>(rig.folder / params.coils);
+  auto connection =
+      program ? start_program(program->command, rig.folder, lock->descriptor())
+              : connect_socket(beside(rig, socket->host), socket->port, socket->connect_timeout);
+  const LineDriverParams& driver = program ? static_cast<const LineDriverParams&>(*program)
+                                           : static_cast<const LineDriverParams&>(*socket);
+  return std::make_unique<LineCoilDriver>(std::move(connection), driver, rig.system.size(),
+                                          std::move(lock));
 }
 
 std::unique_ptr<FrameSource> open_camera_of(const Rig& rig) {
@@ -49,7 +65,7 @@ std::unique_ptr<FrameSource> open_camera_of(const Rig& rig) {
 Devices open_devices(const RigExperiment& on, bool dry) {
   const RigParams& rig = on.rig.params;
   Devices devices;
-  devices.coils = dry ? simulated_coils(rig) : open_coils(on.rig);
+  devices.coils = dry ? simulated_coils(on.rig) : open_coils(on.rig);
   if (std::holds_alternative<SimulatedCamera>(rig.camera)) {
     devices.bench = std::make_unique<RealtimeRigSimulator>(on.scenario(), on.experiment.world,
                                                            on.rig, std::move(devices.coils));

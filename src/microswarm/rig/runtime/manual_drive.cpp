@@ -7,6 +7,7 @@
 #include <chrono>
 #include <exception>
 #include <optional>
+#include <span>
 #include <thread>
 #include <vector>
 
@@ -43,6 +44,7 @@ class Wanted {
     output.reached = found.reached;
   }
 
+  const Actuation& actuation() const { return actuation_; }
   bool turns() const { return generator_.has_value(); }
   /// `share` of the turning currents now, and whether the coils can produce the field.
   TurningCurrents turning(double share, bool& reached) const {
@@ -68,11 +70,11 @@ double share_at(double t, const ManualCommand& command) {
 /// Counts answers that do not come; says why it cannot go on, or nothing.
 class Watch {
  public:
-  std::string take(DriveStatus status) {
+  std::string take(const CoilDriver& driver, DriveStatus status) {
     misses_ = status == DriveStatus::no_answer ? misses_ + 1 : 0;
-    if (misses_ >= max_missed_answers) return "the coil driver does not answer";
+    if (misses_ >= max_missed_answers) return trouble_of(driver, status);
     if (status == DriveStatus::resumed) return "the coils had been off by themselves";
-    return std::string(trouble_of(status));
+    return trouble_of(status).empty() ? "" : trouble_of(driver, status);
   }
 
  private:
@@ -109,12 +111,13 @@ ManualResult drive_by_hand(const Rig& rig, CoilDriver& driver, const ManualComma
     } else {
       output.scale = drive.step(share * output.currents, dt).scale;
       std::ranges::copy(drive.currents(), channels.begin());
-      output.status = driver.drive(channels);
+      const Eigen::Vector3d field = wanted.actuation().field * drive.currents();
+      output.status = driver.drive_field(std::span<const double, 3>(field.data(), 3), channels);
     }
     output.currents = drive.currents();
     output.temperatures = drive.temperatures();
     result.min_scale = std::min(result.min_scale, output.scale);
-    result.why = watch.take(output.status);
+    result.why = watch.take(driver, output.status);
     try {
       if (heard) heard(moment);
     } catch (const std::exception& e) {

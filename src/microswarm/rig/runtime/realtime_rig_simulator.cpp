@@ -37,6 +37,14 @@ class RealtimeRigSimulator::Coils : public CoilDriver {
     turning_.reset();
     return driver_->drive(currents);
   }
+  bool takes_field() const override { return driver_->takes_field(); }
+  DriveStatus drive_field(std::span<const double, 3> field,
+                          std::span<const double> currents) override {
+    const std::lock_guard lock(bench_.mutex_);
+    bench_.catch_up();
+    turning_.reset();
+    return driver_->drive_field(field, currents);
+  }
   bool makes_waveforms() const override { return driver_->makes_waveforms(); }
   std::optional<double> phase() const override { return driver_->phase(); }
   DriveStatus drive_waveform(const CurrentWaveform& waveform) override {
@@ -73,6 +81,7 @@ class RealtimeRigSimulator::Coils : public CoilDriver {
     return driver_->stop();  // catches up later without current: nothing may fail here
   }
   void interrupt() noexcept override { driver_->interrupt(); }
+  std::string reason() const override { return driver_->reason(); }
 
  private:
   RealtimeRigSimulator& bench_;

@@ -133,15 +133,17 @@ std::vector<RigCheck> check_driver(CoilDriver& driver, const Rig& rig, double se
   Durations times;
   int failures = 0;
   int resumed = 0;
-  DriveStatus trouble = DriveStatus::driven;
+  std::string trouble;
   const std::vector<double> nothing(static_cast<std::size_t>(driver.channels()));
   for (const double end = steady_seconds() + seconds; steady_seconds() < end && !stop();) {
     const double began = steady_seconds();
     const DriveStatus status = driver.drive(nothing);
     failures += status == DriveStatus::no_answer;
     resumed += status == DriveStatus::resumed;
-    if (!trouble_of(status).empty()) trouble = status;
     times.add(steady_seconds() - began);
+    const bool unanswered = failures >= max_missed_answers;
+    if (!trouble_of(status).empty() || unanswered) trouble = trouble_of(driver, status);
+    if (status == DriveStatus::gone || unanswered) break;
   }
   const bool zero = driver.stop();
   std::vector<RigCheck> checks;
@@ -150,8 +152,7 @@ std::vector<RigCheck> check_driver(CoilDriver& driver, const Rig& rig, double se
        fmt::format("{} exchanges with all currents at zero, {} without an answer; {} (p50 / p95 / "
                    "p99)",
                    times.count(), failures, quantiles(times))});
-  if (trouble != DriveStatus::driven)
-    checks.push_back({"driver", false, std::string(trouble_of(trouble))});
+  if (!trouble.empty()) checks.push_back({"driver", false, trouble});
   if (resumed > 0)
     checks.push_back(
         {"driver", false, fmt::format("the coils had been off by themselves {} times", resumed)});

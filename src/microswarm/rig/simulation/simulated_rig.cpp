@@ -10,7 +10,7 @@ namespace microswarm {
 SimulatedRig::SimulatedRig(const Scenario& scenario, const World& world, const Rig& rig,
                            std::uint32_t trial, CoilDriver* driver)
     : rig_(rig),
-      simulated_coils_(driver ? nullptr : simulated_coils(rig.params)),
+      simulated_coils_(driver ? nullptr : simulated_coils(rig)),
       driver_(driver ? *driver : *simulated_coils_),
       controller_(rig.system, rig.params.field, driver_,
                   scenario.start ? scenario.start->heading : 0),
@@ -50,9 +50,9 @@ RunResult simulate_rig(const Scenario& scenario, const World& world, const Rig& 
   return run(scenario, plant, *navigator, listeners, stop);
 }
 
-std::unique_ptr<CoilDriver> simulated_coils(const RigParams& rig) {
-  return std::make_unique<SimulatedCoilDriver>(channels_of(rig), full_scale_of(rig),
-                                               turns_on_device(rig));
+std::unique_ptr<CoilDriver> simulated_coils(const Rig& rig) {
+  return std::make_unique<SimulatedCoilDriver>(
+      channels_of(rig.params, rig.system), full_scale_of(rig.params), turns_on_device(rig.params));
 }
 
 }  // namespace microswarm

@@ -51,6 +51,6 @@ RunResult simulate_rig(const Scenario& scenario, const World& world, const Rig& 
                        const Stop& stop = {});
 
 /// Simulated coils like those of the rig's driver, whatever its kind; opens no device.
-std::unique_ptr<CoilDriver> simulated_coils(const RigParams& rig);
+std::unique_ptr<CoilDriver> simulated_coils(const Rig& rig);
 
 }  // namespace microswarm

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "microswarm/actuation/drivers/line_connection.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/lines.hpp"
+#include "microswarm/core/text/text.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double patience = 0.5;   // [s] before each stronger request to end
+constexpr double a_moment = 0.05;  // [s]
+
+/// A file descriptor.
+class Descriptor {
+ public:
+  explicit Descriptor(int file = -1) : file_(file) {}
+  Descriptor(Descriptor&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(file_, other.file_);
+    return *this;
+  }
+  ~Descriptor() { close(); }
+  int get() const { return file_; }
+  void close() {
+    if (file_ >= 0) ::close(std::exchange(file_, -1));
+  }
+
+ private:
+  int file_;
+};
+
+struct Pipe {
+  Pipe() {
+    std::array<int, 2> ends{};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+      throw HardwareError(fmt::format("cannot make a pipe: {}", std::strerror(errno)));
+    out = Descriptor(ends[0]);
+    in = Descriptor(ends[1]);
+  }
+  Descriptor out, in;
+};
+
+Descriptor not_blocking(Descriptor end) {
+  ::fcntl(end.get(), F_SETFL, O_NONBLOCK);
+  return end;
+}
+
+/// Attributes and file actions of posix_spawn.
+class Spawning {
+ public:
+  Spawning() {
+    posix_spawn_file_actions_init(&actions_);
+    posix_spawnattr_init(&attributes_);
+    posix_spawnattr_setflags(
+        &attributes_, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
+    sigset_t every, none;
+    sigfillset(&every);
+    sigemptyset(&none);
+    posix_spawnattr_setsigdefault(&attributes_, &every);
+    posix_spawnattr_setsigmask(&attributes_, &none);
+  }
+  ~Spawning() {
+    posix_spawn_file_actions_destroy(&actions_);
+    posix_spawnattr_destroy(&attributes_);
+  }
+  Spawning(const Spawning&) = delete;
+  Spawning& operator=(const Spawning&) = delete;
+
+  void files(int in, int out, int err, int lock) {
+    constexpr int first = STDERR_FILENO + 1;
+    posix_spawn_file_actions_adddup2(&actions_, in, STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions_, out, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions_, err, STDERR_FILENO);
+    if (lock >= 0) posix_spawn_file_actions_adddup2(&actions_, lock, first);
+    posix_spawn_file_actions_addclosefrom_np(&actions_, lock >= 0 ? first + 1 : first);
+  }
+  void folder(const std::string& path) {
+    posix_spawn_file_actions_addchdir_np(&actions_, path.c_str());
+  }
+  /// The process; empty with errno set.
+  std::optional<pid_t> start(std::vector<std::string> command) {
+    std::vector<char*> arguments;
+    for (std::string& word : command) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    pid_t process = 0;
+    errno =
+        ::posix_spawnp(&process, arguments[0], &actions_, &attributes_, arguments.data(), environ);
+    if (errno != 0) return std::nullopt;
+    return process;
+  }
+
+ private:
+  posix_spawn_file_actions_t actions_{};
+  posix_spawnattr_t attributes_{};
+};
+
+class DriverProgram final : public LineConnection {
+ public:
+  DriverProgram(const std::vector<std::string>& command, const std::filesystem::path& folder,
+                int lock)
+      : name_(one_line(fmt::format("{}", fmt::join(command, " ")), 80)) {
+    Pipe in, out, err;
+    Spawning spawning;
+    spawning.files(in.out.get(), out.in.get(), err.in.get(), lock);
+    if (!folder.empty()) spawning.folder(folder.string());
+    const auto process = spawning.start(command);
+    if (!process)
+      throw HardwareError(fmt::format("{}: cannot be started: {}", name_, std::strerror(errno)));
+    process_ = *process;
+    in_ = not_blocking(std::move(in.in));
+    out_ = not_blocking(std::move(out.out));
+    err_ = not_blocking(std::move(err.out));
+    stream_.emplace(out_.get(), in_.get());
+  }
+
+  ~DriverProgram() override {
+    in_.close();
+    // Not reaped until then: no other process may get the number.
+    for (const int signal : {0, SIGTERM, SIGKILL}) {
+      if (signal != 0) ::kill(-process_, signal);
+      if (is_over_within(patience)) break;
+    }
+    for (int status = 0; ::waitpid(process_, &status, WNOHANG) < 0 && errno == EINTR;) {
+    }
+  }
+
+  const std::string& name() const override { return name_; }
+  ByteStream& stream() override { return *stream_; }
+  std::string last_words() override {
+    hear();
+    return last_line_;
+  }
+
+  std::string ended() override {
+    siginfo_t info{};
+    const bool silent = stream_->ended();
+    if (silent) is_over_within(a_moment);  // it is usually about to end
+    hear();
+    if (!exited(info)) return silent ? "has closed its output" : "";
+    if (info.si_code == CLD_EXITED)
+      return fmt::format("has ended with exit code {}", info.si_status);
+    const char* const name = ::sigdescr_np(info.si_status);
+    return fmt::format("was ended by signal {}{}", info.si_status,
+                       name ? fmt::format(" ({})", name) : "");
+  }
+
+ private:
+  bool exited(siginfo_t& info) const {
+    return ::waitid(P_PID, static_cast<id_t>(process_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+           info.si_pid != 0;
+  }
+
+  /// Whether the program has ended, and all that have its output, within so many seconds.
+  bool is_over_within(double seconds) {
+    const auto began = Stop::Clock::now();
+    for (;;) {
+      hear();
+      while (stream_->get(0)) {
+      }
+      siginfo_t info{};
+      if (stream_->ended() && exited(info)) return true;
+      if (seconds_since(began) > seconds) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+  }
+
+  /// Reads what it wrote to stderr, so that it can go on writing.
+  void hear() {
+    constexpr std::size_t longest = 400;
+    constexpr int most_reads = 64;
+    std::array<char, 4096> bytes;
+    for (int k = 0; k < most_reads; ++k) {
+      const ssize_t n = ::read(err_.get(), bytes.data(), bytes.size());
+      if (n == 0) end_line();
+      if (n <= 0) return;
+      for (const char c : std::string_view(bytes.data(), static_cast<std::size_t>(n))) {
+        if (c == '\n')
+          end_line();
+        else if (line_.size() < longest)
+          line_ += c;
+      }
+    }
+  }
+
+  void end_line() {
+    if (!trimmed(line_).empty()) last_line_ = one_line(trimmed(line_));
+    line_.clear();
+  }
+
+  std::string name_;
+  pid_t process_ = 0;
+  Descriptor in_, out_, err_;
+  std::optional<ByteStream> stream_;
+  std::string line_, last_line_;  // of stderr: the one that has begun, and the last whole one
+};
+
+}  // namespace
+
+std::unique_ptr<LineConnection> start_program(const std::vector<std::string>& command,
+                                              const std::filesystem::path& folder, int lock) {
+  return std::make_unique<DriverProgram>(command, folder, lock);
+}
+
+}  // namespace microswarm

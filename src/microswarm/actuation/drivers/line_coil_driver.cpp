@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/actuation/drivers/line_coil_driver.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/text.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double stop_wait = 0.5;  // [s] for its confirmation
+
+std::span<const std::uint8_t> bytes_of(const std::string& text) {
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast)
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+/// The factor by which all values were scaled, at best, in [0, 1].
+double scale_between(std::span<const double> values, std::span<const double> applied) {
+  double product = 0, square = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    product += values[i] * applied[i];
+    square += values[i] * values[i];
+  }
+  return square > 0 ? std::clamp(product / square, 0.0, 1.0) : 1;
+}
+
+std::string list_of(std::span<const double> values) {
+  return one_line(fmt::format("{:.6g}", fmt::join(values, " ")), 100);
+}
+
+}  // namespace
+
+LineCoilDriver::LineCoilDriver(std::unique_ptr<LineConnection> connection,
+                               const LineDriverParams& params, std::size_t coils,
+                               std::unique_ptr<DeviceLock> lock)
+    : lock_(std::move(lock)),
+      connection_(std::move(connection)),
+      params_(params),
+      currents_(takes_field()
+                    ? coils
+                    : static_cast<std::size_t>(params.channels.value_or(static_cast<int>(coils)))),
+      sent_(takes_field() ? 3 : currents_.size()) {
+  const auto fail = [&](const std::string& why) {
+    throw HardwareError(fmt::format("{}: {}", connection_->name(), why));
+  };
+  const auto reply = exchange("hello", params_.connect_timeout, {});
+  if (!reply && gone_) throw HardwareError(reason_);
+  if (!reply)
+    fail(fmt::format("no answer within {:g} s{}{}", params_.connect_timeout,
+                     reason_.empty() ? "" : "; ", reason_));
+  if (reply->verdict != LineVerdict::ok) fail("refuses: " + reply->text);
+  if (!is_zero(*reply))
+    fail(fmt::format("acknowledges {} as its values, not {} zeros", list_of(reply->values), sent_));
+}
+
+LineCoilDriver::~LineCoilDriver() { stop(); }
+
+bool LineCoilDriver::is_possible(std::span<const double> currents) const {
+  return std::ranges::all_of(currents, [&](double current) {
+    return std::abs(current) <= params_.full_scale * (1 + full_scale_slack);
+  });
+}
+
+DriveStatus LineCoilDriver::drive(std::span<const double> currents) {
+  assert(currents.size() == currents_.size());
+  if (!takes_field()) return follow(currents, currents);
+  const bool zero = std::ranges::all_of(currents, [](double current) { return current == 0; });
+  if (zero) return drive_field(std::array<double, 3>{}, currents);
+  reason_ = "it takes a field";
+  return DriveStatus::refused;
+}
+
+DriveStatus LineCoilDriver::drive_field(std::span<const double, 3> field,
+                                        std::span<const double> currents) {
+  return takes_field() ? follow(field, currents) : drive(currents);
+}
+
+DriveStatus LineCoilDriver::follow(std::span<const double> values,
+                                   std::span<const double> currents) {
+  reason_.clear();
+  const bool finite =
+      std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+  if (!finite || !is_possible(currents)) return DriveStatus::refused;
+  DriveStatus status = DriveStatus::driven;
+  if (!armed_)  // only now: the watchdog starts immediately
+    if (const DriveStatus armed = arm(); armed != DriveStatus::driven) return armed;
+  const Stop gives_up(&interrupted_);
+  auto reply = exchange("set", params_.reply_timeout, gives_up, values);
+  if (reply && reply->verdict == LineVerdict::off) {
+    if (const DriveStatus armed = arm(); armed != DriveStatus::driven) return armed;
+    reply = exchange("set", params_.reply_timeout, gives_up, values);
+    status = DriveStatus::resumed;
+  }
+  if (const DriveStatus trouble = take(reply); trouble != DriveStatus::driven) return trouble;
+  double scale = 1;
+  const DriveStatus compared = compare(values, *reply, scale);
+  if (compared == DriveStatus::mismatched) return compared;
+  for (std::size_t i = 0; i < currents_.size(); ++i) currents_[i] = scale * currents[i];
+  return status == DriveStatus::driven ? compared : status;
+}
+
+/// What a reply other than an acknowledgement means.
+DriveStatus LineCoilDriver::take(const std::optional<LineReply>& reply) {
+  if (!reply) return gone_ ? DriveStatus::gone : DriveStatus::no_answer;
+  reason_ = reply->text;
+  switch (reply->verdict) {
+    case LineVerdict::ok:
+    case LineVerdict::limited:
+      return DriveStatus::driven;
+    case LineVerdict::off:
+      return DriveStatus::not_armed;
+    case LineVerdict::refused:
+      return DriveStatus::refused;
+    case LineVerdict::emergency:
+      return DriveStatus::emergency;
+  }
+  assert(false);
+  return DriveStatus::mismatched;
+}
+
+/// Whether the acknowledged values are the ones sent, or those scaled by one factor.
+DriveStatus LineCoilDriver::compare(std::span<const double> values, const LineReply& reply,
+                                    double& scale) {
+  const bool limited = reply.verdict == LineVerdict::limited;
+  bool agree = reply.values.size() == values.size();
+  if (agree && limited) scale = scale_between(values, reply.values);
+  for (std::size_t i = 0; agree && i < values.size(); ++i)
+    agree = std::abs(reply.values[i] - scale * values[i]) <= params_.tolerance;
+  if (agree) return limited ? DriveStatus::scaled : DriveStatus::driven;
+  reason_ = fmt::format("sent {}, acknowledged {}", list_of(values),
+                        reply.values.empty() ? "no numbers" : list_of(reply.values));
+  return DriveStatus::mismatched;
+}
+
+DriveStatus LineCoilDriver::arm() {
+  const auto reply = exchange("arm", params_.reply_timeout, Stop(&interrupted_));
+  DriveStatus status = take(reply);
+  if (status == DriveStatus::refused) status = DriveStatus::not_armed;
+  if (status == DriveStatus::driven && !is_zero(*reply)) {
+    reason_ = fmt::format("armed with {}, not {} zeros", list_of(reply->values), sent_);
+    status = DriveStatus::mismatched;
+  }
+  armed_ = status == DriveStatus::driven;
+  return status;
+}
+
+bool LineCoilDriver::stop() noexcept {
+  interrupted_ = false;
+  if (gone_) return false;
+  try {
+    const auto reply = exchange("stop", std::max(stop_wait, params_.reply_timeout), {});
+    const bool at_zero = reply && reply->verdict == LineVerdict::ok && is_zero(*reply);
+    armed_ = armed_ && !at_zero;
+    if (at_zero) std::ranges::fill(currents_, 0.0);
+    return at_zero;
+  } catch (...) {
+    return false;  // out of memory; the driver's watchdog switches off
+  }
+}
+
+bool LineCoilDriver::is_zero(const LineReply& reply) const {
+  return reply.values.size() == sent_ && std::ranges::all_of(reply.values, [&](double value) {
+           return std::abs(value) <= params_.tolerance;
+         });
+}
+
+std::optional<LineReply> LineCoilDriver::exchange(std::string_view word, double timeout,
+                                                  const Stop& gives_up,
+                                                  std::span<const double> values) {
+  ++sequence_;
+  strange_.clear();
+  const std::string message =
+      word == "hello" ? line_hello(sequence_, enum_name(params_.send), sent_,
+                                   static_cast<int>(std::lround(1e3 * params_.watchdog)))
+                      : line_message(word, sequence_, values);
+  std::optional<LineReply> reply;
+  if (connection_->stream().put(bytes_of(message), timeout, gives_up))
+    reply = answer(timeout, gives_up);
+  if (reply) return reply;
+  if (is_gone()) return std::nullopt;
+  const std::string words = connection_->last_words();
+  if (!strange_.empty())
+    reason_ = fmt::format("it said '{}', which is no answer", strange_);
+  else if (!words.empty())
+    reason_ = fmt::format("its last words: {}", words);
+  return std::nullopt;
+}
+
+std::optional<LineReply> LineCoilDriver::answer(double timeout, const Stop& gives_up) {
+  const auto began = Stop::Clock::now();
+  for (;;) {
+    const double left = timeout - seconds_since(began);
+    if (left <= 0 || gives_up()) return std::nullopt;
+    const auto byte = connection_->stream().get(std::min(left, stream_slice));
+    if (!byte && is_gone()) return std::nullopt;
+    const auto line = byte ? reader_.take(*byte) : std::nullopt;
+    if (!line) continue;
+    auto reply = parse_line_reply(*line);
+    if (reply && reply->sequence == sequence_) return reply;
+    if (!reply) strange_ = one_line(*line, 60);
+  }
+}
+
+bool LineCoilDriver::is_gone() {
+  const std::string ended = connection_->ended();
+  if (ended.empty()) return false;
+  gone_ = true;
+  const std::string words = connection_->last_words();
+  reason_ = fmt::format("{} {}{}{}", connection_->name(), ended,
+                        words.empty() ? "" : "; its last words: ", words);
+  return true;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "microswarm/actuation/drivers/coil_driver.hpp"
+#include "microswarm/actuation/drivers/line_connection.hpp"
+#include "microswarm/actuation/drivers/line_protocol.hpp"
+#include "microswarm/core/execution/stop.hpp"
+#include "microswarm/core/fields/fields.hpp"
+
+namespace microswarm {
+
+/// What a driver of one's own is sent.
+enum class DriverInput { currents, field };
+constexpr auto enum_names(DriverInput) {
+  return std::array<std::pair<DriverInput, std::string_view>, 2>{
+      {{DriverInput::currents, "currents"}, {DriverInput::field, "field"}}};
+}
+
+/// What programs and sockets have in common.
+struct LineDriverParams {
+  DriverInput send = DriverInput::currents;
+  std::optional<int> channels;
+  double full_scale = 20;
+  double tolerance = 0.01;
+  double watchdog = 0.2;
+  double reply_timeout = 0.05;
+  double connect_timeout = 10;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.send, {"send", Unit::none, {}, "Currents in A, or the field in mT at the swarm."});
+    visit(self.channels, {"channels",
+                          Unit::none,
+                          {1, line_protocol_values},
+                          "Currents of a message; none: one for each coil."});
+    visit(self.full_scale, {"full_scale", Unit::a, {1e-6, 1e6}, "Largest current of a channel."});
+    visit(self.tolerance,
+          {"tolerance", Unit::none, {0, 1e3}, "Allowed error of acknowledged values, A or mT."});
+    visit(self.watchdog,
+          {"watchdog", Unit::s, {0.02, 10}, "Silence after which the driver turns off."});
+    visit(self.reply_timeout,
+          {"reply_timeout", Unit::s, {0.001, 1}, "Longest wait for an answer."});
+    visit(self.connect_timeout,
+          {"connect_timeout", Unit::s, {0.1, 300}, "Longest wait for the first answer."});
+  }
+};
+
+/// A program of one's own that drives the coils.
+struct ProgramDriverParams : LineDriverParams {
+  static constexpr std::string_view type_name = "program";
+  std::vector<std::string> command;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.command, {"command",
+                         Unit::none,
+                         {},
+                         "Program and its arguments, started beside the rig's file.",
+                         true});
+    LineDriverParams::fields(self, visit);
+  }
+};
+
+/// A server of one's own that drives the coils.
+struct SocketDriverParams : LineDriverParams {
+  static constexpr std::string_view type_name = "socket";
+  std::string host = "localhost";
+  int port = 5025;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.host, {"host", Unit::none, {}, "Host, or path of a Unix socket."});
+    visit(self.port, {"port", Unit::none, {1, 65535}, "TCP port; not for a Unix socket."});
+    LineDriverParams::fields(self, visit);
+  }
+};
+
+/// Driver that speaks the line protocol with a program or a server of the rig's owner
+/// (docs/reference/line-protocol.md), which turns the coils off by itself when nothing that it
+/// obeys comes for the watchdog's time.
+class LineCoilDriver final : public CoilDriver {
+ public:
+  /// Says hello. `coils` is how many currents are sent or stand behind the field; `lock` lives as
+  /// long as the driver. Throws HardwareError if nothing answers in time or the answer is no
+  /// consent.
+  LineCoilDriver(std::unique_ptr<LineConnection> connection, const LineDriverParams& params,
+                 std::size_t coils, std::unique_ptr<DeviceLock> lock = nullptr);
+  ~LineCoilDriver() override;
+  LineCoilDriver(const LineCoilDriver&) = delete;
+  LineCoilDriver& operator=(const LineCoilDriver&) = delete;
+
+  int channels() const override { return static_cast<int>(currents_.size()); }
+  /// As acknowledged. With a field: the currents that would make it, by the coil system.
+  std::span<const double> currents() const override { return currents_; }
+  DriveStatus drive(std::span<const double> currents) override;
+  bool takes_field() const override { return params_.send == DriverInput::field; }
+  DriveStatus drive_field(std::span<const double, 3> field,
+                          std::span<const double> currents) override;
+  /// Waits 0.5 s at most to have it confirmed.
+  bool stop() noexcept override;
+  void interrupt() noexcept override { interrupted_ = true; }
+  std::string reason() const override { return reason_; }
+
+ private:
+  bool is_possible(std::span<const double> currents) const;
+  DriveStatus follow(std::span<const double> values, std::span<const double> currents);
+  DriveStatus arm();
+  DriveStatus take(const std::optional<LineReply>& reply);
+  DriveStatus compare(std::span<const double> values, const LineReply& reply, double& scale);
+  bool is_zero(const LineReply& reply) const;
+  std::optional<LineReply> exchange(std::string_view word, double timeout, const Stop& gives_up,
+                                    std::span<const double> values = {});
+  std::optional<LineReply> answer(double timeout, const Stop& gives_up);
+  bool is_gone();
+
+  std::unique_ptr<DeviceLock> lock_;
+  std::unique_ptr<LineConnection> connection_;
+  LineDriverParams params_;
+  std::vector<double> currents_;
+  std::size_t sent_;  // values of a message
+  LineReader reader_;
+  std::uint32_t sequence_ = 0;
+  std::atomic<bool> interrupted_ = false;
+  bool armed_ = false;  // armed by this driver and not stopped since
+  bool gone_ = false;
+  std::string strange_;  // the last line that was no reply
+  std::string reason_;
+};
+
+}  // namespace microswarm

@@ -1,0 +1,488 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the host makes of drivers of one's own: servers in this process, and programs of the shell.
+#include "microswarm/actuation/drivers/line_coil_driver.hpp"
+
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <functional>
+#include <mutex>
+#include <random>
+#include <thread>
+
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/execution/clock.hpp"
+#include "microswarm/core/text/file.hpp"
+#include "microswarm/core/text/lines.hpp"
+#include "tests/files.hpp"
+#include "tests/messages.hpp"
+
+namespace microswarm {
+namespace {
+
+using std::chrono::milliseconds;
+
+TEST(LineProtocol, TheLinesArePinned) {
+  EXPECT_EQ(line_hello(1, "currents", 8, 200), "hello 1 1 currents 8 200\n");
+  EXPECT_EQ(line_message("set", 7, std::vector<double>{1.5, -2, -1e-7}),
+            "set 7 1.500000 -2.000000 0.000000\n");
+  EXPECT_EQ(line_message("stop", 8), "stop 8\n");
+}
+
+TEST(LineProtocol, RepliesAreReadAndEverythingElseIsNone) {
+  const auto good = parse_line_reply("  ok\t12  1.5 -2 +3e-1 ");
+  ASSERT_TRUE(good);
+  EXPECT_EQ(good->verdict, LineVerdict::ok);
+  EXPECT_EQ(good->sequence, 12u);
+  EXPECT_EQ(good->values, (std::vector<double>{1.5, -2, 0.3}));
+  const auto off = parse_line_reply("off 4294967295 no set \xe2\x80\xae for\x9b 0.2 s");
+  ASSERT_TRUE(off);
+  EXPECT_EQ(off->sequence, 4294967295u);
+  EXPECT_EQ(off->text, "no set ? for? 0.2 s");
+  std::string many = "ok 1";
+  for (std::size_t k = 0; k <= line_protocol_values; ++k) many += " 1";
+  for (const std::string& odd :
+       {std::string("ok 1 nan"), std::string("ok 1 1 inf"), std::string("ok 1 1e999"),
+        std::string("ok 1 0x10"), std::string("ok 1 1,5"), many}) {
+    const auto reply = parse_line_reply(odd);
+    ASSERT_TRUE(reply) << odd;
+    EXPECT_TRUE(reply->values.empty()) << odd;
+  }
+  for (const char* none : {"", "ok", "ok x 1", "ok -1 1", "ok 4294967296 1", "ok 1.5", "okay 1",
+                           "OK 1", "1 ok", "ok 1 \x1b[2J", "ok\a 1"})
+    EXPECT_FALSE(parse_line_reply(none)) << none;
+  EXPECT_FALSE(parse_line_reply("off 1 " + std::string(line_protocol_length, 'x')));
+}
+
+TEST(LineProtocol, LinesOfAnyLengthCostOnlyThemselves) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 200; ++round) {
+    std::string bytes;
+    std::vector<std::string> lines;
+    for (int k = 0; k < 8; ++k) {
+      const std::string line(random() % (2 * line_protocol_length), static_cast<char>('a' + k));
+      bytes += line + (random() % 2 ? "\r\n" : "\n");
+      if (line.size() + 1 < line_protocol_length) lines.push_back(line);
+    }
+    std::vector<std::string> found;
+    LineReader reader;
+    for (const char byte : bytes)
+      if (auto line = reader.take(static_cast<std::uint8_t>(byte)))
+        if (line->size() + 1 < line_protocol_length) found.push_back(*std::move(line));
+    EXPECT_EQ(found, lines);
+  }
+}
+
+/// A server at a Unix socket or a TCP port. `answer` gets the words of a message.
+class Server {
+ public:
+  using Words = std::vector<std::string>;
+  explicit Server(std::function<std::string(const Words&)> answer = {}, bool tcp = false)
+      : answer_(std::move(answer)) {
+    path_ = testing::TempDir() + "line_" + std::to_string(::getpid()) + ".sock";
+    ::unlink(path_.c_str());
+    listening_ = ::socket(tcp ? AF_INET : AF_UNIX, SOCK_STREAM, 0);
+    sockaddr_un path{.sun_family = AF_UNIX, .sun_path = {}};
+    path_.copy(path.sun_path, sizeof path.sun_path - 1);
+    sockaddr_in port{};
+    port.sin_family = AF_INET;
+    port.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    auto* const at = tcp ? reinterpret_cast<sockaddr*>(&port) : reinterpret_cast<sockaddr*>(&path);
+    socklen_t size = tcp ? sizeof port : sizeof path;
+    EXPECT_EQ(::bind(listening_, at, size), 0);
+    EXPECT_EQ(::listen(listening_, 1), 0);
+    ::getsockname(listening_, at, &size);
+    port_ = ntohs(port.sin_port);
+    thread_ = std::thread([this] { run(); });
+  }
+  ~Server() {
+    over_ = true;
+    thread_.join();
+    ::close(listening_);
+    ::unlink(path_.c_str());
+  }
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  const std::string& path() const { return path_; }
+  int port() const { return port_; }
+  int count(const std::string& word) {
+    const std::lock_guard lock(mutex_);
+    return static_cast<int>(
+        std::ranges::count_if(heard_, [&](const Words& words) { return words[0] == word; }));
+  }
+  Words last() {
+    const std::lock_guard lock(mutex_);
+    return heard_.empty() ? Words{} : heard_.back();
+  }
+  /// What a good driver answers.
+  static std::string good(const Words& words) {
+    std::string reply = "ok " + words[1];
+    if (words[0] == "set")
+      for (std::size_t k = 2; k < words.size(); ++k) reply += " " + words[k];
+    else
+      reply += " 0 0 0";
+    return reply + "\n";
+  }
+
+ private:
+  void run() {
+    pollfd waiting{listening_, POLLIN, 0};
+    while (!over_ && ::poll(&waiting, 1, 5) <= 0) {
+    }
+    if (over_) return;
+    const int line = ::accept(listening_, nullptr, nullptr);
+    LineReader reader;
+    while (!over_) {
+      pollfd ready{line, POLLIN, 0};
+      if (::poll(&ready, 1, 5) <= 0) continue;
+      std::array<std::uint8_t, 512> bytes{};
+      const ssize_t n = ::read(line, bytes.data(), bytes.size());
+      if (n <= 0) break;
+      for (ssize_t k = 0; k < n; ++k)
+        if (const auto text = reader.take(bytes[static_cast<std::size_t>(k)])) {
+          Words heard;
+          for (const std::string_view word : words(*text)) heard.emplace_back(word);
+          {
+            const std::lock_guard lock(mutex_);
+            heard_.push_back(heard);
+          }
+          const std::string reply = answer_ ? answer_(heard) : good(heard);
+          if (reply == "close") {
+            ::close(line);
+            return;
+          }
+          EXPECT_EQ(::send(line, reply.data(), reply.size(), MSG_NOSIGNAL),
+                    static_cast<ssize_t>(reply.size()));
+        }
+    }
+    ::close(line);
+  }
+
+  std::function<std::string(const Words&)> answer_;
+  std::string path_;
+  int listening_ = -1;
+  int port_ = 0;
+  std::atomic<bool> over_ = false;
+  std::mutex mutex_;
+  std::vector<Words> heard_;
+  std::thread thread_;
+};
+
+using Words = Server::Words;
+const std::array<double, 3> amperes{1, -2.5, 0};
+
+LineDriverParams quick() {
+  LineDriverParams p;
+  p.reply_timeout = 0.3;
+  p.connect_timeout = 2;
+  return p;
+}
+
+std::unique_ptr<LineCoilDriver> open(const Server& server, const LineDriverParams& p = quick()) {
+  return std::make_unique<LineCoilDriver>(connect_socket(server.path(), 0, 2), p, 3);
+}
+
+std::function<std::string(const Words&)> other(const std::string& word,
+                                               std::function<std::string(const Words&)> change) {
+  return [=](const Words& words) { return words[0] == word ? change(words) : Server::good(words); };
+}
+
+TEST(LineCoilDriver, DrivesThroughASocketAndStops) {
+  for (const bool tcp : {false, true}) {
+    Server server({}, tcp);
+    {
+      LineCoilDriver driver(
+          tcp ? connect_socket("localhost", server.port(), 2) : connect_socket(server.path(), 0, 2),
+          quick(), 3);
+      EXPECT_EQ(server.last(), (Words{"hello", "1", "1", "currents", "3", "200"}));
+      EXPECT_EQ(driver.channels(), 3);
+      EXPECT_EQ(driver.drive(amperes), DriveStatus::driven);
+      EXPECT_EQ(server.last(), (Words{"set", "3", "1.000000", "-2.500000", "0.000000"}));
+      EXPECT_EQ(driver.currents()[1], -2.5);
+      EXPECT_EQ(driver.drive(amperes), DriveStatus::driven);
+      EXPECT_EQ(server.count("arm"), 1);
+      EXPECT_TRUE(driver.stop());
+      EXPECT_EQ(driver.currents()[1], 0);
+      EXPECT_EQ(driver.drive(amperes), DriveStatus::driven);
+      EXPECT_EQ(server.count("arm"), 2);
+    }
+    EXPECT_EQ(server.last()[0], "stop");
+  }
+}
+
+TEST(LineCoilDriver, WhatIsTooMuchIsRefusedByTheHost) {
+  Server server;
+  LineDriverParams p = quick();
+  p.full_scale = 2;
+  EXPECT_EQ(open(server, p)->drive(amperes), DriveStatus::refused);
+  EXPECT_EQ(server.count("set"), 0);
+}
+
+TEST(LineCoilDriver, AFieldIsSentInPlaceOfTheCurrents) {
+  Server server;
+  LineDriverParams p = quick();
+  p.send = DriverInput::field;
+  LineCoilDriver driver(connect_socket(server.path(), 0, 2), p, 8);
+  EXPECT_EQ(server.last(), (Words{"hello", "1", "1", "field", "3", "200"}));
+  std::vector<double> currents(8, 1.0);
+  EXPECT_EQ(driver.channels(), 8);
+  const std::array<double, 3> field{0.5, 0, -7};
+  EXPECT_EQ(driver.drive_field(field, currents), DriveStatus::driven);
+  EXPECT_EQ(server.last(), (Words{"set", "3", "0.500000", "0.000000", "-7.000000"}));
+  EXPECT_EQ(driver.currents()[7], 1);
+  EXPECT_EQ(driver.drive(currents), DriveStatus::refused);
+  currents.assign(8, 30);  // beyond the full scale of its coils
+  EXPECT_EQ(driver.drive_field(field, currents), DriveStatus::refused);
+  currents.assign(8, 0);
+  EXPECT_EQ(driver.drive(currents), DriveStatus::driven);
+}
+
+TEST(LineCoilDriver, ScaledValuesAreToldAndOtherValuesAreAFault) {
+  const auto answered = [](const std::string& values, DriveStatus expected, double second) {
+    Server server(other("set", [=](const Words&) { return values + "\n"; }));
+    const auto driver = open(server);
+    EXPECT_EQ(driver->drive(amperes), expected) << values << driver->reason();
+    EXPECT_DOUBLE_EQ(driver->currents()[1], second);
+    EXPECT_EQ(driver->reason().empty(), expected != DriveStatus::mismatched);
+  };
+  answered("ok 3 1.004 -2.495 0", DriveStatus::driven, -2.5);
+  answered("limited 3 0.4 -1 0", DriveStatus::scaled, -1);
+  answered("ok 3 0.4 -1 0", DriveStatus::mismatched, 0);
+  answered("limited 3 0.4 -2.5 0", DriveStatus::mismatched, 0);  // another direction
+  answered("limited 3 -0.4 1 0", DriveStatus::mismatched, 0);    // reversed
+  answered("limited 3 1.2 -3 0", DriveStatus::mismatched, 0);    // more
+  answered("ok 3 1 -2.5", DriveStatus::mismatched, 0);
+  answered("ok 3 1 -2.5 0 0", DriveStatus::mismatched, 0);
+  answered("ok 3 1 nan 0", DriveStatus::mismatched, 0);
+}
+
+TEST(LineCoilDriver, AnAnswerToAnotherMessageIsNone) {
+  Server server(other("set", [](const Words& w) {
+    return "ok 2 1 -2.5 0\nhello world\n\xff\x1b[2J\n" + std::string(9000, 'x') + "\n" +
+           Server::good(w);
+  }));
+  EXPECT_EQ(open(server)->drive(amperes), DriveStatus::driven);
+}
+
+TEST(LineCoilDriver, SilenceAndGarbageAreNoAnswer) {
+  const auto answered = [](const std::string& text, const std::string& said) {
+    Server server(other("set", [=](const Words&) { return text; }));
+    const auto driver = open(server);
+    const double began = steady_seconds();
+    EXPECT_EQ(driver->drive(amperes), DriveStatus::no_answer);
+    EXPECT_LT(steady_seconds() - began, 1.5);
+    EXPECT_EQ(driver->reason(), said);
+    // What comes after half a line belongs to it.
+    EXPECT_EQ(driver->stop(), text.empty() || text.ends_with('\n'));
+  };
+  answered("", "");
+  answered("ok 2 1 -2.5 0\n", "");
+  answered("\x1b[2Jhi\n", "it said '?[2Jhi', which is no answer");
+  answered("ok 3 1 -2.5 0", "");  // without its end
+}
+
+TEST(LineCoilDriver, ADriverThatWasOffIsArmedAgain) {
+  Server server(other("set", [sets = 0](const Words& w) mutable {
+    return ++sets == 2 ? "off " + w[1] + " silence\n" : Server::good(w);
+  }));
+  const auto driver = open(server);
+  EXPECT_EQ(driver->drive(amperes), DriveStatus::driven);
+  EXPECT_EQ(driver->drive(amperes), DriveStatus::resumed);
+  EXPECT_EQ(server.count("arm"), 2);
+}
+
+TEST(LineCoilDriver, RefusalsAreToldInTheDriversWords) {
+  const auto answered = [](const std::string& word, const std::string& verdict,
+                           DriveStatus status) {
+    Server server(
+        other(word, [=](const Words& w) { return verdict + " " + w[1] + " interlock\n"; }));
+    const auto driver = open(server);
+    EXPECT_EQ(driver->drive(amperes), status) << word << verdict;
+    EXPECT_EQ(driver->reason(), "interlock");
+    EXPECT_EQ(trouble_of(*driver, status), std::string(trouble_of(status)) + ": interlock");
+  };
+  answered("arm", "refused", DriveStatus::not_armed);
+  answered("arm", "off", DriveStatus::not_armed);
+  answered("arm", "emergency", DriveStatus::emergency);
+  answered("set", "emergency", DriveStatus::emergency);
+  answered("set", "refused", DriveStatus::refused);
+  answered("set", "off", DriveStatus::not_armed);
+}
+
+TEST(LineCoilDriver, ItMustArmAndStopAtZero) {
+  Server armed(other("arm", [](const Words& w) { return "ok " + w[1] + " 0 3 0\n"; }));
+  EXPECT_EQ(open(armed)->drive(amperes), DriveStatus::mismatched);
+  Server stopped(other("stop", [](const Words& w) { return "ok " + w[1] + " 0 3 0\n"; }));
+  const auto driver = open(stopped);
+  EXPECT_EQ(driver->drive(amperes), DriveStatus::driven);
+  EXPECT_FALSE(driver->stop());
+}
+
+TEST(LineCoilDriver, AClosedConnectionIsNoticedAtOnce) {
+  Server server(other("set", [](const Words&) { return "close"; }));
+  const auto driver = open(server);
+  const double began = steady_seconds();
+  EXPECT_EQ(driver->drive(amperes), DriveStatus::gone);
+  EXPECT_LT(steady_seconds() - began, 0.25);
+  EXPECT_TRUE(test::names(driver->reason(), "has closed the connection")) << driver->reason();
+  EXPECT_FALSE(driver->stop());
+}
+
+TEST(LineCoilDriver, AnInterruptionDoesNotWaitForTheAnswer) {
+  Server server(other("set", [](const Words&) { return ""; }));
+  LineDriverParams p = quick();
+  p.reply_timeout = 1;
+  const auto driver = open(server, p);
+  double ended = 0;
+  std::thread coils([&] {
+    EXPECT_EQ(driver->drive(amperes), DriveStatus::no_answer);
+    ended = steady_seconds();
+  });
+  std::this_thread::sleep_for(milliseconds(50));
+  const double asked = steady_seconds();
+  driver->interrupt();
+  coils.join();
+  EXPECT_LT(ended - asked, 0.2);
+  EXPECT_TRUE(driver->stop());
+}
+
+template <class Open>
+void refuses(Open&& open, const std::string& place, const std::vector<std::string>& parts) {
+  try {
+    open();
+    FAIL() << place;
+  } catch (const HardwareError& e) {
+    EXPECT_TRUE(test::is_one_line_naming(e.what(), place, parts));
+  }
+}
+
+TEST(LineCoilDriver, WhoDoesNotConsentIsNamed) {
+  Server old(other("hello", [](const Words& w) { return "refused " + w[1] + " version 1\n"; }));
+  refuses([&] { open(old); }, old.path(), {"version 1"});
+  Server small(other("hello", [](const Words& w) { return "ok " + w[1] + " 0 0\n"; }));
+  refuses([&] { open(small); }, small.path(), {"3 zeros"});
+  Server mute([](const Words&) { return ""; });
+  LineDriverParams p = quick();
+  p.connect_timeout = 0.2;
+  refuses([&] { open(mute, p); }, mute.path(), {"0.2 s"});
+  refuses([&] { connect_socket("/none/such.sock", 0, 1); }, "/none/such.sock", {"cannot connect"});
+  refuses([&] { connect_socket("localhost", 1, 1); }, "localhost:1", {"refused"});
+}
+
+/// A program of the shell that does `then` with the word, number and rest of each message.
+class LineProgram : public testing::Test {
+ protected:
+  std::unique_ptr<LineCoilDriver> start(const std::string& script,
+                                        const LineDriverParams& p = quick(),
+                                        std::unique_ptr<DeviceLock> lock = nullptr) {
+    const int descriptor = lock ? lock->descriptor() : -1;
+    return std::make_unique<LineCoilDriver>(
+        start_program({"sh", "-c", "echo $$ >pid; " + script}, folder_ / ".", descriptor), p, 3,
+        std::move(lock));
+  }
+  static std::string answering(const std::string& set) {
+    return "while read word n rest; do case $word in set) " + set +
+           ";; *) echo ok $n 0 0 0;; esac; done";
+  }
+  /// Whether a process of the program's group is left.
+  bool lives() const {
+    const int group = std::stoi(read_file(folder_ / "pid"));
+    return ::kill(-group, 0) == 0;
+  }
+  test::Folder folder_;
+};
+
+TEST_F(LineProgram, IsStartedInItsFolderAndGoneInTheEnd) {
+  {
+    const auto driver = start(answering("echo ok $n $rest"));
+    EXPECT_EQ(driver->drive(amperes), DriveStatus::driven);
+    EXPECT_TRUE(lives());
+    EXPECT_NE(::getpgid(std::stoi(read_file(folder_ / "pid"))), ::getpgrp());
+  }
+  EXPECT_FALSE(lives());
+}
+
+TEST_F(LineProgram, ItsEndIsToldWithItsLastWords) {
+  const auto ended = [&](const std::string& how, const std::string& reason) {
+    const auto driver = start(answering(how));
+    const double began = steady_seconds();
+    EXPECT_EQ(driver->drive(amperes), DriveStatus::gone);
+    EXPECT_LT(steady_seconds() - began, 0.25);
+    EXPECT_TRUE(test::names(driver->reason(), reason)) << driver->reason();
+    EXPECT_FALSE(driver->stop());
+    EXPECT_EQ(driver->drive(amperes), DriveStatus::gone);
+  };
+  ended("printf 'Traceback\\n\\033[2Jno card\\n' >&2; exit 7",
+        "has ended with exit code 7; its last words: ?[2Jno card");
+  ended("printf 'no end' >&2; kill -9 $$", "was ended by signal 9");
+  ended("exec >&-; sleep 1", "has closed its output");
+}
+
+TEST_F(LineProgram, WhatCannotBeStartedOrEndsAtOnceIsNamed) {
+  refuses(
+      [&] {
+        start_program({"./none", "x"}, folder_ / ".");
+      },
+      "./none x", {"cannot be started"});
+  refuses([&] { start_program({"true"}, folder_ / "none"); }, "true", {"cannot be started"});
+  refuses([&] { start("echo no nidaqmx >&2; exit 1"); }, "",
+          {"exit code 1; its last words: no nidaqmx"});
+}
+
+TEST_F(LineProgram, NeitherAFullPipeNorAFloodOfErrorsBlocks) {
+  LineDriverParams p = quick();
+  p.channels = 64;
+  p.reply_timeout = 0.02;
+  const auto deaf = start(
+      "z=$(yes 0 | head -64); for k in 1 2; do read word n rest; echo ok $n $z; done; exec sleep "
+      "99",
+      p);
+  const std::vector<double> many(64, 1.0);
+  double longest = 0;
+  for (int k = 0; k < 120; ++k) {  // 77 kB
+    const double began = steady_seconds();
+    EXPECT_EQ(deaf->drive(many), DriveStatus::no_answer);
+    longest = std::max(longest, steady_seconds() - began);
+  }
+  EXPECT_LT(longest, 0.3);
+  const auto loud =
+      start(answering("head -c 1000000 /dev/zero | tr '\\0' x >&2; echo ok $n $rest"));
+  EXPECT_EQ(loud->drive(amperes), DriveStatus::driven);
+}
+
+TEST_F(LineProgram, OneThatHangsIsKilledAfterTheStop) {
+  const double began = steady_seconds();
+  {
+    const auto driver = start("trap '' TERM; " + answering("echo ok $n $rest") + "; exec sleep 99");
+    EXPECT_EQ(driver->drive(amperes), DriveStatus::driven);
+  }
+  EXPECT_FALSE(lives());
+  EXPECT_LT(steady_seconds() - began, 4);
+}
+
+TEST_F(LineProgram, HasItsCoilsForItselfAlsoWhenItsHostIsGone) {
+  write_file_atomically(folder_ / "coils", "x");
+  const auto lock = [&] { return std::make_unique<DeviceLock>(folder_ / "coils"); };
+  {
+    const auto driver = start(answering("echo ok $n $rest"), quick(), lock());
+    refuses(lock, (folder_ / "coils").string(), {"another program"});
+  }
+  auto first = lock();
+  auto program = start_program({"sh", "-c", "sleep 1000"}, folder_ / ".", first->descriptor());
+  first.reset();
+  refuses(lock, (folder_ / "coils").string(), {"another program"});
+  program.reset();
+  lock();
+}
+
+}  // namespace
+}  // namespace microswarm
