@@ -165,6 +165,18 @@ void require_person(const Rig& rig, const RigRunOptions& o) {
                          "driven for a drawn swarm; for a test, run with --drawn-swarm");
 }
 
+/// Runs a session to its end while a person may operate it by keys. Returns what was lost, see
+/// LiveSession::close().
+std::string operate(LiveSession& session, bool drives_coils, std::optional<double> seconds,
+                    const Context& context) {
+  RigOperator person(session);
+  const RigKeys keys([&] { session.stop("the emergency key was pressed"); },
+                     [&](const Key& key) { person.press(key); }, context.stop);
+  if (keys.are_there() || drives_coils) note_how_to_stop(keys.are_there(), RigOperator::keys);
+  drive(session, seconds ? context.within(*seconds) : context.stop);
+  return session.close();
+}
+
 int rig_run(const RigRunOptions& o, const Context& context) {
   std::vector<std::string> settings = o.settings;
   if (o.hold) settings.push_back("hold_at_goal_s=" + number_text(*o.hold));
@@ -186,15 +198,7 @@ int rig_run(const RigRunOptions& o, const Context& context) {
   note_each(session.warnings());
   note_virtual_obstacles(on);
   if (o.dry_run) note("dry run: nothing goes to the coils\n");
-  {
-    RigOperator person(session);
-    const RigKeys keys([&] { session.stop("the emergency key was pressed"); },
-                       [&](const Key& key) { person.press(key); }, context.stop);
-    if (keys.are_there() || (has_coil_device(on.rig) && !o.dry_run))
-      note_how_to_stop(keys.are_there(), RigOperator::keys);
-    drive(session, o.seconds ? context.within(*o.seconds) : context.stop);
-  }
-  std::string lost = session.close();
+  std::string lost = operate(session, has_coil_device(on.rig) && !o.dry_run, o.seconds, context);
   const std::optional<RecordedVideo> video = session.video();
   const RigTiming timing = session.timing();
   if (!lost.empty()) note("microswarm: {}\n", lost);

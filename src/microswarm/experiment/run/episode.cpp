@@ -96,6 +96,7 @@ bool Episode::advance(const Stop& stop) {
   const double took = std::chrono::duration<double>(Clock::now() - begin).count();
   // Discard an interrupted step: the record must be reproducible without the interruption.
   if (stop()) {
+    tick_.view = {};
     ending_ = stopped();
     return false;
   }
@@ -170,8 +171,9 @@ std::optional<Status> Episode::follow(const GroundTruth& ground_truth) {
   const double t0 = present_.t;
   trajectory_.assign(ground_truth.trajectory.begin(), ground_truth.trajectory.end());
   const bool arrives = is_autonomous() && !at_goal_;
-  const auto arrival = arrives ? goal_.first_arrival(trajectory_) : std::nullopt;
-  if (arrival && scenario_.hold_at_goal <= 0) cut(trajectory_, *arrival);
+  const double arrival = arrives ? goal_.first_arrival(trajectory_).value_or(infinity) : infinity;
+  const bool is_there = arrival < infinity;
+  if (is_there && scenario_.hold_at_goal <= 0) cut(trajectory_, arrival);
   const ContactMonitor before = *contacts_;
   const std::vector<RunEvent> touches = contacts_->follow(t0, trajectory_);
   const bool ends = !touches.empty() && scenario_.stop_at_contact;
@@ -188,14 +190,15 @@ std::optional<Status> Episode::follow(const GroundTruth& ground_truth) {
                 ends ? touches.front().speed : ground_truth.speed,
                 goal_.left(last.pose.position, {})};
   }
-  if (ends) return Status::collided;
-  if (!arrival) return std::nullopt;
-  const auto ending = arrive();
-  if (ending) return ending;
-  events_.back().t = t0 + *arrival;
-  events_.back().position = moment_on(trajectory_, *arrival).pose.position;
-  std::ranges::stable_sort(events_, {}, &RunEvent::t);
-  return std::nullopt;
+  if (!is_there || (ends && touches.front().t <= t0 + arrival))
+    return ends ? std::optional(Status::collided) : std::nullopt;
+  const std::optional<Status> ending = arrive();
+  if (!ending) {  // within the tick, which goes on
+    events_.back().t = t0 + arrival;
+    events_.back().position = moment_on(trajectory_, arrival).pose.position;
+    std::ranges::stable_sort(events_, {}, &RunEvent::t);
+  }
+  return ends ? Status::collided : ending;
 }
 
 /// The swarm is at the goal: the end, unless it is to be held there.
