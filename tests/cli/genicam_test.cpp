@@ -112,23 +112,30 @@ TEST_F(GigeCamera, IsSeenListedHeldAndUnplugged) {
                     "512 × 512 px, in colours"));
   EXPECT_TRUE(names(good({"rig", "cameras"}), "genicam:Aravis-Fake-test"));
   write_flight();
-  // Its pattern is no swarm; of interest is the camera.
-  Program runs(
-      {"rig", "run", "flight.yaml", "--rig", "rig.yaml", "--set-rig", "safety.lost_swarm_s=100",
-       "--set-rig", "camera.pixel_format=Mono8", "--seconds", "15"},
-      at);
+  // Its pattern is no swarm; of interest is the camera. A loaded computer is no fault here.
+  Arguments flight{"rig", "run", "flight.yaml", "--rig", "rig.yaml", "--seconds", "30"};
+  for (const char* setting :
+       {"camera.pixel_format=Mono8", "camera.watch.silent_after_s=3", "safety.max_frame_age_s=2",
+        "safety.lost_swarm_s=100", "safety.missed_deadlines=100000", "safety.deadman_s=20",
+        "safety.max_pause_s=20"})
+    flight.insert(flight.end(), {"--set-rig", setting});
+  Program runs(flight, at);
   runs.let_work(1500);
   const Outcome other = run({"rig", "still", kind_.device});
   EXPECT_EQ(other.code, 4);
   EXPECT_TRUE(is_one_line_naming(other.err, "microswarm: " + kind_.device, {"in use"}))
       << other.err;
-  ASSERT_TRUE(runs.running());
+  if (!runs.running()) {
+    const Outcome early = runs.wait();
+    FAIL() << early.out << early.err;
+  }
   camera.unplug();
   const auto began = std::chrono::steady_clock::now();
   const Outcome outcome = runs.wait();
-  EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(4));
+  EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(8));
   EXPECT_EQ(outcome.code, 4) << outcome.out << outcome.err;
-  EXPECT_TRUE(names(outcome.out + outcome.err, "s old, allowed 0.5 s"))
+  EXPECT_TRUE(names(outcome.out + outcome.err, "s old, allowed 2 s") ||
+              names(outcome.out + outcome.err, "unplugged"))
       << outcome.out << outcome.err;
 }
 

@@ -86,6 +86,8 @@ class GenicamDevice : public CameraDevice {
     if (stream_ && !*lost_) arv_camera_stop_acquisition(device_.camera(), ignored.out());
     if (taken_) g_object_unref(taken_);
   }
+  GenicamDevice(const GenicamDevice&) = delete;
+  GenicamDevice& operator=(const GenicamDevice&) = delete;
 
   std::optional<double> rate() const override { return rate_; }
 

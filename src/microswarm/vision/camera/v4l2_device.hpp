@@ -20,6 +20,8 @@ class V4l2Device : public CameraDevice {
   /// Opens the device. Throws if it is no camera that gives pictures.
   explicit V4l2Device(std::string name);
   ~V4l2Device() override;
+  V4l2Device(const V4l2Device&) = delete;
+  V4l2Device& operator=(const V4l2Device&) = delete;
 
   /// Asks the driver; the result is 0 or the number of the error.
   int ask(unsigned long request, void* argument) const;
