@@ -46,7 +46,7 @@ struct LineDriverParams {
                           "Currents of a message; none: one for each coil."});
     visit(self.full_scale, {"full_scale", Unit::a, {1e-6, 1e6}, "Largest current of a channel."});
     visit(self.tolerance,
-          {"tolerance", Unit::none, {0, 1e3}, "Allowed error of acknowledged values, A or mT."});
+          {"tolerance", Unit::none, {1e-6, 1}, "Allowed error of acknowledged values, A or mT."});
     visit(self.watchdog,
           {"watchdog", Unit::s, {0.02, 10}, "Silence after which the driver turns off."});
     visit(self.reply_timeout,
