@@ -88,7 +88,8 @@ LineDriverParams quick() {
 }
 
 std::unique_ptr<LineCoilDriver> open(const Server& server, const LineDriverParams& p = quick()) {
-  return std::make_unique<LineCoilDriver>(connect_socket(server.path(), 0, 2), p, 3);
+  return std::make_unique<LineCoilDriver>(
+      [&](double) { return connect_socket(server.path(), 0, 2); }, p, 3);
 }
 
 std::function<std::string(const Words&)> other(const std::string& word,
@@ -101,7 +102,10 @@ TEST(LineCoilDriver, DrivesThroughASocketAndStops) {
     Server server({}, tcp);
     {
       LineCoilDriver driver(
-          tcp ? connect_socket("localhost", server.port(), 2) : connect_socket(server.path(), 0, 2),
+          [&](double) {
+            return tcp ? connect_socket("localhost", server.port(), 2)
+                       : connect_socket(server.path(), 0, 2);
+          },
           quick(), 3);
       EXPECT_EQ(server.last(), (Words{"hello", "1", "1", "currents", "3", "200"}));
       EXPECT_EQ(driver.channels(), 3);
@@ -131,7 +135,7 @@ TEST(LineCoilDriver, AFieldIsSentInPlaceOfTheCurrents) {
   Server server;
   LineDriverParams p = quick();
   p.send = DriverInput::field;
-  LineCoilDriver driver(connect_socket(server.path(), 0, 2), p, 8);
+  LineCoilDriver driver([&](double) { return connect_socket(server.path(), 0, 2); }, p, 8);
   EXPECT_EQ(server.last(), (Words{"hello", "1", "1", "field", "3", "200"}));
   std::vector<double> currents(8, 1.0);
   EXPECT_EQ(driver.channels(), 8);
@@ -286,8 +290,10 @@ class LineProgram : public testing::Test {
                                         std::unique_ptr<DeviceLock> lock = nullptr) {
     const int descriptor = lock ? lock->descriptor() : -1;
     return std::make_unique<LineCoilDriver>(
-        start_program({"sh", "-c", "echo $$ >pid; " + script}, folder_ / ".", descriptor), p, 3,
-        std::move(lock));
+        [=, this](double) {
+          return start_program({"sh", "-c", "echo $$ >pid; " + script}, folder_ / ".", descriptor);
+        },
+        p, 3, std::move(lock));
   }
   static std::string answering(const std::string& set) {
     return "while read word n rest; do case $word in set) " + set +
@@ -318,8 +324,10 @@ TEST_F(LineProgram, ItsEndIsToldWithItsLastWords) {
     EXPECT_EQ(driver->drive(amperes), DriveStatus::gone);
     EXPECT_LT(steady_seconds() - began, 0.25);
     EXPECT_TRUE(test::names(driver->reason(), reason)) << driver->reason();
-    EXPECT_FALSE(driver->stop());
+    EXPECT_TRUE(driver->stop());  // by another one, which drives nothing
     EXPECT_EQ(driver->drive(amperes), DriveStatus::gone);
+    EXPECT_TRUE(test::names(driver->reason(), reason)) << driver->reason();
+    EXPECT_TRUE(driver->stop());
   };
   ended("printf 'Traceback\\n\\033[2Jno card\\n' >&2; exit 7",
         "has ended with exit code 7; its last words: ?[2Jno card");
@@ -357,6 +365,21 @@ TEST_F(LineProgram, NeitherAFullPipeNorAFloodOfErrorsBlocks) {
   const auto loud =
       start(answering("head -c 1000000 /dev/zero | tr '\\0' x >&2; echo ok $n $rest"));
   EXPECT_EQ(loud->drive(amperes), DriveStatus::driven);
+}
+
+TEST_F(LineProgram, AStopThatIsNotAnsweredBeginsOnceMore) {
+  const std::string script =
+      "echo one >>begun; while read word n rest; do case $word in stop) exec sleep 99;; "
+      "set) echo ok $n $rest;; *) echo ok $n 0 0 0;; esac; done";
+  {
+    const auto driver = start(script);
+    EXPECT_EQ(driver->drive(amperes), DriveStatus::driven);
+    EXPECT_TRUE(driver->stop());
+    EXPECT_EQ(driver->currents()[1], 0);
+    EXPECT_EQ(driver->drive(amperes), DriveStatus::gone);
+  }
+  EXPECT_EQ(read_file(folder_ / "begun"), "one\none\n");
+  EXPECT_FALSE(lives());
 }
 
 TEST_F(LineProgram, OneThatHangsIsKilledAfterTheStop) {
