@@ -3,10 +3,6 @@
 #include "microswarm/actuation/drivers/line_coil_driver.hpp"
 
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <sys/un.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -14,14 +10,13 @@
 #include <chrono>
 #include <csignal>
 #include <functional>
-#include <mutex>
 #include <random>
 #include <thread>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/clock.hpp"
 #include "microswarm/core/text/file.hpp"
-#include "microswarm/core/text/lines.hpp"
+#include "tests/actuation/line_server.hpp"
 #include "tests/files.hpp"
 #include "tests/messages.hpp"
 
@@ -81,102 +76,7 @@ TEST(LineProtocol, LinesOfAnyLengthCostOnlyThemselves) {
   }
 }
 
-/// A server at a Unix socket or a TCP port. `answer` gets the words of a message.
-class Server {
- public:
-  using Words = std::vector<std::string>;
-  explicit Server(std::function<std::string(const Words&)> answer = {}, bool tcp = false)
-      : answer_(std::move(answer)) {
-    path_ = testing::TempDir() + "line_" + std::to_string(::getpid()) + ".sock";
-    ::unlink(path_.c_str());
-    listening_ = ::socket(tcp ? AF_INET : AF_UNIX, SOCK_STREAM, 0);
-    sockaddr_un path{.sun_family = AF_UNIX, .sun_path = {}};
-    path_.copy(path.sun_path, sizeof path.sun_path - 1);
-    sockaddr_in port{};
-    port.sin_family = AF_INET;
-    port.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    auto* const at = tcp ? reinterpret_cast<sockaddr*>(&port) : reinterpret_cast<sockaddr*>(&path);
-    socklen_t size = tcp ? sizeof port : sizeof path;
-    EXPECT_EQ(::bind(listening_, at, size), 0);
-    EXPECT_EQ(::listen(listening_, 1), 0);
-    ::getsockname(listening_, at, &size);
-    port_ = ntohs(port.sin_port);
-    thread_ = std::thread([this] { run(); });
-  }
-  ~Server() {
-    over_ = true;
-    thread_.join();
-    ::close(listening_);
-    ::unlink(path_.c_str());
-  }
-  Server(const Server&) = delete;
-  Server& operator=(const Server&) = delete;
-
-  const std::string& path() const { return path_; }
-  int port() const { return port_; }
-  int count(const std::string& word) {
-    const std::lock_guard lock(mutex_);
-    return static_cast<int>(
-        std::ranges::count_if(heard_, [&](const Words& words) { return words[0] == word; }));
-  }
-  Words last() {
-    const std::lock_guard lock(mutex_);
-    return heard_.empty() ? Words{} : heard_.back();
-  }
-  /// What a good driver answers.
-  static std::string good(const Words& words) {
-    std::string reply = "ok " + words[1];
-    if (words[0] == "set")
-      for (std::size_t k = 2; k < words.size(); ++k) reply += " " + words[k];
-    else
-      reply += " 0 0 0";
-    return reply + "\n";
-  }
-
- private:
-  void run() {
-    pollfd waiting{listening_, POLLIN, 0};
-    while (!over_ && ::poll(&waiting, 1, 5) <= 0) {
-    }
-    if (over_) return;
-    const int line = ::accept(listening_, nullptr, nullptr);
-    LineReader reader;
-    while (!over_) {
-      pollfd ready{line, POLLIN, 0};
-      if (::poll(&ready, 1, 5) <= 0) continue;
-      std::array<std::uint8_t, 512> bytes{};
-      const ssize_t n = ::read(line, bytes.data(), bytes.size());
-      if (n <= 0) break;
-      for (ssize_t k = 0; k < n; ++k)
-        if (const auto text = reader.take(bytes[static_cast<std::size_t>(k)])) {
-          Words heard;
-          for (const std::string_view word : words(*text)) heard.emplace_back(word);
-          {
-            const std::lock_guard lock(mutex_);
-            heard_.push_back(heard);
-          }
-          const std::string reply = answer_ ? answer_(heard) : good(heard);
-          if (reply == "close") {
-            ::close(line);
-            return;
-          }
-          EXPECT_EQ(::send(line, reply.data(), reply.size(), MSG_NOSIGNAL),
-                    static_cast<ssize_t>(reply.size()));
-        }
-    }
-    ::close(line);
-  }
-
-  std::function<std::string(const Words&)> answer_;
-  std::string path_;
-  int listening_ = -1;
-  int port_ = 0;
-  std::atomic<bool> over_ = false;
-  std::mutex mutex_;
-  std::vector<Words> heard_;
-  std::thread thread_;
-};
-
+using Server = test::LineServer;
 using Words = Server::Words;
 const std::array<double, 3> amperes{1, -2.5, 0};
 
@@ -188,7 +88,8 @@ LineDriverParams quick() {
 }
 
 std::unique_ptr<LineCoilDriver> open(const Server& server, const LineDriverParams& p = quick()) {
-  return std::make_unique<LineCoilDriver>(connect_socket(server.path(), 0, 2), p, 3);
+  return std::make_unique<LineCoilDriver>(
+      [&](double) { return connect_socket(server.path(), 0, 2); }, p, 3);
 }
 
 std::function<std::string(const Words&)> other(const std::string& word,
@@ -201,7 +102,10 @@ TEST(LineCoilDriver, DrivesThroughASocketAndStops) {
     Server server({}, tcp);
     {
       LineCoilDriver driver(
-          tcp ? connect_socket("localhost", server.port(), 2) : connect_socket(server.path(), 0, 2),
+          [&](double) {
+            return tcp ? connect_socket("localhost", server.port(), 2)
+                       : connect_socket(server.path(), 0, 2);
+          },
           quick(), 3);
       EXPECT_EQ(server.last(), (Words{"hello", "1", "1", "currents", "3", "200"}));
       EXPECT_EQ(driver.channels(), 3);
@@ -231,7 +135,7 @@ TEST(LineCoilDriver, AFieldIsSentInPlaceOfTheCurrents) {
   Server server;
   LineDriverParams p = quick();
   p.send = DriverInput::field;
-  LineCoilDriver driver(connect_socket(server.path(), 0, 2), p, 8);
+  LineCoilDriver driver([&](double) { return connect_socket(server.path(), 0, 2); }, p, 8);
   EXPECT_EQ(server.last(), (Words{"hello", "1", "1", "field", "3", "200"}));
   std::vector<double> currents(8, 1.0);
   EXPECT_EQ(driver.channels(), 8);
@@ -386,8 +290,10 @@ class LineProgram : public testing::Test {
                                         std::unique_ptr<DeviceLock> lock = nullptr) {
     const int descriptor = lock ? lock->descriptor() : -1;
     return std::make_unique<LineCoilDriver>(
-        start_program({"sh", "-c", "echo $$ >pid; " + script}, folder_ / ".", descriptor), p, 3,
-        std::move(lock));
+        [=, this](double) {
+          return start_program({"sh", "-c", "echo $$ >pid; " + script}, folder_ / ".", descriptor);
+        },
+        p, 3, std::move(lock));
   }
   static std::string answering(const std::string& set) {
     return "while read word n rest; do case $word in set) " + set +
@@ -418,8 +324,10 @@ TEST_F(LineProgram, ItsEndIsToldWithItsLastWords) {
     EXPECT_EQ(driver->drive(amperes), DriveStatus::gone);
     EXPECT_LT(steady_seconds() - began, 0.25);
     EXPECT_TRUE(test::names(driver->reason(), reason)) << driver->reason();
-    EXPECT_FALSE(driver->stop());
+    EXPECT_TRUE(driver->stop());  // by another one, which drives nothing
     EXPECT_EQ(driver->drive(amperes), DriveStatus::gone);
+    EXPECT_TRUE(test::names(driver->reason(), reason)) << driver->reason();
+    EXPECT_TRUE(driver->stop());
   };
   ended("printf 'Traceback\\n\\033[2Jno card\\n' >&2; exit 7",
         "has ended with exit code 7; its last words: ?[2Jno card");
@@ -457,6 +365,21 @@ TEST_F(LineProgram, NeitherAFullPipeNorAFloodOfErrorsBlocks) {
   const auto loud =
       start(answering("head -c 1000000 /dev/zero | tr '\\0' x >&2; echo ok $n $rest"));
   EXPECT_EQ(loud->drive(amperes), DriveStatus::driven);
+}
+
+TEST_F(LineProgram, AStopThatIsNotAnsweredBeginsOnceMore) {
+  const std::string script =
+      "echo one >>begun; while read word n rest; do case $word in stop) exec sleep 99;; "
+      "set) echo ok $n $rest;; *) echo ok $n 0 0 0;; esac; done";
+  {
+    const auto driver = start(script);
+    EXPECT_EQ(driver->drive(amperes), DriveStatus::driven);
+    EXPECT_TRUE(driver->stop());
+    EXPECT_EQ(driver->currents()[1], 0);
+    EXPECT_EQ(driver->drive(amperes), DriveStatus::gone);
+  }
+  EXPECT_EQ(read_file(folder_ / "begun"), "one\none\n");
+  EXPECT_FALSE(lives());
 }
 
 TEST_F(LineProgram, OneThatHangsIsKilledAfterTheStop) {

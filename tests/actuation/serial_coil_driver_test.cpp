@@ -39,6 +39,23 @@ TEST(SerialCoilDriverPty, ARefusedArmIsNoSilence) {
   EXPECT_EQ(driver.drive(some_amperes), DriveStatus::not_armed);
 }
 
+TEST(SerialCoilDriverPty, ATripIsToldAlsoWhenTheCurrentsAreScaled) {
+  test::FakeDevice device([sets = 0](CoilReply& reply) mutable {
+    if (reply.to == CoilMessage::set && ++sets == 1) reply.result = CoilResult::not_armed;
+    if (reply.to == CoilMessage::set && sets == 2) {
+      reply.result = CoilResult::limited;
+      reply.scale = coil_link_unscaled / 2;
+      CoilAim aim;
+      for (std::size_t c = 0; c < 6; ++c)
+        aim.constant[c] = static_cast<int>(std::lround(some_amperes[c] / 20 * 1000));
+      reply.aim_sum = check_sum(scaled(aim, reply.scale));
+    }
+    return true;
+  });
+  SerialCoilDriver driver(params_of(device));
+  EXPECT_EQ(driver.drive(some_amperes), DriveStatus::resumed);
+}
+
 TEST(SerialCoilDriverPty, AStopDoesNotWaitForAnswersThatDoNotCome) {
   for (const double reply_timeout : {0.09, 1.0}) {
     std::atomic<bool> mute = false;

@@ -188,11 +188,11 @@ TEST_F(OwnDriver, OneThatDiesEndsTheRunWithItsLastWords) {
   ends_with(
       "if driven == 30: own_error.write('\\x1b[2Jerror -200284\\n'), own_error.flush(), "
       "os._exit(7)",
-      "has ended with exit code 7; its last words: ?[2Jerror -200284", false);
+      "has ended with exit code 7; its last words: ?[2Jerror -200284");
 }
 
 TEST_F(OwnDriver, ABugInItTurnsOffByItself) {
-  ends_with("if driven == 30: raise ValueError('no card')", "has ended with exit code 1", false);
+  ends_with("if driven == 30: raise ValueError('no card')", "has ended with exit code 1");
   expect_at_zero();
 }
 
@@ -202,7 +202,7 @@ TEST_F(OwnDriver, ASilentOneEndsTheRun) {
 }
 
 TEST_F(OwnDriver, OneThatIsSilentForEverEndsTheRunAndIsKilled) {
-  ends_with("if driven == 30: time.sleep(1000)", "does not answer", false);
+  ends_with("if driven == 30: time.sleep(1000)", "does not answer");
 }
 
 TEST_F(OwnDriver, GarbageEndsTheRunAndIsNotPrintedRaw) {

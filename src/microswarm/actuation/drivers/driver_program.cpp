@@ -30,6 +30,8 @@ constexpr double a_moment = 0.05;  // [s]
 class Descriptor {
  public:
   explicit Descriptor(int file = -1) : file_(file) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
   Descriptor(Descriptor&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
   Descriptor& operator=(Descriptor&& other) noexcept {
     std::swap(file_, other.file_);
@@ -96,6 +98,7 @@ class Spawning {
   /// The process; empty with errno set.
   std::optional<pid_t> start(std::vector<std::string> command) {
     std::vector<char*> arguments;
+    arguments.reserve(command.size() + 1);
     for (std::string& word : command) arguments.push_back(word.data());
     arguments.push_back(nullptr);
     pid_t process = 0;
@@ -129,6 +132,8 @@ class DriverProgram final : public LineConnection {
     stream_.emplace(out_.get(), in_.get());
   }
 
+  DriverProgram(const DriverProgram&) = delete;
+  DriverProgram& operator=(const DriverProgram&) = delete;
   ~DriverProgram() override {
     in_.close();
     // Not reaped until then: no other process may get the number.

@@ -15,6 +15,7 @@ namespace microswarm {
 namespace {
 
 constexpr double stop_wait = 0.5;  // [s] for its confirmation
+constexpr double hello_wait = 2;   // [s] for that of another hello
 
 std::span<const std::uint8_t> bytes_of(const std::string& text) {
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast)
@@ -37,24 +38,27 @@ std::string list_of(std::span<const double> values) {
 
 }  // namespace
 
-LineCoilDriver::LineCoilDriver(std::unique_ptr<LineConnection> connection,
-                               const LineDriverParams& params, std::size_t coils,
-                               std::unique_ptr<DeviceLock> lock)
+LineCoilDriver::LineCoilDriver(OpenConnection open, const LineDriverParams& params,
+                               std::size_t coils, std::unique_ptr<DeviceLock> lock)
     : lock_(std::move(lock)),
-      connection_(std::move(connection)),
+      open_(std::move(open)),
+      connection_(open_(params.connect_timeout)),
       params_(params),
       currents_(takes_field()
                     ? coils
                     : static_cast<std::size_t>(params.channels.value_or(static_cast<int>(coils)))),
       sent_(takes_field() ? 3 : currents_.size()) {
+  greet(params_.connect_timeout);
+}
+
+void LineCoilDriver::greet(double timeout) {
   const auto fail = [&](const std::string& why) {
     throw HardwareError(fmt::format("{}: {}", connection_->name(), why));
   };
-  const auto reply = exchange("hello", params_.connect_timeout, {});
+  const auto reply = exchange("hello", timeout, {});
   if (!reply && gone_) throw HardwareError(reason_);
   if (!reply)
-    fail(fmt::format("no answer within {:g} s{}{}", params_.connect_timeout,
-                     reason_.empty() ? "" : "; ", reason_));
+    fail(fmt::format("no answer within {:g} s{}{}", timeout, reason_.empty() ? "" : "; ", reason_));
   if (reply->verdict != LineVerdict::ok) fail("refuses: " + reply->text);
   if (!is_zero(*reply))
     fail(fmt::format("acknowledges {} as its values, not {} zeros", list_of(reply->values), sent_));
@@ -84,6 +88,7 @@ DriveStatus LineCoilDriver::drive_field(std::span<const double, 3> field,
 
 DriveStatus LineCoilDriver::follow(std::span<const double> values,
                                    std::span<const double> currents) {
+  if (gone_) return DriveStatus::gone;
   reason_.clear();
   const bool finite =
       std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
@@ -153,16 +158,36 @@ DriveStatus LineCoilDriver::arm() {
 
 bool LineCoilDriver::stop() noexcept {
   interrupted_ = false;
-  if (gone_) return false;
   try {
+    if (gone_) return begin_again();
     const auto reply = exchange("stop", std::max(stop_wait, params_.reply_timeout), {});
-    const bool at_zero = reply && reply->verdict == LineVerdict::ok && is_zero(*reply);
+    if (!reply) return begin_again();
+    const bool at_zero = reply->verdict == LineVerdict::ok && is_zero(*reply);
     armed_ = armed_ && !at_zero;
     if (at_zero) std::ranges::fill(currents_, 0.0);
     return at_zero;
   } catch (...) {
     return false;  // out of memory; the driver's watchdog switches off
   }
+}
+
+bool LineCoilDriver::begin_again() {
+  if (turned_off_anew_) return *turned_off_anew_;
+  turned_off_anew_ = false;
+  const std::string reason = reason_;
+  connection_.reset();
+  try {
+    const double timeout = std::min(hello_wait, params_.connect_timeout);
+    connection_ = open_(timeout);
+    greet(timeout);
+    turned_off_anew_ = true;
+    std::ranges::fill(currents_, 0.0);
+  } catch (const HardwareError&) {
+    turned_off_anew_ = false;
+  }
+  gone_ = true;
+  reason_ = reason;
+  return *turned_off_anew_;
 }
 
 bool LineCoilDriver::is_zero(const LineReply& reply) const {

@@ -46,7 +46,7 @@ struct LineDriverParams {
                           "Currents of a message; none: one for each coil."});
     visit(self.full_scale, {"full_scale", Unit::a, {1e-6, 1e6}, "Largest current of a channel."});
     visit(self.tolerance,
-          {"tolerance", Unit::none, {0, 1e3}, "Allowed error of acknowledged values, A or mT."});
+          {"tolerance", Unit::none, {1e-6, 1}, "Allowed error of acknowledged values, A or mT."});
     visit(self.watchdog,
           {"watchdog", Unit::s, {0.02, 10}, "Silence after which the driver turns off."});
     visit(self.reply_timeout,
@@ -86,14 +86,16 @@ struct SocketDriverParams : LineDriverParams {
 
 /// Driver that speaks the line protocol with a program or a server of the rig's owner
 /// (docs/reference/line-protocol.md), which turns the coils off by itself when nothing that it
-/// obeys comes for the watchdog's time.
+/// obeys comes for the watchdog's time. A card may hold the outputs of a program that has ended or
+/// hangs: when a stop is not answered, the connection is closed and opened once more, so that
+/// another hello turns the outputs off. Such a driver drives no more.
 class LineCoilDriver final : public CoilDriver {
  public:
-  /// Says hello. `coils` is how many currents are sent or stand behind the field; `lock` lives as
-  /// long as the driver. Throws HardwareError if nothing answers in time or the answer is no
-  /// consent.
-  LineCoilDriver(std::unique_ptr<LineConnection> connection, const LineDriverParams& params,
-                 std::size_t coils, std::unique_ptr<DeviceLock> lock = nullptr);
+  /// Opens the connection and says hello. `coils` is how many currents are sent or stand behind the
+  /// field; `lock` lives as long as the driver. Throws HardwareError if nothing answers in time or
+  /// the answer is no consent.
+  LineCoilDriver(OpenConnection open, const LineDriverParams& params, std::size_t coils,
+                 std::unique_ptr<DeviceLock> lock = nullptr);
   ~LineCoilDriver() override;
   LineCoilDriver(const LineCoilDriver&) = delete;
   LineCoilDriver& operator=(const LineCoilDriver&) = delete;
@@ -105,12 +107,14 @@ class LineCoilDriver final : public CoilDriver {
   bool takes_field() const override { return params_.send == DriverInput::field; }
   DriveStatus drive_field(std::span<const double, 3> field,
                           std::span<const double> currents) override;
-  /// Waits 0.5 s at most to have it confirmed.
+  /// Waits 0.5 s at most to have it confirmed, and about 4 s more where it begins once more.
   bool stop() noexcept override;
   void interrupt() noexcept override { interrupted_ = true; }
   std::string reason() const override { return reason_; }
 
  private:
+  void greet(double timeout);
+  bool begin_again();
   bool is_possible(std::span<const double> currents) const;
   DriveStatus follow(std::span<const double> values, std::span<const double> currents);
   DriveStatus arm();
@@ -123,6 +127,7 @@ class LineCoilDriver final : public CoilDriver {
   bool is_gone();
 
   std::unique_ptr<DeviceLock> lock_;
+  OpenConnection open_;
   std::unique_ptr<LineConnection> connection_;
   LineDriverParams params_;
   std::vector<double> currents_;
@@ -131,7 +136,8 @@ class LineCoilDriver final : public CoilDriver {
   std::uint32_t sequence_ = 0;
   std::atomic<bool> interrupted_ = false;
   bool armed_ = false;  // armed by this driver and not stopped since
-  bool gone_ = false;
+  bool gone_ = false;   // for good
+  std::optional<bool> turned_off_anew_;
   std::string strange_;  // the last line that was no reply
   std::string reason_;
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,6 +30,9 @@ class LineConnection {
   /// none.
   virtual std::string last_words() { return {}; }
 };
+
+/// Opens a connection within so many seconds; throws HardwareError.
+using OpenConnection = std::function<std::unique_ptr<LineConnection>(double timeout)>;
 
 /// Starts a program without a shell, in `folder`, with its stdin and stdout as the stream. Its
 /// stderr is read, but for the last line not kept. It has a process group of its own, so that no

@@ -42,17 +42,23 @@ std::unique_ptr<CoilDriver> open_coils(const Rig& rig) {
   const RigParams& params = rig.params;
   if (const auto* serial = std::get_if<SerialCoilParams>(&params.driver))
     return std::make_unique<SerialCoilDriver>(*serial);
-  const auto* program = std::get_if<ProgramDriverParams>(&params.driver);
-  const auto* socket = std::get_if<SocketDriverParams>(&params.driver);
-  if (!program && !socket) return simulated_coils(rig);
-  auto lock = std::make_unique<DeviceLock>(rig.folder / params.coils);
-  auto connection =
-      program ? start_program(program->command, rig.folder, lock->descriptor())
-              : connect_socket(beside(rig, socket->host), socket->port, socket->connect_timeout);
-  const LineDriverParams& driver = program ? static_cast<const LineDriverParams&>(*program)
-                                           : static_cast<const LineDriverParams&>(*socket);
-  return std::make_unique<LineCoilDriver>(std::move(connection), driver, rig.system.size(),
-                                          std::move(lock));
+  if (const auto* program = std::get_if<ProgramDriverParams>(&params.driver)) {
+    auto lock = std::make_unique<DeviceLock>(rig.folder / params.coils);
+    return std::make_unique<LineCoilDriver>(
+        [command = program->command, folder = rig.folder, file = lock->descriptor()](double) {
+          return start_program(command, folder, file);
+        },
+        *program, rig.system.size(), std::move(lock));
+  }
+  if (const auto* socket = std::get_if<SocketDriverParams>(&params.driver)) {
+    auto lock = std::make_unique<DeviceLock>(rig.folder / params.coils);
+    return std::make_unique<LineCoilDriver>(
+        [host = beside(rig, socket->host), port = socket->port](double timeout) {
+          return connect_socket(host, port, timeout);
+        },
+        *socket, rig.system.size(), std::move(lock));
+  }
+  return simulated_coils(rig);
 }
 
 std::unique_ptr<FrameSource> open_camera_of(const Rig& rig) {

@@ -147,12 +147,12 @@ std::vector<RigCheck> check_driver(CoilDriver& driver, const Rig& rig, double se
   }
   const bool zero = driver.stop();
   std::vector<RigCheck> checks;
+  if (!trouble.empty()) checks.push_back({"driver", false, trouble});
   checks.push_back(
       {"driver", failures == 0,
        fmt::format("{} exchanges with all currents at zero, {} without an answer; {} (p50 / p95 / "
                    "p99)",
                    times.count(), failures, quantiles(times))});
-  if (!trouble.empty()) checks.push_back({"driver", false, trouble});
   if (resumed > 0)
     checks.push_back(
         {"driver", false, fmt::format("the coils had been off by themselves {} times", resumed)});
