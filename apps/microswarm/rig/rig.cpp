@@ -158,7 +158,7 @@ struct CalibrateOptions {
 int calibrate(const CalibrateOptions& o) {
   keep_input(o.out, o.measured);
   const FieldMeasurements measured = read_measurements(o.measured);
-  const FittedMatrix fit = fit_matrix(measured, o.offset);
+  const FittedMatrix fit = fit_matrix(measured, {.offset = o.offset});
   CoilSystemParams system;
   system.name = std::filesystem::path(o.measured).stem().string();
   system.coils = fit.coils;
