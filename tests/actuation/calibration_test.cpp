@@ -47,7 +47,8 @@ TEST(Calibration, FindsTheMatrixThatMadeTheFields) {
   EXPECT_LE(error_of_fit(exact), 1e-12);
   EXPECT_LE(exact.worst, 1e-12);
   const Eigen::Vector3d earth(0.02, -0.01, 0.045);
-  const auto offset = fit_matrix(parse_measurements(measured(9, 0, earth), "m.csv"), {.offset = true});
+  const auto offset =
+      fit_matrix(parse_measurements(measured(9, 0, earth), "m.csv"), {.offset = true});
   EXPECT_LE(error_of_fit(offset), 1e-12);
   EXPECT_NEAR(offset.coils.offset[2], 0.045, 1e-12);
   EXPECT_EQ(offset.coils.names, (std::vector<std::string>{"x", "y", "z", "w"}));
@@ -80,7 +81,8 @@ TEST(Calibration, NamesTheWorstPoint) {
 
 TEST(Calibration, RefusesWhatIsNotDetermined) {
   const auto refusal = [](const std::string& text, bool offset = false) {
-    return test::error_of([&] { fit_matrix(parse_measurements(text, "m.csv"), {.offset = offset}); });
+    return test::error_of(
+        [&] { fit_matrix(parse_measurements(text, "m.csv"), {.offset = offset}); });
   };
   const std::string header = "i_x_a,i_y_a,i_z_a,bx_mt,by_mt,bz_mt\n";
   EXPECT_EQ(refusal(header + "1,0,0,1,0,0\n0,1,0,0,1,0\n"),

@@ -6,7 +6,9 @@
 
 #include <utility>
 
+#include "microswarm/actuation/drivers/coil_drive.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/rig/runtime/rig_checks.hpp"
 
 namespace microswarm::cli {
 
@@ -49,6 +51,16 @@ void require_emergency_stop(const CoilOptions& o) {
     throw InputError(
         "no terminal, so no emergency key: with an emergency stop of another kind, run with "
         "--other-stop (Ctrl-C and SIGTERM set the coils to zero, too)");
+}
+
+Bench::Bench(const Rig& of, const CoilOptions& o) : rig(of) {
+  const bool real = has_coil_device(rig);
+  if (real) require_emergency_stop(o);
+  if (real && !o.without_limits) rig.keys.require_none(missing_limits(rig));
+  driver = open_coils(rig);
+  if (real) kept.emplace(rig, o.coils_cold);
+  temperatures = kept ? kept->at_start() : CoilDrive(rig.system.drives()).temperatures();
+  if (kept && !kept->known()) note("note: {}\n", kept->why_hot());
 }
 
 bool note_zero(bool confirmed) {

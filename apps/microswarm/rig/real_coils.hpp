@@ -5,8 +5,12 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <thread>
 
+#include "microswarm/rig/runtime/coil_temperatures.hpp"
+#include "microswarm/rig/runtime/devices.hpp"
 #include "support/cli.hpp"
 #include "support/command.hpp"
 
@@ -44,6 +48,17 @@ void add_coil_options(Command cmd, CoilOptions& o);
 
 /// Throws InputError if there is no terminal, so no emergency key, and no other emergency stop.
 void require_emergency_stop(const CoilOptions& o);
+
+/// The coils of a rig that are driven by hand. Throws InputError if nobody can stop them or limits
+/// are missing, HardwareError if the device fails.
+struct Bench {
+  Bench(const Rig& of, const CoilOptions& o);
+
+  const Rig& rig;
+  std::unique_ptr<CoilDriver> driver;
+  std::optional<CoilTemperatures> kept;
+  Eigen::VectorXd temperatures;  ///< [°C]
+};
 
 /// Says it on stderr if the coils are not known to be at zero. Returns whether they are.
 bool note_zero(bool confirmed);

@@ -146,11 +146,10 @@ struct Solver {
   }
   /// Square roots of the diagonal of (XᵀX)⁻¹.
   Eigen::VectorXd spread() const {
-    const Eigen::MatrixXd inverse =
-        qr.matrixR()
-            .topLeftCorner(qr.cols(), qr.cols())
-            .triangularView<Eigen::Upper>()
-            .solve(Eigen::MatrixXd::Identity(qr.cols(), qr.cols()));
+    const Eigen::MatrixXd inverse = qr.matrixR()
+                                        .topLeftCorner(qr.cols(), qr.cols())
+                                        .triangularView<Eigen::Upper>()
+                                        .solve(Eigen::MatrixXd::Identity(qr.cols(), qr.cols()));
     return qr.colsPermutation() * inverse.rowwise().norm();
   }
 
@@ -189,11 +188,10 @@ constexpr double weight_of_unknown = 1e-3;  // smaller entries of the null space
   }
   for (std::size_t k = 0; k < 5; ++k)
     if (named[k]) open.emplace_back(gradient_names[k]);
-  throw InputError(
-      fmt::format("{}: {} measurements do not tell {} of {}: each needs three positions or more "
-                  "that are not on one line",
-                  measured.file, measured.rows.size(), fmt::join(open, ", "),
-                  fmt::join(sources, ", ")));
+  throw InputError(fmt::format(
+      "{}: {} measurements do not tell {} of {}: each needs three positions or more "
+      "that are not on one line",
+      measured.file, measured.rows.size(), fmt::join(open, ", "), fmt::join(sources, ", ")));
 }
 
 /// Writes the solution of a source to the coils, or to the field without current.
@@ -221,11 +219,11 @@ void find_errors(const Design& design, const Solver& solver, FittedMatrix& resul
   for (int k = 0; k < 8; ++k) {
     if (apart && k >= 3) break;
     // Without gradients each axis has its own noise; with them the axes share their unknowns.
-    const double squares = measured * (apart ? result.rms[k] * result.rms[k]
-                                             : result.total_rms * result.total_rms);
+    const double squares =
+        measured * (apart ? result.rms[k] * result.rms[k] : result.total_rms * result.total_rms);
     const double freedom = static_cast<double>(result.freedom) / (apart ? 3 : 1);
-    const double noise = freedom > 0 ? std::sqrt(squares / freedom)
-                                     : std::numeric_limits<double>::quiet_NaN();
+    const double noise =
+        freedom > 0 ? std::sqrt(squares / freedom) : std::numeric_limits<double>::quiet_NaN();
     for (Eigen::Index s = 0; s < n; ++s) {
       const double error = noise * spread[apart ? s : 8 * s + k] / design.most(s);
       if (k < 3)

@@ -167,8 +167,8 @@ namespace {
 /// The rows of a matrix with a column for each of `columns` coils.
 Eigen::MatrixXd matrix_of(const std::vector<std::vector<double>>& rows, std::size_t count,
                           std::size_t columns, const std::string& key, Issues& issues) {
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(count),
-                                                 static_cast<Eigen::Index>(columns));
+  Eigen::MatrixXd matrix =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(columns));
   if (rows.size() != count) {
     issues.add(key, fmt::format("{} has {} rows, must have {}", key, rows.size(), count));
     return matrix;

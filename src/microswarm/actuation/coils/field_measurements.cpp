@@ -16,7 +16,7 @@ namespace microswarm {
 namespace {
 
 constexpr std::uint64_t max_bytes = 64ULL << 20;
-constexpr double largest = 1e9;  // maximum of any number in the file
+constexpr double max_number = 1e9;  // maximum of any number in the file
 
 constexpr std::array<std::string_view, 3> field_columns{"bx_mt", "by_mt", "bz_mt"};
 constexpr std::array<std::string_view, 3> place_columns{"x_um", "y_um", "z_um"};
@@ -71,9 +71,9 @@ FieldMeasurements parse_measurements(std::string_view text, std::string_view nam
       rows.fail(fmt::format("{} fields, the header has {}", pieces.size(), columns.count));
     const auto value = [&](std::size_t column, std::string_view what) {
       const double number = rows.number(pieces[column], what);
-      if (!(std::abs(number) <= largest))
+      if (!(std::abs(number) <= max_number))
         rows.fail(
-            fmt::format("{} is {}, at most {}", what, number_text(number), number_text(largest)));
+            fmt::format("{} is {}, at most {}", what, number_text(number), number_text(max_number)));
       return number;
     };
     FieldMeasurement row{.currents = Eigen::VectorXd(measured.coils.size()), .line = rows.line()};
