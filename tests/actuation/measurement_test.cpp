@@ -32,7 +32,7 @@ TEST(MeasurementPlan, HoldsEveryCurrentForEver) {
   EXPECT_TRUE(steps[0].currents.isZero());
   EXPECT_LT(steps[2].currents[0], 4.5);  // heat allows less than the current's limit
   EXPECT_NEAR(steps[1].currents[0], 0.5 * steps[2].currents[0], 1e-12);
-  EXPECT_NEAR(steps[6].currents[1], 1.9, 1e-12);  // 80 %, two digits
+  EXPECT_EQ(steps[6].currents[1], 1.9);  // 80 %, two digits
   EXPECT_EQ(steps[9].currents, Eigen::VectorXd(steps[2].currents + steps[6].currents));
   EXPECT_EQ(steps[10].place, Eigen::Vector3d(5, 0, 0));
 }

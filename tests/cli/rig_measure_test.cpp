@@ -27,7 +27,7 @@ class RigMeasure : public CommandLine {
     write("coils.yaml",
           "name: bench coils\ncoils: {type: helmholtz}\ndrives:\n  - {resistance_ohm: 0.9, "
           "inductance_mh: 2.5, thermal_resistance_k_per_w: 2.5, thermal_time_s: 400, "
-          "max_current_a: 10, max_voltage_v: 24, max_temperature_degc: 90}\n");
+          "max_current_a: 12, max_voltage_v: 24, max_temperature_degc: 90}\n");
     write("rig.yaml",
           "name: bench\ncoils: coils.yaml\ndrive_rate_hz: 100\n"
           "field: {kind: rotating, amplitude_mt: 8, frequency_hz: 10, max_pitch_deg: 7.5}\n"
@@ -101,6 +101,7 @@ TEST_F(RigMeasure, AnOperatorIsGuidedToMatrixAndGradients) {
   const CoilSystem system = read_coil_system(at.folder / "fitted.yaml");
   EXPECT_EQ(system.name(), "bench coils");
   EXPECT_EQ(system.drives().at(0).max_temperature, 90);
+  EXPECT_EQ(system.drives().at(0).max_current, 12);  // that of the file, not the driver's 10 A
   EXPECT_EQ(system.centre(), Eigen::Vector3d(2500, 2500, 0));
   const Eigen::MatrixXd gradients = system.at({0, 0, 0}).gradients / mt_per_um_of_t_per_m;
   EXPECT_LE((gradients - truth_G).cwiseAbs().maxCoeff(), 1e-3) << gradients;

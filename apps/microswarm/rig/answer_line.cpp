@@ -98,6 +98,7 @@ std::optional<std::string> AnswerLine::poll() {
   if (end == std::string::npos) return std::nullopt;
   std::string line = typed_.substr(0, end);
   typed_.erase(0, end + 1);
+  note("{}\n", line);
   return line;
 }
 

@@ -237,9 +237,11 @@ Outcome Guide::hold(const MeasurementStep& step, const std::string& what) {
   trouble_.clear();
   currents_ = Eigen::VectorXd::Zero(step.currents.size());
   std::string question = what;
-  if (rig_.system.in_workspace(step.place))
-    question += fmt::format(", {} mT expected",
-                            triple_text(rig_.system.at(step.place).field_of(step.currents).eval()));
+  if (rig_.system.in_workspace(step.place)) {
+    const Eigen::Vector3d b = rig_.system.at(step.place).field_of(step.currents);
+    const auto shown = [&](Eigen::Index k) { return tidy(b[k], 1e3 * b.norm()); };
+    question += fmt::format(", ({:.4g}, {:.4g}, {:.4g}) mT expected", shown(0), shown(1), shown(2));
+  }
   question += ". Bx By Bz in mT: ";
   const ManualCommand command{.wanted = step.currents,
                               .seconds = 2 * o_.ramp + o_.settle + o_.hold,
@@ -360,7 +362,7 @@ void add_measure_options(Command cmd, MeasureOptions& o) {
 
 int measure(const Rig& rig, const MeasureOptions& o, const FitOptions& fit, const std::string& file,
             const Context& context) {
-  if (o.dwell > o.hold) throw InputError("--dwell: is longer than --hold");
+  if (!o.probe.empty() && o.dwell > o.hold) throw InputError("--dwell: is longer than --hold");
   const std::vector<MeasurementStep> steps =
       measurement_plan(rig.system, {.places = positions_of(o.positions, rig.system),
                                     .current = o.current,

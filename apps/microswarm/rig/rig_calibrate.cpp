@@ -72,10 +72,10 @@ void tell_json(const Calibration& of) {
 void tell_gradients(const Calibration& of) {
   constexpr std::array<const char*, 5> names{"dBx/dx", "dBx/dy", "dBx/dz", "dBy/dy", "dBy/dz"};
   const FittedMatrix& fit = of.fit;
-  cli::print("gradients about ({:.6g}) µm\n", fmt::join(fit.coils.centre, ", "));
+  cli::print("fields and gradients are those at ({:.6g}) µm\n", fmt::join(fit.coils.centre, ", "));
   for (std::size_t k = 0; k < 5; ++k)
     cli::print("  {} = {:.6g} T/m/A, without current {:.6g} T/m\n", names[k],
-          fmt::join(fit.coils.gradient[k], ", "), fit.coils.offset_gradient[k]);
+               fmt::join(fit.coils.gradient[k], ", "), fit.coils.offset_gradient[k]);
   const Eigen::Vector3d& r = of.uniform->rms;
   cli::print("RMS residuals without gradients ({:.4g}, {:.4g}, {:.4g}) mT\n", r[0], r[1], r[2]);
 }
@@ -84,21 +84,21 @@ void tell(const Calibration& of) {
   const FittedMatrix& fit = of.fit;
   const FieldMeasurement& worst = of.measured.rows[fit.worst_row];
   cli::print("{} measurements of {} coils: {}\n", of.measured.rows.size(), of.measured.coils.size(),
-        fmt::join(of.measured.coils, ", "));
+             fmt::join(of.measured.coils, ", "));
   for (std::size_t k = 0; k < 3; ++k)
     cli::print("  B{} = {:.6g} mT/A, without current {:.6g} mT; RMS residual {:.4g} mT\n", "xyz"[k],
-          fmt::join(fit.coils.field[k], ", "), fit.coils.offset[k],
-          fit.rms[static_cast<Eigen::Index>(k)]);
+               fmt::join(fit.coils.field[k], ", "), fit.coils.offset[k],
+               fit.rms[static_cast<Eigen::Index>(k)]);
   if (of.uniform) tell_gradients(of);
   cli::print("RMS residual {:.4g} mT; the worst is {:.4g} mT, line {}, at {} µm\n", fit.total_rms,
-        fit.worst, worst.line, triple_text(worst.place));
+             fit.worst, worst.line, triple_text(worst.place));
   if (fit.freedom == 0) return;
   const LargestError error = largest_error(fit);
   cli::print("standard errors of the fields: at most {:.2g} % of a coil's, that of {}\n",
-        100 * error.share, fit.coils.names[error.coil]);
+             100 * error.share, fit.coils.names[error.coil]);
   if (of.uniform)
     cli::print("standard errors of the gradients: at most {:.2g} T/m/A\n",
-          fit.gradient_errors.maxCoeff());
+               fit.gradient_errors.maxCoeff());
 }
 
 Calibration fit_file(const std::string& file, const FitOptions& options) {
@@ -144,12 +144,14 @@ int calibrate(const CalibrateOptions& o, const Context& context) {
   if (!o.measure.rig.empty()) {
     const Rig rig = reading([&] { return read_rig(o.measure.rig, {o.measure.settings, "--set"}); });
     keep_input(o.out, o.measure.rig);
-    keep_input(o.out, (rig.folder / rig.params.coils).string());
+    const std::filesystem::path coils = rig.folder / rig.params.coils;
+    keep_input(o.out, coils.string());
     options.offset = true;  // the plan measures it
     if (const int code = measure(rig, o.measure, options, o.measured, context); code != ok)
       return code;
     if (!rig.system.name().empty()) system.name = rig.system.name();
-    system.drives = rig.system.drives();
+    // Those of the file: the rig's are limited by the driver's full scale, too.
+    system.drives = read_coil_system(coils).drives();
   }
   return fit_and_tell(o, options, std::move(system));
 }

@@ -201,7 +201,7 @@ void put(const Design& design, const Eigen::MatrixXd& fit, Eigen::Index source, 
   const double most = design.most(source);
   for (std::size_t k = 0; k < 3; ++k) {
     const double value = design.sides() == 3 ? fit(source, whole(k)) : fit(8 * source + whole(k));
-    (is_coil ? to.field[k][i] : to.offset[k]) = value / most;
+    (is_coil ? to.field[k][i] : to.offset[k]) = value / most + 0.0;  // no -0
   }
   if (design.sides() == 3) return;
   const double slope = 1 / (most * design.length() * mt_per_um_of_t_per_m);

@@ -34,7 +34,7 @@ bool is_row(std::string_view line) {
 std::string row_text(const Eigen::VectorXd& currents, const Eigen::Vector3d& place,
                      const FieldReading& reading) {
   std::vector<std::string> cells;
-  for (const double current : currents) cells.push_back(number_text(current));
+  for (const double current : currents) cells.push_back(number_text(current + 0.0));  // no -0
   for (const double x : place) cells.push_back(number_text(x));
   for (const double b : reading.mean) cells.push_back(number_text(b));
   cells.push_back(std::to_string(reading.count));

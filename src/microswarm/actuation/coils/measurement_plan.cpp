@@ -19,9 +19,11 @@ constexpr double same_place = 1e-3;  // [µm]
 
 /// Rounded down to two significant digits, so that people read it and devices resolve it.
 double two_digits(double x) {
-  double unit = 1e-9;
-  while (100 * unit <= x) unit *= 10;
-  return std::floor(x / unit * (1 + 1e-12)) * unit;
+  if (x < 1e-6) return 0;
+  double per = 1;
+  while (x * per < 10) per *= 10;
+  while (x * per >= 100) per /= 10;
+  return std::floor(x * per * (1 + 1e-12)) / per;
 }
 
 /// The largest current of each coil in the plan [A].
