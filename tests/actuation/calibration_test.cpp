@@ -43,11 +43,12 @@ double error_of_fit(const FittedMatrix& fit) {
 }
 
 TEST(Calibration, FindsTheMatrixThatMadeTheFields) {
-  const auto exact = fit_matrix(parse_measurements(measured(4, 0, {0, 0, 0}), "m.csv"), false);
+  const auto exact = fit_matrix(parse_measurements(measured(4, 0, {0, 0, 0}), "m.csv"));
   EXPECT_LE(error_of_fit(exact), 1e-12);
   EXPECT_LE(exact.worst, 1e-12);
   const Eigen::Vector3d earth(0.02, -0.01, 0.045);
-  const auto offset = fit_matrix(parse_measurements(measured(9, 0, earth), "m.csv"), true);
+  const auto offset =
+      fit_matrix(parse_measurements(measured(9, 0, earth), "m.csv"), {.offset = true});
   EXPECT_LE(error_of_fit(offset), 1e-12);
   EXPECT_NEAR(offset.coils.offset[2], 0.045, 1e-12);
   EXPECT_EQ(offset.coils.names, (std::vector<std::string>{"x", "y", "z", "w"}));
@@ -55,7 +56,7 @@ TEST(Calibration, FindsTheMatrixThatMadeTheFields) {
 
 TEST(Calibration, ResidualsAreTheNoiseAndOrthogonalToTheCurrents) {
   const FieldMeasurements rows = parse_measurements(measured(400, 0.1, {0, 0, 0}), "m.csv");
-  const FittedMatrix fit = fit_matrix(rows, false);
+  const FittedMatrix fit = fit_matrix(rows);
   EXPECT_LE(error_of_fit(fit), 0.01);
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(fit.rms[k], 0.1 / std::sqrt(3), 0.005);
   EXPECT_NEAR(fit.total_rms, fit.rms.norm(), 1e-15);
@@ -72,7 +73,7 @@ TEST(Calibration, NamesTheWorstPoint) {
   std::string text = measured(30, 0, {0, 0, 0});
   text += "1,1,1,1,300,9,9,9\n";
   const FieldMeasurements rows = parse_measurements(text, "m.csv");
-  const FittedMatrix fit = fit_matrix(rows, false);
+  const FittedMatrix fit = fit_matrix(rows);
   EXPECT_EQ(fit.worst_row, 30u);
   EXPECT_EQ(rows.rows[fit.worst_row].line, 33);
   EXPECT_EQ(rows.rows[fit.worst_row].place, Eigen::Vector3d(300, 0, 0));
@@ -80,7 +81,8 @@ TEST(Calibration, NamesTheWorstPoint) {
 
 TEST(Calibration, RefusesWhatIsNotDetermined) {
   const auto refusal = [](const std::string& text, bool offset = false) {
-    return test::error_of([&] { fit_matrix(parse_measurements(text, "m.csv"), offset); });
+    return test::error_of(
+        [&] { fit_matrix(parse_measurements(text, "m.csv"), {.offset = offset}); });
   };
   const std::string header = "i_x_a,i_y_a,i_z_a,bx_mt,by_mt,bz_mt\n";
   EXPECT_EQ(refusal(header + "1,0,0,1,0,0\n0,1,0,0,1,0\n"),

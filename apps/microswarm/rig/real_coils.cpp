@@ -3,7 +3,9 @@
 
 #include <unistd.h>
 
+#include "microswarm/actuation/drivers/coil_drive.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/rig/runtime/rig_checks.hpp"
 #include "rig/rig_keys.hpp"
 
 namespace microswarm::cli {
@@ -27,6 +29,16 @@ void note_how_to_stop(bool has_keys, const char* keys) {
     note("space, e or Esc: coils to zero at once{}\n", keys);
   else
     note("to stop: `kill -INT {}`, or the emergency stop of the device\n", ::getpid());
+}
+
+Bench::Bench(const Rig& of, const CoilOptions& o) : rig(of) {
+  const bool real = has_coil_device(rig);
+  if (real) require_emergency_stop(o);
+  if (real && !o.without_limits) rig.keys.require_none(missing_limits(rig));
+  driver = open_coils(rig);
+  if (real) kept.emplace(rig, o.coils_cold);
+  temperatures = kept ? kept->at_start() : CoilDrive(rig.system.drives()).temperatures();
+  if (kept && !kept->known()) note("note: {}\n", kept->why_hot());
 }
 
 bool note_zero(bool confirmed) {

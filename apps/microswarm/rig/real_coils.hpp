@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+#include <optional>
+
+#include "microswarm/rig/runtime/coil_temperatures.hpp"
+#include "microswarm/rig/runtime/devices.hpp"
 #include "support/cli.hpp"
 #include "support/command.hpp"
 
@@ -21,6 +26,17 @@ void require_emergency_stop(const CoilOptions& o);
 
 /// Says on stderr how to stop: by keys, of which `keys` are further ones, or from elsewhere.
 void note_how_to_stop(bool has_keys, const char* keys);
+
+/// The coils of a rig that are driven by hand. Throws InputError if nobody can stop them or limits
+/// are missing, HardwareError if the device fails.
+struct Bench {
+  Bench(const Rig& of, const CoilOptions& o);
+
+  const Rig& rig;
+  std::unique_ptr<CoilDriver> driver;
+  std::optional<CoilTemperatures> kept;
+  Eigen::VectorXd temperatures;  ///< [°C]
+};
 
 /// Says it on stderr if the coils are not known to be at zero. Returns whether they are.
 bool note_zero(bool confirmed);

@@ -2,18 +2,14 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "microswarm/actuation/coils/calibration.hpp"
 #include "microswarm/actuation/coils/coil_system.hpp"
 #include "microswarm/actuation/coils/currents.hpp"
 #include "microswarm/actuation/drivers/coil_drive.hpp"
-#include "microswarm/config/write.hpp"
 #include "microswarm/core/errors/error.hpp"
-#include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "rig/rig.hpp"
 #include "support/options.hpp"
@@ -46,6 +42,10 @@ Eigen::VectorXd currents_of(const std::string& text, const CoilSystem& system) {
   return Eigen::Map<const Eigen::VectorXd>(given.data(), static_cast<Eigen::Index>(given.size()));
 }
 
+std::string triple_text(const Eigen::Vector3d& v) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", v[0], v[1], v[2]);
+}
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -62,10 +62,6 @@ Json json_of(const Eigen::VectorXd& v) {
   Json list = Json::array();
   for (const double x : v) list.push_back(x);
   return list;
-}
-
-std::string text_of(const Eigen::Vector3d& v) {
-  return fmt::format("({:.6g}, {:.6g}, {:.6g})", v[0], v[1], v[2]);
 }
 
 std::string text_of(const LimitHit& hit, const CoilSystem& system) {
@@ -90,7 +86,7 @@ std::string why_not(const CurrentsForField& found) {
   if (found.rank == 0) return "the coils make no field there";
   std::string ways;
   for (const Eigen::Vector3d way : found.missing.colwise())
-    ways += (ways.empty() ? "" : " and ") + text_of(way);
+    ways += (ways.empty() ? "" : " and ") + triple_text(way);
   return fmt::format("the coils make no field along {}: {:.6g} mT are missing", ways,
                      found.short_by);
 }
@@ -128,10 +124,10 @@ int field(const FieldOptions& o) {
     }
     print("{}\n", json.dump(2));
   } else {
-    print("{} at {} µm{}\n", system.name().empty() ? o.system : system.name(), text_of(place),
+    print("{} at {} µm{}\n", system.name().empty() ? o.system : system.name(), triple_text(place),
           system.in_workspace(place) ? "" : ", outside of the calibrated workspace");
     const Eigen::Vector3d clean = made.unaryExpr([&](double b) { return tidy(b, made.norm()); });
-    print("field {} mT, {:.6g} mT in all\n", text_of(clean), made.norm());
+    print("field {} mT, {:.6g} mT in all\n", triple_text(clean), made.norm());
     // In T/m; entries negligible relative to the field over one metre are rounded to 0.
     const auto of_slope = [&](Eigen::Index i) { return tidy(slope[i], made.norm() / 1e3); };
     print(
@@ -146,54 +142,6 @@ int field(const FieldOptions& o) {
     if (!held.hits.empty()) print("scaled to {:.1f} % of what was asked for\n", 100 * held.scale);
   }
   return unmade || !held.hits.empty() ? not_reached : ok;
-}
-
-struct CalibrateOptions {
-  std::string measured;
-  std::string out;
-  bool offset = false;
-  bool json = false;
-};
-
-int calibrate(const CalibrateOptions& o) {
-  keep_input(o.out, o.measured);
-  const FieldMeasurements measured = read_measurements(o.measured);
-  const FittedMatrix fit = fit_matrix(measured, o.offset);
-  CoilSystemParams system;
-  system.name = std::filesystem::path(o.measured).stem().string();
-  system.coils = fit.coils;
-  if (!o.out.empty()) {
-    write_file_atomically(o.out, to_yaml(system));
-    note("note: {} names no limits of the coils: add its `drives`\n", o.out);
-  }
-  const std::size_t unknowns = measured.coils.size() + (o.offset ? 1 : 0);
-  if (measured.rows.size() <= unknowns)
-    note("note: {} measurements for {} unknowns: the residuals tell nothing\n",
-         measured.rows.size(), unknowns);
-  const FieldMeasurement& worst = measured.rows[fit.worst_row];
-  if (o.json) {
-    print("{}\n", Json{{"measurements", measured.rows.size()},
-                       {"coils", fit.coils.names},
-                       {"field_mt_per_a", fit.coils.field},
-                       {"offset_mt", fit.coils.offset},
-                       {"rms_mt", json_of(fit.rms)},
-                       {"rms_abs_mt", fit.total_rms},
-                       {"worst_mt", fit.worst},
-                       {"worst_line", worst.line},
-                       {"worst_at_um", json_of(worst.place)}}
-                      .dump(2));
-    return ok;
-  }
-  cli::print("{} measurements of {} coils: {}\n", measured.rows.size(), measured.coils.size(),
-             fmt::join(measured.coils, ", "));
-  for (std::size_t k = 0; k < 3; ++k)
-    cli::print("  B{} = {:.6g} mT/A, without current {:.6g} mT; RMS residual {:.4g} mT\n", "xyz"[k],
-               fmt::join(fit.coils.field[k], ", "), fit.coils.offset[k],
-               fit.rms[static_cast<Eigen::Index>(k)]);
-  print("RMS residual {:.4g} mT; the worst is {:.4g} mT, line {}, at {} µm\n", fit.total_rms,
-        fit.worst, worst.line, text_of(worst.place));
-  if (!o.out.empty()) print("wrote {}\n", o.out);
-  return ok;
 }
 
 void add_field(Command rig, Action& action) {
@@ -215,20 +163,6 @@ void add_field(Command rig, Action& action) {
   cmd.callback([o, &action] { action = [o](const Context&) { return field(*o); }; });
 }
 
-void add_calibrate(Command rig, Action& action) {
-  auto o = std::make_shared<CalibrateOptions>();
-  Command cmd = rig.add_command("calibrate", "Fit an actuation matrix to measured fields (CSV)",
-                                "rig calibrate measured.csv --out rig.yaml");
-  cmd.add_option("measured", o->measured,
-                 "CSV with i_NAME_a per coil, bx_mt, by_mt, bz_mt and optionally x_um, y_um, z_um")
-      .required()
-      .type_name("FILE");
-  cmd.add_option("--out", o->out, "Coil system to write (YAML)").type_name("FILE");
-  cmd.add_flag("--offset", o->offset, "Also fit the field at zero current");
-  add_json(cmd, o->json);
-  cmd.callback([o, &action] { action = [o](const Context&) { return calibrate(*o); }; });
-}
-
 }  // namespace
 
 void add_rig(Command app, Action& action) {
@@ -244,7 +178,7 @@ void add_rig(Command app, Action& action) {
   add_rig_drive(rig, action);
   add_rig_simulate(rig, action);
   add_rig_run(rig, action);
-  add_calibrate(rig, action);
+  add_rig_calibrate(rig, action);
 }
 
 }  // namespace microswarm::cli

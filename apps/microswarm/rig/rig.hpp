@@ -19,11 +19,16 @@ Check triple(const char* form, double most);
 /// The numbers of a text accepted by `triple`.
 Eigen::Vector3d triple_of(const std::string& text);
 
+/// "(1, 0, 0)".
+std::string triple_text(const Eigen::Vector3d& v);
+
 /// Parses "1,0,0", one current for each coil. Throws InputError.
 Eigen::VectorXd currents_of(const std::string& text, const CoilSystem& system);
 
 /// Adds `rig map`.
 void add_rig_map(Command rig, Action& action);
+/// Adds `rig calibrate`.
+void add_rig_calibrate(Command rig, Action& action);
 /// Adds `rig scale`.
 void add_rig_scale(Command rig, Action& action);
 /// Adds `rig cameras`.

@@ -8,10 +8,7 @@
 
 #include "microswarm/actuation/coils/currents.hpp"
 #include "microswarm/core/maths/angles.hpp"
-#include "microswarm/rig/runtime/coil_temperatures.hpp"
-#include "microswarm/rig/runtime/devices.hpp"
 #include "microswarm/rig/runtime/manual_drive.hpp"
-#include "microswarm/rig/runtime/rig_checks.hpp"
 #include "rig/real_coils.hpp"
 #include "rig/rig.hpp"
 #include "rig/rig_keys.hpp"
@@ -31,24 +28,6 @@ struct DriveOptions {
   double seconds = 5;
   double ramp = 0.5;
   CoilOptions coils;
-};
-
-/// The coils of a rig that are driven by hand.
-struct Bench {
-  Bench(const Rig& of, const CoilOptions& o) : rig(of) {
-    const bool real = has_coil_device(rig);
-    if (real) require_emergency_stop(o);
-    if (real && !o.without_limits) rig.keys.require_none(missing_limits(rig));
-    driver = open_coils(rig);
-    if (real) kept.emplace(rig, o.coils_cold);
-    temperatures = kept ? kept->at_start() : CoilDrive(rig.system.drives()).temperatures();
-    if (kept && !kept->known()) note("note: {}\n", kept->why_hot());
-  }
-
-  const Rig& rig;
-  std::unique_ptr<CoilDriver> driver;
-  std::optional<CoilTemperatures> kept;
-  Eigen::VectorXd temperatures;  ///< [°C]
 };
 
 /// Drives and says how it ended. Returns the exit code.

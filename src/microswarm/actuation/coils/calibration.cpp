@@ -4,174 +4,298 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/QR>
-#include <algorithm>
+#include <array>
 #include <cmath>
-#include <optional>
+#include <limits>
 
-#include "microswarm/actuation/coils/text_rows.hpp"
 #include "microswarm/core/errors/error.hpp"
-#include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
 
 namespace microswarm {
 namespace {
 
-constexpr std::uint64_t max_bytes = 64ULL << 20;
-constexpr double largest = 1e9;       // maximum of any number in the file
-constexpr double min_current = 1e-9;  // [A] smaller currents count as zero
-// Currents that differ by less than this relative amount are equal.
+constexpr double min_current = 1e-9;   // [A] smaller currents count as zero
+constexpr double min_distance = 1e-6;  // [µm] so do smaller distances
+// Currents and positions that differ by less than this relative amount are equal.
 constexpr double min_difference = 1e-6;
 
-constexpr std::array<std::string_view, 3> field_columns{"bx_mt", "by_mt", "bz_mt"};
-constexpr std::array<std::string_view, 3> place_columns{"x_um", "y_um", "z_um"};
+constexpr std::array<const char*, 5> gradient_names{"dBx/dx", "dBx/dy", "dBx/dz", "dBy/dy",
+                                                    "dBy/dz"};
 
-/// Column indices in the header.
-struct Columns {
-  std::size_t count = 0;
-  std::vector<std::size_t> currents;
-  std::array<std::size_t, 3> field{};
-  std::array<std::optional<std::size_t>, 3> place;
+Eigen::Index whole(std::size_t n) { return static_cast<Eigen::Index>(n); }
+
+/// Field at `off` from the centre as a linear function of five gradients.
+Eigen::Matrix<double, 3, 5> field_of_gradients(const Eigen::Vector3d& off) {
+  Eigen::Matrix<double, 3, 5> m;
+  for (int k = 0; k < 5; ++k) m.col(k) = gradient_of(FiveGradients::Unit(k)) * off;
+  return m;
+}
+
+/// What is measured as a linear function of what is fitted. Without gradients the axes are apart:
+/// a row for each measurement, a column for each source, three right-hand sides. With them a
+/// measurement has three rows, a source 3 + 5 columns, and there is one right-hand side. A source
+/// is a coil or the field at zero current; all columns are scaled to be at most about 1.
+class Design {
+ public:
+  Design(const FieldMeasurements& measured, const FitOptions& options)
+      : measured_(measured), gradients_(options.gradients), offset_(options.offset) {
+    const Eigen::Index n = whole(measured.coils.size());
+    most_ = Eigen::VectorXd::Constant(n, 0);
+    Eigen::AlignedBox3d box;
+    for (const FieldMeasurement& row : measured.rows) {
+      most_ = most_.cwiseMax(row.currents.cwiseAbs());
+      box.extend(row.place);
+    }
+    for (double& most : most_)
+      if (most < min_current) most = 1;
+    centre_ = options.centre.value_or(gradients_ ? Eigen::Vector3d(box.center())
+                                                 : Eigen::Vector3d::Zero());
+    for (const Eigen::Vector3d& corner : {box.min(), box.max()})
+      length_ = std::max(length_, (corner - centre_).cwiseAbs().maxCoeff());
+    if (length_ < min_distance) length_ = 1;
+  }
+
+  Eigen::Index sources() const { return most_.size() + (offset_ ? 1 : 0); }
+  Eigen::Index rows_each() const { return gradients_ ? 3 : 1; }
+  Eigen::Index columns_each() const { return gradients_ ? 8 : 1; }
+  Eigen::Index columns() const { return sources() * columns_each(); }
+  Eigen::Index sides() const { return gradients_ ? 1 : 3; }
+  const Eigen::Vector3d& centre() const { return centre_; }
+  /// Amount of a source by which its columns were divided [A]; 1 for the field at zero current.
+  double most(Eigen::Index source) const { return source < most_.size() ? most_[source] : 1; }
+  double length() const { return length_; }  ///< distance by which gradients were multiplied [µm]
+
+  /// The rows of a measurement, with the right-hand sides behind the columns.
+  Eigen::MatrixXd rows(const FieldMeasurement& row) const {
+    Eigen::MatrixXd rows(rows_each(), columns() + sides());
+    Eigen::Matrix<double, 3, 8> of_one;
+    if (gradients_) of_one << Eigen::Matrix3d::Identity(), slopes(row);
+    for (Eigen::Index s = 0; s < sources(); ++s) {
+      const double amount = s < most_.size() ? row.currents[s] / most_[s] : 1;
+      if (gradients_)
+        rows.middleCols(8 * s, 8) = amount * of_one;
+      else
+        rows(0, s) = amount;
+    }
+    if (gradients_)
+      rows.col(columns()) = row.field;
+    else
+      rows.rightCols(3) = row.field.transpose();
+    return rows;
+  }
+
+ private:
+  Eigen::Matrix<double, 3, 5> slopes(const FieldMeasurement& row) const {
+    return field_of_gradients((row.place - centre_) / length_);
+  }
+
+  const FieldMeasurements& measured_;
+  bool gradients_, offset_;
+  Eigen::VectorXd most_;
+  Eigen::Vector3d centre_;
+  double length_ = 0;
 };
 
-std::optional<std::size_t> find(const std::vector<std::string_view>& names, std::string_view name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - names.begin());
+/// The triangle R of a QR decomposition of the design, row by row, so that a long file takes the
+/// memory of a short one.
+Eigen::MatrixXd triangle_of(const Design& design, const FieldMeasurements& measured) {
+  const Eigen::Index columns = design.columns() + design.sides();
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(4 * columns + 3, columns);
+  Eigen::Index filled = 0;
+  const auto fold = [&] {
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(rows.topRows(filled));
+    const Eigen::Index left = std::min(filled, columns);
+    const Eigen::MatrixXd R = qr.matrixQR().topRows(left).triangularView<Eigen::Upper>();
+    rows.setZero();
+    rows.topRows(left) = R;
+    filled = left;
+  };
+  for (const FieldMeasurement& row : measured.rows) {
+    if (filled + design.rows_each() > rows.rows()) fold();
+    rows.middleRows(filled, design.rows_each()) = design.rows(row);
+    filled += design.rows_each();
+  }
+  fold();
+  return rows.topRows(columns);
 }
 
-Columns read_header(const TextRows& rows, std::vector<std::string>& coils) {
-  const std::vector<std::string_view> names = rows.pieces(',');
-  Columns columns{.count = names.size()};
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::string_view name = names[i];
-    if (std::find(names.begin() + static_cast<std::ptrdiff_t>(i) + 1, names.end(), name) !=
-        names.end())
-      rows.fail(fmt::format("column {} stands twice", quote(name)));
-    if (!name.starts_with("i_") || !name.ends_with("_a") || name.size() < 5) continue;
-    columns.currents.push_back(i);
-    coils.emplace_back(name.substr(2, name.size() - 4));
+/// A least-squares problem with pivots.
+struct Solver {
+  explicit Solver(const Design& design, const FieldMeasurements& measured) {
+    const Eigen::MatrixXd triangle = triangle_of(design, measured);
+    sides = triangle.rightCols(design.sides());
+    qr.setThreshold(min_difference);
+    qr.compute(triangle.leftCols(design.columns()));
   }
-  if (coils.empty() || coils.size() > 64)
-    rows.fail(fmt::format("{} columns of currents, i_NAME_a, 1..64 expected", coils.size()));
+  bool is_determined() const { return qr.rank() == qr.cols(); }
+  /// Basis of the null space; columns have length 1.
+  Eigen::MatrixXd null_space() const {
+    const Eigen::Index rank = qr.rank();
+    const Eigen::Index left = qr.cols() - rank;
+    Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(qr.cols(), left);
+    columns.topRows(rank) = -qr.matrixR()
+                                 .topLeftCorner(rank, rank)
+                                 .triangularView<Eigen::Upper>()
+                                 .solve(qr.matrixR().topRightCorner(rank, left));
+    columns.bottomRows(left).setIdentity();
+    columns = qr.colsPermutation() * columns;
+    columns.colwise().normalize();
+    return columns;
+  }
+  /// Square roots of the diagonal of (XᵀX)⁻¹.
+  Eigen::VectorXd spread() const {
+    const Eigen::MatrixXd inverse = qr.matrixR()
+                                        .topLeftCorner(qr.cols(), qr.cols())
+                                        .triangularView<Eigen::Upper>()
+                                        .solve(Eigen::MatrixXd::Identity(qr.cols(), qr.cols()));
+    return qr.colsPermutation() * inverse.rowwise().norm();
+  }
+
+  Eigen::MatrixXd sides;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+};
+
+constexpr double weight_of_unknown = 1e-3;  // smaller entries of the null space are rounding
+
+[[noreturn]] void fail_fields(const Solver& solver, const FieldMeasurements& measured,
+                              bool with_offset) {
+  std::vector<std::string> open;
+  const Eigen::MatrixXd unknown = solver.null_space();
+  for (std::size_t i = 0; i < measured.coils.size(); ++i)
+    if (unknown.row(whole(i)).norm() > weight_of_unknown) open.push_back(quote(measured.coils[i]));
+  throw InputError(fmt::format(
+      "{}: {} measurements do not tell the fields of {}: currents are missing that change each "
+      "of them apart from the others{}",
+      measured.file, measured.rows.size(), fmt::join(open, ", "),
+      with_offset ? ", and one without them all" : ""));
+}
+
+[[noreturn]] void fail_gradients(const Solver& solver, const FieldMeasurements& measured,
+                                 const Design& design) {
+  std::vector<std::string> open, sources;
+  const Eigen::MatrixXd unknown = solver.null_space();
+  std::array<bool, 5> named{};
+  for (Eigen::Index s = 0; s < design.sources(); ++s) {
+    bool any = false;
+    for (std::size_t k = 0; k < 5; ++k)
+      if (unknown.row(8 * s + 3 + whole(k)).norm() > weight_of_unknown) any = named[k] = true;
+    if (!any) continue;
+    const auto i = static_cast<std::size_t>(s);
+    sources.push_back(i < measured.coils.size() ? quote(measured.coils[i])
+                                                : "the field without current");
+  }
+  for (std::size_t k = 0; k < 5; ++k)
+    if (named[k]) open.emplace_back(gradient_names[k]);
+  throw InputError(fmt::format(
+      "{}: {} measurements do not tell {} of {}: each needs three positions or more "
+      "that are not on one line",
+      measured.file, measured.rows.size(), fmt::join(open, ", "), fmt::join(sources, ", ")));
+}
+
+/// Writes the solution of a source to the coils, or to the field without current.
+void put(const Design& design, const Eigen::MatrixXd& fit, Eigen::Index source, MatrixCoils& to) {
+  const auto i = static_cast<std::size_t>(source);
+  const bool is_coil = i < to.names.size();
+  const double most = design.most(source);
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::optional<std::size_t> at = find(names, field_columns[k]);
-    if (!at) rows.fail(fmt::format("column '{}' is missing", field_columns[k]));
-    columns.field[k] = *at;
-    columns.place[k] = find(names, place_columns[k]);
+    const double value = design.sides() == 3 ? fit(source, whole(k)) : fit(8 * source + whole(k));
+    (is_coil ? to.field[k][i] : to.offset[k]) = value / most + 0.0;  // no -0
   }
-  return columns;
+  if (design.sides() == 3) return;
+  const double slope = 1 / (most * design.length() * mt_per_um_of_t_per_m);
+  for (std::size_t k = 0; k < 5; ++k)
+    (is_coil ? to.gradient[k][i] : to.offset_gradient[k]) = fit(8 * source + 3 + whole(k)) * slope;
 }
 
-}  // namespace
-
-FieldMeasurements parse_measurements(std::string_view text, std::string_view name) {
-  TextRows rows(text, name);
-  FieldMeasurements measured{.file = std::string(name)};
-  if (!rows.next()) rows.fail("a header with the columns i_NAME_a, bx_mt, by_mt, bz_mt is missing");
-  const Columns columns = read_header(rows, measured.coils);
-  while (rows.next()) {
-    const std::vector<std::string_view> pieces = rows.pieces(',');
-    if (pieces.size() != columns.count)
-      rows.fail(fmt::format("{} fields, the header has {}", pieces.size(), columns.count));
-    const auto value = [&](std::size_t column, std::string_view what) {
-      const double number = rows.number(pieces[column], what);
-      if (!(std::abs(number) <= largest))
-        rows.fail(
-            fmt::format("{} is {}, at most {}", what, number_text(number), number_text(largest)));
-      return number;
-    };
-    FieldMeasurement row{.currents = Eigen::VectorXd(measured.coils.size()), .line = rows.line()};
-    for (std::size_t i = 0; i < measured.coils.size(); ++i)
-      row.currents[static_cast<Eigen::Index>(i)] =
-          value(columns.currents[i], "current of " + measured.coils[i]);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto d = static_cast<Eigen::Index>(k);
-      row.field[d] = value(columns.field[k], field_columns[k]);
-      row.place[d] = columns.place[k] ? value(*columns.place[k], place_columns[k]) : 0;
+void find_errors(const Design& design, const Solver& solver, FittedMatrix& result) {
+  const Eigen::Index n = whole(result.coils.names.size());
+  const auto measured = static_cast<double>(result.residuals.size());
+  const bool apart = design.sides() == 3;
+  result.field_errors.resize(3, n);
+  if (!apart) result.gradient_errors.resize(5, n);
+  const Eigen::VectorXd spread = solver.spread();
+  for (int k = 0; k < 8; ++k) {
+    if (apart && k >= 3) break;
+    // Without gradients each axis has its own noise; with them the axes share their unknowns.
+    const double squares =
+        measured * (apart ? result.rms[k] * result.rms[k] : result.total_rms * result.total_rms);
+    const double freedom = static_cast<double>(result.freedom) / (apart ? 3 : 1);
+    const double noise =
+        freedom > 0 ? std::sqrt(squares / freedom) : std::numeric_limits<double>::quiet_NaN();
+    for (Eigen::Index s = 0; s < n; ++s) {
+      const double error = noise * spread[apart ? s : 8 * s + k] / design.most(s);
+      if (k < 3)
+        result.field_errors(k, s) = error;
+      else
+        result.gradient_errors(k - 3, s) = error / (design.length() * mt_per_um_of_t_per_m);
     }
-    measured.rows.push_back(std::move(row));
   }
-  if (measured.rows.empty()) rows.fail("no measurements follow the header");
-  return measured;
 }
 
-FieldMeasurements read_measurements(const std::filesystem::path& path) {
-  return parse_measurements(read_file(path, max_bytes), path.string());
+void find_residuals(const Design& design, const FieldMeasurements& measured,
+                    const Eigen::MatrixXd& fit, FittedMatrix& result) {
+  for (const FieldMeasurement& row : measured.rows) {
+    const Eigen::MatrixXd rows = design.rows(row);
+    const Eigen::MatrixXd left =
+        rows.rightCols(design.sides()) - rows.leftCols(design.columns()) * fit;
+    const Eigen::Vector3d residual = left.reshaped();
+    result.rms += residual.cwiseAbs2();
+    if (residual.norm() > result.worst) {
+      result.worst = residual.norm();
+      result.worst_row = result.residuals.size();
+    }
+    result.residuals.push_back(residual);
+  }
+  result.rms = (result.rms / static_cast<double>(measured.rows.size())).cwiseSqrt();
+  result.total_rms = result.rms.norm();
 }
 
-namespace {
-
-/// Basis of the null space; columns have length 1.
-Eigen::MatrixXd null_space(const Eigen::ColPivHouseholderQR<Eigen::MatrixXd>& qr) {
-  const Eigen::Index rank = qr.rank();
-  const Eigen::Index left = qr.cols() - rank;
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(qr.cols(), left);
-  columns.topRows(rank) = -qr.matrixR()
-                               .topLeftCorner(rank, rank)
-                               .triangularView<Eigen::Upper>()
-                               .solve(qr.matrixR().topRightCorner(rank, left));
-  columns.bottomRows(left).setIdentity();
-  columns = qr.colsPermutation() * columns;
-  columns.colwise().normalize();
-  return columns;
+void require_fields(const FieldMeasurements& measured, const FitOptions& options) {
+  const Solver fields(Design(measured, {.offset = options.offset}), measured);
+  if (!fields.is_determined()) fail_fields(fields, measured, options.offset);
 }
 
 }  // namespace
 
-FittedMatrix fit_matrix(const FieldMeasurements& measured, bool with_offset) {
-  const auto n = static_cast<Eigen::Index>(measured.coils.size());
-  const auto count = static_cast<Eigen::Index>(measured.rows.size());
-  Eigen::MatrixXd inputs(count, n + (with_offset ? 1 : 0));
-  Eigen::MatrixXd fields(count, 3);
-  for (Eigen::Index r = 0; r < count; ++r) {
-    const FieldMeasurement& row = measured.rows[static_cast<std::size_t>(r)];
-    inputs.row(r).head(n) = row.currents.transpose();
-    fields.row(r) = row.field.transpose();
-  }
-  // Scale each column by its maximum, so small and large currents count alike.
-  Eigen::VectorXd scale = inputs.leftCols(n).cwiseAbs().colwise().maxCoeff().transpose();
-  for (double& s : scale)
-    if (s < min_current) s = 1;
-  inputs.leftCols(n) = inputs.leftCols(n) * scale.cwiseInverse().asDiagonal();
-  if (with_offset) inputs.col(n).setOnes();
+bool determines_gradients(const FieldMeasurements& measured, const FitOptions& options) {
+  const FitOptions with{.offset = options.offset, .gradients = true, .centre = options.centre};
+  return Solver(Design(measured, with), measured).is_determined();
+}
 
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(inputs);
-  qr.setThreshold(min_difference);
-  if (qr.rank() < inputs.cols()) {
-    std::vector<std::string> open;
-    const Eigen::MatrixXd unknown = null_space(qr);
-    for (Eigen::Index i = 0; i < n; ++i)
-      if (unknown.row(i).norm() > 1e-3)
-        open.push_back(quote(measured.coils[static_cast<std::size_t>(i)]));
-    throw InputError(fmt::format(
-        "{}: {} measurements do not tell the fields of {}: currents are missing that change each "
-        "of them apart from the others{}",
-        measured.file, count, fmt::join(open, ", "),
-        with_offset ? ", and one without them all" : ""));
+FittedMatrix fit_matrix(const FieldMeasurements& measured, const FitOptions& options) {
+  const Design design(measured, options);
+  const Solver solver(design, measured);
+  if (!solver.is_determined()) {
+    require_fields(measured, options);
+    fail_gradients(solver, measured, design);
   }
-  const Eigen::MatrixXd fit = qr.solve(fields);
-  const Eigen::MatrixXd residuals = fields - inputs * fit;
-
+  const Eigen::MatrixXd fit = solver.qr.solve(solver.sides);
   FittedMatrix result;
   result.coils.names = measured.coils;
   result.coils.field.assign(3, std::vector<double>(measured.coils.size()));
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    for (Eigen::Index i = 0; i < n; ++i)
-      result.coils.field[static_cast<std::size_t>(k)][static_cast<std::size_t>(i)] =
-          fit(i, k) / scale[i];
-    if (with_offset) result.coils.offset[static_cast<std::size_t>(k)] = fit(n, k);
-    result.rms[k] = std::sqrt(residuals.col(k).squaredNorm() / static_cast<double>(count));
+  if (options.gradients) {
+    result.coils.gradient.assign(5, std::vector<double>(measured.coils.size()));
+    result.coils.centre = {design.centre()[0], design.centre()[1], design.centre()[2]};
   }
-  result.total_rms = result.rms.norm();
-  for (Eigen::Index r = 0; r < count; ++r) {
-    result.residuals.emplace_back(residuals.row(r).transpose());
-    if (result.residuals.back().norm() > result.worst) {
-      result.worst = result.residuals.back().norm();
-      result.worst_row = static_cast<std::size_t>(r);
-    }
-  }
+  for (Eigen::Index s = 0; s < design.sources(); ++s) put(design, fit, s, result.coils);
+  find_residuals(design, measured, fit, result);
+  const auto unknowns = static_cast<std::size_t>(design.columns() * design.sides());
+  result.freedom = std::max(3 * measured.rows.size(), unknowns) - unknowns;
+  find_errors(design, solver, result);
   return result;
+}
+
+LargestError largest_error(const FittedMatrix& fit) {
+  LargestError largest;
+  for (std::size_t i = 0; i < fit.coils.names.size(); ++i) {
+    const Eigen::Vector3d field(fit.coils.field[0][i], fit.coils.field[1][i],
+                                fit.coils.field[2][i]);
+    const double share = fit.field_errors.col(whole(i)).maxCoeff() / field.norm();
+    if (i == 0 || share > largest.share) largest = {i, share};
+  }
+  return largest;
 }
 
 }  // namespace microswarm

@@ -1,36 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <filesystem>
-#include <string>
-#include <string_view>
+#include <optional>
 #include <vector>
 
 #include "microswarm/actuation/coils/coil_system.hpp"
+#include "microswarm/actuation/coils/field_measurements.hpp"
 
 namespace microswarm {
 
-/// One measurement: the currents in the coils and the field of a probe.
-struct FieldMeasurement {
-  Eigen::VectorXd currents;  ///< [A]
-  Eigen::Vector3d place;     ///< [µm]
-  Eigen::Vector3d field;     ///< measured by the probe [mT]
-  int line = 0;              ///< line in the file
+/// What is fitted besides the actuation matrix.
+struct FitOptions {
+  bool offset = false;     ///< the field at zero current, with `gradients` also its gradients
+  bool gradients = false;  ///< the five independent gradients of each coil in free space
+  /// Where the matrix holds if there are gradients [µm]; empty: the middle of the positions.
+  std::optional<Eigen::Vector3d> centre{};
 };
-
-/// Measurements of one system.
-struct FieldMeasurements {
-  std::string file;                ///< file name for error messages
-  std::vector<std::string> coils;  ///< names
-  std::vector<FieldMeasurement> rows;
-};
-
-/// Reads a CSV file with a header. Columns: `i_NAME_a` for the current of each coil; bx_mt, by_mt,
-/// bz_mt; and optionally x_um, y_um, z_um, which default to 0. Throws InputError "NAME:LINE: WHY".
-FieldMeasurements read_measurements(const std::filesystem::path& path);
-/// Parses the same format from text.
-FieldMeasurements parse_measurements(std::string_view text, std::string_view name);
 
 /// An actuation matrix fitted to measurements, with its residuals.
 struct FittedMatrix {
@@ -40,11 +25,27 @@ struct FittedMatrix {
   double worst = 0;                               ///< largest |residual| [mT]
   std::size_t worst_row = 0;
   std::vector<Eigen::Vector3d> residuals;  ///< measured − fitted, row by row [mT]
+  std::size_t freedom = 0;                 ///< measured numbers less fitted ones
+  /// Standard errors of the coils' fields [mT/A] and gradients [T/m/A], like `coils`; NaN without
+  /// freedom.
+  Eigen::MatrixXd field_errors, gradient_errors;
 };
 
-/// Fits the matrix A and, with `with_offset`, the field b at zero current by minimising
-/// Σ |B − A I − b|². Throws InputError if the measurements do not determine the fit; the message
-/// names the coils whose currents were never varied, or never varied independently of others.
-FittedMatrix fit_matrix(const FieldMeasurements& measured, bool with_offset);
+/// Largest standard error of a fitted field, as a share of that coil's field.
+struct LargestError {
+  std::size_t coil = 0;
+  double share = 0;
+};
+LargestError largest_error(const FittedMatrix& fit);
+
+/// Fits the matrix A, with `offset` the field b at zero current, and with `gradients` the field's
+/// gradients, whose divergence and curl are 0, by minimising Σ |B − B(p)|². Throws InputError if
+/// the measurements do not determine the fit; the message names the coils whose currents were never
+/// varied, or never varied independently of others, and the gradients for which positions are
+/// missing.
+FittedMatrix fit_matrix(const FieldMeasurements& measured, const FitOptions& options = {});
+
+/// Whether the positions determine the gradients, too.
+bool determines_gradients(const FieldMeasurements& measured, const FitOptions& options);
 
 }  // namespace microswarm

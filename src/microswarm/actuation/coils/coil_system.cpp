@@ -162,22 +162,49 @@ void CoilSystem::add(const VfieldCoils& params, Issues& issues) {
   model_ = std::move(grids);
 }
 
+namespace {
+
+/// The rows of a matrix with a column for each of `columns` coils.
+Eigen::MatrixXd matrix_of(const std::vector<std::vector<double>>& rows, std::size_t count,
+                          std::size_t columns, const std::string& key, Issues& issues) {
+  Eigen::MatrixXd matrix =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(columns));
+  if (rows.size() != count) {
+    issues.add(key, fmt::format("{} has {} rows, must have {}", key, rows.size(), count));
+    return matrix;
+  }
+  for (std::size_t row = 0; row < count; ++row) {
+    if (rows[row].size() != columns) {
+      issues.add(key, fmt::format("row {} of {} has {} numbers, there are {} names", row + 1, key,
+                                  rows[row].size(), columns));
+      return matrix;
+    }
+    for (std::size_t i = 0; i < columns; ++i)
+      matrix(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(i)) = rows[row][i];
+  }
+  return matrix;
+}
+
+}  // namespace
+
 void CoilSystem::add(const MatrixCoils& params, Issues& issues) {
   names_ = params.names;
+  centre_ = vector_of(params.centre, "centre_um", issues);
   offset_.field = vector_of(params.offset, "offset_mt", issues);
-  if (params.field.size() != 3)
-    return issues.add("field_mt_per_a",
-                      fmt::format("field_mt_per_a has {} rows, must have 3", params.field.size()));
-  Eigen::Matrix3Xd matrix(3, static_cast<Eigen::Index>(names_.size()));
-  for (std::size_t row = 0; row < 3; ++row) {
-    if (params.field[row].size() != names_.size())
-      return issues.add("field_mt_per_a",
-                        fmt::format("row {} of field_mt_per_a has {} numbers, there are {} names",
-                                    row + 1, params.field[row].size(), names_.size()));
-    for (std::size_t i = 0; i < names_.size(); ++i)
-      matrix(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(i)) = params.field[row][i];
-  }
-  model_ = std::move(matrix);
+  if (params.offset_gradient.size() != 5)
+    issues.add("offset_gradient_t_per_m",
+               fmt::format("offset_gradient_t_per_m has {} numbers, must have 5",
+                           params.offset_gradient.size()));
+  else
+    offset_.gradient = microswarm::gradient_of(FiveGradients(params.offset_gradient.data())) *
+                       mt_per_um_of_t_per_m;
+  LinearField linear;
+  linear.field = matrix_of(params.field, 3, size(), "field_mt_per_a", issues);
+  linear.gradients = Eigen::MatrixXd::Zero(5, static_cast<Eigen::Index>(size()));
+  if (!params.gradient.empty())
+    linear.gradients = matrix_of(params.gradient, 5, size(), "gradient_t_per_m_per_a", issues) *
+                       mt_per_um_of_t_per_m;
+  model_ = std::move(linear);
 }
 
 bool CoilSystem::in_workspace(const Eigen::Vector3d& place) const {
@@ -212,7 +239,14 @@ Actuation CoilSystem::at(const Eigen::Vector3d& place) const {
       put(i, grid.at(place));
     }
   } else {
-    result.field = std::get<Eigen::Matrix3Xd>(model_);
+    const auto& linear = std::get<LinearField>(model_);
+    const Eigen::Vector3d off = place - centre_;
+    for (std::size_t i = 0; i < size(); ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      const Eigen::Matrix3d gradient = microswarm::gradient_of(linear.gradients.col(k));
+      put(i, {linear.field.col(k) + gradient * off, gradient});
+    }
+    result.offset.field += offset_.gradient * off;
   }
   return result;
 }

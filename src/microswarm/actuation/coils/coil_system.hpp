@@ -91,12 +91,17 @@ struct VfieldCoils {
   }
 };
 
-/// One actuation matrix for the whole workspace, as fitted by a calibration. It has no gradients.
+/// An actuation matrix, as fitted by a calibration: the field at a centre and, optionally, its
+/// constant gradients, B(p) = (A + Σ_k G_k (p − centre)_k) I. Without them the field is the same
+/// everywhere.
 struct MatrixCoils {
   static constexpr std::string_view type_name = "matrix";
   std::vector<std::string> names;
   std::vector<std::vector<double>> field;
   std::vector<double> offset{0, 0, 0};
+  std::vector<std::vector<double>> gradient;
+  std::vector<double> offset_gradient{0, 0, 0, 0, 0};
+  std::vector<double> centre{0, 0, 0};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.names, {"names", Unit::none, {}, "Names of the coils.", true});
@@ -106,6 +111,13 @@ struct MatrixCoils {
                        "Rows Bx, By, Bz of the actuation matrix, one column a coil.",
                        true});
     visit(self.offset, {"offset", Unit::mt, {-100, 100}, "Field without current, [x, y, z]."});
+    visit(self.gradient, {"gradient",
+                          Unit::t_per_m_per_a,
+                          {-1e6, 1e6},
+                          "Rows dBx/dx, dBx/dy, dBx/dz, dBy/dy, dBy/dz, or none."});
+    visit(self.offset_gradient,
+          {"offset_gradient", Unit::t_per_m, {-1e6, 1e6}, "The same five without current."});
+    visit(self.centre, {"centre", Unit::um, {-1e8, 1e8}, "Where `field` holds, [x, y, z]."});
   }
 };
 
@@ -144,6 +156,12 @@ struct LoopCoil {
   std::vector<CurrentLoop> loops;
 };
 
+/// Field of coils at a centre with its constant gradients.
+struct LinearField {
+  Eigen::Matrix3Xd field;                              ///< [mT/A]
+  Eigen::Matrix<double, 5, Eigen::Dynamic> gradients;  ///< five_gradients of each coil [mT/µm/A]
+};
+
 /// A system of coils: the field of each coil and the limits of its amplifier.
 class CoilSystem {
  public:
@@ -161,14 +179,14 @@ class CoilSystem {
   void limit_current(double most);
   /// Centre of the system or of its workspace [µm].
   const Eigen::Vector3d& centre() const { return centre_; }
-  /// Whether the model is valid at `place`. Windings and a matrix are valid everywhere.
+  /// Whether the model is valid at `place`. Windings and a matrix are taken as valid everywhere.
   bool in_workspace(const Eigen::Vector3d& place) const;
   /// Actuation at a position [µm]. Throws InputError outside a measured grid.
   Actuation at(const Eigen::Vector3d& place) const;
 
  private:
   using Model =
-      std::variant<std::vector<LoopCoil>, MpemSystem, std::vector<FieldGrid>, Eigen::Matrix3Xd>;
+      std::variant<std::vector<LoopCoil>, MpemSystem, std::vector<FieldGrid>, LinearField>;
 
   void add(const HelmholtzCoils& params, Issues& issues);
   void add(const CubeCoils& params, Issues& issues);

@@ -47,6 +47,10 @@ UnitText text_of(Unit unit) {
       return {"mt", "mT"};
     case Unit::mt_per_a:
       return {"mt_per_a", "mT/A"};
+    case Unit::t_per_m:
+      return {"t_per_m", "T/m"};
+    case Unit::t_per_m_per_a:
+      return {"t_per_m_per_a", "T/m/A"};
     case Unit::a:
       return {"a", "A"};
     case Unit::a_per_s:

@@ -23,6 +23,8 @@ enum class Unit {
   ms,
   mt,
   mt_per_a,
+  t_per_m,
+  t_per_m_per_a,
   a,
   a_per_s,
   v,

@@ -61,10 +61,10 @@ class Wanted {
   std::optional<FieldGenerator> generator_;
 };
 
-/// Share of the command at t: both ramps are straight.
-double share_at(double t, const ManualCommand& command) {
-  if (command.ramp <= 0) return 1;
-  return std::clamp(std::min(t, command.seconds - t) / command.ramp, 0.0, 1.0);
+/// Share of a command that ends at `end`, at t: both ramps are straight.
+double share_at(double t, double end, double ramp) {
+  if (ramp <= 0) return 1;
+  return std::clamp(std::min(t, end - t) / ramp, 0.0, 1.0);
 }
 
 /// Counts answers that do not come; says why it cannot go on, or nothing.
@@ -97,13 +97,14 @@ ManualResult drive_by_hand(const Rig& rig, CoilDriver& driver, const ManualComma
   Standstill standstill(rig.params.safety.max_pause);
   const double began = steady_seconds();
   double before = -period;
+  double end = command.seconds;
   ManualMoment moment;
-  while (moment.t < command.seconds && result.why.empty() && !stop()) {
+  while (moment.t < end && result.why.empty() && !stop()) {
     const double dt = moment.t - before;
     before = moment.t;
     CoilOutput& output = moment.output;
     wanted.advance(dt, output);
-    const double share = share_at(moment.t, command);
+    const double share = share_at(moment.t, end, command.ramp);
     if (wanted.turns() && driver.makes_waveforms()) {
       output.scale = drive.turn(wanted.turning(share, output.reached), dt);
       output.status = send(driver, drive.turning());
@@ -123,6 +124,8 @@ ManualResult drive_by_hand(const Rig& rig, CoilDriver& driver, const ManualComma
     } catch (const std::exception& e) {
       if (result.why.empty()) result.why = e.what();
     }
+    if (command.enough && command.enough())
+      end = std::min(end, moment.t + std::min(command.ramp, moment.t));
     const double due = began + moment.t + period;
     if (const double left = due - steady_seconds(); left > 0)
       std::this_thread::sleep_for(std::chrono::duration<double>(left));
@@ -132,7 +135,7 @@ ManualResult drive_by_hand(const Rig& rig, CoilDriver& driver, const ManualComma
   }
   if (!result.why.empty())
     result.status = Status::fault;
-  else if (moment.t < command.seconds)
+  else if (moment.t < end)
     result.status = Status::stopped;
   result.zero_confirmed = driver.stop();
   return result;

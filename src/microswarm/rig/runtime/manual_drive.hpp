@@ -17,8 +17,9 @@ namespace microswarm {
 /// rig's own field for a command.
 struct ManualCommand {
   std::variant<Eigen::VectorXd, Eigen::Vector3d, Command> wanted;
-  double seconds = 5;  ///< with both ramps
-  double ramp = 0.5;   ///< time in which it comes, and goes at the end [s]
+  double seconds = 5;              ///< with both ramps
+  double ramp = 0.5;               ///< time in which it comes, and goes at the end [s]
+  std::function<bool()> enough{};  ///< asked after each output: true: it goes now
 };
 
 /// One output.

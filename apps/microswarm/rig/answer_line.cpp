@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rig/answer_line.hpp"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <utility>
+
+#include "microswarm/core/errors/error.hpp"
+#include "support/cli.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+constexpr char kill_line = '\x15';        // Ctrl-U
+constexpr std::size_t max_answer = 1000;  // [bytes]
+
+bool is_in_front() { return ::tcgetpgrp(STDIN_FILENO) == ::getpgrp(); }
+
+/// Shows what is typed; a terminal that is gone is noticed elsewhere.
+void echo(std::string_view text) {
+  if (::write(STDERR_FILENO, text.data(), text.size()) < 0) return;
+}
+
+}  // namespace
+
+AnswerLine::AnswerLine(bool any_stop_key) : any_stop_key_(any_stop_key) {
+  is_terminal_ = ::isatty(STDIN_FILENO) != 0 && ::tcgetattr(STDIN_FILENO, &before_) == 0;
+}
+
+AnswerLine::~AnswerLine() {
+  if (is_terminal_ && is_in_front()) ::tcsetattr(STDIN_FILENO, TCSANOW, &before_);
+}
+
+/// Reads what is there.
+void AnswerLine::read_more() {
+  if (ended_) return;
+  if (is_terminal_) {
+    if (!is_in_front()) return;
+    // Repeated, because a shell resets the terminal when the program is suspended and resumed.
+    termios keys = before_;
+    keys.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+    ::tcsetattr(STDIN_FILENO, TCSANOW, &keys);
+  }
+  pollfd in{STDIN_FILENO, POLLIN, 0};
+  if (::poll(&in, 1, 0) <= 0) return;
+  std::array<char, 256> bytes{};
+  const ssize_t n = ::read(STDIN_FILENO, bytes.data(), bytes.size());
+  if (n < 0 && (errno == EINTR || errno == EAGAIN)) return;
+  ended_ = n <= 0;
+  const std::string_view got(bytes.data(), ended_ ? 0 : static_cast<std::size_t>(n));
+  if (!is_terminal_) typed_ += got;
+  if (is_terminal_)
+    for (const char key : got) take_key(key);
+}
+
+void AnswerLine::take_key(char key) {
+  if (key == '\x1b' || (any_stop_key_ && (key == ' ' || key == 'e' || key == 'E')))
+    throw HardwareError("the emergency key was pressed");
+  if (complete_) return;  // an answer to a question that is not asked yet
+  if (key == '\r' || key == '\n') {
+    complete_ = true;
+    echo("\n");
+  } else if (key == '\b' || key == '\x7f') {
+    if (!typed_.empty()) echo("\b \b");
+    if (!typed_.empty()) typed_.pop_back();
+  } else if (key == kill_line) {
+    for (; !typed_.empty(); typed_.pop_back()) echo("\b \b");
+  } else if (key >= ' ' && key < '\x7f' && typed_.size() < max_answer) {
+    typed_ += key;
+    echo(std::string_view(&key, 1));
+  }
+}
+
+void AnswerLine::watch() {
+  if (!is_terminal_) return;
+  read_more();
+  typed_.clear();
+  complete_ = false;
+}
+
+void AnswerLine::ask(std::string_view question) {
+  watch();
+  say(question);
+}
+
+std::optional<std::string> AnswerLine::poll() {
+  if (is_terminal_ || typed_.find('\n') == std::string::npos) read_more();
+  if (is_terminal_) {
+    if (!std::exchange(complete_, false)) return std::nullopt;
+    return std::exchange(typed_, {});
+  }
+  const std::size_t end = typed_.find('\n');
+  if (end == std::string::npos && typed_.size() > max_answer)
+    throw InputError(fmt::format("stdin: a line is longer than {} bytes", max_answer));
+  if (end == std::string::npos) return std::nullopt;
+  std::string line = typed_.substr(0, end);
+  typed_.erase(0, end + 1);
+  note("{}\n", line);
+  return line;
+}
+
+}  // namespace microswarm::cli

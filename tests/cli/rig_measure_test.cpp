@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: Apache-2.0
+// `rig calibrate --measure` as a program: an operator at a pseudo-terminal, or a probe's logger,
+// answers with the field of a known system for the currents that a device at another one has.
+#include <Eigen/Dense>
+#include <atomic>
+#include <fstream>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "microswarm/actuation/coils/coil_system.hpp"
+#include "microswarm/core/text/lines.hpp"
+#include "program.hpp"
+#include "at_terminal.hpp"
+#include "tests/actuation/fake_device.hpp"
+
+namespace microswarm::test {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* question = "Bx By Bz in mT: ";
+
+class RigMeasure : public CommandLine {
+ protected:
+  RigMeasure() : device([this](CoilReply& reply) { return hear(reply); }) {
+    write("coils.yaml",
+          "name: bench coils\ncoils: {type: helmholtz}\ndrives:\n  - {resistance_ohm: 0.9, "
+          "inductance_mh: 2.5, thermal_resistance_k_per_w: 2.5, thermal_time_s: 400, "
+          "max_current_a: 12, max_voltage_v: 24, max_temperature_degc: 90}\n");
+    write("rig.yaml",
+          "name: bench\ncoils: coils.yaml\ndrive_rate_hz: 100\n"
+          "field: {kind: rotating, amplitude_mt: 8, frequency_hz: 10, max_pitch_deg: 7.5}\n"
+          "driver: {type: serial, boot_time_s: 0, reply_timeout_s: 0.1, full_scale_a: 10, port: " +
+              device.port() + "}\ncamera: {type: simulated}\nsafety: {max_pause_s: 3}\n");
+    truth_A << 1.9, 0.1, -0.02, 0.05, 1.4, 0.3, -0.2, 0, 1.1;
+    truth_G << 3, -1, 0.5, 0.2, 2, -0.4, 1, 0, 0.7, -2, 0.1, 0.9, 0.3, -0.6, 4;  // [T/m/A]
+  }
+
+  bool hear(const CoilReply& reply) {
+    const std::lock_guard lock(mutex);
+    outputs = reply.outputs;
+    if (reply.to == CoilMessage::stop) outputs = {};
+    return true;
+  }
+  Eigen::Vector3d currents() {
+    const std::lock_guard lock(mutex);
+    return {outputs[0] / 100.0, outputs[1] / 100.0, outputs[2] / 100.0};
+  }
+  Eigen::Vector3d truth(const Eigen::Vector3d& place = Eigen::Vector3d::Zero()) {
+    const Eigen::Vector3d I = currents();
+    const Eigen::Matrix3d G = gradient_of(FiveGradients(truth_G * I)) * mt_per_um_of_t_per_m;
+    return truth_A * I + G * place + Eigen::Vector3d(0.02, -0.03, 0.045);
+  }
+  static std::string typed(const Eigen::Vector3d& b) {
+    return std::to_string(b[0]) + " " + std::to_string(b[1]) + ", " + std::to_string(b[2]) + "\r";
+  }
+  Arguments arguments(const Arguments& more = {}) const {
+    Arguments all{"rig",          "calibrate",   "measured.csv", "--measure", "rig.yaml",
+                  "--coils-cold", "--ramp",      "0.1",          "--settle",  "0.1",
+                  "--out",        "fitted.yaml", "--current",    "4"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  /// Answers `count` questions.
+  void answer(AtTerminal& terminal, int count, const Eigen::Vector3d& place) {
+    for (int i = 0; i < count; ++i) {
+      ASSERT_TRUE(terminal.hears(question)) << terminal.said();
+      terminal.type(typed(truth(place)));
+    }
+  }
+  std::size_t rows() const {
+    const std::string text = read("measured.csv");
+    return static_cast<std::size_t>(std::ranges::count(text, '\n')) - 1;
+  }
+  void expect_truth(const std::string& file, double within) const {
+    const CoilSystem system = read_coil_system(at.folder / file);
+    const Actuation there = system.at(Eigen::Vector3d::Zero());
+    EXPECT_LE((there.field - truth_A).cwiseAbs().maxCoeff(), within) << there.field;
+    EXPECT_NEAR(there.offset.field[2], 0.045, within);
+  }
+
+  std::mutex mutex;
+  CoilOutputs outputs{};
+  Eigen::Matrix3d truth_A;
+  Eigen::Matrix<double, 5, 3> truth_G;
+  FakeDevice device;
+};
+
+TEST_F(RigMeasure, AnOperatorIsGuidedToMatrixAndGradients) {
+  AtTerminal terminal(arguments({"--positions", "0,0,0;5000,0,0;0,5000,0", "--gradients"}), at);
+  for (const Eigen::Vector3d& place : {Eigen::Vector3d(0, 0, 0), {5000, 0, 0}, {0, 5000, 0}}) {
+    ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
+    EXPECT_EQ(currents().norm(), 0);
+    terminal.type("\r");
+    answer(terminal, 7, place);
+  }
+  EXPECT_EQ(terminal.wait(), 0) << terminal.said();
+  EXPECT_EQ(rows(), 21u);
+  expect_truth("fitted.yaml", 1e-5);
+  const CoilSystem system = read_coil_system(at.folder / "fitted.yaml");
+  EXPECT_EQ(system.name(), "bench coils");
+  EXPECT_EQ(system.drives().at(0).max_temperature, 90);
+  EXPECT_EQ(system.drives().at(0).max_current, 12);  // that of the file, not the driver's 10 A
+  EXPECT_EQ(system.centre(), Eigen::Vector3d(2500, 2500, 0));
+  const Eigen::MatrixXd gradients = system.at({0, 0, 0}).gradients / mt_per_um_of_t_per_m;
+  EXPECT_LE((gradients - truth_G).cwiseAbs().maxCoeff(), 1e-3) << gradients;
+  // The file is one that is fitted without coils, and the field elsewhere has the gradients in it.
+  good({"rig", "calibrate", "measured.csv", "--gradients", "--offset"});
+  const Json field = Json::parse(good(
+      {"rig", "field", "fitted.yaml", "--at", "1000,-2000,500", "--currents", "1,2,-1", "--json"}));
+  const Eigen::Vector3d I(1, 2, -1);
+  const Eigen::Vector3d expected = truth_A * I + Eigen::Vector3d(0.02, -0.03, 0.045) +
+                                   gradient_of(FiveGradients(truth_G * I)) * mt_per_um_of_t_per_m *
+                                       Eigen::Vector3d(1000, -2000, 500);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(field["field_mt"][k].get<double>(), expected[k], 1e-3);
+  EXPECT_TRUE(names(good({"rig", "map", "fitted.yaml", "--points", "5"}), "centre"));
+}
+
+TEST_F(RigMeasure, WhatIsNoFieldIsAskedAgain) {
+  AtTerminal terminal(arguments(), at);
+  ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
+  terminal.type("sure\r");
+  ASSERT_TRUE(terminal.hears("is needed")) << terminal.said();
+  ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
+  terminal.type("\r");
+  for (const auto& [wrong, complaint] : std::vector<std::pair<std::string, std::string>>{
+           {"much\r", "three numbers are needed"},
+           {"1 nan 2\r", "'nan' is no field"},
+           {"1 2\r", "three numbers are needed"},
+           {"1e9 0 0\r", "'1e9' is no field of at most 10000 mT"},
+           {"\r", "three numbers are needed"},
+           {"0x1 2 3\r", "'0x1' is no field"}}) {
+    ASSERT_TRUE(terminal.hears(question)) << terminal.said();
+    terminal.type(wrong);
+    ASSERT_TRUE(terminal.hears(complaint)) << wrong << terminal.said();
+  }
+  EXPECT_FALSE(exists("measured.csv"));
+  // Backspace and Ctrl-U edit; r puts the current in again; b takes the last one back.
+  ASSERT_TRUE(terminal.hears(question)) << terminal.said();
+  terminal.type(
+      "77\x15"
+      "0.02 -0.03 0.0459\x7f\r");
+  ASSERT_TRUE(terminal.hears("2/7: 4 A in x")) << terminal.said();
+  EXPECT_TRUE(read("measured.csv").ends_with("0,0,0,0,0,0,0.02,-0.03,0.045,1,,,\n"));
+  ASSERT_TRUE(terminal.hears(question));
+  terminal.type("r\r");
+  ASSERT_TRUE(terminal.hears("2/7: 4 A in x")) << terminal.said();
+  ASSERT_TRUE(terminal.hears(question));
+  terminal.type("b\r");
+  ASSERT_TRUE(terminal.hears("1/7: no current")) << terminal.said();
+  EXPECT_EQ(rows(), 0u);
+  answer(terminal, 7, {0, 0, 0});
+  EXPECT_EQ(terminal.wait(), 0) << terminal.said();
+  expect_truth("fitted.yaml", 1e-5);
+}
+
+TEST_F(RigMeasure, WhatWasMeasuredIsKeptAndItGoesOn) {
+  {
+    AtTerminal terminal(arguments(), at);
+    ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
+    terminal.type("\r");
+    answer(terminal, 2, {0, 0, 0});
+    ASSERT_TRUE(terminal.hears(question));
+    EXPECT_GT(currents().norm(), 3);
+    terminal.type("1 2\x03");  // Ctrl-C amid an answer
+    EXPECT_EQ(terminal.wait(), 3) << terminal.said();
+    EXPECT_TRUE(names(terminal.said(), "2 of 7 measurements")) << terminal.said();
+    EXPECT_EQ(currents().norm(), 0);
+    EXPECT_EQ(rows(), 2u);
+  }
+  {
+    AtTerminal terminal(arguments(), at);
+    ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
+    terminal.type("\r");
+    answer(terminal, 2, {0, 0, 0});
+    ASSERT_TRUE(terminal.hears(question));
+    terminal.send(SIGKILL);
+    EXPECT_EQ(terminal.wait(), -SIGKILL);
+    EXPECT_EQ(rows(), 4u);
+  }
+  AtTerminal terminal(arguments(), at);
+  ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
+  terminal.type("\r");
+  ASSERT_TRUE(terminal.hears("5/7: -4 A in y")) << terminal.said();
+  answer(terminal, 3, {0, 0, 0});
+  EXPECT_EQ(terminal.wait(), 0) << terminal.said();
+  expect_truth("fitted.yaml", 1e-5);
+  // All is measured: nothing is driven any more.
+  const int arms = device.count(CoilMessage::arm);
+  EXPECT_EQ(run(arguments()).code, 0);
+  EXPECT_EQ(device.count(CoilMessage::arm), arms);
+}
+
+TEST_F(RigMeasure, SilenceTurnsTheCoilsOff) {
+  AtTerminal terminal(arguments({"--hold", "0.4"}), at);
+  ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
+  terminal.type("\r");
+  answer(terminal, 1, {0, 0, 0});
+  ASSERT_TRUE(terminal.hears(question));
+  ASSERT_TRUE(terminal.hears("no answer in 0.4 s")) << terminal.said();
+  EXPECT_EQ(currents().norm(), 0);
+  sleep_ms(300);
+  EXPECT_EQ(currents().norm(), 0);
+  terminal.type("\r");
+  ASSERT_TRUE(terminal.hears(question)) << terminal.said();
+  EXPECT_GT(currents().norm(), 3);
+  ASSERT_TRUE(terminal.hears("no answer in 0.4 s")) << terminal.said();
+  terminal.type("q\r");
+  EXPECT_EQ(terminal.wait(), 3) << terminal.said();
+  EXPECT_EQ(rows(), 1u);
+}
+
+TEST_F(RigMeasure, EscStopsAtOnceAlsoAmidAnAnswer) {
+  AtTerminal terminal(arguments(), at);
+  ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
+  terminal.type("\r");
+  answer(terminal, 1, {0, 0, 0});
+  ASSERT_TRUE(terminal.hears(question));
+  const int sets = device.count(CoilMessage::set), stops = device.count(CoilMessage::stop);
+  terminal.type("1.5 \x1b");
+  EXPECT_EQ(terminal.wait(), 4) << terminal.said();
+  EXPECT_TRUE(names(terminal.said(), "emergency key")) << terminal.said();
+  EXPECT_GT(device.count(CoilMessage::stop), stops);
+  EXPECT_LT(device.count(CoilMessage::set) - sets, 40);
+  EXPECT_EQ(currents().norm(), 0);
+  EXPECT_EQ(rows(), 1u);
+}
+
+TEST_F(RigMeasure, ADeviceThatFallsSilentIsAFaultAndTheRowsAreKept) {
+  std::atomic<bool> silent = false;
+  FakeDevice other([&](CoilReply& reply) {
+    hear(reply);
+    return !silent;
+  });
+  AtTerminal terminal(arguments({"--set", "driver.port=" + other.port()}), at);
+  ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
+  terminal.type("\r");
+  answer(terminal, 1, {0, 0, 0});
+  ASSERT_TRUE(terminal.hears(question)) << terminal.said();
+  silent = true;
+  EXPECT_EQ(terminal.wait(), 4) << terminal.said();
+  EXPECT_TRUE(names(terminal.said(), "does not answer")) << terminal.said();
+  EXPECT_EQ(rows(), 1u);
+}
+
+/// A logger that appends a row every 10 ms until it ends.
+class Logger {
+ public:
+  Logger(const fs::path& file, std::function<Eigen::Vector3d()> field) {
+    std::ofstream(file) << "t_s,bx_mt,by_mt,bz_mt,temperature\n";
+    thread_ = std::thread([this, file, field = std::move(field)] {
+      std::ofstream out(file, std::ios::app);
+      for (int i = 0; !ended_; ++i) {
+        const Eigen::Vector3d b = field();
+        out << 0.01 * i << ',' << b[0] + (i % 2 ? 0.01 : -0.01) << ',' << b[1];
+        out.flush();  // a row in two pieces
+        out << ',' << b[2] << ",21\n";
+        out.flush();
+        sleep_ms(10);
+      }
+    });
+  }
+  ~Logger() {
+    ended_ = true;
+    thread_.join();
+  }
+  Logger(const Logger&) = delete;
+  Logger& operator=(const Logger&) = delete;
+
+ private:
+  std::atomic<bool> ended_ = false;
+  std::thread thread_;
+};
+
+TEST_F(RigMeasure, AProbesLoggerIsReadWithoutAnOperator) {
+  const Logger logger(at.folder / "probe.csv", [&] { return truth(); });
+  const Outcome outcome =
+      run(arguments({"--probe", "probe.csv", "--dwell", "0.4", "--other-stop", "--json"}));
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  expect_truth("fitted.yaml", 0.01);
+  const Json json = Json::parse(outcome.out);
+  EXPECT_EQ(json["measurements"], 7);
+  EXPECT_LT(json["largest_error"].get<double>(), 0.05);
+  const auto table = read("measured.csv");
+  const auto lines = split(table, '\n');
+  const auto cells = split(lines[1], ',');
+  EXPECT_GT(std::stoi(std::string(cells[9])), 5);
+  EXPECT_NEAR(std::stod(std::string(cells[10])), 0.01, 0.005);
+}
+
+TEST_F(RigMeasure, AProbeThatStopsIsToldInOneLine) {
+  write("probe.csv", "bx_mt,by_mt,bz_mt\n1,2,3\n");
+  const Outcome outcome = run(arguments({"--probe", "probe.csv", "--other-stop"}));
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+  EXPECT_TRUE(names(outcome.err, "probe.csv: no new row in 5 s")) << outcome.err;
+  EXPECT_EQ(currents().norm(), 0);
+  write("broken.csv", "bx,by_mt,bz_mt\n");
+  refused(arguments({"--probe", "broken.csv", "--other-stop"}),
+          naming("broken.csv", {"bx_mt", "missing"}));
+  EXPECT_FALSE(exists("measured.csv"));
+}
+
+TEST_F(RigMeasure, WhatCannotBeIsRefusedBeforeTheFirstCurrent) {
+  const auto complaint = [&](const Arguments& more, const Complaint& expected) {
+    Arguments all = arguments(more);
+    all.emplace_back("--other-stop");
+    refused(all, expected);
+  };
+  complaint({"--gradients"}, naming("--positions", {"dBx/dx", "dBy/dz", "x", "y", "z"}));
+  complaint({"--gradients", "--positions", "0,0,0;1000,0,0;2000,0,0"},
+            naming("--positions", {"dBy/dy", "dBy/dz"}));
+  complaint({"--set", "driver.full_scale_a=3"}, naming("", {"x", "3 A", "4 A"}));
+  complaint({"--positions", "none.csv"}, naming("none.csv", {"cannot read"}));
+  write("places.csv", "x_um,y_um,z_um\n0,0,0\n1,2\n");
+  complaint({"--positions", "places.csv"}, naming("places.csv:3", {"2", "3"}));
+  const std::string other = "i_a_a,bx_mt,by_mt,bz_mt\n1,2,3,4\n";
+  write("measured.csv", other);
+  complaint({}, naming("measured.csv:1", {"columns"}));
+  EXPECT_EQ(read("measured.csv"), other);
+  fs::remove(at.folder / "measured.csv");
+  refused(arguments(), naming("", {"--other-stop"}));
+  Arguments over = arguments();
+  *std::ranges::find(over, "fitted.yaml") = "coils.yaml";
+  refused(over, naming("coils.yaml", {"input"}));
+  EXPECT_EQ(device.count(CoilMessage::set), 0);
+}
+
+}  // namespace
+}  // namespace microswarm::test
