@@ -10,7 +10,6 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/clock.hpp"
-#include "microswarm/experiment/run/episode.hpp"
 #include "microswarm/experiment/run/run.hpp"
 #include "microswarm/navigation/make.hpp"
 #include "microswarm/rig/runtime/realtime_rig_simulator.hpp"
@@ -149,10 +148,9 @@ class LiveRigs : public testing::Test {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
       zero_after = steady_seconds() - began;
     });
-    Episode episode(s, plant, *navigator, &operation);
-    const Stop stop(
-        std::chrono::duration_cast<Stop::Clock::duration>(std::chrono::duration<double>(seconds)));
-    const RunResult result = run(s, [&] { return episode.step(stop); });
+    const RunResult result = run(s, plant, *navigator, {},
+                                 Stop(std::chrono::duration_cast<Stop::Clock::duration>(
+                                     std::chrono::duration<double>(seconds))));
     timing = plant.timing();
     at_end = coils->strongest;
     place = bench.swarm().pose.position;
@@ -165,7 +163,6 @@ class LiveRigs : public testing::Test {
   Scene scene;
   World world;
   std::optional<Rig> rig;
-  Operation operation{1e3};
   std::shared_ptr<WatchedCoils::Log> coils = std::make_shared<WatchedCoils::Log>();
   std::shared_ptr<TroubledCamera::Trouble> trouble = std::make_shared<TroubledCamera::Trouble>();
   double driven = 0;      // [A], before the trouble
@@ -195,32 +192,6 @@ TEST_F(LiveRigs, DrivesTheSwarmInRealTime) {
 TEST_F(LiveRigs, DroppedFramesAreNoFault) {
   trouble->drop = true;
   EXPECT_EQ(go(2).status, Status::stopped);
-}
-
-TEST_F(LiveRigs, ALostSwarmEndsAPauseToo) {
-  rig->params.safety.lost_swarm = 0.5;
-  const RunResult result = go(8, [&](LiveRig&) {
-    operation.pause();
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    EXPECT_GT(coils->strongest, 0.1);
-    trouble->no_swarm = true;
-  });
-  EXPECT_EQ(result.status, Status::fault);
-  EXPECT_TRUE(result.state.starts_with("the swarm was not found")) << result.state;
-  EXPECT_LT(zero_after, 0.3 + 0.5 + patience);
-  EXPECT_EQ(at_end, 0);
-}
-
-TEST_F(LiveRigs, FrozenPicturesEndTheSteeringByHandToo) {
-  const RunResult result = go(8, [&](LiveRig&) {
-    operation.manual();
-    operation.steer({0, 20});
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    trouble->freeze = true;
-  });
-  EXPECT_EQ(result.status, Status::fault);
-  EXPECT_EQ(result.state, "the camera's pictures are frozen");
-  EXPECT_EQ(at_end, 0);
 }
 
 TEST_F(LiveRigs, FrozenPicturesEndIt) {
