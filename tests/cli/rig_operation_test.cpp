@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `rig run` operated by keys at a terminal, and its status line.
 #include <algorithm>
-#include <chrono>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "microswarm/experiment/record/record.hpp"

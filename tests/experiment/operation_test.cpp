@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <cmath>
 #include <numbers>
 
 #include "microswarm/experiment/run/metrics_listener.hpp"

@@ -2,6 +2,7 @@
 // Sessions in threads of their own.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <thread>
 
 #include "microswarm/session/session.hpp"
@@ -26,6 +27,29 @@ TEST(SessionThreads, EachRunsAndRecordsItsOwn) {
       }
     });
   for (std::thread& thread : threads) thread.join();
+}
+
+TEST(SessionThreads, IsOperatedFromAnotherThread) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    Scenario scenario = small_flight();
+    scenario.time_limit = 1000;
+    scenario.hold_at_goal = 1000;
+    Session session(open_experiment(scenario, {}));
+    std::thread person([&] {
+      Rng random(seed, Purpose::planner);
+      for (int i = 0; i < 200; ++i) {
+        session.operation()->pause(random.uniform() < 0.3);
+        session.operation()->manual(random.uniform() < 0.5);
+        session.operation()->steer({10 * random.uniform(), 100 * random.uniform()});
+        std::this_thread::sleep_for(std::chrono::microseconds(300));
+      }
+      session.operation()->end();
+    });
+    session.finish();
+    person.join();
+    const ReplayResult again = replay(session.record());
+    EXPECT_TRUE(again.identical) << again.difference;
+  }
 }
 
 }  // namespace

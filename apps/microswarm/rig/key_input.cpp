@@ -2,7 +2,6 @@
 #include "rig/key_input.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <string_view>
 
 namespace microswarm::cli {

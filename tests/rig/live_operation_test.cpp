@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// A rig in real time that is paused or steered by hand while its camera fails.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "microswarm/experiment/run/episode.hpp"
+#include "microswarm/experiment/run/run.hpp"
+#include "microswarm/navigation/make.hpp"
+#include "microswarm/rig/runtime/live_rig.hpp"
+#include "microswarm/rig/runtime/realtime_rig_simulator.hpp"
+
+namespace microswarm {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A camera whose pictures freeze, or show no swarm any more.
+class FailingCamera : public FrameSource {
+ public:
+  FailingCamera(std::unique_ptr<FrameSource> camera, const std::atomic<bool>& freezes,
+                const std::atomic<bool>& loses)
+      : camera_(std::move(camera)), freezes_(freezes), loses_(loses) {}
+  bool next(VideoFrame& frame) override {
+    if (!camera_->next(frame)) return false;
+    if (freezes_) frame.picture = last_;
+    last_ = frame.picture;
+    auto& pixels = frame.picture.pixels;
+    if (loses_) std::ranges::fill(pixels, pixels[frame.picture.index(60, 60)]);
+    if (loses_) pixels[static_cast<std::size_t>(frame.index % 1000)] ^= 1;  // not frozen
+    return true;
+  }
+  std::optional<int> count() const override { return std::nullopt; }
+  std::optional<double> rate() const override { return camera_->rate(); }
+
+ private:
+  std::unique_ptr<FrameSource> camera_;
+  const std::atomic<bool>& freezes_;
+  const std::atomic<bool>& loses_;
+  Image last_;
+};
+
+class LiveOperation : public testing::Test {
+ protected:
+  LiveOperation() {
+    rig.params.safety = {.lost_swarm = 0.5,
+                         .max_frame_age = 3,
+                         .deadman = 3,
+                         .missed_deadlines = 100,
+                         .max_pause = 3};
+  }
+  /// Runs for 8 s at most; `then` is called after 0.5 s.
+  RunResult go(const std::function<void()>& then) {
+    const Scene scene = load_scene(
+        read_scenario(scenarios / "papers/radar/single.yaml", {"obstacles=[]", "time_limit_s=30"}),
+        scenarios);
+    const Scenario& s = scene.scenario;
+    const World world = build_world(scene);
+    RealtimeRigSimulator bench(s, world, rig, std::make_unique<SimulatedCoilDriver>(6, 20));
+    LiveRig plant(s, world.map, rig,
+                  std::make_unique<FailingCamera>(bench.camera(40), freezes, loses),
+                  bench.view().scale, bench.coils());
+    const auto navigator = make_navigator(s.navigator, task_of(s), Rng(1, Purpose::planner, 0));
+    std::thread person([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(500));
+      then();
+    });
+    Episode episode(s, plant, *navigator, &operation);
+    const Stop stop{std::chrono::seconds(8)};
+    const RunResult result = run(s, [&] { return episode.step(stop); });
+    person.join();
+    for (const double current : bench.coils().currents()) EXPECT_EQ(current, 0);
+    return result;
+  }
+
+  const fs::path scenarios = fs::path(MICROSWARM_SOURCE_DIR) / "scenarios";
+  Rig rig = read_rig(scenarios / "rigs/vortex.yaml",
+                     {"camera.type=simulated", "camera.microscope.um_per_px=6"});
+  std::atomic<bool> freezes = false, loses = false;
+  Operation operation{1e3};
+};
+
+TEST_F(LiveOperation, ALostSwarmEndsAPauseToo) {
+  const RunResult result = go([&] {
+    operation.pause();
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    loses = true;
+  });
+  EXPECT_EQ(result.status, Status::fault);
+  EXPECT_TRUE(result.state.starts_with("the swarm was not found")) << result.state;
+}
+
+TEST_F(LiveOperation, FrozenPicturesEndTheSteeringByHandToo) {
+  const RunResult result = go([&] {
+    operation.manual();
+    operation.steer({0, 20});
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    freezes = true;
+  });
+  EXPECT_EQ(result.status, Status::fault);
+  EXPECT_EQ(result.state, "the camera's pictures are frozen");
+}
+
+}  // namespace
+}  // namespace microswarm
