@@ -10,6 +10,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/clock.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/experiment/run/run.hpp"
 #include "microswarm/navigation/make.hpp"
 #include "microswarm/rig/runtime/realtime_rig_simulator.hpp"
@@ -135,7 +136,7 @@ class LiveRigs : public testing::Test {
     const Scenario& s = scene.scenario;
     RealtimeRigSimulator bench(s, world, *rig, std::make_unique<WatchedCoils>(coils));
     LiveRig plant(s, world.map, *rig, std::make_unique<TroubledCamera>(bench.camera(40), trouble),
-                  bench.view().scale, bench.coils());
+                  turned(bench.view().scale), bench.coils());
     const auto navigator =
         make_navigator(s.navigator, task_of(s), Rng(s.seed, Purpose::planner, 0));
     std::atomic<bool> over = false;
@@ -160,6 +161,15 @@ class LiveRigs : public testing::Test {
     return result;
   }
 
+  /// The scale of a camera that is turned by `turn` about the start, and not known to be.
+  CameraScale turned(CameraScale scale) const {
+    const Vec2 start_px = scale.to_picture(scene.scenario.start->position);
+    scale.rotation += turn;
+    scale.origin_px += start_px - scale.to_picture(scene.scenario.start->position);
+    return scale;
+  }
+
+  double turn = 0;  // [rad]
   Scene scene;
   World world;
   std::optional<Rig> rig;
@@ -246,6 +256,37 @@ TEST_F(LiveRigs, ExchangedCoilsEndIt) {
   EXPECT_NE(result.state.find("the swarm does not follow: of 6"), std::string::npos)
       << result.state;
   EXPECT_EQ(at_end, 0);
+}
+
+TEST_F(LiveRigs, ATurnedCameraEndsIt) {
+  rig->params.safety.follow_distance = 60;
+  scene.scenario.start->position = {1000, 900};
+  scene.scenario.goal = Vec2{1300, 1100};
+  for (const double angle : {90.0, 180.0}) {
+    turn = angle * pi / 180;
+    const RunResult result = go(20, [](LiveRig&) {});
+    EXPECT_EQ(result.status, Status::fault) << angle;
+    EXPECT_NE(result.state.find("the swarm does not follow: of 6"), std::string::npos)
+        << result.state;
+    EXPECT_EQ(at_end, 0);
+  }
+}
+
+TEST_F(LiveRigs, ASlightlyTurnedCameraIsToldByItsAngle) {
+  rig->params.safety.follow_distance = 60;
+  scene.scenario.start->position = {1000, 900};
+  scene.scenario.goal = Vec2{1600, 1100};
+  for (const double angle : {0.0, 20.0}) {
+    turn = angle * pi / 180;
+    EXPECT_EQ(go(8).status, Status::stopped);
+    ASSERT_TRUE(timing.direction);
+    const double seen = degrees(timing.direction->angle);
+    const double sd = degrees(timing.direction->sd);
+    std::printf("turned by %.0f degrees: seen %.1f +- %.1f, %.0f %% of the way\n", angle, seen, sd,
+                100 * timing.direction->share);
+    EXPECT_NEAR(seen, angle, std::max(6.0, 4 * sd));
+    EXPECT_LT(sd, 10);
+  }
 }
 
 TEST_F(LiveRigs, BlackPicturesEndIt) {

@@ -95,7 +95,7 @@ std::string tracks_h5(const TrackResult& result) {
 }  // namespace
 
 void keep_track_input(const std::filesystem::path& folder, const std::string& input) {
-  for (const char* name : {"tracks.csv", "events.csv", "tracks.h5", "overlay.mp4", "overlay"})
+  for (const char* name : {"tracks.csv", "events.csv", "tracks.h5", "overlay.mp4", "overlay", "masses.png"})
     keep_input((folder / name).string(), input);
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "microswarm/actuation/coils/coil_controller.hpp"
@@ -35,6 +36,7 @@ struct RigTiming {
   int dropped_frames = 0;    ///< received but not processed
   int unseen_frames = 0;     ///< processed, in which robots were unseen
   int most_unseen = 0;       ///< robots that were unseen in one frame
+  std::optional<FollowDirection> direction{};  ///< of the swarm relative to its commands
 };
 
 /// A rig in real time. Each tick processes the newest frame, sends the command to the coils, and
@@ -92,6 +94,7 @@ class LiveRig : public Plant {
   NewestFrame camera_;
   CoilController controller_;
   FollowMonitor following_;
+  FollowAngle angle_;
   std::unique_ptr<Perception> perception_;
   LiveFrame frame_;
   Image grey_;

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/vision/tracking/mass_gap.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace microswarm {
+namespace {
+
+constexpr double kernel = 0.05;     // [decades] standard deviation of the smoothing
+constexpr double depth = 0.25;      // of a gap, beside the lower of its sides
+constexpr double min_width = 0.1;   // [decades] of a gap
+constexpr double min_count = 3;     // features on either side
+constexpr double toneless = 0.3;    // share of the other tone's features from which it is noise
+
+struct Gap {
+  std::size_t from, to;  // bins
+};
+
+/// The widest gap at the bin of a minimum: where the density is low beside the maxima of both sides.
+std::optional<Gap> gap_at(const std::vector<double>& density, std::size_t at) {
+  const auto middle = density.begin() + static_cast<std::ptrdiff_t>(at);
+  const double low = depth * std::min(*std::max_element(density.begin(), middle),
+                                      *std::max_element(middle, density.end()));
+  if (density[at] >= low) return std::nullopt;
+  Gap gap{at, at};
+  while (gap.from > 0 && density[gap.from - 1] < low) --gap.from;
+  while (gap.to + 1 < density.size() && density[gap.to + 1] < low) ++gap.to;
+  if (gap.from == 0 || gap.to + 1 == density.size()) return std::nullopt;
+  if (static_cast<double>(gap.to - gap.from) * MassDensity::step < min_width) return std::nullopt;
+  return gap;
+}
+
+double count_between(const std::vector<double>& sorted, double from, double to) {
+  return static_cast<double>(std::lower_bound(sorted.begin(), sorted.end(), to) -
+                             std::lower_bound(sorted.begin(), sorted.end(), from));
+}
+
+/// Whether features of the other tone are about as frequent among the masses of a kind, without the
+/// tenth at either end.
+bool is_noise(const std::vector<double>& masses, const std::vector<double>& other, double from,
+              double to) {
+  const auto begin = std::lower_bound(masses.begin(), masses.end(), from);
+  const auto end = std::lower_bound(masses.begin(), masses.end(), to);
+  const auto tenth = (end - begin) / 10;
+  if (end - begin < 1) return false;
+  const double low = *(begin + tenth);
+  const double high = *(end - 1 - tenth);
+  return count_between(other, low, high) >= toneless * count_between(masses, low, high);
+}
+
+}  // namespace
+
+double MassGap::min_mass() const { return std::sqrt(noise_to * robots_from); }
+
+MassDensity mass_density(std::span<const double> masses) {
+  MassDensity result;
+  std::vector<double> logs;
+  for (const double mass : masses)
+    if (mass > 0) logs.push_back(std::log10(mass));
+  if (logs.empty()) return result;
+  const auto [least, most] = std::minmax_element(logs.begin(), logs.end());
+  constexpr double margin = 4 * kernel;
+  result.first = *least - margin;
+  const auto bins =
+      static_cast<std::size_t>(std::ceil((*most - *least + 2 * margin) / MassDensity::step)) + 1;
+  std::vector<double> counts(bins, 0);
+  for (const double log : logs)
+    counts[static_cast<std::size_t>(std::lround((log - result.first) / MassDensity::step))] += 1;
+  result.density.assign(bins, 0);
+  const int reach = static_cast<int>(std::ceil(margin / MassDensity::step));
+  for (int i = 0; i < static_cast<int>(bins); ++i) {
+    const double count = counts[static_cast<std::size_t>(i)];
+    if (count == 0) continue;
+    for (int k = std::max(0, i - reach); k <= std::min(static_cast<int>(bins) - 1, i + reach); ++k) {
+      const double off = (k - i) * MassDensity::step / kernel;
+      result.density[static_cast<std::size_t>(k)] += count * std::exp(-0.5 * off * off);
+    }
+  }
+  return result;
+}
+
+MassKinds mass_kinds(std::span<const double> masses, std::span<const double> other, int pictures) {
+  MassKinds kinds;
+  std::vector<double> sorted(masses.begin(), masses.end());
+  std::vector<double> sorted_other(other.begin(), other.end());
+  std::sort(sorted.begin(), sorted.end());
+  std::sort(sorted_other.begin(), sorted_other.end());
+  const auto [first, density] = mass_density(masses);
+  const auto mass_of = [first = first](std::size_t bin) {
+    return std::pow(10.0, first + static_cast<double>(bin) * MassDensity::step);
+  };
+  const double enough = std::max(min_count, 0.5 * pictures);
+  double from = 0;  // of the present kind
+  for (std::size_t at = 1; at + 1 < density.size(); ++at) {
+    const auto gap = gap_at(density, at);
+    if (!gap) continue;
+    const double end = mass_of(gap->from);
+    const double next = mass_of(gap->to);
+    at = gap->to;
+    if (count_between(sorted, from, end) < enough || count_between(sorted, next, 1e300) < enough)
+      continue;
+    if (!is_noise(sorted, sorted_other, from, end)) return kinds;
+    kinds.has_noise = true;
+    kinds.gap = MassGap{end, next};
+    from = next;
+  }
+  if (is_noise(sorted, sorted_other, from, 1e300)) {
+    kinds.has_noise = true;
+    kinds.gap.reset();  // all of them are noise
+  }
+  return kinds;
+}
+
+}  // namespace microswarm
