@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -56,17 +57,17 @@ void tell(const ParticleSuggestion& s, const ParticleParams& given) {
     print("  robots    {:.1f} in each, of masses from {:.0f}\n", robots,
           s.kinds.gap->robots_from);
   } else {
-    print(
-        "  no gap between the masses of noise and robots: find.min_mass stays {:.6g}, which {:.1f} "
-        "features in each picture exceed\n",
-        given.min_mass, s.heavier_than(given.min_mass));
+    print("  {}: find.min_mass stays {:.6g}, which {:.1f} features in each picture exceed\n",
+          s.kinds.has_noise ? "no gap between the masses of noise and robots"
+                            : "no noise, the features are of one kind",
+          given.min_mass, s.heavier_than(given.min_mass));
   }
   if (s.knows_diameter)
     print("  diameter  {} px, where a robot's mean picture ends\n", s.params.diameter);
   else
     print("  diameter  not seen in the pictures: find.diameter_px stays {}\n", given.diameter);
   const std::string options = options_of(s, given);
-  print("{}\n", options.empty() ? "the settings may stay" : options);
+  print("{}\n", options.empty() ? "nothing better is suggested" : options);
 }
 
 nlohmann::ordered_json to_json(const ParticleSuggestion& s, const ParticleParams& given) {

@@ -4,12 +4,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "microswarm/core/maths/infinity.hpp"
+
 namespace microswarm {
 namespace {
 
 constexpr double kernel = 0.05;     // [decades] standard deviation of the smoothing
 constexpr double depth = 0.25;      // of a gap, beside the lower of its sides
-constexpr double min_width = 0.1;   // [decades] of a gap
+constexpr double min_width = 0.15;  // [decades] of a gap
+constexpr double wide = 0.5;        // [decades] of a gap that pairs of robots cannot make
+constexpr double rare = 0.01;       // share of all features that outliers have at most
+constexpr double enough_robots = 0.25;  // beside lighter features that have a tone
 constexpr double min_count = 3;     // features on either side
 constexpr double toneless = 0.3;    // share of the other tone's features from which it is noise
 
@@ -36,17 +41,15 @@ double count_between(const std::vector<double>& sorted, double from, double to) 
                              std::lower_bound(sorted.begin(), sorted.end(), from));
 }
 
-/// Whether features of the other tone are about as frequent among the masses of a kind, without the
-/// tenth at either end.
+/// Whether features of the other tone are about as frequent among the masses of a kind.
 bool is_noise(const std::vector<double>& masses, const std::vector<double>& other, double from,
               double to) {
+  constexpr double slack = 1.1;  // factor of a mass
   const auto begin = std::lower_bound(masses.begin(), masses.end(), from);
   const auto end = std::lower_bound(masses.begin(), masses.end(), to);
-  const auto tenth = (end - begin) / 10;
-  if (end - begin < 1) return false;
-  const double low = *(begin + tenth);
-  const double high = *(end - 1 - tenth);
-  return count_between(other, low, high) >= toneless * count_between(masses, low, high);
+  if (end == begin) return false;
+  return count_between(other, *begin / slack, *(end - 1) * slack) >=
+         toneless * static_cast<double>(end - begin);
 }
 
 }  // namespace
@@ -91,21 +94,34 @@ MassKinds mass_kinds(std::span<const double> masses, std::span<const double> oth
     return std::pow(10.0, first + static_cast<double>(bin) * MassDensity::step);
   };
   const double enough = std::max(min_count, 0.5 * pictures);
-  double from = 0;  // of the present kind
+  std::vector<MassGap> gaps;
   for (std::size_t at = 1; at + 1 < density.size(); ++at) {
     const auto gap = gap_at(density, at);
     if (!gap) continue;
-    const double end = mass_of(gap->from);
-    const double next = mass_of(gap->to);
     at = gap->to;
-    if (count_between(sorted, from, end) < enough || count_between(sorted, next, 1e300) < enough)
-      continue;
-    if (!is_noise(sorted, sorted_other, from, end)) return kinds;
-    kinds.has_noise = true;
-    kinds.gap = MassGap{end, next};
-    from = next;
+    const MassGap found{mass_of(gap->from), mass_of(gap->to)};
+    const double from = gaps.empty() ? 0 : gaps.back().robots_from;
+    if (count_between(sorted, from, found.noise_to) >= enough &&
+        count_between(sorted, found.robots_from, infinity) >= enough)
+      gaps.push_back(found);
   }
-  if (is_noise(sorted, sorted_other, from, 1e300)) {
+  // Kinds of noise come first. Beyond a wide gap are no pairs: what is before it is an outlier of
+  // the noise if it is rare, or else faint features of the robots' own pictures.
+  const auto width = [](const MassGap& gap) { return std::log10(gap.robots_from / gap.noise_to); };
+  double from = 0;
+  for (const MassGap& gap : gaps) {
+    const double below = count_between(sorted, from, gap.noise_to);
+    const double above = count_between(sorted, gap.robots_from, infinity);
+    const bool is_wide = width(gap) > std::max(wide, kinds.gap ? width(*kinds.gap) : 0);
+    const bool hides = kinds.gap ? below <= rare * static_cast<double>(sorted.size())
+                                 : above >= enough_robots * below;
+    if (is_noise(sorted, sorted_other, from, gap.noise_to) || (is_wide && hides)) kinds.gap = gap;
+    from = gap.robots_from;
+  }
+  kinds.has_noise = kinds.gap.has_value();
+  const double last = kinds.gap ? kinds.gap->robots_from : 0;
+  // What lies beyond a wide gap is robots, though bright ones may have dark rings and as many.
+  if (!(kinds.gap && width(*kinds.gap) > wide) && is_noise(sorted, sorted_other, last, infinity)) {
     kinds.has_noise = true;
     kinds.gap.reset();  // all of them are noise
   }

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <utility>
 
 #include "microswarm/core/maths/statistics.hpp"
 
@@ -13,6 +15,7 @@ namespace {
 constexpr int most_rounds = 6;         // until the diameter fits itself
 constexpr double edge_level = 0.1;     // of the strongest contrast, at the edge of a robot
 constexpr double certain = 5;          // of a contrast, in standard errors
+constexpr double heavier = 1.5;        // mass of robots of the other tone, if they are the robots
 constexpr std::size_t most_robots = 2000;  // from which the mean picture is taken
 
 struct Features {
@@ -98,6 +101,15 @@ std::optional<int> diameter_of(const Profile& profile) {
   return static_cast<int>(2 * edge + 1);
 }
 
+/// Median mass of what lies above the gap, or of all if there is no noise; 0 if all may be noise.
+double robot_mass(const std::vector<double>& masses, const MassKinds& kinds) {
+  if (!kinds.gap) return kinds.has_noise ? 0 : median(masses);
+  std::vector<double> robots;
+  std::copy_if(masses.begin(), masses.end(), std::back_inserter(robots),
+               [&](double mass) { return mass > kinds.gap->min_mass(); });
+  return median(std::move(robots));
+}
+
 }  // namespace
 
 double ParticleSuggestion::heavier_than(double mass) const {
@@ -118,27 +130,26 @@ ParticleSuggestion suggest_particles(std::span<const Image> pictures,
     Features features = features_of(pictures, best.params);
     Features opposite = features_of(pictures, reverse);
     best.kinds = mass_kinds(features.masses, opposite.masses, best.pictures);
-    if (!best.kinds.gap) {
-      const MassKinds there = mass_kinds(opposite.masses, features.masses, best.pictures);
-      if (there.gap) {
-        std::swap(features, opposite);
-        best.params = reverse;
-        best.kinds = there;
-      }
+    const MassKinds there = mass_kinds(opposite.masses, features.masses, best.pictures);
+    if (robot_mass(opposite.masses, there) > heavier * robot_mass(features.masses, best.kinds)) {
+      std::swap(features, opposite);
+      best.params = reverse;
+      best.kinds = there;
     }
     best.params.min_mass = best.kinds.gap ? best.kinds.gap->min_mass() : params.min_mass;
     best.masses = features.masses;
     best.other_masses = opposite.masses;
     const int now = best.params.diameter | 1;
-    const auto seen =
-        diameter_of(profile_of(pictures, features, best.params.min_mass, 2 * now));
-    best.knows_diameter = seen.has_value() || best.knows_diameter;
+    if (!best.kinds.gap && best.kinds.has_noise) break;  // the mean picture is that of noise
+    const auto seen = diameter_of(profile_of(pictures, features, best.params.min_mass, 2 * now));
+    best.knows_diameter = seen.has_value();
     const int next = seen.value_or(2 * now - 1);
     if (seen && std::abs(next - now) <= 2) return best;
     if (next > largest || round + 1 == most_rounds) break;
     best.params.diameter = next;
   }
   // No diameter fits itself: the given one is kept.
+  best.knows_diameter = false;
   if (best.params.diameter == params.diameter) return best;
   best.params.diameter = params.diameter;
   const Features features = features_of(pictures, best.params);
@@ -148,7 +159,6 @@ ParticleSuggestion suggest_particles(std::span<const Image> pictures,
   best.other_masses = features_of(pictures, reverse).masses;
   best.kinds = mass_kinds(best.masses, best.other_masses, best.pictures);
   best.params.min_mass = best.kinds.gap ? best.kinds.gap->min_mass() : params.min_mass;
-  best.knows_diameter = false;
   return best;
 }
 
