@@ -96,8 +96,7 @@ TEST_F(RigCamera, SaysWhySomethingIsNotTheSwarm) {
     EXPECT_LT(no["value"].get<double>(), no["limit"].get<double>());
     EXPECT_TRUE(no["key"].get<std::string>().starts_with("scene.swarm.look."));
   }
-  const Outcome several =
-      run({"rig", "see", "two.pgm", "--set", "scene.swarm.look.min_texture=0"});
+  const Outcome several = run({"rig", "see", "two.pgm", "--set", "scene.swarm.look.min_texture=0"});
   EXPECT_TRUE(names(several.out, "swarm: several")) << several.out;
   EXPECT_TRUE(names(several.out, "(80.00, 90.00) px, radius 24.87 px")) << several.out;
   EXPECT_TRUE(names(several.out, "(220.00, 90.00) px, radius 20.17 px")) << several.out;

@@ -35,6 +35,7 @@ TEST_F(Track, PicturesBecomeTables) {
   const std::string text =
       good({"track", "video", "--um-per-px", "0.5", "--rate", "10", "--out", "out"});
   EXPECT_TRUE(text.starts_with("12 frames, 12.0 robots in each\n")) << text;
+  EXPECT_NE(text.find("  events    0 merges, 0 splits\n"), std::string::npos) << text;
   EXPECT_NE(text.find("wrote out/tracks.csv, tracks.h5, events.csv and overlay"), std::string::npos)
       << text;
   const std::string csv = read("out/tracks.csv");

@@ -135,8 +135,7 @@ TEST(ParticleSuggestion, NothingAtAllIsNoCrash) {
 TEST(RealVideos, SettingsAreSuggested) {
   const std::filesystem::path data = test::data_folder() / "video";
   if (!std::filesystem::exists(data)) GTEST_SKIP() << data << " is absent";
-  const auto bulk =
-      suggest_particles(pictures_of(data / "bulk_water", VideoChannel::green), {});
+  const auto bulk = suggest_particles(pictures_of(data / "bulk_water", VideoChannel::green), {});
   EXPECT_FALSE(bulk.kinds.gap);
   EXPECT_EQ(bulk.params.min_mass, 20);
   EXPECT_EQ(bulk.params.diameter, 11);

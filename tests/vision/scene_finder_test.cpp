@@ -85,9 +85,8 @@ TEST(SceneFinder, ASwarmThatTouchesAnObstacleOfItsToneIsStillSeenAndSoIsTheObsta
           swarm.centre + (swarm.radius + radius + apart) * unit_vector(rng.uniform(-3, 3));
       frame.swarm(swarm, rng);
       frame.disc(disc, radius, 0.65);
-      const SeenScene scene =
-          find_scene(frame.expose(170, 0.3, k, 0.1, rng.uniform(0, 8), rng), {},
-                     {.at_px = swarm.centre});
+      const SeenScene scene = find_scene(frame.expose(170, 0.3, k, 0.1, rng.uniform(0, 8), rng), {},
+                                         {.at_px = swarm.centre});
       if (scene.swarm.sight != SwarmSight::found || scene.obstacles.size() != 1) {
         ++lost;
         continue;

@@ -48,8 +48,7 @@ TEST(SmoothSwarm, IsTheOnlySmoothBlobWhereNothingHasTexture) {
   for (const ParticleTone tone : {ParticleTone::dark, ParticleTone::bright}) {
     SceneParams params;
     params.swarm.look.tone = params.obstacles.tone = tone;
-    const SeenScene scene =
-        find_scene(tone == ParticleTone::dark ? dark : inverted(dark), params);
+    const SeenScene scene = find_scene(tone == ParticleTone::dark ? dark : inverted(dark), params);
     ASSERT_EQ(scene.swarm.sight, SwarmSight::found);
     EXPECT_LT(distance(scene.swarm.swarm->centre_px, {300, 200}), 0.5);
     EXPECT_NEAR(scene.swarm.swarm->radius_px, 30, 1);
@@ -129,9 +128,9 @@ TEST(SmoothSwarm, ThatIsCutIsAnObstacle) {
 
 TEST(NotSwarm, EachCriterionIsToldWithValueAndLimit) {
   DrawnScene drawn;
-  drawn.cloud({120, 120}, 30);          // of the other tone, after inversion
-  drawn.frame.disc({320, 120}, 4, 0.3);  // small
-  drawn.cloud({320, 350}, 60);          // too large, by a limit of 50
+  drawn.cloud({120, 120}, 30);             // of the other tone, after inversion
+  drawn.frame.disc({320, 120}, 4, 0.3);    // small
+  drawn.cloud({320, 350}, 60);             // too large, by a limit of 50
   drawn.frame.disc({520, 120}, 30, 0.97);  // faint
   const Image picture = drawn.look(2);
   SceneParams params;
@@ -146,8 +145,8 @@ TEST(NotSwarm, EachCriterionIsToldWithValueAndLimit) {
   EXPECT_EQ(failed(reasons, {320, 350}), SwarmCriterion::max_radius);
   EXPECT_EQ(failed(reasons, {520, 120}), SwarmCriterion::contrast);
   for (const NotSwarm& no : reasons) {
-    const bool is_limit_of_above = no.criterion == SwarmCriterion::max_radius ||
-                                   no.criterion == SwarmCriterion::distance;
+    const bool is_limit_of_above =
+        no.criterion == SwarmCriterion::max_radius || no.criterion == SwarmCriterion::distance;
     EXPECT_EQ(no.value > no.limit, is_limit_of_above) << reason(no);
     EXPECT_NE(reason(no).find(no.key), std::string::npos) << reason(no);
   }

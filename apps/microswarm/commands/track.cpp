@@ -38,7 +38,8 @@ TrackSettings settings_of(const TrackOptions& o) {
   }
   if (o.um_per_px) settings.um_per_px = o.um_per_px;
   if (o.rate) settings.rate = o.rate;
-  if (!settings.um_per_px && !o.suggest) throw InputError(o.video + ": µm per px is missing: give --um-per-px");
+  if (!settings.um_per_px && !o.suggest)
+    throw InputError(o.video + ": µm per px is missing: give --um-per-px");
   return settings;
 }
 
@@ -64,9 +65,10 @@ void follow(FrameSource& source, TrackResult& result, VideoFileWriter* overlay, 
 void note_noise(const TrackResult& result) {
   const TrackSummary s = summarise(result.rows, result.frames);
   if (looks_like_noise(s))
-    note("note: {} of {} tracks are a frame long: noise may be taken for robots; see `microswarm "
-         "track {} --suggest`\n",
-         s.single_tracks, s.tracks, result.source);
+    note(
+        "note: {} of {} tracks are a frame long: noise may be taken for robots; see `microswarm "
+        "track {} --suggest`\n",
+        s.single_tracks, s.tracks, result.source);
 }
 
 int track(const TrackOptions& o, const Context& context) {

@@ -9,6 +9,7 @@
 
 #include "commands/track_output.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/maths.hpp"
 #include "microswarm/report/plot.hpp"
 #include "microswarm/vision/tracking/particle_suggestion.hpp"
 #include "support/cli.hpp"
@@ -31,7 +32,7 @@ std::vector<Image> sample(FrameSource& source, VideoChannel channel, const Stop&
 
 /// Rounded to two digits, as it is typed.
 std::string typed(double mass) {
-  const double unit = std::pow(10, std::floor(std::log10(mass)) - 1);
+  const double unit = maths::pow(10, std::floor(maths::log10(mass)) - 1);
   return fmt::format("{:.6g}", std::round(mass / unit) * unit);
 }
 
@@ -54,8 +55,7 @@ void tell(const ParticleSuggestion& s, const ParticleParams& given) {
     const double robots = s.heavier_than(s.kinds.gap->min_mass());
     print("  noise     {:.1f} in each, of masses to {:.0f}\n", s.heavier_than(0) - robots,
           s.kinds.gap->noise_to);
-    print("  robots    {:.1f} in each, of masses from {:.0f}\n", robots,
-          s.kinds.gap->robots_from);
+    print("  robots    {:.1f} in each, of masses from {:.0f}\n", robots, s.kinds.gap->robots_from);
   } else {
     print("  {}: find.min_mass stays {:.6g}, which {:.1f} features in each picture exceed\n",
           s.kinds.has_noise ? "no gap between the masses of noise and robots"
@@ -90,12 +90,12 @@ Series histogram(const std::string& label, const std::vector<double>& masses, in
   constexpr double bin = 0.05;  // [decades]
   std::map<int, double> counts;
   for (const double mass : masses)
-    if (mass > 0) counts[static_cast<int>(std::floor(std::log10(mass) / bin))] += 1.0 / pictures;
+    if (mass > 0) counts[static_cast<int>(std::floor(maths::log10(mass) / bin))] += 1.0 / pictures;
   Series series{.label = label, .x = {}, .y = {}};
   if (counts.empty()) return series;
   for (int k = counts.begin()->first - 1; k <= counts.rbegin()->first + 1; ++k)
     for (const int edge : {k, k + 1}) {
-      series.x.push_back(std::pow(10, bin * edge));
+      series.x.push_back(maths::pow(10, bin * edge));
       series.y.push_back(counts.contains(k) ? counts[k] : 0);
     }
   return series;

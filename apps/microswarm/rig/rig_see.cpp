@@ -192,9 +192,11 @@ void tell(const Told& told) {
   for (const NotSwarm& no : told.not_swarm)
     print("  {}: {}{}\n", reason(no), text_of(no.blob), told.off(no.blob));
   if (told.not_swarm.empty() && told.scene.swarm.candidates.empty())
-    print("  nothing has a contrast above {:.1f}: `min_contrast` or five times the background's spread "
-          "(stripes, or a swarm on half of the view or more, widen it)\n",
-          told.contrast_limit);
+    print(
+        "  nothing has a contrast above {:.1f}: `min_contrast` or five times the background's "
+        "spread "
+        "(stripes, or a swarm on half of the view or more, widen it)\n",
+        told.contrast_limit);
   print("obstacles: {}\n", told.scene.obstacles.size());
   for (const SeenObstacle& b : told.scene.obstacles)
     print("  {} {}\n", b.disc ? "disc" : "polygon", text_of(b.blob));

@@ -34,8 +34,7 @@ SwarmPrior expected_swarm(const SwarmLimits& limits, const PerceptionParams& par
 }
 
 SwarmPerception::SwarmPerception(const PerceptionParams& params, const SwarmLimits& limits,
-                                 const Map& map,
-                                 const Pose2& start, const CameraView& view)
+                                 const Map& map, const Pose2& start, const CameraView& view)
     : params_(params),
       scale_(view.scale),
       walls_(walls_in_picture(map, view.scale, view.width, view.height)),
@@ -97,8 +96,8 @@ void SwarmPerception::accept(const Blob& swarm, const SeenScene& scene, double t
   detections_.swarm = SwarmPose{{place, heading_}, radius * scale_.um_per_px};
 }
 
-/// Whether it lies in parts where it was whole: they have its area, and it is none of them. What was
-/// beside it before is no part.
+/// Whether it lies in parts where it was whole: they have its area, and it is none of them. What
+/// was beside it before is no part.
 bool SwarmPerception::tell_split(const SwarmSighting& sighting) {
   if (sightings_ < min_radius_count) return false;
   const double usual = median(radii_px_);
@@ -129,8 +128,8 @@ bool SwarmPerception::tell_merger(const Blob& whole, const SeenScene& scene) {
   const double grown = whole.radius_px * whole.radius_px - usual * usual;
   if (grown <= 0) return false;
   for (const Blob& old : beside_) {
-    const bool is_there = std::any_of(
-        scene.obstacles.begin(), scene.obstacles.end(), [&](const SeenObstacle& seen) {
+    const bool is_there =
+        std::any_of(scene.obstacles.begin(), scene.obstacles.end(), [&](const SeenObstacle& seen) {
           return distance(seen.blob.centre_px, old.centre_px) < 0.5 * old.radius_px;
         });
     if (is_there || distance(old.centre_px, whole.centre_px) > 2 * whole.radius_px ||

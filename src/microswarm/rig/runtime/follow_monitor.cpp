@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "microswarm/core/maths/maths.hpp"
+#include "microswarm/geometry/vec2.hpp"
 
 namespace microswarm {
 
@@ -37,13 +38,14 @@ void FollowAngle::take(double commanded, double followed, double across, double 
 
 std::optional<FollowDirection> FollowAngle::direction() const {
   constexpr int enough = 5;
-  const double moved = std::hypot(along_, left_);
+  const double moved = norm({along_, left_});
   if (stretches_ < enough || moved <= 0) return std::nullopt;
   // The seen way is the commanded one, turned and scaled, with noise of the same spread in both
   // directions.
   const double rest = std::max(0.0, seen_squares_ - moved * moved / commanded_squares_);
   const double spread = std::sqrt(rest / (2 * (stretches_ - 1)));
-  return FollowDirection{maths::atan2(left_, along_), spread * std::sqrt(commanded_squares_) / moved,
+  return FollowDirection{maths::atan2(left_, along_),
+                         spread * std::sqrt(commanded_squares_) / moved,
                          moved / commanded_squares_};
 }
 

@@ -12,7 +12,7 @@
 namespace microswarm {
 namespace {
 
-constexpr double first_frame = 5;  // [s] timeout of the first frame
+constexpr double first_frame = 5;                   // [s] timeout of the first frame
 constexpr double stretches_of_follow_distance = 6;  // over which a direction is measured
 
 const RigParams& checked(const Rig& rig, const Scenario& scenario) {

@@ -110,7 +110,8 @@ SeenScene find_scene(const Image& picture, const SceneParams& params, const Swar
   if (scene.swarm.sight == SwarmSight::none && params.smooth_swarm &&
       params.swarm.look.min_texture > 0) {
     if (auto blob = smooth_swarm(picture, params, prior, walls))
-      scene.swarm = {.sight = SwarmSight::found, .swarm = blob, .candidates = {*blob}, .others = {}};
+      scene.swarm = {
+          .sight = SwarmSight::found, .swarm = blob, .candidates = {*blob}, .others = {}};
   }
   Mask hidden;
   if (scene.swarm.swarm) {

@@ -29,11 +29,9 @@ NotSwarm refused(Blob blob, const SceneParams& params, const SwarmPrior& prior, 
     no.key = key;
   };
   if (b.radius_px < look.min_radius)
-    set(SwarmCriterion::min_radius, b.radius_px, look.min_radius,
-        "scene.swarm.look.min_radius_px");
+    set(SwarmCriterion::min_radius, b.radius_px, look.min_radius, "scene.swarm.look.min_radius_px");
   else if (b.radius_px > look.max_radius)
-    set(SwarmCriterion::max_radius, b.radius_px, look.max_radius,
-        "scene.swarm.look.max_radius_px");
+    set(SwarmCriterion::max_radius, b.radius_px, look.max_radius, "scene.swarm.look.max_radius_px");
   else if (!smooth_count)
     set(SwarmCriterion::texture, b.texture, look.min_texture, "scene.swarm.look.min_texture");
   else if (b.is_cut)
@@ -74,8 +72,7 @@ std::vector<NotSwarm> why_not_swarm(const SeenScene& scene, const Image& picture
   for (Blob& blob : left)
     if (!is_found || !lies_in(blob, *scene.swarm.swarm))
       all.push_back(refused(std::move(blob), params, prior, smooth_count));
-  for (const Blob& blob : scene.swarm.others)
-    all.push_back(outranked(blob, scene, params, prior));
+  for (const Blob& blob : scene.swarm.others) all.push_back(outranked(blob, scene, params, prior));
   if (is_found || scene.swarm.sight == SwarmSight::several) return all;
 
   const auto is_new = [&](const Blob& blob) {

@@ -47,13 +47,14 @@ struct NotSwarm {
   std::string_view key = {};  ///< of the setting, from `scene` on
 };
 
-/// Why the blobs of a picture are not the swarm, for the scene that `find_scene` found with the same
-/// arguments. Where no swarm was found, also what is too faint or of the other tone.
+/// Why the blobs of a picture are not the swarm, for the scene that `find_scene` found with the
+/// same arguments. Where no swarm was found, also what is too faint or of the other tone.
 std::vector<NotSwarm> why_not_swarm(const SeenScene& scene, const Image& picture,
                                     const SceneParams& params = {}, const SwarmPrior& prior = {},
                                     const Mask* walls = nullptr);
 
-/// The criterion with value, limit and key, such as "texture 0.0 < 5 (scene.swarm.look.min_texture)".
+/// The criterion with value, limit and key, such as "texture 0.0 < 5
+/// (scene.swarm.look.min_texture)".
 std::string reason(const NotSwarm& blob);
 /// The same in a few characters.
 std::string short_reason(const NotSwarm& blob);

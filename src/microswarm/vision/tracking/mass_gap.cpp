@@ -5,24 +5,26 @@
 #include <cmath>
 
 #include "microswarm/core/maths/infinity.hpp"
+#include "microswarm/core/maths/maths.hpp"
 
 namespace microswarm {
 namespace {
 
-constexpr double kernel = 0.05;     // [decades] standard deviation of the smoothing
-constexpr double depth = 0.25;      // of a gap, beside the lower of its sides
-constexpr double min_width = 0.15;  // [decades] of a gap
-constexpr double wide = 0.5;        // [decades] of a gap that pairs of robots cannot make
-constexpr double rare = 0.01;       // share of all features that outliers have at most
+constexpr double kernel = 0.05;         // [decades] standard deviation of the smoothing
+constexpr double depth = 0.25;          // of a gap, beside the lower of its sides
+constexpr double min_width = 0.15;      // [decades] of a gap
+constexpr double wide = 0.5;            // [decades] of a gap that pairs of robots cannot make
+constexpr double rare = 0.01;           // share of all features that outliers have at most
 constexpr double enough_robots = 0.25;  // beside lighter features that have a tone
-constexpr double min_count = 3;     // features on either side
-constexpr double toneless = 0.3;    // share of the other tone's features from which it is noise
+constexpr double min_count = 3;         // features on either side
+constexpr double toneless = 0.3;        // share of the other tone's features from which it is noise
 
 struct Gap {
   std::size_t from, to;  // bins
 };
 
-/// The widest gap at the bin of a minimum: where the density is low beside the maxima of both sides.
+/// The widest gap at the bin of a minimum: where the density is low beside the maxima of both
+/// sides.
 std::optional<Gap> gap_at(const std::vector<double>& density, std::size_t at) {
   const auto middle = density.begin() + static_cast<std::ptrdiff_t>(at);
   const double low = depth * std::min(*std::max_element(density.begin(), middle),
@@ -60,7 +62,7 @@ MassDensity mass_density(std::span<const double> masses) {
   MassDensity result;
   std::vector<double> logs;
   for (const double mass : masses)
-    if (mass > 0) logs.push_back(std::log10(mass));
+    if (mass > 0) logs.push_back(maths::log10(mass));
   if (logs.empty()) return result;
   const auto [least, most] = std::minmax_element(logs.begin(), logs.end());
   constexpr double margin = 4 * kernel;
@@ -75,9 +77,10 @@ MassDensity mass_density(std::span<const double> masses) {
   for (int i = 0; i < static_cast<int>(bins); ++i) {
     const double count = counts[static_cast<std::size_t>(i)];
     if (count == 0) continue;
-    for (int k = std::max(0, i - reach); k <= std::min(static_cast<int>(bins) - 1, i + reach); ++k) {
+    for (int k = std::max(0, i - reach); k <= std::min(static_cast<int>(bins) - 1, i + reach);
+         ++k) {
       const double off = (k - i) * MassDensity::step / kernel;
-      result.density[static_cast<std::size_t>(k)] += count * std::exp(-0.5 * off * off);
+      result.density[static_cast<std::size_t>(k)] += count * maths::exp(-0.5 * off * off);
     }
   }
   return result;
@@ -91,7 +94,7 @@ MassKinds mass_kinds(std::span<const double> masses, std::span<const double> oth
   std::sort(sorted_other.begin(), sorted_other.end());
   const auto [first, density] = mass_density(masses);
   const auto mass_of = [first = first](std::size_t bin) {
-    return std::pow(10.0, first + static_cast<double>(bin) * MassDensity::step);
+    return maths::pow(10.0, first + static_cast<double>(bin) * MassDensity::step);
   };
   const double enough = std::max(min_count, 0.5 * pictures);
   std::vector<MassGap> gaps;
@@ -107,7 +110,9 @@ MassKinds mass_kinds(std::span<const double> masses, std::span<const double> oth
   }
   // Kinds of noise come first. Beyond a wide gap are no pairs: what is before it is an outlier of
   // the noise if it is rare, or else faint features of the robots' own pictures.
-  const auto width = [](const MassGap& gap) { return std::log10(gap.robots_from / gap.noise_to); };
+  const auto width = [](const MassGap& gap) {
+    return maths::log10(gap.robots_from / gap.noise_to);
+  };
   double from = 0;
   for (const MassGap& gap : gaps) {
     const double below = count_between(sorted, from, gap.noise_to);

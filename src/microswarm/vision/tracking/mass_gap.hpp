@@ -9,8 +9,8 @@ namespace microswarm {
 
 /// A gap in the distribution of the masses of features, between noise and robots.
 struct MassGap {
-  double noise_to = 0;     ///< where the noise ends
-  double robots_from = 0;  ///< where the robots begin
+  double noise_to = 0;      ///< where the noise ends
+  double robots_from = 0;   ///< where the robots begin
   double min_mass() const;  ///< between them, as far from both by ratio
 };
 
@@ -21,8 +21,8 @@ struct MassKinds {
 };
 
 /// Looks for the gap between noise and robots. The logarithms of the masses are smoothed by a
-/// Gaussian; gaps are where their density is below a quarter of that on both sides, over a factor of
-/// 1.4 at least. Noise has no tone, so what lies below the gap must also be there in the
+/// Gaussian; gaps are where their density is below a quarter of that on both sides, over a factor
+/// of 1.4 at least. Noise has no tone, so what lies below the gap must also be there in the
 /// features of the other tone, `other`. Both are of `pictures` pictures.
 MassKinds mass_kinds(std::span<const double> masses, std::span<const double> other, int pictures);
 

@@ -12,10 +12,10 @@
 namespace microswarm {
 namespace {
 
-constexpr int most_rounds = 6;         // until the diameter fits itself
-constexpr double edge_level = 0.1;     // of the strongest contrast, at the edge of a robot
-constexpr double certain = 5;          // of a contrast, in standard errors
-constexpr double heavier = 1.5;        // mass of robots of the other tone, if they are the robots
+constexpr int most_rounds = 6;      // until the diameter fits itself
+constexpr double edge_level = 0.1;  // of the strongest contrast, at the edge of a robot
+constexpr double certain = 5;       // of a contrast, in standard errors
+constexpr double heavier = 1.5;     // mass of robots of the other tone, if they are the robots
 constexpr std::size_t most_robots = 2000;  // from which the mean picture is taken
 
 struct Features {

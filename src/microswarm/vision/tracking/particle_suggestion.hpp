@@ -12,11 +12,11 @@ namespace microswarm {
 
 /// Settings of ParticleFinder that suit pictures, and what they were chosen by.
 struct ParticleSuggestion {
-  ParticleParams params;            ///< as given where nothing better is known
-  bool knows_diameter = false;      ///< the robots' edge was seen; else it is the given one
-  MassKinds kinds;                  ///< with these parameters
+  ParticleParams params;        ///< as given where nothing better is known
+  bool knows_diameter = false;  ///< the robots' edge was seen; else it is the given one
+  MassKinds kinds;              ///< with these parameters
   int pictures = 0;
-  std::vector<double> masses;       ///< of all features, also of noise
+  std::vector<double> masses;        ///< of all features, also of noise
   std::vector<double> other_masses;  ///< of those of the other tone
 
   /// Features heavier than `mass`, on average over the pictures.

@@ -59,7 +59,7 @@ void draw_legend(cv::Mat& picture, double um_per_px, double t, std::size_t robot
   cv::rectangle(picture, box, white, cv::FILLED);
   draw_text(picture, short_number("%g um", bar), {step, box.y - step / 3}, size);
   draw_text(picture, short_number("%.2f s", t) + ", " + std::to_string(robots) + " robots",
-        {step, step + step / 4}, size);
+            {step, step + step / 4}, size);
 }
 
 }  // namespace
@@ -106,7 +106,7 @@ const Image& TrackOverlay::draw(const VideoFrame& frame, const std::vector<Track
       const Vec2 at = trails_[row.id]->places_px.back();
       const double beside = row.radius / um_per_px_ + 3;
       draw_text(picture, std::to_string(row.id),
-            {static_cast<int>(at.x + beside), static_cast<int>(at.y - beside)}, size);
+                {static_cast<int>(at.x + beside), static_cast<int>(at.y - beside)}, size);
     }
   draw_legend(picture, um_per_px_, frame.t, rows.size());
   return shown_;
