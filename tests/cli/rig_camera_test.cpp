@@ -74,8 +74,32 @@ TEST_F(RigCamera, SeesASwarmAndDrawsIt) {
   EXPECT_NEAR(told["candidates"][0]["centre_px"][0].get<double>(), 100, 0.1);
   EXPECT_NEAR(told["candidates"][0]["radius_px"].get<double>(), 25, 0.5);
   EXPECT_TRUE(exists("seen.png"));
+  EXPECT_EQ(Json::parse(good({"rig", "see", "frame.pgm", "--json"}))["swarm"], "found");
   draw("empty.pgm", [](int, int) { return false; });
-  EXPECT_EQ(run({"rig", "see", "empty.pgm"}).code, 3);
+  const Outcome empty = run({"rig", "see", "empty.pgm"});
+  EXPECT_EQ(empty.code, 3);
+  EXPECT_TRUE(names(empty.out, "min_contrast")) << empty.out;
+}
+
+TEST_F(RigCamera, SaysWhySomethingIsNotTheSwarm) {
+  draw("two.pgm", [](int x, int y) {
+    return std::hypot(x - 80, y - 90) < 25 || std::hypot(x - 220, y - 90) < 20 ||
+           std::hypot(x - 150, y - 180) < 4;
+  });
+  const Outcome seen = run({"rig", "see", "two.pgm", "--out", "seen.png"});
+  EXPECT_EQ(seen.code, 3);
+  EXPECT_TRUE(names(seen.out, "texture 0.0 < 5 (scene.swarm.look.min_texture)")) << seen.out;
+  EXPECT_TRUE(names(seen.out, "< 8 (scene.swarm.look.min_radius_px)")) << seen.out;
+  const Json told = Json::parse(run({"rig", "see", "two.pgm", "--json"}).out);
+  ASSERT_EQ(told["not_swarm"].size(), 3U);
+  for (const Json& no : told["not_swarm"]) {
+    EXPECT_LT(no["value"].get<double>(), no["limit"].get<double>());
+    EXPECT_TRUE(no["key"].get<std::string>().starts_with("scene.swarm.look."));
+  }
+  const Outcome several = run({"rig", "see", "two.pgm", "--set", "scene.swarm.look.min_texture=0"});
+  EXPECT_TRUE(names(several.out, "swarm: several")) << several.out;
+  EXPECT_TRUE(names(several.out, "(80.00, 90.00) px, radius 24.87 px")) << several.out;
+  EXPECT_TRUE(names(several.out, "(220.00, 90.00) px, radius 20.17 px")) << several.out;
 }
 
 TEST_F(RigCamera, RefusesInOneLine) {
@@ -118,7 +142,10 @@ TEST_F(RigCamera, AScenarioIsDrawnWhereTheCameraSeesIt) {
   const Image without = read_image(at.folder / "seen.png");
   Arguments with = see;
   with.insert(with.end(), {"--scenario", "flight.yaml"});
-  good(with);
+  const Outcome off = run(with);
+  EXPECT_EQ(off.code, 0);
+  EXPECT_TRUE(names(off.out, "px (560.9 µm) from the start")) << off.out;
+  EXPECT_TRUE(is_one_line_naming(off.err, "note", {"start", "60 px", "scene.swarm.jump_px"}));
   const Image drawn = read_image(at.folder / "seen.png");
   const auto colour = [&](const Image& image, int x, int y) {
     const std::size_t i = image.index(x, y);

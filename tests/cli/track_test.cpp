@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Videos in, tracks out.
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "inputs.hpp"
@@ -34,6 +35,7 @@ TEST_F(Track, PicturesBecomeTables) {
   const std::string text =
       good({"track", "video", "--um-per-px", "0.5", "--rate", "10", "--out", "out"});
   EXPECT_TRUE(text.starts_with("12 frames, 12.0 robots in each\n")) << text;
+  EXPECT_NE(text.find("  events    0 merges, 0 splits\n"), std::string::npos) << text;
   EXPECT_NE(text.find("wrote out/tracks.csv, tracks.h5, events.csv and overlay"), std::string::npos)
       << text;
   const std::string csv = read("out/tracks.csv");
@@ -45,6 +47,44 @@ TEST_F(Track, PicturesBecomeTables) {
   EXPECT_TRUE(read("out/tracks.h5").starts_with("\x89HDF"));
   EXPECT_TRUE(read("out/events.csv").starts_with("frame,t_s,event,id,other\n0,0,birth,0,\n"));
   for (const std::string& name : files()) EXPECT_EQ(name.find(".tmp-"), std::string::npos) << name;
+}
+
+/// Noise without robots but for three dark discs.
+std::function<int(int, int)> noisy(int k) {
+  return [k](int x, int y) {
+    const unsigned seed = static_cast<unsigned>(x * 7919 + y * 104729 + k * 15485863);
+    const unsigned mixed = (seed ^ (seed >> 13)) * 2654435761U;
+    int grey = 180 + static_cast<int>((mixed >> 20) % 9);
+    for (int i = 0; i < 3; ++i) {
+      const double dx = x - (40 + 50 * i + k);
+      const double dy = y - 80;
+      if (dx * dx + dy * dy < 20) grey -= 80;
+    }
+    return grey;
+  };
+}
+
+TEST_F(Track, SuggestsWhatSeparatesRobotsFromNoise) {
+  fs::create_directories(at.folder / "noisy");
+  for (int k = 0; k < 8; ++k)
+    write("noisy/f" + std::to_string(k) + ".pgm", pgm(200, 160, noisy(k)));
+  const Json json = Json::parse(good({"track", "noisy", "--suggest", "--json"}));
+  EXPECT_EQ(json.at("pictures"), 8);
+  EXPECT_EQ(json.at("robots"), 3);
+  EXPECT_GT(json.at("features"), 6);
+  const std::string text = good({"track", "noisy", "--suggest", "--out", "masses"});
+  EXPECT_NE(text.find("\n" + json.at("options").get<std::string>() + "\n"), std::string::npos);
+  EXPECT_EQ(read("masses/masses.png").substr(1, 3), "PNG");
+  const Outcome plain = run({"track", "noisy", "--um-per-px", "1", "--rate", "10", "--out", "a"});
+  EXPECT_EQ(plain.code, 0);
+  EXPECT_TRUE(is_one_line_naming(plain.err, "note", {"tracks", "frame", "--suggest"})) << plain.err;
+  const Outcome set =
+      run({"track", "noisy", "--um-per-px", "1", "--rate", "10", "--out", "b", "--set",
+           "find.min_mass=" + std::to_string(json.at("min_mass").get<int>())});
+  EXPECT_EQ(set.err, "");
+  EXPECT_NE(set.out.find("8 frames, 3.0 robots in each"), std::string::npos) << set.out;
+  refused({"track", "noisy", "--um-per-px", "1"}, naming("track", {"--out"}));
+  refused({"track", "none.mp4", "--suggest"}, naming("none.mp4", {"No such file"}));
 }
 
 TEST_F(Track, JsonTellsDriftAndSpeed) {

@@ -1,180 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs in real time against a simulated bench, and what happens when something fails.
-#include "microswarm/rig/runtime/live_rig.hpp"
+#include "tests/rig/live_rigs.hpp"
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cstdio>
-#include <thread>
 
 #include "microswarm/core/errors/error.hpp"
-#include "microswarm/core/execution/clock.hpp"
-#include "microswarm/experiment/run/run.hpp"
-#include "microswarm/navigation/make.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/rig/runtime/live_rig.hpp"
 #include "microswarm/rig/runtime/realtime_rig_simulator.hpp"
-#include "microswarm/rig/simulation/simulated_rig.hpp"
-#include "tests/cases.hpp"
 #include "tests/files.hpp"
 
 namespace microswarm {
 namespace {
 
-namespace fs = std::filesystem;
-
-/// Coils that remember what they were told, and fail when they are asked to.
-class WatchedCoils : public CoilDriver {
- public:
-  struct Log {
-    std::atomic<double> strongest = 0;  // [A], of the last currents
-    std::atomic<int> drives = 0;
-    std::atomic<int> stops = 0;
-    std::atomic<DriveStatus> answer = DriveStatus::driven;
-    std::atomic<bool> dead = false;       // the amplifiers give nothing
-    std::atomic<bool> exchanged = false;  // the first two coils
-  };
-  explicit WatchedCoils(std::shared_ptr<Log> log) : log_(std::move(log)) {}
-
-  int channels() const override { return 6; }
-  std::span<const double> currents() const override { return currents_; }
-  DriveStatus drive(std::span<const double> currents) override {
-    ++log_->drives;
-    const DriveStatus answer = log_->answer;
-    if (answer != DriveStatus::driven && answer != DriveStatus::resumed) return answer;
-    std::array<double, 6> made{};
-    std::copy(currents.begin(), currents.end(), made.begin());
-    if (log_->exchanged) std::swap(made[0], made[1]);
-    if (log_->dead) made = {};
-    set(made);
-    return answer;
-  }
-  bool stop() noexcept override {
-    ++log_->stops;
-    set(std::array<double, 6>{});
-    return true;
-  }
-
- private:
-  void set(std::span<const double> currents) {
-    double most = 0;
-    for (std::size_t i = 0; i < currents_.size(); ++i) {
-      currents_[i] = currents[i];
-      most = std::max(most, std::abs(currents[i]));
-    }
-    log_->strongest = most;
-  }
-  std::shared_ptr<Log> log_;
-  std::array<double, 6> currents_{};
-};
-
-/// A camera between the bench and the rig that can be made to fail.
-class TroubledCamera : public FrameSource {
- public:
-  struct Trouble {
-    std::atomic<bool> drop = false, freeze = false, black = false, unplug = false, no_swarm = false,
-                      jump = false, cycle = false;
-    std::atomic<double> late = 0;  // [s]
-  };
-  TroubledCamera(std::unique_ptr<FrameSource> camera, std::shared_ptr<Trouble> trouble)
-      : camera_(std::move(camera)), trouble_(std::move(trouble)) {}
-
-  bool next(VideoFrame& frame) override {
-    do {
-      if (trouble_->unplug) throw HardwareError("camera: unplugged");
-      if (!camera_->next(frame)) return false;
-    } while (trouble_->drop && frame.index % 4 != 0);
-    if (trouble_->freeze && !still_.pixels.empty()) frame.picture = still_;
-    if (trouble_->cycle && !still_.pixels.empty()) {
-      if (ring_.size() < 3) ring_.push_back(frame.picture);
-      frame.picture = ring_[static_cast<std::size_t>(frame.index) % ring_.size()];
-    }
-    still_ = frame.picture;
-    if (trouble_->black) paint(frame.picture, 0, {}, 1e9);
-    if (trouble_->no_swarm) paint(frame.picture, still_.pixels[still_.index(60, 60)], {}, 1e9);
-    if (trouble_->jump) frame.t -= 1e6;
-    if (trouble_->late > 0)
-      std::this_thread::sleep_for(std::chrono::duration<double>(trouble_->late));
-    return true;
-  }
-  std::optional<int> count() const override { return std::nullopt; }
-  std::optional<double> rate() const override { return camera_->rate(); }
-
- private:
-  static void paint(Image& picture, std::uint8_t grey, Vec2 at, double radius) {
-    for (int row = 0; row < picture.height; ++row)
-      for (int column = 0; column < picture.width; ++column)
-        if (distance(at, Vec2{1.0 * column, 1.0 * row}) <= radius)
-          picture.pixels[picture.index(column, row)] = grey;
-    // A picture of a camera is never twice the same.
-    if (grey > 0) picture.pixels[static_cast<std::size_t>(count_++ % 1000)] ^= 1;
-  }
-  static inline std::atomic<int> count_ = 0;
-  std::unique_ptr<FrameSource> camera_;
-  std::shared_ptr<Trouble> trouble_;
-  Image still_;
-  std::vector<Image> ring_;
-};
-
-class LiveRigs : public testing::Test {
- protected:
-  LiveRigs() {
-    const fs::path scenarios = fs::path(MICROSWARM_SOURCE_DIR) / "scenarios";
-    scene = load_scene(read_scenario(scenarios / "papers/radar/single.yaml"), scenarios);
-    scene.scenario.obstacles.clear();
-    scene.scenario.time_limit = 30;
-    world = build_world(scene);
-    rig.emplace(read_rig(scenarios / "rigs/vortex.yaml",
-                         {"camera.type=simulated", "camera.microscope.um_per_px=6"}));
-    // A busy computer stalls: a test sets the limit that it is about.
-    rig->params.safety = {
-        .lost_swarm = 3, .max_frame_age = 3, .deadman = 3, .missed_deadlines = 100, .max_pause = 3};
-  }
-
-  /// Runs until `seconds` have passed or it ends; `then` is called after 0.5 s.
-  RunResult go(double seconds, const std::function<void(LiveRig&)>& then = {}) {
-    const Scenario& s = scene.scenario;
-    RealtimeRigSimulator bench(s, world, *rig, std::make_unique<WatchedCoils>(coils));
-    LiveRig plant(s, world.map, *rig, std::make_unique<TroubledCamera>(bench.camera(40), trouble),
-                  bench.view().scale, bench.coils());
-    const auto navigator =
-        make_navigator(s.navigator, task_of(s), Rng(s.seed, Purpose::planner, 0));
-    std::atomic<bool> over = false;
-    std::thread trouble_maker([&] {
-      std::this_thread::sleep_for(std::chrono::milliseconds(500));
-      driven = coils->strongest;
-      began = steady_seconds();
-      if (then) then(plant);
-      while (coils->strongest > 0 && !over)
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      zero_after = steady_seconds() - began;
-    });
-    const RunResult result = run(s, plant, *navigator, {},
-                                 Stop(std::chrono::duration_cast<Stop::Clock::duration>(
-                                     std::chrono::duration<double>(seconds))));
-    timing = plant.timing();
-    at_end = coils->strongest;
-    place = bench.swarm().pose.position;
-    over = true;
-    trouble_maker.join();
-    if (then) std::printf("coils at zero after %.3f s\n", zero_after);
-    return result;
-  }
-
-  Scene scene;
-  World world;
-  std::optional<Rig> rig;
-  std::shared_ptr<WatchedCoils::Log> coils = std::make_shared<WatchedCoils::Log>();
-  std::shared_ptr<TroubledCamera::Trouble> trouble = std::make_shared<TroubledCamera::Trouble>();
-  double driven = 0;      // [A], before the trouble
-  double began = 0;       // the trouble
-  double zero_after = 0;  // [s] it took until the coils were at zero
-  double at_end = -1;     // [A], when the run has ended
-  Vec2 place;
-  RigTiming timing;
-};
-
-/// How much later than meant coils may be at zero here: tests share the computer.
-constexpr double patience = test::sanitized ? 5 : 2;
+using test::LiveRigs;
+using test::patience;
+using test::WatchedCoils;
 
 TEST_F(LiveRigs, DrivesTheSwarmInRealTime) {
   const Vec2 start = scene.scenario.start->position;
@@ -248,6 +91,37 @@ TEST_F(LiveRigs, ExchangedCoilsEndIt) {
   EXPECT_EQ(at_end, 0);
 }
 
+TEST_F(LiveRigs, ATurnedCameraEndsIt) {
+  rig->params.safety.follow_distance = 60;
+  scene.scenario.start->position = {1000, 900};
+  scene.scenario.goal = Vec2{1300, 1100};
+  for (const double angle : {90.0, 180.0}) {
+    turn = angle * pi / 180;
+    const RunResult result = go(20, [](LiveRig&) {});
+    EXPECT_EQ(result.status, Status::fault) << angle;
+    EXPECT_NE(result.state.find("the swarm does not follow: of 6"), std::string::npos)
+        << result.state;
+    EXPECT_EQ(at_end, 0);
+  }
+}
+
+TEST_F(LiveRigs, ASlightlyTurnedCameraIsToldByItsAngle) {
+  rig->params.safety.follow_distance = 60;
+  scene.scenario.start->position = {1000, 900};
+  scene.scenario.goal = Vec2{1600, 1100};
+  for (const double angle : {0.0, 20.0}) {
+    turn = angle * pi / 180;
+    EXPECT_EQ(go(8).status, Status::stopped);
+    ASSERT_TRUE(timing.direction);
+    const double seen = degrees(timing.direction->angle);
+    const double sd = degrees(timing.direction->sd);
+    std::printf("turned by %.0f degrees: seen %.1f +- %.1f, %.0f %% of the way\n", angle, seen, sd,
+                100 * timing.direction->share);
+    EXPECT_NEAR(seen, angle, std::max(6.0, 4 * sd));
+    EXPECT_LT(sd, 10);
+  }
+}
+
 TEST_F(LiveRigs, BlackPicturesEndIt) {
   const RunResult result = go(6, [&](LiveRig&) { trouble->black = true; });
   EXPECT_EQ(result.status, Status::fault);
@@ -270,6 +144,16 @@ TEST_F(LiveRigs, ASwarmThatLeavesThePictureEndsIt) {
   const RunResult result = go(6, [&](LiveRig&) { trouble->no_swarm = true; });
   EXPECT_EQ(result.status, Status::fault);
   EXPECT_NE(result.state.find("the swarm was not found for"), std::string::npos) << result.state;
+  EXPECT_EQ(at_end, 0);
+  EXPECT_LT(zero_after, patience * 1.2);
+}
+
+TEST_F(LiveRigs, ASwarmThatSplitsEndsIt) {
+  rig->params.safety.lost_swarm = 0.5;
+  const RunResult result = go(6, [&](LiveRig&) { trouble->split = true; });
+  EXPECT_EQ(result.status, Status::fault);
+  EXPECT_NE(result.state.find("(it split into parts of "), std::string::npos) << result.state;
+  EXPECT_NE(result.state.find(" and "), std::string::npos) << result.state;
   EXPECT_EQ(at_end, 0);
   EXPECT_LT(zero_after, patience * 1.2);
 }

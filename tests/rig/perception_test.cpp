@@ -10,146 +10,15 @@
 #include "microswarm/core/maths/rng.hpp"
 #include "microswarm/rig/perception/body_numbers.hpp"
 #include "microswarm/rig/perception/robot_perception.hpp"
-#include "microswarm/rig/perception/swarm_perception.hpp"
 #include "microswarm/rig/simulation/microscope.hpp"
+#include "tests/rig/perceived.hpp"
 
 namespace microswarm {
 namespace {
 
-std::shared_ptr<const Map> channel() {
-  return std::make_shared<const Map>(
-      Box{{0, 0}, {1200, 800}},
-      std::vector<Polygon>{{{{0, 0}, {1200, 0}, {1200, 100}, {0, 100}}, {}}});
-}
-
-Box bounding_box(const Body& body) {
-  if (const auto* disc = std::get_if<Disc>(&body.shape))
-    return Box{disc->centre, disc->centre}.grown(disc->radius);
-  return microswarm::bounding_box(std::get<Polygon>(body.shape));
-}
-
-CameraView view_of(const Microscope& m) { return {m.scale(), m.width(), m.height()}; }
-
-PerceptionParams eye_params() {
-  PerceptionParams p;
-  p.edge = 1.5;
-  p.scene.swarm.look.min_contrast = 80;
-  p.scene.swarm.look.gap = 4;
-  return p;
-}
-
-TEST(SwarmPerception, FollowsASwarmAmongObstacles) {
-  const auto map = channel();
-  MicroscopeParams optics;
-  optics.um_per_px = 2;
-  Microscope microscope(optics, *map, 1, 0);
-  SwarmPerception perception(eye_params(), 100, *map, {{200, 300}, 0}, view_of(microscope));
-  std::uint32_t standing_number = 0;
-  for (int i = 0; i < 60; ++i) {
-    const double t = 0.1 * i;
-    const Vec2 place{200 + 80 * t, 300 + 40 * t};
-    const SwarmPose swarm{{place, 0}, 40};
-    // One goes along with it, 8 µm from edge to edge; one stands.
-    const Snapshot world(map, t,
-                         {{.shape = Disc{place + Vec2{0, 108}, 60}, .obstacle = 0},
-                          {.shape = Disc{{900, 250}, 50}, .obstacle = 1}});
-    const Detections& seen = perception.process(microscope.look(world, swarm, {}), t);
-    ASSERT_TRUE(seen.swarm) << t << " " << seen.trouble;
-    EXPECT_LT(distance(seen.swarm->pose.position, place), 3) << t;
-    EXPECT_NEAR(seen.swarm->radius, 40, 4);
-    if (i > 5) {
-      EXPECT_LT(turn_between(seen.swarm->pose.heading, std::atan2(1, 2)), 0.15);
-    }
-    ASSERT_EQ(seen.moving.size(), 2U) << t;
-    const auto standing = [&] {
-      return std::find_if(seen.moving.begin(), seen.moving.end(), [](const Body& body) {
-        return distance(bounding_box(body).centre(), Vec2{900, 250}) < 5;
-      });
-    };
-    ASSERT_NE(standing(), seen.moving.end());
-    if (i == 0) standing_number = standing()->obstacle;
-    EXPECT_EQ(standing()->obstacle, standing_number);
-  }
-}
-
-TEST(SwarmPerception, SaysWhyThereIsNone) {
-  const auto map = channel();
-  Microscope microscope({}, *map, 1, 0);
-  SwarmPerception perception(eye_params(), 100, *map, {{200, 300}, 0}, view_of(microscope));
-  const Detections& empty = perception.process(microscope.look(Snapshot(map), std::nullopt, {}), 0);
-  EXPECT_FALSE(empty.swarm);
-  EXPECT_EQ(empty.trouble, "none");
-  Image black = microscope.look(Snapshot(map), std::nullopt, {});
-  std::fill(black.pixels.begin(), black.pixels.end(), std::uint8_t{0});
-  EXPECT_FALSE(perception.process(black, 0.1).swarm);
-}
-
-TEST(SwarmPerception, TwoSwarmsAreNotGuessedBetween) {
-  const auto map = channel();
-  Microscope microscope({}, *map, 1, 0);
-  SwarmPerception perception(eye_params(), 100, *map, {{300, 400}, 0}, view_of(microscope));
-  Image both = microscope.look(Snapshot(map), SwarmPose{{{260, 400}, 0}, 30}, {});
-  const Image right = microscope.look(Snapshot(map), SwarmPose{{{340, 400}, 0}, 30}, {});
-  for (std::size_t i = 0; i < both.pixels.size(); ++i)
-    both.pixels[i] = std::min(both.pixels[i], right.pixels[i]);
-  const Detections& seen = perception.process(both, 0);
-  EXPECT_FALSE(seen.swarm);
-  EXPECT_EQ(seen.trouble, "several");
-}
-
-/// A swarm that goes to the right, seen for two seconds.
-struct Followed {
-  std::shared_ptr<const Map> map = channel();
-  Microscope microscope{{}, *map, 1, 0};
-  SwarmPerception perception{eye_params(), 40, *map, {{300, 400}, 0}, view_of(microscope)};
-  double t = 0;
-  Vec2 place{300, 400};
-
-  const Detections& see(Vec2 at, double radius) {
-    t += 0.1;
-    return perception.process(microscope.look(Snapshot(map, t), SwarmPose{{at, 0}, radius}, {}), t);
-  }
-  Followed() {
-    for (int i = 0; i < 20; ++i) {
-      perception.commanded({0, 40}, t);
-      place.x += 4;
-      EXPECT_TRUE(see(place, 60).swarm) << i;
-    }
-  }
-};
-
-TEST(SwarmPerception, WhatItCannotHaveReachedIsNotTheSwarm) {
-  Followed f;
-  const Detections& seen = f.see(f.place + Vec2{120, 60}, 60);
-  EXPECT_FALSE(seen.swarm);
-  EXPECT_EQ(seen.trouble, "far");
-  // It may come back to where it can have gone meanwhile.
-  EXPECT_TRUE(f.see(f.place + Vec2{8, 0}, 60).swarm);
-}
-
-TEST(SwarmPerception, WhatIsOfAnotherSizeIsNotTheSwarm) {
-  Followed f;
-  for (int i = 0; i < 10; ++i) {
-    const Detections& seen = f.see(f.place, 30);
-    EXPECT_FALSE(seen.swarm);
-    EXPECT_EQ(seen.trouble, "size");
-  }
-  EXPECT_TRUE(f.see(f.place, 55).swarm);
-}
-
-TEST(SwarmPerception, MeasuresHowItFollows) {
-  Followed f;
-  f.perception.commanded({0, 40}, f.t);
-  const Detections& along = f.see(f.place += Vec2{4, 0}, 60);
-  EXPECT_NEAR(along.commanded_way, 4, 1e-9);
-  EXPECT_NEAR(along.followed_way, 4, 2);
-  double followed = 0;
-  for (int i = 0; i < 20; ++i) {
-    f.perception.commanded({0, 40}, f.t);
-    followed += f.see(f.place += Vec2{0, 4}, 60).followed_way;
-  }
-  EXPECT_NEAR(followed, 0, 5);  // of 80 µm
-}
+using test::channel;
+using test::eye_params;
+using test::view_of;
 
 /// Robots that are seen for a second, then vanish but for a few.
 class VanishingRobots : public testing::Test {

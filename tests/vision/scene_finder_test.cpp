@@ -85,8 +85,8 @@ TEST(SceneFinder, ASwarmThatTouchesAnObstacleOfItsToneIsStillSeenAndSoIsTheObsta
           swarm.centre + (swarm.radius + radius + apart) * unit_vector(rng.uniform(-3, 3));
       frame.swarm(swarm, rng);
       frame.disc(disc, radius, 0.65);
-      const SeenScene scene =
-          find_scene(frame.expose(170, 0.3, k, 0.1, rng.uniform(0, 8), rng), {}, swarm.centre);
+      const SeenScene scene = find_scene(frame.expose(170, 0.3, k, 0.1, rng.uniform(0, 8), rng), {},
+                                         {.at_px = swarm.centre});
       if (scene.swarm.sight != SwarmSight::found || scene.obstacles.size() != 1) {
         ++lost;
         continue;
@@ -209,7 +209,7 @@ TEST(SceneFinder, TheSceneOfTheDocsIsSeen) {
   const Image picture = scene.frame.expose(165, 0.3, 0.6, 0.15, 5, rng);
   SceneParams params;
   const Mask walls = find_walls(still);
-  const SeenScene seen = find_scene(picture, params, std::nullopt, &walls);
+  const SeenScene seen = find_scene(picture, params, {}, &walls);
   ASSERT_EQ(seen.swarm.sight, SwarmSight::found);
   EXPECT_LT(distance(seen.swarm.swarm->centre_px, {120, 236}), 2);
   ASSERT_EQ(seen.obstacles.size(), 4U);

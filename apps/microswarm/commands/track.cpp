@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "commands/track_output.hpp"
+#include "commands/track_suggest.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/vision/tracking/track_overlay.hpp"
@@ -22,6 +23,7 @@ struct TrackOptions {
   std::optional<double> rate;
   std::vector<std::string> settings;
   bool no_overlay = false;
+  bool suggest = false;
   bool json = false;
 };
 
@@ -36,7 +38,8 @@ TrackSettings settings_of(const TrackOptions& o) {
   }
   if (o.um_per_px) settings.um_per_px = o.um_per_px;
   if (o.rate) settings.rate = o.rate;
-  if (!settings.um_per_px) throw InputError(o.video + ": µm per px is missing: give --um-per-px");
+  if (!settings.um_per_px && !o.suggest)
+    throw InputError(o.video + ": µm per px is missing: give --um-per-px");
   return settings;
 }
 
@@ -58,7 +61,19 @@ void follow(FrameSource& source, TrackResult& result, VideoFileWriter* overlay, 
   result.events = tracker.events();
 }
 
+/// Notes on stderr if the features look like noise rather than robots.
+void note_noise(const TrackResult& result) {
+  const TrackSummary s = summarise(result.rows, result.frames);
+  if (looks_like_noise(s))
+    note(
+        "note: {} of {} tracks are a frame long: noise may be taken for robots; see `microswarm "
+        "track {} --suggest`\n",
+        s.single_tracks, s.tracks, result.source);
+}
+
 int track(const TrackOptions& o, const Context& context) {
+  if (o.suggest) return suggest_tracking(o.video, settings_of(o), o.out, o.json, context.stop);
+  if (o.out.empty()) throw InputError("track: --out is missing");
   TrackResult result{.source = o.video, .settings = settings_of(o)};
   const std::unique_ptr<FrameSource> source =
       open_frames(o.video, result.settings.rate, result.settings.depth);
@@ -80,6 +95,7 @@ int track(const TrackOptions& o, const Context& context) {
     note("note: {} says that it has {} pictures, after {} no more could be read\n", o.video,
          *result.promised, result.frames);
 
+  note_noise(result);
   write_tracks(result, folder);
   const auto shown = overlay ? overlay->commit() : std::nullopt;
   std::error_code none;  // remove an outdated overlay
@@ -105,8 +121,9 @@ void add_track(Command app, Action& action) {
                  "Video file, folder of pictures (PNG, JPEG, BMP, PGM, PPM) or multi-page TIFF")
       .required()
       .type_name("VIDEO");
-  cmd.add_option("--out", o->out, "Folder for tracks.csv, tracks.h5, events.csv and overlay.mp4")
-      .required()
+  cmd.add_option("--out", o->out,
+                 "Folder for tracks.csv, tracks.h5, events.csv and overlay.mp4; with --suggest for "
+                 "masses.png")
       .type_name("FOLDER");
   add_um_per_px(cmd, o->um_per_px, "µm per pixel of the video, 1e-6..1e6");
   cmd.add_option("--rate", o->rate, "Frames per second; overrides the value in the video")
@@ -115,6 +132,8 @@ void add_track(Command app, Action& action) {
   cmd.add_option("--config", o->config, "Settings file (YAML); other options override it")
       .type_name("FILE");
   add_settings(cmd, o->settings, "Override a value, e.g. find.tone=bright (repeatable)");
+  cmd.add_flag("--suggest", o->suggest,
+               "Suggest find.min_mass, find.diameter_px and find.tone for a video or picture");
   cmd.add_flag("--no-overlay", o->no_overlay, "Do not write overlay.mp4");
   add_json(cmd, o->json);
   cmd.callback(

@@ -42,6 +42,11 @@ std::string events_csv(const TrackResult& result) {
   return csv_table(rows);
 }
 
+std::ptrdiff_t count_of(const TrackResult& result, TrackChange change) {
+  return std::count_if(result.events.begin(), result.events.end(),
+                       [&](const TrackEvent& e) { return e.change == change; });
+}
+
 void put_integers(Hdf5Writer& file, const std::string& path,
                   const std::vector<std::int64_t>& values, const char* doc) {
   file.dataset(path, values);
@@ -95,7 +100,8 @@ std::string tracks_h5(const TrackResult& result) {
 }  // namespace
 
 void keep_track_input(const std::filesystem::path& folder, const std::string& input) {
-  for (const char* name : {"tracks.csv", "events.csv", "tracks.h5", "overlay.mp4", "overlay"})
+  for (const char* name :
+       {"tracks.csv", "events.csv", "tracks.h5", "overlay.mp4", "overlay", "masses.png"})
     keep_input((folder / name).string(), input);
 }
 
@@ -108,10 +114,6 @@ void write_tracks(const TrackResult& result, const std::filesystem::path& folder
 nlohmann::ordered_json to_json(const TrackResult& result) {
   const TrackSummary s = summarise(result.rows, result.frames);
   const double scale = result.settings.um_per_px.value_or(1);
-  const auto count = [&](TrackChange change) {
-    return std::count_if(result.events.begin(), result.events.end(),
-                         [&](const TrackEvent& e) { return e.change == change; });
-  };
   using Json = nlohmann::ordered_json;
   const auto pair = [&](double by_x, double by_y) {
     return s.drift ? Json{by_x * s.drift->x, by_y * s.drift->y} : Json(nullptr);
@@ -124,8 +126,8 @@ nlohmann::ordered_json to_json(const TrackResult& result) {
           {"drift_um", pair(1, 1)},
           {"drift_px", pair(1 / scale, -1 / scale)},
           {"mean_speed_um_per_s", s.mean_speed ? Json(*s.mean_speed) : Json(nullptr)},
-          {"merges", count(TrackChange::merge)},
-          {"splits", count(TrackChange::split)}};
+          {"merges", count_of(result, TrackChange::merge)},
+          {"splits", count_of(result, TrackChange::split)}};
 }
 
 std::string track_summary(const TrackResult& result) {
@@ -135,6 +137,8 @@ std::string track_summary(const TrackResult& result) {
       "  tracks    {}, of which {} have {} frames or more\n",
       s.frames, s.frames > 0 ? static_cast<double>(s.features) / s.frames : 0, s.tracks,
       s.long_tracks, TrackSummary::long_track);
+  text += fmt::format("  events    {} merges, {} splits\n", count_of(result, TrackChange::merge),
+                      count_of(result, TrackChange::split));
   if (!s.drift || !s.mean_speed) return text + "  drift     –, speed –: no track is long enough\n";
   return text + fmt::format(
                     "  drift     ({:.3f}, {:.3f}) µm from the first frame to the last\n"

@@ -30,6 +30,9 @@ void tell(const RigTiming& t) {
   if (t.unseen_frames > 0)
     print("  robots were unseen in {} frames, at most {} of them\n", t.unseen_frames,
           t.most_unseen);
+  if (t.direction)
+    print("  the swarm went {:.0f} % of its commanded way, {:+.1f} ± {:.1f}° from it\n",
+          100 * t.direction->share, degrees(t.direction->angle), degrees(t.direction->sd));
   if (t.resumed > 0) print("  the coils had been off by themselves {} times\n", t.resumed);
   if (t.scaled > 0) print("  the device weakened the currents {} times\n", t.scaled);
 }
@@ -56,6 +59,10 @@ nlohmann::ordered_json timing_json(const RigTiming& t, const std::optional<Recor
                               {"least_field_share", t.min_scale},
                               {"coils_resumed", t.resumed},
                               {"currents_weakened", t.scaled}};
+  if (t.direction)
+    json["direction"] = {{"angle_deg", degrees(t.direction->angle)},
+                         {"sd_deg", degrees(t.direction->sd)},
+                         {"share", t.direction->share}};
   if (video)
     json["video"] = {{"file", video->file.string()},
                      {"frames", video->frames},
@@ -71,6 +78,20 @@ void note_pace(const RigTiming& t, double seconds, const RigParams& rig) {
       "note: currents were sent {:.0f} times a second, drive_rate_hz is {:.6g}; the field "
       "turns {:.6g} times a second\n",
       rate, rig.drive_rate, rig.field.frequency);
+}
+
+/// Note on stderr if the swarm goes in another direction than its commands.
+void note_direction(const RigTiming& t) {
+  constexpr double turned = 8 * pi / 180;  // smaller angles are corrected by the navigator
+  constexpr double certain = 3;            // standard deviations
+  if (!t.direction || std::abs(t.direction->angle) < turned ||
+      std::abs(t.direction->angle) < certain * t.direction->sd)
+    return;
+  note(
+      "note: the swarm goes {:.0f} ± {:.0f}° {} of its commands: is the camera turned against the "
+      "coils (scale.rotation_deg)?\n",
+      std::abs(degrees(t.direction->angle)), degrees(t.direction->sd),
+      t.direction->angle > 0 ? "left" : "right");
 }
 
 /// Notes on stderr if the coils' limits weakened the field.
@@ -205,6 +226,7 @@ int rig_run(const RigRunOptions& o, const Context& context) {
   if (video && !video->trouble.empty()) note("microswarm: {}\n", lost = video->trouble);
   const bool at_zero = note_zero(session.zero_is_confirmed());
   note_limits(timing);
+  note_direction(timing);
   const int code =
       tell_run(session, {o.out, false, o.json, [&] { return timing_json(timing, video); }}, {});
   note_pace(timing, session.result().metrics.time, on.rig.params);

@@ -10,6 +10,7 @@
 #include "microswarm/experiment/scenario/experiment.hpp"
 #include "microswarm/rig/params/rig_params.hpp"
 #include "microswarm/rig/perception/scenario_overlay.hpp"
+#include "microswarm/rig/perception/swarm_perception.hpp"
 #include "microswarm/rig/simulation/rig_simulator.hpp"
 #include "microswarm/vision/scene/scene_overlay.hpp"
 #include "microswarm/vision/scene/wall_finder.hpp"
@@ -73,6 +74,18 @@ std::string text_of(const Blob& b) {
       b.texture, b.is_cut ? ", cut" : "");
 }
 
+Json json_of(const NotSwarm& no) {
+  Json json = json_of(no.blob);
+  json["criterion"] = enum_name(no.criterion);
+  if (no.criterion != SwarmCriterion::tone) {
+    json["value"] = no.value;
+    json["limit"] = no.limit;
+  }
+  json["key"] = no.key;
+  json["reason"] = reason(no);
+  return json;
+}
+
 /// Settings of the rig or the settings file, then of `--set`.
 SeeSettings settings_of(const SeeOptions& o) {
   SeeSettings settings;
@@ -96,6 +109,7 @@ SeeSettings settings_of(const SeeOptions& o) {
 struct Overlay {
   Experiment experiment;
   CameraScale scale;
+  PerceptionParams perception;
 };
 
 std::optional<Overlay> overlay_of(const SeeOptions& o) {
@@ -105,7 +119,8 @@ std::optional<Overlay> overlay_of(const SeeOptions& o) {
   const Rig rig = read_rig(o.rig);
   if (!rig.params.scale)
     throw rig.keys.error("scale", "`scale` is missing, see `microswarm rig scale`");
-  return Overlay{reading([&] { return open_experiment(o.scenario); }), *rig.params.scale};
+  return Overlay{reading([&] { return open_experiment(o.scenario); }), *rig.params.scale,
+                 rig.params.perception};
 }
 
 void draw_overlay(Image& shown, const Overlay& over) {
@@ -120,6 +135,84 @@ void draw_overlay(Image& shown, const Overlay& over) {
     note("note: {} of {} starts and goals are outside the picture\n", outside, places.size());
 }
 
+/// Where the scenario's swarm starts in the picture, if it is one body.
+std::optional<Vec2> start_of(const std::optional<Overlay>& over) {
+  if (!over || !over->experiment.scenario().start) return std::nullopt;
+  return over->scale.to_picture(over->experiment.scenario().start->position);
+}
+
+/// The size that a smooth swarm must have.
+SwarmPrior prior_of(const std::optional<Overlay>& over) {
+  if (!start_of(over)) return {};
+  return expected_swarm(limits_of(over->experiment.scenario().swarm), over->perception,
+                        over->scale);
+}
+
+/// What is told of a picture.
+struct Told {
+  SeenScene scene;
+  std::vector<NotSwarm> not_swarm;
+  std::optional<Vec2> start_px;
+  double um_per_px = 1;
+  double contrast_limit = 0;
+
+  /// Distance from the start, as words.
+  std::string off(const Blob& b) const {
+    if (!start_px) return {};
+    const double off = distance(b.centre_px, *start_px);
+    return fmt::format(", {:.0f} px ({:.4g} µm) from the start", off, off * um_per_px);
+  }
+  Json with_distance(Json json, const Blob& b) const {
+    if (start_px) json["distance_from_start_um"] = distance(b.centre_px, *start_px) * um_per_px;
+    return json;
+  }
+};
+
+std::string json_text(const Told& told) {
+  Json json{{"swarm", enum_name(told.scene.swarm.sight)},
+            {"contrast_limit", told.contrast_limit},
+            {"candidates", Json::array()},
+            {"not_swarm", Json::array()},
+            {"obstacles", Json::array()}};
+  for (const Blob& b : told.scene.swarm.candidates)
+    json["candidates"].push_back(told.with_distance(json_of(b), b));
+  for (const NotSwarm& no : told.not_swarm)
+    json["not_swarm"].push_back(told.with_distance(json_of(no), no.blob));
+  for (const SeenObstacle& b : told.scene.obstacles) {
+    json["obstacles"].push_back(json_of(b.blob));
+    json["obstacles"].back()["shape"] = b.disc ? "disc" : "polygon";
+  }
+  return json.dump(2);
+}
+
+void tell(const Told& told) {
+  print("swarm: {}\n", enum_name(told.scene.swarm.sight));
+  for (const Blob& b : told.scene.swarm.candidates) print("  {}{}\n", text_of(b), told.off(b));
+  print("not the swarm: {}\n", told.not_swarm.size());
+  for (const NotSwarm& no : told.not_swarm)
+    print("  {}: {}{}\n", reason(no), text_of(no.blob), told.off(no.blob));
+  if (told.not_swarm.empty() && told.scene.swarm.candidates.empty())
+    print(
+        "  nothing has a contrast above {:.1f}: `min_contrast` or five times the background's "
+        "spread "
+        "(stripes, or a swarm on half of the view or more, widen it)\n",
+        told.contrast_limit);
+  print("obstacles: {}\n", told.scene.obstacles.size());
+  for (const SeenObstacle& b : told.scene.obstacles)
+    print("  {} {}\n", b.disc ? "disc" : "polygon", text_of(b.blob));
+}
+
+/// Note on stderr if a run would not take the swarm for its own where it is.
+void note_far(const Told& told, double jump) {
+  if (!told.start_px || !told.scene.swarm.swarm) return;
+  const double off = distance(told.scene.swarm.swarm->centre_px, *told.start_px);
+  if (off > jump)
+    note(
+        "note: the swarm is {:.0f} px from the start; `rig run` searches it within {:.4g} px "
+        "(scene.swarm.jump_px)\n",
+        off, jump);
+}
+
 int see(const SeeOptions& o) {
   for (const std::string& input : {o.picture, o.still, o.config, o.rig, o.scenario})
     keep_input(o.out, input);
@@ -132,31 +225,28 @@ int see(const SeeOptions& o) {
   std::optional<Mask> walls;
   if (!o.still.empty()) walls = find_walls(still_of(o.still, picture), settings.walls);
   const Mask* hidden = walls ? &*walls : nullptr;
-  const SeenScene scene = find_scene(picture, settings.scene, std::nullopt, hidden);
+  const SceneParams& params = settings.scene;
+  const SwarmPrior prior = prior_of(over);
+  Told told{.scene = find_scene(picture, params, prior, hidden),
+            .not_swarm = {},
+            .start_px = start_of(over),
+            .um_per_px = over ? over->scale.um_per_px : 1,
+            .contrast_limit = contrast_limit(picture, params.swarm.look, hidden)};
+  told.not_swarm = why_not_swarm(told.scene, picture, params, prior, hidden);
   if (!o.out.empty()) {
-    Image shown = draw_scene(picture, scene, hidden);
+    Image shown = draw_scene(picture, told.scene, hidden);
+    draw_reasons(shown, told.not_swarm);
     if (over) draw_overlay(shown, *over);
     write_png(o.out, shown);
   }
-  const SwarmSighting& s = scene.swarm;
+  note_far(told, params.swarm.jump);
   if (o.json) {
-    Json json{
-        {"swarm", enum_name(s.sight)}, {"candidates", Json::array()}, {"obstacles", Json::array()}};
-    for (const Blob& b : s.candidates) json["candidates"].push_back(json_of(b));
-    for (const SeenObstacle& b : scene.obstacles) {
-      json["obstacles"].push_back(json_of(b.blob));
-      json["obstacles"].back()["shape"] = b.disc ? "disc" : "polygon";
-    }
-    print("{}\n", json.dump(2));
+    print("{}\n", json_text(told));
   } else {
-    print("swarm: {}\n", enum_name(s.sight));
-    for (const Blob& b : s.candidates) print("  {}\n", text_of(b));
-    print("obstacles: {}\n", scene.obstacles.size());
-    for (const SeenObstacle& b : scene.obstacles)
-      print("  {} {}\n", b.disc ? "disc" : "polygon", text_of(b.blob));
+    tell(told);
     if (!o.out.empty()) print("wrote {}\n", o.out);
   }
-  return s.sight == SwarmSight::found ? ok : not_reached;
+  return told.scene.swarm.sight == SwarmSight::found ? ok : not_reached;
 }
 
 }  // namespace

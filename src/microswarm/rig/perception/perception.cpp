@@ -23,8 +23,8 @@ std::unique_ptr<Perception> make_perception(const PerceptionParams& params,
                                             std::span<const Vec2> starts, const CameraView& view) {
   if (scenario.robots)
     return std::make_unique<RobotPerception>(params, *scenario.robots, map, starts, view);
-  return std::make_unique<SwarmPerception>(params, limits_of(scenario.swarm).max_speed, map,
-                                           *scenario.start, view);
+  return std::make_unique<SwarmPerception>(params, limits_of(scenario.swarm), map, *scenario.start,
+                                           view);
 }
 
 }  // namespace microswarm

@@ -28,12 +28,14 @@ struct Detections {
   std::optional<SwarmPose> swarm;
   std::vector<Vec2> robots;  ///< individually tracked robots; the order never changes
   std::vector<Body> moving;  ///< obstacles with persistent numbers
-  /// Why no swarm was found: "none", "far" from where it can be, "several", of another "size", or
-  /// too few "robots".
+  /// Why no swarm was found: "none", "far" from where it can be, "several", of another "size",
+  /// "split" into parts, "merged" with another one, or too few "robots".
   std::string_view trouble;
-  int unseen = 0;            ///< robots without a spot of their own or of a pile that they joined
-  double commanded_way = 0;  ///< that the command drives since the last picture [µm]
-  double followed_way = 0;   ///< part of it that was seen [µm]; negative in the opposite direction
+  std::vector<double> parts;  ///< radii of what it split into or merged from [µm]
+  int unseen = 0;             ///< robots without a spot of their own or of a pile that they joined
+  double commanded_way = 0;   ///< that the command drives since the last picture [µm]
+  double followed_way = 0;  ///< part of it that was seen [µm]; negative in the opposite direction
+  double across_way = 0;    ///< what was seen to its left [µm]
 };
 
 /// Interface of a rig's image processing, picture by picture, in world coordinates. Walls are those

@@ -57,7 +57,7 @@ const Detections& RobotPerception::process(const Image& picture, double t) {
   detections_.swarm.reset();
   detections_.trouble = "none";
   detections_.unseen = static_cast<int>(count);
-  detections_.commanded_way = detections_.followed_way = 0;
+  detections_.commanded_way = detections_.followed_way = detections_.across_way = 0;
   expect(passed);
   if (spots_.empty()) return detections_;
   const double reach = diameter_ + speed_margin * max_speed_ * passed;
@@ -161,11 +161,14 @@ void RobotPerception::measure_following() {
     if (!spot_of_[r] || way == 0) continue;
     ++count;
     detections_.commanded_way += way;
-    detections_.followed_way += dot(detections_.robots[r] - before_[r], wanted) / way;
+    const Vec2 seen = detections_.robots[r] - before_[r];
+    detections_.followed_way += dot(seen, wanted) / way;
+    detections_.across_way += cross(wanted, seen) / way;
   }
   if (count == 0) return;
   detections_.commanded_way /= count;
   detections_.followed_way /= count;
+  detections_.across_way /= count;
 }
 
 void RobotPerception::learn_ground() {

@@ -15,44 +15,130 @@ namespace {
 constexpr std::size_t radius_window = 31;    // sightings of which the median radius is taken
 constexpr double follow_radii = 3;           // way over which a swarm must follow
 constexpr std::size_t min_radius_count = 5;  // of sightings before a radius is doubted
+constexpr double clear_texture = 2;          // limits of texture, above which it is no smooth swarm
+constexpr double part_distance = 2;          // of a part from where the swarm was, in its radii
+constexpr double part_size = 0.85;           // maximum of a part, in the swarm's radii
+constexpr double area_tolerance = 0.5;       // of the parts' area beside the swarm's
 
 }  // namespace
 
-SwarmPerception::SwarmPerception(const PerceptionParams& params, double max_speed, const Map& map,
-                                 const Pose2& start, const CameraView& view)
+SwarmPrior expected_swarm(const SwarmLimits& limits, const PerceptionParams& params,
+                          const CameraScale& scale) {
+  SwarmPrior prior;
+  if (limits.radius <= 0) return prior;
+  const double tolerance = params.radius_tolerance;
+  const double least = limits.radius - limits.radius_variation;
+  prior.min_radius_px = (1 - tolerance) * least / scale.um_per_px - params.edge;
+  prior.max_radius_px = (1 + tolerance) * limits.radius / scale.um_per_px - params.edge;
+  return prior;
+}
+
+SwarmPerception::SwarmPerception(const PerceptionParams& params, const SwarmLimits& limits,
+                                 const Map& map, const Pose2& start, const CameraView& view)
     : params_(params),
       scale_(view.scale),
       walls_(walls_in_picture(map, view.scale, view.width, view.height)),
       numbers_(params.scene.swarm.jump * view.scale.um_per_px),
       from_(start.position),
       heading_(start.heading),
-      max_speed_(max_speed),
+      limits_(limits),
       before_px_(scale_.to_picture(start.position)) {}
 
 const Detections& SwarmPerception::process(const Image& picture, double t) {
-  SceneParams params = params_.scene;
-  params.swarm.jump = reach_px(t);
-  const SeenScene scene = find_scene(picture, params, before_px_, &walls_);
+  const SeenScene scene = find_scene(picture, search(t), prior(), &walls_);
   const std::optional<Blob>& swarm = scene.swarm.swarm;
   detections_.swarm.reset();
+  detections_.parts.clear();
   detections_.trouble = enum_name(scene.swarm.sight);
-  detections_.commanded_way = detections_.followed_way = 0;
-  if (swarm && !is_of_its_size(swarm->radius_px)) {
-    detections_.trouble = "size";
+  detections_.commanded_way = detections_.followed_way = detections_.across_way = 0;
+  if (tell_split(scene.swarm)) {
+    detections_.trouble = "split";
+  } else if (swarm && !is_of_its_size(swarm->radius_px)) {
+    detections_.trouble = tell_merger(*swarm, scene) ? "merged" : "size";
   } else if (swarm) {
-    const Vec2 place = scale_.to_world(swarm->centre_px);
-    measure_following(place, t);
-    before_px_ = swarm->centre_px;
-    found_ = t;
-    tell_heading(place);
-    const double radius = std::max(0.0, swarm->radius_px + params_.edge);
-    detections_.swarm = SwarmPose{{place, heading_}, radius * scale_.um_per_px};
+    accept(*swarm, scene, t);
   }
   detections_.moving.clear();
   for (const SeenObstacle& seen : scene.obstacles)
     detections_.moving.push_back({.shape = seen.shape(scale_)});
   numbers_.number(detections_.moving, t);
   return detections_;
+}
+
+/// How the swarm is searched: where it can have come, and without texture if it had none.
+SceneParams SwarmPerception::search(double t) const {
+  SceneParams params = params_.scene;
+  params.swarm.jump = reach_px(t);
+  if (found_ && params.smooth_swarm) {
+    params.smooth_swarm = false;
+    if (texture_ < clear_texture * params.swarm.look.min_texture) params.swarm.look.min_texture = 0;
+  }
+  return params;
+}
+
+SwarmPrior SwarmPerception::prior() const {
+  SwarmPrior prior = found_ ? SwarmPrior{} : expected_swarm(limits_, params_, scale_);
+  prior.at_px = before_px_;
+  return prior;
+}
+
+void SwarmPerception::accept(const Blob& swarm, const SeenScene& scene, double t) {
+  keep_size(swarm);
+  const Vec2 place = scale_.to_world(swarm.centre_px);
+  measure_following(place, t);
+  before_px_ = swarm.centre_px;
+  found_ = t;
+  texture_ = swarm.texture;
+  beside_ = scene.swarm.others;
+  for (const SeenObstacle& seen : scene.obstacles) beside_.push_back(seen.blob);
+  tell_heading(place);
+  const double radius = std::max(0.0, swarm.radius_px + params_.edge);
+  detections_.swarm = SwarmPose{{place, heading_}, radius * scale_.um_per_px};
+}
+
+/// Whether it lies in parts where it was whole: they have its area, and it is none of them. What
+/// was beside it before is no part.
+bool SwarmPerception::tell_split(const SwarmSighting& sighting) {
+  if (sightings_ < min_radius_count) return false;
+  const double usual = median(radii_px_);
+  std::vector<Blob> near = sighting.candidates;
+  near.insert(near.end(), sighting.others.begin(), sighting.others.end());
+  std::erase_if(near, [&](const Blob& blob) {
+    return distance(blob.centre_px, *before_px_) > part_distance * usual ||
+           std::any_of(beside_.begin(), beside_.end(), [&](const Blob& old) {
+             return distance(old.centre_px, blob.centre_px) < 0.5 * old.radius_px;
+           });
+  });
+  double area = 0;
+  double largest = 0;
+  for (const Blob& blob : near) {
+    area += blob.radius_px * blob.radius_px / (usual * usual);
+    largest = std::max(largest, blob.radius_px);
+  }
+  if (near.size() < 2 || largest > part_size * usual || std::abs(area - 1) > area_tolerance)
+    return false;
+  for (const Blob& blob : near) detections_.parts.push_back(blob.radius_px * scale_.um_per_px);
+  return true;
+}
+
+/// Whether a blob too large for the swarm is the swarm and something that was beside it, which is
+/// no longer seen there and has the area that it has grown by.
+bool SwarmPerception::tell_merger(const Blob& whole, const SeenScene& scene) {
+  const double usual = median(radii_px_);
+  const double grown = whole.radius_px * whole.radius_px - usual * usual;
+  if (grown <= 0) return false;
+  for (const Blob& old : beside_) {
+    const bool is_there =
+        std::any_of(scene.obstacles.begin(), scene.obstacles.end(), [&](const SeenObstacle& seen) {
+          return distance(seen.blob.centre_px, old.centre_px) < 0.5 * old.radius_px;
+        });
+    if (is_there || distance(old.centre_px, whole.centre_px) > 2 * whole.radius_px ||
+        std::abs(old.radius_px * old.radius_px / grown - 1) > area_tolerance)
+      continue;
+    detections_.parts = {usual * scale_.um_per_px, old.radius_px * scale_.um_per_px};
+    return true;
+  }
+  return false;
 }
 
 void SwarmPerception::commanded(const Command& command, double) { command_ = command; }
@@ -65,30 +151,32 @@ double SwarmPerception::follow_distance() const {
 double SwarmPerception::reach_px(double t) const {
   const double jump = params_.scene.swarm.jump;
   if (!found_) return jump;
-  const double way = params_.speed_gain * max_speed_ * std::max(0.0, t - *found_);
+  const double way = params_.speed_gain * limits_.max_speed * std::max(0.0, t - *found_);
   return std::min(jump, way / scale_.um_per_px + params_.position_noise);
 }
 
-bool SwarmPerception::is_of_its_size(double radius_px) {
-  if (sightings_ >= min_radius_count) {
-    const double usual = median(radii_px_);
-    if (std::abs(radius_px - usual) > params_.radius_tolerance * usual) return false;
-  }
+bool SwarmPerception::is_of_its_size(double radius_px) const {
+  if (sightings_ < min_radius_count) return true;
+  const double usual = median(radii_px_);
+  return std::abs(radius_px - usual) <= params_.radius_tolerance * usual;
+}
+
+void SwarmPerception::keep_size(const Blob& swarm) {
   if (radii_px_.size() < radius_window)
-    radii_px_.push_back(radius_px);
+    radii_px_.push_back(swarm.radius_px);
   else
-    radii_px_[sightings_ % radius_window] = radius_px;
+    radii_px_[sightings_ % radius_window] = swarm.radius_px;
   ++sightings_;
-  return true;
 }
 
 void SwarmPerception::measure_following(Vec2 place, double t) {
   if (!found_ || !before_px_) return;
   const Vec2 wanted = displacement(command_, std::max(0.0, t - *found_));
   detections_.commanded_way = norm(wanted);
-  if (detections_.commanded_way > 0)
-    detections_.followed_way =
-        dot(place - scale_.to_world(*before_px_), wanted) / detections_.commanded_way;
+  if (detections_.commanded_way <= 0) return;
+  const Vec2 seen = place - scale_.to_world(*before_px_);
+  detections_.followed_way = dot(seen, wanted) / detections_.commanded_way;
+  detections_.across_way = cross(wanted, seen) / detections_.commanded_way;
 }
 
 void SwarmPerception::tell_heading(Vec2 place) {

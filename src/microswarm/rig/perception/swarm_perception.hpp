@@ -6,15 +6,23 @@
 #include "microswarm/formats/images/mask.hpp"
 #include "microswarm/rig/perception/body_numbers.hpp"
 #include "microswarm/rig/perception/perception.hpp"
+#include "microswarm/swarm/body/swarm_limits.hpp"
 
 namespace microswarm {
 
+/// Size in the picture of a swarm with these limits: a smooth one must have it where it is seen for
+/// the first time.
+SwarmPrior expected_swarm(const SwarmLimits& limits, const PerceptionParams& params,
+                          const CameraScale& scale);
+
 /// Detects one swarm among moving obstacles, where it can have come since it was last seen and of
-/// about the size that it had. Its heading is its last direction of motion.
+/// about the size that it had. Its heading is its last direction of motion. A swarm without texture
+/// is known at first by the start and by the size that the scenario gives it; a swarm that had
+/// texture is never replaced by something smooth.
 class SwarmPerception : public Perception {
  public:
-  /// The swarm starts at `start` and goes at most `max_speed` [µm/s].
-  SwarmPerception(const PerceptionParams& params, double max_speed, const Map& map,
+  /// The swarm starts at `start`.
+  SwarmPerception(const PerceptionParams& params, const SwarmLimits& limits, const Map& map,
                   const Pose2& start, const CameraView& view);
 
   const Detections& process(const Image& picture, double t) override;
@@ -23,7 +31,13 @@ class SwarmPerception : public Perception {
 
  private:
   double reach_px(double t) const;
-  bool is_of_its_size(double radius_px);
+  SceneParams search(double t) const;
+  SwarmPrior prior() const;
+  bool is_of_its_size(double radius_px) const;
+  void keep_size(const Blob& swarm);
+  bool tell_split(const SwarmSighting& sighting);
+  bool tell_merger(const Blob& whole, const SeenScene& scene);
+  void accept(const Blob& swarm, const SeenScene& scene, double t);
   void measure_following(Vec2 place, double t);
   void tell_heading(Vec2 place);
 
@@ -33,11 +47,13 @@ class SwarmPerception : public Perception {
   BodyNumbers numbers_;
   Vec2 from_;  // position at the last update of the heading
   double heading_;
-  double max_speed_;  // [µm/s]
+  SwarmLimits limits_;
   std::optional<Vec2> before_px_;
   std::optional<double> found_;   // when the swarm was last seen [s]
   std::vector<double> radii_px_;  // of the last sightings, a ring
   std::size_t sightings_ = 0;     // so far
+  std::vector<Blob> beside_;      // what else was seen with the swarm at the last sighting
+  double texture_ = 0;            // of the swarm then
   Command command_;
   Detections detections_;
 };

@@ -12,7 +12,8 @@
 namespace microswarm {
 namespace {
 
-constexpr double first_frame = 5;  // [s] timeout of the first frame
+constexpr double first_frame = 5;                   // [s] timeout of the first frame
+constexpr double stretches_of_follow_distance = 6;  // over which a direction is measured
 
 const RigParams& checked(const Rig& rig, const Scenario& scenario) {
   KeyLocations().require_none(validate(rig, scenario));
@@ -31,9 +32,19 @@ CoilLoopLimits loop_limits(const RigParams& rig) {
 }
 
 std::string why_not_found(const Detections& seen) {
+  const auto radii = [&] {
+    std::string text;
+    for (const double radius : seen.parts)
+      text += fmt::format("{}{:.3g}", text.empty() ? "" : " and ", radius);
+    return text;
+  };
   if (seen.trouble == "several") return " (there are several)";
   if (seen.trouble == "far") return " (what is seen is too far from where it was)";
   if (seen.trouble == "size") return " (what is seen is of another size)";
+  if (seen.trouble == "split")
+    return fmt::format(" (it split into parts of {} µm radius)", radii());
+  if (seen.trouble == "merged")
+    return fmt::format(" (it merged with another: they had {} µm radius)", radii());
   if (seen.trouble == "robots")
     return fmt::format(" ({} of {} robots are not seen)", seen.unseen, seen.robots.size());
   return {};
@@ -133,12 +144,15 @@ void LiveRig::read_frame() {
   if (detections_->swarm) found_ = seen_;
   const double distance =
       rig_.params.safety.follow_distance.value_or(perception_->follow_distance());
+  angle_.take(detections_->commanded_way, detections_->followed_way, detections_->across_way,
+              distance / stretches_of_follow_distance);
   if (!following_.take(detections_->commanded_way, detections_->followed_way, distance))
     fail(
         fmt::format("the swarm does not follow: of {:.3g} µm that were commanded it went {:.3g} µm",
                     following_.commanded(), following_.followed()));
   const std::lock_guard lock(timing_mutex_);
   timing_.vision.add(took);
+  timing_.direction = angle_.direction();
   timing_.unseen_frames += detections_->unseen > 0;
   timing_.most_unseen = std::max(timing_.most_unseen, detections_->unseen);
 }

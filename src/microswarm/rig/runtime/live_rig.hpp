@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "microswarm/actuation/coils/coil_controller.hpp"
@@ -21,21 +22,22 @@ namespace microswarm {
 
 /// Durations and counts of a run on a rig.
 struct RigTiming {
-  Durations frame_age;       ///< of the newest frame at the start of a tick
-  Durations vision;          ///< image processing of a frame
-  Durations tick;            ///< from the start of a tick to its command
-  Durations coil_late;       ///< delay of currents after their due time
-  Durations round_trip;      ///< of the coil driver
-  int resumed = 0;           ///< times the coils had switched off by themselves
-  int unmade = 0;            ///< fields that the coils cannot produce
-  int limited = 0;           ///< fields weakened by the coils' limits
-  double min_scale = 1;      ///< minimum scale of these
-  int scaled = 0;            ///< currents reduced by the device's own limits
-  int missed_deadlines = 0;  ///< ticks that ended after the start of the next
-  int frames = 0;            ///< processed
-  int dropped_frames = 0;    ///< received but not processed
-  int unseen_frames = 0;     ///< processed, in which robots were unseen
-  int most_unseen = 0;       ///< robots that were unseen in one frame
+  Durations frame_age;                         ///< of the newest frame at the start of a tick
+  Durations vision;                            ///< image processing of a frame
+  Durations tick;                              ///< from the start of a tick to its command
+  Durations coil_late;                         ///< delay of currents after their due time
+  Durations round_trip;                        ///< of the coil driver
+  int resumed = 0;                             ///< times the coils had switched off by themselves
+  int unmade = 0;                              ///< fields that the coils cannot produce
+  int limited = 0;                             ///< fields weakened by the coils' limits
+  double min_scale = 1;                        ///< minimum scale of these
+  int scaled = 0;                              ///< currents reduced by the device's own limits
+  int missed_deadlines = 0;                    ///< ticks that ended after the start of the next
+  int frames = 0;                              ///< processed
+  int dropped_frames = 0;                      ///< received but not processed
+  int unseen_frames = 0;                       ///< processed, in which robots were unseen
+  int most_unseen = 0;                         ///< robots that were unseen in one frame
+  std::optional<FollowDirection> direction{};  ///< of the swarm relative to its commands
 };
 
 /// A rig in real time. Each tick processes the newest frame, sends the command to the coils, and
@@ -97,6 +99,7 @@ class LiveRig : public Plant {
   NewestFrame camera_;
   CoilController controller_;
   FollowMonitor following_;
+  FollowAngle angle_;
   std::unique_ptr<Perception> perception_;
   LiveFrame frame_;
   Image grey_;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
 
 #include "microswarm/geometry/vec2.hpp"
 
@@ -19,5 +22,13 @@ inline cv::Point fine(Vec2 p) {
 
 /// Colour of lines and text.
 inline const cv::Scalar white(255, 255, 255);
+inline const cv::Scalar black(0, 0, 0);
+
+/// Writes a line of ASCII text in white with a black edge; `at` is its lower left corner.
+inline void draw_text(cv::Mat& picture, const std::string& text, cv::Point at, double size) {
+  const int thin = std::max(1, static_cast<int>(std::lround(2 * size)));
+  cv::putText(picture, text, at, cv::FONT_HERSHEY_SIMPLEX, size, black, 3 * thin, cv::LINE_AA);
+  cv::putText(picture, text, at, cv::FONT_HERSHEY_SIMPLEX, size, white, thin, cv::LINE_AA);
+}
 
 }  // namespace microswarm

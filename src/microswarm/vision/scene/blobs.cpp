@@ -271,6 +271,20 @@ std::optional<Blob> blob_of(const BlobContext& field, const Piece& piece, float 
   return blob;
 }
 
+/// `grey` has one channel and must outlive the result.
+BlobContext context_of(const Image& grey, const BlobParams& p, const Mask* walls) {
+  BlobContext field{.side = coarseness(p)};
+  field.seen = seen_of(grey, walls, field.side);
+  field.fine = as_mat(grey);
+  field.foreground = rise_of(downsampled(field.fine, field.side), field.seen,
+                             p.tone == ParticleTone::dark, p.gap / 2 / field.side);
+  return field;
+}
+
+double least_contrast(const BlobContext& field, const BlobParams& p) {
+  return std::max(p.min_contrast, noise_limit * ground_spread(field.foreground, field.seen));
+}
+
 }  // namespace
 
 Issues validate(const BlobParams& p) {
@@ -282,38 +296,72 @@ Issues validate(const BlobParams& p) {
   return issues;
 }
 
-std::vector<Blob> find_blobs(const Image& picture, const BlobParams& p, const Mask* walls) {
-  BlobContext field{.side = coarseness(p)};
-  field.seen = seen_of(picture, walls, field.side);
-  if (picture.pixels.empty()) return {};
+double contrast_limit(const Image& picture, const BlobParams& params, const Mask* walls) {
+  if (picture.pixels.empty()) return params.min_contrast;
   const Image one = picture.channels == 1 ? Image{} : to_grey(picture);
-  field.fine = as_mat(picture.channels == 1 ? picture : one);
-  field.foreground = rise_of(downsampled(field.fine, field.side), field.seen,
-                             p.tone == ParticleTone::dark, p.gap / 2 / field.side);
-  const auto least = static_cast<float>(
-      std::max(p.min_contrast, noise_limit * ground_spread(field.foreground, field.seen)));
+  return least_contrast(context_of(picture.channels == 1 ? picture : one, params, walls), params);
+}
+
+std::vector<Blob> find_blobs(const Image& picture, const BlobParams& p, const Mask* walls,
+                             std::vector<Blob>* refused) {
+  if (picture.pixels.empty()) {
+    seen_of(picture, walls, 1);
+    return {};
+  }
+  const Image one = picture.channels == 1 ? Image{} : to_grey(picture);
+  BlobContext field = context_of(picture.channels == 1 ? picture : one, p, walls);
+  const auto least = static_cast<float>(least_contrast(field, p));
   const cv::Mat high = field.foreground > least;
   const cv::Mat ground = field.seen.empty() ? cv::Mat(~high) : cv::Mat(~high & field.seen);
   const double noise = roughness(field, {0, 0, ground.cols, ground.rows}, ground, ground_rows);
 
   // Threshold the foreground, then keep of each piece what reaches half the contrast of its middle.
   const double min_area = std::numbers::pi * maths::power(0.5 * p.min_radius / field.side, 2);
+  const double smallest = refused ? min_area / 4 : min_area;
   std::vector<Blob> blobs;
-  for (Piece& piece : pieces_of(high, {}, min_area)) {
+  const auto refuse = [&](std::optional<Blob> blob) {
+    if (blob && refused) refused->push_back(std::move(*blob));
+  };
+  const auto level_of = [&](const Piece& piece) {
+    return std::max(least, median_within(field.foreground, piece) / 2);
+  };
+  const auto main_blob = [&](const Piece& piece) -> std::optional<Blob> {
+    const float level = level_of(piece);
+    const cv::Mat half_up = piece.in & (field.foreground(piece.box) > level);
+    const std::vector<Piece> parts = pieces_of(half_up, piece.box.tl(), smallest);
+    const auto largest = std::max_element(parts.begin(), parts.end(), [](auto& a, auto& b) {
+      return cv::countNonZero(a.in) < cv::countNonZero(b.in);
+    });
+    return largest == parts.end() ? std::nullopt : blob_of(field, *largest, level, noise);
+  };
+  for (Piece& piece : pieces_of(high, {}, smallest)) {
+    std::optional<Blob> whole;  // with its smooth part, which is then all that is refused
+    std::optional<Blob> smooth_blob;
     if (p.min_texture > 0) {
       const cv::Mat smooth = smooth_parts(field, piece, mean_step(noise, p.min_texture));
+      if (refused && cv::countNonZero(smooth) >= min_area) {
+        whole = main_blob(piece);
+        smooth_blob = main_blob({piece.box, smooth});
+      }
       piece.in &= ~smooth;
       field.foreground(piece.box).setTo(0, smooth);
-      if (cv::countNonZero(piece.in) < min_area) continue;
+      if (cv::countNonZero(piece.in) < min_area) {
+        refuse(whole);
+        continue;
+      }
     }
-    const float level = std::max(least, median_within(field.foreground, piece) / 2);
+    const std::size_t before = blobs.size();
+    const float level = level_of(piece);
     const cv::Mat half_up = piece.in & (field.foreground(piece.box) > level);
-    for (const Piece& part : pieces_of(half_up, piece.box.tl(), min_area)) {
+    for (const Piece& part : pieces_of(half_up, piece.box.tl(), smallest)) {
       std::optional<Blob> blob = blob_of(field, part, level, noise);
-      if (blob && blob->radius_px >= p.min_radius && blob->radius_px <= p.max_radius &&
-          blob->texture >= p.min_texture)
+      if (blob && cv::countNonZero(part.in) >= min_area && blob->radius_px >= p.min_radius &&
+          blob->radius_px <= p.max_radius && blob->texture >= p.min_texture)
         blobs.push_back(std::move(*blob));
+      else if (!whole)
+        refuse(std::move(blob));
     }
+    if (whole) refuse(blobs.size() == before ? whole : smooth_blob);
   }
   std::stable_sort(blobs.begin(), blobs.end(),
                    [](const Blob& a, const Blob& b) { return a.radius_px > b.radius_px; });

@@ -59,9 +59,14 @@ struct Blob {
 /// Finds regions that differ from the background, sorted by decreasing area. Uneven light is
 /// removed first. Clumps closer than `gap` are merged. Outlines have subpixel resolution and run at
 /// half of the contrast. Pixels set in `walls`, which has the picture's size, and their neighbours
-/// are ignored. Colour pictures are converted to grey. The result is bit-reproducible. Throws
-/// InputError if `walls` has another size.
+/// are ignored. Colour pictures are converted to grey. The result is bit-reproducible. `refused`
+/// receives the regions that are too smooth, too large, or too small but at least a quarter of
+/// `min_radius`. Throws InputError if `walls` has another size.
 std::vector<Blob> find_blobs(const Image& picture, const BlobParams& params,
-                             const Mask* walls = nullptr);
+                             const Mask* walls = nullptr, std::vector<Blob>* refused = nullptr);
+
+/// Contrast above which something differs from the background [grey]: `min_contrast`, or five times
+/// the spread of the background. Walls and errors as in `find_blobs`.
+double contrast_limit(const Image& picture, const BlobParams& params, const Mask* walls = nullptr);
 
 }  // namespace microswarm

@@ -80,16 +80,39 @@ SeenObstacle obstacle_of(Blob blob, const cv::Size& size, const Mask* hidden, do
   return obstacle;
 }
 
+/// The only smooth blob that can be the swarm.
+std::optional<Blob> smooth_swarm(const Image& picture, const SceneParams& params,
+                                 const SwarmPrior& prior, const Mask* walls) {
+  BlobParams look = params.swarm.look;
+  look.min_texture = 0;
+  std::vector<Blob> blobs = find_blobs(picture, look, walls);
+  std::erase_if(blobs, [&](const Blob& blob) { return !fits(blob, params, prior); });
+  if (blobs.size() != 1) return std::nullopt;
+  return std::move(blobs[0]);
+}
+
 }  // namespace
+
+bool fits(const Blob& smooth, const SceneParams& params, const SwarmPrior& prior) {
+  return !smooth.is_cut && smooth.radius_px >= prior.min_radius_px &&
+         smooth.radius_px <= prior.max_radius_px &&
+         !(prior.at_px && distance(smooth.centre_px, *prior.at_px) > params.swarm.jump);
+}
 
 std::variant<Disc, Polygon> SeenObstacle::shape(const CameraScale& scale) const {
   if (disc) return Disc{scale.to_world(disc->centre_px), scale.um_per_px * disc->radius_px};
   return polygon_in_world({.outer = hull_px, .holes = {}}, scale);
 }
 
-SeenScene find_scene(const Image& picture, const SceneParams& params, std::optional<Vec2> before_px,
+SeenScene find_scene(const Image& picture, const SceneParams& params, const SwarmPrior& prior,
                      const Mask* walls) {
-  SeenScene scene{.swarm = find_swarm(picture, params.swarm, before_px, walls), .obstacles = {}};
+  SeenScene scene{.swarm = find_swarm(picture, params.swarm, prior.at_px, walls), .obstacles = {}};
+  if (scene.swarm.sight == SwarmSight::none && params.smooth_swarm &&
+      params.swarm.look.min_texture > 0) {
+    if (auto blob = smooth_swarm(picture, params, prior, walls))
+      scene.swarm = {
+          .sight = SwarmSight::found, .swarm = blob, .candidates = {*blob}, .others = {}};
+  }
   Mask hidden;
   if (scene.swarm.swarm) {
     hidden = hidden_by(*scene.swarm.swarm, picture, walls, params.swarm.look.gap);

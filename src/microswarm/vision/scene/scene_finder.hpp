@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/vision/camera/camera_scale.hpp"
 #include "microswarm/vision/scene/swarm_finder.hpp"
 #include "microswarm/vision/tracking/ring_fit.hpp"
@@ -12,16 +13,20 @@
 namespace microswarm {
 
 /// Settings of `find_scene`. If obstacles have the swarm's tone, `swarm.look.min_texture`
-/// distinguishes them from it.
+/// distinguishes them from it. A dense swarm may have no texture at the camera's magnification:
+/// with `smooth_swarm` a smooth blob is the swarm where nothing has texture and it is the only one.
 struct SceneParams {
   SwarmFinderParams swarm{.look = {.min_texture = 5}};
   BlobParams obstacles{.gap = 4};
+  bool smooth_swarm = true;
   double roundness = 0.06;
 
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.swarm, {"swarm", Unit::none, {}, "Detection of the swarm."});
     visit(self.obstacles, {"obstacles", Unit::none, {}, "Appearance of moving obstacles."});
+    visit(self.smooth_swarm,
+          {"smooth_swarm", Unit::none, {}, "Without texture, a single smooth blob is the swarm."});
     visit(self.roundness, {"roundness",
                            Unit::none,
                            {0, 1},
@@ -39,16 +44,25 @@ struct SeenObstacle {
   std::variant<Disc, Polygon> shape(const CameraScale& scale) const;
 };
 
+/// What is known of the swarm before a picture is searched.
+struct SwarmPrior {
+  std::optional<Vec2> at_px{};  ///< its last position: what is farther than `jump` is not the swarm
+  double min_radius_px = 0;     ///< of a smooth blob that can be the swarm
+  double max_radius_px = infinity;
+};
+
 /// The swarm and the obstacles of a picture.
 struct SeenScene {
   SwarmSighting swarm;
   std::vector<SeenObstacle> obstacles;  ///< sorted by decreasing size
 };
 
+/// Whether a blob without texture can be the swarm: as `prior` says, and not cut.
+bool fits(const Blob& smooth, const SceneParams& params, const SwarmPrior& prior);
+
 /// Finds the swarm and the obstacles in a picture. Obstacles are all other regions that differ from
-/// the background, including those that touch the swarm. `before_px`, `walls` and errors as in
-/// `find_swarm`.
+/// the background, including those that touch the swarm. `walls` and errors as in `find_swarm`.
 SeenScene find_scene(const Image& picture, const SceneParams& params = {},
-                     std::optional<Vec2> before_px = std::nullopt, const Mask* walls = nullptr);
+                     const SwarmPrior& prior = {}, const Mask* walls = nullptr);
 
 }  // namespace microswarm

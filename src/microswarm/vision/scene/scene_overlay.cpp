@@ -67,4 +67,23 @@ Image draw_scene(const Image& picture, const SeenScene& scene, const Mask* walls
   return shown;
 }
 
+void draw_reasons(Image& shown, const std::vector<NotSwarm>& blobs) {
+  constexpr double size = 0.4;
+  cv::Mat canvas = as_mat(shown);
+  for (const NotSwarm& no : blobs) {
+    draw_ring(canvas, no.blob.outline_px, white, 1);
+    const std::string words = short_reason(no);
+    int below = 0;
+    const cv::Size text = cv::getTextSize(words, cv::FONT_HERSHEY_SIMPLEX, size, 1, &below);
+    const auto place = [](double at, int length, int picture) {
+      return std::clamp(static_cast<int>(std::lround(at)) - length / 2, 2,
+                        std::max(2, picture - length - 2));
+    };
+    draw_text(canvas, words,
+              {place(no.blob.centre_px.x, text.width, shown.width),
+               place(no.blob.centre_px.y, 0, shown.height) + text.height / 2},
+              size);
+  }
+}
+
 }  // namespace microswarm

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/formats/images/mask.hpp"
 #include "microswarm/vision/scene/scene_finder.hpp"
+#include "microswarm/vision/scene/swarm_criteria.hpp"
 
 namespace microswarm {
 
@@ -11,5 +14,8 @@ namespace microswarm {
 /// several candidates) with ellipse and axes in white, obstacles as discs or hulls in orange, walls
 /// in blue.
 Image draw_scene(const Image& picture, const SeenScene& scene, const Mask* walls = nullptr);
+
+/// Draws over a picture in colour why blobs are not the swarm: a thin outline and a few words each.
+void draw_reasons(Image& shown, const std::vector<NotSwarm>& blobs);
 
 }  // namespace microswarm

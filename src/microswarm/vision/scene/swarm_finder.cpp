@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/vision/scene/swarm_finder.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace microswarm {
@@ -10,15 +11,19 @@ SwarmSighting find_swarm(const Image& picture, const SwarmFinderParams& params,
   SwarmSighting seen{.candidates = find_blobs(picture, params.look, walls)};
   std::vector<Blob>& all = seen.candidates;
   if (all.empty()) return seen;
+  const auto keep = [&](auto&& is_candidate) {
+    const auto from = std::stable_partition(all.begin(), all.end(), is_candidate);
+    seen.others.insert(seen.others.end(), from, all.end());
+    all.erase(from, all.end());
+  };
   if (before_px)
-    std::erase_if(all,
-                  [&](const Blob& b) { return distance(b.centre_px, *before_px) > params.jump; });
+    keep([&](const Blob& b) { return distance(b.centre_px, *before_px) <= params.jump; });
   if (all.empty()) {
     seen.sight = SwarmSight::far;
     return seen;
   }
   const double least = std::sqrt(params.rival) * all[0].radius_px;
-  std::erase_if(all, [&](const Blob& b) { return b.radius_px < least; });
+  keep([&](const Blob& b) { return b.radius_px >= least; });
   if (all.size() == 1) {
     seen.sight = SwarmSight::found;
     seen.swarm = all[0];

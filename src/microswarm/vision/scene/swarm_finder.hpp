@@ -46,6 +46,7 @@ struct SwarmSighting {
   SwarmSight sight = SwarmSight::none;
   std::optional<Blob> swarm;     ///< set if found
   std::vector<Blob> candidates;  ///< all candidates, sorted by decreasing area
+  std::vector<Blob> others;      ///< too far, or too small beside the largest candidate
 };
 
 /// Searches a microscope picture for one swarm: a cloud of particles or clumps. With `before_px`,

@@ -23,19 +23,11 @@ constexpr std::size_t trail_length = 20;  // frames
 constexpr int forgotten_after = 20;       // frames unseen
 constexpr int max_numbered = 100;         // robots; beyond this, numbers are omitted
 
-const cv::Scalar black(0, 0, 0);
-
 /// One of six colours safe for colour-blind readers (Okabe & Ito), by id.
 cv::Scalar colour_of(int id) {
   static const std::array<cv::Scalar, 6> colours{
       {{230, 159, 0}, {86, 180, 233}, {0, 158, 115}, {240, 228, 66}, {0, 114, 178}, {213, 94, 0}}};
   return colours[static_cast<std::size_t>(id) % colours.size()];
-}
-
-void write(cv::Mat& picture, const std::string& text, cv::Point at, double size) {
-  const int thin = std::max(1, static_cast<int>(std::lround(2 * size)));
-  cv::putText(picture, text, at, cv::FONT_HERSHEY_SIMPLEX, size, black, 3 * thin, cv::LINE_AA);
-  cv::putText(picture, text, at, cv::FONT_HERSHEY_SIMPLEX, size, white, thin, cv::LINE_AA);
 }
 
 std::string short_number(const char* form, double value) {
@@ -65,9 +57,9 @@ void draw_legend(cv::Mat& picture, double um_per_px, double t, std::size_t robot
   const cv::Rect box(step, picture.rows - step - step / 4, length, std::max(2, step / 5));
   cv::rectangle(picture, box + cv::Size(2, 2) - cv::Point(1, 1), black, cv::FILLED);
   cv::rectangle(picture, box, white, cv::FILLED);
-  write(picture, short_number("%g um", bar), {step, box.y - step / 3}, size);
-  write(picture, short_number("%.2f s", t) + ", " + std::to_string(robots) + " robots",
-        {step, step + step / 4}, size);
+  draw_text(picture, short_number("%g um", bar), {step, box.y - step / 3}, size);
+  draw_text(picture, short_number("%.2f s", t) + ", " + std::to_string(robots) + " robots",
+            {step, step + step / 4}, size);
 }
 
 }  // namespace
@@ -113,8 +105,8 @@ const Image& TrackOverlay::draw(const VideoFrame& frame, const std::vector<Track
     for (const TrackRow& row : rows) {
       const Vec2 at = trails_[row.id]->places_px.back();
       const double beside = row.radius / um_per_px_ + 3;
-      write(picture, std::to_string(row.id),
-            {static_cast<int>(at.x + beside), static_cast<int>(at.y - beside)}, size);
+      draw_text(picture, std::to_string(row.id),
+                {static_cast<int>(at.x + beside), static_cast<int>(at.y - beside)}, size);
     }
   draw_legend(picture, um_per_px_, frame.t, rows.size());
   return shown_;

@@ -43,6 +43,11 @@ const std::vector<TrackRow>& VideoTracker::step(const VideoFrame& frame) {
   return rows_;
 }
 
+bool looks_like_noise(const TrackSummary& s) {
+  constexpr int min_frames = 5;  // fewer tell nothing
+  return s.frames >= min_frames && s.tracks > 10 && 2 * s.single_tracks > s.tracks;
+}
+
 TrackSummary summarise(const std::vector<TrackRow>& rows, int frames) {
   TrackSummary summary{.frames = frames, .features = static_cast<int>(rows.size())};
   int ids = 0;
@@ -51,6 +56,7 @@ TrackSummary summarise(const std::vector<TrackRow>& rows, int frames) {
   for (const TrackRow& row : rows) ++length[row.id];
   for (const int n : length) {
     summary.tracks += n > 0;
+    summary.single_tracks += n == 1;
     summary.long_tracks += n >= TrackSummary::long_track;
   }
 

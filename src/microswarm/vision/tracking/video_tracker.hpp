@@ -100,6 +100,7 @@ struct TrackSummary {
   int features = 0;  ///< robots seen, summed over all frames
   int tracks = 0;
   int long_tracks = 0;
+  int single_tracks = 0;  ///< of one frame
   /// Mean displacement of long tracks, summed over the frames [µm]; empty without such tracks.
   std::optional<Vec2> drift{};
   std::optional<double> mean_speed{};  ///< of long tracks between consecutive frames [µm/s]
@@ -107,5 +108,8 @@ struct TrackSummary {
 
 /// Summarises tracks. `rows` are sorted by frame; `frames` is the number of processed frames.
 TrackSummary summarise(const std::vector<TrackRow>& rows, int frames);
+
+/// Whether most tracks of a video are of one frame, as those of noise are.
+bool looks_like_noise(const TrackSummary& summary);
 
 }  // namespace microswarm

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/track_suggest.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "commands/track_output.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/maths/maths.hpp"
+#include "microswarm/report/plot.hpp"
+#include "microswarm/vision/tracking/particle_suggestion.hpp"
+#include "support/cli.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+constexpr int most_read = 200;         // pictures from the beginning of a video
+constexpr std::size_t most_used = 20;  // of these, evenly spread
+
+std::vector<Image> sample(FrameSource& source, VideoChannel channel, const Stop& stop) {
+  const int all = std::min(source.count().value_or(most_read), most_read);
+  const int step = std::max(1, all / static_cast<int>(most_used));
+  std::vector<Image> pictures;
+  VideoFrame frame;
+  while (!stop() && pictures.size() < most_used && source.next(frame))
+    if (frame.index % step == 0) take_channel(frame.picture, channel, pictures.emplace_back());
+  return pictures;
+}
+
+/// Rounded to two digits, as it is typed.
+std::string typed(double mass) {
+  const double unit = maths::pow(10, std::floor(maths::log10(mass)) - 1);
+  return fmt::format("{:.6g}", std::round(mass / unit) * unit);
+}
+
+/// The suggested options; empty if the given settings stay.
+std::string options_of(const ParticleSuggestion& s, const ParticleParams& given) {
+  std::string text;
+  const auto add = [&](const std::string& setting) {
+    text += (text.empty() ? "--set find." : " --set find.") + setting;
+  };
+  if (s.kinds.gap) add("min_mass=" + typed(s.params.min_mass));
+  if (s.params.diameter != given.diameter) add(fmt::format("diameter_px={}", s.params.diameter));
+  if (s.params.tone != given.tone) add(fmt::format("tone={}", enum_name(s.params.tone)));
+  return text;
+}
+
+void tell(const ParticleSuggestion& s, const ParticleParams& given) {
+  print("{} pictures, {:.1f} features in each without a minimum mass\n", s.pictures,
+        s.heavier_than(0));
+  if (s.kinds.gap) {
+    const double robots = s.heavier_than(s.kinds.gap->min_mass());
+    print("  noise     {:.1f} in each, of masses to {:.0f}\n", s.heavier_than(0) - robots,
+          s.kinds.gap->noise_to);
+    print("  robots    {:.1f} in each, of masses from {:.0f}\n", robots, s.kinds.gap->robots_from);
+  } else {
+    print("  {}: find.min_mass stays {:.6g}, which {:.1f} features in each picture exceed\n",
+          s.kinds.has_noise ? "no gap between the masses of noise and robots"
+                            : "no noise, the features are of one kind",
+          given.min_mass, s.heavier_than(given.min_mass));
+  }
+  if (s.knows_diameter)
+    print("  diameter  {} px, where a robot's mean picture ends\n", s.params.diameter);
+  else
+    print("  diameter  not seen in the pictures: find.diameter_px stays {}\n", given.diameter);
+  const std::string options = options_of(s, given);
+  print("{}\n", options.empty() ? "nothing better is suggested" : options);
+}
+
+nlohmann::ordered_json to_json(const ParticleSuggestion& s, const ParticleParams& given) {
+  nlohmann::ordered_json json{
+      {"pictures", s.pictures},
+      {"features", s.heavier_than(0)},
+      {"robots", s.heavier_than(s.kinds.gap ? s.kinds.gap->min_mass() : given.min_mass)},
+      {"gap", nullptr},
+      {"diameter_is_seen", s.knows_diameter},
+      {"min_mass", s.kinds.gap ? std::stod(typed(s.params.min_mass)) : given.min_mass},
+      {"diameter_px", s.params.diameter},
+      {"tone", enum_name(s.params.tone)},
+      {"options", options_of(s, given)}};
+  if (s.kinds.gap) json["gap"] = {s.kinds.gap->noise_to, s.kinds.gap->robots_from};
+  return json;
+}
+
+/// Histogram of the logarithms of masses, as a line of steps.
+Series histogram(const std::string& label, const std::vector<double>& masses, int pictures) {
+  constexpr double bin = 0.05;  // [decades]
+  std::map<int, double> counts;
+  for (const double mass : masses)
+    if (mass > 0) counts[static_cast<int>(std::floor(maths::log10(mass) / bin))] += 1.0 / pictures;
+  Series series{.label = label, .x = {}, .y = {}};
+  if (counts.empty()) return series;
+  for (int k = counts.begin()->first - 1; k <= counts.rbegin()->first + 1; ++k)
+    for (const int edge : {k, k + 1}) {
+      series.x.push_back(maths::pow(10, bin * edge));
+      series.y.push_back(counts.contains(k) ? counts[k] : 0);
+    }
+  return series;
+}
+
+void draw(const ParticleSuggestion& s, const std::filesystem::path& file) {
+  const ParticleTone other =
+      s.params.tone == ParticleTone::dark ? ParticleTone::bright : ParticleTone::dark;
+  Plot plot{.title = fmt::format("masses of features, diameter {} px", s.params.diameter),
+            .x_label = "mass [sum of greys]",
+            .y_label = "features in a picture",
+            .series = {histogram(fmt::format("{} features", enum_name(s.params.tone)), s.masses,
+                                 s.pictures),
+                       histogram(fmt::format("{} features", enum_name(other)), s.other_masses,
+                                 s.pictures)},
+            .levels = {},
+            .marks = {},
+            .bands = {},
+            .band_label = {},
+            .x_ticks = {},
+            .y_ticks = {},
+            .log_x = true,
+            .key_below = true,
+            .x_min = {},
+            .x_max = {},
+            .y_min = 0,
+            .y_max = {}};
+  plot.marks.push_back({s.kinds.gap ? "suggested" : "find.min_mass", s.params.min_mass});
+  if (s.kinds.gap) {
+    plot.bands.push_back({s.kinds.gap->noise_to, s.kinds.gap->robots_from});
+    plot.band_label = "gap";
+  }
+  write_plots({plot}, file);
+}
+
+}  // namespace
+
+int suggest_tracking(const std::string& source, const TrackSettings& settings,
+                     const std::filesystem::path& out, bool json, const Stop& stop) {
+  const auto frames = open_frames(source, settings.rate, settings.depth);
+  const std::vector<Image> pictures = sample(*frames, settings.channel, stop);
+  if (stop.requested()) return not_reached;
+  if (pictures.empty()) throw InputError(source + ": has no pictures");
+  const ParticleSuggestion s = suggest_particles(pictures, settings.find);
+  std::string wrote;
+  if (!out.empty()) {
+    keep_track_input(out, source);
+    const OutFolder hold(out);
+    draw(s, out / "masses.png");
+    wrote = (out / "masses.png").string();
+  }
+  if (json)
+    print("{}\n", to_json(s, settings.find).dump(2));
+  else
+    tell(s, settings.find);
+  if (!json && !wrote.empty()) print("wrote {}\n", wrote);
+  return ok;
+}
+
+}  // namespace microswarm::cli

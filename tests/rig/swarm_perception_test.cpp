@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+// One swarm in the pictures of a rig: found, followed, or not taken for something else.
+#include "microswarm/rig/perception/swarm_perception.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/rng.hpp"
+#include "microswarm/rig/runtime/follow_monitor.hpp"
+#include "microswarm/rig/simulation/microscope.hpp"
+#include "tests/rig/perceived.hpp"
+
+namespace microswarm {
+namespace {
+
+using test::channel;
+using test::eye_params;
+using test::view_of;
+
+TEST(SwarmPerception, FollowsASwarmAmongObstacles) {
+  const auto map = channel();
+  MicroscopeParams optics;
+  optics.um_per_px = 2;
+  Microscope microscope(optics, *map, 1, 0);
+  SwarmPerception perception(eye_params(), {.max_speed = 100}, *map, {{200, 300}, 0},
+                             view_of(microscope));
+  std::uint32_t standing_number = 0;
+  for (int i = 0; i < 60; ++i) {
+    const double t = 0.1 * i;
+    const Vec2 place{200 + 80 * t, 300 + 40 * t};
+    const SwarmPose swarm{{place, 0}, 40};
+    // One goes along with it, 8 µm from edge to edge; one stands.
+    const Snapshot world(map, t,
+                         {{.shape = Disc{place + Vec2{0, 108}, 60}, .obstacle = 0},
+                          {.shape = Disc{{900, 250}, 50}, .obstacle = 1}});
+    const Detections& seen = perception.process(microscope.look(world, swarm, {}), t);
+    ASSERT_TRUE(seen.swarm) << t << " " << seen.trouble;
+    EXPECT_LT(distance(seen.swarm->pose.position, place), 3) << t;
+    EXPECT_NEAR(seen.swarm->radius, 40, 4);
+    if (i > 5) {
+      EXPECT_LT(turn_between(seen.swarm->pose.heading, std::atan2(1, 2)), 0.15);
+    }
+    ASSERT_EQ(seen.moving.size(), 2U) << t;
+    const auto standing = [&] {
+      return std::find_if(seen.moving.begin(), seen.moving.end(), [](const Body& body) {
+        return distance(test::bounding_box(body).centre(), Vec2{900, 250}) < 5;
+      });
+    };
+    ASSERT_NE(standing(), seen.moving.end());
+    if (i == 0) standing_number = standing()->obstacle;
+    EXPECT_EQ(standing()->obstacle, standing_number);
+  }
+}
+
+TEST(SwarmPerception, SaysWhyThereIsNone) {
+  const auto map = channel();
+  Microscope microscope({}, *map, 1, 0);
+  SwarmPerception perception(eye_params(), {.max_speed = 100}, *map, {{200, 300}, 0},
+                             view_of(microscope));
+  const Detections& empty = perception.process(microscope.look(Snapshot(map), std::nullopt, {}), 0);
+  EXPECT_FALSE(empty.swarm);
+  EXPECT_EQ(empty.trouble, "none");
+  Image black = microscope.look(Snapshot(map), std::nullopt, {});
+  std::fill(black.pixels.begin(), black.pixels.end(), std::uint8_t{0});
+  EXPECT_FALSE(perception.process(black, 0.1).swarm);
+}
+
+TEST(SwarmPerception, TwoSwarmsAreNotGuessedBetween) {
+  const auto map = channel();
+  Microscope microscope({}, *map, 1, 0);
+  SwarmPerception perception(eye_params(), {.max_speed = 100}, *map, {{300, 400}, 0},
+                             view_of(microscope));
+  Image both = microscope.look(Snapshot(map), SwarmPose{{{260, 400}, 0}, 30}, {});
+  const Image right = microscope.look(Snapshot(map), SwarmPose{{{340, 400}, 0}, 30}, {});
+  for (std::size_t i = 0; i < both.pixels.size(); ++i)
+    both.pixels[i] = std::min(both.pixels[i], right.pixels[i]);
+  const Detections& seen = perception.process(both, 0);
+  EXPECT_FALSE(seen.swarm);
+  EXPECT_EQ(seen.trouble, "several");
+}
+
+/// A swarm that goes to the right, seen for two seconds.
+struct Followed {
+  std::shared_ptr<const Map> map = channel();
+  Microscope microscope{{}, *map, 1, 0};
+  SwarmPerception perception{
+      eye_params(), {.max_speed = 40}, *map, {{300, 400}, 0}, view_of(microscope)};
+  double t = 0;
+  Vec2 place{300, 400};
+
+  const Detections& see(Vec2 at, double radius) {
+    t += 0.1;
+    return perception.process(microscope.look(Snapshot(map, t), SwarmPose{{at, 0}, radius}, {}), t);
+  }
+  Followed() {
+    for (int i = 0; i < 20; ++i) {
+      perception.commanded({0, 40}, t);
+      place.x += 4;
+      EXPECT_TRUE(see(place, 60).swarm) << i;
+    }
+  }
+};
+
+TEST(SwarmPerception, WhatItCannotHaveReachedIsNotTheSwarm) {
+  Followed f;
+  const Detections& seen = f.see(f.place + Vec2{120, 60}, 60);
+  EXPECT_FALSE(seen.swarm);
+  EXPECT_EQ(seen.trouble, "far");
+  // It may come back to where it can have gone meanwhile.
+  EXPECT_TRUE(f.see(f.place + Vec2{8, 0}, 60).swarm);
+}
+
+TEST(SwarmPerception, WhatIsOfAnotherSizeIsNotTheSwarm) {
+  Followed f;
+  for (int i = 0; i < 10; ++i) {
+    const Detections& seen = f.see(f.place, 30);
+    EXPECT_FALSE(seen.swarm);
+    EXPECT_EQ(seen.trouble, "size");
+  }
+  EXPECT_TRUE(f.see(f.place, 55).swarm);
+}
+
+/// Darkens a disc of a picture, without texture.
+void stain(Image& picture, Vec2 at_px, double radius, double share) {
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x)
+      if (distance(at_px, Vec2{1.0 * x, 1.0 * y}) < radius) {
+        std::uint8_t& grey = picture.pixels[picture.index(x, y)];
+        grey = static_cast<std::uint8_t>(share * grey);
+      }
+}
+
+/// A channel with a dense vortex that has no texture at this magnification.
+struct Smooth {
+  std::shared_ptr<const Map> map = channel();
+  Microscope microscope{{}, *map, 1, 0};
+  PerceptionParams params = eye_params();
+  CameraScale scale = microscope.scale();
+  SwarmPerception perception{
+      params, {.radius = 60, .max_speed = 40}, *map, {{300, 400}, 0}, view_of(microscope)};
+  double t = 0;
+
+  const Detections& see(const std::vector<Disc>& discs) {
+    Image picture = microscope.look(Snapshot(map, t += 0.1), std::nullopt, {});
+    for (const Disc& disc : discs)
+      stain(picture, scale.to_picture(disc.centre), disc.radius / scale.um_per_px, 0.4);
+    return perception.process(picture, t);
+  }
+};
+
+TEST(SwarmPerception, ADenseSmoothSwarmIsFollowed) {
+  Smooth f;
+  Vec2 place{305, 396};
+  for (int i = 0; i < 30; ++i) {
+    const Disc still{{800, 500}, 60};
+    const Detections& seen = f.see({{place, 60}, still});
+    ASSERT_TRUE(seen.swarm) << i << " " << seen.trouble;
+    EXPECT_LT(distance(seen.swarm->pose.position, place), 3);
+    ASSERT_EQ(seen.moving.size(), 1U);
+    EXPECT_LT(distance(test::bounding_box(seen.moving[0]).centre(), still.centre), 5);
+    place.x += 4;
+  }
+  // When it is gone, nothing else is taken for it.
+  EXPECT_FALSE(f.see({{{800, 500}, 60}}).swarm);
+}
+
+TEST(SwarmPerception, ASmoothBodyElsewhereOrOfAnotherSizeIsNoSwarm) {
+  Smooth f;
+  EXPECT_FALSE(f.see({{{800, 500}, 60}}).swarm);
+  EXPECT_FALSE(f.see({{{300, 400}, 100}}).swarm);
+  EXPECT_FALSE(f.see({{{300, 400}, 30}}).swarm);
+  EXPECT_FALSE(f.see({{{225, 400}, 58}, {{375, 400}, 60}}).swarm);
+  EXPECT_TRUE(f.see({{{300, 400}, 60}}).swarm);
+}
+
+TEST(SwarmPerception, ASmoothBodyIsNeverTakenForASwarmThatHadTexture) {
+  Followed f;
+  Image picture = f.microscope.look(Snapshot(f.map), std::nullopt, {});
+  const CameraScale scale = f.microscope.scale();
+  stain(picture, scale.to_picture(f.place), 60 / scale.um_per_px, 0.4);
+  const Detections& seen = f.perception.process(picture, f.t + 0.1);
+  EXPECT_FALSE(seen.swarm);
+  EXPECT_EQ(seen.trouble, "none");
+  EXPECT_EQ(seen.moving.size(), 1U);
+}
+
+/// A picture of two swarms.
+Image both(Microscope& microscope, const std::shared_ptr<const Map>& map, const SwarmPose& a,
+           const SwarmPose& b) {
+  Image picture = microscope.look(Snapshot(map), a, {});
+  const Image other = microscope.look(Snapshot(map), b, {});
+  for (std::size_t i = 0; i < picture.pixels.size(); ++i)
+    picture.pixels[i] = std::min(picture.pixels[i], other.pixels[i]);
+  return picture;
+}
+
+TEST(SwarmPerception, ASplitIsToldWithItsParts) {
+  for (const auto& [left, right] : {std::pair{43.0, 42.0}, {48.0, 34.0}}) {
+    Followed f;
+    const Image picture = both(f.microscope, f.map, {{f.place - Vec2{60, 0}, 0}, left},
+                               {{f.place + Vec2{60, 0}, 0}, right});
+    const Detections& seen = f.perception.process(picture, f.t + 0.1);
+    EXPECT_FALSE(seen.swarm);
+    EXPECT_EQ(seen.trouble, "split");
+    ASSERT_EQ(seen.parts.size(), 2U);
+    EXPECT_NEAR(std::max(seen.parts[0], seen.parts[1]), left, 6);
+    EXPECT_NEAR(std::min(seen.parts[0], seen.parts[1]), right, 6);
+  }
+}
+
+TEST(SwarmPerception, AMergerIsToldWithWhatMerged) {
+  Followed f;
+  const Vec2 second = f.place + Vec2{150, 0};
+  for (int i = 0; i < 3; ++i)
+    EXPECT_TRUE(
+        f.perception
+            .process(both(f.microscope, f.map, {{f.place, 0}, 60}, {{second, 0}, 55}), f.t += 0.1)
+            .swarm);
+  const Detections& seen = f.see(f.place + Vec2{12, 0}, 82);
+  EXPECT_FALSE(seen.swarm);
+  EXPECT_EQ(seen.trouble, "merged");
+  ASSERT_EQ(seen.parts.size(), 2U);
+  EXPECT_NEAR(seen.parts[0], 60, 6);
+  EXPECT_NEAR(seen.parts[1], 55, 6);
+}
+
+TEST(SwarmPerception, SomethingNewBesideAWholeSwarmIsNoSplit) {
+  Followed f;
+  const Detections& seen = f.perception.process(
+      both(f.microscope, f.map, {{f.place, 0}, 60}, {{f.place + Vec2{100, 0}, 0}, 25}), f.t + 0.1);
+  EXPECT_NE(seen.trouble, "split");
+  EXPECT_TRUE(seen.swarm);
+}
+
+TEST(SwarmPerception, MeasuresHowItFollows) {
+  Followed f;
+  f.perception.commanded({0, 40}, f.t);
+  const Detections& along = f.see(f.place += Vec2{4, 0}, 60);
+  EXPECT_NEAR(along.commanded_way, 4, 1e-9);
+  EXPECT_NEAR(along.followed_way, 4, 2);
+  double followed = 0;
+  for (int i = 0; i < 20; ++i) {
+    f.perception.commanded({0, 40}, f.t);
+    followed += f.see(f.place += Vec2{0, 4}, 60).followed_way;
+  }
+  EXPECT_NEAR(followed, 0, 5);  // of 80 µm
+  EXPECT_NEAR(
+      f.perception
+          .process(f.microscope.look(Snapshot(f.map, f.t), SwarmPose{{f.place, 0}, 60}, {}), f.t)
+          .across_way,
+      0, 1e-9);  // no time has passed
+  f.perception.commanded({0, 40}, f.t);
+  EXPECT_NEAR(f.see(f.place += Vec2{0, 4}, 60).across_way, 4, 2);
+}
+
+TEST(FollowAngle, IsThatOfTheSeenWay) {
+  for (const double turn : {-100.0, -15.0, 0.0, 20.0}) {
+    FollowAngle angle;
+    Rng rng(7, Purpose::test);
+    EXPECT_FALSE(angle.direction());
+    for (int i = 0; i < 400; ++i) {
+      const Vec2 seen = 0.8 * unit_vector(turn * pi / 180) + 0.5 * Vec2{rng.normal(), rng.normal()};
+      angle.take(1, seen.x, seen.y, 20);
+    }
+    const auto direction = angle.direction();
+    ASSERT_TRUE(direction);
+    EXPECT_NEAR(degrees(direction->angle), turn, 4 * degrees(direction->sd));
+    EXPECT_LT(degrees(direction->sd), 4);
+    EXPECT_GT(degrees(direction->sd), 0.4);
+    EXPECT_NEAR(direction->share, 0.8, 0.1);
+  }
+}
+
+}  // namespace
+}  // namespace microswarm
