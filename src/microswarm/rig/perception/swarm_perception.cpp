@@ -12,6 +12,7 @@ namespace microswarm {
 
 namespace {
 
+constexpr double known_size = 0.5;           // of min_radius, to which a known obstacle may shrink
 constexpr std::size_t radius_window = 31;    // sightings of which the median radius is taken
 constexpr double follow_radii = 3;           // way over which a swarm must follow
 constexpr std::size_t min_radius_count = 5;  // of sightings before a radius is doubted
@@ -30,29 +31,67 @@ SwarmPerception::SwarmPerception(const PerceptionParams& params, double max_spee
       before_px_(scale_.to_picture(start.position)) {}
 
 const Detections& SwarmPerception::process(const Image& picture, double t) {
-  SceneParams params = params_.scene;
-  params.swarm.jump = reach_px(t);
-  const SeenScene scene = find_scene(picture, params, before_px_, &walls_);
-  const std::optional<Blob>& swarm = scene.swarm.swarm;
+  detections_.moving.clear();
+  const SwarmSighting sighting = find(picture, t);
+  numbers_.number(detections_.moving, t);
+  const std::optional<Blob>& swarm = sighting.swarm;
   detections_.swarm.reset();
-  detections_.trouble = enum_name(scene.swarm.sight);
+  detections_.trouble = enum_name(sighting.sight);
   detections_.commanded_way = detections_.followed_way = 0;
   if (swarm && !is_of_its_size(swarm->radius_px)) {
     detections_.trouble = "size";
   } else if (swarm) {
-    const Vec2 place = scale_.to_world(swarm->centre_px);
+    const Ring around = *enclosing_circle(swarm->outline_px);
+    const Vec2 place = scale_.to_world(around.centre_px);
     measure_following(place, t);
-    before_px_ = swarm->centre_px;
+    before_px_ = around.centre_px;
     found_ = t;
     tell_heading(place);
-    const double radius = std::max(0.0, swarm->radius_px + params_.edge);
+    const double radius = std::max(0.0, around.radius_px + params_.edge);
     detections_.swarm = SwarmPose{{place, heading_}, radius * scale_.um_per_px};
   }
-  detections_.moving.clear();
-  for (const SeenObstacle& seen : scene.obstacles)
-    detections_.moving.push_back({.shape = seen.shape(scale_)});
-  numbers_.number(detections_.moving, t);
   return detections_;
+}
+
+/// Looks for the swarm, and for the bodies around it.
+SwarmSighting SwarmPerception::find(const Image& picture, double t) {
+  SceneParams params = params_.scene;
+  params.swarm.jump = reach_px(t);
+  if (params_.moving_walls) return find_beside_walls(picture, params.swarm);
+  params.obstacles.min_radius *= known_size;
+  const std::vector<Ring> expected = expected_discs(t);
+  SeenScene scene = find_scene(picture, params, before_px_, &walls_, expected);
+  for (const SeenObstacle& seen : scene.obstacles)
+    if (is_large_or_known(seen, expected))
+      detections_.moving.push_back({.shape = seen.shape(scale_)});
+  return std::move(scene.swarm);
+}
+
+/// Whatever is not the swarm is a wall then.
+SwarmSighting SwarmPerception::find_beside_walls(const Image& picture,
+                                                 const SwarmFinderParams& params) {
+  const double radius = radii_px_.empty() ? params.look.max_radius : median(radii_px_);
+  WallsBesideSwarm found = find_walls_beside(picture, params_.walls, walls_, *before_px_,
+                                             params.jump + 2 * radius, scale_);
+  for (Polygon& shape : found.shapes) detections_.moving.push_back({.shape = std::move(shape)});
+  return find_swarm(picture, params, before_px_, &found.walls);
+}
+
+std::vector<Ring> SwarmPerception::expected_discs(double t) const {
+  std::vector<Ring> discs;
+  for (const Disc& disc : numbers_.expected_discs(t))
+    discs.push_back({scale_.to_picture(disc.centre), disc.radius / scale_.um_per_px});
+  return discs;
+}
+
+/// What is smaller than the smallest obstacle may be dirt, or an obstacle that has shrunk.
+bool SwarmPerception::is_large_or_known(const SeenObstacle& seen,
+                                        const std::vector<Ring>& expected) const {
+  const double usual = params_.scene.obstacles.min_radius;
+  return seen.blob.radius_px >= usual ||
+         std::any_of(expected.begin(), expected.end(), [&](const Ring& disc) {
+           return distance(disc.centre_px, seen.blob.centre_px) <= usual;
+         });
 }
 
 void SwarmPerception::commanded(const Command& command, double) { command_ = command; }

@@ -10,7 +10,8 @@
 namespace microswarm {
 
 /// Detects one swarm among moving obstacles, where it can have come since it was last seen and of
-/// about the size that it had. Its heading is its last direction of motion.
+/// about the size that it had. Its place and radius are those of the smallest circle around its
+/// outline: nothing of it is beyond. Its heading is its last direction of motion.
 class SwarmPerception : public Perception {
  public:
   /// The swarm starts at `start` and goes at most `max_speed` [µm/s].
@@ -22,7 +23,11 @@ class SwarmPerception : public Perception {
   double follow_distance() const override;
 
  private:
+  SwarmSighting find(const Image& picture, double t);
+  SwarmSighting find_beside_walls(const Image& picture, const SwarmFinderParams& params);
   double reach_px(double t) const;
+  std::vector<Ring> expected_discs(double t) const;
+  bool is_large_or_known(const SeenObstacle& seen, const std::vector<Ring>& expected) const;
   bool is_of_its_size(double radius_px);
   void measure_following(Vec2 place, double t);
   void tell_heading(Vec2 place);

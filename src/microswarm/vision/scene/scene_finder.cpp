@@ -6,12 +6,15 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "microswarm/geometry/predicates.hpp"
+#include "microswarm/vision/scene/disc_separation.hpp"
+
 namespace microswarm {
 namespace {
 
 constexpr double hull_tolerance = 0.5;  // [px]
 constexpr double min_gap = 8;           // [px] larger gaps between outline points are hidden parts
-constexpr int soft_edge = 2;            // [px]
+constexpr double join_tolerance = 1.5;  // [px] of the outline of discs that have joined
 
 cv::Point2f point_of(Vec2 p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
 
@@ -66,10 +69,17 @@ std::optional<Ring> disc_of(const Blob& blob, const std::vector<Vec2>& own, doub
   return is_round ? ring : std::nullopt;
 }
 
-SeenObstacle obstacle_of(Blob blob, const cv::Size& size, const Mask* hidden, double roundness) {
-  SeenObstacle obstacle;
-  obstacle.disc =
-      disc_of(blob, blob.is_cut ? own_outline(blob, size, hidden) : blob.outline_px, roundness);
+/// The expected discs whose centres are inside the outline.
+std::vector<Ring> discs_within(const Blob& blob, std::span<const Ring> expected) {
+  const Polygon inside{.outer = blob.outline_px, .holes = {}};
+  std::vector<Ring> within;
+  for (const Ring& disc : expected)
+    if (locate(inside, disc.centre_px) != Side::outside) within.push_back(disc);
+  return within;
+}
+
+SeenObstacle with_hull(Blob blob, std::optional<Ring> disc) {
+  SeenObstacle obstacle{.disc = disc};
   std::vector<cv::Point2f> hull;
   cv::convexHull(points_of(blob.outline_px), hull);
   std::vector<cv::Point2f> thin;
@@ -80,6 +90,24 @@ SeenObstacle obstacle_of(Blob blob, const cv::Size& size, const Mask* hidden, do
   return obstacle;
 }
 
+/// Adds the obstacle that the blob shows, or each of the expected discs that have joined in it.
+void add_obstacles(Blob blob, const cv::Size& size, const Mask* hidden, const SceneParams& params,
+                   std::span<const Ring> expected, std::vector<SeenObstacle>& obstacles) {
+  const std::vector<Vec2> own = blob.is_cut ? own_outline(blob, size, hidden) : blob.outline_px;
+  std::optional<Ring> disc = disc_of(blob, own, params.roundness);
+  if (!disc) {
+    const std::vector<Ring> within = discs_within(blob, expected);
+    const DiscSeparation limits{.tolerance = join_tolerance,
+                                .bridge = join_tolerance + params.obstacles.gap};
+    std::vector<Ring> discs = separated_discs(own, within, limits);
+    if (!discs.empty()) {
+      for (std::size_t k = 1; k < discs.size(); ++k) obstacles.push_back(with_hull(blob, discs[k]));
+      disc = discs[0];
+    }
+  }
+  obstacles.push_back(with_hull(std::move(blob), disc));
+}
+
 }  // namespace
 
 std::variant<Disc, Polygon> SeenObstacle::shape(const CameraScale& scale) const {
@@ -88,7 +116,7 @@ std::variant<Disc, Polygon> SeenObstacle::shape(const CameraScale& scale) const 
 }
 
 SeenScene find_scene(const Image& picture, const SceneParams& params, std::optional<Vec2> before_px,
-                     const Mask* walls) {
+                     const Mask* walls, std::span<const Ring> expected) {
   SeenScene scene{.swarm = find_swarm(picture, params.swarm, before_px, walls), .obstacles = {}};
   Mask hidden;
   if (scene.swarm.swarm) {
@@ -96,8 +124,8 @@ SeenScene find_scene(const Image& picture, const SceneParams& params, std::optio
     walls = &hidden;
   }
   for (Blob& blob : find_blobs(picture, params.obstacles, walls))
-    scene.obstacles.push_back(
-        obstacle_of(std::move(blob), {picture.width, picture.height}, walls, params.roundness));
+    add_obstacles(std::move(blob), {picture.width, picture.height}, walls, params, expected,
+                  scene.obstacles);
   return scene;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -32,7 +33,7 @@ struct SceneParams {
 /// A moving obstacle in a picture [px]; x right, y down, (0, 0) is the centre of the first pixel.
 struct SeenObstacle {
   Blob blob;                  ///< its visible part
-  std::optional<Ring> disc;   ///< if round, with hidden parts; else the hull is used
+  std::optional<Ring> disc;   ///< if round, with hidden parts, or one of several; else the hull
   std::vector<Vec2> hull_px;  ///< convex; contains the outline to half a pixel
 
   /// Shape in the world [µm], as in a Body.
@@ -46,9 +47,11 @@ struct SeenScene {
 };
 
 /// Finds the swarm and the obstacles in a picture. Obstacles are all other regions that differ from
-/// the background, including those that touch the swarm. `before_px`, `walls` and errors as in
+/// the background, including those that touch the swarm. Where several of the `expected` discs have
+/// joined in one region, each is an obstacle of its own. `before_px`, `walls` and errors as in
 /// `find_swarm`.
 SeenScene find_scene(const Image& picture, const SceneParams& params = {},
-                     std::optional<Vec2> before_px = std::nullopt, const Mask* walls = nullptr);
+                     std::optional<Vec2> before_px = std::nullopt, const Mask* walls = nullptr,
+                     std::span<const Ring> expected = {});
 
 }  // namespace microswarm
