@@ -24,6 +24,7 @@ SwarmPerception::SwarmPerception(const PerceptionParams& params, double max_spee
     : params_(params),
       scale_(view.scale),
       walls_(walls_in_picture(map, view.scale, view.width, view.height)),
+      windows_(walls_),
       numbers_(params.scene.swarm.jump * view.scale.um_per_px),
       from_(start.position),
       heading_(start.heading),
@@ -60,7 +61,7 @@ SwarmSighting SwarmPerception::find(const Image& picture, double t) {
   if (params_.moving_walls) return find_beside_walls(picture, params.swarm);
   params.obstacles.min_radius *= known_size;
   const std::vector<Ring> expected = expected_discs(t);
-  SeenScene scene = find_scene(picture, params, before_px_, &walls_, expected);
+  SeenScene scene = windows_.find(picture, params, before_px_, expected);
   for (const SeenObstacle& seen : scene.obstacles)
     if (is_large_or_known(seen, expected))
       detections_.moving.push_back({.shape = seen.shape(scale_)});

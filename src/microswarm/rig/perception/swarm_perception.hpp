@@ -6,6 +6,7 @@
 #include "microswarm/formats/images/mask.hpp"
 #include "microswarm/rig/perception/body_numbers.hpp"
 #include "microswarm/rig/perception/perception.hpp"
+#include "microswarm/vision/scene/scene_windows.hpp"
 
 namespace microswarm {
 
@@ -35,6 +36,7 @@ class SwarmPerception : public Perception {
   PerceptionParams params_;
   CameraScale scale_;
   Mask walls_;
+  SceneWindows windows_;
   BodyNumbers numbers_;
   Vec2 from_;  // position at the last update of the heading
   double heading_;

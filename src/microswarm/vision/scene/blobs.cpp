@@ -19,6 +19,7 @@
 #include "microswarm/vision/image/blur.hpp"
 #include "microswarm/vision/image/mat.hpp"
 #include "microswarm/vision/scene/background.hpp"
+#include "microswarm/vision/scene/blob_search.hpp"
 #include "microswarm/vision/scene/level_line.hpp"
 
 namespace microswarm {
@@ -28,13 +29,13 @@ constexpr int smooth_side = 5;     // working pixels that a smooth part must ext
 constexpr int ground_rows = 4;     // every so many rows are used for the background noise
 constexpr double noise_limit = 5;  // spreads of the background; smaller differences are ignored
 
-/// Picture pixels per side of a working pixel. Coarser pixels reduce noise and time.
+}  // namespace
+
 int coarseness(const BlobParams& p) {
   const double fine = std::min(p.min_radius / 3, p.gap / 2);
   return fine >= 4 ? 4 : fine >= 2 ? 2 : 1;
 }
 
-/// Block means over `side` × `side` pixels; the border is replicated to fill the last blocks.
 cv::Mat downsampled(const cv::Mat& mat, int side) {
   if (side == 1) return mat;
   const int right = (side - mat.cols % side) % side;
@@ -46,17 +47,23 @@ cv::Mat downsampled(const cv::Mat& mat, int side) {
   return small;
 }
 
-/// Mask of the pixels to search (255), or an empty matrix if all are searched.
-cv::Mat seen_of(const Image& picture, const Mask* walls, int side) {
+cv::Mat walls_over(const Image& picture, const Mask* walls) {
   if (!walls) return {};
   if (walls->width != picture.width || walls->height != picture.height)
     throw InputError("walls: " + std::to_string(walls->width) + "x" +
                      std::to_string(walls->height) + " pixels, the picture has " +
                      std::to_string(picture.width) + "x" + std::to_string(picture.height));
+  return {walls->height, walls->width, CV_8U, const_cast<std::uint8_t*>(walls->cells.data())};
+}
+
+cv::Mat seen_of(const cv::Mat& walls, int side) {
+  if (walls.empty()) return {};
   cv::Mat hidden;
-  cv::dilate(downsampled(to_mat(*walls), side) > 0, hidden, cv::Mat::ones(3, 3, CV_8U));
+  cv::dilate(downsampled(walls != 0, side) > 0, hidden, cv::Mat::ones(3, 3, CV_8U));
   return ~hidden;
 }
+
+namespace {
 
 /// Replaces the background by the foreground where something is seen: grey minus background, times
 /// `sign`.
@@ -77,13 +84,14 @@ MICROSWARM_EACH_CPU void make_up(std::span<const float> share, const std::uint8_
   }
 }
 
-/// Smoothed difference of each pixel from the background; 0 where nothing is seen.
-cv::Mat rise_of(const cv::Mat& grey, const cv::Mat& seen, bool dark, double spread) {
-  assert(grey.isContinuous());
+}  // namespace
+
+cv::Mat rise_of(const cv::Mat& grey, const cv::Mat& seen, cv::Mat foreground, bool dark,
+                double spread) {
   const cv::Mat all = seen.empty() ? cv::Mat(grey.size(), CV_8U, cv::Scalar(255)) : seen;
-  cv::Mat foreground = ground_of(grey, seen);
-  take_ground({grey.ptr<std::uint8_t>(), grey.total()}, all.ptr<std::uint8_t>(), dark ? -1 : 1,
-              foreground.ptr<float>());
+  for (int y = 0; y < grey.rows; ++y)
+    take_ground({grey.ptr<std::uint8_t>(y), static_cast<std::size_t>(grey.cols)},
+                all.ptr<std::uint8_t>(y), dark ? -1 : 1, foreground.ptr<float>(y));
   const int reach = static_cast<int>(std::ceil(2.5 * spread));
   foreground = blurred(foreground, spread, reach, cv::BORDER_REFLECT);
   if (seen.empty()) return foreground;
@@ -94,7 +102,6 @@ cv::Mat rise_of(const cv::Mat& grey, const cv::Mat& seen, bool dark, double spre
   return foreground;
 }
 
-/// Spread of the background around its surface, from the median of about ten thousand pixels.
 double ground_spread(const cv::Mat& foreground, const cv::Mat& seen) {
   constexpr std::size_t enough = 10'000;
   const std::size_t step = 2 * (foreground.total() / enough / 2) + 7;  // odd, so that columns vary
@@ -105,6 +112,8 @@ double ground_spread(const cv::Mat& foreground, const cv::Mat& seen) {
       off.push_back(std::abs(foreground.ptr<float>()[i]));
   return 1.4826 * median(std::move(off));
 }
+
+namespace {
 
 /// A connected set of working pixels.
 struct Piece {
@@ -183,17 +192,8 @@ bool measure(Blob& blob) {
   return true;
 }
 
-/// Data of the search: the picture, the searched pixels and the foreground, the latter two in
-/// working pixels.
-struct BlobContext {
-  int side = 1;  ///< of a working pixel
-  cv::Mat fine;
-  cv::Mat seen;
-  cv::Mat foreground;
-};
+}  // namespace
 
-/// Mean squared difference of neighbours in a picture row, over every `step`th row of the working
-/// pixels set in `chosen` (over `box`).
 double roughness(const BlobContext& field, const cv::Rect& box, const cv::Mat& chosen, int step) {
   const int side = field.side;
   double squares = 0;
@@ -212,6 +212,8 @@ double roughness(const BlobContext& field, const cv::Rect& box, const cv::Mat& c
   }
   return count > 0 ? squares / count : 0;
 }
+
+namespace {
 
 bool is_cut(const Piece& piece, const cv::Mat& seen, const cv::Size& size) {
   const cv::Rect inner(1, 1, size.width - 2, size.height - 2);
@@ -282,24 +284,15 @@ Issues validate(const BlobParams& p) {
   return issues;
 }
 
-std::vector<Blob> find_blobs(const Image& picture, const BlobParams& p, const Mask* walls) {
-  BlobContext field{.side = coarseness(p)};
-  field.seen = seen_of(picture, walls, field.side);
-  if (picture.pixels.empty()) return {};
-  const Image one = picture.channels == 1 ? Image{} : to_grey(picture);
-  field.fine = as_mat(picture.channels == 1 ? picture : one);
-  field.foreground = rise_of(downsampled(field.fine, field.side), field.seen,
-                             p.tone == ParticleTone::dark, p.gap / 2 / field.side);
-  const auto least = static_cast<float>(
-      std::max(p.min_contrast, noise_limit * ground_spread(field.foreground, field.seen)));
-  const cv::Mat high = field.foreground > least;
-  const cv::Mat ground = field.seen.empty() ? cv::Mat(~high) : cv::Mat(~high & field.seen);
-  const double noise = roughness(field, {0, 0, ground.cols, ground.rows}, ground, ground_rows);
+float least_rise(const BlobParams& p, double spread) {
+  return static_cast<float>(std::max(p.min_contrast, noise_limit * spread));
+}
 
-  // Threshold the foreground, then keep of each piece what reaches half the contrast of its middle.
+// Thresholds the foreground, then keeps of each piece what reaches half the contrast of its middle.
+void add_blobs(const BlobContext& field, const BlobParams& p, float least, double noise,
+               std::vector<Blob>& blobs) {
   const double min_area = std::numbers::pi * maths::power(0.5 * p.min_radius / field.side, 2);
-  std::vector<Blob> blobs;
-  for (Piece& piece : pieces_of(high, {}, min_area)) {
+  for (Piece& piece : pieces_of(field.foreground > least, {}, min_area)) {
     if (p.min_texture > 0) {
       const cv::Mat smooth = smooth_parts(field, piece, mean_step(noise, p.min_texture));
       piece.in &= ~smooth;
@@ -315,8 +308,29 @@ std::vector<Blob> find_blobs(const Image& picture, const BlobParams& p, const Ma
         blobs.push_back(std::move(*blob));
     }
   }
+}
+
+void sort_by_size(std::vector<Blob>& blobs) {
   std::stable_sort(blobs.begin(), blobs.end(),
                    [](const Blob& a, const Blob& b) { return a.radius_px > b.radius_px; });
+}
+
+std::vector<Blob> find_blobs(const Image& picture, const BlobParams& p, const Mask* walls) {
+  BlobContext field{.side = coarseness(p)};
+  field.seen = seen_of(walls_over(picture, walls), field.side);
+  if (picture.pixels.empty()) return {};
+  const Image one = picture.channels == 1 ? Image{} : to_grey(picture);
+  field.fine = as_mat(picture.channels == 1 ? picture : one);
+  const cv::Mat grey = downsampled(field.fine, field.side);
+  field.foreground = rise_of(grey, field.seen, ground_of(grey, field.seen),
+                             p.tone == ParticleTone::dark, p.gap / 2 / field.side);
+  const float least = least_rise(p, ground_spread(field.foreground, field.seen));
+  const cv::Mat high = field.foreground > least;
+  const cv::Mat ground = field.seen.empty() ? cv::Mat(~high) : cv::Mat(~high & field.seen);
+  const double noise = roughness(field, {0, 0, ground.cols, ground.rows}, ground, ground_rows);
+  std::vector<Blob> blobs;
+  add_blobs(field, p, least, noise, blobs);
+  sort_by_size(blobs);
   return blobs;
 }
 

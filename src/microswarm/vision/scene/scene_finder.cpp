@@ -8,6 +8,7 @@
 
 #include "microswarm/geometry/predicates.hpp"
 #include "microswarm/vision/scene/disc_separation.hpp"
+#include "microswarm/vision/scene/scene_parts.hpp"
 
 namespace microswarm {
 namespace {
@@ -25,7 +26,8 @@ std::vector<cv::Point2f> points_of(const std::vector<Vec2>& ring) {
   return points;
 }
 
-/// The walls and the area of a blob, grown slightly.
+}  // namespace
+
 Mask hidden_by(const Blob& blob, const Image& picture, const Mask* walls, double margin) {
   Mask hidden = walls ? *walls : Mask(picture.width, picture.height);
   std::vector<cv::Point> ring;
@@ -37,6 +39,8 @@ Mask hidden_by(const Blob& blob, const Image& picture, const Mask* walls, double
   cv::polylines(cells, ring, true, 1, 1 + 2 * static_cast<int>(std::ceil(margin)));
   return hidden;
 }
+
+namespace {
 
 /// The outline without the parts along hidden regions or the picture's edge.
 std::vector<Vec2> own_outline(const Blob& blob, const cv::Size& size, const Mask* hidden) {
@@ -123,10 +127,18 @@ SeenScene find_scene(const Image& picture, const SceneParams& params, std::optio
     hidden = hidden_by(*scene.swarm.swarm, picture, walls, params.swarm.look.gap);
     walls = &hidden;
   }
-  for (Blob& blob : find_blobs(picture, params.obstacles, walls))
-    add_obstacles(std::move(blob), {picture.width, picture.height}, walls, params, expected,
-                  scene.obstacles);
+  scene.obstacles = obstacles_of(find_blobs(picture, params.obstacles, walls),
+                                 {picture.width, picture.height}, walls, params, expected);
   return scene;
+}
+
+std::vector<SeenObstacle> obstacles_of(std::vector<Blob> blobs, const cv::Size& size,
+                                       const Mask* hidden, const SceneParams& params,
+                                       std::span<const Ring> expected) {
+  std::vector<SeenObstacle> obstacles;
+  for (Blob& blob : blobs)
+    add_obstacles(std::move(blob), size, hidden, params, expected, obstacles);
+  return obstacles;
 }
 
 }  // namespace microswarm

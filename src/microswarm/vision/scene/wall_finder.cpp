@@ -20,7 +20,7 @@ constexpr int tile = 16;  // [px] side of a tile in which the slope of the light
 constexpr int slope_rounds = 15;   // rounds of re-weighting
 constexpr double min_off = 1e-4;   // [1/px] lower bound of the residual when re-weighting
 constexpr double two_sorts = 0.6;  // minimum separability of walls and channels
-constexpr int coarse = 2;          // [px] of a pixel in which walls are found beside a swarm
+constexpr int wall_pixel = 2;          // [px] of a pixel in which walls are found beside a swarm
 constexpr int soft_edge = 5;       // width of a swarm's edge, on both sides of it
 constexpr double outline_tolerance = 0.5;  // of that pixel
 constexpr int middle_grey = 100;           // mean grey of the corrected picture
@@ -173,11 +173,11 @@ WallsBesideSwarm find_walls_beside(const Image& picture, const WallParams& p, co
   if (picture.pixels.empty()) return {};
   const Image one = to_grey(picture);
   cv::Mat grey;
-  cv::resize(as_mat(one), grey, {(one.width + 1) / coarse, (one.height + 1) / coarse}, 0, 0,
+  cv::resize(as_mat(one), grey, {(one.width + 1) / wall_pixel, (one.height + 1) / wall_pixel}, 0, 0,
              cv::INTER_AREA);
   WallParams small = p;
-  small.smooth /= coarse;
-  small.min_area /= coarse * coarse;
+  small.smooth /= wall_pixel;
+  small.min_area /= wall_pixel * wall_pixel;
   const Sorts sorts = sorts_of(grey, small);
   cv::Mat walls = sorts.walls.empty() ? cv::Mat::zeros(grey.size(), CV_8U) : sorts.walls;
   if (!sorts.walls.empty()) {
@@ -188,12 +188,12 @@ WallsBesideSwarm find_walls_beside(const Image& picture, const WallParams& p, co
   cv::Mat given;
   cv::resize(to_mat(fixed), given, grey.size(), 0, 0, cv::INTER_NEAREST);
   walls |= given;
-  walls = without_islands(walls, {swarm_px / coarse, reach_px / coarse});
+  walls = without_islands(walls, {swarm_px / wall_pixel, reach_px / wall_pixel});
   walls = without_small_pieces(walls, small.min_area);
   walls = ~without_small_pieces(~walls, small.min_area);
   CameraScale small_scale = scale;
-  small_scale.um_per_px *= coarse;
-  small_scale.origin_px = (scale.origin_px - Vec2{0.5, 0.5} * (coarse - 1.0)) / coarse;
+  small_scale.um_per_px *= wall_pixel;
+  small_scale.origin_px = (scale.origin_px - Vec2{0.5, 0.5} * (wall_pixel - 1.0)) / wall_pixel;
   WallsBesideSwarm found;
   found.shapes =
       walls_in_world(to_mask(walls), small_scale, outline_tolerance * small_scale.um_per_px);
