@@ -131,7 +131,7 @@ TEST(SwarmPerception, NothingOfTheSwarmIsBeyondItsCircle) {
       const Detections& seen = perception.process(
           microscope.look(Snapshot(map, i), SwarmPose{{{400, 400}, 0}, 80}, {}), i);
       ASSERT_TRUE(seen.swarm) << seen.trouble;
-      const double off = distance(seen.swarm->pose.position, {400, 400});
+      const double off = distance(seen.swarm->pose.position, Vec2{400, 400});
       EXPECT_LT(80 + off - seen.swarm->radius, 4) << trial << " " << i;  // a pixel
       EXPECT_LT(seen.swarm->radius, 84);
     }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "microswarm/vision/image/mat.hpp"
+#include "microswarm/vision/scene/background.hpp"
 #include "microswarm/vision/scene/blob_search.hpp"
 #include "microswarm/vision/scene/scene_parts.hpp"
 
@@ -54,43 +55,47 @@ bool leaves(const Blob& blob, const cv::Rect& window, const cv::Size& picture, d
   });
 }
 
-}  // namespace
+/// Background of a look: what counts as a difference, and the roughness.
+struct Backdrop {
+  float least = 0;
+  double noise = 0;
+};
 
-SceneWindows::SceneWindows(Mask walls) : walls_(std::move(walls)) {
-  if (walls_.cells.empty()) return;
-  const cv::Mat cells(walls_.height, walls_.width, CV_8U, walls_.cells.data());
-  coarse_seen_ = seen_of(cells, coarse);
-}
-
-SeenScene SceneWindows::find(const Image& picture, const SceneParams& params,
-                             std::optional<Vec2> before_px, std::span<const Ring> expected) {
-  const Mask* walls = walls_.cells.empty() ? nullptr : &walls_;
-  walls_over(picture, walls);  // for its check
-  if (picture.pixels.empty()) return {};
-  picture_ = &picture;
-  fine_ = as_mat(picture);
-  look_coarsely(params);
-  place_windows(params);
-  std::vector<cv::Rect> near, far;
-  for (const cv::Rect& window : windows_)
-    (!before_px || meets(window, *before_px, params.swarm.jump) ? near : far).push_back(window);
-  SeenScene scene;
-  std::vector<Blob> blobs = search(params.swarm.look, walls, near);
-  scene.swarm = choose_swarm(blobs, params.swarm, before_px);
-  if (scene.swarm.sight == SwarmSight::none && !far.empty())
-    scene.swarm = choose_swarm(search(params.swarm.look, walls, far), params.swarm, before_px);
-  Mask hidden;
-  if (scene.swarm.swarm) {
-    hidden = hidden_by(*scene.swarm.swarm, picture, walls, params.swarm.look.gap);
-    walls = &hidden;
+/// The search of one picture.
+class WindowSearch {
+ public:
+  WindowSearch(const Image& picture, const Mask* walls, const Mask& coarse_walls,
+               const SceneParams& params)
+      : picture_(picture), walls_(walls), fine_(as_mat(picture)) {
+    if (walls) coarse_seen_ = ~to_mat(coarse_walls);
+    look_coarsely(params);
+    place_windows(params);
   }
-  scene.obstacles = obstacles_of(search(params.obstacles, walls, windows_), fine_.size(), walls,
-                                 params, expected);
-  return scene;
-}
+
+  /// Boxes around what differs from the light, apart from each other [px].
+  const std::vector<cv::Rect>& windows() const { return windows_; }
+  std::vector<Blob> search(const BlobParams& look, const Mask* hidden,
+                           const std::vector<cv::Rect>& windows) const;
+
+ private:
+  void look_coarsely(const SceneParams& params);
+  void place_windows(const SceneParams& params);
+  std::optional<std::vector<Blob>> search_within(const BlobParams& look, const Mask* hidden,
+                                                 const std::vector<cv::Rect>& windows) const;
+  Backdrop backdrop(const BlobParams& look) const;
+  cv::Mat ground(const cv::Rect& box, int side) const;
+
+  const Image& picture_;
+  const Mask* walls_;
+  cv::Mat fine_;
+  cv::Mat coarse_seen_;
+  std::optional<GroundSurface> light_;
+  cv::Mat differs_;  // coarse pixels, 255 where a window is needed
+  std::vector<cv::Rect> windows_;
+};
 
 /// Fits the light, and finds the coarse pixels that differ from it.
-void SceneWindows::look_coarsely(const SceneParams& params) {
+void WindowSearch::look_coarsely(const SceneParams& params) {
   const cv::Mat grey = downsampled(fine_, coarse);
   light_.emplace(grey, coarse_seen_);
   const cv::Mat light = light_->over({.size = grey.size()});
@@ -106,7 +111,7 @@ void SceneWindows::look_coarsely(const SceneParams& params) {
 }
 
 /// Boxes around what differs, with the margin that the searches need.
-void SceneWindows::place_windows(const SceneParams& params) {
+void WindowSearch::place_windows(const SceneParams& params) {
   const int margin = std::max(margin_of(params.swarm.look), margin_of(params.obstacles));
   const int wide = 2 * (margin / coarse + 1) + 1;
   cv::Mat grown;
@@ -128,7 +133,7 @@ void SceneWindows::place_windows(const SceneParams& params) {
 }
 
 /// What the windows show; if something continues beyond one, what the whole picture shows.
-std::vector<Blob> SceneWindows::search(const BlobParams& look, const Mask* hidden,
+std::vector<Blob> WindowSearch::search(const BlobParams& look, const Mask* hidden,
                                        const std::vector<cv::Rect>& windows) const {
   std::optional<std::vector<Blob>> blobs = search_within(look, hidden, windows);
   if (!blobs) blobs = search_within(look, hidden, {{0, 0, fine_.cols, fine_.rows}});
@@ -136,11 +141,11 @@ std::vector<Blob> SceneWindows::search(const BlobParams& look, const Mask* hidde
   return std::move(*blobs);
 }
 
-std::optional<std::vector<Blob>> SceneWindows::search_within(
+std::optional<std::vector<Blob>> WindowSearch::search_within(
     const BlobParams& look, const Mask* hidden, const std::vector<cv::Rect>& windows) const {
   const int side = coarseness(look);
   const Backdrop behind = backdrop(look);
-  const cv::Mat walls = walls_over(*picture_, hidden);
+  const cv::Mat walls = walls_over(picture_, hidden);
   std::vector<Blob> all;
   for (const cv::Rect& window : windows) {
     BlobContext field{.side = side};
@@ -163,12 +168,12 @@ std::optional<std::vector<Blob>> SceneWindows::search_within(
 }
 
 /// Measured in strips across the picture, of which the middle working row counts.
-SceneWindows::Backdrop SceneWindows::backdrop(const BlobParams& look) const {
+Backdrop WindowSearch::backdrop(const BlobParams& look) const {
   const int side = coarseness(look);
   const double spread = look.gap / 2 / side;
   const int reach = static_cast<int>(std::ceil(blur_reach * spread));
   const int high = std::min(fine_.rows, side * (2 * reach + 1));
-  const cv::Mat cells = walls_over(*picture_, walls_.cells.empty() ? nullptr : &walls_);
+  const cv::Mat cells = walls_over(picture_, walls_);
   std::vector<cv::Mat> rises, seens, fines;
   for (int k = 0; k < strips; ++k) {
     const int top = (fine_.rows - high) * (2 * k + 1) / (2 * strips) / coarse * coarse;
@@ -192,12 +197,43 @@ SceneWindows::Backdrop SceneWindows::backdrop(const BlobParams& look) const {
   return {least, roughness(field, {0, 0, behind.cols, behind.rows}, behind, 1)};
 }
 
-cv::Mat SceneWindows::ground(const cv::Rect& box, int side) const {
+cv::Mat WindowSearch::ground(const cv::Rect& box, int side) const {
   const double first = 0.5 * (side - coarse);  // from the middle of a coarse pixel's first
   return light_->over({.x = (box.x + first) / coarse,
                        .y = (box.y + first) / coarse,
                        .step = static_cast<double>(side) / coarse,
                        .size = {(box.width + side - 1) / side, (box.height + side - 1) / side}});
+}
+
+}  // namespace
+
+SceneWindows::SceneWindows(Mask walls) : walls_(std::move(walls)) {
+  if (walls_.cells.empty()) return;
+  const cv::Mat cells(walls_.height, walls_.width, CV_8U, walls_.cells.data());
+  coarse_walls_ = to_mask(~seen_of(cells, coarse));
+}
+
+SeenScene SceneWindows::find(const Image& picture, const SceneParams& params,
+                             std::optional<Vec2> before_px, std::span<const Ring> expected) {
+  const Mask* walls = walls_.cells.empty() ? nullptr : &walls_;
+  walls_over(picture, walls);  // for its check
+  if (picture.pixels.empty()) return {};
+  const WindowSearch in(picture, walls, coarse_walls_, params);
+  std::vector<cv::Rect> near, far;
+  for (const cv::Rect& window : in.windows())
+    (!before_px || meets(window, *before_px, params.swarm.jump) ? near : far).push_back(window);
+  SeenScene scene;
+  scene.swarm = choose_swarm(in.search(params.swarm.look, walls, near), params.swarm, before_px);
+  if (scene.swarm.sight == SwarmSight::none && !far.empty())
+    scene.swarm = choose_swarm(in.search(params.swarm.look, walls, far), params.swarm, before_px);
+  Mask hidden;
+  if (scene.swarm.swarm) {
+    hidden = hidden_by(*scene.swarm.swarm, picture, walls, params.swarm.look.gap);
+    walls = &hidden;
+  }
+  scene.obstacles = obstacles_of(in.search(params.obstacles, walls, in.windows()),
+                                 {picture.width, picture.height}, walls, params, expected);
+  return scene;
 }
 
 }  // namespace microswarm
