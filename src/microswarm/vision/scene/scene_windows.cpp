@@ -17,9 +17,8 @@ namespace {
 constexpr int coarse = 4;             // [px] side of a coarse pixel
 constexpr int strips = 8;             // rows in which the background is measured
 constexpr double coarse_share = 0.5;  // of the least difference, which makes a window
-constexpr int max_windows = 200;
-constexpr double max_share = 0.5;   // of the picture in windows; more is searched as a whole
-constexpr double blur_reach = 2.5;  // standard deviations of the blur of `rise_of`
+constexpr int max_windows = 200;      // more are one: the picture
+constexpr double blur_reach = 2.5;    // standard deviations of the blur of `rise_of`
 
 /// Distance at which a window's edge has no influence on what is in it [px].
 int margin_of(const BlobParams& p) {
@@ -120,16 +119,17 @@ void WindowSearch::place_windows(const SceneParams& params) {
   const int count = cv::connectedComponentsWithStats(grown, labels, stats, centres, 8, CV_32S);
   const cv::Rect all(0, 0, fine_.cols, fine_.rows);
   windows_.clear();
-  int area = count > max_windows ? all.area() : 0;
-  for (int k = 1; k < std::min(count, max_windows); ++k) {
+  if (count > max_windows) {
+    windows_ = {all};
+    return;
+  }
+  for (int k = 1; k < count; ++k) {
     const cv::Rect box(stats.at<int>(k, cv::CC_STAT_LEFT) * coarse,
                        stats.at<int>(k, cv::CC_STAT_TOP) * coarse,
                        stats.at<int>(k, cv::CC_STAT_WIDTH) * coarse,
                        stats.at<int>(k, cv::CC_STAT_HEIGHT) * coarse);
     add_apart(box & all, windows_);
   }
-  for (const cv::Rect& window : windows_) area += window.area();
-  if (area > max_share * all.area()) windows_ = {all};
 }
 
 /// What the windows show; if something continues beyond one, what the whole picture shows.

@@ -11,7 +11,8 @@ namespace microswarm {
 /// Finds the scene of each picture of a video as `find_scene` does, in a fraction of the time: the
 /// light is fitted to a coarse picture, and only windows around what differs from it there are
 /// searched pixel by pixel. Keeps nothing from picture to picture. Positions and radii agree with
-/// those of `find_scene` to a tenth of a pixel; the tests hold them to that.
+/// those of `find_scene` to a tenth of a pixel, or a pixel where the swarm or a wall cuts an
+/// obstacle; the tests hold them to that.
 class SceneWindows {
  public:
   /// `walls` is empty or has the size of the pictures, which are grey.
