@@ -12,6 +12,7 @@
 #include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/vision/image/mat.hpp"
 #include "microswarm/vision/scene/scene_finder.hpp"
+#include "microswarm/vision/scene/scene_windows.hpp"
 #include "microswarm/vision/tracking/video_tracker.hpp"
 
 namespace microswarm::bench {
@@ -173,6 +174,8 @@ void add_swarm(std::vector<BenchRow>& rows, bool quick, const Stop& stop) {
   std::vector<double> ours;
   std::vector<double> peer;
   std::vector<double> scene;
+  std::vector<double> quick_scene;
+  SceneWindows windows{Mask{}};
   for (const Image& picture : swarm_pictures(quick ? 100 : 500)) {
     if (stop()) break;
     auto began = Clock::now();
@@ -184,7 +187,17 @@ void add_swarm(std::vector<BenchRow>& rows, bool quick, const Stop& stop) {
     began = Clock::now();
     find_scene(picture);
     scene.push_back(ms_since(began));
+    began = Clock::now();
+    windows.find(picture, {}, {}, {});
+    quick_scene.push_back(ms_since(began));
   }
+  for (const double q : {0.5, 0.99})
+    rows.push_back({.name = "a swarm and obstacles found in windows",
+                    .quantity = q == 0.5 ? "time a frame, median" : "time a frame, 99 of 100",
+                    .unit = "ms",
+                    .ours = quantile(quick_scene, q),
+                    .peer = quantile(scene, q),
+                    .peer_name = "ours, in the whole picture"});
   rows.push_back({.name = "a swarm and obstacles found",
                   .quantity = "time a frame, median",
                   .unit = "ms",

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "microswarm/core/maths/angles.hpp"
@@ -52,6 +53,74 @@ TEST(SwarmPerception, FollowsASwarmAmongObstacles) {
     ASSERT_NE(standing(), seen.moving.end());
     if (i == 0) standing_number = standing()->obstacle;
     EXPECT_EQ(standing()->obstacle, standing_number);
+  }
+}
+
+TEST(SwarmPerception, DiscsKeepTheirNumbersWhileTheirImagesJoin) {
+  const auto map = channel();
+  MicroscopeParams optics;
+  optics.um_per_px = 4;
+  Microscope microscope(optics, *map, 1, 0);
+  PerceptionParams params = eye_params();
+  params.scene.obstacles.gap = 2;
+  SwarmPerception perception(params, {.max_speed = 100}, *map, {{200, 300}, 0},
+                             view_of(microscope));
+  for (int i = 0; i < 160; ++i) {
+    const double t = 0.1 * i;
+    // They pass each other, 6 µm from edge to edge: less than two pixels.
+    const std::array<Disc, 2> discs{Disc{{500 + 25 * t, 450}, 60}, Disc{{900 - 25 * t, 586}, 70}};
+    const Snapshot world(map, t, {{.shape = discs[0]}, {.shape = discs[1], .obstacle = 1}});
+    const Detections& seen =
+        perception.process(microscope.look(world, SwarmPose{{{200, 300}, 0}, 50}, {}), t);
+    ASSERT_EQ(seen.moving.size(), 2U) << t;
+    for (const Body& body : seen.moving) {
+      ASSERT_TRUE(std::holds_alternative<Disc>(body.shape)) << t;
+      const Disc& disc = std::get<Disc>(body.shape);
+      const Disc& drawn = discs[disc.radius > 65 ? 0 + 1 : 0];
+      EXPECT_LT(distance(disc.centre, drawn.centre), 4) << t;
+      EXPECT_NEAR(disc.radius, drawn.radius, 4) << t;
+      EXPECT_EQ(body.obstacle, disc.radius > 65 ? 0U : 1U) << t;
+    }
+  }
+}
+
+TEST(SwarmPerception, AnObstacleMayShrinkButDirtIsNone) {
+  const auto map = channel();
+  MicroscopeParams optics;
+  optics.um_per_px = 4;
+  Microscope microscope(optics, *map, 1, 0);
+  PerceptionParams params = eye_params();
+  params.scene.obstacles.gap = 2;
+  SwarmPerception perception(params, {.max_speed = 100}, *map, {{200, 300}, 0},
+                             view_of(microscope));
+  for (int i = 0; i < 40; ++i) {
+    const double radius = 60 - i;  // the smallest obstacle has 32 µm
+    const Snapshot world(
+        map, 0.1 * i,
+        {{.shape = Disc{{600, 500}, radius}}, {.shape = Disc{{900, 300}, 24}, .obstacle = 1}});
+    const Detections& seen =
+        perception.process(microscope.look(world, SwarmPose{{{200, 300}, 0}, 50}, {}), 0.1 * i);
+    ASSERT_EQ(seen.moving.size(), 1U) << i;
+    EXPECT_NEAR(std::get<Disc>(seen.moving[0].shape).radius, radius, 3) << i;
+  }
+}
+
+TEST(SwarmPerception, NothingOfTheSwarmIsBeyondItsCircle) {
+  const auto map = channel();
+  MicroscopeParams optics;
+  optics.um_per_px = 4;
+  for (std::uint32_t trial = 0; trial < 10; ++trial) {
+    Microscope microscope(optics, *map, 1, trial);
+    SwarmPerception perception(eye_params(), {.max_speed = 100}, *map, {{400, 400}, 0},
+                               view_of(microscope));
+    for (int i = 0; i < 10; ++i) {
+      const Detections& seen = perception.process(
+          microscope.look(Snapshot(map, i), SwarmPose{{{400, 400}, 0}, 80}, {}), i);
+      ASSERT_TRUE(seen.swarm) << seen.trouble;
+      const double off = distance(seen.swarm->pose.position, Vec2{400, 400});
+      EXPECT_LT(80 + off - seen.swarm->radius, 4) << trial << " " << i;  // a pixel
+      EXPECT_LT(seen.swarm->radius, 84);
+    }
   }
 }
 

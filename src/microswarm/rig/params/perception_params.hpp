@@ -3,6 +3,7 @@
 
 #include "microswarm/core/fields/fields.hpp"
 #include "microswarm/vision/scene/scene_finder.hpp"
+#include "microswarm/vision/scene/wall_finder.hpp"
 #include "microswarm/vision/tracking/particles.hpp"
 
 namespace microswarm {
@@ -17,6 +18,8 @@ struct PerceptionParams {
   double position_noise = 8;
   double radius_tolerance = 0.35;
   double min_seen_robots = 0.5;
+  bool moving_walls = false;
+  WallParams walls;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.scene, {"scene", Unit::none, {}, "Detection of a one-body swarm and of obstacles."});
@@ -43,6 +46,9 @@ struct PerceptionParams {
                                   "Maximum relative deviation from its median radius."});
     visit(self.min_seen_robots,
           {"min_seen_robots", Unit::none, {0, 1}, "Share of the robots that must be seen."});
+    visit(self.moving_walls,
+          {"moving_walls", Unit::none, {}, "Walls move: they are found in every picture."});
+    visit(self.walls, {"walls", Unit::none, {}, "Appearance of walls that move."});
   }
 };
 

@@ -9,7 +9,8 @@
 namespace microswarm {
 namespace {
 
-constexpr double memory = 1;  // [s] for which a hidden body is remembered
+constexpr double memory = 1;       // [s] for which a hidden body is remembered
+constexpr double smoothing = 0.3;  // weight of the newest velocity
 
 }  // namespace
 
@@ -27,17 +28,36 @@ void BodyNumbers::number(std::vector<Body>& bodies, double t) {
                                           static_cast<int>(known_.size()), edges, reach_ * reach_);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const Vec2 centre = extent_of(bodies[b]).centre;
+    const auto* disc = std::get_if<Disc>(&bodies[b].shape);
+    const double radius = disc ? disc->radius : 0;
     if (!known_of[b]) {
       bodies[b].obstacle = next_++;
-      known_.push_back({bodies[b].obstacle, centre, {}, t});
+      known_.push_back({.number = bodies[b].obstacle,
+                        .radius = radius,
+                        .centre = centre,
+                        .velocity = {},
+                        .t = t});
       continue;
     }
     Known& known = known_[static_cast<std::size_t>(*known_of[b])];
     bodies[b].obstacle = known.number;
-    if (t > known.t) known.velocity = (centre - known.centre) / (t - known.t);
+    if (t > known.t) {
+      const Vec2 moved = (centre - known.centre) / (t - known.t);
+      known.velocity += (known.pictures > 1 ? smoothing : 1) * (moved - known.velocity);
+      ++known.pictures;
+    }
+    known.radius = radius;
     known.centre = centre;
     known.t = t;
   }
+}
+
+std::vector<Disc> BodyNumbers::expected_discs(double t) const {
+  std::vector<Disc> discs;
+  for (const Known& known : known_)
+    if (known.radius > 0 && t - known.t <= memory)
+      discs.push_back({known.centre + (t - known.t) * known.velocity, known.radius});
+  return discs;
 }
 
 }  // namespace microswarm

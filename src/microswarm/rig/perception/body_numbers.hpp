@@ -18,13 +18,17 @@ class BodyNumbers {
 
   /// Numbers the bodies of the next picture, taken at `t` [s].
   void number(std::vector<Body>& bodies, double t);
+  /// Known bodies that were last seen as discs, where they are expected at `t` [s].
+  std::vector<Disc> expected_discs(double t) const;
 
  private:
   struct Known {
     std::uint32_t number;
+    double radius;  // [µm] of a disc; 0 for another shape
     Vec2 centre;
     Vec2 velocity;
     double t;
+    int pictures = 1;
   };
 
   double reach_;

@@ -1,10 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/rig/perception/perception.hpp"
 
+#include <algorithm>
+
 #include "microswarm/rig/perception/robot_perception.hpp"
 #include "microswarm/rig/perception/swarm_perception.hpp"
 
 namespace microswarm {
+
+namespace {
+
+bool shows_channel(const std::vector<Obstacle>& obstacles) {
+  return std::any_of(obstacles.begin(), obstacles.end(), [](const Obstacle& obstacle) {
+    return std::holds_alternative<DeformingChannel>(obstacle.shape);
+  });
+}
+
+}  // namespace
 
 Observation observation_of(const Detections& sight, std::shared_ptr<const Snapshot> world,
                            double now, double seen) {
@@ -23,7 +35,9 @@ std::unique_ptr<Perception> make_perception(const PerceptionParams& params,
                                             std::span<const Vec2> starts, const CameraView& view) {
   if (scenario.robots)
     return std::make_unique<RobotPerception>(params, *scenario.robots, map, starts, view);
-  return std::make_unique<SwarmPerception>(params, limits_of(scenario.swarm), map, *scenario.start,
+  PerceptionParams shown = params;
+  shown.moving_walls = params.moving_walls || shows_channel(scenario.obstacles);
+  return std::make_unique<SwarmPerception>(shown, limits_of(scenario.swarm), map, *scenario.start,
                                            view);
 }
 

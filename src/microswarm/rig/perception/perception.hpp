@@ -55,7 +55,9 @@ class Perception {
 Observation observation_of(const Detections& sight, std::shared_ptr<const Snapshot> world,
                            double now, double seen);
 
-/// Creates the perception of a scenario: for one swarm among obstacles, or for robots.
+/// Creates the perception of a scenario: for one swarm among obstacles, or for robots. The
+/// scenario's obstacles are those that the camera shows: a deforming channel among them means that
+/// walls move.
 std::unique_ptr<Perception> make_perception(const PerceptionParams& params,
                                             const Scenario& scenario, const Map& map,
                                             std::span<const Vec2> starts, const CameraView& view);

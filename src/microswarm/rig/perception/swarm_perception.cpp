@@ -12,6 +12,7 @@ namespace microswarm {
 
 namespace {
 
+constexpr double known_size = 0.5;           // of min_radius, to which a known obstacle may shrink
 constexpr std::size_t radius_window = 31;    // sightings of which the median radius is taken
 constexpr double follow_radii = 3;           // way over which a swarm must follow
 constexpr std::size_t min_radius_count = 5;  // of sightings before a radius is doubted
@@ -38,6 +39,7 @@ SwarmPerception::SwarmPerception(const PerceptionParams& params, const SwarmLimi
     : params_(params),
       scale_(view.scale),
       walls_(walls_in_picture(map, view.scale, view.width, view.height)),
+      windows_(walls_),
       numbers_(params.scene.swarm.jump * view.scale.um_per_px),
       from_(start.position),
       heading_(start.heading),
@@ -45,7 +47,9 @@ SwarmPerception::SwarmPerception(const PerceptionParams& params, const SwarmLimi
       before_px_(scale_.to_picture(start.position)) {}
 
 const Detections& SwarmPerception::process(const Image& picture, double t) {
-  const SeenScene scene = find_scene(picture, search(t), prior(), &walls_);
+  detections_.moving.clear();
+  const SeenScene scene = find(picture, t);
+  numbers_.number(detections_.moving, t);
   const std::optional<Blob>& swarm = scene.swarm.swarm;
   detections_.swarm.reset();
   detections_.parts.clear();
@@ -58,11 +62,48 @@ const Detections& SwarmPerception::process(const Image& picture, double t) {
   } else if (swarm) {
     accept(*swarm, scene, t);
   }
-  detections_.moving.clear();
-  for (const SeenObstacle& seen : scene.obstacles)
-    detections_.moving.push_back({.shape = seen.shape(scale_)});
-  numbers_.number(detections_.moving, t);
   return detections_;
+}
+
+/// Looks for the swarm, and for the bodies around it.
+SeenScene SwarmPerception::find(const Image& picture, double t) {
+  SceneParams params = search(t);
+  if (params_.moving_walls)
+    return {.swarm = find_beside_walls(picture, params.swarm), .obstacles = {}};
+  params.obstacles.min_radius *= known_size;
+  const std::vector<Ring> expected = expected_discs(t);
+  SeenScene scene = windows_.find(picture, params, prior(), expected);
+  for (const SeenObstacle& seen : scene.obstacles)
+    if (is_large_or_known(seen, expected))
+      detections_.moving.push_back({.shape = seen.shape(scale_)});
+  return scene;
+}
+
+/// Whatever is not the swarm is a wall then.
+SwarmSighting SwarmPerception::find_beside_walls(const Image& picture,
+                                                 const SwarmFinderParams& params) {
+  const double radius = radii_px_.empty() ? params.look.max_radius : median(radii_px_);
+  WallsBesideSwarm found = find_walls_beside(picture, params_.walls, walls_, *before_px_,
+                                             params.jump + 2 * radius, scale_);
+  for (Polygon& shape : found.shapes) detections_.moving.push_back({.shape = std::move(shape)});
+  return find_swarm(picture, params, before_px_, &found.walls);
+}
+
+std::vector<Ring> SwarmPerception::expected_discs(double t) const {
+  std::vector<Ring> discs;
+  for (const Disc& disc : numbers_.expected_discs(t))
+    discs.push_back({scale_.to_picture(disc.centre), disc.radius / scale_.um_per_px});
+  return discs;
+}
+
+/// What is smaller than the smallest obstacle may be dirt, or an obstacle that has shrunk.
+bool SwarmPerception::is_large_or_known(const SeenObstacle& seen,
+                                        const std::vector<Ring>& expected) const {
+  const double usual = params_.scene.obstacles.min_radius;
+  return seen.blob.radius_px >= usual ||
+         std::any_of(expected.begin(), expected.end(), [&](const Ring& disc) {
+           return distance(disc.centre_px, seen.blob.centre_px) <= usual;
+         });
 }
 
 /// How the swarm is searched: where it can have come, and without texture if it had none.
@@ -79,20 +120,22 @@ SceneParams SwarmPerception::search(double t) const {
 SwarmPrior SwarmPerception::prior() const {
   SwarmPrior prior = found_ ? SwarmPrior{} : expected_swarm(limits_, params_, scale_);
   prior.at_px = before_px_;
+  if (!radii_px_.empty()) prior.around_px = part_distance * median(radii_px_);
   return prior;
 }
 
 void SwarmPerception::accept(const Blob& swarm, const SeenScene& scene, double t) {
   keep_size(swarm);
-  const Vec2 place = scale_.to_world(swarm.centre_px);
+  const Ring around = *enclosing_circle(swarm.outline_px);
+  const Vec2 place = scale_.to_world(around.centre_px);
   measure_following(place, t);
-  before_px_ = swarm.centre_px;
+  before_px_ = around.centre_px;
   found_ = t;
   texture_ = swarm.texture;
   beside_ = scene.swarm.others;
   for (const SeenObstacle& seen : scene.obstacles) beside_.push_back(seen.blob);
   tell_heading(place);
-  const double radius = std::max(0.0, swarm.radius_px + params_.edge);
+  const double radius = std::max(0.0, around.radius_px + params_.edge);
   detections_.swarm = SwarmPose{{place, heading_}, radius * scale_.um_per_px};
 }
 

@@ -7,6 +7,7 @@
 #include "microswarm/rig/perception/body_numbers.hpp"
 #include "microswarm/rig/perception/perception.hpp"
 #include "microswarm/swarm/body/swarm_limits.hpp"
+#include "microswarm/vision/scene/scene_windows.hpp"
 
 namespace microswarm {
 
@@ -16,9 +17,10 @@ SwarmPrior expected_swarm(const SwarmLimits& limits, const PerceptionParams& par
                           const CameraScale& scale);
 
 /// Detects one swarm among moving obstacles, where it can have come since it was last seen and of
-/// about the size that it had. Its heading is its last direction of motion. A swarm without texture
-/// is known at first by the start and by the size that the scenario gives it; a swarm that had
-/// texture is never replaced by something smooth.
+/// about the size that it had. Its place and radius are those of the smallest circle around its
+/// outline: nothing of it is beyond. Its heading is its last direction of motion. A swarm without
+/// texture is known at first by the start and by the size that the scenario gives it; a swarm that
+/// had texture is never replaced by something smooth.
 class SwarmPerception : public Perception {
  public:
   /// The swarm starts at `start`.
@@ -30,6 +32,8 @@ class SwarmPerception : public Perception {
   double follow_distance() const override;
 
  private:
+  SeenScene find(const Image& picture, double t);
+  SwarmSighting find_beside_walls(const Image& picture, const SwarmFinderParams& params);
   double reach_px(double t) const;
   SceneParams search(double t) const;
   SwarmPrior prior() const;
@@ -38,12 +42,15 @@ class SwarmPerception : public Perception {
   bool tell_split(const SwarmSighting& sighting);
   bool tell_merger(const Blob& whole, const SeenScene& scene);
   void accept(const Blob& swarm, const SeenScene& scene, double t);
+  std::vector<Ring> expected_discs(double t) const;
+  bool is_large_or_known(const SeenObstacle& seen, const std::vector<Ring>& expected) const;
   void measure_following(Vec2 place, double t);
   void tell_heading(Vec2 place);
 
   PerceptionParams params_;
   CameraScale scale_;
   Mask walls_;
+  SceneWindows windows_;
   BodyNumbers numbers_;
   Vec2 from_;  // position at the last update of the heading
   double heading_;

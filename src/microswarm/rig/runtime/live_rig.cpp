@@ -98,7 +98,9 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
   const Image& picture = frame_.frame.picture;
   check_picture(rig, scenario, scale, picture);
   const std::vector<Vec2> starts = scenario.robots ? scenario.robots->starts : std::vector<Vec2>{};
-  perception_ = make_perception(rig.params.perception, scenario, *world_.map, starts,
+  Scenario shown = scenario;
+  if (has_virtual_) shown.obstacles.clear();
+  perception_ = make_perception(rig.params.perception, shown, *world_.map, starts,
                                 {scale, picture.width, picture.height});
   start_ = steady_seconds();
   read_frame();

@@ -132,22 +132,33 @@ MICROSWARM_EACH_CPU void write_parabola(std::span<const double> across, double c
 
 }  // namespace
 
-cv::Mat ground_of(const cv::Mat& grey, const cv::Mat& seen) {
-  cv::Mat ground = cv::Mat::zeros(grey.size(), CV_32F);
-  const double half = 0.5 * std::max(grey.cols, grey.rows);
-  const std::vector<Tile> tiles = tiles_of(grey, seen, half);
-  if (tiles.empty()) return ground;
-  const Terms c = fitted(tiles).factor;
-  std::vector<double> across(static_cast<std::size_t>(grey.cols));
-  for (int column = 0; column < grey.cols; ++column)
-    across[column] = (column - 0.5 * (grey.cols - 1)) / half;
-  for (int row = 0; row < grey.rows; ++row) {
-    const double y = (row - 0.5 * (grey.rows - 1)) / half;
+GroundSurface::GroundSurface(const cv::Mat& grey, const cv::Mat& seen)
+    : half_(0.5 * std::max(grey.cols, grey.rows)),
+      middle_x_(0.5 * (grey.cols - 1)),
+      middle_y_(0.5 * (grey.rows - 1)) {
+  const std::vector<Tile> tiles = tiles_of(grey, seen, half_);
+  has_tiles_ = !tiles.empty();
+  if (has_tiles_) factor_ = fitted(tiles).factor;
+}
+
+cv::Mat GroundSurface::over(const Grid& grid) const {
+  cv::Mat ground = cv::Mat::zeros(grid.size, CV_32F);
+  if (!has_tiles_) return ground;
+  const Terms& c = factor_;
+  std::vector<double> across(static_cast<std::size_t>(grid.size.width));
+  for (int column = 0; column < grid.size.width; ++column)
+    across[column] = (grid.x + grid.step * column - middle_x_) / half_;
+  for (int row = 0; row < grid.size.height; ++row) {
+    const double y = (grid.y + grid.step * row - middle_y_) / half_;
     const double constant = c[0] + y * (c[2] + y * c[5]);
     const double slope = c[1] + y * c[4];
     write_parabola(across, constant, slope, c[3], ground.ptr<float>(row));
   }
   return ground;
+}
+
+cv::Mat ground_of(const cv::Mat& grey, const cv::Mat& seen) {
+  return GroundSurface(grey, seen).over({.size = grey.size()});
 }
 
 }  // namespace microswarm

@@ -19,6 +19,7 @@
 #include "microswarm/vision/image/blur.hpp"
 #include "microswarm/vision/image/mat.hpp"
 #include "microswarm/vision/scene/background.hpp"
+#include "microswarm/vision/scene/blob_search.hpp"
 #include "microswarm/vision/scene/level_line.hpp"
 
 namespace microswarm {
@@ -28,13 +29,13 @@ constexpr int smooth_side = 5;     // working pixels that a smooth part must ext
 constexpr int ground_rows = 4;     // every so many rows are used for the background noise
 constexpr double noise_limit = 5;  // spreads of the background; smaller differences are ignored
 
-/// Picture pixels per side of a working pixel. Coarser pixels reduce noise and time.
+}  // namespace
+
 int coarseness(const BlobParams& p) {
   const double fine = std::min(p.min_radius / 3, p.gap / 2);
   return fine >= 4 ? 4 : fine >= 2 ? 2 : 1;
 }
 
-/// Block means over `side` × `side` pixels; the border is replicated to fill the last blocks.
 cv::Mat downsampled(const cv::Mat& mat, int side) {
   if (side == 1) return mat;
   const int right = (side - mat.cols % side) % side;
@@ -46,17 +47,23 @@ cv::Mat downsampled(const cv::Mat& mat, int side) {
   return small;
 }
 
-/// Mask of the pixels to search (255), or an empty matrix if all are searched.
-cv::Mat seen_of(const Image& picture, const Mask* walls, int side) {
+cv::Mat walls_over(const Image& picture, const Mask* walls) {
   if (!walls) return {};
   if (walls->width != picture.width || walls->height != picture.height)
     throw InputError("walls: " + std::to_string(walls->width) + "x" +
                      std::to_string(walls->height) + " pixels, the picture has " +
                      std::to_string(picture.width) + "x" + std::to_string(picture.height));
+  return {walls->height, walls->width, CV_8U, const_cast<std::uint8_t*>(walls->cells.data())};
+}
+
+cv::Mat seen_of(const cv::Mat& walls, int side) {
+  if (walls.empty()) return {};
   cv::Mat hidden;
-  cv::dilate(downsampled(to_mat(*walls), side) > 0, hidden, cv::Mat::ones(3, 3, CV_8U));
+  cv::dilate(downsampled(walls != 0, side) > 0, hidden, cv::Mat::ones(3, 3, CV_8U));
   return ~hidden;
 }
+
+namespace {
 
 /// Replaces the background by the foreground where something is seen: grey minus background, times
 /// `sign`.
@@ -77,13 +84,14 @@ MICROSWARM_EACH_CPU void make_up(std::span<const float> share, const std::uint8_
   }
 }
 
-/// Smoothed difference of each pixel from the background; 0 where nothing is seen.
-cv::Mat rise_of(const cv::Mat& grey, const cv::Mat& seen, bool dark, double spread) {
-  assert(grey.isContinuous());
+}  // namespace
+
+cv::Mat rise_of(const cv::Mat& grey, const cv::Mat& seen, cv::Mat foreground, bool dark,
+                double spread) {
   const cv::Mat all = seen.empty() ? cv::Mat(grey.size(), CV_8U, cv::Scalar(255)) : seen;
-  cv::Mat foreground = ground_of(grey, seen);
-  take_ground({grey.ptr<std::uint8_t>(), grey.total()}, all.ptr<std::uint8_t>(), dark ? -1 : 1,
-              foreground.ptr<float>());
+  for (int y = 0; y < grey.rows; ++y)
+    take_ground({grey.ptr<std::uint8_t>(y), static_cast<std::size_t>(grey.cols)},
+                all.ptr<std::uint8_t>(y), dark ? -1 : 1, foreground.ptr<float>(y));
   const int reach = static_cast<int>(std::ceil(2.5 * spread));
   foreground = blurred(foreground, spread, reach, cv::BORDER_REFLECT);
   if (seen.empty()) return foreground;
@@ -94,7 +102,6 @@ cv::Mat rise_of(const cv::Mat& grey, const cv::Mat& seen, bool dark, double spre
   return foreground;
 }
 
-/// Spread of the background around its surface, from the median of about ten thousand pixels.
 double ground_spread(const cv::Mat& foreground, const cv::Mat& seen) {
   constexpr std::size_t enough = 10'000;
   const std::size_t step = 2 * (foreground.total() / enough / 2) + 7;  // odd, so that columns vary
@@ -105,6 +112,8 @@ double ground_spread(const cv::Mat& foreground, const cv::Mat& seen) {
       off.push_back(std::abs(foreground.ptr<float>()[i]));
   return 1.4826 * median(std::move(off));
 }
+
+namespace {
 
 /// A connected set of working pixels.
 struct Piece {
@@ -183,17 +192,8 @@ bool measure(Blob& blob) {
   return true;
 }
 
-/// Data of the search: the picture, the searched pixels and the foreground, the latter two in
-/// working pixels.
-struct BlobContext {
-  int side = 1;  ///< of a working pixel
-  cv::Mat fine;
-  cv::Mat seen;
-  cv::Mat foreground;
-};
+}  // namespace
 
-/// Mean squared difference of neighbours in a picture row, over every `step`th row of the working
-/// pixels set in `chosen` (over `box`).
 double roughness(const BlobContext& field, const cv::Rect& box, const cv::Mat& chosen, int step) {
   const int side = field.side;
   double squares = 0;
@@ -212,6 +212,8 @@ double roughness(const BlobContext& field, const cv::Rect& box, const cv::Mat& c
   }
   return count > 0 ? squares / count : 0;
 }
+
+namespace {
 
 bool is_cut(const Piece& piece, const cv::Mat& seen, const cv::Size& size) {
   const cv::Rect inner(1, 1, size.width - 2, size.height - 2);
@@ -271,20 +273,6 @@ std::optional<Blob> blob_of(const BlobContext& field, const Piece& piece, float 
   return blob;
 }
 
-/// `grey` has one channel and must outlive the result.
-BlobContext context_of(const Image& grey, const BlobParams& p, const Mask* walls) {
-  BlobContext field{.side = coarseness(p)};
-  field.seen = seen_of(grey, walls, field.side);
-  field.fine = as_mat(grey);
-  field.foreground = rise_of(downsampled(field.fine, field.side), field.seen,
-                             p.tone == ParticleTone::dark, p.gap / 2 / field.side);
-  return field;
-}
-
-double least_contrast(const BlobContext& field, const BlobParams& p) {
-  return std::max(p.min_contrast, noise_limit * ground_spread(field.foreground, field.seen));
-}
-
 }  // namespace
 
 Issues validate(const BlobParams& p) {
@@ -296,52 +284,42 @@ Issues validate(const BlobParams& p) {
   return issues;
 }
 
-double contrast_limit(const Image& picture, const BlobParams& params, const Mask* walls) {
-  if (picture.pixels.empty()) return params.min_contrast;
-  const Image one = picture.channels == 1 ? Image{} : to_grey(picture);
-  return least_contrast(context_of(picture.channels == 1 ? picture : one, params, walls), params);
+float least_rise(const BlobParams& p, double spread) {
+  return static_cast<float>(std::max(p.min_contrast, noise_limit * spread));
 }
 
-std::vector<Blob> find_blobs(const Image& picture, const BlobParams& p, const Mask* walls,
-                             std::vector<Blob>* refused) {
-  if (picture.pixels.empty()) {
-    seen_of(picture, walls, 1);
-    return {};
-  }
-  const Image one = picture.channels == 1 ? Image{} : to_grey(picture);
-  BlobContext field = context_of(picture.channels == 1 ? picture : one, p, walls);
-  const auto least = static_cast<float>(least_contrast(field, p));
-  const cv::Mat high = field.foreground > least;
-  const cv::Mat ground = field.seen.empty() ? cv::Mat(~high) : cv::Mat(~high & field.seen);
-  const double noise = roughness(field, {0, 0, ground.cols, ground.rows}, ground, ground_rows);
+namespace {
 
-  // Threshold the foreground, then keep of each piece what reaches half the contrast of its middle.
+/// The largest part of a piece that reaches half of its contrast.
+std::optional<Blob> main_blob(const BlobContext& field, const Piece& piece, float least,
+                              double noise, double smallest) {
+  const float level = std::max(least, median_within(field.foreground, piece) / 2);
+  const cv::Mat half_up = piece.in & (field.foreground(piece.box) > level);
+  const std::vector<Piece> parts = pieces_of(half_up, piece.box.tl(), smallest);
+  const auto largest = std::max_element(parts.begin(), parts.end(), [](auto& a, auto& b) {
+    return cv::countNonZero(a.in) < cv::countNonZero(b.in);
+  });
+  return largest == parts.end() ? std::nullopt : blob_of(field, *largest, level, noise);
+}
+
+}  // namespace
+
+// Thresholds the foreground, then keeps of each piece what reaches half the contrast of its middle.
+void add_blobs(const BlobContext& field, const BlobParams& p, float least, double noise,
+               std::vector<Blob>& blobs, std::vector<Blob>* refused) {
   const double min_area = std::numbers::pi * maths::power(0.5 * p.min_radius / field.side, 2);
   const double smallest = refused ? min_area / 4 : min_area;
-  std::vector<Blob> blobs;
   const auto refuse = [&](std::optional<Blob> blob) {
     if (blob && refused) refused->push_back(std::move(*blob));
   };
-  const auto level_of = [&](const Piece& piece) {
-    return std::max(least, median_within(field.foreground, piece) / 2);
-  };
-  const auto main_blob = [&](const Piece& piece) -> std::optional<Blob> {
-    const float level = level_of(piece);
-    const cv::Mat half_up = piece.in & (field.foreground(piece.box) > level);
-    const std::vector<Piece> parts = pieces_of(half_up, piece.box.tl(), smallest);
-    const auto largest = std::max_element(parts.begin(), parts.end(), [](auto& a, auto& b) {
-      return cv::countNonZero(a.in) < cv::countNonZero(b.in);
-    });
-    return largest == parts.end() ? std::nullopt : blob_of(field, *largest, level, noise);
-  };
-  for (Piece& piece : pieces_of(high, {}, smallest)) {
+  for (Piece& piece : pieces_of(field.foreground > least, {}, smallest)) {
     std::optional<Blob> whole;  // with its smooth part, which is then all that is refused
     std::optional<Blob> smooth_blob;
     if (p.min_texture > 0) {
       const cv::Mat smooth = smooth_parts(field, piece, mean_step(noise, p.min_texture));
       if (refused && cv::countNonZero(smooth) >= min_area) {
-        whole = main_blob(piece);
-        smooth_blob = main_blob({piece.box, smooth});
+        whole = main_blob(field, piece, least, noise, smallest);
+        smooth_blob = main_blob(field, {piece.box, smooth}, least, noise, smallest);
       }
       piece.in &= ~smooth;
       field.foreground(piece.box).setTo(0, smooth);
@@ -351,7 +329,7 @@ std::vector<Blob> find_blobs(const Image& picture, const BlobParams& p, const Ma
       }
     }
     const std::size_t before = blobs.size();
-    const float level = level_of(piece);
+    const float level = std::max(least, median_within(field.foreground, piece) / 2);
     const cv::Mat half_up = piece.in & (field.foreground(piece.box) > level);
     for (const Piece& part : pieces_of(half_up, piece.box.tl(), smallest)) {
       std::optional<Blob> blob = blob_of(field, part, level, noise);
@@ -363,8 +341,51 @@ std::vector<Blob> find_blobs(const Image& picture, const BlobParams& p, const Ma
     }
     if (whole) refuse(blobs.size() == before ? whole : smooth_blob);
   }
+}
+
+void sort_by_size(std::vector<Blob>& blobs) {
   std::stable_sort(blobs.begin(), blobs.end(),
                    [](const Blob& a, const Blob& b) { return a.radius_px > b.radius_px; });
+}
+
+namespace {
+
+/// `grey` has one channel and must outlive the result.
+BlobContext context_of(const Image& grey, const BlobParams& p, const Mask* walls) {
+  BlobContext field{.side = coarseness(p)};
+  field.seen = seen_of(walls_over(grey, walls), field.side);
+  field.fine = as_mat(grey);
+  const cv::Mat coarse = downsampled(field.fine, field.side);
+  field.foreground = rise_of(coarse, field.seen, ground_of(coarse, field.seen),
+                             p.tone == ParticleTone::dark, p.gap / 2 / field.side);
+  return field;
+}
+
+float least_contrast(const BlobContext& field, const BlobParams& p) {
+  return least_rise(p, ground_spread(field.foreground, field.seen));
+}
+
+}  // namespace
+
+double contrast_limit(const Image& picture, const BlobParams& params, const Mask* walls) {
+  if (picture.pixels.empty()) return params.min_contrast;
+  const Image one = picture.channels == 1 ? Image{} : to_grey(picture);
+  return least_contrast(context_of(picture.channels == 1 ? picture : one, params, walls), params);
+}
+
+std::vector<Blob> find_blobs(const Image& picture, const BlobParams& p, const Mask* walls,
+                             std::vector<Blob>* refused) {
+  walls_over(picture, walls);  // for its check
+  if (picture.pixels.empty()) return {};
+  const Image one = picture.channels == 1 ? Image{} : to_grey(picture);
+  const BlobContext field = context_of(picture.channels == 1 ? picture : one, p, walls);
+  const float least = least_contrast(field, p);
+  const cv::Mat high = field.foreground > least;
+  const cv::Mat ground = field.seen.empty() ? cv::Mat(~high) : cv::Mat(~high & field.seen);
+  const double noise = roughness(field, {0, 0, ground.cols, ground.rows}, ground, ground_rows);
+  std::vector<Blob> blobs;
+  add_blobs(field, p, least, noise, blobs, refused);
+  sort_by_size(blobs);
   return blobs;
 }
 

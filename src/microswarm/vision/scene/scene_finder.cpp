@@ -6,12 +6,16 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "microswarm/geometry/predicates.hpp"
+#include "microswarm/vision/scene/disc_separation.hpp"
+#include "microswarm/vision/scene/scene_parts.hpp"
+
 namespace microswarm {
 namespace {
 
 constexpr double hull_tolerance = 0.5;  // [px]
 constexpr double min_gap = 8;           // [px] larger gaps between outline points are hidden parts
-constexpr int soft_edge = 2;            // [px]
+constexpr double join_tolerance = 1.5;  // [px] of the outline of discs that have joined
 
 cv::Point2f point_of(Vec2 p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
 
@@ -22,7 +26,8 @@ std::vector<cv::Point2f> points_of(const std::vector<Vec2>& ring) {
   return points;
 }
 
-/// The walls and the area of a blob, grown slightly.
+}  // namespace
+
 Mask hidden_by(const Blob& blob, const Image& picture, const Mask* walls, double margin) {
   Mask hidden = walls ? *walls : Mask(picture.width, picture.height);
   std::vector<cv::Point> ring;
@@ -34,6 +39,8 @@ Mask hidden_by(const Blob& blob, const Image& picture, const Mask* walls, double
   cv::polylines(cells, ring, true, 1, 1 + 2 * static_cast<int>(std::ceil(margin)));
   return hidden;
 }
+
+namespace {
 
 /// The outline without the parts along hidden regions or the picture's edge.
 std::vector<Vec2> own_outline(const Blob& blob, const cv::Size& size, const Mask* hidden) {
@@ -66,10 +73,17 @@ std::optional<Ring> disc_of(const Blob& blob, const std::vector<Vec2>& own, doub
   return is_round ? ring : std::nullopt;
 }
 
-SeenObstacle obstacle_of(Blob blob, const cv::Size& size, const Mask* hidden, double roundness) {
-  SeenObstacle obstacle;
-  obstacle.disc =
-      disc_of(blob, blob.is_cut ? own_outline(blob, size, hidden) : blob.outline_px, roundness);
+/// The expected discs whose centres are inside the outline.
+std::vector<Ring> discs_within(const Blob& blob, std::span<const Ring> expected) {
+  const Polygon inside{.outer = blob.outline_px, .holes = {}};
+  std::vector<Ring> within;
+  for (const Ring& disc : expected)
+    if (locate(inside, disc.centre_px) != Side::outside) within.push_back(disc);
+  return within;
+}
+
+SeenObstacle with_hull(Blob blob, std::optional<Ring> disc) {
+  SeenObstacle obstacle{.disc = disc};
   std::vector<cv::Point2f> hull;
   cv::convexHull(points_of(blob.outline_px), hull);
   std::vector<cv::Point2f> thin;
@@ -80,15 +94,22 @@ SeenObstacle obstacle_of(Blob blob, const cv::Size& size, const Mask* hidden, do
   return obstacle;
 }
 
-/// The only smooth blob that can be the swarm.
-std::optional<Blob> smooth_swarm(const Image& picture, const SceneParams& params,
-                                 const SwarmPrior& prior, const Mask* walls) {
-  BlobParams look = params.swarm.look;
-  look.min_texture = 0;
-  std::vector<Blob> blobs = find_blobs(picture, look, walls);
-  std::erase_if(blobs, [&](const Blob& blob) { return !fits(blob, params, prior); });
-  if (blobs.size() != 1) return std::nullopt;
-  return std::move(blobs[0]);
+/// Adds the obstacle that the blob shows, or each of the expected discs that have joined in it.
+void add_obstacles(Blob blob, const cv::Size& size, const Mask* hidden, const SceneParams& params,
+                   std::span<const Ring> expected, std::vector<SeenObstacle>& obstacles) {
+  const std::vector<Vec2> own = blob.is_cut ? own_outline(blob, size, hidden) : blob.outline_px;
+  std::optional<Ring> disc = disc_of(blob, own, params.roundness);
+  if (!disc) {
+    const std::vector<Ring> within = discs_within(blob, expected);
+    const DiscSeparation limits{.tolerance = join_tolerance,
+                                .bridge = join_tolerance + params.obstacles.gap};
+    std::vector<Ring> discs = separated_discs(own, within, limits);
+    if (!discs.empty()) {
+      for (std::size_t k = 1; k < discs.size(); ++k) obstacles.push_back(with_hull(blob, discs[k]));
+      disc = discs[0];
+    }
+  }
+  obstacles.push_back(with_hull(std::move(blob), disc));
 }
 
 }  // namespace
@@ -105,23 +126,44 @@ std::variant<Disc, Polygon> SeenObstacle::shape(const CameraScale& scale) const 
 }
 
 SeenScene find_scene(const Image& picture, const SceneParams& params, const SwarmPrior& prior,
-                     const Mask* walls) {
+                     const Mask* walls, std::span<const Ring> expected) {
   SeenScene scene{.swarm = find_swarm(picture, params.swarm, prior.at_px, walls), .obstacles = {}};
-  if (scene.swarm.sight == SwarmSight::none && params.smooth_swarm &&
-      params.swarm.look.min_texture > 0) {
-    if (auto blob = smooth_swarm(picture, params, prior, walls))
-      scene.swarm = {
-          .sight = SwarmSight::found, .swarm = blob, .candidates = {*blob}, .others = {}};
-  }
+  if (scene.swarm.sight == SwarmSight::none && looks_for_smooth(params))
+    scene.swarm = choose_smooth(find_blobs(picture, smooth_look(params), walls), params, prior);
   Mask hidden;
   if (scene.swarm.swarm) {
     hidden = hidden_by(*scene.swarm.swarm, picture, walls, params.swarm.look.gap);
     walls = &hidden;
   }
-  for (Blob& blob : find_blobs(picture, params.obstacles, walls))
-    scene.obstacles.push_back(
-        obstacle_of(std::move(blob), {picture.width, picture.height}, walls, params.roundness));
+  scene.obstacles = obstacles_of(find_blobs(picture, params.obstacles, walls),
+                                 {picture.width, picture.height}, walls, params, expected);
   return scene;
+}
+
+bool looks_for_smooth(const SceneParams& params) {
+  return params.smooth_swarm && params.swarm.look.min_texture > 0;
+}
+
+BlobParams smooth_look(const SceneParams& params) {
+  BlobParams look = params.swarm.look;
+  look.min_texture = 0;
+  return look;
+}
+
+SwarmSighting choose_smooth(std::vector<Blob> blobs, const SceneParams& params,
+                            const SwarmPrior& prior) {
+  std::erase_if(blobs, [&](const Blob& blob) { return !fits(blob, params, prior); });
+  if (blobs.size() != 1) return {};
+  return {.sight = SwarmSight::found, .swarm = blobs[0], .candidates = {blobs[0]}, .others = {}};
+}
+
+std::vector<SeenObstacle> obstacles_of(std::vector<Blob> blobs, const cv::Size& size,
+                                       const Mask* hidden, const SceneParams& params,
+                                       std::span<const Ring> expected) {
+  std::vector<SeenObstacle> obstacles;
+  for (Blob& blob : blobs)
+    add_obstacles(std::move(blob), size, hidden, params, expected, obstacles);
+  return obstacles;
 }
 
 }  // namespace microswarm

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -37,7 +38,7 @@ struct SceneParams {
 /// A moving obstacle in a picture [px]; x right, y down, (0, 0) is the centre of the first pixel.
 struct SeenObstacle {
   Blob blob;                  ///< its visible part
-  std::optional<Ring> disc;   ///< if round, with hidden parts; else the hull is used
+  std::optional<Ring> disc;   ///< if round, with hidden parts, or one of several; else the hull
   std::vector<Vec2> hull_px;  ///< convex; contains the outline to half a pixel
 
   /// Shape in the world [µm], as in a Body.
@@ -47,6 +48,7 @@ struct SeenObstacle {
 /// What is known of the swarm before a picture is searched.
 struct SwarmPrior {
   std::optional<Vec2> at_px{};  ///< its last position: what is farther than `jump` is not the swarm
+  double around_px = 0;         ///< from it, within which other blobs are told too
   double min_radius_px = 0;     ///< of a smooth blob that can be the swarm
   double max_radius_px = infinity;
 };
@@ -61,8 +63,16 @@ struct SeenScene {
 bool fits(const Blob& smooth, const SceneParams& params, const SwarmPrior& prior);
 
 /// Finds the swarm and the obstacles in a picture. Obstacles are all other regions that differ from
-/// the background, including those that touch the swarm. `walls` and errors as in `find_swarm`.
+/// the background, including those that touch the swarm. Where several of the `expected` discs have
+/// joined in one region, each is an obstacle of its own. `walls` and errors as in `find_swarm`.
 SeenScene find_scene(const Image& picture, const SceneParams& params = {},
-                     const SwarmPrior& prior = {}, const Mask* walls = nullptr);
+                     const SwarmPrior& prior = {}, const Mask* walls = nullptr,
+                     std::span<const Ring> expected = {});
+SeenScene find_scene(const Image& picture, const SceneParams& params = {},
+/// the background, including those that touch the swarm. Where several of the `expected` discs have
+/// joined in one region, each is an obstacle of its own. `walls` and errors as in `find_swarm`.
+SeenScene find_scene(const Image& picture, const SceneParams& params = {},
+                     const SwarmPrior& prior = {}, const Mask* walls = nullptr,
+                     std::span<const Ring> expected = {});
 
 }  // namespace microswarm

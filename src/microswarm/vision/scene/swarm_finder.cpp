@@ -3,12 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace microswarm {
 
 SwarmSighting find_swarm(const Image& picture, const SwarmFinderParams& params,
                          std::optional<Vec2> before_px, const Mask* walls) {
-  SwarmSighting seen{.candidates = find_blobs(picture, params.look, walls)};
+  return choose_swarm(find_blobs(picture, params.look, walls), params, before_px);
+}
+
+SwarmSighting choose_swarm(std::vector<Blob> blobs, const SwarmFinderParams& params,
+                           std::optional<Vec2> before_px) {
+  SwarmSighting seen{.candidates = std::move(blobs)};
   std::vector<Blob>& all = seen.candidates;
   if (all.empty()) return seen;
   const auto keep = [&](auto&& is_candidate) {

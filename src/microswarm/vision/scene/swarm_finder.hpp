@@ -49,6 +49,10 @@ struct SwarmSighting {
   std::vector<Blob> others;      ///< too far, or too small beside the largest candidate
 };
 
+/// Chooses the swarm among blobs sorted by decreasing area; `before_px` as in `find_swarm`.
+SwarmSighting choose_swarm(std::vector<Blob> blobs, const SwarmFinderParams& params,
+                           std::optional<Vec2> before_px);
+
 /// Searches a microscope picture for one swarm: a cloud of particles or clumps. With `before_px`,
 /// its last known position, only blobs within `jump` of it are candidates. `walls`, pictures and
 /// errors as in `find_blobs`.

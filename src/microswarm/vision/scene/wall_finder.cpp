@@ -20,7 +20,10 @@ constexpr int tile = 16;  // [px] side of a tile in which the slope of the light
 constexpr int slope_rounds = 15;   // rounds of re-weighting
 constexpr double min_off = 1e-4;   // [1/px] lower bound of the residual when re-weighting
 constexpr double two_sorts = 0.6;  // minimum separability of walls and channels
-constexpr int middle_grey = 100;   // mean grey of the corrected picture
+constexpr int wall_pixel = 2;          // [px] of a pixel in which walls are found beside a swarm
+constexpr int soft_edge = 5;       // width of a swarm's edge, on both sides of it
+constexpr double outline_tolerance = 0.5;  // of that pixel
+constexpr int middle_grey = 100;           // mean grey of the corrected picture
 
 /// Gradient of the logarithm of the light in a tile; x and y from the picture's middle [px].
 struct Slope {
@@ -98,6 +101,46 @@ cv::Mat in_even_light(const cv::Mat& grey) {
   return bytes;
 }
 
+/// The picture's pixels as walls and channels; empty if there is only one sort.
+struct Sorts {
+  cv::Mat walls;
+  cv::Mat much_darker;  ///< than the darker of the two
+};
+
+Sorts sorts_of(const cv::Mat& picture, const WallParams& p) {
+  cv::Mat grey = picture;
+  if (p.smooth > 0) {
+    cv::Mat smooth;
+    cv::GaussianBlur(grey, smooth, {0, 0}, p.smooth);
+    grey = smooth;
+  }
+  const cv::Mat even = in_even_light(grey);
+  const TwoGreys sorts = two_greys(even, cv::Mat(grey.size(), CV_8U, cv::Scalar(255)));
+  const cv::Mat dark = ~sorts.bright;
+  const double dark_grey = cv::mean(even, dark)[0];
+  const double step = cv::mean(even, sorts.bright)[0] - dark_grey;
+  if (sorts.separability < two_sorts || step * cv::mean(grey)[0] < p.min_contrast * middle_grey)
+    return {};
+  return {p.tone == ParticleTone::dark ? dark : sorts.bright, even < dark_grey - step / 2};
+}
+
+/// Without the pieces within the circle that neither leave it nor touch the picture's edge.
+cv::Mat without_islands(const cv::Mat& set, const Disc& circle) {
+  cv::Mat labels, stats, centres;
+  const int count = cv::connectedComponentsWithStats(set, labels, stats, centres, 8, CV_32S);
+  cv::Mat kept = set.clone();
+  const cv::Rect inner(1, 1, set.cols - 2, set.rows - 2);
+  for (int k = 1; k < count; ++k) {
+    const cv::Rect box(stats.at<int>(k, cv::CC_STAT_LEFT), stats.at<int>(k, cv::CC_STAT_TOP),
+                       stats.at<int>(k, cv::CC_STAT_WIDTH), stats.at<int>(k, cv::CC_STAT_HEIGHT));
+    const Vec2 middle{box.x + 0.5 * (box.width - 1), box.y + 0.5 * (box.height - 1)};
+    const double half = 0.5 * norm(Vec2{1.0 * box.width, 1.0 * box.height});
+    if ((box & inner) == box && distance(middle, circle.centre) + half <= circle.radius)
+      kept.setTo(0, labels == k);
+  }
+  return kept;
+}
+
 }  // namespace
 
 Image still_background(std::span<const Image> pictures) {
@@ -119,21 +162,45 @@ Image still_background(std::span<const Image> pictures) {
 Mask find_walls(const Image& background, const WallParams& p) {
   if (background.pixels.empty()) return {};
   const Image one = to_grey(background);
-  cv::Mat grey = as_mat(one);
-  if (p.smooth > 0) {
-    cv::Mat smooth;
-    cv::GaussianBlur(grey, smooth, {0, 0}, p.smooth);
-    grey = smooth;
-  }
-  const cv::Mat even = in_even_light(grey);
-  const TwoGreys sorts = two_greys(even, cv::Mat(grey.size(), CV_8U, cv::Scalar(255)));
-  const cv::Mat dark = ~sorts.bright;
-  const double step = cv::mean(even, sorts.bright)[0] - cv::mean(even, dark)[0];
-  if (sorts.separability < two_sorts || step * cv::mean(grey)[0] < p.min_contrast * middle_grey)
-    return {background.width, background.height};
-  cv::Mat walls = p.tone == ParticleTone::dark ? dark : sorts.bright;
-  walls = without_small_pieces(walls, p.min_area);
+  const Sorts sorts = sorts_of(as_mat(one), p);
+  if (sorts.walls.empty()) return {background.width, background.height};
+  const cv::Mat walls = without_small_pieces(sorts.walls, p.min_area);
   return to_mask(~without_small_pieces(~walls, p.min_area));
+}
+
+WallsBesideSwarm find_walls_beside(const Image& picture, const WallParams& p, const Mask& fixed,
+                                   Vec2 swarm_px, double reach_px, const CameraScale& scale) {
+  if (picture.pixels.empty()) return {};
+  const Image one = to_grey(picture);
+  cv::Mat grey;
+  cv::resize(as_mat(one), grey, {(one.width + 1) / wall_pixel, (one.height + 1) / wall_pixel}, 0, 0,
+             cv::INTER_AREA);
+  WallParams small = p;
+  small.smooth /= wall_pixel;
+  small.min_area /= wall_pixel * wall_pixel;
+  const Sorts sorts = sorts_of(grey, small);
+  cv::Mat walls = sorts.walls.empty() ? cv::Mat::zeros(grey.size(), CV_8U) : sorts.walls;
+  if (!sorts.walls.empty()) {
+    cv::Mat dark;
+    cv::dilate(sorts.much_darker, dark, cv::Mat::ones(soft_edge, soft_edge, CV_8U));
+    walls &= ~dark;
+  }
+  cv::Mat given;
+  cv::resize(to_mat(fixed), given, grey.size(), 0, 0, cv::INTER_NEAREST);
+  walls |= given;
+  walls = without_islands(walls, {swarm_px / wall_pixel, reach_px / wall_pixel});
+  walls = without_small_pieces(walls, small.min_area);
+  walls = ~without_small_pieces(~walls, small.min_area);
+  CameraScale small_scale = scale;
+  small_scale.um_per_px *= wall_pixel;
+  small_scale.origin_px = (scale.origin_px - Vec2{0.5, 0.5} * (wall_pixel - 1.0)) / wall_pixel;
+  WallsBesideSwarm found;
+  found.shapes =
+      walls_in_world(to_mask(walls), small_scale, outline_tolerance * small_scale.um_per_px);
+  cv::Mat full;
+  cv::resize(walls, full, {one.width, one.height}, 0, 0, cv::INTER_NEAREST);
+  found.walls = to_mask(full);
+  return found;
 }
 
 std::vector<Polygon> walls_in_world(const Mask& walls, const CameraScale& scale, double tolerance) {

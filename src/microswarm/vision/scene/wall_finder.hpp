@@ -42,6 +42,19 @@ Image still_background(std::span<const Image> pictures);
 /// or the two differ by less than `min_contrast`.
 Mask find_walls(const Image& background, const WallParams& params = {});
 
+/// The walls of a picture with a swarm in it.
+struct WallsBesideSwarm {
+  Mask walls;                   ///< 1 = wall; the picture's size
+  std::vector<Polygon> shapes;  ///< their smooth outlines [µm]
+};
+
+/// Segments walls that may move, anew in each picture. `fixed` (the picture's size) are walls in
+/// any case. What is much darker than the walls, or lies apart from them within `reach_px` of
+/// `swarm_px`, is the swarm. The result is without walls if the picture has only one grey.
+WallsBesideSwarm find_walls_beside(const Image& picture, const WallParams& params,
+                                   const Mask& fixed, Vec2 swarm_px, double reach_px,
+                                   const CameraScale& scale);
+
 /// Smooth outlines [µm] of walls for a Map, within `tolerance` [µm] of the mask's outline.
 std::vector<Polygon> walls_in_world(const Mask& walls, const CameraScale& scale, double tolerance);
 

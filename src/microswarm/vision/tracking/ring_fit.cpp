@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "microswarm/core/maths/angles.hpp"
@@ -32,6 +33,17 @@ std::optional<Ring> circle_through(const std::vector<Vec2>& points) {
   if (det <= 1e-9 * square * square) return std::nullopt;
   const Vec2 centre{(pull.x * yy - pull.y * xy) / det, (pull.y * xx - pull.x * xy) / det};
   return Ring{mean + centre, std::sqrt(squared_norm(centre) + square / n)};
+}
+
+std::optional<Ring> enclosing_circle(const std::vector<Vec2>& points) {
+  if (points.empty()) return std::nullopt;
+  std::vector<cv::Point2f> single;
+  single.reserve(points.size());
+  for (const Vec2 p : points) single.emplace_back(static_cast<float>(p.x), static_cast<float>(p.y));
+  cv::Point2f centre;
+  float radius = 0;
+  cv::minEnclosingCircle(single, centre, radius);
+  return Ring{{centre.x, centre.y}, radius};
 }
 
 namespace {

@@ -18,6 +18,9 @@ struct Ring {
 /// Circle through points by least squares of |p − c|² − r² (Kåsa 1976); empty for collinear points.
 std::optional<Ring> circle_through(const std::vector<Vec2>& points);
 
+/// The smallest circle around points; empty if there is none.
+std::optional<Ring> enclosing_circle(const std::vector<Vec2>& points);
+
 /// Fits the dark circle (bright unless `dark`) around `start` with a radius between 0.5 and 1.5
 /// times `radius`. Takes the extreme grey on each of many rays, fits a circle by least squares
 /// (Kåsa 1976) without outliers, and repeats from the new centre until it converges. Empty if fewer

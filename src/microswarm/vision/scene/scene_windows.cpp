@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/vision/scene/scene_windows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "microswarm/vision/image/mat.hpp"
+#include "microswarm/vision/scene/background.hpp"
+#include "microswarm/vision/scene/blob_search.hpp"
+#include "microswarm/vision/scene/scene_parts.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr int coarse = 4;             // [px] side of a coarse pixel
+constexpr int strips = 8;             // rows in which the background is measured
+constexpr double coarse_share = 0.5;  // of the least difference, which makes a window
+constexpr int max_windows = 200;      // more are one: the picture
+constexpr double blur_reach = 2.5;    // standard deviations of the blur of `rise_of`
+
+/// Distance at which a window's edge has no influence on what is in it [px].
+int margin_of(const BlobParams& p) {
+  return static_cast<int>(std::ceil((0.5 * blur_reach + 1) * p.gap)) + 2 * coarse;
+}
+
+/// Adds a box to others, joined with those that it meets.
+void add_apart(cv::Rect box, std::vector<cv::Rect>& boxes) {
+  for (bool met = true; met;) {
+    met = false;
+    for (std::size_t i = 0; i < boxes.size() && !met; ++i) {
+      if ((boxes[i] & box).empty()) continue;
+      box |= boxes[i];
+      boxes.erase(boxes.begin() + static_cast<std::ptrdiff_t>(i));
+      met = true;
+    }
+  }
+  boxes.push_back(box);
+}
+
+bool meets(const cv::Rect& box, Vec2 centre, double radius) {
+  const double x = std::clamp(centre.x, box.x - 0.5, box.br().x - 0.5);
+  const double y = std::clamp(centre.y, box.y - 0.5, box.br().y - 0.5);
+  return distance(centre, {x, y}) <= radius;
+}
+
+/// Whether a part of the outline is at an edge of its window that is not one of the picture.
+bool leaves(const Blob& blob, const cv::Rect& window, const cv::Size& picture, double step) {
+  return std::any_of(blob.outline_px.begin(), blob.outline_px.end(), [&](Vec2 p) {
+    return (window.x > 0 && p.x < window.x + step) || (window.y > 0 && p.y < window.y + step) ||
+           (window.br().x < picture.width && p.x > window.br().x - 1 - step) ||
+           (window.br().y < picture.height && p.y > window.br().y - 1 - step);
+  });
+}
+
+/// Background of a look: what counts as a difference, and the roughness.
+struct Backdrop {
+  float least = 0;
+  double noise = 0;
+};
+
+/// The search of one picture.
+class WindowSearch {
+ public:
+  WindowSearch(const Image& picture, const Mask* walls, const Mask& coarse_walls,
+               const SceneParams& params)
+      : picture_(picture), walls_(walls), fine_(as_mat(picture)) {
+    if (walls) coarse_seen_ = ~to_mat(coarse_walls);
+    look_coarsely(params);
+    place_windows(params);
+  }
+
+  /// Boxes around what differs from the light, apart from each other [px].
+  const std::vector<cv::Rect>& windows() const { return windows_; }
+  std::vector<Blob> search(const BlobParams& look, const Mask* hidden,
+                           const std::vector<cv::Rect>& windows) const;
+
+ private:
+  void look_coarsely(const SceneParams& params);
+  void place_windows(const SceneParams& params);
+  std::optional<std::vector<Blob>> search_within(const BlobParams& look, const Mask* hidden,
+                                                 const std::vector<cv::Rect>& windows) const;
+  Backdrop backdrop(const BlobParams& look) const;
+  cv::Mat ground(const cv::Rect& box, int side) const;
+
+  const Image& picture_;
+  const Mask* walls_;
+  cv::Mat fine_;
+  cv::Mat coarse_seen_;
+  std::optional<GroundSurface> light_;
+  cv::Mat differs_;  // coarse pixels, 255 where a window is needed
+  std::vector<cv::Rect> windows_;
+};
+
+/// Fits the light, and finds the coarse pixels that differ from it.
+void WindowSearch::look_coarsely(const SceneParams& params) {
+  const cv::Mat grey = downsampled(fine_, coarse);
+  light_.emplace(grey, coarse_seen_);
+  const cv::Mat light = light_->over({.size = grey.size()});
+  cv::Mat off;
+  cv::subtract(grey, light, off, coarse_seen_.empty() ? cv::noArray() : coarse_seen_, CV_32F);
+  if (!coarse_seen_.empty()) off.setTo(0, ~coarse_seen_);
+  const double spread = ground_spread(off, coarse_seen_);
+  differs_ = cv::Mat::zeros(grey.size(), CV_8U);
+  for (const BlobParams& look : {params.swarm.look, params.obstacles}) {
+    const double least = coarse_share * least_rise(look, spread);
+    differs_ |= look.tone == ParticleTone::dark ? off < -least : off > least;
+  }
+}
+
+/// Boxes around what differs, with the margin that the searches need.
+void WindowSearch::place_windows(const SceneParams& params) {
+  const int margin = std::max(margin_of(params.swarm.look), margin_of(params.obstacles));
+  const int wide = 2 * (margin / coarse + 1) + 1;
+  cv::Mat grown;
+  cv::dilate(differs_, grown, cv::Mat::ones(wide, wide, CV_8U));
+  cv::Mat labels, stats, centres;
+  const int count = cv::connectedComponentsWithStats(grown, labels, stats, centres, 8, CV_32S);
+  const cv::Rect all(0, 0, fine_.cols, fine_.rows);
+  windows_.clear();
+  if (count > max_windows) {
+    windows_ = {all};
+    return;
+  }
+  for (int k = 1; k < count; ++k) {
+    const cv::Rect box(stats.at<int>(k, cv::CC_STAT_LEFT) * coarse,
+                       stats.at<int>(k, cv::CC_STAT_TOP) * coarse,
+                       stats.at<int>(k, cv::CC_STAT_WIDTH) * coarse,
+                       stats.at<int>(k, cv::CC_STAT_HEIGHT) * coarse);
+    add_apart(box & all, windows_);
+  }
+}
+
+/// What the windows show; if something continues beyond one, what the whole picture shows.
+std::vector<Blob> WindowSearch::search(const BlobParams& look, const Mask* hidden,
+                                       const std::vector<cv::Rect>& windows) const {
+  std::optional<std::vector<Blob>> blobs = search_within(look, hidden, windows);
+  if (!blobs) blobs = search_within(look, hidden, {{0, 0, fine_.cols, fine_.rows}});
+  sort_by_size(*blobs);
+  return std::move(*blobs);
+}
+
+std::optional<std::vector<Blob>> WindowSearch::search_within(
+    const BlobParams& look, const Mask* hidden, const std::vector<cv::Rect>& windows) const {
+  const int side = coarseness(look);
+  const Backdrop behind = backdrop(look);
+  const cv::Mat walls = walls_over(picture_, hidden);
+  std::vector<Blob> all;
+  for (const cv::Rect& window : windows) {
+    BlobContext field{.side = side};
+    field.fine = fine_(window);
+    field.seen = walls.empty() ? cv::Mat() : seen_of(walls(window), side);
+    const cv::Mat grey = downsampled(field.fine, side);
+    field.foreground = rise_of(grey, field.seen, ground(window, side),
+                               look.tone == ParticleTone::dark, look.gap / 2 / side);
+    std::vector<Blob> blobs;
+    add_blobs(field, look, behind.least, behind.noise, blobs);
+    for (Blob& blob : blobs) {
+      const Vec2 corner{1.0 * window.x, 1.0 * window.y};
+      blob.centre_px += corner;
+      for (Vec2& p : blob.outline_px) p += corner;
+      if (leaves(blob, window, fine_.size(), side)) return std::nullopt;
+      all.push_back(std::move(blob));
+    }
+  }
+  return all;
+}
+
+/// Measured in strips across the picture, of which the middle working row counts.
+Backdrop WindowSearch::backdrop(const BlobParams& look) const {
+  const int side = coarseness(look);
+  const double spread = look.gap / 2 / side;
+  const int reach = static_cast<int>(std::ceil(blur_reach * spread));
+  const int high = std::min(fine_.rows, side * (2 * reach + 1));
+  const cv::Mat cells = walls_over(picture_, walls_);
+  std::vector<cv::Mat> rises, seens, fines;
+  for (int k = 0; k < strips; ++k) {
+    const int top = (fine_.rows - high) * (2 * k + 1) / (2 * strips) / coarse * coarse;
+    const cv::Rect box(0, top, fine_.cols, high);
+    const cv::Mat shown = cells.empty() ? cv::Mat() : seen_of(cells(box), side);
+    const cv::Mat rise = rise_of(downsampled(fine_(box), side), shown, ground(box, side),
+                                 look.tone == ParticleTone::dark, spread);
+    const int middle = rise.rows / 2;
+    rises.push_back(rise.row(middle));
+    seens.push_back(shown.empty() ? cv::Mat(1, rise.cols, CV_8U, cv::Scalar(255))
+                                  : shown.row(middle));
+    const int below = std::min(side * middle, high - 1);
+    for (int i = 0; i < side; ++i) fines.push_back(fine_(box).row(below));
+  }
+  BlobContext field{.side = side};
+  cv::vconcat(rises, field.foreground);
+  cv::vconcat(seens, field.seen);
+  cv::vconcat(fines, field.fine);
+  const float least = least_rise(look, ground_spread(field.foreground, field.seen));
+  const cv::Mat behind = ~(field.foreground > least) & field.seen;
+  return {least, roughness(field, {0, 0, behind.cols, behind.rows}, behind, 1)};
+}
+
+cv::Mat WindowSearch::ground(const cv::Rect& box, int side) const {
+  const double first = 0.5 * (side - coarse);  // from the middle of a coarse pixel's first
+  return light_->over({.x = (box.x + first) / coarse,
+                       .y = (box.y + first) / coarse,
+                       .step = static_cast<double>(side) / coarse,
+                       .size = {(box.width + side - 1) / side, (box.height + side - 1) / side}});
+}
+
+}  // namespace
+
+SceneWindows::SceneWindows(Mask walls) : walls_(std::move(walls)) {
+  if (walls_.cells.empty()) return;
+  const cv::Mat cells(walls_.height, walls_.width, CV_8U, walls_.cells.data());
+  coarse_walls_ = to_mask(~seen_of(cells, coarse));
+}
+
+SeenScene SceneWindows::find(const Image& picture, const SceneParams& params,
+                             const SwarmPrior& prior, std::span<const Ring> expected) {
+  const Mask* walls = walls_.cells.empty() ? nullptr : &walls_;
+  walls_over(picture, walls);  // for its check
+  if (picture.pixels.empty()) return {};
+  const WindowSearch in(picture, walls, coarse_walls_, params);
+  const std::optional<Vec2> before_px = prior.at_px;
+  const double around = std::max(params.swarm.jump, prior.around_px);
+  std::vector<cv::Rect> near, far;
+  for (const cv::Rect& window : in.windows())
+    (!before_px || meets(window, *before_px, around) ? near : far).push_back(window);
+  SeenScene scene;
+  scene.swarm = choose_swarm(in.search(params.swarm.look, walls, near), params.swarm, before_px);
+  if (scene.swarm.sight == SwarmSight::none && !far.empty())
+    scene.swarm = choose_swarm(in.search(params.swarm.look, walls, far), params.swarm, before_px);
+  if (scene.swarm.sight == SwarmSight::none && looks_for_smooth(params))
+    scene.swarm = choose_smooth(in.search(smooth_look(params), walls, in.windows()), params, prior);
+  Mask hidden;
+  if (scene.swarm.swarm) {
+    hidden = hidden_by(*scene.swarm.swarm, picture, walls, params.swarm.look.gap);
+    walls = &hidden;
+  }
+  scene.obstacles = obstacles_of(in.search(params.obstacles, walls, in.windows()),
+                                 {picture.width, picture.height}, walls, params, expected);
+  return scene;
+}
+
+}  // namespace microswarm
