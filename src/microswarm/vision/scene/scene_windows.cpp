@@ -25,19 +25,11 @@ int margin_of(const BlobParams& p) {
   return static_cast<int>(std::ceil((0.5 * blur_reach + 1) * p.gap)) + 2 * coarse;
 }
 
-/// Adds a box to others, joined with those that it meets.
-void add_apart(cv::Rect box, std::vector<cv::Rect>& boxes) {
-  for (bool met = true; met;) {
-    met = false;
-    for (std::size_t i = 0; i < boxes.size() && !met; ++i) {
-      if ((boxes[i] & box).empty()) continue;
-      box |= boxes[i];
-      boxes.erase(boxes.begin() + static_cast<std::ptrdiff_t>(i));
-      met = true;
-    }
-  }
-  boxes.push_back(box);
-}
+/// A box around a piece of what differs from the light.
+struct Window {
+  cv::Rect box;   ///< [px]
+  int piece = 0;  ///< its number; 0 if everything in the box counts
+};
 
 bool meets(const cv::Rect& box, Vec2 centre, double radius) {
   const double x = std::clamp(centre.x, box.x - 0.5, box.br().x - 0.5);
@@ -71,18 +63,22 @@ class WindowSearch {
     place_windows(params);
   }
 
-  /// Boxes around what differs from the light, apart from each other [px].
-  const std::vector<cv::Rect>& windows() const { return windows_; }
+  /// Around all that differs from the light.
+  const std::vector<Window>& windows() const { return windows_; }
   std::vector<Blob> search(const BlobParams& look, const Mask* hidden,
-                           const std::vector<cv::Rect>& windows) const;
+                           const std::vector<Window>& windows) const;
 
  private:
   void look_coarsely(const SceneParams& params);
   void place_windows(const SceneParams& params);
   std::optional<std::vector<Blob>> search_within(const BlobParams& look, const Mask* hidden,
-                                                 const std::vector<cv::Rect>& windows) const;
+                                                 const std::vector<Window>& windows) const;
   Backdrop backdrop(const BlobParams& look) const;
   cv::Mat ground(const cv::Rect& box, int side) const;
+  int piece_at(Vec2 at_px) const {
+    return pieces_.at<int>(std::clamp(static_cast<int>(at_px.y) / coarse, 0, pieces_.rows - 1),
+                           std::clamp(static_cast<int>(at_px.x) / coarse, 0, pieces_.cols - 1));
+  }
 
   const Image& picture_;
   const Mask* walls_;
@@ -90,7 +86,8 @@ class WindowSearch {
   cv::Mat coarse_seen_;
   std::optional<GroundSurface> light_;
   cv::Mat differs_;  // coarse pixels, 255 where a window is needed
-  std::vector<cv::Rect> windows_;
+  cv::Mat pieces_;   // coarse pixels, numbers of the pieces with their margins
+  std::vector<Window> windows_;
 };
 
 /// Fits the light, and finds the coarse pixels that differ from it.
@@ -115,12 +112,12 @@ void WindowSearch::place_windows(const SceneParams& params) {
   const int wide = 2 * (margin / coarse + 1) + 1;
   cv::Mat grown;
   cv::dilate(differs_, grown, cv::Mat::ones(wide, wide, CV_8U));
-  cv::Mat labels, stats, centres;
-  const int count = cv::connectedComponentsWithStats(grown, labels, stats, centres, 8, CV_32S);
+  cv::Mat stats, centres;
+  const int count = cv::connectedComponentsWithStats(grown, pieces_, stats, centres, 8, CV_32S);
   const cv::Rect all(0, 0, fine_.cols, fine_.rows);
   windows_.clear();
   if (count > max_windows) {
-    windows_ = {all};
+    windows_ = {{.box = all}};
     return;
   }
   for (int k = 1; k < count; ++k) {
@@ -128,26 +125,26 @@ void WindowSearch::place_windows(const SceneParams& params) {
                        stats.at<int>(k, cv::CC_STAT_TOP) * coarse,
                        stats.at<int>(k, cv::CC_STAT_WIDTH) * coarse,
                        stats.at<int>(k, cv::CC_STAT_HEIGHT) * coarse);
-    add_apart(box & all, windows_);
+    windows_.push_back({.box = box & all, .piece = k});
   }
 }
 
 /// What the windows show; if something continues beyond one, what the whole picture shows.
 std::vector<Blob> WindowSearch::search(const BlobParams& look, const Mask* hidden,
-                                       const std::vector<cv::Rect>& windows) const {
+                                       const std::vector<Window>& windows) const {
   std::optional<std::vector<Blob>> blobs = search_within(look, hidden, windows);
-  if (!blobs) blobs = search_within(look, hidden, {{0, 0, fine_.cols, fine_.rows}});
+  if (!blobs) blobs = search_within(look, hidden, {{.box = {0, 0, fine_.cols, fine_.rows}}});
   sort_by_size(*blobs);
   return std::move(*blobs);
 }
 
 std::optional<std::vector<Blob>> WindowSearch::search_within(
-    const BlobParams& look, const Mask* hidden, const std::vector<cv::Rect>& windows) const {
+    const BlobParams& look, const Mask* hidden, const std::vector<Window>& windows) const {
   const int side = coarseness(look);
   const Backdrop behind = backdrop(look);
   const cv::Mat walls = walls_over(picture_, hidden);
   std::vector<Blob> all;
-  for (const cv::Rect& window : windows) {
+  for (const auto& [window, piece] : windows) {
     BlobContext field{.side = side};
     field.fine = fine_(window);
     field.seen = walls.empty() ? cv::Mat() : seen_of(walls(window), side);
@@ -160,6 +157,7 @@ std::optional<std::vector<Blob>> WindowSearch::search_within(
       const Vec2 corner{1.0 * window.x, 1.0 * window.y};
       blob.centre_px += corner;
       for (Vec2& p : blob.outline_px) p += corner;
+      if (piece != 0 && piece != piece_at(blob.outline_px[0])) continue;
       if (leaves(blob, window, fine_.size(), side)) return std::nullopt;
       all.push_back(std::move(blob));
     }
@@ -221,9 +219,9 @@ SeenScene SceneWindows::find(const Image& picture, const SceneParams& params,
   const WindowSearch in(picture, walls, coarse_walls_, params);
   const std::optional<Vec2> before_px = prior.at_px;
   const double around = std::max(params.swarm.jump, prior.around_px);
-  std::vector<cv::Rect> near, far;
-  for (const cv::Rect& window : in.windows())
-    (!before_px || meets(window, *before_px, around) ? near : far).push_back(window);
+  std::vector<Window> near, far;
+  for (const Window& window : in.windows())
+    (!before_px || meets(window.box, *before_px, around) ? near : far).push_back(window);
   SeenScene scene;
   scene.swarm = choose_swarm(in.search(params.swarm.look, walls, near), params.swarm, before_px);
   if (scene.swarm.sight == SwarmSight::none && !far.empty())
