@@ -343,7 +343,7 @@ void add_measure_options(Command cmd, MeasureOptions& o) {
       .check(number(0, 100))
       .needs(measure);
   cmd.add_option("--settle", o.settle, "Time after the ramp until the field counts")
-      .type_name("S")
+      .type_name("SECONDS")
       .check(number(0, 600))
       .needs(measure);
   const Option probe =

@@ -72,8 +72,8 @@ FieldMeasurements parse_measurements(std::string_view text, std::string_view nam
     const auto value = [&](std::size_t column, std::string_view what) {
       const double number = rows.number(pieces[column], what);
       if (!(std::abs(number) <= max_number))
-        rows.fail(
-            fmt::format("{} is {}, at most {}", what, number_text(number), number_text(max_number)));
+        rows.fail(fmt::format("{} is {}, at most {}", what, number_text(number),
+                              number_text(max_number)));
       return number;
     };
     FieldMeasurement row{.currents = Eigen::VectorXd(measured.coils.size()), .line = rows.line()};
