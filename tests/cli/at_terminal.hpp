@@ -23,8 +23,10 @@ namespace microswarm::test {
 /// The program at a terminal of its own; killed at the end of its scope.
 class AtTerminal {
  public:
-  AtTerminal(const Arguments& arguments, const Surroundings& at) {
-    std::vector<std::string> words{MICROSWARM_PROGRAM};
+  AtTerminal(const Arguments& arguments, const Surroundings& at)
+      : AtTerminal(MICROSWARM_PROGRAM, arguments, at) {}
+  AtTerminal(const std::string& program, const Arguments& arguments, const Surroundings& at) {
+    std::vector<std::string> words{program};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
@@ -32,8 +34,9 @@ class AtTerminal {
     child_ = ::forkpty(&terminal_, nullptr, nullptr, nullptr);
     if (child_ != 0) return;
     ::setenv("XDG_STATE_HOME", (at.folder / ".state").c_str(), 1);
+    for (const auto& [key, value] : at.environment) ::setenv(key.c_str(), value.c_str(), 1);
     if (::chdir(at.folder.c_str()) != 0) ::_exit(126);
-    ::execv(argv[0], argv.data());
+    ::execvp(argv[0], argv.data());
     ::_exit(127);
   }
   ~AtTerminal() {

@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "at_terminal.hpp"
 #include "microswarm/actuation/coils/coil_system.hpp"
 #include "microswarm/core/text/lines.hpp"
 #include "program.hpp"
-#include "at_terminal.hpp"
 #include "tests/actuation/fake_device.hpp"
 
 namespace microswarm::test {

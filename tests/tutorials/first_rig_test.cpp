@@ -2,7 +2,6 @@
 // docs/tutorials/first-rig.md, walked command by command: a board as it is sold in a simulator, a
 // camera of V4L2 that is not there, and between them the physics of a simulated rig, which knows
 // only what the board's pins do.
-#include <pty.h>
 #include <sys/resource.h>
 
 #include <array>
@@ -11,7 +10,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <sstream>
@@ -24,12 +22,11 @@
 #include "microswarm/experiment/record/record.hpp"
 #include "microswarm/rig/params/rig_experiment.hpp"
 #include "microswarm/rig/simulation/rig_simulator.hpp"
+#include "tests/cli/at_terminal.hpp"
 #include "tests/firmware/simulator.hpp"
 
 namespace microswarm::test {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr double bench_full_scale = 10;  // [A], bench.yaml
 constexpr double um_per_px = 4.2;
@@ -69,6 +66,14 @@ class Bench {
   Vec2 swarm() {
     const std::lock_guard lock(mutex_);
     return physics_.ground_truth().swarm.pose.position;
+  }
+  /// What a probe at the centre shows now [mT].
+  Eigen::Vector3d field() {
+    const std::lock_guard lock(mutex_);
+    const CoilSystem& system = on_.rig.system;
+    return system.at(system.centre())
+        .field_of(Eigen::Map<const Eigen::VectorXd>(currents_.data(),
+                                                    static_cast<Eigen::Index>(system.size())));
   }
   /// The largest current of each channel since the last call [A].
   std::array<double, 6> largest() {
@@ -130,36 +135,6 @@ class Bench {
   std::thread camera_;
 };
 
-struct Said {
-  int code = -1;
-  std::string text;
-};
-
-/// Runs a command at a terminal, in a folder.
-Said at_terminal(const std::vector<std::string>& words, const fs::path& folder,
-                 const std::map<std::string, std::string>& environment) {
-  int terminal = -1;
-  const pid_t child = ::forkpty(&terminal, nullptr, nullptr, nullptr);
-  if (child == 0) {
-    std::vector<char*> argv;
-    for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
-    argv.push_back(nullptr);
-    for (const auto& [key, value] : environment) ::setenv(key.c_str(), value.c_str(), 1);
-    if (::chdir(folder.c_str()) != 0) ::_exit(126);
-    ::execvp(argv[0], argv.data());
-    ::_exit(127);
-  }
-  Said said;
-  std::array<char, 4096> bytes{};
-  for (ssize_t n; (n = ::read(terminal, bytes.data(), bytes.size())) > 0;)
-    said.text.append(bytes.data(), static_cast<std::size_t>(n));
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  ::close(terminal);
-  if (WIFEXITED(status)) said.code = WEXITSTATUS(status);
-  return said;
-}
-
 /// The commands of a page, in their order.
 std::vector<std::string> commands_of(const fs::path& page) {
   std::vector<std::string> commands;
@@ -168,6 +143,11 @@ std::vector<std::string> commands_of(const fs::path& page) {
     if (line.starts_with("    ")) commands.push_back(line.substr(4));
   return commands;
 }
+
+struct Said {
+  int code = -1;
+  std::string text;
+};
 
 /// Words of a command line; double quotes hold one together.
 std::vector<std::string> words_of(const std::string& command) {
@@ -196,18 +176,30 @@ class FirstRig : public testing::Test {
   }
   ~FirstRig() override { fs::remove_all(folder); }
 
-  Said run(const std::string& command) const {
+  /// Runs a command at a terminal; the probe shows the operator the field at the centre.
+  Said run(const std::string& command, Bench* bench) const {
     std::vector<std::string> words = words_of(command);
-    std::map<std::string, std::string> environment{{"XDG_STATE_HOME", folder / ".state"}};
+    Surroundings at{.folder = folder};
     if (words[0] == "microswarm") {
       words[0] = MICROSWARM_PROGRAM;
-      environment["LD_PRELOAD"] = MICROSWARM_FAKE_CAMERA;
-      environment["ASAN_OPTIONS"] = "verify_asan_link_order=0";
-      environment["FAKE_CAMERA"] =
-          "device=/dev/video0 formats=YUYV,GREY width=640 height=480 rate=30 scene=" +
-          (folder / "view.pgm").string();
+      at.environment = {
+          {"LD_PRELOAD", MICROSWARM_FAKE_CAMERA},
+          {"ASAN_OPTIONS", "verify_asan_link_order=0"},
+          {"FAKE_CAMERA",
+           "device=/dev/video0 formats=YUYV,GREY width=640 height=480 rate=30 scene=" +
+               (folder / "view.pgm").string()}};
     }
-    return at_terminal(words, folder, environment);
+    AtTerminal terminal(words[0], {words.begin() + 1, words.end()}, at);
+    if (command.starts_with("microswarm rig calibrate")) {
+      if (terminal.hears("then Enter")) terminal.type("\r");
+      while (terminal.hears_first("in mT: ", "worst")) {
+        const Eigen::Vector3d b = bench->field();
+        terminal.type(std::to_string(b[0]) + " " + std::to_string(b[1]) + " " +
+                      std::to_string(b[2]) + "\r");
+      }
+    }
+    const int code = terminal.wait();
+    return {code, terminal.said()};
   }
   void replace(const std::string& name, const std::string& before, const std::string& after) const {
     std::string text = read_file(folder / name);
@@ -246,7 +238,10 @@ TEST_F(FirstRig, FromABareBoardToARun) {
       const std::lock_guard lock(mutex);
       bench = std::make_unique<Bench>(folder / "my", folder / "view.pgm");
     }
-    if (is("microswarm rig scale")) bench->show(Scene::slide);
+    if (is("microswarm rig scale")) {
+      replace("my/bench.yaml", "coils: helmholtz.yaml", "coils: coils.yaml");
+      bench->show(Scene::slide);
+    }
     if (is("microswarm rig still")) {
       const std::string found = read_file(folder / "my/scale.yaml");
       const std::string flow = "scale: {um_per_px: 4.2, origin_px: [-0.5, 479.5]}";
@@ -260,11 +255,11 @@ TEST_F(FirstRig, FromABareBoardToARun) {
     if (bench) bench->largest();
 
     const double began = steady_seconds();
-    Said said = run(command);
+    Said said = run(command, bench.get());
     // A busy computer stalls for longer than the board's watchdog waits.
     for (int again = 0; said.code == 4 && again < 10; ++again) {
       fs::remove_all(folder / "my/run1");
-      said = run(command);
+      said = run(command, bench.get());
     }
     if (std::getenv("MICROSWARM_VERBOSE"))
       std::printf("%.1f s: %s\n%s\n", steady_seconds() - began, command.c_str(), said.text.c_str());

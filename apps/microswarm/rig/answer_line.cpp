@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "microswarm/core/errors/error.hpp"
+#include "rig/rig_keys.hpp"
 #include "support/cli.hpp"
 
 namespace microswarm::cli {
@@ -16,8 +17,6 @@ namespace {
 
 constexpr char kill_line = '\x15';        // Ctrl-U
 constexpr std::size_t max_answer = 1000;  // [bytes]
-
-bool is_in_front() { return ::tcgetpgrp(STDIN_FILENO) == ::getpgrp(); }
 
 /// Shows what is typed; a terminal that is gone is noticed elsewhere.
 void echo(std::string_view text) {
@@ -31,14 +30,14 @@ AnswerLine::AnswerLine(bool any_stop_key) : any_stop_key_(any_stop_key) {
 }
 
 AnswerLine::~AnswerLine() {
-  if (is_terminal_ && is_in_front()) ::tcsetattr(STDIN_FILENO, TCSANOW, &before_);
+  if (is_terminal_ && has_keys()) ::tcsetattr(STDIN_FILENO, TCSANOW, &before_);
 }
 
 /// Reads what is there.
 void AnswerLine::read_more() {
   if (ended_) return;
   if (is_terminal_) {
-    if (!is_in_front()) return;
+    if (!has_keys()) return;
     // Repeated, because a shell resets the terminal when the program is suspended and resumed.
     termios keys = before_;
     keys.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);

@@ -68,11 +68,5 @@ bool fits(const Blob& smooth, const SceneParams& params, const SwarmPrior& prior
 SeenScene find_scene(const Image& picture, const SceneParams& params = {},
                      const SwarmPrior& prior = {}, const Mask* walls = nullptr,
                      std::span<const Ring> expected = {});
-SeenScene find_scene(const Image& picture, const SceneParams& params = {},
-/// the background, including those that touch the swarm. Where several of the `expected` discs have
-/// joined in one region, each is an obstacle of its own. `walls` and errors as in `find_swarm`.
-SeenScene find_scene(const Image& picture, const SceneParams& params = {},
-                     const SwarmPrior& prior = {}, const Mask* walls = nullptr,
-                     std::span<const Ring> expected = {});
 
 }  // namespace microswarm
