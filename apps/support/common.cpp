@@ -2,6 +2,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -20,10 +21,16 @@
 namespace microswarm::cli {
 namespace {
 
-[[noreturn]] void output_failed(int error) {
+/// Throws InputError, unless the output was a terminal that was closed.
+void output_failed(int error) {
   if (error == EPIPE) {
     std::signal(SIGPIPE, SIG_DFL);
     std::raise(SIGPIPE);
+  }
+  struct stat to {};
+  if (error == EIO && ::fstat(STDOUT_FILENO, &to) == 0 && S_ISCHR(to.st_mode)) {
+    std::clearerr(stdout);  // the terminal was closed: nobody reads it
+    return;
   }
   throw InputError("stdout: cannot write: " + std::generic_category().message(error));
 }

@@ -107,6 +107,11 @@ TEST_P(EachCamera, UnpluggedStalledOrDamagedItFails) {
   fails({}, {"no picture for 1 s"});
 }
 
+TEST_F(DeviceCamera, ASlowOneIsNotSilent) {
+  plug("rate=1");
+  EXPECT_EQ(see().code, 0);
+}
+
 TEST_F(DeviceCamera, WhatIsDamagedIsTold) {
   plug("damaged=5");
   fails({}, {"damaged", "76800 of 153600 bytes"});

@@ -103,6 +103,7 @@ TEST_F(Interrupted, AClosedTerminalEndsItWithEverythingKept) {
   int status = 0;
   ASSERT_EQ(::waitpid(child, &status, 0), child);
   EXPECT_TRUE(WIFEXITED(status)) << WTERMSIG(status);
+  EXPECT_EQ(WEXITSTATUS(status), 3);
   EXPECT_TRUE(exists("out/index.html"));
   expect_no_temporary_files();
 }

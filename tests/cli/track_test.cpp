@@ -83,6 +83,10 @@ TEST_F(Track, SuggestsWhatSeparatesRobotsFromNoise) {
            "find.min_mass=" + std::to_string(json.at("min_mass").get<int>())});
   EXPECT_EQ(set.err, "");
   EXPECT_NE(set.out.find("8 frames, 3.0 robots in each"), std::string::npos) << set.out;
+  write("noisy/f9.pgm", pgm(3, 2, [](int, int) { return 99; }));
+  const Outcome odd = run({"track", "noisy", "--suggest"});
+  EXPECT_EQ(odd.code, 0);
+  EXPECT_TRUE(is_one_line_naming(odd.err, "note", {"f9.pgm", "3x2"})) << odd.err;
   refused({"track", "noisy", "--um-per-px", "1"}, naming("track", {"--out"}));
   refused({"track", "none.mp4", "--suggest"}, naming("none.mp4", {"No such file"}));
 }

@@ -25,8 +25,11 @@ std::vector<Image> sample(FrameSource& source, VideoChannel channel, const Stop&
   const int step = std::max(1, all / static_cast<int>(most_used));
   std::vector<Image> pictures;
   VideoFrame frame;
-  while (!stop() && pictures.size() < most_used && source.next(frame))
+  int read = 0;
+  for (; !stop() && pictures.size() < most_used && source.next(frame); ++read)
     if (frame.index % step == 0) take_channel(frame.picture, channel, pictures.emplace_back());
+  if (const std::string why = source.why_ended(); !why.empty())
+    note("note: the pictures end at picture {}: {}\n", read, why);
   return pictures;
 }
 
@@ -49,8 +52,8 @@ std::string options_of(const ParticleSuggestion& s, const ParticleParams& given)
 }
 
 void tell(const ParticleSuggestion& s, const ParticleParams& given) {
-  print("{} pictures, {:.1f} features in each without a minimum mass\n", s.pictures,
-        s.heavier_than(0));
+  print("{} picture{}, {:.1f} features in each without a minimum mass\n", s.pictures,
+        s.pictures == 1 ? "" : "s", s.heavier_than(0));
   if (s.kinds.gap) {
     const double robots = s.heavier_than(s.kinds.gap->min_mass());
     print("  noise     {:.1f} in each, of masses to {:.0f}\n", s.heavier_than(0) - robots,

@@ -62,7 +62,7 @@ void set_format(const Features& device, std::optional<GenicamFormat> wanted) {
     device.fail(
         "gives pictures in the format " +
         text_of(device.ask(key, arv_camera_get_pixel_format_as_string)) +
-        ", which is not read: set pixel_format to one of its others: " + offered_formats(device));
+        ", which is not read, see pixel_format; its formats are: " + offered_formats(device));
 }
 
 /// A whole number of the camera and what it takes.

@@ -11,6 +11,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/clock.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/core/text/text.hpp"
 
 namespace microswarm {
@@ -73,7 +74,8 @@ struct NewestFrame::Shared {
   bool fresh = false;  ///< nobody took the newest yet
   int frames = 0;
   int dropped = 0;
-  int same = 0;  ///< pictures in a row that had come before
+  double silent_after = 1;  ///< [s]
+  int same = 0;             ///< pictures in a row that had come before
   bool black = false;
   FrameListener heard;
 
@@ -87,9 +89,9 @@ struct NewestFrame::Shared {
       s.why = error;
     } else if (ended) {
       s.state = CameraState::ended;
-    } else if (s.age > p.silent_after) {
+    } else if (s.age > silent_after) {
       s.state = CameraState::silent;
-      s.why = name + ": no picture for " + number_text(p.silent_after) + " s";
+      s.why = name + ": no picture for " + number_text(silent_after) + " s";
     } else if (frames == 0) {
       s.state = CameraState::opening;
     } else {
@@ -158,6 +160,8 @@ NewestFrame::NewestFrame(std::unique_ptr<FrameSource> source, std::string name,
                          const NewestFrameParams& params, FrameListener heard)
     : name_(std::move(name)), params_(params), shared_(std::make_shared<Shared>()) {
   shared_->heard = std::move(heard);
+  const double three_frames = 3 / source->rate().value_or(infinity);
+  shared_->silent_after = params.silent_after.value_or(std::max(1.0, three_frames));
   // Detached, because a device that hangs must not hang its owner: the thread keeps what it needs.
   std::thread([shared = shared_, source = std::move(source), below = params.black_below]() mutable {
     shared->run(std::move(source), below);

@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -35,7 +36,7 @@ constexpr auto enum_names(CameraState) {
 
 /// Settings of NewestFrame.
 struct NewestFrameParams {
-  double silent_after = 1;
+  std::optional<double> silent_after;
   int frozen_after = 5;
   int black_below = 8;
 
@@ -44,7 +45,7 @@ struct NewestFrameParams {
     visit(self.silent_after, {"silent_after",
                               Unit::s,
                               {1e-3, 3600},
-                              "Time without a frame after which the camera is silent."});
+                              "Longest time without a frame; none: 1 s, or 3 frames."});
     visit(self.frozen_after, {"frozen_after",
                               Unit::none,
                               {2, 1e6},

@@ -108,7 +108,7 @@ void V4l2Device::fail_format(std::uint32_t wanted) const {
 PixelFormat V4l2Device::readable(std::uint32_t fourcc) const {
   if (const auto format = format_of(fourcc)) return *format;
   fail("gives pictures in the format " + fourcc_text(fourcc) +
-       ", which is not read: set pixel_format to one of its others: " + offered_formats());
+       ", which is not read, see pixel_format; its formats are: " + offered_formats());
 }
 
 void V4l2Device::set_format(std::optional<PixelFormat> format, int width, int height) {
