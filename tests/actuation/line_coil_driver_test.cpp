@@ -156,6 +156,7 @@ TEST(LineCoilDriver, ScaledValuesAreToldAndOtherValuesAreAFault) {
     const auto driver = open(server);
     EXPECT_EQ(driver->drive(amperes), expected) << values << driver->reason();
     EXPECT_DOUBLE_EQ(driver->currents()[1], second);
+    EXPECT_DOUBLE_EQ(driver->device_scale(), expected == DriveStatus::scaled ? 0.4 : 1);
     EXPECT_EQ(driver->reason().empty(), expected != DriveStatus::mismatched);
   };
   answered("ok 3 1.004 -2.495 0", DriveStatus::driven, -2.5);
@@ -375,6 +376,8 @@ TEST_F(LineProgram, AStopThatIsNotAnsweredBeginsOnceMore) {
     const auto driver = start(script);
     EXPECT_EQ(driver->drive(amperes), DriveStatus::driven);
     EXPECT_TRUE(driver->stop());
+    EXPECT_EQ(driver->stop_trouble(),
+              "did not answer stop; it was ended, and a second one said zero");
     EXPECT_EQ(driver->currents()[1], 0);
     EXPECT_EQ(driver->drive(amperes), DriveStatus::gone);
   }

@@ -54,6 +54,7 @@ TEST(SerialCoilDriverPty, ATripIsToldAlsoWhenTheCurrentsAreScaled) {
   });
   SerialCoilDriver driver(params_of(device));
   EXPECT_EQ(driver.drive(some_amperes), DriveStatus::resumed);
+  EXPECT_EQ(driver.device_scale(), 0.5);
 }
 
 TEST(SerialCoilDriverPty, AStopDoesNotWaitForAnswersThatDoNotCome) {

@@ -6,6 +6,7 @@
 
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/lines.hpp"
+#include "microswarm/experiment/record/record.hpp"
 #include "program.hpp"
 #include "tests/files.hpp"
 
@@ -229,6 +230,72 @@ TEST_F(OwnDriver, ARefusedArmAndAnEmergencyStopAreTold) {
   EXPECT_TRUE(std::ranges::all_of(lines("applied"), is_zero));
   ends_with("if driven >= 30 and any(answer[2:]): answer = ['emergency', answer[1]]",
             "the emergency stop of the coils' device was pressed");
+}
+
+/// A stop that is not answered: the process is killed, and a second one says zero.
+TEST_F(OwnDriver, OneThatNeverAnswersStopIsRefusedBeforeItDrives) {
+  const std::string hangs =
+      "if sys._getframe(1).f_locals['message'][0] == b'stop': time.sleep(1000)";
+  write_driver(hangs);
+  const std::string reason = "did not answer stop; it was ended, and a second one said zero";
+  const Outcome check = run({"rig", "check", "rig.yaml", "--seconds", "0.5"});
+  EXPECT_EQ(check.code, 4) << check.out;
+  EXPECT_TRUE(names(check.out, "NO   stop      " + reason)) << check.out;
+  ends_with(hangs, "stop: " + reason);
+  EXPECT_TRUE(std::ranges::all_of(lines("applied"), is_zero));
+  const Outcome drive = run({"rig", "drive", "rig.yaml", "--field", "2,0,0", "--seconds", "1",
+                             "--other-stop", "--coils-cold"});
+  EXPECT_EQ(drive.code, 4) << drive.err;
+  EXPECT_TRUE(names(drive.err, reason)) << drive.err;
+  EXPECT_FALSE(lives());
+}
+
+TEST_F(OwnDriver, OneThatDoesNotAnswerTheStopOfARunIsTold) {
+  write_driver(
+      "if driven and sys._getframe(1).f_locals['message'][0] == b'stop': time.sleep(1000)");
+  const Outcome outcome = run(arguments({"--seconds", "1.5"}));
+  EXPECT_EQ(outcome.code, 4) << outcome.out << outcome.err;
+  EXPECT_TRUE(names(outcome.err, "did not answer stop; it was ended, and a second one said zero"))
+      << outcome.err;
+  expect_at_zero();
+}
+
+/// Its acknowledged values are `share` of those sent.
+std::string weak(const std::string& share) {
+  return "if any(answer[2:]): answer = ['limited', answer[1]] + [" + share +
+         " * v for v in answer[2:]]";
+}
+
+TEST_F(OwnDriver, WhatItsLimitsLeaveIsTold) {
+  write_driver(weak("0.5"));
+  const Outcome drive = run({"rig", "drive", "rig.yaml", "--currents", "4,0,0,0,0,0,0,0",
+                             "--seconds", "1", "--ramp", "0.2", "--other-stop", "--coils-cold"});
+  EXPECT_EQ(drive.code, 0) << drive.err;
+  EXPECT_TRUE(names(drive.err,
+                    "the device weakened the currents to 50 %: at most 2, 0, 0, 0, 0, 0, 0, 0 A, "
+                    "(6, 0, 0) mT more at the centre"))
+      << drive.err;
+  const Outcome outcome = run(arguments({"--seconds", "1.5", "--out", "out"}));
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  EXPECT_TRUE(names(outcome.err, "the device weakened the currents")) << outcome.err;
+  const std::vector<std::string> rows = lines("out/commands.csv");
+  const RigLog log = read_record(at.folder / "out/run.h5").rig_log;
+  ASSERT_EQ(rows.size(), log.driven_at.size() + 2);
+  EXPECT_TRUE(names(rows[0], "i_h_a,scale,device_scale,status"));
+  const auto cells = split(rows[20], ',');
+  EXPECT_EQ(cells[15], "0.5") << rows[20];
+  for (std::size_t c = 0; c < 8; ++c)
+    EXPECT_NEAR(log.currents[19 * 8 + c], std::stod(std::string(cells[6 + c])) / 2, 1e-4);
+}
+
+TEST_F(OwnDriver, OneThatDrivesNoCurrentIsAFault) {
+  write_driver(weak("0"));
+  const Outcome drive = run({"rig", "drive", "rig.yaml", "--field", "2,0,0", "--seconds", "9",
+                             "--other-stop", "--coils-cold"});
+  EXPECT_EQ(drive.code, 4) << drive.err;
+  EXPECT_TRUE(names(drive.err, "the device drives no current")) << drive.err;
+  ends_with(weak("0"), "the device drives no current");
+  ends_with(weak("0.05"), "the device drives 5 % of the currents");
 }
 
 TEST_F(OwnDriver, OneThatHangsAtTheEndIsKilledAfterTheStop) {

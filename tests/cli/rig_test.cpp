@@ -168,12 +168,12 @@ TEST_F(WholeRig, ADryRunSaysSoAndTheLogEndsWithZero) {
   EXPECT_NE(read("dry/index.html").find(", dry run<"), std::string::npos);
   const std::string dry = read("dry/commands.csv");
   EXPECT_EQ(dry.find("driven"), std::string::npos);
-  EXPECT_TRUE(dry.ends_with(",,0,0,0,0,0,0,0,1,dry,,\n")) << dry.substr(dry.size() - 200);
+  EXPECT_TRUE(dry.ends_with(",,0,0,0,0,0,0,0,1,,dry,,\n")) << dry.substr(dry.size() - 200);
   run({"rig", "run", scenario, "--rig", rig("vortex.yaml"), "--seconds", sanitized ? "5" : "1",
        "--out", "wet"});
   const std::string wet = read("wet/commands.csv");
   EXPECT_NE(wet.find(",driven,"), std::string::npos);
-  EXPECT_TRUE(wet.ends_with(",1,zero,,\n")) << wet.substr(wet.size() - 200);
+  EXPECT_TRUE(wet.ends_with(",1,,zero,,\n")) << wet.substr(wet.size() - 200);
 }
 
 TEST_F(WholeRig, ADeviceThatIsNotThereLeavesNoEmptyFolder) {

@@ -137,6 +137,7 @@ class Guide {
   Eigen::VectorXd currents_;  // as the device has them [A]
   bool zero_confirmed_ = true;
   std::string trouble_;
+  std::string stop_trouble_;
 };
 
 /// "no current" or "2 A in coil x".
@@ -251,10 +252,11 @@ Outcome Guide::hold(const MeasurementStep& step, const std::string& what) {
       rig_, *bench_->driver, command, bench_->temperatures,
       [&](const ManualMoment& moment) { look(moment, question); }, stop_);
   zero_confirmed_ = result.zero_confirmed;
+  stop_trouble_ = result.stop_trouble;
   trouble_ = result.why;
   // What was measured counts, also if something happens while the currents go.
   if (outcome_ == Outcome::measured) log_.add(currents_, step.place, reading_of(readings_));
-  if (!trouble_.empty() || !zero_confirmed_) return Outcome::failed;
+  if (!trouble_.empty() || !zero_confirmed_ || !stop_trouble_.empty()) return Outcome::failed;
   if (result.status == Status::stopped) return Outcome::ended;
   return outcome_.value_or(Outcome::unanswered);
 }
@@ -296,7 +298,7 @@ int Guide::make(const std::vector<MeasurementStep>& steps, double tolerance) {
                                      words_for(step)));
       case Outcome::failed:
         if (!trouble_.empty()) note("\nmicroswarm: {}\n", trouble_);
-        note_zero(zero_confirmed_);
+        note_zero(zero_confirmed_, stop_trouble_);
         [[fallthrough]];
       case Outcome::ended:
         goes_on = false;

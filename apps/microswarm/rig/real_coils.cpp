@@ -41,12 +41,14 @@ Bench::Bench(const Rig& of, const CoilOptions& o) : rig(of) {
   if (kept && !kept->known()) note("note: {}\n", kept->why_hot());
 }
 
-bool note_zero(bool confirmed) {
+bool note_zero(bool confirmed, const std::string& stop_trouble) {
   if (!confirmed)
     note(
         "microswarm: the coil driver did not confirm that the coils are at zero; its own watchdog "
         "must do it\n");
-  return confirmed;
+  else if (!stop_trouble.empty())
+    note("microswarm: the coil driver {}\n", stop_trouble);
+  return confirmed && stop_trouble.empty();
 }
 
 }  // namespace microswarm::cli

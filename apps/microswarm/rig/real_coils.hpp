@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "microswarm/rig/runtime/coil_temperatures.hpp"
 #include "microswarm/rig/runtime/devices.hpp"
@@ -38,7 +39,8 @@ struct Bench {
   Eigen::VectorXd temperatures;  ///< [°C]
 };
 
-/// Says it on stderr if the coils are not known to be at zero. Returns whether they are.
-bool note_zero(bool confirmed);
+/// Says it on stderr if the coils are not known to be at zero, or another than the driver that
+/// drove said so (CoilDriver::stop_trouble). Returns whether neither is so.
+bool note_zero(bool confirmed, const std::string& stop_trouble);
 
 }  // namespace microswarm::cli

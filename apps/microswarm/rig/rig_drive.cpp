@@ -30,6 +30,22 @@ struct DriveOptions {
   CoilOptions coils;
 };
 
+std::string field_text(const Eigen::Vector3d& field) {
+  const double whole = field.norm();
+  return fmt::format("({:.4g}, {:.4g}, {:.4g}) mT", tidy(field[0], whole), tidy(field[1], whole),
+                     tidy(field[2], whole));
+}
+
+/// Says what the device's own limits left; with the field, unless that turns.
+void note_device_limits(const Rig& rig, const ManualCommand& command, const ManualResult& result) {
+  std::string left;
+  if (!std::holds_alternative<microswarm::Command>(command.wanted))
+    left = fmt::format(": at most {:.3g} A, {} more at the centre", fmt::join(result.most, ", "),
+                       field_text(rig.system.at(rig.system.centre()).field * result.most));
+  note("note: the device weakened the currents to {:.3g} %{}\n", 100 * result.min_device_scale,
+       left);
+}
+
 /// Drives and says how it ended. Returns the exit code.
 int drive(Bench& bench, const ManualCommand& command, const Context& context) {
   std::atomic<bool> pressed = false;
@@ -40,23 +56,18 @@ int drive(Bench& bench, const ManualCommand& command, const Context& context) {
     bench.temperatures = moment.output.temperatures;
     if (bench.kept) bench.kept->take(bench.temperatures);
     bar.update(moment.t / command.seconds,
-               fmt::format("{:.3g} A", fmt::join(moment.output.currents, ", ")));
+               fmt::format("{:.3g} A", fmt::join(moment.output.acknowledged, ", ")));
     if (pressed) throw HardwareError("the emergency key was pressed");
   };
   const ManualResult result =
       drive_by_hand(bench.rig, *bench.driver, command, bench.temperatures, heard, context.stop);
   if (!result.why.empty()) note("microswarm: {}\n", result.why);
-  const bool at_zero = note_zero(result.zero_confirmed);
+  const bool at_zero = note_zero(result.zero_confirmed, result.stop_trouble);
   if (result.min_scale < 1 - 1e-9)
     note("note: the coils' limits weakened this to {:.0f} %\n", 100 * result.min_scale);
+  if (result.min_device_scale < 1 - 1e-9) note_device_limits(bench.rig, command, result);
   if (result.status == Status::fault || !at_zero) return hardware;
   return result.status == Status::stopped ? not_reached : ok;
-}
-
-std::string field_text(const Eigen::Vector3d& field) {
-  const double whole = field.norm();
-  return fmt::format("({:.4g}, {:.4g}, {:.4g}) mT", tidy(field[0], whole), tidy(field[1], whole),
-                     tidy(field[2], whole));
 }
 
 /// One coil after the other, so that a compass or a probe shows its polarity and its channel.

@@ -34,7 +34,6 @@ void tell(const RigTiming& t) {
     print("  the swarm went {:.0f} % of its commanded way, {:+.1f} ± {:.1f}° from it\n",
           100 * t.direction->share, degrees(t.direction->angle), degrees(t.direction->sd));
   if (t.resumed > 0) print("  the coils had been off by themselves {} times\n", t.resumed);
-  if (t.scaled > 0) print("  the device weakened the currents {} times\n", t.scaled);
 }
 
 nlohmann::ordered_json timing_json(const RigTiming& t, const std::optional<RecordedVideo>& video) {
@@ -58,7 +57,8 @@ nlohmann::ordered_json timing_json(const RigTiming& t, const std::optional<Recor
                               {"fields_weakened", t.limited},
                               {"least_field_share", t.min_scale},
                               {"coils_resumed", t.resumed},
-                              {"currents_weakened", t.scaled}};
+                              {"currents_weakened", t.scaled},
+                              {"least_current_share", t.min_device_scale}};
   if (t.direction)
     json["direction"] = {{"angle_deg", degrees(t.direction->angle)},
                          {"sd_deg", degrees(t.direction->sd)},
@@ -94,7 +94,7 @@ void note_direction(const RigTiming& t) {
       t.direction->angle > 0 ? "left" : "right");
 }
 
-/// Notes on stderr if the coils' limits weakened the field.
+/// Notes on stderr if the limits of the coils or of the device weakened the field.
 void note_limits(const RigTiming& t) {
   if (t.unmade > 0)
     note(
@@ -104,6 +104,9 @@ void note_limits(const RigTiming& t) {
   if (t.limited > 0)
     note("note: the coils' limits weakened the field in {} of {} sendings, to {:.0f} % at least\n",
          t.limited, t.round_trip.count(), 100 * t.min_scale);
+  if (t.scaled > 0)
+    note("note: the device weakened the currents in {} of {} sendings, to {:.3g} % at least\n",
+         t.scaled, t.round_trip.count(), 100 * t.min_device_scale);
 }
 
 /// Says it as it happens when the coils had been off by themselves.
@@ -224,7 +227,7 @@ int rig_run(const RigRunOptions& o, const Context& context) {
   const RigTiming timing = session.timing();
   if (!lost.empty()) note("microswarm: {}\n", lost);
   if (video && !video->trouble.empty()) note("microswarm: {}\n", lost = video->trouble);
-  const bool at_zero = note_zero(session.zero_is_confirmed());
+  const bool at_zero = note_zero(session.zero_is_confirmed(), session.stop_trouble());
   note_limits(timing);
   note_direction(timing);
   const int code =

@@ -137,8 +137,8 @@ class LiveSession::LivePlant : public Plant {
     log_.add(moment, rig_.start());
     if (kept_.currents.size() < max_logged) {
       kept_.driven_at.push_back(moment.t - rig_.start());
-      kept_.currents.insert(kept_.currents.end(), moment.output.currents.begin(),
-                            moment.output.currents.end());
+      kept_.currents.insert(kept_.currents.end(), moment.output.acknowledged.begin(),
+                            moment.output.acknowledged.end());
     }
     if (temperatures_) temperatures_->take(moment.output.temperatures);
   }
@@ -178,6 +178,8 @@ std::string LiveSession::close() {
   if (VideoRecorder* const video = plant_->video()) video->finish();
   return plant_->log().finish(plant_->rig().zero_at(), zero_is_confirmed());
 }
+
+std::string LiveSession::stop_trouble() const { return plant_->rig().stop_trouble(); }
 
 bool LiveSession::zero_is_confirmed() const { return plant_->rig().zero_is_confirmed(); }
 

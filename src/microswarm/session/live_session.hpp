@@ -60,6 +60,8 @@ class LiveSession : public Session {
   std::string close();
   /// After stop(): the device confirmed that the coils are at zero.
   bool zero_is_confirmed() const;
+  /// After stop(): why another than the driver that drove confirmed it, CoilDriver::stop_trouble.
+  std::string stop_trouble() const;
   /// After close(): the recorded video, if one was asked for.
   std::optional<RecordedVideo> video() const;
   RigTiming timing() const;

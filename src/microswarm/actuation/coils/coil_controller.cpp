@@ -12,6 +12,12 @@
 
 namespace microswarm {
 
+void take_answer(const CoilDriver& driver, CoilOutput& output) {
+  if (!is_acknowledged(output.status)) return;
+  output.device_scale = driver.device_scale();
+  output.acknowledged = output.device_scale * output.currents;
+}
+
 CoilController::CoilController(const CoilSystem& system, const FieldGeneratorParams& field,
                                CoilDriver& driver, double heading)
     : system_(system),
@@ -25,6 +31,7 @@ CoilController::CoilController(const CoilSystem& system, const FieldGeneratorPar
     throw InputError(fmt::format("the system has {} coils, the driver {} channels", system.size(),
                                  channels_.size()));
   output_.currents = drive_.currents();
+  output_.acknowledged = Eigen::VectorXd::Zero(output_.currents.size());
 }
 
 CoilController::~CoilController() { stop(); }
@@ -42,6 +49,7 @@ const CoilOutput& CoilController::advance(double dt) {
     send_waveform(dt);
   else
     send_currents(dt);
+  take_answer(driver_, output_);
   output_.temperatures = drive_.temperatures();
   return output_;
 }
@@ -69,6 +77,7 @@ std::string CoilController::trouble() const { return trouble_of(driver_, output_
 bool CoilController::stop() noexcept {
   drive_.cut();
   output_.currents.setZero();
+  output_.acknowledged.setZero();
   return driver_.stop();
 }
 

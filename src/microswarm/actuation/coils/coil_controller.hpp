@@ -19,8 +19,13 @@ struct CoilOutput {
   double scale = 1;                                  ///< scale of the command imposed by the limits
   bool reached = true;                               ///< the coils can produce the commanded field
   DriveStatus status = DriveStatus::driven;
+  double device_scale = 1;       ///< by the device's own limits, as last acknowledged
+  Eigen::VectorXd acknowledged;  ///< currents that the device last acknowledged [A]
   Eigen::VectorXd temperatures;  ///< of the coils, by their thermal model [°C]
 };
+
+/// Notes in `output` what the driver acknowledged, if it did.
+void take_answer(const CoilDriver& driver, CoilOutput& output);
 
 /// Converts a navigator's commands to coil currents. The field changes continuously. The currents
 /// are the minimum-norm solution at the target position (Eq 4 [global]), scaled to respect all
@@ -49,6 +54,8 @@ class CoilController {
   /// Sets all currents to zero; false if the device did not confirm it. The next `advance`
   /// continues with the field from before the stop.
   bool stop() noexcept;
+  /// CoilDriver::stop_trouble of the last stop.
+  std::string stop_trouble() const { return driver_.stop_trouble(); }
   /// Lets an `advance` that another thread is in return early, so that `stop` can follow.
   void interrupt() noexcept { driver_.interrupt(); }
 

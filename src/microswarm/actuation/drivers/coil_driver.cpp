@@ -17,6 +17,11 @@ std::string_view to_string(DriveStatus status) {
   return names[static_cast<std::size_t>(status)];
 }
 
+bool is_acknowledged(DriveStatus status) {
+  return status == DriveStatus::driven || status == DriveStatus::scaled ||
+         status == DriveStatus::resumed;
+}
+
 std::string_view trouble_of(DriveStatus status) {
   switch (status) {
     case DriveStatus::refused:

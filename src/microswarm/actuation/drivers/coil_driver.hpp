@@ -30,6 +30,8 @@ enum class DriveStatus : std::uint8_t {
   gone,        ///< the driver's program or connection has ended
 };
 std::string_view to_string(DriveStatus status);
+/// Whether the device acknowledged the command.
+bool is_acknowledged(DriveStatus status);
 /// Why such a status ends a run, in words; empty if it does not by itself.
 std::string_view trouble_of(DriveStatus status);
 
@@ -59,6 +61,8 @@ class CoilDriver {
   virtual int channels() const = 0;
   /// Currents of the coils as last reported by the device [A].
   virtual std::span<const double> currents() const = 0;
+  /// By which the device's own limits scaled the last command that it acknowledged, in [0, 1].
+  virtual double device_scale() const { return 1; }
   /// Sends signed currents [A], one per channel. Must be repeated within the watchdog time, even if
   /// unchanged.
   virtual DriveStatus drive(std::span<const double> currents) = 0;
@@ -76,6 +80,9 @@ class CoilDriver {
   virtual std::optional<double> phase() const { return std::nullopt; }
   /// Sets all currents to zero; false if the device did not confirm it.
   virtual bool stop() noexcept = 0;
+  /// Why the last stop was confirmed by another than the driver that drove, in words that follow
+  /// its name; empty if it was not.
+  virtual std::string stop_trouble() const { return {}; }
   /// Lets a `drive` that another thread is in return without its answer, so that `stop` can follow.
   /// Callable from any thread; lasts until the next `stop`.
   virtual void interrupt() noexcept {}

@@ -107,6 +107,7 @@ DriveStatus LineCoilDriver::follow(std::span<const double> values,
   double scale = 1;
   const DriveStatus compared = compare(values, *reply, scale);
   if (compared == DriveStatus::mismatched) return compared;
+  scale_ = scale;
   for (std::size_t i = 0; i < currents_.size(); ++i) currents_[i] = scale * currents[i];
   return status == DriveStatus::driven ? compared : status;
 }
@@ -175,12 +176,14 @@ bool LineCoilDriver::begin_again() {
   if (turned_off_anew_) return *turned_off_anew_;
   turned_off_anew_ = false;
   const std::string reason = reason_;
+  const char* const trouble = gone_ ? "had ended" : "did not answer stop; it was ended";
   connection_.reset();
   try {
     const double timeout = std::min(hello_wait, params_.connect_timeout);
     connection_ = open_(timeout);
     greet(timeout);
     turned_off_anew_ = true;
+    stop_trouble_ = fmt::format("{}, and a second one said zero", trouble);
     std::ranges::fill(currents_, 0.0);
   } catch (const HardwareError&) {
     turned_off_anew_ = false;

@@ -103,12 +103,14 @@ class LineCoilDriver final : public CoilDriver {
   int channels() const override { return static_cast<int>(currents_.size()); }
   /// As acknowledged. With a field: the currents that would make it, by the coil system.
   std::span<const double> currents() const override { return currents_; }
+  double device_scale() const override { return scale_; }
   DriveStatus drive(std::span<const double> currents) override;
   bool takes_field() const override { return params_.send == DriverInput::field; }
   DriveStatus drive_field(std::span<const double, 3> field,
                           std::span<const double> currents) override;
   /// Waits 0.5 s at most to have it confirmed, and about 4 s more where it begins once more.
   bool stop() noexcept override;
+  std::string stop_trouble() const override { return stop_trouble_; }
   void interrupt() noexcept override { interrupted_ = true; }
   std::string reason() const override { return reason_; }
 
@@ -138,6 +140,8 @@ class LineCoilDriver final : public CoilDriver {
   bool armed_ = false;  // armed by this driver and not stopped since
   bool gone_ = false;   // for good
   std::optional<bool> turned_off_anew_;
+  std::string stop_trouble_;
+  double scale_ = 1;     // as acknowledged
   std::string strange_;  // the last line that was no reply
   std::string reason_;
 };

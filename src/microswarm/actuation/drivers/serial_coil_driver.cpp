@@ -148,6 +148,7 @@ DriveStatus SerialCoilDriver::follow(CoilMessage message, const CoilAim& aim) {
   if (reply->result == CoilResult::not_armed) return refusal(*reply);
   const bool obeyed = reply->result == CoilResult::ok || reply->result == CoilResult::limited;
   if (!obeyed || !check_.agrees(aim, *reply)) return DriveStatus::mismatched;
+  scale_ = static_cast<double>(reply->scale) / coil_link_unscaled;
   if (status == DriveStatus::resumed) return status;
   return reply->result == CoilResult::limited ? DriveStatus::scaled : status;
 }

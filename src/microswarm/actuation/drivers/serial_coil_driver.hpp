@@ -63,6 +63,7 @@ class SerialCoilDriver final : public CoilDriver {
 
   int channels() const override { return coil_link_channels; }
   std::span<const double> currents() const override { return currents_; }
+  double device_scale() const override { return scale_; }
   DriveStatus drive(std::span<const double> currents) override;
   bool makes_waveforms() const override { return params_.waveforms; }
   DriveStatus drive_waveform(const CurrentWaveform& waveform) override;
@@ -97,6 +98,7 @@ class SerialCoilDriver final : public CoilDriver {
   double clock_at_ = 0;  // when that came [s], by steady_seconds()
   int begin_phase_ = 0;  // of the next waveform [turns / 65536]
   std::optional<double> phase_;
+  double scale_ = 1;  // as acknowledged
   double round_trip_ = 0;
   std::atomic<bool> interrupted_ = false;
   int failures_ = 0;                                   // exchanges without an answer, in a row

@@ -49,7 +49,7 @@ void write_rig_log(Hdf5Writer& out, const RigLog& log) {
   for (std::size_t c = 0; c < log.coils.size(); ++c) {
     const std::string path = current_path(c);
     write_column(out, path, every_nth(log.currents, log.coils.size(), c), "A",
-                 "Commanded current.");
+                 "Current that the device last acknowledged.");
     out.attribute(path, "coil", log.coils[c]);
   }
   std::vector<double> x, y;

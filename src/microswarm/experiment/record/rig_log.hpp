@@ -21,7 +21,7 @@ struct RigLog {
   std::string coils_file;            ///< text of the coil system's file: the calibration
   std::vector<std::string> coils;    ///< names
   std::vector<double> driven_at;     ///< times of the sendings [s]
-  std::vector<double> currents;      ///< of all coils at the first sending, at the second, … [A]
+  std::vector<double> currents;      ///< acknowledged: of all coils at the first sending, … [A]
   std::vector<double> seen_at;       ///< times of the pictures, one entry a body [s]
   std::vector<std::int64_t> bodies;  ///< -1 for the swarm, otherwise an obstacle's number
   std::vector<Vec2> places;          ///< of the bodies' centres [µm]

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "microswarm/core/execution/clock.hpp"
+#include "microswarm/rig/runtime/device_limits.hpp"
 #include "microswarm/rig/runtime/standstill.hpp"
 #include "microswarm/vision/camera/newest_frame.hpp"
 
@@ -78,6 +79,11 @@ bool CoilLoop::zero_is_confirmed() const {
   return confirmed_;
 }
 
+std::string CoilLoop::stop_trouble() const {
+  const std::lock_guard lock(mutex_);
+  return stop_trouble_;
+}
+
 double CoilLoop::zero_at() const {
   const std::lock_guard lock(mutex_);
   return zero_at_;
@@ -95,6 +101,7 @@ void CoilLoop::run() {
   auto last = due;
   Standstill standstill(limits_.max_pause, suspended_);
   Trips trips(limits_);
+  DeviceLimits device_limits;
   int misses = 0;
   std::unique_lock lock(mutex_);
   while (why_.empty()) {
@@ -131,6 +138,8 @@ void CoilLoop::run() {
     misses = status == DriveStatus::no_answer ? misses + 1 : 0;
     if (!trouble.empty() && why_.empty()) why_ = trouble;
     if (!stood.empty() && why_.empty()) why_ = stood;
+    const std::string limited = device_limits.take(moment.t, moment.output);
+    if (why_.empty()) why_ = limited;
     if (misses >= max_missed_answers && why_.empty()) why_ = controller_.trouble();
     if (status == DriveStatus::resumed && why_.empty()) why_ = trips.add(moment.t);
   }
@@ -139,6 +148,7 @@ void CoilLoop::run() {
   const double at_zero_at = steady_seconds();
   lock.lock();
   zero_at_ = at_zero_at;
+  stop_trouble_ = controller_.stop_trouble();
   confirmed_ = confirmed;
   at_zero_ = true;
   changed_.notify_all();

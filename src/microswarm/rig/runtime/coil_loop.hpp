@@ -35,8 +35,9 @@ struct CoilLoopLimits {
 /// Sends currents in real time from its own thread, so the field continues while a navigator
 /// computes. It starts with the first command. It sets the coils to zero for good when it is
 /// stopped, when no command arrives for the dead man's time, when the driver fails, when the coils
-/// were off by themselves too often, when the program or the computer stood still (a suspension
-/// also before the first command, which is then not driven), and on destruction.
+/// were off by themselves too often, when the device's own limits leave next to nothing, when the
+/// program or the computer stood still (a suspension also before the first command, which is then
+/// not driven), and on destruction.
 class CoilLoop {
  public:
   /// `controller` must outlive the loop and not be used elsewhere. `heard` is called in the loop's
@@ -61,6 +62,8 @@ class CoilLoop {
   std::string failure() const;
   /// After stop(): the device confirmed that the coils are at zero.
   bool zero_is_confirmed() const;
+  /// After stop(): CoilDriver::stop_trouble.
+  std::string stop_trouble() const;
   /// After stop(): when zero was commanded [s], by steady_seconds().
   double zero_at() const;
 
@@ -80,6 +83,7 @@ class CoilLoop {
   std::string why_;                  // reason of the stop
   bool at_zero_ = false;
   bool confirmed_ = false;
+  std::string stop_trouble_;
   double zero_at_ = 0;
   std::thread thread_;
 };

@@ -38,12 +38,15 @@ struct Commanded {
 /// Columns after the currents.
 struct Driven {
   double scale = 1;
+  std::optional<double> device_scale;
   std::string status;
   std::optional<double> late;
   std::optional<double> round_trip;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.scale, {"scale", Unit::none, {}, "Scale of the command imposed by the limits."});
+    visit(self.device_scale,
+          {"device_scale", Unit::none, {}, "By the device's own limits; empty: no answer."});
     visit(self.status, {"status", Unit::none, {}, "Status of the driver, or dry."});
     visit(self.late, {"late", Unit::s, {}, "Delay after the due time."});
     visit(self.round_trip, {"round_trip", Unit::s, {}, "Round trip of the driver."});
@@ -93,6 +96,8 @@ void CommandLog::add(const CoilMoment& m, double start) {
   if (file_.empty()) return;
   start_ = start;
   const Eigen::Vector3d& b = m.output.wanted;
+  std::optional<double> acknowledged;
+  if (is_acknowledged(m.output.status)) acknowledged = rounded(m.output.device_scale, 1e4);
   write(line_of({.t = rounded(m.t - start, 1e4),
                  .heading = m.command.heading,
                  .speed = rounded(m.command.speed, 1e3),
@@ -101,6 +106,7 @@ void CommandLog::add(const CoilMoment& m, double start) {
                  .bz = rounded(b.z(), 1e5)},
                 m.output.currents,
                 {.scale = rounded(m.output.scale, 1e4),
+                 .device_scale = acknowledged,
                  .status = std::string(dry_ ? "dry" : to_string(m.output.status)),
                  .late = rounded(m.late, 1e6),
                  .round_trip = rounded(m.round_trip, 1e6)}));

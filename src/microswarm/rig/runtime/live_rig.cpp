@@ -87,7 +87,10 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
                  timing_.limited += moment.output.scale < 1 - 1e-9;
                  timing_.min_scale = std::min(timing_.min_scale, moment.output.scale);
                  timing_.resumed += moment.output.status == DriveStatus::resumed;
-                 timing_.scaled += moment.output.status == DriveStatus::scaled;
+                 timing_.scaled +=
+                     is_acknowledged(moment.output.status) && moment.output.device_scale < 1 - 1e-9;
+                 timing_.min_device_scale =
+                     std::min(timing_.min_device_scale, moment.output.device_scale);
                  load_.take(moment.t, moment.output);
                }
                if (heard) heard(moment);

@@ -32,6 +32,7 @@ struct RigTiming {
   int limited = 0;                             ///< fields weakened by the coils' limits
   double min_scale = 1;                        ///< minimum scale of these
   int scaled = 0;                              ///< currents reduced by the device's own limits
+  double min_device_scale = 1;                 ///< minimum scale of these
   int missed_deadlines = 0;                    ///< ticks that ended after the start of the next
   int frames = 0;                              ///< processed
   int dropped_frames = 0;                      ///< received but not processed
@@ -70,6 +71,8 @@ class LiveRig : public Plant {
   void stop(const std::string& why);
   /// After stop(): the device confirmed that the coils are at zero.
   bool zero_is_confirmed() const { return coils_.zero_is_confirmed(); }
+  /// After stop(): CoilDriver::stop_trouble.
+  std::string stop_trouble() const { return coils_.stop_trouble(); }
   /// After stop(): when zero was commanded [s], by steady_seconds().
   double zero_at() const { return coils_.zero_at(); }
   /// When the record's time is 0 [s], by steady_seconds().

@@ -14,6 +14,7 @@
 #include "microswarm/actuation/coils/currents.hpp"
 #include "microswarm/actuation/coils/turning_currents.hpp"
 #include "microswarm/core/execution/clock.hpp"
+#include "microswarm/rig/runtime/device_limits.hpp"
 #include "microswarm/rig/runtime/standstill.hpp"
 
 namespace microswarm {
@@ -70,14 +71,17 @@ double share_at(double t, double end, double ramp) {
 /// Counts answers that do not come; says why it cannot go on, or nothing.
 class Watch {
  public:
-  std::string take(const CoilDriver& driver, DriveStatus status) {
+  std::string take(const CoilDriver& driver, const ManualMoment& moment) {
+    const DriveStatus status = moment.output.status;
+    const std::string limited = limits_.take(moment.t, moment.output);
     misses_ = status == DriveStatus::no_answer ? misses_ + 1 : 0;
     if (misses_ >= max_missed_answers) return trouble_of(driver, status);
     if (status == DriveStatus::resumed) return "the coils had been off by themselves";
-    return trouble_of(status).empty() ? "" : trouble_of(driver, status);
+    return trouble_of(status).empty() ? limited : trouble_of(driver, status);
   }
 
  private:
+  DeviceLimits limits_;
   int misses_ = 0;
 };
 
@@ -99,6 +103,7 @@ ManualResult drive_by_hand(const Rig& rig, CoilDriver& driver, const ManualComma
   double before = -period;
   double end = command.seconds;
   ManualMoment moment;
+  result.most = moment.output.acknowledged = 0 * drive.currents();
   while (moment.t < end && result.why.empty() && !stop()) {
     const double dt = moment.t - before;
     before = moment.t;
@@ -117,8 +122,11 @@ ManualResult drive_by_hand(const Rig& rig, CoilDriver& driver, const ManualComma
     }
     output.currents = drive.currents();
     output.temperatures = drive.temperatures();
+    take_answer(driver, output);
     result.min_scale = std::min(result.min_scale, output.scale);
-    result.why = watch.take(driver, output.status);
+    result.min_device_scale = std::min(result.min_device_scale, output.device_scale);
+    if (output.acknowledged.norm() > result.most.norm()) result.most = output.acknowledged;
+    result.why = watch.take(driver, moment);
     try {
       if (heard) heard(moment);
     } catch (const std::exception& e) {
@@ -138,6 +146,7 @@ ManualResult drive_by_hand(const Rig& rig, CoilDriver& driver, const ManualComma
   else if (moment.t < end)
     result.status = Status::stopped;
   result.zero_confirmed = driver.stop();
+  result.stop_trouble = driver.stop_trouble();
   return result;
 }
 

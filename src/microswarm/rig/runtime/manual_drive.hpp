@@ -33,14 +33,17 @@ struct ManualResult {
   Status status = Status::solved;
   std::string why;              ///< of a fault
   bool zero_confirmed = false;  ///< the device confirmed that the coils are at zero
+  std::string stop_trouble;     ///< why another than the driver confirmed it, CoilDriver
   double min_scale = 1;         ///< scale of the command imposed by the coils' limits
+  double min_device_scale = 1;  ///< by the device's own limits
+  Eigen::VectorXd most;         ///< the largest currents that the device acknowledged [A]
 };
 
 /// Drives the coils by hand at the rig's drive rate, within the limits of the coil system, and sets
 /// them to zero at the end, on a fault and when it is stopped. A driver that does not answer, is in
-/// trouble, or was off by itself is a fault, and so is a standstill of the program.
-/// `temperatures` are those of the coils at the start [°C]; `heard` is called after each output; an
-/// exception from it is a fault.
+/// trouble, was off by itself, or whose limits leave next to nothing is a fault, and so is a
+/// standstill of the program. `temperatures` are those of the coils at the start [°C]; `heard` is
+/// called after each output; an exception from it is a fault.
 ManualResult drive_by_hand(const Rig& rig, CoilDriver& driver, const ManualCommand& command,
                            const Eigen::VectorXd& temperatures,
                            const std::function<void(const ManualMoment&)>& heard = {},

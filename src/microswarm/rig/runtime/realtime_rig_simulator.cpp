@@ -80,6 +80,8 @@ class RealtimeRigSimulator::Coils : public CoilDriver {
     turning_.reset();
     return driver_->stop();  // catches up later without current: nothing may fail here
   }
+  double device_scale() const override { return driver_->device_scale(); }
+  std::string stop_trouble() const override { return driver_->stop_trouble(); }
   void interrupt() noexcept override { driver_->interrupt(); }
   std::string reason() const override { return driver_->reason(); }
 

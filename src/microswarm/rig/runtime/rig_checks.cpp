@@ -156,7 +156,11 @@ std::vector<RigCheck> check_driver(CoilDriver& driver, const Rig& rig, double se
   if (resumed > 0)
     checks.push_back(
         {"driver", false, fmt::format("the coils had been off by themselves {} times", resumed)});
-  checks.push_back({"stop", zero, zero ? "confirmed" : "not confirmed"});
+  const std::string stopped = driver.stop_trouble();
+  checks.push_back({"stop", zero && stopped.empty(),
+                    !zero             ? "not confirmed"
+                    : stopped.empty() ? "confirmed"
+                                      : stopped});
   const double slow = times.quantile(0.99);
   const double rate = rig.params.drive_rate;
   checks.push_back({"pace", slow < 1 / rate,

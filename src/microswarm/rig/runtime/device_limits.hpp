@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <string>
+
+#include "microswarm/actuation/coils/coil_controller.hpp"
+#include "microswarm/core/maths/infinity.hpp"
+
+namespace microswarm {
+
+/// Notices a device whose own limits leave next to nothing of the currents: a field that is meant
+/// is not there.
+class DeviceLimits {
+ public:
+  static constexpr double min_scale = 0.1;  ///< of CoilOutput::device_scale
+  static constexpr double longest = 1;      ///< for which it may be less [s]
+
+  /// Takes an output at `t` [s]. Returns why it is a fault, or an empty string.
+  std::string take(double t, const CoilOutput& output) {
+    if (output.device_scale >= min_scale) {
+      since_ = infinity;
+      return {};
+    }
+    since_ = std::min(since_, t);
+    if (t - since_ <= longest) return {};
+    if (output.device_scale == 0) return "the device drives no current";
+    return fmt::format("the device drives {:.3g} % of the currents", 100 * output.device_scale);
+  }
+
+ private:
+  double since_ = infinity;  // when it began [s]
+};
+
+}  // namespace microswarm
