@@ -96,6 +96,35 @@ TEST(Calibration, RefusesWhatIsNotDetermined) {
                                "m.csv", {"3", "fields", "x", "y", "z"}));
 }
 
+TEST(Calibration, ACoilWithoutEffectIsNamed) {
+  const auto refusal = [](const std::string& rows, bool gradients = false) {
+    const FieldMeasurements measured =
+        parse_measurements("i_x_a,i_y_a,x_um,y_um,bx_mt,by_mt,bz_mt\n" + rows, "m.csv");
+    const FittedMatrix fit = fit_matrix(measured, {.offset = true, .gradients = gradients});
+    return test::error_of([&] { require_effects(measured, fit); });
+  };
+  std::string noise, silent, maxwell;
+  test::Dice dice(5);
+  for (const auto& [x, y] : {std::pair{0, 0}, {4000, 0}, {0, 4000}, {-4000, 0}, {0, -4000}})
+    for (const auto& [a, b] : {std::pair{0, 0}, {2, 0}, {-2, 0}, {0, 2}, {0, -2}}) {
+      const std::string at = fmt::format("{},{},{},{},", a, b, x, y);
+      const Eigen::Vector3d n = 0.01 * dice.vector();
+      noise += fmt::format("{}{},{},{}\n", at, a + n[0], n[1], 0.04 + n[2]);
+      silent += at + "0,0,0\n";
+      // No field at the centre, but gradients.
+      maxwell += fmt::format("{}{},{},0.04\n", at, a + 1e-4 * b * x, -1e-4 * b * y);
+    }
+  EXPECT_TRUE(test::is_one_line_naming(refusal(noise), "m.csv", {"'y'"})) << refusal(noise);
+  EXPECT_FALSE(test::names(refusal(noise), "'x'"));
+  EXPECT_TRUE(test::is_one_line_naming(refusal(noise, true), "m.csv", {"'y'"}));
+  EXPECT_TRUE(test::names(refusal(silent), "'x', 'y'"));
+  EXPECT_TRUE(test::names(refusal(silent, true), "'x', 'y'"));
+  EXPECT_EQ(refusal(maxwell, true), "nothing was thrown");
+  const FieldMeasurements measured =
+      parse_measurements("i_x_a,bx_mt,by_mt,bz_mt\n1,0,0,0\n2,0,0,0\n", "m.csv");
+  EXPECT_FALSE(largest_error(fit_matrix(measured)).has_value());
+}
+
 TEST(Calibration, RefusesBrokenFilesInOneLine) {
   const auto refusal = [](const std::string& text) {
     return test::error_of([&] { parse_measurements(text, "m.csv"); });

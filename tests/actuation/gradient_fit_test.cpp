@@ -123,7 +123,7 @@ TEST(GradientFit, FindsAHelmholtzSystemWithinItsStandardErrors) {
   // The standard errors are those of the noise: they are neither vain nor shy.
   EXPECT_GT((fields / fit.field_errors.array()).maxCoeff(), 0.5);
   EXPECT_NEAR(fit.total_rms, noise * std::sqrt(3), 0.1 * noise);
-  EXPECT_LT(largest_error(fit).share, 0.01);
+  EXPECT_LT(largest_error(fit)->share, 0.01);
   const FittedMatrix uniform = fit_matrix(measured, {.offset = true});
   EXPECT_GT(uniform.total_rms, 1.5 * fit.total_rms);
 }

@@ -58,7 +58,8 @@ void tell_json(const Calibration& of) {
             {"worst_line", worst.line},
             {"worst_at_um", list_of(worst.place)},
             {"field_error_mt_per_a", rows_of(fit.field_errors)},
-            {"largest_error", largest_error(fit).share}};
+            {"largest_error", nullptr}};
+  if (const auto error = largest_error(fit)) json["largest_error"] = error->share;
   if (of.uniform) {
     json["centre_um"] = fit.coils.centre;
     json["gradient_t_per_m_per_a"] = fit.coils.gradient;
@@ -93,9 +94,9 @@ void tell(const Calibration& of) {
   cli::print("RMS residual {:.4g} mT; the worst is {:.4g} mT, line {}, at {} µm\n", fit.total_rms,
              fit.worst, worst.line, triple_text(worst.place));
   if (fit.freedom == 0) return;
-  const LargestError error = largest_error(fit);
-  cli::print("standard errors of the fields: at most {:.2g} % of a coil's, that of {}\n",
-             100 * error.share, fit.coils.names[error.coil]);
+  if (const auto error = largest_error(fit))
+    cli::print("standard errors of the fields: at most {:.2g} % of a coil's, that of {}\n",
+               100 * error->share, fit.coils.names[error->coil]);
   if (of.uniform)
     cli::print("standard errors of the gradients: at most {:.2g} T/m/A\n",
                fit.gradient_errors.maxCoeff());
@@ -105,6 +106,7 @@ Calibration fit_file(const std::string& file, const FitOptions& options) {
   Calibration of{
       .measured = read_measurements(file), .fit = {}, .uniform = {}, .rms_with_gradients = {}};
   of.fit = fit_matrix(of.measured, options);
+  require_effects(of.measured, of.fit);
   const FitOptions other{.offset = options.offset, .gradients = !options.gradients, .centre = {}};
   if (options.gradients)
     of.uniform = fit_matrix(of.measured, other);

@@ -252,6 +252,18 @@ void find_residuals(const Design& design, const FieldMeasurements& measured,
   result.total_rms = result.rms.norm();
 }
 
+constexpr double rounding_share = 1e-9;  // of the strongest field
+constexpr double certain = 3;            // standard errors
+
+/// Whether the values of a coil are more than rounding and errors; NaN errors are unknown.
+bool stands_out(const std::vector<std::vector<double>>& values, const Eigen::MatrixXd& errors,
+                std::size_t coil, double floor) {
+  double squares = 0;
+  for (const std::vector<double>& row : values) squares += row[coil] * row[coil];
+  if (!(std::sqrt(squares) > floor)) return false;
+  return !(std::sqrt(squares) <= certain * errors.col(whole(coil)).norm());
+}
+
 void require_fields(const FieldMeasurements& measured, const FitOptions& options) {
   const Solver fields(Design(measured, {.offset = options.offset}), measured);
   if (!fields.is_determined()) fail_fields(fields, measured, options.offset);
@@ -287,15 +299,42 @@ FittedMatrix fit_matrix(const FieldMeasurements& measured, const FitOptions& opt
   return result;
 }
 
-LargestError largest_error(const FittedMatrix& fit) {
-  LargestError largest;
+std::optional<LargestError> largest_error(const FittedMatrix& fit) {
+  std::optional<LargestError> largest;
+  if (fit.freedom == 0) return largest;
   for (std::size_t i = 0; i < fit.coils.names.size(); ++i) {
     const Eigen::Vector3d field(fit.coils.field[0][i], fit.coils.field[1][i],
                                 fit.coils.field[2][i]);
+    if (field.isZero(0)) continue;
     const double share = fit.field_errors.col(whole(i)).maxCoeff() / field.norm();
-    if (i == 0 || share > largest.share) largest = {i, share};
+    if (!largest || share > largest->share) largest = {i, share};
   }
   return largest;
+}
+
+void require_effects(const FieldMeasurements& measured, const FittedMatrix& fit) {
+  const Eigen::Map<const Eigen::Vector3d> centre(fit.coils.centre.data());
+  double strongest = 0, distance = min_distance;
+  for (const FieldMeasurement& row : measured.rows) {
+    strongest = std::max(strongest, row.field.norm());
+    distance = std::max(distance, (row.place - centre).norm());
+  }
+  std::vector<std::string> without;
+  for (std::size_t i = 0; i < measured.coils.size(); ++i) {
+    double most = 0;
+    for (const FieldMeasurement& row : measured.rows)
+      most = std::max(most, std::abs(row.currents[whole(i)]));
+    const double floor = rounding_share * strongest / most;
+    const double slope_floor = floor / (distance * mt_per_um_of_t_per_m);
+    if (!stands_out(fit.coils.field, fit.field_errors, i, floor) &&
+        !stands_out(fit.coils.gradient, fit.gradient_errors, i, slope_floor))
+      without.push_back(quote(measured.coils[i]));
+  }
+  if (without.empty()) return;
+  throw InputError(fmt::format(
+      "{}: the currents of {} do not change the field by more than its errors: are the probe and "
+      "these coils connected?",
+      measured.file, fmt::join(without, ", ")));
 }
 
 }  // namespace microswarm

@@ -31,12 +31,17 @@ struct FittedMatrix {
   Eigen::MatrixXd field_errors, gradient_errors;
 };
 
-/// Largest standard error of a fitted field, as a share of that coil's field.
+/// Largest standard error of a fitted field, as a share of that coil's field; empty without
+/// freedom, or without a field.
 struct LargestError {
   std::size_t coil = 0;
   double share = 0;
 };
-LargestError largest_error(const FittedMatrix& fit);
+std::optional<LargestError> largest_error(const FittedMatrix& fit);
+
+/// Throws InputError that names the coils whose fitted field, and gradients if there are any, are
+/// no more than rounding or three standard errors.
+void require_effects(const FieldMeasurements& measured, const FittedMatrix& fit);
 
 /// Fits the matrix A, with `offset` the field b at zero current, and with `gradients` the field's
 /// gradients, whose divergence and curl are 0, by minimising Σ |B − B(p)|². Throws InputError if
