@@ -8,9 +8,11 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -46,6 +48,11 @@ class FakeDevice {
   FakeDevice& operator=(const FakeDevice&) = delete;
 
   const std::string& port() const { return port_; }
+  /// From now on it lets at most so much through, of all channels by the same factor [per mille].
+  void limit(std::size_t channel, int most) {
+    const std::lock_guard lock(mutex_);
+    limits_[channel] = most;
+  }
   /// When a message of this kind came first [s], by steady_seconds(); 0: never.
   double first(CoilMessage message) {
     const std::lock_guard lock(mutex_);
@@ -104,9 +111,12 @@ class FakeDevice {
     reply.outputs = reported_;
     reply.slew = 100;
     reply.scale = coil_link_unscaled;
-    reply.aim_sum = check_sum({.constant = outputs_});
+    reply.scale = limited_scale();
+    if (reply.scale != coil_link_unscaled) reply.result = CoilResult::limited;
+    const CoilAim aim = scaled({.constant = outputs_}, reply.scale);
+    reply.aim_sum = check_sum(aim);
     reply.clock = static_cast<int>(1e3 * steady_seconds()) & 0xFFFF;
-    reported_ = outputs_;  // as if there at once
+    reported_ = aim.constant;  // as if there at once
     if (waveform_ && state_ == CoilState::armed) {
       const double turns = phase_ + 1e-3 * waveform_->frequency * (steady_seconds() - turned_at_);
       reply.phase = static_cast<int>(std::lround(65536 * (turns - std::floor(turns)))) & 0xFFFF;
@@ -123,6 +133,15 @@ class FakeDevice {
     if (answer_ && !answer_(reply)) return;
     const auto bytes = encode(reply);
     EXPECT_EQ(write(line_, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
+  }
+
+  int limited_scale() {
+    const std::lock_guard lock(mutex_);
+    int scale = coil_link_unscaled;
+    for (const auto& [channel, most] : limits_)
+      if (const int output = std::abs(outputs_[channel]); output > most)
+        scale = std::min(scale, coil_link_unscaled * most / output);
+    return scale;
   }
 
   void turn(const std::vector<std::uint8_t>& packet) {
@@ -149,6 +168,7 @@ class FakeDevice {
   std::mutex mutex_;
   std::map<CoilMessage, double> first_;
   std::map<CoilMessage, int> counts_;
+  std::map<std::size_t, int> limits_;
   CoilState state_ = CoilState::idle;
   CoilOutputs outputs_{}, reported_{};
   std::optional<CoilAim> waveform_;

@@ -54,12 +54,17 @@ TEST(MeasurementPlan, ARowMeetsOneStep) {
   const CoilSystem system = two_coils({{.max_current = 10}});
   const auto steps = measurement_plan(system, {.places = {{0, 0, 0}, {9, 0, 0}}});
   std::vector<FieldMeasurement> rows;
-  EXPECT_EQ(missing_steps(steps, rows, 0.02).size(), 10u);
-  rows.push_back({steps[1].currents + Eigen::Vector2d(0.01, -0.01), {0, 0, 0}, {}, 2});
-  rows.push_back({Eigen::Vector2d(1, 2), {0, 0, 0}, {}, 3});  // another's
-  rows.push_back({steps[0].currents, {9, 0, 0}, {}, 4});
-  rows.push_back({steps[0].currents, {9, 0, 0}, {}, 5});
-  const auto missing = missing_steps(steps, rows, 0.02);
+  EXPECT_EQ(missing_steps(steps, rows).size(), 10u);
+  const auto measured = [&](const Eigen::VectorXd& currents, const Eigen::VectorXd& planned,
+                            const Eigen::Vector3d& place) {
+    rows.push_back({currents, place, {}, 2, planned});
+  };
+  measured(0.6 * steps[1].currents, steps[1].currents, {0, 0, 0});  // limited by the device
+  measured(steps[2].currents, Eigen::Vector2d(1, 2), {0, 0, 0});    // another's
+  rows.push_back({steps[2].currents, {0, 0, 0}, {}, 3});            // not known of which
+  measured(steps[0].currents, steps[0].currents, {9, 0, 0});
+  measured(steps[0].currents, steps[0].currents, {9, 0, 0});
+  const auto missing = missing_steps(steps, rows);
   EXPECT_EQ(missing.size(), 8u);
   EXPECT_EQ(missing[0].currents, steps[0].currents);
   EXPECT_EQ(missing[1].currents, steps[2].currents);
@@ -71,8 +76,8 @@ TEST(MeasurementLog, IsCompleteAfterEachRowAndGoesOn) {
   {
     MeasurementLog log(file, {"a", "b+"});
     EXPECT_FALSE(std::filesystem::exists(file));
-    log.add(Eigen::Vector2d(1, -0.1), {10, 0, 0}, {.mean = {1, 2, 3}});
-    log.add(Eigen::Vector2d(0, 0), {0, 0, 0},
+    log.add(Eigen::Vector2d(1, -0.1), Eigen::Vector2d(2, -0.2), {10, 0, 0}, {.mean = {1, 2, 3}});
+    log.add(Eigen::Vector2d(0, 0), Eigen::Vector2d(0, 0), {0, 0, 0},
             reading_of({{1, 0, 0}, {2, 0, 0}, {3, 0, 0.1 + 0.2}}));
     EXPECT_EQ(read_measurements(file).rows.size(), 2u);
   }
@@ -80,9 +85,10 @@ TEST(MeasurementLog, IsCompleteAfterEachRowAndGoesOn) {
   MeasurementLog log(file, {"a", "b+"});
   ASSERT_EQ(log.measured().rows.size(), 2u);
   EXPECT_EQ(log.measured().rows[0].currents, Eigen::VectorXd(Eigen::Vector2d(1, -0.1)));
+  EXPECT_EQ(log.measured().rows[0].planned, Eigen::VectorXd(Eigen::Vector2d(2, -0.2)));
   EXPECT_EQ(log.measured().rows[1].field, Eigen::Vector3d(2, 0, (0.1 + 0.2) / 3));
   EXPECT_NE(read_file(file).find(",3,1,0,"), std::string::npos);
-  log.add(Eigen::Vector2d(2, 0), {0, 0, 0}, {.mean = {4, 5, 6}});
+  log.add(Eigen::Vector2d(2, 0), Eigen::Vector2d(2, 0), {0, 0, 0}, {.mean = {4, 5, 6}});
   EXPECT_EQ(read_measurements(file).rows[2].line, log.measured().rows[2].line);
   log.remove_last();
   log.remove_last();
@@ -90,7 +96,7 @@ TEST(MeasurementLog, IsCompleteAfterEachRowAndGoesOn) {
   log.remove_last();
   log.remove_last();
   EXPECT_TRUE(log.measured().rows.empty());
-  log.add(Eigen::Vector2d(2, 0), {0, 0, 0}, {.mean = {4, 5, 6}});
+  log.add(Eigen::Vector2d(2, 0), Eigen::Vector2d(2, 0), {0, 0, 0}, {.mean = {4, 5, 6}});
   EXPECT_EQ(read_measurements(file).rows.size(), 1u);
 }
 

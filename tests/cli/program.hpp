@@ -41,6 +41,7 @@ struct Surroundings {
   fs::path folder;
   std::uint64_t largest_file = 0;  ///< [bytes] beyond which writing fails; 0: no limit
   std::string out;                 ///< stdout goes to this file
+  std::string in;                  ///< stdin comes from this file, when not empty
   std::string path;                ///< PATH, when not empty
   std::vector<std::pair<std::string, std::string>> environment;  ///< more of it
 };
@@ -68,7 +69,8 @@ class Program {
     if (!at.path.empty()) ::setenv("PATH", at.path.c_str(), 1);
     for (const auto& [key, value] : at.environment) ::setenv(key.c_str(), value.c_str(), 1);
     if (::chdir(at.folder.c_str()) != 0 || ::dup2(out, STDOUT_FILENO) < 0 ||
-        ::dup2(fileno(err_), STDERR_FILENO) < 0)
+        ::dup2(fileno(err_), STDERR_FILENO) < 0 ||
+        (!at.in.empty() && ::dup2(::open(at.in.c_str(), O_RDONLY), STDIN_FILENO) < 0))
       ::_exit(126);
     ::execv(argv[0], argv.data());
     ::_exit(127);

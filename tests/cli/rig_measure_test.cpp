@@ -130,6 +130,7 @@ TEST_F(RigMeasure, WhatIsNoFieldIsAskedAgain) {
            {"1 2\r", "three numbers are needed"},
            {"1e9 0 0\r", "'1e9' is no field of at most 10000 mT"},
            {"\r", "three numbers are needed"},
+           {"1;2;3\r", "three numbers are needed"},
            {"0x1 2 3\r", "'0x1' is no field"}}) {
     ASSERT_TRUE(terminal.hears(question)) << terminal.said();
     terminal.type(wrong);
@@ -142,7 +143,7 @@ TEST_F(RigMeasure, WhatIsNoFieldIsAskedAgain) {
       "77\x15"
       "0.02 -0.03 0.0459\x7f\r");
   ASSERT_TRUE(terminal.hears("2/7: 4 A in x")) << terminal.said();
-  EXPECT_TRUE(read("measured.csv").ends_with("0,0,0,0,0,0,0.02,-0.03,0.045,1,,,\n"));
+  EXPECT_TRUE(read("measured.csv").ends_with("0,0,0,0,0,0,0.02,-0.03,0.045,1,,,,0,0,0\n"));
   ASSERT_TRUE(terminal.hears(question));
   terminal.type("r\r");
   ASSERT_TRUE(terminal.hears("2/7: 4 A in x")) << terminal.said();
@@ -299,6 +300,103 @@ TEST_F(RigMeasure, AProbeThatStopsIsToldInOneLine) {
   refused(arguments({"--probe", "broken.csv", "--other-stop"}),
           naming("broken.csv", {"bx_mt", "missing"}));
   EXPECT_FALSE(exists("measured.csv"));
+}
+
+TEST_F(RigMeasure, ALimitOfTheDeviceIsToldAndItEnds) {
+  device.limit(1, 250);
+  {
+    AtTerminal terminal(arguments(), at);
+    ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
+    terminal.type("\r");
+    answer(terminal, 3, {0, 0, 0});
+    ASSERT_TRUE(terminal.hears("the device limits y to 2.")) << terminal.said();
+    ASSERT_TRUE(terminal.hears("of 4 A")) << terminal.said();
+    answer(terminal, 1, {0, 0, 0});
+    ASSERT_TRUE(terminal.hears("5/7: -4 A in y")) << terminal.said();
+    terminal.type("\x03");
+    EXPECT_EQ(terminal.wait(), 3) << terminal.said();
+  }
+  AtTerminal terminal(arguments(), at);
+  ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
+  terminal.type("\r");
+  ASSERT_TRUE(terminal.hears("5/7: -4 A in y")) << terminal.said();
+  answer(terminal, 3, {0, 0, 0});
+  EXPECT_EQ(terminal.wait(), 0) << terminal.said();
+  EXPECT_EQ(rows(), 7u);
+  expect_truth("fitted.yaml", 1e-5);
+  // All is measured: nothing is driven any more. Another current is another measurement.
+  const int arms = device.count(CoilMessage::arm);
+  EXPECT_EQ(run(arguments()).code, 0);
+  EXPECT_EQ(device.count(CoilMessage::arm), arms);
+  Arguments stronger = arguments();
+  *std::ranges::find(stronger, "4") = "4.5";
+  AtTerminal again(stronger, at);
+  ASSERT_TRUE(again.hears("then Enter")) << again.said();
+  again.type("\r");
+  EXPECT_TRUE(again.hears("2/7: 4.5 A in x")) << again.said();
+}
+
+TEST_F(RigMeasure, ALimitOfTheDeviceEndsWithAProbeToo) {
+  device.limit(0, 250);
+  const Logger logger(at.folder / "probe.csv", [&] { return truth(); });
+  const Outcome outcome =
+      run(arguments({"--probe", "probe.csv", "--dwell", "0.2", "--other-stop"}));
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(names(outcome.err, "the device limits x to 2.")) << outcome.err;
+  EXPECT_EQ(rows(), 7u);
+}
+
+TEST_F(RigMeasure, ADeviceThatLetsNoCurrentThroughEndsIt) {
+  device.limit(0, 0);
+  write("probe.csv", "bx_mt,by_mt,bz_mt\n");
+  const Logger logger(at.folder / "probe.csv", [&] { return truth(); });
+  const Outcome outcome =
+      run(arguments({"--probe", "probe.csv", "--dwell", "0.2", "--other-stop"}));
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+  EXPECT_TRUE(names(outcome.err, "0 A") && names(outcome.err, "4 A in x")) << outcome.err;
+  EXPECT_EQ(rows(), 1u);
+  EXPECT_FALSE(exists("fitted.yaml"));
+}
+
+TEST_F(RigMeasure, AnswersFromAPipeDoNotRepeatAStepForEver) {
+  std::string answers = "0 0 0\n";
+  for (int i = 0; i < 20; ++i) answers += "r\n";
+  write("answers.txt", answers);
+  at.in = "answers.txt";
+  const Outcome outcome = run(arguments({"--other-stop"}));
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  EXPECT_TRUE(names(outcome.err, "4 A in x") && names(outcome.err, "without a measurement"))
+      << outcome.err;
+}
+
+TEST_F(RigMeasure, ADeadProbeGivesNoCalibration) {
+  const Logger logger(at.folder / "probe.csv", [] { return Eigen::Vector3d(0.01, 0, 0); });
+  const Outcome outcome =
+      run(arguments({"--probe", "probe.csv", "--dwell", "0.2", "--other-stop"}));
+  EXPECT_EQ(outcome.code, 2) << outcome.err;
+  EXPECT_TRUE(names(outcome.err, "'x', 'y', 'z'")) << outcome.err;
+  EXPECT_FALSE(exists("fitted.yaml"));
+  const std::string coils = "i_x_a,i_y_a,bx_mt,by_mt,bz_mt\n";
+  const Arguments fit{"rig", "calibrate", "m.csv", "--offset", "--out", "out.yaml"};
+  write("m.csv", coils + "0,0,0,0,0\n1,0,0,0,0\n0,1,0,0,0\n-1,0,0,0,0\n0,-1,0,0,0\n");
+  refused(fit, naming("m.csv", {"x", "y"}));
+  write("m.csv", coils + "0,0,1,2,3\n1,0,2,2,3\n0,1,1,2,3\n-1,0,0,2,3\n0,-1,1,2,3\n");
+  refused(fit, naming("m.csv", {"'y'"}));
+  write("m.csv", coils + "0,0,1,2,3\n1,0,2,2,3\n0,1,1,2,3\n");  // just enough
+  refused(fit, naming("m.csv", {"'y'"}));
+}
+
+TEST_F(RigMeasure, AnAnswerOfTheOtherSignIsTakenWithANote) {
+  AtTerminal terminal(arguments(), at);
+  ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
+  terminal.type("\r");
+  answer(terminal, 1, {0, 0, 0});
+  ASSERT_TRUE(terminal.hears(question)) << terminal.said();
+  terminal.type("-5 0.1 0\r");
+  ASSERT_TRUE(terminal.hears("note: Bx expected +")) << terminal.said();
+  ASSERT_TRUE(terminal.hears("got -5 mT: a reversed coil or probe?")) << terminal.said();
+  ASSERT_TRUE(terminal.hears("3/7: ")) << terminal.said();
+  EXPECT_EQ(rows(), 2u);
 }
 
 TEST_F(RigMeasure, WhatCannotBeIsRefusedBeforeTheFirstCurrent) {

@@ -12,12 +12,12 @@
 
 #include "microswarm/actuation/coils/measurement_plan.hpp"
 #include "microswarm/actuation/coils/probe_file.hpp"
-#include "microswarm/actuation/coils/text_rows.hpp"
 #include "microswarm/core/errors/error.hpp"
-#include "microswarm/core/text/file.hpp"
+#include "microswarm/core/text/lines.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/rig/runtime/manual_drive.hpp"
 #include "rig/answer_line.hpp"
+#include "rig/probe_positions.hpp"
 #include "rig/rig.hpp"
 #include "support/options.hpp"
 
@@ -25,50 +25,14 @@ namespace microswarm::cli {
 namespace {
 
 constexpr double max_settling = 10;      // beyond the ramp, until the currents are there [s]
+constexpr double max_arriving = 1;       // so long a device may report others [s]
 constexpr double probe_silence = 5;      // [s]
 constexpr double max_typed_field = 1e4;  // [mT]
 constexpr double weakened = 1 - 1e-6;
-constexpr std::size_t max_positions = 1000;
+constexpr int max_attempts = 5;         // in a row without a person, a measurement or an end
+constexpr double reversed_share = 0.1;  // of what is expected, with the other sign
 constexpr double resolution =
-    2e-3;  // of the full scale, in which a device may differ from the plan
-
-std::vector<Eigen::Vector3d> positions_in(const std::string& file) {
-  const std::string text = read_file(file, 1U << 20);
-  TextRows rows(text, file);
-  if (!rows.next() || rows.pieces(',') != std::vector<std::string_view>{"x_um", "y_um", "z_um"})
-    rows.fail("the header must be x_um,y_um,z_um");
-  std::vector<Eigen::Vector3d> places;
-  while (rows.next()) {
-    const std::vector<std::string_view> cells = rows.pieces(',');
-    if (cells.size() != 3) rows.fail(fmt::format("{} numbers, 3 expected", cells.size()));
-    Eigen::Vector3d place;
-    for (std::size_t k = 0; k < 3; ++k)
-      place[static_cast<Eigen::Index>(k)] = rows.number(cells[k], "position");
-    if (place.cwiseAbs().maxCoeff() > max_place)
-      rows.fail(fmt::format("position {} is beyond {:.6g} µm", triple_text(place), max_place));
-    places.push_back(place);
-  }
-  if (places.empty()) rows.fail("no positions follow the header");
-  return places;
-}
-
-/// The positions in "X,Y,Z;X,Y,Z" or in a file; the rig's centre without any.
-std::vector<Eigen::Vector3d> positions_of(const std::string& given, const CoilSystem& system) {
-  if (given.empty()) return {system.centre()};
-  std::vector<Eigen::Vector3d> places;
-  for (const std::string_view one : split(given, ';')) {
-    const std::vector<double> v = numbers(one);
-    if (v.size() != 3) break;
-    places.emplace_back(v[0], v[1], v[2]);
-    if (places.back().cwiseAbs().maxCoeff() > max_place)
-      throw InputError(fmt::format("--positions: {} is beyond {:.6g} µm", quote(one), max_place));
-  }
-  if (places.size() != split(given, ';').size()) places = positions_in(given);
-  if (places.size() > max_positions)
-    throw InputError(
-        fmt::format("--positions: {} positions, at most {}", places.size(), max_positions));
-  return places;
-}
+    2e-3;  // of the full scale, by which a device may differ from the plan
 
 /// Throws InputError if what is planned would not determine the fit.
 void require_determined(const std::vector<MeasurementStep>& steps, const CoilSystem& system,
@@ -82,7 +46,7 @@ void require_determined(const std::vector<MeasurementStep>& steps, const CoilSys
 /// A field that was typed, or why it is none.
 std::optional<Eigen::Vector3d> field_in(std::string line, std::string& why) {
   std::ranges::replace_if(
-      line, [](char c) { return c == ',' || c == ';' || c == '\t'; }, ' ');
+      line, [](char c) { return c == ',' || c == '\t'; }, ' ');
   const std::vector<std::string_view> cells = words(line);
   Eigen::Vector3d field;
   for (std::size_t k = 0; k < cells.size() && cells.size() == 3; ++k) {
@@ -99,24 +63,34 @@ std::optional<Eigen::Vector3d> field_in(std::string line, std::string& why) {
 }
 
 /// What became of a step.
-enum class Outcome { measured, repeat, back, unanswered, weak, ended, failed };
+enum class Outcome { measured, repeat, back, unanswered, weak, no_current, ended, failed };
 
 class Guide {
  public:
   Guide(const Rig& rig, const MeasureOptions& o, MeasurementLog& log, const Context& context)
-      : rig_(rig), o_(o), log_(log), stop_(context.stop), answers_(!o.probe.empty()) {
+      : rig_(rig),
+        o_(o),
+        log_(log),
+        stop_(context.stop),
+        answers_(!o.probe.empty()),
+        tolerance_(resolution * full_scale_of(rig.params)) {
     if (!o.probe.empty()) probe_.emplace(o.probe);
   }
 
-  int make(const std::vector<MeasurementStep>& steps, double tolerance);
+  int make(const std::vector<MeasurementStep>& steps);
 
  private:
   enum class Moved { there, back, ended };
   Moved move_to(const Eigen::Vector3d& place);
   std::optional<std::string> wait_for_line();
   Outcome hold(const MeasurementStep& step, const std::string& what);
-  void look(const ManualMoment& moment, const std::string& question);
-  void take_answer(const std::string& question);
+  void look(const ManualMoment& moment);
+  void settle(double t);
+  void tell_limits() const;
+  void tell_reversal() const;
+  std::optional<Eigen::Vector3d> expected() const;
+  std::string question() const;
+  void take_answer();
   void take_rows(double t);
   void finish(Outcome outcome) { outcome_ = outcome; }
   std::string words_for(const MeasurementStep& step) const;
@@ -126,11 +100,14 @@ class Guide {
   MeasurementLog& log_;
   Stop stop_;
   AnswerLine answers_;
+  double tolerance_;  // between planned and reported currents [A]
   std::optional<ProbeFile> probe_;
   std::unique_ptr<Bench> bench_;
   std::optional<Eigen::Vector3d> place_;  // of the probe
 
   // Of the step that is held:
+  const MeasurementStep* step_ = nullptr;
+  std::string what_;
   std::optional<Outcome> outcome_;
   std::optional<double> settled_, newest_row_;  // [s]
   std::vector<Eigen::Vector3d> readings_;
@@ -163,7 +140,8 @@ std::optional<std::string> Guide::wait_for_line() {
 Guide::Moved Guide::move_to(const Eigen::Vector3d& place) {
   if (place_ && *place_ == place) return Moved::there;
   const bool asks = answers_.is_terminal() || place_ || place != rig_.system.centre();
-  while (asks) {
+  for (int attempt = 0; asks; ++attempt) {
+    if (attempt == max_attempts && !answers_.is_terminal()) return Moved::ended;
     answers_.ask(fmt::format("probe to {} µm, then Enter (b: back, q: end): ", triple_text(place)));
     const auto line = wait_for_line();
     if (!line || *line == "q") return Moved::ended;
@@ -175,7 +153,7 @@ Guide::Moved Guide::move_to(const Eigen::Vector3d& place) {
   return Moved::there;
 }
 
-void Guide::take_answer(const std::string& question) {
+void Guide::take_answer() {
   const auto line = answers_.poll();
   if (!line && answers_.ended()) return finish(Outcome::ended);
   if (!line) return;
@@ -189,7 +167,7 @@ void Guide::take_answer(const std::string& question) {
     return finish(Outcome::measured);
   }
   note("{}\n", why);
-  answers_.ask(question);
+  answers_.ask(question());
 }
 
 void Guide::take_rows(double t) {
@@ -201,68 +179,113 @@ void Guide::take_rows(double t) {
   if (!readings_.empty() && t - *settled_ >= o_.dwell) finish(Outcome::measured);
 }
 
+/// The field for the currents that flow, by the present file of the coils.
+std::optional<Eigen::Vector3d> Guide::expected() const {
+  if (!rig_.system.in_workspace(step_->place)) return std::nullopt;
+  const bool planned = (currents_ - step_->currents).cwiseAbs().maxCoeff() <= tolerance_;
+  return rig_.system.at(step_->place).field_of(planned ? step_->currents : currents_);
+}
+
+std::string Guide::question() const {
+  std::string text = what_;
+  if (const auto b = expected()) {
+    const auto shown = [&](Eigen::Index k) { return tidy((*b)[k], 1e3 * b->norm()); };
+    text += fmt::format(", ({:.4g}, {:.4g}, {:.4g}) mT expected", shown(0), shown(1), shown(2));
+  }
+  return text + ". Bx By Bz in mT: ";
+}
+
+void Guide::tell_limits() const {
+  std::vector<std::string> limited;
+  for (Eigen::Index k = 0; k < currents_.size(); ++k)
+    if (std::abs(step_->currents[k]) - std::abs(currents_[k]) > tolerance_)
+      limited.push_back(fmt::format("{} to {:.4g} A of {:.4g} A",
+                                    rig_.system.coil_names()[static_cast<std::size_t>(k)],
+                                    currents_[k], step_->currents[k]));
+  if (!limited.empty()) note("note: the device limits {}\n", fmt::join(limited, ", "));
+}
+
+/// A field along the main axis with the other sign than expected.
+void Guide::tell_reversal() const {
+  const auto b = expected();
+  if (!b || step_->currents.isZero(0)) return;
+  Eigen::Index k = 0;
+  const double most = b->cwiseAbs().maxCoeff(&k);
+  const double got = reading_of(readings_).mean[k];
+  if (got * (*b)[k] < 0 && std::abs(got) > reversed_share * most)
+    note("note: B{} expected {:+.4g} mT, got {:.4g} mT: a reversed coil or probe?\n", "xyz"[k],
+         (*b)[k], got);
+}
+
+/// After the ramp, when the device reports the currents, or others for long enough.
+void Guide::settle(double t) {
+  const bool there = (currents_ - step_->currents).cwiseAbs().maxCoeff() <= tolerance_;
+  if (!there && t < o_.ramp + o_.settle + max_arriving) return;
+  if (!there && currents_.cwiseAbs().maxCoeff() <= tolerance_ / 4)
+    return finish(Outcome::no_current);
+  settled_ = t;
+  tell_limits();
+  if (probe_)
+    probe_->skip_to_end();
+  else
+    answers_.ask(question());
+}
+
 /// After each output to the coils.
-void Guide::look(const ManualMoment& moment, const std::string& question) {
+void Guide::look(const ManualMoment& moment) {
   bench_->temperatures = moment.output.temperatures;
   if (bench_->kept) bench_->kept->take(bench_->temperatures);
   if (outcome_ || !settled_ || probe_) answers_.watch();
   if (outcome_) return;
   const bool full = moment.output.scale >= weakened;
+  const auto reported = bench_->driver->currents();
+  currents_ = Eigen::Map<const Eigen::VectorXd>(reported.data(), currents_.size());
   if (!settled_) {
-    if (moment.t >= o_.ramp + o_.settle && full) {
-      settled_ = moment.t;
-      if (probe_)
-        probe_->skip_to_end();
-      else
-        answers_.ask(question);
-    } else if (moment.t > o_.ramp + o_.settle + max_settling) {
+    if (moment.t >= o_.ramp + o_.settle && full)
+      settle(moment.t);
+    else if (moment.t > o_.ramp + o_.settle + max_settling)
       finish(Outcome::weak);
-    }
     return;
   }
   if (!full) return finish(Outcome::weak);
-  const auto reported = bench_->driver->currents();
-  currents_ = Eigen::Map<const Eigen::VectorXd>(reported.data(), currents_.size());
   if (probe_)
     take_rows(moment.t);
   else
-    take_answer(question);
+    take_answer();
 }
 
 /// Holds the currents until there is an answer or the time is up.
 Outcome Guide::hold(const MeasurementStep& step, const std::string& what) {
+  step_ = &step;
+  what_ = what;
   outcome_.reset();
   settled_.reset();
   newest_row_.reset();
   readings_.clear();
   trouble_.clear();
   currents_ = Eigen::VectorXd::Zero(step.currents.size());
-  std::string question = what;
-  if (rig_.system.in_workspace(step.place)) {
-    const Eigen::Vector3d b = rig_.system.at(step.place).field_of(step.currents);
-    const auto shown = [&](Eigen::Index k) { return tidy(b[k], 1e3 * b.norm()); };
-    question += fmt::format(", ({:.4g}, {:.4g}, {:.4g}) mT expected", shown(0), shown(1), shown(2));
-  }
-  question += ". Bx By Bz in mT: ";
   const ManualCommand command{.wanted = step.currents,
                               .seconds = 2 * o_.ramp + o_.settle + o_.hold,
                               .ramp = o_.ramp,
                               .enough = [this] { return outcome_.has_value(); }};
   const ManualResult result = drive_by_hand(
       rig_, *bench_->driver, command, bench_->temperatures,
-      [&](const ManualMoment& moment) { look(moment, question); }, stop_);
+      [&](const ManualMoment& moment) { look(moment); }, stop_);
   zero_confirmed_ = result.zero_confirmed;
   stop_trouble_ = result.stop_trouble;
   trouble_ = result.why;
   // What was measured counts, also if something happens while the currents go.
-  if (outcome_ == Outcome::measured) log_.add(currents_, step.place, reading_of(readings_));
+  if (outcome_ == Outcome::measured) {
+    tell_reversal();
+    log_.add(currents_, step.currents, step.place, reading_of(readings_));
+  }
   if (!trouble_.empty() || !zero_confirmed_ || !stop_trouble_.empty()) return Outcome::failed;
   if (result.status == Status::stopped) return Outcome::ended;
   return outcome_.value_or(Outcome::unanswered);
 }
 
-int Guide::make(const std::vector<MeasurementStep>& steps, double tolerance) {
-  const auto left = [&] { return missing_steps(steps, log_.measured().rows, tolerance); };
+int Guide::make(const std::vector<MeasurementStep>& steps) {
+  const auto left = [&] { return missing_steps(steps, log_.measured().rows); };
   std::vector<MeasurementStep> missing = left();
   if (missing.empty()) return ok;
   bench_ = std::make_unique<Bench>(rig_, o_.coils);
@@ -270,6 +293,8 @@ int Guide::make(const std::vector<MeasurementStep>& steps, double tolerance) {
        steps.size(), probe_ ? "Space, e or Esc" : "Esc");
   if (!probe_) note("b: back, r: again, q: end; what was measured is kept\n");
   bool goes_on = true;
+  std::size_t fewest = missing.size();
+  int attempts = 0;
   while (goes_on && !missing.empty()) {
     const MeasurementStep& step = missing.front();
     const Moved moved = move_to(step.place);
@@ -296,6 +321,9 @@ int Guide::make(const std::vector<MeasurementStep>& steps, double tolerance) {
       case Outcome::weak:
         throw InputError(fmt::format("the limits of the coils weaken {}: give a smaller --current",
                                      words_for(step)));
+      case Outcome::no_current:
+        throw HardwareError(
+            fmt::format("the device reports 0 A for {}: nothing can be measured", words_for(step)));
       case Outcome::failed:
         if (!trouble_.empty()) note("\nmicroswarm: {}\n", trouble_);
         note_zero(zero_confirmed_, stop_trouble_);
@@ -306,7 +334,15 @@ int Guide::make(const std::vector<MeasurementStep>& steps, double tolerance) {
     }
     if (stop_()) goes_on = false;
     const bool failed = outcome == Outcome::failed;
+    const std::string words = words_for(step);
     missing = left();
+    const bool person = answers_.is_terminal() && outcome != Outcome::measured;
+    attempts = person || missing.size() < fewest ? 0 : attempts + 1;
+    fewest = person ? missing.size() : std::min(fewest, missing.size());
+    if (attempts == max_attempts) {
+      note("\n{} attempts without a measurement, the last with {}\n", attempts, words);
+      goes_on = false;
+    }
     if (failed || (!goes_on && !missing.empty())) {
       note("\n{} of {} measurements are made; the same command goes on\n",
            steps.size() - missing.size(), steps.size());
@@ -373,7 +409,7 @@ int measure(const Rig& rig, const MeasureOptions& o, const FitOptions& fit, cons
   require_determined(steps, rig.system, fit);
   MeasurementLog log(file, rig.system.coil_names());
   Guide guide(rig, o, log, context);
-  return guide.make(steps, resolution * full_scale_of(rig.params));
+  return guide.make(steps);
 }
 
 }  // namespace microswarm::cli

@@ -27,6 +27,7 @@ struct Columns {
   std::vector<std::size_t> currents;
   std::array<std::size_t, 3> field{};
   std::array<std::optional<std::size_t>, 3> place;
+  std::vector<std::size_t> planned;  // empty, or one for each current
 };
 
 std::optional<std::size_t> find(const std::vector<std::string_view>& names, std::string_view name) {
@@ -55,6 +56,10 @@ Columns read_header(const TextRows& rows, std::vector<std::string>& coils) {
     columns.field[k] = *at;
     columns.place[k] = find(names, place_columns[k]);
   }
+  for (const std::string& coil : coils)
+    if (const auto at = find(names, fmt::format("planned_{}_a", coil)))
+      columns.planned.push_back(*at);
+  if (columns.planned.size() != coils.size()) columns.planned.clear();
   return columns;
 }
 
@@ -80,6 +85,10 @@ FieldMeasurements parse_measurements(std::string_view text, std::string_view nam
     for (std::size_t i = 0; i < measured.coils.size(); ++i)
       row.currents[static_cast<Eigen::Index>(i)] =
           value(columns.currents[i], "current of " + measured.coils[i]);
+    row.planned.resize(static_cast<Eigen::Index>(columns.planned.size()));
+    for (std::size_t i = 0; i < columns.planned.size(); ++i)
+      row.planned[static_cast<Eigen::Index>(i)] =
+          value(columns.planned[i], "planned current of " + measured.coils[i]);
     for (std::size_t k = 0; k < 3; ++k) {
       const auto d = static_cast<Eigen::Index>(k);
       row.field[d] = value(columns.field[k], field_columns[k]);

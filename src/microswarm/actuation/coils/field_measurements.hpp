@@ -15,6 +15,8 @@ struct FieldMeasurement {
   Eigen::Vector3d place;     ///< [µm]
   Eigen::Vector3d field;     ///< measured by the probe [mT]
   int line = 0;              ///< line in the file
+  /// What was commanded [A], which a device may have limited; empty if it is not known.
+  Eigen::VectorXd planned{};
 };
 
 /// Measurements of one system.
@@ -25,7 +27,8 @@ struct FieldMeasurements {
 };
 
 /// Reads a CSV file with a header. Columns: `i_NAME_a` for the current of each coil; bx_mt, by_mt,
-/// bz_mt; and optionally x_um, y_um, z_um, which default to 0. Throws InputError "NAME:LINE: WHY".
+/// bz_mt; and optionally x_um, y_um, z_um, which default to 0, and `planned_NAME_a` for each coil.
+/// Throws InputError "NAME:LINE: WHY".
 FieldMeasurements read_measurements(const std::filesystem::path& path);
 /// Parses the same format from text.
 FieldMeasurements parse_measurements(std::string_view text, std::string_view name);

@@ -23,7 +23,9 @@ std::string header_for(const std::vector<std::string>& coils) {
       throw InputError(fmt::format("coil {} cannot be the name of a column", quote(coil)));
     header += fmt::format("i_{}_a,", coil);
   }
-  return header + "x_um,y_um,z_um,bx_mt,by_mt,bz_mt,readings,bx_sd_mt,by_sd_mt,bz_sd_mt";
+  header += "x_um,y_um,z_um,bx_mt,by_mt,bz_mt,readings,bx_sd_mt,by_sd_mt,bz_sd_mt";
+  for (const std::string& coil : coils) header += fmt::format(",planned_{}_a", coil);
+  return header;
 }
 
 bool is_row(std::string_view line) {
@@ -31,8 +33,8 @@ bool is_row(std::string_view line) {
   return !text.empty() && text.front() != '#';
 }
 
-std::string row_text(const Eigen::VectorXd& currents, const Eigen::Vector3d& place,
-                     const FieldReading& reading) {
+std::string row_text(const Eigen::VectorXd& currents, const Eigen::VectorXd& planned,
+                     const Eigen::Vector3d& place, const FieldReading& reading) {
   std::vector<std::string> cells;
   for (const double current : currents) cells.push_back(number_text(current + 0.0));  // no -0
   for (const double x : place) cells.push_back(number_text(x));
@@ -40,6 +42,7 @@ std::string row_text(const Eigen::VectorXd& currents, const Eigen::Vector3d& pla
   cells.push_back(std::to_string(reading.count));
   for (const double sd : reading.spread)
     cells.push_back(reading.count > 1 ? number_text(sd) : std::string());
+  for (const double current : planned) cells.push_back(number_text(current + 0.0));
   return fmt::format("{}", fmt::join(cells, ","));
 }
 
@@ -82,11 +85,12 @@ MeasurementLog::MeasurementLog(std::filesystem::path file, const std::vector<std
   if (rows > 0) measured_ = parse_measurements(text, file_.string());
 }
 
-void MeasurementLog::add(const Eigen::VectorXd& currents, const Eigen::Vector3d& place,
-                         const FieldReading& reading) {
-  lines_.push_back(row_text(currents, place, reading));
+void MeasurementLog::add(const Eigen::VectorXd& currents, const Eigen::VectorXd& planned,
+                         const Eigen::Vector3d& place, const FieldReading& reading) {
+  lines_.push_back(row_text(currents, planned, place, reading));
   write();
-  measured_.rows.push_back({currents, place, reading.mean, static_cast<int>(lines_.size())});
+  measured_.rows.push_back(
+      {currents, place, reading.mean, static_cast<int>(lines_.size()), planned});
 }
 
 void MeasurementLog::remove_last() {

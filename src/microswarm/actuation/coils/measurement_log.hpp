@@ -27,9 +27,10 @@ class MeasurementLog {
   MeasurementLog(std::filesystem::path file, const std::vector<std::string>& coils);
 
   const FieldMeasurements& measured() const { return measured_; }
-  /// Writes one more; throws InputError if that fails.
-  void add(const Eigen::VectorXd& currents, const Eigen::Vector3d& place,
-           const FieldReading& reading);
+  /// Writes one more, with the currents that the device had for those planned [A]; throws
+  /// InputError if that fails.
+  void add(const Eigen::VectorXd& currents, const Eigen::VectorXd& planned,
+           const Eigen::Vector3d& place, const FieldReading& reading);
   /// Takes back the last one, if there is one.
   void remove_last();
 

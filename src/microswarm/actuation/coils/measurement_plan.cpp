@@ -16,6 +16,7 @@ namespace {
 constexpr double share_of_held = 0.8;
 constexpr double unlimited = 1e9;    // [A]
 constexpr double same_place = 1e-3;  // [µm]
+constexpr double same_plan = 1e-6;   // [A]
 
 /// Rounded down to two significant digits, so that people read it and devices resolve it.
 double two_digits(double x) {
@@ -70,15 +71,15 @@ std::vector<MeasurementStep> measurement_plan(const CoilSystem& system,
 }
 
 std::vector<MeasurementStep> missing_steps(const std::vector<MeasurementStep>& steps,
-                                           const std::vector<FieldMeasurement>& rows,
-                                           double tolerance) {
+                                           const std::vector<FieldMeasurement>& rows) {
   std::vector<bool> used(rows.size());
   std::vector<MeasurementStep> missing;
   for (const MeasurementStep& step : steps) {
     std::size_t r = 0;
     const auto fits = [&](const FieldMeasurement& row) {
-      return (row.place - step.place).norm() <= same_place &&
-             (row.currents - step.currents).cwiseAbs().maxCoeff() <= tolerance;
+      return row.planned.size() == step.currents.size() &&
+             (row.place - step.place).norm() <= same_place &&
+             (row.planned - step.currents).cwiseAbs().maxCoeff() <= same_plan;
     };
     while (r < rows.size() && (used[r] || !fits(rows[r]))) ++r;
     if (r < rows.size())

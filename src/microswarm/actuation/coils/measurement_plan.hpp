@@ -31,9 +31,8 @@ std::vector<MeasurementStep> measurement_plan(const CoilSystem& system,
                                               const MeasurementPlanOptions& options);
 
 /// The steps that have no row of their own. A row belongs to a step if their positions are equal
-/// and their currents differ by at most `tolerance` [A].
+/// it was planned with this step's currents, whatever the device made of them.
 std::vector<MeasurementStep> missing_steps(const std::vector<MeasurementStep>& steps,
-                                           const std::vector<FieldMeasurement>& rows,
-                                           double tolerance);
+                                           const std::vector<FieldMeasurement>& rows);
 
 }  // namespace microswarm

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rig/probe_positions.hpp"
+
+#include <fmt/format.h>
+
+#include "microswarm/actuation/coils/text_rows.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
+#include "microswarm/core/text/lines.hpp"
+#include "microswarm/core/text/text.hpp"
+#include "rig/rig.hpp"
+#include "support/options.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+constexpr std::size_t max_positions = 1000;
+
+std::vector<Eigen::Vector3d> positions_in(const std::string& file) {
+  const std::string text = read_file(file, 1U << 20);
+  TextRows rows(text, file);
+  if (!rows.next() || rows.pieces(',') != std::vector<std::string_view>{"x_um", "y_um", "z_um"})
+    rows.fail("the header must be x_um,y_um,z_um");
+  std::vector<Eigen::Vector3d> places;
+  while (rows.next()) {
+    const std::vector<std::string_view> cells = rows.pieces(',');
+    if (cells.size() != 3) rows.fail(fmt::format("{} numbers, 3 expected", cells.size()));
+    Eigen::Vector3d place;
+    for (std::size_t k = 0; k < 3; ++k)
+      place[static_cast<Eigen::Index>(k)] = rows.number(cells[k], "position");
+    if (place.cwiseAbs().maxCoeff() > max_place)
+      rows.fail(fmt::format("position {} is beyond {:.6g} µm", triple_text(place), max_place));
+    places.push_back(place);
+  }
+  if (places.empty()) rows.fail("no positions follow the header");
+  return places;
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> positions_of(const std::string& given, const CoilSystem& system) {
+  if (given.empty()) return {system.centre()};
+  std::vector<Eigen::Vector3d> places;
+  for (const std::string_view one : split(given, ';')) {
+    const std::vector<double> v = numbers(one);
+    if (v.size() != 3) break;
+    places.emplace_back(v[0], v[1], v[2]);
+    if (places.back().cwiseAbs().maxCoeff() > max_place)
+      throw InputError(fmt::format("--positions: {} is beyond {:.6g} µm", quote(one), max_place));
+  }
+  if (places.size() != split(given, ';').size()) places = positions_in(given);
+  if (places.size() > max_positions)
+    throw InputError(
+        fmt::format("--positions: {} positions, at most {}", places.size(), max_positions));
+  return places;
+}
+
+}  // namespace microswarm::cli

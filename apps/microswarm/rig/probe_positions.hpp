@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "microswarm/actuation/coils/coil_system.hpp"
+
+namespace microswarm::cli {
+
+/// Positions of a probe [µm] in "X,Y,Z;X,Y,Z" or in a CSV file; the system's centre without any.
+/// Throws InputError.
+std::vector<Eigen::Vector3d> positions_of(const std::string& given, const CoilSystem& system);
+
+}  // namespace microswarm::cli
