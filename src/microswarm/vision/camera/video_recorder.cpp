@@ -146,6 +146,8 @@ class VideoRecorder::Writer {
     std::fputs("frame,camera_frame,t_s\n", times_.get());
     thread_ = std::thread([this] { run(); });
   }
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
   ~Writer() {
     const bool unfinished = thread_.joinable();
     join();
