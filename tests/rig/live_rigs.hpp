@@ -15,6 +15,7 @@
 #include "microswarm/rig/runtime/live_rig.hpp"
 #include "microswarm/rig/runtime/realtime_rig_simulator.hpp"
 #include "microswarm/rig/simulation/simulated_rig.hpp"
+#include "microswarm/vision/image/threads.hpp"
 #include "tests/cases.hpp"
 
 namespace microswarm::test {
@@ -137,6 +138,7 @@ class TroubledCamera : public FrameSource {
 class LiveRigs : public ::testing::Test {
  protected:
   LiveRigs() {
+    set_picture_threads(1);  // as `rig run`; the sanitizer knows nothing of OpenCV's own
     const std::filesystem::path scenarios =
         std::filesystem::path(MICROSWARM_SOURCE_DIR) / "scenarios";
     scene = load_scene(read_scenario(scenarios / "papers/radar/single.yaml"), scenarios);
