@@ -327,6 +327,7 @@ TEST_F(RigOperation, WithoutATerminalItSaysHowToStop) {
 TEST_F(RigOperation, ASuspendedComputerIsNotDrivenOn) {
   write("asleep", "0");
   at.environment = {{"LD_PRELOAD", MICROSWARM_FAKE_SUSPEND},
+                    {"ASAN_OPTIONS", "verify_asan_link_order=0"},
                     {"FAKE_SUSPEND", (at.folder / "asleep").string()}};
   Program program(arguments({"--other-stop", "--seconds", "60"}), at);
   let_drive(700);
@@ -343,6 +344,7 @@ TEST_F(RigOperation, ASuspendedComputerIsNotDrivenOn) {
 TEST_F(RigOperation, NorByHand) {
   write("asleep", "0");
   at.environment = {{"LD_PRELOAD", MICROSWARM_FAKE_SUSPEND},
+                    {"ASAN_OPTIONS", "verify_asan_link_order=0"},
                     {"FAKE_SUSPEND", (at.folder / "asleep").string()}};
   Program program({"rig", "drive", "rig.yaml", "--other-stop", "--coils-cold", "--currents",
                    "2,0,0", "--seconds", "60"},
