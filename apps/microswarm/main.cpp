@@ -30,6 +30,9 @@ int main(int argc, char** argv) {
   cli::add_replay(app, action);
   cli::add_report(app, action);
   cli::add_rig(app, action);
+#ifdef MICROSWARM_HAS_LAB
+  cli::add_lab(app, action);
+#endif
 #ifdef MICROSWARM_HAS_LEARNING
   cli::add_learn(app, action);
 #endif

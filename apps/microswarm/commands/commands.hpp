@@ -18,6 +18,7 @@ void add_export(Command app, Action& action);
 void add_map(Command app, Action& action);
 void add_track(Command app, Action& action);
 void add_rig(Command app, Action& action);
+void add_lab(Command app, Action& action);
 void add_learn(Command app, Action& action);
 void add_reproduce(Command app, Action& action);
 void add_bench(Command app, Action& action);

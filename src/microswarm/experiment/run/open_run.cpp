@@ -59,6 +59,8 @@ Issues validate_change(Scenario scenario, const World& world, std::string_view k
 
 }  // namespace
 
+std::span<const std::string_view> changeable_keys() { return changeable; }
+
 OpenRun::OpenRun(Scenario scenario, World world, std::unique_ptr<Plant> plant, std::uint32_t trial,
                  std::unique_ptr<Navigator> navigator)
     : scenario_(std::move(scenario)),

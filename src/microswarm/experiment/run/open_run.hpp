@@ -17,6 +17,9 @@
 
 namespace microswarm {
 
+/// Keys of a scenario that OpenRun::change sets, with all that is within them.
+std::span<const std::string_view> changeable_keys();
+
 /// One trial of a scenario in progress: plant, navigator and episode. It advances only when
 /// stepped, and can be changed between ticks.
 class OpenRun {

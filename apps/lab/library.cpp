@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/library.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "microswarm/config/yaml.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/text.hpp"
+
+namespace microswarm::lab {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t max_entries = 2000;
+
+/// Value of a key at the beginning of a line of a scenario; folded lines are joined.
+std::string top_value(std::istream& file, std::string_view key) {
+  file.clear();
+  file.seekg(0);
+  std::string value;
+  bool is_in = false;
+  for (std::string line; std::getline(file, line);) {
+    if (is_in && (line.empty() || line[0] != ' ')) break;
+    if (is_in) {
+      value += (value.empty() ? "" : " ") + line.substr(std::min(line.find_first_not_of(' '), line.size()));
+    } else if (line.starts_with(key) && line.size() > key.size() && line[key.size()] == ':') {
+      value = line.substr(std::min(line.find_first_not_of(' ', key.size() + 1), line.size()));
+      if (value.starts_with('>') || value.starts_with('|')) value.clear();
+      is_in = true;
+    }
+  }
+  return printable(value);
+}
+
+bool is_within(const fs::path& file, const fs::path& folder) {
+  const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
+  return end == folder.end() && rest != file.end();
+}
+
+}  // namespace
+
+Library::Library(std::vector<fs::path> folders) {
+  for (const fs::path& folder : folders) {
+    std::error_code error;
+    fs::path real = fs::canonical(folder, error);
+    if (error) throw InputError(fmt::format("{}: {}", folder.string(), error.message()));
+    folders_.push_back(std::move(real));
+  }
+}
+
+std::vector<Entry> Library::entries() const {
+  std::vector<Entry> list;
+  for (const fs::path& folder : folders_) {
+    std::error_code error;
+    for (fs::recursive_directory_iterator it(folder, error), end; it != end && !error;
+         it.increment(error)) {
+      if (list.size() >= max_entries) break;
+      if (it.depth() > 6) it.disable_recursion_pending();
+      const fs::path& file = it->path();
+      if (!it->is_regular_file(error)) continue;
+      if (file.extension() == ".h5") {
+        list.push_back({file.string(), file.stem().string(), "Record."});
+      } else if (file.extension() == ".yaml") {
+        std::ifstream text(file);
+        if (top_value(text, "map").empty()) continue;
+        list.push_back({file.string(), top_value(text, "name"), top_value(text, "description")});
+      }
+    }
+  }
+  std::ranges::sort(list, {}, &Entry::file);
+  return list;
+}
+
+fs::path Library::find(std::string_view file) const {
+  std::error_code error;
+  const fs::path real = fs::canonical(fs::path(file), error);
+  for (const fs::path& folder : folders_)
+    if (!error && is_within(real, folder) && fs::is_regular_file(real, error)) return real;
+  throw InputError(fmt::format("{}: no such file in the folders of this lab", one_line(file)));
+}
+
+}  // namespace microswarm::lab

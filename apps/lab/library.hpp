@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace microswarm::lab {
+
+/// A scenario or record that can be opened.
+struct Entry {
+  std::string file;  ///< its name for open requests
+  std::string name;
+  std::string description;
+};
+
+/// The folders whose files the lab lists and opens. A file elsewhere does not exist for it.
+class Library {
+ public:
+  explicit Library(std::vector<std::filesystem::path> folders);
+
+  /// The scenarios (.yaml with a map) and records (.h5), sorted by name of file.
+  std::vector<Entry> entries() const;
+  /// The file of that name. Throws InputError if it is not in one of the folders, links followed.
+  std::filesystem::path find(std::string_view file) const;
+
+ private:
+  std::vector<std::filesystem::path> folders_;
+};
+
+}  // namespace microswarm::lab

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/request.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/text.hpp"
+
+namespace microswarm::lab {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int max_depth = 2;  // an object with a list of texts
+constexpr std::size_t max_settings = 1000;
+
+[[noreturn]] void refuse(std::string_view key, const char* wanted) {
+  throw InputError(fmt::format("message: {} is not {}", quote(key), wanted));
+}
+
+Json parsed(std::string_view text) {
+  if (text.size() > max_request_size)
+    throw InputError(fmt::format("message: {} bytes, at most {}", text.size(), max_request_size));
+  bool is_deep = false;
+  const auto shallow = [&](int depth, Json::parse_event_t event, const Json&) {
+    const bool begins =
+        event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
+    is_deep |= begins && depth >= max_depth;
+    return !is_deep;
+  };
+  Json json = Json::parse(text, shallow, /*allow_exceptions=*/false);
+  if (is_deep) throw InputError("message: nested too deeply");
+  if (!json.is_object()) throw InputError("message: not a JSON object");
+  return json;
+}
+
+double number_in(const std::string& key, const Json& value) {
+  if (!value.is_number() || !std::isfinite(value.get<double>())) refuse(key, "a number");
+  return value.get<double>();
+}
+
+std::string text_in(const std::string& key, const Json& value) {
+  if (!value.is_string()) refuse(key, "a text");
+  return value.get<std::string>();
+}
+
+Ask ask_in(const std::string& key, const Json& value) {
+  const std::string word = text_in(key, value);
+  for (const auto& [ask, name] : enum_names(Ask{}))
+    if (name == word) return ask;
+  throw InputError(fmt::format("message: nothing is called {}", quote(word)));
+}
+
+std::vector<std::string> texts_in(const std::string& key, const Json& value) {
+  if (!value.is_array() || value.size() > max_settings) refuse(key, "a list of texts");
+  std::vector<std::string> texts;
+  for (const Json& one : value) texts.push_back(text_in(key, one));
+  return texts;
+}
+
+}  // namespace
+
+Request read_request(std::string_view text) {
+  Request request;
+  bool asks = false;
+  const Json json = parsed(text);
+  for (const auto& [key, value] : json.items()) {
+    if (key == "id") {
+      if (!value.is_number_unsigned()) refuse(key, "a whole number");
+      request.id = value.get<std::uint64_t>();
+    } else if (key == "do") {
+      request.ask = ask_in(key, value);
+      asks = true;
+    } else if (key == "number") {
+      request.number = number_in(key, value);
+    } else if (key == "heading") {
+      request.heading = number_in(key, value);
+    } else if (key == "speed") {
+      request.speed = number_in(key, value);
+    } else if (key == "on") {
+      if (!value.is_boolean()) refuse(key, "true or false");
+      request.on = value.get<bool>();
+    } else if (key == "key") {
+      request.key = text_in(key, value);
+    } else if (key == "value") {
+      request.value = text_in(key, value);
+    } else if (key == "settings") {
+      request.settings = texts_in(key, value);
+    } else {
+      throw InputError(fmt::format("message: no key {}", quote(key)));
+    }
+  }
+  if (!asks) throw InputError("message: \"do\" is missing");
+  return request;
+}
+
+}  // namespace microswarm::lab

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace microswarm::lab {
+
+/// What a page asks of a session.
+enum class Ask {
+  play,     ///< goes on
+  pause,    ///< stands
+  step,     ///< one tick
+  speed,    ///< `number`: simulated seconds per second; 0: as fast as possible
+  seek,     ///< `number`: frame to look at
+  live,     ///< looks at the newest frame again
+  set,      ///< `key`, `value`: a scenario value, from the next tick on
+  restart,  ///< opens the experiment anew with `settings`
+  hold,     ///< `on`: the swarm holds, time goes on
+  manual,   ///< `on`: a person steers
+  steer,    ///< `heading` [rad], `speed` [µm/s]: by hand
+  end       ///< ends the run in order
+};
+constexpr auto enum_names(Ask) {
+  return std::array<std::pair<Ask, std::string_view>, 12>{{{Ask::play, "play"},
+                                                          {Ask::pause, "pause"},
+                                                          {Ask::step, "step"},
+                                                          {Ask::speed, "speed"},
+                                                          {Ask::seek, "seek"},
+                                                          {Ask::live, "live"},
+                                                          {Ask::set, "set"},
+                                                          {Ask::restart, "restart"},
+                                                          {Ask::hold, "hold"},
+                                                          {Ask::manual, "manual"},
+                                                          {Ask::steer, "steer"},
+                                                          {Ask::end, "end"}}};
+}
+
+/// One message of a page.
+struct Request {
+  std::uint64_t id = 0;  ///< given back in the answer
+  Ask ask = Ask::pause;
+  double number = 0;
+  double heading = 0;
+  double speed = 0;
+  bool on = false;
+  std::string key;
+  std::string value;
+  std::vector<std::string> settings;  ///< KEY=VALUE
+};
+
+/// Longest message that is read [bytes].
+inline constexpr std::size_t max_request_size = 256 * 1024;
+
+/// Reads a JSON object such as {"id": 3, "do": "set", "key": "goal_um", "value": "[1, 2]"}. Throws
+/// InputError in one line if it is not one, has another key, or a value of another type.
+Request read_request(std::string_view text);
+
+}  // namespace microswarm::lab

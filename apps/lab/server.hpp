@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lab/session_thread.hpp"
+#include "microswarm/core/execution/stop.hpp"
+
+namespace microswarm::lab {
+
+struct ServerOptions {
+  std::vector<std::filesystem::path> folders;  ///< whose files may be listed and opened
+  std::optional<Opening> opening{};            ///< shown first
+  std::string listen{};                        ///< address; empty: this computer alone
+  std::uint16_t port = 0;                      ///< 0: any that is free
+  std::size_t max_sessions = 8;
+  std::size_t max_pages = 64;
+};
+
+/// Serves the lab's page and its sessions by HTTP and WebSocket; docs/reference/lab-protocol.md
+/// describes both. Input and output have one thread, each session one of its own.
+class Server {
+ public:
+  /// Begins to listen. Throws InputError if the address or the port cannot be had.
+  explicit Server(ServerOptions options);
+  ~Server();
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  /// Address of the page with its token.
+  std::string url() const;
+  /// Serves until the stop is requested.
+  void run(const Stop& stop);
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace microswarm::lab

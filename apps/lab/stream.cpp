@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/stream.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "microswarm/config/write.hpp"
+
+namespace microswarm::lab {
+namespace {
+
+using Json = nlohmann::json;
+static_assert(std::endian::native == std::endian::little);
+
+/// Numbers as a byte string.
+template <class T>
+class Numbers {
+ public:
+  void add(T value) {
+    const auto bytes = std::bit_cast<std::array<std::uint8_t, sizeof(T)>>(value);
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+  }
+  void add(Vec2 p) {
+    add(static_cast<T>(p.x));
+    add(static_cast<T>(p.y));
+  }
+  Json take() { return Json::binary(std::move(bytes_)); }
+
+ private:
+  std::vector<std::uint8_t> bytes_;
+};
+using Floats = Numbers<float>;
+using Indices = Numbers<std::uint32_t>;
+
+Json points(std::span<const Vec2> list) {
+  Floats floats;
+  for (const Vec2 p : list) floats.add(p);
+  return floats.take();
+}
+
+Json indices(std::span<const std::uint32_t> list) {
+  Indices numbers;
+  for (const std::uint32_t i : list) numbers.add(i);
+  return numbers.take();
+}
+
+Json point(Vec2 p) { return {p.x, p.y}; }
+
+Json polygon(const Polygon& shape) {
+  Json holes = Json::array();
+  for (const auto& hole : shape.holes) holes.push_back(points(hole));
+  return {{"outer", points(shape.outer)}, {"holes", std::move(holes)}};
+}
+
+/// Discs as x, y, radius and number each, and polygons.
+Json bodies(std::span<const Body> list) {
+  Floats discs;
+  Json polygons = Json::array();
+  for (const Body& body : list) {
+    if (const auto* disc = std::get_if<Disc>(&body.shape)) {
+      discs.add(disc->centre);
+      discs.add(static_cast<float>(disc->radius));
+      discs.add(static_cast<float>(body.obstacle));
+    } else {
+      Json one = polygon(std::get<Polygon>(body.shape));
+      one["number"] = body.obstacle;
+      polygons.push_back(std::move(one));
+    }
+  }
+  return {{"discs", discs.take()}, {"polygons", std::move(polygons)}};
+}
+
+Json described(const std::string& json) { return Json::parse(json); }
+
+MessagePtr message(const Json& json, bool is_frame = false) {
+  auto made = std::make_shared<Message>();
+  Json::to_cbor(json, made->bytes);
+  made->is_frame = is_frame;
+  return made;
+}
+
+Json radar(const RadarScan& scan) {
+  Floats beams;
+  for (const RadarBeam& beam : scan.beams) {
+    beams.add(static_cast<float>(beam.heading));
+    beams.add(static_cast<float>(beam.fate));
+    beams.add(static_cast<float>(beam.score));
+  }
+  Json json{{"centre", point(scan.look.centre)},
+            {"radius", scan.look.radius},
+            {"prediction", scan.look.circles.prediction},
+            {"safety", scan.look.circles.safety},
+            {"detection", scan.look.circles.detection},
+            {"step", scan.look.step},
+            {"beams", beams.take()}};
+  if (scan.best) json["best"] = *scan.best;
+  if (scan.straight) json["straight"] = *scan.straight;
+  return json;
+}
+
+Json event(const RunEvent& happened) { return described(to_json_text(happened)); }
+
+std::string_view word(OperatingMode mode) {
+  switch (mode) {
+    case OperatingMode::autonomous: return "autonomous";
+    case OperatingMode::manual: return "manual";
+    case OperatingMode::paused: return "hold";
+  }
+  return {};
+}
+
+}  // namespace
+
+Row row_of(const Tick& tick) {
+  const Frame& frame = tick.frame;
+  return {.t = frame.t,
+          .clearance = std::min(frame.wall_clearance, frame.obstacle_clearance),
+          .cost = frame.avoidance_cost,
+          .goal_distance = frame.goal_distance,
+          .step_time = tick.step_time,
+          .speed = frame.command.speed,
+          .state = frame.state,
+          .planned = frame.planned};
+}
+
+MessagePtr hello_message(const Session& session, std::string_view name, std::string_view command) {
+  const Scenario& scenario = session.scenario();
+  const Map& map = session.map();
+  return message({{"type", "hello"},
+                  {"name", name},
+                  {"command", command},
+                  {"playback", session.is_playback()},
+                  {"scenario", described(to_json_text(scenario))},
+                  {"changeable", changeable_keys()},
+                  {"map",
+                   {{"lo", point(map.bounds().lo)},
+                    {"hi", point(map.bounds().hi)},
+                    {"walls", bodies(map.walls().bodies())}}}});
+}
+
+MessagePtr frame_message(const SessionView& view) {
+  Json json{{"type", "frame"},
+            {"number", view.number},
+            {"frame", described(to_json_text(view.frame))},
+            {"holding", view.holding},
+            {"bodies", bodies(view.bodies)},
+            {"robots", points(view.robots)},
+            {"path", points(view.path)},
+            {"plans", view.plans}};
+  if (view.target) json["target"] = point(*view.target);
+  if (view.radar) json["radar"] = radar(*view.radar);
+  return message(json, true);
+}
+
+MessagePtr plan_message(const SessionView& view) {
+  Floats nodes;
+  Indices parents;
+  for (const TreeNode& node : view.tree) {
+    nodes.add(node.position);
+    parents.add(node.parent);
+  }
+  Floats circles;
+  for (const Detection& found : view.detections) {
+    circles.add(found.circle.centre);
+    circles.add(static_cast<float>(found.circle.radius));
+  }
+  return message({{"type", "plan"},
+                  {"plans", view.plans},
+                  {"nodes", nodes.take()},
+                  {"parents", parents.take()},
+                  {"detections", circles.take()}});
+}
+
+MessagePtr aggregation_message(const AggregationView& view) {
+  Json regions = Json::array();
+  for (const Region& region : view.segmentation.regions)
+    regions.push_back({{"junction", point(region.junction)},
+                       {"gate", region.gate},
+                       {"next", region.next},
+                       {"branches", region.branches}});
+  return message({{"type", "aggregation"},
+                  {"nodes", points(view.nodes)},
+                  {"next", indices(view.next)},
+                  {"region", indices(view.segmentation.region)},
+                  {"branch", indices(view.segmentation.branch)},
+                  {"regions", std::move(regions)}});
+}
+
+MessagePtr rows_message(std::span<const Row> rows, std::span<const RunEvent> events, bool anew) {
+  Numbers<double> numbers;
+  for (const Row& row : rows)
+    for (const double value :
+         {row.t, row.clearance, row.cost, row.goal_distance, row.step_time, row.speed,
+          static_cast<double>(row.state), static_cast<double>(row.planned)})
+      numbers.add(value);
+  Json list = Json::array();
+  for (const RunEvent& happened : events) list.push_back(event(happened));
+  return message({{"type", "rows"},
+                  {"anew", anew},
+                  {"columns",
+                   {"t_s", "clearance_um", "avoidance_cost", "goal_distance_um", "step_time_s",
+                    "speed_um_per_s", "state", "planned"}},
+                  {"rows", numbers.take()},
+                  {"events", std::move(list)}});
+}
+
+MessagePtr standing_message(const Standing& standing, const RunResult& result) {
+  return message({{"type", "standing"},
+                  {"plays", standing.plays},
+                  {"speed", standing.speed},
+                  {"looks_back", standing.looks_back},
+                  {"frame", standing.frame},
+                  {"frames", standing.frames},
+                  {"ended", standing.ended},
+                  {"mode", word(standing.mode)},
+                  {"changes", standing.changes},
+                  {"status", to_string(result.status)},
+                  {"state", result.state},
+                  {"metrics", described(to_json_text(result.metrics))}});
+}
+
+MessagePtr answer_message(std::uint64_t id, const Issues& issues) {
+  Json list = Json::array();
+  for (const Issue& issue : issues) list.push_back({{"keys", issue.keys}, {"text", issue.text}});
+  return message({{"type", "answer"}, {"id", id}, {"issues", std::move(list)}});
+}
+
+}  // namespace microswarm::lab

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lab/request.hpp"
+#include "microswarm/core/errors/issue.hpp"
+#include "microswarm/session/session.hpp"
+
+namespace microswarm::lab {
+
+/// One message to a page: a CBOR map whose key `type` names it; docs/reference/lab-protocol.md
+/// lists them. Positions are byte strings of little-endian floats, x and y in turn [µm].
+struct Message {
+  std::string bytes;
+  bool is_frame = false;  ///< a slow page needs only the newest one
+};
+using MessagePtr = std::shared_ptr<const Message>;
+
+/// A tick's numbers for plots, kept of every tick.
+struct Row {
+  double t = 0;              ///< [s]
+  double clearance = 0;      ///< to walls and obstacles [µm]
+  double cost = 0;           ///< δ
+  double goal_distance = 0;  ///< [µm]
+  double step_time = 0;      ///< of the navigator [s]
+  double speed = 0;          ///< commanded [µm/s]
+  NavigatorState state = NavigatorState::hold;
+  bool planned = false;
+};
+Row row_of(const Tick& tick);
+
+/// How a session stands.
+struct Standing {
+  bool plays = false;
+  double speed = 1;         ///< simulated seconds per second; 0: as fast as possible
+  bool looks_back = false;  ///< at an earlier frame
+  std::uint64_t frame = 0;  ///< number of the shown frame
+  std::uint64_t frames = 0;
+  bool ended = false;
+  OperatingMode mode = OperatingMode::autonomous;
+  std::vector<std::string> changes;  ///< since the start, KEY=VALUE
+};
+
+/// What a page needs once: scenario, map, what can be changed while it runs.
+MessagePtr hello_message(const Session& session, std::string_view name, std::string_view command);
+MessagePtr frame_message(const SessionView& view);
+MessagePtr plan_message(const SessionView& view);
+MessagePtr aggregation_message(const AggregationView& view);
+MessagePtr rows_message(std::span<const Row> rows, std::span<const RunEvent> events, bool anew);
+MessagePtr standing_message(const Standing& standing, const RunResult& result);
+/// The answer to a request; the issues say why it was not done.
+MessagePtr answer_message(std::uint64_t id, const Issues& issues);
+
+}  // namespace microswarm::lab

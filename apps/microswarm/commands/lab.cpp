@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdlib>
+#include <memory>
+
+#include "commands/commands.hpp"
+#include "lab/server.hpp"
+#include "microswarm/core/errors/error.hpp"
+
+namespace microswarm::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct LabOptions {
+  std::string file;
+  std::vector<std::string> settings;
+  std::vector<std::string> folders;
+  std::string listen;
+  int port = 0;
+  bool no_open = false;
+};
+
+/// The shipped scenarios: of a checkout, of an installation, or none.
+std::vector<fs::path> shipped_scenarios() {
+  std::error_code error;
+  const fs::path bin = fs::read_symlink("/proc/self/exe", error).parent_path();
+  for (const fs::path& folder :
+       {bin / "../share/microswarm/scenarios", bin / "../../../scenarios"})
+    if (fs::is_directory(folder, error)) return {folder};
+  return {};
+}
+
+/// Opens the address in the person's browser, if there are a display and a program that does it.
+void open_in_browser(const std::string& url) {
+  if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return;
+  const std::string command = "xdg-open '" + url + "' >/dev/null 2>&1 &";
+  if (std::system(command.c_str()) != 0) return;  // The address is printed in any case.
+}
+
+int lab_command(const LabOptions& o, const Context& context) {
+  lab::ServerOptions options;
+  options.folders = shipped_scenarios();
+  for (const std::string& folder : o.folders) options.folders.emplace_back(folder);
+  options.listen = o.listen;
+  options.port = static_cast<std::uint16_t>(o.port);
+  if (!o.file.empty()) {
+    lab::Opening opening{.file = o.file};
+    opening.options.settings = o.settings;
+    reading([&] { return open_session(opening.file, opening.options); });
+    options.opening = std::move(opening);
+  } else if (!o.settings.empty()) {
+    throw InputError("--set: there is no scenario whose values could be set");
+  }
+  lab::Server server(std::move(options));
+  if (!o.listen.empty())
+    note("warning: anybody who reaches {} and has the token can use this lab\n",
+                o.listen);
+  print("{}\n", server.url());
+  flush_output();
+  if (!o.no_open) open_in_browser(server.url());
+  server.run(context.stop);
+  return complete;
+}
+
+}  // namespace
+
+void add_lab(Command app, Action& action) {
+  auto o = std::make_shared<LabOptions>();
+  Command cmd = app.add_command("lab", "See, touch and stop experiments in a browser",
+                                "lab scenarios/papers/radar/twelve.yaml");
+  cmd.add_option("file", o->file, "Scenario (YAML) or record (run.h5) to begin with")
+      .type_name("FILE");
+  add_settings(cmd, o->settings, "Override a scenario value (repeatable)");
+  cmd.add_option("--folder", o->folders,
+                 "Folder whose scenarios and records are listed, beside the shipped ones")
+      .type_name("FOLDER")
+      .repeatable();
+  cmd.add_option("--port", o->port, "Port of the page; 0: any that is free")
+      .type_name("NUMBER")
+      .check(whole(0, 65535));
+  cmd.add_option("--listen", o->listen,
+                 "Address to listen at, for other computers; otherwise this one alone")
+      .type_name("ADDRESS");
+  cmd.add_flag("--no-open", o->no_open, "Do not open the browser");
+  cmd.callback(
+      [o, &action] { action = [o](const Context& context) { return lab_command(*o, context); }; });
+}
+
+}  // namespace microswarm::cli

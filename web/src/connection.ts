@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+import { type Answer, type Message, type Request, read } from './protocol';
+
+/** Asks the server; an error has the server's words. */
+export async function call<T>(method: 'GET' | 'POST', path: string, body?: unknown): Promise<T> {
+  const response = await fetch(path, {
+    method,
+    ...(body === undefined ? {} : { body: JSON.stringify(body) }),
+  });
+  const json = await response.json();
+  if (!response.ok) throw new Error(json.error ?? response.statusText);
+  return json as T;
+}
+
+type Listener = (message: Message) => void;
+
+/** The stream of a session. */
+export class Connection {
+  private readonly socket: WebSocket;
+  private readonly waiting = new Map<number, (answer: Answer) => void>();
+  private readonly listeners: Listener[] = [];
+  private next = 1;
+
+  constructor(session: number, onClose: () => void) {
+    const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
+    this.socket = new WebSocket(`${scheme}://${location.host}/api/stream/${session}`);
+    this.socket.binaryType = 'arraybuffer';
+    this.socket.onmessage = (event) => this.take(read(event.data as ArrayBuffer));
+    this.socket.onclose = onClose;
+  }
+
+  listen(listener: Listener): void {
+    this.listeners.push(listener);
+  }
+
+  /** Sends a request; its answer says what is wrong with it, if anything. */
+  ask(request: Request): Promise<Answer> {
+    const id = this.next++;
+    return new Promise((resolve) => {
+      this.waiting.set(id, resolve);
+      this.socket.send(JSON.stringify({ id, ...request }));
+    });
+  }
+
+  close(): void {
+    this.socket.onclose = null;
+    this.socket.close();
+  }
+
+  private take(message: Message): void {
+    if (message.type === 'answer') {
+      this.waiting.get(message.id)?.(message);
+      this.waiting.delete(message.id);
+    }
+    for (const listener of this.listeners) listener(message);
+  }
+}

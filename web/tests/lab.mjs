@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// A lab and a browser for tests. Whatever the page complains of, or asks of another host, fails.
+import assert from 'node:assert/strict';
+import { spawn } from 'node:child_process';
+import { mkdirSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { chromium } from 'playwright-core';
+
+export const root = join(dirname(fileURLToPath(import.meta.url)), '../..');
+const program = process.env.MICROSWARM ?? join(root, 'build/release/bin/microswarm');
+const pictures = join(root, 'build/web');
+
+/** Starts `microswarm lab`: { url, kill(signal) }. */
+export async function startLab(...options) {
+  const lab = spawn(program, ['lab', '--no-open', ...options], { cwd: root });
+  let said = '';
+  lab.stderr.on('data', (text) => (said += text));
+  const ended = new Promise((resolve) => lab.on('exit', resolve));
+  const url = await new Promise((resolve, reject) => {
+    let text = '';
+    lab.stdout.on('data', (more) => {
+      text += more;
+      if (text.includes('\n')) resolve(text.split('\n')[0]);
+    });
+    ended.then((code) => reject(new Error(`the lab ended with ${code}: ${said}`)));
+  });
+  return {
+    url,
+    process: lab,
+    /** Ends it; its exit code. */
+    stop: async (signal = 'SIGINT') => {
+      lab.kill(signal);
+      return ended;
+    },
+  };
+}
+
+export function startBrowser() {
+  return chromium.launch({
+    executablePath: '/usr/bin/chromium',
+    args: [
+      '--no-sandbox',
+      '--no-first-run',
+      '--disable-background-networking',
+      '--disable-component-update',
+      '--disable-sync',
+      '--use-angle=swiftshader',
+      '--enable-unsafe-swiftshader',
+    ],
+  });
+}
+
+/** A page of the lab; close() fails if there was an error or a request to elsewhere. */
+export async function openPage(browser, url, size = { width: 1280, height: 800 }) {
+  const context = await browser.newContext({ viewport: size, acceptDownloads: true });
+  const page = await context.newPage();
+  const complaints = [];
+  page.on('console', (message) => {
+    if (message.type() === 'error') complaints.push(message.text());
+  });
+  page.on('pageerror', (error) => complaints.push(error.message));
+  const host = new URL(url).host;
+  page.on('request', (request) => {
+    const to = new URL(request.url());
+    if (!['blob:', 'data:'].includes(to.protocol) && to.host !== host)
+      complaints.push(`a request to ${to.host}`);
+  });
+  await page.goto(url);
+  return {
+    page,
+    complaints,
+    picture: (name) => {
+      mkdirSync(pictures, { recursive: true });
+      return page.screenshot({ path: join(pictures, `${name}.png`) });
+    },
+    close: async () => {
+      await context.close();
+      assert.deepEqual(complaints, []);
+    },
+  };
+}
