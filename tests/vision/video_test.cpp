@@ -12,6 +12,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
+#include "microswarm/vision/camera/video_file_writer.hpp"
 #include "microswarm/vision/tracking/track_overlay.hpp"
 #include "microswarm/vision/tracking/video_tracker.hpp"
 #include "tests/files.hpp"

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "microswarm/experiment/record/record.hpp"
+#include "microswarm/report/run_video.hpp"
 #include "support/options.hpp"
 
 namespace microswarm::cli {
@@ -24,13 +25,40 @@ int replay_command(const std::string& file, bool json, const Context& context) {
   return result.identical ? ok : not_reached;
 }
 
-int report_command(const std::string& file, const std::string& out, const PhotoOptions& photo) {
-  const Record record = read_record(file);
-  const ReportOptions options = report_options(photo);
-  const OutFolder hold(out);
-  write_run_report(record, out, options);
-  print("wrote {}/index.html\n", out);
-  return ok;
+struct ReportCommand {
+  std::string file;
+  std::string out;
+  std::string video;
+  double speed = 1;
+  double fps = 30;
+  int width = 1280;
+  PhotoOptions photo;
+};
+
+int write_video(const ReportCommand& o, const Record& record, const ReportOptions& options,
+                const Context& context) {
+  const RunVideo video = write_run_video(record, o.video,
+                                         {.speed = o.speed,
+                                          .rate = o.fps,
+                                          .width = o.width,
+                                          .report = options,
+                                          .progress = progress_bars()},
+                                         context.stop);
+  if (video.pictures > 0) print("wrote {}: {} pictures\n", video.file.string(), video.pictures);
+  return video.stopped ? ok : complete;
+}
+
+/// The report, unless only a video is asked for.
+int report_command(const ReportCommand& o, const Context& context) {
+  const Record record = read_record(o.file);
+  const ReportOptions options = report_options(o.photo);
+  if (o.video.empty() || !o.out.empty()) {
+    const std::string out = o.out.empty() ? "report" : o.out;
+    const OutFolder hold(out);
+    write_run_report(record, out, options);
+    print("wrote {}/index.html\n", out);
+  }
+  return o.video.empty() ? ok : write_video(o, record, options, context);
 }
 
 }  // namespace
@@ -49,17 +77,34 @@ void add_replay(Command app, Action& action) {
 }
 
 void add_report(Command app, Action& action) {
-  auto file = std::make_shared<std::string>();
-  auto out = std::make_shared<std::string>("report");
-  auto photo = std::make_shared<PhotoOptions>();
-  Command cmd =
-      app.add_command("report", "Write the report of a record: pictures and an HTML page",
-                      "report out/first/run.h5 --out out/report --photo photo.jpg --um-per-px 6");
-  cmd.add_option("record", *file, "Record of a run (run.h5)").required().type_name("FILE");
-  cmd.add_option("--out", *out, "Output folder (default: report)").type_name("FOLDER");
-  add_photo(cmd, *photo);
-  cmd.callback([=, &action] {
-    action = [=](const Context&) { return report_command(*file, *out, *photo); };
+  auto o = std::make_shared<ReportCommand>();
+  Command cmd = app.add_command(
+      "report", "Write the report of a record: pictures and an HTML page, or a video",
+      "report out/first/run.h5 --video out/first/run.mp4 --speed 4");
+  cmd.add_option("record", o->file, "Record of a run (run.h5)").required().type_name("FILE");
+  cmd.add_option("--out", o->out, "Output folder (default: report, or none with --video)")
+      .type_name("FOLDER");
+  cmd.add_option("--video", o->video, "Video of the run to write")
+      .type_name("FILE")
+      .check(file_kind({".mp4", ".mkv", ".avi"}));
+  cmd.add_option("--speed", o->speed, "Seconds of the run per second of the video")
+      .type_name("NUMBER")
+      .needs("--video")
+      .check(number(1e-3, 1e4))
+      .capture_default();
+  cmd.add_option("--fps", o->fps, "Pictures of the video per second")
+      .type_name("NUMBER")
+      .needs("--video")
+      .check(number(1, 240))
+      .capture_default();
+  cmd.add_option("--width", o->width, "Width of the video in pixels")
+      .type_name("NUMBER")
+      .needs("--video")
+      .check(whole(160, 7680))
+      .capture_default();
+  add_photo(cmd, o->photo);
+  cmd.callback([o, &action] {
+    action = [o](const Context& context) { return report_command(*o, context); };
   });
 }
 

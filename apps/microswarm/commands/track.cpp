@@ -9,6 +9,7 @@
 #include "commands/track_suggest.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/vision/camera/video_file_writer.hpp"
 #include "microswarm/vision/tracking/track_overlay.hpp"
 #include "support/options.hpp"
 

@@ -85,10 +85,11 @@ struct Picture::Impl {
   cairo_surface_t* recording;
   cairo_t* cr;
   std::vector<LegendEntry> entries;
-  std::vector<Box> texts;  // positions of the texts [px]
+  std::vector<Box> texts;             // positions of the texts [px]
+  cairo_surface_t* pixels = nullptr;  // of the drawing, made when another picture asks for it
 
-  Impl(const Box& v, std::string_view t, double pixels)
-      : view(v), title(t), scale(pixels / std::max(v.width(), v.height())) {
+  Impl(const Box& v, std::string_view t, double longer_side)
+      : view(v), title(t), scale(longer_side / std::max(v.width(), v.height())) {
     width = v.width() * scale + 2 * picture_margin;
     height = v.height() * scale + picture_margin + top() + foot_height;
     recording = cairo_recording_surface_create(CAIRO_CONTENT_COLOR_ALPHA, nullptr);
@@ -99,6 +100,7 @@ struct Picture::Impl {
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
   }
   ~Impl() {
+    if (pixels) cairo_surface_destroy(pixels);
     cairo_destroy(cr);
     cairo_surface_destroy(recording);
   }
@@ -277,6 +279,21 @@ void Picture::photo(const Image& image, double um_per_px, double fade) {
   cairo_surface_destroy(surface);
 }
 
+void Picture::ground(const Picture& other) {
+  Impl& from = *other.impl_;
+  if (!from.pixels) {
+    const Vec2 size = from.size();
+    from.pixels = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, static_cast<int>(size.x),
+                                             static_cast<int>(size.y));
+    cairo_t* out = cairo_create(from.pixels);
+    cairo_set_source_surface(out, from.recording, 0, 0);
+    cairo_paint(out);
+    cairo_destroy(out);
+  }
+  cairo_set_source_surface(impl_->cr, from.pixels, 0, 0);
+  cairo_paint(impl_->cr);
+}
+
 void Picture::walls(const Map& map, Colour fill, Colour edge) {
   for (const Body& body : map.walls().bodies()) {
     impl_->fill(body, fill);
@@ -366,6 +383,32 @@ void Picture::text(Vec2 at, std::string_view text, Colour colour, double size_px
 
 void Picture::legend(std::string_view label, Colour colour, bool round) {
   impl_->add_to_key(label, colour, round);
+}
+
+Image Picture::raster() const {
+  const Vec2 size = impl_->size();
+  const auto even = [](double side) { return (static_cast<int>(side) + 1) / 2 * 2; };
+  Image image{even(size.x), even(size.y), 3, {}};
+  cairo_surface_t* surface =
+      cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width, image.height);
+  cairo_t* out = cairo_create(surface);
+  cairo_set_source_rgba(out, 1, 1, 1, 1);
+  cairo_paint(out);
+  impl_->finish(out);
+  cairo_destroy(out);
+  cairo_surface_flush(surface);
+  image.pixels.reserve(image.index(0, image.height));
+  const unsigned char* data = cairo_image_surface_get_data(surface);
+  const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface));
+  for (int row = 0; row < image.height; ++row) {
+    const auto* line =
+        reinterpret_cast<const std::uint32_t*>(data + static_cast<std::size_t>(row) * stride);
+    for (int column = 0; column < image.width; ++column)
+      for (const int shift : {16, 8, 0})
+        image.pixels.push_back(static_cast<std::uint8_t>(line[column] >> shift));
+  }
+  cairo_surface_destroy(surface);
+  return image;
 }
 
 void Picture::write(const std::filesystem::path& path) const {

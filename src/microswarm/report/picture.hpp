@@ -64,6 +64,8 @@ class Picture {
   /// Draws a photograph as background, `um_per_px` µm per pixel, its lower left corner at the
   /// origin; `fade` in [0, 1] whitens it.
   void photo(const Image& image, double um_per_px, double fade = 0);
+  /// Draws what is in another picture of the same view and size, as pixels, which are made once.
+  void ground(const Picture& other);
   void walls(const Map& map, Colour fill = colours::wall, Colour edge = colours::wall_edge);
   void bodies(std::span<const Body> bodies, Colour fill = colours::obstacle);
   void tree(std::span<const TreeNode> tree, Colour colour = colours::tree);
@@ -79,6 +81,8 @@ class Picture {
   /// Adds an entry to the legend, which has as many lines as needed.
   void legend(std::string_view label, Colour colour, bool round = false);
 
+  /// The finished picture as pixels, its sides rounded up to even numbers, as videos need.
+  Image raster() const;
   /// Writes the finished picture; throws InputError unless the extension is .png, .svg or .pdf. Can
   /// be called repeatedly.
   void write(const std::filesystem::path& path) const;

@@ -14,11 +14,10 @@
 #include "microswarm/report/map_background.hpp"
 #include "microswarm/report/page.hpp"
 #include "microswarm/report/plot.hpp"
+#include "microswarm/report/robot_marks.hpp"
 
 namespace microswarm {
 namespace {
-
-constexpr std::size_t max_numbered = 8;  // robots with their own colour and number
 
 struct RobotsSubject {
   const Record& record;
@@ -26,44 +25,8 @@ struct RobotsSubject {
   World world;
   const Scenario& scenario() const { return record.scene.scenario; }
   std::string title() const { return title_of(record); }
-  bool few() const { return scenario().robots->starts.size() - 1 < max_numbered; }
+  bool few() const { return are_few(*scenario().robots); }
 };
-
-Colour colour_of(const RobotsSubject& s, std::size_t robot) {
-  return s.few() ? colours::robots[robot % colours::robots.size()] : colours::swarm;
-}
-
-/// Robots drawn as one spot because they would overlap.
-struct Pile {
-  Vec2 place;
-  int count = 0;
-};
-
-std::vector<Pile> piles_of(const std::vector<Vec2>& places, double spot) {
-  std::map<std::pair<int, int>, Pile> by_cell;
-  for (const Vec2 p : places) {
-    Pile& pile = by_cell[{static_cast<int>(p.x / spot), static_cast<int>(p.y / spot)}];
-    pile.place += p;
-    ++pile.count;
-  }
-  std::vector<Pile> piles;
-  piles.reserve(by_cell.size());
-  for (const auto& [cell, pile] : by_cell)
-    piles.push_back({pile.place / static_cast<double>(pile.count), pile.count});
-  return piles;
-}
-
-void draw_robots(Picture& picture, const RobotsSubject& s, const std::vector<Vec2>& places) {
-  if (s.few()) {
-    for (std::size_t i = 0; i < places.size(); ++i) picture.disc({places[i], 0}, colour_of(s, i));
-    return;
-  }
-  const Box& box = s.world.map->bounds();
-  const double pixel = std::max(box.width(), box.height()) / 1200;  // [µm] of the picture
-  for (const Pile& pile : piles_of(places, 6 * pixel))
-    picture.disc({pile.place, pixel * (3 + 0.8 * std::sqrt(pile.count))}, colours::swarm);
-  picture.legend("robots; a larger spot is a pile of them", colours::swarm, true);
-}
 
 /// Draws the paths of a few robots from the recorded moments.
 void draw_ways(Picture& picture, const RobotsSubject& s, double until) {
@@ -72,15 +35,8 @@ void draw_ways(Picture& picture, const RobotsSubject& s, double until) {
     std::vector<Vec2> way;
     for (const RobotMoment& m : s.record.robots)
       if (m.t <= until) way.push_back(m.places[i]);
-    picture.line(way, colour_of(s, i), 1.5);
+    picture.line(way, robot_colour(*s.scenario().robots, i), 1.5);
   }
-}
-
-void draw_goals(Picture& picture, const RobotsSubject& s) {
-  const Scenario& scenario = s.scenario();
-  for (std::size_t i = 0; i < scenario.robots->goals.size(); ++i)
-    picture.circle({scenario.robots->goals[i], scenario.goal_tolerance}, colour_of(s, i), 2);
-  if (scenario.goal) picture.mark(*scenario.goal, "goal", colours::goal);
 }
 
 void draw(const RobotsSubject& s, const RobotMoment& moment, const std::string& what,
@@ -88,8 +44,8 @@ void draw(const RobotsSubject& s, const RobotMoment& moment, const std::string& 
   Picture picture(s.world.map->bounds(), fmt::format("{}: {}", s.title(), what));
   draw_ground(picture, *s.world.map, s.options);
   draw_ways(picture, s, moment.t);
-  draw_robots(picture, s, moment.places);
-  draw_goals(picture, s);
+  draw_robot_marks(picture, s.record.scene.scenario, s.world.map->bounds(), moment.places);
+  draw_robot_goals(picture, s.record.scene.scenario);
   picture.write(file);
 }
 

@@ -35,24 +35,4 @@ class TrackOverlay {
 /// fifth of the width.
 double scale_bar_length(double width);
 
-/// Writes pictures to an MPEG-4 video file or, without a codec, to PNG files in a folder next to
-/// it, named like the file without extension. The file appears under its name on commit().
-class VideoFileWriter {
- public:
-  /// `rate` is in 1/s. Throws InputError "PATH: cannot write: REASON".
-  VideoFileWriter(std::filesystem::path file, double rate);
-  ~VideoFileWriter();
-  VideoFileWriter(const VideoFileWriter&) = delete;
-  VideoFileWriter& operator=(const VideoFileWriter&) = delete;
-
-  /// Appends a colour picture; all have one size.
-  void add(const Image& picture);
-  /// Ends the video; the path of the file or folder, or empty if there was no picture.
-  std::optional<std::filesystem::path> commit();
-
- private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
-};
-
 }  // namespace microswarm

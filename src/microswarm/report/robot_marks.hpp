@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "microswarm/experiment/scenario/scenario.hpp"
+#include "microswarm/report/picture.hpp"
+
+namespace microswarm {
+
+/// Whether each robot has a colour of its own.
+bool are_few(const RobotSwarmParams& robots);
+/// Colour of a robot: its own, or that of all.
+Colour robot_colour(const RobotSwarmParams& robots, std::size_t robot);
+
+/// Draws individually tracked robots at `places` [µm]. Many are drawn as piles: robots that would
+/// overlap are one spot, which grows with their number.
+void draw_robot_marks(Picture& picture, const Scenario& scenario, const Box& bounds,
+                      std::span<const Vec2> places);
+/// Draws the goal of all robots, or the goal of each with its tolerance.
+void draw_robot_goals(Picture& picture, const Scenario& scenario);
+
+}  // namespace microswarm

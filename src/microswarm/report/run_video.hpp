@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "microswarm/core/execution/progress.hpp"
+#include "microswarm/core/execution/stop.hpp"
+#include "microswarm/experiment/record/record.hpp"
+#include "microswarm/report/run_report.hpp"
+
+namespace microswarm {
+
+/// Options of a video of a run.
+struct RunVideoOptions {
+  double speed = 1;          ///< seconds of the run per second of the video
+  double rate = 30;          ///< pictures a second
+  int width = 1280;          ///< of a picture [px]; rounded up to an even number
+  ReportOptions report{};    ///< photograph beneath
+  BeginProgress progress{};  ///< display of the progress
+};
+
+/// Most pictures of a video.
+inline constexpr int max_video_pictures = 200'000;
+
+/// Result of `write_run_video`.
+struct RunVideo {
+  std::filesystem::path file;  ///< the video, or a folder of PNG files where there is no codec
+  int pictures = 0;
+  bool stopped = false;  ///< by the caller: the video ends early
+};
+
+/// Writes a run as video (.mp4, .mkv, .avi), with scale bar and time: walls, obstacles, the path
+/// travelled and planned, the swarm or the robots. Between two frames of the record the swarm moves
+/// on a straight line and obstacles as their motion says; robots stay where they were recorded
+/// last. Throws InputError if the record has no frames, the video would have more than
+/// max_video_pictures pictures, or the file cannot be written.
+RunVideo write_run_video(const Record& record, const std::filesystem::path& file,
+                         const RunVideoOptions& options = {}, const Stop& stop = {});
+
+}  // namespace microswarm

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/vision/camera/video_file_writer.hpp"
+
+#include <cstdio>
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
+#include "microswarm/vision/image/mat.hpp"
+
+namespace microswarm {
+
+struct VideoFileWriter::Parts {
+  Parts(std::filesystem::path path, double pictures_a_second)
+      : file(std::move(path)), rate(pictures_a_second), staged(std::in_place, file) {}
+
+  /// False if there is neither codec.
+  bool open(cv::Size size) {
+    for (const int codec :
+         {cv::VideoWriter::fourcc('a', 'v', 'c', '1'), cv::VideoWriter::fourcc('m', 'p', '4', 'v')})
+      if (video.open(staged->path().string(), cv::CAP_FFMPEG, codec, rate, size)) return true;
+    return false;
+  }
+
+  std::filesystem::path file;
+  double rate;
+  std::optional<StagedFile> staged;  ///< empty if there is no codec
+  cv::VideoWriter video;
+  cv::Mat bgr;
+  int pictures = 0;
+};
+
+VideoFileWriter::VideoFileWriter(std::filesystem::path file, double rate)
+    : parts_(std::make_unique<Parts>(std::move(file), rate)) {}
+
+VideoFileWriter::~VideoFileWriter() { parts_->video.release(); }
+
+void VideoFileWriter::add(const Image& picture) {
+  Parts& p = *parts_;
+  std::filesystem::path folder = p.file;
+  folder.replace_extension();
+  if (p.pictures == 0) {
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    if (!p.open({picture.width, picture.height})) {
+      p.staged.reset();
+      std::filesystem::create_directories(folder);
+    }
+  }
+  if (p.staged) {
+    cv::cvtColor(as_mat(picture), p.bgr, cv::COLOR_RGB2BGR);
+    p.video.write(p.bgr);
+  } else {
+    char name[32];
+    std::snprintf(name, sizeof name, "%06d.png", p.pictures);
+    write_png(folder / name, picture);
+  }
+  ++p.pictures;
+}
+
+std::optional<std::filesystem::path> VideoFileWriter::commit() {
+  Parts& p = *parts_;
+  if (p.pictures == 0) return std::nullopt;
+  std::filesystem::path folder = p.file;
+  if (!p.staged) return folder.replace_extension();
+  p.video.release();
+  if (std::filesystem::file_size(p.staged->path()) == 0)
+    throw InputError(p.file.string() + ": cannot write: the video stayed empty");
+  p.staged->commit();
+  return p.file;
+}
+
+}  // namespace microswarm

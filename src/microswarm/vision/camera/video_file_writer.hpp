@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "microswarm/formats/images/image.hpp"
+
+namespace microswarm {
+
+/// Writes pictures to a video file, as H.264, which browsers play, or else as MPEG-4; without a
+/// codec, to PNG files in a folder next to it, named like the file without extension. The file
+/// appears under its name on commit(). Sides should be even.
+class VideoFileWriter {
+ public:
+  /// `rate` is in 1/s. Throws InputError "PATH: cannot write: REASON".
+  VideoFileWriter(std::filesystem::path file, double rate);
+  ~VideoFileWriter();
+  VideoFileWriter(const VideoFileWriter&) = delete;
+  VideoFileWriter& operator=(const VideoFileWriter&) = delete;
+
+  /// Appends a colour picture; all have one size.
+  void add(const Image& picture);
+  /// Ends the video; the path of the file or folder, or empty if there was no picture.
+  std::optional<std::filesystem::path> commit();
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace microswarm
