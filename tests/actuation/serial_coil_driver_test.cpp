@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -119,21 +120,32 @@ TEST(SerialCoilDriverPty, FormerFirmwareIsToldHowToRenewIt) {
 }
 
 TEST(SerialCoilDriverPty, AWaveformGoesOnByItselfAndTellsItsPhase) {
-  test::FakeDevice device;
+  std::atomic<int> told = 0;  // by the device
+  test::FakeDevice device([&](CoilReply& reply) {
+    told = reply.phase;
+    return true;
+  });
   SerialCoilParams p = params_of(device);
   p.waveforms = true;
   SerialCoilDriver driver(p);
   const std::array<double, 6> none{}, cosine{10, 0, 0, 0, 0, 5}, sine{0, -10, 0, 0, 0, 5};
   const double phase = 1.5;
-  const double began = steady_seconds();
+  // The waveform begins and each of its phases is read at some time of an exchange.
+  const double begins_after = steady_seconds();
   ASSERT_EQ(driver.drive_waveform({100, phase, none, cosine, sine}), DriveStatus::driven);
+  const double begins_before = steady_seconds();
   for (int k = 0; k < 20; ++k) {
     std::this_thread::sleep_for(std::chrono::milliseconds(7));
     // A new phase is not asked for: the waveform that runs goes on at its own.
+    const double read_after = steady_seconds();
     ASSERT_EQ(driver.drive_waveform({100, 0, none, cosine, sine}), DriveStatus::driven);
+    const double read_before = steady_seconds();
     ASSERT_TRUE(driver.phase());
-    const double turns = 100 * (steady_seconds() - began) + phase / (2 * pi);
-    EXPECT_LT(std::abs(wrap(*driver.phase() - 2 * pi * turns)), 2.5);
+    EXPECT_NEAR(wrap(*driver.phase() - 2 * pi * told / 65536), 0, 1e-9);
+    const double least = phase + 2 * pi * 100 * (read_after - begins_before);
+    const double most = phase + 2 * pi * 100 * (read_before - begins_after);
+    const double off = std::abs(wrap(*driver.phase() - (least + most) / 2));
+    EXPECT_LE(off, (most - least) / 2 + 0.001);
     EXPECT_NEAR(driver.currents()[0], 10 * std::cos(*driver.phase()), 0.05);
     EXPECT_NEAR(driver.currents()[1], -10 * std::sin(*driver.phase()), 0.05);
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <mutex>
 
+#include "at_terminal.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/experiment/record/record.hpp"
@@ -255,6 +256,74 @@ TEST_F(RigRun, TemperaturesOutliveTheProgram) {
   // Two seconds of 10 A count that the killed program may have driven.
   EXPECT_GT(temperature(), 22.5);
   EXPECT_LT(temperature(), 40);
+}
+
+TEST_F(RigRun, TheFileOfTemperaturesIsNoWayToAnother) {
+  FakeDevice device;
+  write_rig(device);
+  ASSERT_EQ(run(arguments({"--seconds", "0.5"})).code, 3);
+  const auto all = files();
+  const auto kept = std::ranges::find_if(
+      all, [](const std::string& file) { return file.starts_with(".state/"); });
+  ASSERT_NE(kept, all.end());
+  const fs::path file = at.folder / *kept;
+  Arguments warm = arguments({"--seconds", "0.5"});
+  std::erase(warm, "--coils-cold");
+  const auto is_refused = [&] {
+    const Outcome outcome = run(warm);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_TRUE(names(outcome.err, file.filename().string())) << outcome.err;
+    EXPECT_FALSE(names(outcome.err, "tr0ub4dor")) << outcome.err;
+  };
+  write("secret", "tr0ub4dor: 3\n");
+  const std::string before = read(*kept);
+  for (const fs::path& target :
+       {at.folder / "secret", at.folder / "nothing", fs::path("/dev/full")}) {
+    fs::remove(file);
+    fs::create_symlink(target, file);
+    is_refused();
+    EXPECT_TRUE(fs::is_symlink(file)) << target;
+    // What is written takes the link's place.
+    EXPECT_EQ(run(arguments({"--seconds", "0.5"})).code, 3) << target;
+    EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(file))) << target;
+    EXPECT_FALSE(exists("nothing"));
+  }
+  EXPECT_EQ(read("secret"), "tr0ub4dor: 3\n");
+  for (const std::string text : {"tr0ub4dor", "coils: tr0ub4dor\n", "clock_s: tr0ub4dor\n"}) {
+    write(*kept, text);
+    is_refused();
+  }
+  write(*kept, before.substr(0, before.find("temperatures")) + "temperatures_degc: [20]\n");
+  is_refused();
+}
+
+TEST_F(RigRun, CurrentsThatTheDeviceWeakensAreToldAsItHappens) {
+  FakeDevice device;
+  write_rig(device);
+  AtTerminal terminal(arguments({"--seconds", "30"}), at);
+  let_drive(device, 500);
+  EXPECT_FALSE(names(terminal.said(), "weakens"));
+  for (std::size_t c = 0; c < 3; ++c) device.limit(c, 200);
+  EXPECT_TRUE(terminal.hears("the device weakens the currents to")) << terminal.said();
+  terminal.type("\x03");
+  EXPECT_EQ(terminal.wait(), 3) << terminal.said();
+}
+
+TEST_F(RigRun, CurrentsThatTheDeviceWeakensAgainAndAgainAreToldSeldom) {
+  FakeDevice device;
+  write_rig(device);
+  Program program(arguments({"--seconds", "4"}), at);
+  let_drive(device, 300);
+  for (int i = 0; i < 12; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) device.limit(c, i % 2 == 0 ? 200 : 1000);
+    sleep_ms(150);
+  }
+  const Outcome outcome = program.wait();
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  const std::string told = "the device weakens the currents to";
+  const std::size_t first = outcome.err.find(told);
+  ASSERT_NE(first, std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find(told, first + 1), std::string::npos) << outcome.err;
 }
 
 class RigDrive : public RigRun {

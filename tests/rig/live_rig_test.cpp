@@ -299,6 +299,48 @@ TEST_F(LiveRigs, AVirtualObstacleInTheWayIsAvoided) {
   EXPECT_LT(result.metrics.obstacles.clearance, 240);
 }
 
+/// A device that makes waveforms and lets through a share of what it is told.
+class WeakenedCoils : public CoilDriver {
+ public:
+  explicit WeakenedCoils(double share) : share_(share) {}
+  int channels() const override { return 6; }
+  std::span<const double> currents() const override { return currents_; }
+  double device_scale() const override { return share_; }
+  DriveStatus drive(std::span<const double>) override { return DriveStatus::refused; }
+  bool makes_waveforms() const override { return true; }
+  DriveStatus drive_waveform(const CurrentWaveform& waveform) override {
+    const double now = steady_seconds();
+    if (!phase_) began_ = now - waveform.phase / (2 * pi * waveform.frequency);
+    phase_ = 2 * pi * waveform.frequency * (now - began_);
+    return share_ < 1 ? DriveStatus::scaled : DriveStatus::driven;
+  }
+  std::optional<double> phase() const override { return phase_; }
+  bool stop() noexcept override {
+    phase_.reset();
+    return true;
+  }
+
+ private:
+  double share_;
+  double began_ = 0;  // [s], by steady_seconds()
+  std::optional<double> phase_;
+  std::array<double, 6> currents_{};
+};
+
+TEST_F(LiveRigs, AWaveformThatTheDeviceWeakensMovesTheSwarmAsItsFieldDoes) {
+  const Scenario& s = scene.scenario;
+  const Vec2 start = s.start->position;
+  const auto way = [&](double share) {
+    RealtimeRigSimulator bench(s, world, *rig, std::make_unique<WeakenedCoils>(share));
+    LiveRig plant(s, world.map, *rig, bench.camera(40), bench.view().scale, bench.coils());
+    const auto navigator = make_navigator(s.navigator, task_of(s), Rng(1, Purpose::planner, 0));
+    run(s, plant, *navigator, {}, Stop(std::chrono::seconds(2)));
+    return distance(bench.swarm().pose.position, start);
+  };
+  EXPECT_GT(way(0.5), 0.1 * 2 * limits_of(s.swarm).max_speed);  // 4 mT turn it as 8 do
+  EXPECT_LT(way(0.03), 1);                                      // 0.24 mT turn nothing
+}
+
 /// Gives one picture, then fails.
 class OnePicture : public FrameSource {
  public:

@@ -26,17 +26,18 @@ struct Rehearsal {
   Rig rig;
 
   Rehearsal(const std::string& scenario, const std::string& rig_name,
-            const std::vector<std::string>& rig_settings = {})
-      : scene(
-            load_scene(read_scenario(scenarios / scenario), (scenarios / scenario).parent_path())),
+            const std::vector<std::string>& rig_settings = {},
+            const std::vector<std::string>& settings = {})
+      : scene(load_scene(read_scenario(scenarios / scenario, settings),
+                         (scenarios / scenario).parent_path())),
         world(build_world(scene)),
         rig(read_rig(scenarios / "rigs" / rig_name, rig_settings)) {}
 
-  RunResult in_rig(SimulatedRig& plant) const {
+  RunResult in_rig(SimulatedRig& plant, std::span<RunListener* const> listeners = {}) const {
     const Scenario& s = scene.scenario;
     const auto navigator =
         make_navigator(s.navigator, task_of(s), Rng(s.seed, Purpose::planner, 0));
-    return run(s, plant, *navigator);
+    return run(s, plant, *navigator, listeners);
   }
   RunResult in_rig() const {
     SimulatedRig plant(scene.scenario, world, rig);
@@ -77,6 +78,28 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, Rehearsals,
                          [](const auto& pair) {
                            return fs::path(pair.param.scenario).stem().string();
                          });
+
+/// Counts the ticks in which the swarm waits for a valve.
+class Waits : public RunListener {
+ public:
+  void on_tick(const Tick& tick) override { count += tick.frame.state == NavigatorState::wait; }
+  int count = 0;
+};
+
+TEST(SimulatedRig, ItWaitsForAValveThatTheCameraSees) {
+  // Before the first valve of the maze, which is about to close.
+  const Rehearsal r("papers/radar/micromaze.yaml", "vortex.yaml",
+                    {"camera.type=simulated", "camera.microscope.um_per_px=6"},
+                    {"start.x_um=4600", "goal_um=[7000, 1125]", "obstacles.2.shape.phase=0.4",
+                     "navigator.global_plan=false"});
+  SimulatedRig plant(r.scene.scenario, r.world, r.rig);
+  Waits waits;
+  RunListener* const listener = &waits;
+  const RunResult result = r.in_rig(plant, std::span(&listener, 1));
+  EXPECT_EQ(result.status, Status::solved);
+  EXPECT_EQ(result.metrics.contacts, 0);
+  EXPECT_GT(waits.count * r.scene.scenario.tick, 10);  // [s]
+}
 
 TEST(SimulatedRig, TheSameSeedGivesTheSameRun) {
   Rehearsal r("papers/radar/single.yaml", "vortex.yaml", coarse);

@@ -10,6 +10,7 @@
 
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/rng.hpp"
+#include "microswarm/navigation/radar/wait_zone.hpp"
 #include "microswarm/rig/runtime/follow_monitor.hpp"
 #include "microswarm/rig/simulation/microscope.hpp"
 #include "tests/rig/perceived.hpp"
@@ -82,6 +83,45 @@ TEST(SwarmPerception, DiscsKeepTheirNumbersWhileTheirImagesJoin) {
       EXPECT_EQ(body.obstacle, disc.radius > 65 ? 0U : 1U) << t;
     }
   }
+}
+
+TEST(SwarmPerception, LeavesOfAValveAreOneObstacle) {
+  const auto map = channel();
+  MicroscopeParams optics;
+  optics.um_per_px = 3.75;
+  Microscope microscope(optics, *map, 1, 0);
+  // As high as the channel, so that the wall cuts one leaf; closed at 7.5 s, open at 2.5 s.
+  const Obstacle valve{Valve{.span = 700, .thickness = 60, .max_gap = 400, .period = 10},
+                       Still{{700, 450}, 0}};
+  SwarmPerception perception(eye_params(), {.max_speed = 100}, *map, {{200, 300}, 0},
+                             view_of(microscope), std::span(&valve, 1));
+  const WaitZone zone{.centre = {700, 450}, .width = 400, .height = 700, .min_gap = 200};
+  const Waiting swarm{{560, 450}, 50, 75, {1100, 450}};
+  int waits = 0;
+  for (int i = 0; i < 120; ++i) {
+    const double t = 0.1 * i;
+    std::vector<Body> bodies;
+    append_bodies(valve, 0, t, bodies);
+    const double gap = gap_between(bodies[0], bodies[1]);
+    bodies.push_back({.shape = Disc{{700 + 30 * t, 300}, 40}, .obstacle = 1});
+    const Detections& seen = perception.process(
+        microscope.look(Snapshot(map, t, bodies), SwarmPose{{{200, 300}, 0}, 50}, {}), t);
+    const auto leaf = [](const Body& body) { return body.obstacle == 0; };
+    if (t > 4) {  // the disc is out of the valve's way
+      ASSERT_EQ(std::ranges::count_if(seen.moving, leaf), 2) << t;
+      EXPECT_GT(test::bounding_box(seen.moving[seen.moving.size() - 2]).centre().y, 450) << t;
+      EXPECT_NEAR(gap_between(seen.moving.end()[-2], seen.moving.end()[-1]), gap, 15) << t;
+      if (std::abs(gap - zone.min_gap) > 15) {
+        EXPECT_EQ(must_wait(zone, seen.moving, swarm), gap < zone.min_gap) << t;
+      }
+      waits += must_wait(zone, seen.moving, swarm);
+    }
+    for (const Body& body : seen.moving)
+      if (std::holds_alternative<Disc>(body.shape)) {
+        EXPECT_NE(body.obstacle, 0U) << t;
+      }
+  }
+  EXPECT_GT(waits, 20);
 }
 
 TEST(SwarmPerception, AnObstacleMayShrinkButDirtIsNone) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/run_output.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/rig/runtime/rig_checks.hpp"
 #include "microswarm/session/live_session.hpp"
@@ -109,19 +110,31 @@ void note_limits(const RigTiming& t) {
          t.scaled, t.round_trip.count(), 100 * t.min_device_scale);
 }
 
-/// Says it as it happens when the coils had been off by themselves.
-class TripNotes : public RunListener {
+/// Says it as it happens when the coils had been off by themselves, or the device weakens their
+/// currents; the latter not again while it lasts or soon comes again.
+class DeviceNotes : public RunListener {
  public:
-  explicit TripNotes(const LiveSession& session) : session_(session) {}
-  void on_tick(const Tick&) override {
+  explicit DeviceNotes(const LiveSession& session) : session_(session) {}
+  void on_tick(const Tick& tick) override {
     const int resumed = session_.resumed();
     if (resumed > resumed_) note("note: the coils had been off by themselves; armed again\n");
     resumed_ = resumed;
+    const int weakened = session_.weakened();
+    if (weakened == weakened_) return;
+    weakened_ = weakened;
+    if (tick.frame.t - weakened_at_ > quiet)
+      note("note: the device weakens the currents to {:.3g} % by its own limits\n",
+           100 * session_.weakened_to());
+    weakened_at_ = tick.frame.t;
   }
 
  private:
+  static constexpr double quiet = 10;  // [s] without, after which it is said again
+
   const LiveSession& session_;
   int resumed_ = 0;
+  int weakened_ = 0;
+  double weakened_at_ = -infinity;  // [s]
 };
 
 /// Throws InputError if the folder has an experiment, also one that was killed, or there is a
@@ -155,8 +168,8 @@ void note_virtual_obstacles(const RigExperiment& on) {
 
 /// Steps a session to its end with its status in a line.
 void drive(LiveSession& session, const Stop& stop) {
-  TripNotes trips(session);
-  session.listen(trips);
+  DeviceNotes notes(session);
+  session.listen(notes);
   note_oddities(session);
   RigStatusLine status(session);
   while (session.step(stop)) status.update();

@@ -191,6 +191,10 @@ std::optional<RecordedVideo> LiveSession::video() const {
 
 int LiveSession::resumed() const { return plant_->rig().resumed(); }
 
+int LiveSession::weakened() const { return plant_->rig().weakened(); }
+
+double LiveSession::weakened_to() const { return plant_->rig().weakened_to(); }
+
 LiveStatus LiveSession::status() const {
   const LiveRig& rig = plant_->rig();
   const Detections& sight = rig.sight();

@@ -69,6 +69,10 @@ class LiveSession : public Session {
   LiveStatus status() const;
   /// How often the coils had switched off by themselves so far.
   int resumed() const;
+  /// How often the device's own limits weakened the currents so far.
+  int weakened() const;
+  /// What they left of the currents the last time, in [0, 1].
+  double weakened_to() const;
 
  private:
   class LivePlant;

@@ -87,8 +87,11 @@ pid_t maker_of(const fs::path& file) {
 
 }  // namespace
 
-std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
-  Descriptor file(path, O_RDONLY | O_NONBLOCK);  // opening a pipe must not wait for a writer
+std::string read_file(const fs::path& path, std::uint64_t max_bytes, LinkAtFile link) {
+  const int no_link = link == LinkAtFile::refused ? O_NOFOLLOW : 0;
+  // Opening a pipe must not wait for a writer.
+  Descriptor file(path, O_RDONLY | O_NONBLOCK | no_link);
+  if (no_link != 0 && file.error() == ELOOP) fail(path, "read", "it is a symbolic link");
   if (file.error()) fail_errno(path, "read", file.error());
   struct stat status {};
   if (::fstat(file.get(), &status) != 0) fail_errno(path, "read", errno);
@@ -112,7 +115,8 @@ std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
   return bytes;
 }
 
-StagedFile::StagedFile(fs::path target) : target_(std::move(target)), direct_(is_special(target_)) {
+StagedFile::StagedFile(fs::path target, LinkAtFile link)
+    : target_(std::move(target)), direct_(link == LinkAtFile::followed && is_special(target_)) {
   if (direct_) {
     staged_ = target_;
     return;
@@ -152,8 +156,8 @@ void clear_staged(const fs::path& folder) {
   for (const fs::path& file : left) fs::remove(file, none);
 }
 
-void write_file_atomically(const fs::path& path, std::string_view bytes) {
-  StagedFile staged(path);
+void write_file_atomically(const fs::path& path, std::string_view bytes, LinkAtFile link) {
+  StagedFile staged(path, link);
   Descriptor file(staged.path(), O_WRONLY);
   if (file.error()) fail_errno(path, "write", file.error());
   write_all(file, bytes, path);

@@ -10,18 +10,26 @@
 
 namespace microswarm {
 
+/// What a symbolic link at a file's place is good for. The links of its folder always count.
+enum class LinkAtFile {
+  followed,
+  refused,  ///< for reading an error; a written file takes its place
+};
+
 /// All bytes of a file. Throws InputError "PATH: cannot read: REASON", also for a folder and for a
 /// file larger than `max_bytes`.
-std::string read_file(const std::filesystem::path& path, std::uint64_t max_bytes = 1ULL << 30);
+std::string read_file(const std::filesystem::path& path, std::uint64_t max_bytes = 1ULL << 30,
+                      LinkAtFile link = LinkAtFile::followed);
 
 /// A file written under a temporary name and renamed when complete. Write to `path()`, which is in
 /// the target's folder and keeps its extension, then call `commit()`. A reader sees the old file or
 /// the whole new one, never a part; without commit() nothing is left behind. Throws InputError
 /// "TARGET: cannot write: REASON". A target that is not a regular file, such as /dev/stdout, is
-/// written directly.
+/// written directly, unless links
+/// are refused: then it is replaced.
 class StagedFile {
  public:
-  explicit StagedFile(std::filesystem::path target);
+  explicit StagedFile(std::filesystem::path target, LinkAtFile link = LinkAtFile::followed);
   ~StagedFile();
   StagedFile(const StagedFile&) = delete;
   StagedFile& operator=(const StagedFile&) = delete;
@@ -43,7 +51,8 @@ void clear_staged(const std::filesystem::path& folder);
 
 /// Writes a whole file through a StagedFile. Throws InputError "PATH: cannot write: REASON", for
 /// example "No space left on device".
-void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
+void write_file_atomically(const std::filesystem::path& path, std::string_view bytes,
+                           LinkAtFile link = LinkAtFile::followed);
 
 /// Creates the folder and its parents and tests whether files can be written there. Throws
 /// InputError "FOLDER: cannot make the folder: REASON" or "…: cannot write: REASON".

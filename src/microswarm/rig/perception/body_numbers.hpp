@@ -13,8 +13,9 @@ namespace microswarm {
 /// body of the previous pictures, or a new one.
 class BodyNumbers {
  public:
-  /// `reach` [µm] is the maximum distance of a body from its predicted position.
-  explicit BodyNumbers(double reach) : reach_(reach) {}
+  /// `reach` [µm] is the maximum distance of a body from its predicted position; `first` is the
+  /// first number.
+  explicit BodyNumbers(double reach, std::uint32_t first = 0) : reach_(reach), next_(first) {}
 
   /// Numbers the bodies of the next picture, taken at `t` [s].
   void number(std::vector<Body>& bodies, double t);
@@ -32,7 +33,7 @@ class BodyNumbers {
   };
 
   double reach_;
-  std::uint32_t next_ = 0;
+  std::uint32_t next_;
   std::vector<Known> known_;
   Assignment assignment_;
 };

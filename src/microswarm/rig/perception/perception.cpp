@@ -38,7 +38,7 @@ std::unique_ptr<Perception> make_perception(const PerceptionParams& params,
   PerceptionParams shown = params;
   shown.moving_walls = params.moving_walls || shows_channel(scenario.obstacles);
   return std::make_unique<SwarmPerception>(shown, limits_of(scenario.swarm), map, *scenario.start,
-                                           view);
+                                           view, scenario.obstacles);
 }
 
 }  // namespace microswarm

@@ -27,7 +27,7 @@ struct CameraView {
 struct Detections {
   std::optional<SwarmPose> swarm;
   std::vector<Vec2> robots;  ///< individually tracked robots; the order never changes
-  std::vector<Body> moving;  ///< obstacles with persistent numbers
+  std::vector<Body> moving;  ///< obstacles with persistent numbers; leaves of a valve share one
   /// Why no swarm was found: "none", "far" from where it can be, "several", of another "size",
   /// "split" into parts, "merged" with another one, or too few "robots".
   std::string_view trouble;
@@ -57,7 +57,7 @@ Observation observation_of(const Detections& sight, std::shared_ptr<const Snapsh
 
 /// Creates the perception of a scenario: for one swarm among obstacles, or for robots. The
 /// scenario's obstacles are those that the camera shows: a deforming channel among them means that
-/// walls move.
+/// walls move, and leaves are joined where a valve stands.
 std::unique_ptr<Perception> make_perception(const PerceptionParams& params,
                                             const Scenario& scenario, const Map& map,
                                             std::span<const Vec2> starts, const CameraView& view);

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double known_size = 0.5;           // of min_radius, to which a known obstacle may shrink
 constexpr std::size_t radius_window = 31;    // sightings of which the median radius is taken
+constexpr double leaf_tolerance = 6;         // [px] of the outline of a valve's leaf
 constexpr double follow_radii = 3;           // way over which a swarm must follow
 constexpr std::size_t min_radius_count = 5;  // of sightings before a radius is doubted
 constexpr double clear_texture = 2;          // limits of texture, above which it is no smooth swarm
@@ -35,12 +36,14 @@ SwarmPrior expected_swarm(const SwarmLimits& limits, const PerceptionParams& par
 }
 
 SwarmPerception::SwarmPerception(const PerceptionParams& params, const SwarmLimits& limits,
-                                 const Map& map, const Pose2& start, const CameraView& view)
+                                 const Map& map, const Pose2& start, const CameraView& view,
+                                 std::span<const Obstacle> obstacles)
     : params_(params),
       scale_(view.scale),
       walls_(walls_in_picture(map, view.scale, view.width, view.height)),
       windows_(walls_),
-      numbers_(params.scene.swarm.jump * view.scale.um_per_px),
+      valves_(obstacles, leaf_tolerance * view.scale.um_per_px),
+      numbers_(params.scene.swarm.jump * view.scale.um_per_px, valves_.count()),
       from_(start.position),
       heading_(start.heading),
       limits_(limits),
@@ -50,6 +53,7 @@ const Detections& SwarmPerception::process(const Image& picture, double t) {
   detections_.moving.clear();
   const SeenScene scene = find(picture, t);
   numbers_.number(detections_.moving, t);
+  valves_.join(detections_.moving);
   const std::optional<Blob>& swarm = scene.swarm.swarm;
   detections_.swarm.reset();
   detections_.parts.clear();

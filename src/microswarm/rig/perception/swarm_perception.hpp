@@ -2,10 +2,12 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "microswarm/formats/images/mask.hpp"
 #include "microswarm/rig/perception/body_numbers.hpp"
 #include "microswarm/rig/perception/perception.hpp"
+#include "microswarm/rig/perception/valve_leaves.hpp"
 #include "microswarm/swarm/body/swarm_limits.hpp"
 #include "microswarm/vision/scene/scene_windows.hpp"
 
@@ -23,9 +25,10 @@ SwarmPrior expected_swarm(const SwarmLimits& limits, const PerceptionParams& par
 /// had texture is never replaced by something smooth.
 class SwarmPerception : public Perception {
  public:
-  /// The swarm starts at `start`.
+  /// The swarm starts at `start`; the camera shows the `obstacles` of the scenario.
   SwarmPerception(const PerceptionParams& params, const SwarmLimits& limits, const Map& map,
-                  const Pose2& start, const CameraView& view);
+                  const Pose2& start, const CameraView& view,
+                  std::span<const Obstacle> obstacles = {});
 
   const Detections& process(const Image& picture, double t) override;
   void commanded(const Command& command, double t) override;
@@ -51,6 +54,7 @@ class SwarmPerception : public Perception {
   CameraScale scale_;
   Mask walls_;
   SceneWindows windows_;
+  ValveLeaves valves_;
   BodyNumbers numbers_;
   Vec2 from_;  // position at the last update of the heading
   double heading_;

@@ -58,6 +58,27 @@ std::string name_for(const fs::path& coils) {
   return fmt::format("{}-{:016x}.yaml", coils.stem().string(), sum);
 }
 
+/// Reads the file. Its place could be anything's, so that no message repeats what is in it.
+KeptTemperatures read_kept(const fs::path& file, std::size_t coils) {
+  const std::string text = read_file(file, max_yaml_bytes, LinkAtFile::refused);
+  KeptTemperatures kept;
+  try {
+    kept = read_yaml_text<KeptTemperatures>(text, file.string());
+  } catch (const InputError&) {
+    throw InputError(fmt::format(
+        "{}: does not hold the temperatures of coils: remove it, or run with --coils-cold",
+        file.string()));
+  }
+  if (kept.temperatures.size() != coils)
+    throw InputError(
+        fmt::format("{}: {} temperatures, the system has {} coils: correct it, or "
+                    "run with --coils-cold",
+                    file.string(), kept.temperatures.size(), coils));
+  return kept;
+}
+
+bool is_there(const fs::path& file) { return fs::exists(fs::symlink_status(file)); }
+
 }  // namespace
 
 CoilTemperatures::CoilTemperatures(const Rig& rig, bool cold)
@@ -69,16 +90,11 @@ CoilTemperatures::CoilTemperatures(const Rig& rig, bool cold)
   at_start_.resize(coils);
   for (Eigen::Index i = 0; i < coils; ++i)
     at_start_[i] = drives[static_cast<std::size_t>(i)].ambient;
-  if (!cold && !fs::exists(file_)) {
+  if (!cold && !is_there(file_)) {
     known_ = false;
     at_start_ = hottest(drives);
   } else if (!cold) {
-    const auto kept = read_yaml_file<KeptTemperatures>(file_);
-    if (kept.temperatures.size() != drives.size())
-      throw InputError(
-          fmt::format("{}: {} temperatures, the system has {} coils: correct it, or "
-                      "run with --coils-cold",
-                      file_.string(), kept.temperatures.size(), drives.size()));
+    const KeptTemperatures kept = read_kept(file_, drives.size());
     Eigen::VectorXd then = Eigen::Map<const Eigen::VectorXd>(kept.temperatures.data(), coils);
     if (kept.driven) then = heated(drives, then, unwritten);
     at_start_ = cooled(drives, then, wall_clock() - kept.clock - (kept.driven ? unwritten : 0));
@@ -134,7 +150,7 @@ void CoilTemperatures::run() {
 void CoilTemperatures::write(const Eigen::VectorXd& temperatures, bool driven) const {
   const KeptTemperatures kept{
       coils_, wall_clock(), driven, {temperatures.begin(), temperatures.end()}};
-  write_file_atomically(file_, to_yaml(kept));
+  write_file_atomically(file_, to_yaml(kept), LinkAtFile::refused);
 }
 
 }  // namespace microswarm

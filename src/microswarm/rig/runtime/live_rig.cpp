@@ -87,8 +87,10 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
                  timing_.limited += moment.output.scale < 1 - 1e-9;
                  timing_.min_scale = std::min(timing_.min_scale, moment.output.scale);
                  timing_.resumed += moment.output.status == DriveStatus::resumed;
-                 timing_.scaled +=
+                 const bool weakened =
                      is_acknowledged(moment.output.status) && moment.output.device_scale < 1 - 1e-9;
+                 timing_.scaled += weakened;
+                 if (weakened) weakened_to_ = moment.output.device_scale;
                  timing_.min_device_scale =
                      std::min(timing_.min_device_scale, moment.output.device_scale);
                  load_.take(moment.t, moment.output);
@@ -211,6 +213,16 @@ void LiveRig::stop(const std::string& why) { coils_.stop(why); }
 int LiveRig::resumed() const {
   const std::lock_guard lock(timing_mutex_);
   return timing_.resumed;
+}
+
+int LiveRig::weakened() const {
+  const std::lock_guard lock(timing_mutex_);
+  return timing_.scaled;
+}
+
+double LiveRig::weakened_to() const {
+  const std::lock_guard lock(timing_mutex_);
+  return weakened_to_;
 }
 
 CoilLoad LiveRig::load() const {

@@ -84,6 +84,10 @@ class LiveRig : public Plant {
   double frame_age() const { return since_start() - seen_; }
   /// How often the coils had switched off by themselves so far.
   int resumed() const;
+  /// How often the device's own limits weakened the currents so far.
+  int weakened() const;
+  /// What they left of the currents the last time, in [0, 1].
+  double weakened_to() const;
   /// The newest picture and its detections.
   const Image& picture() const { return grey_; }
   const Detections& sight() const { return *detections_; }
@@ -117,8 +121,9 @@ class LiveRig : public Plant {
   std::string fault_;
   mutable std::mutex timing_mutex_;
   RigTiming timing_;
-  CoilLoadMeter load_;  // with the timing's mutex
-  CoilLoop coils_;      // last member: its thread uses the others
+  double weakened_to_ = 1;  // with the timing's mutex
+  CoilLoadMeter load_;      // with the timing's mutex
+  CoilLoop coils_;          // last member: its thread uses the others
 };
 
 }  // namespace microswarm

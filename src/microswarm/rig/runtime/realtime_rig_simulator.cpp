@@ -53,10 +53,11 @@ class RealtimeRigSimulator::Coils : public CoilDriver {
     turning_.reset();
     const DriveStatus status = driver_->drive_waveform(waveform);
     const auto phase = driver_->phase();
-    if (phase && (status == DriveStatus::driven || status == DriveStatus::resumed)) {
-      const auto vector = [](std::span<const double> values) {
-        return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(
-            values.data(), static_cast<Eigen::Index>(values.size())));
+    if (phase && is_acknowledged(status)) {
+      const auto vector = [scale = driver_->device_scale()](std::span<const double> values) {
+        return Eigen::VectorXd(scale *
+                               Eigen::Map<const Eigen::VectorXd>(
+                                   values.data(), static_cast<Eigen::Index>(values.size())));
       };
       turning_ = {.frequency = waveform.frequency,
                   .phase = *phase,
