@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <opencv2/core.hpp>
-#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 #include <string>
@@ -134,7 +133,6 @@ void VideoFileWriter::add(const Image& picture) {
   std::filesystem::path folder = p.file;
   folder.replace_extension();
   if (p.pictures == 0) {
-    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     const int codec = cv::VideoWriter::fourcc('m', 'p', '4', 'v');
     if (!p.video.open(p.staged->path().string(), cv::CAP_FFMPEG, codec, p.rate,
                       {picture.width, picture.height})) {
