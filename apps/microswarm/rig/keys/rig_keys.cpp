@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rig/rig_keys.hpp"
+#include "rig/keys/rig_keys.hpp"
 
 #include <algorithm>
 #include <chrono>

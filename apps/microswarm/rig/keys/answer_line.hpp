@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "rig/key_terminal.hpp"
+#include "rig/keys/key_terminal.hpp"
 
 namespace microswarm::cli {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <thread>
 
-#include "rig/key_input.hpp"
-#include "rig/key_terminal.hpp"
+#include "rig/keys/key_input.hpp"
+#include "rig/keys/key_terminal.hpp"
 #include "support/cli.hpp"
 
 namespace microswarm::cli {

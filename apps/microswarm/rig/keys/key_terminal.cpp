@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rig/key_terminal.hpp"
+#include "rig/keys/key_terminal.hpp"
 
 #include <poll.h>
 #include <unistd.h>

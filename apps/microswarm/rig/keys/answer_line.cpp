@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rig/answer_line.hpp"
+#include "rig/keys/answer_line.hpp"
 
 #include <unistd.h>
 
 #include <utility>
 
 #include "microswarm/core/errors/error.hpp"
-#include "rig/key_input.hpp"
+#include "rig/keys/key_input.hpp"
 #include "support/cli.hpp"
 
 namespace microswarm::cli {
