@@ -81,7 +81,7 @@ TEST_F(LiveRigs, ExchangedCoilsEndIt) {
   rig->params.safety.follow_distance = 60;
   coils->exchanged = true;
   const RunResult result = go(20, [&](LiveRig&) {});
-  EXPECT_TRUE(names(fault_of(result), "the swarm does not follow: of 6")) << result.state;
+  EXPECT_TRUE(fault_of(result).starts_with("the swarm does not follow: of 6")) << result.state;
 }
 
 TEST_F(LiveRigs, ATurnedCameraEndsIt) {
