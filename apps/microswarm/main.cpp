@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/commands.hpp"
 #include "microswarm/core/version.hpp"
+#include "microswarm/vision/image/messages.hpp"
 #include "support/program.hpp"
 
 namespace {
@@ -15,6 +16,7 @@ constexpr const char* footer =
 
 int main(int argc, char** argv) {
   using namespace microswarm;
+  silence_picture_messages();
   cli::CommandLine line("microswarm", "Plan, steer, gather and measure magnetic microrobot swarms.",
                         std::string(version), footer);
   const cli::Command app = line.root();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rig/key_input.hpp"
+#include "rig/keys/key_input.hpp"
 
 #include <gtest/gtest.h>
 

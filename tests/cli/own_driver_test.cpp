@@ -4,22 +4,18 @@
 #include <chrono>
 #include <optional>
 
+#include "driven_rig.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/experiment/record/record.hpp"
-#include "program.hpp"
 #include "tests/files.hpp"
 
 namespace microswarm::test {
 namespace {
 
-class OwnDriver : public CommandLine {
+class OwnDriver : public DrivenRig {
  protected:
   OwnDriver() {
-    write("flight.yaml",
-          "map: {type: polygons, lo_um: [0, 0], hi_um: [2000, 1000]}\n"
-          "start: {x_um: 400, y_um: 500}\ngoal_um: [1500, 500]\ntime_limit_s: 20\n"
-          "swarm: {type: vortex}\nnavigator: {type: radar}\n");
     write("coils.yaml",
           "name: eight\ncoils:\n  type: matrix\n  names: [a, b, c, d, e, f, g, h]\n"
           "  field_mt_per_a:\n    - [3, -3, 0, 0, 0, 0, 2, 1]\n    - [0, 0, 3, -3, 0, 0, 1, 2]\n"
@@ -69,12 +65,6 @@ class OwnDriver : public CommandLine {
               "safety: {lost_swarm_s: 3, max_frame_age_s: 3, deadman_s: 3, missed_deadlines: 100, "
               "max_pause_s: 3}\n" +
               more);
-  }
-  static Arguments arguments(const Arguments& more = {}) {
-    Arguments all{"rig",      "run",          "flight.yaml",   "--rig",
-                  "rig.yaml", "--other-stop", "--drawn-swarm", "--coils-cold"};
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
   }
   std::vector<std::string> lines(const std::string& file) const {
     std::vector<std::string> all;

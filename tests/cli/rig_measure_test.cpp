@@ -8,11 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "at_terminal.hpp"
+#include "driven_rig.hpp"
 #include "microswarm/actuation/coils/coil_system.hpp"
 #include "microswarm/core/text/lines.hpp"
-#include "program.hpp"
-#include "tests/actuation/fake_device.hpp"
+#include "terminal.hpp"
 
 namespace microswarm::test {
 namespace {
@@ -21,18 +20,11 @@ using Json = nlohmann::json;
 
 constexpr const char* question = "Bx By Bz in mT: ";
 
-class RigMeasure : public CommandLine {
+class RigMeasure : public DrivenRig {
  protected:
   RigMeasure() : device([this](CoilReply& reply) { return hear(reply); }) {
-    write("coils.yaml",
-          "name: bench coils\ncoils: {type: helmholtz}\ndrives:\n  - {resistance_ohm: 0.9, "
-          "inductance_mh: 2.5, thermal_resistance_k_per_w: 2.5, thermal_time_s: 400, "
-          "max_current_a: 12, max_voltage_v: 24, max_temperature_degc: 90}\n");
-    write("rig.yaml",
-          "name: bench\ncoils: coils.yaml\ndrive_rate_hz: 100\n"
-          "field: {kind: rotating, amplitude_mt: 8, frequency_hz: 10, max_pitch_deg: 7.5}\n"
-          "driver: {type: serial, boot_time_s: 0, reply_timeout_s: 0.1, full_scale_a: 10, port: " +
-              device.port() + "}\ncamera: {type: simulated}\nsafety: {max_pause_s: 3}\n");
+    write_coils("max_current_a: 12, max_voltage_v: 24, max_temperature_degc: 90");
+    write_rig(device);
     truth_A << 1.9, 0.1, -0.02, 0.05, 1.4, 0.3, -0.2, 0, 1.1;
     truth_G << 3, -1, 0.5, 0.2, 2, -0.4, 1, 0, 0.7, -2, 0.1, 0.9, 0.3, -0.6, 4;  // [T/m/A]
   }
@@ -62,11 +54,16 @@ class RigMeasure : public CommandLine {
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
+  /// The probe is in place.
+  static void begin(Terminal& terminal) {
+    ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
+    terminal.press("\r");
+  }
   /// Answers `count` questions.
-  void answer(AtTerminal& terminal, int count, const Eigen::Vector3d& place) {
+  void answer(Terminal& terminal, int count, const Eigen::Vector3d& place) {
     for (int i = 0; i < count; ++i) {
       ASSERT_TRUE(terminal.hears(question)) << terminal.said();
-      terminal.type(typed(truth(place)));
+      terminal.press(typed(truth(place)));
     }
   }
   std::size_t rows() const {
@@ -88,11 +85,11 @@ class RigMeasure : public CommandLine {
 };
 
 TEST_F(RigMeasure, AnOperatorIsGuidedToMatrixAndGradients) {
-  AtTerminal terminal(arguments({"--positions", "0,0,0;5000,0,0;0,5000,0", "--gradients"}), at);
+  Terminal terminal(arguments({"--positions", "0,0,0;5000,0,0;0,5000,0", "--gradients"}), at);
   for (const Eigen::Vector3d& place : {Eigen::Vector3d(0, 0, 0), {5000, 0, 0}, {0, 5000, 0}}) {
     ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
     EXPECT_EQ(currents().norm(), 0);
-    terminal.type("\r");
+    terminal.press("\r");
     answer(terminal, 7, place);
   }
   EXPECT_EQ(terminal.wait(), 0) << terminal.said();
@@ -118,12 +115,11 @@ TEST_F(RigMeasure, AnOperatorIsGuidedToMatrixAndGradients) {
 }
 
 TEST_F(RigMeasure, WhatIsNoFieldIsAskedAgain) {
-  AtTerminal terminal(arguments(), at);
+  Terminal terminal(arguments(), at);
   ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
-  terminal.type("sure\r");
+  terminal.press("sure\r");
   ASSERT_TRUE(terminal.hears("is needed")) << terminal.said();
-  ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
-  terminal.type("\r");
+  begin(terminal);
   for (const auto& [wrong, complaint] : std::vector<std::pair<std::string, std::string>>{
            {"much\r", "three numbers are needed"},
            {"1 nan 2\r", "'nan' is no field"},
@@ -133,22 +129,22 @@ TEST_F(RigMeasure, WhatIsNoFieldIsAskedAgain) {
            {"1;2;3\r", "three numbers are needed"},
            {"0x1 2 3\r", "'0x1' is no field"}}) {
     ASSERT_TRUE(terminal.hears(question)) << terminal.said();
-    terminal.type(wrong);
+    terminal.press(wrong);
     ASSERT_TRUE(terminal.hears(complaint)) << wrong << terminal.said();
   }
   EXPECT_FALSE(exists("measured.csv"));
   // Backspace and Ctrl-U edit; r puts the current in again; b takes the last one back.
   ASSERT_TRUE(terminal.hears(question)) << terminal.said();
-  terminal.type(
+  terminal.press(
       "77\x15"
       "0.02 -0.03 0.0459\x7f\r");
   ASSERT_TRUE(terminal.hears("2/7: 4 A in x")) << terminal.said();
   EXPECT_TRUE(read("measured.csv").ends_with("0,0,0,0,0,0,0.02,-0.03,0.045,1,,,,0,0,0\n"));
   ASSERT_TRUE(terminal.hears(question));
-  terminal.type("r\r");
+  terminal.press("r\r");
   ASSERT_TRUE(terminal.hears("2/7: 4 A in x")) << terminal.said();
   ASSERT_TRUE(terminal.hears(question));
-  terminal.type("b\r");
+  terminal.press("b\r");
   ASSERT_TRUE(terminal.hears("1/7: no current")) << terminal.said();
   EXPECT_EQ(rows(), 0u);
   answer(terminal, 7, {0, 0, 0});
@@ -158,31 +154,28 @@ TEST_F(RigMeasure, WhatIsNoFieldIsAskedAgain) {
 
 TEST_F(RigMeasure, WhatWasMeasuredIsKeptAndItGoesOn) {
   {
-    AtTerminal terminal(arguments(), at);
-    ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
-    terminal.type("\r");
+    Terminal terminal(arguments(), at);
+    begin(terminal);
     answer(terminal, 2, {0, 0, 0});
     ASSERT_TRUE(terminal.hears(question));
     EXPECT_GT(currents().norm(), 3);
-    terminal.type("1 2\x03");  // Ctrl-C amid an answer
+    terminal.press("1 2\x03");  // Ctrl-C amid an answer
     EXPECT_EQ(terminal.wait(), 3) << terminal.said();
     EXPECT_TRUE(names(terminal.said(), "2 of 7 measurements")) << terminal.said();
     EXPECT_EQ(currents().norm(), 0);
     EXPECT_EQ(rows(), 2u);
   }
   {
-    AtTerminal terminal(arguments(), at);
-    ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
-    terminal.type("\r");
+    Terminal terminal(arguments(), at);
+    begin(terminal);
     answer(terminal, 2, {0, 0, 0});
     ASSERT_TRUE(terminal.hears(question));
     terminal.send(SIGKILL);
     EXPECT_EQ(terminal.wait(), -SIGKILL);
     EXPECT_EQ(rows(), 4u);
   }
-  AtTerminal terminal(arguments(), at);
-  ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
-  terminal.type("\r");
+  Terminal terminal(arguments(), at);
+  begin(terminal);
   ASSERT_TRUE(terminal.hears("5/7: -4 A in y")) << terminal.said();
   answer(terminal, 3, {0, 0, 0});
   EXPECT_EQ(terminal.wait(), 0) << terminal.said();
@@ -194,32 +187,30 @@ TEST_F(RigMeasure, WhatWasMeasuredIsKeptAndItGoesOn) {
 }
 
 TEST_F(RigMeasure, SilenceTurnsTheCoilsOff) {
-  AtTerminal terminal(arguments({"--hold", "0.4"}), at);
-  ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
-  terminal.type("\r");
+  Terminal terminal(arguments({"--hold", "0.4"}), at);
+  begin(terminal);
   answer(terminal, 1, {0, 0, 0});
   ASSERT_TRUE(terminal.hears(question));
   ASSERT_TRUE(terminal.hears("no answer in 0.4 s")) << terminal.said();
   EXPECT_EQ(currents().norm(), 0);
   sleep_ms(300);
   EXPECT_EQ(currents().norm(), 0);
-  terminal.type("\r");
+  terminal.press("\r");
   ASSERT_TRUE(terminal.hears(question)) << terminal.said();
   EXPECT_GT(currents().norm(), 3);
   ASSERT_TRUE(terminal.hears("no answer in 0.4 s")) << terminal.said();
-  terminal.type("q\r");
+  terminal.press("q\r");
   EXPECT_EQ(terminal.wait(), 3) << terminal.said();
   EXPECT_EQ(rows(), 1u);
 }
 
 TEST_F(RigMeasure, EscStopsAtOnceAlsoAmidAnAnswer) {
-  AtTerminal terminal(arguments(), at);
-  ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
-  terminal.type("\r");
+  Terminal terminal(arguments(), at);
+  begin(terminal);
   answer(terminal, 1, {0, 0, 0});
   ASSERT_TRUE(terminal.hears(question));
   const int sets = device.count(CoilMessage::set), stops = device.count(CoilMessage::stop);
-  terminal.type("1.5 \x1b");
+  terminal.press("1.5 \x1b");
   EXPECT_EQ(terminal.wait(), 4) << terminal.said();
   EXPECT_TRUE(names(terminal.said(), "emergency key")) << terminal.said();
   EXPECT_GT(device.count(CoilMessage::stop), stops);
@@ -234,9 +225,8 @@ TEST_F(RigMeasure, ADeviceThatFallsSilentIsAFaultAndTheRowsAreKept) {
     hear(reply);
     return !silent;
   });
-  AtTerminal terminal(arguments({"--set", "driver.port=" + other.port()}), at);
-  ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
-  terminal.type("\r");
+  Terminal terminal(arguments({"--set", "driver.port=" + other.port()}), at);
+  begin(terminal);
   answer(terminal, 1, {0, 0, 0});
   ASSERT_TRUE(terminal.hears(question)) << terminal.said();
   silent = true;
@@ -305,20 +295,18 @@ TEST_F(RigMeasure, AProbeThatStopsIsToldInOneLine) {
 TEST_F(RigMeasure, ALimitOfTheDeviceIsToldAndItEnds) {
   device.limit(1, 250);
   {
-    AtTerminal terminal(arguments(), at);
-    ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
-    terminal.type("\r");
+    Terminal terminal(arguments(), at);
+    begin(terminal);
     answer(terminal, 3, {0, 0, 0});
     ASSERT_TRUE(terminal.hears("the device limits y to 2.")) << terminal.said();
     ASSERT_TRUE(terminal.hears("of 4 A")) << terminal.said();
     answer(terminal, 1, {0, 0, 0});
     ASSERT_TRUE(terminal.hears("5/7: -4 A in y")) << terminal.said();
-    terminal.type("\x03");
+    terminal.press("\x03");
     EXPECT_EQ(terminal.wait(), 3) << terminal.said();
   }
-  AtTerminal terminal(arguments(), at);
-  ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
-  terminal.type("\r");
+  Terminal terminal(arguments(), at);
+  begin(terminal);
   ASSERT_TRUE(terminal.hears("5/7: -4 A in y")) << terminal.said();
   answer(terminal, 3, {0, 0, 0});
   EXPECT_EQ(terminal.wait(), 0) << terminal.said();
@@ -330,9 +318,8 @@ TEST_F(RigMeasure, ALimitOfTheDeviceIsToldAndItEnds) {
   EXPECT_EQ(device.count(CoilMessage::arm), arms);
   Arguments stronger = arguments();
   *std::ranges::find(stronger, "4") = "4.5";
-  AtTerminal again(stronger, at);
-  ASSERT_TRUE(again.hears("then Enter")) << again.said();
-  again.type("\r");
+  Terminal again(stronger, at);
+  begin(again);
   EXPECT_TRUE(again.hears("2/7: 4.5 A in x")) << again.said();
 }
 
@@ -389,12 +376,11 @@ TEST_F(RigMeasure, ADeadProbeGivesNoCalibration) {
 }
 
 TEST_F(RigMeasure, AnAnswerOfTheOtherSignIsTakenWithANote) {
-  AtTerminal terminal(arguments(), at);
-  ASSERT_TRUE(terminal.hears("then Enter")) << terminal.said();
-  terminal.type("\r");
+  Terminal terminal(arguments(), at);
+  begin(terminal);
   answer(terminal, 1, {0, 0, 0});
   ASSERT_TRUE(terminal.hears(question)) << terminal.said();
-  terminal.type("-5 0.1 0\r");
+  terminal.press("-5 0.1 0\r");
   ASSERT_TRUE(terminal.hears("note: Bx expected +")) << terminal.said();
   ASSERT_TRUE(terminal.hears("got -5 mT: a reversed coil or probe?")) << terminal.said();
   ASSERT_TRUE(terminal.hears("3/7: ")) << terminal.said();

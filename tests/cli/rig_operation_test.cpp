@@ -4,9 +4,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "driven_rig.hpp"
 #include "microswarm/experiment/record/record.hpp"
 #include "terminal.hpp"
-#include "tests/actuation/fake_device.hpp"
 
 namespace microswarm::test {
 namespace {
@@ -39,28 +39,9 @@ std::size_t width_of(const std::string& line) {
       std::ranges::count_if(line, [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-class RigOperation : public CommandLine {
+class RigOperation : public DrivenRig {
  protected:
-  RigOperation() {
-    write("coils.yaml",
-          "coils: {type: helmholtz}\ndrives:\n  - {resistance_ohm: 0.9, inductance_mh: 2.5, "
-          "thermal_resistance_k_per_w: 2.5, thermal_time_s: 400, max_current_a: 10, "
-          "max_voltage_v: 24, max_temperature_degc: 90}\n");
-    write("flight.yaml",
-          "map: {type: polygons, lo_um: [0, 0], hi_um: [2000, 1000]}\n"
-          "start: {x_um: 400, y_um: 500}\ngoal_um: [1500, 500]\ntime_limit_s: 60\n"
-          "swarm: {type: vortex}\nnavigator: {type: radar}\n");
-    write("rig.yaml",
-          "name: bench\ncoils: coils.yaml\n"
-          "field: {kind: rotating, amplitude_mt: 8, frequency_hz: 10, max_pitch_deg: 7.5}\n"
-          "drive_rate_hz: 100\n"
-          "driver: {type: serial, boot_time_s: 0, reply_timeout_s: 0.1, full_scale_a: 10, port: " +
-              device.port() +
-              "}\n"
-              "camera: {type: simulated, microscope: {um_per_px: 6}}\n"
-              "safety: {lost_swarm_s: 3, max_frame_age_s: 3, deadman_s: 3, missed_deadlines: 100, "
-              "max_pause_s: 3}\n");
-  }
+  RigOperation() { write_rig(device); }
   static Arguments arguments(const Arguments& more = {}) {
     Arguments all{"rig",           "run",          "flight.yaml", "--rig", "rig.yaml",
                   "--drawn-swarm", "--coils-cold", "--out",       "out"};
@@ -72,11 +53,7 @@ class RigOperation : public CommandLine {
     return arguments(
         {"--set", "goal_um=[470, 500]", "--set", "goal_tolerance_um=40", "--hold", hold});
   }
-  /// Lets it drive for `ms`. It arms once for its check of the driver, and again for the run.
-  void let_drive(int ms) {
-    for (int i = 0; i < 2000 && device.count(CoilMessage::arm) < 2; ++i) sleep_ms(10);
-    sleep_ms(ms);
-  }
+  void let_drive(int ms, int armed = 0) { DrivenRig::let_drive(device, ms, armed); }
   Record record() const { return read_record(at.folder / "out/run.h5"); }
 
   std::atomic<int> strongest = 0;  // output of the last set [‰]
@@ -92,12 +69,12 @@ TEST_F(RigOperation, PauseHoldsAndResumes) {
   Terminal terminal(arguments(), at);
   let_drive(1000);
   terminal.press("p");
-  terminal.says("paused");
+  EXPECT_TRUE(terminal.hears("paused")) << terminal.said();
   sleep_ms(1500);
   EXPECT_GT(strongest, 0);  // the field goes on
-  const std::size_t paused = terminal.said().size();
+  terminal.skip();
   terminal.press("P");
-  terminal.says("seen", paused);
+  EXPECT_TRUE(terminal.hears("seen")) << terminal.said();
   sleep_ms(1000);
   terminal.press("q");
   EXPECT_EQ(terminal.wait(), 3) << terminal.said();
@@ -119,7 +96,7 @@ TEST_F(RigOperation, ByHandTheSwarmGoesWhereTheKeysSay) {
                     at);
   let_drive(500);
   terminal.press("m");
-  terminal.says("manual");
+  EXPECT_TRUE(terminal.hears("manual")) << terminal.said();
   for (int i = 0; i < 4; ++i) terminal.press("+");
   for (int i = 0; i < 20; ++i) {
     terminal.press(up);
@@ -182,9 +159,9 @@ TEST_F(RigOperation, ALoneEscEndsItAtOnce) {
 TEST_F(RigOperation, EmergencyKeysActInEveryState) {
   for (const auto& [keys, emergency] :
        {std::pair{"p", " "}, {"m", esc}, {"mp", "e"}, {"", "\x1b\x1b"}, {"m", "\x1bx"}}) {
-    const int arms = device.count(CoilMessage::arm);
+    const int armed = device.count(CoilMessage::arm);
     Terminal terminal(arguments({"--overwrite"}), at);
-    for (int i = 0; i < 2000 && device.count(CoilMessage::arm) < arms + 2; ++i) sleep_ms(10);
+    let_drive(0, armed);
     terminal.press(keys);
     sleep_ms(400);
     terminal.press(emergency);
@@ -207,7 +184,7 @@ TEST_F(RigOperation, PastedTextIsNoCommand) {
 
 TEST_F(RigOperation, AtTheGoalItIsHeldUntilCtrlC) {
   Terminal terminal(near_goal("1000"), at);
-  terminal.says("at goal");
+  EXPECT_TRUE(terminal.hears("at goal")) << terminal.said();
   sleep_ms(2000);
   EXPECT_GT(strongest, 0);  // the field goes on
   const double held = steady_seconds();
@@ -232,7 +209,7 @@ TEST_F(RigOperation, TheHoldEndsByItsTimeOrItsKey) {
     Arguments words = near_goal(hold);
     words.push_back("--overwrite");
     Terminal terminal(words, at);
-    terminal.says("at goal");
+    EXPECT_TRUE(terminal.hears("at goal")) << terminal.said();
     terminal.press(key);
     EXPECT_EQ(terminal.wait(), 0) << terminal.said();
     EXPECT_EQ(record().result.status, Status::solved);
@@ -282,7 +259,7 @@ TEST_F(RigOperation, ANoteComesAboveTheStatusLine) {
     return true;
   });
   Terminal terminal(arguments({"--set-rig", "driver.port=" + trips.port()}), at);
-  terminal.says("armed again");
+  EXPECT_TRUE(terminal.hears("armed again")) << terminal.said();
   sleep_ms(500);
   terminal.send(SIGINT);
   terminal.wait();
@@ -300,9 +277,9 @@ TEST_F(RigOperation, AFaultInAPauseOrByHandOrAtTheGoalEndsItAsEver) {
     all.insert(all.end(), {"--overwrite", "--set-rig", "driver.port=" + other.port()});
     Terminal terminal(all, at);
     if (std::string_view(keys).empty()) {
-      terminal.says("at goal");
+      EXPECT_TRUE(terminal.hears("at goal")) << terminal.said();
     } else {
-      terminal.says("seen");
+      EXPECT_TRUE(terminal.hears("seen")) << terminal.said();
       terminal.press(keys);
       sleep_ms(500);
     }
@@ -363,8 +340,8 @@ TEST_F(RigOperation, NorByHand) {
 TEST_F(RigOperation, InTheBackgroundItIsRefused) {
   std::string line = MICROSWARM_PROGRAM;
   for (const std::string& word : arguments()) line += " " + word;
-  Terminal shell("/bin/bash", {"-c", "set -m; " + line + " & wait $!; echo code $?"}, at, 80);
-  EXPECT_TRUE(shell.says("code 2"));
+  Terminal shell("/bin/bash", {"-c", "set -m; " + line + " & wait $!; echo code $?"}, at);
+  EXPECT_TRUE(shell.hears("code 2")) << shell.said();
   EXPECT_TRUE(names(shell.said(), "no terminal"));
   EXPECT_EQ(device.count(CoilMessage::arm), 0);
   EXPECT_EQ(shell.wait(), 0);

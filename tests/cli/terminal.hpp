@@ -7,6 +7,7 @@
 
 #include <array>
 #include <atomic>
+#include <condition_variable>
 #include <mutex>
 #include <thread>
 
@@ -17,11 +18,11 @@ namespace microswarm::test {
 /// The program at a pseudo-terminal; killed at the end of its scope if it still runs.
 class Terminal {
  public:
-  /// `columns` of the terminal. `words` is the command line: the program, or a shell.
+  /// `columns` of the terminal. `program` may be another one, such as a shell.
   Terminal(const Arguments& arguments, const Surroundings& at, unsigned short columns = 80)
       : Terminal(MICROSWARM_PROGRAM, arguments, at, columns) {}
   Terminal(const std::string& program, const Arguments& arguments, const Surroundings& at,
-           unsigned short columns) {
+           unsigned short columns = 80) {
     std::vector<std::string> words{program};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
@@ -33,7 +34,7 @@ class Terminal {
       ::setenv("XDG_STATE_HOME", (at.folder / ".state").c_str(), 1);
       for (const auto& [key, value] : at.environment) ::setenv(key.c_str(), value.c_str(), 1);
       if (::chdir(at.folder.c_str()) != 0) ::_exit(126);
-      ::execv(argv[0], argv.data());
+      ::execvp(argv[0], argv.data());
       ::_exit(127);
     }
     listener_ = std::thread([this] { listen(); });
@@ -41,7 +42,7 @@ class Terminal {
   ~Terminal() {
     if (child_ > 0) {
       ::kill(child_, SIGKILL);
-      wait();
+      ::waitpid(child_, nullptr, 0);
     }
     over_ = true;
     listener_.join();
@@ -59,26 +60,39 @@ class Terminal {
     const std::lock_guard lock(mutex_);
     return said_;
   }
-  /// Waits until it has written `text` after the first `from` bytes, 20 s at most.
-  bool says(const std::string& text, std::size_t from = 0) const {
-    for (int i = 0; i < 2000; ++i) {
-      if (said().find(text, from) != std::string::npos) return true;
-      sleep_ms(10);
-    }
-    ADD_FAILURE() << "did not say '" << text << "' but\n" << said();
-    return false;
+  /// Waits until it says this after what was heard before.
+  bool hears(const std::string& text, int seconds = 30) { return hears_first(text, text, seconds); }
+  /// Waits until it says one of two; whether it is the first of them.
+  bool hears_first(const std::string& text, const std::string& other, int seconds = 30) {
+    std::unique_lock lock(mutex_);
+    std::size_t a = std::string::npos, b = std::string::npos;
+    const auto is_said = [&] {
+      a = said_.find(text, heard_);
+      b = said_.find(other, heard_);
+      return std::min(a, b) != std::string::npos;
+    };
+    more_.wait_for(lock, std::chrono::seconds(seconds), [&] { return is_said() || hung_up_; });
+    if (!is_said()) return false;
+    heard_ = a <= b ? a + text.size() : b + other.size();
+    return a <= b;
+  }
+  /// What it said so far counts as heard.
+  void skip() {
+    const std::lock_guard lock(mutex_);
+    heard_ = said_.size();
   }
   bool running() const {
     siginfo_t info{};
     return ::waitid(P_PID, static_cast<id_t>(child_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
            info.si_pid == 0;
   }
-  /// Exit code; -1 when a signal ended it.
+  /// Waits for its end and its last words; the exit code, or minus the signal that ended it.
   int wait() {
     int status = 0;
     ::waitpid(std::exchange(child_, 0), &status, 0);
-    sleep_ms(50);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    std::unique_lock lock(mutex_);
+    more_.wait_for(lock, std::chrono::seconds(1), [&] { return hung_up_; });
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   }
   /// Whether what is typed is shown and read by lines, as a shell wants it.
   bool is_as_a_shell_wants_it() const {
@@ -88,25 +102,30 @@ class Terminal {
   }
 
  private:
+  /// Hears it until nobody holds the terminal any more.
   void listen() {
     while (!over_) {
       pollfd ready{line_, POLLIN, 0};
       if (::poll(&ready, 1, 10) <= 0) continue;
       std::array<char, 4096> bytes{};
       const ssize_t size = ::read(line_, bytes.data(), bytes.size());
-      if (size <= 0) {
-        sleep_ms(10);
-        continue;
+      {
+        const std::lock_guard lock(mutex_);
+        if (size > 0) said_.append(bytes.data(), static_cast<std::size_t>(size));
+        hung_up_ = size <= 0;
       }
-      const std::lock_guard lock(mutex_);
-      said_.append(bytes.data(), static_cast<std::size_t>(size));
+      more_.notify_all();
+      if (size <= 0) return;
     }
   }
 
   int line_ = -1;
   pid_t child_ = 0;
   mutable std::mutex mutex_;
+  std::condition_variable more_;
   std::string said_;
+  std::size_t heard_ = 0;
+  bool hung_up_ = false;
   std::atomic<bool> over_ = false;
   std::thread listener_;
 };

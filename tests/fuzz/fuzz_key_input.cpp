@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/microswarm/rig/key_input.hpp"
+#include "apps/microswarm/rig/keys/key_input.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace microswarm::cli;

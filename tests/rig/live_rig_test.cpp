@@ -11,11 +11,13 @@
 #include "microswarm/rig/runtime/live_rig.hpp"
 #include "microswarm/rig/runtime/realtime_rig_simulator.hpp"
 #include "tests/files.hpp"
+#include "tests/messages.hpp"
 
 namespace microswarm {
 namespace {
 
 using test::LiveRigs;
+using test::names;
 using test::patience;
 using test::WatchedCoils;
 
@@ -39,25 +41,19 @@ TEST_F(LiveRigs, DroppedFramesAreNoFault) {
 
 TEST_F(LiveRigs, FrozenPicturesEndIt) {
   const RunResult result = go(6, [&](LiveRig&) { trouble->freeze = true; });
-  EXPECT_EQ(result.status, Status::fault);
-  EXPECT_EQ(result.state, "the camera's pictures are frozen");
-  EXPECT_EQ(at_end, 0);
+  EXPECT_EQ(fault_of(result), "the camera's pictures are frozen");
   EXPECT_LT(zero_after, patience * 0.8);
 }
 
 TEST_F(LiveRigs, PicturesThatComeAgainAndAgainEndIt) {
   const RunResult result = go(6, [&](LiveRig&) { trouble->cycle = true; });
-  EXPECT_EQ(result.status, Status::fault);
-  EXPECT_EQ(result.state, "the camera's pictures are frozen");
-  EXPECT_EQ(at_end, 0);
+  EXPECT_EQ(fault_of(result), "the camera's pictures are frozen");
   EXPECT_LT(zero_after, patience * 0.8);
 }
 
 TEST_F(LiveRigs, ADeviceThatTripsAgainEndsIt) {
   const RunResult result = go(6, [&](LiveRig&) { coils->answer = DriveStatus::resumed; });
-  EXPECT_EQ(result.status, Status::fault);
-  EXPECT_EQ(result.state, "the coils had been off by themselves 2 times in 10 s, allowed 1");
-  EXPECT_EQ(at_end, 0);
+  EXPECT_EQ(fault_of(result), "the coils had been off by themselves 2 times in 10 s, allowed 1");
   EXPECT_EQ(timing.resumed, 2);
   EXPECT_LT(zero_after, patience * 0.1);
 }
@@ -85,10 +81,7 @@ TEST_F(LiveRigs, ExchangedCoilsEndIt) {
   rig->params.safety.follow_distance = 60;
   coils->exchanged = true;
   const RunResult result = go(20, [&](LiveRig&) {});
-  EXPECT_EQ(result.status, Status::fault);
-  EXPECT_NE(result.state.find("the swarm does not follow: of 6"), std::string::npos)
-      << result.state;
-  EXPECT_EQ(at_end, 0);
+  EXPECT_TRUE(fault_of(result).starts_with("the swarm does not follow: of 6")) << result.state;
 }
 
 TEST_F(LiveRigs, ATurnedCameraEndsIt) {
@@ -124,27 +117,21 @@ TEST_F(LiveRigs, ASlightlyTurnedCameraIsToldByItsAngle) {
 
 TEST_F(LiveRigs, BlackPicturesEndIt) {
   const RunResult result = go(6, [&](LiveRig&) { trouble->black = true; });
-  EXPECT_EQ(result.status, Status::fault);
-  EXPECT_EQ(result.state, "the camera's pictures are black");
-  EXPECT_EQ(at_end, 0);
+  EXPECT_EQ(fault_of(result), "the camera's pictures are black");
   EXPECT_LT(zero_after, patience * 0.8);
 }
 
 TEST_F(LiveRigs, PicturesThatComeTwoSecondsLateEndIt) {
   rig->params.safety.max_frame_age = 0.5;
   const RunResult result = go(6, [&](LiveRig&) { trouble->late = 2; });
-  EXPECT_EQ(result.status, Status::fault);
-  EXPECT_NE(result.state.find("s old, allowed 0.5 s"), std::string::npos) << result.state;
-  EXPECT_EQ(at_end, 0);
+  EXPECT_TRUE(names(fault_of(result), "s old, allowed 0.5 s")) << result.state;
   EXPECT_LT(zero_after, patience * 1.2);
 }
 
 TEST_F(LiveRigs, ASwarmThatLeavesThePictureEndsIt) {
   rig->params.safety.lost_swarm = 0.5;
   const RunResult result = go(6, [&](LiveRig&) { trouble->no_swarm = true; });
-  EXPECT_EQ(result.status, Status::fault);
-  EXPECT_NE(result.state.find("the swarm was not found for"), std::string::npos) << result.state;
-  EXPECT_EQ(at_end, 0);
+  EXPECT_TRUE(names(fault_of(result), "the swarm was not found for")) << result.state;
   EXPECT_LT(zero_after, patience * 1.2);
 }
 
@@ -160,31 +147,23 @@ TEST_F(LiveRigs, ASwarmThatSplitsEndsIt) {
 
 TEST_F(LiveRigs, AnUnpluggedCameraEndsIt) {
   const RunResult result = go(6, [&](LiveRig&) { trouble->unplug = true; });
-  EXPECT_EQ(result.status, Status::fault);
-  EXPECT_EQ(result.state, "camera: unplugged");
-  EXPECT_EQ(at_end, 0);
+  EXPECT_EQ(fault_of(result), "camera: unplugged");
   EXPECT_LT(zero_after, patience * 0.8);
 }
 
 TEST_F(LiveRigs, ASilentCoilDriverEndsIt) {
   const RunResult result = go(6, [&](LiveRig&) { coils->answer = DriveStatus::no_answer; });
-  EXPECT_EQ(result.status, Status::fault);
-  EXPECT_EQ(result.state, "the coil driver does not answer");
-  EXPECT_EQ(at_end, 0);
+  EXPECT_EQ(fault_of(result), "the coil driver does not answer");
 }
 
 TEST_F(LiveRigs, RefusedCurrentsEndIt) {
   const RunResult result = go(6, [&](LiveRig&) { coils->answer = DriveStatus::refused; });
-  EXPECT_EQ(result.status, Status::fault);
-  EXPECT_EQ(result.state, "the coil driver refuses the currents");
-  EXPECT_EQ(at_end, 0);
+  EXPECT_EQ(fault_of(result), "the coil driver refuses the currents");
 }
 
 TEST_F(LiveRigs, ADeviceThatStaysOffEndsIt) {
   const RunResult result = go(6, [&](LiveRig&) { coils->answer = DriveStatus::not_armed; });
-  EXPECT_EQ(result.status, Status::fault);
-  EXPECT_EQ(result.state, "the coils' device is off and does not let itself be armed");
-  EXPECT_EQ(at_end, 0);
+  EXPECT_EQ(fault_of(result), "the coils' device is off and does not let itself be armed");
 }
 
 TEST_F(LiveRigs, TimesInFramesThatJumpDoNotMatter) {

@@ -182,6 +182,13 @@ class LiveRigs : public ::testing::Test {
     return result;
   }
 
+  /// Why a run ended as a fault, with the coils at zero.
+  std::string fault_of(const RunResult& result) const {
+    EXPECT_EQ(result.status, Status::fault);
+    EXPECT_EQ(at_end, 0);
+    return result.state;
+  }
+
   /// The scale of a camera that is turned by `turn` about the start, and not known to be.
   CameraScale turned(CameraScale scale) const {
     const Vec2 start_px = scale.to_picture(scene.scenario.start->position);

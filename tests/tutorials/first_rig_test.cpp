@@ -22,7 +22,7 @@
 #include "microswarm/experiment/record/record.hpp"
 #include "microswarm/rig/params/rig_experiment.hpp"
 #include "microswarm/rig/simulation/rig_simulator.hpp"
-#include "tests/cli/at_terminal.hpp"
+#include "tests/cli/terminal.hpp"
 #include "tests/firmware/simulator.hpp"
 
 namespace microswarm::test {
@@ -189,13 +189,13 @@ class FirstRig : public testing::Test {
            "device=/dev/video0 formats=YUYV,GREY width=640 height=480 rate=30 scene=" +
                (folder / "view.pgm").string()}};
     }
-    AtTerminal terminal(words[0], {words.begin() + 1, words.end()}, at);
+    Terminal terminal(words[0], {words.begin() + 1, words.end()}, at);
     if (command.starts_with("microswarm rig calibrate")) {
-      if (terminal.hears("then Enter")) terminal.type("\r");
+      if (terminal.hears("then Enter")) terminal.press("\r");
       while (terminal.hears_first("in mT: ", "worst")) {
         const Eigen::Vector3d b = bench->field();
-        terminal.type(std::to_string(b[0]) + " " + std::to_string(b[1]) + " " +
-                      std::to_string(b[2]) + "\r");
+        terminal.press(std::to_string(b[0]) + " " + std::to_string(b[1]) + " " +
+                       std::to_string(b[2]) + "\r");
       }
     }
     const int code = terminal.wait();

@@ -12,7 +12,7 @@
 #include "microswarm/vision/vessels/outline.hpp"
 #include "microswarm/vision/vessels/vessels.hpp"
 #include "microswarm/world/connectivity/passage.hpp"
-#include "rig/still.hpp"
+#include "rig/camera/still.hpp"
 #include "support/options.hpp"
 
 namespace microswarm::cli {

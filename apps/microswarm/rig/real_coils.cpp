@@ -6,7 +6,7 @@
 #include "microswarm/actuation/drivers/coil_drive.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/rig/runtime/rig_checks.hpp"
-#include "rig/rig_keys.hpp"
+#include "rig/keys/key_terminal.hpp"
 
 namespace microswarm::cli {
 

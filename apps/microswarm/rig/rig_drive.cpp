@@ -9,9 +9,9 @@
 #include "microswarm/actuation/coils/currents.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/rig/runtime/manual_drive.hpp"
+#include "rig/keys/rig_keys.hpp"
 #include "rig/real_coils.hpp"
 #include "rig/rig.hpp"
-#include "rig/rig_keys.hpp"
 #include "support/options.hpp"
 
 namespace microswarm::cli {

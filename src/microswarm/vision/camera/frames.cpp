@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <opencv2/core.hpp>
-#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 #include <vector>
@@ -194,8 +193,6 @@ class TiffStack : public Source {
 class VideoFile : public Source {
  public:
   VideoFile(const fs::path& file, std::optional<double> rate) : Source(file, rate) {
-    ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // FFmpeg keeps its own words to itself
-    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     if (!video_.open(fs::absolute(file).string(), cv::CAP_FFMPEG))
       fail(file, "is no video that can be read");
     require_fit(file, {static_cast<int>(video_.get(cv::CAP_PROP_FRAME_WIDTH)),

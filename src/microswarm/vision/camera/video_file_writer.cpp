@@ -2,7 +2,6 @@
 #include "microswarm/vision/camera/video_file_writer.hpp"
 
 #include <cstdio>
-#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
@@ -42,7 +41,6 @@ void VideoFileWriter::add(const Image& picture) {
   std::filesystem::path folder = p.file;
   folder.replace_extension();
   if (p.pictures == 0) {
-    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     if (!p.open({picture.width, picture.height})) {
       p.staged.reset();
       std::filesystem::create_directories(folder);

@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <deque>
 #include <mutex>
-#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 #include <optional>
@@ -136,8 +135,6 @@ class VideoRecorder::Writer {
         part_(part_of(file)),
         times_file_(times_of(file)),
         result_{.file = file} {
-    ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
-    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     std::fclose(create_new(part_, file));
     cv::VideoWriter trial;
     if (!open_video(trial, part_, rate_, {64, 64}, true))

@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "microswarm/core/errors/error.hpp"
+#include "rig/camera/still.hpp"
 #include "rig/rig.hpp"
-#include "rig/still.hpp"
 #include "support/options.hpp"
 
 namespace microswarm::cli {

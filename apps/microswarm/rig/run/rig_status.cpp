@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rig/rig_status.hpp"
+#include "rig/run/rig_status.hpp"
 
 #include <fmt/format.h>
 

@@ -14,8 +14,8 @@
 #include "microswarm/rig/simulation/rig_simulator.hpp"
 #include "microswarm/vision/scene/scene_overlay.hpp"
 #include "microswarm/vision/scene/wall_finder.hpp"
+#include "rig/camera/still.hpp"
 #include "rig/rig.hpp"
-#include "rig/still.hpp"
 #include "support/options.hpp"
 
 namespace microswarm::cli {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rig/still.hpp"
+#include "rig/camera/still.hpp"
 
 #include <string_view>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "microswarm/session/live_session.hpp"
-#include "rig/key_input.hpp"
+#include "rig/keys/key_input.hpp"
 
 namespace microswarm::cli {
 

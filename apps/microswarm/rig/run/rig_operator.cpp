@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rig/rig_operator.hpp"
+#include "rig/run/rig_operator.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rig/probe_positions.hpp"
+#include "rig/calibrate/probe_positions.hpp"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <termios.h>
-
 #include <optional>
 #include <string>
 #include <string_view>
+
+#include "rig/keys/key_terminal.hpp"
 
 namespace microswarm::cli {
 
@@ -20,7 +20,7 @@ class AnswerLine {
   AnswerLine(const AnswerLine&) = delete;
   AnswerLine& operator=(const AnswerLine&) = delete;
 
-  bool is_terminal() const { return is_terminal_; }
+  bool is_terminal() const { return terminal_.is_there(); }
   /// Asks on stderr. What was typed before at a terminal is no answer.
   void ask(std::string_view question);
   /// The line, if it is complete by now. Throws HardwareError if an emergency key was pressed.
@@ -36,9 +36,8 @@ class AnswerLine {
   void take_key(char key);
 
   bool any_stop_key_;
-  bool is_terminal_ = false;
+  KeyTerminal terminal_;
   bool ended_ = false;
-  termios before_{};
   std::string typed_;  // at a terminal the line so far; of a pipe, what was read and not used
   bool complete_ = false;
 };

@@ -10,7 +10,7 @@
 #include "microswarm/config/write.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
-#include "rig/measure.hpp"
+#include "rig/calibrate/measure.hpp"
 #include "rig/rig.hpp"
 #include "support/options.hpp"
 

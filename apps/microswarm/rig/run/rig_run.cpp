@@ -9,12 +9,12 @@
 #include "microswarm/rig/runtime/rig_checks.hpp"
 #include "microswarm/session/live_session.hpp"
 #include "microswarm/vision/image/threads.hpp"
+#include "rig/keys/rig_keys.hpp"
 #include "rig/real_coils.hpp"
 #include "rig/rig.hpp"
-#include "rig/rig_keys.hpp"
 #include "rig/rig_notes.hpp"
-#include "rig/rig_operator.hpp"
-#include "rig/rig_status.hpp"
+#include "rig/run/rig_operator.hpp"
+#include "rig/run/rig_status.hpp"
 
 namespace microswarm::cli {
 namespace {

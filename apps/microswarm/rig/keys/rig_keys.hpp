@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <termios.h>
-
 #include <atomic>
 #include <functional>
 #include <string>
 #include <thread>
 
-#include "rig/key_input.hpp"
+#include "rig/keys/key_input.hpp"
+#include "rig/keys/key_terminal.hpp"
 #include "support/cli.hpp"
 
 namespace microswarm::cli {
-
-/// Whether the program has the keys of a terminal: it is not in the background.
-bool has_keys();
 
 /// Calls `stop` when an emergency key is pressed, and `other` for other keys, if the program has a
 /// terminal. A lone Esc is known 20 ms after it. The terminal settings are restored when the
@@ -36,7 +32,7 @@ class RigKeys {
   std::function<void()> stop_;
   std::function<void(const Key&)> other_;
   Stop ended_;
-  termios before_{};
+  KeyTerminal terminal_;
   std::atomic<bool> over_ = false;
   std::thread thread_;
 };

@@ -12,8 +12,8 @@
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/vision/calibration/calibration_grid.hpp"
 #include "microswarm/vision/calibration/lens_distortion.hpp"
+#include "rig/camera/still.hpp"
 #include "rig/rig.hpp"
-#include "rig/still.hpp"
 #include "support/options.hpp"
 
 namespace microswarm::cli {

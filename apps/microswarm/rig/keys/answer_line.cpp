@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rig/answer_line.hpp"
+#include "rig/keys/answer_line.hpp"
 
-#include <poll.h>
 #include <unistd.h>
 
-#include <array>
-#include <cerrno>
 #include <utility>
 
 #include "microswarm/core/errors/error.hpp"
-#include "rig/rig_keys.hpp"
+#include "rig/keys/key_input.hpp"
 #include "support/cli.hpp"
 
 namespace microswarm::cli {
@@ -25,38 +22,23 @@ void echo(std::string_view text) {
 
 }  // namespace
 
-AnswerLine::AnswerLine(bool any_stop_key) : any_stop_key_(any_stop_key) {
-  is_terminal_ = ::isatty(STDIN_FILENO) != 0 && ::tcgetattr(STDIN_FILENO, &before_) == 0;
-}
+AnswerLine::AnswerLine(bool any_stop_key) : any_stop_key_(any_stop_key) {}
 
-AnswerLine::~AnswerLine() {
-  if (is_terminal_ && has_keys()) ::tcsetattr(STDIN_FILENO, TCSANOW, &before_);
-}
+AnswerLine::~AnswerLine() { terminal_.restore(); }
 
 /// Reads what is there.
 void AnswerLine::read_more() {
-  if (ended_) return;
-  if (is_terminal_) {
-    if (!has_keys()) return;
-    // Repeated, because a shell resets the terminal when the program is suspended and resumed.
-    termios keys = before_;
-    keys.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
-    ::tcsetattr(STDIN_FILENO, TCSANOW, &keys);
-  }
-  pollfd in{STDIN_FILENO, POLLIN, 0};
-  if (::poll(&in, 1, 0) <= 0) return;
-  std::array<char, 256> bytes{};
-  const ssize_t n = ::read(STDIN_FILENO, bytes.data(), bytes.size());
-  if (n < 0 && (errno == EINTR || errno == EAGAIN)) return;
-  ended_ = n <= 0;
-  const std::string_view got(bytes.data(), ended_ ? 0 : static_cast<std::size_t>(n));
-  if (!is_terminal_) typed_ += got;
-  if (is_terminal_)
-    for (const char key : got) take_key(key);
+  if (ended_ || (is_terminal() && !terminal_.prepare())) return;
+  const std::optional<std::string> got = input_within(0);
+  ended_ = !got;
+  if (!got) return;
+  if (!is_terminal()) typed_ += *got;
+  if (is_terminal())
+    for (const char key : *got) take_key(key);
 }
 
 void AnswerLine::take_key(char key) {
-  if (key == '\x1b' || (any_stop_key_ && (key == ' ' || key == 'e' || key == 'E')))
+  if (key == '\x1b' || (any_stop_key_ && is_emergency({.character = key})))
     throw HardwareError("the emergency key was pressed");
   if (complete_) return;  // an answer to a question that is not asked yet
   if (key == '\r' || key == '\n') {
@@ -74,7 +56,7 @@ void AnswerLine::take_key(char key) {
 }
 
 void AnswerLine::watch() {
-  if (!is_terminal_) return;
+  if (!is_terminal()) return;
   read_more();
   typed_.clear();
   complete_ = false;
@@ -86,8 +68,8 @@ void AnswerLine::ask(std::string_view question) {
 }
 
 std::optional<std::string> AnswerLine::poll() {
-  if (is_terminal_ || typed_.find('\n') == std::string::npos) read_more();
-  if (is_terminal_) {
+  if (is_terminal() || typed_.find('\n') == std::string::npos) read_more();
+  if (is_terminal()) {
     if (!std::exchange(complete_, false)) return std::nullopt;
     return std::exchange(typed_, {});
   }

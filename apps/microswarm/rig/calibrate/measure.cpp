@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Guided measurement of the coils' fields for `rig calibrate --measure`.
-#include "rig/measure.hpp"
+#include "rig/calibrate/measure.hpp"
 
 #include <fmt/ranges.h>
 
@@ -16,8 +16,8 @@
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/rig/runtime/manual_drive.hpp"
-#include "rig/answer_line.hpp"
-#include "rig/probe_positions.hpp"
+#include "rig/calibrate/probe_positions.hpp"
+#include "rig/keys/answer_line.hpp"
 #include "rig/rig.hpp"
 #include "support/options.hpp"
 
