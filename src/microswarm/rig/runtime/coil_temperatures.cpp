@@ -58,6 +58,25 @@ std::string name_for(const fs::path& coils) {
   return fmt::format("{}-{:016x}.yaml", coils.stem().string(), sum);
 }
 
+/// What the file has of a system's coils. Throws InputError, one line that says what helps.
+KeptTemperatures read_kept(const fs::path& file, std::size_t coils) {
+  const auto fail = [&](const std::string& why) {
+    throw InputError(
+        fmt::format("{}: correct it, or run with --coils-cold if the coils are cold", why));
+  };
+  KeptTemperatures kept;
+  try {
+    kept = read_yaml_file<KeptTemperatures>(file);
+  } catch (const InputError& error) {
+    const std::string_view why = error.what();
+    fail(std::string(why.substr(0, why.find('\n'))));
+  }
+  if (kept.temperatures.size() != coils)
+    fail(fmt::format("{}: {} temperatures, the system has {} coils", file.string(),
+                     kept.temperatures.size(), coils));
+  return kept;
+}
+
 }  // namespace
 
 CoilTemperatures::CoilTemperatures(const Rig& rig, bool cold)
@@ -73,13 +92,9 @@ CoilTemperatures::CoilTemperatures(const Rig& rig, bool cold)
     known_ = false;
     at_start_ = hottest(drives);
   } else if (!cold) {
-    const auto kept = read_yaml_file<KeptTemperatures>(file_);
-    if (kept.temperatures.size() != drives.size())
-      throw InputError(
-          fmt::format("{}: {} temperatures, the system has {} coils: correct it, or "
-                      "run with --coils-cold",
-                      file_.string(), kept.temperatures.size(), drives.size()));
-    Eigen::VectorXd then = Eigen::Map<const Eigen::VectorXd>(kept.temperatures.data(), coils);
+    const KeptTemperatures kept = read_kept(file_, drives.size());
+    Eigen::VectorXd then = Eigen::Map<const Eigen::VectorXd>(kept.temperatures.data(), coils)
+                               .cwiseMax(at_start_);  // no coil is colder than its surroundings
     if (kept.driven) then = heated(drives, then, unwritten);
     at_start_ = cooled(drives, then, wall_clock() - kept.clock - (kept.driven ? unwritten : 0));
   }
