@@ -14,6 +14,7 @@
 #include "microswarm/actuation/drivers/coil_drive.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/rig/runtime/manual_drive.hpp"
 #include "rig/real_coils.hpp"
 #include "rig/rig.hpp"
