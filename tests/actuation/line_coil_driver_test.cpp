@@ -385,6 +385,42 @@ TEST_F(LineProgram, AStopThatIsNotAnsweredBeginsOnceMore) {
   EXPECT_FALSE(lives());
 }
 
+/// Whatever a card may hold: nothing but zeros ends it.
+TEST_F(LineProgram, AStopWithoutZeroBeginsOnceMore) {
+  for (const char* said : {"ok $n 0 3 0", "ok $n 0 0", "ok $n nan nan nan", "ok $n", "off $n",
+                           "refused $n busy", "emergency $n", "limited $n 0.5 0 0"}) {
+    std::filesystem::remove(folder_ / "begun");
+    {
+      const auto driver =
+          start(std::string("echo one >>begun; while read word n rest; do case $word in stop) ") +
+                "echo " + said + ";; set) echo ok $n $rest;; *) echo ok $n 0 0 0;; esac; done");
+      EXPECT_EQ(driver->drive(amperes), DriveStatus::driven);
+      EXPECT_TRUE(driver->stop()) << said;
+      EXPECT_EQ(driver->stop_trouble(),
+                "did not say zero to stop; it was ended, and a second one said zero");
+      EXPECT_EQ(driver->currents()[1], 0);
+      EXPECT_EQ(driver->drive(amperes), DriveStatus::gone);
+    }
+    EXPECT_EQ(read_file(folder_ / "begun"), "one\none\n") << said;
+    EXPECT_FALSE(lives());
+  }
+}
+
+/// What the first one left of a line is not put before the answer of the second.
+TEST_F(LineProgram, HalfALineOfTheOneThatEndedIsForgotten) {
+  for (const char* last : {"printf 'ok 3 1 -2'; exit 1", "printf 'garbage'; kill -9 $$",
+                           "head -c 20000 /dev/zero | tr '\\0' x; exit 1"}) {
+    const auto driver = start(answering(last));
+    EXPECT_EQ(driver->drive(amperes), DriveStatus::gone) << last;
+    EXPECT_TRUE(driver->stop()) << last;
+  }
+  const auto flooded = start(
+      "while read word n rest; do case $word in stop) exec tr '\\0' x </dev/zero;; set) echo ok $n "
+      "$rest;; *) echo ok $n 0 0 0;; esac; done");
+  EXPECT_EQ(flooded->drive(amperes), DriveStatus::driven);
+  EXPECT_TRUE(flooded->stop());
+}
+
 TEST_F(LineProgram, OneThatHangsIsKilledAfterTheStop) {
   const double began = steady_seconds();
   {

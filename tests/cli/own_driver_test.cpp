@@ -218,6 +218,8 @@ TEST_F(OwnDriver, ARefusedArmAndAnEmergencyStopAreTold) {
   ends_with("if answer[1] == 2: answer = ['refused', 2, 'interlock open']",
             "does not let itself be armed: interlock open");
   EXPECT_TRUE(std::ranges::all_of(lines("applied"), is_zero));
+  EXPECT_EQ(run(arguments({"--out", "out"})).code, 4);
+  EXPECT_FALSE(exists("out"));  // nothing was driven
   ends_with("if driven >= 30 and any(answer[2:]): answer = ['emergency', answer[1]]",
             "the emergency stop of the coils' device was pressed");
 }
@@ -240,14 +242,16 @@ TEST_F(OwnDriver, OneThatNeverAnswersStopIsRefusedBeforeItDrives) {
   EXPECT_FALSE(lives());
 }
 
-TEST_F(OwnDriver, OneThatDoesNotAnswerTheStopOfARunIsTold) {
-  write_driver(
-      "if driven and sys._getframe(1).f_locals['message'][0] == b'stop': time.sleep(1000)");
-  const Outcome outcome = run(arguments({"--seconds", "1.5"}));
-  EXPECT_EQ(outcome.code, 4) << outcome.out << outcome.err;
-  EXPECT_TRUE(names(outcome.err, "did not answer stop; it was ended, and a second one said zero"))
-      << outcome.err;
-  expect_at_zero();
+TEST_F(OwnDriver, OneThatDoesNotSayZeroAtTheStopOfARunIsTold) {
+  for (const auto& [fault, trouble] : std::vector<std::pair<std::string, std::string>>{
+           {"time.sleep(1000)", "did not answer stop; it was ended"},
+           {"answer = ['refused', answer[1], 'busy']", "did not say zero to stop; it was ended"}}) {
+    write_driver("if driven and sys._getframe(1).f_locals['message'][0] == b'stop': " + fault);
+    const Outcome outcome = run(arguments({"--seconds", "1.5"}));
+    EXPECT_EQ(outcome.code, 4) << outcome.out << outcome.err;
+    EXPECT_TRUE(names(outcome.err, trouble + ", and a second one said zero")) << outcome.err;
+    expect_at_zero();
+  }
 }
 
 /// Its acknowledged values are `share` of those sent.

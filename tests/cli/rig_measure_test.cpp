@@ -284,7 +284,7 @@ TEST_F(RigMeasure, AProbeThatStopsIsToldInOneLine) {
   write("probe.csv", "bx_mt,by_mt,bz_mt\n1,2,3\n");
   const Outcome outcome = run(arguments({"--probe", "probe.csv", "--other-stop"}));
   EXPECT_EQ(outcome.code, 4) << outcome.err;
-  EXPECT_TRUE(names(outcome.err, "probe.csv: no new row in 5 s")) << outcome.err;
+  EXPECT_TRUE(names(outcome.err, "probe.csv: no new row in 5 s after '1,2,3'")) << outcome.err;
   EXPECT_EQ(currents().norm(), 0);
   write("broken.csv", "bx,by_mt,bz_mt\n");
   refused(arguments({"--probe", "broken.csv", "--other-stop"}),
@@ -398,6 +398,9 @@ TEST_F(RigMeasure, WhatCannotBeIsRefusedBeforeTheFirstCurrent) {
             naming("--positions", {"dBy/dy", "dBy/dz"}));
   complaint({"--set", "driver.full_scale_a=3"}, naming("", {"x", "3 A", "4 A"}));
   complaint({"--positions", "none.csv"}, naming("none.csv", {"cannot read"}));
+  complaint({"--positions", "nan,0,0"}, naming("--positions", {"three numbers", "'nan,0,0'"}));
+  complaint({"--positions", "0,0"}, naming("--positions", {"three numbers", "'0,0'"}));
+  complaint({"--positions", "0,0,0;1"}, naming("--positions", {"three numbers", "'0,0,0;1'"}));
   write("places.csv", "x_um,y_um,z_um\n0,0,0\n1,2\n");
   complaint({"--positions", "places.csv"}, naming("places.csv:3", {"2", "3"}));
   const std::string other = "i_a_a,bx_mt,by_mt,bz_mt\n1,2,3,4\n";

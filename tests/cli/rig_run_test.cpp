@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "driven_rig.hpp"
+#include "inputs.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/lines.hpp"
 #include "microswarm/experiment/record/record.hpp"
@@ -218,15 +219,20 @@ TEST_F(RigRun, TemperaturesOutliveTheProgram) {
   EXPECT_LT(temperature(), 40);
 }
 
+/// Where the temperatures of the coils are kept; empty before the first run.
+std::string state_of(const std::set<std::string>& files) {
+  const auto found = std::ranges::find_if(
+      files, [](const std::string& file) { return file.starts_with(".state/"); });
+  return found == files.end() ? std::string() : *found;
+}
+
 TEST_F(RigRun, TheFileOfTemperaturesIsNoWayToAnother) {
   FakeDevice device;
   write_rig(device);
   ASSERT_EQ(run(arguments({"--seconds", "0.5"})).code, 3);
-  const auto all = files();
-  const auto kept = std::ranges::find_if(
-      all, [](const std::string& file) { return file.starts_with(".state/"); });
-  ASSERT_NE(kept, all.end());
-  const fs::path file = at.folder / *kept;
+  const std::string kept = state_of(files());
+  ASSERT_FALSE(kept.empty());
+  const fs::path file = at.folder / kept;
   Arguments warm = arguments({"--seconds", "0.5"});
   std::erase(warm, "--coils-cold");
   const auto is_refused = [&] {
@@ -236,7 +242,7 @@ TEST_F(RigRun, TheFileOfTemperaturesIsNoWayToAnother) {
     EXPECT_FALSE(names(outcome.err, "tr0ub4dor")) << outcome.err;
   };
   write("secret", "tr0ub4dor: 3\n");
-  const std::string before = read(*kept);
+  const std::string before = read(kept);
   for (const fs::path& target :
        {at.folder / "secret", at.folder / "nothing", fs::path("/dev/full")}) {
     fs::remove(file);
@@ -250,10 +256,10 @@ TEST_F(RigRun, TheFileOfTemperaturesIsNoWayToAnother) {
   }
   EXPECT_EQ(read("secret"), "tr0ub4dor: 3\n");
   for (const std::string text : {"tr0ub4dor", "coils: tr0ub4dor\n", "clock_s: tr0ub4dor\n"}) {
-    write(*kept, text);
+    write(kept, text);
     is_refused();
   }
-  write(*kept, before.substr(0, before.find("temperatures")) + "temperatures_degc: [20]\n");
+  write(kept, before.substr(0, before.find("temperatures")) + "temperatures_degc: [20]\n");
   is_refused();
 }
 
@@ -284,6 +290,70 @@ TEST_F(RigRun, CurrentsThatTheDeviceWeakensAgainAndAgainAreToldSeldom) {
   const std::size_t first = outcome.err.find(told);
   ASSERT_NE(first, std::string::npos) << outcome.err;
   EXPECT_EQ(outcome.err.find(told, first + 1), std::string::npos) << outcome.err;
+}
+
+/// A folder of pictures as the camera.
+TEST_F(RigRun, APictureThatCannotBeReadIsNamed) {
+  write("rig.yaml",
+        "name: bench\ncoils: coils.yaml\nfield: {kind: rotating, amplitude_mt: 8, frequency_hz: "
+        "10, max_pitch_deg: 7.5}\nscale: {um_per_px: 10, origin_px: [0, 99]}\n"
+        "camera: {type: video, file: pictures, rate_hz: 5}\n"
+        "safety: {lost_swarm_s: 100, missed_deadlines: 100, max_pause_s: 3}\n");
+  fs::create_directory(at.folder / "pictures");
+  const auto draw = [&] {
+    for (int k = 100; k < 200; ++k)
+      write("pictures/" + std::to_string(k) + ".pgm",
+            pgm(200, 100, [k](int x, int y) { return 150 + (x * y + k) % 50; }));
+  };
+  const Arguments dry{"rig",      "run",       "flight.yaml", "--rig",
+                      "rig.yaml", "--dry-run", "--seconds",   "15"};
+  draw();
+  write("pictures/108.pgm", "P5\n200 100\n255\n");
+  const Outcome damaged = run(dry);
+  EXPECT_EQ(damaged.code, 4) << damaged.out << damaged.err;
+  EXPECT_TRUE(names(damaged.out + damaged.err, "pictures/108.pgm")) << damaged.out << damaged.err;
+  draw();
+  Program program(dry, at);
+  program.let_work(2000);
+  fs::rename(at.folder / "pictures", at.folder / "moved");
+  const Outcome moved = program.wait();
+  EXPECT_EQ(moved.code, 4) << moved.out << moved.err;
+  EXPECT_TRUE(names(moved.out + moved.err, "pictures")) << moved.out << moved.err;
+}
+
+TEST_F(RigRun, ADamagedFileOfTemperaturesIsRefusedInALineThatSaysWhatHelps) {
+  FakeDevice device;
+  write_rig(device);
+  EXPECT_EQ(run(arguments({"--seconds", "0.5"})).code, 3);
+  const std::string state = state_of(files());
+  const std::string good = read(state);
+  Arguments again = arguments({"--seconds", "0.5"});
+  std::erase(again, "--coils-cold");
+  for (const std::string& damaged :
+       {std::string(), good.substr(0, good.size() / 2), std::string("\x00\xff\x00", 3),
+        with(good, "temperatures_degc", "temperatures_degc: [20, 20]"),
+        with(good, "temperatures_degc", "temperatures_degc: [20, .nan, x]"),
+        std::string("[1, 2")}) {
+    write(state, damaged);
+    const Outcome outcome = run(again);
+    EXPECT_EQ(outcome.code, 2) << damaged << outcome.err;
+    EXPECT_TRUE(is_one_line_naming(outcome.err, {}, {fs::path(state).filename(), "--coils-cold"}))
+        << damaged << outcome.err;
+    EXPECT_EQ(read(state), damaged);
+  }
+  EXPECT_EQ(run(arguments({"--seconds", "0.5"})).code, 3);
+}
+
+TEST_F(RigRun, KeptTemperaturesBelowAmbientAreNotBelieved) {
+  FakeDevice device;
+  write_rig(device);
+  EXPECT_EQ(run(arguments({"--seconds", "0.5"})).code, 3);
+  const std::string state = state_of(files());
+  write(state, with(read(state), "temperatures_degc", "temperatures_degc: [-270, -270, 50]"));
+  Arguments again = arguments({"--seconds", "0.5"});
+  std::erase(again, "--coils-cold");
+  EXPECT_EQ(run(again).code, 3);
+  EXPECT_EQ(read(state).find("-2"), std::string::npos) << read(state);
 }
 
 class RigDrive : public RigRun {
@@ -330,6 +400,7 @@ TEST_F(RigDrive, EachCoilInTurn) {
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   for (const char* coil : {"coil x, channel 1: 2 A", "coil y, channel 2", "coil z, channel 3"})
     EXPECT_TRUE(names(outcome.out, coil)) << outcome.out;
+  EXPECT_EQ(outcome.err.find("to stop"), outcome.err.rfind("to stop")) << outcome.err;
   const std::lock_guard lock(mutex);
   EXPECT_EQ(most, (std::array<int, 3>{200, 200, 200}));
 }
@@ -369,6 +440,17 @@ TEST_F(RigDrive, WhatCannotBeIsRefused) {
                               {"--currents", "1,0,0", "--seconds", "1", "--ramp", "2"}}) {
     const Outcome outcome = drive(wrong);
     EXPECT_EQ(outcome.code, 2) << outcome.err;
+  }
+  for (const auto& [wrong, part] : std::vector<std::pair<Arguments, std::string>>{
+           {{"--heading", "0", "--speed", "1e6"}, "150 µm/s"},
+           {{"--currents", "1e9,0,0"}, "coil 'x' can carry 10 A"},
+           {{"--currents", "0,0,-10.1"}, "coil 'z' can carry 10 A"},
+           {{"--each", "-50"}, "coil 'x' can carry 10 A"},
+           {{"--each", "0"}, "0 A"}}) {
+    const Outcome outcome = drive(wrong);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_TRUE(is_one_line_naming(outcome.err, {}, {wrong[wrong.size() - 2], part}))
+        << outcome.err;
   }
   EXPECT_EQ(run({"rig", "drive", "rig.yaml", "--currents", "1,0,0"}).code, 2);  // nobody watches
   write_coils("max_current_a: 10");

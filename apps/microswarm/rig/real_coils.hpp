@@ -37,6 +37,7 @@ struct Bench {
   std::unique_ptr<CoilDriver> driver;
   std::optional<CoilTemperatures> kept;
   Eigen::VectorXd temperatures;  ///< [°C]
+  bool said_how_to_stop = false;
 };
 
 /// Says it on stderr if the coils are not known to be at zero, or another than the driver that

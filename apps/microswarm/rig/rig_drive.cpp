@@ -3,11 +3,18 @@
 #include <fmt/ranges.h>
 
 #include <atomic>
+#include <cmath>
 #include <memory>
 #include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "microswarm/actuation/coils/currents.hpp"
+#include "microswarm/actuation/drivers/coil_drive.hpp"
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/text/text.hpp"
 #include "microswarm/rig/runtime/manual_drive.hpp"
 #include "rig/keys/rig_keys.hpp"
 #include "rig/real_coils.hpp"
@@ -46,21 +53,55 @@ void note_device_limits(const Rig& rig, const ManualCommand& command, const Manu
        left);
 }
 
+/// Throws InputError for currents that the amplifiers never make, however cold the coils are.
+void require_possible(const Eigen::VectorXd& currents, const CoilSystem& system,
+                      std::string_view option) {
+  constexpr double unlimited = 1e9;  // [A]
+  std::vector<DriveParams> cold = system.drives();
+  for (DriveParams& drive : cold) drive.max_temperature.reset();
+  for (Eigen::Index k = 0; k < currents.size(); ++k) {
+    const Eigen::VectorXd alone = unlimited * Eigen::VectorXd::Unit(currents.size(), k);
+    const double most = CoilDrive(cold).steady(alone).currents[k];
+    if (std::abs(currents[k]) > most * (1 + 1e-9))
+      throw InputError(fmt::format("{}: coil {} can carry {:.4g} A, not {:.6g} A", option,
+                                   quote(system.coil_names()[static_cast<std::size_t>(k)]), most,
+                                   currents[k]));
+  }
+}
+
+/// Throws InputError for what the rig cannot do; the wanted field or currents are made otherwise.
+void require_possible(const ManualCommand& command, const RigParams& rig,
+                      const CoilSystem& system) {
+  const auto* const steering = std::get_if<microswarm::Command>(&command.wanted);
+  const auto* const field = std::get_if<Eigen::Vector3d>(&command.wanted);
+  if (const auto* currents = std::get_if<Eigen::VectorXd>(&command.wanted))
+    require_possible(*currents, system, "--currents");
+  if (field && !currents_for(system.at(system.centre()), *field).reached)
+    throw InputError("--field: the coils cannot make this field, see `microswarm rig field`");
+  if (const double most = rig.field.max_speed(); steering && steering->speed > most * (1 + 1e-9))
+    throw InputError(
+        fmt::format("--speed: the rig's field moves a swarm at {:.4g} µm/s at most, "
+                    "not {:.6g} µm/s",
+                    most, steering->speed));
+}
+
 /// Drives and says how it ended. Returns the exit code.
 int drive(Bench& bench, const ManualCommand& command, const Context& context) {
   std::atomic<bool> pressed = false;
   const RigKeys keys([&] { pressed = true; }, {}, context.stop);
-  if (bench.kept) note_how_to_stop(keys.are_there(), "");
-  ProgressBar bar("drive");
+  if (bench.kept && !std::exchange(bench.said_how_to_stop, true))
+    note_how_to_stop(keys.are_there(), "");
+  std::optional<ProgressBar> bar("drive");
   const auto heard = [&](const ManualMoment& moment) {
     bench.temperatures = moment.output.temperatures;
     if (bench.kept) bench.kept->take(bench.temperatures);
-    bar.update(moment.t / command.seconds,
-               fmt::format("{:.3g} A", fmt::join(moment.output.acknowledged, ", ")));
     if (pressed) throw HardwareError("the emergency key was pressed");
+    bar->update(moment.t / command.seconds,
+                fmt::format("{:.3g} A", fmt::join(moment.output.acknowledged, ", ")));
   };
   const ManualResult result =
       drive_by_hand(bench.rig, *bench.driver, command, bench.temperatures, heard, context.stop);
+  bar.reset();
   if (!result.why.empty()) note("microswarm: {}\n", result.why);
   const bool at_zero = note_zero(result.zero_confirmed, result.stop_trouble);
   if (result.min_scale < 1 - 1e-9)
@@ -107,13 +148,14 @@ int rig_drive(const DriveOptions& o, const Context& context) {
   if (takes_field(rig.params) && (o.each || !o.currents.empty()))
     throw InputError("--currents and --each are for a driver that is sent currents: give --field");
   if (o.each) {
+    if (*o.each == 0) throw InputError("--each: 0 A shows nothing of a coil");
+    const auto coils = static_cast<Eigen::Index>(rig.system.size());
+    require_possible(Eigen::VectorXd::Constant(coils, *o.each), rig.system, "--each");
     Bench bench(rig, o.coils);
     return drive_each(bench, o, context);
   }
   const ManualCommand command = command_of(o, rig.system);
-  const auto* field = std::get_if<Eigen::Vector3d>(&command.wanted);
-  if (field && !currents_for(rig.system.at(rig.system.centre()), *field).reached)
-    throw InputError("--field: the coils cannot make this field, see `microswarm rig field`");
+  require_possible(command, rig.params, rig.system);
   Bench bench(rig, o.coils);
   return drive(bench, command, context);
 }

@@ -175,7 +175,8 @@ void Guide::take_rows(double t) {
   probe_->read(readings_);
   if (readings_.size() > before) newest_row_ = t;
   if (t - newest_row_.value_or(*settled_) > probe_silence)
-    throw HardwareError(fmt::format("{}: no new row in {:.6g} s", probe_->name(), probe_silence));
+    throw HardwareError(fmt::format("{}: no new row in {:.6g} s after {}", probe_->name(),
+                                    probe_silence, quote(probe_->last_row())));
   if (!readings_.empty() && t - *settled_ >= o_.dwell) finish(Outcome::measured);
 }
 

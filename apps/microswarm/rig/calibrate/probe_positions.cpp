@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <system_error>
+
 #include "microswarm/actuation/coils/text_rows.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
@@ -48,7 +51,13 @@ std::vector<Eigen::Vector3d> positions_of(const std::string& given, const CoilSy
     if (places.back().cwiseAbs().maxCoeff() > max_place)
       throw InputError(fmt::format("--positions: {} is beyond {:.6g} µm", quote(one), max_place));
   }
-  if (places.size() != split(given, ';').size()) places = positions_in(given);
+  if (places.size() != split(given, ';').size()) {
+    const bool is_list = given.find_first_of(",;") != std::string::npos;
+    if (std::error_code none; is_list && !std::filesystem::exists(given, none))
+      throw InputError("--positions: must be X,Y,Z;… of three numbers each, or a CSV file, not " +
+                       quote(given));
+    places = positions_in(given);
+  }
   if (places.size() > max_positions)
     throw InputError(
         fmt::format("--positions: {} positions, at most {}", places.size(), max_positions));

@@ -245,7 +245,8 @@ int rig_run(const RigRunOptions& o, const Context& context) {
   note_direction(timing);
   const int code =
       tell_run(session, {o.out, false, o.json, [&] { return timing_json(timing, video); }}, {});
-  note_pace(timing, session.result().metrics.time, on.rig.params);
+  if (const auto& frames = session.record().frames; !frames.empty())
+    note_pace(timing, frames.back().t - frames.front().t, on.rig.params);
   if (!o.json) tell(timing);
   if (!o.json && video && video->trouble.empty()) tell(*video);
   if (!at_zero) return hardware;
@@ -275,7 +276,7 @@ void add_rig_run(Command rig, Action& action) {
   add_settings(cmd, o->settings, "Override a scenario value (repeatable)");
   cmd.add_option("--set-rig", o->rig_settings, "Override a rig value (repeatable)")
       .type_name("KEY=VALUE");
-  cmd.add_option("--seconds", o->seconds, "End after this time")
+  cmd.add_option("--seconds", o->seconds, "End so long after the first command")
       .type_name("S")
       .check(number(0.1, 1e6));
   cmd.add_option("--hold", o->hold, "Hold the swarm at the goal for this time, or until stopped")

@@ -133,10 +133,13 @@ std::uint64_t ProbeFile::size() const {
 
 void ProbeFile::skip_to_end() {
   const std::uint64_t end = size();
-  std::string last(1, '\n');
-  if (end > 0) read_at(file_, end - 1, last, name_);
+  const std::uint64_t size_of_last = std::min<std::uint64_t>(end, max_row);
+  std::string last(size_of_last, '\0');
+  last.resize(read_at(file_, end - size_of_last, last, name_));
   at_ = end;
-  rows_->skip(last[0] != '\n');
+  rows_->skip(!last.empty() && last.back() != '\n');
+  last.resize(last.find_last_not_of("\r\n") + 1);
+  last_row_ = trimmed(last.substr(last.rfind('\n') + 1));
 }
 
 void ProbeFile::read(std::vector<Eigen::Vector3d>& fields) {

@@ -47,6 +47,8 @@ class ProbeFile {
   ProbeFile& operator=(const ProbeFile&) = delete;
 
   const std::string& name() const { return name_; }
+  /// The line that was the last one at the last skip_to_end(), whether or not it is a row.
+  const std::string& last_row() const { return last_row_; }
   /// From here on only rows that begin later count.
   void skip_to_end();
   /// Adds the fields [mT] of the rows that are there now. Throws InputError for a row that cannot
@@ -60,6 +62,7 @@ class ProbeFile {
   std::string name_;
   int file_ = -1;
   std::uint64_t at_ = 0;
+  std::string last_row_;
   std::optional<ProbeRows> rows_;
 };
 

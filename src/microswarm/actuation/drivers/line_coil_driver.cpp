@@ -160,24 +160,25 @@ DriveStatus LineCoilDriver::arm() {
 bool LineCoilDriver::stop() noexcept {
   interrupted_ = false;
   try {
-    if (gone_) return begin_again();
+    if (gone_) return begin_again("had ended");
     const auto reply = exchange("stop", std::max(stop_wait, params_.reply_timeout), {});
-    if (!reply) return begin_again();
-    const bool at_zero = reply->verdict == LineVerdict::ok && is_zero(*reply);
-    armed_ = armed_ && !at_zero;
-    if (at_zero) std::ranges::fill(currents_, 0.0);
-    return at_zero;
+    if (!reply) return begin_again(gone_ ? "had ended" : "did not answer stop; it was ended");
+    if (reply->verdict != LineVerdict::ok || !is_zero(*reply))
+      return begin_again("did not say zero to stop; it was ended");
+    armed_ = false;
+    std::ranges::fill(currents_, 0.0);
+    return true;
   } catch (...) {
     return false;  // out of memory; the driver's watchdog switches off
   }
 }
 
-bool LineCoilDriver::begin_again() {
+bool LineCoilDriver::begin_again(std::string_view trouble) {
   if (turned_off_anew_) return *turned_off_anew_;
   turned_off_anew_ = false;
   const std::string reason = reason_;
-  const char* const trouble = gone_ ? "had ended" : "did not answer stop; it was ended";
   connection_.reset();
+  reader_ = {};  // which may hold half a line
   try {
     const double timeout = std::min(hello_wait, params_.connect_timeout);
     connection_ = open_(timeout);

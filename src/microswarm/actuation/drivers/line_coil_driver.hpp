@@ -87,8 +87,8 @@ struct SocketDriverParams : LineDriverParams {
 /// Driver that speaks the line protocol with a program or a server of the rig's owner
 /// (docs/reference/line-protocol.md), which turns the coils off by itself when nothing that it
 /// obeys comes for the watchdog's time. A card may hold the outputs of a program that has ended or
-/// hangs: when a stop is not answered, the connection is closed and opened once more, so that
-/// another hello turns the outputs off. Such a driver drives no more.
+/// hangs: when a stop is not answered with zeros, the connection is closed and opened once more, so
+/// that another hello turns the outputs off. Such a driver drives no more.
 class LineCoilDriver final : public CoilDriver {
  public:
   /// Opens the connection and says hello. `coils` is how many currents are sent or stand behind the
@@ -116,7 +116,7 @@ class LineCoilDriver final : public CoilDriver {
 
  private:
   void greet(double timeout);
-  bool begin_again();
+  bool begin_again(std::string_view trouble);
   bool is_possible(std::span<const double> currents) const;
   DriveStatus follow(std::span<const double> values, std::span<const double> currents);
   DriveStatus arm();

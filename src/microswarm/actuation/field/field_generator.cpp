@@ -29,8 +29,7 @@ void FieldGenerator::command(const Command& command) {
   const double speed = std::max(command.speed, 0.0);
   if (speed > 0) wanted_heading_ = command.heading;
   if (params_.kind == FieldKind::rolling) {
-    const double fastest = params_.length_per_turn * params_.frequency;
-    velocity_ = std::min(speed, fastest) * unit_vector(command.heading);
+    velocity_ = std::min(speed, params_.max_speed()) * unit_vector(command.heading);
     if (speed == 0) owed_ = {};
   } else {
     wanted_pitch_ = std::min(speed / params_.speed_per_pitch, params_.max_pitch);  // Eq 2 [radar]

@@ -33,6 +33,10 @@ struct FieldGeneratorParams {
   double length_per_turn = 20;
   double max_turn_rate = radians(360);
   double max_pitch_rate = radians(30);
+  /// Largest speed that the field can be commanded [µm/s].
+  double max_speed() const {
+    return kind == FieldKind::rolling ? length_per_turn * frequency : speed_per_pitch * max_pitch;
+  }
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.kind, {"kind", Unit::none, {}, "Kind of the field that drives the swarm."});

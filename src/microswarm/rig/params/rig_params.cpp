@@ -160,9 +160,7 @@ const SimulatedCamera& simulated_camera(const Rig& rig) {
 Issues validate(const Rig& rig, const Scenario& scenario) {
   Issues issues;
   const FieldGeneratorParams& field = rig.params.field;
-  const bool rolls = field.kind == FieldKind::rolling;
-  const double reach =
-      rolls ? field.length_per_turn * field.frequency : field.speed_per_pitch * field.max_pitch;
+  const double reach = field.max_speed();
   const double wanted =
       scenario.robots ? scenario.robots->max_speed : limits_of(scenario.swarm).max_speed;
   if (wanted > reach * (1 + 1e-9))

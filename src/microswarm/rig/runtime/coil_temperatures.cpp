@@ -95,7 +95,8 @@ CoilTemperatures::CoilTemperatures(const Rig& rig, bool cold)
     at_start_ = hottest(drives);
   } else if (!cold) {
     const KeptTemperatures kept = read_kept(file_, drives.size());
-    Eigen::VectorXd then = Eigen::Map<const Eigen::VectorXd>(kept.temperatures.data(), coils);
+    Eigen::VectorXd then = Eigen::Map<const Eigen::VectorXd>(kept.temperatures.data(), coils)
+                               .cwiseMax(at_start_);  // no coil is colder than its surroundings
     if (kept.driven) then = heated(drives, then, unwritten);
     at_start_ = cooled(drives, then, wall_clock() - kept.clock - (kept.driven ? unwritten : 0));
   }

@@ -16,11 +16,11 @@ namespace microswarm {
 /// ($XDG_STATE_HOME/microswarm, or ~/.local/state/microswarm), one for each coil system file. A
 /// thread writes it twice a second while the coils are driven. Coils cool by the wall clock; what a
 /// killed program did after its last entry counts as the maximum current. Where nothing is known,
-/// the coils are taken at their maximum temperatures.
+/// the coils are taken at their maximum temperatures. No coil is colder than its surroundings.
 class CoilTemperatures {
  public:
-  /// Reads the file; with `cold`, the coils are at ambient temperature instead. Throws InputError
-  /// if the file is damaged or the folder cannot be written.
+  /// Reads the file; with `cold`, the coils are at ambient temperature instead. Throws InputError,
+  /// one line, if the file is damaged or the folder cannot be written.
   CoilTemperatures(const Rig& rig, bool cold);
   /// Writes the last temperatures; the coils are at rest from then on.
   ~CoilTemperatures();

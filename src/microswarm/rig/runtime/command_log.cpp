@@ -92,6 +92,13 @@ CommandLog::CommandLog(const std::filesystem::path& folder, const CoilSystem& sy
   write(head + "," + csv_head(columns<Driven>()) + "\n");
 }
 
+CommandLog::~CommandLog() {
+  const bool drove_nothing = out_ && !start_;
+  out_.reset();
+  std::error_code none;
+  if (drove_nothing) std::filesystem::remove(part_, none);
+}
+
 void CommandLog::add(const CoilMoment& m, double start) {
   if (file_.empty()) return;
   start_ = start;

@@ -18,6 +18,10 @@ class CommandLog {
  public:
   /// Logs into `folder`; an empty path disables the log. Rows of a dry run are marked.
   CommandLog(const std::filesystem::path& folder, const CoilSystem& system, bool dry);
+  /// Without finish() the file keeps its temporary name; it is removed if there is no row.
+  ~CommandLog();
+  CommandLog(const CommandLog&) = delete;
+  CommandLog& operator=(const CommandLog&) = delete;
 
   /// Times are counted from `start` [s], by steady_seconds(), as those of the record. Throws
   /// InputError if it cannot be written.

@@ -23,6 +23,7 @@ class PacedVideo : public FrameSource {
     if (left > 0) std::this_thread::sleep_for(std::chrono::duration<double>(left));
     return true;
   }
+  std::string why_ended() const override { return video_->why_ended(); }
   std::optional<int> count() const override { return video_->count(); }
   std::optional<double> rate() const override { return video_->rate(); }
 

@@ -170,7 +170,10 @@ void LiveRig::look_for_faults(double now) {
   const CameraStatus camera = camera_.status();
   if (camera.state == CameraState::frozen || camera.state == CameraState::black)
     return fail(fmt::format("the camera's pictures are {}", enum_name(camera.state)));
-  if (camera.state == CameraState::ended) return fail("the camera has no more pictures");
+  if (camera.state == CameraState::ended) {
+    const std::string why = camera.why.empty() ? camera.why : ": " + camera.why;
+    return fail("the camera has no more pictures" + why);
+  }
   const double age = now - seen_;
   if (age > safety.max_frame_age)
     return fail(

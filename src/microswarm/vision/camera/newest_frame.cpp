@@ -69,6 +69,7 @@ struct NewestFrame::Shared {
   bool done = false;   ///< the thread is about to end
   bool ended = false;  ///< the source has no more
   std::string error;   ///< why it failed
+  std::string why_ended;
   double began = steady_seconds();
   LiveFrame newest;
   bool fresh = false;  ///< nobody took the newest yet
@@ -89,6 +90,7 @@ struct NewestFrame::Shared {
       s.why = error;
     } else if (ended) {
       s.state = CameraState::ended;
+      s.why = why_ended;
     } else if (s.age > silent_after) {
       s.state = CameraState::silent;
       s.why = name + ": no picture for " + number_text(silent_after) + " s";
@@ -126,6 +128,7 @@ struct NewestFrame::Shared {
       if (!source.next(frame)) {
         const std::lock_guard lock(mutex);
         ended = true;
+        why_ended = one_line(source.why_ended());
         return;
       }
       const bool is_same = past.has(frame.picture.pixels);
@@ -186,7 +189,7 @@ bool NewestFrame::wait(LiveFrame& frame, double seconds) {
     return true;
   }
   const CameraStatus now = s.status(name_, params_);
-  if (!now.why.empty()) throw HardwareError(now.why);
+  if (!now.why.empty() && now.state != CameraState::ended) throw HardwareError(now.why);
   return false;
 }
 

@@ -70,7 +70,7 @@ struct CameraStatus {
   int frames = 0;   ///< that came so far
   int dropped = 0;  ///< of these, that nobody took before the next one came
   double age = 0;   ///< of the newest [s], before the first since the start
-  std::string why;  ///< one line for people, when silent or failed
+  std::string why;  ///< one line for people, when silent, failed, or ended before its end
 };
 
 /// Fetches frames in a thread of its own, so that whoever needs one gets the newest at once: older
