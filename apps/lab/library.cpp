@@ -75,8 +75,10 @@ std::vector<Entry> Library::entries() const {
   int visited = 0;
   for (const fs::path& folder : folders_) {
     std::error_code error;
-    for (fs::recursive_directory_iterator it(folder, error), end; it != end && !error;
-         it.increment(error)) {
+    for (fs::recursive_directory_iterator
+             it(folder, fs::directory_options::skip_permission_denied, error),
+         end;
+         it != end && !error; it.increment(error)) {
       if (list.size() >= max_entries || ++visited > max_visited) break;
       if (it.depth() >= deepest_folder) it.disable_recursion_pending();
       const fs::path& file = it->path();
@@ -92,6 +94,8 @@ std::vector<Entry> Library::entries() const {
     }
   }
   std::ranges::sort(list, {}, &Entry::file);
+  const auto again = std::ranges::unique(list, {}, &Entry::file);
+  list.erase(again.begin(), again.end());
   return list;
 }
 
