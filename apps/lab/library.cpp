@@ -75,10 +75,9 @@ std::vector<Entry> Library::entries() const {
   int visited = 0;
   for (const fs::path& folder : folders_) {
     std::error_code error;
-    for (fs::recursive_directory_iterator
-             it(folder, fs::directory_options::skip_permission_denied, error),
-         end;
-         it != end && !error; it.increment(error)) {
+    const auto options = fs::directory_options::skip_permission_denied;
+    fs::recursive_directory_iterator it(folder, options, error);
+    for (; !error && it != fs::end(it); it.increment(error)) {
       if (list.size() >= max_entries || ++visited > max_visited) break;
       if (it.depth() >= deepest_folder) it.disable_recursion_pending();
       const fs::path& file = it->path();
