@@ -61,7 +61,7 @@ std::vector<std::string*> files_of(Scenario& scenario) {
   return files;
 }
 
-Library::Library(std::vector<fs::path> folders) {
+Library::Library(const std::vector<fs::path>& folders) {
   for (const fs::path& folder : folders) {
     std::error_code error;
     fs::path real = fs::canonical(folder, error);
@@ -93,8 +93,8 @@ std::vector<Entry> Library::entries() const {
     }
   }
   std::ranges::sort(list, {}, &Entry::file);
-  const auto again = std::ranges::unique(list, {}, &Entry::file);
-  list.erase(again.begin(), again.end());
+  const auto is_same = [](const Entry& a, const Entry& b) { return a.file == b.file; };
+  list.erase(std::unique(list.begin(), list.end(), is_same), list.end());
   return list;
 }
 

@@ -5,6 +5,7 @@
 #include "commands/commands.hpp"
 #include "lab/server.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "support/options.hpp"
 
 namespace microswarm::cli {
 namespace {
