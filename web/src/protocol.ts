@@ -26,6 +26,8 @@ export interface Hello {
   type: 'hello';
   name: string;
   command: string;
+  settings: string[];
+  rig: string;
   playback: boolean;
   scenario: Scenario;
   changeable: string[];
@@ -105,6 +107,7 @@ export interface Standing {
   status: string;
   state: string;
   metrics: { [key: string]: Json };
+  trouble: string;
 }
 
 export interface Answer {
