@@ -12,6 +12,8 @@ export async function sessionPage(session: number): Promise<Page> {
     trouble.replaceChildren('The session is closed. Open it again from the gallery.'),
   );
   const scene = await Scene.create();
+  scene.onWant((request) => void connection.ask(request));
+  Object.assign(window, { microswarm: { scene, connection } }); // for tests
   const clock = element('output', { class: 'clock' });
   const play = element('button', { class: 'play', onclick: () => toggle() }, 'Play');
   let plays = false;
