@@ -25,7 +25,7 @@ import { Target } from './layers/target';
 import { Trail } from './layers/trail';
 import { Tree } from './layers/tree';
 import { Walls } from './layers/walls';
-import { Motion } from './motion';
+import { type Moment, Motion } from './motion';
 import { type Grip, Pointer, type Touch } from './pointer';
 import { View } from './view';
 
@@ -198,6 +198,11 @@ export class Scene {
     return new Promise((resolve, reject) =>
       this.renderer.canvas.toBlob!((blob) => (blob ? resolve(blob) : reject(new Error('no picture')))),
     );
+  }
+
+  /** What moves, as it is shown at a time of performance.now(). */
+  shownAt(now: number): Moment {
+    return this.motion.at(now);
   }
 
   private ask(): void {

@@ -32,7 +32,7 @@ export class Swarm extends Layer {
     this.drawn = drawn;
     this.body.clear();
     const { swarm: color, paper } = colours;
-    this.body.poly(arc(0, 0, radius, 0, 4 * quarter)).fill({ color, alpha: 0.9 });
+    this.body.poly(arc(0, 0, radius, 0, 4 * quarter)).fill(color);
     this.body.poly(arc(0, 0, radius, 0, 4 * quarter)).stroke({ width: 1.5, color: paper });
     const mark = { width: Math.min(Math.max(radius / 8, 1.5), 4), color: paper, cap: 'round' } as const;
     if (this.type === 'vortex' && radius > 9)

@@ -38,10 +38,14 @@ export class Walls extends Layer {
     const border = new Float32Array([x0, y0, x1, y0, x1, y1, x0, y1]);
     const solid = new Graphics();
     fill(solid, bodies, colours.wall, this.background.isSet ? 0.5 : 1);
-    const inside = new Graphics().rect(x0, y0, x1 - x0, y1 - y0).fill(0xffffff);
-    solid.mask = inside; // walls may extend beyond the border
+    const isOutside = (v: number, i: number) => (i % 2 === 0 ? v < x0 || v > x1 : v < y0 || v > y1);
+    if (bodies.flat().some((one) => one.some(isOutside))) {
+      const inside = this.world.addChild(new Graphics());
+      inside.rect(x0, y0, x1 - x0, y1 - y0).fill(0xffffff);
+      solid.mask = inside;
+    }
     const edges = Segments.rings([border, ...bodies.flat()]);
     edges.tint = colours.wallEdge;
-    this.world.addChild(inside, solid, edges);
+    this.world.addChild(solid, edges);
   }
 }
