@@ -27,13 +27,16 @@ async function playTo(run, file, t, { speed = 0, size } = {}) {
   await page.evaluate(
     ([speed, t]) => {
       const { connection, scene } = window.microswarm;
+      const numbers = (bytes) => [...new Float32Array(bytes.slice().buffer)];
       window.touches = [];
       scene.onTouch((touch) => window.touches.push(touch));
       void connection.ask({ do: 'speed', number: speed });
       void connection.ask({ do: 'play' });
       connection.listen((message) => {
+        if (message.type === 'clearance')
+          window.clearance = { ...message, values: numbers(message.values) };
         if (message.type === 'frame')
-          window.discs = [...new Float32Array(message.bodies.discs.slice().buffer)];
+          window.discs = numbers(message.bodies.discs);
         if (message.type !== 'frame' || message.frame.t_s < t || window.reached) return;
         window.reached = true;
         void connection.ask({ do: 'pause' });
@@ -72,8 +75,14 @@ test('robots gather; regions and clearance', async (t) => {
   await run.picture('scene-gather-dark');
   await run.scene((scene) => scene.show('aggregation', false));
   await run.scene((scene) => scene.show('clearance', true));
+  await until(run.page, () => window.clearance, 20);
   await run.page.waitForTimeout(600);
   await run.picture('scene-clearance');
+  const { cell, columns, rows, values } = await run.page.evaluate(() => window.clearance);
+  assert.ok(columns * rows <= 40_000 && values.length === columns * rows);
+  const at = (x, y) => values[Math.floor(y / cell) * columns + Math.floor(x / cell)];
+  assert.ok(Math.abs(at(10, 95) - 5) <= cell); // in the middle of a channel of 10 µm
+  assert.equal(at(10, 50), 0); // in a wall
   await run.close();
 });
 
@@ -213,7 +222,11 @@ test('draws only when something changed', async (t) => {
   await run.scene((scene) => scene.show('radar', false));
   await run.page.waitForTimeout(1000);
   assert.equal(await pictures(), before + 1);
-  assert.equal(await run.scene((scene) => scene.layers().find(({ name }) => name === 'radar').shown), false);
+  const hidden = await run.scene((scene) => scene.layers().filter(({ shown }) => !shown));
+  assert.deepEqual(
+    hidden.map(({ name }) => name),
+    ['clearance', 'obstacle-trails', 'radar'],
+  );
   await run.close();
 });
 
@@ -288,5 +301,51 @@ test('what moves is between two frames while it plays, never beyond', async (t) 
   });
   assert.ok(seen.onItsWay[0] < 20 && seen.onItsWay[1] > 20 && seen.onItsWay[1] <= 100);
   assert.deepEqual([seen.late, seen.jumped, seen.paused], [100, 200, 300]);
+  await run.close();
+});
+
+test('two fingers zoom', async (t) => {
+  const run = await playTo(t, 'scenarios/papers/radar/twelve.yaml', 1, { speed: 4 });
+  const box = await run.page.locator('.scene canvas').boundingBox();
+  const before = await run.scene((scene) => [scene.view.scale, ...scene.view.toWorld([640, 180])]);
+  const fingers = await run.page.context().newCDPSession(run.page);
+  const touch = (type, apart) =>
+    fingers.send('Input.dispatchTouchEvent', {
+      type,
+      touchPoints: (apart ? [-apart, apart] : []).map((dx, id) => {
+        return { x: box.x + 640 + dx, y: box.y + 180, id };
+      }),
+    });
+  await touch('touchStart', 40);
+  for (const apart of [50, 65, 80]) await touch('touchMove', apart);
+  await touch('touchEnd');
+  const after = await run.scene((scene) => [scene.view.scale, ...scene.view.toWorld([640, 180])]);
+  assert.ok(Math.abs(after[0] / before[0] - 2) < 0.05);
+  for (const i of [1, 2]) assert.ok(Math.abs(after[i] - before[i]) < 2 / before[0]);
+  await run.close();
+});
+
+test('the goal moves where it is set', async (t) => {
+  const run = await playTo(t, 'scenarios/papers/radar/twelve.yaml', 1, { speed: 4 });
+  await run.page.evaluate(() =>
+    window.microswarm.connection.ask({ do: 'set', key: 'goal_um', value: '[4000, 600]' }),
+  );
+  const goal = () => {
+    const { scene } = window.microswarm;
+    return scene.hit(scene.view.toScreen([4000, 600])).what.kind === 'goal';
+  };
+  await until(run.page, goal, 20);
+  await run.close();
+});
+
+test('a screen of double density', async (t) => {
+  const run = await playTo(t, 'scenarios/papers/radar/micromaze.yaml', 1, { speed: 4 });
+  const screen = await run.page.context().newCDPSession(run.page);
+  const size = { width: 1000, height: 640 };
+  const density = { deviceScaleFactor: 2, mobile: false };
+  await screen.send('Emulation.setDeviceMetricsOverride', { ...size, ...density });
+  await until(run.page, () => document.querySelector('.scene canvas').width === 2000, 10);
+  await run.page.waitForTimeout(500);
+  await run.picture('scene-double');
   await run.close();
 });

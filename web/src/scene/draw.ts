@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shapes that several layers draw. Pixi chooses the number of a circle's sides by its radius in
 // the container's unit, here µm, so that circles are drawn as polygons with enough sides on screen.
-import { Container, type Graphics, Mesh, MeshGeometry, Text, type TextStyleOptions, Texture } from 'pixi.js';
+import {
+  Container,
+  type Graphics,
+  Mesh,
+  MeshGeometry,
+  Text,
+  type TextStyleOptions,
+  Texture,
+} from 'pixi.js';
 import type { View } from './view';
 
 export const font = 'system-ui, sans-serif';
@@ -142,7 +150,11 @@ export function fill(to: Graphics, bodies: Rings[], color: number, alpha = 1): v
   }
 }
 
-export function outline(to: Graphics, bodies: Rings[], style: { color: number; width: number; alpha?: number }): void {
+export function outline(
+  to: Graphics,
+  bodies: Rings[],
+  style: { color: number; width: number; alpha?: number },
+): void {
   for (const rings of bodies) for (const one of rings) to.poly([...one]);
   to.stroke(style);
 }

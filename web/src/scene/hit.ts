@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Point } from '../protocol';
-import type { Place } from './layers/marks';
 import { isGround, leastRadius } from './layers/obstacles';
 import type { Moment } from './motion';
 import type { Grip } from './pointer';
+import type { Place } from './scenario';
 import type { View } from './view';
 
 const slack = 4; // [px]
 const mark = 13; // radius of a mark [px]
 
 /** The mark at a point of the screen. */
-export function hitMark(kind: 'goal' | 'start', places: Place[], view: View, screen: Point): { what: Grip; place: Point } | undefined {
+export function hitMark(
+  kind: 'goal' | 'start',
+  places: Place[],
+  view: View,
+  screen: Point,
+): { what: Grip; place: Point } | undefined {
   const index = places.findIndex(({ at }) => {
     const [x, y] = view.toScreen(at);
     return Math.hypot(x - screen[0], y - screen[1]) <= mark;
@@ -57,7 +62,9 @@ function isNear(ring: Float32Array, x: number, y: number, near: number): boolean
   return found;
 }
 
-function eachEdge(ring: Float32Array, visit: (ax: number, ay: number, bx: number, by: number) => void): void {
+type Visit = (ax: number, ay: number, bx: number, by: number) => void;
+
+function eachEdge(ring: Float32Array, visit: Visit): void {
   for (let i = 0, j = ring.length - 2; i < ring.length; j = i, i += 2)
     visit(ring[j]!, ring[j + 1]!, ring[i]!, ring[i + 1]!);
 }

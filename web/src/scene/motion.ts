@@ -81,7 +81,12 @@ export class Motion {
 function momentOf(frame: Frame): Moment {
   const { t_s, x_um, y_um, radius_um, heading_rad } = frame.frame;
   const robots = floats(frame.robots);
-  const disc = { x: Number(x_um), y: Number(y_um), radius: Number(radius_um), heading: Number(heading_rad) };
+  const disc = {
+    x: Number(x_um),
+    y: Number(y_um),
+    radius: Number(radius_um),
+    heading: Number(heading_rad),
+  };
   return {
     t: Number(t_s),
     number: frame.number,

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the scene needs of a scenario.
 import type { Json, Point, Scenario } from '../protocol';
-import type { Place } from './layers/marks';
+
+/** Where a swarm or robot starts, or is to arrive. */
+export interface Place {
+  at: Point;
+  heading?: number; // [rad]
+  tolerance?: number; // [µm]
+}
 
 type Object = { [key: string]: Json };
 

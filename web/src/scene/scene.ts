@@ -104,6 +104,7 @@ export class Scene {
       viewChanged: () => this.viewChanged(),
     });
     this.sizes.observe(this.root);
+    this.watchDensity();
     this.setTheme(preferredTheme());
   }
 
@@ -227,11 +228,23 @@ export class Scene {
   }
 
   private resize(): void {
+    if (this.isGone) return;
     const { clientWidth, clientHeight } = this.root;
     this.renderer.resize(clientWidth, clientHeight, window.devicePixelRatio);
     this.view.resize(clientWidth, clientHeight);
     this.viewChanged();
     this.paint(performance.now()); // a canvas of another size is blank
+  }
+
+  /** A window may move to a screen of another density. */
+  private watchDensity(): void {
+    if (this.isGone) return;
+    const density = matchMedia(`(resolution: ${window.devicePixelRatio}dppx)`);
+    const moved = () => {
+      this.resize();
+      this.watchDensity();
+    };
+    density.addEventListener('change', moved, { once: true });
   }
 
   private schedule(): void {

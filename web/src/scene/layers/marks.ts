@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Graphics, type Text } from 'pixi.js';
-import type { Message, Point } from '../../protocol';
-import { Pin, circle, empty, ink, label } from '../draw';
+import type { Hello, Message, Point } from '../../protocol';
+import { Pin, circle, ink, label } from '../draw';
 import { type Drawing, Layer } from '../layer';
-import { goalsOf, startsOf } from '../scenario';
-
-export interface Place {
-  at: Point;
-  heading?: number; // [rad]
-  tolerance?: number; // [µm]
-}
+import { type Place, goalsOf, startsOf } from '../scenario';
 
 /** Places with a word, of the same size at any zoom. */
 abstract class Marks extends Layer {
@@ -34,8 +28,8 @@ abstract class Marks extends Layer {
       const colour = many ? colours.series[i % colours.series.length]! : this.colour(drawing);
       const { at, tolerance = 0 } = place;
       if (tolerance > 0) {
-        circle(this.circles, view, [at[0], at[1], tolerance], { color: colour, width: 1.5, dash: 9 });
-        this.circles.poly([]);
+        const style = { color: colour, width: 1.5, dash: 9 };
+        circle(this.circles, view, [at[0], at[1], tolerance], style);
       }
       const pin = this.world.addChild(new Pin());
       const graphics = pin.addChild(new Graphics());
@@ -88,13 +82,13 @@ export class Goal extends Marks {
   readonly name = 'goal';
   readonly label = 'Goal';
   protected readonly word = 'goal';
-  private scenario: Message & { type: 'hello' } | undefined;
+  private hello: Hello | undefined;
 
   take(message: Message): boolean {
-    if (message.type === 'hello') this.scenario = message;
-    else if (message.type !== 'standing' || !this.scenario) return false;
+    if (message.type === 'hello') this.hello = message;
+    else if (message.type !== 'standing' || !this.hello) return false;
     const changes = message.type === 'standing' ? message.changes : [];
-    return this.set(goalsOf(this.scenario.scenario, changes));
+    return this.set(goalsOf(this.hello.scenario, changes));
   }
   protected colour({ colours }: Drawing): number {
     return colours.goal;
@@ -105,4 +99,3 @@ export class Goal extends Marks {
     to.circle(0, 0, 2.5).fill(color);
   }
 }
-void empty;

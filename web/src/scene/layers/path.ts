@@ -4,6 +4,8 @@ import { type Message, floats } from '../../protocol';
 import { polyline } from '../draw';
 import { type Drawing, Layer } from '../layer';
 
+const mostDots = 100; // on its vertices
+
 /** The path that the navigator follows. */
 export class Path extends Layer {
   readonly name = 'path';
@@ -25,8 +27,10 @@ export class Path extends Layer {
     if (this.points.length < 4) return;
     for (const [width, color] of [[5, colours.paper], [2, colours.path]] as const) {
       polyline(this.line, this.points);
-      this.line.stroke({ width: view.um(width), color, join: 'round', cap: 'round', alpha: width > 2 ? 0.7 : 1 });
+      const alpha = width > 2 ? 0.7 : 1;
+      this.line.stroke({ width: view.um(width), color, join: 'round', cap: 'round', alpha });
     }
+    if (this.points.length > 2 * mostDots) return;
     for (let i = 2; i + 3 < this.points.length; i += 2)
       this.line.regularPoly(this.points[i]!, this.points[i + 1]!, view.um(2.5), 8).fill(colours.path);
   }

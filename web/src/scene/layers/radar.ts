@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Graphics } from 'pixi.js';
+import type { Palette } from '../../palette';
 import { type Message, type Radar as Scan, floats } from '../../protocol';
 import { arc, circle, polyline } from '../draw';
 import { type Drawing, Layer } from '../layer';
@@ -42,18 +43,21 @@ export class Radar extends Layer {
     circle(this.circles, view, [0, 0, detection], { color: radar.detection, width: 2.5 });
     circle(this.circles, view, [0, 0, safety], { color: radar.safety, width: 2, dash: 8 });
     circle(this.circles, view, [0, 0, prediction], { color: radar.prediction, width: 1.5 });
-    const heading = scan.straight ?? (scan.best === undefined ? undefined : beams[scan.best]?.heading);
+    const best = scan.best === undefined ? undefined : beams[scan.best]?.heading;
+    const heading = scan.straight ?? best;
     if (heading === undefined) return;
+    this.choice.rotation = heading;
     for (const [width, color] of [[6, paper], [3, radar.chosen]] as const)
-      this.arrow(heading, scan.radius, detection + view.um(16), view.um(9), view.um(width), color);
+      this.arrow(scan.radius, detection + view.um(16), view.um(9), { width: view.um(width), color });
   }
 
   override place({ now: { swarm } }: Drawing): void {
-    if (this.scan) this.world.position.set(swarm?.x ?? this.scan.centre[0], swarm?.y ?? this.scan.centre[1]);
+    const [x, y] = swarm ? [swarm.x, swarm.y] : (this.scan?.centre ?? [0, 0]);
+    this.world.position.set(x, y);
   }
 
   /** Neighbours of one fate are one shape. */
-  private drawSectors({ radius, detection }: Scan, beams: Beam[], colours: Drawing['colours']['radar']): void {
+  private drawSectors({ radius, detection }: Scan, beams: Beam[], colours: Palette['radar']): void {
     const half = Math.PI / Math.max(beams.length, 1);
     const kept = beams.filter(({ fate }) => fate === 0).map(({ score }) => score);
     const [low, high] = [Math.min(...kept), Math.max(...kept)];
@@ -66,21 +70,23 @@ export class Radar extends Layer {
       let end = first;
       while (end < beams.length && beams[end]!.fate === fate) ++end;
       const run = beams.slice(first, end);
-      const shape = run.flatMap((beam) => arc(0, 0, length(beam), beam.heading - half, beam.heading + half));
+      const shape = run.flatMap((beam) => {
+        return arc(0, 0, length(beam), beam.heading - half, beam.heading + half);
+      });
       const inner = arc(0, 0, radius, run.at(-1)!.heading + half, run[0]!.heading - half);
       const name = fates[fate] ?? 'wall';
-      this.sectors.poly([...shape, ...inner]).fill({ color: colours[name], alpha: fate === 0 ? 0.85 : 0.5 });
+      const style = { color: colours[name], alpha: fate === 0 ? 0.85 : 0.5 };
+      this.sectors.poly([...shape, ...inner]).fill(style);
       first = end;
     }
   }
 
-  private arrow(heading: number, from: number, to: number, head: number, width: number, color: number): void {
-    const [c, s] = [Math.cos(heading), Math.sin(heading)];
-    const at = (along: number, aside: number): [number, number] => [along * c - aside * s, along * s + aside * c];
-    const stroke = { width, color, cap: 'round', join: 'round' } as const;
-    polyline(this.choice, [...at(from, 0), ...at(to, 0)]);
+  /** To the right; the head is as long and wide as `head`. */
+  private arrow(from: number, to: number, head: number, style: { width: number; color: number }): void {
+    const stroke = { ...style, cap: 'round', join: 'round' } as const;
+    polyline(this.choice, [from, 0, to, 0]);
     this.choice.stroke(stroke);
-    polyline(this.choice, [...at(to - head, head * 0.6), ...at(to, 0), ...at(to - head, -head * 0.6)]);
+    polyline(this.choice, [to - head, head * 0.6, to, 0, to - head, -head * 0.6]);
     this.choice.stroke(stroke);
   }
 }

@@ -27,7 +27,12 @@ export class Target extends Layer {
     this.pin.visible = this.at !== undefined && !this.isGoal(this.at);
     this.cross.clear();
     for (const [width, color] of [[5, colours.paper], [2.5, colours.circle]] as const)
-      this.cross.moveTo(-4, -4).lineTo(4, 4).moveTo(-4, 4).lineTo(4, -4).stroke({ width, color, cap: 'round' });
+      this.cross
+        .moveTo(-4, -4)
+        .lineTo(4, 4)
+        .moveTo(-4, 4)
+        .lineTo(4, -4)
+        .stroke({ width, color, cap: 'round' });
   }
 
   /** Then the goal's mark is enough. */

@@ -38,7 +38,8 @@ export class Trail extends Layer {
   draw({ view, now, colours }: Drawing): void {
     const last = Math.min(now.number, this.way.length / 2);
     const look = `${view.scale} ${colours.trail}`;
-    const style = { width: view.um(2.5), color: colours.trail, alpha: 0.8, join: 'round', cap: 'round' } as const;
+    const round = { join: 'round', cap: 'round' } as const;
+    const style = { width: view.um(2.5), color: colours.trail, alpha: 0.8, ...round };
     const recent = this.thinned(this.end, last, view.um(gap));
     if (!now.swarm || look !== this.look || last < this.end || recent.length > 2 * most) {
       this.look = look;
@@ -51,7 +52,7 @@ export class Trail extends Layer {
       recent.length = 0;
     }
     this.fresh.clear();
-    if (recent.length === 0 && this.end > 0) recent.push(...this.way.slice(2 * this.end - 2, 2 * this.end));
+    if (recent.length === 0) recent.push(...this.way.slice(Math.max(0, 2 * this.end - 2), 2 * this.end));
     polyline(this.fresh, [...recent, now.swarm!.x, now.swarm!.y]);
     this.fresh.stroke(style);
   }
