@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The scene in a browser, on scenarios of every kind. Its pictures are to be looked at.
 import assert from 'node:assert/strict';
+import { writeFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { openPage, startBrowser, startLab } from './lab.mjs';
+import { openPage, root, startBrowser, startLab } from './lab.mjs';
 
 let browser;
 before(async () => (browser = await startBrowser()));
@@ -325,6 +327,15 @@ test('two fingers zoom', async (t) => {
   await run.close();
 });
 
+test('looking back', async (t) => {
+  const run = await playTo(t, 'scenarios/first_flight.yaml', 15);
+  await run.page.evaluate(() => window.microswarm.connection.ask({ do: 'seek', number: 80 }));
+  await until(run.page, () => window.microswarm.scene.shownAt(performance.now()).number === 80, 20);
+  await run.page.waitForTimeout(300);
+  await run.picture('scene-back');
+  await run.close();
+});
+
 test('the goal moves where it is set', async (t) => {
   const run = await playTo(t, 'scenarios/papers/radar/twelve.yaml', 1, { speed: 4 });
   await run.page.evaluate(() =>
@@ -346,6 +357,11 @@ test('a screen of double density', async (t) => {
   await screen.send('Emulation.setDeviceMetricsOverride', { ...size, ...density });
   await until(run.page, () => document.querySelector('.scene canvas').width === 2000, 10);
   await run.page.waitForTimeout(500);
-  await run.picture('scene-double');
+  const png = await run.scene(async (scene) => {
+    const bytes = new Uint8Array(await (await scene.picture()).arrayBuffer());
+    return Array.from(bytes, (byte) => String.fromCharCode(byte)).join('');
+  });
+  writeFileSync(join(root, 'build/web/scene-double.png'), Buffer.from(png, 'latin1'));
+  assert.deepEqual([...Buffer.from(png.slice(1, 4), 'latin1')], [0x50, 0x4e, 0x47]);
   await run.close();
 });

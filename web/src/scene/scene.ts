@@ -58,11 +58,11 @@ export class Scene {
     new Trail(),
     new Path(),
     this.start,
-    this.goal,
     new Target(this.goal),
     new Robots(),
     new Swarm(),
     new Radar(),
+    this.goal,
     new ScaleBar(),
     new Clock(),
   ]; // from below
