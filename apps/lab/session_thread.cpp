@@ -98,9 +98,13 @@ void SessionThread::open() {
   is_fresh_ = true;
 }
 
-void SessionThread::welcome(std::uint64_t page) {
+void SessionThread::tell_scenario(std::uint64_t page) {
   const std::string command = "microswarm run " + opening_.file.string();
   callbacks_.send(page, hello_message(*session_, opening_.file.string(), command));
+}
+
+void SessionThread::welcome(std::uint64_t page) {
+  tell_scenario(page);
   callbacks_.send(page, rows_message(rows_, events_, true));
   const SessionView view = shown().view();
   if (!view.tree.empty()) callbacks_.send(page, plan_message(view));
@@ -164,8 +168,10 @@ Issues SessionThread::obey(const Request& request) {
       break;
     case Ask::set:
       issues = session_->set(request.key, request.value);
-      if (issues.empty() && !session_->is_playback())
+      if (issues.empty() && !session_->is_playback()) {
         standing_.changes.push_back(request.key + "=" + request.value);
+        tell_scenario(0);
+      }
       break;
     case Ask::restart: {
       const auto before = opening_.options.settings;

@@ -55,6 +55,7 @@ class SessionThread {
   void answer(std::uint64_t page, const Request& request);
   Issues obey(const Request& request);
   void welcome(std::uint64_t page);
+  void tell_scenario(std::uint64_t page);
   void advance();
   void take(const Tick& tick);
   void look_back(std::size_t frame);

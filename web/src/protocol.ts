@@ -26,6 +26,7 @@ export interface Hello {
   type: 'hello';
   name: string;
   command: string;
+  settings?: string[]; // KEY=VALUE that it was opened with
   playback: boolean;
   scenario: Scenario;
   changeable: string[];
