@@ -118,6 +118,8 @@ void SessionThread::answer(std::uint64_t page, const Request& request) {
   Issues issues;
   try {
     issues = obey(request);
+    if (request.ask == Ask::clearance)
+      callbacks_.send(page, clearance_message(session_->map()));
   } catch (const InputError& error) {
     issues.add_lines({}, error.what());
   }
@@ -189,6 +191,7 @@ Issues SessionThread::obey(const Request& request) {
     case Ask::manual: operation->manual(request.on); break;
     case Ask::steer: operation->steer({.heading = request.heading, .speed = request.speed}); break;
     case Ask::end: operation->end(); break;
+    case Ask::clearance: break;  // `answer` sends it
   }
   return issues;
 }

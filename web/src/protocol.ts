@@ -75,6 +75,16 @@ export interface Aggregation {
   regions: { junction: Point; gate: number; next: number; branches: number }[];
 }
 
+/** Distances to the nearest wall or border at the middles of square cells, row by row from below. */
+export interface Clearance {
+  type: 'clearance';
+  lo: Point;
+  cell: number;
+  columns: number;
+  rows: number;
+  values: Bytes;
+}
+
 export interface RunEvent {
   t_s: number;
   kind: string;
@@ -114,10 +124,10 @@ export interface Answer {
   issues: { keys: string[]; text: string }[];
 }
 
-export type Message = Hello | Frame | Plan | Aggregation | Rows | Standing | Answer;
+export type Message = Hello | Frame | Plan | Aggregation | Clearance | Rows | Standing | Answer;
 
 export type Request =
-  | { do: 'play' | 'pause' | 'step' | 'live' | 'end' }
+  | { do: 'play' | 'pause' | 'step' | 'live' | 'end' | 'clearance' }
   | { do: 'speed' | 'seek'; number: number }
   | { do: 'set'; key: string; value: string }
   | { do: 'restart'; settings: string[] }

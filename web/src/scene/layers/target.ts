@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+import { Graphics } from 'pixi.js';
+import type { Message, Point } from '../../protocol';
+import { Pin } from '../draw';
+import { type Drawing, Layer } from '../layer';
+
+/** The navigator's local target. */
+export class Target extends Layer {
+  readonly name = 'target';
+  readonly label = 'Local target';
+  private readonly pin = this.world.addChild(new Pin());
+  private readonly cross = this.pin.addChild(new Graphics());
+  private at: Point | undefined;
+
+  take(message: Message): boolean {
+    if (message.type !== 'frame') return false;
+    this.at = message.target;
+    return true;
+  }
+
+  draw({ colours }: Drawing): void {
+    this.pin.visible = this.at !== undefined;
+    this.cross.clear();
+    for (const [width, color] of [[5, colours.paper], [2.5, colours.circle]] as const)
+      this.cross.moveTo(-5, -5).lineTo(5, 5).moveTo(-5, 5).lineTo(5, -5).stroke({ width, color, cap: 'round' });
+  }
+
+  override place({ view }: Drawing): void {
+    if (this.at) this.pin.at(view, ...this.at);
+  }
+}
