@@ -33,13 +33,13 @@ export async function comparePage(numbers: number[]): Promise<Page> {
       );
       const stage = await stageFor(live);
       const caption = element('figcaption', {});
-      const figure = element('figure', { class: 'side', 'data-side': names[i] as string }, caption, stage.root);
+      const figure = element('figure', { class: 'side', 'data-side': names[i] as string }, caption, stage.scene.root);
       return { live, stage, caption, figure, parameters: new Parameters(live) };
     }),
   );
   const time = timeBar(sides.map((side) => side.live));
   const table = element('div', { class: 'table' });
-  const layers = layersTab(sides.map((side) => side.stage));
+  const layers = layersTab(sides.map((side) => side.stage.scene));
   const differences = element('div', { class: 'doc differences' });
 
   const settingsOf = (live: Live) => combine(live.hello?.settings ?? [], live.standing?.changes ?? []);
@@ -74,7 +74,7 @@ export async function comparePage(numbers: number[]): Promise<Page> {
   const restart = () => {
     for (const side of sides) void side.parameters.restart();
   };
-  const fit = () => sides.forEach((side) => side.stage.fit());
+  const fit = () => sides.forEach((side) => side.stage.scene.fit());
   const keys = new Keys([
     { keys: [' '], shown: 'space', does: 'play or pause both', act: time.play },
     { keys: ['.'], shown: '.', does: 'a single tick', act: time.step },

@@ -26,11 +26,17 @@ export async function galleryPage(): Promise<Page> {
   const trouble = element('p', { class: 'trouble', role: 'alert' });
   const attempt = (body: { file?: string }) => {
     trouble.replaceChildren();
-    return open(body).catch((error: Error) => trouble.replaceChildren(error.message));
+    return open(body).then(
+      () => true,
+      (error: Error) => {
+        trouble.replaceChildren(error.message);
+        return false;
+      },
+    );
   };
   if (listing.open && !sessionStorage.getItem('opened')) {
     sessionStorage.setItem('opened', 'yes');
-    void attempt({});
+    if (await attempt({})) return { root: element('p', { class: 'doc' }, 'Opening …'), leave: () => undefined };
   }
   const folders = new Map<string, Entry[]>();
   for (const entry of listing.scenarios) {

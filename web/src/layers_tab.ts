@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import { element } from './dom';
-import type { Stage } from './stage';
+import type { Scene } from './scene/scene';
 
 /** Switches for the scene's layers. */
-export function layersTab(stages: Stage[]): { root: HTMLElement; show: () => void } {
+export function layersTab(scenes: Scene[]): { root: HTMLElement; show: () => void } {
   const root = element('div', { class: 'layers' });
   const show = () => {
-    const layers = stages[0]?.layers() ?? [];
+    const layers = scenes[0]?.layers() ?? [];
     root.replaceChildren(
       ...layers.map((layer) => {
         const box = element('input', {
@@ -14,7 +14,7 @@ export function layersTab(stages: Stage[]): { root: HTMLElement; show: () => voi
           role: 'switch',
           class: 'switch',
           onchange: () => {
-            for (const stage of stages) stage.show(layer.name, box.checked);
+            for (const scene of scenes) scene.show(layer.name, box.checked);
           },
         });
         box.checked = layer.shown;

@@ -112,6 +112,7 @@ export class Live {
 
   private take(message: Message): void {
     if (message.type === 'hello') this.hello = message;
+    if (message.type === 'scenario' && this.hello) this.hello.scenario = message.scenario;
     if (message.type === 'standing') this.standing = message;
     if (message.type === 'frame') this.shown = Number(message.frame['t_s']);
     if (message.type === 'rows')

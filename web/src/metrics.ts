@@ -30,7 +30,7 @@ export function metricsTable(names: string[], runs: { [key: string]: Json }[]): 
     const cells = values.map((value) => element('td', {}, shown(value)));
     if (values.length === 2) {
       const [a, b] = values;
-      const difference = a === undefined || b === undefined ? undefined : b - a;
+      const difference = a === undefined || b === undefined ? undefined : differenceOf(a, b);
       const sign = difference !== undefined && difference > 0 ? '+' : '';
       cells.push(element('td', { class: difference ? 'differs' : '' }, sign + shown(difference)));
     }
@@ -38,4 +38,9 @@ export function metricsTable(names: string[], runs: { [key: string]: Json }[]): 
   });
   const head = element('tr', {}, element('td', {}), ...heads.map((one) => element('th', { scope: 'col' }, one)), element('td', {}));
   return element('table', { class: 'metrics' }, ...(names.length > 1 ? [element('thead', {}, head)] : []), element('tbody', {}, ...rows));
+}
+
+/** B − A; zero where it is a rounding error of theirs. */
+function differenceOf(a: number, b: number): number {
+  return Math.abs(b - a) < 1e-9 * Math.max(Math.abs(a), Math.abs(b)) ? 0 : b - a;
 }

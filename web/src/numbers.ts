@@ -25,7 +25,7 @@ export function words(key: string): { label: string; unit: string } {
 /** At most `digits` significant digits, without an exponent where that reads well. */
 export function number(value: number, digits = 4): string {
   if (!Number.isFinite(value)) return '–';
-  if (value === 0 || Math.abs(value) >= 1e6 || Math.abs(value) < 1e-4)
-    return value === 0 ? '0' : value.toExponential(digits - 1);
+  const isPlain = value === 0 || (Math.abs(value) >= 1e-4 && Math.abs(value) < 1e6);
+  if (!isPlain) return String(Number(value.toPrecision(digits)).toExponential()).replace('e+', 'e');
   return String(Number(value.toPrecision(digits)));
 }

@@ -4,7 +4,7 @@ import { element } from './dom';
 import { type Field, field, menu } from './field';
 import type { Live } from './live';
 import { words } from './numbers';
-import type { Answer, Hello, Json, Scenario } from './protocol';
+import type { Answer, Json, Scenario } from './protocol';
 import { type Schema, alternative, allowsNull, described, isGroup, kinds, withoutNull } from './schema';
 import { at, combine, keyOf, text } from './settings';
 
@@ -36,7 +36,7 @@ export class Parameters {
     this.root = element('div', { class: 'parameters' }, this.search, this.trouble, this.form, this.bar);
     let ended = false;
     live.listen((message) => {
-      if (message.type === 'hello') this.take(message);
+      if (message.type === 'hello' || message.type === 'scenario') this.take(message.scenario);
       if (message.type === 'standing' && message.ended !== ended) {
         ended = message.ended;
         this.rebuild();
@@ -91,9 +91,9 @@ export class Parameters {
     return undefined;
   }
 
-  private take(hello: Hello): void {
+  private take(scenario: Scenario): void {
     for (const [key, value] of this.waiting)
-      if (JSON.stringify(at(hello.scenario, key)) === JSON.stringify(value)) this.waiting.delete(key);
+      if (JSON.stringify(at(scenario, key)) === JSON.stringify(value)) this.waiting.delete(key);
     this.rebuild();
   }
 

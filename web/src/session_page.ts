@@ -21,19 +21,20 @@ export async function sessionPage(session: number): Promise<Page> {
   const say = (text: string) => trouble.replaceChildren(text);
   const live = new Live(session, () => say('The session is closed. Open it again from the gallery.'));
   const stage = await stageFor(live);
+  const { scene } = stage;
   const time = timeBar([live]);
   const parameters = new Parameters(live);
   const plots = new Plots(live, time.seek);
-  const layers = layersTab([stage]);
+  const layers = layersTab([scene]);
   const drive = new Drive(live);
-  const hands = new Hands(live, stage, parameters, say);
+  const hands = new Hands(live, scene, parameters, say);
   const compare = () =>
     openCopy(live, parameters.settings()).catch((error: Error) => say(error.message));
 
   let follows = false;
   const setFollow = (on: boolean) => {
     follows = on;
-    stage.follow(on);
+    scene.follow(on);
     followButton.setAttribute('aria-pressed', String(on));
   };
   const followButton = button('Follow', 'Follow the swarm (l)', () => setFollow(!follows));
@@ -51,7 +52,7 @@ export async function sessionPage(session: number): Promise<Page> {
     { keys: ['End'], shown: 'End', does: 'the newest frame', act: time.live },
     { keys: ['+', '='], shown: '+', does: 'faster', act: () => time.speed(1) },
     { keys: ['-'], shown: '−', does: 'slower', act: () => time.speed(-1) },
-    { keys: ['f'], shown: 'f', does: 'fit the map', act: () => stage.fit() },
+    { keys: ['f'], shown: 'f', does: 'fit the map', act: () => scene.fit() },
     { keys: ['l'], shown: 'l', does: 'follow the swarm', act: () => setFollow(!follows) },
     { keys: ['m'], shown: 'm', does: 'steer by hand', act: () => drive.toggle() },
     { keys: ['Escape'], shown: 'Esc', does: 'put the tool away', act: () => hands.choose(undefined) },
@@ -92,7 +93,7 @@ export async function sessionPage(session: number): Promise<Page> {
     element(
       'div',
       { class: 'stage' },
-      stage.root,
+      scene.root,
       element(
         'div',
         { class: 'over' },
@@ -100,9 +101,9 @@ export async function sessionPage(session: number): Promise<Page> {
         element(
           'div',
           { class: 'tools' },
-          button('−', 'Zoom out', () => stage.zoomBy(1 / 1.25)),
-          button('+', 'Zoom in', () => stage.zoomBy(1.25)),
-          button('Fit', 'Fit the map (f)', () => stage.fit()),
+          button('−', 'Zoom out', () => scene.zoomBy(1 / 1.25)),
+          button('+', 'Zoom in', () => scene.zoomBy(1.25)),
+          button('Fit', 'Fit the map (f)', () => scene.fit()),
           followButton,
           manualButton,
         ),

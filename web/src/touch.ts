@@ -2,9 +2,9 @@
 import { element } from './dom';
 import type { Live } from './live';
 import type { Parameters } from './parameters';
-import type { Json } from './protocol';
+import type { Json, Point } from './protocol';
 import { at, text } from './settings';
-import type { Point, Stage, Touch } from './stage';
+import type { Scene, Touch } from './scene/scene';
 
 type Tool = 'obstacle' | 'wall' | 'remove';
 const hints: { [tool in Tool]: string } = {
@@ -37,11 +37,11 @@ export class Hands {
 
   constructor(
     private readonly live: Live,
-    private readonly stage: Stage,
+    private readonly scene: Scene,
     private readonly parameters: Parameters,
     private readonly say: (text: string) => void,
   ) {
-    stage.onTouch((touch) => void this.take(touch));
+    scene.onTouch((touch) => void this.take(touch));
     const button = (tool: Tool, label: string) => {
       const made = element(
         'button',
@@ -64,7 +64,7 @@ export class Hands {
   choose(tool: Tool | undefined): void {
     this.tool = tool;
     for (const [name, one] of this.buttons) one.setAttribute('aria-pressed', String(name === tool));
-    this.stage.root.classList.toggle('placing', tool !== undefined);
+    this.scene.root.classList.toggle('placing', tool !== undefined);
     this.say(tool ? hints[tool] : '');
   }
 
