@@ -18,8 +18,9 @@ async function until(page, holds, seconds = 120) {
 }
 
 /** Opens a scenario and plays it until `t` [s]. */
-async function playTo(file, t, { speed = 0, size } = {}) {
+async function playTo(run, file, t, { speed = 0, size } = {}) {
   const lab = await startLab(file);
+  run.after(() => lab.process.kill('SIGKILL'));
   const lookedAt = await openPage(browser, lab.url, size);
   const { page } = lookedAt;
   await until(page, () => window.microswarm?.scene.pictures > 0);
@@ -54,8 +55,8 @@ async function playTo(file, t, { speed = 0, size } = {}) {
 
 const names = (scene) => scene.layers().map(({ name }) => name);
 
-test('radar among twelve obstacles', async () => {
-  const run = await playTo('scenarios/papers/radar/twelve.yaml', 38, { speed: 20 });
+test('radar among twelve obstacles', async (t) => {
+  const run = await playTo(t, 'scenarios/papers/radar/twelve.yaml', 38, { speed: 20 });
   await run.picture('scene-radar');
   await run.scene((scene) => scene.follow(true));
   await run.scene((scene) => scene.zoomBy(6));
@@ -67,8 +68,8 @@ test('radar among twelve obstacles', async () => {
   await run.end();
 });
 
-test('robots gather; regions and clearance', async () => {
-  const run = await playTo('scenarios/papers/gather/vascular_network.yaml', 20);
+test('robots gather; regions and clearance', async (t) => {
+  const run = await playTo(t, 'scenarios/papers/gather/vascular_network.yaml', 20);
   await run.picture('scene-gather');
   await run.scene((scene) => scene.show('aggregation', false));
   await run.scene((scene) => scene.show('clearance', true));
@@ -77,22 +78,22 @@ test('robots gather; regions and clearance', async () => {
   await run.end();
 });
 
-test('a deforming channel', async () => {
-  const run = await playTo('scenarios/papers/drrt/deforming_channel.yaml', 12, { speed: 20 });
+test('a deforming channel', async (t) => {
+  const run = await playTo(t, 'scenarios/papers/drrt/deforming_channel.yaml', 12, { speed: 20 });
   await run.picture('scene-channel');
   await run.end();
 });
 
-test('valves', async () => {
-  const run = await playTo('scenarios/papers/radar/micromaze.yaml', 70, { speed: 20 });
+test('valves', async (t) => {
+  const run = await playTo(t, 'scenarios/papers/radar/micromaze.yaml', 70, { speed: 20 });
   await run.scene((scene) => scene.show('obstacle-trails', true));
   await run.page.waitForTimeout(200);
   await run.picture('scene-valves');
   await run.end();
 });
 
-test('a retina', async () => {
-  const run = await playTo('scenarios/demo.yaml', 20, { speed: 20 });
+test('a retina', async (t) => {
+  const run = await playTo(t, 'scenarios/demo.yaml', 20, { speed: 20 });
   await run.picture('scene-retina');
   await run.scene((scene) => scene.follow(true));
   await run.scene((scene) => scene.zoomBy(15));

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Point } from '../protocol';
 import type { Place } from './layers/marks';
-import { leastRadius } from './layers/obstacles';
+import { isGround, leastRadius } from './layers/obstacles';
 import type { Moment } from './motion';
 import type { Grip } from './pointer';
 import type { View } from './view';
 
 const slack = 4; // [px]
 const mark = 13; // radius of a mark [px]
-const largest = 0.6; // a body that spans more of the map is taken for ground
 
 /** The mark at a point of the screen. */
 export function hitMark(kind: 'goal' | 'start', places: Place[], view: View, screen: Point): { what: Grip; place: Point } | undefined {
@@ -61,14 +60,4 @@ function isNear(ring: Float32Array, x: number, y: number, near: number): boolean
 function eachEdge(ring: Float32Array, visit: (ax: number, ay: number, bx: number, by: number) => void): void {
   for (let i = 0, j = ring.length - 2; i < ring.length; j = i, i += 2)
     visit(ring[j]!, ring[j + 1]!, ring[i]!, ring[i + 1]!);
-}
-
-function isGround(ring: Float32Array, { lo, hi }: View): boolean {
-  const [low, high]: [Point, Point] = [[Infinity, Infinity], [-Infinity, -Infinity]];
-  ring.forEach((value, i) => {
-    const axis = (i % 2) as 0 | 1;
-    low[axis] = Math.min(low[axis], value);
-    high[axis] = Math.max(high[axis], value);
-  });
-  return high[0] - low[0] > largest * (hi[0] - lo[0]) && high[1] - low[1] > largest * (hi[1] - lo[1]);
 }

@@ -59,10 +59,10 @@ export class Scene {
     new Path(),
     this.start,
     this.goal,
+    new Target(this.goal),
     new Robots(),
     new Swarm(),
     new Radar(),
-    new Target(),
     new ScaleBar(),
     new Clock(),
   ]; // from below

@@ -67,12 +67,14 @@ export class Aggregation extends Layer {
       const [number, shade] = key.split(' ').map(Number);
       const colour = colours.series[number! % colours.series.length]!;
       const edges = this.edges.addChild(new Segments(this.nodes, new Uint32Array(pairs)));
+      edges.alpha = 0.75;
       edges.tint = mixed(colour, shade === 1 ? colours.ink : colours.paper, [0, 0.3, 0.4][shade!]!);
     }
   }
 
   private drawJunctions(colours: Drawing['colours']): void {
     this.plan?.regions.forEach((_, i) => {
+      if (i === 0) return void this.junctions.addChild(new Pin()); // the goal has its own mark
       const colour = colours.series[i % colours.series.length]!;
       const pin = this.junctions.addChild(new Pin());
       const disc = pin.addChild(new Graphics()).circle(0, 0, 9);

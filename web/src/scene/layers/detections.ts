@@ -7,6 +7,7 @@ import { type Drawing, Layer } from '../layer';
 export class Detections extends Layer {
   readonly name = 'detections';
   readonly label = 'Detection circles';
+  override readonly occasions = { zoom: true };
   private circles = new Float32Array();
 
   take(message: Message): boolean {
@@ -19,7 +20,7 @@ export class Detections extends Layer {
     empty(this.world);
     const rings: Float32Array[] = [];
     for (let i = 0; i + 2 < this.circles.length; i += 3)
-      rings.push(ring(this.circles[i]!, this.circles[i + 1]!, this.circles[i + 2]!, 2 * view.scale));
+      rings.push(ring(this.circles[i]!, this.circles[i + 1]!, this.circles[i + 2]!, view.scale));
     if (rings.length === 0) return;
     const lines = this.world.addChild(Segments.rings(rings));
     lines.tint = colours.circle;

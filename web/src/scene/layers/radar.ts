@@ -7,7 +7,7 @@ import { type Drawing, Layer } from '../layer';
 const fates = ['kept', 'obstacle', 'wall', 'turn'] as const;
 const shortest = 0.12; // of a kept beam, as a share of the longest
 
-/** A beam of the radar, in order around it. */
+/** A beam of the radar; their headings ascend. */
 interface Beam {
   heading: number;
   fate: number;
@@ -88,7 +88,9 @@ export class Radar extends Layer {
 function beamsOf(scan: Scan): Beam[] {
   const numbers = floats(scan.beams);
   const beams: Beam[] = [];
-  for (let i = 0; i + 2 < numbers.length; i += 3)
-    beams.push({ heading: numbers[i]!, fate: numbers[i + 1]!, score: numbers[i + 2]! });
+  for (let i = 0; i + 2 < numbers.length; i += 3) {
+    const turn = numbers[i]! < (beams.at(-1)?.heading ?? -Infinity) ? 2 * Math.PI : 0;
+    beams.push({ heading: numbers[i]! + turn, fate: numbers[i + 1]!, score: numbers[i + 2]! });
+  }
   return beams;
 }
