@@ -43,11 +43,12 @@ export async function galleryPage(): Promise<Page> {
     const folder = entry.file.slice(0, Math.max(0, entry.file.lastIndexOf('/')));
     folders.set(folder, [...(folders.get(folder) ?? []), entry]);
   }
+  const shared = sharedFolder([...folders.keys()]);
   const sections = [...folders].map(([folder, entries]) =>
     element(
       'section',
       {},
-      element('h2', {}, heading(folder)),
+      element('h2', {}, heading(folder.slice(shared.length))),
       element('div', { class: 'cards' }, ...entries.map((entry) => card(entry, () => void attempt({ file: entry.file })))),
     ),
   );
@@ -81,6 +82,14 @@ export async function galleryPage(): Promise<Page> {
     ...sections,
   );
   return { root, leave: () => undefined };
+}
+
+/** The folder that all are in. */
+function sharedFolder(folders: string[]): string {
+  let shared = folders[0] ?? '';
+  while (!folders.every((one) => one === shared || one.startsWith(`${shared}/`)) && shared !== '')
+    shared = shared.slice(0, Math.max(0, shared.lastIndexOf('/')));
+  return shared;
 }
 
 function heading(folder: string): string {

@@ -9,6 +9,7 @@ import { type Schema, alternative, allowsNull, described, isGroup, kinds, withou
 import { at, combine, keyOf, text } from './settings';
 
 const most = 40; // entries of a list of groups that are shown
+const last = ['name', 'description', 'map'];
 const unfolded = ['goal_um', 'navigator'];
 
 let schemaOnce: Promise<Schema> | undefined;
@@ -102,9 +103,9 @@ export class Parameters {
     const scenario = structuredClone(this.live.hello?.scenario ?? {});
     for (const [key, value] of this.waiting) {
       const names = key.split('.');
-      const last = names.pop() as string;
+      const name = names.pop() as string;
       const parent = names.length > 0 ? at(scenario, names.join('.')) : scenario;
-      if (parent && typeof parent === 'object') (parent as { [key: string]: Json })[last] = value;
+      if (parent && typeof parent === 'object') (parent as { [key: string]: Json })[name] = value;
     }
     return scenario;
   }
@@ -118,7 +119,9 @@ export class Parameters {
     const shape = JSON.stringify([shapeOf(scenario), this.live.standing?.ended]);
     if (shape !== this.shape) {
       const focus = (document.activeElement as HTMLElement | null)?.id;
-      for (const [key, schema] of Object.entries(this.schema.properties ?? {}))
+      const properties = Object.entries(this.schema.properties ?? {});
+      properties.sort(([a], [b]) => Number(last.includes(a)) - Number(last.includes(b)));
+      for (const [key, schema] of properties)
         made.append(this.node(key, schema, scenario[key], fields));
       this.fields = fields;
       this.shape = shape;

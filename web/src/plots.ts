@@ -75,7 +75,10 @@ export class Plots {
       height,
       title: what.title,
       legend: { show: false },
-      scales: { x: { time: false } },
+      scales: {
+        x: { time: false },
+        y: { range: (_, lo, hi) => (lo === hi ? [Math.min(0, lo), Math.max(1, hi)] : uPlot.rangeNum(lo, hi, 0.1, true) as [number, number]) },
+      },
       cursor: { drag: { x: false, y: false }, y: false, points: { size: 6 } },
       axes: [{ ...axis, values: (_, all) => all.map((one) => `${one} s`) }, { ...axis, size: 46 }],
       series: [{}, { stroke: colour('--accent'), width: 1.5, points: { show: false } }],

@@ -33,11 +33,17 @@ export function timeBar(sessions: Live[]): TimeBar {
   const play = () => all({ do: anyPlays() ? 'pause' : 'play' });
   const step = () => all({ do: 'step' });
   const live = () => all({ do: 'live' });
+  /** The one with the most frames; the others look at the same time. */
+  const lead = () =>
+    sessions.reduce((a, b) => (b.history.times.length > a.history.times.length ? b : a), first);
   const seek = (frame: number) => {
-    for (const one of sessions) one.seek(frame);
+    const { times } = lead().history;
+    const time = times[Math.max(0, Math.min(times.length - 1, frame))];
+    if (time === undefined) return;
+    for (const one of sessions) one.seek(one.history.nearest(time));
   };
   const seekBy = (frames: number) => {
-    if (!anyPlays()) seek((first.standing?.frame ?? 0) + frames);
+    if (!anyPlays()) seek((lead().standing?.frame ?? 0) + frames);
   };
   const setSpeed = (speed: number) => all({ do: 'speed', number: speed });
   const speed = (by: number) => setSpeed(fasterSpeed(first.standing?.speed ?? 1, by));
@@ -62,7 +68,7 @@ export function timeBar(sessions: Live[]): TimeBar {
     { class: 'live', type: 'button', title: 'The newest frame (End)', onclick: live },
     'Live',
   );
-  const line = timeline(first, seek);
+  const line = timeline(sessions, lead, seek);
 
   const take = (standing: Standing) => {
     const plays = anyPlays();
@@ -72,8 +78,9 @@ export function timeBar(sessions: Live[]): TimeBar {
     const record = first.hello?.playback ?? false;
     playButton.disabled = ended && !plays && !record;
     stepButton.disabled = ended;
-    liveButton.disabled = !standing.looks_back;
-    liveButton.classList.toggle('on', !standing.looks_back && !record);
+    const looksBack = sessions.some((one) => one.standing?.looks_back);
+    liveButton.disabled = !looksBack;
+    liveButton.classList.toggle('on', !looksBack && !record);
     liveButton.hidden = record;
     const known = speeds.includes(standing.speed);
     if (document.activeElement !== menu) menu.value = String(known ? standing.speed : 1);
@@ -81,7 +88,7 @@ export function timeBar(sessions: Live[]): TimeBar {
   for (const one of sessions)
     one.listen((message) => {
       if (message.type === 'standing' && first.standing) take(first.standing);
-      if (message.type === 'frame' && one === first) clock.textContent = `${first.shown.toFixed(1)} s`;
+      if (message.type === 'frame' && one === lead()) clock.textContent = `${one.shown.toFixed(1)} s`;
     });
   const root = element(
     'section',

@@ -5,7 +5,11 @@ import type { Live } from './live';
 const thumb = 14; // px, as in app.css
 
 /** A slider over all frames with marks above it: contacts, other events, and planning events. */
-export function timeline(live: Live, seek: (frame: number) => void): { root: HTMLElement } {
+export function timeline(
+  sessions: Live[],
+  lead: () => Live,
+  seek: (frame: number) => void,
+): { root: HTMLElement } {
   const canvas = element('canvas', { class: 'marks', 'aria-hidden': 'true' });
   const slider = element('input', {
     type: 'range',
@@ -24,14 +28,16 @@ export function timeline(live: Live, seek: (frame: number) => void): { root: HTM
   const timeAt = (event: MouseEvent) => {
     const box = slider.getBoundingClientRect();
     const share = (event.clientX - box.left - thumb / 2) / (box.width - thumb);
-    const times = live.history.times;
+    const { times } = lead().history;
     return times[Math.round(Math.max(0, Math.min(1, share)) * (times.length - 1))];
   };
-  slider.addEventListener('pointermove', (event) => live.point(timeAt(event)));
-  slider.addEventListener('pointerleave', () => live.point(undefined));
+  const point = (time: number | undefined) => sessions.forEach((one) => one.point(time));
+  slider.addEventListener('pointermove', (event) => point(timeAt(event)));
+  slider.addEventListener('pointerleave', () => point(undefined));
 
   const draw = () => {
     due = false;
+    const live = lead();
     const { clientWidth: width, clientHeight: height } = canvas;
     const scale = window.devicePixelRatio;
     canvas.width = width * scale;
@@ -62,21 +68,25 @@ export function timeline(live: Live, seek: (frame: number) => void): { root: HTM
   };
   const observer = new ResizeObserver(redraw);
   observer.observe(root);
-  live.onPoint(() => {
+  const showTip = () => {
     redraw();
+    const live = lead();
     const time = live.pointed;
     tip.hidden = time === undefined;
     if (time === undefined) return;
     const near = live.history.events.filter((one) => Math.abs(one.t_s - time) < span(live) / 100);
     tip.value = [`${time.toFixed(1)} s`, ...near.map((one) => one.kind.replaceAll('_', ' '))].join(' · ');
-  });
-  live.listen((message) => {
-    if (message.type === 'rows') redraw();
-    if (message.type !== 'standing') return;
-    slider.max = String(Math.max(0, live.history.times.length - 1));
-    slider.value = String(message.frame);
-    slider.setAttribute('aria-valuetext', `${live.shown.toFixed(1)} seconds`);
-  });
+  };
+  for (const one of sessions) {
+    one.onPoint(showTip);
+    one.listen((message) => {
+      if (message.type === 'rows') redraw();
+      if (message.type !== 'standing' || one !== lead()) return;
+      slider.max = String(Math.max(0, one.history.times.length - 1));
+      slider.value = String(message.frame);
+      slider.setAttribute('aria-valuetext', `${one.shown.toFixed(1)} seconds`);
+    });
+  }
   return { root };
 }
 

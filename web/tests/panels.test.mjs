@@ -219,3 +219,26 @@ test('the gallery has a picture for every experiment, and finds', async () => {
   await lookedAt.close();
   await lab.stop();
 });
+
+test('the dark page and its layers', () =>
+  inLab('scenarios/papers/radar/twelve.yaml', async (page, { picture }) => {
+    await page.getByRole('button', { name: 'Light or dark' }).click();
+    await page.selectOption('.speed', '20');
+    await page.click('.play');
+    await until(page, () => Number.parseFloat(document.querySelector('.clock').value) > 15);
+    await page.click('.play');
+    await page.getByRole('tab', { name: 'Layers' }).click();
+    const radar = page.locator('.layer[data-layer="radar"] input');
+    assert.equal(await radar.isChecked(), true);
+    await radar.click();
+    assert.equal(
+      await page.evaluate(() => window.microswarm.scene.layers().find(({ name }) => name === 'radar').shown),
+      false,
+    );
+    await radar.click();
+    await page.waitForTimeout(300);
+    await picture('dark-layers');
+    await page.getByRole('tab', { name: 'Plots' }).click();
+    await page.waitForTimeout(300);
+    await picture('dark-plots');
+  }));
