@@ -60,7 +60,7 @@ export function recordTab(live: Live, compare: () => void): HTMLElement {
     changes,
     element('h2', {}, 'The same from a terminal'),
     command,
-    element('p', { class: 'doc' }, 'Changes apply from the start there; the record keeps when each was made.'),
+    element('p', { class: 'doc' }, 'There, the changes apply from the start. The record keeps when each was made: microswarm replay record.h5 repeats that.'),
     element('div', { class: 'row' }, copy, copied),
     element('h2', {}, 'Download'),
     element('div', { class: 'row' }, ...links),

@@ -18,7 +18,11 @@ import { Hands } from './touch';
 /** The page of one session: its scene, panels and time line. */
 export async function sessionPage(session: number): Promise<Page> {
   const trouble = element('p', { class: 'trouble', role: 'alert' });
-  const say = (text: string) => trouble.replaceChildren(text);
+  const say = (text: string, isTrouble = true) => {
+    trouble.replaceChildren(text);
+    trouble.title = text;
+    trouble.classList.toggle('note', !isTrouble);
+  };
   const live = new Live(session, () => say('The session is closed. Open it again from the gallery.'));
   const stage = await stageFor(live);
   const { scene } = stage;

@@ -39,7 +39,7 @@ export class Hands {
     private readonly live: Live,
     private readonly scene: Scene,
     private readonly parameters: Parameters,
-    private readonly say: (text: string) => void,
+    private readonly say: (text: string, isTrouble?: boolean) => void,
   ) {
     scene.onTouch((touch) => void this.take(touch));
     const button = (tool: Tool, label: string) => {
@@ -65,7 +65,7 @@ export class Hands {
     this.tool = tool;
     for (const [name, one] of this.buttons) one.setAttribute('aria-pressed', String(name === tool));
     this.scene.root.classList.toggle('placing', tool !== undefined);
-    this.say(tool ? hints[tool] : '');
+    this.say(tool ? hints[tool] : '', false);
   }
 
   private async take(touch: Touch): Promise<void> {
@@ -145,7 +145,8 @@ export class Hands {
 
   private async restart(settings: string[]): Promise<void> {
     const answer = await this.parameters.restart(settings);
-    this.say(answer.issues.map((one) => one.text).join(' ') || 'The run begins anew.');
+    const trouble = answer.issues.map((one) => one.text).join(' ');
+    this.say(trouble || 'The run begins anew.', trouble !== '');
   }
 }
 

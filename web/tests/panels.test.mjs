@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a person does around the scene: time, parameters, plots, record.
 import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { openPage, startBrowser, startLab } from './lab.mjs';
+import { openPage, program, root, startBrowser, startLab } from './lab.mjs';
 
 let browser;
 before(async () => (browser = await startBrowser()));
@@ -91,6 +93,26 @@ test('a slider changes the parameter, and the change is listed and in the comman
     await page.locator('.changes', { hasText: `${key}=${after}` }).waitFor();
     assert.match(await page.locator('.command').innerText(), new RegExp(`microswarm run .*--set ${key}=${after}`));
     await picture('record');
+
+    await page.selectOption('.speed', '0');
+    await page.click('.play');
+    await page.waitForSelector('[data-status="solved"]', { timeout: 120_000 });
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click('a[download="record.h5"]')]);
+    const record = join(root, 'build/web/panels.h5');
+    await download.saveAs(record);
+    assert.match(execFileSync(program, ['replay', record], { cwd: root }).toString(), /identical/);
+  }));
+
+test('a record is played and scrubbed, and its parameters only shown', () =>
+  inLab('build/web/panels.h5', async (page, { picture }) => {
+    await page.keyboard.press('Space');
+    await until(page, () => Number.parseFloat(document.querySelector('.clock').value) > 1);
+    await page.keyboard.press('Space');
+    await page.keyboard.press('Home');
+    await until(page, () => Number.parseFloat(document.querySelector('.clock').value) < 0.5);
+    assert.ok(await page.locator('[id="field-seed"]').isDisabled());
+    assert.ok(await page.locator('.tool-wall').isHidden());
+    await picture('playback');
   }));
 
 test('a bad value is named at its field; what needs a restart waits for one', () =>
@@ -186,11 +208,14 @@ test('an obstacle dragged into the way changes the path; discs come and go', () 
     await page.mouse.click(...(await onScreen(page, [300, 850])));
     await until(page, () => window.microswarm.connection.hello.scenario.map.discs.length === 1);
     await picture('touched');
-    // The restart kept what was changed before.
+    await page.keyboard.press('Escape');
+    await drag(page, [200, 500], [200, 700]);
+    await until(page, () => Math.abs(window.microswarm.connection.hello.scenario.start.y_um - 700) < 5);
+    // The restarts kept what was changed before.
     assert.ok(Math.abs((await page.evaluate(() => window.microswarm.connection.hello.scenario.goal_um[0])) - 1700) < 5);
   }));
 
-test('arrow keys steer, and the record has it', () =>
+test('arrow keys and a gamepad steer', () =>
   inLab('scenarios/first_flight.yaml', async (page) => {
     await page.keyboard.press('m');
     await page.waitForSelector('[data-mode="manual"]');
@@ -202,7 +227,16 @@ test('arrow keys steer, and the record has it', () =>
       return y.length > 0 && y[y.length - 1] > 520;
     });
     await page.keyboard.up('ArrowUp');
-    await page.click('.play');
+    const turn = await page.evaluate(() => window.microswarm.connection.history.times.length);
+    await page.evaluate(() => (navigator.getGamepads = () => [{ connected: true, axes: [0, 1] }]));
+    await until(
+      page,
+      (since) => {
+        const y = window.microswarm.connection.history.column('y_um').slice(since);
+        return y.length > 10 && y[y.length - 1] < y[0] - 10;
+      },
+      turn,
+    );
   }));
 
 test('the gallery has a picture for every experiment, and finds', async () => {
