@@ -39,5 +39,6 @@ function licence(path) {
       // The next name.
     }
   }
-  return JSON.parse(readFileSync(join(here, path, 'package.json'), 'utf8')).license;
+  const { license, author } = JSON.parse(readFileSync(join(here, path, 'package.json'), 'utf8'));
+  return `${license}. Copyright ${author?.name ?? author ?? 'the authors'}.`;
 }

@@ -13,8 +13,7 @@ namespace {
 bool is_same_secret(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   unsigned char difference = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    difference |= static_cast<unsigned char>(a[i] ^ b[i]);
+  for (std::size_t i = 0; i < a.size(); ++i) difference |= static_cast<unsigned char>(a[i] ^ b[i]);
   return difference == 0;
 }
 
@@ -31,25 +30,33 @@ std::string_view cookie_value(std::string_view header, std::string_view name) {
   return {};
 }
 
+/// The host of "HOST:PORT" or "HOST"; empty if it is neither.
+std::string_view name_of(std::string_view host) {
+  const std::size_t end = host.starts_with('[') ? host.find(']') + 1 : host.find(':');
+  const std::string_view name = host.substr(0, end);
+  std::string_view port = host.substr(name.size());
+  if (port.empty()) return name;
+  port.remove_prefix(1);
+  const bool is_port = host[name.size()] == ':' && !port.empty() && port.size() <= 5 &&
+                       port.find_first_not_of("0123456789") == std::string_view::npos;
+  return is_port ? name : std::string_view();
+}
+
 }  // namespace
 
-Access::Access(std::string token, std::vector<std::string> hosts, std::uint16_t port)
-    : token_(std::move(token)),
-      hosts_(std::move(hosts)),
-      cookie_name_(fmt::format("microswarm_{}", port)) {}
+Access::Access(std::string token, std::uint16_t port)
+    : token_(std::move(token)), cookie_name_(fmt::format("microswarm_{}", port)) {}
 
 std::string Access::cookie() const {
   return fmt::format("{}={}; HttpOnly; SameSite=Strict; Path=/", cookie_name_, token_);
 }
 
 std::string Access::refusal(const Origins& from) const {
-  const auto is_host = [&](std::string_view host) {
-    return std::ranges::find(hosts_, host) != hosts_.end();
-  };
-  if (!is_host(from.host)) return "the host is not this lab's";
-  constexpr std::string_view scheme = "http://";
-  if (!from.origin.empty() &&
-      !(from.origin.starts_with(scheme) && is_host(from.origin.substr(scheme.size()))))
+  const std::string_view name = name_of(from.host);
+  const bool is_here = !name.empty() && (name == "localhost" || name == "127.0.0.1" ||
+                                         name == "[::1]" || name == from.local);
+  if (!is_here) return "the host is not this lab's: open it by its address";
+  if (!from.origin.empty() && from.origin != "http://" + std::string(from.host))
     return "the origin is not this lab's";
   if (is_same_secret(cookie_value(from.cookie, cookie_name_), token_)) return {};
   if (is_same_secret(from.token, token_)) return {};

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace microswarm::lab {
 
@@ -14,15 +13,16 @@ struct Origins {
   std::string_view origin;
   std::string_view cookie;
   std::string_view token;  ///< of the query
+  std::string_view local;  ///< address at which it arrived, as in a URL: "192.168.1.4", "[::1]"
 };
 
-/// Who may talk to a lab: pages of this lab, in browsers that were given its token. Host and
-/// Origin are compared, so that neither another site's page nor a name that was bound to this
-/// address reaches it.
+/// Who may talk to a lab: pages of this lab, in browsers that were given its token. Host must be
+/// an address of this computer, never a name that was bound to it, and Origin must be the same
+/// host, so that no page of another site reaches the lab.
 class Access {
  public:
-  /// `hosts` are the allowed values of Host, such as "127.0.0.1:8080".
-  Access(std::string token, std::vector<std::string> hosts, std::uint16_t port);
+  /// `port` is that of the lab; another one may be forwarded to it.
+  Access(std::string token, std::uint16_t port);
 
   const std::string& token() const { return token_; }
   /// Cookie that carries the token from the first page on.
@@ -32,7 +32,6 @@ class Access {
 
  private:
   std::string token_;
-  std::vector<std::string> hosts_;
   std::string cookie_name_;
 };
 

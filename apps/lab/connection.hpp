@@ -2,11 +2,13 @@
 #pragma once
 
 #include <boost/asio/ip/tcp.hpp>
+#include <functional>
 #include <optional>
 
 #include "lab/access.hpp"
 #include "lab/hub.hpp"
 #include "lab/library.hpp"
+#include "lab/thumbnail.hpp"
 
 namespace microswarm::lab {
 
@@ -15,7 +17,12 @@ struct Shared {
   const Access& access;
   Hub& hub;
   const Library& library;
+  Thumbnails& thumbnails;  ///< of the worker
   const std::optional<Opening>& opening;
+  std::size_t& connections;  ///< that are open, beside streams
+  /// Runs work that may take a while in another thread; post() brings what it made back.
+  std::function<void(std::function<void()>)> work;
+  std::function<void(std::function<void()>)> post;
 };
 
 /// Serves one connection until it ends: HTTP requests, or a page's WebSocket.

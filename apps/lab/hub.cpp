@@ -4,45 +4,36 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace microswarm::lab {
 
-Hub::Hub(Post post, std::size_t max_sessions, std::size_t max_pages)
-    : post_(std::move(post)), max_sessions_(max_sessions), max_pages_(max_pages) {}
+Hub::Hub(Post post, const Limits& limits) : post_(std::move(post)), limits_(limits) {}
 
-Hub::~Hub() = default;
-
-void Hub::open(Opening opening,
-               std::function<void(std::uint64_t, const std::string&)> opened) {
-  if (sessions_.size() >= max_sessions_) {
-    opened(0, fmt::format("{} sessions are open, which is the limit: close one", max_sessions_));
-    return;
-  }
+void Hub::open(Opening opening, std::function<void(const Outcome<std::uint64_t>&)> opened) {
+  if (sessions_.size() >= limits_.sessions || closing_.size() >= limits_.sessions)
+    return opened({.trouble = fmt::format("{} sessions are open, which is the limit: close one",
+                                          limits_.sessions)});
   const std::uint64_t number = next_++;
-  waiting_[number] = std::move(opened);
+  const std::uint64_t waits =
+      wait(number, [this, number, opened = std::move(opened)](const std::string& trouble) {
+        const auto found = sessions_.find(number);
+        if (found != sessions_.end() && trouble.empty()) found->second.is_open = true;
+        if (!trouble.empty()) close(number);
+        opened({.value = number, .trouble = trouble});
+      });
   sessions_[number].thread = std::make_unique<SessionThread>(
       std::move(opening),
-      SessionThread::Callbacks{
-          .opened =
-              [this, number](const std::string& trouble) {
-                post_([this, number, trouble] { settle(number, trouble); });
-              },
-          .send =
-              [this, number](std::uint64_t page, MessagePtr message) {
-                post_([this, number, page, message = std::move(message)] {
-                  deliver(number, page, message);
-                });
-              }});
-}
-
-void Hub::settle(std::uint64_t session, const std::string& trouble) {
-  const auto opened = std::move(waiting_[session]);
-  waiting_.erase(session);
-  if (!trouble.empty())
-    sessions_.erase(session);
-  else if (const auto found = sessions_.find(session); found != sessions_.end())
-    found->second.is_open = true;
-  if (opened) opened(trouble.empty() ? session : 0, trouble);
+      SessionThread::Callbacks{.opened =
+                                   [this, waits](const std::string& trouble) {
+                                     post_([this, waits, trouble] { settle(waits, trouble); });
+                                   },
+                               .send =
+                                   [this, number](std::uint64_t page, MessagePtr message) {
+                                     post_([this, number, page, message = std::move(message)] {
+                                       deliver(number, page, message);
+                                     });
+                                   }});
 }
 
 bool Hub::has(std::uint64_t session) const {
@@ -50,11 +41,36 @@ bool Hub::has(std::uint64_t session) const {
   return found != sessions_.end() && found->second.is_open;
 }
 
-void Hub::close(std::uint64_t session) { sessions_.erase(session); }
+void Hub::close(std::uint64_t session) {
+  const auto found = sessions_.find(session);
+  if (found == sessions_.end()) return;
+  found->second.thread->end();
+  closing_.push_back(std::move(found->second.thread));
+  sessions_.erase(found);
+  std::vector<std::shared_ptr<Page>> left;
+  for (const auto& [number, seat] : pages_)
+    if (seat.session == session) left.push_back(seat.page);
+  for (const auto& page : left) page->close();
+  std::vector<std::uint64_t> waiting;
+  for (const auto& [number, one] : waiting_)
+    if (one.session == session) waiting.push_back(number);
+  for (const std::uint64_t number : waiting) settle(number, "the session was closed");
+}
 
-std::uint64_t Hub::join(std::uint64_t session, Page& page) {
+std::uint64_t Hub::wait(std::uint64_t session, std::function<void(const std::string&)> settle) {
   const std::uint64_t number = next_++;
-  pages_[number] = {session, &page};
+  waiting_[number] = {session, std::move(settle)};
+  return number;
+}
+
+void Hub::settle(std::uint64_t waiting, const std::string& trouble) {
+  auto one = waiting_.extract(waiting);
+  if (one) one.mapped().settle(trouble);
+}
+
+std::uint64_t Hub::join(std::uint64_t session, std::shared_ptr<Page> page) {
+  const std::uint64_t number = next_++;
+  pages_[number] = {session, std::move(page)};
   sessions_.at(session).thread->join(number);
   return number;
 }
@@ -69,19 +85,41 @@ void Hub::ask(std::uint64_t page, Request request) {
 }
 
 void Hub::deliver(std::uint64_t session, std::uint64_t page, const MessagePtr& message) {
-  for (const auto& [number, seat] : pages_)
-    if (seat.session == session && (page == 0 || page == number)) seat.page->send(message);
+  std::vector<std::shared_ptr<Page>> to;  // one may leave while it is sent to
+  for (auto& [number, seat] : pages_) {
+    if (page == number) seat.is_welcome = true;
+    if (seat.session == session && (page == number || (page == 0 && seat.is_welcome)))
+      to.push_back(seat.page);
+  }
+  for (const auto& one : to) one->send(message);
 }
 
 void Hub::sweep() {
-  for (auto at = sessions_.begin(); at != sessions_.end();) {
-    auto& [number, running] = *at;
+  std::vector<std::uint64_t> left;
+  for (auto& [number, running] : sessions_) {
     const bool is_watched = std::ranges::any_of(
-        pages_, [&](const auto& page) { return page.second.session == number; });
-    running.unwatched = is_watched ? 0 : running.unwatched + 1;
-    const bool is_left = running.is_open && running.unwatched >= 2;
-    at = is_left ? sessions_.erase(at) : std::next(at);
+        pages_, [&, session = number](const auto& page) { return page.second.session == session; });
+    running.unwatched = is_watched || !running.is_open ? 0 : running.unwatched + 1;
+    if (running.unwatched >= 2) left.push_back(number);
   }
+  for (const std::uint64_t number : left) close(number);
+}
+
+void Hub::reap() {
+  std::erase_if(closing_, [](const auto& thread) { return thread->has_ended(); });
+}
+
+void Hub::end() {
+  waiting_.clear();
+  pages_.clear();
+  for (auto& [number, running] : std::exchange(sessions_, {})) {
+    running.thread->end();
+    closing_.push_back(std::move(running.thread));
+  }
+}
+
+bool Hub::has_ended() const {
+  return std::ranges::all_of(closing_, [](const auto& thread) { return thread->has_ended(); });
 }
 
 }  // namespace microswarm::lab

@@ -3,64 +3,118 @@
 
 #include <cstdint>
 #include <functional>
+#include <list>
 #include <map>
 #include <memory>
 #include <string>
 
+#include "lab/limits.hpp"
 #include "lab/session_thread.hpp"
 
 namespace microswarm::lab {
 
-/// A page that watches a session, as the hub sees it. Called in the thread of input and output.
+/// A page that watches a session, as the hub sees it.
 class Page {
  public:
   virtual ~Page() = default;
   virtual void send(const MessagePtr& message) = 0;
+  /// Its session is closed.
+  virtual void close() = 0;
 };
 
-/// The open sessions and the pages that watch them. A session without a page for `patience` is
-/// closed. All functions are called in the thread of input and output; `post` brings the sessions'
-/// messages there.
+/// What was computed from a session, or why it was not.
+template <class T>
+struct Outcome {
+  T value{};
+  std::string trouble;
+};
+
+/// The open sessions and the pages that watch them. All functions are called in the thread of input
+/// and output; `post` brings the sessions' messages there. None waits for a session.
 class Hub {
  public:
   using Post = std::function<void(std::function<void()>)>;
-  Hub(Post post, std::size_t max_sessions, std::size_t max_pages);
-  ~Hub();
+  Hub(Post post, const Limits& limits);
 
-  /// Opens a session; `opened` gets its number, or why there is none.
-  void open(Opening opening,
-            std::function<void(std::uint64_t session, const std::string& trouble)> opened);
+  const Limits& limits() const { return limits_; }
+
+  /// Opens a session; `opened` gets its number.
+  void open(Opening opening, std::function<void(const Outcome<std::uint64_t>&)> opened);
   bool has(std::uint64_t session) const;
+  /// What an open session was opened from.
+  const std::filesystem::path& file_of(std::uint64_t session) const {
+    return sessions_.at(session).thread->file();
+  }
+  /// Ends the session and closes its pages.
   void close(std::uint64_t session);
-  bool is_full() const { return pages_.size() >= max_pages_; }
+  /// Calls `make` with the session in its thread, between two ticks, then `done` with the result.
+  /// An InputError that it throws is the trouble, as is the end of the session.
+  template <class T>
+  void fetch(std::uint64_t session, std::function<T(const Session&)> make,
+             std::function<void(Outcome<T>)> done);
 
-  /// Number of the page, for leave() and ask(). The page is not owned.
-  std::uint64_t join(std::uint64_t session, Page& page);
+  bool is_full() const { return pages_.size() >= limits_.pages; }
+  /// Number of the page, for leave() and ask(). The page is kept until it leaves.
+  std::uint64_t join(std::uint64_t session, std::shared_ptr<Page> page);
   void leave(std::uint64_t page);
   void ask(std::uint64_t page, Request request);
+
   /// Closes sessions that nobody has watched since the call before the last one.
   void sweep();
+  /// Frees what has ended.
+  void reap();
+  /// Asks all sessions to end, and lets go of pages and of whoever waits.
+  void end();
+  /// Whether all sessions have ended.
+  bool has_ended() const;
 
  private:
   struct Seat {
     std::uint64_t session;
-    Page* page;
+    std::shared_ptr<Page> page;
+    bool is_welcome = false;  ///< got its hello, and gets messages for all from then on
   };
   struct Running {
     std::unique_ptr<SessionThread> thread;
     bool is_open = false;
     int unwatched = 0;  ///< sweeps
   };
+  struct Waiting {
+    std::uint64_t session;
+    std::function<void(const std::string& trouble)> settle;
+  };
   void deliver(std::uint64_t session, std::uint64_t page, const MessagePtr& message);
-  void settle(std::uint64_t session, const std::string& trouble);
+  std::uint64_t wait(std::uint64_t session, std::function<void(const std::string&)> settle);
+  void settle(std::uint64_t waiting, const std::string& trouble);
 
   Post post_;
-  std::size_t max_sessions_;
-  std::size_t max_pages_;
+  Limits limits_;
   std::uint64_t next_ = 1;
-  std::map<std::uint64_t, Running> sessions_;
-  std::map<std::uint64_t, std::function<void(std::uint64_t, const std::string&)>> waiting_;
+  std::map<std::uint64_t, Waiting> waiting_;
   std::map<std::uint64_t, Seat> pages_;
+  std::map<std::uint64_t, Running> sessions_;
+  std::list<std::unique_ptr<SessionThread>> closing_;
 };
+
+template <class T>
+void Hub::fetch(std::uint64_t session, std::function<T(const Session&)> make,
+                std::function<void(Outcome<T>)> done) {
+  const auto found = sessions_.find(session);
+  if (found == sessions_.end()) return done({.trouble = "there is no such session"});
+  const auto value = std::make_shared<T>();
+  const std::uint64_t number =
+      wait(session, [value, done = std::move(done)](const std::string& trouble) {
+        done({.value = std::move(*value), .trouble = trouble});
+      });
+  found->second.thread->with([this, number, value, make = std::move(make)](Session& of) {
+    std::string trouble;
+    try {
+      *value = make(of);
+    } catch (const std::exception& error) {
+      trouble = error.what();
+    }
+    post_([this, number, trouble] { settle(number, trouble); });
+  });
+}
 
 }  // namespace microswarm::lab

@@ -16,6 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t max_entries = 2000;
+constexpr int max_visited = 50'000;  ///< files and folders
+constexpr int deepest_folder = 6;
 
 /// Value of a key at the beginning of a line of a scenario; folded lines are joined.
 std::string top_value(std::istream& file, std::string_view key) {
@@ -26,14 +28,17 @@ std::string top_value(std::istream& file, std::string_view key) {
   for (std::string line; std::getline(file, line);) {
     if (is_in && (line.empty() || line[0] != ' ')) break;
     if (is_in) {
-      value += (value.empty() ? "" : " ") + line.substr(std::min(line.find_first_not_of(' '), line.size()));
+      value += (value.empty() ? "" : " ") +
+               line.substr(std::min(line.find_first_not_of(' '), line.size()));
     } else if (line.starts_with(key) && line.size() > key.size() && line[key.size()] == ':') {
       value = line.substr(std::min(line.find_first_not_of(' ', key.size() + 1), line.size()));
       if (value.starts_with('>') || value.starts_with('|')) value.clear();
       is_in = true;
     }
   }
-  return printable(value);
+  const bool is_quoted =
+      value.size() > 1 && (value[0] == '"' || value[0] == '\'') && value.back() == value[0];
+  return printable(is_quoted ? value.substr(1, value.size() - 2) : value);
 }
 
 bool is_within(const fs::path& file, const fs::path& folder) {
@@ -42,6 +47,19 @@ bool is_within(const fs::path& file, const fs::path& folder) {
 }
 
 }  // namespace
+
+std::vector<std::string*> files_of(Scenario& scenario) {
+  std::vector<std::string*> files;
+  std::visit(
+      [&](auto& map) {
+        if constexpr (requires { map.file; }) files.push_back(&map.file);
+      },
+      scenario.map);
+  for (Obstacle& obstacle : scenario.obstacles)
+    if (auto* track = std::get_if<Track>(&obstacle.motion)) files.push_back(&track->file);
+  if (FollowerParams* follower = follower_of(scenario.navigator)) files.push_back(&follower->model);
+  return files;
+}
 
 Library::Library(std::vector<fs::path> folders) {
   for (const fs::path& folder : folders) {
@@ -54,14 +72,16 @@ Library::Library(std::vector<fs::path> folders) {
 
 std::vector<Entry> Library::entries() const {
   std::vector<Entry> list;
+  int visited = 0;
   for (const fs::path& folder : folders_) {
     std::error_code error;
     for (fs::recursive_directory_iterator it(folder, error), end; it != end && !error;
          it.increment(error)) {
-      if (list.size() >= max_entries) break;
-      if (it.depth() > 6) it.disable_recursion_pending();
+      if (list.size() >= max_entries || ++visited > max_visited) break;
+      if (it.depth() >= deepest_folder) it.disable_recursion_pending();
       const fs::path& file = it->path();
-      if (!it->is_regular_file(error)) continue;
+      std::error_code gone;
+      if (!it->is_regular_file(gone)) continue;
       if (file.extension() == ".h5") {
         list.push_back({file.string(), file.stem().string(), "Record."});
       } else if (file.extension() == ".yaml") {
@@ -81,6 +101,19 @@ fs::path Library::find(std::string_view file) const {
   for (const fs::path& folder : folders_)
     if (!error && is_within(real, folder) && fs::is_regular_file(real, error)) return real;
   throw InputError(fmt::format("{}: no such file in the folders of this lab", one_line(file)));
+}
+
+void Library::check(const fs::path& scenario, const std::vector<std::string>& settings,
+                    const std::vector<std::string>& trusted) const {
+  if (settings == trusted || scenario.extension() == ".h5") return;
+  Scenario asked = read_scenario(scenario, settings);
+  Scenario opened = read_scenario(scenario, trusted);
+  const auto known = files_of(opened);
+  for (const std::string* file : files_of(asked)) {
+    const bool is_known =
+        std::ranges::any_of(known, [&](const std::string* one) { return *one == *file; });
+    if (!file->empty() && !is_known) find((scenario.parent_path() / *file).string());
+  }
 }
 
 }  // namespace microswarm::lab

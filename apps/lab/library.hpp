@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "microswarm/experiment/scenario/scenario.hpp"
+
 namespace microswarm::lab {
 
 /// A scenario or record that can be opened.
@@ -14,6 +16,9 @@ struct Entry {
   std::string name;
   std::string description;
 };
+
+/// Names of the files that a scenario reads: map, tracks, model; relative to its own folder.
+std::vector<std::string*> files_of(Scenario& scenario);
 
 /// The folders whose files the lab lists and opens. A file elsewhere does not exist for it.
 class Library {
@@ -24,6 +29,10 @@ class Library {
   std::vector<Entry> entries() const;
   /// The file of that name. Throws InputError if it is not in one of the folders, links followed.
   std::filesystem::path find(std::string_view file) const;
+  /// Throws InputError if a scenario with `settings` names a file outside of the folders (map,
+  /// track, model) that it does not name with the `trusted` settings. A record has none.
+  void check(const std::filesystem::path& scenario, const std::vector<std::string>& settings,
+             const std::vector<std::string>& trusted = {}) const;
 
  private:
   std::vector<std::filesystem::path> folders_;

@@ -15,7 +15,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int max_depth = 2;  // an object with a list of texts
-constexpr std::size_t max_settings = 1000;
 
 [[noreturn]] void refuse(std::string_view key, const char* wanted) {
   throw InputError(fmt::format("message: {} is not {}", quote(key), wanted));
@@ -94,6 +93,20 @@ Request read_request(std::string_view text) {
     }
   }
   if (!asks) throw InputError("message: \"do\" is missing");
+  return request;
+}
+
+OpenRequest read_open_request(std::string_view text) {
+  OpenRequest request;
+  const Json json = parsed(text);
+  for (const auto& [key, value] : json.items()) {
+    if (key == "file")
+      request.file = text_in(key, value);
+    else if (key == "settings")
+      request.settings = texts_in(key, value);
+    else
+      throw InputError(fmt::format("message: no key {}", quote(key)));
+  }
   return request;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -55,11 +56,24 @@ struct Request {
   std::vector<std::string> settings;  ///< KEY=VALUE
 };
 
+/// What a page asks to open.
+struct OpenRequest {
+  std::optional<std::string> file;    ///< of the listing; else what the lab was started with
+  std::vector<std::string> settings;  ///< KEY=VALUE
+};
+
 /// Longest message that is read [bytes].
 inline constexpr std::size_t max_request_size = 256 * 1024;
+
+/// Most settings in a message.
+inline constexpr std::size_t max_settings = 1000;
 
 /// Reads a JSON object such as {"id": 3, "do": "set", "key": "goal_um", "value": "[1, 2]"}. Throws
 /// InputError in one line if it is not one, has another key, or a value of another type.
 Request read_request(std::string_view text);
+
+/// Reads a JSON object such as {"file": "scenarios/a.yaml", "settings": ["seed=3"]}, strict as
+/// read_request.
+OpenRequest read_open_request(std::string_view text);
 
 }  // namespace microswarm::lab

@@ -3,16 +3,19 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ip/v6_only.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
-#include <chrono>
+#include <boost/asio/thread_pool.hpp>
+#include <thread>
 
 #include "lab/access.hpp"
 #include "lab/connection.hpp"
 #include "lab/hub.hpp"
 #include "lab/library.hpp"
+#include "lab/thumbnail.hpp"
 #include "microswarm/core/errors/error.hpp"
 
 namespace microswarm::lab {
@@ -20,7 +23,15 @@ namespace {
 
 namespace asio = boost::asio;
 using Tcp = asio::ip::tcp;
+using Clock = Stop::Clock;
 using namespace std::chrono_literals;
+
+constexpr auto tick_period = 50ms;
+constexpr auto longest_end = 500ms;
+
+std::string literal_of(const asio::ip::address& address) {
+  return address.is_v6() ? "[" + address.to_string() + "]" : address.to_string();
+}
 
 }  // namespace
 
@@ -28,36 +39,41 @@ class Server::Impl {
  public:
   explicit Impl(ServerOptions options)
       : options_(std::move(options)),
-        hub_([this](std::function<void()> work) { asio::post(io_, std::move(work)); },
-             options_.max_sessions, options_.max_pages),
         library_(options_.folders),
+        hub_([this](std::function<void()> work) { asio::post(io_, std::move(work)); },
+             options_.limits),
         clock_(io_) {
     listen();
-    access_.emplace(new_token(), hosts(), port_);
+    access_.emplace(new_token(), port_);
   }
 
+  ~Impl() {
+    hub_.end();
+    worker_.stop();
+    worker_.join();
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
   std::string url() const {
-    const std::string host = options_.listen.empty() ? "127.0.0.1" : literal(options_.listen);
+    const auto address = acceptors_.front().local_endpoint().address();
+    const std::string host = address.is_unspecified() ? "localhost" : literal_of(address);
     return fmt::format("http://{}:{}/?token={}", host, port_, access_->token());
   }
 
-  void run(const Stop& stop) {
+  bool run(const Stop& stop) {
     for (Tcp::acceptor& acceptor : acceptors_) accept(acceptor);
     tick(stop);
     io_.run();
+    hub_.end();
+    worker_.stop();
+    const auto latest = Clock::now() + longest_end;
+    while (!has_ended() && Clock::now() < latest) std::this_thread::sleep_for(5ms);
+    return has_ended();
   }
 
  private:
-  static std::string literal(const std::string& address) {
-    return address.find(':') == std::string::npos ? address : "[" + address + "]";
-  }
-
-  std::vector<std::string> hosts() const {
-    std::vector<std::string> names{"127.0.0.1", "localhost", "[::1]"};
-    if (!options_.listen.empty()) names.push_back(literal(options_.listen));
-    for (std::string& name : names) name += fmt::format(":{}", port_);
-    return names;
-  }
+  bool has_ended() const { return hub_.has_ended() && !works_; }
 
   void listen() {
     port_ = options_.port;
@@ -88,46 +104,77 @@ class Server::Impl {
     });
     attempt([&] { acceptor.bind({address, port_}, error); });
     attempt([&] { acceptor.listen(asio::socket_base::max_listen_connections, error); });
-    if (error)
-      throw InputError(fmt::format("{}: port {}: {}", text, port_, error.message()));
+    if (error) throw InputError(fmt::format("{}: port {}: {}", text, port_, error.message()));
     port_ = acceptor.local_endpoint().port();
     acceptors_.push_back(std::move(acceptor));
   }
 
   void accept(Tcp::acceptor& acceptor) {
     acceptor.async_accept([this, &acceptor](boost::system::error_code error, Tcp::socket socket) {
-      if (!acceptor.is_open()) return;
-      if (!error) serve_connection(std::move(socket), {*access_, hub_, library_, options_.opening});
+      if (error) {
+        refused_.push_back(&acceptor);  // too many open files: the next tick tries again
+        return;
+      }
+      serve_connection(std::move(socket), shared());
       accept(acceptor);
     });
   }
 
+  Shared shared() {
+    return {.access = *access_,
+            .hub = hub_,
+            .library = library_,
+            .thumbnails = thumbnails_,
+            .opening = options_.opening,
+            .connections = connections_,
+            .work =
+                [this](std::function<void()> work) {
+                  asio::post(worker_, [this, work = std::move(work)] {
+                    works_ = true;
+                    work();
+                    works_ = false;
+                  });
+                },
+            .post = [this](std::function<void()> work) { asio::post(io_, std::move(work)); }};
+  }
+
   void tick(const Stop& stop) {
-    clock_.expires_after(50ms);
+    clock_.expires_after(tick_period);
     clock_.async_wait([this, &stop](boost::system::error_code) {
       if (stop()) {
         io_.stop();
         return;
       }
-      if (++ticks_ % 200 == 0) hub_.sweep();
+      hub_.reap();
+      for (Tcp::acceptor* acceptor : std::exchange(refused_, {})) accept(*acceptor);
+      if (Clock::now() >= swept_ + options_.limits.sweep_period) {
+        hub_.sweep();
+        swept_ = Clock::now();
+      }
       tick(stop);
     });
   }
 
+  // What connections use, and they are destroyed with `io_`, stands before it.
   ServerOptions options_;
+  Library library_;
+  Thumbnails thumbnails_;  ///< of the worker
+  std::optional<Access> access_;
+  std::size_t connections_ = 0;
+  std::atomic<bool> works_ = false;
   asio::io_context io_{1};
   Hub hub_;
-  Library library_;
+  asio::thread_pool worker_{1};
   asio::steady_timer clock_;
   std::vector<Tcp::acceptor> acceptors_;
+  std::vector<Tcp::acceptor*> refused_;
   std::uint16_t port_ = 0;
-  std::optional<Access> access_;
-  std::uint64_t ticks_ = 0;
+  Clock::time_point swept_ = Clock::now();
 };
 
 Server::Server(ServerOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
 Server::~Server() = default;
 std::string Server::url() const { return impl_->url(); }
-void Server::run(const Stop& stop) { impl_->run(stop); }
+bool Server::run(const Stop& stop) { return impl_->run(stop); }
 
 }  // namespace microswarm::lab

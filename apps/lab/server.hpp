@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "lab/limits.hpp"
 #include "lab/session_thread.hpp"
 #include "microswarm/core/execution/stop.hpp"
 
@@ -18,8 +19,7 @@ struct ServerOptions {
   std::optional<Opening> opening{};            ///< shown first
   std::string listen{};                        ///< address; empty: this computer alone
   std::uint16_t port = 0;                      ///< 0: any that is free
-  std::size_t max_sessions = 8;
-  std::size_t max_pages = 64;
+  Limits limits{};
 };
 
 /// Serves the lab's page and its sessions by HTTP and WebSocket; docs/reference/lab-protocol.md
@@ -34,8 +34,9 @@ class Server {
 
   /// Address of the page with its token.
   std::string url() const;
-  /// Serves until the stop is requested.
-  void run(const Stop& stop);
+  /// Serves until the stop is requested. Whether all sessions and other work ended at once too; one
+  /// that still reads a large file does not, and the destructor waits for it.
+  bool run(const Stop& stop);
 
  private:
   class Impl;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -74,11 +75,23 @@ Json bodies(std::span<const Body> list) {
 
 Json described(const std::string& json) { return Json::parse(json); }
 
-MessagePtr message(const Json& json, bool is_frame = false) {
+MessagePtr message(const Json& json, Message::Kind kind = Message::Kind::other) {
   auto made = std::make_shared<Message>();
   Json::to_cbor(json, made->bytes);
-  made->is_frame = is_frame;
+  made->kind = kind;
   return made;
+}
+
+/// A word of a command line for a POSIX shell.
+std::string shell_word(const std::string& text) {
+  const auto is_plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view("_-./=,:+@%").find(c) != std::string_view::npos;
+  };
+  if (!text.empty() && std::ranges::all_of(text, is_plain)) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
 }
 
 Json radar(const RadarScan& scan) {
@@ -129,19 +142,39 @@ Row row_of(const Tick& tick) {
           .planned = frame.planned};
 }
 
-MessagePtr hello_message(const Session& session, std::string_view name, std::string_view command) {
+std::string command_of(const Source& source, bool is_record) {
+  std::string command = is_record ? "microswarm replay" : "microswarm run";
+  const auto add = [&](const std::string& text) { command += " " + shell_word(text); };
+  const auto add_all = [&](const char* option, const std::vector<std::string>& values) {
+    for (const std::string& value : values) add(option), add(value);
+  };
+  add(source.file);
+  if (!source.rig.empty()) add("--rig"), add(source.rig);
+  add_all("--set", source.settings);
+  add_all("--set-rig", source.rig_settings);
+  return command;
+}
+
+MessagePtr hello_message(const Session& session, const Source& source) {
   const Scenario& scenario = session.scenario();
   const Map& map = session.map();
   return message({{"type", "hello"},
-                  {"name", name},
-                  {"command", command},
+                  {"name", source.file},
+                  {"command", command_of(source, session.is_playback())},
+                  {"settings", source.settings},
+                  {"rig", source.rig},
                   {"playback", session.is_playback()},
                   {"scenario", described(to_json_text(scenario))},
                   {"changeable", changeable_keys()},
                   {"map",
                    {{"lo", point(map.bounds().lo)},
                     {"hi", point(map.bounds().hi)},
-                    {"walls", bodies(map.walls().bodies())}}}});
+                    {"walls", bodies(map.walls().bodies())}}}},
+                 Message::Kind::hello);
+}
+
+MessagePtr scenario_message(const Scenario& scenario) {
+  return message({{"type", "scenario"}, {"scenario", described(to_json_text(scenario))}});
 }
 
 MessagePtr frame_message(const SessionView& view) {
@@ -155,7 +188,7 @@ MessagePtr frame_message(const SessionView& view) {
             {"plans", view.plans}};
   if (view.target) json["target"] = point(*view.target);
   if (view.radar) json["radar"] = radar(*view.radar);
-  return message(json, true);
+  return message(json, Message::Kind::frame);
 }
 
 MessagePtr plan_message(const SessionView& view) {
@@ -243,13 +276,16 @@ MessagePtr standing_message(const Standing& standing, const RunResult& result) {
                   {"changes", standing.changes},
                   {"status", to_string(result.status)},
                   {"state", result.state},
-                  {"metrics", described(to_json_text(result.metrics))}});
+                  {"metrics", described(to_json_text(result.metrics))},
+                  {"trouble", standing.trouble}},
+                 Message::Kind::standing);
 }
 
 MessagePtr answer_message(std::uint64_t id, const Issues& issues) {
   Json list = Json::array();
   for (const Issue& issue : issues) list.push_back({{"keys", issue.keys}, {"text", issue.text}});
-  return message({{"type", "answer"}, {"id", id}, {"issues", std::move(list)}});
+  return message({{"type", "answer"}, {"id", id}, {"issues", std::move(list)}},
+                 Message::Kind::answer);
 }
 
 }  // namespace microswarm::lab

@@ -17,8 +17,11 @@ namespace microswarm::lab {
 /// One message to a page: a CBOR map whose key `type` names it; docs/reference/lab-protocol.md
 /// lists them. Positions are byte strings of little-endian floats, x and y in turn [µm].
 struct Message {
+  enum class Kind { hello, frame, standing, answer, other };
   std::string bytes;
-  bool is_frame = false;  ///< a slow page needs only the newest one
+  Kind kind = Kind::other;
+  /// A newer one of its kind tells all that this one does.
+  bool is_latest_only() const { return kind == Kind::frame || kind == Kind::standing; }
 };
 using MessagePtr = std::shared_ptr<const Message>;
 
@@ -45,11 +48,24 @@ struct Standing {
   std::uint64_t frames = 0;
   bool ended = false;
   OperatingMode mode = OperatingMode::autonomous;
-  std::vector<std::string> changes;  ///< since the start, KEY=VALUE
+  std::vector<std::string> changes;  ///< since the start, KEY=VALUE; the last of each key
+  std::string trouble;               ///< why it could not go on; empty otherwise
 };
 
+/// What a session was opened from.
+struct Source {
+  std::string file;
+  std::string rig;  ///< simulated; empty: none
+  std::vector<std::string> settings{};
+  std::vector<std::string> rig_settings{};
+};
+/// The command line that repeats it, for a shell.
+std::string command_of(const Source& source, bool is_record);
+
 /// What a page needs once: scenario, map, what can be changed while it runs.
-MessagePtr hello_message(const Session& session, std::string_view name, std::string_view command);
+MessagePtr hello_message(const Session& session, const Source& source);
+/// The scenario after a change.
+MessagePtr scenario_message(const Scenario& scenario);
 MessagePtr frame_message(const SessionView& view);
 MessagePtr plan_message(const SessionView& view);
 MessagePtr aggregation_message(const AggregationView& view);

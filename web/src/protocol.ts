@@ -26,10 +26,17 @@ export interface Hello {
   type: 'hello';
   name: string;
   command: string;
+  settings: string[]; // KEY=VALUE that it was opened with
   playback: boolean;
   scenario: Scenario;
   changeable: string[];
   map: { lo: Point; hi: Point; walls: Bodies };
+}
+
+/** The scenario after a change while it runs. */
+export interface Changed {
+  type: 'scenario';
+  scenario: Scenario;
 }
 
 export interface Radar {
@@ -123,7 +130,7 @@ export interface Answer {
   issues: { keys: string[]; text: string }[];
 }
 
-export type Message = Hello | Frame | Plan | Aggregation | Clearance | Rows | Standing | Answer;
+export type Message = Hello | Changed | Frame | Plan | Aggregation | Clearance | Rows | Standing | Answer;
 
 export type Request =
   | { do: 'play' | 'pause' | 'step' | 'live' | 'end' | 'clearance' }

@@ -14,6 +14,8 @@ namespace fs = std::filesystem;
 struct LabOptions {
   std::string file;
   std::vector<std::string> settings;
+  std::string rig;
+  std::vector<std::string> rig_settings;
   std::vector<std::string> folders;
   std::string listen;
   int port = 0;
@@ -24,8 +26,7 @@ struct LabOptions {
 std::vector<fs::path> shipped_scenarios() {
   std::error_code error;
   const fs::path bin = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (const fs::path& folder :
-       {bin / "../share/microswarm/scenarios", bin / "../../../scenarios"})
+  for (const fs::path& folder : {bin / "../share/microswarm/scenarios", bin / "../../../scenarios"})
     if (fs::is_directory(folder, error)) return {folder};
   return {};
 }
@@ -37,28 +38,37 @@ void open_in_browser(const std::string& url) {
   if (std::system(command.c_str()) != 0) return;  // The address is printed in any case.
 }
 
+/// What is shown first; opened once, so that what is wrong with it is told before anything listens.
+std::optional<lab::Opening> opening_of(const LabOptions& o) {
+  if (o.file.empty()) {
+    if (!o.settings.empty())
+      throw InputError("--set: there is no scenario whose values could be set");
+    if (!o.rig.empty()) throw InputError("--rig: there is no scenario for the rig");
+    return std::nullopt;
+  }
+  lab::Opening opening{
+      .file = o.file,
+      .options = {.settings = o.settings, .rig = o.rig, .rig_settings = o.rig_settings}};
+  note_each(reading([&] { return open_session(opening.file, opening.options); })->notes());
+  return opening;
+}
+
 int lab_command(const LabOptions& o, const Context& context) {
   lab::ServerOptions options;
   options.folders = shipped_scenarios();
   for (const std::string& folder : o.folders) options.folders.emplace_back(folder);
   options.listen = o.listen;
   options.port = static_cast<std::uint16_t>(o.port);
-  if (!o.file.empty()) {
-    lab::Opening opening{.file = o.file};
-    opening.options.settings = o.settings;
-    reading([&] { return open_session(opening.file, opening.options); });
-    options.opening = std::move(opening);
-  } else if (!o.settings.empty()) {
-    throw InputError("--set: there is no scenario whose values could be set");
-  }
+  options.opening = opening_of(o);
   lab::Server server(std::move(options));
   if (!o.listen.empty())
-    note("warning: anybody who reaches {} and has the token can use this lab\n",
-                o.listen);
+    note("warning: anybody who reaches {} and has the token can use this lab\n", o.listen);
   print("{}\n", server.url());
   flush_output();
   if (!o.no_open) open_in_browser(server.url());
-  server.run(context.stop);
+  const bool has_ended = server.run(context.stop);
+  // A session that still reads a large file has nothing to lose, and its reading cannot be stopped.
+  if (!has_ended) std::_Exit(ok);
   return complete;
 }
 
@@ -71,6 +81,11 @@ void add_lab(Command app, Action& action) {
   cmd.add_option("file", o->file, "Scenario (YAML) or record (run.h5) to begin with")
       .type_name("FILE");
   add_settings(cmd, o->settings, "Override a scenario value (repeatable)");
+  cmd.add_option("--rig", o->rig, "Run the scenario through this rig (YAML), simulated")
+      .type_name("FILE");
+  cmd.add_option("--set-rig", o->rig_settings, "Override a rig value (repeatable)")
+      .type_name("KEY=VALUE")
+      .needs("--rig");
   cmd.add_option("--folder", o->folders,
                  "Folder whose scenarios and records are listed, beside the shipped ones")
       .type_name("FOLDER")

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/download.hpp"
+
+#include <fmt/format.h>
+#include <stdlib.h>  // mkdtemp
+
+#include "lab/library.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/sweep/export.hpp"
+
+namespace microswarm::lab {
+namespace {
+
+namespace fs = std::filesystem;
+
+Download recorded(const Session& session) {
+  Download made{.file = std::make_unique<TemporaryFile>("record.h5")};
+  session.record_to(made.file->path());
+  return made;
+}
+
+Download scenario(const Session& session, const fs::path& folder) {
+  Scenario initial = session.record().scene.scenario;
+  for (std::string* file : files_of(initial))
+    if (!file->empty() && !folder.empty()) *file = (folder / *file).lexically_normal().string();
+  return {.bytes = scenario_text(initial)};
+}
+
+Download table(const Session& session, const std::string& name) {
+  return {.bytes = record_csv(session.record(), name)};
+}
+
+}  // namespace
+
+TemporaryFile::TemporaryFile(std::string_view name) {
+  std::string folder = (fs::temp_directory_path() / "microswarm-XXXXXX").string();
+  if (!::mkdtemp(folder.data())) throw InputError(folder + ": cannot make the folder");
+  path_ = fs::path(folder) / name;
+}
+
+TemporaryFile::~TemporaryFile() {
+  std::error_code ignored;
+  fs::remove_all(path_.parent_path(), ignored);
+}
+
+std::function<Download(const Session&)> download(std::string_view name, const fs::path& folder) {
+  if (name == "record.h5") return recorded;
+  if (name == "scenario.yaml")
+    return [folder](const Session& session) { return scenario(session, folder); };
+  if (name == "frames.csv") return [](const Session& of) { return table(of, "frames"); };
+  if (name == "events.csv") return [](const Session& of) { return table(of, "events"); };
+  return {};
+}
+
+std::string_view media_type_of(std::string_view name) {
+  if (name.ends_with(".h5")) return "application/x-hdf5";
+  return name.ends_with(".csv") ? "text/csv; charset=utf-8" : "application/yaml";
+}
+
+}  // namespace microswarm::lab

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "microswarm/session/session.hpp"
+
+namespace microswarm::lab {
+
+/// A file in a folder of its own, readable by this user alone, both removed with this object.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(std::string_view name);
+  ~TemporaryFile();
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Contents of a file for a page: bytes, or a temporary file.
+struct Download {
+  std::string bytes;
+  std::unique_ptr<TemporaryFile> file;
+};
+
+/// How a session becomes the download of that name: record.h5 (so far), scenario.yaml (the initial
+/// one, with absolute names of its files), frames.csv, events.csv. `folder` is the scenario's.
+/// Empty for another name.
+std::function<Download(const Session&)> download(std::string_view name,
+                                                 const std::filesystem::path& folder);
+std::string_view media_type_of(std::string_view name);
+
+}  // namespace microswarm::lab

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <boost/beast/http.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace microswarm::lab {
+
+using HttpRequest = boost::beast::http::request<boost::beast::http::string_body>;
+using HttpResponse = boost::beast::http::response<boost::beast::http::string_body>;
+
+inline std::string_view view(boost::beast::string_view text) { return {text.data(), text.size()}; }
+
+/// Path of a target such as "/api/thumbnail?file=a.yaml".
+std::string_view path_of(std::string_view target);
+/// Value of a key of a target's query, decoded; empty if there is none.
+std::string query_of(std::string_view target, std::string_view key);
+/// Text whose bytes may be spelled "%20", and spaces "+". What is spelled wrongly stays as it is.
+std::string percent_decoded(std::string_view text);
+
+/// Headers that every response has: what a page may load, nothing from elsewhere; nothing is kept.
+void set_headers(boost::beast::http::fields& headers, std::string_view media_type);
+
+HttpResponse respond(const HttpRequest& request, boost::beast::http::status status,
+                     std::string_view media_type, std::string body);
+HttpResponse respond(const HttpRequest& request, const nlohmann::json& json,
+                     boost::beast::http::status status = boost::beast::http::status::ok);
+/// {"error": why}
+HttpResponse refuse(const HttpRequest& request, boost::beast::http::status status,
+                    const std::string& why);
+
+}  // namespace microswarm::lab

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/library.hpp"
+
+#include <gtest/gtest.h>
+
+#include "lab/thumbnail.hpp"
+#include "tests/experiment/scenes.hpp"
+#include "tests/files.hpp"
+#include "tests/messages.hpp"
+
+namespace microswarm::lab {
+namespace {
+
+namespace fs = std::filesystem;
+using test::error_of;
+
+/// A folder with a scenario, a file beside it, and a library of the first.
+struct Shelf {
+  Shelf() {
+    fs::create_directories(folder / "in/deep");
+    fs::create_directories(folder / "inside");
+    scenario = folder.with("in/flight.yaml", scenario_text(small_flight()));
+    folder.with("in/deep/other.yaml", scenario_text(small_flight()));
+    secret = folder.with("secret.csv", "1,2,3,4\n");
+    folder.with("inside/near.yaml", scenario_text(small_flight()));
+  }
+  test::Folder folder;
+  fs::path scenario;
+  fs::path secret;
+  Library library() const { return Library({folder / "in"}); }
+};
+
+TEST(Library, ListsScenariosAndRecords) {
+  const Shelf shelf;
+  shelf.folder.with("in/rig.yaml", "camera: {type: simulated}\n");
+  shelf.folder.with("in/run.h5", "x");
+  shelf.folder.with("in/notes.txt", "x");
+  const auto entries = shelf.library().entries();
+  ASSERT_EQ(entries.size(), 3u);
+  EXPECT_TRUE(entries[0].file.ends_with("in/deep/other.yaml"));
+  EXPECT_TRUE(entries[1].file.ends_with("in/flight.yaml"));
+  EXPECT_EQ(entries[1].name, small_flight().name);
+  EXPECT_TRUE(entries[2].file.ends_with("in/run.h5"));
+  for (const Entry& entry : entries) EXPECT_EQ(shelf.library().find(entry.file), entry.file);
+}
+
+TEST(Library, NoFileOutsideIsOpened) {
+  const Shelf shelf;
+  const Library library = shelf.library();
+  fs::create_symlink(shelf.secret, shelf.folder / "in/link.yaml");
+  fs::create_directory_symlink(shelf.folder / "inside", shelf.folder / "in/way");
+  const std::string in = (shelf.folder / "in").string();
+  for (const std::string& file :
+       {shelf.secret.string(), in + "/../secret.csv", in + "/deep/../../secret.csv",
+        in + "/link.yaml", in + "/way/near.yaml", (shelf.folder / "inside/near.yaml").string(), in,
+        in + "/", in + "/deep", in + "/none.yaml", std::string("/etc/passwd"), std::string("../.."),
+        std::string(), std::string("/"), std::string("/dev/zero"), in + "/flight.yaml/",
+        std::string("a\0b", 3), std::string(100'000, 'a')})
+    EXPECT_TRUE(test::is_one_line_naming(error_of([&] { library.find(file); }), "", {}))
+        << file.substr(0, 200);
+  EXPECT_EQ(library.find(in + "/deep/../flight.yaml"), shelf.scenario);
+}
+
+TEST(Library, NoSettingNamesAFileOutside) {
+  const Shelf shelf;
+  const Library library = shelf.library();
+  const auto refused = [&](const std::string& setting) {
+    return error_of([&] { library.check(shelf.scenario, {setting}); });
+  };
+  const std::string outside = "map={type: rectangles, lo_um: [0, 0], hi_um: [9, 9], file: ";
+  for (const std::string& file : {std::string("../secret.csv"), shelf.secret.string()})
+    EXPECT_TRUE(test::is_one_line_naming(refused(outside + file + "}"), "", {"no such file"}));
+  EXPECT_NE(refused("obstacles=[{shape: {type: disc, radius_um: 3}, motion: {type: track, file: "
+                    "../secret.csv, id: a}}]"),
+            "nothing was thrown");
+  library.check(shelf.scenario, {"seed=3"});
+  shelf.folder.with("in/walls.csv", "1,2,3,4\n");
+  library.check(shelf.scenario, {outside + "walls.csv}"});
+  // What the command line named, it may name again.
+  const std::string trusted = outside + shelf.secret.string() + "}";
+  library.check(shelf.scenario, {trusted, "seed=3"}, {trusted});
+}
+
+TEST(Library, AFolderThatIsNotThereIsTold) {
+  EXPECT_TRUE(test::is_one_line_naming(error_of([] { Library({"/no/such"}); }), "/no/such", {}));
+}
+
+TEST(Thumbnail, IsSmallForEveryShippedScenario) {
+  const Library shipped({fs::path(MICROSWARM_SOURCE_DIR) / "scenarios"});
+  ASSERT_GT(shipped.entries().size(), 10u);
+  for (const Entry& entry : shipped.entries()) {
+    const std::string svg = thumbnail(entry.file);
+    EXPECT_TRUE(svg.starts_with("<svg ") && svg.ends_with("</svg>\n")) << entry.file;
+    EXPECT_LE(svg.size(), 200'000u) << entry.file;
+    EXPECT_EQ(svg.find("nan"), std::string::npos) << entry.file;
+    EXPECT_NE(svg.find("#6640a6"), std::string::npos) << entry.file << " has no goal";
+  }
+}
+
+TEST(Thumbnail, IsDrawnAnewWhenTheFileChanges) {
+  const Shelf shelf;
+  Thumbnails thumbnails;
+  const std::string first = thumbnails.of(shelf.scenario);
+  EXPECT_EQ(thumbnails.of(shelf.scenario), first);
+  Scenario moved = small_flight();
+  moved.goal->x -= 300;
+  shelf.folder.with("in/flight.yaml", scenario_text(moved));
+  fs::last_write_time(shelf.scenario, fs::file_time_type::clock::now() + std::chrono::seconds(2));
+  EXPECT_NE(thumbnails.of(shelf.scenario), first);
+}
+
+}  // namespace
+}  // namespace microswarm::lab

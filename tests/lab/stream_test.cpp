@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/stream.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "tests/experiment/scenes.hpp"
+
+namespace microswarm::lab {
+namespace {
+
+using Json = nlohmann::json;
+
+Json decoded(const MessagePtr& message) { return Json::from_cbor(message->bytes); }
+
+template <class T>
+std::vector<T> numbers(const Json& bytes) {
+  const auto& binary = bytes.get_binary();
+  std::vector<T> values(binary.size() / sizeof(T));
+  std::memcpy(values.data(), binary.data(), binary.size());
+  return values;
+}
+
+TEST(Stream, HelloHasScenarioMapAndCommand) {
+  const Session session(open_experiment(small_flight(), {}));
+  const MessagePtr message = hello_message(session, {.file = "a b/it's.yaml",
+                                                     .rig = "rig.yaml",
+                                                     .settings = {"goal_um=[1, 2]"},
+                                                     .rig_settings = {"drive_rate_hz=100"}});
+  EXPECT_EQ(message->kind, Message::Kind::hello);
+  const Json hello = decoded(message);
+  EXPECT_EQ(hello["type"], "hello");
+  EXPECT_EQ(hello["playback"], false);
+  EXPECT_EQ(hello["command"],
+            "microswarm run 'a b/it'\\''s.yaml' --rig rig.yaml --set 'goal_um=[1, 2]' --set-rig "
+            "drive_rate_hz=100");
+  EXPECT_EQ(hello["settings"], Json({"goal_um=[1, 2]"}));
+  EXPECT_EQ(hello["scenario"]["goal_um"][0], small_flight().goal->x);
+  EXPECT_EQ(hello["map"]["hi"][0], session.map().bounds().hi.x);
+  EXPECT_FALSE(hello["changeable"].empty());
+  EXPECT_EQ(command_of({.file = "run.h5"}, true), "microswarm replay run.h5");
+}
+
+TEST(Stream, AFrameIsWhatTheSessionShows) {
+  Session session(open_experiment(small_flight(), {}));
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(session.step());
+  const SessionView view = session.view();
+  const MessagePtr message = frame_message(view);
+  EXPECT_EQ(message->kind, Message::Kind::frame);
+  const Json frame = decoded(message);
+  EXPECT_EQ(frame["number"], view.number);
+  EXPECT_EQ(frame["frame"]["t_s"], view.frame.t);
+  const auto path = numbers<float>(frame["path"]);
+  ASSERT_EQ(path.size(), 2 * view.path.size());
+  for (std::size_t i = 0; i < view.path.size(); ++i) {
+    EXPECT_EQ(path[2 * i], static_cast<float>(view.path[i].x));
+    EXPECT_EQ(path[2 * i + 1], static_cast<float>(view.path[i].y));
+  }
+  const auto discs = numbers<float>(frame["bodies"]["discs"]);
+  ASSERT_EQ(discs.size(), 4 * view.bodies.size());
+  EXPECT_EQ(discs[2], static_cast<float>(std::get<Disc>(view.bodies[0].shape).radius));
+  const Json plan = decoded(plan_message(view));
+  EXPECT_EQ(numbers<float>(plan["nodes"]).size(), 2 * view.tree.size());
+  EXPECT_EQ(numbers<std::uint32_t>(plan["parents"]).size(), view.tree.size());
+}
+
+TEST(Stream, RowsAreDoublesInTheOrderOfTheirColumns) {
+  const std::vector<Row> rows{{.t = 1,
+                               .clearance = 2,
+                               .cost = 3,
+                               .goal_distance = 4,
+                               .step_time = 5,
+                               .speed = 6,
+                               .planned = true},
+                              {.t = 2}};
+  const Json json = decoded(rows_message(rows, {}, true));
+  EXPECT_EQ(json["anew"], true);
+  EXPECT_EQ(json["columns"].size(), 8u);
+  EXPECT_EQ(json["columns"][4], "step_time_s");
+  const auto values = numbers<double>(json["rows"]);
+  ASSERT_EQ(values.size(), 16u);
+  EXPECT_EQ((std::vector<double>{values.begin(), values.begin() + 6}),
+            (std::vector<double>{1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(values[7], 1);
+  EXPECT_EQ(values[8], 2);
+}
+
+TEST(Stream, AnswersAndStandingsSayWhatIsWrong) {
+  Issues issues;
+  issues.add("goal_um", "is in a wall");
+  const Json answer = decoded(answer_message(7, issues));
+  EXPECT_EQ(answer["id"], 7);
+  EXPECT_EQ(answer["issues"][0]["keys"][0], "goal_um");
+  EXPECT_EQ(answer["issues"][0]["text"], "is in a wall");
+  const Json standing =
+      decoded(standing_message({.plays = true, .speed = 0, .trouble = "the disk is full"}, {}));
+  EXPECT_EQ(standing["plays"], true);
+  EXPECT_EQ(standing["mode"], "autonomous");
+  EXPECT_EQ(standing["trouble"], "the disk is full");
+  EXPECT_TRUE(standing["metrics"].is_object());
+}
+
+}  // namespace
+}  // namespace microswarm::lab
