@@ -7,6 +7,7 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <charconv>
+#include <chrono>
 
 #include "lab/assets.hpp"
 #include "lab/download.hpp"
@@ -22,7 +23,8 @@ namespace http = beast::http;
 using Tcp = boost::asio::ip::tcp;
 using Json = nlohmann::json;
 
-constexpr std::uint32_t max_header = 16 * 1024;  // bytes
+constexpr std::uint32_t max_header = 16 * 1024;    // bytes
+constexpr std::uint64_t slowest_reader = 100'000;  // bytes a second
 constexpr std::uint64_t max_body = max_request_size;
 constexpr std::string_view sessions_path = "/api/sessions/";
 constexpr std::string_view stream_path = "/api/stream/";
@@ -250,7 +252,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   template <class Body>
   void write(http::response<Body> made) {
     const auto response = std::make_shared<http::response<Body>>(std::move(made));
-    stream_.expires_after(shared_.hub.limits().patience);
+    const std::chrono::seconds slow(response->payload_size().value_or(0) / slowest_reader);
+    stream_.expires_after(shared_.hub.limits().patience + slow);
     http::async_write(stream_, *response,
                       [self = shared_from_this(), response](beast::error_code error, std::size_t) {
                         if (error) return;

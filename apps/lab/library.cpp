@@ -61,7 +61,7 @@ std::vector<std::string*> files_of(Scenario& scenario) {
   return files;
 }
 
-Library::Library(std::vector<fs::path> folders) {
+Library::Library(const std::vector<fs::path>& folders) {
   for (const fs::path& folder : folders) {
     std::error_code error;
     fs::path real = fs::canonical(folder, error);
@@ -75,8 +75,9 @@ std::vector<Entry> Library::entries() const {
   int visited = 0;
   for (const fs::path& folder : folders_) {
     std::error_code error;
-    for (fs::recursive_directory_iterator it(folder, error), end; it != end && !error;
-         it.increment(error)) {
+    const auto options = fs::directory_options::skip_permission_denied;
+    fs::recursive_directory_iterator it(folder, options, error);
+    for (; !error && it != fs::end(it); it.increment(error)) {
       if (list.size() >= max_entries || ++visited > max_visited) break;
       if (it.depth() >= deepest_folder) it.disable_recursion_pending();
       const fs::path& file = it->path();
@@ -92,6 +93,8 @@ std::vector<Entry> Library::entries() const {
     }
   }
   std::ranges::sort(list, {}, &Entry::file);
+  const auto is_same = [](const Entry& a, const Entry& b) { return a.file == b.file; };
+  list.erase(std::unique(list.begin(), list.end(), is_same), list.end());
   return list;
 }
 

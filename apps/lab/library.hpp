@@ -23,7 +23,7 @@ std::vector<std::string*> files_of(Scenario& scenario);
 /// The folders whose files the lab lists and opens. A file elsewhere does not exist for it.
 class Library {
  public:
-  explicit Library(std::vector<std::filesystem::path> folders);
+  explicit Library(const std::vector<std::filesystem::path>& folders);
 
   /// The scenarios (.yaml with a map) and records (.h5), sorted by name of file.
   std::vector<Entry> entries() const;

@@ -5,7 +5,8 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
-#include <cstring>
+#include <chrono>
+#include <optional>
 
 #include "inputs.hpp"
 #include "program.hpp"
@@ -41,10 +42,13 @@ class Loopback {
     ::getsockname(socket_, reinterpret_cast<sockaddr*>(&at), &size);
     return ntohs(at.sin_port);
   }
-  /// The reply to a request, until the other side closes.
-  std::string ask(const std::string& request) const {
+  void say(const std::string& request) const {
     EXPECT_EQ(::send(socket_, request.data(), request.size(), MSG_NOSIGNAL),
               static_cast<ssize_t>(request.size()));
+  }
+  /// The reply to a request, until the other side closes.
+  std::string ask(const std::string& request) const {
+    say(request);
     std::string reply;
     char some[4096];
     for (ssize_t n = 0; (n = ::recv(socket_, some, sizeof some, 0)) > 0;)
@@ -56,36 +60,44 @@ class Loopback {
   int socket_;
 };
 
-class LabCommand : public CommandLine {
- protected:
-  /// Starts the lab, opens what it was started with, ends it by Ctrl-C; the reply to the opening.
-  std::string opened(Arguments arguments) {
-    write("said.txt", "");
-    Surroundings there = at;
-    there.out = at.folder / "said.txt";
+/// The lab as a program, once it has said where it listens.
+class RunningLab {
+ public:
+  RunningLab(Arguments arguments, Surroundings at) {
+    at.out = at.folder / "said.txt";
+    write_file_atomically(at.out, "");
     arguments.insert(arguments.begin(), {"lab", "--no-open"});
-    Program lab(arguments, there);
-    std::string said;
-    for (int i = 0; i < 6000 && !said.ends_with('\n') && lab.running(); ++i) {
+    program_.emplace(arguments, at);
+    for (int i = 0; i < 6000 && !said_.ends_with('\n') && program_->running(); ++i) {
       sleep_ms(10);
-      said = read("said.txt");
+      said_ = read_file(at.out);
     }
     const std::string start = "http://127.0.0.1:";
-    EXPECT_TRUE(said.starts_with(start)) << said;
-    if (!said.starts_with(start)) return lab.wait().err;
-    const std::string port = said.substr(start.size(), said.find('/', start.size()) - start.size());
-    const std::string token = said.substr(said.find("token=") + 6, 32);
-    const std::string reply =
-        Loopback(static_cast<std::uint16_t>(std::stoi(port)))
-            .ask("POST /api/sessions?token=" + token + " HTTP/1.1\r\nHost: 127.0.0.1:" + port +
-                 "\r\nConnection: close\r\nContent-Length: 2\r\n\r\n{}");
-    lab.send(SIGINT);
-    const Outcome outcome = lab.wait();
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_EQ(outcome.err, "");
-    return reply;
+    EXPECT_TRUE(said_.starts_with(start)) << said_ << (program_->running() ? "" : end().err);
+    if (said_.starts_with(start))
+      port_ = said_.substr(start.size(), said_.find('/', start.size()) - start.size());
   }
+  /// A request to open a session.
+  std::string opening(const std::string& body) const {
+    return "POST /api/sessions?token=" + said_.substr(said_.find("token=") + 6, 32) +
+           " HTTP/1.1\r\nHost: 127.0.0.1:" + port_ +
+           "\r\nConnection: close\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" +
+           body;
+  }
+  std::uint16_t port() const { return static_cast<std::uint16_t>(std::stoi("0" + port_)); }
+  /// Ends it by Ctrl-C.
+  Outcome end() {
+    program_->send(SIGINT);
+    return program_->wait();
+  }
+
+ private:
+  std::optional<Program> program_;
+  std::string said_;
+  std::string port_;
 };
+
+class LabCommand : public CommandLine {};
 
 TEST_F(LabCommand, WhatCannotBeOpenedEndsItBeforeItListens) {
   refused({"lab", "none.yaml", "--no-open"}, naming("none.yaml", {}));
@@ -118,10 +130,31 @@ TEST_F(LabCommand, ServesScenariosRecordsAndSimulatedRigsUntilCtrlC) {
   for (const Arguments& arguments :
        {Arguments{"flight.yaml", "--set", "seed=3"}, Arguments{"out/run.h5"},
         Arguments{scenario, "--rig", rig, "--set-rig", "drive_rate_hz=250"}}) {
-    const std::string reply = opened(arguments);
+    RunningLab lab(arguments, at);
+    const std::string reply = Loopback(lab.port()).ask(lab.opening("{}"));
     EXPECT_TRUE(reply.starts_with("HTTP/1.1 200 ")) << reply;
     EXPECT_NE(reply.find("\"session\""), std::string::npos) << reply;
+    const Outcome outcome = lab.end();
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_EQ(outcome.err, "");
   }
+}
+
+TEST_F(LabCommand, CtrlCEndsItWhileALargeMapIsRead) {
+  std::string map;
+  for (int i = 0; i < 200'000; ++i)
+    map += std::to_string(20 * (i % 1000)) + "," + std::to_string(20 * (i / 1000)) + ",9,9\n";
+  write("map.csv", map);
+  write("large.yaml",
+        "name: large\nmap: {type: rectangles, file: map.csv}\nswarm: {type: ribbon}\n"
+        "start: {x_um: 15, y_um: 15, heading_deg: 0}\ngoal_um: [99, 99]\n");
+  RunningLab lab({"--folder", at.folder}, at);
+  const Loopback page(lab.port());
+  page.say(lab.opening("{\"file\": \"" + (at.folder / "large.yaml").string() + "\"}"));
+  sleep_ms(200);
+  const auto began = std::chrono::steady_clock::now();
+  EXPECT_EQ(lab.end().code, 0);
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count(), 5);
 }
 
 }  // namespace

@@ -41,6 +41,7 @@ TEST(Library, ListsScenariosAndRecords) {
   EXPECT_TRUE(entries[1].file.ends_with("in/flight.yaml"));
   EXPECT_EQ(entries[1].name, small_flight().name);
   EXPECT_TRUE(entries[2].file.ends_with("in/run.h5"));
+  EXPECT_EQ(Library({shelf.folder / "in", shelf.folder / "in/deep"}).entries().size(), 3u);
   for (const Entry& entry : entries) EXPECT_EQ(shelf.library().find(entry.file), entry.file);
 }
 

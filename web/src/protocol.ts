@@ -27,6 +27,7 @@ export interface Hello {
   name: string;
   command: string;
   settings: string[]; // KEY=VALUE that it was opened with
+  rig: string;
   playback: boolean;
   scenario: Scenario;
   changeable: string[];
@@ -122,6 +123,7 @@ export interface Standing {
   status: string;
   state: string;
   metrics: { [key: string]: Json };
+  trouble: string;
 }
 
 export interface Answer {

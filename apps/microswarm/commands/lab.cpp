@@ -5,6 +5,7 @@
 #include "commands/commands.hpp"
 #include "lab/server.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "support/options.hpp"
 
 namespace microswarm::cli {
 namespace {
@@ -62,7 +63,8 @@ int lab_command(const LabOptions& o, const Context& context) {
   options.opening = opening_of(o);
   lab::Server server(std::move(options));
   if (!o.listen.empty())
-    note("warning: anybody who reaches {} and has the token can use this lab\n", o.listen);
+    note("warning: anybody who reaches {} and has the token can use this lab, unencrypted\n",
+         o.listen);
   print("{}\n", server.url());
   flush_output();
   if (!o.no_open) open_in_browser(server.url());
