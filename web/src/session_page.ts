@@ -73,6 +73,7 @@ export async function sessionPage(session: number): Promise<Page> {
       const name = String(message.scenario['name'] || message.name);
       title.textContent = name;
       document.title = `${name} – microswarm lab`;
+      root.classList.toggle('playback', message.playback);
       hands.tools.hidden = manualButton.hidden = message.playback;
     }
     if (message.type !== 'standing') return;
