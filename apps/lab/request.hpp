@@ -13,21 +13,22 @@ namespace microswarm::lab {
 
 /// What a page asks of a session.
 enum class Ask {
-  play,     ///< goes on
-  pause,    ///< stands
-  step,     ///< one tick
-  speed,    ///< `number`: simulated seconds per second; 0: as fast as possible
-  seek,     ///< `number`: frame to look at
-  live,     ///< looks at the newest frame again
-  set,      ///< `key`, `value`: a scenario value, from the next tick on
-  restart,  ///< opens the experiment anew with `settings`
-  hold,     ///< `on`: the swarm holds, time goes on
-  manual,   ///< `on`: a person steers
-  steer,    ///< `heading` [rad], `speed` [µm/s]: by hand
-  end       ///< ends the run in order
+  play,      ///< goes on
+  pause,     ///< stands
+  step,      ///< one tick
+  speed,     ///< `number`: simulated seconds per second; 0: as fast as possible
+  seek,      ///< `number`: frame to look at
+  live,      ///< looks at the newest frame again
+  set,       ///< `key`, `value`: a scenario value, from the next tick on
+  restart,   ///< opens the experiment anew with `settings`
+  hold,      ///< `on`: the swarm holds, time goes on
+  manual,    ///< `on`: a person steers
+  steer,     ///< `heading` [rad], `speed` [µm/s]: by hand
+  end,       ///< ends the run in order
+  clearance  ///< sends the map's clearance to this page
 };
 constexpr auto enum_names(Ask) {
-  return std::array<std::pair<Ask, std::string_view>, 12>{{{Ask::play, "play"},
+  return std::array<std::pair<Ask, std::string_view>, 13>{{{Ask::play, "play"},
                                                            {Ask::pause, "pause"},
                                                            {Ask::step, "step"},
                                                            {Ask::speed, "speed"},
@@ -38,7 +39,8 @@ constexpr auto enum_names(Ask) {
                                                            {Ask::hold, "hold"},
                                                            {Ask::manual, "manual"},
                                                            {Ask::steer, "steer"},
-                                                           {Ask::end, "end"}}};
+                                                           {Ask::end, "end"},
+                                                           {Ask::clearance, "clearance"}}};
 }
 
 /// One message of a page.

@@ -117,6 +117,19 @@ void SessionThread::take_record() {
   session_->seek(0);
 }
 
+/// The frame that is shown. In a simulation the obstacles are those of the scenario as it is now,
+/// so that they are seen before the first tick and after a change.
+SessionView SessionThread::present_view() const {
+  SessionView view = shown().view();
+  if (past_ || session_->is_playback() || !opening_.options.rig.empty()) return view;
+  const Scenario& scenario = session_->scenario();
+  view.bodies.clear();
+  for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)
+    append_bodies(scenario.obstacles[i], static_cast<std::uint32_t>(i), view.frame.t, view.bodies);
+  if (rows_.empty() && !scenario.robots) view.frame.radius = limits_of(scenario.swarm).radius;
+  return view;
+}
+
 void SessionThread::welcome(std::uint64_t page) {
   tell_rows();
   callbacks_.send(page, hello_message(*session_, {.file = opening_.file.string(),
@@ -124,7 +137,7 @@ void SessionThread::welcome(std::uint64_t page) {
                                                   .settings = opening_.options.settings,
                                                   .rig_settings = opening_.options.rig_settings}));
   callbacks_.send(page, rows_message(rows_, events_, true));
-  const SessionView view = shown().view();
+  const SessionView view = present_view();
   if (!view.tree.empty()) callbacks_.send(page, plan_message(view));
   if (const auto aggregation = shown().aggregation())
     callbacks_.send(page, aggregation_message(*aggregation));
@@ -137,6 +150,7 @@ void SessionThread::answer(std::uint64_t page, const Request& request) {
   Issues issues;
   try {
     obey(request, issues);
+    if (request.ask == Ask::clearance) callbacks_.send(page, clearance_message(session_->map()));
   } catch (const std::exception& error) {
     issues.add_lines({}, error.what());
   }
@@ -176,6 +190,8 @@ void SessionThread::obey(const Request& request, Issues& issues) {
     case Ask::restart:
       restart(request);
       break;
+    case Ask::clearance:
+      break;  // answered by a message
     case Ask::hold:
     case Ask::manual:
     case Ask::steer:
@@ -202,6 +218,8 @@ void SessionThread::set(const Request& request, Issues& issues) {
   std::erase_if(standing_.changes,
                 [&](const std::string& one) { return one.starts_with(request.key + "="); });
   standing_.changes.push_back(request.key + "=" + request.value);
+  callbacks_.send(0, scenario_message(session_->scenario()));
+  is_fresh_ = true;
 }
 
 void SessionThread::restart(const Request& request) {
@@ -284,7 +302,7 @@ void SessionThread::publish() {
     has_changed_ = true;
     published_ = Clock::now();
     tell_rows();
-    const SessionView view = shown().view();
+    const SessionView view = present_view();
     if (view.plans != told_plans_) callbacks_.send(0, plan_message(view));
     told_plans_ = view.plans;
     if (!told_aggregation_ && !past_) {

@@ -67,6 +67,7 @@ class SessionThread {
   void play();
   void restart(const Request& request);
   void set(const Request& request, Issues& issues);
+  SessionView present_view() const;
   void welcome(std::uint64_t page);
   void advance();
   void take(const Tick& tick);

@@ -132,6 +132,7 @@ std::string_view word(OperatingMode mode) {
 Row row_of(const Tick& tick) {
   const Frame& frame = tick.frame;
   return {.t = frame.t,
+          .position = frame.pose.position,
           .clearance = std::min(frame.wall_clearance, frame.obstacle_clearance),
           .cost = frame.avoidance_cost,
           .goal_distance = frame.goal_distance,
@@ -170,6 +171,10 @@ MessagePtr hello_message(const Session& session, const Source& source) {
                     {"hi", point(map.bounds().hi)},
                     {"walls", bodies(map.walls().bodies())}}}},
                  Message::Kind::hello);
+}
+
+MessagePtr scenario_message(const Scenario& scenario) {
+  return message({{"type", "scenario"}, {"scenario", described(to_json_text(scenario))}});
 }
 
 MessagePtr frame_message(const SessionView& view) {
@@ -220,20 +225,41 @@ MessagePtr aggregation_message(const AggregationView& view) {
                   {"regions", std::move(regions)}});
 }
 
+MessagePtr clearance_message(const Map& map) {
+  constexpr double max_cells = 40'000;
+  const Box& box = map.bounds();
+  double cell = std::sqrt(box.width() * box.height() / max_cells);
+  const auto count = [&cell](double length) { return std::ceil(length / cell); };
+  while (count(box.width()) * count(box.height()) > max_cells) cell *= 1.01;
+  const auto columns = static_cast<int>(count(box.width()));
+  const auto rows = static_cast<int>(count(box.height()));
+  Floats values;
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column)
+      values.add(static_cast<float>(
+          map.clearance(box.lo + Vec2{(column + 0.5) * cell, (row + 0.5) * cell})));
+  return message({{"type", "clearance"},
+                  {"lo", point(box.lo)},
+                  {"cell", cell},
+                  {"columns", columns},
+                  {"rows", rows},
+                  {"values", values.take()}});
+}
+
 MessagePtr rows_message(std::span<const Row> rows, std::span<const RunEvent> events, bool anew) {
   Numbers<double> numbers;
   for (const Row& row : rows)
-    for (const double value :
-         {row.t, row.clearance, row.cost, row.goal_distance, row.step_time, row.speed,
-          static_cast<double>(row.state), static_cast<double>(row.planned)})
+    for (const double value : {row.t, row.position.x, row.position.y, row.clearance, row.cost,
+                               row.goal_distance, row.step_time, row.speed,
+                               static_cast<double>(row.state), static_cast<double>(row.planned)})
       numbers.add(value);
   Json list = Json::array();
   for (const RunEvent& happened : events) list.push_back(event(happened));
   return message({{"type", "rows"},
                   {"anew", anew},
                   {"columns",
-                   {"t_s", "clearance_um", "avoidance_cost", "goal_distance_um", "step_time_s",
-                    "speed_um_per_s", "state", "planned"}},
+                   {"t_s", "x_um", "y_um", "clearance_um", "avoidance_cost", "goal_distance_um",
+                    "step_time_s", "speed_um_per_s", "state", "planned"}},
                   {"rows", numbers.take()},
                   {"events", std::move(list)}});
 }

@@ -28,6 +28,7 @@ using MessagePtr = std::shared_ptr<const Message>;
 /// A tick's numbers for plots, kept of every tick.
 struct Row {
   double t = 0;              ///< [s]
+  Vec2 position;             ///< of the swarm, or the robots' mean [µm]
   double clearance = 0;      ///< to walls and obstacles [µm]
   double cost = 0;           ///< δ
   double goal_distance = 0;  ///< [µm]
@@ -63,9 +64,13 @@ std::string command_of(const Source& source, bool is_record);
 
 /// What a page needs once: scenario, map, what can be changed while it runs.
 MessagePtr hello_message(const Session& session, const Source& source);
+/// The scenario after a change.
+MessagePtr scenario_message(const Scenario& scenario);
 MessagePtr frame_message(const SessionView& view);
 MessagePtr plan_message(const SessionView& view);
 MessagePtr aggregation_message(const AggregationView& view);
+/// Clearance of the map at the centres of square cells, row by row from below.
+MessagePtr clearance_message(const Map& map);
 MessagePtr rows_message(std::span<const Row> rows, std::span<const RunEvent> events, bool anew);
 MessagePtr standing_message(const Standing& standing, const RunResult& result);
 /// The answer to a request; the issues say why it was not done.

@@ -61,7 +61,7 @@ TEST(Server, EveryTickIsARowForEveryPage) {
       if (message["type"] == "rows") {
         if (message["anew"] == true) rows = 0, last = -1;
         const auto& bytes = message["rows"].get_binary();
-        for (std::size_t i = 0; i < bytes.size(); i += 64, ++rows) {
+        for (std::size_t i = 0; i < bytes.size(); i += 80, ++rows) {
           double t = 0;
           std::memcpy(&t, bytes.data() + i, sizeof t);
           EXPECT_GT(t, last);
@@ -172,7 +172,7 @@ TEST(Server, ARecordIsPlayedAndSoughtIn) {
   page.next();
   EXPECT_EQ(page.latest["hello"]["playback"], true);
   const std::size_t frames = run.record().frames.size();
-  EXPECT_EQ(page.next()["rows"].get_binary().size(), 64 * frames);
+  EXPECT_EQ(page.next()["rows"].get_binary().size(), 80 * frames);
   page.does(fastest);
   page.does(plays);
   EXPECT_EQ(page.ends()["frames"], frames);

@@ -68,23 +68,24 @@ TEST(Stream, AFrameIsWhatTheSessionShows) {
 
 TEST(Stream, RowsAreDoublesInTheOrderOfTheirColumns) {
   const std::vector<Row> rows{{.t = 1,
-                               .clearance = 2,
-                               .cost = 3,
-                               .goal_distance = 4,
-                               .step_time = 5,
-                               .speed = 6,
+                               .position = {2, 3},
+                               .clearance = 4,
+                               .cost = 5,
+                               .goal_distance = 6,
+                               .step_time = 7,
+                               .speed = 8,
                                .planned = true},
                               {.t = 2}};
   const Json json = decoded(rows_message(rows, {}, true));
   EXPECT_EQ(json["anew"], true);
-  EXPECT_EQ(json["columns"].size(), 8u);
-  EXPECT_EQ(json["columns"][4], "step_time_s");
+  EXPECT_EQ(json["columns"].size(), 10u);
+  EXPECT_EQ(json["columns"][6], "step_time_s");
   const auto values = numbers<double>(json["rows"]);
-  ASSERT_EQ(values.size(), 16u);
-  EXPECT_EQ((std::vector<double>{values.begin(), values.begin() + 6}),
-            (std::vector<double>{1, 2, 3, 4, 5, 6}));
-  EXPECT_EQ(values[7], 1);
-  EXPECT_EQ(values[8], 2);
+  ASSERT_EQ(values.size(), 20u);
+  EXPECT_EQ((std::vector<double>{values.begin(), values.begin() + 8}),
+            (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8}));
+  EXPECT_EQ(values[9], 1);
+  EXPECT_EQ(values[10], 2);
 }
 
 TEST(Stream, AnswersAndStandingsSayWhatIsWrong) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import './app.css';
+import { comparePage } from './compare_page';
+import { element } from './dom';
 import { galleryPage } from './gallery';
 import { sessionPage } from './session_page';
+import { startTheme } from './theme';
 
 /** A page in the window, and how it is left. */
 export interface Page {
@@ -11,14 +14,31 @@ export interface Page {
 
 let page: Page | undefined;
 
-/** Shows the page that the address names: #/session/7, else the gallery. */
-async function route(): Promise<void> {
-  page?.leave();
+/** The page that the address names: #/session/7, #/compare/7/8, else the gallery. */
+function named(): Promise<Page> {
   const session = /^#\/session\/(\d+)$/.exec(location.hash);
-  page = session ? await sessionPage(Number(session[1])) : await galleryPage();
-  document.getElementById('page')?.replaceChildren(page.root);
+  if (session) return sessionPage(Number(session[1]));
+  const pair = /^#\/compare\/(\d+)\/(\d+)$/.exec(location.hash);
+  if (pair) return comparePage([Number(pair[1]), Number(pair[2])]);
+  return galleryPage();
 }
 
+async function route(): Promise<void> {
+  page?.leave();
+  page = undefined;
+  const wanted = location.hash;
+  const place = document.getElementById('page');
+  try {
+    const made = await named();
+    if (location.hash !== wanted) return made.leave();
+    page = made;
+    place?.replaceChildren(made.root);
+  } catch (error) {
+    place?.replaceChildren(element('p', { class: 'trouble', role: 'alert' }, (error as Error).message));
+  }
+}
+
+startTheme();
 window.addEventListener('hashchange', () => void route());
 history.replaceState(null, '', location.pathname + location.hash); // without the token
 void route();

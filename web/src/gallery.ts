@@ -2,9 +2,15 @@
 import type { Page } from './app';
 import { call } from './connection';
 import { element } from './dom';
+import { themeSwitch } from './theme';
 
+interface Entry {
+  file: string;
+  name: string;
+  description: string;
+}
 interface Listing {
-  scenarios: { file: string; name: string; description: string }[];
+  scenarios: Entry[];
   open?: boolean;
 }
 
@@ -18,26 +24,98 @@ async function open(body: { file?: string; settings?: string[] }): Promise<void>
 export async function galleryPage(): Promise<Page> {
   const listing = await call<Listing>('GET', '/api/scenarios');
   const trouble = element('p', { class: 'trouble', role: 'alert' });
-  const attempt = (body: { file?: string }) =>
-    open(body).catch((error: Error) => trouble.replaceChildren(error.message));
-  const cards = listing.scenarios.map((entry) =>
-    element(
-      'button',
-      { class: 'card', 'data-file': entry.file, onclick: () => void attempt({ file: entry.file }) },
-      element('strong', {}, entry.name),
-      element('span', {}, entry.description),
-    ),
-  );
+  const attempt = (body: { file?: string }) => {
+    trouble.replaceChildren();
+    return open(body).then(
+      () => true,
+      (error: Error) => {
+        trouble.replaceChildren(error.message);
+        return false;
+      },
+    );
+  };
   if (listing.open && !sessionStorage.getItem('opened')) {
     sessionStorage.setItem('opened', 'yes');
-    void attempt({});
+    if (await attempt({})) return { root: element('p', { class: 'doc' }, 'Opening …'), leave: () => undefined };
   }
+  const folders = new Map<string, Entry[]>();
+  for (const entry of listing.scenarios) {
+    const folder = entry.file.slice(0, Math.max(0, entry.file.lastIndexOf('/')));
+    folders.set(folder, [...(folders.get(folder) ?? []), entry]);
+  }
+  const shared = sharedFolder([...folders.keys()]);
+  const sections = [...folders].map(([folder, entries]) =>
+    element(
+      'section',
+      {},
+      element('h2', {}, heading(folder.slice(shared.length))),
+      element('div', { class: 'cards' }, ...entries.map((entry) => card(entry, () => void attempt({ file: entry.file })))),
+    ),
+  );
+  const none = element('p', { class: 'doc', hidden: true }, 'Nothing has these words.');
+  const find = () => {
+    const wanted = search.value.toLowerCase().split(/\s+/);
+    for (const section of sections) {
+      for (const one of section.querySelectorAll<HTMLElement>('.card'))
+        one.hidden = !wanted.every((word) => (one.dataset['text'] ?? '').includes(word));
+      section.hidden = section.querySelector('.card:not([hidden])') === null;
+    }
+    none.hidden = sections.some((section) => !section.hidden);
+  };
+  const search = element('input', {
+    type: 'search',
+    class: 'search',
+    placeholder: 'Find an experiment',
+    'aria-label': 'Find an experiment',
+    oninput: find,
+  });
+  document.title = 'microswarm lab';
+  const again = listing.open
+    ? [element('button', { type: 'button', onclick: () => void attempt({}) }, 'Open what the lab was started with')]
+    : [];
   const root = element(
     'div',
     { class: 'gallery' },
-    element('h1', {}, 'microswarm lab'),
+    element('header', { class: 'top' }, element('h1', {}, 'microswarm lab'), search, ...again, themeSwitch()),
     trouble,
-    element('div', { class: 'cards' }, ...cards),
+    none,
+    ...sections,
   );
   return { root, leave: () => undefined };
+}
+
+/** The folder that all are in. */
+function sharedFolder(folders: string[]): string {
+  let shared = folders[0] ?? '';
+  while (!folders.every((one) => one === shared || one.startsWith(`${shared}/`)) && shared !== '')
+    shared = shared.slice(0, Math.max(0, shared.lastIndexOf('/')));
+  return shared;
+}
+
+function heading(folder: string): string {
+  const parts = folder.split('/').filter((one) => one !== '' && one !== 'scenarios');
+  return parts.length > 0 ? parts.join(' › ').replaceAll('_', ' ') : 'First steps';
+}
+
+function card(entry: Entry, act: () => void): HTMLElement {
+  const picture = element('img', {
+    src: `/api/thumbnail?file=${encodeURIComponent(entry.file)}`,
+    alt: '',
+    loading: 'lazy',
+    onerror: () => picture.classList.add('none'),
+  });
+  return element(
+    'button',
+    {
+      class: 'card',
+      type: 'button',
+      title: entry.description,
+      'data-file': entry.file,
+      'data-text': `${entry.file} ${entry.name} ${entry.description}`.toLowerCase(),
+      onclick: act,
+    },
+    picture,
+    element('strong', {}, entry.name),
+    element('span', {}, entry.description),
+  );
 }

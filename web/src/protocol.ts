@@ -26,12 +26,18 @@ export interface Hello {
   type: 'hello';
   name: string;
   command: string;
-  settings: string[];
+  settings: string[]; // KEY=VALUE that it was opened with
   rig: string;
   playback: boolean;
   scenario: Scenario;
   changeable: string[];
   map: { lo: Point; hi: Point; walls: Bodies };
+}
+
+/** The scenario after a change while it runs. */
+export interface Changed {
+  type: 'scenario';
+  scenario: Scenario;
 }
 
 export interface Radar {
@@ -76,6 +82,16 @@ export interface Aggregation {
   regions: { junction: Point; gate: number; next: number; branches: number }[];
 }
 
+/** Distances to the nearest wall or border at the middles of square cells, row by row from below. */
+export interface Clearance {
+  type: 'clearance';
+  lo: Point;
+  cell: number;
+  columns: number;
+  rows: number;
+  values: Bytes;
+}
+
 export interface RunEvent {
   t_s: number;
   kind: string;
@@ -116,10 +132,10 @@ export interface Answer {
   issues: { keys: string[]; text: string }[];
 }
 
-export type Message = Hello | Frame | Plan | Aggregation | Rows | Standing | Answer;
+export type Message = Hello | Changed | Frame | Plan | Aggregation | Clearance | Rows | Standing | Answer;
 
 export type Request =
-  | { do: 'play' | 'pause' | 'step' | 'live' | 'end' }
+  | { do: 'play' | 'pause' | 'step' | 'live' | 'end' | 'clearance' }
   | { do: 'speed' | 'seek'; number: number }
   | { do: 'set'; key: string; value: string }
   | { do: 'restart'; settings: string[] }

@@ -1,41 +1,145 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Page } from './app';
-import { Connection } from './connection';
+import { openCopy } from './compare_page';
 import { element } from './dom';
-import type { Message } from './protocol';
-import { Scene } from './scene/scene';
+import { Drive } from './drive';
+import { Keys } from './keys';
+import { layersTab } from './layers_tab';
+import { Live } from './live';
+import { Parameters } from './parameters';
+import { Plots } from './plots';
+import { recordTab } from './record_tab';
+import { stageFor } from './stage';
+import { tabs } from './tabs';
+import { themeSwitch } from './theme';
+import { timeBar } from './time_bar';
+import { Hands } from './touch';
 
-/** The page of one session: its scene and its controls. */
+/** The page of one session: its scene, panels and time line. */
 export async function sessionPage(session: number): Promise<Page> {
   const trouble = element('p', { class: 'trouble', role: 'alert' });
-  const connection = new Connection(session, () =>
-    trouble.replaceChildren('The session is closed. Open it again from the gallery.'),
-  );
-  const scene = await Scene.create();
-  const clock = element('output', { class: 'clock' });
-  const play = element('button', { class: 'play', onclick: () => toggle() }, 'Play');
-  let plays = false;
-  const toggle = () => void connection.ask({ do: plays ? 'pause' : 'play' });
-  connection.listen((message: Message) => {
-    scene.take(message);
-    if (message.type === 'standing') {
-      plays = message.plays;
-      play.textContent = plays ? 'Pause' : 'Play';
-      root.dataset['status'] = message.status;
+  const say = (text: string, isTrouble = true) => {
+    trouble.replaceChildren(text);
+    trouble.title = text;
+    trouble.classList.toggle('note', !isTrouble);
+  };
+  const live = new Live(session, () => say('The session is closed. Open it again from the gallery.'));
+  const stage = await stageFor(live);
+  const { scene } = stage;
+  const time = timeBar([live]);
+  const parameters = new Parameters(live);
+  const plots = new Plots(live, time.seek);
+  const layers = layersTab([scene]);
+  const drive = new Drive(live);
+  const hands = new Hands(live, scene, parameters, say);
+  const compare = () =>
+    openCopy(live, parameters.settings()).catch((error: Error) => say(error.message));
+
+  let follows = false;
+  const setFollow = (on: boolean) => {
+    follows = on;
+    scene.follow(on);
+    followButton.setAttribute('aria-pressed', String(on));
+  };
+  const followButton = button('Follow', 'Follow the swarm (l)', () => setFollow(!follows));
+  const manualButton = button('Steer by hand', 'Arrow keys or a gamepad steer (m)', () => drive.toggle());
+  const arrow = (by: number) => (event: KeyboardEvent) => {
+    if (!drive.key(event, true)) time.seekBy(by * (event.shiftKey ? 10 : 1));
+  };
+  const keys = new Keys([
+    { keys: [' '], shown: 'space', does: 'play or pause', act: time.play },
+    { keys: ['.'], shown: '.', does: 'a single tick', act: time.step },
+    { keys: ['ArrowLeft'], shown: '←', does: 'the frame before (Shift: ten) · steer left', act: arrow(-1) },
+    { keys: ['ArrowRight'], shown: '→', does: 'the next frame (Shift: ten) · steer right', act: arrow(1) },
+    { keys: ['ArrowUp', 'ArrowDown'], shown: '↑ ↓', does: 'steer (Shift: slowly)', act: arrow(0) },
+    { keys: ['Home'], shown: 'Home', does: 'the first frame', act: () => time.seek(0) },
+    { keys: ['End'], shown: 'End', does: 'the newest frame', act: time.live },
+    { keys: ['+', '='], shown: '+', does: 'faster', act: () => time.speed(1) },
+    { keys: ['-'], shown: '−', does: 'slower', act: () => time.speed(-1) },
+    { keys: ['f'], shown: 'f', does: 'fit the map', act: () => scene.fit() },
+    { keys: ['l'], shown: 'l', does: 'follow the swarm', act: () => setFollow(!follows) },
+    { keys: ['m'], shown: 'm', does: 'steer by hand', act: () => drive.toggle() },
+    { keys: ['Escape'], shown: 'Esc', does: 'put the tool away', act: () => hands.choose(undefined) },
+  ]);
+  const up = (event: KeyboardEvent) => drive.key(event, false);
+  const blur = () => drive.release();
+  window.addEventListener('keyup', up);
+  window.addEventListener('blur', blur);
+
+  const title = element('h1', { class: 'title' });
+  const status = element('output', { class: 'status' });
+  live.listen((message) => {
+    if (message.type === 'hello') {
+      const name = String(message.scenario['name'] || message.name);
+      title.textContent = name;
+      document.title = `${name} – microswarm lab`;
+      root.classList.toggle('playback', message.playback);
+      hands.tools.hidden = manualButton.hidden = message.playback;
     }
-    if (message.type === 'frame') clock.textContent = `${Number(message.frame['t_s']).toFixed(1)} s`;
+    if (message.type !== 'standing') return;
+    root.dataset['status'] = message.status;
+    root.dataset['mode'] = message.mode;
+    manualButton.setAttribute('aria-pressed', String(message.mode === 'manual'));
+    status.value = statusText(message.mode, message.ended ? message.status : message.state);
   });
   const root = element(
     'div',
     { class: 'session' },
-    element('nav', {}, element('a', { href: '#/' }, 'Gallery'), play, clock, trouble),
-    scene.root,
+    element(
+      'nav',
+      { class: 'top' },
+      element('a', { href: '#/', class: 'button quiet' }, '‹ Gallery'),
+      title,
+      status,
+      trouble,
+      button('Keys', 'Show the keys (?)', () => keys.help()),
+      themeSwitch(),
+    ),
+    element(
+      'div',
+      { class: 'stage' },
+      scene.root,
+      element(
+        'div',
+        { class: 'over' },
+        hands.tools,
+        element(
+          'div',
+          { class: 'tools' },
+          button('−', 'Zoom out', () => scene.zoomBy(1 / 1.25)),
+          button('+', 'Zoom in', () => scene.zoomBy(1.25)),
+          button('Fit', 'Fit the map (f)', () => scene.fit()),
+          followButton,
+          manualButton,
+        ),
+      ),
+    ),
+    tabs('session', [
+      { name: 'Parameters', panel: parameters.root },
+      { name: 'Layers', panel: layers.root, shown: layers.show },
+      { name: 'Plots', panel: plots.root, shown: () => plots.show() },
+      { name: 'Record', panel: recordTab(live, () => void compare()) },
+    ]),
+    time.root,
   );
   return {
     root,
     leave: () => {
-      connection.close();
-      scene.destroy();
+      window.removeEventListener('keyup', up);
+      window.removeEventListener('blur', blur);
+      drive.destroy();
+      keys.destroy();
+      plots.destroy();
+      live.close();
+      stage.destroy();
     },
   };
+}
+
+function button(label: string, title: string, act: () => void): HTMLButtonElement {
+  return element('button', { type: 'button', title, onclick: act }, label);
+}
+
+function statusText(mode: string, state: string): string {
+  return (mode === 'autonomous' ? state : `${mode} · ${state}`).replaceAll('_', ' ');
 }

@@ -8,7 +8,7 @@ import { fileURLToPath } from 'node:url';
 import { chromium } from 'playwright-core';
 
 export const root = join(dirname(fileURLToPath(import.meta.url)), '../..');
-const program = process.env.MICROSWARM ?? join(root, 'build/release/bin/microswarm');
+export const program = process.env.MICROSWARM ?? join(root, 'build/release/bin/microswarm');
 const pictures = join(root, 'build/web');
 
 /** Starts `microswarm lab`: { url, kill(signal) }. */

@@ -1,68 +1,317 @@
 // SPDX-License-Identifier: Apache-2.0
 import 'pixi.js/unsafe-eval'; // the page's policy forbids the evaluation of texts
-import { Application, Container, Graphics } from 'pixi.js';
-import { type Bodies, type Frame, type Hello, type Message, floats } from '../protocol';
+import { Container, WebGLRenderer } from 'pixi.js';
+import { type Palette, type Theme, palettes, preferredTheme } from '../palette';
+import type { Message, Point, Request } from '../protocol';
+import { ringsOf } from './draw';
+import { hitMark, hitObstacle } from './hit';
+import type { Drawing, Layer } from './layer';
+import { Aggregation } from './layers/aggregation';
+import { Background } from './layers/background';
+import { Clearance } from './layers/clearance';
+import { Clock } from './layers/clock';
+import { Detections } from './layers/detections';
+import { Ghost } from './layers/ghost';
+import { Ground } from './layers/ground';
+import { Goal, Start } from './layers/marks';
+import { ObstacleTrails } from './layers/obstacle_trails';
+import { Obstacles } from './layers/obstacles';
+import { Path } from './layers/path';
+import { Radar } from './layers/radar';
+import { Robots } from './layers/robots';
+import { ScaleBar } from './layers/scale_bar';
+import { Swarm } from './layers/swarm';
+import { Target } from './layers/target';
+import { Trail } from './layers/trail';
+import { Tree } from './layers/tree';
+import { Walls } from './layers/walls';
+import { type Moment, Motion } from './motion';
+import { type Grip, Pointer, type Touch } from './pointer';
+import { View } from './view';
+
+export type { Touch } from './pointer';
 
 /** The map and what moves in it, drawn from the stream alone. World coordinates are µm, y up. */
 export class Scene {
-  readonly root: HTMLElement;
+  readonly root = document.createElement('div');
+  readonly view = new View();
+  /** How many pictures were drawn. */
+  pictures = 0;
+
+  private readonly stage = new Container();
   private readonly world = new Container();
-  private readonly walls = new Graphics();
-  private readonly bodies = new Graphics();
-  private readonly swarm = new Graphics();
+  private readonly motion = new Motion();
+  private readonly background = new Background();
+  private readonly start = new Start();
+  private readonly goal = new Goal();
+  private readonly obstacleTrails = new ObstacleTrails();
+  private readonly ghost = new Ghost();
+  private readonly listed: Layer[] = [
+    this.background,
+    new Clearance(),
+    new Walls(this.background),
+    new Aggregation(),
+    new Tree(),
+    new Detections(),
+    this.obstacleTrails,
+    new Obstacles(),
+    new Trail(),
+    new Path(),
+    this.start,
+    new Target(this.goal),
+    new Robots(),
+    new Swarm(),
+    new Radar(),
+    this.goal,
+    new ScaleBar(),
+    new Clock(),
+  ]; // from below
+  private readonly all: Layer[] = [new Ground(), ...this.listed, this.ghost];
+  private readonly stale = new Set<Layer>(this.all);
+  private readonly touchListeners: ((touch: Touch) => void)[] = [];
+  private readonly wantListeners: ((request: Request) => void)[] = [];
+  private readonly sizes = new ResizeObserver(() => this.resize());
+  private colours: Palette = palettes[preferredTheme()];
+  private requested = 0;
+  private plays = false;
+  private isRecord = false;
+  private follows = false;
+  private isGone = false;
 
   static async create(): Promise<Scene> {
-    const app = new Application();
-    await app.init({ background: '#ffffff', antialias: true, preference: 'webgl', autoDensity: true });
-    return new Scene(app);
+    const renderer = new WebGLRenderer();
+    await renderer.init({
+      antialias: true,
+      autoDensity: true,
+      resolution: window.devicePixelRatio,
+      eventMode: 'none',
+      eventFeatures: { move: false, globalMove: false, click: false, wheel: false },
+    });
+    return new Scene(renderer);
   }
 
-  private constructor(private readonly app: Application) {
-    this.root = document.createElement('div');
+  private constructor(private readonly renderer: WebGLRenderer) {
     this.root.className = 'scene';
-    this.root.append(app.canvas);
-    app.resizeTo = this.root;
-    this.world.addChild(this.walls, this.bodies, this.swarm);
-    app.stage.addChild(this.world);
+    this.root.append(renderer.canvas);
+    renderer.canvas.style.display = 'block';
+    this.stage.addChild(this.world);
+    for (const layer of this.all) this.world.addChild(layer.world);
+    for (const layer of this.all) this.stage.addChild(layer.screen);
+    new Pointer(renderer.canvas, {
+      view: this.view,
+      hit: (screen) => this.hit(screen),
+      touch: (touch) => this.touch(touch),
+      viewChanged: () => this.viewChanged(),
+    });
+    this.sizes.observe(this.root);
+    this.watchDensity();
+    this.setTheme(preferredTheme());
   }
 
   destroy(): void {
-    this.app.destroy(true, { children: true });
+    this.isGone = true;
+    cancelAnimationFrame(this.requested);
+    this.sizes.disconnect();
+    this.stage.destroy({ children: true });
+    this.renderer.destroy(true);
   }
 
   take(message: Message): void {
-    if (message.type === 'hello') this.takeMap(message);
-    if (message.type === 'frame') this.takeFrame(message);
+    if (message.type === 'hello') {
+      this.motion.reset();
+      this.isRecord = message.playback;
+      this.view.showMap(message.map.lo, message.map.hi);
+      this.viewChanged();
+    } else if (message.type === 'standing') {
+      this.plays = message.plays;
+      if (!this.plays) this.motion.settle();
+      this.changed('motion');
+    } else if (message.type === 'frame') {
+      this.motion.take(message, performance.now(), this.plays);
+      this.obstacleTrails.follow(this.motion.newest);
+      this.changed('motion');
+    }
+    for (const layer of this.all) if (layer.take(message)) this.stale.add(layer);
+    this.ask();
+    this.schedule();
   }
 
-  private takeMap(hello: Hello): void {
-    this.app.resize();
-    const [x0, y0] = hello.map.lo;
-    const [x1, y1] = hello.map.hi;
-    const { width, height } = this.app.screen;
-    const scale = 0.95 * Math.min(width / (x1 - x0), height / (y1 - y0));
-    this.world.scale.set(scale, -scale);
-    this.world.position.set(width / 2 - (scale * (x0 + x1)) / 2, height / 2 + (scale * (y0 + y1)) / 2);
-    this.walls.clear();
-    this.walls.rect(x0, y0, x1 - x0, y1 - y0).stroke({ width: 2 / scale, color: 0x444444 });
-    drawBodies(this.walls, hello.map.walls, 0x777777);
+  /** Shows the whole map. */
+  fit(): void {
+    this.follows = false;
+    this.view.fit();
+    this.viewChanged();
   }
 
-  private takeFrame(message: Frame): void {
-    this.bodies.clear();
-    drawBodies(this.bodies, message.bodies, 0xd55e00);
-    const { x_um, y_um, radius_um } = message.frame;
-    this.swarm.clear();
-    this.swarm.circle(Number(x_um), Number(y_um), Number(radius_um)).fill(0x0072b2);
+  zoomBy(factor: number): void {
+    this.view.zoom(factor, [this.view.width / 2, this.view.height / 2]);
+    this.viewChanged();
   }
-}
 
-function drawBodies(to: Graphics, bodies: Bodies, color: number): void {
-  const discs = floats(bodies.discs);
-  for (let i = 0; i + 3 < discs.length; i += 4)
-    to.circle(discs[i] as number, discs[i + 1] as number, discs[i + 2] as number).fill(color);
-  for (const polygon of bodies.polygons) {
-    to.poly([...floats(polygon.outer)]).fill(color);
-    for (const hole of polygon.holes) to.poly([...floats(hole)]).cut();
+  /** Keeps the swarm, or the robots' mean, in the middle. */
+  follow(on: boolean): void {
+    this.follows = on;
+    this.schedule();
+  }
+
+  layers(): { name: string; label: string; shown: boolean }[] {
+    return this.listed.map(({ name, label, shown }) => ({ name, label, shown }));
+  }
+
+  show(name: string, on: boolean): void {
+    for (const layer of this.listed) {
+      if (layer.name !== name) continue;
+      layer.shown = on;
+      this.stale.add(layer);
+    }
+    if (name === 'background') this.drawAnew('walls');
+    this.ask();
+    this.schedule();
+  }
+
+  setTheme(theme: Theme): void {
+    this.colours = palettes[theme];
+    this.renderer.background.color = this.colours.ground;
+    for (const layer of this.all) this.stale.add(layer);
+    this.schedule();
+  }
+
+  /** Shows a picture beneath the map between two corners [µm]; none for an empty address. */
+  async setBackground(url: string, lo: Point, hi: Point): Promise<void> {
+    await this.background.set(url, lo, hi);
+    this.drawAnew('walls');
+    this.schedule();
+  }
+
+  onTouch(listener: (touch: Touch) => void): void {
+    this.touchListeners.push(listener);
+  }
+
+  /** Requests of layers that are shown, for the session. */
+  onWant(listener: (request: Request) => void): void {
+    this.wantListeners.push(listener);
+    this.ask();
+  }
+
+  /** What is shown, as a PNG. */
+  async picture(): Promise<Blob> {
+    this.paint(performance.now());
+    return new Promise((resolve, reject) =>
+      this.renderer.canvas.toBlob!((blob) => (blob ? resolve(blob) : reject(new Error('no picture')))),
+    );
+  }
+
+  /** What moves, as it is shown at a time of performance.now(). */
+  shownAt(now: number): Moment {
+    return this.motion.at(now);
+  }
+
+  private ask(): void {
+    if (this.wantListeners.length === 0) return;
+    for (const layer of this.listed) {
+      const request = layer.shown ? layer.wants() : undefined;
+      if (request) for (const listener of this.wantListeners) listener(request);
+    }
+  }
+
+  private changed(occasion: 'zoom' | 'motion'): void {
+    for (const layer of this.all) if (layer.occasions[occasion]) this.stale.add(layer);
+  }
+
+  private drawAnew(name: string): void {
+    for (const layer of this.listed) if (layer.name === name) this.stale.add(layer);
+  }
+
+  private viewChanged(): void {
+    this.changed('zoom');
+    this.schedule();
+  }
+
+  private resize(): void {
+    if (this.isGone) return;
+    const { clientWidth, clientHeight } = this.root;
+    this.renderer.resize(clientWidth, clientHeight, window.devicePixelRatio);
+    this.view.resize(clientWidth, clientHeight);
+    this.viewChanged();
+    this.paint(performance.now()); // a canvas of another size is blank
+  }
+
+  /** A window may move to a screen of another density. */
+  private watchDensity(): void {
+    if (this.isGone) return;
+    const density = matchMedia(`(resolution: ${window.devicePixelRatio}dppx)`);
+    const moved = () => {
+      this.resize();
+      this.watchDensity();
+    };
+    density.addEventListener('change', moved, { once: true });
+  }
+
+  private schedule(): void {
+    if (this.requested || this.isGone) return;
+    this.requested = requestAnimationFrame((now) => {
+      this.requested = 0;
+      this.paint(now);
+    });
+  }
+
+  private paint(now: number): void {
+    if (this.isGone) return;
+    const isMoving = this.motion.isMoving(now);
+    if (isMoving) this.changed('motion');
+    const drawing: Drawing = { view: this.view, now: this.motion.at(now), colours: this.colours };
+    if (this.follows) this.centre(drawing);
+    this.world.position.set(...this.view.origin);
+    this.world.scale.set(this.view.scale, -this.view.scale);
+    for (const layer of this.all) {
+      layer.world.visible = layer.screen.visible = layer.shown;
+      if (!layer.shown) continue;
+      if (this.stale.delete(layer)) layer.draw(drawing);
+      layer.place(drawing);
+    }
+    this.renderer.render(this.stage);
+    ++this.pictures;
+    if (isMoving) {
+      this.changed('motion'); // the last picture shows the newest frame itself
+      this.schedule();
+    }
+  }
+
+  private centre({ now: { swarm, robots } }: Drawing): void {
+    if (swarm) return this.view.centre([swarm.x, swarm.y]);
+    let [x, y] = [0, 0];
+    for (let i = 0; i < robots.length; i += 2) {
+      x += robots[i]!;
+      y += robots[i + 1]!;
+    }
+    if (robots.length > 0) this.view.centre([(2 * x) / robots.length, (2 * y) / robots.length]);
+  }
+
+  private hit(screen: Point): { what: Grip; place?: Point } {
+    const map = { what: { kind: 'map' } as const };
+    if (this.isRecord) return map;
+    const mark =
+      hitMark('goal', this.goal.places, this.view, screen) ??
+      hitMark('start', this.start.places, this.view, screen);
+    if (mark) return mark;
+    const obstacle = hitObstacle(this.motion.newest, this.view, screen);
+    return obstacle ? { what: obstacle } : map;
+  }
+
+  private touch(touch: Touch): void {
+    const { phase, what, from, at } = touch;
+    if (phase === 'begin' && what.kind !== 'map') this.hold(what, from);
+    if (phase === 'end') this.ghost.hold(undefined);
+    else this.ghost.move(at[0] - from[0], at[1] - from[1]);
+    if (phase !== 'move') this.stale.add(this.ghost);
+    this.schedule();
+    for (const listener of this.touchListeners) listener(touch);
+  }
+
+  private hold({ kind, index }: Grip, from: Point): void {
+    const { discs, solids } = this.motion.newest;
+    const own = discs.filter((_, i) => discs[i - (i % 4) + 3] === index);
+    const bodies = ringsOf(own, solids.filter(({ number }) => number === index), this.view);
+    this.ghost.hold(kind === 'obstacle' ? { kind, bodies } : { kind, bodies: [], place: from });
   }
 }

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Page } from './app';
+import { call } from './connection';
+import { element } from './dom';
+import { Keys } from './keys';
+import { layersTab } from './layers_tab';
+import { Live } from './live';
+import { metricsTable } from './metrics';
+import { Parameters } from './parameters';
+import { combine, keyOf } from './settings';
+import { stageFor } from './stage';
+import { tabs } from './tabs';
+import { themeSwitch } from './theme';
+import { timeBar } from './time_bar';
+
+/** Opens the experiment of a session a second time, with these settings, beside it. */
+export async function openCopy(live: Live, settings: string[]): Promise<void> {
+  const open = (file: object) =>
+    call<{ session: number }>('POST', '/api/sessions', { ...file, settings });
+  const { session } = await open({ file: live.hello?.name }).catch(() => open({}));
+  await live.ask({ do: 'restart', settings });
+  location.hash = `#/compare/${live.session}/${session}`;
+}
+
+/** Two sessions side by side, with one time and their metrics in one table. */
+export async function comparePage(numbers: number[]): Promise<Page> {
+  const names = ['A', 'B'];
+  const trouble = element('p', { class: 'trouble', role: 'alert' });
+  const sides = await Promise.all(
+    numbers.map(async (number, i) => {
+      const live = new Live(number, () =>
+        trouble.replaceChildren(`Session ${names[i]} is closed. Open it again from the gallery.`),
+      );
+      const stage = await stageFor(live);
+      const caption = element('figcaption', {});
+      const figure = element('figure', { class: 'side', 'data-side': names[i] as string }, caption, stage.scene.root);
+      return { live, stage, caption, figure, parameters: new Parameters(live) };
+    }),
+  );
+  const time = timeBar(sides.map((side) => side.live));
+  const table = element('div', { class: 'table' });
+  const layers = layersTab(sides.map((side) => side.stage.scene));
+  const differences = element('div', { class: 'doc differences' });
+
+  const settingsOf = (live: Live) => combine(live.hello?.settings ?? [], live.standing?.changes ?? []);
+  const describe = () => {
+    const lists = sides.map((side) => settingsOf(side.live));
+    sides.forEach((side, i) => {
+      const others = new Set(lists[1 - i]);
+      const own = (lists[i] ?? []).filter((one) => !others.has(one));
+      const shown = own.map((one) => (one.length > 60 ? `${keyOf(one)}=…` : one)).join(' · ');
+      const { live } = side;
+      const status = live.standing?.ended ? live.standing.status : (live.standing?.state ?? '');
+      side.caption.replaceChildren(
+        element('strong', {}, names[i] as string),
+        element('span', { class: 'own' }, shown || (lists[0]?.join() === lists[1]?.join() ? 'same settings' : 'as the file says')),
+        element('output', { class: 'status' }, status.replaceAll('_', ' ')),
+      );
+      side.figure.dataset['status'] = live.standing?.status ?? '';
+    });
+  };
+  let drawn = 0;
+  const show = () => {
+    const isPlaying = sides.some((side) => side.live.standing?.plays);
+    if (isPlaying && performance.now() - drawn < 250) return;
+    drawn = performance.now();
+    describe();
+    table.replaceChildren(metricsTable(names, sides.map((side) => side.live.standing?.metrics ?? {})));
+  };
+  for (const side of sides)
+    side.live.listen((message) => {
+      if (message.type === 'standing' || message.type === 'hello') show();
+    });
+  const restart = () => {
+    for (const side of sides) void side.parameters.restart();
+  };
+  const fit = () => sides.forEach((side) => side.stage.scene.fit());
+  const keys = new Keys([
+    { keys: [' '], shown: 'space', does: 'play or pause both', act: time.play },
+    { keys: ['.'], shown: '.', does: 'a single tick', act: time.step },
+    { keys: ['ArrowLeft'], shown: '←', does: 'the frame before', act: (e) => time.seekBy(e.shiftKey ? -10 : -1) },
+    { keys: ['ArrowRight'], shown: '→', does: 'the next frame', act: (e) => time.seekBy(e.shiftKey ? 10 : 1) },
+    { keys: ['Home'], shown: 'Home', does: 'the first frame', act: () => time.seek(0) },
+    { keys: ['End'], shown: 'End', does: 'the newest frame', act: time.live },
+    { keys: ['+', '='], shown: '+', does: 'faster', act: () => time.speed(1) },
+    { keys: ['-'], shown: '−', does: 'slower', act: () => time.speed(-1) },
+    { keys: ['f'], shown: 'f', does: 'fit the maps', act: fit },
+  ]);
+  document.title = 'Compare – microswarm lab';
+  const root = element(
+    'div',
+    { class: 'session compare' },
+    element(
+      'nav',
+      { class: 'top' },
+      element('a', { href: '#/', class: 'button quiet' }, '‹ Gallery'),
+      element('h1', { class: 'title' }, 'Compare'),
+      differences,
+      trouble,
+      element('button', { type: 'button', class: 'both', onclick: restart }, 'Restart both'),
+      element('button', { type: 'button', title: 'Show the keys (?)', onclick: () => keys.help() }, 'Keys'),
+      themeSwitch(),
+    ),
+    element('div', { class: 'sides' }, ...sides.map((side) => side.figure)),
+    tabs('compare', [
+      { name: 'Metrics', panel: table },
+      ...sides.map((side, i) => ({ name: `Parameters ${names[i]}`, panel: side.parameters.root })),
+      { name: 'Layers', panel: layers.root, shown: layers.show },
+    ]),
+    time.root,
+  );
+  return {
+    root,
+    leave: () => {
+      keys.destroy();
+      for (const side of sides) {
+        side.live.close();
+        side.stage.destroy();
+      }
+    },
+  };
+}

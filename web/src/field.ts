@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+import { element } from './dom';
+import { number, words } from './numbers';
+import type { Json } from './protocol';
+import { type Schema, allowsNull, described, rangeOf, withoutNull } from './schema';
+
+/** One parameter in the form. */
+export interface Field {
+  key: string;
+  root: HTMLElement;
+  /** Words by which it is found. */
+  text: string;
+  show(value: Json | undefined): void;
+  setIssue(text: string): void;
+  setWaiting(waits: boolean): void;
+  setEnabled(enabled: boolean): void;
+}
+
+export type Change = (key: string, value: Json) => void;
+
+interface Control {
+  nodes: HTMLElement[];
+  show(value: Json | undefined): void;
+}
+
+export function field(key: string, schema: Schema, change: Change): Field {
+  const name = key.slice(key.lastIndexOf('.') + 1);
+  const inner = withoutNull(schema);
+  const { doc, unit } = described(schema);
+  const { label, unit: keyUnit } = words(name);
+  const id = `field-${key}`;
+  const control = controlOf(id, inner, allowsNull(schema), (value) => change(key, value));
+  const standard = schema.default;
+  let shown: Json | undefined;
+  const reset = element(
+    'button',
+    {
+      type: 'button',
+      class: 'quiet reset',
+      title: `Back to the default: ${brief(standard)}`,
+      'aria-label': `Reset ${label}`,
+      hidden: true,
+      onclick: () => change(key, standard ?? null),
+    },
+    '↺',
+  );
+  const issue = element('p', { class: 'issue', role: 'alert', hidden: true });
+  const facts = [doc, range(inner), standard === undefined ? '' : `Default ${brief(standard)}.`];
+  const root = element(
+    'div',
+    { class: 'field', 'data-key': key },
+    element('label', { for: id }, label),
+    element('span', { class: 'unit' }, unit || keyUnit),
+    reset,
+    element('div', { class: 'control' }, ...control.nodes),
+    element('p', { class: 'doc' }, facts.filter((one) => one !== '').join(' ')),
+    issue,
+  );
+  return {
+    key,
+    root,
+    text: `${key} ${label} ${doc}`.toLowerCase(),
+    show: (value) => {
+      if (JSON.stringify(value) !== JSON.stringify(shown) || value === undefined) control.show(value);
+      shown = value;
+      reset.hidden = standard === undefined || JSON.stringify(value) === JSON.stringify(standard);
+    },
+    setIssue: (text) => {
+      issue.hidden = text === '';
+      issue.textContent = text;
+      root.classList.toggle('wrong', text !== '');
+      if (text !== '') control.show(shown);
+    },
+    setWaiting: (waits) => root.classList.toggle('waits', waits),
+    setEnabled: (enabled) => {
+      for (const one of root.querySelectorAll('input, select, textarea, button'))
+        (one as HTMLInputElement).disabled = !enabled;
+    },
+  };
+}
+
+function brief(value: Json | undefined): string {
+  if (value === undefined) return '';
+  if (value === null) return 'none';
+  if (value === '') return 'empty';
+  return typeof value === 'number' ? number(value) : JSON.stringify(value);
+}
+
+function range(schema: Schema): string {
+  const { minimum: lo, maximum: hi } = schema;
+  if (lo === undefined) return '';
+  return hi === undefined ? `At least ${number(lo)}.` : `${number(lo)} to ${number(hi)}.`;
+}
+
+function controlOf(id: string, schema: Schema, nullable: boolean, change: (value: Json) => void): Control {
+  if (schema.type === 'boolean') return toggle(id, change);
+  if (schema.enum) return menu(id, schema.enum, change);
+  if (schema.type === 'number' || schema.type === 'integer') return numeric(id, schema, nullable, change);
+  if (schema.type === 'string') return line(id, change);
+  return list(id, nullable, change);
+}
+
+function toggle(id: string, change: (value: Json) => void): Control {
+  const box = element('input', { id, type: 'checkbox', role: 'switch', class: 'switch', onchange: () => change(box.checked) });
+  return { nodes: [box], show: (value) => (box.checked = value === true) };
+}
+
+export function menu(id: string, options: string[], change: (value: Json) => void): Control {
+  const select = element(
+    'select',
+    { id, onchange: () => change(select.value) },
+    ...options.map((one) => element('option', { value: one }, one.replaceAll('_', ' '))),
+  );
+  return { nodes: [select], show: (value) => (select.value = String(value)) };
+}
+
+function numeric(id: string, schema: Schema, nullable: boolean, change: (value: Json) => void): Control {
+  const entry = element('input', {
+    id,
+    type: 'number',
+    class: 'number',
+    step: 'any',
+    ...(nullable ? { placeholder: 'none' } : {}),
+    onchange: () => {
+      if (entry.value !== '') change(Number(entry.value));
+      else if (nullable) change(null);
+    },
+  });
+  const span = rangeOf(schema);
+  if (!span) return { nodes: [entry], show: (value) => (entry.value = value == null ? '' : String(value)) };
+  const slider = element('input', {
+    type: 'range',
+    class: 'slider',
+    min: '0',
+    max: '1',
+    step: '0.002',
+    'aria-labelledby': '',
+    oninput: () => (entry.value = String(span.toValue(Number(slider.value)))),
+    onchange: () => change(Number(entry.value)),
+  });
+  slider.setAttribute('aria-label', `${id.slice('field-'.length)}, slider`);
+  slider.removeAttribute('aria-labelledby');
+  return {
+    nodes: [slider, entry],
+    show: (value) => {
+      entry.value = value == null ? '' : String(value);
+      slider.value = String(typeof value === 'number' ? span.toShare(value) : 0);
+    },
+  };
+}
+
+function line(id: string, change: (value: Json) => void): Control {
+  const entry = element('input', { id, type: 'text', spellcheck: 'false', onchange: () => change(entry.value) });
+  return { nodes: [entry], show: (value) => (entry.value = String(value ?? '')) };
+}
+
+/** Lists of numbers or points, as JSON. */
+function list(id: string, nullable: boolean, change: (value: Json) => void): Control {
+  const entry = element('input', {
+    id,
+    type: 'text',
+    spellcheck: 'false',
+    ...(nullable ? { placeholder: 'none' } : {}),
+    onchange: () => {
+      try {
+        entry.setCustomValidity('');
+        change(entry.value.trim() === '' && nullable ? null : (JSON.parse(entry.value) as Json));
+      } catch {
+        entry.setCustomValidity('This is not a list such as [1, 2].');
+        entry.reportValidity();
+      }
+    },
+  });
+  return {
+    nodes: [entry],
+    show: (value) => {
+      entry.setCustomValidity('');
+      entry.value = value == null ? '' : JSON.stringify(value).replaceAll(',', ', ');
+    },
+  };
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+import { element } from './dom';
+import type { Scene } from './scene/scene';
+
+/** Switches for the scene's layers. */
+export function layersTab(scenes: Scene[]): { root: HTMLElement; show: () => void } {
+  const root = element('div', { class: 'layers' });
+  const show = () => {
+    const layers = scenes[0]?.layers() ?? [];
+    root.replaceChildren(
+      ...layers.map((layer) => {
+        const box = element('input', {
+          type: 'checkbox',
+          role: 'switch',
+          class: 'switch',
+          onchange: () => {
+            for (const scene of scenes) scene.show(layer.name, box.checked);
+          },
+        });
+        box.checked = layer.shown;
+        return element('label', { class: 'layer', 'data-layer': layer.name }, box, layer.label);
+      }),
+    );
+  };
+  return { root, show };
+}

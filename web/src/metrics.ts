@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+import { element } from './dom';
+import { number, words } from './numbers';
+import type { Json } from './protocol';
+
+export interface Metric {
+  key: string;
+  label: string;
+  unit: string;
+  value: number | undefined;
+}
+
+/** The metrics of a run in one list; those of a part are named after it. */
+export function metricsOf(metrics: { [key: string]: Json }, within = ''): Metric[] {
+  return Object.entries(metrics).flatMap(([key, value]) => {
+    const { label, unit } = words(key);
+    if (value !== null && typeof value === 'object' && !Array.isArray(value))
+      return metricsOf(value, `${within}${label}: `);
+    return [{ key: within + key, label: within + label, unit, value: typeof value === 'number' ? value : undefined }];
+  });
+}
+
+/** A table of the metrics of one or more runs; of two with their difference. */
+export function metricsTable(names: string[], runs: { [key: string]: Json }[]): HTMLElement {
+  const lists = runs.map((one) => metricsOf(one));
+  const heads = names.length > 1 ? [...names, ...(names.length === 2 ? ['B − A'] : [])] : [''];
+  const shown = (value: number | undefined) => (value === undefined ? '–' : number(value));
+  const rows = (lists[0] ?? []).map((metric) => {
+    const values = lists.map((list) => list.find((one) => one.key === metric.key)?.value);
+    const cells = values.map((value) => element('td', {}, shown(value)));
+    if (values.length === 2) {
+      const [a, b] = values;
+      const difference = a === undefined || b === undefined ? undefined : differenceOf(a, b);
+      const sign = difference !== undefined && difference > 0 ? '+' : '';
+      cells.push(element('td', { class: difference ? 'differs' : '' }, sign + shown(difference)));
+    }
+    return element('tr', { 'data-metric': metric.key }, element('th', { scope: 'row' }, metric.label), ...cells, element('td', { class: 'unit' }, metric.unit));
+  });
+  const head = element('tr', {}, element('td', {}), ...heads.map((one) => element('th', { scope: 'col' }, one)), element('td', {}));
+  return element('table', { class: 'metrics' }, ...(names.length > 1 ? [element('thead', {}, head)] : []), element('tbody', {}, ...rows));
+}
+
+/** B − A; zero where it is a rounding error of theirs. */
+function differenceOf(a: number, b: number): number {
+  return Math.abs(b - a) < 1e-9 * Math.max(Math.abs(a), Math.abs(b)) ? 0 : b - a;
+}

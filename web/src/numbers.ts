@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers, units and keys as a person reads them.
+
+const units: [string, string][] = [
+  ['_um_per_s', 'µm/s'],
+  ['_um2_per_s', 'µm²/s'],
+  ['_deg_per_s', '°/s'],
+  ['_rad_per_s', 'rad/s'],
+  ['_um', 'µm'],
+  ['_per_s', '1/s'],
+  ['_s', 's'],
+  ['_deg', '°'],
+  ['_rad', 'rad'],
+  ['_hz', 'Hz'],
+  ['_mT', 'mT'],
+];
+
+/** The words and the unit of a key: goal_tolerance_um is "goal tolerance" in µm. */
+export function words(key: string): { label: string; unit: string } {
+  const found = units.find(([end]) => key.endsWith(end));
+  const name = found ? key.slice(0, -found[0].length) : key;
+  return { label: name.replaceAll('_', ' '), unit: found ? found[1] : '' };
+}
+
+/** At most `digits` significant digits, without an exponent where that reads well. */
+export function number(value: number, digits = 4): string {
+  if (!Number.isFinite(value)) return '–';
+  const isPlain = value === 0 || (Math.abs(value) >= 1e-4 && Math.abs(value) < 1e6);
+  if (!isPlain) return String(Number(value.toPrecision(digits)).toExponential()).replace('e+', 'e');
+  return String(Number(value.toPrecision(digits)));
+}

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+import uPlot from 'uplot';
+import 'uplot/dist/uPlot.min.css';
+import { element } from './dom';
+import type { Live } from './live';
+import { onTheme } from './theme';
+
+interface Plotted {
+  column: string;
+  title: string;
+  factor: number;
+}
+const plotted: Plotted[] = [
+  { column: 'clearance_um', title: 'Clearance [µm]', factor: 1 },
+  { column: 'avoidance_cost', title: 'Avoidance cost δ', factor: 1 },
+  { column: 'step_time_s', title: 'Planning time [ms]', factor: 1000 },
+  { column: 'goal_distance_um', title: 'Mean way to the goal [µm]', factor: 1 },
+];
+const period = 200; // ms between renewals
+const height = 132;
+
+/** Plots over time with one cursor; a click looks at that frame. */
+export class Plots {
+  readonly root = element('div', { class: 'plots' });
+  private plots: uPlot[] = [];
+  private renewed = 0;
+  private timer: number | undefined;
+  private readonly stopTheme: () => void;
+  private readonly observer = new ResizeObserver(() => this.resize());
+
+  constructor(
+    private readonly live: Live,
+    private readonly seek: (frame: number) => void,
+  ) {
+    this.stopTheme = onTheme(() => this.build());
+    this.observer.observe(this.root);
+    live.listen((message) => {
+      if (message.type === 'rows') this.renewSoon();
+      if (message.type === 'frame') this.markShown();
+    });
+    live.onPoint(() => this.point());
+  }
+
+  destroy(): void {
+    this.stopTheme();
+    this.observer.disconnect();
+    window.clearTimeout(this.timer);
+    for (const plot of this.plots) plot.destroy();
+  }
+
+  /** Now that it is in sight. */
+  show(): void {
+    this.resize();
+    this.renew();
+  }
+
+  private build(): void {
+    for (const plot of this.plots) plot.destroy();
+    this.root.replaceChildren();
+    this.plots = plotted.map((what) => this.make(what));
+  }
+
+  private make(what: Plotted): uPlot {
+    const style = getComputedStyle(document.documentElement);
+    const colour = (name: string) => style.getPropertyValue(name).trim();
+    const axis: uPlot.Axis = {
+      stroke: colour('--faint'),
+      grid: { stroke: colour('--line'), width: 1 },
+      ticks: { show: false },
+      font: '11px system-ui, sans-serif',
+      size: 22,
+    };
+    const options: uPlot.Options = {
+      width: Math.max(200, this.root.clientWidth),
+      height,
+      title: what.title,
+      legend: { show: false },
+      scales: {
+        x: { time: false },
+        y: { range: (_, lo, hi) => (lo === hi ? [Math.min(0, lo), Math.max(1, hi)] : uPlot.rangeNum(lo, hi, 0.1, true) as [number, number]) },
+      },
+      cursor: { drag: { x: false, y: false }, y: false, points: { size: 6 } },
+      axes: [{ ...axis, values: (_, all) => all.map((one) => `${one} s`) }, { ...axis, size: 46 }],
+      series: [{}, { stroke: colour('--accent'), width: 1.5, points: { show: false } }],
+      hooks: {
+        setCursor: [(plot) => this.pointedAt(plot)],
+        draw: [(plot) => this.drawShown(plot, colour('--ink'))],
+      },
+    };
+    const plot = new uPlot(options, this.data(what), this.root);
+    plot.over.addEventListener('click', () => {
+      const { idx } = plot.cursor;
+      if (idx != null) this.seek(idx);
+    });
+    plot.over.addEventListener('pointerleave', () => this.live.point(undefined));
+    return plot;
+  }
+
+  private data(what: Plotted): uPlot.AlignedData {
+    const values = this.live.history.column(what.column);
+    const shown = values.map((one) => (Number.isFinite(one) ? one * what.factor : null));
+    return [this.live.history.times, shown];
+  }
+
+  private isInSight(): boolean {
+    return this.root.clientWidth > 0;
+  }
+
+  private resize(): void {
+    if (!this.isInSight()) return;
+    for (const plot of this.plots) plot.setSize({ width: this.root.clientWidth, height });
+  }
+
+  private renewSoon(): void {
+    if (this.timer !== undefined) return;
+    const wait = Math.max(0, period - (performance.now() - this.renewed));
+    this.timer = window.setTimeout(() => this.renew(), wait);
+  }
+
+  private renew(): void {
+    this.timer = undefined;
+    this.renewed = performance.now();
+    if (!this.isInSight()) return;
+    this.plots.forEach((plot, i) => plot.setData(this.data(plotted[i] as Plotted)));
+  }
+
+  private markShown(): void {
+    if (!this.isInSight() || this.live.standing?.plays) return;
+    for (const plot of this.plots) plot.redraw(false, false);
+  }
+
+  /** A line at the time that the scene shows. */
+  private drawShown(plot: uPlot, colour: string): void {
+    const x = plot.valToPos(this.live.shown, 'x', true);
+    const { left, top, width, height: high } = plot.bbox;
+    if (!(x >= left && x <= left + width)) return;
+    plot.ctx.save();
+    plot.ctx.strokeStyle = colour;
+    plot.ctx.lineWidth = window.devicePixelRatio;
+    plot.ctx.beginPath();
+    plot.ctx.moveTo(x, top);
+    plot.ctx.lineTo(x, top + high);
+    plot.ctx.stroke();
+    plot.ctx.restore();
+  }
+
+  private pointedAt(plot: uPlot): void {
+    if (!plot.over.matches(':hover')) return; // moved by point()
+    const { idx } = plot.cursor;
+    if (idx != null) this.live.point(this.live.history.times[idx]);
+  }
+
+  /** Brings the cursor of all plots to where the pointer is on one of them or on the time line. */
+  private point(): void {
+    if (!this.isInSight()) return;
+    const time = this.live.pointed;
+    for (const plot of this.plots) {
+      if (plot.over.matches(':hover')) continue;
+      const left = time === undefined ? -10 : plot.valToPos(time, 'x');
+      plot.setCursor({ left, top: time === undefined ? -10 : 10 });
+    }
+  }
+}

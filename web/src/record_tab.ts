@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+import { element } from './dom';
+import type { Live } from './live';
+import { metricsTable } from './metrics';
+import type { Json } from './protocol';
+import { shellWord } from './settings';
+
+const downloads = ['record.h5', 'scenario.yaml', 'frames.csv', 'events.csv'];
+
+/** Metrics so far, the changes that were made, the command that repeats them, and downloads. */
+export function recordTab(live: Live, compare: () => void): HTMLElement {
+  const metrics = element('div', { class: 'table' });
+  const changes = element('ol', { class: 'changes' });
+  const command = element('code', { class: 'command', tabindex: '0' });
+  const copied = element('output', { class: 'doc' });
+  const copy = element(
+    'button',
+    {
+      type: 'button',
+      class: 'copy',
+      onclick: () =>
+        void navigator.clipboard.writeText(command.textContent ?? '').then(
+          () => (copied.value = 'Copied.'),
+          () => select(command),
+        ),
+    },
+    'Copy command',
+  );
+  const links = downloads.map((name) =>
+    element('a', { href: `/api/sessions/${live.session}/${name}`, download: name, class: 'button' }, name),
+  );
+  let last: { [key: string]: Json } = {};
+  const show = () => {
+    const made = live.standing?.changes ?? [];
+    changes.replaceChildren(...made.map((one) => element('li', {}, element('code', {}, one))));
+    if (made.length === 0) changes.replaceChildren(element('li', { class: 'doc' }, 'None so far.'));
+    const more = made.map((one) => ` --set ${shellWord(one)}`).join('');
+    const text = (live.hello?.command ?? '') + more;
+    if (command.textContent !== text) {
+      command.textContent = text;
+      copied.value = '';
+    }
+  };
+  let drawn = 0;
+  live.listen((message) => {
+    if (message.type === 'hello') show();
+    if (message.type !== 'standing') return;
+    last = message.metrics;
+    show();
+    if (message.plays && performance.now() - drawn < 250) return;
+    drawn = performance.now();
+    metrics.replaceChildren(metricsTable([''], [last]));
+  });
+  return element(
+    'div',
+    { class: 'record' },
+    element('h2', {}, 'Metrics so far'),
+    metrics,
+    element('h2', {}, 'Changes since the start'),
+    changes,
+    element('h2', {}, 'The same from a terminal'),
+    command,
+    element('p', { class: 'doc' }, 'There, the changes apply from the start. The record keeps when each was made: microswarm replay record.h5 repeats that.'),
+    element('div', { class: 'row' }, copy, copied),
+    element('h2', {}, 'Download'),
+    element('div', { class: 'row' }, ...links),
+    element('h2', {}, 'Compare'),
+    element(
+      'div',
+      { class: 'row' },
+      element('button', { type: 'button', class: 'compare', onclick: compare }, 'Compare with a copy'),
+    ),
+  );
+}
+
+function select(node: HTMLElement): void {
+  window.getSelection()?.selectAllChildren(node);
+}

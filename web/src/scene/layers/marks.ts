@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+import { Graphics, type Text } from 'pixi.js';
+import type { Hello, Message, Point } from '../../protocol';
+import { Pin, circle, ink, label } from '../draw';
+import { type Drawing, Layer } from '../layer';
+import { type Place, goalsOf, startsOf } from '../scenario';
+
+/** Places with a word, of the same size at any zoom. */
+abstract class Marks extends Layer {
+  override readonly occasions = { zoom: true };
+  places: Place[] = [];
+  private readonly circles = this.world.addChild(new Graphics());
+  private readonly pins: Pin[] = [];
+  protected abstract readonly word: string;
+
+  protected set(places: Place[]): boolean {
+    const isSame = JSON.stringify(places) === JSON.stringify(this.places);
+    this.places = places;
+    return !isSame;
+  }
+
+  draw(drawing: Drawing): void {
+    const { view, colours } = drawing;
+    this.circles.clear();
+    for (const pin of this.pins.splice(0)) pin.destroy({ children: true });
+    this.places.forEach((place, i) => {
+      const many = this.places.length > 1;
+      const colour = many ? colours.series[i % colours.series.length]! : this.colour(drawing);
+      const { at, tolerance = 0 } = place;
+      if (tolerance > 0) {
+        const style = { color: colour, width: 1.5, dash: 9 };
+        circle(this.circles, view, [at[0], at[1], tolerance], style);
+      }
+      const pin = this.world.addChild(new Pin());
+      const graphics = pin.addChild(new Graphics());
+      this.symbol(graphics, place, colour, colours.paper);
+      const text = pin.addChild(label(many ? `${this.word} ${i + 1}` : this.word));
+      ink(text, colour, colours.paper);
+      this.beside(text, drawing, at);
+      this.pins.push(pin);
+    });
+  }
+
+  override place({ view }: Drawing): void {
+    this.pins.forEach((pin, i) => pin.at(view, ...this.places[i]!.at));
+  }
+
+  protected abstract colour(drawing: Drawing): number;
+  protected abstract symbol(to: Graphics, place: Place, colour: number, paper: number): void;
+
+  /** To the right above the symbol, or to the left at the screen's right edge. */
+  private beside(text: Text, { view }: Drawing, at: Point): void {
+    const isRight = view.toScreen(at)[0] + 14 + text.width < view.width;
+    text.anchor.set(isRight ? 0 : 1, 1);
+    text.position.set(isRight ? 9 : -9, -5);
+  }
+}
+
+/** Where the swarm or each robot starts, and its heading. */
+export class Start extends Marks {
+  readonly name = 'start';
+  readonly label = 'Start';
+  protected readonly word = 'start';
+
+  take(message: Message): boolean {
+    return message.type === 'hello' && this.set(startsOf(message.scenario));
+  }
+  protected colour({ colours }: Drawing): number {
+    return colours.start;
+  }
+  protected symbol(to: Graphics, { heading }: Place, color: number, paper: number): void {
+    to.circle(0, 0, 6).stroke({ width: 5, color: paper, alpha: 0.8 });
+    to.circle(0, 0, 6).stroke({ width: 2, color });
+    if (heading === undefined) return;
+    const [x, y] = [Math.cos(heading), -Math.sin(heading)];
+    to.moveTo(6 * x, 6 * y).lineTo(15 * x, 15 * y).stroke({ width: 2, color });
+  }
+}
+
+/** Goal and its tolerance; one for each robot if each has its own. */
+export class Goal extends Marks {
+  readonly name = 'goal';
+  readonly label = 'Goal';
+  protected readonly word = 'goal';
+  private hello: Hello | undefined;
+
+  take(message: Message): boolean {
+    if (message.type === 'hello') this.hello = message;
+    else if (message.type !== 'standing' || !this.hello) return false;
+    const changes = message.type === 'standing' ? message.changes : [];
+    return this.set(goalsOf(this.hello.scenario, changes));
+  }
+  protected colour({ colours }: Drawing): number {
+    return colours.goal;
+  }
+  protected symbol(to: Graphics, _place: Place, color: number, paper: number): void {
+    to.circle(0, 0, 8).stroke({ width: 6, color: paper, alpha: 0.8 });
+    to.circle(0, 0, 8).stroke({ width: 2.5, color });
+    to.circle(0, 0, 2.5).fill(color);
+  }
+}

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Message } from '../../protocol';
+import { Dots } from '../dots';
+import { type Drawing, Layer } from '../layer';
+import type { View } from '../view';
+
+const dot = 2.5; // radius of one robot [px]
+const cell = 3; // robots within one are one pile [px]
+const crowd = 2000; // so many dots have no rims
+const largest = 30; // radius of a pile [px]
+
+/** Individually tracked robots. Those that share a cell of the screen are a pile: one dot, whose
+ *  area is that of its robots' dots. */
+export class Robots extends Layer {
+  readonly name = 'robots';
+  readonly label = 'Robots';
+  override readonly occasions = { zoom: true, motion: true };
+  private readonly rims = this.world.addChild(new Dots()); // part the dots from what lies beneath
+  private readonly dots: Dots[] = []; // one for all, or one for each colour
+  private readonly piles = new Map<number, number>(); // cell to index of its pile
+  private x = new Float64Array(); // sums over a pile
+  private y = new Float64Array();
+  private size = new Uint32Array();
+
+  take(message: Message): boolean {
+    return message.type === 'hello' || message.type === 'frame';
+  }
+
+  draw({ view, now: { robots }, colours }: Drawing): void {
+    const count = robots.length / 2;
+    this.rims.tint = colours.paper;
+    this.rims.clear();
+    if (count <= colours.series.length) {
+      for (let i = 0; i < Math.max(count, this.dots.length); ++i) {
+        const dots = this.group(i, colours.series[i]!);
+        dots.clear();
+        if (i < count) this.add(dots, robots[2 * i]!, robots[2 * i + 1]!, 2 * dot, view);
+        dots.update();
+      }
+      return this.rims.update();
+    }
+    const piles = this.pile(robots, view.um(cell));
+    const dots = this.group(0, colours.swarm);
+    dots.clear();
+    const rims = piles <= crowd;
+    for (let i = 0; i < piles; ++i) {
+      const size = this.size[i]!;
+      const radius = Math.min(dot * Math.sqrt(size), largest);
+      this.add(dots, this.x[i]! / size, this.y[i]! / size, radius, view, rims);
+    }
+    dots.update();
+    this.rims.update();
+  }
+
+  private add(to: Dots, x: number, y: number, radius: number, view: View, rim = true): void {
+    to.add(x, y, view.um(radius));
+    if (rim) this.rims.add(x, y, view.um(radius + 1));
+  }
+
+  private group(i: number, colour: number): Dots {
+    const dots = (this.dots[i] ??= this.world.addChild(new Dots()));
+    dots.tint = colour;
+    return dots;
+  }
+
+  /** Sums of places and numbers of robots for each cell of `width` µm; how many piles. */
+  private pile(robots: Float32Array, width: number): number {
+    this.reserve(robots.length / 2);
+    this.piles.clear();
+    let piles = 0;
+    for (let i = 0; i < robots.length; i += 2) {
+      const [x, y] = [robots[i]!, robots[i + 1]!];
+      const at = Math.floor(x / width) + Math.floor(y / width) * 2 ** 24;
+      let k = this.piles.get(at);
+      if (k === undefined) {
+        this.piles.set(at, (k = piles++));
+        this.x[k] = this.y[k] = this.size[k] = 0;
+      }
+      this.x[k]! += x;
+      this.y[k]! += y;
+      ++this.size[k]!;
+    }
+    return piles;
+  }
+
+  private reserve(count: number): void {
+    if (this.x.length >= count) return;
+    this.x = new Float64Array(count);
+    this.y = new Float64Array(count);
+    this.size = new Uint32Array(count);
+  }
+}

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+import { Graphics } from 'pixi.js';
+import type { Message, Point } from '../../protocol';
+import { Pin } from '../draw';
+import { type Drawing, Layer } from '../layer';
+import type { Goal } from './marks';
+
+/** The navigator's local target. */
+export class Target extends Layer {
+  readonly name = 'target';
+  readonly label = 'Local target';
+  private readonly pin = this.world.addChild(new Pin());
+  private readonly cross = this.pin.addChild(new Graphics());
+  private at: Point | undefined;
+
+  constructor(private readonly goal: Goal) {
+    super();
+  }
+
+  take(message: Message): boolean {
+    if (message.type !== 'frame') return false;
+    this.at = message.target;
+    return true;
+  }
+
+  draw({ colours }: Drawing): void {
+    this.pin.visible = this.at !== undefined && !this.isGoal(this.at);
+    this.cross.clear();
+    for (const [width, color] of [[5, colours.paper], [2.5, colours.circle]] as const)
+      this.cross
+        .moveTo(-4, -4)
+        .lineTo(4, 4)
+        .moveTo(-4, 4)
+        .lineTo(4, -4)
+        .stroke({ width, color, cap: 'round' });
+  }
+
+  /** Then the goal's mark is enough. */
+  private isGoal([x, y]: Point): boolean {
+    return this.goal.places.some(({ at }) => Math.hypot(x - at[0], y - at[1]) < 1e-3);
+  }
+
+  override place({ view }: Drawing): void {
+    if (this.at) this.pin.at(view, ...this.at);
+  }
+}

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Point } from '../protocol';
+
+const margin = 16; // around the fitted map [px]
+const foot = 52; // below it, for the scale bar [px]
+const most = 400; // the closest look, relative to the fitted map
+const least = 0.25;
+
+/** Where the world lies on the screen. World in µm with y up, screen in CSS pixels with y down. */
+export class View {
+  scale = 1; // [px/µm]
+  width = 1; // of the screen [px]
+  height = 1;
+  lo: Point = [0, 0]; // of the map
+  hi: Point = [1, 1];
+  private x = 0; // of the world's origin on the screen [px]
+  private y = 0;
+  private isFitted = true;
+
+  get origin(): Point {
+    return [this.x, this.y];
+  }
+  toScreen([x, y]: Point): Point {
+    return [this.x + this.scale * x, this.y - this.scale * y];
+  }
+  toWorld([x, y]: Point): Point {
+    return [(x - this.x) / this.scale, (this.y - y) / this.scale];
+  }
+  /** A length on the screen [px] as one in the world [µm]. */
+  um(pixels: number): number {
+    return pixels / this.scale;
+  }
+
+  /** Of another map; the same one stays where it is. */
+  showMap(lo: Point, hi: Point): void {
+    if (String([lo, hi]) === String([this.lo, this.hi])) return;
+    this.lo = lo;
+    this.hi = hi;
+    this.fit();
+  }
+
+  fit(): void {
+    this.scale = this.fittedScale();
+    const middle = [(this.lo[0] + this.hi[0]) / 2, (this.lo[1] + this.hi[1]) / 2];
+    this.x = this.width / 2 - this.scale * middle[0]!;
+    this.y = (this.height - foot + margin) / 2 + this.scale * middle[1]!;
+    this.isFitted = true;
+  }
+
+  resize(width: number, height: number): void {
+    const middle = this.toWorld([this.width / 2, this.height / 2]);
+    this.width = Math.max(width, 1);
+    this.height = Math.max(height, 1);
+    if (this.isFitted) this.fit();
+    else this.centre(middle);
+  }
+
+  pan(dx: number, dy: number): void {
+    this.x += dx;
+    this.y += dy;
+    this.isFitted = false;
+  }
+
+  /** Zooms; the world's point under the pointer stays there. */
+  zoom(factor: number, [px, py]: Point): void {
+    const fitted = this.fittedScale();
+    const scale = Math.min(Math.max(this.scale * factor, least * fitted), most * fitted);
+    this.x = px - ((px - this.x) * scale) / this.scale;
+    this.y = py - ((py - this.y) * scale) / this.scale;
+    this.scale = scale;
+    this.isFitted = false;
+  }
+
+  centre([x, y]: Point): void {
+    this.x = this.width / 2 - this.scale * x;
+    this.y = this.height / 2 + this.scale * y;
+    this.isFitted = false;
+  }
+
+  private fittedScale(): number {
+    return Math.max(
+      Math.min(
+        (this.width - 2 * margin) / (this.hi[0] - this.lo[0]),
+        (this.height - margin - foot) / (this.hi[1] - this.lo[1]),
+      ),
+      1e-9,
+    );
+  }
+}

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Live } from './live';
+import { Scene } from './scene/scene';
+import { onTheme } from './theme';
+
+declare global {
+  interface Window {
+    microswarm?: { scene: Scene; connection: Live }; // for tests
+  }
+}
+
+/** A scene that shows a session, in the page's theme. */
+export interface Stage {
+  scene: Scene;
+  destroy(): void;
+}
+
+export async function stageFor(live: Live): Promise<Stage> {
+  const scene = await Scene.create();
+  scene.onWant((request) => void live.ask(request));
+  live.listen((message) => scene.take(message));
+  const stopTheme = onTheme((theme) => scene.setTheme(theme));
+  window.microswarm ??= { scene, connection: live };
+  return {
+    scene,
+    destroy: () => {
+      delete window.microswarm;
+      stopTheme();
+      scene.destroy();
+    },
+  };
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+import { element } from './dom';
+
+export type Theme = 'light' | 'dark';
+
+const dark = window.matchMedia('(prefers-color-scheme: dark)');
+const listeners = new Set<(theme: Theme) => void>();
+
+/** What the person chose, else what the system prefers. */
+export function theme(): Theme {
+  const chosen = localStorage.getItem('theme');
+  if (chosen === 'light' || chosen === 'dark') return chosen;
+  return dark.matches ? 'dark' : 'light';
+}
+
+function apply(): void {
+  document.documentElement.dataset['theme'] = theme();
+  for (const listener of listeners) listener(theme());
+}
+
+/** Tells the theme at once and when it changes; returns how to stop that. */
+export function onTheme(listener: (theme: Theme) => void): () => void {
+  listeners.add(listener);
+  listener(theme());
+  return () => listeners.delete(listener);
+}
+
+export function startTheme(): void {
+  dark.addEventListener('change', apply);
+  apply();
+}
+
+export function themeSwitch(): HTMLElement {
+  const toggle = () => {
+    localStorage.setItem('theme', theme() === 'dark' ? 'light' : 'dark');
+    apply();
+  };
+  return element(
+    'button',
+    { class: 'quiet', type: 'button', title: 'Light or dark', 'aria-label': 'Light or dark', onclick: toggle },
+    '◐',
+  );
+}

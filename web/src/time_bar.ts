@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+import { element } from './dom';
+import type { Live } from './live';
+import type { Standing } from './protocol';
+import { timeline } from './timeline';
+
+export const speeds = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50, 0];
+
+/** The speed that is `by` steps faster than `speed`; 0 is as fast as possible. */
+export function fasterSpeed(speed: number, by: number): number {
+  let here = speeds.indexOf(speed);
+  if (here < 0) here = speeds.findIndex((one) => one === 0 || one >= speed);
+  return speeds[Math.max(0, Math.min(speeds.length - 1, here + by))] as number;
+}
+
+export interface TimeBar {
+  root: HTMLElement;
+  play(): void;
+  step(): void;
+  live(): void;
+  speed(by: number): void;
+  seekBy(frames: number): void;
+  seek(frame: number): void;
+}
+
+/** Play, pause, tick, speed and the time line of one session, or of several in step. */
+export function timeBar(sessions: Live[]): TimeBar {
+  const first = sessions[0] as Live;
+  const all = (request: Parameters<Live['ask']>[0]) => {
+    for (const one of sessions) void one.ask(request);
+  };
+  const anyPlays = () => sessions.some((one) => one.standing?.plays);
+  const play = () => all({ do: anyPlays() ? 'pause' : 'play' });
+  const step = () => all({ do: 'step' });
+  const live = () => all({ do: 'live' });
+  /** The one with the most frames; the others look at the same time. */
+  const lead = () =>
+    sessions.reduce((a, b) => (b.history.times.length > a.history.times.length ? b : a), first);
+  const seek = (frame: number) => {
+    const { times } = lead().history;
+    const time = times[Math.max(0, Math.min(times.length - 1, frame))];
+    if (time === undefined) return;
+    for (const one of sessions) one.seek(one.history.nearest(time));
+  };
+  const seekBy = (frames: number) => {
+    if (!anyPlays()) seek((lead().standing?.frame ?? 0) + frames);
+  };
+  const setSpeed = (speed: number) => all({ do: 'speed', number: speed });
+  const speed = (by: number) => setSpeed(fasterSpeed(first.standing?.speed ?? 1, by));
+
+  const playButton = element('button', { class: 'play primary', type: 'button', onclick: play }, '▶ Play');
+  const stepButton = element(
+    'button',
+    { class: 'step', type: 'button', title: 'A single tick (.)', onclick: step },
+    'Tick',
+  );
+  const menu = element('select', {
+    class: 'speed',
+    'aria-label': 'Speed',
+    title: 'Simulated seconds a second (+ −)',
+    onchange: () => setSpeed(Number(menu.value)),
+  });
+  for (const one of speeds)
+    menu.append(element('option', { value: String(one) }, one === 0 ? 'fastest' : `×${one}`));
+  const clock = element('output', { class: 'clock' }, '0.0 s');
+  const liveButton = element(
+    'button',
+    { class: 'live', type: 'button', title: 'The newest frame (End)', onclick: live },
+    'Live',
+  );
+  const line = timeline(sessions, lead, seek);
+
+  const take = (standing: Standing) => {
+    const plays = anyPlays();
+    playButton.textContent = plays ? '❚❚ Pause' : '▶ Play';
+    playButton.title = plays ? 'Pause (space)' : 'Play (space)';
+    const ended = sessions.every((one) => one.standing?.ended);
+    const record = first.hello?.playback ?? false;
+    playButton.disabled = ended && !plays && !record;
+    stepButton.disabled = ended;
+    const looksBack = sessions.some((one) => one.standing?.looks_back);
+    liveButton.disabled = !looksBack;
+    liveButton.classList.toggle('on', !looksBack && !record);
+    liveButton.hidden = record;
+    const known = speeds.includes(standing.speed);
+    if (document.activeElement !== menu) menu.value = String(known ? standing.speed : 1);
+  };
+  for (const one of sessions)
+    one.listen((message) => {
+      if (message.type === 'standing' && first.standing) take(first.standing);
+      if (message.type === 'frame' && one === lead()) clock.textContent = `${one.shown.toFixed(1)} s`;
+    });
+  const root = element(
+    'section',
+    { class: 'timebar', 'aria-label': 'Time' },
+    playButton,
+    stepButton,
+    menu,
+    clock,
+    line.root,
+    liveButton,
+  );
+  return { root, play, step, live, speed, seekBy, seek };
+}

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+import { element } from './dom';
+import type { Live } from './live';
+
+const thumb = 14; // px, as in app.css
+
+/** A slider over all frames with marks above it: contacts, other events, and planning events. */
+export function timeline(
+  sessions: Live[],
+  lead: () => Live,
+  seek: (frame: number) => void,
+): { root: HTMLElement } {
+  const canvas = element('canvas', { class: 'marks', 'aria-hidden': 'true' });
+  const slider = element('input', {
+    type: 'range',
+    class: 'scrub',
+    min: '0',
+    max: '0',
+    step: '1',
+    value: '0',
+    'aria-label': 'Frame',
+    oninput: () => seek(Number(slider.value)),
+  });
+  const tip = element('output', { class: 'tip', hidden: true });
+  const root = element('div', { class: 'timeline' }, canvas, slider, tip);
+  let due = false;
+
+  const timeAt = (event: MouseEvent) => {
+    const box = slider.getBoundingClientRect();
+    const share = (event.clientX - box.left - thumb / 2) / (box.width - thumb);
+    const { times } = lead().history;
+    return times[Math.round(Math.max(0, Math.min(1, share)) * (times.length - 1))];
+  };
+  const point = (time: number | undefined) => sessions.forEach((one) => one.point(time));
+  slider.addEventListener('pointermove', (event) => point(timeAt(event)));
+  slider.addEventListener('pointerleave', () => point(undefined));
+
+  const draw = () => {
+    due = false;
+    const live = lead();
+    const { clientWidth: width, clientHeight: height } = canvas;
+    const scale = window.devicePixelRatio;
+    canvas.width = width * scale;
+    canvas.height = height * scale;
+    const to = canvas.getContext('2d');
+    const frames = live.history.times.length;
+    if (!to || frames < 2) return;
+    to.scale(scale, scale);
+    const style = getComputedStyle(root);
+    const colour = (name: string) => style.getPropertyValue(name).trim();
+    const x = (frame: number) => thumb / 2 + (frame / (frames - 1)) * (width - thumb);
+    const mark = (frame: number, name: string, from: number, to2: number) => {
+      to.fillStyle = colour(name);
+      to.fillRect(Math.round(x(frame)) - 0.5, from, 1.5, to2 - from);
+    };
+    live.history.column('planned').forEach((planned, i) => {
+      if (planned) mark(i, '--plan', height - 5, height);
+    });
+    for (const event of live.history.events) {
+      const isContact = event.kind.startsWith('contact');
+      mark(live.history.nearest(event.t_s), isContact ? '--bad' : event.kind === 'goal_reached' ? '--good' : '--accent', 0, height - 6);
+    }
+    if (live.pointed !== undefined) mark(live.history.nearest(live.pointed), '--ink', 0, height);
+  };
+  const redraw = () => {
+    if (!due) requestAnimationFrame(draw);
+    due = true;
+  };
+  const observer = new ResizeObserver(redraw);
+  observer.observe(root);
+  const showTip = () => {
+    redraw();
+    const live = lead();
+    const time = live.pointed;
+    tip.hidden = time === undefined;
+    if (time === undefined) return;
+    const near = live.history.events.filter((one) => Math.abs(one.t_s - time) < span(live) / 100);
+    tip.value = [`${time.toFixed(1)} s`, ...near.map((one) => one.kind.replaceAll('_', ' '))].join(' · ');
+  };
+  for (const one of sessions) {
+    one.onPoint(showTip);
+    one.listen((message) => {
+      if (message.type === 'rows') redraw();
+      if (message.type !== 'standing' || one !== lead()) return;
+      slider.max = String(Math.max(0, one.history.times.length - 1));
+      slider.value = String(message.frame);
+      slider.setAttribute('aria-valuetext', `${one.shown.toFixed(1)} seconds`);
+    });
+  }
+  return { root };
+}
+
+function span(live: Live): number {
+  const times = live.history.times;
+  return (times[times.length - 1] ?? 0) - (times[0] ?? 0);
+}

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+import { element } from './dom';
+import type { Live } from './live';
+import type { Parameters } from './parameters';
+import type { Json, Point } from './protocol';
+import { at, text } from './settings';
+import type { Scene, Touch } from './scene/scene';
+
+type Tool = 'obstacle' | 'wall' | 'remove';
+const hints: { [tool in Tool]: string } = {
+  obstacle: 'Click where the new obstacle shall be. Esc ends it.',
+  wall: 'Click where the new round wall shall be; the run begins anew. Esc ends it.',
+  remove: 'Click an obstacle or a round wall to remove it. Esc ends it.',
+};
+/** Where a motion keeps its place. */
+const places: { [motion: string]: string } = {
+  still: 'position_um',
+  straight: 'start_um',
+  harmonic_line: 'centre_um',
+  harmonic_arc: 'pivot_um',
+  waypoints: 'points_um',
+};
+
+/** What dragging and clicking in the scene does to the session, and the tools for it. */
+export class Hands {
+  readonly tools: HTMLElement;
+  private tool: Tool | undefined;
+  private readonly radius = element('input', {
+    type: 'number',
+    min: '1',
+    step: '5',
+    value: '50',
+    class: 'number',
+    'aria-label': 'Radius of a new disc in µm',
+  });
+  private readonly buttons = new Map<Tool, HTMLButtonElement>();
+
+  constructor(
+    private readonly live: Live,
+    private readonly scene: Scene,
+    private readonly parameters: Parameters,
+    private readonly say: (text: string, isTrouble?: boolean) => void,
+  ) {
+    scene.onTouch((touch) => void this.take(touch));
+    const button = (tool: Tool, label: string) => {
+      const made = element(
+        'button',
+        { type: 'button', class: `tool-${tool}`, 'aria-pressed': 'false', onclick: () => this.choose(this.tool === tool ? undefined : tool) },
+        label,
+      );
+      this.buttons.set(tool, made);
+      return made;
+    };
+    this.tools = element(
+      'div',
+      { class: 'tools', role: 'toolbar', 'aria-label': 'Scene' },
+      button('obstacle', '+ Obstacle'),
+      button('wall', '+ Wall'),
+      element('label', { class: 'unit' }, 'r ', this.radius, ' µm'),
+      button('remove', '− Remove'),
+    );
+  }
+
+  choose(tool: Tool | undefined): void {
+    this.tool = tool;
+    for (const [name, one] of this.buttons) one.setAttribute('aria-pressed', String(name === tool));
+    this.scene.root.classList.toggle('placing', tool !== undefined);
+    this.say(tool ? hints[tool] : '', false);
+  }
+
+  private async take(touch: Touch): Promise<void> {
+    if (touch.phase !== 'end' || this.live.hello?.playback) return;
+    const { kind, index } = touch.what;
+    if (this.tool === 'obstacle') return this.addObstacle(touch.at);
+    if (this.tool === 'wall') return this.addWall(touch.at);
+    if (this.tool === 'remove') return this.remove(touch);
+    if (touch.at[0] === touch.from[0] && touch.at[1] === touch.from[1]) return;
+    if (kind === 'goal') return this.apply('goal_um', rounded(touch.at));
+    if (kind === 'start') return this.moveStart(touch.at);
+    if (kind === 'obstacle' && index !== undefined)
+      return this.moveObstacle(index, touch.at[0] - touch.from[0], touch.at[1] - touch.from[1]);
+  }
+
+  private async moveStart(to: Point): Promise<void> {
+    const [x, y] = rounded(to);
+    await this.restart([`start.x_um=${x}`, `start.y_um=${y}`]);
+  }
+
+  private async moveObstacle(index: number, dx: number, dy: number): Promise<void> {
+    const motion = `obstacles.${index}.motion`;
+    const place = places[String(at(this.live.hello?.scenario, `${motion}.type`))];
+    if (!place) return this.say('This obstacle moves as its file says; it cannot be dragged.');
+    const shift = (point: Json) => {
+      const [x, y] = point as Point;
+      return rounded([x + dx, y + dy]);
+    };
+    const before = at(this.live.hello?.scenario, `${motion}.${place}`) ?? [0, 0];
+    const isList = Array.isArray(before) && Array.isArray(before[0]);
+    await this.apply(`${motion}.${place}`, isList ? (before as Json[]).map(shift) : shift(before));
+  }
+
+  private obstacles(): Json[] {
+    const list = this.live.hello?.scenario['obstacles'];
+    return Array.isArray(list) ? list : [];
+  }
+
+  private discs(): Json[] | undefined {
+    if (at(this.live.hello?.scenario, 'map.type') !== 'polygons') return undefined;
+    const list = at(this.live.hello?.scenario, 'map.discs');
+    return Array.isArray(list) ? list : [];
+  }
+
+  private async addObstacle(position: Point): Promise<void> {
+    const disc = {
+      shape: { type: 'disc', radius_um: Number(this.radius.value) },
+      motion: { type: 'still', position_um: rounded(position) },
+    };
+    await this.apply('obstacles', [...this.obstacles(), disc]);
+  }
+
+  private async addWall(position: Point): Promise<void> {
+    const discs = this.discs();
+    if (!discs) return this.say('Round walls can be added only to a map of polygons.');
+    const wall = { centre_um: rounded(position), radius_um: Number(this.radius.value) };
+    await this.restart([`map.discs=${text([...discs, wall])}`]);
+  }
+
+  private async remove(touch: Touch): Promise<void> {
+    const { kind, index } = touch.what;
+    if (kind === 'obstacle' && index !== undefined)
+      return this.apply('obstacles', this.obstacles().filter((_, i) => i !== index));
+    const left = this.discs()?.filter((one) => {
+      const { centre_um: centre, radius_um: radius } = one as { centre_um: Point; radius_um: number };
+      return Math.hypot(touch.at[0] - centre[0], touch.at[1] - centre[1]) > radius;
+    });
+    if (left && left.length < (this.discs()?.length ?? 0)) return this.restart([`map.discs=${text(left)}`]);
+    this.say('There is nothing here that can be removed.');
+  }
+
+  private async apply(key: string, value: Json): Promise<void> {
+    if (!this.parameters.isAtOnce(key)) return this.restart([`${key}=${text(value)}`]);
+    const answer = await this.parameters.change(key, value);
+    this.say(answer?.issues.map((one) => one.text).join(' ') ?? '');
+  }
+
+  private async restart(settings: string[]): Promise<void> {
+    const answer = await this.parameters.restart(settings);
+    const trouble = answer.issues.map((one) => one.text).join(' ');
+    this.say(trouble || 'The run begins anew.', trouble !== '');
+  }
+}
+
+function rounded([x, y]: Point): Point {
+  return [Math.round(x * 10) / 10, Math.round(y * 10) / 10];
+}

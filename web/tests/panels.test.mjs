@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a person does around the scene: time, parameters, plots, record.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { openPage, program, root, startBrowser, startLab } from './lab.mjs';
+
+let browser;
+before(async () => (browser = await startBrowser()));
+after(() => browser.close());
+
+/** Opens a scenario in a lab of its own, calls `act` with its page and ends both. */
+async function inLab(file, act) {
+  const lab = await startLab(file);
+  const lookedAt = await openPage(browser, lab.url);
+  await lookedAt.page.waitForSelector('.form .field', { state: 'attached' });
+  await act(lookedAt.page, lookedAt);
+  await lookedAt.close();
+  assert.equal(await lab.stop(), 0);
+}
+
+const clock = async (page) => Number.parseFloat(await page.locator('.clock').innerText());
+/** Waits until a function of the page gives something; the policy forbids page.waitForFunction. */
+async function until(page, holds, wanted) {
+  for (const end = Date.now() + 30_000; Date.now() < end; await page.waitForTimeout(50))
+    if (await page.evaluate(holds, wanted)) return;
+  assert.fail(`never: ${holds}`);
+}
+
+test('keys play, tick, seek, change the speed and show themselves', () =>
+  inLab('scenarios/first_flight.yaml', async (page, { picture }) => {
+    await page.keyboard.press('.');
+    await page.keyboard.press('.');
+    await until(page, () => document.querySelector('.scrub').max >= 1);
+    await page.keyboard.press('+');
+    await until(page, () => document.querySelector('.speed').value === '2');
+    await page.keyboard.press('Space');
+    await until(page, () => Number.parseFloat(document.querySelector('.clock').value) > 2);
+    await page.keyboard.press('Space');
+    await until(page, () => document.querySelector('.play').textContent.includes('Play'));
+    const there = await clock(page);
+    await page.keyboard.press('Home');
+    await until(page, () => Number.parseFloat(document.querySelector('.clock').value) < 0.3);
+    await page.keyboard.press('ArrowRight');
+    await page.keyboard.press('End');
+    await until(page, (t) => Number.parseFloat(document.querySelector('.clock').value) >= t, there);
+    await page.keyboard.press('?');
+    await page.waitForSelector('dialog[open]');
+    await picture('keys');
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('m');
+    await page.waitForSelector('[data-mode="manual"]');
+    await page.keyboard.press('m');
+    await page.waitForSelector('[data-mode="autonomous"]');
+  }));
+
+test('one scrubs over what was recorded, and a click in a plot seeks', () =>
+  inLab('scenarios/first_flight.yaml', async (page, { picture }) => {
+    await page.selectOption('.speed', '0');
+    await page.click('.play');
+    await page.waitForSelector('[data-status="solved"]', { timeout: 120_000 });
+    const end = await clock(page);
+    await page.locator('.scrub').evaluate((slider) => {
+      slider.value = String(Math.round(slider.max / 2));
+      slider.dispatchEvent(new Event('input'));
+    });
+    await until(page, (t) => Math.abs(Number.parseFloat(document.querySelector('.clock').value) - t / 2) < 0.3, end);
+    await page.getByRole('tab', { name: 'Plots' }).click();
+    const plot = page.locator('.plots .u-over').first();
+    const box = await plot.boundingBox();
+    await page.mouse.move(box.x + box.width * 0.25, box.y + box.height / 2);
+    await page.mouse.click(box.x + box.width * 0.25, box.y + box.height / 2);
+    await until(page, (t) => Number.parseFloat(document.querySelector('.clock').value) < 0.45 * t, end);
+    await page.mouse.move(box.x + box.width * 0.6, box.y + box.height / 2);
+    await page.waitForSelector('.tip:not([hidden])');
+    await picture('scrub');
+    await page.click('.live');
+    await until(page, (t) => Number.parseFloat(document.querySelector('.clock').value) >= t, end);
+  }));
+
+test('a slider changes the parameter, and the change is listed and in the command', () =>
+  inLab('scenarios/first_flight.yaml', async (page, { picture }) => {
+    const key = 'navigator.speed_um_per_s';
+    const row = page.locator(`.field[data-key="${key}"]`);
+    await page.fill('.parameters .search', 'commanded speed');
+    const before = await row.locator('.number').inputValue();
+    await row.locator('.slider').focus();
+    for (let i = 0; i < 5; ++i) await page.keyboard.press('ArrowLeft');
+    await until(page, (was) => document.getElementById('field-navigator.speed_um_per_s').value !== was, before);
+    const after = await row.locator('.number').inputValue();
+    await page.getByRole('tab', { name: 'Record' }).click();
+    await page.locator('.changes', { hasText: `${key}=${after}` }).waitFor();
+    assert.match(await page.locator('.command').innerText(), new RegExp(`microswarm run .*--set ${key}=${after}`));
+    await picture('record');
+
+    await page.selectOption('.speed', '0');
+    await page.click('.play');
+    await page.waitForSelector('[data-status="solved"]', { timeout: 120_000 });
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click('a[download="record.h5"]')]);
+    const record = join(root, 'build/web/panels.h5');
+    await download.saveAs(record);
+    assert.match(execFileSync(program, ['replay', record], { cwd: root }).toString(), /identical/);
+  }));
+
+test('a record is played and scrubbed, and its parameters only shown', () =>
+  inLab('build/web/panels.h5', async (page, { picture }) => {
+    await page.keyboard.press('Space');
+    await until(page, () => Number.parseFloat(document.querySelector('.clock').value) > 1);
+    await page.keyboard.press('Space');
+    await page.keyboard.press('Home');
+    await until(page, () => Number.parseFloat(document.querySelector('.clock').value) < 0.5);
+    assert.ok(await page.locator('[id="field-seed"]').isDisabled());
+    assert.ok(await page.locator('.tool-wall').isHidden());
+    await picture('playback');
+  }));
+
+test('a bad value is named at its field; what needs a restart waits for one', () =>
+  inLab('scenarios/first_flight.yaml', async (page, { picture }) => {
+    await page.fill('.parameters .search', 'goal_tolerance_um');
+    await page.fill('[id="field-goal_tolerance_um"]', '-5');
+    await page.keyboard.press('Enter');
+    await page.locator('.field[data-key="goal_tolerance_um"] .issue:not([hidden])').waitFor();
+    await page.fill('.parameters .search', '');
+    await page.fill('[id="field-seed"]', '7');
+    await page.keyboard.press('Enter');
+    await page.locator('.waiting', { hasText: 'One change' }).waitFor();
+    await picture('parameters');
+    await page.click('.restart');
+    await page.locator('.waiting').waitFor({ state: 'hidden' });
+    assert.equal(await page.locator('[id="field-seed"]').inputValue(), '7');
+    await page.getByRole('tab', { name: 'Record' }).click();
+    await page.locator('.command', { hasText: '--set seed=7' }).waitFor();
+  }));
+
+test('two runs stand side by side with their difference', () =>
+  inLab('scenarios/first_flight.yaml', async (page, { picture }) => {
+    await page.getByRole('tab', { name: 'Record' }).click();
+    await page.click('.record .compare');
+    await page.waitForSelector('.side[data-side="B"] .scene');
+    await page.getByRole('tab', { name: 'Parameters B' }).click();
+    const row = page.locator('[role=tabpanel]:not([hidden]) .field[data-key="navigator.speed_um_per_s"]');
+    await row.locator('.number').fill('40');
+    await page.keyboard.press('Enter');
+    await page.locator('.side[data-side="B"] .own', { hasText: '40' }).waitFor();
+    await page.getByRole('tab', { name: 'Metrics' }).click();
+    await page.selectOption('.speed', '0');
+    await page.click('.play');
+    for (const side of ['A', 'B'])
+      await page.waitForSelector(`.side[data-side="${side}"][data-status="solved"]`, { timeout: 120_000 });
+    const cells = await page.locator('tr[data-metric="time_s"] td').allInnerTexts();
+    assert.ok(Number(cells[1]) > Number(cells[0]), cells.join());
+    assert.ok(Math.abs(Number(cells[2]) - (Number(cells[1]) - Number(cells[0]))) < 0.1, cells.join());
+    await picture('compare');
+  }));
+
+/** Where a point of the map is in the window. */
+async function onScreen(page, [x, y]) {
+  const box = await page.locator('.scene canvas').boundingBox();
+  const { view } = await page.evaluate(() => {
+    const { scale, x, y } = window.microswarm.scene.view;
+    return { view: { scale, x, y } };
+  });
+  return [box.x + view.x + view.scale * x, box.y + view.y - view.scale * y];
+}
+
+async function drag(page, from, to) {
+  await page.mouse.move(...(await onScreen(page, from)));
+  await page.mouse.down();
+  await page.mouse.move(...(await onScreen(page, to)), { steps: 5 });
+  await page.mouse.up();
+}
+
+test('an obstacle dragged into the way changes the path; discs come and go', () =>
+  inLab('scenarios/first_flight.yaml', async (page, { picture }) => {
+    const changes = () => page.evaluate(() => window.microswarm.connection.standing?.changes ?? []);
+    await page.evaluate(() => {
+      const { connection } = window.microswarm;
+      connection.listen((message) => {
+        if (message.type === 'frame') window.path = message.path;
+      });
+    });
+    for (let i = 0; i < 3; ++i) await page.click('.step');
+    await until(page, () => window.path?.length > 0);
+    const before = await page.evaluate(() => window.path.join());
+    // Obstacle 1 swings about (1450, 500); at t = 0 it is there or near.
+    const place = await page.evaluate(() => {
+      const { discs } = window.microswarm.scene.motion.newest;
+      return [discs[4], discs[5]];
+    });
+    await drag(page, place, [600, 560]);
+    await until(page, () => window.microswarm.connection.standing.changes.length === 1);
+    assert.match((await changes())[0], /^obstacles\.1\.motion\.centre_um=\[/);
+    for (let i = 0; i < 30; ++i) await page.click('.step');
+    await until(page, (was) => window.path.join() !== was, before);
+    await picture('dragged');
+
+    await page.click('.tool-obstacle');
+    await page.mouse.click(...(await onScreen(page, [1500, 850])));
+    await until(page, () => window.microswarm.connection.hello.scenario.obstacles.length === 3);
+    await page.click('.tool-remove');
+    await page.mouse.click(...(await onScreen(page, [1500, 850])));
+    await until(page, () => window.microswarm.connection.hello.scenario.obstacles.length === 2);
+    await page.keyboard.press('Escape');
+    await drag(page, [1800, 500], [1700, 300]);
+    await until(page, () => Math.abs(window.microswarm.connection.hello.scenario.goal_um[0] - 1700) < 5);
+    await page.click('.tool-wall');
+    await page.mouse.click(...(await onScreen(page, [300, 850])));
+    await until(page, () => window.microswarm.connection.hello.scenario.map.discs.length === 1);
+    await picture('touched');
+    await page.keyboard.press('Escape');
+    await drag(page, [200, 500], [200, 700]);
+    await until(page, () => Math.abs(window.microswarm.connection.hello.scenario.start.y_um - 700) < 5);
+    // The restarts kept what was changed before.
+    assert.ok(Math.abs((await page.evaluate(() => window.microswarm.connection.hello.scenario.goal_um[0])) - 1700) < 5);
+  }));
+
+test('arrow keys and a gamepad steer', () =>
+  inLab('scenarios/first_flight.yaml', async (page) => {
+    await page.keyboard.press('m');
+    await page.waitForSelector('[data-mode="manual"]');
+    await page.click('.play');
+    await page.locator('.clock').click();
+    await page.keyboard.down('ArrowUp');
+    await until(page, () => {
+      const y = window.microswarm.connection.history.column('y_um');
+      return y.length > 0 && y[y.length - 1] > 520;
+    });
+    await page.keyboard.up('ArrowUp');
+    const turn = await page.evaluate(() => window.microswarm.connection.history.times.length);
+    await page.evaluate(() => (navigator.getGamepads = () => [{ connected: true, axes: [0, 1] }]));
+    await until(
+      page,
+      (since) => {
+        const y = window.microswarm.connection.history.column('y_um').slice(since);
+        return y.length > 10 && y[y.length - 1] < y[0] - 10;
+      },
+      turn,
+    );
+  }));
+
+test('the gallery has a picture for every experiment, and finds', async () => {
+  const lab = await startLab();
+  const lookedAt = await openPage(browser, lab.url);
+  const { page } = lookedAt;
+  await page.waitForSelector('.card img');
+  await page.waitForTimeout(1500);
+  await lookedAt.picture('gallery');
+  await page.fill('.search', 'twelve radar');
+  assert.ok((await page.locator('.card:visible').count()) >= 1);
+  await page.fill('.search', 'zzzz');
+  assert.equal(await page.locator('.card:visible').count(), 0);
+  await lookedAt.close();
+  await lab.stop();
+});
+
+test('the dark page and its layers', () =>
+  inLab('scenarios/papers/radar/twelve.yaml', async (page, { picture }) => {
+    await page.getByRole('button', { name: 'Light or dark' }).click();
+    await page.selectOption('.speed', '20');
+    await page.click('.play');
+    await until(page, () => Number.parseFloat(document.querySelector('.clock').value) > 15);
+    await page.click('.play');
+    await page.getByRole('tab', { name: 'Layers' }).click();
+    const radar = page.locator('.layer[data-layer="radar"] input');
+    assert.equal(await radar.isChecked(), true);
+    await radar.click();
+    assert.equal(
+      await page.evaluate(() => window.microswarm.scene.layers().find(({ name }) => name === 'radar').shown),
+      false,
+    );
+    await radar.click();
+    await page.waitForTimeout(300);
+    await picture('dark-layers');
+    await page.getByRole('tab', { name: 'Plots' }).click();
+    await page.waitForTimeout(300);
+    await picture('dark-plots');
+  }));
