@@ -172,7 +172,7 @@ TEST(Server, ARecordIsPlayedAndSoughtIn) {
   page.next();
   EXPECT_EQ(page.latest["hello"]["playback"], true);
   const std::size_t frames = run.record().frames.size();
-  EXPECT_EQ(page.next()["rows"].get_binary().size(), 64 * frames);
+  EXPECT_EQ(page.next()["rows"].get_binary().size(), 80 * frames);
   page.does(fastest);
   page.does(plays);
   EXPECT_EQ(page.ends()["frames"], frames);
