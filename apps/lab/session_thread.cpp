@@ -83,12 +83,19 @@ void SessionThread::serve() {
     if (!is_due && !is_fresh_)
       wake_.wait(lock, wakes);
     else if (!is_due || standing_.speed > 0)
-      wake_.wait_until(lock, is_due ? due_ : published_ + frame_period, wakes);
+      wake_.wait_until(lock, next_act(is_due), wakes);
     work.swap(work_);
   }
   for (const auto& one : work) one();
   if (standing_.plays && !standing_.ended && Clock::now() >= due_) advance();
   publish();
+}
+
+/// When the next tick is due, or a frame that waits may be published.
+Stop::Clock::time_point SessionThread::next_act(bool is_due) const {
+  const auto publishes = published_ + frame_period;
+  if (!is_due) return publishes;
+  return is_fresh_ ? std::min(due_, publishes) : due_;
 }
 
 void SessionThread::open() {

@@ -59,6 +59,7 @@ class SessionThread {
  private:
   void run();
   void serve();
+  Stop::Clock::time_point next_act(bool is_due) const;
   void open();
   void take_record();
   void answer(std::uint64_t page, const Request& request);

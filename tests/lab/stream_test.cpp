@@ -43,6 +43,24 @@ TEST(Stream, HelloHasScenarioMapAndCommand) {
   EXPECT_EQ(command_of({.file = "run.h5"}, true), "microswarm replay run.h5");
 }
 
+TEST(Stream, ClearanceIsThatOfTheMapInAtMostSoManyCells) {
+  const Session session(open_experiment(small_flight(), {}));
+  const Map& map = session.map();
+  const Json json = decoded(clearance_message(map));
+  const double cell = json["cell"];
+  const int columns = json["columns"], rows = json["rows"];
+  EXPECT_LE(columns * rows, 40'000);
+  EXPECT_GE(columns * cell, map.bounds().width());
+  EXPECT_GE(rows * cell, map.bounds().height());
+  const auto values = numbers<float>(json["values"]);
+  ASSERT_EQ(values.size(), static_cast<std::size_t>(columns * rows));
+  for (const auto& [column, row] : {std::pair{0, 0}, {columns / 2, rows / 3}, {columns - 2, 1}}) {
+    const Vec2 p = map.bounds().lo + Vec2{(column + 0.5) * cell, (row + 0.5) * cell};
+    const auto at = static_cast<std::size_t>(row * columns + column);
+    EXPECT_EQ(values[at], static_cast<float>(map.clearance(p)));
+  }
+}
+
 TEST(Stream, AFrameIsWhatTheSessionShows) {
   Session session(open_experiment(small_flight(), {}));
   for (int i = 0; i < 20; ++i) ASSERT_TRUE(session.step());
@@ -68,22 +86,23 @@ TEST(Stream, AFrameIsWhatTheSessionShows) {
 
 TEST(Stream, RowsAreDoublesInTheOrderOfTheirColumns) {
   const std::vector<Row> rows{{.t = 1,
-                               .position = {2, 3},
-                               .clearance = 4,
-                               .cost = 5,
-                               .goal_distance = 6,
-                               .step_time = 7,
-                               .speed = 8,
+                               .position = {7, 8},
+                               .clearance = 2,
+                               .cost = 3,
+                               .goal_distance = 4,
+                               .step_time = 5,
+                               .speed = 6,
                                .planned = true},
                               {.t = 2}};
   const Json json = decoded(rows_message(rows, {}, true));
   EXPECT_EQ(json["anew"], true);
   EXPECT_EQ(json["columns"].size(), 10u);
+  EXPECT_EQ(json["columns"][1], "x_um");
   EXPECT_EQ(json["columns"][6], "step_time_s");
   const auto values = numbers<double>(json["rows"]);
   ASSERT_EQ(values.size(), 20u);
   EXPECT_EQ((std::vector<double>{values.begin(), values.begin() + 8}),
-            (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8}));
+            (std::vector<double>{1, 7, 8, 2, 3, 4, 5, 6}));
   EXPECT_EQ(values[9], 1);
   EXPECT_EQ(values[10], 2);
 }

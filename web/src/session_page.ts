@@ -26,6 +26,7 @@ export async function sessionPage(session: number): Promise<Page> {
   const live = new Live(session, () => say('The session is closed. Open it again from the gallery.'));
   const stage = await stageFor(live);
   const { scene } = stage;
+  scene.keepFree(60); // for the tools over it
   const time = timeBar([live]);
   const parameters = new Parameters(live);
   const plots = new Plots(live, time.seek);

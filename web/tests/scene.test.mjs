@@ -25,7 +25,8 @@ async function playTo(run, file, t, { speed = 0, size } = {}) {
   run.after(() => lab.process.kill('SIGKILL'));
   const lookedAt = await openPage(browser, lab.url, size);
   const { page } = lookedAt;
-  await until(page, () => window.microswarm?.scene.pictures > 0);
+  const hasMap = () => window.microswarm && String(window.microswarm.scene.view.hi) !== '1,1';
+  await until(page, hasMap);
   await page.evaluate(
     ([speed, t]) => {
       const { connection, scene } = window.microswarm;
@@ -355,7 +356,11 @@ test('a screen of double density', async (t) => {
   const size = { width: 1000, height: 640 };
   const density = { deviceScaleFactor: 2, mobile: false };
   await screen.send('Emulation.setDeviceMetricsOverride', { ...size, ...density });
-  await until(run.page, () => document.querySelector('.scene canvas').width === 2000, 10);
+  const isSharp = () => {
+    const { width, clientWidth } = document.querySelector('.scene canvas');
+    return width === 2 * clientWidth;
+  };
+  await until(run.page, isSharp, 10);
   await run.page.waitForTimeout(500);
   const png = await run.scene(async (scene) => {
     const bytes = new Uint8Array(await (await scene.picture()).arrayBuffer());

@@ -129,7 +129,7 @@ export class Pointer {
   private point(at: Point): void {
     const isMap = this.pan ?? (!this.drag && this.on.hit(at).what.kind === 'map');
     const isHeld = this.drag || (this.pan && this.fingers.size > 0);
-    this.canvas.style.cursor = isHeld ? 'grabbing' : isMap ? 'default' : 'grab';
+    this.canvas.style.cursor = isHeld ? 'grabbing' : isMap ? '' : 'grab';
   }
 }
 

@@ -32,22 +32,11 @@ export function startsOf(scenario: Scenario): Place[] {
   return points(object(scenario['robots'])['starts_um']).map((start) => ({ at: start }));
 }
 
-/** The goals after changes such as "goal_um=[1, 2]". */
-export function goalsOf(scenario: Scenario, changes: string[]): Place[] {
-  const changed = { ...scenario };
-  for (const change of changes) {
-    const [, key, value] = /^(goal_um|goal_tolerance_um)=(.*)$/.exec(change) ?? [];
-    if (key) changed[key] = numbersIn(value!);
-  }
-  const tolerance = Number(changed['goal_tolerance_um'] ?? 0);
-  const goal = point(changed['goal_um']);
+export function goalsOf(scenario: Scenario): Place[] {
+  const tolerance = Number(scenario['goal_tolerance_um'] ?? 0);
+  const goal = point(scenario['goal_um']);
   if (goal) return [{ at: goal, tolerance }];
   return points(object(scenario['robots'])['goals_um']).map((at) => ({ at, tolerance }));
-}
-
-function numbersIn(text: string): Json {
-  const numbers = (text.match(/[-+\d.eE]+/g) ?? []).map(Number);
-  return text.trim().startsWith('[') ? numbers : (numbers[0] ?? null);
 }
 
 export function swarmType(scenario: Scenario): string {

@@ -57,11 +57,11 @@ export class Scene {
     new Obstacles(),
     new Trail(),
     new Path(),
-    this.start,
     new Target(this.goal),
     new Robots(),
     new Swarm(),
     new Radar(),
+    this.start,
     this.goal,
     new ScaleBar(),
     new Clock(),
@@ -141,6 +141,12 @@ export class Scene {
     this.follows = false;
     this.view.fit();
     this.viewChanged();
+  }
+
+  /** Fits the map below so many pixels from the top, where something covers the scene. */
+  keepFree(top: number): void {
+    this.view.head = top;
+    this.resize();
   }
 
   zoomBy(factor: number): void {

@@ -13,6 +13,7 @@ export class View {
   height = 1;
   lo: Point = [0, 0]; // of the map
   hi: Point = [1, 1];
+  head = margin; // above the fitted map [px]
   private x = 0; // of the world's origin on the screen [px]
   private y = 0;
   private isFitted = true;
@@ -43,7 +44,7 @@ export class View {
     this.scale = this.fittedScale();
     const middle = [(this.lo[0] + this.hi[0]) / 2, (this.lo[1] + this.hi[1]) / 2];
     this.x = this.width / 2 - this.scale * middle[0]!;
-    this.y = (this.height - foot + margin) / 2 + this.scale * middle[1]!;
+    this.y = (this.height - foot + this.head) / 2 + this.scale * middle[1]!;
     this.isFitted = true;
   }
 
@@ -81,7 +82,7 @@ export class View {
     return Math.max(
       Math.min(
         (this.width - 2 * margin) / (this.hi[0] - this.lo[0]),
-        (this.height - margin - foot) / (this.hi[1] - this.lo[1]),
+        (this.height - this.head - foot) / (this.hi[1] - this.lo[1]),
       ),
       1e-9,
     );

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Graphics, type Text } from 'pixi.js';
-import type { Hello, Message, Point } from '../../protocol';
+import type { Message, Point } from '../../protocol';
 import { Pin, circle, ink, label } from '../draw';
 import { type Drawing, Layer } from '../layer';
 import { type Place, goalsOf, startsOf } from '../scenario';
@@ -63,7 +63,8 @@ export class Start extends Marks {
   protected readonly word = 'start';
 
   take(message: Message): boolean {
-    return message.type === 'hello' && this.set(startsOf(message.scenario));
+    const tells = message.type === 'hello' || message.type === 'scenario';
+    return tells && this.set(startsOf(message.scenario));
   }
   protected colour({ colours }: Drawing): number {
     return colours.start;
@@ -82,13 +83,10 @@ export class Goal extends Marks {
   readonly name = 'goal';
   readonly label = 'Goal';
   protected readonly word = 'goal';
-  private hello: Hello | undefined;
 
   take(message: Message): boolean {
-    if (message.type === 'hello') this.hello = message;
-    else if (message.type !== 'standing' || !this.hello) return false;
-    const changes = message.type === 'standing' ? message.changes : [];
-    return this.set(goalsOf(this.hello.scenario, changes));
+    const tells = message.type === 'hello' || message.type === 'scenario';
+    return tells && this.set(goalsOf(message.scenario));
   }
   protected colour({ colours }: Drawing): number {
     return colours.goal;
