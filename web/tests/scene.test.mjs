@@ -183,6 +183,10 @@ test('goal, start and obstacles are taken hold of', async (t) => {
     await run.page.mouse.up();
     return run.page.evaluate(() => window.touches.splice(0));
   };
+  const disc = await run.page.evaluate(() => window.discs.slice(8, 12));
+  const touches = await drag(await screen([disc[0], disc[1]]), 'scene-drag-obstacle');
+  assert.deepEqual(touches[0].what, { kind: 'obstacle', index: disc[3] });
+  // The start comes last: the page begins anew with it.
   const scale = await run.scene((scene) => scene.view.scale);
   for (const [kind, place] of [
     ['goal', [4700, 1200]],
@@ -198,10 +202,6 @@ test('goal, start and obstacles are taken hold of', async (t) => {
     assert.ok(Math.abs(at[0] - place[0] - 40 / scale) <= pixel);
     assert.ok(Math.abs(at[1] - place[1] + 40 / scale) <= pixel);
   }
-  const disc = await run.page.evaluate(() => window.discs.slice(8, 12));
-  const touches = await drag(await screen([disc[0], disc[1]]), 'scene-drag-obstacle');
-  assert.deepEqual(touches[0].what, { kind: 'obstacle', index: disc[3] });
-
   await run.page.mouse.click(box.x + 640, box.y + 180);
   const clicks = await run.page.evaluate(() => window.touches.splice(0));
   assert.deepEqual(
