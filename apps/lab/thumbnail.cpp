@@ -53,8 +53,9 @@ class Drawing {
     const double width = view_.width() * scale_, height = view_.height() * scale_;
     return fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
-        "viewBox=\"0 0 {0:.1f} {1:.1f}\">{2}</svg>\n",
-        width, height, svg_);
+        "viewBox=\"0 0 {0:.1f} {1:.1f}\"><rect x=\"0.5\" y=\"0.5\" width=\"{3:.1f}\" "
+        "height=\"{4:.1f}\" fill=\"none\" stroke=\"#8a9099\"/>{2}</svg>\n",
+        width, height, svg_, width - 1, height - 1);
   }
 
  private:
