@@ -272,9 +272,12 @@ TEST_F(FirstRig, FromABareBoardToARun) {
       for (const double current : {largest[0], largest[1], largest[2]})
         EXPECT_NEAR(current, 0.5, 0.03);
     }
-    if (is("microswarm rig see"))
+    if (is("microswarm rig see")) {
       EXPECT_NE(said.text.find("found"), std::string::npos) << said.text;
-    if (dry) EXPECT_EQ(bench->largest(), (std::array<double, 6>{}));
+    }
+    if (dry) {
+      EXPECT_EQ(bench->largest(), (std::array<double, 6>{}));
+    }
     if (is("microswarm rig run") && !dry) {
       EXPECT_GT(bench->largest()[0], 1);
       EXPECT_LT(distance(bench->swarm(), Vec2{1550, 1000}), 30);
