@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
+#include <string>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/experiment/run/run.hpp"
@@ -19,7 +20,10 @@ namespace fs = std::filesystem;
 
 class RunVideos : public testing::Test {
  protected:
-  RunVideos() : folder_(fs::path(testing::TempDir()) / "microswarm_run_videos") {
+  RunVideos()
+      : folder_(fs::path(testing::TempDir()) /
+                (std::string("microswarm_run_videos_") +
+                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
     const fs::path file = fs::path(MICROSWARM_SOURCE_DIR) / "scenarios/first_flight.yaml";
