@@ -67,7 +67,7 @@ TEST_F(RunVideos, ShowTheRunFromItsBeginToItsEnd) {
     places.push_back(swarm_columns(frame.picture));
   }
   ASSERT_EQ(places.size(), static_cast<std::size_t>(video.pictures));
-  const Box& view = build_world(record_.scene).map->bounds();
+  const Box view = build_world(record_.scene).map->bounds();
   const double scale = (641 - 48) / view.width();
   for (const std::size_t k : {std::size_t{0}, places.size() / 2}) {
     const double t = static_cast<double>(k) * 2;
