@@ -3,14 +3,9 @@ import './app.css';
 import { comparePage } from './compare_page';
 import { element } from './dom';
 import { galleryPage } from './gallery';
+import type { Page } from './page';
 import { sessionPage } from './session_page';
 import { startTheme } from './theme';
-
-/** A page in the window, and how it is left. */
-export interface Page {
-  root: HTMLElement;
-  leave(): void;
-}
 
 let page: Page | undefined;
 

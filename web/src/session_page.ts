@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Page } from './app';
+import type { Page } from './page';
 import { openCopy } from './compare_page';
 import { element } from './dom';
 import { Drive } from './drive';
