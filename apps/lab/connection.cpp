@@ -36,11 +36,6 @@ std::optional<std::uint64_t> number_in(std::string_view text) {
   return number;
 }
 
-/// An address as in a URL.
-std::string literal(const boost::asio::ip::address& address) {
-  return address.is_v6() ? "[" + address.to_string() + "]" : address.to_string();
-}
-
 /// Requests of one connection, one after the other.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  public:
@@ -49,7 +44,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     ++shared_.connections;
     beast::error_code error;
     const auto local = stream_.socket().local_endpoint(error);
-    if (!error) local_ = literal(local.address());
+    if (!error) local_ = url_host(local.address());
   }
   ~HttpConnection() { --shared_.connections; }
   HttpConnection(const HttpConnection&) = delete;

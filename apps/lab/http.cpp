@@ -36,6 +36,10 @@ std::string percent_decoded(std::string_view text) {
   return decoded;
 }
 
+std::string url_host(const boost::asio::ip::address& address) {
+  return address.is_v6() ? "[" + address.to_string() + "]" : address.to_string();
+}
+
 void set_headers(http::fields& headers, std::string_view media_type) {
   headers.set(http::field::content_type,
               boost::beast::string_view(media_type.data(), media_type.size()));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <boost/asio/ip/address.hpp>
 #include <boost/beast/http.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -19,6 +20,9 @@ std::string_view path_of(std::string_view target);
 std::string query_of(std::string_view target, std::string_view key);
 /// Text whose bytes may be spelled "%20", and spaces "+". What is spelled wrongly stays as it is.
 std::string percent_decoded(std::string_view text);
+
+/// An address as the host of a URL: "192.168.1.4", "[::1]".
+std::string url_host(const boost::asio::ip::address& address);
 
 /// Headers that every response has: what a page may load, nothing from elsewhere; nothing is kept.
 void set_headers(boost::beast::http::fields& headers, std::string_view media_type);

@@ -4,10 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
+#include <optional>
 
-#include "microswarm/config/yaml.hpp"
+#include "microswarm/config/yaml_node.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
 #include "microswarm/core/text/text.hpp"
 
 namespace microswarm::lab {
@@ -18,27 +19,25 @@ namespace fs = std::filesystem;
 constexpr std::size_t max_entries = 2000;
 constexpr int max_visited = 50'000;  ///< files and folders
 constexpr int deepest_folder = 6;
+constexpr std::uint64_t max_listed_bytes = 1 << 20;
 
-/// Value of a key at the beginning of a line of a scenario; folded lines are joined.
-std::string top_value(std::istream& file, std::string_view key) {
-  file.clear();
-  file.seekg(0);
-  std::string value;
-  bool is_in = false;
-  for (std::string line; std::getline(file, line);) {
-    if (is_in && (line.empty() || line[0] != ' ')) break;
-    if (is_in) {
-      value += (value.empty() ? "" : " ") +
-               line.substr(std::min(line.find_first_not_of(' '), line.size()));
-    } else if (line.starts_with(key) && line.size() > key.size() && line[key.size()] == ':') {
-      value = line.substr(std::min(line.find_first_not_of(' ', key.size() + 1), line.size()));
-      if (value.starts_with('>') || value.starts_with('|')) value.clear();
-      is_in = true;
+/// The scenario's entry; nothing if the file is not YAML with a map.
+std::optional<Entry> scenario_entry(const fs::path& file) {
+  Entry entry{.file = file.string()};
+  bool has_map = false;
+  try {
+    const YamlNode root = parse_yaml(read_file(file, max_listed_bytes), entry.file);
+    for (std::size_t i = 0; i + 1 < root.items.size(); i += 2) {
+      const std::string& key = root.items[i].text;
+      has_map |= key == "map";
+      if (key == "name") entry.name = printable(root.items[i + 1].text);
+      if (key == "description") entry.description = printable(root.items[i + 1].text);
     }
+  } catch (const InputError&) {
+    return std::nullopt;
   }
-  const bool is_quoted =
-      value.size() > 1 && (value[0] == '"' || value[0] == '\'') && value.back() == value[0];
-  return printable(is_quoted ? value.substr(1, value.size() - 2) : value);
+  if (!has_map) return std::nullopt;
+  return entry;
 }
 
 bool is_within(const fs::path& file, const fs::path& folder) {
@@ -86,9 +85,7 @@ std::vector<Entry> Library::entries() const {
       if (file.extension() == ".h5") {
         list.push_back({file.string(), file.stem().string(), "Record."});
       } else if (file.extension() == ".yaml") {
-        std::ifstream text(file);
-        if (top_value(text, "map").empty()) continue;
-        list.push_back({file.string(), top_value(text, "name"), top_value(text, "description")});
+        if (auto entry = scenario_entry(file)) list.push_back(std::move(*entry));
       }
     }
   }

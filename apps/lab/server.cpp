@@ -13,6 +13,7 @@
 
 #include "lab/access.hpp"
 #include "lab/connection.hpp"
+#include "lab/http.hpp"
 #include "lab/hub.hpp"
 #include "lab/library.hpp"
 #include "lab/thumbnail.hpp"
@@ -28,10 +29,6 @@ using namespace std::chrono_literals;
 
 constexpr auto tick_period = 50ms;
 constexpr auto longest_end = 500ms;
-
-std::string literal_of(const asio::ip::address& address) {
-  return address.is_v6() ? "[" + address.to_string() + "]" : address.to_string();
-}
 
 }  // namespace
 
@@ -57,7 +54,7 @@ class Server::Impl {
 
   std::string url() const {
     const auto address = acceptors_.front().local_endpoint().address();
-    const std::string host = address.is_unspecified() ? "localhost" : literal_of(address);
+    const std::string host = address.is_unspecified() ? "localhost" : url_host(address);
     return fmt::format("http://{}:{}/?token={}", host, port_, access_->token());
   }
 

@@ -8,6 +8,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/report/picture.hpp"
 
 namespace microswarm::lab {
 namespace {
@@ -20,10 +21,11 @@ constexpr std::size_t max_drawings = 2000;
 constexpr std::size_t max_robots = 500;  // that are drawn
 constexpr double mark_radius = 5;        // px
 
-constexpr std::string_view wall_colour = "#8b929c";
-constexpr std::string_view obstacle_colour = "#d55e00";
-constexpr std::string_view swarm_colour = "#009e73";
-constexpr std::string_view goal_colour = "#6640a6";
+std::string hex(const Colour& colour) {
+  const auto part = [](double share) { return static_cast<int>(std::lround(255 * share)); };
+  return fmt::format("#{:02x}{:02x}{:02x}", part(colour.red), part(colour.green),
+                     part(colour.blue));
+}
 
 /// Draws a world in pixels, y down.
 class Drawing {
@@ -33,19 +35,19 @@ class Drawing {
         scale_(std::min(max_width / view.width(), max_height / view.height())),
         tolerance_(tolerance) {}
 
-  void polygon(const Polygon& shape, std::string_view colour) {
+  void polygon(const Polygon& shape, const Colour& colour) {
     std::string path;
     ring(shape.outer, path);
     for (const auto& hole : shape.holes) ring(hole, path);
     if (!path.empty())
-      svg_ += fmt::format("<path fill=\"{}\" fill-rule=\"evenodd\" d=\"{}\"/>", colour, path);
+      svg_ += fmt::format("<path fill=\"{}\" fill-rule=\"evenodd\" d=\"{}\"/>", hex(colour), path);
   }
-  void disc(Vec2 centre, double radius_px, std::string_view colour, bool is_ring = false) {
+  void disc(Vec2 centre, double radius_px, const Colour& colour, bool is_ring = false) {
     const Vec2 p = at(centre);
-    svg_ +=
-        fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" {}/>", p.x, p.y, radius_px,
-                    is_ring ? fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"2\"", colour)
-                            : fmt::format("fill=\"{}\"", colour));
+    svg_ += fmt::format(
+        "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" {}/>", p.x, p.y, radius_px,
+        is_ring ? fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"2\"", hex(colour))
+                : fmt::format("fill=\"{}\"", hex(colour)));
   }
   double px(double length) const { return std::max(length * scale_, 1.0); }
   std::size_t size() const { return svg_.size(); }
@@ -54,8 +56,8 @@ class Drawing {
     return fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
         "viewBox=\"0 0 {0:.1f} {1:.1f}\"><rect x=\"0.5\" y=\"0.5\" width=\"{3:.1f}\" "
-        "height=\"{4:.1f}\" fill=\"none\" stroke=\"#8a9099\"/>{2}</svg>\n",
-        width, height, svg_, width - 1, height - 1);
+        "height=\"{4:.1f}\" fill=\"none\" stroke=\"{5}\"/>{2}</svg>\n",
+        width, height, svg_, width - 1, height - 1, hex(colours::wall_edge));
   }
 
  private:
@@ -82,7 +84,7 @@ class Drawing {
   std::string svg_;
 };
 
-void draw(Drawing& drawing, const Body& body, std::string_view colour) {
+void draw(Drawing& drawing, const Body& body, const Colour& colour) {
   if (const auto* disc = std::get_if<Disc>(&body.shape))
     drawing.disc(disc->centre, drawing.px(disc->radius), colour);
   else
@@ -92,22 +94,22 @@ void draw(Drawing& drawing, const Body& body, std::string_view colour) {
 std::string drawn(const Scene& scene, double tolerance) {
   const Scenario& scenario = scene.scenario;
   Drawing drawing(scene.map.bounds, tolerance);
-  for (const Polygon& wall : scene.map.walls) drawing.polygon(wall, wall_colour);
+  for (const Polygon& wall : scene.map.walls) drawing.polygon(wall, colours::wall_edge);
   for (const Disc& disc : scene.map.discs)
-    drawing.disc(disc.centre, drawing.px(disc.radius), wall_colour);
+    drawing.disc(disc.centre, drawing.px(disc.radius), colours::wall_edge);
   std::vector<Body> bodies;
   for (const Obstacle& obstacle : scenario.obstacles) append_bodies(obstacle, 0, 0, bodies);
-  for (const Body& body : bodies) draw(drawing, body, obstacle_colour);
+  for (const Body& body : bodies) draw(drawing, body, colours::obstacle);
   if (scenario.robots) {
     const auto& robots = *scenario.robots;
     const auto few = [](const auto& list) {
       return std::span(list).first(std::min(list.size(), max_robots));
     };
-    for (const Vec2 start : few(robots.starts)) drawing.disc(start, 2, swarm_colour);
-    for (const Vec2 goal : few(robots.goals)) drawing.disc(goal, mark_radius, goal_colour, true);
+    for (const Vec2 start : few(robots.starts)) drawing.disc(start, 2, colours::swarm);
+    for (const Vec2 goal : few(robots.goals)) drawing.disc(goal, mark_radius, colours::goal, true);
   }
-  if (scenario.start) drawing.disc(scenario.start->position, mark_radius, swarm_colour);
-  if (scenario.goal) drawing.disc(*scenario.goal, mark_radius, goal_colour, true);
+  if (scenario.start) drawing.disc(scenario.start->position, mark_radius, colours::swarm);
+  if (scenario.goal) drawing.disc(*scenario.goal, mark_radius, colours::goal, true);
   return drawing.text();
 }
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Page } from './page';
 import { call } from './connection';
 import { element } from './dom';
 import { Keys } from './keys';
 import { layersTab } from './layers_tab';
 import { Live } from './live';
 import { metricsTable } from './metrics';
+import type { Page } from './page';
 import { Parameters } from './parameters';
 import { combine, keyOf } from './settings';
 import { stageFor } from './stage';
 import { tabs } from './tabs';
 import { themeSwitch } from './theme';
-import { timeBar } from './time_bar';
+import { timeBar, timeKeys } from './time_bar';
 
 /** Opens the experiment of a session a second time, with these settings, beside it. */
 export async function openCopy(live: Live, settings: string[]): Promise<void> {
@@ -40,7 +40,6 @@ export async function comparePage(numbers: number[]): Promise<Page> {
   const time = timeBar(sides.map((side) => side.live));
   const table = element('div', { class: 'table' });
   const layers = layersTab(sides.map((side) => side.stage.scene));
-  const differences = element('div', { class: 'doc differences' });
 
   const settingsOf = (live: Live) => combine(live.hello?.settings ?? [], live.standing?.changes ?? []);
   const describe = () => {
@@ -76,14 +75,9 @@ export async function comparePage(numbers: number[]): Promise<Page> {
   };
   const fit = () => sides.forEach((side) => side.stage.scene.fit());
   const keys = new Keys([
-    { keys: [' '], shown: 'space', does: 'play or pause both', act: time.play },
-    { keys: ['.'], shown: '.', does: 'a single tick', act: time.step },
+    ...timeKeys(time),
     { keys: ['ArrowLeft'], shown: '←', does: 'the frame before', act: (e) => time.seekBy(e.shiftKey ? -10 : -1) },
     { keys: ['ArrowRight'], shown: '→', does: 'the next frame', act: (e) => time.seekBy(e.shiftKey ? 10 : 1) },
-    { keys: ['Home'], shown: 'Home', does: 'the first frame', act: () => time.seek(0) },
-    { keys: ['End'], shown: 'End', does: 'the newest frame', act: time.live },
-    { keys: ['+', '='], shown: '+', does: 'faster', act: () => time.speed(1) },
-    { keys: ['-'], shown: '−', does: 'slower', act: () => time.speed(-1) },
     { keys: ['f'], shown: 'f', does: 'fit the maps', act: fit },
   ]);
   document.title = 'Compare – microswarm lab';
@@ -95,7 +89,7 @@ export async function comparePage(numbers: number[]): Promise<Page> {
       { class: 'top' },
       element('a', { href: '#/', class: 'button quiet' }, '‹ Gallery'),
       element('h1', { class: 'title' }, 'Compare'),
-      differences,
+      element('div', { class: 'spacer' }),
       trouble,
       element('button', { type: 'button', class: 'both', onclick: restart }, 'Restart both'),
       element('button', { type: 'button', title: 'Show the keys (?)', onclick: () => keys.help() }, 'Keys'),

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Page } from './page';
 import { openCopy } from './compare_page';
 import { element } from './dom';
 import { Drive } from './drive';
 import { Keys } from './keys';
 import { layersTab } from './layers_tab';
 import { Live } from './live';
+import type { Page } from './page';
 import { Parameters } from './parameters';
 import { Plots } from './plots';
 import { recordTab } from './record_tab';
 import { stageFor } from './stage';
 import { tabs } from './tabs';
 import { themeSwitch } from './theme';
-import { timeBar } from './time_bar';
+import { timeBar, timeKeys } from './time_bar';
 import { Hands } from './touch';
 
 /** The page of one session: its scene, panels and time line. */
@@ -48,15 +48,10 @@ export async function sessionPage(session: number): Promise<Page> {
     if (!drive.key(event, true)) time.seekBy(by * (event.shiftKey ? 10 : 1));
   };
   const keys = new Keys([
-    { keys: [' '], shown: 'space', does: 'play or pause', act: time.play },
-    { keys: ['.'], shown: '.', does: 'a single tick', act: time.step },
+    ...timeKeys(time),
     { keys: ['ArrowLeft'], shown: '←', does: 'the frame before (Shift: ten) · steer left', act: arrow(-1) },
     { keys: ['ArrowRight'], shown: '→', does: 'the next frame (Shift: ten) · steer right', act: arrow(1) },
     { keys: ['ArrowUp', 'ArrowDown'], shown: '↑ ↓', does: 'steer (Shift: slowly)', act: arrow(0) },
-    { keys: ['Home'], shown: 'Home', does: 'the first frame', act: () => time.seek(0) },
-    { keys: ['End'], shown: 'End', does: 'the newest frame', act: time.live },
-    { keys: ['+', '='], shown: '+', does: 'faster', act: () => time.speed(1) },
-    { keys: ['-'], shown: '−', does: 'slower', act: () => time.speed(-1) },
     { keys: ['f'], shown: 'f', does: 'fit the map', act: () => scene.fit() },
     { keys: ['l'], shown: 'l', does: 'follow the swarm', act: () => setFollow(!follows) },
     { keys: ['m'], shown: 'm', does: 'steer by hand', act: () => drive.toggle() },

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { element } from './dom';
+import type { Key } from './keys';
 import type { Live } from './live';
 import type { Standing } from './protocol';
 import { timeline } from './timeline';
@@ -21,6 +22,18 @@ export interface TimeBar {
   speed(by: number): void;
   seekBy(frames: number): void;
   seek(frame: number): void;
+}
+
+/** The keys of a time bar that every page with one has. */
+export function timeKeys(time: TimeBar): Key[] {
+  return [
+    { keys: [' '], shown: 'space', does: 'play or pause', act: time.play },
+    { keys: ['.'], shown: '.', does: 'a single tick', act: time.step },
+    { keys: ['Home'], shown: 'Home', does: 'the first frame', act: () => time.seek(0) },
+    { keys: ['End'], shown: 'End', does: 'the newest frame', act: time.live },
+    { keys: ['+', '='], shown: '+', does: 'faster', act: () => time.speed(1) },
+    { keys: ['-'], shown: '−', does: 'slower', act: () => time.speed(-1) },
+  ];
 }
 
 /** Play, pause, tick, speed and the time line of one session, or of several in step. */

@@ -38,6 +38,16 @@ double round_length(double most) {
   return power;
 }
 
+/// Draws on a white surface.
+template <class Draw>
+void draw_on_white(cairo_surface_t* surface, Draw&& draw) {
+  cairo_t* out = cairo_create(surface);
+  cairo_set_source_rgba(out, 1, 1, 1, 1);
+  cairo_paint(out);
+  draw(out);
+  cairo_destroy(out);
+}
+
 /// Writes what `draw` draws on a white page of `size` pixels.
 template <class Draw>
 void write_drawing(const std::filesystem::path& path, Vec2 size, Draw&& draw) {
@@ -53,11 +63,7 @@ void write_drawing(const std::filesystem::path& path, Vec2 size, Draw&& draw) {
     surface = cairo_pdf_surface_create_for_stream(append, &bytes, size.x, size.y);
   else
     throw InputError(path.string() + ": a picture is .png, .svg or .pdf");
-  cairo_t* out = cairo_create(surface);
-  cairo_set_source_rgba(out, 1, 1, 1, 1);
-  cairo_paint(out);
-  draw(out);
-  cairo_destroy(out);
+  draw_on_white(surface, draw);
   if (kind == ".png") cairo_surface_write_to_png_stream(surface, append, &bytes);
   cairo_surface_finish(surface);
   cairo_surface_destroy(surface);
@@ -391,11 +397,7 @@ Image Picture::raster() const {
   Image image{even(size.x), even(size.y), 3, {}};
   cairo_surface_t* surface =
       cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width, image.height);
-  cairo_t* out = cairo_create(surface);
-  cairo_set_source_rgba(out, 1, 1, 1, 1);
-  cairo_paint(out);
-  impl_->finish(out);
-  cairo_destroy(out);
+  draw_on_white(surface, [&](cairo_t* out) { impl_->finish(out); });
   cairo_surface_flush(surface);
   image.pixels.reserve(image.index(0, image.height));
   const unsigned char* data = cairo_image_surface_get_data(surface);

@@ -25,8 +25,7 @@ std::string read_file(const std::filesystem::path& path, std::uint64_t max_bytes
 /// the target's folder and keeps its extension, then call `commit()`. A reader sees the old file or
 /// the whole new one, never a part; without commit() nothing is left behind. Throws InputError
 /// "TARGET: cannot write: REASON". A target that is not a regular file, such as /dev/stdout, is
-/// written directly, unless links
-/// are refused: then it is replaced.
+/// written directly, unless links are refused: then it is replaced.
 class StagedFile {
  public:
   explicit StagedFile(std::filesystem::path target, LinkAtFile link = LinkAtFile::followed);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Graphics, type Text } from 'pixi.js';
-import type { Message, Point } from '../../protocol';
+import type { Message, Point, Scenario } from '../../protocol';
 import { Pin, circle, ink, label } from '../draw';
 import { type Drawing, Layer } from '../layer';
 import { type Place, goalsOf, startsOf } from '../scenario';
@@ -13,10 +13,11 @@ abstract class Marks extends Layer {
   private readonly pins: Pin[] = [];
   protected abstract readonly word: string;
 
-  protected set(places: Place[]): boolean {
-    const isSame = JSON.stringify(places) === JSON.stringify(this.places);
-    this.places = places;
-    return !isSame;
+  take(message: Message): boolean {
+    if (message.type !== 'hello' && message.type !== 'scenario') return false;
+    const before = JSON.stringify(this.places);
+    this.places = this.placesIn(message.scenario);
+    return JSON.stringify(this.places) !== before;
   }
 
   draw(drawing: Drawing): void {
@@ -45,6 +46,7 @@ abstract class Marks extends Layer {
     this.pins.forEach((pin, i) => pin.at(view, ...this.places[i]!.at));
   }
 
+  protected abstract readonly placesIn: (scenario: Scenario) => Place[];
   protected abstract colour(drawing: Drawing): number;
   protected abstract symbol(to: Graphics, place: Place, colour: number, paper: number): void;
 
@@ -62,10 +64,7 @@ export class Start extends Marks {
   readonly label = 'Start';
   protected readonly word = 'start';
 
-  take(message: Message): boolean {
-    const tells = message.type === 'hello' || message.type === 'scenario';
-    return tells && this.set(startsOf(message.scenario));
-  }
+  protected readonly placesIn = startsOf;
   protected colour({ colours }: Drawing): number {
     return colours.start;
   }
@@ -84,10 +83,7 @@ export class Goal extends Marks {
   readonly label = 'Goal';
   protected readonly word = 'goal';
 
-  take(message: Message): boolean {
-    const tells = message.type === 'hello' || message.type === 'scenario';
-    return tells && this.set(goalsOf(message.scenario));
-  }
+  protected readonly placesIn = goalsOf;
   protected colour({ colours }: Drawing): number {
     return colours.goal;
   }
