@@ -197,9 +197,11 @@ TEST_F(OwnDriver, OneThatIsSilentForEverEndsTheRunAndIsKilled) {
 }
 
 TEST_F(OwnDriver, GarbageEndsTheRunAndIsNotPrintedRaw) {
-  ends_with("if driven >= 30 and any(answer[2:]): return print('\\x1b[2J\\x07' + 'x' * 9)",
-            "it said '?[2J?xxxxxxxxx'");
-  ends_with("if driven >= 30 and any(answer[2:]): return print('x' * 99999)", "does not answer");
+  ends_with(
+      "if driven >= 30 and any(answer[2:]): return print('\\x1b[2J\\x07' + 'x' * 9, flush=True)",
+      "it said '?[2J?xxxxxxxxx'");
+  ends_with("if driven >= 30 and any(answer[2:]): return print('x' * 99999, flush=True)",
+            "does not answer");
 }
 
 TEST_F(OwnDriver, LiesAboutItsValuesEndTheRun) {

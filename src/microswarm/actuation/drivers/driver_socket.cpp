@@ -94,7 +94,9 @@ std::unique_ptr<LineConnection> connect_socket(const std::string& host, int port
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;
   addrinfo* found = nullptr;
-  if (const int error = ::getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &found))
+  // Without a node it is this computer, which a computer without /etc/hosts cannot look up.
+  const char* const node = host == "localhost" ? nullptr : host.c_str();
+  if (const int error = ::getaddrinfo(node, std::to_string(port).c_str(), &hints, &found))
     fail(name, ::gai_strerror(error));
   const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> addresses(found, ::freeaddrinfo);
   const Stop::Clock::time_point began = Stop::Clock::now();
