@@ -209,5 +209,41 @@ TEST(Tiff, DirectoriesInACircleEnd) {
   EXPECT_LE(pages.count(), 3);
 }
 
+/// Number in a little-endian file.
+std::uint32_t number_at(std::string_view bytes, std::size_t at, int size) {
+  std::uint32_t value = 0;
+  for (int k = size - 1; k >= 0; --k)
+    value = value << 8 | static_cast<unsigned char>(bytes[at + static_cast<std::size_t>(k)]);
+  return value;
+}
+
+/// Where the entry of a tag begins in the first directory.
+std::size_t entry_of(std::string_view bytes, std::uint32_t tag) {
+  const std::size_t directory = number_at(bytes, 4, 4);
+  for (std::size_t i = 0; i < number_at(bytes, directory, 2); ++i)
+    if (const std::size_t at = directory + 2 + 12 * i; number_at(bytes, at, 2) == tag) return at;
+  throw InputError("no such tag");
+}
+
+TEST(Tiff, AStripThatIsNotThereIsDamageNotBlack) {
+  const test::Folder folder;
+  const auto file = folder / "a.tif";
+  for (const int bits : {8, 16}) {
+    write_pages(file, 1, 37, 9, {.bits = bits});  // three strips
+    std::string bytes = read_file(file);
+    for (const std::uint32_t tag : {TIFFTAG_STRIPOFFSETS, TIFFTAG_STRIPBYTECOUNTS})
+      bytes.replace(entry_of(bytes, tag) + 4, 1, 1, '\2');
+    EXPECT_EQ(test::error_of([&] { TiffPages(test::bytes_of(bytes), "a.tif").next(); }),
+              "a.tif: picture 0 is damaged, or the file ends early")
+        << bits;
+    write_pages(file, 1, 37, 3, {.bits = bits});  // one strip
+    bytes = read_file(file);
+    bytes.replace(entry_of(bytes, TIFFTAG_STRIPOFFSETS) + 8, 4, 4, '\0');
+    EXPECT_EQ(test::error_of([&] { TiffPages(test::bytes_of(bytes), "a.tif").next(); }),
+              "a.tif: picture 0 is damaged, or the file ends early")
+        << bits;
+  }
+}
+
 }  // namespace
 }  // namespace microswarm

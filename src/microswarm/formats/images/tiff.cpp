@@ -132,6 +132,15 @@ struct TiffPages::File {
     return p;
   }
 
+  /// Whether every strip or tile has a place in the file. One without is read as black.
+  bool is_all_there() const {
+    const std::uint32_t count =
+        TIFFIsTiled(tiff) ? TIFFNumberOfTiles(tiff) : TIFFNumberOfStrips(tiff);
+    for (std::uint32_t i = 0; i < count; ++i)
+      if (TIFFGetStrileOffset(tiff, i) == 0) return false;
+    return true;
+  }
+
   /// Pixels of at most 8 bits, by the library's own conversion to red, green, blue.
   bool decode_8(const Page& p, cv::Mat& pixels) const {
     std::vector<std::uint32_t> rgba(std::size_t{p.width} * p.height);
@@ -247,7 +256,9 @@ cv::Mat TiffPages::next() {
     throw InputError(fmt::format("{}: picture {} has no samples of 1 to 16 bits", name_, next_));
   cv::Mat pixels;
   const bool deep = page.bits > 8;
-  if (!(deep ? file_->decode_deep(page, pixels) : file_->decode_8(page, pixels))) throw damaged();
+  if (!file_->is_all_there() ||
+      !(deep ? file_->decode_deep(page, pixels) : file_->decode_8(page, pixels)))
+    throw damaged();
   ++next_;
   return pixels;
 }
