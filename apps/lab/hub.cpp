@@ -14,6 +14,16 @@ void Hub::open(Opening opening, std::function<void(const Outcome<std::uint64_t>&
   if (sessions_.size() >= limits_.sessions || closing_.size() >= limits_.sessions)
     return opened({.trouble = fmt::format("{} sessions are open, which is the limit: close one",
                                           limits_.sessions)});
+  if (opening.live)
+    for (const auto& [number, running] : sessions_)
+      if (running.host->opening().live)
+        return opened({.value = number,
+                       .trouble = running.is_open ? "" : "the rig is being opened"});
+  // Its devices are there for one at a time.
+  if (opening.live && std::ranges::any_of(closing_, [](const auto& host) {
+        return host->opening().live && !host->has_ended();
+      }))
+    return opened({.trouble = "the rig is being closed: try again"});
   const std::uint64_t number = next_++;
   const std::uint64_t waits =
       wait(number, [this, number, opened = std::move(opened)](const std::string& trouble) {
@@ -22,9 +32,9 @@ void Hub::open(Opening opening, std::function<void(const Outcome<std::uint64_t>&
         if (!trouble.empty()) close(number);
         opened({.value = number, .trouble = trouble});
       });
-  sessions_[number].thread = std::make_unique<SessionThread>(
+  sessions_[number].host = make_host(
       std::move(opening),
-      SessionThread::Callbacks{.opened =
+      Host::Callbacks{.opened =
                                    [this, waits](const std::string& trouble) {
                                      post_([this, waits, trouble] { settle(waits, trouble); });
                                    },
@@ -44,8 +54,8 @@ bool Hub::has(std::uint64_t session) const {
 void Hub::close(std::uint64_t session) {
   const auto found = sessions_.find(session);
   if (found == sessions_.end()) return;
-  found->second.thread->end();
-  closing_.push_back(std::move(found->second.thread));
+  found->second.host->end();
+  closing_.push_back(std::move(found->second.host));
   sessions_.erase(found);
   std::vector<std::shared_ptr<Page>> left;
   for (const auto& [number, seat] : pages_)
@@ -71,17 +81,26 @@ void Hub::settle(std::uint64_t waiting, const std::string& trouble) {
 std::uint64_t Hub::join(std::uint64_t session, std::shared_ptr<Page> page) {
   const std::uint64_t number = next_++;
   pages_[number] = {session, std::move(page)};
-  sessions_.at(session).thread->join(number);
+  sessions_.at(session).host->join(number);
   return number;
 }
 
-void Hub::leave(std::uint64_t page) { pages_.erase(page); }
+void Hub::leave(std::uint64_t page) {
+  const auto seat = pages_.extract(page);
+  if (!seat) return;
+  const auto session = sessions_.find(seat.mapped().session);
+  if (session != sessions_.end()) session->second.host->leave(page);
+}
+
+void Hub::stop(const std::string& why) {
+  for (const auto& [number, running] : sessions_) running.host->stop(why);
+}
 
 void Hub::ask(std::uint64_t page, Request request) {
   const auto seat = pages_.find(page);
   if (seat == pages_.end()) return;
   const auto session = sessions_.find(seat->second.session);
-  if (session != sessions_.end()) session->second.thread->ask(page, std::move(request));
+  if (session != sessions_.end()) session->second.host->ask(page, std::move(request));
 }
 
 void Hub::deliver(std::uint64_t session, std::uint64_t page, const MessagePtr& message) {
@@ -106,20 +125,20 @@ void Hub::sweep() {
 }
 
 void Hub::reap() {
-  std::erase_if(closing_, [](const auto& thread) { return thread->has_ended(); });
+  std::erase_if(closing_, [](const auto& host) { return host->has_ended(); });
 }
 
 void Hub::end() {
   waiting_.clear();
   pages_.clear();
   for (auto& [number, running] : std::exchange(sessions_, {})) {
-    running.thread->end();
-    closing_.push_back(std::move(running.thread));
+    running.host->end();
+    closing_.push_back(std::move(running.host));
   }
 }
 
 bool Hub::has_ended() const {
-  return std::ranges::all_of(closing_, [](const auto& thread) { return thread->has_ended(); });
+  return std::ranges::all_of(closing_, [](const auto& host) { return host->has_ended(); });
 }
 
 }  // namespace microswarm::lab

@@ -8,8 +8,8 @@
 #include <memory>
 #include <string>
 
+#include "lab/host.hpp"
 #include "lab/limits.hpp"
-#include "lab/session_thread.hpp"
 
 namespace microswarm::lab {
 
@@ -38,12 +38,12 @@ class Hub {
 
   const Limits& limits() const { return limits_; }
 
-  /// Opens a session; `opened` gets its number.
+  /// Opens a session; `opened` gets its number. A rig has one, which is joined if it is open.
   void open(Opening opening, std::function<void(const Outcome<std::uint64_t>&)> opened);
   bool has(std::uint64_t session) const;
   /// What an open session was opened from.
   const std::filesystem::path& file_of(std::uint64_t session) const {
-    return sessions_.at(session).thread->file();
+    return sessions_.at(session).host->opening().file;
   }
   /// Ends the session and closes its pages.
   void close(std::uint64_t session);
@@ -58,6 +58,9 @@ class Hub {
   std::uint64_t join(std::uint64_t session, std::shared_ptr<Page> page);
   void leave(std::uint64_t page);
   void ask(std::uint64_t page, Request request);
+
+  /// Sets the coils of every rig to zero.
+  void stop(const std::string& why);
 
   /// Closes sessions that nobody has watched since the call before the last one.
   void sweep();
@@ -75,7 +78,7 @@ class Hub {
     bool is_welcome = false;  ///< got its hello, and gets messages for all from then on
   };
   struct Running {
-    std::unique_ptr<SessionThread> thread;
+    std::unique_ptr<Host> host;
     bool is_open = false;
     int unwatched = 0;  ///< sweeps
   };
@@ -93,7 +96,7 @@ class Hub {
   std::map<std::uint64_t, Waiting> waiting_;
   std::map<std::uint64_t, Seat> pages_;
   std::map<std::uint64_t, Running> sessions_;
-  std::list<std::unique_ptr<SessionThread>> closing_;
+  std::list<std::unique_ptr<Host>> closing_;
 };
 
 template <class T>
@@ -106,7 +109,7 @@ void Hub::fetch(std::uint64_t session, std::function<T(const Session&)> make,
       wait(session, [value, done = std::move(done)](const std::string& trouble) {
         done({.value = std::move(*value), .trouble = trouble});
       });
-  found->second.thread->with([this, number, value, make = std::move(make)](Session& of) {
+  found->second.host->with([this, number, value, make = std::move(make)](Session& of) {
     std::string trouble;
     try {
       *value = make(of);

@@ -72,7 +72,9 @@ class PageStream : public Page, public std::enable_shared_from_this<PageStream> 
 
   void take(const std::string& text) {
     try {
-      hub_.ask(number_, read_request(text));
+      Request request = read_request(text);
+      if (request.ask == Ask::beat) --unanswered_;
+      hub_.ask(number_, std::move(request));
     } catch (const InputError& error) {
       Issues issues;
       issues.add({}, error.what());

@@ -25,22 +25,32 @@ enum class Ask {
   manual,    ///< `on`: a person steers
   steer,     ///< `heading` [rad], `speed` [µm/s]: by hand
   end,       ///< ends the run in order
-  clearance  ///< sends the map's clearance to this page
+  clearance,  ///< sends the map's clearance to this page
+  beat,       ///< the page with the controls of a rig is there; not answered
+  stop,       ///< sets the coils of a rig to zero
+  control,    ///< takes the controls of a rig, if no page has them
+  arm,        ///< opens the rig anew and drives its coils
+  dry         ///< opens the rig anew and drives nothing
 };
 constexpr auto enum_names(Ask) {
-  return std::array<std::pair<Ask, std::string_view>, 13>{{{Ask::play, "play"},
-                                                           {Ask::pause, "pause"},
-                                                           {Ask::step, "step"},
-                                                           {Ask::speed, "speed"},
-                                                           {Ask::seek, "seek"},
-                                                           {Ask::live, "live"},
-                                                           {Ask::set, "set"},
-                                                           {Ask::restart, "restart"},
-                                                           {Ask::hold, "hold"},
-                                                           {Ask::manual, "manual"},
-                                                           {Ask::steer, "steer"},
-                                                           {Ask::end, "end"},
-                                                           {Ask::clearance, "clearance"}}};
+  return std::array<std::pair<Ask, std::string_view>, 18>{{{Ask::play, "play"},
+{Ask::pause, "pause"},
+{Ask::step, "step"},
+{Ask::speed, "speed"},
+{Ask::seek, "seek"},
+{Ask::live, "live"},
+{Ask::set, "set"},
+{Ask::restart, "restart"},
+{Ask::hold, "hold"},
+{Ask::manual, "manual"},
+{Ask::steer, "steer"},
+{Ask::end, "end"},
+{Ask::clearance, "clearance"},
+{Ask::beat, "beat"},
+{Ask::stop, "stop"},
+{Ask::control, "control"},
+{Ask::arm, "arm"},
+{Ask::dry, "dry"}}};
 }
 
 /// One message of a page.

@@ -58,6 +58,10 @@ class Server::Impl {
     return fmt::format("http://{}:{}/?token={}", host, port_, access_->token());
   }
 
+  void stop_rigs(const std::string& why) {
+    asio::post(io_, [this, why] { hub_.stop(why); });
+  }
+
   bool run(const Stop& stop) {
     for (Tcp::acceptor& acceptor : acceptors_) accept(acceptor);
     tick(stop);
@@ -173,5 +177,6 @@ Server::Server(ServerOptions options) : impl_(std::make_unique<Impl>(std::move(o
 Server::~Server() = default;
 std::string Server::url() const { return impl_->url(); }
 bool Server::run(const Stop& stop) { return impl_->run(stop); }
+void Server::stop_rigs(const std::string& why) { impl_->stop_rigs(why); }
 
 }  // namespace microswarm::lab

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "lab/limits.hpp"
-#include "lab/session_thread.hpp"
+#include "lab/host.hpp"
 #include "microswarm/core/execution/stop.hpp"
 
 namespace microswarm::lab {
@@ -37,6 +37,8 @@ class Server {
   /// Serves until the stop is requested. Whether all sessions and other work ended at once too; one
   /// that still reads a large file does not, and the destructor waits for it.
   bool run(const Stop& stop);
+  /// Sets the coils of every rig to zero; callable from any thread while it runs.
+  void stop_rigs(const std::string& why);
 
  private:
   class Impl;

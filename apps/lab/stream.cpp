@@ -75,13 +75,6 @@ Json bodies(std::span<const Body> list) {
 
 Json described(const std::string& json) { return Json::parse(json); }
 
-MessagePtr message(const Json& json, Message::Kind kind = Message::Kind::other) {
-  auto made = std::make_shared<Message>();
-  Json::to_cbor(json, made->bytes);
-  made->kind = kind;
-  return made;
-}
-
 /// A word of a command line for a POSIX shell.
 std::string shell_word(const std::string& text) {
   const auto is_plain = [](char c) {
@@ -129,6 +122,13 @@ std::string_view word(OperatingMode mode) {
 
 }  // namespace
 
+MessagePtr make_message(const Json& json, Message::Kind kind) {
+  auto made = std::make_shared<Message>();
+  Json::to_cbor(json, made->bytes);
+  made->kind = kind;
+  return made;
+}
+
 Row row_of(const Tick& tick) {
   const Frame& frame = tick.frame;
   return {.t = frame.t,
@@ -143,7 +143,9 @@ Row row_of(const Tick& tick) {
 }
 
 std::string command_of(const Source& source, bool is_record) {
-  std::string command = is_record ? "microswarm replay" : "microswarm run";
+  std::string command = is_record     ? "microswarm replay"
+                        : source.live ? "microswarm rig run"
+                                      : "microswarm run";
   const auto add = [&](const std::string& text) { command += " " + shell_word(text); };
   const auto add_all = [&](const char* option, const std::vector<std::string>& values) {
     for (const std::string& value : values) add(option), add(value);
@@ -155,26 +157,30 @@ std::string command_of(const Source& source, bool is_record) {
   return command;
 }
 
-MessagePtr hello_message(const Session& session, const Source& source) {
+Json hello_json(const Session& session, const Source& source) {
   const Scenario& scenario = session.scenario();
   const Map& map = session.map();
-  return message({{"type", "hello"},
-                  {"name", source.file},
-                  {"command", command_of(source, session.is_playback())},
-                  {"settings", source.settings},
-                  {"rig", source.rig},
-                  {"playback", session.is_playback()},
-                  {"scenario", described(to_json_text(scenario))},
-                  {"changeable", changeable_keys()},
-                  {"map",
-                   {{"lo", point(map.bounds().lo)},
-                    {"hi", point(map.bounds().hi)},
-                    {"walls", bodies(map.walls().bodies())}}}},
-                 Message::Kind::hello);
+  return {{"type", "hello"},
+          {"name", source.file},
+          {"command", command_of(source, session.is_playback())},
+          {"settings", source.settings},
+          {"rig", source.rig},
+          {"live", source.live},
+          {"playback", session.is_playback()},
+          {"scenario", described(to_json_text(scenario))},
+          {"changeable", changeable_keys()},
+          {"map",
+           {{"lo", point(map.bounds().lo)},
+            {"hi", point(map.bounds().hi)},
+            {"walls", bodies(map.walls().bodies())}}}};
+}
+
+MessagePtr hello_message(const Session& session, const Source& source) {
+  return make_message(hello_json(session, source), Message::Kind::hello);
 }
 
 MessagePtr scenario_message(const Scenario& scenario) {
-  return message({{"type", "scenario"}, {"scenario", described(to_json_text(scenario))}});
+  return make_message({{"type", "scenario"}, {"scenario", described(to_json_text(scenario))}});
 }
 
 MessagePtr frame_message(const SessionView& view) {
@@ -188,7 +194,7 @@ MessagePtr frame_message(const SessionView& view) {
             {"plans", view.plans}};
   if (view.target) json["target"] = point(*view.target);
   if (view.radar) json["radar"] = radar(*view.radar);
-  return message(json, Message::Kind::frame);
+  return make_message(json, Message::Kind::frame);
 }
 
 MessagePtr plan_message(const SessionView& view) {
@@ -203,7 +209,7 @@ MessagePtr plan_message(const SessionView& view) {
     circles.add(found.circle.centre);
     circles.add(static_cast<float>(found.circle.radius));
   }
-  return message({{"type", "plan"},
+  return make_message({{"type", "plan"},
                   {"plans", view.plans},
                   {"nodes", nodes.take()},
                   {"parents", parents.take()},
@@ -217,7 +223,7 @@ MessagePtr aggregation_message(const AggregationView& view) {
                        {"gate", region.gate},
                        {"next", region.next},
                        {"branches", region.branches}});
-  return message({{"type", "aggregation"},
+  return make_message({{"type", "aggregation"},
                   {"nodes", points(view.nodes)},
                   {"next", indices(view.next)},
                   {"region", indices(view.segmentation.region)},
@@ -238,7 +244,7 @@ MessagePtr clearance_message(const Map& map) {
     for (int column = 0; column < columns; ++column)
       values.add(static_cast<float>(
           map.clearance(box.lo + Vec2{(column + 0.5) * cell, (row + 0.5) * cell})));
-  return message({{"type", "clearance"},
+  return make_message({{"type", "clearance"},
                   {"lo", point(box.lo)},
                   {"cell", cell},
                   {"columns", columns},
@@ -255,7 +261,7 @@ MessagePtr rows_message(std::span<const Row> rows, std::span<const RunEvent> eve
       numbers.add(value);
   Json list = Json::array();
   for (const RunEvent& happened : events) list.push_back(event(happened));
-  return message({{"type", "rows"},
+  return make_message({{"type", "rows"},
                   {"anew", anew},
                   {"columns",
                    {"t_s", "x_um", "y_um", "clearance_um", "avoidance_cost", "goal_distance_um",
@@ -265,7 +271,7 @@ MessagePtr rows_message(std::span<const Row> rows, std::span<const RunEvent> eve
 }
 
 MessagePtr standing_message(const Standing& standing, const RunResult& result) {
-  return message({{"type", "standing"},
+  return make_message({{"type", "standing"},
                   {"plays", standing.plays},
                   {"speed", standing.speed},
                   {"looks_back", standing.looks_back},
@@ -284,7 +290,7 @@ MessagePtr standing_message(const Standing& standing, const RunResult& result) {
 MessagePtr answer_message(std::uint64_t id, const Issues& issues) {
   Json list = Json::array();
   for (const Issue& issue : issues) list.push_back({{"keys", issue.keys}, {"text", issue.text}});
-  return message({{"type", "answer"}, {"id", id}, {"issues", std::move(list)}},
+  return make_message({{"type", "answer"}, {"id", id}, {"issues", std::move(list)}},
                  Message::Kind::answer);
 }
 

@@ -2,28 +2,17 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "lab/message.hpp"
 #include "lab/request.hpp"
 #include "microswarm/core/errors/issue.hpp"
 #include "microswarm/session/session.hpp"
 
 namespace microswarm::lab {
-
-/// One message to a page: a CBOR map whose key `type` names it; docs/reference/lab-protocol.md
-/// lists them. Positions are byte strings of little-endian floats, x and y in turn [µm].
-struct Message {
-  enum class Kind { hello, frame, standing, answer, other };
-  std::string bytes;
-  Kind kind = Kind::other;
-  /// A newer one of its kind tells all that this one does.
-  bool is_latest_only() const { return kind == Kind::frame || kind == Kind::standing; }
-};
-using MessagePtr = std::shared_ptr<const Message>;
 
 /// A tick's numbers for plots, kept of every tick.
 struct Row {
@@ -55,15 +44,17 @@ struct Standing {
 /// What a session was opened from.
 struct Source {
   std::string file;
-  std::string rig;  ///< simulated; empty: none
+  std::string rig;  ///< empty: none
   std::vector<std::string> settings{};
   std::vector<std::string> rig_settings{};
+  bool live = false;  ///< on the rig in real time; else the rig is simulated
 };
 /// The command line that repeats it, for a shell.
 std::string command_of(const Source& source, bool is_record);
 
 /// What a page needs once: scenario, map, what can be changed while it runs.
 MessagePtr hello_message(const Session& session, const Source& source);
+nlohmann::json hello_json(const Session& session, const Source& source);
 /// The scenario after a change.
 MessagePtr scenario_message(const Scenario& scenario);
 MessagePtr frame_message(const SessionView& view);

@@ -5,6 +5,9 @@
 #include "commands/commands.hpp"
 #include "lab/server.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/rig/params/rig_experiment.hpp"
+#include "rig/keys/rig_keys.hpp"
+#include "rig/rig_notes.hpp"
 #include "support/options.hpp"
 
 namespace microswarm::cli {
@@ -17,6 +20,11 @@ struct LabOptions {
   std::vector<std::string> settings;
   std::string rig;
   std::vector<std::string> rig_settings;
+  bool simulate = false;
+  std::string out;
+  bool without_limits = false;
+  bool coils_cold = false;
+  bool drawn_swarm = false;
   std::vector<std::string> folders;
   std::string listen;
   int port = 0;
@@ -50,7 +58,19 @@ std::optional<lab::Opening> opening_of(const LabOptions& o) {
   lab::Opening opening{
       .file = o.file,
       .options = {.settings = o.settings, .rig = o.rig, .rig_settings = o.rig_settings}};
-  note_each(reading([&] { return open_session(opening.file, opening.options); })->notes());
+  if (o.rig.empty() || o.simulate) {
+    note_each(reading([&] { return open_session(opening.file, opening.options); })->notes());
+    return opening;
+  }
+  const RigExperiment on = reading([&] {
+    return open_rig_experiment(o.file, o.settings, o.rig, o.rig_settings);
+  });
+  note_each(on.experiment.keys.notes());
+  note_field(on.rig, on.scenario());
+  opening.live = lab::RigOpening{.out = o.out,
+                                 .without_limits = o.without_limits,
+                                 .coils_cold = o.coils_cold,
+                                 .drawn_swarm = o.drawn_swarm};
   return opening;
 }
 
@@ -68,9 +88,16 @@ int lab_command(const LabOptions& o, const Context& context) {
   print("{}\n", server.url());
   flush_output();
   if (!o.no_open) open_in_browser(server.url());
+  const bool is_live = !o.rig.empty() && !o.simulate;
+  std::optional<RigKeys> keys;
+  if (is_live)
+    keys.emplace([&] { server.stop_rigs("the emergency key was pressed"); }, [](const Key&) {},
+                 context.stop);
+  if (keys && keys->are_there()) note("space, e or Esc: coils to zero at once, as on the page\n");
   const bool has_ended = server.run(context.stop);
   // A session that still reads a large file has nothing to lose, and its reading cannot be stopped.
-  if (!has_ended) std::_Exit(ok);
+  // One with a rig is waited for.
+  if (!has_ended && !is_live) std::_Exit(ok);
   return complete;
 }
 
@@ -83,8 +110,19 @@ void add_lab(Command app, Action& action) {
   cmd.add_option("file", o->file, "Scenario (YAML) or record (run.h5) to begin with")
       .type_name("FILE");
   add_settings(cmd, o->settings, "Override a scenario value (repeatable)");
-  cmd.add_option("--rig", o->rig, "Run the scenario through this rig (YAML), simulated")
-      .type_name("FILE");
+  const Option rig =
+      cmd.add_option("--rig", o->rig, "Run the scenario on this rig (YAML), in real time")
+          .type_name("FILE");
+  cmd.add_flag("--simulate", o->simulate, "Simulate the rig, as `rig simulate` does").needs(rig);
+  cmd.add_option("--out", o->out, "Folder in which each run that drives the coils gets one")
+      .type_name("FOLDER")
+      .needs(rig);
+  cmd.add_flag("--drawn-swarm", o->drawn_swarm, "Drive coils for a simulated camera's swarm")
+      .needs(rig);
+  cmd.add_flag("--without-limits", o->without_limits,
+               "Drive coils whose file limits no current or temperature")
+      .needs(rig);
+  cmd.add_flag("--coils-cold", o->coils_cold, "The coils are at ambient temperature").needs(rig);
   cmd.add_option("--set-rig", o->rig_settings, "Override a rig value (repeatable)")
       .type_name("KEY=VALUE")
       .needs("--rig");

@@ -79,6 +79,7 @@ class LiveSession::LivePlant : public Plant {
   std::string_view fault() const override { return rig_.fault(); }
 
   LiveRig& rig() { return rig_; }
+  const RigExperiment& on() const { return on_; }
   CommandLog& log() { return log_; }
   /// What is logged, beside the coils' thread only before the first command and after the stop.
   RigLog& kept() { return kept_; }
@@ -188,6 +189,12 @@ std::optional<RecordedVideo> LiveSession::video() const {
   if (!video) return std::nullopt;
   return video->finish();
 }
+
+const Image& LiveSession::picture() const { return plant_->rig().picture(); }
+
+const CameraScale& LiveSession::camera_scale() const { return plant_->rig().scale(); }
+
+const Rig& LiveSession::rig() const { return plant_->on().rig; }
 
 int LiveSession::resumed() const { return plant_->rig().resumed(); }
 

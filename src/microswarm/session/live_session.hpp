@@ -67,6 +67,10 @@ class LiveSession : public Session {
   RigTiming timing() const;
   /// Numbers of the newest tick, in the thread that steps.
   LiveStatus status() const;
+  /// The newest picture of the camera, grey, and where it shows the world; in the thread that steps.
+  const Image& picture() const;
+  const CameraScale& camera_scale() const;
+  const Rig& rig() const;
   /// How often the coils had switched off by themselves so far.
   int resumed() const;
   /// How often the device's own limits weakened the currents so far.

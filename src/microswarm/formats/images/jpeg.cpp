@@ -36,4 +36,19 @@ void decode_jpeg_frame(std::span<const std::byte> bytes, std::string_view name, 
   }
 }
 
+std::string encode_jpeg(const Image& image, int quality) {
+  const std::unique_ptr<void, int (*)(tjhandle)> jpeg(tjInitCompress(), tjDestroy);
+  const bool grey = image.channels == 1;
+  const int sampling = grey ? TJSAMP_GRAY : TJSAMP_420;
+  std::string bytes(tjBufSize(image.width, image.height, sampling), '\0');
+  auto* data = reinterpret_cast<unsigned char*>(bytes.data());
+  unsigned long size = bytes.size();
+  if (tjCompress2(jpeg.get(), image.pixels.data(), image.width, 0, image.height,
+                  grey ? TJPF_GRAY : TJPF_RGB, &data, &size, sampling, quality,
+                  TJFLAG_NOREALLOC) != 0)
+    throw InputError(std::string("JPEG: ") + tjGetErrorStr2(jpeg.get()));
+  bytes.resize(size);
+  return bytes;
+}
+
 }  // namespace microswarm

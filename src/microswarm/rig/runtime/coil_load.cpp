@@ -28,6 +28,7 @@ void CoilLoadMeter::take(double t, const CoilOutput& output) {
   }
   weakening_.add(t, 1 - output.scale);
   load_.scale = 1 - weakening_.value();
+  load_.output = output;
 }
 
 }  // namespace microswarm

@@ -16,6 +16,7 @@ struct CoilLoad {
   double temperature = 0;                 ///< of the hottest coil, for its limit [°C]
   std::optional<double> max_temperature;  ///< its limit, if any [°C]
   double scale = 1;                       ///< least scale of the last second by the coils' limits
+  CoilOutput output;                      ///< the newest; without currents before the first
 };
 
 /// Largest value of the last second, or of a little less.

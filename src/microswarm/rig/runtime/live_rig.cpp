@@ -71,6 +71,7 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
       has_virtual_(rig.params.virtual_obstacles &&
                    !std::holds_alternative<SimulatedCamera>(rig.params.camera)),
       world_{std::move(map), has_virtual_ ? scenario.obstacles : std::vector<Obstacle>{}},
+      scale_(scale),
       camera_(std::move(camera), "camera", camera_watch(rig.params), std::move(pictures)),
       controller_(rig.system, checked(rig, scenario).field, driver,
                   scenario.start ? scenario.start->heading : 0),

@@ -88,8 +88,9 @@ class LiveRig : public Plant {
   int weakened() const;
   /// What they left of the currents the last time, in [0, 1].
   double weakened_to() const;
-  /// The newest picture and its detections.
+  /// The newest picture, where it shows the world, and its detections.
   const Image& picture() const { return grey_; }
+  const CameraScale& scale() const { return scale_; }
   const Detections& sight() const { return *detections_; }
 
  private:
@@ -103,6 +104,7 @@ class LiveRig : public Plant {
   const Rig& rig_;
   const bool has_virtual_;  // obstacles
   World world_;             // map and virtual obstacles
+  CameraScale scale_;
   NewestFrame camera_;
   CoilController controller_;
   FollowMonitor following_;

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <set>
+
+#include "lab/host.hpp"
+#include "lab/picture_sender.hpp"
+#include "lab/rig_guard.hpp"
+#include "lab/rig_stream.hpp"
+
+namespace microswarm::lab {
+
+/// A session on a rig in real time. It begins as a dry run, which drives nothing; to arm it opens
+/// the rig anew and drives the coils. One page has the controls; the others watch, and may stop it.
+class RigThread : public Host {
+ public:
+  RigThread(Opening opening, Callbacks callbacks);
+  ~RigThread() override;
+
+  void end() override;
+  void join(std::uint64_t page) override;
+  void leave(std::uint64_t page) override;
+  void ask(std::uint64_t page, Request request) override;
+  void stop(const std::string& why) override;
+
+ private:
+  void open() override;
+  void close() override;
+  void serve() override;
+  Session& session() override;
+  void welcome(std::uint64_t page) override;
+  void obey(std::uint64_t page, const Request& request, Issues& issues) override;
+  void fail(const std::string& why) override;
+
+  bool runs() const { return live_ && !publisher_.standing.ended; }
+  bool has_controls(std::uint64_t page) const;
+  void arm(std::uint64_t page, const Request& request, std::uint64_t stops);
+  void begin_run(bool dry, std::uint64_t stops);
+  void keep_last();
+  void step();
+  void end_run();
+  void tell_rig();
+  void tell_controls();
+  std::filesystem::path new_folder() const;
+
+  mutable std::mutex seats_mutex_;
+  std::set<std::uint64_t> seats_;        ///< pages; guarded
+  std::uint64_t holder_ = 0;             ///< page with the controls; guarded
+  std::atomic<bool> drives_ = false;     ///< the coils, or is about to
+
+  // Of the session's thread.
+  std::shared_ptr<LiveSession> live_;
+  std::unique_ptr<Session> last_;  ///< the run before, while none is open
+  RigStanding standing_;
+  std::vector<std::string> warnings_;
+  std::set<std::uint64_t> welcomed_;  ///< pages
+  Clock::time_point told_{};          ///< of the rig
+  PictureSender pictures_;
+  RigGuard guard_;
+};
+
+}  // namespace microswarm::lab
