@@ -10,13 +10,13 @@ const out = process.argv[2] ?? join(here, '../build/web');
 mkdirSync(out, { recursive: true });
 
 await build({
-  entryPoints: [join(here, 'src/app.ts')],
+  entryPoints: [join(here, 'src/app.ts'), join(here, 'src/beat.ts')],
   bundle: true,
   minify: true,
   format: 'esm',
   target: ['chrome110', 'firefox110'],
   legalComments: 'none',
-  outfile: join(out, 'app.js'),
+  outdir: out,
   logLevel: 'warning',
 });
 copyFileSync(join(here, 'src/index.html'), join(out, 'index.html'));

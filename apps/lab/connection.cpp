@@ -178,10 +178,11 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     auto& settings = opening.options.settings;
     settings.insert(settings.end(), asked.settings.begin(), asked.settings.end());
     stream_.expires_never();
+    const bool live = opening.live.has_value();
     shared_.hub.open(
-        std::move(opening), [self = shared_from_this()](const Outcome<std::uint64_t>& opened) {
+        std::move(opening), [self = shared_from_this(), live](const Outcome<std::uint64_t>& opened) {
           self->write(opened.trouble.empty()
-                          ? respond(self->request_, {{"session", opened.value}})
+                          ? respond(self->request_, {{"session", opened.value}, {"live", live}})
                           : lab::refuse(self->request_, http::status::bad_request, opened.trouble));
         });
   }

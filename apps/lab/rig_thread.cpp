@@ -122,6 +122,7 @@ void RigThread::begin_run(bool dry, std::uint64_t stops) {
         "the camera is simulated and the coil driver is not: real coils would be driven for a "
         "drawn swarm; for a test, start the lab with --drawn-swarm");
   const LiveOptions options{.dry = dry,
+                            .idle = dry,
                             .folder = dry ? std::filesystem::path() : new_folder(),
                             .without_limits = opening_.live->without_limits,
                             .coils_cold = opening_.live->coils_cold};

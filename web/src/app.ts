@@ -9,10 +9,12 @@ import { startTheme } from './theme';
 
 let page: Page | undefined;
 
-/** The page that the address names: #/session/7, #/compare/7/8, else the gallery. */
+/** The page that the address names: #/session/7, #/rig/7, #/compare/7/8, else the gallery. */
 function named(): Promise<Page> {
   const session = /^#\/session\/(\d+)$/.exec(location.hash);
   if (session) return sessionPage(Number(session[1]));
+  const rig = /^#\/rig\/(\d+)$/.exec(location.hash);
+  if (rig) return sessionPage(Number(rig[1]), true);
   const pair = /^#\/compare\/(\d+)\/(\d+)$/.exec(location.hash);
   if (pair) return comparePage([Number(pair[1]), Number(pair[2])]);
   return galleryPage();

@@ -42,6 +42,11 @@ export class Connection {
     });
   }
 
+  /** Sends what is not answered; nothing while the stream is not open. */
+  tell(request: Request): void {
+    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(request));
+  }
+
   close(): void {
     this.socket.onclose = null;
     this.socket.close();

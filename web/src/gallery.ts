@@ -16,8 +16,8 @@ interface Listing {
 
 /** Opens an experiment and goes to its page. */
 async function open(body: { file?: string; settings?: string[] }): Promise<void> {
-  const { session } = await call<{ session: number }>('POST', '/api/sessions', body);
-  location.hash = `#/session/${session}`;
+  const { session, live } = await call<{ session: number; live: boolean }>('POST', '/api/sessions', body);
+  location.hash = `#/${live ? 'rig' : 'session'}/${session}`;
 }
 
 /** What can be opened. What the program was started with is opened at once, the first time. */

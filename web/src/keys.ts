@@ -30,7 +30,11 @@ export class Keys {
     if (event.detail > 0 && !this.dialog.open) at?.blur();
   };
 
-  constructor(private readonly list: Key[]) {
+  /** A dialog that is not modal leaves the rest of the page in reach. */
+  constructor(
+    private readonly list: Key[],
+    private readonly isModal = true,
+  ) {
     list.push({ keys: ['?'], shown: '?', does: 'show the keys', act: () => this.help() });
     const rows = list.map((one) =>
       element('tr', {}, element('td', {}, element('kbd', {}, one.shown)), element('td', {}, one.does)),
@@ -48,7 +52,9 @@ export class Keys {
   }
 
   help(): void {
-    if (!this.dialog.open) this.dialog.showModal();
+    if (this.dialog.open) return;
+    if (this.isModal) this.dialog.showModal();
+    else this.dialog.show();
   }
 
   destroy(): void {

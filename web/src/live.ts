@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Connection } from './connection';
-import { type Answer, type Hello, type Message, type Request, type RunEvent, type Standing, doubles } from './protocol';
+import { type Answer, type Hello, type Message, type Request, type RigStanding, type RunEvent, type Standing, doubles } from './protocol';
 
 type Listener = (message: Message) => void;
 
@@ -49,6 +49,7 @@ export class History {
 export class Live {
   hello: Hello | undefined;
   standing: Standing | undefined;
+  rig: RigStanding | undefined;
   readonly history = new History();
   /** Time that the scene shows, and where the pointer is on a plot or the time line [s]. */
   shown = 0;
@@ -56,6 +57,7 @@ export class Live {
   private readonly connection: Connection;
   private readonly listeners: Listener[] = [];
   private readonly pointers: (() => void)[] = [];
+  private readonly closers: (() => void)[] = [];
   private wanted: number | undefined;
   private seeks = false;
 
@@ -63,13 +65,21 @@ export class Live {
     readonly session: number,
     onClose: () => void,
   ) {
-    this.connection = new Connection(session, onClose);
+    this.connection = new Connection(session, () => {
+      onClose();
+      for (const one of this.closers) one();
+    });
     this.connection.listen((message) => this.take(message));
   }
 
   /** Hears every message after the state here has taken it. */
   listen(listener: Listener): void {
     this.listeners.push(listener);
+  }
+
+  /** The stream has ended, and not by close(). */
+  onClose(listener: () => void): void {
+    this.closers.push(listener);
   }
 
   onPoint(listener: () => void): void {
@@ -83,6 +93,10 @@ export class Live {
 
   ask(request: Request): Promise<Answer> {
     return this.connection.ask(request);
+  }
+
+  tell(request: Request): void {
+    this.connection.tell(request);
   }
 
   /** Looks at a frame; of many wishes while the server answers only the last is sent. */
@@ -114,6 +128,7 @@ export class Live {
     if (message.type === 'hello') this.hello = message;
     if (message.type === 'scenario' && this.hello) this.hello.scenario = message.scenario;
     if (message.type === 'standing') this.standing = message;
+    if (message.type === 'rig') this.rig = message;
     if (message.type === 'frame') this.shown = Number(message.frame['t_s']);
     if (message.type === 'rows')
       this.history.take(message.columns, doubles(message.rows), message.events, message.anew);

@@ -10,6 +10,11 @@ import { at, combine, keyOf, text } from './settings';
 
 const most = 40; // entries of a list of groups that are shown
 const last = ['name', 'description', 'map'];
+const refused: Answer = {
+  type: 'answer',
+  id: 0,
+  issues: [{ keys: [], text: 'This needs a new run: stop the rig first.' }],
+};
 const unfolded = ['goal_um', 'navigator'];
 
 let schemaOnce: Promise<Schema> | undefined;
@@ -59,7 +64,8 @@ export class Parameters {
       waiting,
       more,
     );
-    const answer = await this.live.ask({ do: 'restart', settings });
+    const isArmed = this.live.rig?.state === 'armed';
+    const answer = isArmed ? refused : await this.live.ask({ do: 'restart', settings });
     if (answer.issues.length === 0) this.waiting.clear();
     this.showIssues(answer, [...waiting, ...more].map(keyOf));
     this.showWaiting();

@@ -28,10 +28,24 @@ export interface Hello {
   command: string;
   settings: string[]; // KEY=VALUE that it was opened with
   rig: string;
+  live: boolean; // on the rig in real time
+  rig_info?: RigInfo; // of one that is open
   playback: boolean;
   scenario: Scenario;
   changeable: string[];
   map: { lo: Point; hi: Point; walls: Bodies };
+}
+
+/** What a rig is. */
+export interface RigInfo {
+  name: string;
+  coils: string[];
+  real_coils: boolean;
+  real_camera: boolean;
+  max_current_a: (number | null)[];
+  max_temperature_c: (number | null)[];
+  field_mt: number;
+  warnings: string[];
 }
 
 /** The scenario after a change while it runs. */
@@ -126,16 +140,78 @@ export interface Standing {
   trouble: string;
 }
 
+/** A camera's picture: x = a u + b v + c and y = d u + e v + f [µm] of the middle of a pixel. */
+export interface Picture {
+  type: 'picture';
+  t_s: number;
+  width: number;
+  height: number;
+  to_um: [number, number, number, number, number, number];
+  jpeg: Bytes;
+}
+
+/** Median, 95th and 99th of 100 [ms]. */
+export type Quantiles = [number, number, number];
+
+/** How a rig stands, and the numbers of its run if there is one. */
+export interface RigStanding {
+  type: 'rig';
+  state: 'dry' | 'opening' | 'armed' | 'ended';
+  why: string;
+  zero_confirmed: boolean | null;
+  stop_trouble: string;
+  folder: string;
+  t_s?: number;
+  field_mt?: [number, number, number];
+  currents_a?: number[];
+  temperatures_c?: number[];
+  scale?: number;
+  device_scale?: number;
+  sight?: string;
+  robots?: number;
+  unseen?: number;
+  gap_um?: number | null;
+  speed_um_per_s?: number;
+  latency_ms?: { frame_age: Quantiles; vision: Quantiles; tick: Quantiles; coil_late: Quantiles; round_trip: Quantiles };
+  ticks?: number;
+  missed_deadlines?: number;
+  frames?: number;
+  dropped_frames?: number;
+  resumed?: number;
+  limited?: number;
+  weakened?: number;
+}
+
+/** Whether this page has the controls of the rig, or nobody has. */
+export interface Controls {
+  type: 'controls';
+  holds: boolean;
+  free: boolean;
+  pages: number;
+}
+
 export interface Answer {
   type: 'answer';
   id: number;
   issues: { keys: string[]; text: string }[];
 }
 
-export type Message = Hello | Changed | Frame | Plan | Aggregation | Clearance | Rows | Standing | Answer;
+export type Message =
+  | Hello
+  | Changed
+  | Frame
+  | Plan
+  | Aggregation
+  | Clearance
+  | Rows
+  | Standing
+  | Picture
+  | RigStanding
+  | Controls
+  | Answer;
 
 export type Request =
-  | { do: 'play' | 'pause' | 'step' | 'live' | 'end' | 'clearance' }
+  | { do: 'play' | 'pause' | 'step' | 'live' | 'end' | 'clearance' | 'beat' | 'stop' | 'control' | 'arm' | 'dry' }
   | { do: 'speed' | 'seek'; number: number }
   | { do: 'set'; key: string; value: string }
   | { do: 'restart'; settings: string[] }

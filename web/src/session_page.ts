@@ -9,14 +9,20 @@ import type { Page } from './page';
 import { Parameters } from './parameters';
 import { Plots } from './plots';
 import { recordTab } from './record_tab';
+import { rigConsole } from './rig_console';
+import { rigTab } from './rig_tab';
 import { stageFor } from './stage';
 import { tabs } from './tabs';
 import { themeSwitch } from './theme';
 import { timeBar, timeKeys } from './time_bar';
 import { Hands } from './touch';
 
-/** The page of one session: its scene, panels and time line. */
-export async function sessionPage(session: number): Promise<Page> {
+const stopKeys = [
+  { keys: [], shown: 'space, Esc', does: 'stop: coils to zero at once, while it is armed', act: () => undefined },
+];
+
+/** The page of one session: its scene, panels and time line; of a rig in real time with its console. */
+export async function sessionPage(session: number, isRig = false): Promise<Page> {
   const trouble = element('p', { class: 'trouble', role: 'alert' });
   const say = (text: string, isTrouble = true) => {
     trouble.replaceChildren(text);
@@ -33,6 +39,7 @@ export async function sessionPage(session: number): Promise<Page> {
   const layers = layersTab([scene]);
   const drive = new Drive(live);
   const hands = new Hands(live, scene, parameters, say);
+  const rig = isRig ? rigConsole(live, drive, say) : undefined;
   const compare = () =>
     openCopy(live, parameters.settings()).catch((error: Error) => say(error.message));
 
@@ -48,15 +55,15 @@ export async function sessionPage(session: number): Promise<Page> {
     if (!drive.key(event, true)) time.seekBy(by * (event.shiftKey ? 10 : 1));
   };
   const keys = new Keys([
-    ...timeKeys(time),
+    ...(isRig ? stopKeys : timeKeys(time)),
     { keys: ['ArrowLeft'], shown: '←', does: 'the frame before (Shift: ten) · steer left', act: arrow(-1) },
     { keys: ['ArrowRight'], shown: '→', does: 'the next frame (Shift: ten) · steer right', act: arrow(1) },
     { keys: ['ArrowUp', 'ArrowDown'], shown: '↑ ↓', does: 'steer (Shift: slowly)', act: arrow(0) },
     { keys: ['f'], shown: 'f', does: 'fit the map', act: () => scene.fit() },
     { keys: ['l'], shown: 'l', does: 'follow the swarm', act: () => setFollow(!follows) },
     { keys: ['m'], shown: 'm', does: 'steer by hand', act: () => drive.toggle() },
-    { keys: ['Escape'], shown: 'Esc', does: 'put the tool away', act: () => hands.choose(undefined) },
-  ]);
+    ...(isRig ? [] : [{ keys: ['Escape'], shown: 'Esc', does: 'put the tool away', act: () => hands.choose(undefined) }]),
+  ], !isRig);
   const up = (event: KeyboardEvent) => drive.key(event, false);
   const blur = () => drive.release();
   window.addEventListener('keyup', up);
@@ -70,7 +77,9 @@ export async function sessionPage(session: number): Promise<Page> {
       title.textContent = name;
       document.title = `${name} – microswarm lab`;
       root.classList.toggle('playback', message.playback);
-      hands.tools.hidden = manualButton.hidden = message.playback;
+      if (message.live && !isRig) location.hash = `#/rig/${session}`;
+      hands.tools.hidden = message.playback || isRig;
+      manualButton.hidden = message.playback || isRig;
     }
     if (message.type !== 'standing') return;
     root.dataset['status'] = message.status;
@@ -80,7 +89,8 @@ export async function sessionPage(session: number): Promise<Page> {
   });
   const root = element(
     'div',
-    { class: 'session' },
+    { class: isRig ? 'session rig' : 'session' },
+    ...(rig ? [rig.bar] : []),
     element(
       'nav',
       { class: 'top' },
@@ -110,7 +120,8 @@ export async function sessionPage(session: number): Promise<Page> {
         ),
       ),
     ),
-    tabs('session', [
+    tabs(isRig ? 'rig' : 'session', [
+      ...(isRig ? [{ name: 'Rig', panel: rigTab(live) }] : []),
       { name: 'Parameters', panel: parameters.root },
       { name: 'Layers', panel: layers.root, shown: layers.show },
       { name: 'Plots', panel: plots.root, shown: () => plots.show() },
@@ -123,6 +134,7 @@ export async function sessionPage(session: number): Promise<Page> {
     leave: () => {
       window.removeEventListener('keyup', up);
       window.removeEventListener('blur', blur);
+      rig?.destroy();
       drive.destroy();
       keys.destroy();
       plots.destroy();

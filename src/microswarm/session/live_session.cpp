@@ -53,7 +53,7 @@ class LiveSession::LivePlant : public Plant {
  public:
   LivePlant(RigExperiment on, const LiveOptions& options)
       : on_(without_following(checked(std::move(on), options), options.dry)),
-        devices_(open_devices(on_, options.dry)),
+        devices_(open_devices(on_, options.dry, options.idle)),
         kept_(log_of(on_.rig, options.note)),
         log_(options.folder, on_.rig.system, options.dry),
         video_(recorder(options.video, devices_.camera_rate)),

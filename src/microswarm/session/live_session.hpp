@@ -17,6 +17,7 @@ namespace microswarm {
 /// Options for opening a rig in real time.
 struct LiveOptions {
   bool dry = false;                ///< nothing is sent to the coils
+  bool idle = false;               ///< in a dry run, a simulated swarm stays where it is
   std::filesystem::path folder{};  ///< of commands.csv; empty: the coil outputs are not logged
   std::filesystem::path video{};   ///< of the camera; empty: none
   bool without_limits = false;     ///< the coil system need not limit current and temperature

@@ -26,6 +26,8 @@ export abstract class Layer {
   readonly world = new Container(); // in µm, y up
   readonly screen = new Container(); // in pixels, above all worlds
   shown = true;
+  /** Over a camera's picture, what it marks is seen through it. */
+  readonly isSeenThrough: boolean = false;
 
   /** Takes from a message what concerns the layer; whether it is to be drawn anew. */
   abstract take(message: Message): boolean;

@@ -8,6 +8,7 @@ import { hitMark, hitObstacle } from './hit';
 import type { Drawing, Layer } from './layer';
 import { Aggregation } from './layers/aggregation';
 import { Background } from './layers/background';
+import { Camera } from './layers/camera';
 import { Clearance } from './layers/clearance';
 import { Clock } from './layers/clock';
 import { Detections } from './layers/detections';
@@ -42,14 +43,16 @@ export class Scene {
   private readonly world = new Container();
   private readonly motion = new Motion();
   private readonly background = new Background();
+  private readonly camera = new Camera(() => this.pictureCame());
   private readonly start = new Start();
   private readonly goal = new Goal();
   private readonly obstacleTrails = new ObstacleTrails();
   private readonly ghost = new Ghost();
   private readonly listed: Layer[] = [
     this.background,
+    this.camera,
     new Clearance(),
-    new Walls(this.background),
+    new Walls([this.background, this.camera]),
     new Aggregation(),
     new Tree(),
     new Detections(),
@@ -77,6 +80,7 @@ export class Scene {
   private isRecord = false;
   private follows = false;
   private isGone = false;
+  private hasCamera = false;
 
   static async create(): Promise<Scene> {
     const renderer = new WebGLRenderer();
@@ -161,7 +165,8 @@ export class Scene {
   }
 
   layers(): { name: string; label: string; shown: boolean }[] {
-    return this.listed.map(({ name, label, shown }) => ({ name, label, shown }));
+    const listed = this.listed.filter((layer) => layer !== this.camera || this.hasCamera);
+    return listed.map(({ name, label, shown }) => ({ name, label, shown }));
   }
 
   show(name: string, on: boolean): void {
@@ -170,7 +175,7 @@ export class Scene {
       layer.shown = on;
       this.stale.add(layer);
     }
-    if (name === 'background') this.drawAnew('walls');
+    if (name === 'background' || name === 'camera') this.drawAnew('walls');
     this.ask();
     this.schedule();
   }
@@ -210,6 +215,13 @@ export class Scene {
   /** What moves, as it is shown at a time of performance.now(). */
   shownAt(now: number): Moment {
     return this.motion.at(now);
+  }
+
+  /** A picture of the camera was decoded. */
+  private pictureCame(): void {
+    if (!this.hasCamera) this.drawAnew('walls');
+    this.hasCamera = true;
+    this.schedule();
   }
 
   private ask(): void {
@@ -271,6 +283,7 @@ export class Scene {
     this.world.scale.set(this.view.scale, -this.view.scale);
     for (const layer of this.all) {
       layer.world.visible = layer.screen.visible = layer.shown;
+      layer.world.alpha = layer.isSeenThrough && this.camera.isSet ? 0.45 : 1;
       if (!layer.shown) continue;
       if (this.stale.delete(layer)) layer.draw(drawing);
       layer.place(drawing);

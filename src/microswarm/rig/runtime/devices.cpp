@@ -69,13 +69,13 @@ std::unique_ptr<FrameSource> open_camera_of(const Rig& rig) {
   return std::make_unique<PacedVideo>(open_frames(rig.folder / video.file, video.rate));
 }
 
-Devices open_devices(const RigExperiment& on, bool dry) {
+Devices open_devices(const RigExperiment& on, bool dry, bool idle) {
   const RigParams& rig = on.rig.params;
   Devices devices;
   devices.coils = dry ? simulated_coils(on.rig) : open_coils(on.rig);
   if (std::holds_alternative<SimulatedCamera>(rig.camera)) {
     devices.bench = std::make_unique<RealtimeRigSimulator>(on.scenario(), on.experiment.world,
-                                                           on.rig, std::move(devices.coils));
+                                                           on.rig, std::move(devices.coils), dry && idle);
     devices.camera = devices.bench->camera(simulated_rate);
     devices.scale = devices.bench->view().scale;
     return devices;

@@ -132,8 +132,10 @@ class RealtimeRigSimulator::Camera : public FrameSource {
 };
 
 RealtimeRigSimulator::RealtimeRigSimulator(const Scenario& scenario, const World& world,
-                                           const Rig& rig, std::unique_ptr<CoilDriver> driver)
-    : bench_(without_delay(scenario), world, rig),
+                                           const Rig& rig, std::unique_ptr<CoilDriver> driver,
+                                           bool idle)
+    : idle_(idle),
+      bench_(without_delay(scenario), world, rig),
       now_(steady_seconds()),
       coils_(std::make_unique<Coils>(*this, std::move(driver))) {}
 
@@ -156,10 +158,11 @@ SwarmPose RealtimeRigSimulator::swarm() {
 
 void RealtimeRigSimulator::catch_up() {
   const double now = steady_seconds();
+  const std::vector<double> off(static_cast<std::size_t>(idle_ ? coils_->channels() : 0));
   bench_.start_trajectory();
   while (now - now_ > 1e-6) {
     const double step = std::min(longest_step, now - now_);
-    bench_.pass(coils_->currents_at(now_), step);
+    bench_.pass(idle_ ? std::span<const double>(off) : coils_->currents_at(now_), step);
     now_ += step;
   }
 }

@@ -16,9 +16,9 @@ namespace microswarm {
 class RealtimeRigSimulator {
  public:
   /// The scenario's observation delay is ignored, since real time has its own. `driver` drives the
-  /// coils.
+  /// coils; with `idle` the simulated swarm does not feel them.
   RealtimeRigSimulator(const Scenario& scenario, const World& world, const Rig& rig,
-                       std::unique_ptr<CoilDriver> driver);
+                       std::unique_ptr<CoilDriver> driver, bool idle = false);
   /// Waits until its cameras are destroyed.
   ~RealtimeRigSimulator();
   RealtimeRigSimulator(const RealtimeRigSimulator&) = delete;
@@ -40,6 +40,7 @@ class RealtimeRigSimulator {
   std::mutex mutex_;
   std::condition_variable no_camera_;
   int cameras_ = 0;
+  const bool idle_;
   RigSimulator bench_;
   double now_;  // [s], by steady_seconds()
   std::unique_ptr<Coils> coils_;

@@ -13,6 +13,7 @@ const largest = 0.6; // of the map; what spans more is ground that moves
 export class Obstacles extends Layer {
   readonly name = 'obstacles';
   readonly label = 'Obstacles';
+  override readonly isSeenThrough = true;
   override readonly occasions = { zoom: true, motion: true };
   private readonly bodies = this.world.addChild(new Graphics());
 

@@ -20,6 +20,7 @@ interface Beam {
 export class Radar extends Layer {
   readonly name = 'radar';
   readonly label = 'Radar';
+  override readonly isSeenThrough = true;
   override readonly occasions = { zoom: true };
   private readonly sectors = this.world.addChild(new Graphics());
   private readonly circles = this.world.addChild(new Graphics());

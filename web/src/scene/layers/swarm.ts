@@ -12,6 +12,7 @@ const quarter = Math.PI / 2;
 export class Swarm extends Layer {
   readonly name = 'swarm';
   readonly label = 'Swarm';
+  override readonly isSeenThrough = true;
   override readonly occasions = { zoom: true, motion: true };
   private readonly pin = this.world.addChild(new Pin());
   private readonly body = this.pin.addChild(new Graphics());

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Graphics } from 'pixi.js';
 import { type Bodies, type Message, type Point, floats } from '../../protocol';
-import type { Background } from './background';
 import { Segments, empty, fill, ringsOf } from '../draw';
 import { type Drawing, Layer } from '../layer';
 
@@ -13,7 +12,8 @@ export class Walls extends Layer {
   private hi: Point = [0, 0];
   private bodies: Bodies | undefined;
 
-  constructor(private readonly background: Background) {
+  /** Walls over a picture are seen through. */
+  constructor(private readonly pictures: { readonly isSet: boolean }[]) {
     super();
   }
 
@@ -37,7 +37,7 @@ export class Walls extends Layer {
     const [x1, y1] = this.hi;
     const border = new Float32Array([x0, y0, x1, y0, x1, y1, x0, y1]);
     const solid = new Graphics();
-    fill(solid, bodies, colours.wall, this.background.isSet ? 0.5 : 1);
+    fill(solid, bodies, colours.wall, this.pictures.some((one) => one.isSet) ? 0.35 : 1);
     const isOutside = (v: number, i: number) => (i % 2 === 0 ? v < x0 || v > x1 : v < y0 || v > y1);
     if (bodies.flat().some((one) => one.some(isOutside))) {
       const inside = this.world.addChild(new Graphics());

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+import { element } from './dom';
+import type { Drive } from './drive';
+import type { Live } from './live';
+import type { Controls, RigInfo, RigStanding } from './protocol';
+import { number } from './numbers';
+
+const badges = {
+  dry: '○ Dry run',
+  opening: '… Opening',
+  armed: '⚡ ARMED',
+  ended: '■ Coils at zero',
+};
+
+export interface RigConsole {
+  /** The bar that nothing covers. */
+  bar: HTMLElement;
+  /** Whether the coils are driven or may be in a moment. */
+  isHot(): boolean;
+  destroy(): void;
+}
+
+/** Arms and stops a rig. Space and Esc stop it wherever the focus is, while it is armed. */
+export function rigConsole(live: Live, drive: Drive, say: (text: string, isTrouble?: boolean) => void): RigConsole {
+  let rig: RigStanding | undefined;
+  let controls: Controls | undefined;
+  let arms = false; // asked for and not answered
+  let isLost = false;
+  const isHot = () => !isLost && (arms || rig?.state === 'armed' || rig?.state === 'opening');
+  const ask = async (request: Parameters<Live['ask']>[0]) => {
+    const answer = await live.ask(request);
+    say(answer.issues.map((one) => one.text).join(' '));
+  };
+  const stop = () => void live.ask({ do: 'stop' });
+
+  const badge = element('strong', { class: 'badge-rig', role: 'status' });
+  const stopButton = element('button', { type: 'button', class: 'stop', title: 'Coils to zero at once (space or Esc)', onclick: stop }, 'STOP');
+  const words = element('span', { class: 'why' });
+  const armButton = button('Arm …', 'Drive the coils', () => openPanel());
+  const dryButton = button('Dry run', 'Begin anew and drive nothing', () => void ask({ do: 'dry' }));
+  const takeButton = button('Take the controls', 'No page has them', () => void ask({ do: 'control' }));
+  const holdButton = button('Hold', 'The swarm holds', () =>
+    void ask({ do: 'hold', on: live.standing?.mode !== 'hold' }),
+  );
+  const manualButton = button('By hand', 'Arrow keys or a gamepad steer (m)', () => drive.toggle());
+  const endButton = button('End', 'End the run in order', () => void ask({ do: 'end' }));
+
+  const facts = element('ul', {});
+  const cancel = button('Cancel', '', () => closePanel());
+  const confirm = button('Arm: drive the coils', '', () => {
+    closePanel();
+    arms = true;
+    show();
+    void ask({ do: 'arm' }).finally(() => {
+      arms = false;
+      show();
+    });
+  });
+  confirm.classList.add('danger');
+  const panel = element(
+    'div',
+    { class: 'arm-panel', role: 'alertdialog', 'aria-label': 'Arm the rig', hidden: true },
+    element('strong', {}, 'Drive the coils?'),
+    facts,
+    element('div', { class: 'row' }, cancel, confirm),
+  );
+  const openPanel = () => {
+    facts.replaceChildren(...factsOf(live.hello?.rig_info).map((one) => element('li', {}, one)));
+    panel.hidden = false;
+    cancel.focus();
+  };
+  const closePanel = () => {
+    panel.hidden = true;
+  };
+
+  const bar = element(
+    'section',
+    { class: 'rigbar', 'aria-label': 'Rig' },
+    stopButton,
+    badge,
+    words,
+    element('span', { class: 'acts' }, armButton, dryButton, holdButton, manualButton, endButton, takeButton),
+    panel,
+  );
+
+  const show = () => {
+    const state = isLost ? 'lost' : arms ? 'opening' : (rig?.state ?? 'opening');
+    bar.dataset['state'] = state;
+    badge.textContent = isLost ? '✕ Connection lost' : badges[state as keyof typeof badges];
+    words.textContent = isLost ? 'The coils go to zero by themselves: the lab, or the watchdog of their device. Open the page again.' : wordsOf(rig, controls);
+    const holds = controls?.holds ?? false;
+    const runs = rig?.state === 'dry' || rig?.state === 'armed';
+    stopButton.disabled = isLost || !(runs || isHot());
+    armButton.hidden = !holds || rig?.state === 'armed';
+    armButton.disabled = isLost || isHot();
+    dryButton.hidden = !holds || rig?.state === 'dry';
+    dryButton.disabled = isLost || isHot();
+    holdButton.hidden = manualButton.hidden = endButton.hidden = !holds || !runs;
+    holdButton.setAttribute('aria-pressed', String(live.standing?.mode === 'hold'));
+    manualButton.setAttribute('aria-pressed', String(live.standing?.mode === 'manual'));
+    takeButton.hidden = !(controls?.free ?? false);
+  };
+  live.listen((message) => {
+    if (message.type === 'rig') rig = message;
+    else if (message.type === 'controls') controls = message;
+    else if (message.type !== 'standing' && message.type !== 'hello') return;
+    show();
+  });
+  live.onClose(() => {
+    isLost = true;
+    closePanel();
+    show();
+  });
+
+  const beat = new Worker('/beat.js', { type: 'module' });
+  beat.onmessage = () => {
+    if (controls?.holds && !isLost) live.tell({ do: 'beat' });
+  };
+  const key = (event: KeyboardEvent) => {
+    if (event.key !== ' ' && event.key !== 'Escape') return;
+    if (isHot()) {
+      event.preventDefault();
+      event.stopImmediatePropagation();
+      stop();
+    } else if (event.key === 'Escape' && !panel.hidden) {
+      event.stopImmediatePropagation();
+      closePanel();
+    }
+  };
+  window.addEventListener('keydown', key, { capture: true });
+  show();
+  return {
+    bar,
+    isHot,
+    destroy: () => {
+      window.removeEventListener('keydown', key, { capture: true });
+      beat.terminate();
+    },
+  };
+}
+
+function button(label: string, title: string, act: () => void): HTMLButtonElement {
+  return element('button', { type: 'button', title, onclick: act }, label);
+}
+
+function wordsOf(rig: RigStanding | undefined, controls: Controls | undefined): string {
+  const watches = controls && !controls.holds && !controls.free ? 'Another page has the controls; you can stop it.' : '';
+  if (!rig || rig.state === 'opening') return 'The devices are being opened.';
+  if (rig.state === 'armed') return watches;
+  if (rig.state === 'dry') return watches || 'Nothing goes to the coils.';
+  const zero =
+    rig.zero_confirmed === false
+      ? 'NOT CONFIRMED by the device: use its emergency stop!'
+      : rig.zero_confirmed
+        ? 'Confirmed by the device.'
+        : '';
+  return [`${sentence(rig.why.replaceAll('_', ' '))}`, zero, rig.stop_trouble, rig.folder && `Kept in ${rig.folder}`]
+    .filter((one) => one !== '')
+    .join(' ');
+}
+
+function sentence(text: string): string {
+  return text === '' ? '' : `${text[0]?.toUpperCase()}${text.slice(1)}.`;
+}
+
+/** What a person is told before the coils are driven. */
+function factsOf(info: RigInfo | undefined): string[] {
+  if (!info) return [];
+  const limit = (values: (number | null)[], unit: string) => {
+    const known = values.filter((one): one is number => one !== null);
+    return known.length > 0 ? `at most ${number(Math.max(...known))} ${unit}` : `no limit in ${unit}`;
+  };
+  return [
+    `${info.name}: ${info.coils.length} ${info.real_coils ? 'coils are driven by a device' : 'simulated coils'}, ${info.real_camera ? 'a real camera' : 'a simulated camera'}`,
+    `Field of ${number(info.field_mt)} mT; ${limit(info.max_current_a, 'A')}, ${limit(info.max_temperature_c, '°C')}`,
+    'Space, Esc and the button stop it, and so does closing this page.',
+    ...info.warnings,
+  ];
+}

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+import { element } from './dom';
+import type { Live } from './live';
+import { number } from './numbers';
+import type { RigInfo, RigStanding } from './protocol';
+
+const latencies: [keyof NonNullable<RigStanding['latency_ms']>, string][] = [
+  ['frame_age', 'Age of a frame'],
+  ['vision', 'Vision'],
+  ['tick', 'Tick'],
+  ['coil_late', 'Currents late'],
+  ['round_trip', 'Coil driver'],
+];
+const sights: { [trouble: string]: string } = {
+  '': 'seen',
+  none: 'not seen',
+  several: 'several are seen',
+  far: 'too far from where it was',
+  size: 'of another size',
+  split: 'split into parts',
+  merged: 'merged with another',
+  robots: 'robots are missing',
+};
+
+/** The numbers of a rig: currents, temperatures, field, limits, latencies. */
+export function rigTab(live: Live): HTMLElement {
+  const root = element('div', { class: 'rig-numbers' });
+  let drawn = 0;
+  live.listen((message) => {
+    if (message.type !== 'rig' || !message.currents_a) return;
+    if (performance.now() - drawn < 90 && message.state !== 'ended') return;
+    drawn = performance.now();
+    root.replaceChildren(...sections(message, live.hello?.rig_info));
+  });
+  return root;
+}
+
+function sections(rig: RigStanding, info: RigInfo | undefined): HTMLElement[] {
+  const title = rig.state === 'dry' ? 'Currents that would be driven' : 'Currents';
+  return [
+    element('h2', {}, title),
+    bars(rig.currents_a ?? [], info?.coils ?? [], info?.max_current_a ?? [], 'A'),
+    element('h2', {}, 'Temperatures'),
+    bars(rig.temperatures_c ?? [], info?.coils ?? [], info?.max_temperature_c ?? [], '°C'),
+    element('h2', {}, 'Field'),
+    field(rig.field_mt ?? [0, 0, 0], info?.field_mt ?? 1),
+    element('h2', {}, 'State'),
+    table([
+      ['Swarm', sights[rig.sight ?? ''] ?? rig.sight ?? ''],
+      ...(rig.robots ? [['Robots unseen', `${rig.unseen ?? 0} of ${rig.robots}`] as [string, string]] : []),
+      ['Gap to walls and obstacles', rig.gap_um == null ? '–' : `${number(rig.gap_um, 3)} µm`],
+      ['Commanded speed', `${number(rig.speed_um_per_s ?? 0, 3)} µm/s`],
+      ['Limits of the coils leave', share(rig.scale ?? 1)],
+      ['Limits of the device leave', share(rig.device_scale ?? 1)],
+      ['Ticks, missed deadlines', `${rig.ticks ?? 0}, ${rig.missed_deadlines ?? 0}`],
+      ['Frames, dropped', `${rig.frames ?? 0}, ${rig.dropped_frames ?? 0}`],
+      ['Device switched off by itself', String(rig.resumed ?? 0)],
+    ]),
+    element('h2', {}, 'Latencies [ms]'),
+    element(
+      'table',
+      { class: 'metrics' },
+      element('thead', {}, row('th', ['', 'p50', 'p95', 'p99'])),
+      element(
+        'tbody',
+        {},
+        ...latencies.map(([key, label]) =>
+          row('td', [label, ...(rig.latency_ms?.[key] ?? []).map((one) => number(one, 3))]),
+        ),
+      ),
+    ),
+  ];
+}
+
+function share(value: number): string {
+  return value >= 1 - 1e-9 ? 'all' : `${number(100 * value, 3)} %`;
+}
+
+function row(kind: 'th' | 'td', cells: string[]): HTMLElement {
+  return element('tr', {}, ...cells.map((one, i) => element(i === 0 ? 'th' : kind, {}, one)));
+}
+
+function table(rows: [string, string][]): HTMLElement {
+  return element('table', { class: 'metrics' }, element('tbody', {}, ...rows.map((one) => row('td', one))));
+}
+
+/** A bar for each value, from the middle for signed ones, as far as its limit. */
+function bars(values: number[], names: string[], limits: (number | null)[], unit: string): HTMLElement {
+  const signed = unit === 'A';
+  return element(
+    'div',
+    { class: 'bars' },
+    ...values.flatMap((value, i) => {
+      const limit = limits[i] ?? null;
+      const most = limit ?? Math.max(1, ...values.map(Math.abs));
+      const meter = element('meter', {
+        min: '0',
+        max: String(most),
+        value: String(Math.abs(value)),
+        high: String(0.9 * most),
+        'aria-label': names[i] ?? String(i),
+      });
+      const text = `${signed && value > 0 ? '+' : ''}${value.toFixed(signed ? 2 : 1)}${limit === null ? '' : ` / ${number(limit, 3)}`} ${unit}`;
+      return [element('span', {}, names[i] ?? String(i)), meter, element('span', { class: 'value' }, text)];
+    }),
+  );
+}
+
+/** The field in the plane as an arrow in a circle of its amplitude, and in numbers. */
+function field([x, y, z]: [number, number, number], amplitude: number): HTMLElement {
+  const space = 'http://www.w3.org/2000/svg';
+  const svg = document.createElementNS(space, 'svg');
+  svg.setAttribute('viewBox', '-1.15 -1.15 2.3 2.3');
+  svg.setAttribute('class', 'field-vector');
+  svg.setAttribute('role', 'img');
+  svg.setAttribute('aria-label', 'Field in the plane');
+  const draw = (tag: string, attributes: { [name: string]: number }) => {
+    const one = document.createElementNS(space, tag);
+    for (const [name, value] of Object.entries(attributes)) one.setAttribute(name, String(value));
+    svg.append(one);
+  };
+  draw('circle', { r: 1 });
+  draw('line', { x2: x / amplitude, y2: -y / amplitude });
+  draw('circle', { cx: x / amplitude, cy: -y / amplitude, r: 0.07 });
+  const text = `x ${x.toFixed(2)}, y ${y.toFixed(2)}, z ${z.toFixed(2)} mT; ${number(Math.hypot(x, y, z), 3)} mT in all`;
+  return element('div', { class: 'field-row' }, svg, element('span', {}, text));
+}

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: Apache-2.0
+// The console of a rig: arming, and everything that stops it.
+import assert from 'node:assert/strict';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { openPage, root, startBrowser, startLab, startMortalBrowser } from './lab.mjs';
+
+const rig = ['scenarios/first_rig.yaml', '--rig', 'scenarios/rigs/vortex.yaml'];
+let browser;
+before(async () => (browser = await startBrowser()));
+after(() => browser.close());
+
+/** Opens the console in a lab of its own, calls `act` with its page and ends both. */
+async function onRig(act) {
+  const lab = await startLab(...rig);
+  const lookedAt = await openPage(browser, lab.url);
+  await state(lookedAt.page, 'dry');
+  await act(lookedAt.page, lookedAt, lab);
+  await lookedAt.close();
+  assert.equal(await lab.stop(), 0);
+}
+
+const state = (page, name) => page.waitForSelector(`.rigbar[data-state="${name}"]`, { timeout: 60_000 });
+const why = (page) => page.locator('.rigbar .why').innerText();
+/** Arms it. A page that is drawn in software is now and then silent for too long, which stops it. */
+async function arm(page, watcher = page) {
+  for (let attempt = 0; ; ++attempt) {
+    await page.getByRole('button', { name: 'Arm …' }).click();
+    await page.getByRole('button', { name: 'Arm: drive the coils' }).click();
+    const is = (one, name) => one.locator(`.rigbar[data-state="${name}"]`).isVisible();
+    await page.waitForSelector('.rigbar[data-state="armed"], .rigbar[data-state="ended"]', { timeout: 60_000 });
+    while (!(await is(page, 'ended'))) {
+      if ((await is(page, 'armed')) && (await is(watcher, 'armed'))) return;
+      await page.waitForTimeout(50);
+    }
+    assert.ok(attempt < 5, await why(page));
+  }
+}
+/** Waits until a function of the page gives something; the policy forbids page.waitForFunction. */
+async function until(page, holds, wanted) {
+  for (const end = Date.now() + 30_000; Date.now() < end; await page.waitForTimeout(50))
+    if (await page.evaluate(holds, wanted)) return;
+  assert.fail(`never: ${holds}`);
+}
+const swarmAt = (page) =>
+  page.evaluate(() => {
+    const { swarm } = window.microswarm.scene.shownAt(performance.now());
+    return [swarm.x, swarm.y];
+  });
+
+test('it begins as a dry run with the camera picture and its numbers', () =>
+  onRig(async (page, { picture }) => {
+    await until(page, () => window.microswarm.scene.layers().some((one) => one.name === 'camera'));
+    await page.getByRole('tab', { name: 'Rig' }).click();
+    await page.locator('.rig-numbers', { hasText: 'Latencies' }).waitFor();
+    assert.match(await why(page), /Nothing goes to the coils/);
+    await page.waitForTimeout(500);
+    await picture('rig-dry');
+    const [x] = await swarmAt(page);
+    assert.ok(Math.abs(x - 1100) < 5, `the swarm is at ${x}`);
+  }));
+
+test('arming asks once more, and Enter does not arm', () =>
+  onRig(async (page, { picture }) => {
+    await page.getByRole('button', { name: 'Arm …' }).click();
+    await page.locator('.arm-panel li').first().waitFor();
+    await picture('rig-arm');
+    await page.keyboard.press('Enter');
+    await page.locator('.arm-panel').waitFor({ state: 'hidden' });
+    await state(page, 'dry');
+    await arm(page);
+    const [before] = await swarmAt(page);
+    await until(page, (x) => window.microswarm.scene.shownAt(performance.now()).swarm.x > x + 10, before);
+    await picture('rig-armed');
+    await page.getByTitle('Light or dark').click();
+    await picture('rig-armed-dark');
+    await page.click('.stop');
+    await state(page, 'ended');
+    assert.match(await why(page), /stopped it.*Confirmed/);
+  }));
+
+for (const [name, press] of [
+  ['the button', (page) => page.click('.stop')],
+  ['space', (page) => page.keyboard.press('Space')],
+  ['Esc', (page) => page.keyboard.press('Escape')],
+  [
+    'space in a field',
+    async (page) => {
+      await page.getByRole('tab', { name: 'Parameters' }).click();
+      await page.locator('.parameters .search').focus();
+      await page.keyboard.press('Space');
+    },
+  ],
+  [
+    'Esc in the list of keys',
+    async (page) => {
+      await page.keyboard.press('?');
+      await page.waitForSelector('dialog[open]');
+      await page.keyboard.press('Escape');
+    },
+  ],
+])
+  test(`${name} stops it`, () =>
+    onRig(async (page) => {
+      await arm(page);
+      await press(page);
+      await state(page, 'ended');
+      assert.match(await why(page), /stopped it/);
+    }));
+
+// Two pages drawn in software are slow, so they are small.
+const small = { width: 480, height: 360 };
+
+/** Calls `act` with a page that has the controls and one that watches. */
+async function withWatcher(act) {
+  const lab = await startLab(...rig);
+  const mortal = await startMortalBrowser();
+  try {
+    const page = await (await mortal.browser.newContext({ viewport: small })).newPage();
+    await page.goto(lab.url);
+    await state(page, 'dry');
+    const second = await openPage(browser, lab.url, small);
+    await state(second.page, 'dry');
+    await act(page, second.page, mortal);
+    await second.close();
+  } finally {
+    mortal.kill();
+    assert.equal(await lab.stop(), 0);
+  }
+}
+
+for (const [name, end] of [
+  ['a tab that is closed', (page) => page.close()],
+  ['a browser that is killed', (_, mortal) => mortal.kill()],
+])
+  test(`${name} stops it, and another page takes the controls`, () =>
+    withWatcher(async (page, watcher, mortal) => {
+      await arm(page, watcher);
+      const began = Date.now();
+      await end(page, mortal);
+      await state(watcher, 'ended');
+      console.log(`${name}: another page saw it after ${Date.now() - began} ms`);
+      assert.match(await why(watcher), /is gone|no word/i);
+      await watcher.getByRole('button', { name: 'Take the controls' }).click();
+      await arm(watcher);
+      await watcher.click('.stop');
+      await state(watcher, 'ended');
+    }));
+
+test('a page that watches cannot arm or steer, and can stop', () =>
+  withWatcher(async (page, watcher) => {
+    for (const name of ['Arm …', 'By hand', 'Hold'])
+      assert.ok(await watcher.getByRole('button', { name }).isHidden());
+    await arm(page, watcher);
+    assert.match(await why(watcher), /Another page/);
+    await watcher.keyboard.press('Space');
+    await state(page, 'ended');
+  }));
+
+test('nothing covers the stop button', () =>
+  onRig(async (page) => {
+    const isOnTop = () =>
+      page.evaluate(() => {
+        const box = document.querySelector('.stop').getBoundingClientRect();
+        return [0.1, 0.5, 0.9].every((share) => {
+          const found = document.elementFromPoint(box.left + share * box.width, box.top + box.height / 2);
+          return found?.closest('.stop') !== null;
+        });
+      });
+    for (const size of [{ width: 1280, height: 800 }, { width: 900, height: 600 }, { width: 600, height: 700 }]) {
+      await page.setViewportSize(size);
+      assert.ok(await isOnTop());
+      await page.getByRole('button', { name: 'Keys' }).click();
+      assert.ok(await isOnTop());
+      await page.getByRole('button', { name: 'Close' }).click();
+      await page.getByRole('button', { name: 'Arm …' }).click();
+      assert.ok(await isOnTop());
+      await page.getByRole('button', { name: 'Cancel' }).click();
+      await page.evaluate(() => window.scrollTo(0, 2000));
+      assert.ok(await isOnTop());
+    }
+  }));
+
+test('arrow keys steer it by hand', () =>
+  onRig(async (page) => {
+    await arm(page);
+    await page.keyboard.press('m');
+    await page.waitForSelector('[data-mode="manual"]');
+    const [before] = await swarmAt(page);
+    await page.keyboard.down('ArrowLeft');
+    await until(page, (x) => window.microswarm.scene.shownAt(performance.now()).swarm.x < x - 8, before);
+    await page.keyboard.up('ArrowLeft');
+    await page.keyboard.press('Escape');
+    await state(page, 'ended');
+  }));
+
+/** A rig whose coils are driven by a program that writes down what it applies. */
+function rigWithDriver(folder) {
+  writeFileSync(
+    join(folder, 'driver.py'),
+    `import sys
+sys.path.insert(0, '${join(root, 'examples/drivers')}')
+sys.dont_write_bytecode = True
+import line_driver
+log = open('applied', 'a', buffering=1)
+line_driver.serve(lambda values: log.write(' '.join(map(str, values)) + '\\n'))
+`,
+  );
+  writeFileSync(join(folder, 'coils.yaml'), readFileSync(join(root, 'scenarios/rigs/helmholtz.yaml')));
+  const file = join(folder, 'rig.yaml');
+  writeFileSync(
+    file,
+    `name: own driver
+coils: coils.yaml
+field: {kind: rotating, amplitude_mt: 8, frequency_hz: 5, max_pitch_deg: 7.5}
+drive_rate_hz: 50
+driver: {type: program, command: [python3, driver.py], full_scale_a: 10, reply_timeout_s: 0.2, watchdog_s: 0.5}
+camera: {type: simulated, microscope: {um_per_px: 6}}
+safety: {lost_swarm_s: 3, max_frame_age_s: 3, deadman_s: 3, missed_deadlines: 100, max_pause_s: 3}
+`,
+  );
+  return file;
+}
+
+test('a lab that is killed leaves the coils at zero, and the page says that it is gone', async () => {
+  const folder = mkdtempSync(join(tmpdir(), 'microswarm-rig-'));
+  const applied = () => readFileSync(join(folder, 'applied'), 'utf8').trim().split('\n');
+  const isZero = (line) => line.split(' ').every((one) => Number(one) === 0);
+  const lab = await startLab('scenarios/first_rig.yaml', '--rig', rigWithDriver(folder), '--drawn-swarm');
+  const { page, picture, close } = await openPage(browser, lab.url);
+  await state(page, 'dry');
+  await arm(page);
+  for (const end = Date.now() + 20_000; isZero(applied().at(-1)) && Date.now() < end; )
+    await page.waitForTimeout(20);
+  assert.ok(!isZero(applied().at(-1)), 'the coils are driven');
+  const began = Date.now();
+  await lab.stop('SIGKILL');
+  while (!isZero(applied().at(-1)) && Date.now() < began + 5000) await page.waitForTimeout(5);
+  console.log(`killed: zero after ${Date.now() - began} ms`);
+  assert.ok(isZero(applied().at(-1)), 'the coils are at zero');
+  await state(page, 'lost');
+  assert.match(await why(page), /by themselves/);
+  await picture('rig-lost');
+  await close();
+  rmSync(folder, { recursive: true });
+});
