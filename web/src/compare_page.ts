@@ -103,6 +103,7 @@ export async function comparePage(numbers: number[]): Promise<Page> {
     ]),
     time.root,
   );
+  for (const side of sides) side.live.open();
   return {
     root,
     leave: () => {

@@ -54,7 +54,7 @@ export class Live {
   /** Time that the scene shows, and where the pointer is on a plot or the time line [s]. */
   shown = 0;
   pointed: number | undefined;
-  private readonly connection: Connection;
+  private connection: Connection | undefined;
   private readonly listeners: Listener[] = [];
   private readonly pointers: (() => void)[] = [];
   private readonly closers: (() => void)[] = [];
@@ -65,8 +65,12 @@ export class Live {
     readonly session: number,
     onClose: () => void,
   ) {
-    this.connection = new Connection(session, () => {
-      onClose();
+    this.closers.push(onClose);
+  }
+
+  /** Begins, when everybody listens who wants to. */
+  open(): void {
+    this.connection = new Connection(this.session, () => {
       for (const one of this.closers) one();
     });
     this.connection.listen((message) => this.take(message));
@@ -92,11 +96,12 @@ export class Live {
   }
 
   ask(request: Request): Promise<Answer> {
+    if (!this.connection) return Promise.reject(new Error('The session is not open.'));
     return this.connection.ask(request);
   }
 
   tell(request: Request): void {
-    this.connection.tell(request);
+    this.connection?.tell(request);
   }
 
   /** Looks at a frame; of many wishes while the server answers only the last is sent. */
@@ -111,7 +116,7 @@ export class Live {
   }
 
   close(): void {
-    this.connection.close();
+    this.connection?.close();
   }
 
   private async sendSeeks(): Promise<void> {

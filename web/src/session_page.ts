@@ -129,6 +129,7 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
     ]),
     time.root,
   );
+  live.open();
   return {
     root,
     leave: () => {
