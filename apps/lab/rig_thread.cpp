@@ -18,13 +18,11 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto rig_period = 100ms;
-constexpr double unseen_in_dry_run = 100;  // [s] that a swarm may be out of sight, and more
-constexpr int late_in_dry_run = 1'000'000;
-
 /// A dry run goes on while somebody looks for the swarm, the light or the focus.
 void be_patient(SafetyParams& safety) {
-  safety.lost_swarm = unseen_in_dry_run;
-  safety.missed_deadlines = late_in_dry_run;
+  constexpr double long_time = 100;  // [s]
+  safety.lost_swarm = safety.max_frame_age = safety.max_pause = safety.deadman = long_time;
+  safety.missed_deadlines = 1'000'000;
 }
 
 }  // namespace

@@ -110,8 +110,7 @@ for (const [name, press] of [
 /** A page without a scene, since two that are drawn in software are slow: what it hears of the rig. */
 async function plainPage(url) {
   const page = await (await browser.newContext()).newPage();
-  await page.goto(url);
-  await page.goto(new URL('/licences.txt', url).href);
+  await page.goto(url.replace('/?', '/licences.txt?'));
   await page.evaluate(() => {
     window.heard = [];
     window.socket = new WebSocket(`ws://${location.host}/api/stream/1`);
