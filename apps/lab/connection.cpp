@@ -13,6 +13,7 @@
 #include "lab/download.hpp"
 #include "lab/http.hpp"
 #include "lab/page_stream.hpp"
+#include "lab/run_export.hpp"
 #include "microswarm/core/errors/error.hpp"
 
 namespace microswarm::lab {
@@ -200,6 +201,10 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     const auto number = number_in(path.substr(0, slash));
     if (!number || !shared_.hub.has(*number) || slash == path.size()) return nothing();
     const std::string name(path.substr(slash + 1));
+    if (shared_.hub.drives(*number))
+      return refuse(http::status::conflict, "the coils are driven: stop the run first");
+    if (const auto wanted = read_run_export(name, view(request_.target())))
+      return export_run(*number, name, *wanted);
     auto make = lab::download(name, shared_.hub.file_of(*number).parent_path());
     if (!make) return nothing();
     stream_.expires_never();
@@ -207,6 +212,32 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
                                 [self = shared_from_this(), name](Outcome<Download> made) {
                                   self->send(name, std::move(made));
                                 });
+  }
+
+  /// Copies the record in the session's thread, and makes the film or picture in another.
+  void export_run(std::uint64_t session, const std::string& name, const RunExport& wanted) {
+    stream_.expires_never();
+    shared_.hub.fetch<std::shared_ptr<const Record>>(
+        session,
+        [](const Session& of) { return std::make_shared<const Record>(Record(of.record())); },
+        [self = shared_from_this(), name, wanted](Outcome<std::shared_ptr<const Record>> copied) {
+          if (!copied.trouble.empty())
+            return self->refuse(http::status::internal_server_error, copied.trouble);
+          self->shared_.export_([self, name, wanted, record = copied.value](const Stop& stop) {
+            const auto made = std::make_shared<Outcome<Download>>();
+            try {
+              made->value = make_run_export(wanted, *record, stop);
+            } catch (const std::exception& error) {
+              made->trouble = error.what();
+            }
+            self->shared_.post([self, name, made] {
+              if (!made->trouble.empty())
+                self->refuse(http::status::bad_request, made->trouble);
+              else
+                self->send(name, std::move(*made));
+            });
+          });
+        });
   }
 
   void send(const std::string& name, Outcome<Download> made) {

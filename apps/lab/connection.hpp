@@ -23,6 +23,8 @@ struct Shared {
   /// Runs work that may take a while in another thread; post() brings what it made back.
   std::function<void(std::function<void()>)> work;
   std::function<void(std::function<void()>)> post;
+  /// Runs an export, one after the other in a thread of their own, which is told to stop at the end.
+  std::function<void(std::function<void(const Stop&)>)> export_;
 };
 
 /// Serves one connection until it ends: HTTP requests, or a page's WebSocket.

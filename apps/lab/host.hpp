@@ -60,6 +60,8 @@ class Host {
   virtual void join(std::uint64_t page);
   virtual void leave(std::uint64_t page);
   virtual void ask(std::uint64_t page, Request request);
+  /// Whether it drives the coils of a rig, and has no time for anything else.
+  virtual bool drives() const { return false; }
   /// Sets the coils of a rig to zero, if it drives some.
   virtual void stop(const std::string& why);
   /// Calls `work` with the session between two ticks, in the session's thread.

@@ -45,6 +45,8 @@ class Hub {
   const std::filesystem::path& file_of(std::uint64_t session) const {
     return sessions_.at(session).host->opening().file;
   }
+  /// Whether it drives the coils of a rig.
+  bool drives(std::uint64_t session) const { return sessions_.at(session).host->drives(); }
   /// Ends the session and closes its pages.
   void close(std::uint64_t session);
   /// Calls `make` with the session in its thread, between two ticks, then `done` with the result.

@@ -24,6 +24,7 @@ class RigThread : public Host {
   void join(std::uint64_t page) override;
   void leave(std::uint64_t page) override;
   void ask(std::uint64_t page, Request request) override;
+  bool drives() const override { return drives_; }
   void stop(const std::string& why) override;
 
  private:

@@ -45,9 +45,9 @@ class Server::Impl {
   }
 
   ~Impl() {
-    hub_.end();
-    worker_.stop();
+    end();
     worker_.join();
+    exporter_.join();
   }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
@@ -66,8 +66,7 @@ class Server::Impl {
     for (Tcp::acceptor& acceptor : acceptors_) accept(acceptor);
     tick(stop);
     io_.run();
-    hub_.end();
-    worker_.stop();
+    end();
     const auto latest = Clock::now() + longest_end;
     while (!has_ended() && Clock::now() < latest) std::this_thread::sleep_for(5ms);
     return has_ended();
@@ -75,6 +74,13 @@ class Server::Impl {
 
  private:
   bool has_ended() const { return hub_.has_ended() && !works_; }
+
+  void end() {
+    ends_ = true;
+    hub_.end();
+    worker_.stop();
+    exporter_.stop();
+  }
 
   void listen() {
     port_ = options_.port;
@@ -136,7 +142,11 @@ class Server::Impl {
                     works_ = false;
                   });
                 },
-            .post = [this](std::function<void()> work) { asio::post(io_, std::move(work)); }};
+            .post = [this](std::function<void()> work) { asio::post(io_, std::move(work)); },
+            .export_ =
+                [this](std::function<void(const Stop&)> work) {
+                  asio::post(exporter_, [this, work = std::move(work)] { work(Stop(&ends_)); });
+                }};
   }
 
   void tick(const Stop& stop) {
@@ -163,9 +173,11 @@ class Server::Impl {
   std::optional<Access> access_;
   std::size_t connections_ = 0;
   std::atomic<bool> works_ = false;
+  std::atomic<bool> ends_ = false;
   asio::io_context io_{1};
   Hub hub_;
   asio::thread_pool worker_{1};
+  asio::thread_pool exporter_{1};
   asio::steady_timer clock_;
   std::vector<Tcp::acceptor> acceptors_;
   std::vector<Tcp::acceptor*> refused_;

@@ -12,7 +12,13 @@ namespace fs = std::filesystem;
 ServerOptions with_rig() {
   const fs::path scenarios = fs::path(MICROSWARM_SOURCE_DIR) / "scenarios";
   return {.opening = Opening{.file = scenarios / "first_rig.yaml",
-                             .options = {.rig = scenarios / "rigs/vortex.yaml"},
+                             .options = {.rig = scenarios / "rigs/vortex.yaml",
+                                         // A busy computer is no fault here.
+                                         .rig_settings = {"safety.lost_swarm_s=20",
+                                                          "safety.max_frame_age_s=20",
+                                                          "safety.deadman_s=20",
+                                                          "safety.max_pause_s=20",
+                                                          "safety.missed_deadlines=1000"}},
                              .live = RigOpening{}}};
 }
 
@@ -183,6 +189,19 @@ TEST_F(LabRig, ClosingTheSessionOrTheLabStopsIt) {
   TestPage again(*lab, session);
   arm(again);
   EXPECT_LT(lab->end(), soon);
+}
+
+TEST_F(LabRig, DownloadsWaitForTheEndOfARunThatDrives) {
+  TestPage page(*lab, session);
+  const std::string record = fmt::format("/api/sessions/{}/record.h5", session);
+  EXPECT_EQ(get(*lab, record).result(), http::status::ok);
+  arm(page);
+  EXPECT_EQ(get(*lab, record).result(), http::status::conflict);
+  page.ask({{"do", "stop"}});
+  page.until("rig", is_at_zero);
+  const Reply reply = get(*lab, record);
+  ASSERT_EQ(reply.result(), http::status::ok);
+  EXPECT_EQ(read_record(lab->folder.with("run.h5", reply.body())).result.status, Status::fault);
 }
 
 TEST_F(LabRig, OneRigIsOneSession) {

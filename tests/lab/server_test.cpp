@@ -305,6 +305,54 @@ TEST(Server, ASimulatedRigIsOpenedToo) {
   EXPECT_FALSE(record_of(lab, session).rig.empty());
 }
 
+TEST(Server, ARunIsExportedAsPictureAndFilm) {
+  const Lab lab;
+  const std::uint64_t session = open(lab);
+  const std::string path = "/api/sessions/" + std::to_string(session);
+  Reply reply = get(lab, path + "/picture.svg");
+  EXPECT_EQ(reply.result(), http::status::bad_request);
+  EXPECT_NE(reply.body().find("no frames"), std::string::npos) << reply.body();
+  TestPage page(lab, session);
+  page.does(fastest);
+  page.does(plays);
+  page.ends();
+  reply = get(lab, path + "/picture.svg?t=3");
+  EXPECT_EQ(reply.result(), http::status::ok);
+  EXPECT_EQ(reply[http::field::content_type], "image/svg+xml");
+  EXPECT_NE(reply.body().find("</svg>"), std::string::npos);
+  for (const char* wrong : {"/picture.svg?t=-1", "/picture.svg?t=x", "/run.mp4?speed=0",
+                            "/run.mp4?speed=nan", "/run.mp4?width=9000", "/run.mp4?width=3x"}) {
+    reply = get(lab, path + wrong);
+    EXPECT_EQ(reply.result(), http::status::bad_request) << wrong;
+  }
+  reply = get(lab, path + "/run.mp4?speed=20&width=320");
+  EXPECT_EQ(reply.result(), http::status::ok) << reply.body();
+  EXPECT_EQ(reply.body().substr(4, 4), "ftyp");
+}
+
+TEST(Server, AFilmIsStoppedAtTheEnd) {
+  Lab lab;
+  const std::uint64_t session = open(lab);
+  TestPage page(lab, session);
+  page.does(fastest);
+  page.does(plays);
+  page.ends();
+  std::thread asks([&] {
+    asio::io_context io;
+    beast::tcp_stream stream(io);
+    stream.connect(lab.endpoint());
+    http::request<http::empty_body> request{
+        http::verb::get,
+        "/api/sessions/" + std::to_string(session) + "/run.mp4?speed=0.01&width=3840", 11};
+    request.set(http::field::host, lab.host);
+    request.set(http::field::cookie, "microswarm_" + std::to_string(lab.port) + "=" + lab.token);
+    http::write(stream, request);
+    std::this_thread::sleep_for(200ms);
+  });
+  asks.join();
+  EXPECT_LT(lab.end(), 10);
+}
+
 TEST(Server, SessionsAndPagesAreLimited) {
   ServerOptions options;
   options.limits.pages = 3;

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 import { element } from './dom';
+import { exportPanel } from './export_panel';
 import type { Live } from './live';
 import { metricsTable } from './metrics';
 import type { Json } from './protocol';
+import type { Scene } from './scene/scene';
 import { shellWord } from './settings';
 
 const downloads = ['record.h5', 'scenario.yaml', 'frames.csv', 'events.csv'];
 
 /** Metrics so far, the changes that were made, the command that repeats them, and downloads. */
-export function recordTab(live: Live, compare: () => void): HTMLElement {
+export function recordTab(live: Live, scene: Scene, compare: () => void): HTMLElement {
   const metrics = element('div', { class: 'table' });
   const changes = element('ol', { class: 'changes' });
   const command = element('code', { class: 'command', tabindex: '0' });
@@ -64,6 +66,8 @@ export function recordTab(live: Live, compare: () => void): HTMLElement {
     element('div', { class: 'row' }, copy, copied),
     element('h2', {}, 'Download'),
     element('div', { class: 'row' }, ...links),
+    element('h2', {}, 'Export what is shown'),
+    exportPanel(live, scene),
     element('h2', {}, 'Compare'),
     element(
       'div',

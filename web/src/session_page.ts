@@ -125,7 +125,7 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
       { name: 'Parameters', panel: parameters.root },
       { name: 'Layers', panel: layers.root, shown: layers.show },
       { name: 'Plots', panel: plots.root, shown: () => plots.show() },
-      { name: 'Record', panel: recordTab(live, () => void compare()) },
+      { name: 'Record', panel: recordTab(live, scene, () => void compare()) },
     ]),
     time.root,
   );

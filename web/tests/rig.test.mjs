@@ -8,7 +8,14 @@ import { after, before, test } from 'node:test';
 import { decode } from 'cborg';
 import { openPage, root, startBrowser, startLab, startMortalBrowser } from './lab.mjs';
 
-const rig = ['scenarios/first_rig.yaml', '--rig', 'scenarios/rigs/vortex.yaml'];
+// A busy computer is no fault here.
+const patient = ['lost_swarm_s=20', 'max_frame_age_s=20', 'deadman_s=20', 'max_pause_s=20', 'missed_deadlines=1000'];
+const rig = [
+  'scenarios/first_rig.yaml',
+  '--rig',
+  'scenarios/rigs/vortex.yaml',
+  ...patient.flatMap((one) => ['--set-rig', `safety.${one}`]),
+];
 let browser;
 before(async () => (browser = await startBrowser()));
 after(() => browser.close());

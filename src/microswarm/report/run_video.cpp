@@ -38,11 +38,25 @@ class Film {
 
   const std::vector<Frame>& frames() const { return playback_.record().frames; }
 
-  /// The run at time t, which must not decrease.
+  /// The run at time t, which must not decrease; with a ground of pixels, which is made once.
   Image at(double t) {
-    while (next_ < frames().size() && frames()[next_].t <= t) advance();
     Picture picture(view_, title(t), size_);
     picture.ground(ground_);
+    draw(picture, t);
+    return picture.raster();
+  }
+
+  /// The run at time t, all of it as lines and areas.
+  void write(double t, const std::filesystem::path& file) {
+    Picture picture(view_, title(t), size_);
+    draw_ground(picture, *playback_.world().map, options_.report);
+    draw(picture, t);
+    picture.write(file);
+  }
+
+ private:
+  void draw(Picture& picture, double t) {
+    while (next_ < frames().size() && frames()[next_].t <= t) advance();
     picture.bodies(playback_.world().at(t).moving().bodies());
     picture.line(trail_, travelled, 2.5);
     if (tick_) picture.line(tick_->view.path, colours::path, 2.5);
@@ -51,10 +65,8 @@ class Film {
     else
       draw_swarm(picture, t);
     if (!playback_.world().obstacles.empty()) picture.legend("obstacles", colours::obstacle, true);
-    return picture.raster();
   }
 
- private:
   const Scenario& scenario() const { return playback_.scenario(); }
 
   std::string title(double t) const {
@@ -105,11 +117,21 @@ class Film {
   std::vector<Vec2> trail_;
 };
 
+void require_frames(const Record& record) {
+  if (record.frames.empty()) throw InputError("the record has no frames to show");
+}
+
 }  // namespace
+
+void write_run_picture(const Record& record, double t, const std::filesystem::path& file,
+                       const RunVideoOptions& options) {
+  require_frames(record);
+  Film(record, options).write(std::max(t, record.frames.front().t), file);
+}
 
 RunVideo write_run_video(const Record& record, const std::filesystem::path& file,
                          const RunVideoOptions& options, const Stop& stop) {
-  if (record.frames.empty()) throw InputError("the record has no frames to show");
+  require_frames(record);
   const double begin = record.frames.front().t;
   const double step = options.speed / options.rate;
   const double pictures = std::floor((record.frames.back().t - begin) / step) + 1;

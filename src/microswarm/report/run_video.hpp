@@ -29,6 +29,11 @@ struct RunVideo {
   bool stopped = false;  ///< by the caller: the video ends early
 };
 
+/// Writes what a video of the run shows at time `t` [s], at least that of the first frame, as .svg,
+/// .pdf or .png. Throws InputError if the record has no frames or the file cannot be written.
+void write_run_picture(const Record& record, double t, const std::filesystem::path& file,
+                       const RunVideoOptions& options = {});
+
 /// Writes a run as video (.mp4, .mkv, .avi), with scale bar and time: walls, obstacles, the path
 /// travelled and planned, the swarm or the robots. Between two frames of the record the swarm moves
 /// on a straight line and obstacles as their motion says; robots stay where they were recorded

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+import { element } from './dom';
+import type { Live } from './live';
+import type { Scene } from './scene/scene';
+
+const speeds = [1, 2, 4, 8, 16, 32];
+
+/** What is shown as files: a picture, a drawing, the plotted numbers, a film of the run. */
+export function exportPanel(live: Live, scene: Scene): HTMLElement {
+  const said = element('output', { class: 'doc' });
+  const speed = element('select', { 'aria-label': 'Speed of the film', title: 'Seconds of the run per second' });
+  for (const one of speeds) speed.append(element('option', { value: String(one) }, `×${one}`));
+  speed.value = '4';
+  const width = element('select', { 'aria-label': 'Width of the film' });
+  for (const one of [640, 1280, 1920]) width.append(element('option', { value: String(one) }, `${one} px`));
+  width.value = '1280';
+  const path = `/api/sessions/${live.session}`;
+  let cancel: AbortController | undefined;
+
+  const act = (label: string, name: string, title: string, make: (signal: AbortSignal) => Promise<Blob>) => {
+    const button = element('button', { type: 'button', title, onclick: () => void run() }, label);
+    const run = async () => {
+      cancel?.abort();
+      cancel = new AbortController();
+      stop.hidden = false;
+      said.value = `${name} is being made …`;
+      try {
+        save(await make(cancel.signal), name);
+        said.value = '';
+      } catch (error) {
+        said.value = (error as Error).name === 'AbortError' ? 'Cancelled.' : (error as Error).message;
+      }
+      stop.hidden = true;
+    };
+    return button;
+  };
+  const stop = element('button', { type: 'button', hidden: true, onclick: () => cancel?.abort() }, 'Cancel');
+  return element(
+    'div',
+    { class: 'exports' },
+    element(
+      'div',
+      { class: 'row' },
+      act('PNG', 'picture.png', 'The scene as it is shown', () => scene.picture()),
+      act('SVG', 'picture.svg', 'The run at this time, as lines and areas', (signal) =>
+        fetched(`${path}/picture.svg?t=${live.shown}`, signal),
+      ),
+      act('CSV', 'plots.csv', 'The numbers of the plots', () => Promise.resolve(plotted(live))),
+    ),
+    element(
+      'div',
+      { class: 'row' },
+      act('MP4', 'run.mp4', 'A film of the run so far', (signal) =>
+        fetched(`${path}/run.mp4?speed=${speed.value}&width=${width.value}`, signal),
+      ),
+      speed,
+      width,
+    ),
+    element('div', { class: 'row' }, stop, said),
+  );
+}
+
+async function fetched(address: string, signal: AbortSignal): Promise<Blob> {
+  const response = await fetch(address, { signal });
+  if (!response.ok) throw new Error((await response.json()).error ?? response.statusText);
+  return response.blob();
+}
+
+/** A row for each tick, with units in the names of the columns. */
+function plotted(live: Live): Blob {
+  const columns = [...live.history.columns];
+  const lines = [columns.map(([name]) => name).join(',')];
+  live.history.times.forEach((_, i) => lines.push(columns.map(([, list]) => list[i]).join(',')));
+  return new Blob([`${lines.join('\n')}\n`], { type: 'text/csv' });
+}
+
+function save(blob: Blob, name: string): void {
+  const address = URL.createObjectURL(blob);
+  element('a', { href: address, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(address), 10_000);
+}
