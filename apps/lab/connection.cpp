@@ -13,6 +13,7 @@
 #include "lab/download.hpp"
 #include "lab/http.hpp"
 #include "lab/page_stream.hpp"
+#include "lab/photograph.hpp"
 #include "lab/run_export.hpp"
 #include "microswarm/core/errors/error.hpp"
 
@@ -27,6 +28,7 @@ using Json = nlohmann::json;
 constexpr std::uint32_t max_header = 16 * 1024;    // bytes
 constexpr std::uint64_t slowest_reader = 100'000;  // bytes a second
 constexpr std::uint64_t max_body = max_request_size;
+constexpr std::string_view uploads_path = "/api/uploads";
 constexpr std::string_view sessions_path = "/api/sessions/";
 constexpr std::string_view stream_path = "/api/stream/";
 
@@ -54,14 +56,43 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   void read() {
     parser_.emplace();
     parser_->header_limit(max_header);
-    parser_->body_limit(max_body);
+    parser_->body_limit(max_upload);
     stream_.expires_after(shared_.hub.limits().patience);
+    http::async_read_header(stream_, buffer_, *parser_,
+                            [self = shared_from_this()](beast::error_code error, std::size_t) {
+                              if (error) return self->take(error);
+                              self->read_body();
+                            });
+  }
+
+ private:
+  /// A file may be large, if who sends it has the token.
+  void read_body() {
+    const auto& header = parser_->get();
+    const bool is_upload = header.method() == http::verb::post &&
+                           path_of(view(header.target())) == uploads_path &&
+                           refusal_of(header).empty();
+    if (is_upload) {
+      stream_.expires_after(shared_.hub.limits().patience +
+                            std::chrono::seconds(max_upload / slowest_reader));
+    } else {
+      // The parser compares a length that is told with its limit only before this.
+      if (parser_->content_length().value_or(0) > max_body)
+        return take(make_error_code(http::error::body_limit));
+      parser_->body_limit(max_body);
+    }
     http::async_read(
         stream_, buffer_, *parser_,
         [self = shared_from_this()](beast::error_code error, std::size_t) { self->take(error); });
   }
 
- private:
+  std::string refusal_of(const HttpRequest& request) const {
+    const std::string token = query_of(view(request.target()), "token");
+    return shared_.access.refusal({view(request[http::field::host]),
+                                   view(request[http::field::origin]),
+                                   view(request[http::field::cookie]), token, local_});
+  }
+
   void take(beast::error_code error) {
     if (!error) {
       request_ = parser_->release();
@@ -69,8 +100,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     } else if (error == http::error::header_limit) {
       refuse_and_close(http::status::request_header_fields_too_large, "the header is too large");
     } else if (error == http::error::body_limit) {
-      refuse_and_close(http::status::payload_too_large,
-                       fmt::format("the body is larger than {} bytes", max_body));
+      refuse_and_close(http::status::payload_too_large, "the body is larger than is allowed");
     } else if (error.category() == make_error_code(http::error::bad_method).category() &&
                error != http::error::end_of_stream && error != http::error::partial_message) {
       refuse_and_close(http::status::bad_request, "this is not HTTP");
@@ -97,14 +127,15 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   }
 
   void route(std::string_view path) {
-    const std::string token = query_of(view(request_.target()), "token");
-    const Origins origins{view(request_[http::field::host]), view(request_[http::field::origin]),
-                          view(request_[http::field::cookie]), token, local_};
-    if (const std::string why = shared_.access.refusal(origins); !why.empty())
+    if (const std::string why = refusal_of(request_); !why.empty())
       return refuse(http::status::forbidden, why);
+    const std::string token = query_of(view(request_.target()), "token");
     if (beast::websocket::is_upgrade(request_)) return upgrade(path);
     if (request_.method() == http::verb::get) return get(path, !token.empty());
     if (request_.method() == http::verb::post && path == "/api/sessions") return open();
+    if (request_.method() == http::verb::post && path == uploads_path) return take_upload();
+    if (request_.method() == http::verb::post && path == "/api/vessels") return search();
+    if (request_.method() == http::verb::post && path == "/api/photographs") return make_scenario();
     if (request_.method() == http::verb::delete_ && path.starts_with(sessions_path))
       return close(path.substr(sessions_path.size()));
     nothing();
@@ -117,6 +148,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     if (path == "/api/thumbnail") return draw(query_of(view(request_.target()), "file"));
     if (path == "/api/schema")
       return write(respond(request_, http::status::ok, "application/json", session_schema()));
+    if (path == "/api/vessel-schema")
+      return write(respond(request_, http::status::ok, "application/json", vessel_schema()));
     if (path.starts_with(sessions_path)) return download(path.substr(sessions_path.size()));
     const auto file = asset(path);
     if (!file) return nothing();
@@ -162,6 +195,37 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     });
   }
 
+  /// POST ?name=NAME with the file as body.
+  void take_upload() {
+    later([this] {
+      const Upload made = shared_.uploads.keep(query_of(view(request_.target()), "name"),
+                                               request_.body(), shared_.library);
+      return respond(request_, {{"file", made.file},
+                                {"kind", enum_name(made.kind)},
+                                {"width_px", made.width},
+                                {"height_px", made.height}});
+    });
+  }
+
+  /// POST {"file": …, "settings": […]}: the photograph with its vessels.
+  void search() {
+    later([this, asked = read_photo_request(request_.body())] {
+      FoundVessels found = find_vessels(shared_.library.find(asked.file), asked);
+      HttpResponse response =
+          respond(request_, http::status::ok, "image/png", std::move(found.png));
+      response.set("Microswarm-Vessels", found.json);
+      return response;
+    });
+  }
+
+  void make_scenario() {
+    later([this, asked = read_photo_request(request_.body())] {
+      const auto made =
+          make_photo_scenario(shared_.library.find(asked.file), asked, shared_.uploads);
+      return respond(request_, {{"file", made.string()}});
+    });
+  }
+
   /// POST {"file": …, "settings": […]}; without a file what the program was started with.
   void open() {
     const OpenRequest asked = read_open_request(request_.body());
@@ -180,12 +244,12 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     settings.insert(settings.end(), asked.settings.begin(), asked.settings.end());
     stream_.expires_never();
     const bool live = opening.live.has_value();
-    shared_.hub.open(
-        std::move(opening), [self = shared_from_this(), live](const Outcome<std::uint64_t>& opened) {
-          self->write(opened.trouble.empty()
-                          ? respond(self->request_, {{"session", opened.value}, {"live", live}})
-                          : lab::refuse(self->request_, http::status::bad_request, opened.trouble));
-        });
+    shared_.hub.open(std::move(opening), [self = shared_from_this(),
+                                          live](const Outcome<std::uint64_t>& opened) {
+      self->write(opened.trouble.empty()
+                      ? respond(self->request_, {{"session", opened.value}, {"live", live}})
+                      : lab::refuse(self->request_, http::status::bad_request, opened.trouble));
+    });
   }
 
   void close(std::string_view session) {

@@ -9,6 +9,7 @@
 #include "lab/hub.hpp"
 #include "lab/library.hpp"
 #include "lab/thumbnail.hpp"
+#include "lab/uploads.hpp"
 
 namespace microswarm::lab {
 
@@ -18,12 +19,14 @@ struct Shared {
   Hub& hub;
   const Library& library;
   Thumbnails& thumbnails;  ///< of the worker
+  Uploads& uploads;        ///< of the worker
   const std::optional<Opening>& opening;
   std::size_t& connections;  ///< that are open, beside streams
   /// Runs work that may take a while in another thread; post() brings what it made back.
   std::function<void(std::function<void()>)> work;
   std::function<void(std::function<void()>)> post;
-  /// Runs an export, one after the other in a thread of their own, which is told to stop at the end.
+  /// Runs an export, one after the other in a thread of their own, which is told to stop at the
+  /// end.
   std::function<void(std::function<void(const Stop&)>)> export_;
 };
 

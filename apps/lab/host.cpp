@@ -20,9 +20,7 @@ std::unique_ptr<Host> make_host(Opening opening, Host::Callbacks callbacks) {
 }
 
 Host::Host(Opening opening, Callbacks callbacks)
-    : opening_(std::move(opening)),
-      callbacks_(std::move(callbacks)),
-      publisher_(callbacks_.send) {}
+    : opening_(std::move(opening)), callbacks_(std::move(callbacks)), publisher_(callbacks_.send) {}
 
 void Host::begin() {
   thread_ = std::thread([this] { run(); });
@@ -107,8 +105,7 @@ void Host::answer(std::uint64_t page, const Request& request) {
   Issues issues;
   try {
     obey(page, request, issues);
-    if (request.ask == Ask::clearance)
-      callbacks_.send(page, clearance_message(session().map()));
+    if (request.ask == Ask::clearance) callbacks_.send(page, clearance_message(session().map()));
   } catch (const std::exception& error) {
     issues.add_lines({}, error.what());
   }

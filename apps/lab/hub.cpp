@@ -17,8 +17,8 @@ void Hub::open(Opening opening, std::function<void(const Outcome<std::uint64_t>&
   if (opening.live)
     for (const auto& [number, running] : sessions_)
       if (running.host->opening().live)
-        return opened({.value = number,
-                       .trouble = running.is_open ? "" : "the rig is being opened"});
+        return opened(
+            {.value = number, .trouble = running.is_open ? "" : "the rig is being opened"});
   // Its devices are there for one at a time.
   if (opening.live && std::ranges::any_of(closing_, [](const auto& host) {
         return host->opening().live && !host->has_ended();
@@ -32,18 +32,18 @@ void Hub::open(Opening opening, std::function<void(const Outcome<std::uint64_t>&
         if (!trouble.empty()) close(number);
         opened({.value = number, .trouble = trouble});
       });
-  sessions_[number].host = make_host(
-      std::move(opening),
-      Host::Callbacks{.opened =
-                                   [this, waits](const std::string& trouble) {
-                                     post_([this, waits, trouble] { settle(waits, trouble); });
-                                   },
-                               .send =
-                                   [this, number](std::uint64_t page, MessagePtr message) {
-                                     post_([this, number, page, message = std::move(message)] {
-                                       deliver(number, page, message);
-                                     });
-                                   }});
+  sessions_[number].host =
+      make_host(std::move(opening),
+                Host::Callbacks{.opened =
+                                    [this, waits](const std::string& trouble) {
+                                      post_([this, waits, trouble] { settle(waits, trouble); });
+                                    },
+                                .send =
+                                    [this, number](std::uint64_t page, MessagePtr message) {
+                                      post_([this, number, page, message = std::move(message)] {
+                                        deliver(number, page, message);
+                                      });
+                                    }});
 }
 
 bool Hub::has(std::uint64_t session) const {

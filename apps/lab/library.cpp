@@ -116,4 +116,10 @@ void Library::check(const fs::path& scenario, const std::vector<std::string>& se
   }
 }
 
+void Library::check_all(const fs::path& scenario) const {
+  Scenario asked = read_scenario(scenario);
+  for (const std::string* file : files_of(asked))
+    if (!file->empty()) find((scenario.parent_path() / *file).string());
+}
+
 }  // namespace microswarm::lab

@@ -34,6 +34,9 @@ class Library {
   void check(const std::filesystem::path& scenario, const std::vector<std::string>& settings,
              const std::vector<std::string>& trusted = {}) const;
 
+  /// Throws InputError if the scenario names a file outside of the folders.
+  void check_all(const std::filesystem::path& scenario) const;
+
  private:
   std::vector<std::filesystem::path> folders_;
 };

@@ -17,7 +17,8 @@ namespace microswarm::lab {
 /// its own; whoever offers one only copies it.
 class PictureSender {
  public:
-  explicit PictureSender(Publisher::Send send) : send_(std::move(send)), thread_([this] { run(); }) {}
+  explicit PictureSender(Publisher::Send send)
+      : send_(std::move(send)), thread_([this] { run(); }) {}
   ~PictureSender();
   PictureSender(const PictureSender&) = delete;
   PictureSender& operator=(const PictureSender&) = delete;

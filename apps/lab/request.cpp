@@ -60,6 +60,11 @@ std::vector<std::string> texts_in(const std::string& key, const Json& value) {
   return texts;
 }
 
+std::array<double, 2> place_in(const std::string& key, const Json& value) {
+  if (!value.is_array() || value.size() != 2) refuse(key, "a place such as [1, 2]");
+  return {number_in(key, value[0]), number_in(key, value[1])};
+}
+
 }  // namespace
 
 Request read_request(std::string_view text) {
@@ -106,6 +111,34 @@ OpenRequest read_open_request(std::string_view text) {
       request.settings = texts_in(key, value);
     else
       throw InputError(fmt::format("message: no key {}", quote(key)));
+  }
+  return request;
+}
+
+PhotoRequest read_photo_request(std::string_view text) {
+  constexpr double most = 1e6;
+  PhotoRequest request;
+  const Json json = parsed(text);
+  for (const auto& [key, value] : json.items()) {
+    if (key == "file") {
+      request.file = text_in(key, value);
+    } else if (key == "settings") {
+      request.settings = texts_in(key, value);
+    } else if (key == "um_per_px") {
+      request.um_per_px = number_in(key, value);
+      if (!(request.um_per_px >= 1e-6 && request.um_per_px <= most))
+        refuse(key, "a number in 1e-06..1e+06");
+    } else if (key == "start") {
+      request.start = place_in(key, value);
+    } else if (key == "goal") {
+      request.goal = place_in(key, value);
+    } else if (key == "robots") {
+      const double robots = number_in(key, value);
+      if (!(robots >= 1 && robots <= 10'000)) refuse(key, "a number in 1..10000");
+      request.robots = static_cast<int>(robots);
+    } else {
+      throw InputError(fmt::format("message: no key {}", quote(key)));
+    }
   }
   return request;
 }

@@ -13,18 +13,18 @@ namespace microswarm::lab {
 
 /// What a page asks of a session.
 enum class Ask {
-  play,      ///< goes on
-  pause,     ///< stands
-  step,      ///< one tick
-  speed,     ///< `number`: simulated seconds per second; 0: as fast as possible
-  seek,      ///< `number`: frame to look at
-  live,      ///< looks at the newest frame again
-  set,       ///< `key`, `value`: a scenario value, from the next tick on
-  restart,   ///< opens the experiment anew with `settings`
-  hold,      ///< `on`: the swarm holds, time goes on
-  manual,    ///< `on`: a person steers
-  steer,     ///< `heading` [rad], `speed` [µm/s]: by hand
-  end,       ///< ends the run in order
+  play,       ///< goes on
+  pause,      ///< stands
+  step,       ///< one tick
+  speed,      ///< `number`: simulated seconds per second; 0: as fast as possible
+  seek,       ///< `number`: frame to look at
+  live,       ///< looks at the newest frame again
+  set,        ///< `key`, `value`: a scenario value, from the next tick on
+  restart,    ///< opens the experiment anew with `settings`
+  hold,       ///< `on`: the swarm holds, time goes on
+  manual,     ///< `on`: a person steers
+  steer,      ///< `heading` [rad], `speed` [µm/s]: by hand
+  end,        ///< ends the run in order
   clearance,  ///< sends the map's clearance to this page
   beat,       ///< the page with the controls of a rig is there; not answered
   stop,       ///< sets the coils of a rig to zero
@@ -34,23 +34,23 @@ enum class Ask {
 };
 constexpr auto enum_names(Ask) {
   return std::array<std::pair<Ask, std::string_view>, 18>{{{Ask::play, "play"},
-{Ask::pause, "pause"},
-{Ask::step, "step"},
-{Ask::speed, "speed"},
-{Ask::seek, "seek"},
-{Ask::live, "live"},
-{Ask::set, "set"},
-{Ask::restart, "restart"},
-{Ask::hold, "hold"},
-{Ask::manual, "manual"},
-{Ask::steer, "steer"},
-{Ask::end, "end"},
-{Ask::clearance, "clearance"},
-{Ask::beat, "beat"},
-{Ask::stop, "stop"},
-{Ask::control, "control"},
-{Ask::arm, "arm"},
-{Ask::dry, "dry"}}};
+                                                           {Ask::pause, "pause"},
+                                                           {Ask::step, "step"},
+                                                           {Ask::speed, "speed"},
+                                                           {Ask::seek, "seek"},
+                                                           {Ask::live, "live"},
+                                                           {Ask::set, "set"},
+                                                           {Ask::restart, "restart"},
+                                                           {Ask::hold, "hold"},
+                                                           {Ask::manual, "manual"},
+                                                           {Ask::steer, "steer"},
+                                                           {Ask::end, "end"},
+                                                           {Ask::clearance, "clearance"},
+                                                           {Ask::beat, "beat"},
+                                                           {Ask::stop, "stop"},
+                                                           {Ask::control, "control"},
+                                                           {Ask::arm, "arm"},
+                                                           {Ask::dry, "dry"}}};
 }
 
 /// One message of a page.
@@ -72,6 +72,16 @@ struct OpenRequest {
   std::vector<std::string> settings;  ///< KEY=VALUE
 };
 
+/// What a page asks of a photograph: its vessels, and an experiment in them.
+struct PhotoRequest {
+  std::string file;                   ///< of an upload
+  std::vector<std::string> settings;  ///< KEY=VALUE of the search
+  double um_per_px = 0;
+  std::optional<std::array<double, 2>> start;  ///< of a swarm [µm]; else robots gather
+  std::optional<std::array<double, 2>> goal;   ///< [µm]
+  int robots = 0;
+};
+
 /// Longest message that is read [bytes].
 inline constexpr std::size_t max_request_size = 256 * 1024;
 
@@ -85,5 +95,9 @@ Request read_request(std::string_view text);
 /// Reads a JSON object such as {"file": "scenarios/a.yaml", "settings": ["seed=3"]}, strict as
 /// read_request.
 OpenRequest read_open_request(std::string_view text);
+
+/// Reads a JSON object such as {"file": "a.png", "um_per_px": 9, "goal": [100, 200], "robots": 64},
+/// strict as read_request.
+PhotoRequest read_photo_request(std::string_view text);
 
 }  // namespace microswarm::lab

@@ -15,7 +15,8 @@ namespace microswarm::lab {
 
 /// Sets the coils of a rig to zero when it is told to, or when the page that has the controls says
 /// nothing for too long. It has a thread of its own, since a tick, a slow page or a slow driver
-/// must not delay it. Every function may be called from any thread and returns at once, but release().
+/// must not delay it. Every function may be called from any thread and returns at once, but
+/// release().
 class RigGuard {
  public:
   using Clock = std::chrono::steady_clock;

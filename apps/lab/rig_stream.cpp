@@ -103,7 +103,8 @@ MessagePtr rig_message(const RigStanding& standing, const LiveSession* run) {
 }
 
 MessagePtr controls_message(bool holds, bool are_free, std::size_t pages) {
-  return make_message({{"type", "controls"}, {"holds", holds}, {"free", are_free}, {"pages", pages}});
+  return make_message(
+      {{"type", "controls"}, {"holds", holds}, {"free", are_free}, {"pages", pages}});
 }
 
 MessagePtr picture_message(const Image& picture, const CameraScale& scale, double t) {

@@ -96,9 +96,7 @@ Session& RigThread::session() {
   return *last_;
 }
 
-void RigThread::open() {
-  begin_run(true, guard_.stops());
-}
+void RigThread::open() { begin_run(true, guard_.stops()); }
 
 /// The devices are free for another session before this one is gone.
 void RigThread::close() {
@@ -270,8 +268,8 @@ void RigThread::arm(std::uint64_t page, const Request& request, std::uint64_t st
 }
 
 void RigThread::obey(std::uint64_t page, const Request& request, Issues& issues) {
-  const bool is_for_all = request.ask == Ask::stop || request.ask == Ask::clearance ||
-                          request.ask == Ask::control;
+  const bool is_for_all =
+      request.ask == Ask::stop || request.ask == Ask::clearance || request.ask == Ask::control;
   if (!is_for_all && !has_controls(page)) {
     issues.add({}, "another page has the controls");
     return;

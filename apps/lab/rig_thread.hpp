@@ -48,9 +48,9 @@ class RigThread : public Host {
   std::filesystem::path new_folder() const;
 
   mutable std::mutex seats_mutex_;
-  std::set<std::uint64_t> seats_;        ///< pages; guarded
-  std::uint64_t holder_ = 0;             ///< page with the controls; guarded
-  std::atomic<bool> drives_ = false;     ///< the coils, or is about to
+  std::set<std::uint64_t> seats_;     ///< pages; guarded
+  std::uint64_t holder_ = 0;          ///< page with the controls; guarded
+  std::atomic<bool> drives_ = false;  ///< the coils, or is about to
 
   // Of the session's thread.
   std::shared_ptr<LiveSession> live_;

@@ -30,13 +30,19 @@ using namespace std::chrono_literals;
 constexpr auto tick_period = 50ms;
 constexpr auto longest_end = 500ms;
 
+std::vector<std::filesystem::path> with(std::vector<std::filesystem::path> folders,
+                                        std::filesystem::path more) {
+  folders.push_back(std::move(more));
+  return folders;
+}
+
 }  // namespace
 
 class Server::Impl {
  public:
   explicit Impl(ServerOptions options)
       : options_(std::move(options)),
-        library_(options_.folders),
+        library_(with(options_.folders, uploads_.folder())),
         hub_([this](std::function<void()> work) { asio::post(io_, std::move(work)); },
              options_.limits),
         clock_(io_) {
@@ -132,6 +138,7 @@ class Server::Impl {
             .hub = hub_,
             .library = library_,
             .thumbnails = thumbnails_,
+            .uploads = uploads_,
             .opening = options_.opening,
             .connections = connections_,
             .work =
@@ -168,6 +175,7 @@ class Server::Impl {
 
   // What connections use, and they are destroyed with `io_`, stands before it.
   ServerOptions options_;
+  Uploads uploads_;  ///< of the worker
   Library library_;
   Thumbnails thumbnails_;  ///< of the worker
   std::optional<Access> access_;

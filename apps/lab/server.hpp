@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "lab/limits.hpp"
 #include "lab/host.hpp"
+#include "lab/limits.hpp"
 #include "microswarm/core/execution/stop.hpp"
 
 namespace microswarm::lab {

@@ -60,7 +60,8 @@ SessionView SessionThread::present_view() {
   view.bodies.clear();
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)
     append_bodies(scenario.obstacles[i], static_cast<std::uint32_t>(i), view.frame.t, view.bodies);
-  if (!publisher_.has_rows() && !scenario.robots) view.frame.radius = limits_of(scenario.swarm).radius;
+  if (!publisher_.has_rows() && !scenario.robots)
+    view.frame.radius = limits_of(scenario.swarm).radius;
   return view;
 }
 

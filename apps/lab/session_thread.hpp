@@ -10,7 +10,8 @@ namespace microswarm::lab {
 /// A session in simulated time: steps it at its speed, looks back, restarts.
 class SessionThread : public Host {
  public:
-  SessionThread(Opening opening, Callbacks callbacks) : Host(std::move(opening), std::move(callbacks)) {
+  SessionThread(Opening opening, Callbacks callbacks)
+      : Host(std::move(opening), std::move(callbacks)) {
     begin();
   }
   ~SessionThread() override { finish(); }
@@ -29,7 +30,7 @@ class SessionThread : public Host {
   void advance();
 
   std::unique_ptr<Session> session_;
-  Clock::time_point due_{};        ///< of the next tick
+  Clock::time_point due_{};  ///< of the next tick
 };
 
 }  // namespace microswarm::lab

@@ -210,10 +210,10 @@ MessagePtr plan_message(const SessionView& view) {
     circles.add(static_cast<float>(found.circle.radius));
   }
   return make_message({{"type", "plan"},
-                  {"plans", view.plans},
-                  {"nodes", nodes.take()},
-                  {"parents", parents.take()},
-                  {"detections", circles.take()}});
+                       {"plans", view.plans},
+                       {"nodes", nodes.take()},
+                       {"parents", parents.take()},
+                       {"detections", circles.take()}});
 }
 
 MessagePtr aggregation_message(const AggregationView& view) {
@@ -224,11 +224,11 @@ MessagePtr aggregation_message(const AggregationView& view) {
                        {"next", region.next},
                        {"branches", region.branches}});
   return make_message({{"type", "aggregation"},
-                  {"nodes", points(view.nodes)},
-                  {"next", indices(view.next)},
-                  {"region", indices(view.segmentation.region)},
-                  {"branch", indices(view.segmentation.branch)},
-                  {"regions", std::move(regions)}});
+                       {"nodes", points(view.nodes)},
+                       {"next", indices(view.next)},
+                       {"region", indices(view.segmentation.region)},
+                       {"branch", indices(view.segmentation.branch)},
+                       {"regions", std::move(regions)}});
 }
 
 MessagePtr clearance_message(const Map& map) {
@@ -245,11 +245,11 @@ MessagePtr clearance_message(const Map& map) {
       values.add(static_cast<float>(
           map.clearance(box.lo + Vec2{(column + 0.5) * cell, (row + 0.5) * cell})));
   return make_message({{"type", "clearance"},
-                  {"lo", point(box.lo)},
-                  {"cell", cell},
-                  {"columns", columns},
-                  {"rows", rows},
-                  {"values", values.take()}});
+                       {"lo", point(box.lo)},
+                       {"cell", cell},
+                       {"columns", columns},
+                       {"rows", rows},
+                       {"values", values.take()}});
 }
 
 MessagePtr rows_message(std::span<const Row> rows, std::span<const RunEvent> events, bool anew) {
@@ -262,36 +262,36 @@ MessagePtr rows_message(std::span<const Row> rows, std::span<const RunEvent> eve
   Json list = Json::array();
   for (const RunEvent& happened : events) list.push_back(event(happened));
   return make_message({{"type", "rows"},
-                  {"anew", anew},
-                  {"columns",
-                   {"t_s", "x_um", "y_um", "clearance_um", "avoidance_cost", "goal_distance_um",
-                    "step_time_s", "speed_um_per_s", "state", "planned"}},
-                  {"rows", numbers.take()},
-                  {"events", std::move(list)}});
+                       {"anew", anew},
+                       {"columns",
+                        {"t_s", "x_um", "y_um", "clearance_um", "avoidance_cost",
+                         "goal_distance_um", "step_time_s", "speed_um_per_s", "state", "planned"}},
+                       {"rows", numbers.take()},
+                       {"events", std::move(list)}});
 }
 
 MessagePtr standing_message(const Standing& standing, const RunResult& result) {
   return make_message({{"type", "standing"},
-                  {"plays", standing.plays},
-                  {"speed", standing.speed},
-                  {"looks_back", standing.looks_back},
-                  {"frame", standing.frame},
-                  {"frames", standing.frames},
-                  {"ended", standing.ended},
-                  {"mode", word(standing.mode)},
-                  {"changes", standing.changes},
-                  {"status", to_string(result.status)},
-                  {"state", result.state},
-                  {"metrics", described(to_json_text(result.metrics))},
-                  {"trouble", standing.trouble}},
-                 Message::Kind::standing);
+                       {"plays", standing.plays},
+                       {"speed", standing.speed},
+                       {"looks_back", standing.looks_back},
+                       {"frame", standing.frame},
+                       {"frames", standing.frames},
+                       {"ended", standing.ended},
+                       {"mode", word(standing.mode)},
+                       {"changes", standing.changes},
+                       {"status", to_string(result.status)},
+                       {"state", result.state},
+                       {"metrics", described(to_json_text(result.metrics))},
+                       {"trouble", standing.trouble}},
+                      Message::Kind::standing);
 }
 
 MessagePtr answer_message(std::uint64_t id, const Issues& issues) {
   Json list = Json::array();
   for (const Issue& issue : issues) list.push_back({{"keys", issue.keys}, {"text", issue.text}});
   return make_message({{"type", "answer"}, {"id", id}, {"issues", std::move(list)}},
-                 Message::Kind::answer);
+                      Message::Kind::answer);
 }
 
 }  // namespace microswarm::lab

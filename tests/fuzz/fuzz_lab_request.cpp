@@ -36,6 +36,10 @@ void run(std::string_view bytes) {
             std::isfinite(request.speed) && request.settings.size() <= max_settings);
   });
   read_or_refuse([&] { require(read_open_request(bytes).settings.size() <= max_settings); });
+  read_or_refuse([&] {
+    const PhotoRequest request = read_photo_request(bytes);
+    require(std::isfinite(request.um_per_px) && request.robots <= 10'000);
+  });
   require(percent_decoded(bytes).size() <= bytes.size());
   require(query_of(bytes, "file").size() <= bytes.size());
   // Without the token nobody is let in, whatever the headers say.

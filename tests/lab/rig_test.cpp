@@ -11,15 +11,14 @@ namespace fs = std::filesystem;
 
 ServerOptions with_rig() {
   const fs::path scenarios = fs::path(MICROSWARM_SOURCE_DIR) / "scenarios";
-  return {.opening = Opening{.file = scenarios / "first_rig.yaml",
-                             .options = {.rig = scenarios / "rigs/vortex.yaml",
-                                         // A busy computer is no fault here.
-                                         .rig_settings = {"safety.lost_swarm_s=20",
-                                                          "safety.max_frame_age_s=20",
-                                                          "safety.deadman_s=20",
-                                                          "safety.max_pause_s=20",
-                                                          "safety.missed_deadlines=1000"}},
-                             .live = RigOpening{}}};
+  return {.opening = Opening{
+              .file = scenarios / "first_rig.yaml",
+              .options = {.rig = scenarios / "rigs/vortex.yaml",
+                          // A busy computer is no fault here.
+                          .rig_settings = {"safety.lost_swarm_s=20", "safety.max_frame_age_s=20",
+                                           "safety.deadman_s=20", "safety.max_pause_s=20",
+                                           "safety.missed_deadlines=1000"}},
+              .live = RigOpening{}}};
 }
 
 const auto is_armed = [](const Json& rig) { return rig["state"] == "armed"; };
@@ -108,7 +107,8 @@ TEST_F(LabRig, DrivesOnlyWhenArmedAndStopsAtOnce) {
 TEST_F(LabRig, SteersByHand) {
   TestPage page(*lab, session);
   arm(page);
-  const double x = beat_until(page, drives).is_null() ? 0 : page.latest["frame"]["frame"]["x_um"].get<double>();
+  const double x =
+      beat_until(page, drives).is_null() ? 0 : page.latest["frame"]["frame"]["x_um"].get<double>();
   page.does({{"do", "manual"}, {"on", true}});
   page.until("frame", [&](const Json& frame) {
     page.say(R"({"do": "beat"})");
@@ -204,9 +204,7 @@ TEST_F(LabRig, DownloadsWaitForTheEndOfARunThatDrives) {
   EXPECT_EQ(read_record(lab->folder.with("run.h5", reply.body())).result.status, Status::fault);
 }
 
-TEST_F(LabRig, OneRigIsOneSession) {
-  EXPECT_EQ(open(*lab, Json::object()), session);
-}
+TEST_F(LabRig, OneRigIsOneSession) { EXPECT_EQ(open(*lab, Json::object()), session); }
 
 }  // namespace
 }  // namespace microswarm::lab

@@ -4,8 +4,10 @@ import { comparePage } from './compare_page';
 import { element } from './dom';
 import { galleryPage } from './gallery';
 import type { Page } from './page';
+import { photoPage } from './photo_page';
 import { sessionPage } from './session_page';
 import { startTheme } from './theme';
+import { photograph } from './uploads';
 
 let page: Page | undefined;
 
@@ -15,6 +17,7 @@ function named(): Promise<Page> {
   if (session) return sessionPage(Number(session[1]));
   const rig = /^#\/rig\/(\d+)$/.exec(location.hash);
   if (rig) return sessionPage(Number(rig[1]), true);
+  if (location.hash === '#/photo' && photograph) return photoPage(photograph);
   const pair = /^#\/compare\/(\d+)\/(\d+)$/.exec(location.hash);
   if (pair) return comparePage([Number(pair[1]), Number(pair[2])]);
   return galleryPage();

@@ -3,6 +3,7 @@ import type { Page } from './page';
 import { call } from './connection';
 import { element } from './dom';
 import { themeSwitch } from './theme';
+import { upload } from './uploads';
 
 interface Entry {
   file: string;
@@ -38,6 +39,24 @@ export async function galleryPage(): Promise<Page> {
     sessionStorage.setItem('opened', 'yes');
     if (await attempt({})) return { root: element('p', { class: 'doc' }, 'Opening …'), leave: () => undefined };
   }
+  const take = async (file: File | undefined) => {
+    if (!file) return;
+    trouble.replaceChildren(`${file.name} is being read …`);
+    try {
+      const made = await upload(file);
+      if (made.kind === 'photograph') location.hash = '#/photo';
+      else await attempt({ file: made.file });
+    } catch (error) {
+      trouble.replaceChildren((error as Error).message);
+    }
+  };
+  const chooser = element('input', {
+    type: 'file',
+    hidden: true,
+    'aria-label': 'A file to open',
+    accept: '.yaml,.yml,.h5,image/*,.tif,.tiff,.pgm,.ppm',
+    onchange: () => void take(chooser.files?.[0]),
+  });
   const folders = new Map<string, Entry[]>();
   for (const entry of listing.scenarios) {
     const folder = entry.file.slice(0, Math.max(0, entry.file.lastIndexOf('/')));
@@ -76,11 +95,17 @@ export async function galleryPage(): Promise<Page> {
   const root = element(
     'div',
     { class: 'gallery' },
-    element('header', { class: 'top' }, element('h1', {}, 'microswarm lab'), search, ...again, themeSwitch()),
+    element('header', { class: 'top' }, element('h1', {}, 'microswarm lab'), search, ...again, element('button', { type: 'button', class: 'choose', onclick: () => chooser.click() }, 'Open a file …'), chooser, themeSwitch()),
     trouble,
     none,
+    element('p', { class: 'doc' }, 'Drop a photograph of vessels, a scenario or a record here.'),
     ...sections,
   );
+  root.addEventListener('dragover', (event) => event.preventDefault());
+  root.addEventListener('drop', (event) => {
+    event.preventDefault();
+    void take(event.dataTransfer?.files[0]);
+  });
   return { root, leave: () => undefined };
 }
 

@@ -6,6 +6,7 @@
 #include "microswarm/config/key_locations.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
+#include "microswarm/experiment/scenario/map_scale.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/experiment/scenario/validate.hpp"
 #include "microswarm/formats/map_file.hpp"
@@ -27,18 +28,6 @@ struct GatherOptions {
   PhotoOptions photo;
   bool json = false;
 };
-
-/// Scales the published lengths and speed [gather], for channels of 10 µm, to this map's channels.
-/// One step per tick; gathered when the mean path length is at most a channel width.
-void fit(Scenario& scenario, double width, int max_steps) {
-  constexpr double speed = 80;  // [µm/s]
-  auto& params = std::get<AggregationParams>(scenario.navigator);
-  params.scale = width / published_channel_width;
-  scenario.robots->max_speed = speed;
-  scenario.tick = params.step * params.scale / speed;
-  scenario.time_limit = max_steps * scenario.tick;
-  scenario.goal_tolerance = width;
-}
 
 /// Typical width of the map's channels: as given, with a note on stderr if it is far from the
 /// measured one; otherwise measured.
@@ -79,7 +68,7 @@ int gather_command(const GatherOptions& o, const Context& context) {
   const World world = build_world(scene);
   if (const std::string why = world.at(0).blocked_reason(*scene.scenario.goal, 0); !why.empty())
     throw InputError(fmt::format("{}: goal {}", o.map, why));
-  fit(scene.scenario, width_of(o, *world.map), o.max_steps);
+  fit_gathering(scene.scenario, width_of(o, *world.map), o.max_steps);
   note_each(set_values(scene.scenario, o.settings));
   KeyLocations(o.map).require_none(validate(scene.scenario, world));
   const OutFolder hold(o.out);

@@ -62,9 +62,8 @@ std::optional<lab::Opening> opening_of(const LabOptions& o) {
     note_each(reading([&] { return open_session(opening.file, opening.options); })->notes());
     return opening;
   }
-  const RigExperiment on = reading([&] {
-    return open_rig_experiment(o.file, o.settings, o.rig, o.rig_settings);
-  });
+  const RigExperiment on =
+      reading([&] { return open_rig_experiment(o.file, o.settings, o.rig, o.rig_settings); });
   note_each(on.experiment.keys.notes());
   note_field(on.rig, on.scenario());
   opening.live = lab::RigOpening{.out = o.out,

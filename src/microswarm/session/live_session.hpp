@@ -68,7 +68,8 @@ class LiveSession : public Session {
   RigTiming timing() const;
   /// Numbers of the newest tick, in the thread that steps.
   LiveStatus status() const;
-  /// The newest picture of the camera, grey, and where it shows the world; in the thread that steps.
+  /// The newest picture of the camera, grey, and where it shows the world; in the thread that
+  /// steps.
   const Image& picture() const;
   const CameraScale& camera_scale() const;
   const Rig& rig() const;

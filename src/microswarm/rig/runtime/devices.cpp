@@ -74,8 +74,8 @@ Devices open_devices(const RigExperiment& on, bool dry, bool idle) {
   Devices devices;
   devices.coils = dry ? simulated_coils(on.rig) : open_coils(on.rig);
   if (std::holds_alternative<SimulatedCamera>(rig.camera)) {
-    devices.bench = std::make_unique<RealtimeRigSimulator>(on.scenario(), on.experiment.world,
-                                                           on.rig, std::move(devices.coils), dry && idle);
+    devices.bench = std::make_unique<RealtimeRigSimulator>(
+        on.scenario(), on.experiment.world, on.rig, std::move(devices.coils), dry && idle);
     devices.camera = devices.bench->camera(simulated_rate);
     devices.scale = devices.bench->view().scale;
     return devices;

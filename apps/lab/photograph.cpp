@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/photograph.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "microswarm/config/schema.hpp"
+#include "microswarm/config/yaml.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
+#include "microswarm/experiment/scenario/map_scale.hpp"
+#include "microswarm/experiment/scenario/validate.hpp"
+#include "microswarm/formats/write_map.hpp"
+#include "microswarm/navigation/gathering/policies/channel_width.hpp"
+#include "microswarm/planning/common/free_goal.hpp"
+#include "microswarm/vision/image/overlay.hpp"
+#include "microswarm/vision/vessels/outline.hpp"
+#include "microswarm/vision/vessels/vessels.hpp"
+
+namespace microswarm::lab {
+namespace {
+
+constexpr double smoothing = 1;  // [px], of the outlines
+constexpr int max_steps = 100'000;
+
+VesselSegmentation searched(const Image& photo, const PhotoRequest& request) {
+  VesselParams params;
+  set_values(params, request.settings);
+  return segment_vessels(photo, params);
+}
+
+/// The nearest place with this clearance. Throws InputError if there is none nearby.
+Vec2 free_place(const Map& map, std::array<double, 2> wanted, double clearance, double width,
+                const char* what) {
+  const Vec2 at{wanted[0], wanted[1]};
+  const auto found = free_goal(Snapshot::of(map), at, 3 * width, clearance);
+  if (!found)
+    throw InputError(fmt::format(
+        "the {} ({:.0f}, {:.0f}) µm is not in a vessel that is wide enough", what, at.x, at.y));
+  return *found;
+}
+
+}  // namespace
+
+std::string vessel_schema() { return json_schema<VesselParams>("vessels of a photograph"); }
+
+FoundVessels find_vessels(const std::filesystem::path& photograph, const PhotoRequest& request) {
+  const Image photo = read_photograph(photograph);
+  const VesselSegmentation found = searched(photo, request);
+  const TemporaryFile picture("overlay.png");
+  write_png(picture.path(), overlay(photo, found.vessels));
+  const nlohmann::json json{{"view_share", found.view_share},
+                            {"pieces", found.pieces},
+                            {"kept_share", found.kept_share},
+                            {"bridges", found.bridges},
+                            {"wide_width_px", found.wide_width_px}};
+  return {.png = read_file(picture.path()), .json = json.dump()};
+}
+
+std::filesystem::path make_photo_scenario(const std::filesystem::path& photograph,
+                                          const PhotoRequest& request, Uploads& uploads) {
+  const double cell = request.um_per_px;
+  if (!(cell > 0)) throw InputError("the scale is missing: um_per_px");
+  if (!request.goal) throw InputError("the goal is missing");
+  if (!request.start && request.robots < 1) throw InputError("start or robots are missing");
+  const Image photo = read_photograph(photograph);
+  const VesselSegmentation found = searched(photo, request);
+  if (found.kept_share == 0) throw InputError("no vessels are found in the photograph");
+  const Map map(cell_bounds(found.vessels, cell),
+                walls_around(found.vessels, cell, smoothing * cell));
+  Rng rng(1, Purpose::planner);
+  const double width = channel_width(map, rng);
+  const std::filesystem::path file = uploads.new_file(".geojson");
+  write_map(file, map, cell);
+
+  Scenario scenario;
+  scenario.name = "photograph";
+  scenario.map = GeoJsonMap{.file = file.filename().string()};
+  if (request.start) {
+    fit_swarm(scenario, width);
+    const double clearance = 1.4 * limits_of(scenario.swarm).radius;
+    scenario.start = Pose2{free_place(map, *request.start, clearance, width, "start"), 0};
+    scenario.goal = free_place(map, *request.goal, clearance, width, "goal");
+    scenario.time_limit = 3600;
+  } else {
+    scenario.robots.emplace().count = request.robots;
+    scenario.goal = free_place(map, *request.goal, 0.05 * width, width, "place to gather");
+    scenario.navigator = AggregationParams{};
+    fit_gathering(scenario, width, max_steps);
+  }
+  const std::filesystem::path made = uploads.new_file(".yaml");
+  write_file_atomically(made, scenario_text(scenario));
+  open_experiment(made);  // what does not fit is told here
+  return made;
+}
+
+}  // namespace microswarm::lab

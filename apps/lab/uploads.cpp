@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/uploads.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/text/file.hpp"
+#include "microswarm/core/text/text.hpp"
+#include "microswarm/experiment/record/record.hpp"
+#include "microswarm/experiment/scenario/experiment.hpp"
+#include "microswarm/formats/images/image.hpp"
+
+namespace microswarm::lab {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int max_files = 200;
+constexpr std::size_t max_total = 512 * 1024 * 1024;
+constexpr std::array<std::string_view, 8> pictures{".png", ".jpg",  ".jpeg", ".bmp",
+                                                   ".tif", ".tiff", ".pgm",  ".ppm"};
+
+/// Removes the file unless it is kept.
+class Trial {
+ public:
+  explicit Trial(fs::path file) : file_(std::move(file)) {}
+  ~Trial() {
+    std::error_code ignored;
+    if (!kept_) fs::remove(file_, ignored);
+  }
+  Trial(const Trial&) = delete;
+  Trial& operator=(const Trial&) = delete;
+  void keep() { kept_ = true; }
+
+ private:
+  fs::path file_;
+  bool kept_ = false;
+};
+
+/// Messages name the file as the page knows it.
+[[noreturn]] void refuse(const InputError& error, const fs::path& file, std::string_view name) {
+  std::string what = error.what();
+  for (std::size_t at = 0; (at = what.find(file.string(), at)) != std::string::npos;)
+    what.replace(at, file.string().size(), name);
+  throw InputError(what);
+}
+
+}  // namespace
+
+fs::path Uploads::new_file(std::string_view extension) {
+  if (count_ >= max_files) throw InputError("this lab has too many uploads: start it anew");
+  return folder() / fmt::format("upload-{}{}", ++count_, extension);
+}
+
+Upload Uploads::keep(std::string_view name, const std::string& bytes, const Library& library) {
+  const std::string shown = one_line(name.substr(0, 200));
+  std::string extension = fs::path(name).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (extension == ".yml") extension = ".yaml";
+  const bool is_picture = std::ranges::find(pictures, extension) != pictures.end();
+  if (!is_picture && extension != ".yaml" && extension != ".h5")
+    throw InputError(shown + ": neither a photograph, a scenario (.yaml) nor a record (.h5)");
+  if (size_ + bytes.size() > max_total)
+    throw InputError("the uploads of this lab are too large together: start it anew");
+  const fs::path file = new_file(extension);
+  Trial trial(file);
+  write_file_atomically(file, bytes);
+  Upload made{.file = file.string()};
+  try {
+    if (is_picture) {
+      const Image image = read_photograph(file);
+      made.kind = Upload::Kind::photograph;
+      made.width = image.width;
+      made.height = image.height;
+    } else if (extension == ".yaml") {
+      library.check_all(file);
+      open_experiment(file);
+      made.kind = Upload::Kind::scenario;
+    } else {
+      read_record(file);
+    }
+  } catch (const InputError& error) {
+    refuse(error, file, shown);
+  }
+  size_ += bytes.size();
+  trial.keep();
+  return made;
+}
+
+}  // namespace microswarm::lab

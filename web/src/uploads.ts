@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Photograph } from './photo_page';
+
+interface Upload {
+  file: string;
+  kind: 'photograph' | 'scenario' | 'record';
+  width_px: number;
+  height_px: number;
+}
+
+/** The photograph that the page #/photo is about. */
+export let photograph: Photograph | undefined;
+
+/** Sends a file to the lab; a photograph becomes the page's. An error has the server's words. */
+export async function upload(file: File): Promise<Upload> {
+  const response = await fetch(`/api/uploads?name=${encodeURIComponent(file.name)}`, { method: 'POST', body: file });
+  const json = await response.json();
+  if (!response.ok) throw new Error(json.error ?? response.statusText);
+  const made = json as Upload;
+  if (made.kind === 'photograph') photograph = { ...made, name: file.name, address: URL.createObjectURL(file) };
+  return made;
+}
