@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "microswarm/geometry/edge_grid.hpp"
+#include "microswarm/geometry/predicates.hpp"
+
+namespace microswarm {
+
+/// Decomposition of the plane into trapezoids by vertical walls through the ends of segments, each
+/// wall from an end up and down to the next segment. Of points with equal x the upper one counts
+/// as farther right, which replaces every special case. Segments may touch; where they cross, some
+/// cells are wrong. Immutable, shared by threads.
+class Trapezoids {
+ public:
+  static constexpr std::uint32_t none = ~0u;
+
+  /// Convex cell between two segments and the walls through two points. Neighbours are reached
+  /// through the wall above or below its point.
+  struct Cell {
+    std::uint32_t bottom = none;  ///< segment; none: the cell is unbounded
+    std::uint32_t top = none;
+    std::uint32_t left = none;  ///< point
+    std::uint32_t right = none;
+    std::uint32_t left_below = none;  ///< cell
+    std::uint32_t left_above = none;
+    std::uint32_t right_below = none;
+    std::uint32_t right_above = none;
+  };
+
+  Trapezoids() = default;
+  explicit Trapezoids(std::vector<Segment> segments);
+
+  std::span<const Cell> cells() const { return cells_; }
+  /// The different ends of the segments, from left to right.
+  std::span<const Vec2> points() const { return points_; }
+  /// Each from left to right.
+  std::span<const Segment> segments() const { return segments_; }
+  /// Number of a point; none if it is no end of a segment.
+  std::uint32_t point_at(Vec2 p) const;
+  /// The cell that holds `p`, the one above if it is on a segment.
+  std::uint32_t cell_at(Vec2 p) const;
+
+  /// Looks around from `from`: calls point(number) for every end that is seen, and segments(bottom,
+  /// top) for the segments around every cell that is seen, of which a few are not seen themselves.
+  template <class OnPoint, class OnSegments>
+  void look_around(Vec2 from, OnPoint&& point, OnSegments&& segments) const;
+  /// The same from all over a disc in which a quadrilateral is inscribed, whose corners are the
+  /// points with these numbers, from left to right; nothing else is in the disc. A few more than
+  /// are seen are called.
+  template <class OnPoint, class OnSegments>
+  void look_around(const Disc& from, std::span<const std::uint32_t, 4> inscribed, OnPoint&& point,
+                   OnSegments&& segments) const;
+
+ private:
+  class Sweep;
+
+  /// What is seen in a cell: the directions between those to two points.
+  struct Cone {
+    std::uint32_t cell;
+    std::uint32_t lower;  ///< point; none: straight down
+    std::uint32_t upper;
+  };
+  using Cones = std::vector<Cone>;
+
+  /// Looks from one place. Exact.
+  struct FromPoint {
+    Vec2 place;
+    /// Whether p is above (+1) or below (−1) the direction to `lower`, looking to the right.
+    int over(Vec2 lower, Vec2 p) const { return orientation(place, lower, p); }
+    int under(Vec2 upper, Vec2 p) const { return orientation(place, upper, p); }
+  };
+  /// Looks from everywhere in a disc: above `lower` for one of the places, and below `upper`.
+  struct FromDisc {
+    Disc disc;
+    int over(Vec2 lower, Vec2 p) const { return side(lower, p, disc.radius); }
+    int under(Vec2 upper, Vec2 p) const { return side(upper, p, -disc.radius); }
+    int side(Vec2 towards, Vec2 p, double radius) const {
+      const Vec2 on = p - towards;
+      const double turn = cross(towards - disc.centre, on) + radius * norm(on);
+      return (turn > 0) - (turn < 0);
+    }
+  };
+  template <bool rightwards, class Source, class OnPoint, class OnSegments>
+  void look(const Source& source, Cones& cones, OnPoint& point, OnSegments& segments) const;
+  void start_around(std::span<const std::uint32_t, 4> inscribed, Cones& cones) const;
+
+  std::vector<Segment> segments_;  ///< from left to right
+  std::vector<Vec2> points_;
+  std::vector<Cell> cells_;
+  std::vector<std::uint32_t> first_right_of_;  ///< of each point: cells that begin at it
+  std::vector<std::uint32_t> first_left_of_;   ///< of each point: in ends_, cells that end at it
+  std::vector<std::uint32_t> ends_;
+  std::vector<std::uint32_t> first_above_;  ///< of each segment and of none: in above_
+  std::vector<std::uint32_t> above_;        ///< cells above a segment, from left to right
+  EdgeGrid grid_;
+};
+
+/// Order from left to right, of equal x from below.
+inline bool is_left_of(Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
+
+template <bool rightwards, class Source, class OnPoint, class OnSegments>
+void Trapezoids::look(const Source& source, Cones& cones, OnPoint& point,
+                      OnSegments& segments) const {
+  while (!cones.empty()) {
+    const Cone cone = cones.back();
+    cones.pop_back();
+    const Cell& cell = cells_[cone.cell];
+    segments(cell.bottom, cell.top);
+    const std::uint32_t end = rightwards ? cell.right : cell.left;
+    if (end == none) continue;
+    const Vec2 p = points_[end];
+    int over = 1, under = 1;
+    if (cone.lower != none) {
+      const Vec2 lower = points_[cone.lower];
+      over = rightwards ? source.over(lower, p) : -source.under(lower, p);
+    }
+    if (cone.upper != none) {
+      const Vec2 upper = points_[cone.upper];
+      under = rightwards ? -source.under(upper, p) : source.over(upper, p);
+    }
+    if (over >= 0 && under >= 0) point(end);
+    const std::uint32_t below = rightwards ? cell.right_below : cell.left_below;
+    const std::uint32_t above = rightwards ? cell.right_above : cell.left_above;
+    if (below != none && over > 0)
+      cones.push_back({below, cone.lower, under > 0 ? end : cone.upper});
+    if (above != none && under > 0)
+      cones.push_back({above, over > 0 ? end : cone.lower, cone.upper});
+  }
+}
+
+template <class OnPoint, class OnSegments>
+void Trapezoids::look_around(Vec2 from, OnPoint&& point, OnSegments&& segments) const {
+  Cones cones;
+  cones.reserve(64);
+  const FromPoint source{from};
+  if (const std::uint32_t number = point_at(from); number != none) {
+    for (std::uint32_t i = first_right_of_[number]; i < first_right_of_[number + 1]; ++i)
+      cones.push_back({i, none, none});
+    look<true>(source, cones, point, segments);
+    for (std::uint32_t i = first_left_of_[number]; i < first_left_of_[number + 1]; ++i)
+      cones.push_back({ends_[i], none, none});
+    return look<false>(source, cones, point, segments);
+  }
+  const Cone all{cell_at(from), none, none};
+  cones.push_back(all);
+  look<true>(source, cones, point, segments);
+  cones.push_back(all);
+  look<false>(source, cones, point, segments);
+}
+
+template <class OnPoint, class OnSegments>
+void Trapezoids::look_around(const Disc& from, std::span<const std::uint32_t, 4> inscribed,
+                             OnPoint&& point, OnSegments&& segments) const {
+  Cones starts;
+  start_around(inscribed, starts);
+  Cones cones = starts;
+  look<true>(FromDisc{from}, cones, point, segments);
+  cones = starts;
+  look<false>(FromDisc{from}, cones, point, segments);
+}
+
+}  // namespace microswarm

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Exact shortest paths beside a dense graph of points around the obstacles.
+#include "microswarm/planning/exact/shortest_paths.hpp"
+
+#include <gtest/gtest.h>
+
+#include <queue>
+
+#include "microswarm/contracts/plan.hpp"
+#include "microswarm/core/maths/angles.hpp"
+#include "microswarm/geometry/uniform_in.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double size = 100;
+
+/// Convex and other polygons, discs that stand apart, overlap and touch walls.
+Map random_map(Rng& rng) {
+  std::vector<Polygon> walls;
+  std::vector<Disc> discs;
+  const std::uint64_t count = 2 + rng.below(5) + 14 * (rng.below(4) == 0);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const Vec2 centre{rng.uniform(0, size), rng.uniform(0, size)};
+    const std::size_t n = 3 + rng.below(5);
+    const double radius = rng.uniform(4, 18);
+    Polygon polygon;
+    for (std::size_t k = 0; k < n; ++k)
+      polygon.outer.push_back(
+          centre + rng.uniform(0.3, 1) * radius *
+                       unit_vector(2 * pi * (static_cast<double>(k) + 0.5 * rng.uniform()) /
+                                   static_cast<double>(n)));
+    walls.push_back(polygon);
+  }
+  for (std::uint64_t i = 0; i < rng.below(7); ++i)
+    discs.push_back({{rng.uniform(0, size), rng.uniform(0, size)}, rng.uniform(1, 10)});
+  return Map({{0, 0}, {size, size}}, walls, discs);
+}
+
+/// Length of the shortest path over points on the circles around all corners and discs, a little
+/// longer than the true one; infinite if there is none.
+double length_over_points(const Map& map, Vec2 start, Vec2 goal, double clearance) {
+  constexpr int around = 40;
+  std::vector<Vec2> points{start, goal};
+  const auto add = [&](Vec2 centre, double radius) {
+    // Neighbours see each other along the circle.
+    const double outer = std::max(1e-4, radius * (1 + 1e-6) / std::cos(pi / around));
+    for (int k = 0; k < around; ++k) {
+      const Vec2 p = centre + outer * unit_vector(2 * pi * k / around);
+      if (map.is_free(p, clearance)) points.push_back(p);
+    }
+  };
+  for (const Body& body : map.walls().bodies()) {
+    if (const auto* disc = std::get_if<Disc>(&body.shape))
+      add(disc->centre, disc->radius + clearance);
+    if (const auto* polygon = std::get_if<Polygon>(&body.shape))
+      for (const Vec2 corner : polygon->outer) add(corner, clearance);
+  }
+  std::vector<double> best(points.size(), std::numeric_limits<double>::infinity());
+  std::vector<bool> done(points.size());
+  using Entry = std::pair<double, std::size_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  open.emplace(best[0] = 0, 0);
+  while (!open.empty()) {
+    const auto [length, i] = open.top();
+    open.pop();
+    if (done[i]) continue;
+    done[i] = true;
+    if (i == 1) return length;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const double through = length + distance(points[i], points[k]);
+      if (done[k] || through >= best[k]) continue;
+      if (!map.is_free(Segment{points[i], points[k]}, clearance)) continue;
+      open.emplace(best[k] = through, k);
+    }
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+TEST(ShortestPaths, NoPathOverPointsIsShorterAndOneIsHardlyLonger) {
+  Rng rng(1, Purpose::test);
+  int solved = 0, without = 0, bent = 0;
+  for (int world = 0; world < 60; ++world) {
+    SCOPED_TRACE(world);
+    const Map map = random_map(rng);
+    const double clearance = world % 3 == 0 ? 0 : rng.uniform(0.5, 5);
+    ShortestPaths paths(map, std::make_shared<const Corners>(map), clearance);
+    for (int query = 0; query < 4; ++query) {
+      const Vec2 start = uniform_in(map.bounds(), rng), goal = uniform_in(map.bounds(), rng);
+      if (!map.is_free(start, clearance) || !map.is_free(goal, clearance)) continue;
+      const ShortestPath path = paths.find(start, goal);
+      const double other = length_over_points(map, start, goal, clearance);
+      if (path.status == Status::no_path) {
+        ++without;
+        EXPECT_EQ(other, std::numeric_limits<double>::infinity());
+        continue;
+      }
+      ASSERT_EQ(path.status, Status::solved);
+      ++solved;
+      bent += path.points.size() > 2;
+      EXPECT_GE(path.length, distance(start, goal) - 1e-9);
+      EXPECT_LE(path.length, other * (1 + 1e-9));
+      // Passages through which the points do not fit are rare.
+      if (std::isfinite(other)) {
+        EXPECT_GE(path.length, 0.99 * other - 1e-9);
+      }
+      EXPECT_EQ(path.points.front(), start);
+      EXPECT_EQ(path.points.back(), goal);
+      const double drawn = path_length(path.points);
+      EXPECT_GE(drawn, path.length - 1e-6);
+      EXPECT_LE(drawn, 1.006 * path.length + 1e-6);
+      for (std::size_t i = 1; i < path.points.size(); ++i)
+        EXPECT_TRUE(map.is_free(Segment{path.points[i - 1], path.points[i]}, clearance)) << i;
+    }
+  }
+  EXPECT_GT(solved, 60);
+  EXPECT_GT(bent, 30);
+  EXPECT_GT(without, 0);
+}
+
+}  // namespace
+}  // namespace microswarm
