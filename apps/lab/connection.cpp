@@ -284,7 +284,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     shared_.hub.fetch<std::shared_ptr<const Record>>(
         session,
         [](const Session& of) { return std::make_shared<const Record>(Record(of.record())); },
-        [self = shared_from_this(), name, wanted](Outcome<std::shared_ptr<const Record>> copied) {
+        [self = shared_from_this(), name,
+         wanted](const Outcome<std::shared_ptr<const Record>>& copied) {
           if (!copied.trouble.empty())
             return self->refuse(http::status::internal_server_error, copied.trouble);
           self->shared_.export_([self, name, wanted, record = copied.value](const Stop& stop) {

@@ -19,6 +19,8 @@ class RigThread : public Host {
  public:
   RigThread(Opening opening, Callbacks callbacks);
   ~RigThread() override;
+  RigThread(const RigThread&) = delete;
+  RigThread& operator=(const RigThread&) = delete;
 
   void end() override;
   void join(std::uint64_t page) override;

@@ -15,6 +15,8 @@ class SessionThread : public Host {
     begin();
   }
   ~SessionThread() override { finish(); }
+  SessionThread(const SessionThread&) = delete;
+  SessionThread& operator=(const SessionThread&) = delete;
 
  private:
   void open() override;
