@@ -122,7 +122,7 @@ Trapezoids::Trapezoids(std::vector<Segment> segments) : segments_(std::move(segm
     points_.insert(points_.end(), {s.a, s.b});
   }
   std::ranges::sort(points_, is_left_of);
-  points_.erase(std::ranges::unique(points_).begin(), points_.end());
+  points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
   cells_.reserve(3 * segments_.size() + 1);
   Sweep(*this).run();
   first_above_.assign(segments_.size() + 2, 0);
