@@ -43,7 +43,7 @@ void RigGuard::watch(std::shared_ptr<LiveSession> session, bool listens, std::ui
   const std::lock_guard lock(mutex_);
   session_ = std::move(session);
   listens_ = listens;
-  heard_ = Clock::now();  // nothing was driven so far
+  if (listens) heard_ = Clock::now();  // nothing was driven so far
   if (stops_ != stops) why_ = "it was stopped while it was opened";
   changed_.notify_all();
 }
