@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ctrl-C, kill -9, and two at once.
-#include <pty.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "inputs.hpp"
 #include "program.hpp"
+#include "terminal.hpp"
 
 namespace microswarm::test {
 namespace {
@@ -88,22 +85,10 @@ TEST_F(Interrupted, APlanThatWasCutShortIsToldByItsCode) {
 /// Output and errors can no longer be written then, and the progress bar was on that terminal.
 TEST_F(Interrupted, AClosedTerminalEndsItWithEverythingKept) {
   write("flight.yaml", endless());
-  const std::string folder = at.folder / "out";
-  const std::string scenario = at.folder / "flight.yaml";
-  int terminal = -1;
-  const pid_t child = ::forkpty(&terminal, nullptr, nullptr, nullptr);
-  ASSERT_GE(child, 0);
-  if (child == 0) {
-    ::execl(MICROSWARM_PROGRAM, MICROSWARM_PROGRAM, "run", scenario.c_str(), "--out",
-            folder.c_str(), nullptr);
-    ::_exit(127);
-  }
-  std::this_thread::sleep_for(std::chrono::milliseconds(700));
-  ::close(terminal);
-  int status = 0;
-  ASSERT_EQ(::waitpid(child, &status, 0), child);
-  EXPECT_TRUE(WIFEXITED(status)) << WTERMSIG(status);
-  EXPECT_EQ(WEXITSTATUS(status), 3);
+  Terminal terminal({"run", "flight.yaml", "--out", "out"}, at);
+  ASSERT_TRUE(terminal.hears("%"));
+  terminal.hang_up();
+  EXPECT_EQ(terminal.wait(), 3);
   EXPECT_TRUE(exists("out/index.html"));
   expect_no_temporary_files();
 }

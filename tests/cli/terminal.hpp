@@ -44,15 +44,19 @@ class Terminal {
       ::kill(child_, SIGKILL);
       ::waitpid(child_, nullptr, 0);
     }
-    over_ = true;
-    listener_.join();
-    ::close(line_);
+    hang_up();
   }
   Terminal(const Terminal&) = delete;
   Terminal& operator=(const Terminal&) = delete;
 
   void press(std::string_view keys) const {
     EXPECT_EQ(::write(line_, keys.data(), keys.size()), static_cast<ssize_t>(keys.size()));
+  }
+  /// The window is closed: nobody reads any more and nothing can be written.
+  void hang_up() {
+    over_ = true;
+    if (listener_.joinable()) listener_.join();
+    if (line_ >= 0) ::close(std::exchange(line_, -1));
   }
   void send(int signal) const { ::kill(child_, signal); }
   /// All that it wrote so far, as a terminal gets it.

@@ -138,7 +138,7 @@ class TroubledCamera : public FrameSource {
 class LiveRigs : public ::testing::Test {
  protected:
   LiveRigs() {
-    set_picture_threads(1);  // as `rig run`; the sanitizer knows nothing of OpenCV's own
+    set_picture_threads(1);  // as `rig run` does
     const std::filesystem::path scenarios =
         std::filesystem::path(MICROSWARM_SOURCE_DIR) / "scenarios";
     scene = load_scene(read_scenario(scenarios / "papers/radar/single.yaml"), scenarios);
