@@ -50,6 +50,17 @@ TEST_F(Commands, RunReachesTheGoal) {
   EXPECT_TRUE(good({"report", "out/run.h5", "--out", "page"}).ends_with("page/index.html\n"));
 }
 
+TEST_F(Commands, AReportsVideoIsAGif) {
+  good({"run", "flight.yaml", "--out", "out", "--no-report"});
+  EXPECT_EQ(good({"report", "out/run.h5", "--video", "run.gif", "--from", "0.5", "--to", "1",
+                  "--fps", "20", "--width", "240"}),
+            "wrote run.gif: 11 pictures\n");
+  EXPECT_TRUE(read("run.gif").starts_with("GIF89a"));
+  const Outcome fast = run({"report", "out/run.h5", "--video", "fast.gif", "--fps", "60"});
+  EXPECT_TRUE(is_one_line_naming(fast.err, "microswarm: fast.gif", {"50"})) << fast.err;
+  EXPECT_FALSE(exists("fast.gif"));
+}
+
 TEST_F(Commands, RunThatDoesNotReachTheGoal) {
   const Outcome outcome = run({"run", "flight.yaml", "--set", "time_limit_s=0.5", "--json"});
   EXPECT_EQ(outcome.code, 3);

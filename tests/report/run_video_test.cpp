@@ -85,9 +85,23 @@ TEST_F(RunVideos, AreStoppedWithWhatIsDone) {
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
+TEST_F(RunVideos, ShowAPartOfTheRun) {
+  const fs::path file = folder_ / "run.gif";
+  const double end = record_.frames.back().t;
+  const RunVideo video =
+      write_run_video(record_, file, {.from = 4, .to = 9, .speed = 2, .rate = 10, .width = 320});
+  ASSERT_EQ(video.file, file);
+  EXPECT_EQ(video.pictures, 26);  // 5 s in steps of 0.2 s
+  EXPECT_EQ(write_run_video(record_, file, {.from = end - 1, .rate = 10, .width = 320}).pictures,
+            11);
+  EXPECT_THROW(write_run_video(record_, file, {.from = end + 1}), InputError);
+  EXPECT_THROW(write_run_video(record_, file, {.from = 9, .to = 4}), InputError);
+}
+
 TEST_F(RunVideos, OfTooManyPicturesAreRefusedBeforeTheFirst) {
   EXPECT_THROW(write_run_video(record_, folder_ / "run.mp4", {.speed = 1e-4}), InputError);
   EXPECT_THROW(write_run_video(Record{}, folder_ / "run.mp4"), InputError);
+  EXPECT_THROW(write_run_video(record_, folder_ / "run.gif", {.rate = 60}), InputError);
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 

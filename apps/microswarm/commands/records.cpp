@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "microswarm/experiment/record/record.hpp"
 #include "microswarm/report/run_video.hpp"
@@ -29,6 +30,8 @@ struct ReportCommand {
   std::string file;
   std::string out;
   std::string video;
+  double from = 0;
+  std::optional<double> to;
   double speed = 1;
   double fps = 30;
   int width = 1280;
@@ -38,7 +41,9 @@ struct ReportCommand {
 int write_video(const ReportCommand& o, const Record& record, const ReportOptions& options,
                 const Context& context) {
   const RunVideo video = write_run_video(record, o.video,
-                                         {.speed = o.speed,
+                                         {.from = o.from,
+                                          .to = o.to.value_or(infinity),
+                                          .speed = o.speed,
                                           .rate = o.fps,
                                           .width = o.width,
                                           .report = options,
@@ -86,13 +91,22 @@ void add_report(Command app, Action& action) {
       .type_name("FOLDER");
   cmd.add_option("--video", o->video, "Video of the run to write")
       .type_name("FILE")
-      .check(file_kind({".mp4", ".mkv", ".avi"}));
+      .check(file_kind({".mp4", ".mkv", ".avi", ".gif"}));
+  cmd.add_option("--from", o->from, "Time at which the video begins [s]")
+      .type_name("SECONDS")
+      .needs("--video")
+      .check(number(0, 1e9))
+      .capture_default();
+  cmd.add_option("--to", o->to, "Time at which it ends [s] (default: the run's end)")
+      .type_name("SECONDS")
+      .needs("--video")
+      .check(number(0, 1e9));
   cmd.add_option("--speed", o->speed, "Seconds of the run per second of the video")
       .type_name("NUMBER")
       .needs("--video")
       .check(number(1e-3, 1e4))
       .capture_default();
-  cmd.add_option("--fps", o->fps, "Pictures of the video per second")
+  cmd.add_option("--fps", o->fps, "Pictures of the video per second; at most 50 of a GIF")
       .type_name("NUMBER")
       .needs("--video")
       .check(number(1, 240))

@@ -132,9 +132,13 @@ void write_run_picture(const Record& record, double t, const std::filesystem::pa
 RunVideo write_run_video(const Record& record, const std::filesystem::path& file,
                          const RunVideoOptions& options, const Stop& stop) {
   require_frames(record);
-  const double begin = record.frames.front().t;
+  const double begin = std::max(options.from, record.frames.front().t);
+  const double end = std::min(options.to, record.frames.back().t);
+  if (!(begin <= end))
+    throw InputError(fmt::format("{}: the run is from {:g} s to {:g} s: nothing to show",
+                                 file.string(), record.frames.front().t, record.frames.back().t));
   const double step = options.speed / options.rate;
-  const double pictures = std::floor((record.frames.back().t - begin) / step) + 1;
+  const double pictures = std::floor((end - begin) / step) + 1;
   if (!(pictures <= max_video_pictures))
     throw InputError(
         fmt::format("{}: the video would have {:.0f} pictures, at most {}: raise the "

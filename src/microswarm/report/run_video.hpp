@@ -5,6 +5,7 @@
 
 #include "microswarm/core/execution/progress.hpp"
 #include "microswarm/core/execution/stop.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/experiment/record/record.hpp"
 #include "microswarm/report/run_report.hpp"
 
@@ -12,6 +13,8 @@ namespace microswarm {
 
 /// Options of a video of a run.
 struct RunVideoOptions {
+  double from = 0;           ///< first time shown [s]
+  double to = infinity;      ///< last one; the run's end if that is earlier [s]
   double speed = 1;          ///< seconds of the run per second of the video
   double rate = 30;          ///< pictures a second
   int width = 1280;          ///< of a picture [px]; rounded up to an even number
@@ -34,11 +37,11 @@ struct RunVideo {
 void write_run_picture(const Record& record, double t, const std::filesystem::path& file,
                        const RunVideoOptions& options = {});
 
-/// Writes a run as video (.mp4, .mkv, .avi), with scale bar and time: walls, obstacles, the path
-/// travelled and planned, the swarm or the robots. Between two frames of the record the swarm moves
-/// on a straight line and obstacles as their motion says; robots stay where they were recorded
-/// last. Throws InputError if the record has no frames, the video would have more than
-/// max_video_pictures pictures, or the file cannot be written.
+/// Writes a run as video (.mp4, .mkv, .avi, .gif), with scale bar and time: walls, obstacles, the
+/// path travelled and planned, the swarm or the robots. Between two frames of the record the swarm
+/// moves on a straight line and obstacles as their motion says; robots stay where they were
+/// recorded last. Throws InputError if the record has no frames in the time shown, the video would
+/// have more than max_video_pictures pictures, or the file cannot be written.
 RunVideo write_run_video(const Record& record, const std::filesystem::path& file,
                          const RunVideoOptions& options = {}, const Stop& stop = {});
 

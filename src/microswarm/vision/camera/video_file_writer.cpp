@@ -7,16 +7,26 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
+#include "microswarm/formats/images/gif.hpp"
 #include "microswarm/vision/image/mat.hpp"
 
 namespace microswarm {
 
 struct VideoFileWriter::Parts {
   Parts(std::filesystem::path path, double pictures_a_second)
-      : file(std::move(path)), rate(pictures_a_second), staged(std::in_place, file) {}
+      : file(std::move(path)), rate(pictures_a_second), staged(std::in_place, file) {
+    if (is_gif() && rate > max_gif_rate)
+      throw InputError(file.string() + ": a GIF has at most 50 pictures a second");
+  }
+
+  bool is_gif() const { return file.extension() == ".gif"; }
 
   /// False if there is neither codec.
   bool open(cv::Size size) {
+    if (is_gif()) {
+      gif.emplace(staged->path(), rate);
+      return true;
+    }
     for (const int codec :
          {cv::VideoWriter::fourcc('a', 'v', 'c', '1'), cv::VideoWriter::fourcc('m', 'p', '4', 'v')})
       if (video.open(staged->path().string(), cv::CAP_FFMPEG, codec, rate, size)) return true;
@@ -27,6 +37,7 @@ struct VideoFileWriter::Parts {
   double rate;
   std::optional<StagedFile> staged;  ///< empty if there is no codec
   cv::VideoWriter video;
+  std::optional<GifWriter> gif;
   cv::Mat bgr;
   int pictures = 0;
 };
@@ -46,7 +57,9 @@ void VideoFileWriter::add(const Image& picture) {
       std::filesystem::create_directories(folder);
     }
   }
-  if (p.staged) {
+  if (p.gif) {
+    p.gif->add(picture);
+  } else if (p.staged) {
     cv::cvtColor(as_mat(picture), p.bgr, cv::COLOR_RGB2BGR);
     p.video.write(p.bgr);
   } else {
@@ -63,6 +76,7 @@ std::optional<std::filesystem::path> VideoFileWriter::commit() {
   std::filesystem::path folder = p.file;
   if (!p.staged) return folder.replace_extension();
   p.video.release();
+  if (p.gif) p.gif->finish();
   if (std::filesystem::file_size(p.staged->path()) == 0)
     throw InputError(p.file.string() + ": cannot write: the video stayed empty");
   p.staged->commit();

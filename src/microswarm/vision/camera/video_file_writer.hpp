@@ -9,12 +9,13 @@
 
 namespace microswarm {
 
-/// Writes pictures to a video file, as H.264, which browsers play, or else as MPEG-4; without a
-/// codec, to PNG files in a folder next to it, named like the file without extension. The file
-/// appears under its name on commit(). Sides should be even.
+/// Writes pictures to a video file: .gif, or as H.264, which browsers play, or else as MPEG-4;
+/// without a codec, to PNG files in a folder next to it, named like the file without extension. The
+/// file appears under its name on commit(). Sides should be even.
 class VideoFileWriter {
  public:
-  /// `rate` is in 1/s. Throws InputError "PATH: cannot write: REASON".
+  /// `rate` is in 1/s, at most max_gif_rate for a GIF. Throws InputError "PATH: cannot write:
+  /// REASON".
   VideoFileWriter(std::filesystem::path file, double rate);
   ~VideoFileWriter();
   VideoFileWriter(const VideoFileWriter&) = delete;
