@@ -55,6 +55,7 @@ std::function<Download(const Session&)> download(std::string_view name, const fs
 std::string_view media_type_of(std::string_view name) {
   if (name.ends_with(".h5")) return "application/x-hdf5";
   if (name.ends_with(".mp4")) return "video/mp4";
+  if (name.ends_with(".gif")) return "image/gif";
   if (name.ends_with(".svg")) return "image/svg+xml";
   return name.ends_with(".csv") ? "text/csv; charset=utf-8" : "application/yaml";
 }

@@ -16,14 +16,19 @@ void Publisher::clear() {
 }
 
 void Publisher::take(const Record& record) {
-  for (const Frame& frame : record.frames) rows_.push_back(row_of({.frame = frame}));
-  const auto& steps = record.result.timing.steps;
-  for (std::size_t i = 0; i < std::min(rows_.size(), steps.size()); ++i)
-    rows_[i].step_time = steps[i];
-  events_ = record.events;
-  standing.frames = record.frames.size();
+  take_more(record);
   told_rows_ = rows_.size();
   told_events_ = events_.size();
+}
+
+void Publisher::take_more(const Record& record) {
+  const auto& steps = record.result.timing.steps;
+  for (std::size_t i = rows_.size(); i < record.frames.size(); ++i)
+    rows_.push_back(
+        row_of({.frame = record.frames[i], .step_time = i < steps.size() ? steps[i] : 0}));
+  for (std::size_t i = events_.size(); i < record.events.size(); ++i)
+    events_.push_back(record.events[i]);
+  standing.frames = record.frames.size();
 }
 
 void Publisher::take(const Tick& tick) {

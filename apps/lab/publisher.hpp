@@ -22,8 +22,10 @@ class Publisher {
 
   /// Forgets all but the speed: a session was opened anew.
   void clear();
-  /// Takes the frames and events of a record.
+  /// Takes the frames and events of a record that was opened.
   void take(const Record& record);
+  /// Takes those that it has got since.
+  void take_more(const Record& record);
   void take(const Tick& tick);
   /// There is a frame to show.
   void freshen() { is_fresh_ = true; }
@@ -31,6 +33,7 @@ class Publisher {
   /// How the session stands is to be told.
   void changed() { has_changed_ = true; }
   bool has_rows() const { return !rows_.empty(); }
+  std::size_t rows() const { return rows_.size(); }
   /// When a frame may be told again.
   Stop::Clock::time_point next_frame() const { return published_ + frame_period; }
 

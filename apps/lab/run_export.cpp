@@ -7,10 +7,12 @@
 
 #include "lab/http.hpp"
 #include "microswarm/core/errors/error.hpp"
-#include "microswarm/report/run_video.hpp"
 
 namespace microswarm::lab {
 namespace {
+
+constexpr double max_time = 1e9;   // [s]
+constexpr double gif_rate = 12.5;  // a file of moderate size; a delay is a whole number of 1/100 s
 
 double number_of(std::string_view target, std::string_view key, double standard, double lo,
                  double hi) {
@@ -27,25 +29,30 @@ double number_of(std::string_view target, std::string_view key, double standard,
 
 std::optional<RunExport> read_run_export(std::string_view name, std::string_view target) {
   RunExport wanted;
+  RunVideoOptions& options = wanted.options;
   if (name == "run.mp4")
     wanted.kind = RunExport::Kind::video;
+  else if (name == "run.gif")
+    wanted.kind = RunExport::Kind::gif, options.rate = gif_rate;
   else if (name != "picture.svg")
     return std::nullopt;
-  wanted.speed = number_of(target, "speed", wanted.speed, 1e-3, 1e6);
-  wanted.width = static_cast<int>(number_of(target, "width", wanted.width, 160, 3840));
-  wanted.t = number_of(target, "t", wanted.t, 0, 1e9);
+  options.from = number_of(target, "from", options.from, 0, max_time);
+  options.to = number_of(target, "to", options.to, 0, max_time);
+  options.speed = number_of(target, "speed", options.speed, 1e-3, 1e6);
+  options.width = static_cast<int>(number_of(target, "width", options.width, 160, 3840));
+  wanted.t = number_of(target, "t", wanted.t, 0, max_time);
   return wanted;
 }
 
 Download make_run_export(const RunExport& wanted, const Record& record, const Stop& stop) {
-  const RunVideoOptions options{.speed = wanted.speed, .width = wanted.width};
   if (wanted.kind == RunExport::Kind::picture) {
     Download made{.file = std::make_unique<TemporaryFile>("picture.svg")};
-    write_run_picture(record, wanted.t, made.file->path(), options);
+    write_run_picture(record, wanted.t, made.file->path(), wanted.options);
     return made;
   }
-  Download made{.file = std::make_unique<TemporaryFile>("run.mp4")};
-  const RunVideo video = write_run_video(record, made.file->path(), options, stop);
+  const bool is_gif = wanted.kind == RunExport::Kind::gif;
+  Download made{.file = std::make_unique<TemporaryFile>(is_gif ? "run.gif" : "run.mp4")};
+  const RunVideo video = write_run_video(record, made.file->path(), wanted.options, stop);
   if (video.stopped) throw InputError("the video was stopped");
   if (video.file != made.file->path()) throw InputError("there is no codec for a video here");
   return made;

@@ -7,20 +7,20 @@
 #include "lab/download.hpp"
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/experiment/record/record.hpp"
+#include "microswarm/report/run_video.hpp"
 
 namespace microswarm::lab {
 
 /// A film or a picture of a run, which takes longer to make than other downloads.
 struct RunExport {
-  enum class Kind { video, picture };
+  enum class Kind { video, gif, picture };
   Kind kind = Kind::picture;
-  double speed = 1;  ///< of a video: seconds of the run per second
-  int width = 1280;  ///< [px]
-  double t = 0;      ///< of a picture [s]
+  RunVideoOptions options{};
+  double t = 0;  ///< of a picture [s]
 };
 
-/// What run.mp4?speed=&width= or picture.svg?t=&width= asks for; nothing for another name. Throws
-/// InputError for a number that is none or out of range.
+/// What run.mp4 or run.gif?from=&to=&speed=&width= or picture.svg?t=&width= asks for; nothing for
+/// another name. Throws InputError for a number that is none or out of range.
 std::optional<RunExport> read_run_export(std::string_view name, std::string_view target);
 
 /// Makes it; InputError if it cannot be made or was stopped.

@@ -14,6 +14,7 @@ using Clock = Stop::Clock;
 using namespace std::chrono_literals;
 
 constexpr auto longest_lag = 250ms;  ///< of simulated time; what is more is not made up for
+constexpr auto look_period = 1s;     ///< for more of a record that grows
 constexpr double max_speed = 1e6;    ///< simulated seconds per second
 
 Clock::duration wall_time(double seconds) {
@@ -25,30 +26,67 @@ Clock::duration wall_time(double seconds) {
 /// What was asked, the tick that is due, and what they changed.
 void SessionThread::serve() {
   const Standing& standing = publisher_.standing;
-  const bool is_due = standing.plays && !standing.ended;
-  if (!is_due && !publisher_.is_fresh())
-    work_until(std::nullopt);
-  else
-    work_until(!is_due || standing.speed > 0 ? next_act(is_due) : Clock::time_point{});
+  work_until(next_act(standing.plays && !standing.ended));
+  if (standing.growing && Clock::now() >= looks_) look_for_more();
   if (standing.plays && !standing.ended && Clock::now() >= due_) advance();
   publisher_.publish(*session_, shown(), [this] { return present_view(); });
 }
 
-/// When the next tick is due, or a frame that waits may be published.
-Stop::Clock::time_point SessionThread::next_act(bool is_due) const {
-  const auto publishes = publisher_.next_frame();
-  if (!is_due) return publishes;
-  return publisher_.is_fresh() ? std::min(due_, publishes) : due_;
+/// When the next tick is due, a frame that waits may be published or a record may have grown.
+std::optional<Stop::Clock::time_point> SessionThread::next_act(bool is_due) const {
+  const Standing& standing = publisher_.standing;
+  std::optional<Clock::time_point> next;
+  const auto add = [&next](Clock::time_point other) {
+    next = std::min(next.value_or(other), other);
+  };
+  if (is_due) add(standing.speed > 0 ? due_ : Clock::time_point{});
+  if (publisher_.is_fresh()) add(publisher_.next_frame());
+  if (standing.growing) add(looks_);
+  return next;
 }
 
 void SessionThread::open() {
   if (opening_.check) opening_.check(opening_.options.settings);
-  session_ = open_session(opening_.file, opening_.options);
+  watch_.has_changed();
+  session_ = open_session(watch_.file(), opening_.options);
   look_at_newest();
   publisher_.clear();
   if (!session_->is_playback()) return;
   publisher_.take(session_->record());
-  session_->seek(0);
+  publisher_.standing.growing = watch_.is_growing();
+  looks_ = Clock::now() + look_period;
+  session_->seek(publisher_.standing.growing ? publisher_.rows() : 0);
+}
+
+void SessionThread::look_for_more() {
+  Standing& standing = publisher_.standing;
+  looks_ = Clock::now() + look_period;
+  const bool was_growing = standing.growing;
+  try {
+    standing.growing = watch_.is_growing();
+    if (watch_.has_changed()) grow();
+  } catch (const InputError&) {
+    standing.growing = true;  // it was replaced meanwhile: the next look finds another
+  }
+  if (standing.growing != was_growing) publisher_.changed();
+}
+
+/// Goes on with what the record is now. Whoever looks at its newest frame sees the new one.
+void SessionThread::grow() {
+  auto longer = open_session(watch_.file(), opening_.options);
+  if (longer->record().frames.size() < publisher_.rows()) {  // of another run
+    open();
+    welcome(0);
+    return;
+  }
+  Standing& standing = publisher_.standing;
+  const std::uint64_t shown = session_->view().number;
+  const bool is_newest = shown + 1 >= publisher_.rows();
+  session_ = std::move(longer);
+  publisher_.take_more(session_->record());
+  session_->seek(is_newest && !standing.plays ? publisher_.rows() : shown);
+  standing.ended = false;
+  publisher_.freshen();
 }
 
 /// The frame that is shown. In a simulation the obstacles are those of the scenario as it is now,
@@ -96,6 +134,7 @@ void SessionThread::obey(std::uint64_t, const Request& request, Issues& issues) 
       break;
     case Ask::live:
       look_at_newest();
+      if (standing.growing && session_->seek(publisher_.rows())) publisher_.freshen();
       break;
     case Ask::set:
       publisher_.set(*session_, request, issues);

@@ -4,14 +4,16 @@
 #include <memory>
 
 #include "lab/host.hpp"
+#include "lab/record_watch.hpp"
 
 namespace microswarm::lab {
 
-/// A session in simulated time: steps it at its speed, looks back, restarts.
+/// A session in simulated time: steps it at its speed, looks back, restarts. Follows a record that
+/// its run still writes.
 class SessionThread : public Host {
  public:
   SessionThread(Opening opening, Callbacks callbacks)
-      : Host(std::move(opening), std::move(callbacks)) {
+      : Host(std::move(opening), std::move(callbacks)), watch_(opening_.file) {
     begin();
   }
   ~SessionThread() override { finish(); }
@@ -25,14 +27,18 @@ class SessionThread : public Host {
   void welcome(std::uint64_t page) override;
   void obey(std::uint64_t page, const Request& request, Issues& issues) override;
 
-  Clock::time_point next_act(bool is_due) const;
+  std::optional<Clock::time_point> next_act(bool is_due) const;
   void play();
   void restart(const Request& request);
   SessionView present_view();
   void advance();
+  void look_for_more();
+  void grow();
 
   std::unique_ptr<Session> session_;
   Clock::time_point due_{};  ///< of the next tick
+  RecordWatch watch_;
+  Clock::time_point looks_{};  ///< for more of a record that grows
 };
 
 }  // namespace microswarm::lab

@@ -278,6 +278,7 @@ MessagePtr standing_message(const Standing& standing, const RunResult& result) {
                        {"frame", standing.frame},
                        {"frames", standing.frames},
                        {"ended", standing.ended},
+                       {"growing", standing.growing},
                        {"mode", word(standing.mode)},
                        {"changes", standing.changes},
                        {"status", to_string(result.status)},

@@ -36,6 +36,7 @@ struct Standing {
   std::uint64_t frame = 0;  ///< number of the shown frame
   std::uint64_t frames = 0;
   bool ended = false;
+  bool growing = false;  ///< a record that its run still writes
   OperatingMode mode = OperatingMode::autonomous;
   std::vector<std::string> changes;  ///< since the start, KEY=VALUE; the last of each key
   std::string trouble;               ///< why it could not go on; empty otherwise

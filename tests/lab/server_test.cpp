@@ -321,13 +321,19 @@ TEST(Server, ARunIsExportedAsPictureAndFilm) {
   EXPECT_EQ(reply[http::field::content_type], "image/svg+xml");
   EXPECT_NE(reply.body().find("</svg>"), std::string::npos);
   for (const char* wrong : {"/picture.svg?t=-1", "/picture.svg?t=x", "/run.mp4?speed=0",
-                            "/run.mp4?speed=nan", "/run.mp4?width=9000", "/run.mp4?width=3x"}) {
+                            "/run.mp4?speed=nan", "/run.mp4?width=9000", "/run.mp4?width=3x",
+                            "/run.gif?from=5&to=2", "/run.gif?from=-1", "/run.mp4?from=1e8"}) {
     reply = get(lab, path + wrong);
     EXPECT_EQ(reply.result(), http::status::bad_request) << wrong;
   }
   reply = get(lab, path + "/run.mp4?speed=20&width=320");
   EXPECT_EQ(reply.result(), http::status::ok) << reply.body();
   EXPECT_EQ(reply.body().substr(4, 4), "ftyp");
+  reply = get(lab, path + "/run.gif?from=1&to=2&width=320");
+  EXPECT_EQ(reply.result(), http::status::ok) << reply.body();
+  EXPECT_EQ(reply[http::field::content_type], "image/gif");
+  EXPECT_EQ(reply.body().substr(0, 6), "GIF89a");
+  EXPECT_GT(std::ranges::count(reply.body(), '\x21'), 12);  // an extension a picture
 }
 
 TEST(Server, AFilmIsStoppedAtTheEnd) {

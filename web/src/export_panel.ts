@@ -14,6 +14,11 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
   const width = element('select', { 'aria-label': 'Width of the film' });
   for (const one of [640, 1280, 1920]) width.append(element('option', { value: String(one) }, `${one} px`));
   width.value = '1280';
+  const time = (label: string, title: string) =>
+    element('input', { type: 'number', min: '0', step: 'any', placeholder: label, 'aria-label': label, title });
+  const from = time('from s', 'First time of the film [s]; empty: the start');
+  const to = time('to s', 'Last time of the film [s]; empty: the newest');
+  const film = () => new URLSearchParams({ from: from.value, to: to.value, speed: speed.value, width: width.value });
   const path = `/api/sessions/${live.session}`;
   let cancel: AbortController | undefined;
 
@@ -50,12 +55,12 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
     element(
       'div',
       { class: 'row' },
-      act('MP4', 'run.mp4', 'A film of the run so far', (signal) =>
-        fetched(`${path}/run.mp4?speed=${speed.value}&width=${width.value}`, signal),
-      ),
+      act('MP4', 'run.mp4', 'A film of the run so far', (signal) => fetched(`${path}/run.mp4?${film()}`, signal)),
+      act('GIF', 'run.gif', 'The same as an animated picture', (signal) => fetched(`${path}/run.gif?${film()}`, signal)),
       speed,
       width,
     ),
+    element('div', { class: 'row' }, from, to),
     element('div', { class: 'row' }, stop, said),
   );
 }

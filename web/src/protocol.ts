@@ -132,6 +132,7 @@ export interface Standing {
   frame: number;
   frames: number;
   ended: boolean;
+  growing: boolean; // a record that its run still writes
   mode: 'autonomous' | 'manual' | 'hold';
   changes: string[];
   status: string;

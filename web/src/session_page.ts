@@ -85,7 +85,10 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
     root.dataset['status'] = message.status;
     root.dataset['mode'] = message.mode;
     manualButton.setAttribute('aria-pressed', String(message.mode === 'manual'));
-    status.value = statusText(message.mode, message.ended ? message.status : message.state);
+    root.dataset['growing'] = String(message.growing);
+    status.value = message.growing
+      ? 'still being written'
+      : statusText(message.mode, message.ended ? message.status : message.state);
   });
   const root = element(
     'div',

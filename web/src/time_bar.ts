@@ -92,9 +92,10 @@ export function timeBar(sessions: Live[]): TimeBar {
     playButton.disabled = ended && !plays && !record;
     stepButton.disabled = ended;
     const looksBack = sessions.some((one) => one.standing?.looks_back);
-    liveButton.disabled = !looksBack;
-    liveButton.classList.toggle('on', !looksBack && !record);
-    liveButton.hidden = record;
+    const isNewest = !looksBack && (!record || standing.frame + 1 >= standing.frames);
+    liveButton.disabled = isNewest;
+    liveButton.classList.toggle('on', isNewest);
+    liveButton.hidden = record && !standing.growing;
     const known = speeds.includes(standing.speed);
     if (document.activeElement !== menu) menu.value = String(known ? standing.speed : 1);
   };

@@ -10,9 +10,9 @@ let browser;
 before(async () => (browser = await startBrowser()));
 after(() => browser.close());
 
-test('a run is exported as PNG, SVG, CSV and MP4', async () => {
+test('a run is exported as PNG, SVG, CSV, MP4 and GIF', async () => {
   const lab = await startLab('scenarios/first_flight.yaml');
-  const { page, close } = await openPage(browser, lab.url);
+  const { page, complaints, close } = await openPage(browser, lab.url);
   await page.waitForSelector('.form .field', { state: 'attached' });
   await page.getByRole('tab', { name: 'Record' }).click();
   const press = (name) => page.getByRole('button', { name, exact: true }).click();
@@ -35,6 +35,14 @@ test('a run is exported as PNG, SVG, CSV and MP4', async () => {
   const film = await file('MP4');
   assert.equal(film.subarray(4, 8).toString(), 'ftyp');
   assert.ok(film.length > 10_000);
+  await page.getByLabel('from s').fill('1');
+  await page.getByLabel('to s').fill('2');
+  const gif = await file('GIF');
+  assert.equal(gif.subarray(0, 6).toString(), 'GIF89a');
+  await page.getByLabel('to s').fill('0.5');
+  await press('GIF');
+  await page.waitForFunction(() => document.querySelector('.exports output').value.includes('nothing to show'));
+  assert.equal(complaints.splice(0).length, 1);
   await close();
   assert.equal(await lab.stop(), 0);
 });

@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { mkdirSync } from 'node:fs';
 import { dirname, join } from 'node:path';
+import { after } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { chromium } from 'playwright-core';
 
@@ -11,12 +12,18 @@ export const root = join(dirname(fileURLToPath(import.meta.url)), '../..');
 export const program = process.env.MICROSWARM ?? join(root, 'build/release/bin/microswarm');
 const pictures = join(root, 'build/web');
 
+// One that runs would keep the test's process from ending.
+const labs = new Set();
+after(() => labs.forEach((lab) => lab.kill('SIGKILL')));
+
 /** Starts `microswarm lab`: { url, kill(signal) }. */
 export async function startLab(...options) {
   const lab = spawn(program, ['lab', '--no-open', ...options], { cwd: root });
+  labs.add(lab);
   let said = '';
   lab.stderr.on('data', (text) => (said += text));
   const ended = new Promise((resolve) => lab.on('exit', resolve));
+  void ended.then(() => labs.delete(lab));
   const url = await new Promise((resolve, reject) => {
     let text = '';
     lab.stdout.on('data', (more) => {

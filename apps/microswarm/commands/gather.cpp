@@ -73,6 +73,7 @@ int gather_command(const GatherOptions& o, const Context& context) {
   KeyLocations(o.map).require_none(validate(scene.scenario, world));
   const OutFolder hold(o.out);
   Session session(Experiment{std::move(scene), world, o.map});
+  const auto growing = grow_record(session, o.out);
   finish_run(session, context.stop);
   return tell_run(session, {o.out, false, o.json}, report);
 }

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "commands/commands.hpp"
+#include "lab/record_watch.hpp"
 #include "lab/server.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/rig/params/rig_experiment.hpp"
@@ -56,7 +57,7 @@ std::optional<lab::Opening> opening_of(const LabOptions& o) {
     return std::nullopt;
   }
   lab::Opening opening{
-      .file = o.file,
+      .file = lab::present_record(o.file),
       .options = {.settings = o.settings, .rig = o.rig, .rig_settings = o.rig_settings}};
   if (o.rig.empty() || o.simulate) {
     note_each(reading([&] { return open_session(opening.file, opening.options); })->notes());

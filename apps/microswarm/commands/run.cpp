@@ -124,6 +124,7 @@ int run_command(const RunOptions& o, const Context& context) {
   const OutFolder hold(o.out);
   if (o.trials > 1) return many_runs(o, experiment->scene, experiment->world, context.stop);
   if (!session) session = std::make_unique<Session>(std::move(*experiment));
+  const auto growing = grow_record(*session, o.out);
   finish_run(*session, context.stop);
   return tell_run(*session, {o.out, o.no_report, o.json}, report);
 }

@@ -132,10 +132,11 @@ std::string hold_text(const Record& record) {
   return held > 1e-3 ? fmt::format("  at goal   held there for {:.1f} s\n", held) : "";
 }
 
+std::filesystem::path record_in(const std::filesystem::path& folder) { return folder / "run.h5"; }
+
 void keep(const Record& record, const RunOutput& o, const ReportOptions& report) {
-  const std::filesystem::path folder = o.out;
-  write_record(record, folder / "run.h5");
-  if (!o.no_report) write_run_report(record, folder, report);
+  write_record(record, record_in(o.out));
+  if (!o.no_report) write_run_report(record, o.out, report);
 }
 
 }  // namespace
@@ -143,6 +144,11 @@ void keep(const Record& record, const RunOutput& o, const ReportOptions& report)
 void note_oddities(const Session& session) {
   note_tick(session.scenario());
   note_assumptions(session.scenario(), session.map());
+}
+
+std::unique_ptr<GrowingRecord> grow_record(Session& session, const std::string& folder) {
+  if (folder.empty()) return nullptr;
+  return std::make_unique<GrowingRecord>(session, record_in(folder));
 }
 
 void finish_run(Session& session, const Stop& stop) {

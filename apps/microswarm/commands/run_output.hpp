@@ -2,12 +2,14 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/report/run_report.hpp"
+#include "microswarm/session/growing_record.hpp"
 #include "microswarm/session/session.hpp"
 #include "support/options.hpp"
 
@@ -23,6 +25,10 @@ struct RunOutput {
 
 /// Warns on stderr of what is unusual about a session before it runs.
 void note_oddities(const Session& session);
+
+/// Keeps the record so far in `folder` while the session is stepped, for `microswarm lab`, which
+/// follows it; null without a folder.
+std::unique_ptr<GrowingRecord> grow_record(Session& session, const std::string& folder);
 
 /// Steps a session to its end with a progress bar.
 void finish_run(Session& session, const Stop& stop);

@@ -53,7 +53,7 @@ class Session {
   const Tick* step(const Stop& stop = {});
   /// Steps to the end.
   const RunResult& finish(const Stop& stop = {});
-  /// Adds a listener for all further ticks and the end; it must outlive the session.
+  /// Adds a listener for all further ticks and the end; it must outlive them.
   void listen(RunListener& listener) { listeners_.push_back(&listener); }
 
   /// Sets a scenario value, written as in a file, from the next tick on. Returns all issues; if

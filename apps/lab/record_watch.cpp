@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/record_watch.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <system_error>
+
+#include "microswarm/session/growing_record.hpp"
+
+namespace microswarm::lab {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_there(const fs::path& file) {
+  std::error_code error;
+  return fs::is_regular_file(file, error);
+}
+
+/// Whether a command writes to the folder: it holds a lock on it.
+bool is_written_to(const fs::path& folder) {
+  const std::string name = folder.empty() ? "." : folder.string();
+  const int open = ::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (open < 0) return false;
+  const bool is_locked = ::flock(open, LOCK_SH | LOCK_NB) != 0;
+  ::close(open);
+  return is_locked;
+}
+
+}  // namespace
+
+fs::path present_record(const fs::path& record) {
+  const fs::path part = part_of(record);
+  return record.extension() == ".h5" && !is_there(record) && is_there(part) ? part : record;
+}
+
+RecordWatch::RecordWatch(fs::path file) : part_(std::move(file)), whole_(whole_of(part_)) {}
+
+fs::path RecordWatch::file() const {
+  return whole_.empty() || is_there(part_) || !is_there(whole_) ? part_ : whole_;
+}
+
+bool RecordWatch::is_growing() const {
+  return !whole_.empty() && is_there(part_) && is_written_to(part_.parent_path());
+}
+
+bool RecordWatch::has_changed() {
+  Version now{.file = file()};
+  struct stat found {};
+  if (::stat(now.file.c_str(), &found) != 0) return false;
+  now.number = found.st_ino;
+  now.time = found.st_mtim;
+  now.size = found.st_size;
+  const bool is_same = now.file == last_.file && now.number == last_.number &&
+                       now.time.tv_sec == last_.time.tv_sec &&
+                       now.time.tv_nsec == last_.time.tv_nsec && now.size == last_.size;
+  last_ = now;
+  return !is_same;
+}
+
+}  // namespace microswarm::lab
