@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "bench/global.hpp"
+#include "bench/lab.hpp"
 #include "bench/planning.hpp"
 #include "bench/radar.hpp"
 #include "bench/swarm.hpp"
@@ -63,7 +64,7 @@ int main(int argc, char** argv) {
                         std::string(version), "Exit code 3 if a row misses its aim.");
   const cli::Command app = line.root();
   cli::Action action;
-  const cli::Group groups[] = {
+  const std::vector<cli::Group> groups{
       {"planning", "Planners, replanning, clearance queries",
        [](bool quick, const Stop& stop) {
          return bench::planning(cli::scenario_folder(), quick, stop);
@@ -71,6 +72,12 @@ int main(int argc, char** argv) {
       {"swarm", "Stepping of robots under one input", bench::swarm},
       {"global", "Planning for several robots under one input", bench::global},
       {"radar", "Decisions of the radar", bench::radar},
+#ifdef MICROSWARM_BENCH_LAB
+      {"lab", "The lab: frames, times, several clients; its page in a browser",
+       [](bool quick, const Stop& stop) {
+         return bench::lab(cli::scenario_folder(), quick, stop);
+       }},
+#endif
       {"vision", "Detection and tracking of swarms and robots", bench::vision}};
   for (const cli::Group& group : groups) cli::add_group(app, group, action);
   return cli::run_program("microswarm-bench", line, action, argc, argv);

@@ -88,7 +88,7 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
     root.dataset['growing'] = String(message.growing);
     status.value = message.growing
       ? 'still being written'
-      : statusText(message.mode, message.ended ? message.status : message.state);
+      : statusText(message.mode, (!message.ended && message.state) || message.status);
   });
   const root = element(
     'div',

@@ -4,7 +4,6 @@ import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { mkdirSync } from 'node:fs';
 import { dirname, join } from 'node:path';
-import { after } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { chromium } from 'playwright-core';
 
@@ -12,9 +11,8 @@ export const root = join(dirname(fileURLToPath(import.meta.url)), '../..');
 export const program = process.env.MICROSWARM ?? join(root, 'build/release/bin/microswarm');
 const pictures = join(root, 'build/web');
 
-// One that runs would keep the test's process from ending.
-const labs = new Set();
-after(() => labs.forEach((lab) => lab.kill('SIGKILL')));
+const labs = new Set(); // that run
+process.on('exit', () => labs.forEach((lab) => lab.kill('SIGKILL')));
 
 /** Starts `microswarm lab`: { url, kill(signal) }. */
 export async function startLab(...options) {
@@ -32,11 +30,14 @@ export async function startLab(...options) {
     });
     ended.then((code) => reject(new Error(`the lab ended with ${code}: ${said}`)));
   });
+  // After a test that failed, none keeps this process from ending.
+  for (const one of [lab, lab.stdout, lab.stderr]) one.unref();
   return {
     url,
     process: lab,
     /** Ends it; its exit code. */
     stop: async (signal = 'SIGINT') => {
+      lab.ref();
       lab.kill(signal);
       return ended;
     },

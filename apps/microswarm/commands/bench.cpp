@@ -17,7 +17,7 @@ struct BenchOptions {
   bool json = false;
 };
 
-constexpr const char* groups[] = {"planning", "swarm", "global", "radar", "vision"};
+constexpr const char* groups[] = {"planning", "swarm", "global", "radar", "vision", "lab"};
 
 int measure(const BenchOptions& o) {
   if (std::find(std::begin(groups), std::end(groups), o.group) == std::end(groups))
@@ -48,7 +48,7 @@ void add_bench(Command app, Action& action) {
       "bench",
       "Compare speeds with those of reference implementations; exit code 3 if one misses its aim",
       "bench planning --quick --csv planning.csv");
-  cmd.add_option("group", o->group, "Benchmark: planning, swarm, global, radar, vision")
+  cmd.add_option("group", o->group, "Benchmark: planning, swarm, global, radar, vision, lab")
       .required()
       .type_name("GROUP");
   cmd.add_option("--csv", o->csv, "Also write the rows to this CSV file").type_name("FILE");
