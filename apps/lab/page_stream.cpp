@@ -78,7 +78,7 @@ class PageStream : public Page, public std::enable_shared_from_this<PageStream> 
     } catch (const InputError& error) {
       Issues issues;
       issues.add({}, error.what());
-      send(answer_message(0, issues));
+      send(answer_message(id_in(text), issues));
     }
   }
 

@@ -101,6 +101,16 @@ Request read_request(std::string_view text) {
   return request;
 }
 
+std::uint64_t id_in(std::string_view text) {
+  try {
+    const Json json = parsed(text);
+    const auto id = json.find("id");
+    return id != json.end() && id->is_number_unsigned() ? id->get<std::uint64_t>() : 0;
+  } catch (const InputError&) {
+    return 0;
+  }
+}
+
 OpenRequest read_open_request(std::string_view text) {
   OpenRequest request;
   const Json json = parsed(text);

@@ -91,6 +91,8 @@ inline constexpr std::size_t max_settings = 1000;
 /// Reads a JSON object such as {"id": 3, "do": "set", "key": "goal_um", "value": "[1, 2]"}. Throws
 /// InputError in one line if it is not one, has another key, or a value of another type.
 Request read_request(std::string_view text);
+/// The id in a message that read_request refuses, for the answer; 0 if it has none.
+std::uint64_t id_in(std::string_view text);
 
 /// Reads a JSON object such as {"file": "scenarios/a.yaml", "settings": ["seed=3"]}, strict as
 /// read_request.

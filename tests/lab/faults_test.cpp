@@ -111,6 +111,16 @@ TEST(LabFaults, GarbageIsAnsweredWithWhatIsWrong) {
   page.does(step);
 }
 
+TEST(LabFaults, AMessageThatIsRefusedIsAnsweredWithItsId) {
+  const Lab lab;
+  TestPage page(lab, open(lab));
+  for (const Json& request : {Json{{"do", "fly"}}, Json{{"do", "seek"}, {"number", "one"}},
+                              Json{{"speed", 2}}, Json{{"do", "step"}, {"path", "/"}}})
+    EXPECT_EQ(page.issues(request).size(), 1u) << request;
+  ASSERT_TRUE(page.say(R"({"id": -1, "do": "step"})"));
+  EXPECT_EQ(page.until("answer")["id"], 0);
+}
+
 TEST(LabFaults, TextThatIsNoUtf8EndsTheStream) {
   const Lab lab;
   TestPage page(lab, open(lab));

@@ -12,6 +12,8 @@ export async function call<T>(method: 'GET' | 'POST', path: string, body?: unkno
   return json as T;
 }
 
+const closed: Answer = { type: 'answer', id: 0, issues: [{ keys: [], text: 'the session is closed' }] };
+
 type Listener = (message: Message) => void;
 
 /** The stream of a session. */
@@ -26,7 +28,10 @@ export class Connection {
     this.socket = new WebSocket(`${scheme}://${location.host}/api/stream/${session}`);
     this.socket.binaryType = 'arraybuffer';
     this.socket.onmessage = (event) => this.take(read(event.data as ArrayBuffer));
-    this.socket.onclose = onClose;
+    this.socket.onclose = () => {
+      this.settle(closed);
+      onClose();
+    };
   }
 
   listen(listener: Listener): void {
@@ -36,6 +41,7 @@ export class Connection {
   /** Sends a request; its answer says what is wrong with it, if anything. */
   ask(request: Request): Promise<Answer> {
     const id = this.next++;
+    if (this.socket.readyState > WebSocket.OPEN) return Promise.resolve({ ...closed, id });
     return new Promise((resolve) => {
       this.waiting.set(id, resolve);
       this.socket.send(JSON.stringify({ id, ...request }));
@@ -52,11 +58,17 @@ export class Connection {
     this.socket.close();
   }
 
-  private take(message: Message): void {
-    if (message.type === 'answer') {
-      this.waiting.get(message.id)?.(message);
-      this.waiting.delete(message.id);
+  /** The id 0 is of a message that could not be read, and may be the answer to any. */
+  private settle(answer: Answer): void {
+    const settled = answer.id === 0 ? [...this.waiting.keys()] : [answer.id];
+    for (const id of settled) {
+      this.waiting.get(id)?.(answer);
+      this.waiting.delete(id);
     }
+  }
+
+  private take(message: Message): void {
+    if (message.type === 'answer') this.settle(message);
     for (const listener of this.listeners) listener(message);
   }
 }

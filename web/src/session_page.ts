@@ -44,12 +44,12 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
     openCopy(live, parameters.settings()).catch((error: Error) => say(error.message));
 
   let follows = false;
-  const setFollow = (on: boolean) => {
+  const toggleFollow = () => scene.follow(!follows);
+  const followButton = button('Follow', 'Follow the swarm (l)', toggleFollow);
+  scene.onFollow((on) => {
     follows = on;
-    scene.follow(on);
     followButton.setAttribute('aria-pressed', String(on));
-  };
-  const followButton = button('Follow', 'Follow the swarm (l)', () => setFollow(!follows));
+  });
   const manualButton = button('Steer by hand', 'Arrow keys or a gamepad steer (m)', () => drive.toggle());
   const arrow = (by: number) => (event: KeyboardEvent) => {
     if (!drive.key(event, true)) time.seekBy(by * (event.shiftKey ? 10 : 1));
@@ -60,7 +60,7 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
     { keys: ['ArrowRight'], shown: '→', does: 'the next frame (Shift: ten) · steer right', act: arrow(1) },
     { keys: ['ArrowUp', 'ArrowDown'], shown: '↑ ↓', does: 'steer (Shift: slowly)', act: arrow(0) },
     { keys: ['f'], shown: 'f', does: 'fit the map', act: () => scene.fit() },
-    { keys: ['l'], shown: 'l', does: 'follow the swarm', act: () => setFollow(!follows) },
+    { keys: ['l'], shown: 'l', does: 'follow the swarm', act: toggleFollow },
     { keys: ['m'], shown: 'm', does: 'steer by hand', act: () => drive.toggle() },
     ...(isRig ? [] : [{ keys: ['Escape'], shown: 'Esc', does: 'put the tool away', act: () => hands.choose(undefined) }]),
   ], !isRig);

@@ -228,7 +228,7 @@ test('draws only when something changed', async (t) => {
   const hidden = await run.scene((scene) => scene.layers().filter(({ shown }) => !shown));
   assert.deepEqual(
     hidden.map(({ name }) => name),
-    ['clearance', 'obstacle-trails', 'radar'],
+    ['clearance', 'obstacle-trails', 'radar', 'clock'],
   );
   await run.close();
 });
@@ -304,6 +304,41 @@ test('what moves is between two frames while it plays, never beyond', async (t) 
   });
   assert.ok(seen.onItsWay[0] < 20 && seen.onItsWay[1] > 20 && seen.onItsWay[1] <= 100);
   assert.deepEqual([seen.late, seen.jumped, seen.paused], [100, 200, 300]);
+  await run.close();
+});
+
+test('moving the view ends to follow', async (t) => {
+  const run = await playTo(t, 'scenarios/papers/radar/twelve.yaml', 1, { speed: 4 });
+  const button = run.page.getByRole('button', { name: 'Follow' });
+  await button.click();
+  assert.equal(await button.getAttribute('aria-pressed'), 'true');
+  const box = await run.page.locator('.scene canvas').boundingBox();
+  await run.page.mouse.move(box.x + 640, box.y + 400);
+  await run.page.mouse.down();
+  await run.page.mouse.move(box.x + 500, box.y + 450, { steps: 4 });
+  await run.page.mouse.up();
+  assert.equal(await button.getAttribute('aria-pressed'), 'false');
+  const moved = await run.scene((scene) => scene.view.origin);
+  await run.page.evaluate(() => window.microswarm.connection.ask({ do: 'step' }));
+  await run.page.waitForTimeout(300);
+  assert.deepEqual(await run.scene((scene) => scene.view.origin), moved);
+  await run.close();
+});
+
+test('requests are answered, also those that cannot be read and after the end', async (t) => {
+  const run = await playTo(t, 'scenarios/papers/radar/twelve.yaml', 1, { speed: 4 });
+  const asked = await run.page.evaluate(async () => {
+    const { connection } = window.microswarm;
+    const deep = { do: 'set', key: 'goal_um', value: [[[1]]] };
+    const answers = await Promise.all([{ do: 'fly' }, deep].map((request) => connection.ask(request)));
+    const waiting = connection.ask({ do: 'pause' });
+    await fetch(`/api/sessions/${connection.session}`, { method: 'DELETE' });
+    await waiting;
+    while (!document.querySelector('.trouble').textContent) await new Promise((resolve) => setTimeout(resolve, 20));
+    answers.push(await connection.ask({ do: 'pause' }));
+    return answers.map(({ issues }) => issues.length);
+  });
+  assert.deepEqual(asked, [1, 1, 1]);
   await run.close();
 });
 

@@ -22,6 +22,8 @@ export interface Touched {
   hit(screen: Point): { what: Grip; place?: Point };
   touch(touch: Touch): void;
   viewChanged(): void;
+  /** The view was moved, not only zoomed. */
+  panned(): void;
 }
 
 const click = 4; // movement that is none yet [px]
@@ -76,6 +78,7 @@ export class Pointer {
     if (!this.pan) return;
     this.pan.moved = Math.max(this.pan.moved, distance(at, this.pan.began));
     if (this.pan.moved < click) return;
+    this.on.panned();
     this.on.view.pan(at[0] - before[0], at[1] - before[1]);
     this.on.viewChanged();
   }

@@ -48,6 +48,7 @@ export class Scene {
   private readonly goal = new Goal();
   private readonly obstacleTrails = new ObstacleTrails();
   private readonly ghost = new Ghost();
+  private readonly clock = new Clock();
   private readonly listed: Layer[] = [
     this.background,
     this.camera,
@@ -67,12 +68,13 @@ export class Scene {
     this.start,
     this.goal,
     new ScaleBar(),
-    new Clock(),
+    this.clock,
   ]; // from below
   private readonly all: Layer[] = [new Ground(), ...this.listed, this.ghost];
   private readonly stale = new Set<Layer>(this.all);
   private readonly touchListeners: ((touch: Touch) => void)[] = [];
   private readonly wantListeners: ((request: Request) => void)[] = [];
+  private readonly followListeners: ((follows: boolean) => void)[] = [];
   private readonly sizes = new ResizeObserver(() => this.resize());
   private colours: Palette = palettes[preferredTheme()];
   private requested = 0;
@@ -106,6 +108,7 @@ export class Scene {
       hit: (screen) => this.hit(screen),
       touch: (touch) => this.touch(touch),
       viewChanged: () => this.viewChanged(),
+      panned: () => this.follow(false),
     });
     this.sizes.observe(this.root);
     this.watchDensity();
@@ -142,7 +145,7 @@ export class Scene {
 
   /** Shows the whole map. */
   fit(): void {
-    this.follows = false;
+    this.follow(false);
     this.view.fit();
     this.viewChanged();
   }
@@ -158,10 +161,16 @@ export class Scene {
     this.viewChanged();
   }
 
-  /** Keeps the swarm, or the robots' mean, in the middle. */
+  /** Keeps the swarm, or the robots' mean, in the middle, until the view is moved or fitted. */
   follow(on: boolean): void {
+    if (on === this.follows) return;
     this.follows = on;
+    for (const listener of this.followListeners) listener(on);
     this.schedule();
+  }
+
+  onFollow(listener: (follows: boolean) => void): void {
+    this.followListeners.push(listener);
   }
 
   layers(): { name: string; label: string; shown: boolean }[] {
@@ -204,12 +213,30 @@ export class Scene {
     this.ask();
   }
 
-  /** What is shown, as a PNG. */
-  async picture(): Promise<Blob> {
-    this.paint(performance.now());
-    return new Promise((resolve, reject) =>
-      this.renderer.canvas.toBlob!((blob) => (blob ? resolve(blob) : reject(new Error('no picture')))),
+  /** What is shown, with its time, as a PNG. */
+  picture(): Promise<Blob> {
+    return this.withClock(
+      () =>
+        new Promise((resolve, reject) =>
+          this.renderer.canvas.toBlob!((blob) => (blob ? resolve(blob) : reject(new Error('no picture')))),
+        ),
     );
+  }
+
+  /** Does something with a picture that has the time on it. */
+  private withClock<T>(act: () => T): T {
+    const { shown } = this.clock;
+    const paint = (clock: boolean) => {
+      this.clock.shown = clock;
+      this.stale.add(this.clock);
+      this.paint(performance.now());
+    };
+    paint(true);
+    try {
+      return act();
+    } finally {
+      paint(shown);
+    }
   }
 
   /** What moves, as it is shown at a time of performance.now(). */

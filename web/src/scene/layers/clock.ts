@@ -2,12 +2,18 @@
 import { ink, label } from '../draw';
 import { type Drawing, Layer } from '../layer';
 
-/** The simulated time that is shown. */
+/** The simulated time that is shown. A page with a time bar has it there; exported pictures have it
+ *  here. */
 export class Clock extends Layer {
   readonly name = 'clock';
   readonly label = 'Clock';
   override readonly occasions = { motion: true };
   private readonly text = this.screen.addChild(label('', { fontSize: 15 }));
+
+  constructor() {
+    super();
+    this.shown = false;
+  }
 
   take(): boolean {
     return false;
