@@ -28,6 +28,7 @@ using Json = nlohmann::json;
 constexpr std::uint32_t max_header = 16 * 1024;    // bytes
 constexpr std::uint64_t slowest_reader = 100'000;  // bytes a second
 constexpr std::uint64_t max_body = max_request_size;
+constexpr std::size_t scrap = 64 * 1024;  // bytes that are read to be thrown away
 constexpr std::string_view uploads_path = "/api/uploads";
 constexpr std::string_view sessions_path = "/api/sessions/";
 constexpr std::string_view stream_path = "/api/stream/";
@@ -240,6 +241,9 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
                      trusted = opening.options.settings](const auto& settings) {
       library.check(file, settings, trusted);
     };
+    if (asked.photo)
+      opening.photo =
+          PhotoBeneath{.file = shared_.library.find(*asked.photo), .um_per_px = asked.um_per_px};
     auto& settings = opening.options.settings;
     settings.insert(settings.end(), asked.settings.begin(), asked.settings.end());
     stream_.expires_never();
@@ -267,15 +271,25 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     const std::string name(path.substr(slash + 1));
     if (shared_.hub.drives(*number))
       return refuse(http::status::conflict, "the coils are driven: stop the run first");
-    if (const auto wanted = read_run_export(name, view(request_.target())))
+    const Opening& opening = shared_.hub.opening_of(*number);
+    if (name == "photo.jpg" && opening.photo) return show(*opening.photo);
+    if (auto wanted = read_run_export(name, view(request_.target()))) {
+      wanted->photo = opening.photo;
       return export_run(*number, name, *wanted);
-    auto make = lab::download(name, shared_.hub.file_of(*number).parent_path());
+    }
+    auto make = lab::download(name, opening.file.parent_path());
     if (!make) return nothing();
     stream_.expires_never();
     shared_.hub.fetch<Download>(*number, std::move(make),
                                 [self = shared_from_this(), name](Outcome<Download> made) {
                                   self->send(name, std::move(made));
                                 });
+  }
+
+  void show(const PhotoBeneath& photo) {
+    later([this, file = photo.file] {
+      return respond(request_, http::status::ok, "image/jpeg", jpeg_of(file));
+    });
   }
 
   /// Copies the record in the session's thread, and makes the film or picture in another.
@@ -351,7 +365,19 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
                         if (error) return;
                         if (!response->need_eof()) return self->read();
                         self->stream_.socket().shutdown(Tcp::socket::shutdown_send, error);
+                        self->stream_.expires_after(self->shared_.hub.limits().patience);
+                        self->drain(max_upload);
                       });
+  }
+
+  /// Reads what is still on its way: a connection that is closed before would be reset, and who
+  /// sends would not get the answer.
+  void drain(std::size_t most) {
+    buffer_.clear();
+    stream_.async_read_some(buffer_.prepare(scrap), [self = shared_from_this(), most](
+                                                        beast::error_code error, std::size_t size) {
+      if (!error && size < most) self->drain(most - size);
+    });
   }
 
   beast::tcp_stream stream_;

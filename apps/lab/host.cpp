@@ -11,7 +11,8 @@ Source source_of(const Opening& opening) {
           .rig = opening.options.rig.string(),
           .settings = opening.options.settings,
           .rig_settings = opening.options.rig_settings,
-          .live = opening.live.has_value()};
+          .live = opening.live.has_value(),
+          .photo = opening.photo};
 }
 
 std::unique_ptr<Host> make_host(Opening opening, Host::Callbacks callbacks) {

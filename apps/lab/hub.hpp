@@ -42,8 +42,8 @@ class Hub {
   void open(Opening opening, std::function<void(const Outcome<std::uint64_t>&)> opened);
   bool has(std::uint64_t session) const;
   /// What an open session was opened from.
-  const std::filesystem::path& file_of(std::uint64_t session) const {
-    return sessions_.at(session).host->opening().file;
+  const Opening& opening_of(std::uint64_t session) const {
+    return sessions_.at(session).host->opening();
   }
   /// Whether it drives the coils of a rig.
   bool drives(std::uint64_t session) const { return sessions_.at(session).host->drives(); }

@@ -11,6 +11,7 @@
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/experiment/scenario/map_scale.hpp"
 #include "microswarm/experiment/scenario/validate.hpp"
+#include "microswarm/formats/images/jpeg.hpp"
 #include "microswarm/formats/write_map.hpp"
 #include "microswarm/navigation/gathering/policies/channel_width.hpp"
 #include "microswarm/planning/common/free_goal.hpp"
@@ -22,6 +23,7 @@ namespace microswarm::lab {
 namespace {
 
 constexpr double smoothing = 1;  // [px], of the outlines
+constexpr int jpeg_quality = 90;
 constexpr int max_steps = 100'000;
 
 VesselSegmentation searched(const Image& photo, const PhotoRequest& request) {
@@ -44,6 +46,10 @@ Vec2 free_place(const Map& map, std::array<double, 2> wanted, double clearance, 
 }  // namespace
 
 std::string vessel_schema() { return json_schema<VesselParams>("vessels of a photograph"); }
+
+std::string jpeg_of(const std::filesystem::path& photograph) {
+  return encode_jpeg(read_photograph(photograph), jpeg_quality);
+}
 
 FoundVessels find_vessels(const std::filesystem::path& photograph, const PhotoRequest& request) {
   const Image photo = read_photograph(photograph);

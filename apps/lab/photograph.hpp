@@ -18,6 +18,9 @@ struct FoundVessels {
 /// JSON Schema of the search's parameters.
 std::string vessel_schema();
 
+/// A photograph as JPEG, whatever its format. Throws InputError.
+std::string jpeg_of(const std::filesystem::path& photograph);
+
 /// Searches the photograph. Throws InputError for a wrong setting.
 FoundVessels find_vessels(const std::filesystem::path& photograph, const PhotoRequest& request);
 

@@ -41,6 +41,12 @@ double number_in(const std::string& key, const Json& value) {
   return value.get<double>();
 }
 
+double scale_in(const std::string& key, const Json& value) {
+  const double scale = number_in(key, value);
+  if (!(scale >= 1e-6 && scale <= 1e6)) refuse(key, "a number in 1e-06..1e+06");
+  return scale;
+}
+
 std::string text_in(const std::string& key, const Json& value) {
   if (!value.is_string()) refuse(key, "a text");
   return value.get<std::string>();
@@ -119,14 +125,19 @@ OpenRequest read_open_request(std::string_view text) {
       request.file = text_in(key, value);
     else if (key == "settings")
       request.settings = texts_in(key, value);
+    else if (key == "photo")
+      request.photo = text_in(key, value);
+    else if (key == "um_per_px")
+      request.um_per_px = scale_in(key, value);
     else
       throw InputError(fmt::format("message: no key {}", quote(key)));
   }
+  if (request.photo.has_value() != (request.um_per_px > 0))
+    throw InputError("message: photo and um_per_px go together");
   return request;
 }
 
 PhotoRequest read_photo_request(std::string_view text) {
-  constexpr double most = 1e6;
   PhotoRequest request;
   const Json json = parsed(text);
   for (const auto& [key, value] : json.items()) {
@@ -135,9 +146,7 @@ PhotoRequest read_photo_request(std::string_view text) {
     } else if (key == "settings") {
       request.settings = texts_in(key, value);
     } else if (key == "um_per_px") {
-      request.um_per_px = number_in(key, value);
-      if (!(request.um_per_px >= 1e-6 && request.um_per_px <= most))
-        refuse(key, "a number in 1e-06..1e+06");
+      request.um_per_px = scale_in(key, value);
     } else if (key == "start") {
       request.start = place_in(key, value);
     } else if (key == "goal") {

@@ -70,6 +70,8 @@ struct Request {
 struct OpenRequest {
   std::optional<std::string> file;    ///< of the listing; else what the lab was started with
   std::vector<std::string> settings;  ///< KEY=VALUE
+  std::optional<std::string> photo;   ///< beneath the map; of the listing or an upload
+  double um_per_px = 0;               ///< of the photo
 };
 
 /// What a page asks of a photograph: its vessels, and an experiment in them.

@@ -45,14 +45,18 @@ std::optional<RunExport> read_run_export(std::string_view name, std::string_view
 }
 
 Download make_run_export(const RunExport& wanted, const Record& record, const Stop& stop) {
+  RunVideoOptions options = wanted.options;
+  if (wanted.photo)
+    options.report = {.photo = read_photograph(wanted.photo->file),
+                      .um_per_px = wanted.photo->um_per_px};
   if (wanted.kind == RunExport::Kind::picture) {
     Download made{.file = std::make_unique<TemporaryFile>("picture.svg")};
-    write_run_picture(record, wanted.t, made.file->path(), wanted.options);
+    write_run_picture(record, wanted.t, made.file->path(), options);
     return made;
   }
   const bool is_gif = wanted.kind == RunExport::Kind::gif;
   Download made{.file = std::make_unique<TemporaryFile>(is_gif ? "run.gif" : "run.mp4")};
-  const RunVideo video = write_run_video(record, made.file->path(), wanted.options, stop);
+  const RunVideo video = write_run_video(record, made.file->path(), options, stop);
   if (video.stopped) throw InputError("the video was stopped");
   if (video.file != made.file->path()) throw InputError("there is no codec for a video here");
   return made;

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "lab/download.hpp"
+#include "lab/stream.hpp"
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/experiment/record/record.hpp"
 #include "microswarm/report/run_video.hpp"
@@ -16,6 +17,7 @@ struct RunExport {
   enum class Kind { video, gif, picture };
   Kind kind = Kind::picture;
   RunVideoOptions options{};
+  std::optional<PhotoBeneath> photo{};
   double t = 0;  ///< of a picture [s]
 };
 

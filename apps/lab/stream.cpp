@@ -160,12 +160,16 @@ std::string command_of(const Source& source, bool is_record) {
 Json hello_json(const Session& session, const Source& source) {
   const Scenario& scenario = session.scenario();
   const Map& map = session.map();
+  Json photo;
+  if (source.photo)
+    photo = {{"file", source.photo->file.string()}, {"um_per_px", source.photo->um_per_px}};
   return {{"type", "hello"},
           {"name", source.file},
           {"command", command_of(source, session.is_playback())},
           {"settings", source.settings},
           {"rig", source.rig},
           {"live", source.live},
+          {"photo", std::move(photo)},
           {"playback", session.is_playback()},
           {"scenario", described(to_json_text(scenario))},
           {"changeable", changeable_keys()},

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -43,12 +45,19 @@ struct Standing {
 };
 
 /// What a session was opened from.
+/// A photograph beneath the map, its lower left corner at the origin.
+struct PhotoBeneath {
+  std::filesystem::path file;
+  double um_per_px = 1;
+};
+
 struct Source {
   std::string file;
   std::string rig;  ///< empty: none
   std::vector<std::string> settings{};
   std::vector<std::string> rig_settings{};
   bool live = false;  ///< on the rig in real time; else the rig is simulated
+  std::optional<PhotoBeneath> photo{};
 };
 /// The command line that repeats it, for a shell.
 std::string command_of(const Source& source, bool is_record);

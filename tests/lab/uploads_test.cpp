@@ -46,7 +46,17 @@ TEST(Uploads, APhotographBecomesAnExperiment) {
       asked.update(more);
       const Reply made = ask(lab, http::verb::post, "/api/photographs", asked.dump());
       ASSERT_EQ(made.result(), http::status::ok) << made.body();
-      EXPECT_NE(open(lab, Json::parse(made.body())), 0u);
+      Json opened = Json::parse(made.body());
+      opened["photo"] = photo["file"];
+      opened["um_per_px"] = 5;
+      const std::uint64_t session = open(lab, opened);
+      TestPage page(lab, session);
+      page.next();
+      EXPECT_EQ(page.latest["hello"]["photo"]["um_per_px"], 5.0);
+      const std::string path = "/api/sessions/" + std::to_string(session);
+      EXPECT_EQ(get(lab, path + "/photo.jpg").body().substr(0, 2), "\xff\xd8");
+      page.does({{"do", "step"}});
+      EXPECT_NE(get(lab, path + "/picture.svg").body().find("<image"), std::string::npos);
     }
     for (const Json& wrong :
          {Json{{"um_per_px", 5}}, Json{{"um_per_px", 5}, {"goal", {450, 480}}},

@@ -17,7 +17,9 @@ import { timeBar, timeKeys } from './time_bar';
 export async function openCopy(live: Live, settings: string[]): Promise<void> {
   const open = (file: object) =>
     call<{ session: number }>('POST', '/api/sessions', { ...file, settings });
-  const { session } = await open({ file: live.hello?.name }).catch(() => open({}));
+  const photo = live.hello?.photo;
+  const beneath = photo ? { photo: photo.file, um_per_px: photo.um_per_px } : {};
+  const { session } = await open({ file: live.hello?.name, ...beneath }).catch(() => open({}));
   await live.ask({ do: 'restart', settings });
   location.hash = `#/compare/${live.session}/${session}`;
 }

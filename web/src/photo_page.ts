@@ -24,9 +24,16 @@ const steps: [Step, string][] = [
   ['places', '3 Start and goal'],
 ];
 const hints: { [step in Step]: string } = {
-  scale: 'Click two points whose distance you know, or type the µm per pixel.',
+  scale: 'Click two points whose distance you know, or type the µm per pixel. Keys: arrows and Enter on the photograph.',
   vessels: 'The outline shows the vessels that were found.',
   places: 'Click the start, then the goal; or gather robots where you click.',
+};
+
+const ways: { [key: string]: Point } = {
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, -1],
+  ArrowDown: [0, 1],
 };
 
 /** From a photograph to an experiment: scale, vessels, start and goal. */
@@ -36,6 +43,7 @@ export function photoPage(photo: Photograph): Promise<Page> {
   let ruler: Point[] = [];
   let start: Point | undefined;
   let goal: Point | undefined;
+  let cross: Point | undefined; // of those who use keys
   let gathers = false;
   const settings = new Map<string, Json>();
   const trouble = element('p', { class: 'trouble', role: 'alert' });
@@ -44,7 +52,12 @@ export function photoPage(photo: Photograph): Promise<Page> {
   const image = element('img', { src: photo.address, alt: photo.name, class: 'photo' });
   const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
   svg.setAttribute('viewBox', `0 0 ${photo.width_px} ${photo.height_px}`);
-  const picture = element('div', { class: 'photo-frame' }, image, svg);
+  const picture = element(
+    'div',
+    { class: 'photo-frame', tabindex: '0', role: 'application', 'aria-label': 'Photograph: arrows move the cross, Enter sets the point' },
+    image,
+    svg,
+  );
   picture.style.width = `min(100%, calc((100vh - 80px) * ${photo.width_px / photo.height_px}))`;
   const say = (error: Error) => (trouble.textContent = error.message);
 
@@ -84,13 +97,17 @@ export function photoPage(photo: Photograph): Promise<Page> {
     searches = true;
     do {
       again = false;
-      found.value = 'Searching …';
+      const began = performance.now();
+      const tell = () => (found.value = `Searching … ${Math.floor((performance.now() - began) / 1000)} s`);
+      tell();
+      const ticks = setInterval(tell, 1000);
       try {
         const response = await fetch('/api/vessels', {
           method: 'POST',
           body: JSON.stringify({ file: photo.file, settings: words() }),
         });
         if (!response.ok) throw new Error((await response.json()).error);
+        clearInterval(ticks);
         const numbers = JSON.parse(response.headers.get('Microswarm-Vessels') ?? '{}');
         image.src = URL.createObjectURL(await response.blob());
         found.value = `Vessels cover ${number(100 * numbers.view_share, 3)} % of the view; wide ones are ${number(numbers.wide_width_px, 3)} px; ${number(100 * numbers.kept_share, 3)} % of ${numbers.pieces} pieces are kept.`;
@@ -98,6 +115,8 @@ export function photoPage(photo: Photograph): Promise<Page> {
       } catch (error) {
         found.value = '';
         say(error as Error);
+      } finally {
+        clearInterval(ticks);
       }
     } while (again);
     searches = false;
@@ -116,17 +135,20 @@ export function photoPage(photo: Photograph): Promise<Page> {
       text.textContent = label;
       (svg as unknown as SVGElement).append(circle, text);
     };
+    if (cross && step !== 'vessels') {
+      const line = document.createElementNS(svg.namespaceURI as string, 'path');
+      const [x, y] = cross;
+      const arm = size / 50;
+      line.setAttribute('d', `M${x - arm} ${y}h${2 * arm}M${x} ${y - arm}v${2 * arm}`);
+      line.setAttribute('class', 'cross');
+      svg.append(line);
+    }
     if (step === 'scale') ruler.forEach((one, i) => dot(one, i === 0 ? 'a' : 'b', 'ruler'));
     if (step !== 'places') return;
     if (start && !gathers) dot(start, 'start', 'start');
     if (goal) dot(goal, gathers ? 'gather here' : 'goal', 'goal');
   };
-  picture.addEventListener('click', (event) => {
-    const box = picture.getBoundingClientRect();
-    const at: Point = [
-      ((event.clientX - box.left) / box.width) * photo.width_px,
-      ((event.clientY - box.top) / box.height) * photo.height_px,
-    ];
+  const put = (at: Point) => {
     if (step === 'scale') {
       ruler = ruler.length === 2 ? [at] : [...ruler, at];
       measure();
@@ -139,6 +161,28 @@ export function photoPage(photo: Photograph): Promise<Page> {
       playButton.disabled = !goal;
     }
     draw();
+  };
+  picture.addEventListener('click', (event) => {
+    const box = picture.getBoundingClientRect();
+    cross = undefined;
+    put([
+      ((event.clientX - box.left) / box.width) * photo.width_px,
+      ((event.clientY - box.top) / box.height) * photo.height_px,
+    ]);
+  });
+  picture.addEventListener('keydown', (event) => {
+    const way = ways[event.key];
+    if (event.key !== 'Enter' && !way) return;
+    event.preventDefault();
+    cross ??= [photo.width_px / 2, photo.height_px / 2];
+    if (way) {
+      const length = (event.shiftKey ? 1 / 20 : 1 / 200) * Math.max(photo.width_px, photo.height_px);
+      const within = (value: number, most: number) => Math.min(Math.max(value, 0), most);
+      cross = [within(cross[0] + length * way[0], photo.width_px), within(cross[1] + length * way[1], photo.height_px)];
+      draw();
+    } else {
+      put(cross);
+    }
   });
 
   const toWorld = ([x, y]: Point): Point => [x * umPerPx, (photo.height_px - y) * umPerPx];
@@ -154,7 +198,7 @@ export function photoPage(photo: Photograph): Promise<Page> {
         ...(gathers ? { robots: robots.get() } : { start: toWorld(start as Point) }),
       };
       const { file } = await call<{ file: string }>('POST', '/api/photographs', body);
-      const { session } = await call<{ session: number }>('POST', '/api/sessions', { file });
+      const { session } = await call<{ session: number }>('POST', '/api/sessions', { file, photo: photo.file, um_per_px: umPerPx });
       location.hash = `#/session/${session}`;
     } catch (error) {
       found.value = '';

@@ -30,6 +30,7 @@ export interface Hello {
   rig: string;
   live: boolean; // on the rig in real time
   rig_info?: RigInfo; // of one that is open
+  photo: { file: string; um_per_px: number } | null; // beneath the map, its lower left corner at the origin
   playback: boolean;
   scenario: Scenario;
   changeable: string[];

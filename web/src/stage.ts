@@ -19,6 +19,13 @@ export async function stageFor(live: Live): Promise<Stage> {
   const scene = await Scene.create();
   scene.onWant((request) => void live.ask(request));
   live.listen((message) => scene.take(message));
+  let photo: string | undefined;
+  live.listen((message) => {
+    if (message.type !== 'hello' || message.photo?.file === photo) return;
+    photo = message.photo?.file;
+    const address = photo === undefined ? '' : `/api/sessions/${live.session}/photo.jpg`;
+    scene.setBackground(address, [0, 0], message.photo?.um_per_px ?? 1).catch(() => undefined);
+  });
   const stopTheme = onTheme((theme) => scene.setTheme(theme));
   window.microswarm ??= { scene, connection: live };
   return {

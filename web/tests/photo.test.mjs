@@ -36,7 +36,9 @@ const found = (page) => page.locator('output', { hasText: 'Vessels cover' }).wai
 test('a photograph becomes a map in which robots gather', () =>
   withPhoto(sample, async (page, { picture }) => {
     await clickAt(page, 0.1, 0.5);
-    await clickAt(page, 0.9, 0.5);
+    await page.locator('.photo-frame').focus();
+    for (let i = 0; i < 8; ++i) await page.keyboard.press('Shift+ArrowRight');
+    await page.keyboard.press('Enter');
     await page.fill('#photo-distance', '800');
     await page.keyboard.press('Tab');
     assert.ok(Number(await page.inputValue('#photo-um-per-px')) > 0);
@@ -54,10 +56,11 @@ test('a photograph becomes a map in which robots gather', () =>
     await page.selectOption('.timebar .speed', '0');
     await page.click('.play');
     await page.waitForSelector('[data-status="solved"]', { timeout: 120_000 });
+    assert.ok(await page.evaluate(() => window.microswarm.scene.background.isSet), 'the photograph lies beneath');
     await picture('photo-gathered');
   }));
 
-test('a swarm crosses the vessels of a real photograph', { skip: !real && 'no data' }, () =>
+test('the vessels of a real photograph are found', { skip: !real && 'no data' }, () =>
   withPhoto(join(data ?? '', real ?? ''), async (page, { picture }) => {
     await page.fill('#photo-um-per-px', '10');
     await page.keyboard.press('Tab');

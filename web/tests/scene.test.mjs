@@ -132,7 +132,7 @@ test('a photograph lies beneath the walls', async (t) => {
     context.fillRect(0, 0, 200, 200);
     const blob = await new Promise((resolve) => canvas.toBlob(resolve));
     scene.show('aggregation', false);
-    await scene.setBackground(URL.createObjectURL(blob), [0, 50], [100, 100]);
+    await scene.setBackground(URL.createObjectURL(blob), [0, 50], 0.25);
   });
   await run.page.waitForTimeout(200);
   await run.picture('scene-photograph');

@@ -26,6 +26,7 @@ struct LabOptions {
   bool without_limits = false;
   bool coils_cold = false;
   bool drawn_swarm = false;
+  PhotoOptions photo;
   std::vector<std::string> folders;
   std::string listen;
   int port = 0;
@@ -54,11 +55,14 @@ std::optional<lab::Opening> opening_of(const LabOptions& o) {
     if (!o.settings.empty())
       throw InputError("--set: there is no scenario whose values could be set");
     if (!o.rig.empty()) throw InputError("--rig: there is no scenario for the rig");
+    if (!o.photo.file.empty()) throw InputError("--photo: there is no map for the photograph");
     return std::nullopt;
   }
   lab::Opening opening{
       .file = lab::present_record(o.file),
       .options = {.settings = o.settings, .rig = o.rig, .rig_settings = o.rig_settings}};
+  if (report_options(o.photo).photo)  // so that it can be read
+    opening.photo = lab::PhotoBeneath{.file = o.photo.file, .um_per_px = *o.photo.um_per_px};
   if (o.rig.empty() || o.simulate) {
     note_each(reading([&] { return open_session(opening.file, opening.options); })->notes());
     return opening;
@@ -126,6 +130,7 @@ void add_lab(Command app, Action& action) {
   cmd.add_option("--set-rig", o->rig_settings, "Override a rig value (repeatable)")
       .type_name("KEY=VALUE")
       .needs("--rig");
+  add_photo(cmd, o->photo);
   cmd.add_option("--folder", o->folders,
                  "Folder whose scenarios and records are listed, beside the shipped ones")
       .type_name("FOLDER")

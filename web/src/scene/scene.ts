@@ -196,9 +196,9 @@ export class Scene {
     this.schedule();
   }
 
-  /** Shows a picture beneath the map between two corners [µm]; none for an empty address. */
-  async setBackground(url: string, lo: Point, hi: Point): Promise<void> {
-    await this.background.set(url, lo, hi);
+  /** Shows a picture beneath the map, its lower left corner at `lo` [µm]; none for an empty address. */
+  async setBackground(url: string, lo: Point, umPerPx: number): Promise<void> {
+    await this.background.set(url, lo, umPerPx);
     this.drawAnew('walls');
     this.schedule();
   }

@@ -5,6 +5,18 @@ import { empty } from '../draw';
 import { Layer } from '../layer';
 
 const faded = 0.75; // of its strength, so that what lies on it stands out
+const largest = 4096; // px, a side of a texture
+
+/** A picture of a size that every graphics card takes. */
+function reduced(image: HTMLImageElement): HTMLImageElement | HTMLCanvasElement {
+  const factor = largest / Math.max(image.naturalWidth, image.naturalHeight);
+  if (factor >= 1) return image;
+  const canvas = document.createElement('canvas');
+  canvas.width = Math.max(1, Math.round(factor * image.naturalWidth));
+  canvas.height = Math.max(1, Math.round(factor * image.naturalHeight));
+  canvas.getContext('2d')?.drawImage(image, 0, 0, canvas.width, canvas.height);
+  return canvas;
+}
 
 /** A photograph beneath the map. */
 export class Background extends Layer {
@@ -16,16 +28,19 @@ export class Background extends Layer {
   }
   draw(): void {}
 
-  /** Shows the picture between two corners of the world; nothing for an empty address. */
-  async set(url: string, lo: Point, hi: Point): Promise<void> {
+  /** Shows the picture from its lower left corner on; nothing for an empty address. */
+  async set(url: string, lo: Point, umPerPx: number): Promise<void> {
     empty(this.world);
     if (!url) return;
     const image = new Image();
     image.src = url;
     await image.decode();
-    const sprite = new Sprite(Texture.from({ resource: image, autoGenerateMipmaps: true }));
-    sprite.position.set(lo[0], hi[1]);
-    sprite.scale.set((hi[0] - lo[0]) / image.naturalWidth, -(hi[1] - lo[1]) / image.naturalHeight);
+    const { naturalWidth, naturalHeight } = image;
+    const resource = reduced(image);
+    const sprite = new Sprite(Texture.from({ resource, autoGenerateMipmaps: true }));
+    const scale = (umPerPx * naturalWidth) / resource.width;
+    sprite.position.set(lo[0], lo[1] + umPerPx * naturalHeight);
+    sprite.scale.set(scale, -scale);
     sprite.alpha = faded;
     empty(this.world);
     this.world.addChild(sprite);
