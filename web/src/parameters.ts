@@ -27,6 +27,7 @@ export class Parameters {
   private shape = '';
   private readonly open = new Set<string>(unfolded);
   private readonly waiting = new Map<string, Json>();
+  private setting: Promise<unknown> = Promise.resolve(); // that was asked for last
   private readonly form = element('div', { class: 'form' });
   private readonly search = element('input', {
     type: 'search',
@@ -57,6 +58,7 @@ export class Parameters {
 
   /** Opens the experiment anew with all that was changed, and `more` KEY=VALUE. */
   async restart(more: string[] = []): Promise<Answer> {
+    await this.setting;
     const waiting = [...this.waiting].map(([key, value]) => `${key}=${text(value)}`);
     const settings = combine(
       this.live.hello?.settings ?? [],
@@ -86,7 +88,9 @@ export class Parameters {
 
   async change(key: string, value: Json): Promise<Answer | undefined> {
     if (this.isAtOnce(key)) {
-      const answer = await this.live.ask({ do: 'set', key, value: text(value) });
+      const set = this.live.ask({ do: 'set', key, value: text(value) });
+      this.setting = set;
+      const answer = await set;
       this.showIssues(answer, [key]);
       return answer;
     }

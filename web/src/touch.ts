@@ -34,6 +34,7 @@ export class Hands {
     'aria-label': 'Radius of a new disc in µm',
   });
   private readonly buttons = new Map<Tool, HTMLButtonElement>();
+  private last: Promise<void> = Promise.resolve(); // touch; they are obeyed one after the other
 
   constructor(
     private readonly live: Live,
@@ -41,7 +42,7 @@ export class Hands {
     private readonly parameters: Parameters,
     private readonly say: (text: string, isTrouble?: boolean) => void,
   ) {
-    scene.onTouch((touch) => void this.take(touch));
+    scene.onTouch((touch) => (this.last = this.last.then(() => this.take(touch))));
     const button = (tool: Tool, label: string) => {
       const made = element(
         'button',
