@@ -34,7 +34,8 @@ async function route(): Promise<void> {
     page = made;
     place?.replaceChildren(made.root);
   } catch (error) {
-    place?.replaceChildren(element('p', { class: 'trouble', role: 'alert' }, (error as Error).message));
+    const why = element('p', { class: 'trouble', role: 'alert' }, (error as Error).message);
+    place?.replaceChildren(element('div', { class: 'fault' }, element('a', { href: '#/', class: 'button quiet' }, '‹ Gallery'), why));
   }
 }
 

@@ -57,8 +57,8 @@ const options = {
   ],
 };
 
-export function startBrowser() {
-  return chromium.launch(options);
+export function startBrowser(...more) {
+  return chromium.launch({ ...options, args: [...options.args, ...more] });
 }
 
 /** A browser whose process can be killed. */

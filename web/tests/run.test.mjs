@@ -28,3 +28,14 @@ test('a run plays as fast as possible and arrives', async () => {
   await lookedAt.close();
   assert.equal(await lab.stop(), 0);
 });
+
+test('a browser that cannot draw says so', async () => {
+  const plain = await startBrowser('--disable-3d-apis');
+  const lab = await startLab('scenarios/first_flight.yaml');
+  const { page } = await openPage(plain, lab.url);
+  await page.locator('.trouble', { hasText: 'WebGL 2' }).waitFor();
+  await page.getByRole('link', { name: 'Gallery' }).click();
+  await page.waitForSelector('.card');
+  await plain.close();
+  assert.equal(await lab.stop(), 0);
+});

@@ -86,12 +86,16 @@ export class Scene {
 
   static async create(): Promise<Scene> {
     const renderer = new WebGLRenderer();
-    await renderer.init({
+    const init = renderer.init({
       antialias: true,
       autoDensity: true,
       resolution: window.devicePixelRatio,
       eventMode: 'none',
       eventFeatures: { move: false, globalMove: false, click: false, wheel: false },
+    });
+    await init.catch((error: Error) => {
+      const hasNone = !document.createElement('canvas').getContext('webgl2');
+      throw hasNone ? new Error('This browser has no WebGL 2, with which the lab draws: use another, or one with graphics acceleration.') : error;
     });
     return new Scene(renderer);
   }
