@@ -15,7 +15,7 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
   for (const one of [640, 1280, 1920]) width.append(element('option', { value: String(one) }, `${one} px`));
   width.value = '1280';
   const time = (label: string, title: string) =>
-    element('input', { type: 'number', min: '0', step: 'any', placeholder: label, 'aria-label': label, title });
+    element('input', { type: 'number', class: 'number', min: '0', step: 'any', placeholder: label, 'aria-label': label, title });
   const from = time('from s', 'First time of the film [s]; empty: the start');
   const to = time('to s', 'Last time of the film [s]; empty: the newest');
   const film = () => new URLSearchParams({ from: from.value, to: to.value, speed: speed.value, width: width.value });
