@@ -7,6 +7,7 @@ import { Live } from './live';
 import { metricsTable } from './metrics';
 import type { Page } from './page';
 import { Parameters } from './parameters';
+import { Plots } from './plots';
 import { combine, keyOf } from './settings';
 import { stageFor } from './stage';
 import { tabs } from './tabs';
@@ -41,6 +42,7 @@ export async function comparePage(numbers: number[]): Promise<Page> {
   );
   const time = timeBar(sides.map((side) => side.live));
   const table = element('div', { class: 'table' });
+  const plots = new Plots(sides.map((side) => side.live), time.seekTime);
   const layers = layersTab(sides.map((side) => side.stage.scene));
 
   const settingsOf = (live: Live) => combine(live.hello?.settings ?? [], live.standing?.changes ?? []);
@@ -100,6 +102,7 @@ export async function comparePage(numbers: number[]): Promise<Page> {
     element('div', { class: 'sides' }, ...sides.map((side) => side.figure)),
     tabs('compare', [
       { name: 'Metrics', panel: table },
+      { name: 'Plots', panel: plots.root, shown: () => plots.show() },
       ...sides.map((side, i) => ({ name: `Parameters ${names[i]}`, panel: side.parameters.root })),
       { name: 'Layers', panel: layers.root, shown: layers.show },
     ]),
@@ -110,6 +113,7 @@ export async function comparePage(numbers: number[]): Promise<Page> {
     root,
     leave: () => {
       keys.destroy();
+      plots.destroy();
       for (const side of sides) {
         side.live.close();
         side.stage.destroy();

@@ -19,7 +19,9 @@ const plotted: Plotted[] = [
 const period = 200; // ms between renewals
 const height = 132;
 
-/** Plots over time with one cursor; a click looks at that frame. */
+const colours = ['--accent', '--bad']; // of the sessions
+
+/** Plots over time of one session, or of several in one; one cursor. A click looks at that time. */
 export class Plots {
   readonly root = element('div', { class: 'plots' });
   private plots: uPlot[] = [];
@@ -29,16 +31,18 @@ export class Plots {
   private readonly observer = new ResizeObserver(() => this.resize());
 
   constructor(
-    private readonly live: Live,
-    private readonly seek: (frame: number) => void,
+    private readonly lives: Live[],
+    private readonly seek: (time: number) => void,
   ) {
     this.stopTheme = onTheme(() => this.build());
     this.observer.observe(this.root);
-    live.listen((message) => {
-      if (message.type === 'rows') this.renewSoon();
-      if (message.type === 'frame') this.markShown();
-    });
-    live.onPoint(() => this.point());
+    for (const live of lives) {
+      live.listen((message) => {
+        if (message.type === 'rows') this.renewSoon();
+        if (message.type === 'frame') this.markShown();
+      });
+      live.onPoint(() => this.point(live.pointed));
+    }
   }
 
   destroy(): void {
@@ -81,7 +85,15 @@ export class Plots {
       },
       cursor: { drag: { x: false, y: false }, y: false, points: { size: 6 } },
       axes: [{ ...axis, values: (_, all) => all.map((one) => `${one} s`) }, { ...axis, size: 46 }],
-      series: [{}, { stroke: colour('--accent'), width: 1.5, points: { show: false } }],
+      series: [
+        {},
+        ...this.lives.map((_, i) => ({
+          stroke: colour(colours[i] ?? '--ink'),
+          width: 1.5,
+          points: { show: false },
+          spanGaps: this.lives.length > 1, // where only the other has a tick
+        })),
+      ],
       hooks: {
         setCursor: [(plot) => this.pointedAt(plot)],
         draw: [(plot) => this.drawShown(plot, colour('--ink'))],
@@ -89,17 +101,19 @@ export class Plots {
     };
     const plot = new uPlot(options, this.data(what), this.root);
     plot.over.addEventListener('click', () => {
-      const { idx } = plot.cursor;
-      if (idx != null) this.seek(idx);
+      const time = pointed(plot);
+      if (time !== undefined) this.seek(time);
     });
-    plot.over.addEventListener('pointerleave', () => this.live.point(undefined));
+    plot.over.addEventListener('pointerleave', () => this.tell(undefined));
     return plot;
   }
 
   private data(what: Plotted): uPlot.AlignedData {
-    const values = this.live.history.column(what.column);
-    const shown = values.map((one) => (Number.isFinite(one) ? one * what.factor : null));
-    return [this.live.history.times, shown];
+    const tables = this.lives.map(({ history }): uPlot.AlignedData => {
+      const values = history.column(what.column);
+      return [history.times, values.map((one) => (Number.isFinite(one) ? one * what.factor : null))];
+    });
+    return tables.length === 1 ? (tables[0] as uPlot.AlignedData) : uPlot.join(tables);
   }
 
   private isInSight(): boolean {
@@ -125,13 +139,13 @@ export class Plots {
   }
 
   private markShown(): void {
-    if (!this.isInSight() || this.live.standing?.plays) return;
+    if (!this.isInSight() || this.lives.some((live) => live.standing?.plays)) return;
     for (const plot of this.plots) plot.redraw(false, false);
   }
 
   /** A line at the time that the scene shows. */
   private drawShown(plot: uPlot, colour: string): void {
-    const x = plot.valToPos(this.live.shown, 'x', true);
+    const x = plot.valToPos(Math.max(...this.lives.map((live) => live.shown)), 'x', true);
     const { left, top, width, height: high } = plot.bbox;
     if (!(x >= left && x <= left + width)) return;
     plot.ctx.save();
@@ -146,18 +160,27 @@ export class Plots {
 
   private pointedAt(plot: uPlot): void {
     if (!plot.over.matches(':hover')) return; // moved by point()
-    const { idx } = plot.cursor;
-    if (idx != null) this.live.point(this.live.history.times[idx]);
+    const time = pointed(plot);
+    if (time !== undefined) this.tell(time);
+  }
+
+  private tell(time: number | undefined): void {
+    for (const live of this.lives) live.point(time);
   }
 
   /** Brings the cursor of all plots to where the pointer is on one of them or on the time line. */
-  private point(): void {
+  private point(time: number | undefined): void {
     if (!this.isInSight()) return;
-    const time = this.live.pointed;
     for (const plot of this.plots) {
       if (plot.over.matches(':hover')) continue;
       const left = time === undefined ? -10 : plot.valToPos(time, 'x');
       plot.setCursor({ left, top: time === undefined ? -10 : 10 });
     }
   }
+}
+
+/** The time beneath the pointer [s]. */
+function pointed(plot: uPlot): number | undefined {
+  const { idx } = plot.cursor;
+  return idx == null ? undefined : plot.data[0][idx];
 }

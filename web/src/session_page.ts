@@ -35,7 +35,7 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
   scene.keepFree(60); // for the tools over it
   const time = timeBar([live]);
   const parameters = new Parameters(live);
-  const plots = new Plots(live, time.seek);
+  const plots = new Plots([live], time.seekTime);
   const layers = layersTab([scene]);
   const drive = new Drive(live);
   const hands = new Hands(live, scene, parameters, say);

@@ -22,6 +22,7 @@ export interface TimeBar {
   speed(by: number): void;
   seekBy(frames: number): void;
   seek(frame: number): void;
+  seekTime(time: number): void;
 }
 
 /** The keys of a time bar that every page with one has. */
@@ -52,7 +53,9 @@ export function timeBar(sessions: Live[]): TimeBar {
   const seek = (frame: number) => {
     const { times } = lead().history;
     const time = times[Math.max(0, Math.min(times.length - 1, frame))];
-    if (time === undefined) return;
+    if (time !== undefined) seekTime(time);
+  };
+  const seekTime = (time: number) => {
     for (const one of sessions) one.seek(one.history.nearest(time));
   };
   const seekBy = (frames: number) => {
@@ -114,5 +117,5 @@ export function timeBar(sessions: Live[]): TimeBar {
     line.root,
     liveButton,
   );
-  return { root, play, step, live, speed, seekBy, seek };
+  return { root, play, step, live, speed, seekBy, seek, seekTime };
 }

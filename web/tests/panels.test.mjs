@@ -152,6 +152,12 @@ test('two runs stand side by side with their difference', () =>
     assert.ok(Number(cells[1]) > Number(cells[0]), cells.join());
     assert.ok(Math.abs(Number(cells[2]) - (Number(cells[1]) - Number(cells[0]))) < 0.1, cells.join());
     await picture('compare');
+    await page.getByRole('tab', { name: 'Plots' }).click();
+    await page.waitForTimeout(400);
+    const over = await page.locator('.plots .u-over').first().boundingBox();
+    await page.mouse.click(over.x + over.width / 2, over.y + over.height / 2);
+    await until(page, () => document.querySelector('.scrub').value !== document.querySelector('.scrub').max);
+    await picture('compare-plots');
   }));
 
 /** Where a point of the map is in the window. */
