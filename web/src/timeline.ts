@@ -74,6 +74,9 @@ export function timeline(
     const time = live.pointed;
     tip.hidden = time === undefined;
     if (time === undefined) return;
+    const share = live.history.nearest(time) / Math.max(1, live.history.times.length - 1);
+    tip.style.left = `${100 * share}%`;
+    tip.style.translate = `${-100 * share}%`; // within the bar
     const near = live.history.events.filter((one) => Math.abs(one.t_s - time) < span(live) / 100);
     tip.value = [`${time.toFixed(1)} s`, ...near.map((one) => one.kind.replaceAll('_', ' '))].join(' · ');
   };
