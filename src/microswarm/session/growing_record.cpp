@@ -6,18 +6,29 @@
 
 #include <algorithm>
 #include <exception>
+#include <iterator>
 #include <system_error>
 
 namespace microswarm {
 namespace {
 
-constexpr double copies_share = 0.005;  ///< of the session's time
-constexpr double frame_cost = 1e-6;     ///< of a copy, about, of a frame alone [s]
-constexpr int writes_share = 20;        ///< of a core's, one part
+constexpr double copies_share = 0.02;  ///< of the session's time
+constexpr double first_cost = 2e-7;    ///< of copying a frame [s], before it is measured
+constexpr int writes_share = 20;       ///< of a core's, one part
 constexpr std::string_view part_mark = ".part";
 
 double seconds(std::chrono::steady_clock::duration time) {
   return std::chrono::duration<double>(time).count();
+}
+
+/// Calls `act` with each pair of tables that only grow during a run.
+template <class A, class B, class Act>
+void for_growing(A& a, B& b, const Act& act) {
+  act(a.frames, b.frames);
+  act(a.paths, b.paths);
+  act(a.plans, b.plans);
+  act(a.events, b.events);
+  act(a.changes, b.changes);
 }
 
 /// This thread gives way to all others, also where the session's has real-time priority.
@@ -48,8 +59,11 @@ GrowingRecord::GrowingRecord(Session& session, const std::filesystem::path& reco
     : session_(session),
       part_(part_of(record)),
       period_(period),
-      due_(Clock::now() + period),
+      frame_cost_(first_cost),
+      whole_(session.record()),
       thread_([this] { write_all(); }) {
+  for_growing(session_.record(), session_.record(),
+              [this](const auto& table, const auto&) { taken_.push_back(table.size()); });
   session.listen(*this);
 }
 
@@ -65,37 +79,59 @@ GrowingRecord::~GrowingRecord() {
 }
 
 void GrowingRecord::on_tick(const Tick& tick) {
+  ++new_frames_;
   const auto began = Clock::now();
-  ++more_frames_;
   if (began < due_ || tick.end) return;
-  const double expected = last_copied_ + more_frames_ * frame_cost;
-  if (all_copied_ + expected > copies_share * seconds(began - begun_)) return;
-  {
-    const std::lock_guard lock(mutex_);
-    if (writes_ || copy_ || began < rests_until_) return;
-  }
-  auto copy = std::make_unique<Record>(session_.record());
-  last_copied_ = seconds(Clock::now() - began);
-  all_copied_ += last_copied_;
-  more_frames_ = 0;
+  const double expected = copied_ + new_frames_ * frame_cost_;
+  if (expected > copies_share * seconds(began - begun_) || !can_write()) return;
+  auto news = take_news();
+  const double took = seconds(Clock::now() - began);
+  copied_ += took;
+  frame_cost_ = took / new_frames_;
+  new_frames_ = 0;
   due_ = began + period_;
   const std::lock_guard lock(mutex_);
-  copy_ = std::move(copy);
+  news_ = std::move(news);
   wake_.notify_all();
+}
+
+bool GrowingRecord::can_write() {
+  const std::lock_guard lock(mutex_);
+  return !writes_ && !news_ && Clock::now() >= rests_until_;
+}
+
+/// What the record has got since the last time, and the parts that change as a whole.
+std::unique_ptr<Record> GrowingRecord::take_news() {
+  const Record& record = session_.record();
+  auto news = std::make_unique<Record>();
+  std::size_t table = 0;
+  for_growing(*news, record, [&](auto& to, const auto& from) {
+    to.assign(from.begin() + static_cast<std::ptrdiff_t>(taken_[table]), from.end());
+    taken_[table++] = from.size();
+  });
+  news->result = record.result;
+  news->robots = record.robots;
+  return news;
 }
 
 void GrowingRecord::write_all() {
   yield_to_others();
   std::unique_lock lock(mutex_);
   for (;;) {
-    wake_.wait(lock, [this] { return ends_ || copy_; });
+    wake_.wait(lock, [this] { return ends_ || news_; });
     if (ends_) return;
-    const std::unique_ptr<Record> record = std::move(copy_);
+    const std::unique_ptr<Record> news = std::move(news_);
     writes_ = true;
     lock.unlock();
     const auto began = Clock::now();
+    for_growing(whole_, *news, [](auto& to, auto& from) {
+      to.insert(to.end(), std::make_move_iterator(from.begin()),
+                std::make_move_iterator(from.end()));
+    });
+    whole_.result = std::move(news->result);
+    whole_.robots = std::move(news->robots);
     try {
-      write_record(*record, part_);
+      write_record(whole_, part_);
     } catch (const std::exception&) {
       // The run's own record says what is wrong with the folder.
     }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <thread>
+#include <vector>
 
 #include "microswarm/experiment/run/run.hpp"
 #include "microswarm/session/session.hpp"
@@ -20,9 +21,9 @@ std::filesystem::path whole_of(const std::filesystem::path& part);
 
 /// Keeps the record so far of a session in the part file of its record, for those who watch the run
 /// from another program. The file is replaced every few seconds, always whole, and removed with
-/// this object. The session's thread only copies the record, for at most 0.5 % of its time; another
-/// thread writes. Left out is a run of too many frames a second for that, and what cannot be
-/// written: a run never fails for it.
+/// this object; it stays if the program is killed. The session's thread only copies what is new,
+/// for at most 2 % of its time; another thread writes. Left out is a run of too many frames a
+/// second for that, and what cannot be written: a run never fails for it.
 class GrowingRecord : public RunListener {
  public:
   /// Of a session that it listens to from now on, and that must outlive it.
@@ -36,6 +37,8 @@ class GrowingRecord : public RunListener {
 
  private:
   using Clock = std::chrono::steady_clock;
+  bool can_write();
+  std::unique_ptr<Record> take_news();
   void write_all();
 
   const Session& session_;
@@ -45,13 +48,16 @@ class GrowingRecord : public RunListener {
   // Of the session's thread.
   Clock::time_point begun_ = Clock::now();
   Clock::time_point due_ = begun_ + period_;  ///< of the next copy
-  double more_frames_ = 0;                    ///< since the last copy
-  double last_copied_ = 0;                    ///< time that it took [s]
-  double all_copied_ = 0;                     ///< time of all copies [s]
+  std::vector<std::size_t> taken_;            ///< of each table that grows
+  double new_frames_ = 0;                     ///< since the last copy
+  double frame_cost_;                         ///< time to copy one [s]
+  double copied_ = 0;                         ///< time of all copies [s]
+
+  Record whole_;  ///< of the writing thread
 
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::unique_ptr<Record> copy_;  ///< to be written; guarded, as are the next two
+  std::unique_ptr<Record> news_;  ///< to be written; guarded, as are the next two
   bool writes_ = false;
   bool ends_ = false;
   Clock::time_point rests_until_{};  ///< so that writing takes a small share of a core; guarded

@@ -235,6 +235,7 @@ int rig_run(const RigRunOptions& o, const Context& context) {
   note_each(session.warnings());
   note_virtual_obstacles(on);
   if (o.dry_run) note("dry run: nothing goes to the coils\n");
+  const auto growing = grow_record(session, o.out);
   std::string lost = operate(session, has_coil_device(on.rig) && !o.dry_run, o.seconds, context);
   const std::optional<RecordedVideo> video = session.video();
   const RigTiming timing = session.timing();
