@@ -5,7 +5,6 @@
 #include <stdlib.h>  // mkdtemp
 
 #include "lab/library.hpp"
-#include "microswarm/core/errors/error.hpp"
 #include "microswarm/sweep/export.hpp"
 
 namespace microswarm::lab {
@@ -41,6 +40,14 @@ TemporaryFile::TemporaryFile(std::string_view name) {
 TemporaryFile::~TemporaryFile() {
   std::error_code ignored;
   fs::remove_all(path_.parent_path(), ignored);
+}
+
+void throw_renamed(const InputError& error, const fs::path& file, std::string_view name) {
+  const std::string written = file.string();
+  std::string what = error.what();
+  for (std::size_t at = 0; (at = what.find(written, at)) != std::string::npos; at += name.size())
+    what.replace(at, written.size(), name);
+  throw InputError(what);
 }
 
 std::function<Download(const Session&)> download(std::string_view name, const fs::path& folder) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "microswarm/core/errors/error.hpp"
 #include "microswarm/session/session.hpp"
 
 namespace microswarm::lab {
@@ -24,6 +25,10 @@ class TemporaryFile {
  private:
   std::filesystem::path path_;
 };
+
+/// Throws the error again, with the file named as a page knows it.
+[[noreturn]] void throw_renamed(const InputError& error, const std::filesystem::path& file,
+                                std::string_view name);
 
 /// Contents of a file for a page: bytes, or a temporary file.
 struct Download {

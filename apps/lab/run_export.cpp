@@ -3,10 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 
 #include "lab/http.hpp"
-#include "microswarm/core/errors/error.hpp"
 
 namespace microswarm::lab {
 namespace {
@@ -25,17 +26,28 @@ double number_of(std::string_view target, std::string_view key, double standard,
   return value;
 }
 
+std::string_view name_of(RunExport::Kind kind) {
+  switch (kind) {
+    case RunExport::Kind::video:
+      return "run.mp4";
+    case RunExport::Kind::gif:
+      return "run.gif";
+    case RunExport::Kind::picture:
+      break;
+  }
+  return "picture.svg";
+}
+
 }  // namespace
 
 std::optional<RunExport> read_run_export(std::string_view name, std::string_view target) {
-  RunExport wanted;
+  using enum RunExport::Kind;
+  const std::array kinds{video, gif, picture};
+  const auto kind = std::ranges::find(kinds, name, name_of);
+  if (kind == kinds.end()) return std::nullopt;
+  RunExport wanted{.kind = *kind};
   RunVideoOptions& options = wanted.options;
-  if (name == "run.mp4")
-    wanted.kind = RunExport::Kind::video;
-  else if (name == "run.gif")
-    wanted.kind = RunExport::Kind::gif, options.rate = gif_rate;
-  else if (name != "picture.svg")
-    return std::nullopt;
+  if (wanted.kind == gif) options.rate = gif_rate;
   options.from = number_of(target, "from", options.from, 0, max_time);
   options.to = number_of(target, "to", options.to, 0, max_time);
   options.speed = number_of(target, "speed", options.speed, 1e-3, 1e6);
@@ -49,17 +61,21 @@ Download make_run_export(const RunExport& wanted, const Record& record, const St
   if (wanted.photo)
     options.report = {.photo = read_photograph(wanted.photo->file),
                       .um_per_px = wanted.photo->um_per_px};
-  if (wanted.kind == RunExport::Kind::picture) {
-    Download made{.file = std::make_unique<TemporaryFile>("picture.svg")};
-    write_run_picture(record, wanted.t, made.file->path(), options);
+  const std::string_view name = name_of(wanted.kind);
+  Download made{.file = std::make_unique<TemporaryFile>(name)};
+  const std::filesystem::path& file = made.file->path();
+  try {
+    if (wanted.kind == RunExport::Kind::picture) {
+      write_run_picture(record, wanted.t, file, options);
+      return made;
+    }
+    const RunVideo video = write_run_video(record, file, options, stop);
+    if (video.stopped) throw InputError("the video was stopped");
+    if (video.file != file) throw InputError("there is no codec for a video here");
     return made;
+  } catch (const InputError& error) {
+    throw_renamed(error, file, name);
   }
-  const bool is_gif = wanted.kind == RunExport::Kind::gif;
-  Download made{.file = std::make_unique<TemporaryFile>(is_gif ? "run.gif" : "run.mp4")};
-  const RunVideo video = write_run_video(record, made.file->path(), options, stop);
-  if (video.stopped) throw InputError("the video was stopped");
-  if (video.file != made.file->path()) throw InputError("there is no codec for a video here");
-  return made;
 }
 
 }  // namespace microswarm::lab

@@ -41,14 +41,6 @@ class Trial {
   bool kept_ = false;
 };
 
-/// Messages name the file as the page knows it.
-[[noreturn]] void refuse(const InputError& error, const fs::path& file, std::string_view name) {
-  std::string what = error.what();
-  for (std::size_t at = 0; (at = what.find(file.string(), at)) != std::string::npos;)
-    what.replace(at, file.string().size(), name);
-  throw InputError(what);
-}
-
 }  // namespace
 
 fs::path Uploads::new_file(std::string_view extension) {
@@ -84,7 +76,7 @@ Upload Uploads::keep(std::string_view name, const std::string& bytes, const Libr
       read_record(file);
     }
   } catch (const InputError& error) {
-    refuse(error, file, shown);
+    throw_renamed(error, file, shown);
   }
   size_ += bytes.size();
   trial.keep();

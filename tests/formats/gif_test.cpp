@@ -13,7 +13,7 @@ TEST(Gifs, NameTheFileThatCannotBeWritten) {
   const test::Folder folder;
   const auto file = folder / "none/x.gif";
   try {
-    GifWriter(file, 10);
+    const GifWriter writer(file, 10);
     FAIL();
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find(file.string() + ": cannot write: "),

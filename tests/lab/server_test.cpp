@@ -2,6 +2,7 @@
 #include "lab/server.hpp"
 
 #include "tests/lab/client.hpp"
+#include "tests/messages.hpp"
 
 namespace microswarm::lab {
 namespace {
@@ -325,6 +326,7 @@ TEST(Server, ARunIsExportedAsPictureAndFilm) {
                             "/run.gif?from=5&to=2", "/run.gif?from=-1", "/run.mp4?from=1e8"}) {
     reply = get(lab, path + wrong);
     EXPECT_EQ(reply.result(), http::status::bad_request) << wrong;
+    EXPECT_EQ(reply.body().find("tmp"), std::string::npos) << reply.body();
   }
   reply = get(lab, path + "/run.mp4?speed=20&width=320");
   EXPECT_EQ(reply.result(), http::status::ok) << reply.body();

@@ -12,6 +12,7 @@
 #include "microswarm/experiment/run/run.hpp"
 #include "microswarm/report/picture.hpp"
 #include "microswarm/vision/camera/frames.hpp"
+#include "tests/files.hpp"
 
 namespace microswarm {
 namespace {
@@ -20,12 +21,7 @@ namespace fs = std::filesystem;
 
 class RunVideos : public testing::Test {
  protected:
-  RunVideos()
-      : folder_(fs::path(testing::TempDir()) /
-                (std::string("microswarm_run_videos_") +
-                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
+  RunVideos() {
     const fs::path file = fs::path(MICROSWARM_SOURCE_DIR) / "scenarios/first_flight.yaml";
     const Scene scene = load_scene(read_scenario(file), file.parent_path());
     Recorder recorder(scene);
@@ -33,9 +29,8 @@ class RunVideos : public testing::Test {
     simulate(scene.scenario, build_world(scene), 0, listeners);
     record_ = recorder.take();
   }
-  ~RunVideos() override { fs::remove_all(folder_); }
 
-  fs::path folder_;
+  test::Folder folder_;
   Record record_;
 };
 
@@ -82,7 +77,7 @@ TEST_F(RunVideos, AreStoppedWithWhatIsDone) {
   const RunVideo video = write_run_video(record_, folder_ / "run.mp4", {}, Stop(&stopped));
   EXPECT_TRUE(video.stopped);
   EXPECT_EQ(video.pictures, 0);
-  EXPECT_TRUE(fs::is_empty(folder_));
+  EXPECT_TRUE(fs::is_empty(folder_ / ""));
 }
 
 TEST_F(RunVideos, ShowAPartOfTheRun) {
@@ -102,7 +97,7 @@ TEST_F(RunVideos, OfTooManyPicturesAreRefusedBeforeTheFirst) {
   EXPECT_THROW(write_run_video(record_, folder_ / "run.mp4", {.speed = 1e-4}), InputError);
   EXPECT_THROW(write_run_video(Record{}, folder_ / "run.mp4"), InputError);
   EXPECT_THROW(write_run_video(record_, folder_ / "run.gif", {.rate = 60}), InputError);
-  EXPECT_TRUE(fs::is_empty(folder_));
+  EXPECT_TRUE(fs::is_empty(folder_ / ""));
 }
 
 TEST(PictureRaster, HasTheColoursOfTheGroundBeneath) {

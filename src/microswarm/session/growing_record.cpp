@@ -14,7 +14,7 @@ namespace {
 
 constexpr double copies_share = 0.02;  ///< of the session's time
 constexpr double first_cost = 2e-7;    ///< of copying a frame [s], before it is measured
-constexpr int writes_share = 20;       ///< of a core's, one part
+constexpr int writes_share = 10;       ///< of a core's, one part
 constexpr std::string_view part_mark = ".part";
 
 double seconds(std::chrono::steady_clock::duration time) {
