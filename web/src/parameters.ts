@@ -27,6 +27,7 @@ export class Parameters {
   private shape = '';
   private readonly open = new Set<string>(unfolded);
   private readonly waiting = new Map<string, Json>();
+  private readonly asked = new Map<string, Json>(); // set, and not yet answered
   private setting: Promise<unknown> = Promise.resolve(); // that was asked for last
   private readonly form = element('div', { class: 'form' });
   private readonly search = element('input', {
@@ -90,7 +91,10 @@ export class Parameters {
     if (this.isAtOnce(key)) {
       const set = this.live.ask({ do: 'set', key, value: text(value) });
       this.setting = set;
+      this.asked.set(key, value);
       const answer = await set;
+      if (this.asked.get(key) === value) this.asked.delete(key);
+      if (answer.issues.length === 0) this.rebuild();
       this.showIssues(answer, [key]);
       return answer;
     }
@@ -108,10 +112,10 @@ export class Parameters {
     this.rebuild();
   }
 
-  /** The scenario with the changes that wait for a restart. */
+  /** The scenario with the changes that wait for a restart or for their answer. */
   private wanted(): Scenario {
     const scenario = structuredClone(this.live.hello?.scenario ?? {});
-    for (const [key, value] of this.waiting) {
+    for (const [key, value] of [...this.waiting, ...this.asked]) {
       const names = key.split('.');
       const name = names.pop() as string;
       const parent = names.length > 0 ? at(scenario, names.join('.')) : scenario;
