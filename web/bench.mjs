@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // node bench.mjs [--quick]: times of the page in Chromium, as rows of `microswarm bench lab` in JSON.
 import { join } from 'node:path';
-import { openPage, root, startBrowser, startLab } from './tests/lab.mjs';
+import { drawRobots, openPage, root, startBrowser, startLab } from './tests/lab.mjs';
 
 const quick = process.argv.includes('--quick');
 const browser = await startBrowser();
@@ -77,33 +77,7 @@ async function changedPicture() {
 /** Pictures of as many robots as fast as they are drawn. */
 async function manyRobots(count) {
   const run = await open('scenarios/papers/gather/t_junction.yaml');
-  const rate = await run.page.evaluate(async ([count, seconds]) => {
-    const { scene } = window.microswarm;
-    scene.show('aggregation', false);
-    const robots = new Float32Array(2 * count);
-    for (let i = 0; i < robots.length; i += 2) {
-      robots[i] = 100 * Math.random();
-      robots[i + 1] = 90 + 10 * Math.random();
-    }
-    const none = new Uint8Array();
-    scene.take({ type: 'standing', plays: true, changes: [] });
-    const before = scene.pictures;
-    const began = performance.now();
-    for (let number = 1000; performance.now() < began + 1000 * seconds; ++number) {
-      for (let i = 0; i < robots.length; ++i) robots[i] += 0.2 * (Math.random() - 0.5);
-      scene.take({
-        type: 'frame',
-        number,
-        frame: { t_s: number / 10, x_um: 0, y_um: 0, radius_um: 0, heading_rad: 0 },
-        bodies: { discs: none, polygons: [] },
-        robots: new Uint8Array(robots.buffer.slice(0)),
-        path: none,
-        plans: 0,
-      });
-      await new Promise((resolve) => requestAnimationFrame(resolve));
-    }
-    return (scene.pictures - before) / ((performance.now() - began) / 1000);
-  }, [count, quick ? 3 : 10]);
+  const rate = await drawRobots(run.page, count, quick ? 3 : 10);
   await end(run);
   const row = { name: `page${by}, ${count} robots`, quantity: 'pictures a second', unit: '1/s', ours: rate };
   rows.push(by ? row : { ...row, aim: 60, at_most: false });

@@ -57,6 +57,8 @@ std::uint64_t open_lab_session(const std::string& url, const nlohmann::json& wha
 LabClient::LabClient(const std::string& url, std::uint64_t session) : stream_(io_) {
   const LabAddress at(url);
   beast::get_lowest_layer(stream_).connect(at.endpoint());
+  beast::get_lowest_layer(stream_).socket().set_option(
+      asio::ip::tcp::no_delay(true));  // as browsers
   stream_.set_option(beast::websocket::stream_base::decorator(
       [origin = "http://" + at.host](auto& request) { request.set(http::field::origin, origin); }));
   stream_.handshake(at.host, "/api/stream/" + std::to_string(session) + "?token=" + at.token);

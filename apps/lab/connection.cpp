@@ -49,6 +49,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     beast::error_code error;
     const auto local = stream_.socket().local_endpoint(error);
     if (!error) local_ = url_host(local.address());
+    stream_.socket().set_option(Tcp::no_delay(true), error);  // small messages leave at once
   }
   ~HttpConnection() { --shared_.connections; }
   HttpConnection(const HttpConnection&) = delete;
@@ -243,7 +244,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     };
     if (asked.photo)
       opening.photo =
-          PhotoBeneath{.file = shared_.library.find(*asked.photo), .um_per_px = asked.um_per_px};
+          BackgroundPhoto{.file = shared_.library.find(*asked.photo), .um_per_px = asked.um_per_px};
     auto& settings = opening.options.settings;
     settings.insert(settings.end(), asked.settings.begin(), asked.settings.end());
     stream_.expires_never();
@@ -286,13 +287,13 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
                                 });
   }
 
-  void show(const PhotoBeneath& photo) {
+  void show(const BackgroundPhoto& photo) {
     later([this, file = photo.file] {
       return respond(request_, http::status::ok, "image/jpeg", jpeg_of(file));
     });
   }
 
-  /// Copies the record in the session's thread, and makes the film or picture in another.
+  /// Copies the record in the session's thread, and makes the video or picture in another.
   void export_run(std::uint64_t session, const std::string& name, const RunExport& wanted) {
     stream_.expires_never();
     shared_.hub.fetch<std::shared_ptr<const Record>>(

@@ -33,7 +33,7 @@ struct Opening {
   SessionOptions options{};
   /// Throws InputError for settings that a page may not make.
   std::function<void(const std::vector<std::string>& settings)> check{};
-  std::optional<PhotoBeneath> photo{};
+  std::optional<BackgroundPhoto> photo{};
   std::optional<RigOpening> live{};  ///< on the rig in real time; else in simulated time
 };
 Source source_of(const Opening& opening);

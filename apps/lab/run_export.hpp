@@ -12,12 +12,12 @@
 
 namespace microswarm::lab {
 
-/// A film or a picture of a run, which takes longer to make than other downloads.
+/// A video or a picture of a run, which takes longer to make than other downloads.
 struct RunExport {
   enum class Kind { video, gif, picture };
   Kind kind = Kind::picture;
   RunVideoOptions options{};
-  std::optional<PhotoBeneath> photo{};
+  std::optional<BackgroundPhoto> photo{};
   double t = 0;  ///< of a picture [s]
 };
 

@@ -46,7 +46,7 @@ struct Standing {
 
 /// What a session was opened from.
 /// A photograph beneath the map, its lower left corner at the origin.
-struct PhotoBeneath {
+struct BackgroundPhoto {
   std::filesystem::path file;
   double um_per_px = 1;
 };
@@ -57,7 +57,7 @@ struct Source {
   std::vector<std::string> settings{};
   std::vector<std::string> rig_settings{};
   bool live = false;  ///< on the rig in real time; else the rig is simulated
-  std::optional<PhotoBeneath> photo{};
+  std::optional<BackgroundPhoto> photo{};
 };
 /// The command line that repeats it, for a shell.
 std::string command_of(const Source& source, bool is_record);

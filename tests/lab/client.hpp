@@ -132,6 +132,7 @@ class TestPage {
     if (receive_buffer > 0)
       socket.set_option(asio::socket_base::receive_buffer_size(receive_buffer));
     socket.connect(lab.endpoint());
+    socket.set_option(Tcp::no_delay(true));  // as browsers
     const std::string from = origin.empty() ? "http://" + lab.host : origin;
     stream_.set_option(beast::websocket::stream_base::decorator([from](auto& request) {
       if (from != "none") request.set(http::field::origin, from);

@@ -5,20 +5,20 @@ import type { Scene } from './scene/scene';
 
 const speeds = [1, 2, 4, 8, 16, 32];
 
-/** What is shown as files: a picture, a drawing, the plotted numbers, a film of the run. */
+/** What is shown as files: a picture, a drawing, the plotted numbers, a video of the run. */
 export function exportPanel(live: Live, scene: Scene): HTMLElement {
   const said = element('output', { class: 'doc' });
-  const speed = element('select', { 'aria-label': 'Speed of the film', title: 'Seconds of the run per second' });
+  const speed = element('select', { 'aria-label': 'Speed of the video', title: 'Seconds of the run per second' });
   for (const one of speeds) speed.append(element('option', { value: String(one) }, `×${one}`));
   speed.value = '4';
-  const width = element('select', { 'aria-label': 'Width of the film' });
+  const width = element('select', { 'aria-label': 'Width of the video' });
   for (const one of [640, 1280, 1920]) width.append(element('option', { value: String(one) }, `${one} px`));
   width.value = '1280';
   const time = (label: string, title: string) =>
     element('input', { type: 'number', class: 'number', min: '0', step: 'any', placeholder: label, 'aria-label': label, title });
-  const from = time('from s', 'First time of the film [s]; empty: the start');
-  const to = time('to s', 'Last time of the film [s]; empty: the newest');
-  const film = () => new URLSearchParams({ from: from.value, to: to.value, speed: speed.value, width: width.value });
+  const from = time('from s', 'First time of the video [s]; empty: the start');
+  const to = time('to s', 'Last time of the video [s]; empty: the newest');
+  const video = () => new URLSearchParams({ from: from.value, to: to.value, speed: speed.value, width: width.value });
   const path = `/api/sessions/${live.session}`;
   let cancel: AbortController | undefined;
 
@@ -55,8 +55,8 @@ export function exportPanel(live: Live, scene: Scene): HTMLElement {
     element(
       'div',
       { class: 'row' },
-      act('MP4', 'run.mp4', 'A film of the run so far', (signal) => fetched(`${path}/run.mp4?${film()}`, signal)),
-      act('GIF', 'run.gif', 'The same as an animated picture', (signal) => fetched(`${path}/run.gif?${film()}`, signal)),
+      act('MP4', 'run.mp4', 'A video of the run so far', (signal) => fetched(`${path}/run.mp4?${video()}`, signal)),
+      act('GIF', 'run.gif', 'The same as an animated picture', (signal) => fetched(`${path}/run.gif?${video()}`, signal)),
       speed,
       width,
     ),

@@ -97,3 +97,44 @@ export async function openPage(browser, url, size = { width: 1280, height: 800 }
     },
   };
 }
+
+/** Waits until a function of the page gives something; the page's policy forbids page.waitForFunction. */
+export async function until(page, holds, { wanted, seconds = 30 } = {}) {
+  for (const end = Date.now() + 1000 * seconds; Date.now() < end; await page.waitForTimeout(50))
+    if (await page.evaluate(holds, wanted)) return;
+  assert.fail(`never: ${holds}`);
+}
+
+/** Draws so many robots that move at random, in the scene of the T-junction: pictures a second. */
+export function drawRobots(page, count, seconds) {
+  return page.evaluate(
+    async ([count, seconds]) => {
+      const { scene } = window.microswarm;
+      scene.show('aggregation', false);
+      const robots = new Float32Array(2 * count);
+      for (let i = 0; i < robots.length; i += 2) {
+        robots[i] = 100 * Math.random();
+        robots[i + 1] = 90 + 10 * Math.random();
+      }
+      const none = new Uint8Array();
+      scene.take({ type: 'standing', plays: true, changes: [] });
+      const before = scene.pictures;
+      const began = performance.now();
+      for (let number = 1000; performance.now() < began + 1000 * seconds; ++number) {
+        for (let i = 0; i < robots.length; ++i) robots[i] += 0.2 * (Math.random() - 0.5);
+        scene.take({
+          type: 'frame',
+          number,
+          frame: { t_s: number / 10, x_um: 0, y_um: 0, radius_um: 0, heading_rad: 0 },
+          bodies: { discs: none, polygons: [] },
+          robots: new Uint8Array(robots.buffer.slice(0)),
+          path: none,
+          plans: 0,
+        });
+        await new Promise((resolve) => requestAnimationFrame(resolve));
+      }
+      return (scene.pictures - before) / ((performance.now() - began) / 1000);
+    },
+    [count, seconds],
+  );
+}

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { openPage, program, root, startBrowser, startLab } from './lab.mjs';
+import { openPage, program, root, startBrowser, startLab, until } from './lab.mjs';
 
 let browser;
 before(async () => (browser = await startBrowser()));
@@ -21,13 +21,6 @@ async function inLab(file, act) {
 }
 
 const clock = async (page) => Number.parseFloat(await page.locator('.clock').innerText());
-/** Waits until a function of the page gives something; the policy forbids page.waitForFunction. */
-async function until(page, holds, wanted) {
-  for (const end = Date.now() + 30_000; Date.now() < end; await page.waitForTimeout(50))
-    if (await page.evaluate(holds, wanted)) return;
-  assert.fail(`never: ${holds}`);
-}
-
 test('keys play, tick, seek, change the speed and show themselves', () =>
   inLab('scenarios/first_flight.yaml', async (page, { picture }) => {
     await page.keyboard.press('.');
@@ -44,7 +37,7 @@ test('keys play, tick, seek, change the speed and show themselves', () =>
     await until(page, () => Number.parseFloat(document.querySelector('.clock').value) < 0.3);
     await page.keyboard.press('ArrowRight');
     await page.keyboard.press('End');
-    await until(page, (t) => Number.parseFloat(document.querySelector('.clock').value) >= t, there);
+    await until(page, (t) => Number.parseFloat(document.querySelector('.clock').value) >= t, { wanted: there });
     await page.keyboard.press('?');
     await page.waitForSelector('dialog[open]');
     await picture('keys');
@@ -65,18 +58,19 @@ test('one scrubs over what was recorded, and a click in a plot seeks', () =>
       slider.value = String(Math.round(slider.max / 2));
       slider.dispatchEvent(new Event('input'));
     });
-    await until(page, (t) => Math.abs(Number.parseFloat(document.querySelector('.clock').value) - t / 2) < 0.3, end);
+    const nearMiddle = (t) => Math.abs(Number.parseFloat(document.querySelector('.clock').value) - t / 2) < 0.3;
+    await until(page, nearMiddle, { wanted: end });
     await page.getByRole('tab', { name: 'Plots' }).click();
     const plot = page.locator('.plots .u-over').first();
     const box = await plot.boundingBox();
     await page.mouse.move(box.x + box.width * 0.25, box.y + box.height / 2);
     await page.mouse.click(box.x + box.width * 0.25, box.y + box.height / 2);
-    await until(page, (t) => Number.parseFloat(document.querySelector('.clock').value) < 0.45 * t, end);
+    await until(page, (t) => Number.parseFloat(document.querySelector('.clock').value) < 0.45 * t, { wanted: end });
     await page.mouse.move(box.x + box.width * 0.6, box.y + box.height / 2);
     await page.waitForSelector('.tip:not([hidden])');
     await picture('scrub');
     await page.click('.live');
-    await until(page, (t) => Number.parseFloat(document.querySelector('.clock').value) >= t, end);
+    await until(page, (t) => Number.parseFloat(document.querySelector('.clock').value) >= t, { wanted: end });
   }));
 
 test('a slider changes the parameter, and the change is listed and in the command', () =>
@@ -198,7 +192,7 @@ test('an obstacle dragged into the way changes the path; discs come and go', () 
     await until(page, () => window.microswarm.connection.standing.changes.length === 1);
     assert.match((await changes())[0], /^obstacles\.1\.motion\.centre_um=\[/);
     for (let i = 0; i < 30; ++i) await page.click('.step');
-    await until(page, (was) => window.path.join() !== was, before);
+    await until(page, (was) => window.path.join() !== was, { wanted: before });
     await picture('dragged');
 
     await page.click('.tool-obstacle');
@@ -241,7 +235,7 @@ test('arrow keys and a gamepad steer', () =>
         const y = window.microswarm.connection.history.column('y_um').slice(since);
         return y.length > 10 && y[y.length - 1] < y[0] - 10;
       },
-      turn,
+      { wanted: turn },
     );
   }));
 

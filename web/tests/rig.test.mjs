@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { decode } from 'cborg';
-import { openPage, root, startBrowser, startLab, startMortalBrowser } from './lab.mjs';
+import { openPage, root, startBrowser, startLab, startMortalBrowser, until } from './lab.mjs';
 
 // A busy computer is no fault here.
 const patient = ['lost_swarm_s=20', 'max_frame_age_s=20', 'deadman_s=20', 'max_pause_s=20', 'missed_deadlines=1000'];
@@ -42,12 +42,6 @@ async function arm(page) {
   }
   assert.fail(await why(page));
 }
-/** Waits until a function of the page gives something; the policy forbids page.waitForFunction. */
-async function until(page, holds, wanted) {
-  for (const end = Date.now() + 30_000; Date.now() < end; await page.waitForTimeout(50))
-    if (await page.evaluate(holds, wanted)) return;
-  assert.fail(`never: ${holds}`);
-}
 const swarmAt = (page) =>
   page.evaluate(() => {
     const { swarm } = window.microswarm.scene.shownAt(performance.now());
@@ -76,7 +70,7 @@ test('arming asks once more, and Enter does not arm', () =>
     await state(page, 'dry');
     await arm(page);
     const [before] = await swarmAt(page);
-    await until(page, (x) => window.microswarm.scene.shownAt(performance.now()).swarm.x > x + 10, before);
+    await until(page, (x) => window.microswarm.scene.shownAt(performance.now()).swarm.x > x + 10, { wanted: before });
     await picture('rig-armed');
     await page.getByTitle('Light or dark').click();
     await picture('rig-armed-dark');
@@ -235,7 +229,7 @@ test('arrow keys steer it by hand', () =>
     await page.waitForSelector('[data-mode="manual"]');
     const [before] = await swarmAt(page);
     await page.keyboard.down('ArrowLeft');
-    await until(page, (x) => window.microswarm.scene.shownAt(performance.now()).swarm.x < x - 8, before);
+    await until(page, (x) => window.microswarm.scene.shownAt(performance.now()).swarm.x < x - 8, { wanted: before });
     await page.keyboard.up('ArrowLeft');
     await page.keyboard.press('Escape');
     await state(page, 'ended');

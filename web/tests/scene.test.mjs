@@ -4,20 +4,11 @@ import assert from 'node:assert/strict';
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { openPage, root, startBrowser, startLab } from './lab.mjs';
+import { drawRobots, openPage, root, startBrowser, startLab, until } from './lab.mjs';
 
 let browser;
 before(async () => (browser = await startBrowser()));
 after(() => browser.close());
-
-/** Waits until a function of the page gives something; the policy forbids page.waitForFunction. */
-async function until(page, holds, seconds = 120) {
-  for (const end = Date.now() + 1000 * seconds; Date.now() < end; ) {
-    if (await page.evaluate(holds)) return;
-    await page.waitForTimeout(50);
-  }
-  assert.fail(`never: ${holds}`);
-}
 
 /** Opens a scenario and plays it until `t` [s]. */
 async function playTo(run, file, t, { speed = 0, size } = {}) {
@@ -26,7 +17,7 @@ async function playTo(run, file, t, { speed = 0, size } = {}) {
   const lookedAt = await openPage(browser, lab.url, size);
   const { page } = lookedAt;
   const hasMap = () => window.microswarm && String(window.microswarm.scene.view.hi) !== '1,1';
-  await until(page, hasMap);
+  await until(page, hasMap, { seconds: 120 });
   await page.evaluate(
     ([speed, t]) => {
       const { connection, scene } = window.microswarm;
@@ -47,7 +38,7 @@ async function playTo(run, file, t, { speed = 0, size } = {}) {
     },
     [speed, t],
   );
-  await until(page, () => window.reached);
+  await until(page, () => window.reached, { seconds: 120 });
   const handle = await page.evaluateHandle(() => window.microswarm.scene);
   await page.waitForTimeout(300);
   return {
@@ -78,7 +69,7 @@ test('robots gather; regions and clearance', async (t) => {
   await run.picture('scene-gather-dark');
   await run.scene((scene) => scene.show('aggregation', false));
   await run.scene((scene) => scene.show('clearance', true));
-  await until(run.page, () => window.clearance, 20);
+  await until(run.page, () => window.clearance, { seconds: 20 });
   await run.page.waitForTimeout(600);
   await run.picture('scene-clearance');
   const { cell, columns, rows, values } = await run.page.evaluate(() => window.clearance);
@@ -148,7 +139,7 @@ test('zooms about the pointer, pans, fits', async (t) => {
   const before = { world: await under(), scale: await scale() };
   await run.page.mouse.move(box.x + at[0], box.y + at[1]);
   await run.page.mouse.wheel(0, -300);
-  await until(run.page, () => window.microswarm.scene.view.scale > 0.3, 5);
+  await until(run.page, () => window.microswarm.scene.view.scale > 0.3, { seconds: 5 });
   const close = await under();
   assert.ok((await scale()) > 1.5 * before.scale);
   for (const axis of [0, 1]) assert.ok(Math.abs(close[axis] - before.world[axis]) < 1e-6);
@@ -235,36 +226,7 @@ test('draws only when something changed', async (t) => {
 
 test('ten thousand robots', async (t) => {
   const run = await playTo(t, 'scenarios/papers/gather/t_junction.yaml', 1, { speed: 2 });
-  const rate = await run.scene(async (scene) => {
-    scene.show('aggregation', false);
-    const robots = new Float32Array(20_000);
-    for (let i = 0; i < robots.length; i += 2) {
-      robots[i] = 100 * Math.random();
-      robots[i + 1] = 90 + 10 * Math.random();
-    }
-    const none = new Uint8Array();
-    const standing = { type: 'standing', plays: true, changes: [] };
-    const frame = (number) => {
-      for (let i = 0; i < robots.length; ++i) robots[i] += 0.2 * (Math.random() - 0.5);
-      return {
-        type: 'frame',
-        number,
-        frame: { t_s: number / 10, x_um: 0, y_um: 0, radius_um: 0, heading_rad: 0 },
-        bodies: { discs: none, polygons: [] },
-        robots: new Uint8Array(robots.buffer.slice(0)),
-        path: none,
-        plans: 0,
-      };
-    };
-    scene.take(standing);
-    const before = scene.pictures;
-    const began = performance.now();
-    for (let number = 1000; performance.now() < began + 4000; ++number) {
-      scene.take(frame(number));
-      await new Promise((resolve) => requestAnimationFrame(resolve));
-    }
-    return (scene.pictures - before) / ((performance.now() - began) / 1000);
-  });
+  const rate = await drawRobots(run.page, 10_000, 4);
   t.diagnostic(`${rate.toFixed(1)} pictures a second`);
   await run.picture('scene-ten-thousand');
   assert.ok(rate > 0.2);
@@ -366,7 +328,7 @@ test('two fingers zoom', async (t) => {
 test('looking back', async (t) => {
   const run = await playTo(t, 'scenarios/first_flight.yaml', 15);
   await run.page.evaluate(() => window.microswarm.connection.ask({ do: 'seek', number: 80 }));
-  await until(run.page, () => window.microswarm.scene.shownAt(performance.now()).number === 80, 20);
+  await until(run.page, () => window.microswarm.scene.shownAt(performance.now()).number === 80, { seconds: 20 });
   await run.page.waitForTimeout(300);
   await run.picture('scene-back');
   await run.close();
@@ -381,7 +343,7 @@ test('the goal moves where it is set', async (t) => {
     const { scene } = window.microswarm;
     return scene.hit(scene.view.toScreen([4000, 600])).what.kind === 'goal';
   };
-  await until(run.page, goal, 20);
+  await until(run.page, goal, { seconds: 20 });
   await run.close();
 });
 
@@ -395,7 +357,7 @@ test('a screen of double density', async (t) => {
     const { width, clientWidth } = document.querySelector('.scene canvas');
     return width === 2 * clientWidth;
   };
-  await until(run.page, isSharp, 10);
+  await until(run.page, isSharp, { seconds: 10 });
   await run.page.waitForTimeout(500);
   const png = await run.scene(async (scene) => {
     const bytes = new Uint8Array(await (await scene.picture()).arrayBuffer());

@@ -62,7 +62,7 @@ std::optional<lab::Opening> opening_of(const LabOptions& o) {
       .file = lab::present_record(o.file),
       .options = {.settings = o.settings, .rig = o.rig, .rig_settings = o.rig_settings}};
   if (report_options(o.photo).photo)  // so that it can be read
-    opening.photo = lab::PhotoBeneath{.file = o.photo.file, .um_per_px = *o.photo.um_per_px};
+    opening.photo = lab::BackgroundPhoto{.file = o.photo.file, .um_per_px = *o.photo.um_per_px};
   if (o.rig.empty() || o.simulate) {
     note_each(reading([&] { return open_session(opening.file, opening.options); })->notes());
     return opening;
