@@ -50,6 +50,20 @@ TEST_F(Maps, Check) {
   EXPECT_NE(text.find("narrowest passage"), std::string::npos) << text;
 }
 
+TEST_F(Maps, WithoutItsModuleTheProgramReadsAllButPhotographs) {
+  at.program = (at.folder / "bin" / "microswarm").string();
+  fs::create_directory(at.folder / "bin");
+  fs::copy_file(MICROSWARM_PROGRAM, at.program);
+  EXPECT_EQ(about("info", "room.pgm", true).at("walls"), 2);
+  std::string bmp = "BM";
+  bmp.resize(54 + 4);
+  bmp[10] = 54, bmp[14] = 40, bmp[18] = 1, bmp[22] = 1, bmp[26] = 1, bmp[28] = 24;
+  write("a.bmp", bmp);
+  refused({"map", "info", "a.bmp", "--um-per-px", "1"}, {"libmicroswarm_media.so", {"BMP"}});
+  at.program = MICROSWARM_PROGRAM;
+  good({"map", "info", "a.bmp", "--um-per-px", "1"});
+}
+
 TEST_F(Maps, ThereAndBack) {
   const Json room = about("info", "room.pgm", true);
   const auto convert = [&](const std::string& from, const std::string& to, Arguments more) {

@@ -39,6 +39,7 @@ struct Outcome {
 /// Where the program runs, and what is different from everyday.
 struct Surroundings {
   fs::path folder;
+  std::string program = MICROSWARM_PROGRAM;
   std::uint64_t largest_file = 0;  ///< [bytes] beyond which writing fails; 0: no limit
   std::string out;                 ///< stdout goes to this file
   std::string in;                  ///< stdin comes from this file, when not empty
@@ -53,7 +54,7 @@ class Program {
  public:
   Program(const Arguments& arguments, const Surroundings& at) : out_(file()), err_(file()) {
     const int out = at.out.empty() ? fileno(out_) : ::open(at.out.c_str(), O_WRONLY);
-    std::vector<std::string> words{MICROSWARM_PROGRAM};
+    std::vector<std::string> words{at.program};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());

@@ -3,10 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <cstring>
 #include <opencv2/imgcodecs.hpp>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "microswarm/vision/image/mat.hpp"
+#include "tests/files.hpp"
 #include "tests/messages.hpp"
 
 namespace microswarm {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "microswarm/formats/images/image.hpp"
@@ -22,6 +23,9 @@ bool is_png(std::span<const std::byte> bytes);
 /// is decoded. A JPEG is turned as its EXIF says; a BMP has three channels always. Throws
 /// InputError "NAME: WHY".
 cv::Mat decode_pixels(std::span<const std::byte> bytes, std::string_view name);
+
+/// An 8-bit PNG of an image. Throws InputError "cannot encode a PNG: WHY".
+std::string encode_png(const Image& image);
 
 /// Bits, 8 to 16, that the largest sample of 16-bit pixels needs.
 int depth_of(const cv::Mat& pixels);

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 #include <string>
 
 #include "microswarm/core/errors/error.hpp"
@@ -77,17 +75,7 @@ Image to_grey(const Image& image) {
 }
 
 void write_png(const std::filesystem::path& path, const Image& image) {
-  cv::Mat mat(image.height, image.width, image.channels == 3 ? CV_8UC3 : CV_8UC1,
-              const_cast<std::uint8_t*>(image.pixels.data()));
-  if (image.channels == 3) {
-    cv::Mat bgr;
-    cv::cvtColor(mat, bgr, cv::COLOR_RGB2BGR);
-    mat = bgr;
-  }
-  std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".png", mat, bytes))
-    throw InputError(path.string() + ": cannot write: the picture cannot be encoded");
-  write_file_atomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  write_file_atomically(path, encode_png(image));
 }
 
 }  // namespace microswarm

@@ -8,12 +8,12 @@
 #include <cstdlib>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 #include <vector>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/formats/images/codecs.hpp"
 #include "microswarm/formats/images/tiff.hpp"
+#include "microswarm/formats/media/media.hpp"
 #include "microswarm/vision/image/mat.hpp"
 
 namespace microswarm {
@@ -192,15 +192,14 @@ class TiffStack : public Source {
 
 class VideoFile : public Source {
  public:
-  VideoFile(const fs::path& file, std::optional<double> rate) : Source(file, rate) {
-    if (!video_.open(fs::absolute(file).string(), cv::CAP_FFMPEG))
-      fail(file, "is no video that can be read");
-    require_fit(file, {static_cast<int>(video_.get(cv::CAP_PROP_FRAME_WIDTH)),
-                       static_cast<int>(video_.get(cv::CAP_PROP_FRAME_HEIGHT))});
-    set_rate(video_.get(cv::CAP_PROP_FPS));
+  VideoFile(const fs::path& file, std::optional<double> rate)
+      : Source(file, rate), video_(media().open(file)) {
+    if (!video_) fail(file, "is no video that can be read");
+    require_fit(file, {video_->width, video_->height});
+    set_rate(video_->rate);
   }
   bool read(VideoFrame& frame) override {
-    if (!video_.read(mat_) || mat_.empty()) {
+    if (!video_->read(mat_)) {
       if (given() == 0) fail(name(), "holds no picture that can be read");
       return false;
     }
@@ -209,13 +208,13 @@ class VideoFile : public Source {
     return true;
   }
   std::optional<int> count() const override {
-    const double told = video_.get(cv::CAP_PROP_FRAME_COUNT);
+    const double told = video_->picture_count;
     if (!(told >= 1 && told < 1e9)) return std::nullopt;
     return static_cast<int>(told);
   }
 
  private:
-  cv::VideoCapture video_;
+  std::unique_ptr<VideoInput> video_;
   cv::Mat mat_;
 };
 

@@ -3,11 +3,11 @@
 
 #include <cstdio>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/formats/images/gif.hpp"
+#include "microswarm/formats/media/media.hpp"
 #include "microswarm/vision/image/mat.hpp"
 
 namespace microswarm {
@@ -27,16 +27,19 @@ struct VideoFileWriter::Parts {
       gif.emplace(staged->path(), rate);
       return true;
     }
-    for (const int codec :
-         {cv::VideoWriter::fourcc('a', 'v', 'c', '1'), cv::VideoWriter::fourcc('m', 'p', '4', 'v')})
-      if (video.open(staged->path().string(), cv::CAP_FFMPEG, codec, rate, size)) return true;
+    VideoForm form{.rate = rate, .width = size.width, .height = size.height};
+    for (const VideoCodec codec : {VideoCodec::h264, VideoCodec::mpeg4}) {
+      form.codec = codec;
+      video = media().create(staged->path(), form);
+      if (video) return true;
+    }
     return false;
   }
 
   std::filesystem::path file;
   double rate;
   std::optional<StagedFile> staged;  ///< empty if there is no codec
-  cv::VideoWriter video;
+  std::unique_ptr<VideoOutput> video;
   std::optional<GifWriter> gif;
   cv::Mat bgr;
   int pictures = 0;
@@ -45,7 +48,7 @@ struct VideoFileWriter::Parts {
 VideoFileWriter::VideoFileWriter(std::filesystem::path file, double rate)
     : parts_(std::make_unique<Parts>(std::move(file), rate)) {}
 
-VideoFileWriter::~VideoFileWriter() { parts_->video.release(); }
+VideoFileWriter::~VideoFileWriter() { parts_->video.reset(); }
 
 void VideoFileWriter::add(const Image& picture) {
   Parts& p = *parts_;
@@ -61,7 +64,7 @@ void VideoFileWriter::add(const Image& picture) {
     p.gif->add(picture);
   } else if (p.staged) {
     cv::cvtColor(as_mat(picture), p.bgr, cv::COLOR_RGB2BGR);
-    p.video.write(p.bgr);
+    p.video->write(p.bgr);
   } else {
     char name[32];
     std::snprintf(name, sizeof name, "%06d.png", p.pictures);
@@ -75,7 +78,7 @@ std::optional<std::filesystem::path> VideoFileWriter::commit() {
   if (p.pictures == 0) return std::nullopt;
   std::filesystem::path folder = p.file;
   if (!p.staged) return folder.replace_extension();
-  p.video.release();
+  p.video.reset();
   if (p.gif) p.gif->finish();
   if (std::filesystem::file_size(p.staged->path()) == 0)
     throw InputError(p.file.string() + ": cannot write: the video stayed empty");

@@ -11,7 +11,6 @@
 #include <deque>
 #include <mutex>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 #include <optional>
 #include <system_error>
 #include <thread>
@@ -19,6 +18,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/text/text.hpp"
+#include "microswarm/formats/media/media.hpp"
 #include "microswarm/vision/image/mat.hpp"
 
 namespace microswarm {
@@ -45,21 +45,13 @@ std::FILE* create_new(const fs::path& file, const fs::path& called) {
   return made;
 }
 
-bool open_video(cv::VideoWriter& video, const fs::path& file, double rate, cv::Size size,
-                bool colours) {
-  const int codec = colours ? cv::VideoWriter::fourcc('H', 'F', 'Y', 'U')
-                            : cv::VideoWriter::fourcc('F', 'F', 'V', '1');
-  return video.open(fs::absolute(file).string(), cv::CAP_FFMPEG, codec, rate, size,
-                    {cv::VIDEOWRITER_PROP_IS_COLOR, colours ? 1 : 0});
-}
-
-/// Frames in a video, without decoding them.
-int frames_in(const fs::path& file) {
-  cv::VideoCapture video;
-  if (!video.open(fs::absolute(file).string(), cv::CAP_FFMPEG, {cv::CAP_PROP_FORMAT, -1})) return 0;
-  int count = 0;
-  while (video.grab()) ++count;
-  return count;
+std::unique_ptr<VideoOutput> open_video(const fs::path& file, double rate, cv::Size size,
+                                        bool colours) {
+  return media().create(file, {.codec = colours ? VideoCodec::huffyuv : VideoCodec::ffv1,
+                               .rate = rate,
+                               .width = size.width,
+                               .height = size.height,
+                               .colours = colours});
 }
 
 }  // namespace
@@ -136,8 +128,7 @@ class VideoRecorder::Writer {
         times_file_(times_of(file)),
         result_{.file = file} {
     std::fclose(create_new(part_, file));
-    cv::VideoWriter trial;
-    if (!open_video(trial, part_, rate_, {64, 64}, true))
+    if (!open_video(part_, rate_, {64, 64}, true))
       throw InputError(file.string() + ": cannot write: no encoder for it");
     times_.reset(create_new(part_of(times_file_), times_file_));
     std::fputs("frame,camera_frame,t_s\n", times_.get());
@@ -156,12 +147,12 @@ class VideoRecorder::Writer {
   const RecordedVideo& finish() {
     if (!thread_.joinable()) return result_;
     join();
-    video_.release();
+    video_.reset();
     result_.dropped = shared_->dropped;
     bool good = std::ferror(times_.get()) == 0;
     good = std::fclose(times_.release()) == 0 && good;
     if (result_.trouble.empty() && result_.frames == 0) result_.trouble = "no picture came";
-    if (result_.trouble.empty() && (!good || frames_in(part_) < result_.frames))
+    if (result_.trouble.empty() && (!good || media().count_pictures(part_) < result_.frames))
       result_.trouble = "write failed";
     if (result_.trouble.empty()) give_names();
     if (!result_.trouble.empty())
@@ -203,14 +194,13 @@ class VideoRecorder::Writer {
 
   void write(const Shared::QueuedFrame& frame) {
     const Image& p = frame.picture;
-    if (!video_.isOpened() &&
-        !open_video(video_, part_, rate_, {p.width, p.height}, p.channels == 3))
-      throw InputError("no encoder for its pictures");
+    if (!video_) video_ = open_video(part_, rate_, {p.width, p.height}, p.channels == 3);
+    if (!video_) throw InputError("no encoder for its pictures");
     if (p.channels == 3) {
       cv::cvtColor(as_mat(p), bgr_, cv::COLOR_RGB2BGR);
-      video_.write(bgr_);
+      video_->write(bgr_);
     } else {
-      video_.write(as_mat(p));
+      video_->write(as_mat(p));
     }
     std::fprintf(times_.get(), "%d,%d,%.6f\n", result_.frames, frame.index,
                  frame.taken - *shared_->zero);
@@ -222,7 +212,7 @@ class VideoRecorder::Writer {
   fs::path part_;
   fs::path times_file_;
   RecordedVideo result_;
-  cv::VideoWriter video_;
+  std::unique_ptr<VideoOutput> video_;
   cv::Mat bgr_;
   std::unique_ptr<std::FILE, CloseFile> times_;
   std::thread thread_;

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// libmicroswarm_media.so: all that is linked with OpenCV's imgcodecs and videoio.
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "microswarm/formats/media/media.hpp"
+
+namespace microswarm {
+namespace {
+
+namespace fs = std::filesystem;
+
+int fourcc(VideoCodec codec) {
+  switch (codec) {
+    case VideoCodec::h264:
+      return cv::VideoWriter::fourcc('a', 'v', 'c', '1');
+    case VideoCodec::mpeg4:
+      return cv::VideoWriter::fourcc('m', 'p', '4', 'v');
+    case VideoCodec::huffyuv:
+      return cv::VideoWriter::fourcc('H', 'F', 'Y', 'U');
+    case VideoCodec::ffv1:
+      return cv::VideoWriter::fourcc('F', 'F', 'V', '1');
+  }
+  return 0;
+}
+
+class OpenCvInput : public VideoInput {
+ public:
+  explicit OpenCvInput(cv::VideoCapture video) : video_(std::move(video)) {
+    width = static_cast<int>(video_.get(cv::CAP_PROP_FRAME_WIDTH));
+    height = static_cast<int>(video_.get(cv::CAP_PROP_FRAME_HEIGHT));
+    rate = video_.get(cv::CAP_PROP_FPS);
+    picture_count = video_.get(cv::CAP_PROP_FRAME_COUNT);
+  }
+  bool read(cv::Mat& picture) override { return video_.read(picture) && !picture.empty(); }
+
+ private:
+  cv::VideoCapture video_;
+};
+
+class OpenCvOutput : public VideoOutput {
+ public:
+  explicit OpenCvOutput(cv::VideoWriter video) : video_(std::move(video)) {}
+  void write(const cv::Mat& picture) override { video_.write(picture); }
+
+ private:
+  cv::VideoWriter video_;
+};
+
+class OpenCvMedia : public Media {
+ public:
+  cv::Mat decode(const cv::Mat& bytes) const override {
+    try {
+      return cv::imdecode(bytes, cv::IMREAD_ANYCOLOR);
+    } catch (const cv::Exception&) {
+      return {};
+    }
+  }
+
+  std::unique_ptr<VideoInput> open(const fs::path& file) const override {
+    cv::VideoCapture video;
+    if (!video.open(fs::absolute(file).string(), cv::CAP_FFMPEG)) return nullptr;
+    return std::make_unique<OpenCvInput>(std::move(video));
+  }
+
+  std::unique_ptr<VideoOutput> create(const fs::path& file, const VideoForm& form) const override {
+    cv::VideoWriter video;
+    if (!video.open(fs::absolute(file).string(), cv::CAP_FFMPEG, fourcc(form.codec), form.rate,
+                    {form.width, form.height},
+                    {cv::VIDEOWRITER_PROP_IS_COLOR, form.colours ? 1 : 0}))
+      return nullptr;
+    return std::make_unique<OpenCvOutput>(std::move(video));
+  }
+
+  int count_pictures(const fs::path& file) const override {
+    cv::VideoCapture video;
+    if (!video.open(fs::absolute(file).string(), cv::CAP_FFMPEG, {cv::CAP_PROP_FORMAT, -1}))
+      return 0;
+    int count = 0;
+    while (video.grab()) ++count;
+    return count;
+  }
+};
+
+}  // namespace
+}  // namespace microswarm
+
+/// What media() looks up.
+extern "C" const microswarm::Media* microswarm_media() {
+  static const microswarm::OpenCvMedia only;
+  return &only;
+}
