@@ -41,7 +41,8 @@ TEST_F(BadScenarios, GoalCutOff) {
 TEST_F(BadScenarios, APlannerAsPublishedBesideAKeyOfOurs) {
   write("room.csv", "x_um,y_um,width_um,height_um\n400,400,100,100\n");
   refused({"plan", "room.csv", "--start", "100,100", "--goal", "800,800", "--set",
-           "planner.as_published=true", "--set", "planner.straighten=true"},
+           "planner.type=drrt_star", "--set", "planner.as_published=true", "--set",
+           "planner.straighten=true"},
           naming("--set planner.straighten", {"straighten", "as_published"}));
 }
 

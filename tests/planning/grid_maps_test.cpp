@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// A* against the published optima of the MovingAI benchmarks.
+// A* and exact paths against the published optima of the MovingAI benchmarks.
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <memory>
+#include <numbers>
 
 #include "microswarm/formats/moving_ai.hpp"
+#include "microswarm/planning/exact/shortest_paths.hpp"
 #include "microswarm/planning/path/a_star.hpp"
 #include "tests/files.hpp"
 
@@ -18,41 +20,89 @@ constexpr std::size_t every = 200;  // sanitizers are slow; the release build as
 constexpr std::size_t every = 10;
 #endif
 
-/// Asks for every so many-th query of a map.
-void expect_optima(const std::filesystem::path& file, std::size_t stride) {
-  const Mask blocked = read_moving_ai(file);
-  const std::vector<GridQuery> queries = read_scenarios(file.string() + ".scen");
-  const Snapshot world(
-      std::make_shared<const Map>(cell_bounds(blocked, 1), mask_walls(blocked, 1)));
+/// A map of the benchmark, in cells, and every so many-th of its queries.
+class GridMap {
+ public:
+  explicit GridMap(const std::filesystem::path& file)
+      : blocked_(read_moving_ai(file)),
+        queries_(read_scenarios(file.string() + ".scen")),
+        map_(std::make_shared<const Map>(cell_bounds(blocked_, 1), mask_walls(blocked_, 1))) {}
+
+  const std::shared_ptr<const Map>& map() const { return map_; }
+
+  /// Calls ask(start, goal, published length), from the last query on: that is the longest.
+  template <class Ask>
+  void ask_every(std::size_t stride, Ask&& ask) const {
+    std::size_t asked = 0;
+    for (std::size_t i = queries_.size(); i > 0; i -= std::min(i, stride), ++asked) {
+      const GridQuery& query = queries_[i - 1];
+      SCOPED_TRACE(i);
+      ask(cell_centre(blocked_, query.start.column, query.start.row, 1),
+          cell_centre(blocked_, query.goal.column, query.goal.row, 1), query.optimal_length);
+    }
+    EXPECT_GE(asked, queries_.size() / stride);
+  }
+
+ private:
+  Mask blocked_;
+  std::vector<GridQuery> queries_;
+  std::shared_ptr<const Map> map_;
+};
+
+void expect_a_star_optimal(const GridMap& grid, std::size_t stride) {
+  const Snapshot world(grid.map());
   AStarParams params;
   params.clearance = 0;
   params.goal_tolerance = 0.25;
   params.cell = 1;
   Rng rng(1, Purpose::planner);
-  std::size_t asked = 0;
-  // From the last on: that is the longest.
-  for (std::size_t i = queries.size(); i > 0; i -= std::min(i, stride), ++asked) {
-    const GridQuery& query = queries[i - 1];
-    const Vec2 start = cell_centre(blocked, query.start.column, query.start.row, 1);
-    const Vec2 goal = cell_centre(blocked, query.goal.column, query.goal.row, 1);
+  grid.ask_every(stride, [&](Vec2 start, Vec2 goal, double published) {
     const Plan found = plan(world, {start, 0}, goal, params, rng);
-    ASSERT_EQ(found.status, Status::solved) << "query " << i;
-    EXPECT_NEAR(path_length(found.path), query.optimal_length, 1e-4 * (1 + query.optimal_length))
-        << "query " << i;
-  }
-  EXPECT_GE(asked, queries.size() / stride);
+    ASSERT_EQ(found.status, Status::solved);
+    EXPECT_NEAR(path_length(found.path), published, 1e-4 * (1 + published));
+  });
+}
+
+/// A path over cells turns by 45° and goes around corners at a distance. Where it may not cut a
+/// corner, two straight moves stand for one diagonal, so that the exact path has at least 1/√2 of
+/// its length.
+void expect_exact_no_longer(const GridMap& grid, std::size_t stride) {
+  ShortestPaths paths(*grid.map(), 0);
+  grid.ask_every(stride, [&](Vec2 start, Vec2 goal, double published) {
+    const ShortestPath found = paths.find(start, goal);
+    ASSERT_EQ(found.status, Status::solved);
+    EXPECT_LE(found.length, published + 1e-4 * (1 + published));
+    EXPECT_GE(found.length, published / std::numbers::sqrt2 - 1e-4);
+    EXPECT_GE(found.length, distance(start, goal) - 1e-9);
+    for (std::size_t i = 1; i < found.points.size(); ++i)
+      EXPECT_TRUE(grid.map()->is_free(Segment{found.points[i - 1], found.points[i]}, 0));
+  });
 }
 
 TEST(GridMapSample, AStarFindsTheOptimum) {
-  expect_optima(test::sample_folder() / "blocks.map", 1);
+  expect_a_star_optimal(GridMap(test::sample_folder() / "blocks.map"), 1);
 }
 
-class GridMaps : public testing::TestWithParam<const char*> {};
+TEST(GridMapSample, ExactPathsAreNoLonger) {
+  expect_exact_no_longer(GridMap(test::sample_folder() / "blocks.map"), 1);
+}
+
+class GridMaps : public testing::TestWithParam<const char*> {
+ protected:
+  std::filesystem::path file() const {
+    return test::data_folder() / "grid_maps" / (std::string(GetParam()) + ".map");
+  }
+};
 
 TEST_P(GridMaps, AStarFindsThePublishedOptimum) {
-  const auto file = test::data_folder() / "grid_maps" / (std::string(GetParam()) + ".map");
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
-  expect_optima(file, every);
+  if (!std::filesystem::exists(file())) GTEST_SKIP() << "no " << file();
+  expect_a_star_optimal(GridMap(file()), every);
+}
+
+TEST_P(GridMaps, ExactPathsAreNoLonger) {
+  if (!std::filesystem::exists(file())) GTEST_SKIP() << "no " << file();
+  const bool is_large = std::string_view(GetParam()).starts_with("random");
+  expect_exact_no_longer(GridMap(file()), is_large ? every : every / 10);
 }
 
 INSTANTIATE_TEST_SUITE_P(MovingAi, GridMaps,

@@ -15,31 +15,46 @@ namespace {
 
 constexpr double size = 100;
 
-/// Convex and other polygons, discs that stand apart, overlap and touch walls.
+/// A polygon, convex or not.
+Polygon random_polygon(Rng& rng) {
+  const Vec2 centre{rng.uniform(0, size), rng.uniform(0, size)};
+  const std::size_t n = 3 + rng.below(5);
+  const double radius = rng.uniform(4, 18);
+  Polygon polygon;
+  for (std::size_t k = 0; k < n; ++k)
+    polygon.outer.push_back(
+        centre + rng.uniform(0.3, 1) * radius *
+                     unit_vector(2 * pi * (static_cast<double>(k) + 0.5 * rng.uniform()) /
+                                 static_cast<double>(n)));
+  return polygon;
+}
+
+Disc random_disc(Rng& rng) {
+  return {{rng.uniform(0, size), rng.uniform(0, size)}, rng.uniform(1, 10)};
+}
+
+/// Polygons, and discs that stand apart, overlap and touch walls.
 Map random_map(Rng& rng) {
   std::vector<Polygon> walls;
   std::vector<Disc> discs;
   const std::uint64_t count = 2 + rng.below(5) + 14 * (rng.below(4) == 0);
-  for (std::uint64_t i = 0; i < count; ++i) {
-    const Vec2 centre{rng.uniform(0, size), rng.uniform(0, size)};
-    const std::size_t n = 3 + rng.below(5);
-    const double radius = rng.uniform(4, 18);
-    Polygon polygon;
-    for (std::size_t k = 0; k < n; ++k)
-      polygon.outer.push_back(
-          centre + rng.uniform(0.3, 1) * radius *
-                       unit_vector(2 * pi * (static_cast<double>(k) + 0.5 * rng.uniform()) /
-                                   static_cast<double>(n)));
-    walls.push_back(polygon);
-  }
-  for (std::uint64_t i = 0; i < rng.below(7); ++i)
-    discs.push_back({{rng.uniform(0, size), rng.uniform(0, size)}, rng.uniform(1, 10)});
+  for (std::uint64_t i = 0; i < count; ++i) walls.push_back(random_polygon(rng));
+  for (std::uint64_t i = 0; i < rng.below(7); ++i) discs.push_back(random_disc(rng));
   return Map({{0, 0}, {size, size}}, walls, discs);
+}
+
+/// Up to six discs and two polygons, wherever they may be.
+std::vector<Body> random_bodies(Rng& rng) {
+  std::vector<Body> bodies;
+  for (std::uint64_t i = 0, n = rng.below(7); i < n; ++i) bodies.push_back({random_disc(rng), 0});
+  for (std::uint64_t i = 0, n = rng.below(3); i < n; ++i)
+    bodies.push_back({random_polygon(rng), 0});
+  return bodies;
 }
 
 /// Length of the shortest path over points on the circles around all corners and discs, a little
 /// longer than the true one; infinite if there is none.
-double length_over_points(const Map& map, Vec2 start, Vec2 goal, double clearance) {
+double length_over_points(const Snapshot& world, Vec2 start, Vec2 goal, double clearance) {
   constexpr int around = 40;
   std::vector<Vec2> points{start, goal};
   const auto add = [&](Vec2 centre, double radius) {
@@ -47,15 +62,16 @@ double length_over_points(const Map& map, Vec2 start, Vec2 goal, double clearanc
     const double outer = std::max(1e-4, radius * (1 + 1e-6) / std::cos(pi / around));
     for (int k = 0; k < around; ++k) {
       const Vec2 p = centre + outer * unit_vector(2 * pi * k / around);
-      if (map.is_free(p, clearance)) points.push_back(p);
+      if (world.is_free(p, clearance)) points.push_back(p);
     }
   };
-  for (const Body& body : map.walls().bodies()) {
-    if (const auto* disc = std::get_if<Disc>(&body.shape))
-      add(disc->centre, disc->radius + clearance);
-    if (const auto* polygon = std::get_if<Polygon>(&body.shape))
-      for (const Vec2 corner : polygon->outer) add(corner, clearance);
-  }
+  for (const BodySet* bodies : {&world.map().walls(), &world.moving()})
+    for (const Body& body : bodies->bodies()) {
+      if (const auto* disc = std::get_if<Disc>(&body.shape))
+        add(disc->centre, disc->radius + clearance);
+      if (const auto* polygon = std::get_if<Polygon>(&body.shape))
+        for (const Vec2 corner : polygon->outer) add(corner, clearance);
+    }
   std::vector<double> best(points.size(), std::numeric_limits<double>::infinity());
   std::vector<bool> done(points.size());
   using Entry = std::pair<double, std::size_t>;
@@ -70,26 +86,27 @@ double length_over_points(const Map& map, Vec2 start, Vec2 goal, double clearanc
     for (std::size_t k = 0; k < points.size(); ++k) {
       const double through = length + distance(points[i], points[k]);
       if (done[k] || through >= best[k]) continue;
-      if (!map.is_free(Segment{points[i], points[k]}, clearance)) continue;
+      if (!world.is_free(Segment{points[i], points[k]}, clearance)) continue;
       open.emplace(best[k] = through, k);
     }
   }
   return std::numeric_limits<double>::infinity();
 }
 
-TEST(ShortestPaths, NoPathOverPointsIsShorterAndOneIsHardlyLonger) {
-  Rng rng(1, Purpose::test);
+/// Asks at random in random worlds and compares with paths over points.
+void expect_shortest(Rng& rng, int worlds, bool moving) {
   int solved = 0, without = 0, bent = 0;
-  for (int world = 0; world < 60; ++world) {
-    SCOPED_TRACE(world);
-    const Map map = random_map(rng);
-    const double clearance = world % 3 == 0 ? 0 : rng.uniform(0.5, 5);
-    ShortestPaths paths(map, std::make_shared<const Corners>(map), clearance);
+  for (int number = 0; number < worlds; ++number) {
+    SCOPED_TRACE(number);
+    const auto map = std::make_shared<const Map>(random_map(rng));
+    const double clearance = number % 3 == 0 ? 0 : rng.uniform(0.5, 5);
+    ShortestPaths paths(*map, clearance);
     for (int query = 0; query < 4; ++query) {
-      const Vec2 start = uniform_in(map.bounds(), rng), goal = uniform_in(map.bounds(), rng);
-      if (!map.is_free(start, clearance) || !map.is_free(goal, clearance)) continue;
-      const ShortestPath path = paths.find(start, goal);
-      const double other = length_over_points(map, start, goal, clearance);
+      const Snapshot world(map, 0, moving ? random_bodies(rng) : std::vector<Body>{});
+      const Vec2 start = uniform_in(map->bounds(), rng), goal = uniform_in(map->bounds(), rng);
+      if (!world.is_free(start, clearance) || !world.is_free(goal, clearance)) continue;
+      const ShortestPath path = paths.find(start, goal, world.moving());
+      const double other = length_over_points(world, start, goal, clearance);
       if (path.status == Status::no_path) {
         ++without;
         EXPECT_EQ(other, std::numeric_limits<double>::infinity());
@@ -108,14 +125,25 @@ TEST(ShortestPaths, NoPathOverPointsIsShorterAndOneIsHardlyLonger) {
       EXPECT_EQ(path.points.back(), goal);
       const double drawn = path_length(path.points);
       EXPECT_GE(drawn, path.length - 1e-6);
-      EXPECT_LE(drawn, 1.006 * path.length + 1e-6);
+      EXPECT_LE(drawn, 1.001 * path.length + 1e-6);
+      EXPECT_TRUE(world.is_free(path.points, clearance));
       for (std::size_t i = 1; i < path.points.size(); ++i)
-        EXPECT_TRUE(map.is_free(Segment{path.points[i - 1], path.points[i]}, clearance)) << i;
+        EXPECT_TRUE(world.is_free(Segment{path.points[i - 1], path.points[i]}, clearance)) << i;
     }
   }
-  EXPECT_GT(solved, 60);
-  EXPECT_GT(bent, 30);
+  EXPECT_GT(solved, worlds);
+  EXPECT_GT(bent, worlds / 2);
   EXPECT_GT(without, 0);
+}
+
+TEST(ShortestPaths, NoPathOverPointsIsShorterAndOneIsHardlyLonger) {
+  Rng rng(1, Purpose::test);
+  expect_shortest(rng, 60, false);
+}
+
+TEST(ShortestPaths, AmongMovingBodiesToo) {
+  Rng rng(2, Purpose::test);
+  expect_shortest(rng, 60, true);
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ void explain(const PlanOptions& o, const Snapshot& world, Vec2 start, Vec2 goal,
 }
 
 void show(const Plan& made, double start_heading, double ms, bool json) {
-  const double length = path_length(made.path);
+  const double length = path_length(made);
   const double turning = degrees(path_turning(made.path, start_heading));
   if (json) {
     Json path = Json::array();
@@ -135,7 +135,8 @@ void add_plan(Command app, Action& action) {
   auto o = std::make_shared<PlanOptions>();
   Command cmd = app.add_command(
       "plan",
-      "Plan a path on a map with drrt_star, rrt_star, uniform_rrt_star, rrt, a_star or fmt_star",
+      "Plan a path on a map: the shortest one, or with drrt_star, rrt_star, uniform_rrt_star, rrt, "
+      "a_star or fmt_star",
       "plan map.png --um-per-px 5 --start 200,700,-90 --goal 1750,300 \\\n"
       "      --set planner.type=a_star --set planner.clearance_um=40 --picture path.svg");
   cmd.add_option("map", o->map, "Picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles")

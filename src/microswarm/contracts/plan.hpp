@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -59,6 +60,7 @@ struct PlanCounts {
 struct Plan {
   Status status = Status::no_path;
   std::vector<Vec2> path;             ///< [µm]
+  std::optional<double> arc_length;   ///< [µm] of a path with arcs, which `path` draws by lines
   std::vector<TreeNode> tree;         ///< empty for A*
   std::vector<Detection> detections;  ///< one per tree node; D-RRT* only
   PlanCounts counts;
@@ -66,6 +68,10 @@ struct Plan {
 
 /// Length of a path [µm].
 double path_length(std::span<const Vec2> path);
+/// Length of the path of a plan [µm], arcs as arcs.
+inline double path_length(const Plan& plan) {
+  return plan.arc_length ? *plan.arc_length : path_length(plan.path);
+}
 /// Total turning angle [rad]: Σ|Δheading| over its vertices, including the turn from
 /// `start_heading` into the first edge.
 double path_turning(std::span<const Vec2> path, double start_heading);

@@ -3,49 +3,37 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "microswarm/core/maths/angles.hpp"
 
 namespace microswarm {
-namespace {
 
-constexpr double slack = 1e-9;  // of angles [rad] and unit vectors
-
-/// [0, 2π).
-double positive(double angle) {
-  while (angle < 0) angle += 2 * pi;
-  while (angle >= 2 * pi) angle -= 2 * pi;
-  return angle;
-}
-
-}  // namespace
-
-ShortestPaths::ShortestPaths(const Map& map, std::shared_ptr<const Corners> corners,
-                             double clearance)
-    : map_(map), corners_(std::move(corners)), clearance_(clearance) {
+ShortestPaths::ShortestPaths(const Map& map, double clearance)
+    : map_(map), corners_(map.corners()), clearance_(clearance) {
   const Box& box = map.bounds();
   margin_ = std::max(1e-7 * clearance, 1e-10 * std::max(box.width(), box.height()));
-  for (const Corner& corner : corners_->all()) {
-    Circle circle{.centre = corner.centre,
-                  .radius = corner.radius + clearance + margin_,
-                  .from = corner.from,
-                  .width = corner.width,
-                  .is_disc = corner.is_disc()};
-    if (!circle.is_disc) {
-      circle.first = unit_vector(corner.from);
-      circle.last = unit_vector(corner.from + corner.width);
-    }
-    circles_.push_back(circle);
-  }
+  circles_.reserve(corners_.all().size());
+  for (const Corner& corner : corners_.all()) circles_.push_back(circle_of(corner));
   wheels_.resize(2 * circles_.size());
   seen_.resize(circles_.size(), 0);
+}
+
+ShortestPaths::Circle ShortestPaths::circle_of(const Corner& corner) const {
+  return {{.centre = corner.centre,
+           .radius = corner.radius + clearance_ + margin_,
+           .from = corner.from,
+           .width = corner.width,
+           .first = corner.first,
+           .last = corner.last,
+           .is_disc = corner.is_disc}};
 }
 
 /// Finds the free tangents of a circle.
 void ShortestPaths::know(std::uint32_t corner) {
   circles_[corner].is_known = true;
   ++look_;
-  corners_->seen_from_corner(corner, [&](std::uint32_t other) {
+  corners_.seen_from_corner(corner, [&](std::uint32_t other) {
     if (other == corner || seen_[other] == look_) return;
     seen_[other] = look_;
     for (std::uint32_t k = 0; k < 2; ++k)
@@ -61,129 +49,53 @@ void ShortestPaths::know(std::uint32_t corner) {
 void ShortestPaths::join_free(std::uint32_t from, std::uint32_t to) {
   Circle& a = circles_[from / 2];
   Circle& b = circles_[to / 2];
-  Hop hop{.to = to};
-  if (!join(a, sense(from), b, sense(to), hop.line)) return;
+  const auto line = join(a, sense(from), b, sense(to));
+  if (!line) return;
+  Hop hop{.line = *line, .to = to};
   const Vec2 left = perpendicular(hop.line.along);
-  hop.leave = angle_in(a, -sense(from) * left);
-  const int leave_arc = arc_at(a, hop.leave);
+  hop.leave = a.angle_of(-sense(from) * left);
+  const int leave_arc = still_arc_at(a, hop.leave);
   if (leave_arc < 0) return;
-  hop.arrive = angle_in(b, -sense(to) * left);
-  const int arrive_arc = arc_at(b, hop.arrive);
-  if (arrive_arc < 0 || !is_free(touch(from, hop.line), hop.line)) return;
+  hop.arrive = b.angle_of(-sense(to) * left);
+  const int arrive_arc = still_arc_at(b, hop.arrive);
+  if (arrive_arc < 0) return;
+  if (!map_.is_free(segment(touch(from, hop.line), hop.line), clearance_)) return;
   hop.leave_arc = static_cast<std::uint16_t>(leave_arc);
   hop.arrive_arc = static_cast<std::uint16_t>(arrive_arc);
   wheels_[from].hops.push_back(hop);
 }
 
-/// The tangent of two circles, gone around in these senses; false if there is none that is taut at
-/// both. The path leaves a in direction u at the normal −s left(u), so that left(u) · d, with d
-/// from centre to centre, is s_b r_b − s_a r_a.
-bool ShortestPaths::join(const Circle& a, double sense_a, const Circle& b, double sense_b,
-                         Line& line) const {
-  const Vec2 d = b.centre - a.centre;
-  const double apart2 = squared_norm(d);
-  const double offset = sense_b * b.radius - sense_a * a.radius;
-  const double inner = apart2 - offset * offset;
-  const double apart = std::sqrt(apart2);
-  // A place on a circle may lie in it by a rounding error.
-  if (apart == 0 || (inner < 0 && std::abs(offset) > apart + 4 * margin_)) return false;
-  line.length = std::sqrt(std::max(0.0, inner));
-  const double sine = std::clamp(offset / apart, -1.0, 1.0);
-  const double cosine = line.length / apart;
-  const Vec2 e = d / apart;
-  line.along = cosine * e - sine * perpendicular(e);
-  const Vec2 left = perpendicular(line.along);
-  return is_taut(a, -sense_a * left) && is_taut(b, -sense_b * left);
+/// Number of the arc free of walls that holds this place; −1 if none does.
+int ShortestPaths::still_arc_at(Circle& circle, double at) {
+  if (!circle.is_cut) {
+    circle.is_cut = true;
+    circle.arcs = cut(circle, nullptr, arcs_);
+  }
+  return microswarm::arc_at(circle, at, circle.arcs.of(arcs_));
 }
 
-bool ShortestPaths::is_taut(const Circle& circle, Vec2 normal) {
-  return circle.is_disc || circle.radius == 0 ||
-         (cross(circle.first, normal) >= -slack && cross(normal, circle.last) >= -slack &&
-          dot(circle.first + circle.last, normal) > 0);
-}
-
-double ShortestPaths::angle_in(const Circle& circle, Vec2 normal) const {
-  if (circle.is_disc) return positive(heading_of(normal));
-  const double angle = maths::atan2(cross(circle.first, normal), dot(circle.first, normal));
-  return std::clamp(angle, 0.0, circle.width);
-}
-
+/// The same for an arc that is free also of moving bodies.
 int ShortestPaths::arc_at(Circle& circle, double at) {
-  if (!circle.is_cut) find_arcs(circle);
-  for (int i = 0; i < circle.arcs; ++i) {
-    const Arc& arc = arcs_[circle.first_arc + static_cast<std::uint32_t>(i)];
-    if (at >= arc.from - slack && at <= arc.to + slack) return i;
-    if (circle.is_disc && at + 2 * pi <= arc.to + slack) return i;
-  }
-  return -1;
+  return is_near_moving(circle) ? microswarm::arc_at(circle, at, circle.arcs_now.of(arcs_now_))
+                                : still_arc_at(circle, at);
 }
 
-/// Cuts the circle where its distance to a wall or to the border is the clearance, and keeps the
-/// pieces that are free in the middle.
-void ShortestPaths::find_arcs(Circle& circle) {
-  circle.is_cut = true;
-  std::vector<double> cuts{0, circle.width};
-  const Vec2 c = circle.centre;
-  const double r = circle.radius;
-  const auto cut = [&](Vec2 p) {
-    const Vec2 n = p - c;
-    const double angle = positive(heading_of(n) - circle.from);
-    if (angle < circle.width) cuts.push_back(angle);
-  };
-  const auto cut_by_line = [&](Vec2 a, Vec2 u, double shift) {  // a + t u, moved to the left
-    const Vec2 o = a + shift * perpendicular(u) - c;
-    const double b = dot(o, u);
-    const double root = b * b - squared_norm(o) + r * r;
-    if (root < 0) return;
-    for (const double t : {-b - std::sqrt(root), -b + std::sqrt(root)}) cut(c + o + t * u);
-  };
-  const auto cut_by_circle = [&](Vec2 centre, double radius) {
-    const Vec2 d = centre - c;
-    const double apart = norm(d);
-    if (apart == 0 || apart > r + radius || apart < std::abs(r - radius)) return;
-    const double x = (apart * apart + r * r - radius * radius) / (2 * apart);
-    const double y = std::sqrt(std::max(0.0, r * r - x * x));
-    const Vec2 e = d / apart;
-    cut(c + x * e + y * perpendicular(e));
-    cut(c + x * e - y * perpendicular(e));
-  };
-  const double reach = r + clearance_ + margin_;
-  const double keep = clearance_ + 0.5 * margin_;
-  const Box box = Box{c, c}.grown(reach);
-  map_.walls().polygons().for_each_edge_in(box, [&](std::uint32_t, const Segment& edge) {
-    const double length = distance(edge.a, edge.b);
-    if (length == 0) return;
-    const Vec2 u = (edge.b - edge.a) / length;
-    cut_by_line(edge.a, u, keep);
-    cut_by_line(edge.a, u, -keep);
-    if (edge.a != c) cut_by_circle(edge.a, keep);
-  });
-  map_.walls().discs().for_each_in(box, [&](std::size_t i) {
-    const Disc disc = map_.walls().discs().disc(i);
-    if (disc.centre != c) cut_by_circle(disc.centre, disc.radius + keep);
-  });
-  const Box& border = map_.bounds();
-  for (const double x : {border.lo.x + keep, border.hi.x - keep}) cut_by_line({x, 0}, {0, 1}, 0);
-  for (const double y : {border.lo.y + keep, border.hi.y - keep}) cut_by_line({0, y}, {1, 0}, 0);
-  std::ranges::sort(cuts);
-  circle.first_arc = static_cast<std::uint32_t>(arcs_.size());
-  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
-    const double middle = circle.from + 0.5 * (cuts[i] + cuts[i + 1]);
-    if (!map_.is_free(c + r * unit_vector(middle), clearance_)) continue;
-    const bool goes_on = arcs_.size() > circle.first_arc && arcs_.back().to == cuts[i];
-    if (goes_on)
-      arcs_.back().to = cuts[i + 1];
-    else
-      arcs_.push_back({cuts[i], cuts[i + 1]});
+ShortestPaths::ArcRange ShortestPaths::cut(const Circle& circle, const BodySet* moving,
+                                           std::vector<Arc>& arcs) const {
+  const std::size_t first = arcs.size();
+  add_free_arcs(circle, map_, moving, clearance_, margin_, arcs);
+  return {static_cast<std::uint32_t>(first), static_cast<std::uint16_t>(arcs.size() - first)};
+}
+
+/// Whether a moving body may cut the circle; if so, its present arcs are known afterwards.
+bool ShortestPaths::is_near_moving(Circle& circle) {
+  if (!moving_) return false;
+  if (circle.query != query_) {
+    circle.query = query_;
+    circle.is_near = !moving_->is_free(circle.centre, circle.radius + clearance_ + 2 * margin_);
+    if (circle.is_near) circle.arcs_now = cut(circle, moving_, arcs_now_);
   }
-  // The arc over 0 of a disc begins before it.
-  const bool is_cut = circle.is_disc && arcs_.size() > circle.first_arc + 1 &&
-                      arcs_[circle.first_arc].from == 0 && arcs_.back().to == circle.width;
-  if (is_cut) {
-    arcs_.back().to += arcs_[circle.first_arc].to;
-    arcs_.erase(arcs_.begin() + circle.first_arc);
-  }
-  circle.arcs = static_cast<std::uint16_t>(arcs_.size() - circle.first_arc);
+  return circle.is_near;
 }
 
 ShortestPaths::Wheel& ShortestPaths::wheel(std::uint32_t number) {
@@ -200,31 +112,45 @@ void ShortestPaths::push(const Open& open) {
   std::push_heap(open_.begin(), open_.end());
 }
 
-/// Opens the tangents from the start.
-void ShortestPaths::begin() {
-  const Circle here{.centre = start_};
+/// Takes in the query and opens the tangents from the start.
+void ShortestPaths::begin(Vec2 start, Vec2 goal, const BodySet& moving) {
+  start_ = start;
+  goal_ = goal;
+  moving_ = moving.empty() ? nullptr : &moving;
+  ++query_;
+  checks_ = 0;
+  arcs_now_.clear();
+  guesses_.clear();
+  labels_.clear();
+  open_.clear();
+  moving_corners_.clear();
+  for (const Body& body : moving.bodies()) add_corners(body, map_.bounds(), moving_corners_);
+  circles_.resize(still_count());
+  for (const Corner& corner : moving_corners_) circles_.push_back(circle_of(corner));
+  wheels_.resize(2 * circles_.size());
+}
+
+void ShortestPaths::open_from_start() {
   ++look_;
-  corners_->seen_from(start_, [&](std::uint32_t other) {
+  corners_.seen_from(start_, [&](std::uint32_t other) {
     if (seen_[other] == look_) return;
     seen_[other] = look_;
-    for (std::uint32_t l = 0; l < 2; ++l) {
-      Line line;
-      if (!join(here, 1, circles_[other], sense(l), line)) continue;
-      const auto number = static_cast<std::uint32_t>(starts_.size());
-      starts_.push_back({line, 2 * other + l});
-      const double left = distance(touch(2 * other + l, line), goal_);
-      open_.push_back({line.length + left, line.length, none, number, false});
-    }
+    open_from_start(other);
   });
+  for (std::uint32_t i = still_count(); i < circles_.size(); ++i) open_from_start(i);
   std::make_heap(open_.begin(), open_.end());
 }
 
-/// Angle from one normal to the next in the sense of rotation; negative if it is not ahead.
-double ShortestPaths::way_around(const Circle& circle, double sense, double from, double to) const {
-  const double angle = sense * (to - from);
-  if (!circle.is_disc) return angle < -slack ? -1 : std::max(0.0, angle);
-  const double ahead = positive(angle);
-  return ahead > 2 * pi - slack ? 0 : ahead;
+void ShortestPaths::open_from_start(std::uint32_t corner) {
+  const TurningCircle here{.centre = start_};
+  for (std::uint32_t to = 2 * corner; to < 2 * corner + 2; ++to) {
+    const auto line = join(here, 1, circles_[corner], sense(to));
+    if (!line) continue;
+    const double left = distance(touch(to, *line), goal_);
+    const auto number = static_cast<std::uint32_t>(guesses_.size());
+    guesses_.push_back({.line = *line, .to = to});
+    open_.push_back({line->length + left, line->length, none, number, true});
+  }
 }
 
 /// Whether an earlier label at the wheel comes by at no greater length.
@@ -234,7 +160,7 @@ bool ShortestPaths::is_dominated(const Label& label) {
   for (std::uint32_t i = wheel(label.wheel).first_label; i != none; i = labels_[i].next) {
     const Label& other = labels_[i];
     if (other.arc != label.arc) continue;
-    const double angle = way_around(circle, to, other.arrive, label.arrive);
+    const double angle = circle.way_around(to, other.arrive, label.arrive);
     if (angle >= 0 && (!circle.is_disc || angle < pi) &&
         other.length + circle.radius * angle <= label.length)
       return true;
@@ -244,13 +170,29 @@ bool ShortestPaths::is_dominated(const Label& label) {
 
 /// Opens what leaves the wheel ahead of where the label arrives.
 void ShortestPaths::expand(const Label& label, std::uint32_t number) {
+  const std::uint32_t corner = label.wheel / 2;
+  guess(label, number, {.centre = goal_}, none);
+  if (corner < still_count()) {
+    expand_hops(label, number);
+    for (std::uint32_t i = still_count(); i < circles_.size(); ++i) guess_both(label, number, i);
+    return;
+  }
+  for (std::uint32_t i = 0; i < circles_.size(); ++i)
+    if (i != corner) guess_both(label, number, i);
+}
+
+/// Opens the kept hops.
+void ShortestPaths::expand_hops(const Label& label, std::uint32_t number) {
   Circle& circle = circles_[label.wheel / 2];
   if (!circle.is_known) know(label.wheel / 2);
+  const bool is_near = is_near_moving(circle);
   const double turn = sense(label.wheel);
   std::vector<Hop>& hops = wheels_[label.wheel].hops;
   const auto consider = [&](std::size_t i) {
     Hop& hop = hops[i];
-    const double angle = way_around(circle, turn, label.arrive, hop.leave);
+    const int arc = is_near ? arc_at(circle, hop.leave) : hop.leave_arc;
+    if (arc != label.arc) return;
+    const double angle = circle.way_around(turn, label.arrive, hop.leave);
     const double length = label.length + circle.radius * angle + hop.line.length;
     if (hop.query == query_ && hop.best <= length) return;
     hop.query = query_;
@@ -259,58 +201,65 @@ void ShortestPaths::expand(const Label& label, std::uint32_t number) {
     push({length + left, length, number, static_cast<std::uint32_t>(i), false});
   };
   const auto ahead = std::ranges::partition_point(
-      hops, [&](const Hop& hop) { return turn * hop.leave < turn * label.arrive - slack; });
-  for (auto i = static_cast<std::size_t>(ahead - hops.begin()); i < hops.size(); ++i)
-    if (hops[i].leave_arc == label.arc) consider(i);
+      hops, [&](const Hop& hop) { return turn * hop.leave < turn * label.arrive - angle_slack; });
+  const auto first = static_cast<std::size_t>(ahead - hops.begin());
+  for (std::size_t i = first; i < hops.size(); ++i) consider(i);
   if (circle.is_disc)  // once around
-    for (std::size_t i = 0; i < static_cast<std::size_t>(ahead - hops.begin()); ++i)
-      if (hops[i].leave_arc == label.arc) consider(i);
-
-  Line line;
-  if (!join(circle, turn, Circle{.centre = goal_}, 1, line)) return;
-  const double leave = angle_in(circle, -turn * perpendicular(line.along));
-  const double angle = way_around(circle, turn, label.arrive, leave);
-  if (angle < 0 || arc_at(circle, leave) != label.arc) return;
-  const double length = label.length + circle.radius * angle + line.length;
-  push({length, length, number, static_cast<std::uint32_t>(ends_.size()), true});
-  ends_.push_back({line, leave});
+    for (std::size_t i = 0; i < first; ++i) consider(i);
 }
 
-ShortestPath ShortestPaths::find(Vec2 start, Vec2 goal, const Stop& stop) {
+void ShortestPaths::guess_both(const Label& label, std::uint32_t number, std::uint32_t corner) {
+  for (std::uint32_t to = 2 * corner; to < 2 * corner + 2; ++to)
+    guess(label, number, circles_[corner], to);
+}
+
+/// Opens the tangent from the label's wheel to another, or to the goal.
+void ShortestPaths::guess(const Label& label, std::uint32_t number, const TurningCircle& there,
+                          std::uint32_t to) {
+  Circle& circle = circles_[label.wheel / 2];
+  const double turn = sense(label.wheel);
+  const bool ends = to == none;
+  const auto line = join(circle, turn, there, ends ? 1 : sense(to));
+  if (!line) return;
+  const double leave = circle.angle_of(-turn * perpendicular(line->along));
+  const double angle = circle.way_around(turn, label.arrive, leave);
+  if (angle < 0 || arc_at(circle, leave) != label.arc) return;
+  const double length = label.length + circle.radius * angle + line->length;
+  const double left = ends ? 0 : distance(touch(to, *line), goal_);
+  push({length + left, length, number, static_cast<std::uint32_t>(guesses_.size()), true});
+  guesses_.push_back({*line, leave, to});
+}
+
+ShortestPath ShortestPaths::find(Vec2 start, Vec2 goal, const BodySet& moving, const Stop& stop) {
   ShortestPath path;
-  start_ = start;
-  goal_ = goal;
-  ++query_;
-  labels_.clear();
-  open_.clear();
-  starts_.clear();
-  ends_.clear();
-  ++path.checks;
-  if (map_.is_free(Segment{start, goal}, clearance_)) {
+  begin(start, goal, moving);
+  if (is_free({start, goal})) {
     path.status = Status::solved;
     path.length = distance(start, goal);
     path.points = {start, goal};
+    path.checks = checks_;
     return path;
   }
-  begin();
+  open_from_start();
   while (!open_.empty()) {
-    if (path.expanded % 64 == 0)
+    if (path.expanded % 8 == 0)
       if (const auto told = stop.status()) {
         path.status = *told;
-        return path;
+        break;
       }
     std::pop_heap(open_.begin(), open_.end());
     const Open open = open_.back();
     open_.pop_back();
     Label label{.length = open.length, .parent = open.parent};
-    if (!take(open, label, path)) continue;
+    if (!take(open, label)) continue;
     const auto number = static_cast<std::uint32_t>(labels_.size());
-    if (open.is_end) {
+    if (label.wheel == none) {
       labels_.push_back(label);
       path.status = Status::solved;
       path.length = open.length;
-      draw(number, path);
-      return path;
+      path.points = draw(number);
+      path.points.back() = goal;
+      break;
     }
     if (is_dominated(label)) continue;
     label.next = std::exchange(wheel(label.wheel).first_label, number);
@@ -318,74 +267,117 @@ ShortestPath ShortestPaths::find(Vec2 start, Vec2 goal, const Stop& stop) {
     ++path.expanded;
     expand(label, number);
   }
+  if (path.status != Status::solved) path.points = near_goal();
+  path.checks = checks_;
   return path;
 }
 
-/// The label of an open line; false if the line is not free or a better one was found.
-bool ShortestPaths::take(const Open& open, Label& label, ShortestPath& path) {
-  if (open.parent == none) {
-    const FromStart& first = starts_[open.line];
-    label.line = first.line;
-    label.from = start_;
-    label.wheel = first.to;
-    Circle& there = circles_[first.to / 2];
-    label.arrive = angle_in(there, -sense(first.to) * perpendicular(first.line.along));
-    const int arc = arc_at(there, label.arrive);
-    if (arc < 0) return false;
-    label.arc = static_cast<std::uint16_t>(arc);
-    ++path.checks;
-    return is_free(label.from, label.line);
+/// A path to where the search came near the goal.
+std::vector<Vec2> ShortestPaths::near_goal() {
+  constexpr std::size_t tried = 16;  // of the nearest places
+  std::vector<std::uint32_t> near(labels_.size());
+  std::iota(near.begin(), near.end(), 0);
+  const auto left = [&](std::uint32_t i) { return distance(end_of(labels_[i]), goal_); };
+  const std::size_t count = std::min(tried, near.size());
+  std::ranges::partial_sort(near, near.begin() + static_cast<std::ptrdiff_t>(count), {}, left);
+  std::vector<Vec2> best{start_};
+  add(walk(start_), best);
+  for (const std::uint32_t i : std::span(near).first(count)) {
+    const Vec2 end = walk(end_of(labels_[i]));
+    if (distance(end, goal_) >= distance(best.back(), goal_)) continue;
+    best = draw(i);
+    add(end, best);
   }
-  const std::uint32_t leaves = labels_[open.parent].wheel;
-  if (open.is_end) {
-    const ToGoal& last = ends_[open.line];
-    label.line = last.line;
-    label.leave = last.leave;
-    label.from = touch(leaves, last.line);
-    ++path.checks;
-    return is_free(label.from, label.line);
-  }
-  const Hop& hop = wheels_[leaves].hops[open.line];
-  if (hop.best < open.length) return false;
-  label.line = hop.line;
-  label.leave = hop.leave;
-  label.arrive = hop.arrive;
-  label.arc = hop.arrive_arc;
-  label.wheel = hop.to;
-  label.from = touch(leaves, hop.line);
-  return true;
+  return best;
 }
 
-void ShortestPaths::draw(std::uint32_t last, ShortestPath& path) const {
+/// How far one gets on the straight line to the goal.
+Vec2 ShortestPaths::walk(Vec2 from) {
+  double free = 0, blocked = 1;
+  for (int i = 0; i < 20; ++i) {
+    const double middle = 0.5 * (free + blocked);
+    const bool goes = is_free({from, from + middle * (goal_ - from)});
+    (goes ? free : blocked) = middle;
+  }
+  return from + free * (goal_ - from);
+}
+
+/// The label of an open line; false if the line is not free or a better one was found.
+bool ShortestPaths::take(const Open& open, Label& label) {
+  const std::uint32_t leaves = open.parent == none ? none : labels_[open.parent].wheel;
+  if (!open.is_guess) {
+    const Hop& hop = wheels_[leaves].hops[open.line];
+    if (hop.best < open.length) return false;
+    label.line = hop.line;
+    label.from = touch(leaves, hop.line);
+    label.leave = hop.leave;
+    label.arrive = hop.arrive;
+    label.wheel = hop.to;
+    label.arc = hop.arrive_arc;
+    if (!moving_) return true;
+    if (is_near_moving(circles_[hop.to / 2]) && !arrive(label)) return false;
+    ++checks_;
+    return moving_->is_free(segment(label.from, label.line), clearance_);
+  }
+  const Guess& guess = guesses_[open.line];
+  label.line = guess.line;
+  label.leave = guess.leave;
+  label.from = leaves == none ? start_ : touch(leaves, guess.line);
+  label.wheel = guess.to;
+  if (guess.to != none) {
+    label.arrive =
+        circles_[guess.to / 2].angle_of(-sense(guess.to) * perpendicular(guess.line.along));
+    if (!arrive(label)) return false;
+  }
+  return is_free(segment(label.from, label.line));
+}
+
+/// Finds the arc at which a label arrives; false if it is not free.
+bool ShortestPaths::arrive(Label& label) {
+  const int arc = arc_at(circles_[label.wheel / 2], label.arrive);
+  label.arc = static_cast<std::uint16_t>(std::max(0, arc));
+  return arc >= 0;
+}
+
+bool ShortestPaths::is_free(Segment s) {
+  ++checks_;
+  return map_.is_free(s, clearance_) && (!moving_ || moving_->is_free(s, clearance_));
+}
+
+/// The path to the end of a label.
+std::vector<Vec2> ShortestPaths::draw(std::uint32_t last) const {
   std::vector<std::uint32_t> chain;
   for (std::uint32_t i = last; i != none; i = labels_[i].parent) chain.push_back(i);
   std::ranges::reverse(chain);
-  path.points = {start_};
+  std::vector<Vec2> points{start_};
   for (std::size_t k = 0; k < chain.size(); ++k) {
     const Label& label = labels_[chain[k]];
     if (k > 0) {
       const Label& before = labels_[chain[k - 1]];
-      draw_arc(circles_[before.wheel / 2], sense(before.wheel), before.arrive, label.leave,
-               path.points);
-      path.points.push_back(label.from);
+      draw_arc(circles_[before.wheel / 2], sense(before.wheel), before.arrive, label.leave, points);
+      add(label.from, points);
     }
-    path.points.push_back(label.from + label.line.length * label.line.along);
+    add(end_of(label), points);
   }
-  path.points.back() = goal_;
+  return points;
+}
+
+/// Adds a point unless it is the last one but for rounding.
+void ShortestPaths::add(Vec2 p, std::vector<Vec2>& points) const {
+  if (distance(p, points.back()) > 0.01 * margin_) points.push_back(p);
 }
 
 /// Adds lines around the arc, each of which touches it.
 void ShortestPaths::draw_arc(const Circle& circle, double sense, double from, double to,
                              std::vector<Vec2>& points) const {
-  const double angle = way_around(circle, sense, from, to);
-  constexpr double step = 0.26;  // [rad]
+  const double angle = circle.way_around(sense, from, to);
+  constexpr double step = 0.1;  // [rad]
   const int count = static_cast<int>(std::ceil(angle / step));
-  if (angle < slack) return;
+  if (angle < angle_slack) return;
   const double each = angle / count;
   const double outer = circle.radius / maths::cos(0.5 * each);
   for (int i = 0; i < count; ++i)
-    points.push_back(circle.centre +
-                     outer * unit_vector(circle.from + from + sense * (i + 0.5) * each));
+    add(circle.centre + outer * unit_vector(circle.from + from + sense * (i + 0.5) * each), points);
 }
 
 }  // namespace microswarm

@@ -2,47 +2,51 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "microswarm/core/execution/status.hpp"
 #include "microswarm/core/execution/stop.hpp"
-#include "microswarm/planning/exact/corners.hpp"
+#include "microswarm/planning/exact/turning_circle.hpp"
 
 namespace microswarm {
 
-/// A shortest path, or why there is none.
+/// A shortest path, or why there is none and a path that ends near the goal.
 struct ShortestPath {
   Status status = Status::no_path;
-  double length = 0;         ///< of straight lines and true arcs [µm]
+  double length = 0;         ///< of straight lines and true arcs, once solved [µm]
   std::vector<Vec2> points;  ///< [µm]; arcs are replaced by lines around them, with clearance
   std::uint64_t expanded = 0;
   std::uint64_t checks = 0;  ///< of tangents
 };
 
-/// Exact shortest paths of a disc in a map, for one clearance.
+/// Exact shortest paths of a disc in a map, for one clearance, also among moving bodies at their
+/// present places.
 ///
-/// A* over the tangents between the circles around corners. The free tangents of a circle are found
-/// when a search first comes to it, and kept for further queries. Not for several threads at once.
+/// A* over the tangents between the circles around corners. The tangents of a circle that are free
+/// of walls are found when a search first comes to it, and kept for further queries; those to and
+/// from moving bodies are found anew by each query, and tested when their turn comes. Not for
+/// several threads at once.
 class ShortestPaths {
  public:
   /// `map` must outlive it. `clearance` [µm].
-  ShortestPaths(const Map& map, std::shared_ptr<const Corners> corners, double clearance);
+  ShortestPaths(const Map& map, double clearance);
 
   /// The shortest path between two places that are free. It keeps the clearance to within a share
   /// of 1e-7 and exists if there is one with that much more clearance.
-  ShortestPath find(Vec2 start, Vec2 goal, const Stop& stop = {});
+  ShortestPath find(Vec2 start, Vec2 goal, const BodySet& moving, const Stop& stop = {});
+  ShortestPath find(Vec2 start, Vec2 goal, const Stop& stop = {}) {
+    return find(start, goal, {}, stop);
+  }
 
  private:
   static constexpr std::uint32_t none = ~0u;
 
-  /// A straight line from one circle to the next.
-  struct Line {
-    Vec2 along;         ///< unit vector
-    double length = 0;  ///< [µm]
-  };
-  /// A free tangent of two circles, with the normals at which it leaves and arrives, counted from
-  /// where the corner's cone begins [rad].
+  using Line = TangentLine;
+
+  /// A tangent of two circles that is free of walls, with the normals at which it leaves and
+  /// arrives, counted from where the corner's cone begins [rad].
   struct Hop {
     Line line;
     double leave = 0;
@@ -53,28 +57,35 @@ class ShortestPaths {
     std::uint16_t leave_arc = 0;
     std::uint16_t arrive_arc = 0;
   };
+  /// A line of the present query, from the start, to the goal, or to or from a moving body; not
+  /// tested yet.
+  struct Guess {
+    Line line;
+    double leave = 0;
+    std::uint32_t to = none;  ///< wheel; none: the goal
+  };
   /// A circle around a corner, gone around counter-clockwise (even number) or clockwise.
   struct Wheel {
     std::vector<Hop> hops;             ///< as one comes by them, from where the cone begins
     std::uint32_t query = 0;           ///< of the following
     std::uint32_t first_label = none;  ///< expanded at it
   };
-  /// Free part of a circle: normals from `from` to `to`.
-  struct Arc {
-    double from, to;
+  /// Free parts of a circle, in a list of arcs.
+  struct ArcRange {
+    std::uint32_t first = 0;
+    std::uint16_t count = 0;
+    std::span<const Arc> of(const std::vector<Arc>& all) const {
+      return std::span(all).subspan(first, count);
+    }
   };
-  /// Circle with its cone of normals.
-  struct Circle {
-    Vec2 centre;
-    double radius = 0;
-    double from = 0;
-    double width = 0;
-    Vec2 first, last;  ///< normals at the ends of the cone; unused for a disc
-    bool is_disc = false;
-    bool is_known = false;  ///< its hops
-    bool is_cut = false;    ///< into its free arcs
-    std::uint16_t arcs = 0;
-    std::uint32_t first_arc = 0;
+  /// A circle, and what is known of it.
+  struct Circle : TurningCircle {
+    ArcRange arcs;            ///< among the walls
+    ArcRange arcs_now;        ///< among the walls and the moving bodies
+    std::uint32_t query = 0;  ///< of the following
+    bool is_near = false;     ///< to a moving body, so that arcs_now holds
+    bool is_known = false;    ///< its hops
+    bool is_cut = false;      ///< into its free arcs
   };
   /// A line that was taken.
   struct Label {
@@ -83,7 +94,7 @@ class ShortestPaths {
     Vec2 from;         ///< where it begins
     double leave = 0;  ///< normal at which it leaves its parent's wheel
     double arrive = 0;
-    std::uint32_t wheel = none;  ///< at which it arrives
+    std::uint32_t wheel = none;  ///< at which it arrives; none: the goal
     std::uint16_t arc = 0;
     std::uint32_t parent = none;
     std::uint32_t next = none;  ///< at the same wheel
@@ -93,51 +104,59 @@ class ShortestPaths {
     double estimate;
     double length;
     std::uint32_t parent;
-    std::uint32_t line;  ///< number among the wheel's hops, the lines from the start or to the goal
-    bool is_end;
+    std::uint32_t line;  ///< number among the wheel's hops, or among the guesses
+    bool is_guess;
     bool operator<(const Open& o) const { return estimate > o.estimate; }
-  };
-  struct FromStart {
-    Line line;
-    std::uint32_t to;
-  };
-  struct ToGoal {
-    Line line;
-    double leave;
   };
 
   static double sense(std::uint32_t wheel) { return wheel % 2 == 0 ? 1 : -1; }
   /// Place on the wheel where a line leaves or arrives.
   Vec2 touch(std::uint32_t wheel, const Line& line) const {
-    const Circle& circle = circles_[wheel / 2];
-    return circle.centre - sense(wheel) * circle.radius * perpendicular(line.along);
+    return circles_[wheel / 2].touch(sense(wheel), line.along);
   }
-  bool is_free(Vec2 from, const Line& line) const {
-    return map_.is_free(Segment{from, from + line.length * line.along}, clearance_);
+  static Segment segment(Vec2 from, const Line& line) {
+    return {from, from + line.length * line.along};
   }
+  static Vec2 end_of(const Label& label) { return segment(label.from, label.line).b; }
+  std::uint32_t still_count() const { return static_cast<std::uint32_t>(seen_.size()); }
+  Circle circle_of(const Corner& corner) const;
   void know(std::uint32_t corner);
   void join_free(std::uint32_t from, std::uint32_t to);
-  void find_arcs(Circle& circle);
+  ArcRange cut(const Circle& circle, const BodySet* moving, std::vector<Arc>& arcs) const;
+  int still_arc_at(Circle& circle, double at);
   int arc_at(Circle& circle, double at);
-  double angle_in(const Circle& circle, Vec2 normal) const;
-  static bool is_taut(const Circle& circle, Vec2 normal);
-  bool join(const Circle& a, double sense_a, const Circle& b, double sense_b, Line& line) const;
-  void begin();
-  bool take(const Open& open, Label& label, ShortestPath& path);
+  bool is_near_moving(Circle& circle);
+  /// A place on a circle may lie in it by a rounding error.
+  std::optional<Line> join(const TurningCircle& a, double sense_a, const TurningCircle& b,
+                           double sense_b) const {
+    return tangent(a, sense_a, b, sense_b, 4 * margin_);
+  }
+  void begin(Vec2 start, Vec2 goal, const BodySet& moving);
+  void open_from_start();
+  void open_from_start(std::uint32_t corner);
   void expand(const Label& label, std::uint32_t number);
-  double way_around(const Circle& circle, double sense, double from, double to) const;
+  void expand_hops(const Label& label, std::uint32_t number);
+  void guess(const Label& label, std::uint32_t number, const TurningCircle& there,
+             std::uint32_t to);
+  void guess_both(const Label& label, std::uint32_t number, std::uint32_t corner);
+  bool take(const Open& open, Label& label);
+  bool arrive(Label& label);
+  bool is_free(Segment s);
   bool is_dominated(const Label& label);
   Wheel& wheel(std::uint32_t number);
-  void draw(std::uint32_t last, ShortestPath& path) const;
+  std::vector<Vec2> near_goal();
+  Vec2 walk(Vec2 from);
+  std::vector<Vec2> draw(std::uint32_t last) const;
+  void add(Vec2 p, std::vector<Vec2>& points) const;
   void draw_arc(const Circle& circle, double sense, double from, double to,
                 std::vector<Vec2>& points) const;
   void push(const Open& open);
 
   const Map& map_;
-  std::shared_ptr<const Corners> corners_;
+  const Corners& corners_;
   double clearance_;
   double margin_;
-  std::vector<Circle> circles_;
+  std::vector<Circle> circles_;  ///< around the corners of the map, then of the moving bodies
   std::vector<Wheel> wheels_;
   std::vector<Arc> arcs_;
   std::vector<std::uint32_t> seen_;  ///< of each corner: the look around in which it was seen
@@ -146,10 +165,13 @@ class ShortestPaths {
   // Of the present query.
   std::uint32_t query_ = 0;
   Vec2 start_, goal_;
-  std::vector<FromStart> starts_;
-  std::vector<ToGoal> ends_;
+  const BodySet* moving_ = nullptr;  ///< null if there is none
+  std::vector<Corner> moving_corners_;
+  std::vector<Arc> arcs_now_;
+  std::vector<Guess> guesses_;
   std::vector<Label> labels_;
   std::vector<Open> open_;
+  std::uint64_t checks_ = 0;
 };
 
 }  // namespace microswarm

@@ -5,13 +5,14 @@
 
 #include "microswarm/planning/path/a_star_params.hpp"
 #include "microswarm/planning/path/drrt_star_params.hpp"
+#include "microswarm/planning/path/exact_params.hpp"
 #include "microswarm/planning/path/fmt_star_params.hpp"
 #include "microswarm/planning/path/rrt_params.hpp"
 
 namespace microswarm {
 
-/// Any planner, selected at run time by its `type`.
-using PlannerParams = std::variant<DrrtStarParams, RrtStarParams, UniformRrtStarParams, RrtParams,
-                                   AStarParams, FmtStarParams>;
+/// Any planner, selected at run time by its `type`; the first unless told otherwise.
+using PlannerParams = std::variant<ExactParams, DrrtStarParams, RrtStarParams, UniformRrtStarParams,
+                                   RrtParams, AStarParams, FmtStarParams>;
 
 }  // namespace microswarm

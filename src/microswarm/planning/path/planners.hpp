@@ -4,6 +4,7 @@
 #include "microswarm/planning/common/detection.hpp"
 #include "microswarm/planning/path/a_star.hpp"
 #include "microswarm/planning/path/drrt_star.hpp"
+#include "microswarm/planning/path/exact.hpp"
 #include "microswarm/planning/path/fmt_star.hpp"
 #include "microswarm/planning/path/planner_params.hpp"
 #include "microswarm/planning/path/rrt.hpp"

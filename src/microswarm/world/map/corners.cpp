@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/exact/corners.hpp"
+#include "microswarm/world/map/corners.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -29,35 +29,7 @@ bool is_apart(const BodySet& walls, std::size_t disc) {
   return apart && d.radius > 0;
 }
 
-}  // namespace
-
-Corners::Corners(const Map& map) {
-  std::vector<Segment> segments;
-  const BodySet& walls = map.walls();
-  for (const Body& body : walls.bodies()) {
-    const auto* polygon = std::get_if<Polygon>(&body.shape);
-    if (!polygon) continue;
-    for_each_edge(*polygon, [&](Vec2 a, Vec2 b) { segments.push_back({a, b}); });
-    add_ring(polygon->outer, map.bounds());
-    for (const auto& hole : polygon->holes) add_ring(hole, map.bounds());
-  }
-  std::vector<std::uint32_t> standing;  // corners of the discs that stand apart
-  for (std::size_t i = 0; i < walls.discs().size(); ++i) {
-    const Disc disc = walls.discs().disc(i);
-    add_disc(disc);
-    const auto number = static_cast<std::uint32_t>(corners_.size() - 1);
-    if (!is_apart(walls, i)) {
-      loose_.push_back(number);
-      continue;
-    }
-    standing.push_back(number);
-    const auto [left, low, high, right] = diameters(disc);
-    segments.insert(segments.end(), {{left, low}, {left, high}, {low, right}, {high, right}});
-  }
-  index(std::move(segments), standing);
-}
-
-void Corners::add_ring(std::span<const Vec2> ring, const Box& bounds) {
+void add_ring(std::span<const Vec2> ring, const Box& bounds, std::vector<Corner>& corners) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Vec2 before = ring[i == 0 ? ring.size() - 1 : i - 1];
     const Vec2 at = ring[i];
@@ -65,18 +37,49 @@ void Corners::add_ring(std::span<const Vec2> ring, const Box& bounds) {
     if (!bounds.contains(at) || orientation(before, at, after) <= 0) continue;
     const Vec2 in = at - before, out = after - at;
     // The solid is on the left, so normals point to the right.
-    corners_.push_back({.centre = at,
-                        .from = heading_of(-perpendicular(in)),
-                        .width = maths::atan2(cross(in, out), dot(in, out))});
+    Corner corner{.centre = at,
+                  .from = heading_of(-perpendicular(in)),
+                  .width = maths::atan2(cross(in, out), dot(in, out))};
+    corner.first = unit_vector(corner.from);
+    corner.last = unit_vector(corner.from + corner.width);
+    corners.push_back(corner);
   }
 }
 
-void Corners::add_disc(const Disc& disc) {
-  corners_.push_back({.centre = disc.centre,
-                      .radius = disc.radius,
-                      .width = 2 * pi,
-                      .disc = static_cast<std::uint32_t>(inscribed_.size())});
-  inscribed_.push_back({none, none, none, none});
+}  // namespace
+
+void add_corners(const Body& body, const Box& bounds, std::vector<Corner>& corners) {
+  if (const auto* disc = std::get_if<Disc>(&body.shape)) {
+    corners.push_back(
+        {.centre = disc->centre, .radius = disc->radius, .width = 2 * pi, .is_disc = true});
+    return;
+  }
+  const auto& polygon = std::get<Polygon>(body.shape);
+  add_ring(polygon.outer, bounds, corners);
+  for (const auto& hole : polygon.holes) add_ring(hole, bounds, corners);
+}
+
+Corners::Corners(const BodySet& walls, const Box& bounds) {
+  std::vector<Segment> segments;
+  std::vector<std::uint32_t> standing;  // corners of the discs that stand apart
+  std::size_t discs = 0;
+  for (const Body& body : walls.bodies()) {
+    add_corners(body, bounds, corners_);
+    if (const auto* polygon = std::get_if<Polygon>(&body.shape)) {
+      for_each_edge(*polygon, [&](Vec2 a, Vec2 b) { segments.push_back({a, b}); });
+      continue;
+    }
+    const auto number = static_cast<std::uint32_t>(corners_.size() - 1);
+    if (!is_apart(walls, discs++)) {
+      loose_.push_back(number);
+      continue;
+    }
+    standing.push_back(number);
+    const auto [left, low, high, right] = diameters(std::get<Disc>(body.shape));
+    segments.insert(segments.end(), {{left, low}, {left, high}, {low, right}, {high, right}});
+  }
+  inscribed_.assign(corners_.size(), {none, none, none, none});
+  index(std::move(segments), standing);
 }
 
 void Corners::index(std::vector<Segment> segments, std::span<const std::uint32_t> standing) {
@@ -85,7 +88,7 @@ void Corners::index(std::vector<Segment> segments, std::span<const std::uint32_t
   first_at_.assign(points + 1, 0);
   std::vector<std::uint32_t> point_of(corners_.size(), none);
   for (std::size_t i = 0; i < corners_.size(); ++i) {
-    if (corners_[i].is_disc()) continue;
+    if (corners_[i].is_disc) continue;
     point_of[i] = cells_.point_at(corners_[i].centre);
     ++first_at_[point_of[i] + 1];
   }
@@ -96,7 +99,7 @@ void Corners::index(std::vector<Segment> segments, std::span<const std::uint32_t
     if (point_of[i] != none) at_[next[point_of[i]]++] = i;
   std::vector<std::uint32_t> disc_at(points, none);
   for (const std::uint32_t i : standing) {
-    Inscribed& inscribed = inscribed_[corners_[i].disc];
+    Inscribed& inscribed = inscribed_[i];
     const auto ends = diameters({corners_[i].centre, corners_[i].radius});
     for (std::size_t k = 0; k < 4; ++k) disc_at[inscribed[k] = cells_.point_at(ends[k])] = i;
   }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "microswarm/geometry/trapezoids.hpp"
-#include "microswarm/world/map/map.hpp"
+#include "microswarm/world/obstacles/body_set.hpp"
 
 namespace microswarm {
 
@@ -18,11 +18,14 @@ struct Corner {
   double radius = 0;  ///< of the disc [µm]; 0 for the corner of a polygon
   double from = 0;    ///< direction from the corner in which the cone of its normals begins [rad]
   double width = 0;   ///< angle of that cone, counter-clockwise [rad]; 2π for a disc
-  std::uint32_t disc = Trapezoids::none;  ///< number among the discs; none for a polygon's corner
-  bool is_disc() const { return disc != Trapezoids::none; }
+  Vec2 first, last;   ///< unit vectors where the cone begins and ends; unused for a disc
+  bool is_disc = false;
 };
 
-/// The corners of a map and which of them see each other.
+/// Adds the corners of a body that are in the bounds. A disc is not numbered.
+void add_corners(const Body& body, const Box& bounds, std::vector<Corner>& corners);
+
+/// The corners of walls and which of them see each other.
 ///
 /// A shortest path with clearance consists of arcs around corners and of tangents between them. The
 /// strip within the clearance of a tangent is free. It holds all that lies between the tangent and
@@ -31,7 +34,7 @@ struct Corner {
 /// Immutable, shared by threads.
 class Corners {
  public:
-  explicit Corners(const Map& map);
+  Corners(const BodySet& walls, const Box& bounds);
 
   std::span<const Corner> all() const { return corners_; }
   const Trapezoids& cells() const { return cells_; }
@@ -47,8 +50,6 @@ class Corners {
   static constexpr std::uint32_t none = Trapezoids::none;
   using Inscribed = std::array<std::uint32_t, 4>;  // points, from left to right
 
-  void add_ring(std::span<const Vec2> ring, const Box& bounds);
-  void add_disc(const Disc& disc);
   void index(std::vector<Segment> segments, std::span<const std::uint32_t> standing);
 
   template <class Visit>
@@ -69,7 +70,7 @@ class Corners {
   Trapezoids cells_;
   std::vector<std::uint32_t> first_at_, at_;  ///< corners at each point of the cells
   std::vector<std::uint32_t> disc_of_;        ///< corner of each segment; none for a wall's
-  std::vector<Inscribed> inscribed_;          ///< of each disc; of one that overlaps others none
+  std::vector<Inscribed> inscribed_;          ///< of each corner that is a disc and apart
   std::vector<std::uint32_t> loose_;          ///< corners of discs that overlap others
 };
 
@@ -82,8 +83,8 @@ void Corners::seen_from(Vec2 p, Visit&& visit) const {
 template <class Visit>
 void Corners::seen_from_corner(std::uint32_t i, Visit&& visit) const {
   const Corner& corner = corners_[i];
-  if (!corner.is_disc()) return seen_from(corner.centre, visit);
-  const Inscribed& inscribed = inscribed_[corner.disc];
+  if (!corner.is_disc) return seen_from(corner.centre, visit);
+  const Inscribed& inscribed = inscribed_[i];
   if (inscribed.front() == none) {
     for (std::uint32_t k = 0; k < corners_.size(); ++k) visit(k);
     return;

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/core/text/text.hpp"
+#include "microswarm/world/map/corners.hpp"
 #include "microswarm/world/map/pieces.hpp"
 
 namespace microswarm {
@@ -45,9 +48,16 @@ void check(const std::vector<Disc>& discs) {
 
 }  // namespace
 
+struct Map::KeptCorners {
+  std::once_flag found;
+  std::optional<Corners> corners;
+};
+
+Map::Map() : corners_(std::make_shared<KeptCorners>()) {}
+
 Map::Map(const Box& bounds, std::vector<Polygon> walls, const std::vector<Disc>& discs,
          double field_cell)
-    : bounds_(bounds) {
+    : bounds_(bounds), corners_(std::make_shared<KeptCorners>()) {
   check(bounds);
   check(walls);
   check(discs);
@@ -122,6 +132,12 @@ bool Map::piece_is_free(Segment s, double from_a, double from_b, double r, int h
   const double clear = useful_clearance(middle, field_.lower(middle), r, 0.5 * length);
   return clear >= r && clear > 0 && piece_is_free({s.a, middle}, from_a, clear, r, halvings - 1) &&
          piece_is_free({middle, s.b}, clear, from_b, r, halvings - 1);
+}
+
+const Corners& Map::corners() const {
+  KeptCorners& kept = *corners_;
+  std::call_once(kept.found, [&] { kept.corners.emplace(walls_, bounds_); });
+  return *kept.corners;
 }
 
 }  // namespace microswarm

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "microswarm/world/map/clearance_field.hpp"
@@ -8,12 +9,14 @@
 
 namespace microswarm {
 
+class Corners;
+
 /// Static part of a world: a bounded workspace and its wall pieces. The border counts as a wall.
 /// Free means clearance >= r and clearance > 0, for walls and border alike, so for r = 0 a point on
 /// a wall or on the border is not free. Immutable after construction, shared by threads.
 class Map {
  public:
-  Map() = default;
+  Map();
   /// Connected wall pieces are numbered from 0 in the order given (`Body::obstacle`); overlapping
   /// polygons are united. Walls may extend beyond the bounds. `field_cell` [µm] is the cell size of
   /// the clearance field; 0 chooses it. Throws InputError if `bounds` is empty or not finite, a
@@ -24,6 +27,8 @@ class Map {
   const Box& bounds() const { return bounds_; }
   const BodySet& walls() const { return walls_; }
   const ClearanceField& field() const { return field_; }
+  /// Where shortest paths can bend. Found by the first call, about 1 µs a corner, and kept.
+  const Corners& corners() const;
   /// Number of connected wall pieces.
   int pieces() const { return pieces_; }
 
@@ -52,9 +57,12 @@ class Map {
   double useful_clearance(Vec2 p, double lower, double r, double length) const;
   bool piece_is_free(Segment s, double from_a, double from_b, double r, int halvings) const;
 
+  struct KeptCorners;
+
   Box bounds_;
   BodySet walls_;
   ClearanceField field_;
+  std::shared_ptr<KeptCorners> corners_;  ///< of all copies
   int pieces_ = 0;
 };
 

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/planning/exact/turning_circle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "microswarm/core/maths/angles.hpp"
+
+namespace microswarm {
+namespace {
+
+/// [0, 2π).
+double positive(double angle) {
+  while (angle < 0) angle += 2 * pi;
+  while (angle >= 2 * pi) angle -= 2 * pi;
+  return angle;
+}
+
+}  // namespace
+
+bool TurningCircle::is_taut(Vec2 normal) const {
+  return is_disc || radius == 0 ||
+         (cross(first, normal) >= -angle_slack && cross(normal, last) >= -angle_slack &&
+          dot(first + last, normal) > 0);
+}
+
+double TurningCircle::angle_of(Vec2 normal) const {
+  if (is_disc) return positive(heading_of(normal));
+  return std::clamp(maths::atan2(cross(first, normal), dot(first, normal)), 0.0, width);
+}
+
+double TurningCircle::way_around(double sense, double from, double to) const {
+  const double angle = sense * (to - from);
+  if (!is_disc) return angle < -angle_slack ? -1 : std::max(0.0, angle);
+  const double ahead = positive(angle);
+  return ahead > 2 * pi - angle_slack ? 0 : ahead;
+}
+
+// The path leaves a in direction u at the normal −s left(u), so that left(u) · d, with d from
+// centre to centre, is s_b r_b − s_a r_a.
+std::optional<TangentLine> tangent(const TurningCircle& a, double sense_a, const TurningCircle& b,
+                                   double sense_b, double margin) {
+  const Vec2 d = b.centre - a.centre;
+  const double apart2 = squared_norm(d);
+  const double offset = sense_b * b.radius - sense_a * a.radius;
+  const double inner = apart2 - offset * offset;
+  const double apart = std::sqrt(apart2);
+  // A place on a circle may lie in it by a rounding error.
+  if (apart == 0 || (inner < 0 && std::abs(offset) > apart + margin)) return std::nullopt;
+  TangentLine line;
+  line.length = std::sqrt(std::max(0.0, inner));
+  const double sine = std::clamp(offset / apart, -1.0, 1.0);
+  const double cosine = line.length / apart;
+  const Vec2 e = d / apart;
+  line.along = cosine * e - sine * perpendicular(e);
+  const Vec2 left = perpendicular(line.along);
+  if (!a.is_taut(-sense_a * left) || !b.is_taut(-sense_b * left)) return std::nullopt;
+  return line;
+}
+
+// Cuts the circle where its distance to a wall, a body or the border is the clearance, and keeps
+// the pieces that are free in the middle.
+void add_free_arcs(const TurningCircle& circle, const Map& map, const BodySet* moving,
+                   double clearance, double margin, std::vector<Arc>& arcs) {
+  std::vector<double> cuts{0, circle.width};
+  const Vec2 c = circle.centre;
+  const double r = circle.radius;
+  const auto cut_at = [&](Vec2 p) {
+    const Vec2 n = p - c;
+    const double angle = positive(heading_of(n) - circle.from);
+    if (angle < circle.width) cuts.push_back(angle);
+  };
+  const auto cut_by_line = [&](Vec2 a, Vec2 u, double shift) {  // a + t u, moved to the left
+    const Vec2 o = a + shift * perpendicular(u) - c;
+    const double b = dot(o, u);
+    const double root = b * b - squared_norm(o) + r * r;
+    if (root < 0) return;
+    for (const double t : {-b - std::sqrt(root), -b + std::sqrt(root)}) cut_at(c + o + t * u);
+  };
+  const auto cut_by_circle = [&](Vec2 centre, double radius) {
+    const Vec2 d = centre - c;
+    const double apart = norm(d);
+    if (apart == 0 || apart > r + radius || apart < std::abs(r - radius)) return;
+    const double x = (apart * apart + r * r - radius * radius) / (2 * apart);
+    const double y = std::sqrt(std::max(0.0, r * r - x * x));
+    const Vec2 e = d / apart;
+    cut_at(c + x * e + y * perpendicular(e));
+    cut_at(c + x * e - y * perpendicular(e));
+  };
+  const double reach = r + clearance + margin;
+  const double keep = clearance + 0.5 * margin;
+  const Box box = Box{c, c}.grown(reach);
+  const auto cut_by_bodies = [&](const BodySet& bodies) {
+    bodies.polygons().for_each_edge_in(box, [&](std::uint32_t, const Segment& edge) {
+      const double length = distance(edge.a, edge.b);
+      if (length == 0) return;
+      const Vec2 u = (edge.b - edge.a) / length;
+      cut_by_line(edge.a, u, keep);
+      cut_by_line(edge.a, u, -keep);
+      if (edge.a != c) cut_by_circle(edge.a, keep);
+    });
+    bodies.discs().for_each_in(box, [&](std::size_t i) {
+      const Disc disc = bodies.discs().disc(i);
+      if (disc.centre != c) cut_by_circle(disc.centre, disc.radius + keep);
+    });
+  };
+  cut_by_bodies(map.walls());
+  if (moving) cut_by_bodies(*moving);
+  const Box& border = map.bounds();
+  for (const double x : {border.lo.x + keep, border.hi.x - keep}) cut_by_line({x, 0}, {0, 1}, 0);
+  for (const double y : {border.lo.y + keep, border.hi.y - keep}) cut_by_line({0, y}, {1, 0}, 0);
+  std::ranges::sort(cuts);
+  const std::size_t first = arcs.size();
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+    const double middle = circle.from + 0.5 * (cuts[i] + cuts[i + 1]);
+    const Vec2 p = c + r * unit_vector(middle);
+    if (!map.is_free(p, clearance) || (moving && !moving->is_free(p, clearance))) continue;
+    const bool goes_on = arcs.size() > first && arcs.back().to == cuts[i];
+    if (goes_on)
+      arcs.back().to = cuts[i + 1];
+    else
+      arcs.push_back({cuts[i], cuts[i + 1]});
+  }
+  // The arc over 0 of a disc begins before it.
+  const bool is_cut = circle.is_disc && arcs.size() > first + 1 && arcs[first].from == 0 &&
+                      arcs.back().to == circle.width;
+  if (is_cut) {
+    arcs.back().to += arcs[first].to;
+    arcs.erase(arcs.begin() + static_cast<std::ptrdiff_t>(first));
+  }
+}
+
+int arc_at(const TurningCircle& circle, double angle, std::span<const Arc> arcs) {
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    if (angle >= arcs[i].from - angle_slack && angle <= arcs[i].to + angle_slack)
+      return static_cast<int>(i);
+    if (circle.is_disc && angle + 2 * pi <= arcs[i].to + angle_slack) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+}  // namespace microswarm
