@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <random>
 
 namespace microswarm::lab {
@@ -52,7 +53,8 @@ std::string Access::cookie() const {
 }
 
 std::string Access::refusal(const Origins& from) const {
-  const std::string_view name = name_of(from.host);
+  std::string name(name_of(from.host));
+  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const bool is_here = !name.empty() && (name == "localhost" || name == "127.0.0.1" ||
                                          name == "[::1]" || name == from.local);
   if (!is_here) return "the host is not this lab's: open it by its address";

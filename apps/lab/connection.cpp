@@ -89,6 +89,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   }
 
   std::string refusal_of(const HttpRequest& request) const {
+    if (request.count(http::field::host) > 1) return "the host is named twice";
     const std::string token = query_of(view(request.target()), "token");
     return shared_.access.refusal({view(request[http::field::host]),
                                    view(request[http::field::origin]),

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/download.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <stdlib.h>  // mkdtemp
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <chrono>
 
 #include "lab/library.hpp"
 #include "microswarm/sweep/export.hpp"
@@ -11,6 +17,19 @@ namespace microswarm::lab {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::string_view folder_prefix = "microswarm-";
+
+/// The folder, open and locked; −1 if it is not one of this user or somebody has it locked.
+int locked(const fs::path& folder) {
+  const int open = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  struct stat about {};
+  if (open >= 0 && ::fstat(open, &about) == 0 && about.st_uid == ::geteuid() &&
+      ::flock(open, LOCK_EX | LOCK_NB) == 0)
+    return open;
+  if (open >= 0) ::close(open);
+  return -1;
+}
 
 Download recorded(const Session& session) {
   Download made{.file = std::make_unique<TemporaryFile>("record.h5")};
@@ -32,14 +51,33 @@ Download table(const Session& session, const std::string& name) {
 }  // namespace
 
 TemporaryFile::TemporaryFile(std::string_view name) {
-  std::string folder = (fs::temp_directory_path() / "microswarm-XXXXXX").string();
+  const std::string pattern = std::string(folder_prefix) + "XXXXXX";
+  std::string folder = (fs::temp_directory_path() / pattern).string();
   if (!::mkdtemp(folder.data())) throw InputError(folder + ": cannot make the folder");
   path_ = fs::path(folder) / name;
+  lock_ = locked(folder);
 }
 
 TemporaryFile::~TemporaryFile() {
   std::error_code ignored;
   fs::remove_all(path_.parent_path(), ignored);
+  if (lock_ >= 0) ::close(lock_);
+}
+
+void remove_left_folders() {
+  constexpr std::chrono::minutes young(1);  // one that is being made is not locked yet
+  const std::size_t length = folder_prefix.size() + 6;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(fs::temp_directory_path(error), error)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(folder_prefix) || name.size() != length) continue;
+    const auto age = fs::file_time_type::clock::now() - entry.last_write_time(error);
+    if (error || age < young) continue;
+    const int lock = locked(entry.path());
+    if (lock < 0) continue;
+    fs::remove_all(entry.path(), error);
+    ::close(lock);
+  }
 }
 
 void throw_renamed(const InputError& error, const fs::path& file, std::string_view name) {

@@ -12,7 +12,8 @@
 
 namespace microswarm::lab {
 
-/// A file in a folder of its own, readable by this user alone, both removed with this object.
+/// A file in a folder of its own, readable by this user alone, both removed with this object. The
+/// folder is locked, which tells it from one that a killed program left.
 class TemporaryFile {
  public:
   explicit TemporaryFile(std::string_view name);
@@ -24,7 +25,11 @@ class TemporaryFile {
 
  private:
   std::filesystem::path path_;
+  int lock_ = -1;  ///< open folder
 };
+
+/// Removes the folders of temporary files that killed programs of this user left.
+void remove_left_folders();
 
 /// Throws the error again, with the file named as a page knows it.
 [[noreturn]] void throw_renamed(const InputError& error, const std::filesystem::path& file,

@@ -11,6 +11,7 @@ namespace microswarm::lab {
 Hub::Hub(Post post, const Limits& limits) : post_(std::move(post)), limits_(limits) {}
 
 void Hub::open(Opening opening, std::function<void(const Outcome<std::uint64_t>&)> opened) {
+  if (sessions_.size() >= limits_.sessions) close_unwatched();
   if (sessions_.size() >= limits_.sessions || closing_.size() >= limits_.sessions)
     return opened({.trouble = fmt::format("{} sessions are open, which is the limit: close one",
                                           limits_.sessions)});
@@ -116,12 +117,24 @@ void Hub::deliver(std::uint64_t session, std::uint64_t page, const MessagePtr& m
 void Hub::sweep() {
   std::vector<std::uint64_t> left;
   for (auto& [number, running] : sessions_) {
-    const bool is_watched = std::ranges::any_of(
-        pages_, [&, session = number](const auto& page) { return page.second.session == session; });
-    running.unwatched = is_watched || !running.is_open ? 0 : running.unwatched + 1;
+    running.unwatched = is_watched(number) || !running.is_open ? 0 : running.unwatched + 1;
     if (running.unwatched >= 2) left.push_back(number);
   }
   for (const std::uint64_t number : left) close(number);
+}
+
+bool Hub::is_watched(std::uint64_t session) const {
+  return std::ranges::any_of(pages_,
+                             [&](const auto& page) { return page.second.session == session; });
+}
+
+/// Closes the oldest session that nobody watches, never one on a rig.
+void Hub::close_unwatched() {
+  const auto found = std::ranges::find_if(sessions_, [this](const auto& one) {
+    const auto& [number, running] = one;
+    return running.is_open && !running.host->opening().live && !is_watched(number);
+  });
+  if (found != sessions_.end()) close(found->first);
 }
 
 void Hub::reap() {

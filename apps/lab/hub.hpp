@@ -38,7 +38,8 @@ class Hub {
 
   const Limits& limits() const { return limits_; }
 
-  /// Opens a session; `opened` gets its number. A rig has one, which is joined if it is open.
+  /// Opens a session; `opened` gets its number. A rig has one, which is joined if it is open. If
+  /// there are too many, the oldest that nobody watches is closed.
   void open(Opening opening, std::function<void(const Outcome<std::uint64_t>&)> opened);
   bool has(std::uint64_t session) const;
   /// What an open session was opened from.
@@ -88,6 +89,8 @@ class Hub {
     std::uint64_t session;
     std::function<void(const std::string& trouble)> settle;
   };
+  bool is_watched(std::uint64_t session) const;
+  void close_unwatched();
   void deliver(std::uint64_t session, std::uint64_t page, const MessagePtr& message);
   std::uint64_t wait(std::uint64_t session, std::function<void(const std::string&)> settle);
   void settle(std::uint64_t waiting, const std::string& trouble);

@@ -13,7 +13,7 @@ namespace microswarm::lab {
 
 /// What a page asks of a session.
 enum class Ask {
-  play,       ///< goes on
+  play,       ///< goes on; `number`: until this time [s], unless it is 0
   pause,      ///< stands
   step,       ///< one tick
   speed,      ///< `number`: simulated seconds per second; 0: as fast as possible

@@ -18,6 +18,8 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto rig_period = 100ms;
+constexpr const char* record_name = "run.h5";
+
 /// A dry run goes on while somebody looks for the swarm, the light or the focus.
 void be_patient(SafetyParams& safety) {
   constexpr double long_time = 100;  // [s]
@@ -128,6 +130,8 @@ void RigThread::begin_run(bool dry, std::uint64_t stops) {
   drives_ = !dry;
   live_ = LiveSession::open(on, options);
   guard_.watch(live_, !dry, stops);
+  if (!options.folder.empty())
+    growing_ = std::make_unique<GrowingRecord>(*live_, options.folder / record_name);
   warnings_ = live_->warnings();
   if (const std::string unusual = unusual_field(on.rig, on.scenario()); !unusual.empty())
     warnings_.push_back(unusual);
@@ -199,10 +203,11 @@ void RigThread::end_run() {
   }
   try {
     if (!standing_.folder.empty())
-      live_->record_to(std::filesystem::path(standing_.folder) / "run.h5");
+      live_->record_to(std::filesystem::path(standing_.folder) / record_name);
   } catch (const InputError& error) {
     lost += (lost.empty() ? "" : "; ") + std::string(error.what());
   }
+  growing_.reset();
   if (!lost.empty()) standing.trouble = lost;
   publisher_.changed();
 }

@@ -10,6 +10,7 @@
 #include "lab/picture_sender.hpp"
 #include "lab/rig_guard.hpp"
 #include "lab/rig_stream.hpp"
+#include "microswarm/session/growing_record.hpp"
 
 namespace microswarm::lab {
 
@@ -56,7 +57,8 @@ class RigThread : public Host {
 
   // Of the session's thread.
   std::shared_ptr<LiveSession> live_;
-  std::unique_ptr<Session> last_;  ///< the run before, while none is open
+  std::unique_ptr<GrowingRecord> growing_;  ///< of a run that is kept
+  std::unique_ptr<Session> last_;           ///< the run before, while none is open
   RigStanding standing_;
   std::vector<std::string> warnings_;
   std::set<std::uint64_t> welcomed_;  ///< pages

@@ -46,6 +46,7 @@ class Server::Impl {
         hub_([this](std::function<void()> work) { asio::post(io_, std::move(work)); },
              options_.limits),
         clock_(io_) {
+    remove_left_folders();
     listen();
     access_.emplace(new_token(), port_);
   }

@@ -112,7 +112,7 @@ void SessionThread::obey(std::uint64_t, const Request& request, Issues& issues) 
   Standing& standing = publisher_.standing;
   switch (request.ask) {
     case Ask::play:
-      play();
+      play(request.number);
       break;
     case Ask::pause:
       standing.plays = false;
@@ -161,15 +161,23 @@ void SessionThread::obey(std::uint64_t, const Request& request, Issues& issues) 
 }
 
 /// A record that was played to its end begins again.
-void SessionThread::play() {
+void SessionThread::play(double until) {
   Standing& standing = publisher_.standing;
   look_at_newest();
   if (session_->is_playback() && standing.ended) {
     session_->seek(0);
     standing.ended = false;
   }
-  standing.plays = !standing.ended;
+  until_ = until;
+  standing.plays = !standing.ended && !is_there();
   due_ = Clock::now();
+}
+
+/// Whether the time is reached until which it plays.
+bool SessionThread::is_there() {
+  if (until_ <= 0) return false;
+  const SessionView view = session_->view();
+  return view.frame.t >= until_ - 0.5 * session_->scenario().tick;
 }
 
 void SessionThread::restart(const Request& request) {
@@ -193,6 +201,7 @@ void SessionThread::advance() {
     if (tick && session_->is_playback()) publisher_.freshen();
     if (tick && !session_->is_playback()) publisher_.take(*tick);
     standing.ended = !tick || tick->end;
+    if (is_there()) standing.plays = false;
     if (standing.speed > 0) due_ += wall_time(session_->scenario().tick / standing.speed);
   } while (standing.plays && !standing.ended && !ends_ && standing.speed <= 0 &&
            Clock::now() < began + Publisher::frame_period / 2);

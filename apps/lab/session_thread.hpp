@@ -28,7 +28,8 @@ class SessionThread : public Host {
   void obey(std::uint64_t page, const Request& request, Issues& issues) override;
 
   std::optional<Clock::time_point> next_act(bool is_due) const;
-  void play();
+  void play(double until);
+  bool is_there();
   void restart(const Request& request);
   SessionView present_view();
   void advance();
@@ -37,6 +38,7 @@ class SessionThread : public Host {
 
   std::unique_ptr<Session> session_;
   Clock::time_point due_{};  ///< of the next tick
+  double until_ = 0;         ///< time at which it stands [s]; 0: at the end
   RecordWatch watch_;
   Clock::time_point looks_{};  ///< for more of a record that grows
 };

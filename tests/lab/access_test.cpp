@@ -37,8 +37,8 @@ TEST(Access, HostMustBeAnAddressOfThisComputer) {
   const auto at = [](std::string_view host, std::string_view local) {
     return may({.host = host, .cookie = cookie, .local = local});
   };
-  for (const char* host :
-       {"127.0.0.1:8080", "localhost:8080", "[::1]:8080", "localhost", "localhost:9000"})
+  for (const char* host : {"127.0.0.1:8080", "localhost:8080", "[::1]:8080", "localhost",
+                           "localhost:9000", "LocalHost:8080"})
     EXPECT_TRUE(at(host, "127.0.0.1")) << host;
   EXPECT_TRUE(at("192.168.1.4:8080", "192.168.1.4"));
   EXPECT_TRUE(at("[fd00::4]:8080", "[fd00::4]"));

@@ -2,6 +2,7 @@
 // The console of a rig in real time: what drives the coils, and all that sets them to zero.
 #include <fmt/format.h>
 
+#include "microswarm/experiment/record/record.hpp"
 #include "tests/lab/client.hpp"
 
 namespace microswarm::lab {
@@ -115,6 +116,24 @@ TEST_F(LabRig, DrivesOnlyWhenArmedAndStopsAtOnce) {
   arm(page);
   page.does({{"do", "dry"}});
   EXPECT_EQ(rig_in(page, "dry")["why"], "");
+}
+
+TEST_F(LabRig, TheRecordSoFarIsKeptWhileItDrives) {
+  ServerOptions options = with_rig();
+  const test::Folder folder;
+  options.opening->live->out = folder / "runs";
+  lab.emplace(options);
+  session = open(*lab, Json::object());
+  TestPage page(*lab, session);
+  arm(page);
+  const fs::path runs = page.latest["rig"]["folder"].get<std::string>();
+  EXPECT_EQ(runs.parent_path(), folder / "runs");
+  beat_until(page, [&](const Json&) { return fs::exists(runs / "run.part.h5"); });
+  EXPECT_FALSE(read_record(runs / "run.part.h5").frames.empty());
+  page.does({{"do", "stop"}});
+  rig_in(page, "ended");
+  EXPECT_FALSE(fs::exists(runs / "run.part.h5"));
+  EXPECT_GT(read_record(runs / "run.h5").frames.size(), 10u);
 }
 
 TEST_F(LabRig, SteersByHand) {

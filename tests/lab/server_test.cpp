@@ -117,6 +117,22 @@ TEST(Server, OneLooksBackWhileTheRunIsAsItWas) {
   EXPECT_EQ(record_of(lab, session).hash(), hash_of(lab.file));
 }
 
+TEST(Server, ItPlaysUntilATime) {
+  const Lab lab;
+  TestPage page(lab, open(lab));
+  page.does({{"do", "speed"}, {"number", 50}});
+  page.does({{"do", "play"}, {"number", 3}});
+  const auto stands = [](const Json& one) { return one["plays"] == false && one["frames"] > 0; };
+  page.until("standing", stands);
+  const double tick = 0.1;
+  EXPECT_NEAR(page.latest["standing"]["frames"].get<double>() * tick, 3 + tick, 1e-9);
+  page.does({{"do", "play"}, {"number", 2}});  // it is there already
+  EXPECT_EQ(page.latest["standing"]["plays"], false);
+  page.does(fastest);
+  page.does(plays);
+  page.ends();
+}
+
 TEST(Server, WhatIsSetIsInTheRecordAndWhatIsWrongIsTold) {
   const Lab lab;
   const std::uint64_t session = open(lab);
@@ -363,26 +379,42 @@ TEST(Server, AFilmIsStoppedAtTheEnd) {
 
 TEST(Server, SessionsAndPagesAreLimited) {
   ServerOptions options;
+  options.limits.sessions = 2;
   options.limits.pages = 3;
   const Lab lab(options);
-  std::vector<std::uint64_t> sessions;
-  for (std::size_t i = 0; i < options.limits.sessions; ++i) sessions.push_back(open(lab));
-  const Reply ninth = ask(lab, http::verb::post, "/api/sessions", Json{{"file", lab.file}}.dump());
-  EXPECT_EQ(ninth.result(), http::status::bad_request);
-  EXPECT_NE(ninth.body().find("8 sessions"), std::string::npos) << ninth.body();
+  const std::array sessions{open(lab), open(lab)};
   TestPage first(lab, sessions[0]), second(lab, sessions[1]), third(lab, sessions[1]);
-  EXPECT_FALSE(third.next().is_null());
-  EXPECT_FALSE(TestPage(lab, sessions[2]).is_open());
+  for (TestPage* page : {&first, &second, &third}) EXPECT_FALSE(page->next().is_null());
+  const Reply more = ask(lab, http::verb::post, "/api/sessions", Json{{"file", lab.file}}.dump());
+  EXPECT_EQ(more.result(), http::status::bad_request);
+  EXPECT_NE(more.body().find("2 sessions"), std::string::npos) << more.body();
+  EXPECT_FALSE(TestPage(lab, sessions[1]).is_open());
   // Closing one makes room, and its page ends.
   EXPECT_EQ(ask(lab, http::verb::delete_, "/api/sessions/" + std::to_string(sessions[0])).result(),
             http::status::ok);
   while (!first.next().is_null()) {
   }
-  TestPage fourth(lab, sessions[2]);
+  TestPage fourth(lab, open(lab));
   EXPECT_TRUE(fourth.is_open());
-  open(lab);
   EXPECT_EQ(ask(lab, http::verb::delete_, "/api/sessions/" + std::to_string(sessions[0])).result(),
             http::status::not_found);
+}
+
+TEST(Server, TheOldestSessionThatNobodyWatchesMakesRoom) {
+  ServerOptions options;
+  options.limits.sessions = 3;
+  const Lab lab(options);
+  const std::uint64_t watched = open(lab), older = open(lab), newer = open(lab);
+  TestPage page(lab, watched);
+  EXPECT_FALSE(page.next().is_null());
+  open(lab);
+  const auto is_there = [&](std::uint64_t session) {
+    return get(lab, "/api/sessions/" + std::to_string(session) + "/events.csv").result() ==
+           http::status::ok;
+  };
+  EXPECT_TRUE(is_there(watched));
+  EXPECT_FALSE(is_there(older));
+  EXPECT_TRUE(is_there(newer));
 }
 
 TEST(Server, ASessionThatNobodyWatchesIsClosed) {

@@ -3,6 +3,10 @@
 #include "lab/uploads.hpp"
 
 #include <fmt/format.h>
+#include <stdlib.h>  // mkdtemp
+
+#include <chrono>
+#include <fstream>
 
 #include "lab/photograph.hpp"
 #include "tests/lab/client.hpp"
@@ -107,6 +111,22 @@ TEST(Uploads, ALargeBodyIsOnlyForThemAndNeedsTheToken) {
   EXPECT_EQ(ask(lab, http::verb::post, "/api/sessions", large).result(),
             http::status::payload_too_large);
   EXPECT_EQ(send(lab, "a.txt", large).result(), http::status::bad_request);
+}
+
+TEST(TemporaryFiles, OnesThatAKilledProgramLeftAreRemoved) {
+  const TemporaryFile used("a");
+  std::string left = (fs::temp_directory_path() / "microswarm-XXXXXX").string();
+  std::string young = left;
+  ASSERT_TRUE(::mkdtemp(left.data()) && ::mkdtemp(young.data()));
+  std::ofstream(fs::path(left) / "upload-1.png") << "x";
+  const auto long_ago = fs::file_time_type::clock::now() - std::chrono::hours(1);
+  fs::last_write_time(left, long_ago);
+  fs::last_write_time(used.path().parent_path(), long_ago);
+  remove_left_folders();
+  EXPECT_FALSE(fs::exists(left));
+  EXPECT_TRUE(fs::exists(young));
+  EXPECT_TRUE(fs::exists(used.path().parent_path()));
+  fs::remove(young);
 }
 
 TEST(Uploads, AScenarioAndARecordAreOpened) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { call } from './connection';
+import { call, whyClosed } from './connection';
 import { element } from './dom';
 import { Keys } from './keys';
 import { layersTab } from './layers_tab';
@@ -14,14 +14,16 @@ import { tabs } from './tabs';
 import { themeSwitch } from './theme';
 import { timeBar, timeKeys } from './time_bar';
 
-/** Opens the experiment of a session a second time, with these settings, beside it. */
-export async function openCopy(live: Live, settings: string[]): Promise<void> {
+/** Opens the experiment of a session a second time beside it; both begin at 0. */
+export async function openCopy(live: Live, parameters: Parameters): Promise<void> {
+  const settings = parameters.settings();
   const open = (file: object) =>
     call<{ session: number }>('POST', '/api/sessions', { ...file, settings });
   const photo = live.hello?.photo;
   const beneath = photo ? { photo: photo.file, um_per_px: photo.um_per_px } : {};
+  const answer = await parameters.restart();
+  if (answer.issues.length > 0) throw new Error(answer.issues.map((one) => one.text).join(' '));
   const { session } = await open({ file: live.hello?.name, ...beneath }).catch(() => open({}));
-  await live.ask({ do: 'restart', settings });
   location.hash = `#/compare/${live.session}/${session}`;
 }
 
@@ -32,7 +34,7 @@ export async function comparePage(numbers: number[]): Promise<Page> {
   const sides = await Promise.all(
     numbers.map(async (number, i) => {
       const live = new Live(number, () =>
-        trouble.replaceChildren(`Session ${names[i]} is closed. Open it again from the gallery.`),
+        void whyClosed(`Session ${names[i]}`).then((why) => trouble.replaceChildren(why)),
       );
       const stage = await stageFor(live);
       const caption = element('figcaption', {});
@@ -40,7 +42,8 @@ export async function comparePage(numbers: number[]): Promise<Page> {
       return { live, stage, caption, figure, parameters: new Parameters(live) };
     }),
   );
-  const time = timeBar(sides.map((side) => side.live));
+  const restart = () => Promise.all(sides.map((side) => side.parameters.restart()));
+  const time = timeBar(sides.map((side) => side.live), restart);
   const table = element('div', { class: 'table' });
   const plots = new Plots(sides.map((side) => side.live), time.seekTime);
   const layers = layersTab(sides.map((side) => side.stage.scene));
@@ -74,9 +77,6 @@ export async function comparePage(numbers: number[]): Promise<Page> {
     side.live.listen((message) => {
       if (message.type === 'standing' || message.type === 'hello') show();
     });
-  const restart = () => {
-    for (const side of sides) void side.parameters.restart();
-  };
   const fit = () => sides.forEach((side) => side.stage.scene.fit());
   const keys = new Keys([
     ...timeKeys(time),
@@ -95,7 +95,7 @@ export async function comparePage(numbers: number[]): Promise<Page> {
       element('h1', { class: 'title' }, 'Compare'),
       element('div', { class: 'spacer' }),
       trouble,
-      element('button', { type: 'button', class: 'both', onclick: restart }, 'Restart both'),
+      element('button', { type: 'button', class: 'both', onclick: () => void restart() }, 'Restart both'),
       element('button', { type: 'button', title: 'Show the keys (?)', onclick: () => keys.help() }, 'Keys'),
       themeSwitch(),
     ),

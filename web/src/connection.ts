@@ -1,11 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 import { type Answer, type Message, type Request, read } from './protocol';
 
+const gone = 'The lab has ended, or cannot be reached. Start it again and open the address that it prints.';
+
+/** Why a stream has ended that this page did not close. */
+export async function whyClosed(what: string): Promise<string> {
+  try {
+    await call('GET', '/api/schema');
+    return `${what} is closed. Open it again from the gallery.`;
+  } catch (error) {
+    return (error as Error).message;
+  }
+}
+
 /** Asks the server; an error has the server's words. */
 export async function call<T>(method: 'GET' | 'POST', path: string, body?: unknown): Promise<T> {
   const response = await fetch(path, {
     method,
     ...(body === undefined ? {} : { body: JSON.stringify(body) }),
+  }).catch(() => {
+    throw new Error(gone);
   });
   const json = await response.json();
   if (!response.ok) throw new Error(json.error ?? response.statusText);

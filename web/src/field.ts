@@ -18,6 +18,9 @@ export interface Field {
 
 export type Change = (key: string, value: Json) => void;
 
+/** Says at the field why what was typed is no value; the value before is shown again. */
+type Complain = (text: string) => void;
+
 interface Control {
   nodes: HTMLElement[];
   show(value: Json | undefined): void;
@@ -29,7 +32,8 @@ export function field(key: string, schema: Schema, change: Change): Field {
   const { doc, unit } = described(schema);
   const { label, unit: keyUnit } = words(name);
   const id = `field-${key}`;
-  const control = controlOf(id, inner, allowsNull(schema), (value) => change(key, value));
+  const complain = (text: string) => setIssue(text);
+  const control = controlOf(id, inner, allowsNull(schema), (value) => change(key, value), complain);
   const standard = schema.default;
   let shown: Json | undefined;
   const reset = element(
@@ -45,6 +49,12 @@ export function field(key: string, schema: Schema, change: Change): Field {
     '↺',
   );
   const issue = element('p', { class: 'issue', role: 'alert', hidden: true });
+  const setIssue = (text: string) => {
+    issue.hidden = text === '';
+    issue.textContent = text;
+    root.classList.toggle('wrong', text !== '');
+    if (text !== '') control.show(shown);
+  };
   const facts = [doc, range(inner), standard === undefined ? '' : `Default ${brief(standard)}.`];
   const root = element(
     'div',
@@ -65,12 +75,7 @@ export function field(key: string, schema: Schema, change: Change): Field {
       shown = value;
       reset.hidden = standard === undefined || JSON.stringify(value) === JSON.stringify(standard);
     },
-    setIssue: (text) => {
-      issue.hidden = text === '';
-      issue.textContent = text;
-      root.classList.toggle('wrong', text !== '');
-      if (text !== '') control.show(shown);
-    },
+    setIssue,
     setWaiting: (waits) => root.classList.toggle('waits', waits),
     setEnabled: (enabled) => {
       for (const one of root.querySelectorAll('input, select, textarea, button'))
@@ -92,12 +97,18 @@ function range(schema: Schema): string {
   return hi === undefined ? `At least ${number(lo)}.` : `${number(lo)} to ${number(hi)}.`;
 }
 
-function controlOf(id: string, schema: Schema, nullable: boolean, change: (value: Json) => void): Control {
+function controlOf(
+  id: string,
+  schema: Schema,
+  nullable: boolean,
+  change: (value: Json) => void,
+  complain: Complain,
+): Control {
   if (schema.type === 'boolean') return toggle(id, change);
   if (schema.enum) return menu(id, schema.enum, change);
-  if (schema.type === 'number' || schema.type === 'integer') return numeric(id, schema, nullable, change);
+  if (schema.type === 'number' || schema.type === 'integer') return numeric(id, schema, nullable, change, complain);
   if (schema.type === 'string') return line(id, change);
-  return list(id, nullable, change);
+  return list(id, nullable, change, complain);
 }
 
 function toggle(id: string, change: (value: Json) => void): Control {
@@ -114,7 +125,13 @@ export function menu(id: string, options: string[], change: (value: Json) => voi
   return { nodes: [select], show: (value) => (select.value = String(value)) };
 }
 
-function numeric(id: string, schema: Schema, nullable: boolean, change: (value: Json) => void): Control {
+function numeric(
+  id: string,
+  schema: Schema,
+  nullable: boolean,
+  change: (value: Json) => void,
+  complain: Complain,
+): Control {
   const entry = element('input', {
     id,
     type: 'number',
@@ -122,8 +139,9 @@ function numeric(id: string, schema: Schema, nullable: boolean, change: (value: 
     step: 'any',
     ...(nullable ? { placeholder: 'none' } : {}),
     onchange: () => {
-      if (entry.value !== '') change(Number(entry.value));
-      else if (nullable) change(null);
+      if (entry.value !== '' && Number.isFinite(Number(entry.value))) change(Number(entry.value));
+      else if (nullable && !entry.validity.badInput) change(null);
+      else complain('This needs a number.');
     },
   });
   const span = rangeOf(schema);
@@ -154,27 +172,35 @@ function line(id: string, change: (value: Json) => void): Control {
   return { nodes: [entry], show: (value) => (entry.value = String(value ?? '')) };
 }
 
+/** The value of a text in JSON; nothing if it is none, or has a number beyond all bounds. */
+function parsed(text: string): Json | undefined {
+  const isFinite = (value: Json): boolean =>
+    Array.isArray(value) ? value.every(isFinite) : typeof value !== 'number' || Number.isFinite(value);
+  try {
+    const value = JSON.parse(text) as Json;
+    return isFinite(value) ? value : undefined;
+  } catch {
+    return undefined;
+  }
+}
+
 /** Lists of numbers or points, as JSON. */
-function list(id: string, nullable: boolean, change: (value: Json) => void): Control {
+function list(id: string, nullable: boolean, change: (value: Json) => void, complain: Complain): Control {
   const entry = element('input', {
     id,
     type: 'text',
     spellcheck: 'false',
     ...(nullable ? { placeholder: 'none' } : {}),
     onchange: () => {
-      try {
-        entry.setCustomValidity('');
-        change(entry.value.trim() === '' && nullable ? null : (JSON.parse(entry.value) as Json));
-      } catch {
-        entry.setCustomValidity('This is not a list such as [1, 2].');
-        entry.reportValidity();
-      }
+      const value = entry.value.trim() === '' && nullable ? null : parsed(entry.value);
+      if (value === undefined || (value === null && !nullable))
+        complain(`${entry.value.trim() === '' ? 'This' : entry.value} is not a list such as [1, 2].`);
+      else change(value);
     },
   });
   return {
     nodes: [entry],
     show: (value) => {
-      entry.setCustomValidity('');
       entry.value = value == null ? '' : JSON.stringify(value).replaceAll(',', ', ');
     },
   };

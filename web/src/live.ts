@@ -54,6 +54,8 @@ export class Live {
   /** Time that the scene shows, and where the pointer is on a plot or the time line [s]. */
   shown = 0;
   pointed: number | undefined;
+  /** Whether it was changed or steered by a person since it began. */
+  isTouched = false;
   private connection: Connection | undefined;
   private readonly listeners: Listener[] = [];
   private readonly pointers: (() => void)[] = [];
@@ -111,6 +113,12 @@ export class Live {
     if (!this.seeks) void this.sendSeeks();
   }
 
+  /** Waits until the numbers of all ticks so far are here. */
+  async allRows(): Promise<void> {
+    for (let i = 0; i < 20 && this.history.times.length < (this.standing?.frames ?? 0); ++i)
+      await new Promise((resolve) => window.setTimeout(resolve, 50));
+  }
+
   toggle(): void {
     void this.ask({ do: this.standing?.plays ? 'pause' : 'play' });
   }
@@ -133,6 +141,8 @@ export class Live {
     if (message.type === 'hello') this.hello = message;
     if (message.type === 'scenario' && this.hello) this.hello.scenario = message.scenario;
     if (message.type === 'standing') this.standing = message;
+    if (message.type === 'rows' && message.anew) this.isTouched = false;
+    if (message.type === 'standing') this.isTouched ||= message.changes.length > 0 || message.mode !== 'autonomous';
     if (message.type === 'rig') this.rig = message;
     if (message.type === 'frame') this.shown = Number(message.frame['t_s']);
     if (message.type === 'rows')

@@ -3,6 +3,7 @@ import { call } from './connection';
 import { element } from './dom';
 import { type Field, field, menu } from './field';
 import type { Live } from './live';
+import { mayBeginAnew } from './loss';
 import { words } from './numbers';
 import type { Answer, Json, Scenario } from './protocol';
 import { type Schema, alternative, allowsNull, described, isGroup, kinds, withoutNull } from './schema';
@@ -15,6 +16,7 @@ const refused: Answer = {
   id: 0,
   issues: [{ keys: [], text: 'This needs a new run: stop the rig first.' }],
 };
+const kept: Answer = { type: 'answer', id: 0, issues: [{ keys: [], text: 'The run was kept.' }] };
 const unfolded = ['goal_um', 'navigator'];
 
 let schemaOnce: Promise<Schema> | undefined;
@@ -68,6 +70,7 @@ export class Parameters {
       more,
     );
     const isArmed = this.live.rig?.state === 'armed';
+    if (!isArmed && !(await mayBeginAnew(this.live))) return kept;
     const answer = isArmed ? refused : await this.live.ask({ do: 'restart', settings });
     if (answer.issues.length === 0) this.waiting.clear();
     this.showIssues(answer, [...waiting, ...more].map(keyOf));

@@ -213,7 +213,8 @@ export type Message =
   | Answer;
 
 export type Request =
-  | { do: 'play' | 'pause' | 'step' | 'live' | 'end' | 'clearance' | 'beat' | 'stop' | 'control' | 'arm' | 'dry' }
+  | { do: 'pause' | 'step' | 'live' | 'end' | 'clearance' | 'beat' | 'stop' | 'control' | 'arm' | 'dry' }
+  | { do: 'play'; number?: number }
   | { do: 'speed' | 'seek'; number: number }
   | { do: 'set'; key: string; value: string }
   | { do: 'restart'; settings: string[] }

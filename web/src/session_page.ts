@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { openCopy } from './compare_page';
+import { whyClosed } from './connection';
 import { element } from './dom';
 import { Drive } from './drive';
 import { Keys } from './keys';
@@ -17,6 +18,7 @@ import { themeSwitch } from './theme';
 import { timeBar, timeKeys } from './time_bar';
 import { Hands } from './touch';
 
+const noteShown = 6000; // [ms]
 const stopKeys = [
   { keys: [], shown: 'space, Esc', does: 'stop: coils to zero at once, while it is armed', act: () => undefined },
 ];
@@ -24,24 +26,27 @@ const stopKeys = [
 /** The page of one session: its scene, panels and time line; of a rig in real time with its console. */
 export async function sessionPage(session: number, isRig = false): Promise<Page> {
   const trouble = element('p', { class: 'trouble', role: 'alert' });
+  let fades: number | undefined;
   const say = (text: string, isTrouble = true) => {
     trouble.replaceChildren(text);
     trouble.title = text;
     trouble.classList.toggle('note', !isTrouble);
+    window.clearTimeout(fades);
+    if (!isTrouble) fades = window.setTimeout(() => say(''), noteShown);
   };
-  const live = new Live(session, () => say('The session is closed. Open it again from the gallery.'));
+  const live = new Live(session, () => void whyClosed('The session').then((why) => say(why)));
   const stage = await stageFor(live);
   const { scene } = stage;
   scene.keepFree(60); // for the tools over it
-  const time = timeBar([live]);
   const parameters = new Parameters(live);
+  const time = timeBar([live], isRig ? undefined : () => parameters.restart());
   const plots = new Plots([live], time.seekTime);
   const layers = layersTab([scene]);
   const drive = new Drive(live);
   const hands = new Hands(live, scene, parameters, say);
   const rig = isRig ? rigConsole(live, drive, say) : undefined;
   const compare = () =>
-    openCopy(live, parameters.settings()).catch((error: Error) => say(error.message));
+    openCopy(live, parameters).catch((error: Error) => say(error.message));
 
   let follows = false;
   const toggleFollow = () => scene.follow(!follows);
@@ -77,7 +82,7 @@ export async function sessionPage(session: number, isRig = false): Promise<Page>
       title.textContent = name;
       document.title = `${name} – microswarm lab`;
       root.classList.toggle('playback', message.playback);
-      if (message.live && !isRig) location.hash = `#/rig/${session}`;
+      if (message.live !== isRig) location.hash = `#/${message.live ? 'rig' : 'session'}/${session}`;
       hands.tools.hidden = message.playback || isRig;
       manualButton.hidden = message.playback || isRig;
     }
@@ -153,5 +158,5 @@ function button(label: string, title: string, act: () => void): HTMLButtonElemen
 }
 
 function statusText(mode: string, state: string): string {
-  return (mode === 'autonomous' ? state : `${mode} · ${state}`).replaceAll('_', ' ');
+  return (mode === 'autonomous' || mode === state ? state : `${mode} · ${state}`).replaceAll('_', ' ');
 }

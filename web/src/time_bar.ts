@@ -37,14 +37,31 @@ export function timeKeys(time: TimeBar): Key[] {
   ];
 }
 
-/** Play, pause, tick, speed and the time line of one session, or of several in step. */
-export function timeBar(sessions: Live[]): TimeBar {
+/** Play, pause, tick, speed and the time line of one session, or of several in step. `again` begins them anew. */
+export function timeBar(sessions: Live[], again?: () => Promise<unknown>): TimeBar {
   const first = sessions[0] as Live;
   const all = (request: Parameters<Live['ask']>[0]) => {
     for (const one of sessions) void one.ask(request);
   };
   const anyPlays = () => sessions.some((one) => one.standing?.plays);
-  const play = () => all({ do: anyPlays() ? 'pause' : 'play' });
+  const isOver = () =>
+    again !== undefined && !first.hello?.playback && !anyPlays() && sessions.every((one) => one.standing?.ended);
+  const play = () => void (isOver() ? playAgain() : anyPlays() ? pause() : all({ do: 'play' }));
+  const playAgain = async () => {
+    await again?.();
+    if (!sessions.some((one) => one.standing?.ended)) all({ do: 'play' });
+  };
+  /** Those that are behind go on to the time of the first. */
+  const pause = async () => {
+    await Promise.all(sessions.map((one) => one.ask({ do: 'pause' })));
+    if (sessions.length < 2) return;
+    await Promise.all(sessions.map((one) => one.allRows()));
+    const newest = sessions.map((one) => one.history.times.at(-1) ?? 0);
+    const until = Math.max(...newest);
+    sessions.forEach((one, i) => {
+      if ((newest[i] as number) < until && !one.standing?.ended) void one.ask({ do: 'play', number: until });
+    });
+  };
   const step = () => all({ do: 'step' });
   const live = () => all({ do: 'live' });
   /** The one with the most frames; the others look at the same time. */
@@ -88,11 +105,12 @@ export function timeBar(sessions: Live[]): TimeBar {
 
   const take = (standing: Standing) => {
     const plays = anyPlays();
-    playButton.textContent = plays ? '❚❚ Pause' : '▶ Play';
-    playButton.title = plays ? 'Pause (space)' : 'Play (space)';
+    const over = isOver();
+    playButton.textContent = plays ? '❚❚ Pause' : over ? '↻ Again' : '▶ Play';
+    playButton.title = plays ? 'Pause (space)' : over ? 'From the start (space)' : 'Play (space)';
     const ended = sessions.every((one) => one.standing?.ended);
     const record = first.hello?.playback ?? false;
-    playButton.disabled = ended && !plays && !record;
+    playButton.disabled = ended && !plays && !record && !over;
     stepButton.disabled = ended;
     const looksBack = sessions.some((one) => one.standing?.looks_back);
     const isNewest = !looksBack && (!record || standing.frame + 1 >= standing.frames);
@@ -117,5 +135,6 @@ export function timeBar(sessions: Live[]): TimeBar {
     line.root,
     liveButton,
   );
+  for (const one of sessions) one.onClose(() => (root.inert = true));
   return { root, play, step, live, speed, seekBy, seek, seekTime };
 }

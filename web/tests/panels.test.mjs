@@ -127,6 +127,81 @@ test('a bad value is named at its field; what needs a restart waits for one', ()
     await page.locator('.command', { hasText: '--set seed=7' }).waitFor();
   }));
 
+test('what is no value is told at its field, and the old one stays', () =>
+  inLab('scenarios/first_flight.yaml', async (page) => {
+    const typed = async (key, value) => {
+      const entry = page.locator(`[id="field-${key}"]`);
+      const before = await entry.inputValue();
+      await entry.fill(value);
+      await page.keyboard.press('Enter');
+      await page.locator(`.field[data-key="${key}"] .issue:not([hidden])`).waitFor();
+      assert.equal(await entry.inputValue(), before);
+    };
+    for (const value of ['abc', '1500, 300', '[1e999, 2]', '']) await typed('goal_um', value);
+    await page.fill('.parameters .search', 'goal_tolerance_um');
+    await typed('goal_tolerance_um', '');
+  }));
+
+test('a run that ended begins again; one that was touched asks first', () =>
+  inLab('scenarios/first_flight.yaml', async (page, { picture }) => {
+    const play = page.locator('.play');
+    await page.selectOption('.speed', '0');
+    await play.click();
+    await page.waitForSelector('[data-status="solved"]', { timeout: 120_000 });
+    await page.keyboard.press('Home');
+    assert.match(await play.innerText(), /Again/);
+    await play.click();
+    await page.waitForSelector('[data-status="solved"]', { state: 'detached' });
+    await page.waitForSelector('[data-status="solved"]', { timeout: 120_000 });
+    await page.selectOption('.speed', '1');
+    await play.click();
+    await until(page, () => window.microswarm.connection.standing.plays);
+    await page.keyboard.press('m');
+    await page.waitForSelector('[data-mode="manual"]');
+    await page.keyboard.press('Space');
+    const frames = () => page.evaluate(() => window.microswarm.connection.standing.frames);
+    await until(page, () => !window.microswarm.connection.standing.plays);
+    const before = await frames();
+    await page.getByRole('tab', { name: 'Record' }).click();
+    await page.click('.record .compare');
+    await page.waitForSelector('dialog.loss');
+    await picture('loss');
+    await page.click('.loss .keep');
+    await page.locator('.top .trouble', { hasText: 'kept' }).waitFor();
+    assert.equal(await frames(), before);
+    await page.click('.record .compare');
+    await page.click('.loss .anew');
+    await page.waitForSelector('.side[data-side="B"] .scene');
+  }));
+
+test('two equal runs that are paused stand at one time', () =>
+  inLab('scenarios/first_flight.yaml', async (page) => {
+    await page.getByRole('tab', { name: 'Record' }).click();
+    await page.click('.record .compare');
+    await page.waitForSelector('.side[data-side="B"] .scene');
+    await page.selectOption('.speed', '5');
+    for (let i = 0; i < 4; ++i) {
+      await page.click('.play');
+      await page.waitForTimeout(700);
+      await page.click('.play');
+      await page.waitForTimeout(1000);
+      const cells = await page.locator('tr[data-metric="time_s"] td').allInnerTexts();
+      assert.ok(Number(cells[0]) > 0.5, cells.join());
+      assert.equal(cells[0], cells[1]);
+    }
+  }));
+
+test('a lab that ended is told', async () => {
+  const lab = await startLab('scenarios/first_flight.yaml');
+  const { page, complaints, close } = await openPage(browser, lab.url);
+  await page.waitForSelector('.form .field', { state: 'attached' });
+  await lab.stop('SIGKILL');
+  await page.locator('.top .trouble', { hasText: 'The lab has ended' }).waitFor();
+  assert.ok(await page.evaluate(() => document.querySelector('.timebar').inert));
+  complaints.length = 0; // that it could not be reached
+  await close();
+});
+
 test('two runs stand side by side with their difference', () =>
   inLab('scenarios/first_flight.yaml', async (page, { picture }) => {
     await page.getByRole('tab', { name: 'Record' }).click();
@@ -206,6 +281,7 @@ test('an obstacle dragged into the way changes the path; discs come and go', () 
     await until(page, () => Math.abs(window.microswarm.connection.hello.scenario.goal_um[0] - 1700) < 5);
     await page.click('.tool-wall');
     await page.mouse.click(...(await onScreen(page, [300, 850])));
+    await page.click('.loss .anew');
     await until(page, () => window.microswarm.connection.hello.scenario.map.discs.length === 1);
     await picture('touched');
     await page.keyboard.press('Escape');

@@ -268,7 +268,7 @@ test('a lab that is killed leaves the coils at zero, and the page says that it i
   const applied = () => readFileSync(join(folder, 'applied'), 'utf8').trim().split('\n');
   const isZero = (line) => line.split(' ').every((one) => Number(one) === 0);
   const lab = await startLab('scenarios/first_rig.yaml', '--rig', rigWithDriver(folder), '--drawn-swarm');
-  const { page, picture, close } = await openPage(browser, lab.url);
+  const { page, picture, complaints, close } = await openPage(browser, lab.url);
   await state(page, 'dry');
   await arm(page);
   for (const end = Date.now() + 20_000; isZero(applied().at(-1)) && Date.now() < end; )
@@ -282,6 +282,7 @@ test('a lab that is killed leaves the coils at zero, and the page says that it i
   await state(page, 'lost');
   assert.match(await why(page), /by themselves/);
   await picture('rig-lost');
+  assert.ok(complaints.splice(0).every((one) => one.includes('ERR_CONNECTION_REFUSED')));
   await close();
   rmSync(folder, { recursive: true });
 });

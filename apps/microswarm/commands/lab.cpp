@@ -71,6 +71,9 @@ std::optional<lab::Opening> opening_of(const LabOptions& o) {
       reading([&] { return open_rig_experiment(o.file, o.settings, o.rig, o.rig_settings); });
   note_each(on.experiment.keys.notes());
   note_field(on.rig, on.scenario());
+  std::error_code error;
+  if (!o.out.empty()) std::filesystem::create_directories(o.out, error);
+  if (error) throw InputError("--out " + o.out + ": cannot make the folder: " + error.message());
   opening.live = lab::RigOpening{.out = o.out,
                                  .without_limits = o.without_limits,
                                  .coils_cold = o.coils_cold,

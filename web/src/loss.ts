@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+import { element } from './dom';
+import type { Live } from './live';
+
+/** Whether a run may be given up. Asks if it was changed or steered while it ran, so that its settings alone do not repeat it. */
+export function mayBeginAnew(live: Live): Promise<boolean> {
+  if (!live.isTouched || live.hello?.live || live.hello?.playback) return Promise.resolve(true);
+  return new Promise((resolve) => {
+    const button = (label: string, name: string, answer: string) =>
+      element('button', { type: 'button', class: name, onclick: () => dialog.close(answer) }, label);
+    const dialog = element(
+      'dialog',
+      { class: 'loss' },
+      element('h2', {}, 'Begin anew?'),
+      element('p', {}, 'The run was changed or steered while it ran. Only its record repeats it, and that ends here.'),
+      element(
+        'div',
+        { class: 'row' },
+        element('a', { href: `/api/sessions/${live.session}/record.h5`, download: 'record.h5', class: 'button' }, 'Download record.h5'),
+        button('Keep the run', 'keep', ''),
+        button('Begin anew', 'primary anew', 'anew'),
+      ),
+    );
+    dialog.addEventListener('close', () => {
+      dialog.remove();
+      resolve(dialog.returnValue === 'anew');
+    });
+    document.body.append(dialog);
+    dialog.showModal();
+  });
+}
