@@ -78,39 +78,19 @@ std::vector<BenchRow> s_channel(const std::filesystem::path& scenarios, bool qui
   return rows;
 }
 
-struct Query {
-  Pose2 start;
-  Vec2 goal;
-};
-
-/// Pairs of free points at least half the map's width apart. Their clearance is doubled, so that
-/// the peer, which ends exactly at its goal, can reach them too.
-std::vector<Query> far_pairs(const Snapshot& world, double clearance, int count, Rng& rng) {
-  const Box& box = world.bounds();
-  const auto place = [&] { return uniform_in(box, rng); };
-  std::vector<Query> pairs;
-  for (int draw = 0; draw < 1000 * count && std::ssize(pairs) < count; ++draw) {
-    const Query q{{place(), 0}, place()};
-    if (distance(q.start.position, q.goal) >= 0.5 * box.width() &&
-        world.is_free(q.start.position, 2 * clearance) && world.is_free(q.goal, 2 * clearance))
-      pairs.push_back(q);
-  }
-  return pairs;
-}
-
 /// Time to the first path between distant points on a 2000 × 1000 µm map with 140 discs and 70
 /// polygons.
 std::vector<BenchRow> clutter(bool quick, const Stop& stop) {
   Rng rng(1, Purpose::scene);
   const Snapshot world = scenes::cluttered(rng).snapshot();
   constexpr double clearance = 10;
-  const std::vector<Query> pairs = far_pairs(world, clearance, 40, rng);
+  const std::vector<PathQuery> pairs = far_pairs(world, clearance, 40, rng);
   RrtParams rrt;
   rrt.clearance = clearance;
   DrrtStarParams drrt;
   drrt.clearance = clearance;
   std::vector<double> theirs;
-  for (const Query& q : pairs) {
+  for (const PathQuery& q : pairs) {
     const auto more = peer_times(OmplPlanner::rrt_connect,
                                  {.world = world,
                                   .start = q.start.position,
@@ -124,7 +104,7 @@ std::vector<BenchRow> clutter(bool quick, const Stop& stop) {
   std::vector<BenchRow> rows;
   const auto row = [&](const char* name, const PlannerParams& params, std::optional<double> aim) {
     std::vector<double> ours;
-    for (const Query& q : pairs) {
+    for (const PathQuery& q : pairs) {
       const auto more = our_times(world, q.start, q.goal, params, quick ? 3 : 25, stop);
       ours.insert(ours.end(), more.begin(), more.end());
     }
@@ -147,7 +127,7 @@ std::vector<BenchRow> tree_growth(bool quick, const Stop& stop) {
   Rng rng(1, Purpose::scene);
   const Snapshot world = scenes::cluttered(rng).snapshot();
   constexpr double clearance = 10;
-  const Query q = far_pairs(world, clearance, 1, rng).at(0);
+  const PathQuery q = far_pairs(world, clearance, 1, rng).at(0);
   std::vector<BenchRow> rows;
   RrtStarParams grow;
   grow.clearance = clearance;
@@ -232,12 +212,25 @@ std::vector<BenchRow> queries(bool quick) {
 
 }  // namespace
 
+std::vector<PathQuery> far_pairs(const Snapshot& world, double clearance, int count, Rng& rng) {
+  const Box& box = world.bounds();
+  const auto place = [&] { return uniform_in(box, rng); };
+  std::vector<PathQuery> pairs;
+  for (int draw = 0; draw < 1000 * count && std::ssize(pairs) < count; ++draw) {
+    const PathQuery q{{place(), 0}, place()};
+    if (distance(q.start.position, q.goal) >= 0.5 * box.width() &&
+        world.is_free(q.start.position, 2 * clearance) && world.is_free(q.goal, 2 * clearance))
+      pairs.push_back(q);
+  }
+  return pairs;
+}
+
 std::vector<BenchRow> planning(const std::filesystem::path& scenarios, bool quick,
                                const Stop& stop) {
   std::vector<BenchRow> rows = queries(quick);
-  for (auto&& more :
-       {clutter(quick, stop), tree_growth(quick, stop), s_channel(scenarios, quick, stop),
-        fmt_star(scenarios, quick, stop), replanning(scenarios, quick, stop)})
+  for (auto&& more : {exact_paths(quick, stop), clutter(quick, stop), tree_growth(quick, stop),
+                      s_channel(scenarios, quick, stop), fmt_star(scenarios, quick, stop),
+                      replanning(scenarios, quick, stop)})
     rows.insert(rows.end(), more.begin(), more.end());
   return rows;
 }

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "microswarm/core/execution/stop.hpp"
+#include "microswarm/core/maths/rng.hpp"
 #include "microswarm/report/rows.hpp"
+#include "microswarm/world/snapshot.hpp"
 
 namespace microswarm::bench {
 
@@ -17,6 +19,20 @@ std::string machine_line();
 /// world. `scenarios` is the folder of the scenario files; `quick` repeats less.
 std::vector<BenchRow> planning(const std::filesystem::path& scenarios, bool quick,
                                const Stop& stop);
+
+/// A path that is asked for.
+struct PathQuery {
+  Pose2 start;
+  Vec2 goal;
+};
+
+/// Pairs of free points at least half the map's width apart. Their clearance is doubled, so that
+/// the peer, which ends exactly at its goal, can reach them too.
+std::vector<PathQuery> far_pairs(const Snapshot& world, double clearance, int count, Rng& rng);
+
+/// Exact paths among discs and polygons, and in six grid maps if MICROSWARM_DATA names their
+/// folder. Part of planning().
+std::vector<BenchRow> exact_paths(bool quick, const Stop& stop);
 
 /// Replanning in the two dynamic worlds of [drrt], part of planning().
 std::vector<BenchRow> replanning(const std::filesystem::path& scenarios, bool quick,

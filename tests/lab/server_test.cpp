@@ -377,59 +377,6 @@ TEST(Server, AFilmIsStoppedAtTheEnd) {
   EXPECT_LT(lab.end(), 10);
 }
 
-TEST(Server, SessionsAndPagesAreLimited) {
-  ServerOptions options;
-  options.limits.sessions = 2;
-  options.limits.pages = 3;
-  const Lab lab(options);
-  const std::array sessions{open(lab), open(lab)};
-  TestPage first(lab, sessions[0]), second(lab, sessions[1]), third(lab, sessions[1]);
-  for (TestPage* page : {&first, &second, &third}) EXPECT_FALSE(page->next().is_null());
-  const Reply more = ask(lab, http::verb::post, "/api/sessions", Json{{"file", lab.file}}.dump());
-  EXPECT_EQ(more.result(), http::status::bad_request);
-  EXPECT_NE(more.body().find("2 sessions"), std::string::npos) << more.body();
-  EXPECT_FALSE(TestPage(lab, sessions[1]).is_open());
-  // Closing one makes room, and its page ends.
-  EXPECT_EQ(ask(lab, http::verb::delete_, "/api/sessions/" + std::to_string(sessions[0])).result(),
-            http::status::ok);
-  while (!first.next().is_null()) {
-  }
-  TestPage fourth(lab, open(lab));
-  EXPECT_TRUE(fourth.is_open());
-  EXPECT_EQ(ask(lab, http::verb::delete_, "/api/sessions/" + std::to_string(sessions[0])).result(),
-            http::status::not_found);
-}
-
-TEST(Server, TheOldestSessionThatNobodyWatchesMakesRoom) {
-  ServerOptions options;
-  options.limits.sessions = 3;
-  const Lab lab(options);
-  const std::uint64_t watched = open(lab), older = open(lab), newer = open(lab);
-  TestPage page(lab, watched);
-  EXPECT_FALSE(page.next().is_null());
-  open(lab);
-  const auto is_there = [&](std::uint64_t session) {
-    return get(lab, "/api/sessions/" + std::to_string(session) + "/events.csv").result() ==
-           http::status::ok;
-  };
-  EXPECT_TRUE(is_there(watched));
-  EXPECT_FALSE(is_there(older));
-  EXPECT_TRUE(is_there(newer));
-}
-
-TEST(Server, ASessionThatNobodyWatchesIsClosed) {
-  ServerOptions options;
-  options.limits.sweep_period = 1000ms;
-  const Lab lab(options);
-  const std::uint64_t watched = open(lab), left = open(lab);
-  TestPage page(lab, watched);
-  const std::string at = "/api/sessions/" + std::to_string(left) + "/events.csv";
-  for (int i = 0; i < 600 && get(lab, at).result() != http::status::not_found; ++i)
-    std::this_thread::sleep_for(100ms);
-  EXPECT_EQ(get(lab, at).result(), http::status::not_found);
-  page.does({{"do", "step"}});
-}
-
 TEST(Server, WhatCannotBeOpenedIsToldInLines) {
   const Lab lab;
   const auto refused = [&](const Json& body) {

@@ -26,7 +26,7 @@ int fourcc(VideoCodec codec) {
 
 class OpenCvInput : public VideoInput {
  public:
-  explicit OpenCvInput(cv::VideoCapture video) : video_(std::move(video)) {
+  explicit OpenCvInput(const cv::VideoCapture& video) : video_(video) {
     width = static_cast<int>(video_.get(cv::CAP_PROP_FRAME_WIDTH));
     height = static_cast<int>(video_.get(cv::CAP_PROP_FRAME_HEIGHT));
     rate = video_.get(cv::CAP_PROP_FPS);
@@ -40,7 +40,7 @@ class OpenCvInput : public VideoInput {
 
 class OpenCvOutput : public VideoOutput {
  public:
-  explicit OpenCvOutput(cv::VideoWriter video) : video_(std::move(video)) {}
+  explicit OpenCvOutput(const cv::VideoWriter& video) : video_(video) {}
   void write(const cv::Mat& picture) override { video_.write(picture); }
 
  private:
@@ -60,7 +60,7 @@ class OpenCvMedia : public Media {
   std::unique_ptr<VideoInput> open(const fs::path& file) const override {
     cv::VideoCapture video;
     if (!video.open(fs::absolute(file).string(), cv::CAP_FFMPEG)) return nullptr;
-    return std::make_unique<OpenCvInput>(std::move(video));
+    return std::make_unique<OpenCvInput>(video);
   }
 
   std::unique_ptr<VideoOutput> create(const fs::path& file, const VideoForm& form) const override {
@@ -69,7 +69,7 @@ class OpenCvMedia : public Media {
                     {form.width, form.height},
                     {cv::VIDEOWRITER_PROP_IS_COLOR, form.colours ? 1 : 0}))
       return nullptr;
-    return std::make_unique<OpenCvOutput>(std::move(video));
+    return std::make_unique<OpenCvOutput>(video);
   }
 
   int count_pictures(const fs::path& file) const override {

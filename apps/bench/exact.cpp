@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "bench/ompl_peer.hpp"
+#include "bench/planning.hpp"
+#include "microswarm/core/execution/stop.hpp"
+#include "microswarm/core/maths/statistics.hpp"
+#include "microswarm/formats/moving_ai.hpp"
+#include "microswarm/planning/exact/shortest_paths.hpp"
+#include "microswarm/planning/path/planners.hpp"
+#include "microswarm/scenes/worlds.hpp"
+
+namespace microswarm::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double spent_ms(Clock::time_point began) { return 1e3 * seconds_since(began); }
+
+void require_solved(bool solved) {
+  if (!solved) throw std::runtime_error("bench: a query was not solved");
+}
+
+/// Times [ms] of a planner that begins anew with each query.
+std::vector<double> plan_times(const Snapshot& world, const std::vector<PathQuery>& queries,
+                               const PlannerParams& params, const Stop& stop) {
+  std::vector<double> ms;
+  Rng rng(1, Purpose::planner);
+  for (const PathQuery& q : queries) {
+    if (stop()) break;
+    const auto began = Clock::now();
+    const Plan made = plan(world, q.start, q.goal, params, rng);
+    ms.push_back(spent_ms(began));
+    require_solved(made.status == Status::solved);
+  }
+  return ms;
+}
+
+/// Times [ms] of exact queries that find the tangents of those before.
+std::vector<double> kept_times(ShortestPaths& paths, const std::vector<PathQuery>& queries,
+                               const Stop& stop) {
+  std::vector<double> ms;
+  for (const bool counts : {false, true})
+    for (const PathQuery& q : queries) {
+      if (stop()) break;
+      const auto began = Clock::now();
+      const ShortestPath found = paths.find(q.start.position, q.goal);
+      if (counts) ms.push_back(spent_ms(began));
+      require_solved(found.status == Status::solved);
+    }
+  return ms;
+}
+
+double corners_ms(const Map& map, int repeats) {
+  std::vector<double> ms;
+  for (int i = 0; i < repeats; ++i) {
+    const auto began = Clock::now();
+    const Corners corners(map.walls(), map.bounds());
+    ms.push_back(spent_ms(began));
+  }
+  return quantile(ms, 0.5);
+}
+
+std::vector<BenchRow> among_discs_and_polygons(bool quick, const Stop& stop) {
+  constexpr double clearance = 10;
+  Rng rng(1, Purpose::scene);
+  const Snapshot world = scenes::cluttered(rng).snapshot();
+  const std::vector<PathQuery> queries = far_pairs(world, clearance, quick ? 100 : 1000, rng);
+  const ExactParams params{.clearance = clearance};
+  std::vector<double> theirs;
+  for (const PathQuery& q : queries) {
+    if (stop()) break;
+    theirs.push_back(1e3 * run_ompl(OmplPlanner::rrt_connect, {.world = world,
+                                                               .start = q.start.position,
+                                                               .goal = q.goal,
+                                                               .clearance = clearance,
+                                                               .goal_tolerance = 50,
+                                                               .range = 80})
+                               .seconds);
+  }
+  std::vector<BenchRow> rows;
+  const auto add = [&](const char* name, const std::vector<double>& ours, bool has_aim) {
+    for (const auto& [what, share, aim] :
+         {std::tuple{"time, median", 0.5, 0.05}, std::tuple{"time, p99", 0.99, 0.2}})
+      rows.push_back({.name = name,
+                      .quantity = what,
+                      .unit = "ms",
+                      .ours = quantile(ours, share),
+                      .peer = quantile(theirs, share),
+                      .peer_name = "OMPL RRTConnect, first path",
+                      .aim = has_aim ? std::optional(aim) : std::nullopt});
+  };
+  world.map().corners();
+  add("exact, 140 discs and 70 polygons, each query anew", plan_times(world, queries, params, stop),
+      false);
+  ShortestPaths paths(world.map(), clearance);
+  add("exact, 140 discs and 70 polygons, tangents kept", kept_times(paths, queries, stop), true);
+  rows.push_back({.name = "exact, corners of 140 discs and 70 polygons",
+                  .quantity = "time, median",
+                  .unit = "ms",
+                  .ours = corners_ms(world.map(), 11)});
+  return rows;
+}
+
+/// Cells of 100 µm, a swarm that keeps 40 µm from walls.
+std::vector<BenchRow> in_grid_map(const std::filesystem::path& file, bool quick, const Stop& stop) {
+  constexpr double cell = 100, clearance = 40;
+  const std::string name = file.stem().string();
+  const Mask blocked = read_moving_ai(file);
+  const auto map =
+      std::make_shared<const Map>(cell_bounds(blocked, cell), mask_walls(blocked, cell));
+  const Snapshot world(map);
+  std::vector<PathQuery> queries;
+  const auto all = read_scenarios(file.string() + ".scen");
+  const std::size_t count = std::min<std::size_t>(all.size(), quick ? 20 : 200);
+  for (std::size_t i = 0; i < count; ++i) {
+    const GridQuery& q = all[i * all.size() / count];
+    queries.push_back({{cell_centre(blocked, q.start.column, q.start.row, cell), 0},
+                       cell_centre(blocked, q.goal.column, q.goal.row, cell)});
+  }
+  std::vector<PathQuery> few;
+  for (std::size_t i = 0; i < queries.size(); i += 20) few.push_back(queries[i]);
+  const AStarParams a_star{.clearance = clearance, .goal_tolerance = 25, .cell = cell};
+  ShortestPaths paths(*map, clearance);
+  return {
+      {.name = "exact, " + name + ", tangents kept",
+       .quantity = "time, median",
+       .unit = "ms",
+       .ours = quantile(kept_times(paths, queries, stop), 0.5),
+       .peer = quantile(plan_times(world, few, a_star, stop), 0.5),
+       .peer_name = "our A*, cells of the map",
+       .aim = 1},
+      {.name = "exact, " + name + ", each query anew",
+       .quantity = "time, median",
+       .unit = "ms",
+       .ours = quantile(
+           plan_times(world, few, ExactParams{.clearance = clearance, .goal_tolerance = 25}, stop),
+           0.5)},
+      {.name = "exact, corners of " + name,
+       .quantity = "time, median",
+       .unit = "ms",
+       .ours = corners_ms(*map, 3),
+       .aim = 300}};
+}
+
+}  // namespace
+
+std::vector<BenchRow> exact_paths(bool quick, const Stop& stop) {
+  std::vector<BenchRow> rows = among_discs_and_polygons(quick, stop);
+  const char* data = std::getenv("MICROSWARM_DATA");
+  if (!data) return rows;
+  for (const char* name :
+       {"arena", "den312d", "Berlin_0_256", "32room_000", "random512-10-0", "maze512-32-0"}) {
+    const auto file = std::filesystem::path(data) / "grid_maps" / (std::string(name) + ".map");
+    if (!std::filesystem::exists(file) || stop()) continue;
+    for (BenchRow& row : in_grid_map(file, quick, stop)) rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+}  // namespace microswarm::bench
