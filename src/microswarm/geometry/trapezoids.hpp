@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -65,6 +66,9 @@ class Trapezoids {
     std::uint32_t upper;
   };
   using Cones = std::vector<Cone>;
+  /// Cells that are to be looked through, from the nearest on.
+  template <bool rightwards>
+  class Front;
 
   /// Looks from one place. Exact.
   struct FromPoint {
@@ -84,8 +88,14 @@ class Trapezoids {
       return (turn > 0) - (turn < 0);
     }
   };
+  template <bool rightwards, class Source, class OnPoint, class OnSegments, class Push>
+  void look_through(const Cone& cone, const Source& source, OnPoint& point, OnSegments& segments,
+                    Push&& push) const;
   template <bool rightwards, class Source, class OnPoint, class OnSegments>
   void look(const Source& source, Cones& cones, OnPoint& point, OnSegments& segments) const;
+  template <bool rightwards, class OnPoint, class OnSegments>
+  void look_once(const FromDisc& source, const Cones& starts, OnPoint& point,
+                 OnSegments& segments) const;
   void start_around(std::span<const std::uint32_t, 4> inscribed, Cones& cones) const;
 
   std::vector<Segment> segments_;  ///< from left to right
@@ -102,33 +112,107 @@ class Trapezoids {
 /// Order from left to right, of equal x from below.
 inline bool is_left_of(Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
 
+/// Looks through one cell, and calls push(cone) for the cells beyond.
+template <bool rightwards, class Source, class OnPoint, class OnSegments, class Push>
+void Trapezoids::look_through(const Cone& cone, const Source& source, OnPoint& point,
+                              OnSegments& segments, Push&& push) const {
+  const Cell& cell = cells_[cone.cell];
+  segments(cell.bottom, cell.top);
+  const std::uint32_t end = rightwards ? cell.right : cell.left;
+  if (end == none) return;
+  const Vec2 p = points_[end];
+  int over = 1, under = 1;
+  if (cone.lower != none) {
+    const Vec2 lower = points_[cone.lower];
+    over = rightwards ? source.over(lower, p) : -source.under(lower, p);
+  }
+  if (cone.upper != none) {
+    const Vec2 upper = points_[cone.upper];
+    under = rightwards ? -source.under(upper, p) : source.over(upper, p);
+  }
+  if (over >= 0 && under >= 0) point(end);
+  const std::uint32_t below = rightwards ? cell.right_below : cell.left_below;
+  const std::uint32_t above = rightwards ? cell.right_above : cell.left_above;
+  if (below != none && over > 0) push(Cone{below, cone.lower, under > 0 ? end : cone.upper});
+  if (above != none && under > 0) push(Cone{above, over > 0 ? end : cone.lower, cone.upper});
+}
+
 template <bool rightwards, class Source, class OnPoint, class OnSegments>
 void Trapezoids::look(const Source& source, Cones& cones, OnPoint& point,
                       OnSegments& segments) const {
   while (!cones.empty()) {
     const Cone cone = cones.back();
     cones.pop_back();
-    const Cell& cell = cells_[cone.cell];
-    segments(cell.bottom, cell.top);
-    const std::uint32_t end = rightwards ? cell.right : cell.left;
-    if (end == none) continue;
-    const Vec2 p = points_[end];
-    int over = 1, under = 1;
-    if (cone.lower != none) {
-      const Vec2 lower = points_[cone.lower];
-      over = rightwards ? source.over(lower, p) : -source.under(lower, p);
+    look_through<rightwards>(cone, source, point, segments,
+                             [&](const Cone& next) { cones.push_back(next); });
+  }
+}
+
+template <bool rightwards>
+class Trapezoids::Front {
+ public:
+  explicit Front(std::span<const Cell> cells) : cells_(cells) {}
+  bool empty() const { return open_.empty(); }
+  /// `from` is the neighbour that it is seen through; none: it is where one stands.
+  void push(const Cone& cone, std::uint32_t from) {
+    open_.push_back({key(cone.cell), from, cone});
+    std::push_heap(open_.begin(), open_.end());
+  }
+  /// The next cell, with all that is seen of it. What is seen through the lower neighbour is below
+  /// what is seen through the upper one.
+  Cone pop() {
+    Entry entry = take();
+    while (!open_.empty() && open_.front().cone.cell == entry.cone.cell) {
+      const Entry other = take();
+      const std::uint32_t above =
+          rightwards ? cells_[entry.cone.cell].left_above : cells_[entry.cone.cell].right_above;
+      const bool stands = entry.from == none || other.from == none;
+      const Cone& upper = entry.from == above ? entry.cone : other.cone;
+      const Cone& lower = entry.from == above ? other.cone : entry.cone;
+      entry.cone.upper = stands ? none : upper.upper;
+      entry.cone.lower = stands ? none : lower.lower;
+      if (stands) entry.from = none;
     }
-    if (cone.upper != none) {
-      const Vec2 upper = points_[cone.upper];
-      under = rightwards ? -source.under(upper, p) : source.over(upper, p);
+    return entry.cone;
+  }
+
+ private:
+  struct Entry {
+    std::uint32_t key;
+    std::uint32_t from;
+    Cone cone;
+    bool operator<(const Entry& o) const {
+      return key != o.key ? key > o.key : cone.cell > o.cone.cell;
     }
-    if (over >= 0 && under >= 0) point(end);
-    const std::uint32_t below = rightwards ? cell.right_below : cell.left_below;
-    const std::uint32_t above = rightwards ? cell.right_above : cell.left_above;
-    if (below != none && over > 0)
-      cones.push_back({below, cone.lower, under > 0 ? end : cone.upper});
-    if (above != none && under > 0)
-      cones.push_back({above, over > 0 ? end : cone.lower, cone.upper});
+  };
+  /// Neighbours have a smaller one.
+  std::uint32_t key(std::uint32_t cell) const {
+    const std::uint32_t begin = rightwards ? cells_[cell].left : cells_[cell].right;
+    if (begin == none) return 0;
+    return rightwards ? begin + 1 : none - begin;
+  }
+  Entry take() {
+    std::pop_heap(open_.begin(), open_.end());
+    const Entry entry = open_.back();
+    open_.pop_back();
+    return entry;
+  }
+
+  std::span<const Cell> cells_;
+  std::vector<Entry> open_;
+};
+
+/// Looks through every cell once: from a disc, cones through different cells overlap, so that the
+/// same cell would be looked through for many of them.
+template <bool rightwards, class OnPoint, class OnSegments>
+void Trapezoids::look_once(const FromDisc& source, const Cones& starts, OnPoint& point,
+                           OnSegments& segments) const {
+  Front<rightwards> front(cells_);
+  for (const Cone& cone : starts) front.push(cone, none);
+  while (!front.empty()) {
+    const Cone cone = front.pop();
+    look_through<rightwards>(cone, source, point, segments,
+                             [&](const Cone& next) { front.push(next, cone.cell); });
   }
 }
 
@@ -157,10 +241,8 @@ void Trapezoids::look_around(const Disc& from, std::span<const std::uint32_t, 4>
                              OnPoint&& point, OnSegments&& segments) const {
   Cones starts;
   start_around(inscribed, starts);
-  Cones cones = starts;
-  look<true>(FromDisc{from}, cones, point, segments);
-  cones = starts;
-  look<false>(FromDisc{from}, cones, point, segments);
+  look_once<true>(FromDisc{from}, starts, point, segments);
+  look_once<false>(FromDisc{from}, starts, point, segments);
 }
 
 }  // namespace microswarm

@@ -8,6 +8,11 @@
 #include "microswarm/core/maths/angles.hpp"
 
 namespace microswarm {
+namespace {
+
+constexpr std::uint8_t often = 8;  // visits of a circle by queries
+
+}  // namespace
 
 ShortestPaths::ShortestPaths(const Map& map, double clearance)
     : map_(map), corners_(map.corners()), clearance_(clearance) {
@@ -29,7 +34,7 @@ ShortestPaths::Circle ShortestPaths::circle_of(const Corner& corner) const {
            .is_disc = corner.is_disc}};
 }
 
-/// Finds the free tangents of a circle.
+/// Finds the tangents of a circle.
 void ShortestPaths::know(std::uint32_t corner) {
   circles_[corner].is_known = true;
   ++look_;
@@ -37,32 +42,45 @@ void ShortestPaths::know(std::uint32_t corner) {
     if (other == corner || seen_[other] == look_) return;
     seen_[other] = look_;
     for (std::uint32_t k = 0; k < 2; ++k)
-      for (std::uint32_t l = 0; l < 2; ++l) join_free(2 * corner + k, 2 * other + l);
+      for (std::uint32_t l = 0; l < 2; ++l) add_hop(2 * corner + k, 2 * other + l);
   });
   for (std::uint32_t k = 0; k < 2; ++k)
     std::ranges::sort(wheels_[2 * corner + k].hops, [&](const Hop& a, const Hop& b) {
-      return sense(k) * a.leave < sense(k) * b.leave;
+      return a.leave != b.leave ? sense(k) * a.leave < sense(k) * b.leave : a.to < b.to;
     });
 }
 
-/// Adds the tangent of two wheels if it is free.
-void ShortestPaths::join_free(std::uint32_t from, std::uint32_t to) {
+/// Adds the tangent of two wheels if there is one that leaves from a free place.
+void ShortestPaths::add_hop(std::uint32_t from, std::uint32_t to) {
   Circle& a = circles_[from / 2];
-  Circle& b = circles_[to / 2];
-  const auto line = join(a, sense(from), b, sense(to));
+  const auto line = join(a, sense(from), circles_[to / 2], sense(to));
   if (!line) return;
   Hop hop{.line = *line, .to = to};
-  const Vec2 left = perpendicular(hop.line.along);
-  hop.leave = a.angle_of(-sense(from) * left);
-  const int leave_arc = still_arc_at(a, hop.leave);
-  if (leave_arc < 0) return;
-  hop.arrive = b.angle_of(-sense(to) * left);
-  const int arrive_arc = still_arc_at(b, hop.arrive);
-  if (arrive_arc < 0) return;
-  if (!map_.is_free(segment(touch(from, hop.line), hop.line), clearance_)) return;
-  hop.leave_arc = static_cast<std::uint16_t>(leave_arc);
-  hop.arrive_arc = static_cast<std::uint16_t>(arrive_arc);
+  hop.leave = a.angle_of(-sense(from) * perpendicular(line->along));
+  const int arc = still_arc_at(a, hop.leave);
+  if (arc < 0) return;
+  hop.leave_arc = static_cast<std::uint16_t>(arc);
   wheels_[from].hops.push_back(hop);
+}
+
+/// Whether a hop is free of walls.
+bool ShortestPaths::test(std::uint32_t from, Hop& hop) {
+  if (hop.walls != Walls::unknown) return hop.walls == Walls::free;
+  hop.walls = Walls::blocked;
+  Circle& there = circles_[hop.to / 2];
+  hop.arrive = there.angle_of(-sense(hop.to) * perpendicular(hop.line.along));
+  const int arc = still_arc_at(there, hop.arrive);
+  if (arc < 0) return false;
+  hop.arrive_arc = static_cast<std::uint16_t>(arc);
+  ++checks_;
+  if (map_.is_free(segment(touch(from, hop.line), hop.line), clearance_)) hop.walls = Walls::free;
+  return hop.walls == Walls::free;
+}
+
+/// Tests all hops of a circle and forgets the blocked ones.
+void ShortestPaths::settle(std::uint32_t corner) {
+  for (std::uint32_t k = 2 * corner; k < 2 * corner + 2; ++k)
+    std::erase_if(wheels_[k].hops, [&](Hop& hop) { return !test(k, hop); });
 }
 
 /// Number of the arc free of walls that holds this place; −1 if none does.
@@ -149,7 +167,7 @@ void ShortestPaths::open_from_start(std::uint32_t corner) {
     const double left = distance(touch(to, *line), goal_);
     const auto number = static_cast<std::uint32_t>(guesses_.size());
     guesses_.push_back({.line = *line, .to = to});
-    open_.push_back({line->length + left, line->length, none, number, true});
+    open_.push_back({line->length + left, line->length, none, to, number, true});
   }
 }
 
@@ -184,12 +202,17 @@ void ShortestPaths::expand(const Label& label, std::uint32_t number) {
 /// Opens the kept hops.
 void ShortestPaths::expand_hops(const Label& label, std::uint32_t number) {
   Circle& circle = circles_[label.wheel / 2];
-  if (!circle.is_known) know(label.wheel / 2);
+  const std::uint32_t corner = label.wheel / 2;
+  if (!circle.is_known) know(corner);
+  const bool is_first =  // of this query at this circle: none of its hops is open
+      label.next == none && wheel(label.wheel ^ 1).first_label == none;
+  if (is_first && circle.visits < often && ++circle.visits == often) settle(corner);
   const bool is_near = is_near_moving(circle);
   const double turn = sense(label.wheel);
   std::vector<Hop>& hops = wheels_[label.wheel].hops;
   const auto consider = [&](std::size_t i) {
     Hop& hop = hops[i];
+    if (hop.walls == Walls::blocked) return;
     const int arc = is_near ? arc_at(circle, hop.leave) : hop.leave_arc;
     if (arc != label.arc) return;
     const double angle = circle.way_around(turn, label.arrive, hop.leave);
@@ -198,7 +221,7 @@ void ShortestPaths::expand_hops(const Label& label, std::uint32_t number) {
     hop.query = query_;
     hop.best = length;
     const double left = distance(touch(hop.to, hop.line), goal_);
-    push({length + left, length, number, static_cast<std::uint32_t>(i), false});
+    push({length + left, length, number, hop.to, static_cast<std::uint32_t>(i), false});
   };
   const auto ahead = std::ranges::partition_point(
       hops, [&](const Hop& hop) { return turn * hop.leave < turn * label.arrive - angle_slack; });
@@ -226,7 +249,7 @@ void ShortestPaths::guess(const Label& label, std::uint32_t number, const Turnin
   if (angle < 0 || arc_at(circle, leave) != label.arc) return;
   const double length = label.length + circle.radius * angle + line->length;
   const double left = ends ? 0 : distance(touch(to, *line), goal_);
-  push({length + left, length, number, static_cast<std::uint32_t>(guesses_.size()), true});
+  push({length + left, length, number, to, static_cast<std::uint32_t>(guesses_.size()), true});
   guesses_.push_back({*line, leave, to});
 }
 
@@ -306,8 +329,8 @@ Vec2 ShortestPaths::walk(Vec2 from) {
 bool ShortestPaths::take(const Open& open, Label& label) {
   const std::uint32_t leaves = open.parent == none ? none : labels_[open.parent].wheel;
   if (!open.is_guess) {
-    const Hop& hop = wheels_[leaves].hops[open.line];
-    if (hop.best < open.length) return false;
+    Hop& hop = wheels_[leaves].hops[open.line];
+    if (hop.best < open.length || !test(leaves, hop)) return false;
     label.line = hop.line;
     label.from = touch(leaves, hop.line);
     label.leave = hop.leave;

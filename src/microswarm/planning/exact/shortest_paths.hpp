@@ -24,9 +24,9 @@ struct ShortestPath {
 /// Exact shortest paths of a disc in a map, for one clearance, also among moving bodies at their
 /// present places.
 ///
-/// A* over the tangents between the circles around corners. The tangents of a circle that are free
-/// of walls are found when a search first comes to it, and kept for further queries; those to and
-/// from moving bodies are found anew by each query, and tested when their turn comes. Not for
+/// A* over the tangents between the circles around corners. The tangents of a circle are found when
+/// a search first comes to it, tested when their turn comes, and kept for further queries; those to
+/// and from moving bodies are found anew by each query. What was kept changes no path. Not for
 /// several threads at once.
 class ShortestPaths {
  public:
@@ -45,17 +45,21 @@ class ShortestPaths {
 
   using Line = TangentLine;
 
-  /// A tangent of two circles that is free of walls, with the normals at which it leaves and
-  /// arrives, counted from where the corner's cone begins [rad].
+  /// Whether a tangent is free of walls.
+  enum class Walls : std::uint8_t { unknown, free, blocked };
+
+  /// A tangent of two circles, with the normals at which it leaves and arrives, counted from where
+  /// the corner's cone begins [rad].
   struct Hop {
     Line line;
     double leave = 0;
-    double arrive = 0;
-    double best = 0;  ///< length of a path over it in the present query [µm]
+    double arrive = 0;  ///< of one that is free
+    double best = 0;    ///< length of a path over it in the present query [µm]
     std::uint32_t query = 0;
     std::uint32_t to = none;  ///< wheel
     std::uint16_t leave_arc = 0;
-    std::uint16_t arrive_arc = 0;
+    std::uint16_t arrive_arc = 0;  ///< of one that is free
+    Walls walls = Walls::unknown;
   };
   /// A line of the present query, from the start, to the goal, or to or from a moving body; not
   /// tested yet.
@@ -85,6 +89,7 @@ class ShortestPaths {
     std::uint32_t query = 0;  ///< of the following
     bool is_near = false;     ///< to a moving body, so that arcs_now holds
     bool is_known = false;    ///< its hops
+    std::uint8_t visits = 0;  ///< by queries, until its hops are settled
     bool is_cut = false;      ///< into its free arcs
   };
   /// A line that was taken.
@@ -104,9 +109,15 @@ class ShortestPaths {
     double estimate;
     double length;
     std::uint32_t parent;
+    std::uint32_t to;    ///< wheel; none: the goal
     std::uint32_t line;  ///< number among the wheel's hops, or among the guesses
     bool is_guess;
-    bool operator<(const Open& o) const { return estimate > o.estimate; }
+    /// The order in which lines are taken, so that of equal paths the same one is found whatever
+    /// else is open.
+    bool operator<(const Open& o) const {
+      if (estimate != o.estimate) return estimate > o.estimate;
+      return to != o.to ? to > o.to : parent > o.parent;
+    }
   };
 
   static double sense(std::uint32_t wheel) { return wheel % 2 == 0 ? 1 : -1; }
@@ -121,7 +132,9 @@ class ShortestPaths {
   std::uint32_t still_count() const { return static_cast<std::uint32_t>(seen_.size()); }
   Circle circle_of(const Corner& corner) const;
   void know(std::uint32_t corner);
-  void join_free(std::uint32_t from, std::uint32_t to);
+  void add_hop(std::uint32_t from, std::uint32_t to);
+  bool test(std::uint32_t from, Hop& hop);
+  void settle(std::uint32_t corner);
   ArcRange cut(const Circle& circle, const BodySet* moving, std::vector<Arc>& arcs) const;
   int still_arc_at(Circle& circle, double at);
   int arc_at(Circle& circle, double at);
