@@ -148,6 +148,7 @@ void Trapezoids::look(const Source& source, Cones& cones, OnPoint& point,
   }
 }
 
+/// Cells that are to be looked through, from the nearest on.
 template <bool rightwards>
 class Trapezoids::Front {
  public:
