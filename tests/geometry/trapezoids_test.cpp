@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <set>
 
 #include "tests/geometry/random_shapes.hpp"
@@ -89,6 +90,43 @@ TEST(Trapezoids, WhatIsSeenIsWhatBruteForceSees) {
       expect_seen(cells, all, cells.points()[from], seen);
     }
   }
+}
+
+TEST(Trapezoids, StepByStepTheSameIsSeenAndWhatIsNearTheWayFirst) {
+  Rng rng(4, Purpose::test);
+  const auto none = [](std::uint32_t, std::uint32_t) {};
+  int put_off = 0;
+  for (int world = 0; world < 300; ++world) {
+    SCOPED_TRACE(::testing::Message() << "kind " << world % 3 << " world " << world);
+    const Trapezoids cells(random_segments(rng, world % 3));
+    Trapezoids::Look look;
+    for (int i = 0; i < 10; ++i) {
+      const bool is_end = i % 2 == 0;
+      const Vec2 from = is_end ? cells.points()[rng.below(cells.points().size())]
+                               : random_point(rng, {{-1, -1}, {13, 13}});
+      const Vec2 to = random_point(rng, {{-1, -1}, {13, 13}});
+      std::multiset<std::uint32_t> all, seen;
+      cells.look_around(
+          from, [&](std::uint32_t point) { all.insert(point); }, none);
+      look.begin(cells, from, to);
+      double length = distance(from, to);
+      for (int step = 0; look.left() < std::numeric_limits<double>::infinity(); ++step) {
+        ASSERT_LT(step, 1000);
+        look.go_on(
+            length, [&](std::uint32_t point) { seen.insert(point); }, none);
+        for (const std::uint32_t point : all) {
+          const Vec2 p = cells.points()[point];
+          if (distance(from, p) + distance(p, to) < look.left()) {
+            EXPECT_EQ(seen.count(point), all.count(point));
+          }
+        }
+        put_off += look.left() < std::numeric_limits<double>::infinity();
+        length = 1.02 * std::max(length, look.left());
+      }
+      EXPECT_EQ(seen, all);
+    }
+  }
+  EXPECT_GT(put_off, 1000);
 }
 
 TEST(Trapezoids, ACellHoldsThePlacesBetweenItsSegmentsAndWalls) {

@@ -2,6 +2,7 @@
 #include "microswarm/geometry/trapezoids.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <set>
 
@@ -197,6 +198,53 @@ void Trapezoids::start_around(std::span<const std::uint32_t, 4> inscribed, Cones
   };
   walk(first_right_of_[first], &Cell::right_above, &Cell::right_below);
   walk(first_right_of_[first + 1] - 1, &Cell::right_below, &Cell::right_above);
+}
+
+void Trapezoids::Look::begin(const Trapezoids& cells, Vec2 from, Vec2 to) {
+  cells_ = &cells;
+  source_ = {from};
+  to_ = to;
+  left_ = 0;
+  beyond_.clear();
+  const auto put_off = [&](std::uint32_t cell, bool rightwards) {
+    beyond_.push_back({{cell, none, none}, rightwards, 0});
+  };
+  if (const std::uint32_t number = cells.point_at(from); number != none) {
+    for (std::uint32_t i = cells.first_right_of_[number]; i < cells.first_right_of_[number + 1];
+         ++i)
+      put_off(i, true);
+    for (std::uint32_t i = cells.first_left_of_[number]; i < cells.first_left_of_[number + 1]; ++i)
+      put_off(cells.ends_[i], false);
+    return;
+  }
+  const std::uint32_t here = cells.cell_at(from);
+  put_off(here, true);
+  put_off(here, false);
+}
+
+/// Who goes beyond passes the wall that is seen through the cone, at x. The shortest way to the
+/// goal over the wall goes straight, or is reflected in it.
+double Trapezoids::Look::length_over(const Cone& cone, bool rightwards) const {
+  const Cell& cell = cells_->cells_[cone.cell];
+  const Vec2 s = source_.place;
+  const double x = cells_->points_[rightwards ? cell.left : cell.right].x;
+  const double run = x - s.x;
+  const double back = to_.x - x;  // from the wall to the goal
+  const double sum = std::abs(run) + std::abs(back);
+  double y = sum > 0 ? s.y + (to_.y - s.y) * (std::abs(run) / sum) : s.y;
+  // A point straight above or below is no limit: where it is seen on the wall is not known.
+  const auto limits = [&](std::uint32_t point) {
+    return point != none && cells_->points_[point].x != s.x;
+  };
+  const auto at_wall = [&](std::uint32_t point) {
+    const Vec2 p = cells_->points_[point];
+    return s.y + (p.y - s.y) * (run / (p.x - s.x));
+  };
+  if (limits(cone.lower)) y = std::max(y, at_wall(cone.lower));
+  if (limits(cone.upper)) y = std::min(y, at_wall(cone.upper));
+  const Vec2 q{x, y};
+  constexpr double less = 1 - 1e-12;  // rounding makes it longer by no more than this share
+  return less * (distance(s, q) + distance(q, to_));
 }
 
 }  // namespace microswarm

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -49,6 +50,8 @@ class Trapezoids {
   /// top) for the segments around every cell that is seen, of which a few are not seen themselves.
   template <class OnPoint, class OnSegments>
   void look_around(Vec2 from, OnPoint&& point, OnSegments&& segments) const;
+  /// The same step by step, what is near the way to a goal first.
+  class Look;
   /// The same from all over a disc in which a quadrilateral is inscribed, whose corners are the
   /// points with these numbers, from left to right; nothing else is in the disc. A few more than
   /// are seen are called.
@@ -215,6 +218,69 @@ void Trapezoids::look_once(const FromDisc& source, const Cones& starts, OnPoint&
     look_through<rightwards>(cone, source, point, segments,
                              [&](const Cone& next) { front.push(next, cone.cell); });
   }
+}
+
+/// A look around from a place, as far as ways to a goal may lead.
+class Trapezoids::Look {
+ public:
+  void begin(const Trapezoids& cells, Vec2 from, Vec2 to);
+  /// Length of the shortest way to the goal that may lead over something not looked at yet;
+  /// infinity if there is nothing more.
+  double left() const { return left_; }
+  /// Looks at all that ways of up to this length may lead over, and at some more.
+  template <class OnPoint, class OnSegments>
+  void go_on(double length, OnPoint&& point, OnSegments&& segments);
+
+ private:
+  struct Beyond {
+    Cone cone;
+    bool rightwards;
+    double length;
+  };
+  double length_over(const Cone& cone, bool rightwards) const;
+  template <bool rightwards, class OnPoint, class OnSegments>
+  void look(const Cone& start, double length, OnPoint& point, OnSegments& segments);
+
+  const Trapezoids* cells_ = nullptr;
+  FromPoint source_{};
+  Vec2 to_;
+  double left_ = 0;
+  std::vector<Beyond> beyond_;
+  std::vector<Beyond> next_;  // reused
+  Cones cones_;               // reused
+};
+
+template <bool rightwards, class OnPoint, class OnSegments>
+void Trapezoids::Look::look(const Cone& start, double length, OnPoint& point,
+                            OnSegments& segments) {
+  cones_.push_back(start);
+  while (!cones_.empty()) {
+    const Cone cone = cones_.back();
+    cones_.pop_back();
+    cells_->look_through<rightwards>(cone, source_, point, segments, [&](const Cone& next) {
+      const double over = length_over(next, rightwards);
+      if (over <= length)
+        cones_.push_back(next);
+      else
+        next_.push_back({next, rightwards, over});
+    });
+  }
+}
+
+template <class OnPoint, class OnSegments>
+void Trapezoids::Look::go_on(double length, OnPoint&& point, OnSegments&& segments) {
+  next_.clear();
+  for (const Beyond& one : beyond_) {
+    if (one.length > length)
+      next_.push_back(one);
+    else if (one.rightwards)
+      look<true>(one.cone, length, point, segments);
+    else
+      look<false>(one.cone, length, point, segments);
+  }
+  beyond_.swap(next_);
+  left_ = std::numeric_limits<double>::infinity();
+  for (const Beyond& one : beyond_) left_ = std::min(left_, one.length);
 }
 
 template <class OnPoint, class OnSegments>

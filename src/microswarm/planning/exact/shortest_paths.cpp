@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 
 namespace microswarm {
 namespace {
@@ -22,6 +24,7 @@ ShortestPaths::ShortestPaths(const Map& map, double clearance)
   for (const Corner& corner : corners_.all()) circles_.push_back(circle_of(corner));
   wheels_.resize(2 * circles_.size());
   seen_.resize(circles_.size(), 0);
+  starts_seen_.resize(circles_.size(), 0);
 }
 
 ShortestPaths::Circle ShortestPaths::circle_of(const Corner& corner) const {
@@ -148,18 +151,23 @@ void ShortestPaths::begin(Vec2 start, Vec2 goal, const BodySet& moving) {
   wheels_.resize(2 * circles_.size());
 }
 
+/// Opens the tangents from the start to what is seen nearest to the way to the goal, and from
+/// everywhere.
 void ShortestPaths::open_from_start() {
-  ++look_;
-  corners_.seen_from(start_, [&](std::uint32_t other) {
-    if (seen_[other] == look_) return;
-    seen_[other] = look_;
-    open_from_start(other);
-  });
+  from_start_.begin(corners_.cells(), start_, goal_);
+  corners_.seen_from_everywhere([&](std::uint32_t i) { open_from_start(i); });
   for (std::uint32_t i = still_count(); i < circles_.size(); ++i) open_from_start(i);
-  std::make_heap(open_.begin(), open_.end());
+  look_from_start(distance(start_, goal_));
+}
+
+/// Opens those over which ways of this length and a little more may lead.
+void ShortestPaths::look_from_start(double length) {
+  constexpr double more = 1.05;
+  corners_.look_on(from_start_, more * length, [&](std::uint32_t i) { open_from_start(i); });
 }
 
 void ShortestPaths::open_from_start(std::uint32_t corner) {
+  if (corner < still_count() && std::exchange(starts_seen_[corner], query_) == query_) return;
   const TurningCircle here{.centre = start_};
   for (std::uint32_t to = 2 * corner; to < 2 * corner + 2; ++to) {
     const auto line = join(here, 1, circles_[corner], sense(to));
@@ -167,7 +175,7 @@ void ShortestPaths::open_from_start(std::uint32_t corner) {
     const double left = distance(touch(to, *line), goal_);
     const auto number = static_cast<std::uint32_t>(guesses_.size());
     guesses_.push_back({.line = *line, .to = to});
-    open_.push_back({line->length + left, line->length, none, to, number, true});
+    push({line->length + left, line->length, none, to, number, true});
   }
 }
 
@@ -264,7 +272,13 @@ ShortestPath ShortestPaths::find(Vec2 start, Vec2 goal, const BodySet& moving, c
     return path;
   }
   open_from_start();
-  while (!open_.empty()) {
+  for (;;) {
+    const double next = open_.empty() ? infinity : open_.front().estimate;
+    if (from_start_.left() <= next && from_start_.left() < infinity) {
+      look_from_start(from_start_.left());
+      continue;
+    }
+    if (open_.empty()) break;
     if (path.expanded % 8 == 0)
       if (const auto told = stop.status()) {
         path.status = *told;

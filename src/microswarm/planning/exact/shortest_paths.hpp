@@ -146,6 +146,7 @@ class ShortestPaths {
   }
   void begin(Vec2 start, Vec2 goal, const BodySet& moving);
   void open_from_start();
+  void look_from_start(double length);
   void open_from_start(std::uint32_t corner);
   void expand(const Label& label, std::uint32_t number);
   void expand_hops(const Label& label, std::uint32_t number);
@@ -174,6 +175,9 @@ class ShortestPaths {
   std::vector<Arc> arcs_;
   std::vector<std::uint32_t> seen_;  ///< of each corner: the look around in which it was seen
   std::uint32_t look_ = 0;
+  std::vector<std::uint32_t>
+      starts_seen_;  ///< of each corner: the query in which its start line was opened
+  Trapezoids::Look from_start_;
 
   // Of the present query.
   std::uint32_t query_ = 0;

@@ -42,6 +42,14 @@ class Corners {
   /// Calls visit(number) for the corners that `p` sees and for some more, for some repeatedly.
   template <class Visit>
   void seen_from(Vec2 p, Visit&& visit) const;
+  /// The same step by step, what is near the way to a goal first: see Trapezoids::Look.
+  template <class Visit>
+  void look_on(Trapezoids::Look& look, double length, Visit&& visit) const;
+  /// Calls visit(number) for the corners that seen_from() visits from everywhere.
+  template <class Visit>
+  void seen_from_everywhere(Visit&& visit) const {
+    for (const std::uint32_t disc : loose_) visit(disc);
+  }
   /// The same for all that sees a part of corner `i`, itself included.
   template <class Visit>
   void seen_from_corner(std::uint32_t i, Visit&& visit) const;
@@ -78,6 +86,11 @@ template <class Visit>
 void Corners::seen_from(Vec2 p, Visit&& visit) const {
   for (const std::uint32_t disc : loose_) visit(disc);
   cells_.look_around(p, point_visitor(visit), segment_visitor(visit));
+}
+
+template <class Visit>
+void Corners::look_on(Trapezoids::Look& look, double length, Visit&& visit) const {
+  look.go_on(length, point_visitor(visit), segment_visitor(visit));
 }
 
 template <class Visit>
