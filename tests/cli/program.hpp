@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <set>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -47,6 +48,35 @@ struct Surroundings {
   std::vector<std::pair<std::string, std::string>> environment;  ///< more of it
 };
 
+/// Environment of a program: this process's, with what its surroundings change. It is made before a
+/// fork: in the child of a process with threads nothing may be allocated before exec, or it hangs
+/// now and then.
+class Environment {
+ public:
+  explicit Environment(const Surroundings& at) {
+    auto changed = at.environment;
+    changed.emplace_back("XDG_STATE_HOME", (at.folder / ".state").string());
+    if (!at.path.empty()) changed.emplace_back("PATH", at.path);
+    for (char** one = ::environ; *one; ++one) {
+      const std::string_view text = *one;
+      const std::string_view key = text.substr(0, text.find('='));
+      if (std::ranges::none_of(changed, [&](const auto& change) { return change.first == key; }))
+        all_.emplace_back(text);
+    }
+    for (const auto& [key, value] : changed) all_.push_back(key + "=" + value);
+    for (std::string& one : all_) pointers_.push_back(one.data());
+    pointers_.push_back(nullptr);
+  }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+
+  char** data() { return pointers_.data(); }
+
+ private:
+  std::vector<std::string> all_;
+  std::vector<char*> pointers_;
+};
+
 inline void sleep_ms(int ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); }
 
 /// The program at work; killed at the end of its scope if it still is.
@@ -59,6 +89,8 @@ class Program {
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
+    Environment environment(at);
+    const int err = fileno(err_);
     child_ = ::fork();
     if (child_ != 0) return;
     if (at.largest_file > 0) {
@@ -66,14 +98,11 @@ class Program {
       ::setrlimit(RLIMIT_FSIZE, &limit);
       std::signal(SIGXFSZ, SIG_IGN);
     }
-    ::setenv("XDG_STATE_HOME", (at.folder / ".state").c_str(), 1);
-    if (!at.path.empty()) ::setenv("PATH", at.path.c_str(), 1);
-    for (const auto& [key, value] : at.environment) ::setenv(key.c_str(), value.c_str(), 1);
     if (::chdir(at.folder.c_str()) != 0 || ::dup2(out, STDOUT_FILENO) < 0 ||
-        ::dup2(fileno(err_), STDERR_FILENO) < 0 ||
+        ::dup2(err, STDERR_FILENO) < 0 ||
         (!at.in.empty() && ::dup2(::open(at.in.c_str(), O_RDONLY), STDIN_FILENO) < 0))
       ::_exit(126);
-    ::execv(argv[0], argv.data());
+    ::execve(argv[0], argv.data(), environment.data());
     ::_exit(127);
   }
   ~Program() {

@@ -29,12 +29,11 @@ class Terminal {
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
     const winsize size{.ws_row = 24, .ws_col = columns, .ws_xpixel = 0, .ws_ypixel = 0};
+    Environment environment(at);
     child_ = ::forkpty(&line_, nullptr, nullptr, &size);
     if (child_ == 0) {
-      ::setenv("XDG_STATE_HOME", (at.folder / ".state").c_str(), 1);
-      for (const auto& [key, value] : at.environment) ::setenv(key.c_str(), value.c_str(), 1);
       if (::chdir(at.folder.c_str()) != 0) ::_exit(126);
-      ::execvp(argv[0], argv.data());
+      ::execvpe(argv[0], argv.data(), environment.data());
       ::_exit(127);
     }
     listener_ = std::thread([this] { listen(); });
