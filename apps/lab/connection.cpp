@@ -304,20 +304,23 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
          wanted](const Outcome<std::shared_ptr<const Record>>& copied) {
           if (!copied.trouble.empty())
             return self->refuse(http::status::internal_server_error, copied.trouble);
-          self->shared_.export_([self, name, wanted, record = copied.value](const Stop& stop) {
-            const auto made = std::make_shared<Outcome<Download>>();
-            try {
-              made->value = make_run_export(wanted, *record, stop);
-            } catch (const std::exception& error) {
-              made->trouble = error.what();
-            }
-            self->shared_.post([self, name, made] {
-              if (!made->trouble.empty())
-                self->refuse(http::status::bad_request, made->trouble);
-              else
-                self->send(name, std::move(*made));
-            });
-          });
+          self->shared_.export_(
+              [self, name, wanted, record = copied.value](const Stop& stop) mutable {
+                const auto made = std::make_shared<Outcome<Download>>();
+                try {
+                  made->value = make_run_export(wanted, *record, stop);
+                } catch (const std::exception& error) {
+                  made->trouble = error.what();
+                }
+                // The connection ends in the thread of input and output, never in this one.
+                const auto post = self->shared_.post;
+                post([self = std::move(self), name, made] {
+                  if (!made->trouble.empty())
+                    self->refuse(http::status::bad_request, made->trouble);
+                  else
+                    self->send(name, std::move(*made));
+                });
+              });
         });
   }
 

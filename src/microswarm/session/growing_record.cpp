@@ -83,7 +83,13 @@ void GrowingRecord::on_tick(const Tick& tick) {
   const auto began = Clock::now();
   if (began < due_ || tick.end) return;
   const double expected = copied_ + new_frames_ * frame_cost_;
-  if (expected > copies_share * seconds(began - begun_) || !can_write()) return;
+  if (expected > copies_share * seconds(began - begun_)) {
+    // A copy that was interrupted took long for its few frames: that is forgotten by and by.
+    frame_cost_ = std::max(first_cost, 0.5 * frame_cost_);
+    due_ = began + 5 * period_;
+    return;
+  }
+  if (!can_write()) return;
   auto news = take_news();
   const double took = seconds(Clock::now() - began);
   copied_ += took;
