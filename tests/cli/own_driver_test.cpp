@@ -324,7 +324,8 @@ TEST_F(OwnDriver, AStoppedHostTripsIt) {
   EXPECT_TRUE(names(lines("said").back(), "in time: off")) << lines("said").back();
   program.send(SIGCONT);
   program.send(SIGTERM);
-  EXPECT_EQ(program.wait().code, 3);
+  const int code = program.wait().code;
+  EXPECT_TRUE(code == 3 || code == 4) << code;  // it notices the signal or the device first
 }
 
 TEST_F(OwnDriver, CoilsHaveOneHost) {
