@@ -85,22 +85,17 @@ std::vector<BenchRow> among_discs_and_polygons(bool quick, const Stop& stop) {
                                .seconds);
   }
   std::vector<BenchRow> rows;
-  const auto add = [&](const char* name, const std::vector<double>& ours, bool has_aim) {
-    for (const auto& [what, share, aim] :
-         {std::tuple{"time, median", 0.5, 0.05}, std::tuple{"time, p99", 0.99, 0.2}})
-      rows.push_back({.name = name,
-                      .quantity = what,
-                      .unit = "ms",
-                      .ours = quantile(ours, share),
-                      .peer = quantile(theirs, share),
-                      .peer_name = "OMPL RRTConnect, first path",
-                      .aim = has_aim ? std::optional(aim) : std::nullopt});
+  using Aim = std::optional<double>;
+  const auto add = [&](const char* name, const std::vector<double>& ours, Aim median, Aim p99) {
+    for (BenchRow& row : time_rows(name, ours, theirs, "OMPL RRTConnect, first path", median, p99))
+      rows.push_back(std::move(row));
   };
   world.map().corners();
   add("exact, 140 discs and 70 polygons, each query anew", plan_times(world, queries, params, stop),
-      false);
+      {}, {});
   ShortestPaths paths(world.map(), clearance);
-  add("exact, 140 discs and 70 polygons, tangents kept", kept_times(paths, queries, stop), true);
+  add("exact, 140 discs and 70 polygons, tangents kept", kept_times(paths, queries, stop), 0.05,
+      0.2);
   rows.push_back({.name = "exact, corners of 140 discs and 70 polygons",
                   .quantity = "time, median",
                   .unit = "ms",

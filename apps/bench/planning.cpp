@@ -65,15 +65,9 @@ std::vector<BenchRow> s_channel(const std::filesystem::path& scenarios, bool qui
                                     .goal_tolerance = ours.goal_tolerance,
                                     .range = ours.step},
                                    quick ? 20 : 100, stop);
-    for (const auto& [name, q, aim] :
-         {std::tuple{"median", 0.5, 1.0}, std::tuple{"p99", 0.99, 5.0}})
-      rows.push_back({.name = "D-RRT*, S-channel, first path",
-                      .quantity = fmt::format("time, {}", name),
-                      .unit = "ms",
-                      .ours = quantile(ms, q),
-                      .peer = quantile(theirs, q),
-                      .peer_name = std::string(name_of(peer)),
-                      .aim = aim});
+    for (BenchRow& row :
+         time_rows("D-RRT*, S-channel, first path", ms, theirs, std::string(name_of(peer)), 1, 5))
+      rows.push_back(std::move(row));
   }
   return rows;
 }
@@ -108,14 +102,8 @@ std::vector<BenchRow> clutter(bool quick, const Stop& stop) {
       const auto more = our_times(world, q.start, q.goal, params, quick ? 3 : 25, stop);
       ours.insert(ours.end(), more.begin(), more.end());
     }
-    for (const auto& [what, share] : {std::pair{"time, median", 0.5}, std::pair{"time, p99", 0.99}})
-      rows.push_back({.name = name,
-                      .quantity = what,
-                      .unit = "ms",
-                      .ours = quantile(ours, share),
-                      .peer = quantile(theirs, share),
-                      .peer_name = "OMPL RRTConnect",
-                      .aim = share == 0.5 ? aim : std::nullopt});
+    for (BenchRow& one : time_rows(name, ours, theirs, "OMPL RRTConnect", aim, std::nullopt))
+      rows.push_back(std::move(one));
   };
   row("RRT, 140 discs and 70 polygons, first path", rrt, 0.5);
   row("D-RRT*, 140 discs and 70 polygons, first path", drrt, std::nullopt);
@@ -211,6 +199,22 @@ std::vector<BenchRow> queries(bool quick) {
 }
 
 }  // namespace
+
+std::vector<BenchRow> time_rows(const std::string& name, const std::vector<double>& ours,
+                                const std::vector<double>& theirs, const std::string& peer,
+                                std::optional<double> median_aim, std::optional<double> p99_aim) {
+  std::vector<BenchRow> rows;
+  for (const auto& [what, share, aim] :
+       {std::tuple{"time, median", 0.5, median_aim}, std::tuple{"time, p99", 0.99, p99_aim}})
+    rows.push_back({.name = name,
+                    .quantity = what,
+                    .unit = "ms",
+                    .ours = quantile(ours, share),
+                    .peer = quantile(theirs, share),
+                    .peer_name = peer,
+                    .aim = aim});
+  return rows;
+}
 
 std::vector<PathQuery> far_pairs(const Snapshot& world, double clearance, int count, Rng& rng) {
   const Box& box = world.bounds();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,11 @@ struct PathQuery {
 /// Pairs of free points at least half the map's width apart. Their clearance is doubled, so that
 /// the peer, which ends exactly at its goal, can reach them too.
 std::vector<PathQuery> far_pairs(const Snapshot& world, double clearance, int count, Rng& rng);
+
+/// Rows with the median and the 99th percentile of our times and of a peer's [ms].
+std::vector<BenchRow> time_rows(const std::string& name, const std::vector<double>& ours,
+                                const std::vector<double>& theirs, const std::string& peer,
+                                std::optional<double> median_aim, std::optional<double> p99_aim);
 
 /// Exact paths among discs and polygons, and in six grid maps if MICROSWARM_DATA names their
 /// folder. Part of planning().

@@ -305,7 +305,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
           if (!copied.trouble.empty())
             return self->refuse(http::status::internal_server_error, copied.trouble);
           self->shared_.export_(
-              [self, name, wanted, record = copied.value](const Stop& stop) mutable {
+              [self = self, name, wanted, record = copied.value](const Stop& stop) mutable {
                 const auto made = std::make_shared<Outcome<Download>>();
                 try {
                   made->value = make_run_export(wanted, *record, stop);

@@ -322,7 +322,7 @@ TEST(Server, ASimulatedRigIsOpenedToo) {
   EXPECT_FALSE(record_of(lab, session).rig.empty());
 }
 
-TEST(Server, ARunIsExportedAsPictureAndFilm) {
+TEST(Server, ARunIsExportedAsPictureAndVideo) {
   const Lab lab;
   const std::uint64_t session = open(lab);
   const std::string path = "/api/sessions/" + std::to_string(session);
@@ -354,7 +354,7 @@ TEST(Server, ARunIsExportedAsPictureAndFilm) {
   EXPECT_GT(std::ranges::count(reply.body(), '\x21'), 12);  // an extension a picture
 }
 
-TEST(Server, AFilmIsStoppedAtTheEnd) {
+TEST(Server, AVideoIsStoppedAtTheEnd) {
   Lab lab;
   const std::uint64_t session = open(lab);
   TestPage page(lab, session);

@@ -18,8 +18,12 @@ export interface Field {
 
 export type Change = (key: string, value: Json) => void;
 
-/** Says at the field why what was typed is no value; the value before is shown again. */
-type Complain = (text: string) => void;
+/** What a control does with what was typed. */
+interface Typed {
+  change(value: Json): void;
+  /** Says at the field why it is no value; the value before is shown again. */
+  complain(text: string): void;
+}
 
 interface Control {
   nodes: HTMLElement[];
@@ -32,8 +36,10 @@ export function field(key: string, schema: Schema, change: Change): Field {
   const { doc, unit } = described(schema);
   const { label, unit: keyUnit } = words(name);
   const id = `field-${key}`;
-  const complain = (text: string) => setIssue(text);
-  const control = controlOf(id, inner, allowsNull(schema), (value) => change(key, value), complain);
+  const control = controlOf(id, inner, allowsNull(schema), {
+    change: (value) => change(key, value),
+    complain: (text) => setIssue(text),
+  });
   const standard = schema.default;
   let shown: Json | undefined;
   const reset = element(
@@ -97,18 +103,12 @@ function range(schema: Schema): string {
   return hi === undefined ? `At least ${number(lo)}.` : `${number(lo)} to ${number(hi)}.`;
 }
 
-function controlOf(
-  id: string,
-  schema: Schema,
-  nullable: boolean,
-  change: (value: Json) => void,
-  complain: Complain,
-): Control {
-  if (schema.type === 'boolean') return toggle(id, change);
-  if (schema.enum) return menu(id, schema.enum, change);
-  if (schema.type === 'number' || schema.type === 'integer') return numeric(id, schema, nullable, change, complain);
-  if (schema.type === 'string') return line(id, change);
-  return list(id, nullable, change, complain);
+function controlOf(id: string, schema: Schema, nullable: boolean, typed: Typed): Control {
+  if (schema.type === 'boolean') return toggle(id, typed.change);
+  if (schema.enum) return menu(id, schema.enum, typed.change);
+  if (schema.type === 'number' || schema.type === 'integer') return numeric(id, schema, nullable, typed);
+  if (schema.type === 'string') return line(id, typed.change);
+  return list(id, nullable, typed);
 }
 
 function toggle(id: string, change: (value: Json) => void): Control {
@@ -125,13 +125,7 @@ export function menu(id: string, options: string[], change: (value: Json) => voi
   return { nodes: [select], show: (value) => (select.value = String(value)) };
 }
 
-function numeric(
-  id: string,
-  schema: Schema,
-  nullable: boolean,
-  change: (value: Json) => void,
-  complain: Complain,
-): Control {
+function numeric(id: string, schema: Schema, nullable: boolean, typed: Typed): Control {
   const entry = element('input', {
     id,
     type: 'number',
@@ -139,9 +133,9 @@ function numeric(
     step: 'any',
     ...(nullable ? { placeholder: 'none' } : {}),
     onchange: () => {
-      if (entry.value !== '' && Number.isFinite(Number(entry.value))) change(Number(entry.value));
-      else if (nullable && !entry.validity.badInput) change(null);
-      else complain('This needs a number.');
+      if (entry.value !== '' && Number.isFinite(Number(entry.value))) typed.change(Number(entry.value));
+      else if (nullable && !entry.validity.badInput) typed.change(null);
+      else typed.complain('This needs a number.');
     },
   });
   const span = rangeOf(schema);
@@ -154,7 +148,7 @@ function numeric(
     step: '0.002',
     'aria-labelledby': '',
     oninput: () => (entry.value = String(span.toValue(Number(slider.value)))),
-    onchange: () => change(Number(entry.value)),
+    onchange: () => typed.change(Number(entry.value)),
   });
   slider.setAttribute('aria-label', `${id.slice('field-'.length)}, slider`);
   slider.removeAttribute('aria-labelledby');
@@ -185,7 +179,7 @@ function parsed(text: string): Json | undefined {
 }
 
 /** Lists of numbers or points, as JSON. */
-function list(id: string, nullable: boolean, change: (value: Json) => void, complain: Complain): Control {
+function list(id: string, nullable: boolean, typed: Typed): Control {
   const entry = element('input', {
     id,
     type: 'text',
@@ -194,8 +188,8 @@ function list(id: string, nullable: boolean, change: (value: Json) => void, comp
     onchange: () => {
       const value = entry.value.trim() === '' && nullable ? null : parsed(entry.value);
       if (value === undefined || (value === null && !nullable))
-        complain(`${entry.value.trim() === '' ? 'This' : entry.value} is not a list such as [1, 2].`);
-      else change(value);
+        typed.complain(`${entry.value.trim() === '' ? 'This' : entry.value} is not a list such as [1, 2].`);
+      else typed.change(value);
     },
   });
   return {

@@ -30,7 +30,7 @@ std::vector<fs::path> places() {
   Dl_info own{};
   if (::dladdr(reinterpret_cast<const void*>(&media), &own) && own.dli_fname)
     beside(fs::path(own.dli_fname).parent_path());
-  all.emplace_back(MICROSWARM_MEDIA_FOLDER "/libmicroswarm_media.so");
+  all.push_back(fs::path(MICROSWARM_MEDIA_FOLDER) / file_name);
   std::erase_if(all, [&](const fs::path& file) { return !fs::exists(file, error); });
   all.emplace_back(file_name);
   return all;

@@ -11,7 +11,7 @@ class Mat;
 namespace microswarm {
 
 // Photographs and videos, as OpenCV's imgcodecs and videoio decode and encode them. These two bring
-// some 150 shared libraries, 0.3 s of a program's start, so they are in a module of their own that
+// some 150 shared libraries, 0.2 s of a program's start, so they are in a module of their own that
 // is loaded at the first use.
 
 /// A video that is open for reading.
