@@ -13,6 +13,7 @@
 #include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/formats/moving_ai.hpp"
 #include "microswarm/planning/exact/shortest_paths.hpp"
+#include "microswarm/planning/path/fit_to_map.hpp"
 #include "microswarm/planning/path/planners.hpp"
 #include "microswarm/scenes/worlds.hpp"
 
@@ -103,6 +104,44 @@ std::vector<BenchRow> among_discs_and_polygons(bool quick, const Stop& stop) {
   return rows;
 }
 
+template <class Params>
+Params on_grid(double clearance) {
+  Params params;
+  params.clearance = clearance;
+  return params;
+}
+
+/// Time and length of a planner whose other values follow from the map.
+std::vector<BenchRow> fitted_to(const std::string& map, const Snapshot& world,
+                                const std::vector<PathQuery>& queries, PlannerParams planner,
+                                ShortestPaths& paths, const Stop& stop) {
+  planner =
+      fit_to_map(planner, world.map(), [](std::string_view key) { return key == "clearance_um"; });
+  std::vector<double> ms, excess;
+  for (const PathQuery& q : queries) {
+    if (stop()) break;
+    Rng rng(1, Purpose::planner);
+    const auto began = Clock::now();
+    const Plan made = plan(world, q.start, q.goal, planner, rng, stop);
+    ms.push_back(spent_ms(began));
+    const ShortestPath best = paths.find(q.start.position, q.goal, stop);
+    require_solved(made.status == Status::solved);
+    excess.push_back(path_length(made) / best.length);
+  }
+  const std::string name =
+      std::visit([](const auto& p) { return std::string(p.type_name); }, planner) + ", " + map +
+      ", fitted to it";
+  return {{.name = name,
+           .quantity = "time, median",
+           .unit = "ms",
+           .ours = quantile(ms, 0.5),
+           .aim = 20},
+          {.name = name,
+           .quantity = "length beside the shortest, median",
+           .unit = "",
+           .ours = quantile(excess, 0.5)}};
+}
+
 /// Cells of 100 µm, a swarm that keeps 40 µm from walls.
 std::vector<BenchRow> in_grid_map(const std::filesystem::path& file, bool quick, const Stop& stop) {
   constexpr double cell = 100, clearance = 40;
@@ -121,9 +160,9 @@ std::vector<BenchRow> in_grid_map(const std::filesystem::path& file, bool quick,
   }
   std::vector<PathQuery> few;
   for (std::size_t i = 0; i < queries.size(); i += 20) few.push_back(queries[i]);
-  const AStarParams a_star{.clearance = clearance, .goal_tolerance = 25, .cell = cell};
+  const AStarParams a_star{{.clearance = clearance, .goal_tolerance = 25, .cell = cell}};
   ShortestPaths paths(*map, clearance);
-  return {
+  std::vector<BenchRow> rows{
       {.name = "exact, " + name + ", tangents kept",
        .quantity = "time, median",
        .unit = "ms",
@@ -142,6 +181,11 @@ std::vector<BenchRow> in_grid_map(const std::filesystem::path& file, bool quick,
        .unit = "ms",
        .ours = corners_ms(*map, 3),
        .aim = 300}};
+  for (const PlannerParams& planner : {PlannerParams(on_grid<AStarParams>(clearance)),
+                                       PlannerParams(on_grid<ThetaStarParams>(clearance))})
+    for (BenchRow& row : fitted_to(name, world, few, planner, paths, stop))
+      rows.push_back(std::move(row));
+  return rows;
 }
 
 }  // namespace

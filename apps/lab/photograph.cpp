@@ -13,11 +13,11 @@
 #include "microswarm/experiment/scenario/validate.hpp"
 #include "microswarm/formats/images/jpeg.hpp"
 #include "microswarm/formats/write_map.hpp"
-#include "microswarm/navigation/gathering/policies/channel_width.hpp"
 #include "microswarm/planning/common/free_goal.hpp"
 #include "microswarm/vision/image/overlay.hpp"
 #include "microswarm/vision/vessels/outline.hpp"
 #include "microswarm/vision/vessels/vessels.hpp"
+#include "microswarm/world/connectivity/channel_width.hpp"
 
 namespace microswarm::lab {
 namespace {

@@ -72,7 +72,8 @@ std::vector<Case> cases();
 bool is_exact(const PlannerParams& params) { return std::holds_alternative<ExactParams>(params); }
 
 bool has_no_tree(const PlannerParams& params) {
-  return is_exact(params) || std::holds_alternative<AStarParams>(params);
+  return is_exact(params) || std::holds_alternative<AStarParams>(params) ||
+         std::holds_alternative<ThetaStarParams>(params);
 }
 
 void set_clearance(PlannerParams& params, double clearance) {
@@ -331,6 +332,7 @@ std::vector<Case> cases() {
   return {
       {"Exact", small<ExactParams>(), 0xf388b469f2290449},
       {"AStar", small<AStarParams>(), 0xbbb6ea61a7b7c14d},
+      {"ThetaStar", small<ThetaStarParams>(), 0x37b7fd5264e480e6},
       {"Rrt", small<RrtParams>(), 0xf74c8abec189f922},
       {"RrtStar", small<RrtStarParams>(), 0xd25316c5a33d98bc},
       {"RrtStarGrown", grown<RrtStarParams>(), 0xd80bf708bf2299f3},

@@ -166,6 +166,16 @@ TEST(Rows, WithoutAnAimThereIsNoVerdict) {
             std::string::npos);
 }
 
+TEST(Rows, ABenchIsOkIfAsGoodAsItsPeerAndItsAim) {
+  EXPECT_TRUE((BenchRow{.ours = 2, .peer = 2, .aim = 2}.ok()));
+  EXPECT_FALSE((BenchRow{.ours = 2, .peer = 1, .aim = 2}.ok()));
+  EXPECT_FALSE((BenchRow{.ours = 2, .peer = 3, .aim = 1}.ok()));
+  EXPECT_FALSE((BenchRow{.ours = 2, .peer = 1}.ok()));
+  EXPECT_FALSE((BenchRow{.ours = 2, .peer = 3, .at_most = false}.ok()));
+  EXPECT_TRUE((BenchRow{.ours = 3, .peer = 2, .aim = 3, .at_most = false}.ok()));
+  EXPECT_NE(rows_json({BenchRow{.ours = 2}}).find("\"ok\": null"), std::string::npos);
+}
+
 TEST(Rows, RatiosAreAboveOneWhereWeAreFaster) {
   EXPECT_EQ((BenchRow{.ours = 2, .peer = 10}.ratio()), 5);
   EXPECT_EQ((BenchRow{.ours = 10, .peer = 2, .at_most = false}.ratio()), 5);

@@ -44,10 +44,11 @@ int measure(const BenchOptions& o) {
 
 void add_bench(Command app, Action& action) {
   auto o = std::make_shared<BenchOptions>();
-  Command cmd = app.add_command(
-      "bench",
-      "Compare speeds with those of reference implementations; exit code 3 if one misses its aim",
-      "bench planning --quick --csv planning.csv");
+  Command cmd = app.add_command("bench",
+                                "Compare speeds with those of reference implementations; exit code "
+                                "3 if one is slower than these "
+                                "or misses its aim",
+                                "bench planning --quick --csv planning.csv");
   cmd.add_option("group", o->group, "Benchmark: planning, swarm, global, radar, vision, lab")
       .required()
       .type_name("GROUP");

@@ -10,7 +10,7 @@
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/experiment/scenario/validate.hpp"
 #include "microswarm/formats/map_file.hpp"
-#include "microswarm/navigation/gathering/policies/channel_width.hpp"
+#include "microswarm/world/connectivity/channel_width.hpp"
 
 namespace microswarm::cli {
 namespace {

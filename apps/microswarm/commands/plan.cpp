@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "microswarm/config/key_locations.hpp"
+#include "microswarm/config/write.hpp"
 #include "microswarm/config/yaml.hpp"
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/angles.hpp"
@@ -12,6 +13,7 @@
 #include "microswarm/experiment/scenario/validate.hpp"
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/planning/common/free_goal.hpp"
+#include "microswarm/planning/path/fit_to_map.hpp"
 #include "microswarm/planning/path/planners.hpp"
 #include "microswarm/report/picture.hpp"
 #include "support/options.hpp"
@@ -71,7 +73,13 @@ void explain(const PlanOptions& o, const Snapshot& world, Vec2 start, Vec2 goal,
     KeyLocations(o.map).require_none(validate_path(world.map(), start, *target, clearance));
 }
 
-void show(const Plan& made, double start_heading, double ms, bool json) {
+std::string why_none(const Plan& made, const PlannerParams& planner) {
+  const std::string word(to_string(made.status));
+  if (made.status != Status::node_limit) return word;
+  return fmt::format("{}: {}", word, limit_text(planner, made.counts));
+}
+
+void show(const Plan& made, const PathChoice& choice, double start_heading, double ms, bool json) {
   const double length = path_length(made);
   const double turning = degrees(path_turning(made.path, start_heading));
   if (json) {
@@ -83,14 +91,15 @@ void show(const Plan& made, double start_heading, double ms, bool json) {
                        {"time_ms", ms},
                        {"iterations", made.counts.iterations},
                        {"nodes", made.tree.size()},
+                       {"planner", Json::parse(to_json_text(choice))["planner"]},
                        {"path_um", path}}
                       .dump(2));
     return;
   }
   print("{} of {:.1f} µm in {} points, turns {:.0f}° in all; {} iterations, {} nodes, {:.2f} ms\n",
-        made.status == Status::solved
-            ? "path"
-            : fmt::format("no path ({}), only the beginning of one,", to_string(made.status)),
+        made.status == Status::solved ? "path"
+                                      : fmt::format("no path ({}), only the beginning of one,",
+                                                    why_none(made, choice.planner)),
         length, made.path.size(), turning, made.counts.iterations, made.tree.size(), ms);
   if (!made.path.empty()) print("x_um,y_um\n");
   for (const Vec2 p : made.path) print("{:.3f},{:.3f}\n", p.x, p.y);
@@ -118,13 +127,16 @@ int plan_command(const PlanOptions& o, const Context& context) {
   const Pose2 start{{from[0], from[1]}, from.size() > 2 ? radians(from[2]) : 0.0};
   const Vec2 goal{to[0], to[1]};
   const Snapshot world(reading([&] { return load_map(guess_map_spec(o.map, o.um_per_px)).map; }));
+  choice.planner =
+      fit_to_map(choice.planner, world.map(),
+                 given_within(locations_of({}, "plan", o.settings).is_given(), "planner"));
   Rng rng(o.seed, Purpose::planner);
   const auto began = Stop::Clock::now();
   const Plan made = plan(world, start, goal, choice.planner, rng, context.stop);
   const double ms = std::chrono::duration<double, std::milli>(Stop::Clock::now() - began).count();
   explain(o, world, start.position, goal, choice.planner, made.status);
   if (!o.picture.empty()) draw(o, world, start, goal, choice.planner, made);
-  show(made, start.heading, ms, o.json);
+  show(made, choice, start.heading, ms, o.json);
   if (!o.json && !o.picture.empty()) print("wrote {}\n", o.picture);
   return made.status == Status::solved ? ok : not_reached;
 }
@@ -136,7 +148,7 @@ void add_plan(Command app, Action& action) {
   Command cmd = app.add_command(
       "plan",
       "Plan a path on a map: the shortest one, or with drrt_star, rrt_star, uniform_rrt_star, rrt, "
-      "a_star or fmt_star",
+      "a_star, theta_star or fmt_star. What is not set follows from the map",
       "plan map.png --um-per-px 5 --start 200,700,-90 --goal 1750,300 \\\n"
       "      --set planner.type=a_star --set planner.clearance_um=40 --picture path.svg");
   cmd.add_option("map", o->map, "Picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles")

@@ -11,7 +11,7 @@
 #include "microswarm/experiment/record/record.hpp"
 #include "microswarm/experiment/run/progress.hpp"
 #include "microswarm/navigation/gathering/aggregation_check.hpp"
-#include "microswarm/navigation/gathering/policies/channel_width.hpp"
+#include "microswarm/navigation/gathering/policies/published_scale.hpp"
 
 namespace microswarm::cli {
 

@@ -52,6 +52,12 @@ struct PlanCounts {
   std::uint64_t iterations = 0;
   std::uint64_t samples = 0;
   std::uint64_t edge_checks = 0;
+  PlanCounts& operator+=(const PlanCounts& o) {
+    iterations += o.iterations;
+    samples += o.samples;
+    edge_checks += o.edge_checks;
+    return *this;
+  }
 };
 
 /// Result of a planner. If the status is `solved`, the path runs from the start to a point within
@@ -61,7 +67,7 @@ struct Plan {
   Status status = Status::no_path;
   std::vector<Vec2> path;             ///< [µm]
   std::optional<double> arc_length;   ///< [µm] of a path with arcs, which `path` draws by lines
-  std::vector<TreeNode> tree;         ///< empty for A*
+  std::vector<TreeNode> tree;         ///< empty for planners without one
   std::vector<Detection> detections;  ///< one per tree node; D-RRT* only
   PlanCounts counts;
 };

@@ -103,7 +103,7 @@ std::string rows_json(const std::vector<BenchRow>& rows) {
                     {"peer_name", r.peer_name},
                     {"ratio", json(r.ratio())},
                     {"aim", json(r.aim)},
-                    {"ok", r.ok()}});
+                    {"ok", r.has_verdict() ? Json(r.ok()) : Json(nullptr)}});
   return Json{{"rows", list}}.dump(2) + "\n";
 }
 
@@ -136,7 +136,8 @@ std::string rows_csv(const std::vector<BenchRow>& rows) {
       {"name", "quantity", "unit", "ours", "peer", "peer_name", "ratio", "aim", "ok"}};
   for (const auto& r : rows)
     lines.push_back({r.name, r.quantity, r.unit, plain(r.ours), plain(r.peer), r.peer_name,
-                     plain(r.ratio()), plain(r.aim), r.ok() ? "true" : "false"});
+                     plain(r.ratio()), plain(r.aim),
+                     r.has_verdict() ? (r.ok() ? "true" : "false") : ""});
   return csv(lines);
 }
 

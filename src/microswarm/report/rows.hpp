@@ -29,7 +29,8 @@ struct ReproduceRow {
 };
 
 /// One measured speed and that of a peer in the same run. `ratio` is peer ÷ ours for times and ours
-/// ÷ peer for rates: values above 1 mean that ours is faster.
+/// ÷ peer for rates: values above 1 mean that ours is faster. A row is ok if it is at least as good
+/// as both its peer and its aim, as far as it has them.
 struct BenchRow {
   std::string name;
   std::string quantity;
@@ -38,11 +39,14 @@ struct BenchRow {
   std::optional<double> peer;
   std::string peer_name;
   std::optional<double> aim;
-  bool at_most = true;
+  bool at_most = true;  ///< ours, to be good: a time, not a rate
 
-  bool has_verdict() const { return !!aim; }
-  bool ok() const { return !aim || (at_most ? ours <= *aim : ours >= *aim); }
+  bool has_verdict() const { return aim || peer; }
+  bool ok() const { return (!aim || reaches(*aim)) && (!peer || reaches(*peer)); }
   std::optional<double> ratio() const;
+
+ private:
+  bool reaches(double value) const { return at_most ? ours <= value : ours >= value; }
 };
 
 /// The rows as JSON, {"rows": [...]}; missing values and verdicts are null.
@@ -56,7 +60,7 @@ std::string rows_table(const std::vector<BenchRow>& rows);
 std::string rows_csv(const std::vector<ReproduceRow>& rows);
 std::string rows_csv(const std::vector<BenchRow>& rows);
 
-/// Whether every row meets its aim.
+/// Whether every row is ok.
 template <class Row>
 bool all_ok(const std::vector<Row>& rows) {
   for (const Row& row : rows)

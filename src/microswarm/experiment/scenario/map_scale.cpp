@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/experiment/scenario/map_scale.hpp"
 
-#include "microswarm/navigation/gathering/policies/channel_width.hpp"
+#include "microswarm/navigation/gathering/policies/published_scale.hpp"
 
 namespace microswarm {
 

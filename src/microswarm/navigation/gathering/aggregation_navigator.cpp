@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "microswarm/navigation/gathering/policies/channel_width.hpp"
+#include "microswarm/navigation/gathering/policies/published_scale.hpp"
 
 namespace microswarm {
 

@@ -9,6 +9,7 @@
 #include "microswarm/planning/path/planner_params.hpp"
 #include "microswarm/planning/path/rrt.hpp"
 #include "microswarm/planning/path/rrt_star.hpp"
+#include "microswarm/planning/path/theta_star.hpp"
 
 namespace microswarm {
 

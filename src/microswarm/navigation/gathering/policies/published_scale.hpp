@@ -6,10 +6,6 @@
 
 namespace microswarm {
 
-/// Typical channel width of a map [µm], estimated at random points: in a channel of width w the
-/// mean clearance of a free point is w/4. Throws InputError if no free point is found.
-double channel_width(const Map& map, Rng& rng);
-
 /// Channel width for which the published lengths hold [µm].
 inline constexpr double published_channel_width = 10;
 

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/planning/path/fit_to_map.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "microswarm/world/connectivity/channel_width.hpp"
+
+namespace microswarm {
+namespace {
+
+/// Width [µm] of the channel that the defaults fit: the S-channel of Fig 3 [drrt].
+constexpr double usual_width = 280;
+constexpr double most = 10'000'000;         // nodes or iterations
+constexpr double iterations_per_node = 20;  // as the defaults
+
+constexpr std::array<std::string_view, 6> lengths{
+    "step", "search_radius", "spacing", "detection_diameter", "speed", "smoothness_weight"};
+
+/// Nodes of a tree that fills the map with steps of this length.
+double nodes_for(const Map& map, double step) {
+  constexpr double nodes_per_square = 64;
+  const Vec2 size = map.bounds().hi - map.bounds().lo;
+  return nodes_per_square * (size.x / step) * (size.y / step);
+}
+
+template <class Params>
+double step_of(const Params& params, double scale, const IsGiven& is_given) {
+  if constexpr (std::is_base_of_v<TreeParams, Params>)
+    return is_given("step_um") ? params.step : scale * params.step;
+  return scale * TreeParams{}.step;
+}
+
+template <class Params>
+void fit(Params& params, const Map& map, double width, const IsGiven& is_given) {
+  const double scale = width / usual_width;
+  const double nodes = nodes_for(map, step_of(params, scale, is_given));
+  // Some cells across what the swarm may use of a channel.
+  constexpr double cells_across = 4;
+  const double cell = std::max(width - 2 * params.clearance, width / 4) / cells_across;
+  Params::fields(params, [&](auto& value, const FieldInfo& info) {
+    if (is_given(key_of(info))) return;
+    const auto in_range = [&](double fitted) {
+      return std::clamp(fitted, info.range.min, info.range.max);
+    };
+    if constexpr (std::is_same_v<decltype(value), double&>) {
+      if (std::ranges::count(lengths, info.name) > 0) value = in_range(scale * value);
+      if (info.name == "goal_tolerance") value = in_range(std::min(1.0, scale) * value);
+      if (info.name == "cell") value = in_range(cell);
+    }
+    if constexpr (std::is_same_v<decltype(value), int&>) {
+      const auto at_least = [&](double fitted) {
+        value = std::max(value, static_cast<int>(std::min(fitted, most)));
+      };
+      if (info.name == "max_nodes") at_least(nodes);
+      if (info.name == "max_iterations") at_least(iterations_per_node * nodes);
+    }
+  });
+}
+
+}  // namespace
+
+PlannerParams fit_to_map(PlannerParams params, const Map& map, const IsGiven& is_given) {
+  Rng rng(1, Purpose::planner);
+  double width = 0;
+  try {
+    width = channel_width(map, rng);
+  } catch (const InputError&) {
+    return params;
+  }
+  std::visit([&](auto& chosen) { fit(chosen, map, width, is_given); }, params);
+  return params;
+}
+
+std::string limit_text(const PlannerParams& params, const PlanCounts& counts) {
+  std::string text;
+  const auto visit = [&](const auto& value, const FieldInfo& info) {
+    if constexpr (std::is_same_v<decltype(value), const int&>)
+      if (info.name == "max_nodes" ||
+          (info.name == "max_iterations" && counts.iterations >= static_cast<std::uint64_t>(value)))
+        text = fmt::format("planner.{} is {}", key_of(info), value);
+  };
+  std::visit([&]<class Params>(const Params& chosen) { Params::fields(chosen, visit); }, params);
+  return text;
+}
+
+}  // namespace microswarm

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "microswarm/planning/path/exact.hpp"
+#include "microswarm/planning/path/grid_params.hpp"
+
+namespace microswarm {
+
+/// Grid position, in cells from the lower left corner.
+struct Place {
+  int column = 0;
+  int row = 0;
+  friend constexpr bool operator==(Place, Place) = default;
+};
+constexpr Place operator+(Place a, Place b) { return {a.column + b.column, a.row + b.row}; }
+constexpr Place operator-(Place a, Place b) { return {a.column - b.column, a.row - b.row}; }
+
+/// Straight moves have even indices; a diagonal lies between its two.
+inline constexpr std::array<Place, 8> grid_moves{
+    {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
+
+/// What is known of the place of a cell.
+enum class Mark : std::uint8_t { unknown, blocked, free, closed };
+
+/// Grid cells in tiles that are allocated on first use. Its origin is the start.
+template <class Cell>
+class Grid {
+ public:
+  static constexpr std::size_t side = 64;
+  static constexpr double max_tiles = 1 << 22;
+
+  Grid(const Box& bounds, Vec2 origin, double cell) : cell_(cell), origin_(origin) {
+    const auto places = [&](double length) { return std::floor(std::max(0.0, length) / cell); };
+    const double left = places(origin.x - bounds.lo.x);
+    const double below = places(origin.y - bounds.lo.y);
+    const double columns = left + places(bounds.hi.x - origin.x) + 1;
+    const double rows = below + places(bounds.hi.y - origin.y) + 1;
+    fits_ = std::max({columns, rows, (columns / side + 1) * (rows / side + 1)}) < max_tiles;
+    if (!fits_) return;
+    start_ = {static_cast<int>(left), static_cast<int>(below)};
+    columns_ = static_cast<int>(columns);
+    rows_ = static_cast<int>(rows);
+    tile_columns_ = static_cast<std::size_t>(columns_) / side + 1;
+    tiles_.resize(tile_columns_ * (static_cast<std::size_t>(rows_) / side + 1));
+  }
+
+  /// Whether the directory of tiles has a reasonable size.
+  bool fits() const { return fits_; }
+  double cell() const { return cell_; }
+  Place start() const { return start_; }
+  bool holds(Place p) const {
+    return p.column >= 0 && p.row >= 0 && p.column < columns_ && p.row < rows_;
+  }
+  Vec2 position(Place p) const {
+    const Place d = p - start_;
+    return origin_ + cell_ * Vec2{static_cast<double>(d.column), static_cast<double>(d.row)};
+  }
+  Cell& operator[](Place p) {
+    const auto row = static_cast<std::size_t>(p.row);
+    const auto column = static_cast<std::size_t>(p.column);
+    auto& tile = tiles_[row / side * tile_columns_ + column / side];
+    if (!tile) tile = std::make_unique<std::array<Cell, side * side>>();
+    return (*tile)[row % side * side + column % side];
+  }
+
+  /// Calls use(move, cell) for each neighbour that is free and not closed, without cutting corners.
+  /// `is_free` tests a position [µm] that is asked for the first time.
+  template <class IsFree, class Use>
+  void for_each_open_neighbour(Place place, IsFree&& is_free, Use&& use) {
+    std::array<Cell*, 8> cells{};
+    std::array<bool, 8> free{};
+    const auto open = [&](std::size_t move) {
+      const Place p = place + grid_moves[move];
+      if (!holds(p)) return;
+      Cell& cell = (*this)[p];
+      if (cell.mark == Mark::unknown) cell.mark = is_free(position(p)) ? Mark::free : Mark::blocked;
+      free[move] = cell.mark != Mark::blocked;
+      if (cell.mark == Mark::free) cells[move] = &cell;
+    };
+    for (std::size_t i = 0; i < 8; i += 2) open(i);
+    for (std::size_t i = 1; i < 8; i += 2)
+      if (free[i - 1] && free[(i + 1) % 8]) open(i);
+    for (std::size_t i = 0; i < 8; ++i)
+      if (cells[i]) use(i, *cells[i]);
+  }
+
+ private:
+  double cell_;
+  Vec2 origin_;
+  bool fits_ = false;
+  Place start_;
+  int columns_ = 0;
+  int rows_ = 0;
+  std::size_t tile_columns_ = 0;
+  std::vector<std::unique_ptr<std::array<Cell, side * side>>> tiles_;
+};
+
+/// Entry of the open list: minimum estimate first, then farthest from the start, then lower left.
+/// Estimates are integer multiples of 2⁻³⁰ cells, so that rounding does not distinguish paths of
+/// equal length across open space.
+struct OpenPlace {
+  std::int64_t estimate;
+  double cost;
+  Place place;
+  friend bool operator<(const OpenPlace& a, const OpenPlace& b) {
+    if (a.estimate != b.estimate) return a.estimate > b.estimate;
+    if (a.cost != b.cost) return a.cost < b.cost;
+    if (a.place.row != b.place.row) return a.place.row > b.place.row;
+    return a.place.column > b.place.column;
+  }
+};
+
+/// Plan of `search(params)` on ever finer grids, as GridParams tells. `search` says no_path of a
+/// grid without a path.
+template <class Params, class Search>
+Plan plan_on_grids(const Snapshot& world, Pose2 start, Vec2 goal, Params params, Rng& rng,
+                   const Stop& stop, Search&& search) {
+  PlanCounts before;
+  for (bool is_first = true;; is_first = false) {
+    Plan plan = search(params);
+    plan.counts += before;
+    if (plan.status != Status::no_path) return plan;
+    if (is_first) {
+      const ExactParams proof{.clearance = params.clearance,
+                              .goal_tolerance = params.goal_tolerance};
+      const Status status = microswarm::plan(world, start, goal, proof, rng, stop).status;
+      if (status != Status::solved) {
+        plan.status = status;
+        return plan;
+      }
+    }
+    const auto opened = plan.counts.iterations - before.iterations;
+    before = plan.counts;
+    params.max_nodes -= static_cast<int>(opened);
+    params.cell /= 2;
+    if (params.max_nodes > 0) continue;
+    plan.status = Status::node_limit;
+    return plan;
+  }
+}
+
+}  // namespace microswarm

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "microswarm/core/fields/fields.hpp"
+
+namespace microswarm {
+
+/// Parameters common to the planners on an 8-connected grid whose origin is the start. They cut no
+/// corners and check every edge with the clearance. If the grid has no path, its spacing is halved,
+/// until a path is found, `exact` proves that there is none, or the nodes run out. If the goal lies
+/// between cells, a tolerance below cell / √2 may contain no cell.
+struct GridParams {
+  double clearance = 40;
+  double goal_tolerance = 50;
+  double cell = 20;
+  int max_nodes = 4'000'000;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.clearance, {"clearance", Unit::um, {0, 1e6}, "Minimum distance to walls."});
+    visit(self.goal_tolerance,
+          {"goal_tolerance", Unit::um, {0, 1e6}, "Distance at which the goal counts as reached."});
+    visit(self.cell, {"cell", Unit::um, {1e-3, 1e6}, "Grid spacing to begin with."});
+    visit(self.max_nodes, {"max_nodes", Unit::none, {1, 1e8}, "Maximum number of opened cells."});
+  }
+};
+
+/// A*: the path is the shortest on its grid to any cell within the goal tolerance.
+struct AStarParams : GridParams {
+  static constexpr std::string_view type_name = "a_star";
+};
+
+/// Lazy Theta* (Nash, Koenig and Tovey 2010): the path takes any angle, from cell to cell, and is
+/// usually within some percent of the shortest.
+struct ThetaStarParams : GridParams {
+  static constexpr std::string_view type_name = "theta_star";
+};
+
+}  // namespace microswarm

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "microswarm/contracts/plan.hpp"
+#include "microswarm/planning/path/grid_params.hpp"
+
+namespace microswarm {
+
+/// Plans with Lazy Theta*; see planners.hpp for the common interface.
+Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const ThetaStarParams& params, Rng& rng,
+          const Stop& stop = {});
+
+}  // namespace microswarm

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/planning/path/fit_to_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include "microswarm/planning/path/planners.hpp"
+#include "microswarm/scenes/worlds.hpp"
+
+namespace microswarm {
+namespace {
+
+const IsGiven nothing = [](std::string_view) { return false; };
+
+/// Four rooms in a row, joined by doors on alternating sides; `unit` is a tenth of a room [µm].
+scenes::RawWorld rooms(double unit) {
+  scenes::RawWorld world;
+  world.bounds = {{0, 0}, {43 * unit, 10 * unit}};
+  for (int i = 0; i < 3; ++i) {
+    const double x = 11.0 * i + 10;
+    const double low = i % 2 == 0 ? 0.0 : 2.0, high = i % 2 == 0 ? 8.0 : 10.0;
+    world.walls.push_back(
+        scenes::rectangle({{x * unit, low * unit}, {(x + 1) * unit, high * unit}}));
+  }
+  return world;
+}
+
+template <class Params>
+Params fit(const Map& map, Params params = {}, const IsGiven& is_given = nothing) {
+  return std::get<Params>(fit_to_map(params, map, is_given));
+}
+
+TEST(FitToMap, LengthsGrowWithTheMapAndLimitsStay) {
+  const Snapshot one = rooms(30).snapshot(), ten = rooms(300).snapshot();
+  const DrrtStarParams a = fit<DrrtStarParams>(one.map()), b = fit<DrrtStarParams>(ten.map());
+  EXPECT_NEAR(b.step, 10 * a.step, 1e-6 * b.step);
+  EXPECT_NEAR(b.search_radius, 10 * a.search_radius, 1e-6 * b.search_radius);
+  EXPECT_NEAR(b.detection_diameter, 10 * a.detection_diameter, 1e-6 * b.detection_diameter);
+  EXPECT_NEAR(b.speed, 10 * a.speed, 1e-6 * b.speed);
+  EXPECT_EQ(a.turn_radius, b.turn_radius);
+  EXPECT_EQ(a.clearance, b.clearance);
+  EXPECT_NEAR(a.max_nodes, b.max_nodes, 1);
+  EXPECT_LE(b.goal_tolerance, DrrtStarParams{}.goal_tolerance);
+  EXPECT_LT(fit<RrtParams>(rooms(3).snapshot().map()).goal_tolerance, 10);
+}
+
+TEST(FitToMap, WhatIsGivenStays) {
+  const Snapshot big = rooms(3000).snapshot();
+  const IsGiven given = [](std::string_view key) {
+    return key == "step_um" || key == "max_iterations";
+  };
+  const auto fitted = fit<RrtStarParams>(big.map(), {}, given);
+  const RrtStarParams usual;
+  EXPECT_EQ(fitted.step, usual.step);
+  EXPECT_EQ(fitted.max_iterations, usual.max_iterations);
+  EXPECT_GT(fitted.search_radius, usual.search_radius);
+  EXPECT_GT(fitted.max_nodes, usual.max_nodes);  // more of these steps fill the map
+}
+
+TEST(FitToMap, AMapWithoutSpaceChangesNothing) {
+  scenes::RawWorld full = rooms(30);
+  full.walls = {scenes::rectangle({{-10, -10}, {1e4, 1e4}})};
+  EXPECT_EQ(fit<RrtParams>(full.snapshot().map()).step, RrtParams{}.step);
+}
+
+TEST(FitToMap, EveryPlannerCrossesMapsOfEverySize) {
+  const std::vector<PlannerParams> kinds{RrtParams{},    RrtStarParams{},   UniformRrtStarParams{},
+                                         AStarParams{},  ThetaStarParams{}, DrrtStarParams{},
+                                         FmtStarParams{}};
+  for (const double unit : {0.3, 30.0, 3000.0}) {
+    const Snapshot world = rooms(unit).snapshot();
+    for (PlannerParams params : kinds) {
+      std::visit([&](auto& p) { p.clearance = 0.2 * unit; }, params);
+      params = fit_to_map(params, world.map(),
+                          [](std::string_view key) { return key == "clearance_um"; });
+      Rng rng(1, Purpose::planner);
+      const Plan found = plan(world, {{unit, unit}, 0}, {42 * unit, unit}, params, rng);
+      EXPECT_EQ(found.status, Status::solved) << params.index() << " at " << unit;
+      EXPECT_LT(path_length(found), 100 * unit) << params.index();
+    }
+  }
+}
+
+TEST(FitToMap, TheLimitThatEndedASearchIsNamed) {
+  const RrtParams params;
+  EXPECT_EQ(limit_text(params, {.iterations = 20}), "planner.max_nodes is 5000");
+  EXPECT_EQ(limit_text(params, {.iterations = 100'000}), "planner.max_iterations is 100000");
+  AStarParams small;
+  small.max_nodes = 7;
+  EXPECT_EQ(limit_text(small, {.iterations = 7}), "planner.max_nodes is 7");
+}
+
+}  // namespace
+}  // namespace microswarm
