@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -66,6 +69,7 @@ class EdgeGrid {
   };
   /// Cells within a given distance of a segment, row by row.
   class Sweep;
+  class Seen;
   struct Found {
     double squared;
     std::size_t edge;
@@ -107,12 +111,47 @@ class EdgeGrid {
   std::vector<std::uint32_t> ids_;
 };
 
+/// Small set of edges, on the stack.
+class EdgeGrid::Seen {
+ public:
+  static constexpr std::size_t most = 512;
+
+  /// For at most `count` <= most edges.
+  explicit Seen(std::size_t count) : mask_(std::bit_ceil(2 * count + 1) - 1) {
+    std::fill_n(slots_.begin(), mask_ + 1, none);
+  }
+  /// Whether it is new.
+  bool insert(std::uint32_t edge) {
+    constexpr std::uint32_t mix = 0x9E3779B1;
+    for (std::size_t slot = ((edge * mix) >> 16) & mask_;; slot = (slot + 1) & mask_) {
+      if (slots_[slot] == edge) return false;
+      if (slots_[slot] != none) continue;
+      slots_[slot] = edge;
+      return true;
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t none = ~0u;
+  std::size_t mask_;
+  std::array<std::uint32_t, 4 * most> slots_;
+};
+
 template <class Visit>
 void EdgeGrid::for_each_in(const Box& box, Visit&& visit) const {
   if (empty() || !box.overlaps(box_)) return;
   const Run wanted{column_of(box.lo.x), column_of(box.hi.x)};
   const int first_row = row_of(box.lo.y);
   const int last_row = row_of(box.hi.y);
+  std::size_t count = 0;
+  for (int row = first_row; row <= last_row; ++row) count += edges_in(row, wanted).size();
+  if (count <= Seen::most) {
+    Seen seen(count);
+    for (int row = first_row; row <= last_row; ++row)
+      for (const std::uint32_t id : edges_in(row, wanted))
+        if (seen.insert(id)) visit(std::size_t{id});
+    return;
+  }
   for (int row = first_row; row <= last_row; ++row) {
     for (int column = wanted.first; column <= wanted.last; ++column) {
       for (const std::uint32_t id : edges_in(row, {column, column})) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/geometry/slab_area.hpp"
 
+#include <algorithm>
 #include <array>
+#include <numeric>
 #include <utility>
 
 #include "microswarm/core/maths/maths.hpp"
@@ -61,11 +63,15 @@ class Slabs {
         obstacles_(obstacles),
         events_(&memory),
         curves_(&memory),
+        waiting_(&memory),
+        active_(&memory),
         order_(&memory),
+        level_edges_(&memory),
         windings_(obstacles.size(), 0, &memory) {}
 
   double area() {
     find_curves();
+    find_level_edges();
     find_events();
     double sum = 0;
     for (std::size_t i = 1; i < events_.size(); ++i) sum += slab(events_[i - 1], events_[i]);
@@ -96,6 +102,9 @@ class Slabs {
             {std::min(e.a.x, e.b.x), std::max(e.a.x, e.b.x), e, {}, 0, e.b.x > e.a.x ? 1 : -1, i});
       }
     }
+    waiting_.resize(curves_.size());
+    std::iota(waiting_.begin(), waiting_.end(), 0u);
+    std::ranges::sort(waiting_, {}, [&](std::uint32_t i) { return curves_[i].first; });
   }
 
   void add_event(Vec2 p) {
@@ -177,24 +186,37 @@ class Slabs {
     events_.erase(std::unique(events_.begin(), events_.end()), events_.end());
   }
 
-  /// Winding number just above (x, 0), from the same edge heights as `order_`.
-  int winding_at(const NearObstacle& o, double x) const {
-    int winding = o.winding;
-    for (const Segment& e : o.edges) {
-      if ((e.a.y <= 0) == (e.b.y <= 0)) continue;
-      const bool spans = (e.a.x <= x) != (e.b.x <= x);
-      const bool is_left =
-          spans ? (height_at(e, x) <= 0) == (e.b.x > e.a.x) : (x < e.a.x) == (e.b.y > e.a.y);
-      winding += is_left - (orientation_beside(e.a, e.b, {}) > 0);
-    }
-    return winding;
+  /// Edge that crosses the height of the centre.
+  struct LevelEdge {
+    Segment edge;
+    std::uint32_t obstacle;
+    bool centre_is_left;
+  };
+
+  void find_level_edges() {
+    for (std::uint32_t i = 0; i < obstacles_.size(); ++i)
+      for (const Segment& e : obstacles_[i].edges)
+        if ((e.a.y <= 0) != (e.b.y <= 0))
+          level_edges_.push_back({e, i, orientation_beside(e.a, e.b, {}) > 0});
   }
 
+  /// Change of the winding number from the centre to just above (x, 0), from the same edge heights
+  /// as `order_`.
+  static int winding_change(const LevelEdge& level, double x) {
+    const Segment& e = level.edge;
+    const bool spans = (e.a.x <= x) != (e.b.x <= x);
+    const bool is_left =
+        spans ? (height_at(e, x) <= 0) == (e.b.x > e.a.x) : (x < e.a.x) == (e.b.y > e.a.y);
+    return is_left - level.centre_is_left;
+  }
+
+  /// Slabs come from left to right: curves wait, are active and are gone.
   void sort_curves(double x) {
+    for (; next_ < waiting_.size() && curves_[waiting_[next_]].first <= x; ++next_)
+      active_.push_back(waiting_[next_]);
+    std::erase_if(active_, [&](std::uint32_t i) { return x >= curves_[i].last; });
     order_.clear();
-    for (std::uint32_t i = 0; i < curves_.size(); ++i) {
-      if (curves_[i].first <= x && x < curves_[i].last) order_.push_back({curves_[i].y(x), i});
-    }
+    for (const std::uint32_t i : active_) order_.push_back({curves_[i].y(x), i});
     std::sort(order_.begin(), order_.end(), [](const Crossed& a, const Crossed& b) {
       return std::pair(a.y, a.curve) < std::pair(b.y, b.curve);
     });
@@ -202,9 +224,10 @@ class Slabs {
 
   /// Sets the winding numbers below all curves of `order_`.
   void start_windings(double x) {
-    for (std::size_t i = 0; i < obstacles_.size(); ++i) {
-      windings_[i] = obstacles_[i].is_disc ? 0 : winding_at(obstacles_[i], x);
-    }
+    for (std::size_t i = 0; i < obstacles_.size(); ++i)
+      windings_[i] = obstacles_[i].is_disc ? 0 : obstacles_[i].winding;
+    for (const LevelEdge& level : level_edges_)
+      windings_[level.obstacle] += winding_change(level, x);
     for (const Crossed& c : order_) {
       const Curve& curve = curves_[c.curve];
       if (c.y <= 0 && curve.bend == 0) windings_[curve.obstacle] -= curve.step;
@@ -240,7 +263,11 @@ class Slabs {
   std::span<const NearObstacle> obstacles_;
   std::pmr::vector<double> events_;
   std::pmr::vector<Curve> curves_;
+  std::pmr::vector<std::uint32_t> waiting_;  ///< curves by where they begin
+  std::size_t next_ = 0;                     ///< of them
+  std::pmr::vector<std::uint32_t> active_;   ///< in the present slab
   std::pmr::vector<Crossed> order_;
+  std::pmr::vector<LevelEdge> level_edges_;
   std::pmr::vector<int> windings_;
 };
 

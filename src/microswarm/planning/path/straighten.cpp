@@ -37,82 +37,106 @@ class Straightener {
 
   /// Replaces the path by the cheapest chain of free edges through `points`, which include the
   /// path's vertices.
-  void take_cheapest_chain(std::vector<Vec2>& path, std::vector<Vec2> points);
+  void take_cheapest_chain(std::vector<Vec2>& path, std::span<const Vec2> points);
 
  private:
-  /// Edge from point i to point j as the last of the cheapest chain ending with it. The turn into
-  /// an edge depends on the edge before it, so edges, not points, are the states.
+  /// Edge from point `from` to another as the last of the cheapest chain ending with it. The turn
+  /// into an edge depends on the edge before it, so edges, not points, are the states.
   struct Edge {
+    std::size_t from = 0;
     double heading = 0;
     double cost = infinity;
     std::size_t before = 0;  ///< start point of the previous edge
   };
+  /// A point, with what is left to the end: as the crow flies.
+  struct Point {
+    Vec2 place;
+    double length_left = 0;  ///< times its cost
+    double heading_left = 0;
+    std::size_t first_edge = 0;    ///< of those that end at it
+    double least_cost = infinity;  ///< of them
+  };
   static std::size_t first(std::size_t j) { return j > window ? j - window : 0; }
-  Edge& edge(std::size_t i, std::size_t j) { return edges_[j * window + i % window]; }
+  std::span<const Edge> edges_to(std::size_t i) const {
+    const std::size_t begin = points_[i].first_edge;
+    const std::size_t end = i + 1 < points_.size() ? points_[i + 1].first_edge : edges_.size();
+    return std::span(edges_).subspan(begin, end - begin);
+  }
+  const Edge& edge(std::size_t i, std::size_t j) const {
+    return *std::ranges::find(edges_to(j), i, &Edge::from);
+  }
 
-  void reach(std::size_t i, std::size_t j);
-  double min_cost_to_end(const Edge& e, Vec2 p) const;
+  void lay_out(std::span<const Vec2> points);
+  Edge reach(std::size_t i, std::size_t j, double known) const;
 
   const Snapshot& world_;
   double clearance_;
   double start_heading_;
   PathCost cost_;
   std::uint64_t& checks_;
-  std::vector<Vec2> points_;
-  std::vector<Edge> edges_;
+  std::vector<Point> points_;
+  std::vector<Edge> edges_;  ///< that are free and promising, by the point at which they end
 };
 
-/// Lower bound of the cost from `p` to the end: the straight line, and the turn from the edge's
-/// heading to it.
-double Straightener::min_cost_to_end(const Edge& e, Vec2 p) const {
-  const Vec2 way = points_.back() - p;
-  if (way == Vec2{}) return 0;
-  return cost_.per_length * norm(way) + cost_.per_turn * turn_between(e.heading, heading_of(way));
+void Straightener::lay_out(std::span<const Vec2> points) {
+  points_.clear();
+  edges_.clear();
+  for (const Vec2 p : points) {
+    const Vec2 way = points.back() - p;
+    points_.push_back({.place = p});
+    if (way == Vec2{}) continue;
+    points_.back().length_left = cost_.per_length * norm(way);
+    points_.back().heading_left = heading_of(way);
+  }
 }
 
-void Straightener::reach(std::size_t i, std::size_t j) {
-  Edge& to = edge(i, j);
-  const double length = cost_.per_length * distance(points_[i], points_[j]);
-  to = {heading_of(points_[j] - points_[i]), infinity, 0};
-  if (i == 0) {
-    to.cost = length + cost_.per_turn * turn_between(start_heading_, to.heading);
-    return;
-  }
-  for (std::size_t h = first(i); h < i; ++h) {
-    const Edge& from = edge(h, i);
+/// The edge, with infinite cost if no chain over it can cost as little as `known`.
+Straightener::Edge Straightener::reach(std::size_t i, std::size_t j, double known) const {
+  const Point &a = points_[i], &b = points_[j];
+  const double length = cost_.per_length * distance(a.place, b.place);
+  const double least = i == 0 ? length : a.least_cost + length;
+  if (!(least + b.length_left <= known)) return {};
+  Edge to{.from = i, .heading = heading_of(b.place - a.place)};
+  if (i == 0) to.cost = length + cost_.per_turn * turn_between(start_heading_, to.heading);
+  for (const Edge& from : edges_to(i)) {
     if (from.cost + length >= to.cost) continue;
     const double total =
         from.cost + length + cost_.per_turn * turn_between(from.heading, to.heading);
     if (total < to.cost) {
       to.cost = total;
-      to.before = h;
+      to.before = from.from;
     }
   }
+  // To the end it is at least the straight line, and the turn from the edge's heading to it.
+  const double left =
+      b.place == points_.back().place
+          ? 0
+          : b.length_left + cost_.per_turn * turn_between(to.heading, b.heading_left);
+  if (!(to.cost + left <= known)) to.cost = infinity;
+  return to;
 }
 
-void Straightener::take_cheapest_chain(std::vector<Vec2>& path, std::vector<Vec2> points) {
+void Straightener::take_cheapest_chain(std::vector<Vec2>& path, std::span<const Vec2> points) {
   const double known = cost(path) * (1 + rounding);
-  points_ = std::move(points);
-  edges_.assign(points_.size() * window, {});
+  lay_out(points);
   const std::size_t last = points_.size() - 1;
   for (std::size_t j = 1; j <= last; ++j) {
+    points_[j].first_edge = edges_.size();
     for (std::size_t i = first(j); i < j; ++i) {
-      if (points_[i] == points_[j]) continue;
-      reach(i, j);
-      Edge& e = edge(i, j);
-      const bool promising = e.cost < infinity && e.cost + min_cost_to_end(e, points_[j]) <= known;
-      if (!promising || !is_free(points_[i], points_[j])) e.cost = infinity;
+      if (points_[i].place == points_[j].place) continue;
+      const Edge e = reach(i, j, known);
+      if (e.cost == infinity || !is_free(points_[i].place, points_[j].place)) continue;
+      edges_.push_back(e);
+      points_[j].least_cost = std::min(points_[j].least_cost, e.cost);
     }
   }
-  std::size_t i = first(last);
-  for (std::size_t k = i; k < last; ++k) {
-    if (edge(k, last).cost < edge(i, last).cost) i = k;
-  }
-  if (edge(i, last).cost == infinity) return;
-  std::vector<Vec2> chain{points_[last]};
+  const auto best = std::ranges::min_element(edges_to(last), {}, &Edge::cost);
+  if (best == edges_to(last).end()) return;
+  std::vector<Vec2> chain{points_[last].place};
+  std::size_t i = best->from;
   for (std::size_t j = last; j != 0;) {
-    chain.push_back(points_[i]);
-    const std::size_t h = edge(i, j).before;
+    chain.push_back(points_[i].place);
+    const std::size_t h = i == 0 ? 0 : edge(i, j).before;
     j = i;
     i = h;
   }
@@ -138,7 +162,7 @@ void straighten(const Snapshot& world, double clearance, double start_heading, P
                 int rounds, std::vector<Vec2>& path, std::uint64_t& checks) {
   Straightener straightener(world, clearance, start_heading, cost, checks);
   for (int round = 0; round <= rounds && path.size() > 1; ++round) {
-    straightener.take_cheapest_chain(path, round == 0 ? path : divided(path));
+    straightener.take_cheapest_chain(path, round == 0 ? std::vector(path) : divided(path));
   }
 }
 

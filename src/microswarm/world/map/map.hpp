@@ -55,6 +55,7 @@ class Map {
   bool is_free_exactly(Vec2 p, double r) const;
   double clearance_beyond(Vec2 p, double lower) const;
   double useful_clearance(Vec2 p, double lower, double r, double length) const;
+  bool passes_a_wall(Segment s, double length, double least) const;
   bool piece_is_free(Segment s, double from_a, double from_b, double r, int halvings) const;
 
   struct KeptCorners;
