@@ -58,7 +58,7 @@ std::vector<BenchRow> one_world(const char* name, const std::filesystem::path& f
            .ours = 1e3 * mine.mean,
            .peer = 1e3 * theirs.mean,
            .peer_name = whom,
-           .aim = 0.5},
+           .aim = 0.05},
           {.name = title,
            .quantity = "time, p99",
            .unit = "ms",
@@ -71,7 +71,7 @@ std::vector<BenchRow> one_world(const char* name, const std::filesystem::path& f
            .ours = 1e3 * mine.max,
            .peer = 1e3 * theirs.max,
            .peer_name = whom,
-           .aim = 2}};
+           .aim = 0.3}};
 }
 
 }  // namespace

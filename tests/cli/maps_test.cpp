@@ -96,8 +96,8 @@ TEST_F(Maps, PlanInPictures) {
 }
 
 TEST_F(Maps, EveryPlanner) {
-  for (const std::string planner :
-       {"drrt_star", "rrt_star", "uniform_rrt_star", "rrt", "a_star", "theta_star", "fmt_star"}) {
+  for (const std::string planner : {"drrt_star", "rrt_star", "uniform_rrt_star", "rrt",
+                                    "rrt_connect", "a_star", "theta_star", "fmt_star"}) {
     const Json plan = Json::parse(
         good({"plan", "room.pgm", "--um-per-px", "10", "--start", "100,300", "--goal", "500,300",
               "--set", "planner.type=" + planner, "--set", "planner.clearance_um=30", "--json"}));
@@ -108,7 +108,7 @@ TEST_F(Maps, EveryPlanner) {
   refused({"plan", "room.pgm", "--um-per-px", "10", "--start", "100,300", "--goal", "500,300",
            "--set", "planner.type=rrt**"},
           naming("--set planner.type", {"rrt**", "drrt_star", "rrt_star", "uniform_rrt_star", "rrt",
-                                        "a_star", "theta_star", "fmt_star"}));
+                                        "rrt_connect", "a_star", "theta_star", "fmt_star"}));
 }
 
 /// A vessel of 8 px that forks.

@@ -35,7 +35,7 @@ Params small(double tolerance = 30) {
   Params params;
   params.clearance = 10;
   params.goal_tolerance = tolerance;
-  if constexpr (std::is_base_of_v<TreeParams, Params>) {
+  if constexpr (requires { params.max_iterations; }) {
     params.max_nodes = 600;
     params.max_iterations = 2000;
   }
@@ -279,7 +279,7 @@ PlannerParams endless(PlannerParams params) {
         if constexpr (requires { p.max_iterations; }) {
           p.max_iterations = 100'000'000;
           p.max_nodes = 10'000'000;
-          p.stop_at_first = false;
+          if constexpr (requires { p.stop_at_first; }) p.stop_at_first = false;
         } else if constexpr (requires { p.samples; }) {
           p.samples = 10'000'000;
           p.max_nodes = 10'000'000;
@@ -334,6 +334,7 @@ std::vector<Case> cases() {
       {"AStar", small<AStarParams>(), 0xbbb6ea61a7b7c14d},
       {"ThetaStar", small<ThetaStarParams>(), 0x37b7fd5264e480e6},
       {"Rrt", small<RrtParams>(), 0xf74c8abec189f922},
+      {"RrtConnect", small<RrtConnectParams>(), 0x66145b0900477dcd},
       {"RrtStar", small<RrtStarParams>(), 0xd25316c5a33d98bc},
       {"RrtStarGrown", grown<RrtStarParams>(), 0xd80bf708bf2299f3},
       {"UniformRrtStar", small<UniformRrtStarParams>(), 0xcceb0429de52032e},

@@ -148,7 +148,7 @@ void add_plan(Command app, Action& action) {
   Command cmd = app.add_command(
       "plan",
       "Plan a path on a map: the shortest one, or with drrt_star, rrt_star, uniform_rrt_star, rrt, "
-      "a_star, theta_star or fmt_star. What is not set follows from the map",
+      "rrt_connect, a_star, theta_star or fmt_star. What is not set follows from the map",
       "plan map.png --um-per-px 5 --start 200,700,-90 --goal 1750,300 \\\n"
       "      --set planner.type=a_star --set planner.clearance_um=40 --picture path.svg");
   cmd.add_option("map", o->map, "Picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles")

@@ -28,7 +28,7 @@ double nodes_for(const Map& map, double step) {
 
 template <class Params>
 double step_of(const Params& params, double scale, const IsGiven& is_given) {
-  if constexpr (std::is_base_of_v<TreeParams, Params>)
+  if constexpr (requires { params.step; })
     return is_given("step_um") ? params.step : scale * params.step;
   return scale * TreeParams{}.step;
 }

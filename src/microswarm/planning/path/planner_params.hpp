@@ -12,7 +12,8 @@
 namespace microswarm {
 
 /// Any planner, selected at run time by its `type`; the first unless told otherwise.
-using PlannerParams = std::variant<ExactParams, DrrtStarParams, RrtStarParams, UniformRrtStarParams,
-                                   RrtParams, AStarParams, ThetaStarParams, FmtStarParams>;
+using PlannerParams =
+    std::variant<ExactParams, DrrtStarParams, RrtStarParams, UniformRrtStarParams, RrtParams,
+                 RrtConnectParams, AStarParams, ThetaStarParams, FmtStarParams>;
 
 }  // namespace microswarm

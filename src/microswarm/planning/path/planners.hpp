@@ -8,6 +8,7 @@
 #include "microswarm/planning/path/fmt_star.hpp"
 #include "microswarm/planning/path/planner_params.hpp"
 #include "microswarm/planning/path/rrt.hpp"
+#include "microswarm/planning/path/rrt_connect.hpp"
 #include "microswarm/planning/path/rrt_star.hpp"
 #include "microswarm/planning/path/theta_star.hpp"
 

@@ -38,6 +38,28 @@ struct RrtParams : TreeParams {
   static constexpr std::string_view type_name = "rrt";
 };
 
+/// RRT-Connect (Kuffner & LaValle): trees from the start and from the goal that grow towards each
+/// other. The first path they meet on, which is not a short one.
+struct RrtConnectParams {
+  static constexpr std::string_view type_name = "rrt_connect";
+  double clearance = 40;
+  double goal_tolerance = 50;
+  double step = 80;
+  int max_nodes = 5000;
+  int max_iterations = 100'000;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.clearance, {"clearance", Unit::um, {0, 1e6}, "Minimum distance to obstacles."});
+    visit(
+        self.goal_tolerance,
+        {"goal_tolerance", Unit::um, {1e-3, 1e6}, "Distance at which the goal counts as reached."});
+    visit(self.step, {"step", Unit::um, {1e-3, 1e6}, "Base length of one extension."});
+    visit(self.max_nodes, {"max_nodes", Unit::none, {1, 1e7}, "Maximum number of nodes."});
+    visit(self.max_iterations,
+          {"max_iterations", Unit::none, {1, 1e8}, "Maximum number of iterations."});
+  }
+};
+
 /// RRT* (Karaman & Frazzoli): chooses parents and rewires within a radius, by length.
 struct RrtStarParams : TreeParams {
   static constexpr std::string_view type_name = "rrt_star";
