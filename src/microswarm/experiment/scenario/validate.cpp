@@ -8,6 +8,7 @@
 #include "microswarm/experiment/scenario/validate_radar.hpp"
 #include "microswarm/experiment/scenario/validate_robots.hpp"
 #include "microswarm/navigation/steering/aim.hpp"
+#include "microswarm/planning/exact/shortest_paths.hpp"
 #include "microswarm/world/connectivity/passage.hpp"
 
 namespace microswarm {
@@ -31,6 +32,11 @@ std::string goal_text(const std::string& why, const Scenario& scenario) {
                      aim_share * scenario.goal_tolerance);
 }
 
+/// Whether a path with the clearance exists; that there is none is proven.
+bool leads_to(const Map& map, Vec2 start, Vec2 goal, double clearance) {
+  return ShortestPaths(map, clearance).find(start, goal).status == Status::solved;
+}
+
 // The navigator may require more clearance than the swarm needs.
 Issues validate_margin(const Scenario& scenario, const World& world) {
   Issues issues;
@@ -43,10 +49,10 @@ Issues validate_margin(const Scenario& scenario, const World& world) {
                          scenario));
     return issues;
   }
-  const WidestPath way = widest_path(*world.map, scenario.start->position, *target, margin);
   // A start closer to a wall is allowed: the navigator leads away from it.
   const double needed = std::min(margin, world.map->clearance(scenario.start->position));
-  if (way.clearance + 1.5 * way.resolution >= needed) return issues;
+  if (leads_to(*world.map, scenario.start->position, *target, needed)) return issues;
+  const WidestPath way = widest_path(*world.map, scenario.start->position, *target, margin);
   const std::string left = way.found
                                ? fmt::format(": about {:.3g} µm are left at ({:.4g}, {:.4g}) µm",
                                              way.clearance, way.tightest.x, way.tightest.y)
@@ -85,13 +91,12 @@ Issues validate_body(const Scenario& scenario, const World& world) {
 
 Issues validate_path(const Map& map, Vec2 start, Vec2 goal, double radius) {
   Issues issues;
+  if (leads_to(map, start, goal, radius)) return issues;
   const WidestPath way = widest_path(map, start, goal, radius);
   if (!way.found && !connected(map, start, goal)) {
     issues.add("goal_um", "goal is cut off from the start by walls");
     return issues;
   }
-  // Accept a path that the search may have missed because of its resolution.
-  if (way.clearance + 1.5 * way.resolution >= radius) return issues;
   issues.add({"swarm.radius_um", "swarm", "goal_um"},
              fmt::format("swarm is {:.4g} µm wide, wider than every passage to the goal: the "
                          "widest is about {:.3g} µm, at ({:.4g}, {:.4g}) µm",
