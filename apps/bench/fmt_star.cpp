@@ -58,6 +58,13 @@ std::vector<BenchRow> fmt_star(const std::filesystem::path& scenarios, bool quic
   row("time, median", "ms", median(ms), median(their_ms), 2.0);
   row("time, p99", "ms", quantile(ms, 0.99), quantile(their_ms, 0.99), std::nullopt);
   row("length, median", "µm", median(lengths), median(their_lengths), std::nullopt);
+  Rng rng(1, Purpose::planner);
+  const ExactParams exact{.clearance = ours.clearance, .goal_tolerance = ours.goal_tolerance};
+  const double shortest = path_length(plan(world, *s.start, *s.goal, exact, rng));
+  rows.push_back({.name = "FMT*, S-channel, first path",
+                  .quantity = "length beside the shortest to the goal, median",
+                  .unit = "",
+                  .ours = median(lengths) / shortest});
   return rows;
 }
 

@@ -184,6 +184,7 @@ TEST(ShortestPaths, WhatWasKeptChangesNoBit) {
       EXPECT_EQ(path.length, anew.length);
       EXPECT_EQ(path.points, anew.points);
       EXPECT_EQ(path.expanded, anew.expanded);
+      EXPECT_EQ(path.lines, anew.lines);
       solved += path.status == Status::solved;
     }
   }

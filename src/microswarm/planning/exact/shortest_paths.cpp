@@ -17,7 +17,7 @@ constexpr std::uint8_t often = 8;  // visits of a circle by queries
 }  // namespace
 
 ShortestPaths::ShortestPaths(const Map& map, double clearance)
-    : map_(map), corners_(map.corners()), clearance_(clearance) {
+    : map_(&map), corners_(map.corners()), clearance_(clearance) {
   const Box& box = map.bounds();
   margin_ = std::max(1e-7 * clearance, 1e-10 * std::max(box.width(), box.height()));
   circles_.reserve(corners_.all().size());
@@ -25,6 +25,7 @@ ShortestPaths::ShortestPaths(const Map& map, double clearance)
   wheels_.resize(2 * circles_.size());
   seen_.resize(circles_.size(), 0);
   starts_seen_.resize(circles_.size(), 0);
+  bytes_ = circles_.size() * (sizeof(Circle) + 2 * sizeof(Wheel));
 }
 
 ShortestPaths::Circle ShortestPaths::circle_of(const Corner& corner) const {
@@ -37,20 +38,33 @@ ShortestPaths::Circle ShortestPaths::circle_of(const Corner& corner) const {
            .is_disc = corner.is_disc}};
 }
 
-/// Finds the tangents of a circle.
-void ShortestPaths::know(std::uint32_t corner) {
-  circles_[corner].is_known = true;
+/// Finds the corners that a corner sees.
+void ShortestPaths::look_around(std::uint32_t corner) {
+  Circle& circle = circles_[corner];
+  circle.has_looked = true;
   ++look_;
   corners_.seen_from_corner(corner, [&](std::uint32_t other) {
     if (other == corner || seen_[other] == look_) return;
     seen_[other] = look_;
-    for (std::uint32_t k = 0; k < 2; ++k)
-      for (std::uint32_t l = 0; l < 2; ++l) add_hop(2 * corner + k, 2 * other + l);
+    circle.sees.push_back(other);
   });
-  for (std::uint32_t k = 0; k < 2; ++k)
-    std::ranges::sort(wheels_[2 * corner + k].hops, [&](const Hop& a, const Hop& b) {
-      return a.leave != b.leave ? sense(k) * a.leave < sense(k) * b.leave : a.to < b.to;
-    });
+  bytes_ += circle.sees.capacity() * sizeof(std::uint32_t);
+}
+
+/// Finds the tangents of a wheel.
+void ShortestPaths::know(std::uint32_t wheel) {
+  Circle& circle = circles_[wheel / 2];
+  if (!circle.has_looked) look_around(wheel / 2);
+  Wheel& at = wheels_[wheel];
+  at.is_known = true;
+  for (const std::uint32_t other : circle.sees)
+    for (std::uint32_t to = 2 * other; to < 2 * other + 2; ++to) add_hop(wheel, to);
+  bytes_ += at.hops.capacity() * sizeof(Hop);
+  std::ranges::sort(at.hops, [turn = sense(wheel)](const Hop& a, const Hop& b) {
+    return a.leave != b.leave ? turn * a.leave < turn * b.leave : a.to < b.to;
+  });
+  if (wheels_[wheel ^ 1].is_known) circle.sees = {};
+  if (circle.visits >= often) settle(wheel);
 }
 
 /// Adds the tangent of two wheels if there is one that leaves from a free place.
@@ -75,15 +89,13 @@ bool ShortestPaths::test(std::uint32_t from, Hop& hop) {
   const int arc = still_arc_at(there, hop.arrive);
   if (arc < 0) return false;
   hop.arrive_arc = static_cast<std::uint16_t>(arc);
-  ++checks_;
-  if (map_.is_free(segment(touch(from, hop.line), hop.line), clearance_)) hop.walls = Walls::free;
+  if (map_->is_free(segment(touch(from, hop.line), hop.line), clearance_)) hop.walls = Walls::free;
   return hop.walls == Walls::free;
 }
 
-/// Tests all hops of a circle and forgets the blocked ones.
-void ShortestPaths::settle(std::uint32_t corner) {
-  for (std::uint32_t k = 2 * corner; k < 2 * corner + 2; ++k)
-    std::erase_if(wheels_[k].hops, [&](Hop& hop) { return !test(k, hop); });
+/// Tests all hops of a wheel and forgets the blocked ones.
+void ShortestPaths::settle(std::uint32_t wheel) {
+  std::erase_if(wheels_[wheel].hops, [&](Hop& hop) { return !test(wheel, hop); });
 }
 
 /// Number of the arc free of walls that holds this place; −1 if none does.
@@ -104,7 +116,7 @@ int ShortestPaths::arc_at(Circle& circle, double at) {
 ShortestPaths::ArcRange ShortestPaths::cut(const Circle& circle, const BodySet* moving,
                                            std::vector<Arc>& arcs) const {
   const std::size_t first = arcs.size();
-  add_free_arcs(circle, map_, moving, clearance_, margin_, arcs);
+  add_free_arcs(circle, *map_, moving, clearance_, margin_, arcs);
   return {static_cast<std::uint32_t>(first), static_cast<std::uint16_t>(arcs.size() - first)};
 }
 
@@ -139,13 +151,12 @@ void ShortestPaths::begin(Vec2 start, Vec2 goal, const BodySet& moving) {
   goal_ = goal;
   moving_ = moving.empty() ? nullptr : &moving;
   ++query_;
-  checks_ = 0;
   arcs_now_.clear();
   guesses_.clear();
   labels_.clear();
   open_.clear();
   moving_corners_.clear();
-  for (const Body& body : moving.bodies()) add_corners(body, map_.bounds(), moving_corners_);
+  for (const Body& body : moving.bodies()) add_corners(body, map_->bounds(), moving_corners_);
   circles_.resize(still_count());
   for (const Corner& corner : moving_corners_) circles_.push_back(circle_of(corner));
   wheels_.resize(2 * circles_.size());
@@ -210,11 +221,11 @@ void ShortestPaths::expand(const Label& label, std::uint32_t number) {
 /// Opens the kept hops.
 void ShortestPaths::expand_hops(const Label& label, std::uint32_t number) {
   Circle& circle = circles_[label.wheel / 2];
-  const std::uint32_t corner = label.wheel / 2;
-  if (!circle.is_known) know(corner);
+  if (!wheels_[label.wheel].is_known) know(label.wheel);
   const bool is_first =  // of this query at this circle: none of its hops is open
       label.next == none && wheel(label.wheel ^ 1).first_label == none;
-  if (is_first && circle.visits < often && ++circle.visits == often) settle(corner);
+  if (is_first && circle.visits < often && ++circle.visits == often)
+    for (const std::uint32_t either : {label.wheel, label.wheel ^ 1}) settle(either);
   const bool is_near = is_near_moving(circle);
   const double turn = sense(label.wheel);
   std::vector<Hop>& hops = wheels_[label.wheel].hops;
@@ -268,7 +279,7 @@ ShortestPath ShortestPaths::find(Vec2 start, Vec2 goal, const BodySet& moving, c
     path.status = Status::solved;
     path.length = distance(start, goal);
     path.points = {start, goal};
-    path.checks = checks_;
+    path.lines = 1;
     return path;
   }
   open_from_start();
@@ -305,7 +316,7 @@ ShortestPath ShortestPaths::find(Vec2 start, Vec2 goal, const BodySet& moving, c
     expand(label, number);
   }
   if (path.status != Status::solved) path.points = near_goal();
-  path.checks = checks_;
+  path.lines = labels_.size();
   return path;
 }
 
@@ -353,7 +364,6 @@ bool ShortestPaths::take(const Open& open, Label& label) {
     label.arc = hop.arrive_arc;
     if (!moving_) return true;
     if (is_near_moving(circles_[hop.to / 2]) && !arrive(label)) return false;
-    ++checks_;
     return moving_->is_free(segment(label.from, label.line), clearance_);
   }
   const Guess& guess = guesses_[open.line];
@@ -376,9 +386,8 @@ bool ShortestPaths::arrive(Label& label) {
   return arc >= 0;
 }
 
-bool ShortestPaths::is_free(Segment s) {
-  ++checks_;
-  return map_.is_free(s, clearance_) && (!moving_ || moving_->is_free(s, clearance_));
+bool ShortestPaths::is_free(Segment s) const {
+  return map_->is_free(s, clearance_) && (!moving_ || moving_->is_free(s, clearance_));
 }
 
 /// The path to the end of a label.

@@ -15,10 +15,10 @@ namespace microswarm {
 /// A shortest path, or why there is none and a path that ends near the goal.
 struct ShortestPath {
   Status status = Status::no_path;
-  double length = 0;         ///< of straight lines and true arcs, once solved [µm]
-  std::vector<Vec2> points;  ///< [µm]; arcs are replaced by lines around them, with clearance
-  std::uint64_t expanded = 0;
-  std::uint64_t checks = 0;  ///< of tangents
+  double length = 0;           ///< of straight lines and true arcs, once solved [µm]
+  std::vector<Vec2> points;    ///< [µm]; arcs are replaced by lines around them, with clearance
+  std::uint64_t expanded = 0;  ///< circles gone around, as often as they were
+  std::uint64_t lines = 0;     ///< free ones that were taken
 };
 
 /// Exact shortest paths of a disc in a map, for one clearance, also among moving bodies at their
@@ -39,6 +39,10 @@ class ShortestPaths {
   ShortestPath find(Vec2 start, Vec2 goal, const Stop& stop = {}) {
     return find(start, goal, {}, stop);
   }
+  /// Continues with a copy of the map.
+  void use(const Map& map) { map_ = &map; }
+  /// About what is kept at most [B].
+  std::size_t bytes() const { return bytes_; }
 
  private:
   static constexpr std::uint32_t none = ~0u;
@@ -71,6 +75,7 @@ class ShortestPaths {
   /// A circle around a corner, gone around counter-clockwise (even number) or clockwise.
   struct Wheel {
     std::vector<Hop> hops;             ///< as one comes by them, from where the cone begins
+    bool is_known = false;             ///< its hops
     std::uint32_t query = 0;           ///< of the following
     std::uint32_t first_label = none;  ///< expanded at it
   };
@@ -84,11 +89,12 @@ class ShortestPaths {
   };
   /// A circle, and what is known of it.
   struct Circle : TurningCircle {
+    std::vector<std::uint32_t> sees;  ///< other corners, once found
+    bool has_looked = false;
     ArcRange arcs;            ///< among the walls
     ArcRange arcs_now;        ///< among the walls and the moving bodies
     std::uint32_t query = 0;  ///< of the following
     bool is_near = false;     ///< to a moving body, so that arcs_now holds
-    bool is_known = false;    ///< its hops
     std::uint8_t visits = 0;  ///< by queries, until its hops are settled
     bool is_cut = false;      ///< into its free arcs
   };
@@ -131,10 +137,11 @@ class ShortestPaths {
   static Vec2 end_of(const Label& label) { return segment(label.from, label.line).b; }
   std::uint32_t still_count() const { return static_cast<std::uint32_t>(seen_.size()); }
   Circle circle_of(const Corner& corner) const;
-  void know(std::uint32_t corner);
+  void look_around(std::uint32_t corner);
+  void know(std::uint32_t wheel);
   void add_hop(std::uint32_t from, std::uint32_t to);
   bool test(std::uint32_t from, Hop& hop);
-  void settle(std::uint32_t corner);
+  void settle(std::uint32_t wheel);
   ArcRange cut(const Circle& circle, const BodySet* moving, std::vector<Arc>& arcs) const;
   int still_arc_at(Circle& circle, double at);
   int arc_at(Circle& circle, double at);
@@ -155,7 +162,7 @@ class ShortestPaths {
   void guess_both(const Label& label, std::uint32_t number, std::uint32_t corner);
   bool take(const Open& open, Label& label);
   bool arrive(Label& label);
-  bool is_free(Segment s);
+  bool is_free(Segment s) const;
   bool is_dominated(const Label& label);
   Wheel& wheel(std::uint32_t number);
   std::vector<Vec2> near_goal();
@@ -166,7 +173,7 @@ class ShortestPaths {
                 std::vector<Vec2>& points) const;
   void push(const Open& open);
 
-  const Map& map_;
+  const Map* map_;
   const Corners& corners_;
   double clearance_;
   double margin_;
@@ -175,6 +182,7 @@ class ShortestPaths {
   std::vector<Arc> arcs_;
   std::vector<std::uint32_t> seen_;  ///< of each corner: the look around in which it was seen
   std::uint32_t look_ = 0;
+  std::size_t bytes_ = 0;
   std::vector<std::uint32_t>
       starts_seen_;  ///< of each corner: the query in which its start line was opened
   Trapezoids::Look from_start_;
@@ -188,7 +196,6 @@ class ShortestPaths {
   std::vector<Guess> guesses_;
   std::vector<Label> labels_;
   std::vector<Open> open_;
-  std::uint64_t checks_ = 0;
 };
 
 }  // namespace microswarm

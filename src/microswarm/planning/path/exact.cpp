@@ -1,10 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/planning/path/exact.hpp"
 
+#include <memory>
+#include <utility>
+
 #include "microswarm/planning/common/free_goal.hpp"
 #include "microswarm/planning/exact/shortest_paths.hpp"
+#include "microswarm/world/map/kept_work.hpp"
 
 namespace microswarm {
+namespace {
+
+/// The shortest path, with the tangents of former queries.
+ShortestPath find_kept(const Snapshot& world, double clearance, Vec2 start, Vec2 goal,
+                       const Stop& stop) {
+  constexpr std::size_t most_bytes = 256u << 20;
+  const Map& map = world.map();
+  auto paths = map.kept().take<ShortestPaths>(clearance);
+  if (paths)
+    paths->use(map);
+  else
+    paths = std::make_unique<ShortestPaths>(map, clearance);
+  ShortestPath found = paths->find(start, goal, world.moving(), stop);
+  if (paths->bytes() <= most_bytes) map.kept().keep(clearance, std::move(paths));
+  return found;
+}
+
+}  // namespace
 
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const ExactParams& params, Rng&,
           const Stop& stop) {
@@ -19,13 +41,12 @@ Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const ExactParams& para
     return made;
   }
   const Vec2 target = *free_goal(world, goal, params.goal_tolerance, params.clearance);
-  ShortestPaths paths(world.map(), params.clearance);
-  ShortestPath found = paths.find(start.position, target, world.moving(), stop);
+  ShortestPath found = find_kept(world, params.clearance, start.position, target, stop);
   made.status = found.status;
   if (found.status == Status::solved) made.arc_length = found.length;
   made.path = std::move(found.points);
   made.counts.iterations = found.expanded;
-  made.counts.edge_checks = found.checks;
+  made.counts.edge_checks = found.lines;
   // A free place next to a blocked goal can be behind its wall.
   if (made.status == Status::no_path && distance(made.path.back(), goal) <= params.goal_tolerance)
     made.status = Status::solved;

@@ -12,6 +12,7 @@
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/core/text/text.hpp"
 #include "microswarm/world/map/corners.hpp"
+#include "microswarm/world/map/kept_work.hpp"
 #include "microswarm/world/map/pieces.hpp"
 
 namespace microswarm {
@@ -48,16 +49,17 @@ void check(const std::vector<Disc>& discs) {
 
 }  // namespace
 
-struct Map::KeptCorners {
+struct Map::Derived {
   std::once_flag found;
   std::optional<Corners> corners;
+  KeptWork kept;
 };
 
-Map::Map() : corners_(std::make_shared<KeptCorners>()) {}
+Map::Map() : derived_(std::make_shared<Derived>()) {}
 
 Map::Map(const Box& bounds, std::vector<Polygon> walls, const std::vector<Disc>& discs,
          double field_cell)
-    : bounds_(bounds), corners_(std::make_shared<KeptCorners>()) {
+    : bounds_(bounds), derived_(std::make_shared<Derived>()) {
   check(bounds);
   check(walls);
   check(discs);
@@ -146,9 +148,10 @@ bool Map::piece_is_free(Segment s, double from_a, double from_b, double r, int h
 }
 
 const Corners& Map::corners() const {
-  KeptCorners& kept = *corners_;
-  std::call_once(kept.found, [&] { kept.corners.emplace(walls_, bounds_); });
-  return *kept.corners;
+  std::call_once(derived_->found, [&] { derived_->corners.emplace(walls_, bounds_); });
+  return *derived_->corners;
 }
+
+KeptWork& Map::kept() const { return derived_->kept; }
 
 }  // namespace microswarm

@@ -10,6 +10,7 @@
 namespace microswarm {
 
 class Corners;
+class KeptWork;
 
 /// Static part of a world: a bounded workspace and its wall pieces. The border counts as a wall.
 /// Free means clearance >= r and clearance > 0, for walls and border alike, so for r = 0 a point on
@@ -29,6 +30,8 @@ class Map {
   const ClearanceField& field() const { return field_; }
   /// Where shortest paths can bend. Found by the first call, about 1 µs a corner, and kept.
   const Corners& corners() const;
+  /// What algorithms keep for further queries on this map and its copies.
+  KeptWork& kept() const;
   /// Number of connected wall pieces.
   int pieces() const { return pieces_; }
 
@@ -58,12 +61,12 @@ class Map {
   bool passes_a_wall(Segment s, double length, double least) const;
   bool piece_is_free(Segment s, double from_a, double from_b, double r, int halvings) const;
 
-  struct KeptCorners;
+  struct Derived;
 
   Box bounds_;
   BodySet walls_;
   ClearanceField field_;
-  std::shared_ptr<KeptCorners> corners_;  ///< of all copies
+  std::shared_ptr<Derived> derived_;  ///< of all copies
   int pieces_ = 0;
 };
 
