@@ -10,7 +10,7 @@ namespace {
 
 /// Counts those that live.
 struct Work {
-  explicit Work(int* living) : living(living) { ++*living; }
+  explicit Work(int* count) : living(count) { ++*living; }
   Work(const Work&) = delete;
   Work& operator=(const Work&) = delete;
   ~Work() { --*living; }
