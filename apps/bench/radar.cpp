@@ -71,9 +71,14 @@ std::vector<double> times(const std::vector<Place>& all, int rounds, const Stop&
   return microseconds;
 }
 
+/// Times of a decision to be met [µs].
+struct Aims {
+  std::optional<double> p50, p99;
+};
+
 /// Rows of a radar decision, as published or with the safety filter.
 void add_rows(std::vector<BenchRow>& rows, const std::string& name, int obstacles, bool discs,
-              bool guarded, std::optional<double> aim, bool quick, const Stop& stop) {
+              bool guarded, Aims aims, bool quick, const Stop& stop) {
   Rng rng(1, Purpose::scene);
   const std::vector<Place> all = places(obstacles, discs, quick ? 100 : 400, rng);
   const SwarmLimits swarm{.radius = swarm_radius,
@@ -112,19 +117,19 @@ void add_rows(std::vector<BenchRow>& rows, const std::string& name, int obstacle
                     .ours = quantile(ours, q) + 0 * sum,
                     .peer = quantile(naive, q),
                     .peer_name = "every direction against every obstacle",
-                    .aim = aim});
+                    .aim = q < 0.6 ? aims.p50 : aims.p99});
 }
 
 }  // namespace
 
 std::vector<BenchRow> radar(bool quick, const Stop& stop) {
   std::vector<BenchRow> rows;
-  add_rows(rows, "360 directions, 12 discs", 12, true, false, 5, quick, stop);
-  add_rows(rows, "360 directions, 1000 discs", 1000, true, false, 100, quick, stop);
-  add_rows(rows, "360 directions, 12 boxes", 12, false, false, std::nullopt, quick, stop);
-  add_rows(rows, "360 directions, 1000 boxes", 1000, false, false, std::nullopt, quick, stop);
-  add_rows(rows, "12 discs, guarded", 12, true, true, 5, quick, stop);
-  add_rows(rows, "1000 discs, guarded", 1000, true, true, 100, quick, stop);
+  add_rows(rows, "360 directions, 12 discs", 12, true, false, {5, 5}, quick, stop);
+  add_rows(rows, "360 directions, 1000 discs", 1000, true, false, {100, 100}, quick, stop);
+  add_rows(rows, "360 directions, 12 boxes", 12, false, false, {}, quick, stop);
+  add_rows(rows, "360 directions, 1000 boxes", 1000, false, false, {}, quick, stop);
+  add_rows(rows, "12 discs, guarded", 12, true, true, {5, 50}, quick, stop);
+  add_rows(rows, "1000 discs, guarded", 1000, true, true, {100, 100}, quick, stop);
   return rows;
 }
 

@@ -6,6 +6,7 @@
 #include "microswarm/core/maths/rng.hpp"
 #include "microswarm/scenes/worlds.hpp"
 #include "microswarm/swarm/body/unicycle.hpp"
+#include "plain_safety_filter.hpp"
 
 namespace microswarm {
 namespace {
@@ -139,6 +140,87 @@ TEST(SafetyFilter, AnyDriverIsSafeAmongAFewThatGoStraight) {
     });
     ASSERT_GT(d.min_gap, 0) << trial;
   }
+}
+
+/// Solids of every kind that turn as they move, often into the swarm.
+std::vector<Body> crowd(int kinds, double t, Rng rng) {
+  std::vector<Body> bodies;
+  const int count = 4 + static_cast<int>(rng.below(6));
+  for (int i = 0; i < count; ++i) {
+    const Vec2 from{rng.uniform(1500, 2500), rng.uniform(1500, 2500)};
+    const double speed = rng.uniform(0, 1.5) * guard_speed;
+    const Vec2 at = from + t * speed * unit_vector(rng.uniform(-pi, pi));
+    const double turn = rng.uniform(-1, 1) * t;
+    Body body{.shape = Disc{at, rng.uniform(30, 100)}, .obstacle = static_cast<std::uint32_t>(i)};
+    if (kinds > 1 && i % 2 == 0) body.shape = scenes::turned_rectangle(at, 250, 80, turn);
+    if (kinds > 2 && i % 3 == 0) {  // an angle, which the swarm may be within the hull of
+      Polygon angle{{{-150, -150}, {150, -150}, {150, -80}, {-80, -80}, {-80, 150}, {-150, 150}},
+                    {}};
+      for (Vec2& v : angle.outer) v = at + rotated(v, turn);
+      body.shape = angle;
+    }
+    bodies.push_back(body);
+  }
+  return bodies;
+}
+
+/// Tunings whose ways turn between two instants, at them, and at a first or last one.
+std::vector<SafetyFilterParams> various_filters() {
+  std::vector<SafetyFilterParams> all(4);
+  all[1].step = 0.13;
+  all[1].directions = 17;
+  all[1].commitment = 0;
+  all[2].horizon = 2;
+  all[2].step = 0.5;
+  all[2].tuning.turn_times = {0.1, 0.5, 2, 3};
+  all[2].tuning.gap_tolerance = 0;
+  all[3].gap = 60;
+  all[3].tuning.counted_gap = 20;
+  all[3].tuning.min_escapes = 12;
+  return all;
+}
+
+bool same_bits(const std::optional<Command>& a, const std::optional<Command>& b) {
+  return a.has_value() == b.has_value() &&
+         (!a || (a->heading == b->heading && a->speed == b->speed));
+}
+
+TEST(SafetyFilter, DecidesAsThePlainOne) {
+  const auto walled = std::make_shared<const Map>(
+      Box{{1400, 1400}, {2600, 2600}},
+      std::vector<Polygon>{scenes::turned_rectangle({1900, 2100}, 300, 60, 0.4)});
+  int overruled = 0;
+  int held = 0;
+  for (int trial = 0; trial < 24; ++trial) {
+    Rng rng(static_cast<std::uint64_t>(trial), Purpose::test);
+    const SafetyFilterParams params = various_filters()[static_cast<std::size_t>(trial % 4)];
+    SafetyFilter fast(params, guard_speed);
+    PlainSafetyFilter plain(params, guard_speed);
+    Pose2 pose{{2000, 2000}, 0};
+    for (int k = 0; k < 12; ++k) {
+      const double t = 0.15 * k;
+      const Snapshot world(trial % 2 == 0 ? walled : open_ground(), t,
+                           crowd(1 + trial % 3, t, Rng(99, Purpose::scene, trial)));
+      const Observation seen{.now = t,
+                             .seen = t,
+                             .swarm = SwarmPose{pose, guard_radius},
+                             .robots = {},
+                             .world = borrowed(world)};
+      fast.update(seen);
+      plain.update(seen);
+      const Command wanted{rng.uniform(-pi, pi), rng.uniform(0, 1.2 * guard_speed)};
+      const EscapeStart start{pose.position, guard_radius, t + 0.1};
+      const auto instead = fast.filter(wanted, start, world, guard_tick);
+      ASSERT_TRUE(same_bits(instead, plain.filter(wanted, start, world, guard_tick)))
+          << trial << ", tick " << k;
+      overruled += instead ? 1 : 0;
+      held += instead && instead->speed == 0 ? 1 : 0;
+      pose = unicycle_step(pose, instead.value_or(wanted), std::numeric_limits<double>::infinity(),
+                           0.15);
+    }
+  }
+  EXPECT_GT(overruled, 100);
+  EXPECT_GT(held, 5);
 }
 
 }  // namespace

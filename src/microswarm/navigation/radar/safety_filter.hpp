@@ -7,8 +7,10 @@
 
 #include "microswarm/contracts/command.hpp"
 #include "microswarm/contracts/observation.hpp"
-#include "microswarm/navigation/prediction/convex_outline.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker.hpp"
+#include "microswarm/navigation/radar/escape_fan.hpp"
+#include "microswarm/navigation/radar/escape_search.hpp"
+#include "microswarm/navigation/radar/foresight.hpp"
 #include "microswarm/navigation/radar/safety_filter_params.hpp"
 
 namespace microswarm {
@@ -17,12 +19,7 @@ namespace microswarm {
 /// once it has seen the obstacles.
 class SafetyFilter {
  public:
-  /// A swarm as it will be when a command takes effect.
-  struct Start {
-    Vec2 place;         ///< [µm]
-    double radius = 0;  ///< [µm]
-    double time = 0;    ///< [s]
-  };
+  using Start = EscapeStart;
 
   /// `speed` is that of a way out [µm/s].
   SafetyFilter(const SafetyFilterParams& params, double speed);
@@ -39,22 +36,9 @@ class SafetyFilter {
                                 double tick);
 
  private:
-  /// Two velocities, the second from `until` on [s].
-  struct Way {
-    Vec2 first;
-    double until = 0;
-    Vec2 second;
-    Vec2 at(double t) const;
-  };
-  struct Outcome {
-    double until_contact = 0;    ///< [s]
-    double least = 0, last = 0;  ///< gap on the way and at its end, as far as more is better [µm]
-    double worth() const { return least + last; }
-    bool is_better_than(const Outcome& other, double tolerance) const;
-  };
   /// The way last ordered, as long as it is needed.
   struct Committed {
-    Way way;
+    EscapeWay way;
     double time = 0;  ///< [s]
   };
   /// What may be commanded instead, by how far it is from what is wanted.
@@ -65,48 +49,22 @@ class SafetyFilter {
       return a.turn != b.turn ? a.turn < b.turn : a.command.heading < b.command.heading;
     }
   };
-  /// A body that may be met.
-  struct Threat {
-    ConvexOutline outline;  ///< at the start
-    Vec2 velocity;
-    double widening = 0;  ///< of its outline [µm/s]
-    double speed = 0;     ///< of its outline, at most [µm/s]
-  };
 
-  void look_at_bodies(const Start& start, const Snapshot& world);
-  double gap(Vec2 p, double t, double limit, double error_rate) const;
-  template <class Visit>
-  bool follow(const Way& way, Visit&& visit) const;
-  bool is_free(const Map& map, const Way& way) const;
-  /// Incomplete once it is known to be free for less than `min_time` [s].
-  Outcome outcome(const Map& map, const Way& way, double min_time) const;
-  std::optional<Command> checked(const Command& wanted, const Map& map, double lasting);
-  bool has_escapes(const Map& map, Vec2 begin, double lasting, int count);
-  std::optional<Command> nearest_safe(const Map& map, const Command& wanted, double lasting);
-  Command best_manoeuvre(const Map& map);
+  std::optional<Command> checked(const Command& wanted, double lasting);
+  std::optional<Command> nearest_safe(const Command& wanted, double lasting);
+  Command best_manoeuvre();
 
   SafetyFilterParams params_;
   double speed_;
-  int samples_;  ///< of a way
   ObstacleTracker tracker_;
-  std::vector<Vec2> velocities_;  ///< hold first
-  std::size_t last_ = 0;          ///< which of them was a way out last time
+  Foresight seen_;
+  EscapeFan escapes_;  ///< hold first
 
   std::optional<Committed> committed_;
   std::optional<double> course_;  ///< the heading last driven [rad]
   double waited_ = 0;             ///< told to hold, since what was wanted was last safe [s]
   std::vector<Choice> choices_;
-  Start start_;
-  double wall_keep_ = 0;
-  double gap_now_ = 0;  ///< at the start, at most the margin [µm]
-  ConvexOutliner outliner_;
-  std::vector<Threat> threats_;
-  std::size_t bodies_ = 0;  ///< how many of threats_
-  std::vector<Body> nonconvex_bodies_;
-  /// Bodies that the swarm is within the hull of: as they stand when the command takes effect,
-  /// since their parts move apart from one another.
-  BodySet nonconvex_;
-  double closing_ = 0;  ///< how fast those near the swarm come nearer [µm/s]
+  std::vector<EscapeSearch::Trace> begun_;
 };
 
 }  // namespace microswarm

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/navigation/radar/foresight.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace microswarm {
+namespace {
+
+constexpr double clearance_rounding = 1e-6;  // [µm]
+constexpr double reach_rounding = 1e-9;      // relative
+constexpr double asked_beyond = 1;           // of the required gap [µm]
+
+}  // namespace
+
+Foresight::Foresight(const SafetyFilterParams& params, double speed)
+    : params_(params),
+      speed_(speed),
+      samples_(static_cast<int>(std::ceil(params.horizon / params.step))),
+      outliner_(params.tuning.outline) {}
+
+// What is farther cannot come near within the horizon unless it is much faster than the swarm.
+double Foresight::range() const {
+  return 3 * speed_ * (params_.horizon + params_.tuning.max_dead_time);
+}
+
+double Foresight::max_limit() const {
+  return std::max(params_.gap + asked_beyond, params_.tuning.counted_gap);
+}
+
+void Foresight::look(const EscapeStart& start, const Snapshot& world,
+                     const ObstacleTracker& tracker, double top_speed) {
+  start_ = start;
+  world_ = &world;
+  seen_ = tracker.seen();
+  top_speed_ = top_speed;
+  near_.clear();
+  samples_seen_.clear();
+  scheduled_ = 0;
+  if (threats_.size() < tracker.size()) threats_.resize(tracker.size());
+  find_threats(tracker);
+  if (empty()) return;
+  gap_now_ = gap(start.place, foresee(0), params_.gap, Error::none);
+  look_at_walls(top_speed);
+  for (int s = 1; s <= samples_; ++s) samples_seen_.push_back(foresee(s * params_.step));
+}
+
+void Foresight::find_threats(const ObstacleTracker& tracker) {
+  bodies_ = 0;
+  nonconvex_bodies_.clear();
+  closing_ = 0;
+  const auto bodies = world_->moving().bodies();
+  const double ahead = start_.time - seen_;
+  for (std::size_t i = 0; i < bodies.size() && i < tracker.size(); ++i) {
+    const Disc extent = extent_of(bodies[i]);
+    const double far = distance(extent.centre, start_.place) - extent.radius - start_.radius;
+    if (far > range()) continue;
+    const TrackedBody motion = tracker.body(i);
+    const double widening = outward_speed(bodies[i], motion);
+    const double closing = speed_ + norm(motion.velocity) + params_.gap_rate;
+    if (far >
+        params_.gap + closing * (params_.horizon + ahead) + widening * params_.tuning.growth_time)
+      continue;
+    Threat& met = threats_[bodies_];
+    outliner_.take(bodies[i], met.outline);
+    if (outliner_.misleads(met.outline, std::array{start_.place})) {
+      nonconvex_bodies_.push_back(bodies[i]);
+      const Disc reach{start_.place, start_.radius + speed_ * (params_.tuning.max_dead_time +
+                                                               params_.tuning.growth_time)};
+      closing_ = std::max(
+          closing_, tracker.outline_speed_within(i, bodies[i], reach) + norm(motion.velocity));
+      continue;
+    }
+    met.velocity = motion.velocity;
+    met.widening = widening;
+    met.speed = widening + norm(motion.velocity);
+    met.outline.centre = motion.centre_after(ahead);
+    ++bodies_;
+  }
+  nonconvex_.assign(nonconvex_bodies_);
+}
+
+void Foresight::look_at_walls(double top_speed) {
+  const double clearance = world_->map().clearance(start_.place);
+  wall_keep_ = std::clamp(clearance - clearance_rounding, 0.0, start_.radius + params_.wall_gap);
+  const double room = clearance - wall_keep_ - 2 * clearance_rounding;
+  walls_from_ = room > 0 ? room / (top_speed * (1 + reach_rounding)) : 0;
+}
+
+/// How long outlines have grown by `t` seconds after the start [s].
+double Foresight::grown_for(double t) const {
+  return std::min(params_.tuning.growth_time, start_.time - seen_ + t);
+}
+
+Foresight::Instant Foresight::foresee(double t) {
+  Instant out{.t = t,
+              .required = std::min(params_.gap, gap_now_ + params_.tuning.recovery_rate * t),
+              .first = static_cast<std::uint32_t>(near_.size()),
+              .last = 0};
+  const double reach = top_speed_ * t + max_limit();
+  for (std::size_t k = 0; k < bodies_; ++k) {
+    const Threat& met = threats_[k];
+    const double touch = start_.radius + met.widening * grown_for(t);
+    const double error = std::min(params_.gap_rate, met.speed) * t;
+    const Vec2 centre = met.outline.centre + t * met.velocity;
+    const double far = met.outline.radius + (touch + error) + reach;
+    if (squared_norm(start_.place - centre) > far * far * (1 + reach_rounding) && far >= 0)
+      continue;
+    near_.push_back({centre, {touch, touch + error}, &met.outline});
+  }
+  out.last = static_cast<std::uint32_t>(near_.size());
+  return out;
+}
+
+const Foresight::Schedule& Foresight::schedule(double until) {
+  const auto end = schedules_.begin() + static_cast<std::ptrdiff_t>(scheduled_);
+  const auto known =
+      std::find_if(schedules_.begin(), end, [&](const Schedule& s) { return s.until == until; });
+  if (known != end) return *known;
+  if (scheduled_ == schedules_.size()) schedules_.emplace_back();
+  Schedule& fresh = schedules_[scheduled_++];
+  fresh.until = until;
+  fresh.instants.clear();
+  for (const Instant& i : samples_seen_) {
+    if (i.t - params_.step < until && until < i.t) fresh.instants.push_back(foresee(until));
+    fresh.instants.push_back(i);
+  }
+  fresh.shared =
+      static_cast<std::size_t>(std::find_if(fresh.instants.begin(), fresh.instants.end(),
+                                            [&](const Instant& i) { return i.t > until; }) -
+                               fresh.instants.begin());
+  return fresh;
+}
+
+double Foresight::gap(Vec2 p, const Instant& at, double limit, Error error) const {
+  double least = limit;
+  for (const Near& met : near(at)) {
+    const double touch = met.touch[static_cast<std::size_t>(error)];
+    const Vec2 off = p - met.centre;
+    const double far = met.outline->radius + touch + least;
+    if (squared_norm(off) < far * far)
+      least = std::min(least, met.outline->distance_at(off) - touch);
+  }
+  if (nonconvex_.empty()) return least;
+  const double error_rate = error == Error::none ? 0 : params_.gap_rate;
+  const double moved = closing_ * std::min(params_.tuning.growth_time, start_.time - seen_);
+  const double touch = start_.radius + moved + std::min(error_rate, closing_) * at.t;
+  return std::min(least, nonconvex_.clearance(p, touch + limit) - touch);
+}
+
+bool Foresight::is_clear(Vec2 p, const Instant& at) const {
+  return !(gap(p, at, at.required + asked_beyond, Error::bounded) < at.required);
+}
+
+}  // namespace microswarm
