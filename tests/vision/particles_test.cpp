@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "microswarm/core/errors/error.hpp"
@@ -127,6 +129,70 @@ TEST(Particles, SamePictureSameBits) {
 
 TEST(Particles, NoiseAsWideAsAParticleIsRefused) {
   EXPECT_THROW(ParticleFinder({.diameter = 5, .noise = 5}), InputError);
+}
+
+/// A picture of random greys.
+Image random_picture(int width, int height, Rng& rng) {
+  Image image{width, height, 1, {}};
+  for (int i = 0; i < width * height; ++i)
+    image.pixels.push_back(static_cast<std::uint8_t>(rng.below(256)));
+  return image;
+}
+
+TEST(RoundWindow, SumsAreThoseOfEachPixel) {
+  Rng rng(5, Purpose::test);
+  for (const int radius : {0, 1, 5, 15, 16, 40}) {
+    const int side = 2 * radius + 1 + RoundWindow::read_beyond;
+    const Image image = random_picture(side, 2 * radius + 2, rng);
+    RoundWindow::Moments expected;
+    for (int dy = -radius; dy <= radius; ++dy)
+      for (int dx = -radius; dx <= radius; ++dx) {
+        if (dx * dx + dy * dy > radius * radius) continue;
+        const int value = image.pixels[image.index(radius + dx, radius + dy)];
+        expected.mass += value;
+        expected.along_x += value * dx;
+        expected.along_y += value * dy;
+      }
+    const auto seen =
+        RoundWindow(radius).moments(image.pixels.data() + image.index(radius, radius), side);
+    EXPECT_EQ(seen.mass, expected.mass) << radius;
+    EXPECT_EQ(seen.along_x, expected.along_x) << radius;
+    EXPECT_EQ(seen.along_y, expected.along_y) << radius;
+  }
+}
+
+// By the definition, pixel by pixel; the Gaussian within rounding, the ground in whole greys.
+TEST(BandPass, IsSmoothMinusGround) {
+  Rng rng(6, Purpose::test);
+  for (const int box : {3, 11, 31}) {
+    const Image image = random_picture(57, 38, rng);
+    const auto grey = [&](int x, int y) {
+      return static_cast<int>(image.pixels[image.index(std::clamp(x, 0, image.width - 1),
+                                                       std::clamp(y, 0, image.height - 1))]);
+    };
+    BandPass pass({.noise_px = 1, .box_px = box, .min_foreground = 1, .dark_rises = false});
+    const std::vector<float>& rise = pass.filter(image);
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) {
+        double smooth = 0;
+        double weights = 0;
+        for (int dy = -4; dy <= 4; ++dy)
+          for (int dx = -4; dx <= 4; ++dx) {
+            const double weight = std::exp(-0.5 * (dx * dx + dy * dy));
+            smooth += weight * grey(x + dx, y + dy);
+            weights += weight;
+          }
+        int ground = 0;
+        for (int dx = -(box / 2); dx <= box / 2; ++dx) {
+          int column = 0;
+          for (int dy = -(box / 2); dy <= box / 2; ++dy) column += grey(x + dx, y + dy);
+          ground += column / box;
+        }
+        const double expected = smooth / weights - ground / box;
+        if (std::abs(expected - 1) < 1e-3) continue;  // either side of the least difference
+        ASSERT_NEAR(rise[image.index(x, y)], expected < 1 ? 0 : expected, 1e-3) << x << ' ' << y;
+      }
+  }
 }
 
 TEST(HighestAround, IsThatOfEachWindow) {

@@ -28,10 +28,10 @@ std::vector<float> bell(double spread, int reach) {
   return weights;
 }
 
-/// out = Σ weight · (before + after), elementwise; the neighbours at distance i are `stride` · i
-/// away.
-MICROSWARM_EACH_CPU void add_up(const float* middle, std::ptrdiff_t stride, const float* weights,
-                                int reach, int count, float* out) {
+}  // namespace
+
+MICROSWARM_EACH_CPU void weigh_neighbours(const float* middle, std::ptrdiff_t stride,
+                                          const float* weights, int reach, int count, float* out) {
   constexpr int block = 32;  // values whose sums stay in registers
   int x = 0;
   for (; x + block <= count; x += block) {
@@ -52,8 +52,6 @@ MICROSWARM_EACH_CPU void add_up(const float* middle, std::ptrdiff_t stride, cons
   }
 }
 
-}  // namespace
-
 cv::Mat blurred(const cv::Mat& floats, double spread, int reach, int border) {
   assert(floats.type() == CV_32F && spread > 0);
   if (reach <= 0) reach = std::max(1, cvRound(ends_at * spread));
@@ -64,8 +62,9 @@ cv::Mat blurred(const cv::Mat& floats, double spread, int reach, int border) {
   std::vector<float> row(static_cast<std::size_t>(wide.cols));
   cv::Mat out(floats.size(), CV_32F);
   for (int y = 0; y < out.rows; ++y) {
-    add_up(wide.ptr<float>(y + reach), stride, weights.data(), reach, wide.cols, row.data());
-    add_up(row.data() + reach, 1, weights.data(), reach, out.cols, out.ptr<float>(y));
+    weigh_neighbours(wide.ptr<float>(y + reach), stride, weights.data(), reach, wide.cols,
+                     row.data());
+    weigh_neighbours(row.data() + reach, 1, weights.data(), reach, out.cols, out.ptr<float>(y));
   }
   return out;
 }

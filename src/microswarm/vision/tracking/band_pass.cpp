@@ -7,6 +7,7 @@
 
 #include "microswarm/core/execution/each_cpu.hpp"
 #include "microswarm/core/maths/maths.hpp"
+#include "microswarm/vision/image/blur.hpp"
 
 namespace microswarm {
 namespace {
@@ -39,6 +40,26 @@ void extend(std::vector<T>& row, int margin, int width) {
   std::fill_n(row.begin() + margin + width, margin, row[margin + width - 1]);
 }
 
+MICROSWARM_EACH_CPU void convert(const std::uint8_t* in, int count, float* out) {
+  for (int x = 0; x < count; ++x) out[x] = static_cast<float>(in[x]);
+}
+
+/// Sums of `box` successive values, from the binary digits of `box`: `values`, count + box - 1 of
+/// them, are replaced by sums of 2, 4, 8, … of them.
+MICROSWARM_EACH_CPU void sum_boxes(std::int32_t* values, int count, int box, std::int32_t* out) {
+  std::fill_n(out, count, 0);
+  const int all = count + box - 1;
+  for (int length = 1, summed = 0; length <= box; length *= 2) {
+    if (box & length) {
+      const std::int32_t* next = values + summed;
+      for (int x = 0; x < count; ++x) out[x] += next[x];
+      summed += length;
+    }
+    if (2 * length > box) return;
+    for (int x = 0; x + 2 * length <= all; ++x) values[x] += values[x + length];
+  }
+}
+
 /// Integer part of (offset + sign · in) / by. The sums are far below 2^22, so adding one half to
 /// the numerator makes the truncated float product exact.
 MICROSWARM_EACH_CPU void divide(const std::int32_t* in, int count, std::int32_t sign,
@@ -46,6 +67,21 @@ MICROSWARM_EACH_CPU void divide(const std::int32_t* in, int count, std::int32_t 
   const float share = 1.0F / static_cast<float>(by);
   for (int x = 0; x < count; ++x)
     out[x] = static_cast<std::int32_t>((static_cast<float>(offset + sign * in[x]) + 0.5F) * share);
+}
+
+/// Adds the row that enters the box to the column sums and subtracts the one that leaves it.
+MICROSWARM_EACH_CPU void move_down(const std::uint8_t* enters, const std::uint8_t* leaves,
+                                   int count, std::int32_t* sums) {
+  for (int x = 0; x < count; ++x) sums[x] += enters[x] - leaves[x];
+}
+
+/// What rises from the ground by at least `least`; else 0.
+MICROSWARM_EACH_CPU void subtract(const std::int32_t* ground, int count, float top, float sign,
+                                  float least, float* out) {
+  for (int x = 0; x < count; ++x) {
+    const float rise = top + sign * out[x] - static_cast<float>(ground[x]);
+    out[x] = rise >= least ? rise : 0.0F;
+  }
 }
 
 }  // namespace
@@ -70,6 +106,8 @@ void BandPass::begin(const Image& grey) {
   const int reach = static_cast<int>(taps_.size()) - 1;
   const int half = params_.box_px / 2;
   const auto width = static_cast<std::size_t>(grey.width);
+  rows_.resize(2 * static_cast<std::size_t>(2 * reach + 1) * width);
+  for (int row = -reach; row < reach; ++row) take_row(grey, row);
   smoothed_.resize(width + 2 * reach);
   column_sums_.assign(width, 0);
   column_means_.resize(width + 2 * half);
@@ -81,53 +119,43 @@ void BandPass::begin(const Image& grey) {
   }
 }
 
-MICROSWARM_EACH_CPU void BandPass::smooth_down(const Image& grey, int row) {
+/// The row as numbers, in the place of one that is needed no more, and once more behind all of
+/// them: so those around a row are always in order.
+void BandPass::take_row(const Image& grey, int row) {
+  const auto width = static_cast<std::size_t>(grey.width);
+  const int rows = 2 * static_cast<int>(taps_.size()) - 1;
+  float* place = rows_.data() + static_cast<std::size_t>((row + rows) % rows) * width;
+  convert(row_of(grey, row), grey.width, place);
+  std::copy_n(place, width, place + static_cast<std::size_t>(rows) * width);
+}
+
+void BandPass::smooth_down(const Image& grey, int row) {
   const int reach = static_cast<int>(taps_.size()) - 1;
-  float* out = smoothed_.data() + reach;
-  const std::uint8_t* middle = row_of(grey, row);
-  for (int x = 0; x < grey.width; ++x) out[x] = taps_[0] * static_cast<float>(middle[x]);
-  for (int i = 1; i <= reach; ++i) {
-    const float tap = taps_[i];
-    const std::uint8_t* above = row_of(grey, row - i);
-    const std::uint8_t* below = row_of(grey, row + i);
-    for (int x = 0; x < grey.width; ++x) out[x] += tap * static_cast<float>(above[x] + below[x]);
-  }
+  const int rows = 2 * reach + 1;
+  take_row(grey, row + reach);
+  const int middle = (row + reach + 1) % rows + reach;  // that around which the oldest is first
+  weigh_neighbours(rows_.data() + static_cast<std::size_t>(middle) * grey.width, grey.width,
+                   taps_.data(), reach, grey.width, smoothed_.data() + reach);
   extend(smoothed_, reach, grey.width);
 }
 
-MICROSWARM_EACH_CPU void BandPass::find_ground(const Image& grey, int row) {
+void BandPass::find_ground(const Image& grey, int row) {
   const int half = params_.box_px / 2;
-  const std::uint8_t* enters = row_of(grey, row + half);
-  const std::uint8_t* leaves = row_of(grey, row - half - 1);
-  std::int32_t* sums = column_sums_.data();
-  for (int x = 0; x < grey.width; ++x) sums[x] += enters[x] - leaves[x];
-  const std::int32_t top = params_.dark_rises ? 255 * params_.box_px : 0;
-  const std::int32_t sign = params_.dark_rises ? -1 : 1;
-  std::int32_t* means = column_means_.data();
-  divide(sums, grey.width, sign, top, params_.box_px, means + half);
+  move_down(row_of(grey, row + half), row_of(grey, row - half - 1), grey.width,
+            column_sums_.data());
+  divide(column_sums_.data(), grey.width, params_.dark_rises ? -1 : 1,
+         params_.dark_rises ? 255 * params_.box_px : 0, params_.box_px,
+         column_means_.data() + half);
   extend(column_means_, half, grey.width);
-  std::int32_t* ground = ground_.data();
-  std::int32_t sum = 0;
-  for (int i = 0; i < params_.box_px; ++i) sum += means[i];
-  ground[0] = sum;
-  const std::int32_t* next = means + params_.box_px;
-  for (int x = 1; x < grey.width; ++x) ground[x] = sum += next[x - 1] - means[x - 1];
-  divide(ground, grey.width, 1, 0, params_.box_px, ground);
+  sum_boxes(column_means_.data(), grey.width, params_.box_px, ground_.data());
+  divide(ground_.data(), grey.width, 1, 0, params_.box_px, ground_.data());
 }
 
-MICROSWARM_EACH_CPU void BandPass::write_row(int width, float* out) const {
+void BandPass::write_row(int width, float* out) const {
   const int reach = static_cast<int>(taps_.size()) - 1;
-  const float* in = smoothed_.data() + reach;
-  for (int x = 0; x < width; ++x) out[x] = taps_[0] * in[x];
-  for (int i = 1; i <= reach; ++i)
-    for (int x = 0; x < width; ++x) out[x] += taps_[i] * (in[x - i] + in[x + i]);
-  const float top = params_.dark_rises ? 255.0F : 0.0F;
-  const float sign = params_.dark_rises ? -1.0F : 1.0F;
-  const float least = static_cast<float>(params_.min_foreground);
-  for (int x = 0; x < width; ++x) {
-    const float rise = top + sign * out[x] - static_cast<float>(ground_[x]);
-    out[x] = rise >= least ? rise : 0.0F;
-  }
+  weigh_neighbours(smoothed_.data() + reach, 1, taps_.data(), reach, width, out);
+  subtract(ground_.data(), width, params_.dark_rises ? 255.0F : 0.0F,
+           params_.dark_rises ? -1.0F : 1.0F, static_cast<float>(params_.min_foreground), out);
 }
 
 }  // namespace microswarm

@@ -34,13 +34,15 @@ class BandPass {
 
  private:
   void begin(const Image& grey);
+  void take_row(const Image& grey, int row);
   void smooth_down(const Image& grey, int row);
   void find_ground(const Image& grey, int row);
   void write_row(int width, float* out) const;
 
   BandPassParams params_;
-  std::vector<float> taps_;                 ///< Gaussian weights from the middle outwards
-  std::vector<float> smoothed_;             ///< a row after the vertical pass, with margins
+  std::vector<float> taps_;      ///< Gaussian weights from the middle outwards
+  std::vector<float> rows_;      ///< of the picture, those that the Gaussian reaches, twice
+  std::vector<float> smoothed_;  ///< a row after the vertical pass, with margins
   std::vector<std::int32_t> column_sums_;   ///< sums over the rows in the box
   std::vector<std::int32_t> column_means_;  ///< with margins
   std::vector<std::int32_t> ground_;        ///< background of each pixel of a row

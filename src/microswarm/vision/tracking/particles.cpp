@@ -51,6 +51,24 @@ MICROSWARM_EACH_CPU void scale_down(std::span<const float> values, float scale,
     bytes[i] = static_cast<std::uint8_t>(static_cast<int>(scale * values[i]));
 }
 
+/// Number of values that are at most `limit`.
+MICROSWARM_EACH_CPU std::size_t count_up_to(std::span<const std::uint8_t> values,
+                                            std::uint8_t limit) {
+  constexpr std::size_t lanes = 64;
+  constexpr std::size_t most = 255;  // that a lane can count
+  std::size_t count = 0;
+  std::size_t i = 0;
+  while (i + lanes <= values.size()) {
+    std::uint8_t counts[lanes] = {};
+    for (std::size_t n = 0; n < most && i + lanes <= values.size(); ++n, i += lanes)
+      for (std::size_t k = 0; k < lanes; ++k)
+        counts[k] = static_cast<std::uint8_t>(counts[k] + (values[i + k] <= limit ? 1 : 0));
+    for (const std::uint8_t n : counts) count += n;
+  }
+  for (; i < values.size(); ++i) count += values[i] <= limit ? 1 : 0;
+  return count;
+}
+
 /// Whether any of `count` values is above the threshold and equals the maximum around it.
 MICROSWARM_EACH_CPU bool has_peak(const std::uint8_t* values, const std::uint8_t* highest,
                                   std::uint8_t threshold, int count) {
@@ -66,7 +84,8 @@ ParticleFinder::ParticleFinder(const ParticleParams& params)
     : params_(params),
       radius_(odd(params.diameter) / 2),
       separation_(params.separation > 0 ? params.separation : odd(params.diameter) + 1),
-      band_pass_(band_of(params)) {
+      band_pass_(band_of(params)),
+      window_(radius_) {
   for (int dy = -radius_; dy <= radius_; ++dy)
     for (int dx = -radius_; dx <= radius_; ++dx) {
       if (dx * dx + dy * dy > radius_ * radius_) continue;
@@ -82,9 +101,8 @@ const std::vector<Particle>& ParticleFinder::find(const Image& grey) {
   scale_to_bytes(band_pass_.filter(grey));
   find_peaks();
   particles_.clear();
-  for (const Peak& peak : peaks_) particles_.push_back(refine(peak));
-  drop_close();
-  std::erase_if(particles_, [&](const Particle& p) { return p.mass <= params_.min_mass; });
+  for (Peak& peak : peaks_) particles_.push_back(refine(peak));
+  keep_apart();
   if (params_.shape == ParticleShape::ring) fit_rings(grey);
   return particles_;
 }
@@ -93,22 +111,28 @@ void ParticleFinder::scale_to_bytes(const std::vector<float>& rise) {
   const float highest = highest_of(rise);
   const float scale = highest > 0 ? 255.0F / highest : 0.0F;
   greys_per_byte_ = highest / 255.0;
-  bytes_.resize(rise.size());
+  bytes_.resize(rise.size() + RoundWindow::read_beyond);
   scale_down(rise, scale, bytes_.data());
 }
 
+// Bisects for the least value up to which there are enough.
 int ParticleFinder::peak_threshold() const {
-  std::array<std::array<int, 256>, 4> counts{};  // four, so that equal neighbours do not stall
-  for (std::size_t i = 0; i < bytes_.size(); ++i) ++counts[i % 4][bytes_[i]];
-  std::array<int, 256> count{};
-  for (const auto& part : counts)
-    for (std::size_t v = 1; v < count.size(); ++v) count[v] += part[v];
-  const double above = std::accumulate(count.begin(), count.end(), 0.0);
+  const std::span<const std::uint8_t> pixels{bytes_.data(),
+                                             static_cast<std::size_t>(width_) * height_};
+  const std::size_t zeros = count_up_to(pixels, 0);
+  const double above = static_cast<double>(pixels.size() - zeros);
   const double rank = params_.percentile / 100 * (above - 1);
-  double sum = 0;
-  for (int v = 0; v < 256; ++v)
-    if ((sum += count[v]) > rank) return v;
-  return 255;
+  int low = 0;
+  int high = 255;
+  while (low < high) {
+    const int middle = (low + high) / 2;
+    const std::size_t count = count_up_to(pixels, static_cast<std::uint8_t>(middle)) - zeros;
+    if (static_cast<double>(count) > rank)
+      high = middle;
+    else
+      low = middle + 1;
+  }
+  return high;
 }
 
 void ParticleFinder::find_peaks() {
@@ -131,37 +155,29 @@ void ParticleFinder::find_peaks() {
   }
 }
 
-Particle ParticleFinder::refine(Peak at) const {
+Particle ParticleFinder::refine(Peak& at) const {
   Particle particle;
   for (int move = 0;; ++move) {
-    const std::uint8_t* middle =
-        bytes_.data() + static_cast<std::size_t>(at.row) * width_ + at.column;
-    int mass = 0;
-    int along_x = 0;
-    int along_y = 0;
-    for (const MaskPixel& m : mask_) {
-      const int value = middle[m.offset(width_)];
-      mass += value;
-      along_x += value * m.dx;
-      along_y += value * m.dy;
-    }
-    const Vec2 off{static_cast<double>(along_x) / mass, static_cast<double>(along_y) / mass};
+    const auto [mass, along_x, along_y] = window_.moments(
+        bytes_.data() + static_cast<std::size_t>(at.row) * width_ + at.column, width_);
+    const auto total = static_cast<double>(mass);
+    const Vec2 off{static_cast<double>(along_x) / total, static_cast<double>(along_y) / total};
     particle.at_px = Vec2{static_cast<double>(at.column), static_cast<double>(at.row)} + off;
+    particle.mass = greys_per_byte_ * total;
     const auto step = [](double d) { return d > move_from ? 1 : d < -move_from ? -1 : 0; };
     const Peak next{std::clamp(at.column + step(off.x), radius_, width_ - 1 - radius_),
                     std::clamp(at.row + step(off.y), radius_, height_ - 1 - radius_)};
     if (move + 1 >= params_.max_moves || next == at) break;
     at = next;
   }
-  describe(particle, at);
   return particle;
 }
 
 void ParticleFinder::describe(Particle& particle, Peak at) const {
   const std::uint8_t* middle =
       bytes_.data() + static_cast<std::size_t>(at.row) * width_ + at.column;
-  double mass = 0;
-  double second_moment = 0;
+  std::int64_t mass = 0;
+  std::int64_t second_moment = 0;
   double cosine = 0;
   double sine = 0;
   int highest = 0;
@@ -169,15 +185,15 @@ void ParticleFinder::describe(Particle& particle, Peak at) const {
     const int value = middle[m.offset(width_)];
     highest = std::max(highest, value);
     mass += value;
-    second_moment += value * (m.dx * m.dx + m.dy * m.dy);
+    second_moment += static_cast<std::int64_t>(value) * (m.dx * m.dx + m.dy * m.dy);
     cosine += value * m.cosine;
     sine += value * m.sine;
   }
-  particle.mass = greys_per_byte_ * mass;
+  const auto total = static_cast<double>(mass);
   particle.signal = greys_per_byte_ * highest;
-  particle.gyration_px = std::sqrt(second_moment / mass);
+  particle.gyration_px = std::sqrt(static_cast<double>(second_moment) / total);
   particle.radius_px = std::numbers::sqrt2 * particle.gyration_px;
-  particle.eccentricity = norm({cosine, sine}) / std::max(1.0, mass - *middle);
+  particle.eccentricity = norm({cosine, sine}) / std::max(1.0, total - *middle);
 }
 
 void ParticleFinder::fit_rings(const Image& grey) {
@@ -189,7 +205,8 @@ void ParticleFinder::fit_rings(const Image& grey) {
   }
 }
 
-void ParticleFinder::drop_close() {
+/// Keeps and describes what is heavy enough and not too close to something heavier.
+void ParticleFinder::keep_apart() {
   std::vector<std::size_t> order(particles_.size());
   std::iota(order.begin(), order.end(), 0);
   const auto y = [&](std::size_t i) { return particles_[i].at_px.y; };
@@ -204,8 +221,11 @@ void ParticleFinder::drop_close() {
       dropped[order[a.mass < b.mass ? i : k]] = true;
     }
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < particles_.size(); ++i)
-    if (!dropped[i]) particles_[kept++] = particles_[i];
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    if (dropped[i] || particles_[i].mass <= params_.min_mass) continue;
+    describe(particles_[i], peaks_[i]);
+    particles_[kept++] = particles_[i];
+  }
   particles_.resize(kept);
 }
 

@@ -12,6 +12,7 @@
 #include "microswarm/formats/images/image.hpp"
 #include "microswarm/geometry/vec2.hpp"
 #include "microswarm/vision/tracking/band_pass.hpp"
+#include "microswarm/vision/tracking/round_window.hpp"
 
 namespace microswarm {
 
@@ -118,20 +119,22 @@ class ParticleFinder {
   void scale_to_bytes(const std::vector<float>& rise);
   void find_peaks();
   int peak_threshold() const;
-  Particle refine(Peak peak) const;
+  /// Moves the peak to its centroid; measures all but what describe() does.
+  Particle refine(Peak& peak) const;
   void describe(Particle& particle, Peak at) const;
   void fit_rings(const Image& grey);
-  void drop_close();
+  void keep_apart();
 
   ParticleParams params_;
   int radius_;
   int separation_;
   BandPass band_pass_;
+  RoundWindow window_;
   std::vector<MaskPixel> mask_;
   int width_ = 0;
   int height_ = 0;
   double greys_per_byte_ = 0;
-  std::vector<std::uint8_t> bytes_;  ///< the filtered picture, its highest at 255
+  std::vector<std::uint8_t> bytes_;  ///< the filtered picture, its highest at 255; then zeros
   std::vector<Peak> peaks_;
   std::vector<Particle> particles_;
 };
