@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "microswarm/core/maths/magnitudes.hpp"
+#include "microswarm/core/maths/rng.hpp"
+
 namespace microswarm {
 namespace {
 
@@ -37,6 +42,18 @@ TEST(Statistics, IntervalsOfShares) {
   EXPECT_NEAR(half.low, 0.40383, 1e-5);
   EXPECT_NEAR(half.high, 0.59617, 1e-5);
   EXPECT_EQ(share_interval(0, 0).high, 1);
+}
+
+TEST(Median, OfMagnitudesIsTheSame) {
+  Rng rng(3, Purpose::test);
+  EXPECT_EQ(median_of_magnitudes({}), 0);
+  for (int trial = 0; trial < 300; ++trial) {
+    std::vector<double> values(1 + rng.below(60));
+    const double octaves = rng.uniform(0, 80);
+    for (double& v : values) v = std::exp2(rng.uniform(-octaves, 0.1 * octaves));
+    if (trial % 3 == 0) std::fill_n(values.begin(), values.size() / 2, trial % 2 ? 0.0 : 0.75);
+    EXPECT_EQ(median_of_magnitudes(values), median(values)) << trial;
+  }
 }
 
 }  // namespace

@@ -5,11 +5,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
+#include <numeric>
 #include <span>
 #include <vector>
 
 #include "microswarm/core/execution/each_cpu.hpp"
-#include "microswarm/core/maths/statistics.hpp"
+#include "microswarm/core/maths/magnitudes.hpp"
 
 namespace microswarm {
 namespace {
@@ -27,12 +29,6 @@ struct Surface {
   Terms factor{};
 
   static Terms at(double x, double y) { return {1, x, y, x * x, x * y, y * y}; }
-  double grey(double x, double y) const {
-    const Terms t = at(x, y);
-    double sum = 0;
-    for (int i = 0; i < ground_terms; ++i) sum += factor[i] * t[i];
-    return sum;
-  }
 };
 
 struct Tile {
@@ -41,29 +37,57 @@ struct Tile {
   double grey;
 };
 
-/// Median of the tile's seen pixels, using every other row and in large tiles every other column;
-/// empty if less than a quarter is seen.
-std::optional<double> median_of(const cv::Mat& grey, const cv::Mat& seen) {
-  const int step = grey.cols < 24 ? 1 : 2;
-  std::array<int, 256> count{};
-  int all = 0;
+/// How often each grey occurs.
+using Histogram = std::array<int, 256>;
+
+/// In every other row, and every `step`th column; returns the number of pixels.
+int count_greys(const cv::Mat& grey, int step, Histogram& count) {
+  for (int y = 0; y < grey.rows; y += 2) {
+    const auto* row = grey.ptr<std::uint8_t>(y);
+    for (int x = 0; x < grey.cols; x += step) ++count[row[x]];
+  }
+  return ((grey.rows + 1) / 2) * ((grey.cols + step - 1) / step);
+}
+
+/// The same of the seen pixels only.
+int count_greys(const cv::Mat& grey, const cv::Mat& seen, int step, Histogram& count) {
   int some = 0;
   for (int y = 0; y < grey.rows; y += 2) {
     const auto* row = grey.ptr<std::uint8_t>(y);
-    const auto* shown = seen.empty() ? nullptr : seen.ptr<std::uint8_t>(y);
+    const auto* shown = seen.ptr<std::uint8_t>(y);
     for (int x = 0; x < grey.cols; x += step) {
-      ++all;
-      if (shown && !shown[x]) continue;
+      if (!shown[x]) continue;
       ++count[row[x]];
       ++some;
     }
   }
-  if (4 * some < all || some == 0) return std::nullopt;
+  return some;
+}
+
+/// Interpolated within the middle grey, as if its pixels were spread uniformly over it.
+double median_of(const Histogram& count, int some) {
+  constexpr int group = 16;  // greys that are passed at once
   int sum = 0;
   int value = 0;
+  for (; value + group < 256; value += group) {
+    const int next = std::accumulate(&count[value], &count[value] + group, 0);
+    if (2 * (sum + next) >= some) break;
+    sum += next;
+  }
   while (2 * (sum + count[value]) < some) sum += count[value++];
-  // Interpolate within the grey, as if its pixels were spread uniformly over it.
   return value - 0.5 + (0.5 * some - sum) / count[value];
+}
+
+/// Median of the tile's seen pixels, using every other row and in large tiles every other column;
+/// empty if less than a quarter is seen.
+std::optional<double> median_of(const cv::Mat& grey, const cv::Mat& seen) {
+  const int step = grey.cols < 24 ? 1 : 2;
+  const int all = ((grey.rows + 1) / 2) * ((grey.cols + step - 1) / step);
+  Histogram count{};
+  const int some =
+      seen.empty() ? count_greys(grey, step, count) : count_greys(grey, seen, step, count);
+  if (4 * some < all || some == 0) return std::nullopt;
+  return median_of(count, some);
 }
 
 std::vector<Tile> tiles_of(const cv::Mat& grey, const cv::Mat& seen, double half) {
@@ -83,37 +107,81 @@ std::vector<Tile> tiles_of(const cv::Mat& grey, const cv::Mat& seen, double half
   return tiles;
 }
 
-Surface fitted(const std::vector<Tile>& tiles, const std::vector<double>& weight) {
-  std::array<Terms, ground_terms> sums{};
-  Terms sums_of_grey{};
+/// The terms at a tile, to be added up in whole vectors.
+using PaddedTerms = std::array<double, 8>;
+
+std::vector<PaddedTerms> terms_of(const std::vector<Tile>& tiles) {
+  std::vector<PaddedTerms> all(tiles.size());
   for (std::size_t k = 0; k < tiles.size(); ++k) {
     const Terms t = Surface::at(tiles[k].x, tiles[k].y);
-    for (int i = 0; i < ground_terms; ++i) {
-      const double weighted = weight[k] * t[i];
-      for (int j = 0; j < ground_terms; ++j) sums[i][j] += weighted * t[j];
-      sums_of_grey[i] += weighted * tiles[k].grey;
-    }
+    std::copy(t.begin(), t.end(), all[k].begin());
+    all[k][ground_terms] = tiles[k].grey;
   }
-  const cv::Mat normal(ground_terms, ground_terms, CV_64F, sums.data());
-  const cv::Mat right(ground_terms, 1, CV_64F, sums_of_grey.data());
+  return all;
+}
+
+/// Normal equations: sums of weight · term · term, and in the column after them of weight · term ·
+/// grey.
+using Normal = std::array<PaddedTerms, ground_terms>;
+static_assert(ground_terms % 2 == 0);
+
+/// Half of the padded terms.
+using Lanes = double __attribute__((vector_size(32)));
+
+MICROSWARM_EACH_CPU void add_up(std::span<const PaddedTerms> terms, const double* weight,
+                                Normal& sums) {
+  for (int i = 0; i < ground_terms; i += 2) {  // two rows, whose sums stay in registers
+    Lanes sum[4] = {};
+    for (std::size_t k = 0; k < terms.size(); ++k) {
+      const double* t = terms[k].data();
+      Lanes left;
+      Lanes right;
+      std::memcpy(&left, t, sizeof left);
+      std::memcpy(&right, t + 4, sizeof right);
+      const double upper = weight[k] * t[i];
+      const double lower = weight[k] * t[i + 1];
+      sum[0] += upper * left;
+      sum[1] += upper * right;
+      sum[2] += lower * left;
+      sum[3] += lower * right;
+    }
+    std::memcpy(sums[i].data(), &sum[0], sizeof sums[i]);
+    std::memcpy(sums[i + 1].data(), &sum[2], sizeof sums[i]);
+  }
+}
+
+Surface fitted(std::span<const PaddedTerms> terms, const std::vector<double>& weight) {
+  Normal sums;
+  add_up(terms, weight.data(), sums);
+  const cv::Mat all(ground_terms, 8, CV_64F, sums.data());
   cv::Mat solution;
-  cv::solve(normal, right, solution, cv::DECOMP_SVD);
+  cv::solve(all.colRange(0, ground_terms), all.col(ground_terms), solution, cv::DECOMP_SVD);
   Surface surface;
   for (int i = 0; i < ground_terms; ++i) surface.factor[i] = solution.at<double>(i);
   return surface;
 }
 
+/// Distances of the tiles from the surface.
+MICROSWARM_EACH_CPU void measure(std::span<const PaddedTerms> terms, const Terms& factor,
+                                 double* off) {
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    double sum = 0;
+    for (int i = 0; i < ground_terms; ++i) sum += factor[i] * terms[k][i];
+    off[k] = std::abs(terms[k][ground_terms] - sum);
+  }
+}
+
 /// Robust fit: least absolute residuals, which tolerate nearly half of the tiles as outliers, then
 /// Tukey's biweight.
 Surface fitted(const std::vector<Tile>& tiles) {
+  const std::vector<PaddedTerms> terms = terms_of(tiles);
   std::vector<double> weight(tiles.size(), 1);
   std::vector<double> off(tiles.size());
   Surface surface;
   for (int round = 0; round < ground_rounds; ++round) {
-    surface = fitted(tiles, weight);
-    for (std::size_t k = 0; k < tiles.size(); ++k)
-      off[k] = std::abs(tiles[k].grey - surface.grey(tiles[k].x, tiles[k].y));
-    const double limit = fit_limit * std::max(rounding, 1.4826 * median(off));
+    surface = fitted(terms, weight);
+    measure(terms, surface.factor, off.data());
+    const double limit = fit_limit * std::max(rounding, 1.4826 * median_of_magnitudes(off));
     for (std::size_t k = 0; k < tiles.size(); ++k) {
       const double u = std::min(1.0, off[k] / limit);
       weight[k] = 2 * round < ground_rounds ? 1 / std::max(rounding, off[k])
@@ -142,8 +210,8 @@ GroundSurface::GroundSurface(const cv::Mat& grey, const cv::Mat& seen)
 }
 
 cv::Mat GroundSurface::over(const Grid& grid) const {
-  cv::Mat ground = cv::Mat::zeros(grid.size, CV_32F);
-  if (!has_tiles_) return ground;
+  if (!has_tiles_) return cv::Mat::zeros(grid.size, CV_32F);
+  cv::Mat ground(grid.size, CV_32F);
   const Terms& c = factor_;
   std::vector<double> across(static_cast<std::size_t>(grid.size.width));
   for (int column = 0; column < grid.size.width; ++column)

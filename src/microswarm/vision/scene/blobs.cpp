@@ -14,10 +14,11 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/execution/each_cpu.hpp"
+#include "microswarm/core/maths/magnitudes.hpp"
 #include "microswarm/core/maths/maths.hpp"
-#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/vision/image/blur.hpp"
 #include "microswarm/vision/image/mat.hpp"
+#include "microswarm/vision/image/pixel_runs.hpp"
 #include "microswarm/vision/scene/background.hpp"
 #include "microswarm/vision/scene/blob_search.hpp"
 #include "microswarm/vision/scene/level_line.hpp"
@@ -56,22 +57,56 @@ cv::Mat walls_over(const Image& picture, const Mask* walls) {
   return {walls->height, walls->width, CV_8U, const_cast<std::uint8_t*>(walls->cells.data())};
 }
 
+namespace {
+
+/// Adds the pixels of a row that are set to those of the blocks in it.
+MICROSWARM_EACH_CPU void mark(const std::uint8_t* row, std::uint8_t* marks, int count) {
+  for (int x = 0; x < count; ++x) marks[x] |= row[x];
+}
+
+/// 255 for each block of `side` pixels of which any is set, else 0.
+template <int side>
+void mark_blocks(const std::uint8_t* marks, int count, std::uint8_t* out) {
+  for (int x = 0; x < count; ++x) {
+    std::uint8_t any = 0;
+    for (int k = 0; k < side; ++k) any |= marks[side * x + k];
+    out[x] = any != 0 ? 255 : 0;
+  }
+}
+
+/// Blocks of `side` × `side` pixels, as of `coarseness`, of which any is not 0 (255).
+cv::Mat any_of_blocks(const cv::Mat& set, int side) {
+  const int columns = (set.cols + side - 1) / side;
+  cv::Mat any((set.rows + side - 1) / side, columns, CV_8U);
+  std::vector<std::uint8_t> marks(static_cast<std::size_t>(columns) * side);
+  const auto mark_row = side == 4 ? mark_blocks<4> : side == 2 ? mark_blocks<2> : mark_blocks<1>;
+  for (int y = 0; y < any.rows; ++y) {
+    std::fill(marks.begin(), marks.end(), std::uint8_t{0});
+    for (int row = side * y; row < std::min(side * (y + 1), set.rows); ++row)
+      mark(set.ptr<std::uint8_t>(row), marks.data(), set.cols);
+    mark_row(marks.data(), columns, any.ptr<std::uint8_t>(y));
+  }
+  return any;
+}
+
+}  // namespace
+
 cv::Mat seen_of(const cv::Mat& walls, int side) {
   if (walls.empty()) return {};
   cv::Mat hidden;
-  cv::dilate(downsampled(walls != 0, side) > 0, hidden, cv::Mat::ones(3, 3, CV_8U));
+  cv::dilate(any_of_blocks(walls, side), hidden, cv::Mat::ones(3, 3, CV_8U));
   return ~hidden;
 }
 
 namespace {
 
-/// Replaces the background by the foreground where something is seen: grey minus background, times
-/// `sign`.
+/// Replaces the background by the foreground where something is seen, everywhere without `seen`:
+/// grey minus background, times `sign`.
 MICROSWARM_EACH_CPU void take_ground(std::span<const std::uint8_t> grey, const std::uint8_t* seen,
                                      float sign, float* ground) {
   for (std::size_t i = 0; i < grey.size(); ++i) {
     const float foreground = sign * (static_cast<float>(grey[i]) - ground[i]);
-    ground[i] = seen[i] ? foreground : 0.0F;
+    ground[i] = !seen || seen[i] ? foreground : 0.0F;
   }
 }
 
@@ -84,20 +119,34 @@ MICROSWARM_EACH_CPU void make_up(std::span<const float> share, const std::uint8_
   }
 }
 
+/// Blurred share of seen pixels; it is the same wherever nothing hidden is in reach.
+cv::Mat blurred_share(const cv::Mat& seen, double spread, int reach) {
+  cv::Mat share;
+  seen.convertTo(share, CV_32F, 1.0 / 255);
+  const cv::Mat one = cv::Mat::ones(1, 1, CV_32F);
+  cv::Mat out(seen.size(), CV_32F,
+              cv::Scalar(blurred(one, spread, reach, cv::BORDER_REFLECT).at<float>(0)));
+  cv::Rect near = cv::boundingRect(~seen);
+  if (near.empty()) return out;
+  near -= cv::Point(reach, reach);
+  near += cv::Size(2 * reach, 2 * reach);
+  near &= cv::Rect({}, seen.size());
+  blurred(share(near), spread, reach, cv::BORDER_REFLECT).copyTo(out(near));
+  return out;
+}
+
 }  // namespace
 
 cv::Mat rise_of(const cv::Mat& grey, const cv::Mat& seen, cv::Mat foreground, bool dark,
                 double spread) {
-  const cv::Mat all = seen.empty() ? cv::Mat(grey.size(), CV_8U, cv::Scalar(255)) : seen;
   for (int y = 0; y < grey.rows; ++y)
     take_ground({grey.ptr<std::uint8_t>(y), static_cast<std::size_t>(grey.cols)},
-                all.ptr<std::uint8_t>(y), dark ? -1 : 1, foreground.ptr<float>(y));
+                seen.empty() ? nullptr : seen.ptr<std::uint8_t>(y), dark ? -1 : 1,
+                foreground.ptr<float>(y));
   const int reach = static_cast<int>(std::ceil(2.5 * spread));
   foreground = blurred(foreground, spread, reach, cv::BORDER_REFLECT);
   if (seen.empty()) return foreground;
-  cv::Mat share;
-  seen.convertTo(share, CV_32F, 1.0 / 255);
-  share = blurred(share, spread, reach, cv::BORDER_REFLECT);
+  const cv::Mat share = blurred_share(seen, spread, reach);
   make_up({share.ptr<float>(), share.total()}, seen.ptr<std::uint8_t>(), foreground.ptr<float>());
   return foreground;
 }
@@ -105,12 +154,14 @@ cv::Mat rise_of(const cv::Mat& grey, const cv::Mat& seen, cv::Mat foreground, bo
 double ground_spread(const cv::Mat& foreground, const cv::Mat& seen) {
   constexpr std::size_t enough = 10'000;
   const std::size_t step = 2 * (foreground.total() / enough / 2) + 7;  // odd, so that columns vary
+  const std::size_t total = foreground.total();
+  const float* rises = foreground.ptr<float>();
+  const std::uint8_t* shown = seen.empty() ? nullptr : seen.ptr<std::uint8_t>();
   std::vector<double> off;
-  off.reserve(foreground.total() / step + 1);
-  for (std::size_t i = 0; i < foreground.total(); i += step)
-    if (seen.empty() || seen.ptr<std::uint8_t>()[i])
-      off.push_back(std::abs(foreground.ptr<float>()[i]));
-  return 1.4826 * median(std::move(off));
+  off.reserve(total / step + 1);
+  for (std::size_t i = 0; i < total; i += step)
+    if (!shown || shown[i]) off.push_back(std::abs(rises[i]));
+  return 1.4826 * median_of_magnitudes(off);
 }
 
 namespace {
@@ -130,36 +181,20 @@ struct Piece {
 /// Connected pieces of at least `min_area` pixels; `corner` is the position of the set's first
 /// pixel.
 std::vector<Piece> pieces_of(const cv::Mat& set, cv::Point corner, double min_area) {
-  struct Extent {
-    int left, top, right, bottom, area;
-  };
-  cv::Mat labels;
-  const int count = cv::connectedComponents(set, labels, 4, CV_32S);
-  // OpenCV's statistics take three times as long as its labels, because they include the
-  // background.
-  std::vector<Extent> extents(static_cast<std::size_t>(count), {set.cols, set.rows, -1, -1, 0});
-  for (int y = 0; y < labels.rows; ++y) {
-    const int* row = labels.ptr<int>(y);
-    for (int x = 0; x < labels.cols; ++x) {
-      if (row[x] == 0) continue;
-      Extent& e = extents[static_cast<std::size_t>(row[x])];
-      e.left = std::min(e.left, x);
-      e.right = std::max(e.right, x);
-      e.top = std::min(e.top, y);
-      e.bottom = y;
-      ++e.area;
-    }
-  }
   std::vector<Piece> pieces;
-  for (int k = 1; k < count; ++k) {
-    const Extent& e = extents[static_cast<std::size_t>(k)];
-    if (e.area < min_area) continue;
-    const cv::Rect box(e.left, e.top, e.right - e.left + 1, e.bottom - e.top + 1);
-    pieces.push_back({box + corner, labels(box) == k});
+  for (const RunPiece& found : connected_runs(set)) {
+    if (found.area < min_area) continue;
+    cv::Mat in = cv::Mat::zeros(found.box.size(), CV_8U);
+    for (const PixelRun& run : found.runs)
+      std::fill(in.ptr<std::uint8_t>(run.row - found.box.y) + (run.begin - found.box.x),
+                in.ptr<std::uint8_t>(run.row - found.box.y) + (run.end - found.box.x),
+                std::uint8_t{255});
+    pieces.push_back({found.box + corner, in});
   }
   return pieces;
 }
 
+/// The piece is of what rises, so its values are positive.
 float median_within(const cv::Mat& foreground, const Piece& piece) {
   std::vector<double> values;
   values.reserve(piece.in.total());
@@ -169,7 +204,7 @@ float median_within(const cv::Mat& foreground, const Piece& piece) {
     for (int x = 0; x < piece.box.width; ++x)
       if (in[x]) values.push_back(row[x]);
   }
-  return static_cast<float>(median(std::move(values)));
+  return static_cast<float>(median_of_magnitudes(values));
 }
 
 /// Measures area, centroid and ellipse of the region inside the outline; false if the area is zero.
@@ -191,29 +226,6 @@ bool measure(Blob& blob) {
   blob.angle = 0.5 * maths::atan2(mixed, half);
   return true;
 }
-
-}  // namespace
-
-double roughness(const BlobContext& field, const cv::Rect& box, const cv::Mat& chosen, int step) {
-  const int side = field.side;
-  double squares = 0;
-  double count = 0;
-  for (int y = 0; y < box.height; y += step) {
-    const auto* row =
-        field.fine.ptr<std::uint8_t>(std::min(side * (box.y + y), field.fine.rows - 1));
-    const auto* in = chosen.ptr<std::uint8_t>(y);
-    const int end = std::min(side * box.br().x, field.fine.cols - 1);
-    for (int x = side * box.x; x < end; ++x) {
-      if (!in[x / side - box.x]) continue;
-      const int foreground = row[x + 1] - row[x];
-      squares += foreground * foreground;
-      ++count;
-    }
-  }
-  return count > 0 ? squares / count : 0;
-}
-
-namespace {
 
 bool is_cut(const Piece& piece, const cv::Mat& seen, const cv::Size& size) {
   const cv::Rect inner(1, 1, size.width - 2, size.height - 2);

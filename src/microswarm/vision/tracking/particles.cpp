@@ -20,7 +20,8 @@
 namespace microswarm {
 namespace {
 
-constexpr double move_from = 0.6;  // [px] a mask farther from its centroid moves
+constexpr std::size_t together = 4;  // particles that are described at once
+constexpr double move_from = 0.6;    // [px] a mask farther from its centroid moves
 
 int odd(int diameter) { return diameter | 1; }
 
@@ -103,6 +104,7 @@ const std::vector<Particle>& ParticleFinder::find(const Image& grey) {
   particles_.clear();
   for (Peak& peak : peaks_) particles_.push_back(refine(peak));
   keep_apart();
+  for (std::size_t i = 0; i < particles_.size(); i += together) describe(i);
   if (params_.shape == ParticleShape::ring) fit_rings(grey);
   return particles_;
 }
@@ -173,27 +175,39 @@ Particle ParticleFinder::refine(Peak& at) const {
   return particle;
 }
 
-void ParticleFinder::describe(Particle& particle, Peak at) const {
-  const std::uint8_t* middle =
-      bytes_.data() + static_cast<std::size_t>(at.row) * width_ + at.column;
-  std::int64_t mass = 0;
-  std::int64_t second_moment = 0;
-  double cosine = 0;
-  double sine = 0;
-  int highest = 0;
-  for (const MaskPixel& m : mask_) {
-    const int value = middle[m.offset(width_)];
-    highest = std::max(highest, value);
-    mass += value;
-    second_moment += static_cast<std::int64_t>(value) * (m.dx * m.dx + m.dy * m.dy);
-    cosine += value * m.cosine;
-    sine += value * m.sine;
+// Several at once, since each sum waits for its last addition.
+void ParticleFinder::describe(std::size_t first) {
+  const std::size_t count = std::min(together, particles_.size() - first);
+  std::array<const std::uint8_t*, together> middle{};
+  for (std::size_t k = 0; k < together; ++k) {
+    const Peak at = peaks_[first + std::min(k, count - 1)];
+    middle[k] = bytes_.data() + static_cast<std::size_t>(at.row) * width_ + at.column;
   }
-  const auto total = static_cast<double>(mass);
-  particle.signal = greys_per_byte_ * highest;
-  particle.gyration_px = std::sqrt(static_cast<double>(second_moment) / total);
-  particle.radius_px = std::numbers::sqrt2 * particle.gyration_px;
-  particle.eccentricity = norm({cosine, sine}) / std::max(1.0, total - *middle);
+  std::array<std::int64_t, together> mass{};
+  std::array<std::int64_t, together> second_moment{};
+  std::array<double, together> cosine{};
+  std::array<double, together> sine{};
+  std::array<int, together> highest{};
+  for (const MaskPixel& m : mask_) {
+    const std::ptrdiff_t offset = m.offset(width_);
+    const int squared = m.dx * m.dx + m.dy * m.dy;
+    for (std::size_t k = 0; k < together; ++k) {
+      const int value = middle[k][offset];
+      highest[k] = std::max(highest[k], value);
+      mass[k] += value;
+      second_moment[k] += static_cast<std::int64_t>(value) * squared;
+      cosine[k] += value * m.cosine;
+      sine[k] += value * m.sine;
+    }
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    Particle& particle = particles_[first + k];
+    const auto total = static_cast<double>(mass[k]);
+    particle.signal = greys_per_byte_ * highest[k];
+    particle.gyration_px = std::sqrt(static_cast<double>(second_moment[k]) / total);
+    particle.radius_px = std::numbers::sqrt2 * particle.gyration_px;
+    particle.eccentricity = norm({cosine[k], sine[k]}) / std::max(1.0, total - *middle[k]);
+  }
 }
 
 void ParticleFinder::fit_rings(const Image& grey) {
@@ -205,7 +219,7 @@ void ParticleFinder::fit_rings(const Image& grey) {
   }
 }
 
-/// Keeps and describes what is heavy enough and not too close to something heavier.
+/// Keeps what is heavy enough and not too close to something heavier.
 void ParticleFinder::keep_apart() {
   std::vector<std::size_t> order(particles_.size());
   std::iota(order.begin(), order.end(), 0);
@@ -223,7 +237,7 @@ void ParticleFinder::keep_apart() {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     if (dropped[i] || particles_[i].mass <= params_.min_mass) continue;
-    describe(particles_[i], peaks_[i]);
+    peaks_[kept] = peaks_[i];
     particles_[kept++] = particles_[i];
   }
   particles_.resize(kept);

@@ -121,7 +121,8 @@ class ParticleFinder {
   int peak_threshold() const;
   /// Moves the peak to its centroid; measures all but what describe() does.
   Particle refine(Peak& peak) const;
-  void describe(Particle& particle, Peak at) const;
+  /// Measures the rest of this particle and of some that follow.
+  void describe(std::size_t first);
   void fit_rings(const Image& grey);
   void keep_apart();
 
