@@ -11,7 +11,7 @@ namespace microswarm {
 namespace {
 
 constexpr double kernel = 0.05;         // [decades] standard deviation of the smoothing
-constexpr double gap_depth = 0.25;          // of a gap, beside the lower of its sides
+constexpr double gap_depth = 0.25;      // of a gap, beside the lower of its sides
 constexpr double min_width = 0.15;      // [decades] of a gap
 constexpr double wide = 0.5;            // [decades] of a gap that pairs of robots cannot make
 constexpr double rare = 0.01;           // share of all features that outliers have at most
@@ -28,7 +28,7 @@ struct Gap {
 std::optional<Gap> gap_at(const std::vector<double>& density, std::size_t at) {
   const auto middle = density.begin() + static_cast<std::ptrdiff_t>(at);
   const double low = gap_depth * std::min(*std::max_element(density.begin(), middle),
-                                      *std::max_element(middle, density.end()));
+                                          *std::max_element(middle, density.end()));
   if (density[at] >= low) return std::nullopt;
   Gap gap{at, at};
   while (gap.from > 0 && density[gap.from - 1] < low) --gap.from;
