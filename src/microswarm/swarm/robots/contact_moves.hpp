@@ -8,6 +8,9 @@
 
 namespace microswarm {
 
+/// Contacts after which a sliding robot stays for the rest of its move.
+inline constexpr int max_slide_contacts = 64;
+
 /// Move of one robot under a contact rule, independent of how contacts are found. `first_contact(p,
 /// piece)` returns the FaceContact of a piece of at most `reach` µm.
 template <class FirstContact>
@@ -30,7 +33,7 @@ class ContactMoves {
   PointF slid(PointF p, PointF left) const {
     int contacts = 0;
     PointF lean;
-    const float max_pieces = std::ceil(length(left) / reach_) + max_contacts;
+    const float max_pieces = std::ceil(length(left) / reach_) + max_slide_contacts;
     for (float k = 0; k < max_pieces; ++k) {
       const float far = length(left);
       const float share = far > reach_ ? reach_ / far : 1.0f;
@@ -44,7 +47,7 @@ class ContactMoves {
         continue;
       }
       p = {p.x + contact.time * piece.x, p.y + contact.time * piece.y};
-      if (++contacts == max_contacts) return p;
+      if (++contacts == max_slide_contacts) return p;
       left = {left.x - contact.time * done.x, left.y - contact.time * done.y};
       const PointF n = contact.normal;
       const float along = left.y * n.x - left.x * n.y;
@@ -56,8 +59,6 @@ class ContactMoves {
   }
 
  private:
-  static constexpr int max_contacts = 64;
-
   static float length(PointF v) { return std::sqrt(v.x * v.x + v.y * v.y); }
 
   PointF stopped(PointF p, PointF move, bool& met) const {

@@ -30,7 +30,7 @@ PointF RobotStepper::moved(PointF p, PointF move, ContactRule rule) const {
 
 void RobotStepper::step(Robots& robots, Vec2 move, ContactRule rule) const {
   const PointF m{static_cast<float>(move.x), static_cast<float>(move.y)};
-  step_lanes(faces_, m, rule, robots.x, robots.y);
+  step_lanes(faces_, RobotMoves(m), rule, robots.x, robots.y);
 }
 
 }  // namespace microswarm

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 
 #include "microswarm/swarm/robots/contact_moves.hpp"
 
@@ -21,6 +22,28 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+using RobotTag = hn::CappedTag<float, 64>;
+using PackTag = hn::CappedTag<float, FacePack::size>;
+
+/// Robots that are moved together, one per lane. A wave moves each by a piece, up to its first
+/// contact; robots whose move is not finished then stay for the next wave.
+struct Block {
+  static constexpr std::size_t size = 128;
+  template <class T>
+  using Lanes = std::array<T, size>;
+
+  std::size_t count;
+  alignas(64) Lanes<float> x, y;
+  alignas(64) Lanes<float> piece_x, piece_y;
+  alignas(64) Lanes<float> time, normal_x, normal_y;  ///< of the piece's first contact
+  // Of robots that slide:
+  alignas(64) Lanes<std::int32_t> robot;
+  alignas(64) Lanes<float> left_x, left_y;    ///< of the move
+  alignas(64) Lanes<float> share;             ///< of it that the piece is
+  alignas(64) Lanes<float> lean_x, lean_y;    ///< off the wall along which a robot slides
+  alignas(64) Lanes<float> contacts, pieces;  ///< so far; at most
+};
+
 /// One face per lane, or one face in all lanes.
 template <class V>
 struct FaceLanes {
@@ -29,10 +52,9 @@ struct FaceLanes {
 
 // Vectorised time_to_contact, one face or robot per lane. Products and sums are not fused, to give
 // the same bits.
-template <class D, class V>
+template <bool may_skip, class D, class V>
 HWY_INLINE V times_to_contact(D d, const FaceLanes<V>& face, V x, V y, V move_x, V move_y,
                               V guard) {
-  const V never = hn::Set(d, 2.0f);
   const V zero = hn::Zero(d);
   const V dx = hn::Sub(x, face.middle_x);
   const V dy = hn::Sub(y, face.middle_y);
@@ -43,7 +65,7 @@ HWY_INLINE V times_to_contact(D d, const FaceLanes<V>& face, V x, V y, V move_x,
   const auto near =
       hn::And(hn::And(hn::Lt(v, leaving), hn::Lt(hn::Add(away, v), hn::Add(guard, leaving))),
               hn::Ge(away, hn::Neg(guard)));
-  if (hn::AllFalse(d, near)) return never;
+  if (may_skip && hn::AllFalse(d, near)) return hn::Set(d, 2.0f);
   const V towards = hn::Min(v, hn::Set(d, -std::numeric_limits<float>::min()));
   const V hit = hn::Max(zero, hn::Div(hn::Sub(guard, away), towards));
   const V sideways = hn::Sub(hn::Mul(move_y, face.normal_x), hn::Mul(move_x, face.normal_y));
@@ -52,153 +74,267 @@ HWY_INLINE V times_to_contact(D d, const FaceLanes<V>& face, V x, V y, V move_x,
   const auto meets = hn::And(near, hn::Le(hn::Abs(along), hn::Add(face.half_length, guard)));
   const V standoff = hn::Mul(hn::Set(d, 2.0f), guard);
   const V time = hn::Max(zero, hn::Div(hn::Sub(standoff, away), towards));
-  return hn::IfThenElse(meets, hn::IfThenZeroElse(too_near, time), never);
+  return hn::IfThenElse(meets, hn::IfThenZeroElse(too_near, time), hn::Set(d, 2.0f));
 }
 
-/// Calls visit(pack, k, time) for the faces near one robot, one face per lane; `time` belongs to
-/// the faces from index k in the pack.
-template <class D, class Visit>
-HWY_INLINE void for_each_near(D d, const WallFaces& faces, std::span<const FacePack> packs,
-                              PointF p, PointF move, Visit&& visit) {
-  using V = hn::Vec<D>;
-  const std::size_t lanes = hn::Lanes(d);
+/// First contacts with any face, the robots in lanes.
+template <bool with_normals>
+HWY_INLINE void contacts_of_all(const WallFaces& faces, Block& b) {
+  const RobotTag d;
+  using V = hn::Vec<RobotTag>;
   const V guard = hn::Set(d, faces.guard());
-  const V x = hn::Set(d, p.x), y = hn::Set(d, p.y);
-  const V move_x = hn::Set(d, move.x), move_y = hn::Set(d, move.y);
-  for (const FacePack& pack : packs) {
-    for (std::size_t k = 0; k < FacePack::size; k += lanes) {
+  const V leaving = hn::Mul(guard, hn::Set(d, 0.125f));
+  for (std::size_t i = 0; i < b.count; i += hn::Lanes(d)) {
+    const V x = hn::Load(d, &b.x[i]), y = hn::Load(d, &b.y[i]);
+    const V move_x = hn::Load(d, &b.piece_x[i]), move_y = hn::Load(d, &b.piece_y[i]);
+    V time = hn::Set(d, 2.0f), normal_x = hn::Zero(d), normal_y = hn::Zero(d);
+    for (const WallFace& face : faces.all()) {
+      const FaceLanes<V> same{hn::Set(d, face.middle.x), hn::Set(d, face.middle.y),
+                              hn::Set(d, face.normal.x), hn::Set(d, face.normal.y),
+                              hn::Set(d, face.half_length)};
+      const V v = hn::Add(hn::Mul(move_x, same.normal_x), hn::Mul(move_y, same.normal_y));
+      if (hn::AllFalse(d, hn::Lt(v, leaving))) continue;
+      const V t = times_to_contact<true>(d, same, x, y, move_x, move_y, guard);
+      if (with_normals) {
+        const auto sooner = hn::Lt(t, time);
+        normal_x = hn::IfThenElse(sooner, same.normal_x, normal_x);
+        normal_y = hn::IfThenElse(sooner, same.normal_y, normal_y);
+      }
+      time = hn::Min(t, time);
+    }
+    hn::Store(time, d, &b.time[i]);
+    if (!with_normals) continue;
+    hn::Store(normal_x, d, &b.normal_x[i]);
+    hn::Store(normal_y, d, &b.normal_y[i]);
+  }
+}
+
+/// Sets the first contact of robot i of the block with the faces of these packs, at least one; the
+/// faces in lanes.
+template <bool with_normals>
+HWY_INLINE void contact_of_packs(const FacePack* packs, std::size_t count, float guard,
+                                 std::size_t i, Block& b) {
+  const PackTag d;
+  using V = hn::Vec<PackTag>;
+  const V x = hn::Set(d, b.x[i]), y = hn::Set(d, b.y[i]);
+  const V move_x = hn::Set(d, b.piece_x[i]), move_y = hn::Set(d, b.piece_y[i]);
+  V first = hn::Set(d, std::numeric_limits<float>::max());
+  for (std::size_t p = 0; p < count; ++p) {
+    const FacePack& pack = packs[p];
+    for (std::size_t k = 0; k < FacePack::size; k += hn::Lanes(d)) {
       const FaceLanes<V> face{
           hn::Load(d, pack.middle_x.data() + k), hn::Load(d, pack.middle_y.data() + k),
           hn::Load(d, pack.normal_x.data() + k), hn::Load(d, pack.normal_y.data() + k),
           hn::Load(d, pack.half_length.data() + k)};
-      visit(pack, k, times_to_contact(d, face, x, y, move_x, move_y, guard));
-    }
-  }
-}
-
-using PackTag = hn::CappedTag<float, FacePack::size>;
-
-/// First contact of one robot with the faces near it.
-class NearContact {
- public:
-  explicit NearContact(const WallFaces& faces) : faces_(&faces) {}
-
-  FaceContact operator()(PointF p, PointF move) const {
-    const PackTag d;
-    FaceContact first;
-    for_each_near(
-        d, *faces_, faces_->near(p), p, move, [&](const FacePack& pack, std::size_t k, auto time) {
-          const auto sooner = hn::Lt(time, hn::Set(d, first.time));
-          if (hn::AllFalse(d, sooner)) return;
-          const auto least = hn::MinOfLanes(d, time);
-          const auto lane = static_cast<std::size_t>(hn::FindFirstTrue(d, hn::Eq(time, least)));
-          first =
-              FaceContact{hn::GetLane(least), {pack.normal_x[k + lane], pack.normal_y[k + lane]}};
-        });
-    return first;
-  }
-
- private:
-  const WallFaces* faces_;
-};
-
-/// Time of the first contact only; more than 1 if the move is free.
-HWY_INLINE float near_time(const WallFaces& faces, std::span<const FacePack> packs, PointF p,
-                           PointF move) {
-  const PackTag d;
-  auto first = hn::Set(d, 2.0f);
-  for_each_near(d, faces, packs, p, move,
-                [&](const FacePack&, std::size_t, auto time) { first = hn::Min(first, time); });
-  return hn::GetLane(hn::MinOfLanes(d, first));
-}
-
-/// Times of the first contact of `lanes` robots with any face.
-template <class D, class V>
-HWY_INLINE V first_of_all(D d, const WallFaces& faces, PointF move, V x, V y) {
-  const V guard = hn::Set(d, faces.guard());
-  const V move_x = hn::Set(d, move.x), move_y = hn::Set(d, move.y);
-  const float leaving = faces.guard() / 8;
-  V first = hn::Set(d, 2.0f);
-  for (const WallFace& face : faces.all()) {
-    if (!(move.x * face.normal.x + move.y * face.normal.y < leaving)) continue;
-    const FaceLanes<V> same{hn::Set(d, face.middle.x), hn::Set(d, face.middle.y),
-                            hn::Set(d, face.normal.x), hn::Set(d, face.normal.y),
-                            hn::Set(d, face.half_length)};
-    first = hn::Min(first, times_to_contact(d, same, x, y, move_x, move_y, guard));
-  }
-  return first;
-}
-
-/// Moves the first robots, as many as fill whole vectors; returns their number.
-std::size_t step_by_robots(const WallFaces& faces, PointF move, ContactRule rule,
-                           float* HWY_RESTRICT xs, float* HWY_RESTRICT ys, std::size_t count) {
-  const hn::ScalableTag<float> d;
-  using V = hn::Vec<decltype(d)>;
-  const std::size_t lanes = hn::Lanes(d);
-  const ContactMoves moves(faces.reach(), faces.guard(), NearContact(faces));
-  const V one = hn::Set(d, 1.0f), zero = hn::Zero(d);
-  const V move_x = hn::Set(d, move.x), move_y = hn::Set(d, move.y);
-  std::size_t i = 0;
-  for (; i + lanes <= count; i += lanes) {
-    const V x = hn::LoadU(d, xs + i), y = hn::LoadU(d, ys + i);
-    const V time = first_of_all(d, faces, move, x, y);
-    const auto met = hn::Le(time, one);
-    const V share = hn::IfThenElse(met, rule == ContactRule::stop ? time : zero, one);
-    const V end_x = hn::Add(x, hn::Mul(share, move_x));
-    const V end_y = hn::Add(y, hn::Mul(share, move_y));
-    hn::StoreU(end_x, d, xs + i);
-    hn::StoreU(end_y, d, ys + i);
-    if (rule != ContactRule::slide || hn::AllFalse(d, met)) continue;
-    HWY_ALIGN float times[HWY_MAX_BYTES / sizeof(float)];
-    hn::Store(time, d, times);
-    for (std::size_t k = 0; k < lanes; ++k) {
-      if (!(times[k] <= 1)) continue;
-      const PointF end = moves.slid({xs[i + k], ys[i + k]}, move);
-      xs[i + k] = end.x;
-      ys[i + k] = end.y;
-    }
-  }
-  return i;
-}
-
-void step_here(const WallFaces& faces, PointF move, ContactRule rule, float* HWY_RESTRICT x,
-               float* HWY_RESTRICT y, std::size_t count) {
-  constexpr std::size_t few_faces = 24;
-  constexpr std::size_t block = 32;
-  const bool in_one_go = move.x * move.x + move.y * move.y <= faces.reach() * faces.reach();
-  std::size_t i = 0;
-  if (in_one_go && faces.all().size() <= few_faces)
-    i = step_by_robots(faces, move, rule, x, y, count);
-  const ContactMoves moves(faces.reach(), faces.guard(), NearContact(faces));
-  if (!in_one_go) {
-    for (; i < count; ++i) {
-      const PointF end = moves.moved({x[i], y[i]}, move, rule);
-      x[i] = end.x;
-      y[i] = end.y;
-    }
-  }
-  const float share_of_time = rule == ContactRule::stop ? 1.0f : 0.0f;
-  std::array<std::span<const FacePack>, block> near;
-  while (i < count) {
-    const std::size_t many = std::min(block, count - i);
-    for (std::size_t k = 0; k < many; ++k) {
-      near[k] = faces.near({x[i + k], y[i + k]});
-      hwy::Prefetch(near[k].data());
-      hwy::Prefetch(reinterpret_cast<const std::byte*>(near[k].data()) + 64);
-      hwy::Prefetch(reinterpret_cast<const std::byte*>(near[k].data()) + 128);
-    }
-    for (std::size_t k = 0; k < many; ++k, ++i) {
-      const PointF p{x[i], y[i]};
-      const float time = near_time(faces, near[k], p, move);
-      if (rule == ContactRule::slide && time <= 1) {
-        const PointF end = moves.slid(p, move);
-        x[i] = end.x;
-        y[i] = end.y;
+      const V time = times_to_contact<false>(d, face, x, y, move_x, move_y, hn::Set(d, guard));
+      if (!with_normals) {
+        first = hn::Min(first, time);
         continue;
       }
-      const float share = time <= 1 ? share_of_time * time : 1.0f;  // branchless: unpredictable
-      x[i] = p.x + share * move.x;
-      y[i] = p.y + share * move.y;
+      const V least = hn::MinOfLanes(d, time);
+      if (!(hn::GetLane(least) < hn::GetLane(first))) continue;
+      first = least;
+      const auto lane = k + static_cast<std::size_t>(hn::FindFirstTrue(d, hn::Eq(time, least)));
+      b.normal_x[i] = pack.normal_x[lane];
+      b.normal_y[i] = pack.normal_y[lane];
+    }
+  }
+  b.time[i] = hn::GetLane(with_normals ? first : hn::MinOfLanes(d, first));
+}
+
+HWY_INLINE void find_cells(const FaceCells& cells, const Block& b, std::int32_t* found) {
+  const RobotTag d;
+  const hn::RebindToSigned<RobotTag> di;
+  using V = hn::Vec<RobotTag>;
+  const V zero = hn::Zero(d);
+  const V low_x = hn::Set(d, cells.low.x), low_y = hn::Set(d, cells.low.y);
+  const V per_cell = hn::Set(d, cells.per_cell);
+  const V last_column = hn::Set(d, cells.last_column), last_row = hn::Set(d, cells.last_row);
+  const auto columns = hn::Set(di, static_cast<std::int32_t>(cells.columns));
+  for (std::size_t i = 0; i < b.count; i += hn::Lanes(d)) {
+    const V column = hn::Mul(hn::Sub(hn::Load(d, &b.x[i]), low_x), per_cell);
+    const V row = hn::Mul(hn::Sub(hn::Load(d, &b.y[i]), low_y), per_cell);
+    const auto in = [&](V v, V last) { return hn::ConvertTo(di, hn::Min(hn::Max(v, zero), last)); };
+    hn::Store(hn::Add(hn::Mul(in(row, last_row), columns), in(column, last_column)), di, found + i);
+  }
+}
+
+/// First contacts with the faces near each robot.
+template <bool with_normals>
+HWY_INLINE void contacts_of_near(const WallFaces& faces, Block& b) {
+  alignas(64) Block::Lanes<std::int32_t> cell;
+  find_cells(faces.cells(), b, cell.data());
+  Block::Lanes<std::span<const FacePack>> packs;
+  Block::Lanes<std::uint32_t> one, more;  // robots near one pack, and near more
+  std::size_t ones = 0, mores = 0;
+  for (std::size_t i = 0; i < b.count; ++i) {
+    packs[i] = faces.near_in(static_cast<std::size_t>(cell[i]));
+    const std::size_t count = packs[i].size();
+    one[ones] = more[mores] = static_cast<std::uint32_t>(i);
+    ones += count == 1;
+    mores += count > 1;
+    b.time[i] = 2;
+    hwy::Prefetch(packs[i].data());
+    hwy::Prefetch(reinterpret_cast<const std::byte*>(packs[i].data()) + 64);
+    hwy::Prefetch(reinterpret_cast<const std::byte*>(packs[i].data()) + 128);
+  }
+  const float guard = faces.guard();
+  for (std::size_t k = 0; k < ones; ++k)
+    contact_of_packs<with_normals>(packs[one[k]].data(), 1, guard, one[k], b);
+  for (std::size_t k = 0; k < mores; ++k)
+    contact_of_packs<with_normals>(packs[more[k]].data(), packs[more[k]].size(), guard, more[k], b);
+}
+
+template <bool with_normals>
+HWY_INLINE void find_contacts(const WallFaces& faces, Block& b) {
+  constexpr std::size_t few_faces = 24;
+  faces.all().size() <= few_faces ? contacts_of_all<with_normals>(faces, b)
+                                  : contacts_of_near<with_normals>(faces, b);
+}
+
+/// Takes `count` robots and their moves into the block.
+HWY_INLINE void take(const RobotMoves& moves, std::size_t first, const float* x, const float* y,
+                     std::size_t count, Block& b) {
+  b.count = count;
+  std::copy_n(x, count, b.x.begin());
+  std::copy_n(y, count, b.y.begin());
+  moves.copy(first, count, b.left_x.data(), b.left_y.data());
+  const std::size_t lanes = hn::Lanes(RobotTag());
+  for (std::size_t k = count; k % lanes != 0; ++k) b.x[k] = b.y[k] = b.left_x[k] = b.left_y[k] = 0;
+}
+
+bool at_once(const Block& b, float reach) {
+  const RobotTag d;
+  auto longest = hn::Zero(d);
+  for (std::size_t i = 0; i < b.count; i += hn::Lanes(d)) {
+    const auto x = hn::Load(d, &b.left_x[i]), y = hn::Load(d, &b.left_y[i]);
+    longest = hn::Max(longest, hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
+  }
+  return hn::GetLane(hn::MaxOfLanes(d, longest)) <= reach * reach;
+}
+
+/// ContactMoves::stopped for moves of one piece.
+void stop_or_reject(const WallFaces& faces, ContactRule rule, Block& b) {
+  const RobotTag d;
+  using V = hn::Vec<RobotTag>;
+  b.piece_x = b.left_x;
+  b.piece_y = b.left_y;
+  find_contacts<false>(faces, b);
+  const V one = hn::Set(d, 1.0f);
+  for (std::size_t i = 0; i < b.count; i += hn::Lanes(d)) {
+    const V time = hn::Load(d, &b.time[i]);
+    const V met_share = rule == ContactRule::stop ? time : hn::Zero(d);
+    const V share = hn::IfThenElse(hn::Le(time, one), met_share, one);
+    const V move_x = hn::Load(d, &b.piece_x[i]), move_y = hn::Load(d, &b.piece_y[i]);
+    hn::Store(hn::Add(hn::Load(d, &b.x[i]), hn::Mul(share, move_x)), d, &b.x[i]);
+    hn::Store(hn::Add(hn::Load(d, &b.y[i]), hn::Mul(share, move_y)), d, &b.y[i]);
+  }
+}
+
+/// The next pieces of ContactMoves::slid, and in the first wave their maximum number.
+void set_pieces(Block& b, float reach, bool is_first) {
+  const RobotTag d;
+  using V = hn::Vec<RobotTag>;
+  const V r = hn::Set(d, reach);
+  const V most_contacts = hn::Set(d, static_cast<float>(max_slide_contacts));
+  for (std::size_t i = 0; i < b.count; i += hn::Lanes(d)) {
+    const V x = hn::Load(d, &b.left_x[i]), y = hn::Load(d, &b.left_y[i]);
+    const V far = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
+    const V share = hn::IfThenElse(hn::Gt(far, r), hn::Div(r, far), hn::Set(d, 1.0f));
+    hn::Store(share, d, &b.share[i]);
+    hn::Store(hn::Add(hn::Mul(share, x), hn::Load(d, &b.lean_x[i])), d, &b.piece_x[i]);
+    hn::Store(hn::Add(hn::Mul(share, y), hn::Load(d, &b.lean_y[i])), d, &b.piece_y[i]);
+    if (is_first) hn::Store(hn::Add(hn::Ceil(hn::Div(far, r)), most_contacts), d, &b.pieces[i]);
+  }
+}
+
+/// Moves by the pieces up to the contacts, as ContactMoves::slid does, and puts the robots where
+/// they are then. Those whose move goes on stay in the block.
+void slide_on(Block& b, float guard, float waves, float* xs, float* ys) {
+  const RobotTag d;
+  const hn::RebindToSigned<RobotTag> di;
+  using V = hn::Vec<RobotTag>;
+  const V one = hn::Set(d, 1.0f);
+  const V least = hn::Set(d, guard), lean = hn::Set(d, guard / 4);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < b.count; i += hn::Lanes(d)) {
+    const V left_x = hn::Load(d, &b.left_x[i]), left_y = hn::Load(d, &b.left_y[i]);
+    const V n_x = hn::Load(d, &b.normal_x[i]), n_y = hn::Load(d, &b.normal_y[i]);
+    const V share = hn::Load(d, &b.share[i]), time = hn::Load(d, &b.time[i]);
+    const auto met = hn::Le(time, one);
+    const V part = hn::Min(time, one);
+    const V x = hn::Add(hn::Load(d, &b.x[i]), hn::Mul(part, hn::Load(d, &b.piece_x[i])));
+    const V y = hn::Add(hn::Load(d, &b.y[i]), hn::Mul(part, hn::Load(d, &b.piece_y[i])));
+    hn::Store(x, d, &b.x[i]);
+    hn::Store(y, d, &b.y[i]);
+    const std::size_t end = std::min(b.count, i + hn::Lanes(d));
+    for (std::size_t k = i; k < end; ++k) {
+      xs[b.robot[k]] = b.x[k];
+      ys[b.robot[k]] = b.y[k];
+    }
+    const V rest_x = hn::Sub(left_x, hn::Mul(part, hn::Mul(share, left_x)));
+    const V rest_y = hn::Sub(left_y, hn::Mul(part, hn::Mul(share, left_y)));
+    const V along = hn::Sub(hn::Mul(rest_y, n_x), hn::Mul(rest_x, n_y));
+    const V contacts = hn::Add(hn::Load(d, &b.contacts[i]), hn::IfThenElseZero(met, one));
+    const V pieces = hn::Load(d, &b.pieces[i]);
+    const auto slides =
+        hn::And(hn::Ge(hn::Abs(along), least),
+                hn::Lt(contacts, hn::Set(d, static_cast<float>(max_slide_contacts))));
+    const auto goes_on =
+        hn::And(hn::And(hn::FirstN(d, end - i), hn::Lt(hn::Set(d, waves + 1), pieces)),
+                hn::Or(hn::And(met, slides), hn::AndNot(met, hn::Lt(share, one))));
+    const auto keep = [&](V v, float* to) { hn::StoreU(hn::Compress(v, goes_on), d, to + kept); };
+    keep(x, b.x.data());
+    keep(y, b.y.data());
+    keep(hn::IfThenElse(met, hn::Mul(hn::Neg(along), n_y), rest_x), b.left_x.data());
+    keep(hn::IfThenElse(met, hn::Mul(along, n_x), rest_y), b.left_y.data());
+    keep(hn::IfThenElse(met, hn::Mul(lean, n_x), hn::Load(d, &b.lean_x[i])), b.lean_x.data());
+    keep(hn::IfThenElse(met, hn::Mul(lean, n_y), hn::Load(d, &b.lean_y[i])), b.lean_y.data());
+    keep(contacts, b.contacts.data());
+    keep(pieces, b.pieces.data());
+    const auto robot = hn::BitCast(d, hn::Load(di, &b.robot[i]));
+    hn::StoreU(hn::BitCast(di, hn::Compress(robot, goes_on)), di, b.robot.data() + kept);
+    kept += hn::CountTrue(d, goes_on);
+  }
+  b.count = kept;
+}
+
+/// ContactMoves::slid for the robots of the block, which are at x, y.
+void slide(const WallFaces& faces, Block& b, float* x, float* y) {
+  std::iota(b.robot.begin(), b.robot.end(), 0);
+  b.lean_x.fill(0);
+  b.lean_y.fill(0);
+  b.contacts.fill(0);
+  for (float waves = 0; b.count > 0; ++waves) {
+    set_pieces(b, faces.reach(), waves == 0);
+    find_contacts<true>(faces, b);
+    slide_on(b, faces.guard(), waves, x, y);
+  }
+}
+
+void move_plainly(const WallFaces& faces, const Block& b, ContactRule rule, float* x, float* y) {
+  const auto contact = [&](PointF q, PointF piece) { return faces.first_contact(q, piece); };
+  const ContactMoves moves(faces.reach(), faces.guard(), contact);
+  for (std::size_t i = 0; i < b.count; ++i) {
+    const PointF p = moves.moved({x[i], y[i]}, {b.left_x[i], b.left_y[i]}, rule);
+    x[i] = p.x;
+    y[i] = p.y;
+  }
+}
+
+void step_here(const WallFaces& faces, const RobotMoves& moves, ContactRule rule, float* x,
+               float* y, std::size_t count) {
+  Block b;
+  for (std::size_t i = 0; i < count; i += Block::size) {
+    take(moves, i, x + i, y + i, std::min(Block::size, count - i), b);
+    if (rule == ContactRule::slide) {
+      slide(faces, b, x + i, y + i);
+    } else if (at_once(b, faces.reach())) {
+      stop_or_reject(faces, rule, b);
+      std::copy_n(b.x.begin(), b.count, x + i);
+      std::copy_n(b.y.begin(), b.count, y + i);
+    } else {
+      move_plainly(faces, b, rule, x + i, y + i);
     }
   }
 }
@@ -212,9 +348,9 @@ namespace microswarm {
 
 HWY_EXPORT(step_here);
 
-void step_lanes(const WallFaces& faces, PointF move, ContactRule rule, std::span<float> x,
-                std::span<float> y) {
-  HWY_DYNAMIC_DISPATCH(step_here)(faces, move, rule, x.data(), y.data(), x.size());
+void step_lanes(const WallFaces& faces, const RobotMoves& moves, ContactRule rule,
+                std::span<float> x, std::span<float> y) {
+  HWY_DYNAMIC_DISPATCH(step_here)(faces, moves, rule, x.data(), y.data(), x.size());
 }
 
 }  // namespace microswarm

@@ -84,12 +84,13 @@ void WallFaces::add_border(const Box& bounds) {
 void WallFaces::fill_cells(const Box& bounds) {
   const double area = bounds.width() * bounds.height();
   const double cell = std::max(static_cast<double>(reach_), std::sqrt(area / max_cells));
-  columns_ = static_cast<std::size_t>(bounds.width() / cell) + 1;
+  const std::size_t columns = static_cast<std::size_t>(bounds.width() / cell) + 1;
   const std::size_t rows = static_cast<std::size_t>(bounds.height() / cell) + 1;
-  low_ = rounded(bounds.lo - origin_);
-  per_cell_ = static_cast<float>(1 / cell);
-  last_column_ = static_cast<float>(columns_ - 1);
-  last_row_ = static_cast<float>(rows - 1);
+  grid_ = {.low = rounded(bounds.lo - origin_),
+           .per_cell = static_cast<float>(1 / cell),
+           .last_column = static_cast<float>(columns - 1),
+           .last_row = static_cast<float>(rows - 1),
+           .columns = columns};
   const Vec2 low = bounds.lo - origin_;
   // Half a diagonal plus the move, plus rounding of the cell and of the contact.
   const double range = reach_ + cell * std::sqrt(0.5) + 8 * guard_;
@@ -109,17 +110,17 @@ void WallFaces::fill_cells(const Box& bounds) {
     for (std::size_t j = clamp((around.lo.y - low.y) / cell, rows),
                      top = clamp((around.hi.y - low.y) / cell, rows);
          j <= top; ++j) {
-      for (std::size_t i = clamp((around.lo.x - low.x) / cell, columns_),
-                       right = clamp((around.hi.x - low.x) / cell, columns_);
+      for (std::size_t i = clamp((around.lo.x - low.x) / cell, columns),
+                       right = clamp((around.hi.x - low.x) / cell, columns);
            i <= right; ++i) {
         const Vec2 centre =
             low + cell * Vec2{static_cast<double>(i) + 0.5, static_cast<double>(j) + 0.5};
         if (distance(centre, s) <= range)
-          entries.push_back({static_cast<std::uint32_t>(j * columns_ + i), id});
+          entries.push_back({static_cast<std::uint32_t>(j * columns + i), id});
       }
     }
   }
-  pack(entries, columns_ * rows);
+  pack(entries, columns * rows);
 }
 
 void WallFaces::pack(const std::vector<CellFace>& entries, std::size_t cells) {

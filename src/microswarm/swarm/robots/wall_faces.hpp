@@ -48,6 +48,23 @@ struct FaceContact {
   bool met() const { return time <= 1; }
 };
 
+/// Grid of square cells; places outside belong to the nearest cell.
+struct FaceCells {
+  PointF low;
+  float per_cell = 0;
+  float last_column = 0;
+  float last_row = 0;
+  std::size_t columns = 1;
+
+  std::size_t at(PointF p) const {
+    const float i = (p.x - low.x) * per_cell;
+    const float j = (p.y - low.y) * per_cell;
+    const int column = static_cast<int>(i > 0 ? (i < last_column ? i : last_column) : 0);
+    const int row = static_cast<int>(j > 0 ? (j < last_row ? j : last_row) : 0);
+    return static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
+  }
+};
+
 /// Walls and border of a map as faces in single precision, with lists of the faces near every cell
 /// of a grid.
 /// No point robot passes a face, although positions and products are rounded. A move that would
@@ -69,8 +86,11 @@ class WallFaces {
   float standoff() const { return 2 * guard_; }
   std::span<const WallFace> all() const { return faces_; }
   /// Faces that a robot at `p` may meet on a move of at most `reach`, in the order of all().
-  std::span<const FacePack> near(PointF p) const {
-    const Packs packs = cells_[cell_at(p)];
+  std::span<const FacePack> near(PointF p) const { return near_in(grid_.at(p)); }
+  const FaceCells& cells() const { return grid_; }
+  /// The same for robots in this cell.
+  std::span<const FacePack> near_in(std::size_t cell) const {
+    const Packs packs = cells_[cell];
     return {packs_.data() + packs.first, packs.count};
   }
   /// First contact on a move of at most `reach`.
@@ -93,23 +113,11 @@ class WallFaces {
     std::uint32_t count = 0;
   };
   Packs add_packs(const std::vector<std::uint32_t>& faces);
-  std::size_t cell_at(PointF p) const {
-    const float i = (p.x - low_.x) * per_cell_;
-    const float j = (p.y - low_.y) * per_cell_;
-    const int column = static_cast<int>(i > 0 ? (i < last_column_ ? i : last_column_) : 0);
-    const int row = static_cast<int>(j > 0 ? (j < last_row_ ? j : last_row_) : 0);
-    return static_cast<std::size_t>(row) * columns_ + static_cast<std::size_t>(column);
-  }
-
   Vec2 origin_;
   float reach_ = 0;
   float guard_ = 0;
   std::vector<WallFace> faces_;
-  PointF low_;
-  float per_cell_ = 0;
-  float last_column_ = 0;
-  float last_row_ = 0;
-  std::size_t columns_ = 1;
+  FaceCells grid_;
   std::vector<Packs> cells_;
   std::vector<FacePack> packs_;  ///< shared by cells with the same faces
 };
