@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/swarm.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <cstdlib>
+#include <filesystem>
 #include <string>
 
 #include "bench/naive_robots.hpp"
@@ -10,9 +13,11 @@
 #include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/formats/images/mask.hpp"
 #include "microswarm/formats/images/rasterise.hpp"
+#include "microswarm/formats/map_file.hpp"
 #include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/scenes/vascular.hpp"
 #include "microswarm/swarm/robots/robot_stepper.hpp"
+#include "microswarm/world/connectivity/passage.hpp"
 
 namespace microswarm::bench {
 namespace {
@@ -63,7 +68,8 @@ void add_rows(std::vector<BenchRow>& rows, const std::string& name, const Map& m
   Rng rng(1, Purpose::scene);
   const std::vector<Vec2> places = free_places(map, 4 * stepper.guard(), rng);
   const int repeats = quick ? 3 : 9;
-  const std::vector<Vec2> few = moves(step, quick ? 50 : 200, rng);
+  const auto faces = static_cast<int>(stepper.faces().all().size());
+  const std::vector<Vec2> few = moves(step, std::clamp(200'000 / faces, 5, quick ? 50 : 200), rng);
   const double naive = rate(few, quick ? 1 : 3, stop, [&] {
     return [robots = NaiveRobots(map, places)](Vec2 move) mutable { robots.step(move); };
   });
@@ -75,13 +81,14 @@ void add_rows(std::vector<BenchRow>& rows, const std::string& name, const Map& m
       };
     });
     const bool stops = rule == ContactRule::stop;
+    constexpr double slide_aim = 65e6;
     rows.push_back({.name = name + (stops ? ", robots stop" : ", robots slide"),
                     .quantity = "robot-steps per second",
                     .unit = "1/s",
                     .ours = ours,
                     .peer = naive,
                     .peer_name = "every edge in turn, stop",
-                    .aim = stops ? std::optional(aim) : std::nullopt,
+                    .aim = stops ? aim : slide_aim,
                     .at_most = false});
   }
 }
@@ -89,6 +96,22 @@ void add_rows(std::vector<BenchRow>& rows, const std::string& name, const Map& m
 /// A map as given by a camera: square pixels, with steps along slanted walls.
 Map of_pixels(const Map& map, double pixel) {
   return {map.bounds(), mask_walls(rasterise(map, pixel), pixel, map.bounds().lo)};
+}
+
+/// Vessel masks of retinas, with steps of a tenth of their widest channel, if MICROSWARM_DATA names
+/// the folder of real input.
+void add_retinas(std::vector<BenchRow>& rows, bool quick, const Stop& stop) {
+  constexpr double um_per_px = 6;
+  const char* data = std::getenv("MICROSWARM_DATA");
+  if (!data) return;
+  for (const char* name : {"CHASE_01L", "CHASE_05R", "CHASE_12R"}) {
+    const auto file =
+        std::filesystem::path(data) / "vessels" / (std::string(name) + "_mask_obs1.png");
+    if (!std::filesystem::exists(file) || stop()) continue;
+    const LoadedMap map = load_map(guess_map_spec(file, um_per_px));
+    add_rows(rows, std::string("retina ") + name, *map.map, check_map(*map.map).widest / 10, 65e6,
+             quick, stop);
+  }
 }
 
 }  // namespace
@@ -101,6 +124,7 @@ std::vector<BenchRow> swarm(bool quick, const Stop& stop) {
            stop);
   add_rows(rows, "the same of pixels of 0.5 µm",
            of_pixels(scenes::larger_vascular_network().map(), 0.5), 1, 65e6, quick, stop);
+  add_retinas(rows, quick, stop);
   return rows;
 }
 

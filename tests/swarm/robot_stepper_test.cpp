@@ -50,6 +50,16 @@ Map chequered() {
   return {{{0, 0}, {100, 100}}, walls};
 }
 
+/// Squares as of a vessel mask: more faces near a robot than a pack holds.
+Map finely_chequered() {
+  Rng rng(7, Purpose::scene);
+  std::vector<Polygon> walls;
+  for (int i = 0; i < 30; ++i)
+    for (int j = 0; j < 30; ++j)
+      if (rng.below(3) == 0) walls.push_back(box(2 * i, 2 * j, 2 * i + 2, 2 * j + 2));
+  return {{{0, 0}, {60, 60}}, walls};
+}
+
 /// The T-junction of [gather].
 Map t_junction() { return {{{0, 50}, {100, 100}}, {box(0, 50, 45, 90), box(55, 50, 100, 90)}}; }
 
@@ -63,6 +73,7 @@ std::vector<Case> cases() {
   std::vector<Case> all;
   all.push_back({"thin and sharp", thin_and_sharp(), 5});
   all.push_back({"chequered", chequered(), 1});
+  all.push_back({"many faces near", finely_chequered(), 4});
   all.push_back({"T-junction", t_junction(), 1});
   return all;
 }
@@ -154,6 +165,67 @@ TEST(RobotStepper, LanesOfEveryWidthGiveTheBitsOfThePlainForm) {
     for (const Case& c : cases())
       for (const ContactRule rule : rules) expect_bits_of_the_plain_form(c, rule, target);
   });
+}
+
+TEST(RobotStepper, ManyMovesOfOneRobotGiveTheBitsOfOneByOne) {
+  test::for_each_target([](const char* target) {
+    for (const Case& c : cases()) {
+      const RobotStepper stepper(c.map, c.reach);
+      Rng rng(10, Purpose::scene);
+      for (const Vec2 place : free_places(c.map, 4 * stepper.guard(), 40, rng)) {
+        std::vector<PointF> moves(70);
+        for (PointF& m : moves) {
+          // Some too short to leave a wall, some of several pieces.
+          const double length = rng.below(4) == 0 ? stepper.guard() : c.reach;
+          const Vec2 move = length * rng.uniform(0, 3) * unit_vector(rng.uniform(0, 2 * pi));
+          m = {static_cast<float>(move.x), static_cast<float>(move.y)};
+        }
+        for (const ContactRule rule : rules) {
+          const PointF p = stepper.moved(stepper.relative(place), moves.back(), rule);
+          std::vector<PointF> ends(moves.size());
+          stepper.moved(p, moves, rule, ends);
+          for (std::size_t k = 0; k < moves.size(); ++k) {
+            const PointF end = stepper.moved(p, moves[k], rule);
+            ASSERT_TRUE(ends[k].x == end.x && ends[k].y == end.y) << c.name << ' ' << target;
+          }
+        }
+      }
+    }
+  });
+}
+
+TEST(FaceGrid, ListsOfADirectionLeaveOutNothingThatAMoveMeets) {
+  const Map map = finely_chequered();
+  for (const double reach : {0.5, 2.0, 5.0}) {
+    const WallFaces faces(map, reach);
+    Rng rng(11, Purpose::scene);
+    std::size_t longest = 0;
+    for (int k = 0; k < 30'000; ++k) {
+      const PointF p{static_cast<float>(rng.uniform(-30, 30)),
+                     static_cast<float>(rng.uniform(-30, 30))};
+      const double angle =
+          rng.below(2) == 0 ? pi / 4 * static_cast<double>(rng.below(8)) : rng.uniform(0, 2 * pi);
+      const double length = rng.below(4) == 0 ? 10 * faces.guard() : reach;
+      const Vec2 move = length * rng.uniform(0, 1) * unit_vector(angle);
+      const PointF m{static_cast<float>(move.x), static_cast<float>(move.y)};
+      const FaceGrid& grid = faces.grid();
+      FaceContact near, any;
+      for (const FacePack& pack : grid.near(grid.cell_at(p), grid.direction_of(m)))
+        for (std::size_t i = 0; i < FacePack::size; ++i) {
+          const float time = time_to_contact(pack[i], p, m, faces.guard());
+          if (time < near.time) near = {time, pack[i].normal};
+        }
+      for (const WallFace& face : faces.all()) {
+        const float time = time_to_contact(face, p, m, faces.guard());
+        if (time < any.time) any = {time, face.normal};
+      }
+      ASSERT_EQ(near.time, any.time);
+      ASSERT_EQ(near.normal.x, any.normal.x);
+      ASSERT_EQ(near.normal.y, any.normal.y);
+      longest = std::max(longest, faces.near(p).size());
+    }
+    EXPECT_GT(longest, reach > 1 ? 1u : 0u);
+  }
 }
 
 // In double precision: the whole move where it is free, else up to about the first wall.

@@ -114,8 +114,7 @@ class Growth {
         for (std::size_t a = 0; a < moves.size(); ++a)
           reached[a] = {p.x + moves[a].x, p.y + moves[a].y};
       } else {
-        for (std::size_t a = 0; a < moves.size(); ++a)
-          reached[a] = stepper_.moved(p, moves[a], params_.contact);
+        stepper_.moved(p, moves, params_.contact, {reached, moves.size()});
       }
       for (std::size_t a = 0; a < moves.size(); ++a) {
         const float dx = reached[a].x - target[2 * i];

@@ -43,6 +43,9 @@ class RobotStepper {
   void step(Robots& robots, Vec2 move, ContactRule rule) const;
   /// End position of a robot at `p`: scalar form of `step`.
   PointF moved(PointF p, PointF move, ContactRule rule) const;
+  /// End positions of a robot at `p` after each of these moves, by vectors.
+  void moved(PointF p, std::span<const PointF> moves, ContactRule rule,
+             std::span<PointF> ends) const;
 
   /// Distance [µm] that robots keep from walls; they stop at twice this distance.
   double guard() const { return static_cast<double>(faces_.guard()); }

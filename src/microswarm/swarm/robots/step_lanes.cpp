@@ -109,23 +109,21 @@ HWY_INLINE void contacts_of_all(const WallFaces& faces, Block& b) {
   }
 }
 
-/// Sets the first contact of robot i of the block with the faces of these packs, at least one; the
-/// faces in lanes.
+/// Sets the first contact of robot i of the block with the faces of a list, at least one, which are
+/// in lanes.
 template <bool with_normals>
-HWY_INLINE void contact_of_packs(const FacePack* packs, std::size_t count, float guard,
-                                 std::size_t i, Block& b) {
+HWY_INLINE void contact_of_packs(const FacePack* packs, float guard, std::size_t i, Block& b) {
   const PackTag d;
   using V = hn::Vec<PackTag>;
   const V x = hn::Set(d, b.x[i]), y = hn::Set(d, b.y[i]);
   const V move_x = hn::Set(d, b.piece_x[i]), move_y = hn::Set(d, b.piece_y[i]);
   V first = hn::Set(d, std::numeric_limits<float>::max());
-  for (std::size_t p = 0; p < count; ++p) {
-    const FacePack& pack = packs[p];
+  for (const FacePack* pack = packs;; ++pack) {
     for (std::size_t k = 0; k < FacePack::size; k += hn::Lanes(d)) {
       const FaceLanes<V> face{
-          hn::Load(d, pack.middle_x.data() + k), hn::Load(d, pack.middle_y.data() + k),
-          hn::Load(d, pack.normal_x.data() + k), hn::Load(d, pack.normal_y.data() + k),
-          hn::Load(d, pack.half_length.data() + k)};
+          hn::Load(d, pack->middle_x.data() + k), hn::Load(d, pack->middle_y.data() + k),
+          hn::Load(d, pack->normal_x.data() + k), hn::Load(d, pack->normal_y.data() + k),
+          hn::Load(d, pack->half_length.data() + k)};
       const V time = times_to_contact<false>(d, face, x, y, move_x, move_y, hn::Set(d, guard));
       if (!with_normals) {
         first = hn::Min(first, time);
@@ -134,55 +132,65 @@ HWY_INLINE void contact_of_packs(const FacePack* packs, std::size_t count, float
       const V least = hn::MinOfLanes(d, time);
       if (!(hn::GetLane(least) < hn::GetLane(first))) continue;
       first = least;
-      const auto lane = k + static_cast<std::size_t>(hn::FindFirstTrue(d, hn::Eq(time, least)));
-      b.normal_x[i] = pack.normal_x[lane];
-      b.normal_y[i] = pack.normal_y[lane];
+      const auto lane =
+          k + static_cast<std::size_t>(hn::FindKnownFirstTrue(d, hn::Eq(time, least)));
+      b.normal_x[i] = pack->normal_x[lane];
+      b.normal_y[i] = pack->normal_y[lane];
     }
+    if (pack->following == 0) break;
   }
   b.time[i] = hn::GetLane(with_normals ? first : hn::MinOfLanes(d, first));
 }
 
-HWY_INLINE void find_cells(const FaceCells& cells, const Block& b, std::int32_t* found) {
+/// Places in FaceGrid::lists of the faces near each robot on its piece.
+HWY_INLINE void find_lists(const FaceGrid& grid, const Block& b, std::int32_t* found) {
   const RobotTag d;
   const hn::RebindToSigned<RobotTag> di;
   using V = hn::Vec<RobotTag>;
   const V zero = hn::Zero(d);
-  const V low_x = hn::Set(d, cells.low.x), low_y = hn::Set(d, cells.low.y);
-  const V per_cell = hn::Set(d, cells.per_cell);
-  const V last_column = hn::Set(d, cells.last_column), last_row = hn::Set(d, cells.last_row);
-  const auto columns = hn::Set(di, static_cast<std::int32_t>(cells.columns));
+  const V low_x = hn::Set(d, grid.low.x), low_y = hn::Set(d, grid.low.y);
+  const V per_cell = hn::Set(d, grid.per_cell), short_move = hn::Set(d, grid.short_move);
+  const V last_column = hn::Set(d, grid.last_column), last_row = hn::Set(d, grid.last_row);
+  const auto columns = hn::Set(di, static_cast<std::int32_t>(grid.columns));
+  const auto a_cell = hn::Set(di, static_cast<std::int32_t>(FaceGrid::lists_a_cell));
+  const auto any = hn::Set(di, static_cast<std::int32_t>(FaceGrid::any_direction));
+  const auto add_if = [&](auto yes, std::int32_t share) {
+    return hn::IfThenElseZero(hn::RebindMask(di, yes), hn::Set(di, share));
+  };
   for (std::size_t i = 0; i < b.count; i += hn::Lanes(d)) {
     const V column = hn::Mul(hn::Sub(hn::Load(d, &b.x[i]), low_x), per_cell);
     const V row = hn::Mul(hn::Sub(hn::Load(d, &b.y[i]), low_y), per_cell);
     const auto in = [&](V v, V last) { return hn::ConvertTo(di, hn::Min(hn::Max(v, zero), last)); };
-    hn::Store(hn::Add(hn::Mul(in(row, last_row), columns), in(column, last_column)), di, found + i);
+    const auto cell = hn::Add(hn::Mul(in(row, last_row), columns), in(column, last_column));
+    const V move_x = hn::Load(d, &b.piece_x[i]), move_y = hn::Load(d, &b.piece_y[i]);
+    const V far_x = hn::Abs(move_x), far_y = hn::Abs(move_y);
+    const auto eighth =
+        hn::Add(hn::Add(add_if(hn::Lt(move_x, zero), 1), add_if(hn::Lt(move_y, zero), 2)),
+                add_if(hn::Gt(far_y, far_x), 4));
+    const auto is_short = hn::RebindMask(di, hn::Lt(hn::Max(far_x, far_y), short_move));
+    hn::Store(hn::Add(hn::Mul(cell, a_cell), hn::IfThenElse(is_short, any, eighth)), di, found + i);
   }
 }
 
 /// First contacts with the faces near each robot.
 template <bool with_normals>
 HWY_INLINE void contacts_of_near(const WallFaces& faces, Block& b) {
-  alignas(64) Block::Lanes<std::int32_t> cell;
-  find_cells(faces.cells(), b, cell.data());
-  Block::Lanes<std::span<const FacePack>> packs;
-  Block::Lanes<std::uint32_t> one, more;  // robots near one pack, and near more
-  std::size_t ones = 0, mores = 0;
+  const FaceGrid& grid = faces.grid();
+  alignas(64) Block::Lanes<std::int32_t> list;
+  find_lists(grid, b, list.data());
+  Block::Lanes<std::uint32_t> pack, robot;
+  std::size_t count = 0;
   for (std::size_t i = 0; i < b.count; ++i) {
-    packs[i] = faces.near_in(static_cast<std::size_t>(cell[i]));
-    const std::size_t count = packs[i].size();
-    one[ones] = more[mores] = static_cast<std::uint32_t>(i);
-    ones += count == 1;
-    mores += count > 1;
+    const std::uint32_t first = grid.lists()[list[i]];
+    pack[count] = first;
+    robot[count] = static_cast<std::uint32_t>(i);
+    count += first != 0;
     b.time[i] = 2;
-    hwy::Prefetch(packs[i].data());
-    hwy::Prefetch(reinterpret_cast<const std::byte*>(packs[i].data()) + 64);
-    hwy::Prefetch(reinterpret_cast<const std::byte*>(packs[i].data()) + 128);
+    const auto* data = reinterpret_cast<const std::byte*>(grid.packs() + first);
+    for (int line = 0; line < 3; ++line) hwy::Prefetch(data + 64 * line);
   }
-  const float guard = faces.guard();
-  for (std::size_t k = 0; k < ones; ++k)
-    contact_of_packs<with_normals>(packs[one[k]].data(), 1, guard, one[k], b);
-  for (std::size_t k = 0; k < mores; ++k)
-    contact_of_packs<with_normals>(packs[more[k]].data(), packs[more[k]].size(), guard, more[k], b);
+  for (std::size_t k = 0; k < count; ++k)
+    contact_of_packs<with_normals>(grid.packs() + pack[k], faces.guard(), robot[k], b);
 }
 
 template <bool with_normals>
@@ -203,31 +211,51 @@ HWY_INLINE void take(const RobotMoves& moves, std::size_t first, const float* x,
   for (std::size_t k = count; k % lanes != 0; ++k) b.x[k] = b.y[k] = b.left_x[k] = b.left_y[k] = 0;
 }
 
-bool at_once(const Block& b, float reach) {
-  const RobotTag d;
-  auto longest = hn::Zero(d);
-  for (std::size_t i = 0; i < b.count; i += hn::Lanes(d)) {
-    const auto x = hn::Load(d, &b.left_x[i]), y = hn::Load(d, &b.left_y[i]);
-    longest = hn::Max(longest, hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
-  }
-  return hn::GetLane(hn::MaxOfLanes(d, longest)) <= reach * reach;
-}
-
-/// ContactMoves::stopped for moves of one piece.
-void stop_or_reject(const WallFaces& faces, ContactRule rule, Block& b) {
+/// Equal pieces of each move; returns the greatest number of them.
+float set_equal_pieces(Block& b, float reach) {
   const RobotTag d;
   using V = hn::Vec<RobotTag>;
-  b.piece_x = b.left_x;
-  b.piece_y = b.left_y;
-  find_contacts<false>(faces, b);
   const V one = hn::Set(d, 1.0f);
+  V most = one;
   for (std::size_t i = 0; i < b.count; i += hn::Lanes(d)) {
-    const V time = hn::Load(d, &b.time[i]);
-    const V met_share = rule == ContactRule::stop ? time : hn::Zero(d);
-    const V share = hn::IfThenElse(hn::Le(time, one), met_share, one);
-    const V move_x = hn::Load(d, &b.piece_x[i]), move_y = hn::Load(d, &b.piece_y[i]);
-    hn::Store(hn::Add(hn::Load(d, &b.x[i]), hn::Mul(share, move_x)), d, &b.x[i]);
-    hn::Store(hn::Add(hn::Load(d, &b.y[i]), hn::Mul(share, move_y)), d, &b.y[i]);
+    const V x = hn::Load(d, &b.left_x[i]), y = hn::Load(d, &b.left_y[i]);
+    const V far = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
+    const V pieces = hn::Max(one, hn::Ceil(hn::Div(far, hn::Set(d, reach))));
+    hn::Store(pieces, d, &b.pieces[i]);
+    hn::Store(hn::Div(x, pieces), d, &b.piece_x[i]);
+    hn::Store(hn::Div(y, pieces), d, &b.piece_y[i]);
+    hn::Store(hn::Zero(d), d, &b.contacts[i]);
+    most = hn::Max(most, pieces);
+  }
+  return hn::GetLane(hn::MaxOfLanes(d, most));
+}
+
+/// ContactMoves::moved for the robots of the block, which are at x, y.
+void stop_or_reject(const WallFaces& faces, ContactRule rule, Block& b, float* x, float* y) {
+  const RobotTag d;
+  using V = hn::Vec<RobotTag>;
+  const V one = hn::Set(d, 1.0f);
+  const float most = set_equal_pieces(b, faces.reach());
+  for (float piece = 1; piece <= most; ++piece) {
+    find_contacts<false>(faces, b);
+    for (std::size_t i = 0; i < b.count; i += hn::Lanes(d)) {
+      const V time = hn::Load(d, &b.time[i]), contacts = hn::Load(d, &b.contacts[i]);
+      const V at_x = hn::Load(d, &b.x[i]), at_y = hn::Load(d, &b.y[i]);
+      const V part = hn::Min(time, one);
+      const V next_x = hn::Add(at_x, hn::Mul(part, hn::Load(d, &b.piece_x[i])));
+      const V next_y = hn::Add(at_y, hn::Mul(part, hn::Load(d, &b.piece_y[i])));
+      const auto goes_on = hn::And(hn::Eq(contacts, hn::Zero(d)),
+                                   hn::Le(hn::Set(d, piece), hn::Load(d, &b.pieces[i])));
+      hn::Store(hn::IfThenElse(goes_on, next_x, at_x), d, &b.x[i]);
+      hn::Store(hn::IfThenElse(goes_on, next_y, at_y), d, &b.y[i]);
+      hn::Store(hn::IfThenElse(hn::And(goes_on, hn::Le(time, one)), one, contacts), d,
+                &b.contacts[i]);
+    }
+  }
+  for (std::size_t i = 0; i < b.count; ++i) {
+    const bool stays = rule == ContactRule::reject && b.contacts[i] > 0;
+    x[i] = stays ? x[i] : b.x[i];
+    y[i] = stays ? y[i] : b.y[i];
   }
 }
 
@@ -301,24 +329,15 @@ void slide_on(Block& b, float guard, float waves, float* xs, float* ys) {
 
 /// ContactMoves::slid for the robots of the block, which are at x, y.
 void slide(const WallFaces& faces, Block& b, float* x, float* y) {
-  std::iota(b.robot.begin(), b.robot.end(), 0);
-  b.lean_x.fill(0);
-  b.lean_y.fill(0);
-  b.contacts.fill(0);
+  const std::size_t count = b.count;
+  std::iota(b.robot.begin(), b.robot.begin() + static_cast<std::ptrdiff_t>(count), 0);
+  std::fill_n(b.lean_x.begin(), count, 0.0f);
+  std::fill_n(b.lean_y.begin(), count, 0.0f);
+  std::fill_n(b.contacts.begin(), count, 0.0f);
   for (float waves = 0; b.count > 0; ++waves) {
     set_pieces(b, faces.reach(), waves == 0);
     find_contacts<true>(faces, b);
     slide_on(b, faces.guard(), waves, x, y);
-  }
-}
-
-void move_plainly(const WallFaces& faces, const Block& b, ContactRule rule, float* x, float* y) {
-  const auto contact = [&](PointF q, PointF piece) { return faces.first_contact(q, piece); };
-  const ContactMoves moves(faces.reach(), faces.guard(), contact);
-  for (std::size_t i = 0; i < b.count; ++i) {
-    const PointF p = moves.moved({x[i], y[i]}, {b.left_x[i], b.left_y[i]}, rule);
-    x[i] = p.x;
-    y[i] = p.y;
   }
 }
 
@@ -327,15 +346,10 @@ void step_here(const WallFaces& faces, const RobotMoves& moves, ContactRule rule
   Block b;
   for (std::size_t i = 0; i < count; i += Block::size) {
     take(moves, i, x + i, y + i, std::min(Block::size, count - i), b);
-    if (rule == ContactRule::slide) {
+    if (rule == ContactRule::slide)
       slide(faces, b, x + i, y + i);
-    } else if (at_once(b, faces.reach())) {
-      stop_or_reject(faces, rule, b);
-      std::copy_n(b.x.begin(), b.count, x + i);
-      std::copy_n(b.y.begin(), b.count, y + i);
-    } else {
-      move_plainly(faces, b, rule, x + i, y + i);
-    }
+    else
+      stop_or_reject(faces, rule, b, x + i, y + i);
   }
 }
 

@@ -3,17 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/maths.hpp"
-#include "microswarm/geometry/distance.hpp"
 
 namespace microswarm {
 namespace {
 
 constexpr double guard_of_extent = 1.5e-6;  // rounding moves a robot by less than 1/4 of this
-constexpr double max_cells = 1 << 20;
 constexpr int disc_corners = 64;
 
 PointF rounded(Vec2 p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
@@ -48,7 +45,7 @@ WallFaces::WallFaces(const Map& map, double reach) : origin_(map.bounds().centre
     for (const auto& hole : polygon.holes) add_ring(hole);
   }
   add_border(bounds);
-  fill_cells(bounds);
+  grid_ = FaceGrid({bounds.lo - origin_, bounds.hi - origin_}, faces_, reach_, guard_);
 }
 
 // Rings have the solid on their left.
@@ -79,78 +76,6 @@ void WallFaces::add_border(const Box& bounds) {
   add_face({lo.x, hi.y}, hi);
   add_face(hi, {hi.x, lo.y});
   add_face({hi.x, lo.y}, lo);
-}
-
-void WallFaces::fill_cells(const Box& bounds) {
-  const double area = bounds.width() * bounds.height();
-  const double cell = std::max(static_cast<double>(reach_), std::sqrt(area / max_cells));
-  const std::size_t columns = static_cast<std::size_t>(bounds.width() / cell) + 1;
-  const std::size_t rows = static_cast<std::size_t>(bounds.height() / cell) + 1;
-  grid_ = {.low = rounded(bounds.lo - origin_),
-           .per_cell = static_cast<float>(1 / cell),
-           .last_column = static_cast<float>(columns - 1),
-           .last_row = static_cast<float>(rows - 1),
-           .columns = columns};
-  const Vec2 low = bounds.lo - origin_;
-  // Half a diagonal plus the move, plus rounding of the cell and of the contact.
-  const double range = reach_ + cell * std::sqrt(0.5) + 8 * guard_;
-  std::vector<CellFace> entries;
-  for (std::uint32_t id = 0; id < faces_.size(); ++id) {
-    const WallFace& f = faces_[id];
-    const Vec2 middle{f.middle.x, f.middle.y};
-    const Vec2 half = static_cast<double>(f.half_length) * Vec2{-f.normal.y, f.normal.x};
-    const Segment s{middle - half, middle + half};
-    Box box;
-    box.include(s.a);
-    box.include(s.b);
-    const Box around = box.grown(range);
-    const auto clamp = [](double v, std::size_t count) {
-      return static_cast<std::size_t>(std::clamp(v, 0.0, static_cast<double>(count - 1)));
-    };
-    for (std::size_t j = clamp((around.lo.y - low.y) / cell, rows),
-                     top = clamp((around.hi.y - low.y) / cell, rows);
-         j <= top; ++j) {
-      for (std::size_t i = clamp((around.lo.x - low.x) / cell, columns),
-                       right = clamp((around.hi.x - low.x) / cell, columns);
-           i <= right; ++i) {
-        const Vec2 centre =
-            low + cell * Vec2{static_cast<double>(i) + 0.5, static_cast<double>(j) + 0.5};
-        if (distance(centre, s) <= range)
-          entries.push_back({static_cast<std::uint32_t>(j * columns + i), id});
-      }
-    }
-  }
-  pack(entries, columns * rows);
-}
-
-void WallFaces::pack(const std::vector<CellFace>& entries, std::size_t cells) {
-  std::vector<std::vector<std::uint32_t>> faces(cells);
-  for (const CellFace& entry : entries) faces[entry.cell].push_back(entry.face);
-  std::map<std::vector<std::uint32_t>, Packs> known{{{}, {}}};
-  cells_.resize(cells);
-  for (std::size_t i = 0; i < cells; ++i) {
-    const auto [place, is_new] = known.try_emplace(std::move(faces[i]));
-    if (is_new) place->second = add_packs(place->first);
-    cells_[i] = place->second;
-  }
-}
-
-WallFaces::Packs WallFaces::add_packs(const std::vector<std::uint32_t>& faces) {
-  const Packs packs{
-      static_cast<std::uint32_t>(packs_.size()),
-      static_cast<std::uint32_t>((faces.size() + FacePack::size - 1) / FacePack::size)};
-  packs_.resize(packs_.size() + packs.count);
-  for (std::size_t k = 0; k < faces.size(); ++k) {
-    FacePack& to = packs_[packs.first + k / FacePack::size];
-    const std::size_t lane = k % FacePack::size;
-    const WallFace& face = faces_[faces[k]];
-    to.middle_x[lane] = face.middle.x;
-    to.middle_y[lane] = face.middle.y;
-    to.normal_x[lane] = face.normal.x;
-    to.normal_y[lane] = face.normal.y;
-    to.half_length[lane] = face.half_length;
-  }
-  return packs;
 }
 
 FaceContact WallFaces::first_contact(PointF p, PointF move) const {

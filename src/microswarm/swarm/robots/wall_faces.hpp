@@ -2,42 +2,15 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
 
+#include "microswarm/swarm/robots/face_grid.hpp"
 #include "microswarm/world/map/map.hpp"
 
 namespace microswarm {
-
-/// Point or move in single precision [µm], relative to the centre of a map.
-struct PointF {
-  float x = 0;
-  float y = 0;
-};
-
-/// One straight side of a wall; its normal points to the robots' side.
-struct WallFace {
-  PointF middle;
-  PointF normal;
-  float half_length = 0;  ///< [µm], including the overlap with its neighbours
-};
-
-/// Up to eight faces side by side for vector instructions. Unused lanes have negative lengths, so
-/// nothing meets them.
-struct alignas(32) FacePack {
-  static constexpr std::size_t size = 8;
-  std::array<float, size> middle_x{}, middle_y{}, normal_x{}, normal_y{}, half_length;
-
-  FacePack() { half_length.fill(std::numeric_limits<float>::lowest()); }
-
-  WallFace operator[](std::size_t i) const {
-    return {{middle_x[i], middle_y[i]}, {normal_x[i], normal_y[i]}, half_length[i]};
-  }
-};
 
 /// First face that a move meets. `time` is the fraction of the move up to the standoff from the
 /// face, more than 1 if the move is free; `normal` is the face's normal.
@@ -46,23 +19,6 @@ struct FaceContact {
   PointF normal;
 
   bool met() const { return time <= 1; }
-};
-
-/// Grid of square cells; places outside belong to the nearest cell.
-struct FaceCells {
-  PointF low;
-  float per_cell = 0;
-  float last_column = 0;
-  float last_row = 0;
-  std::size_t columns = 1;
-
-  std::size_t at(PointF p) const {
-    const float i = (p.x - low.x) * per_cell;
-    const float j = (p.y - low.y) * per_cell;
-    const int column = static_cast<int>(i > 0 ? (i < last_column ? i : last_column) : 0);
-    const int row = static_cast<int>(j > 0 ? (j < last_row ? j : last_row) : 0);
-    return static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
-  }
 };
 
 /// Walls and border of a map as faces in single precision, with lists of the faces near every cell
@@ -86,13 +42,10 @@ class WallFaces {
   float standoff() const { return 2 * guard_; }
   std::span<const WallFace> all() const { return faces_; }
   /// Faces that a robot at `p` may meet on a move of at most `reach`, in the order of all().
-  std::span<const FacePack> near(PointF p) const { return near_in(grid_.at(p)); }
-  const FaceCells& cells() const { return grid_; }
-  /// The same for robots in this cell.
-  std::span<const FacePack> near_in(std::size_t cell) const {
-    const Packs packs = cells_[cell];
-    return {packs_.data() + packs.first, packs.count};
+  std::span<const FacePack> near(PointF p) const {
+    return grid_.near(grid_.cell_at(p), FaceGrid::any_direction);
   }
+  const FaceGrid& grid() const { return grid_; }
   /// First contact on a move of at most `reach`.
   FaceContact first_contact(PointF p, PointF move) const;
 
@@ -102,24 +55,12 @@ class WallFaces {
   void add_ring(std::span<const Vec2> ring);
   void add_face(Vec2 a, Vec2 b);
   void add_border(const Box& bounds);
-  void fill_cells(const Box& bounds);
-  struct CellFace {
-    std::uint32_t cell;
-    std::uint32_t face;
-  };
-  void pack(const std::vector<CellFace>& entries, std::size_t cells);
-  struct Packs {
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
-  };
-  Packs add_packs(const std::vector<std::uint32_t>& faces);
+
   Vec2 origin_;
   float reach_ = 0;
   float guard_ = 0;
   std::vector<WallFace> faces_;
-  FaceCells grid_;
-  std::vector<Packs> cells_;
-  std::vector<FacePack> packs_;  ///< shared by cells with the same faces
+  FaceGrid grid_;
 };
 
 /// Fraction of `move` up to the standoff of a robot at `p` from the face; 2 if the face is not met.
