@@ -2,6 +2,7 @@
 // microswarm-bench compares speeds with those of peers, which only this program links.
 #include <memory>
 
+#include "bench/gathering.hpp"
 #include "bench/global.hpp"
 #include "bench/lab.hpp"
 #include "bench/planning.hpp"
@@ -71,6 +72,7 @@ int main(int argc, char** argv) {
        }},
       {"swarm", "Stepping of robots under one input", bench::swarm},
       {"global", "Planning for several robots under one input", bench::global},
+      {"gather", "Steps that gather robots, by each method", bench::gather},
       {"radar", "Decisions of the radar", bench::radar},
 #ifdef MICROSWARM_BENCH_LAB
       {"lab", "The lab: frames, times, several clients; its page in a browser",

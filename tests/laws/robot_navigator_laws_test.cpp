@@ -287,10 +287,14 @@ std::vector<RobotCase> robot_cases() {
   AggregationParams rollout = dca;
   rollout.method = Aggregation::rollout;
   rollout.rollout.budget = 2e4;
+  rollout.rollout.first_budget = 2e4;
+  AggregationParams chase = dca;
+  chase.method = Aggregation::dynamic_shortest_path;
   return {gathering("DivideAndConquer", dca),
           gathering("Heuristic", heuristic),
           gathering("AsPublished", published),
           gathering("Rollout", rollout),
+          gathering("DynamicShortestPath", chase),
           global_input("PlanPlayerSlide", {}, ContactRule::slide),
           global_input("PlanPlayerStop", {}, ContactRule::stop)};
 }

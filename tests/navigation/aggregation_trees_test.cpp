@@ -11,7 +11,7 @@ namespace microswarm {
 namespace {
 
 constexpr Aggregation methods[] = {Aggregation::heuristic, Aggregation::divide_and_conquer,
-                                   Aggregation::rollout};
+                                   Aggregation::rollout, Aggregation::dynamic_shortest_path};
 
 /// A tree of a sixteenth of the nodes, with edges four times as long.
 AggregationParams coarse(const scenes::Vascular& scene, bool weighted) {
@@ -21,6 +21,7 @@ AggregationParams coarse(const scenes::Vascular& scene, bool weighted) {
   params.tree.extension *= 4;
   params.tree.neighbour_radius *= 4;
   params.rollout.budget = 1e4;
+  params.rollout.first_budget = 1e4;
   params.rollout.max_work = 1e3;
   params.rollout.candidates = 0;
   return params;

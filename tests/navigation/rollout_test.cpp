@@ -14,6 +14,7 @@ namespace {
 AggregationParams with_work(const Gathering& g, double max_work) {
   AggregationParams params = g.params;
   params.rollout.budget = 2e5;
+  params.rollout.first_budget = 2e5;
   params.rollout.max_work = max_work;
   return params;
 }
@@ -91,6 +92,22 @@ TEST(Rollout, SameSeedSameMoves) {
   EXPECT_EQ(one.x, two.x);
   EXPECT_EQ(one.y, two.y);
   EXPECT_EQ(first.work(), second.work());
+}
+
+TEST(Rollout, ThreadsChangeNothing) {
+  const Gathering& t = t_junction();
+  AggregationParams params = with_work(t, 2e6);
+  params.rollout.first_budget = 2e6;
+  std::vector<Robots> ends;
+  for (const int threads : {1, 2, 5}) {
+    params.rollout.threads = threads;
+    ends.push_back(t.robots(64, 5));
+    RolloutPolicy policy(t.ground, t.stepper, params, Rng(3, Purpose::planner));
+    gather(t.stepper, policy, ends.back(), 5000);
+    EXPECT_GT(policy.improvements(), 0);
+    EXPECT_EQ(ends.back().x, ends[0].x);
+    EXPECT_EQ(ends.back().y, ends[0].y);
+  }
 }
 
 void shake(const RobotStepper& stepper, Robots& robots, double by, Rng& rng) {

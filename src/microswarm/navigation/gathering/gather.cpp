@@ -10,13 +10,13 @@ namespace {
 
 /// `next` gives the move of a step, or nothing when they are gathered.
 template <class Policy, class Next>
-GatherResult gather_by(const RobotStepper& stepper, const Policy& policy, Robots& robots,
+GatherResult gather_by(const CommonInput& input, const Policy& policy, Robots& robots,
                        int max_steps, const Stop& stop, Next next) {
   GatherResult result;
   for (;; ++result.steps) {
     const std::optional<Vec2> move = next(result.steps);
     if (move && !stop() && result.steps < max_steps) {
-      stepper.step(robots, *move, ContactRule::stop);
+      input.step(robots, *move);
       continue;
     }
     result.status = !move ? Status::solved : stop() ? Status::stopped : Status::time_limit;
@@ -28,12 +28,12 @@ GatherResult gather_by(const RobotStepper& stepper, const Policy& policy, Robots
 
 }  // namespace
 
-GatherResult gather(const RobotStepper& stepper, AggregationPolicy& policy, Robots& robots,
+GatherResult gather(const CommonInput& input, AggregationPolicy& policy, Robots& robots,
                     int max_steps, const Stop& stop) {
   constexpr int steps_between_joins = 16;
   MergedRobots merged(robots);
   const GatherResult result =
-      gather_by(stepper, policy, merged.places(), max_steps, stop, [&](int step) {
+      gather_by(input, policy, merged.places(), max_steps, stop, [&](int step) {
         if (step % steps_between_joins == 0)
           if (const auto new_places = merged.merge_coincident(); !new_places.empty())
             policy.remap(new_places);
@@ -43,9 +43,9 @@ GatherResult gather(const RobotStepper& stepper, AggregationPolicy& policy, Robo
   return result;
 }
 
-GatherResult gather(const RobotStepper& stepper, RolloutPolicy& policy, Robots& robots,
-                    int max_steps, const Stop& stop) {
-  return gather_by(stepper, policy, robots, max_steps, stop,
+GatherResult gather(const CommonInput& input, RolloutPolicy& policy, Robots& robots, int max_steps,
+                    const Stop& stop) {
+  return gather_by(input, policy, robots, max_steps, stop,
                    [&](int) { return policy.next(robots, stop); });
 }
 

@@ -4,8 +4,8 @@
 #include "microswarm/core/execution/status.hpp"
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/navigation/gathering/policies/aggregation_policy.hpp"
+#include "microswarm/navigation/gathering/policies/common_input.hpp"
 #include "microswarm/navigation/gathering/rollout/rollout_policy.hpp"
-#include "microswarm/swarm/robots/robot_stepper.hpp"
 
 namespace microswarm {
 
@@ -17,11 +17,11 @@ struct GatherResult {
   int guard_count = 0;
 };
 
-/// Gathers robots step by step under the rule "stop", without camera, delay or noise. `robots` ends
+/// Gathers robots step by step, without camera, delay or noise. `robots` ends
 /// with their final positions. Episode gathers with camera, delay and noise.
-GatherResult gather(const RobotStepper& stepper, AggregationPolicy& policy, Robots& robots,
+GatherResult gather(const CommonInput& input, AggregationPolicy& policy, Robots& robots,
                     int max_steps, const Stop& stop = {});
-GatherResult gather(const RobotStepper& stepper, RolloutPolicy& policy, Robots& robots,
-                    int max_steps, const Stop& stop = {});
+GatherResult gather(const CommonInput& input, RolloutPolicy& policy, Robots& robots, int max_steps,
+                    const Stop& stop = {});
 
 }  // namespace microswarm

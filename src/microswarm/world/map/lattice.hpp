@@ -35,6 +35,14 @@ class NodeLattice {
     return first_ + spacing_ * Vec2{static_cast<double>(n % columns_), static_cast<double>(row)};
   }
 
+  /// The node nearest to a point; at the border for points outside.
+  std::uint32_t nearest(Vec2 p) const {
+    const Vec2 offset = (p - first_) / spacing_ + Vec2{0.5, 0.5};
+    const int column = std::clamp(static_cast<int>(offset.x), 0, columns_ - 1);
+    const int row = std::clamp(static_cast<int>(offset.y), 0, rows_ - 1);
+    return static_cast<std::uint32_t>(row * columns_ + column);
+  }
+
   /// Visits the neighbours to the right and above, so that each pair is visited once.
   template <class Visit>
   void for_each_later_neighbour(std::uint32_t node, Visit&& visit) const {

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/navigation/gathering/policies/aggregation_map.hpp"
 
+#include <algorithm>
+
 #include "microswarm/core/errors/error.hpp"
 
 namespace microswarm {
 
-AggregationMap::AggregationMap(Map m, Vec2 goal, const AggregationParams& params, Rng& rng)
+AggregationMap::AggregationMap(Map m, Vec2 goal, const AggregationParams& params, Rng& rng,
+                               MoveRule rule)
     : map(std::move(m)),
       tree(obstacle_weighted_rrt(map, goal, params.tree, rng)),
       obstacle_weighted(params.obstacle_weighted) {
@@ -15,6 +18,10 @@ AggregationMap::AggregationMap(Map m, Vec2 goal, const AggregationParams& params
                      std::to_string(params.tree.max_iterations) + " samples, " +
                      std::to_string(params.tree.nodes) + " were asked for");
   segmentation = segment_map(map, tree, routes(), params.segmentation);
+  longest = *std::ranges::max_element(routes().length);
+  if (rule == MoveRule::any_direction) return;
+  cells = std::make_shared<const CellGraph>(map, params.step, CellSteps::hops);
+  hops = cells->distances(cells->nearest(map, goal));
 }
 
 }  // namespace microswarm

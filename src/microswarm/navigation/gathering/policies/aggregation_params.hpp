@@ -14,15 +14,27 @@ namespace microswarm {
 
 /// Policy that chooses the leader of the robots.
 enum class Aggregation {
-  heuristic,           ///< the robot farthest from the goal: Alg 3 [gather], HRA
-  divide_and_conquer,  ///< region after region, branch after branch: Alg 5 [gather], DCA
-  rollout,             ///< a complete plan, improved by simulation of both: RolloutPolicy
+  heuristic,              ///< the robot farthest from the goal: Alg 3 [gather], HRA
+  divide_and_conquer,     ///< region after region, branch after branch: Alg 5 [gather], DCA
+  rollout,                ///< a complete plan, improved by simulation of both: RolloutPolicy
+  dynamic_shortest_path,  ///< the farther of the two farthest apart follows: DynamicShortestPath
 };
 constexpr auto enum_names(Aggregation) {
-  return std::array<std::pair<Aggregation, std::string_view>, 3>{
+  return std::array<std::pair<Aggregation, std::string_view>, 4>{
       {{Aggregation::heuristic, "heuristic"},
        {Aggregation::divide_and_conquer, "divide_and_conquer"},
-       {Aggregation::rollout, "rollout"}}};
+       {Aggregation::rollout, "rollout"},
+       {Aggregation::dynamic_shortest_path, "dynamic_shortest_path"}}};
+}
+
+/// When the robots are gathered.
+enum class Gathered {
+  mean,  ///< F, the mean path length to the goal, is below σ [gather]
+  all,   ///< every path length to the goal is below σ
+};
+constexpr auto enum_names(Gathered) {
+  return std::array<std::pair<Gathered, std::string_view>, 2>{
+      {{Gathered::mean, "mean"}, {Gathered::all, "all"}}};
 }
 
 /// Next region in Alg 5 [gather] when a team is no longer followed.
@@ -48,6 +60,7 @@ struct AggregationParams {
   double scale = 1;
   double step = 1;
   double sigma = 10;
+  Gathered gathered = Gathered::mean;
   double discount = 0.3;
   double discount_length = 5;
   int patience = 2;
@@ -56,8 +69,7 @@ struct AggregationParams {
   MapSegmentationParams segmentation;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.method,
-          {"method", Unit::none, {}, "Policy: heuristic, divide_and_conquer or rollout."});
+    visit(self.method, {"method", Unit::none, {}, "Policy that chooses the moves."});
     visit(
         self.reading,
         {"reading", Unit::none, {}, "Next region of DCA: farthest of the round, or as published."});
@@ -79,7 +91,9 @@ struct AggregationParams {
           {"scale", Unit::none, {0, 1e6}, "Factor of all lengths here; 0: channel width / 10 µm."});
     visit(self.step, {"step", Unit::um, {1e-6, 1e6}, "Length of one move."});
     visit(self.sigma,
-          {"sigma", Unit::um, {0, 1e6}, "Mean distance F below which the robots are gathered."});
+          {"sigma", Unit::um, {0, 1e6}, "Distance to the goal below which they are gathered."});
+    visit(self.gathered,
+          {"gathered", Unit::none, {}, "Distance that must fall below sigma: mean or all."});
     visit(self.discount, {"discount", Unit::none, {0, 1}, "Discount of far robots, Eq 6."});
     visit(self.discount_length, {"discount_length",
                                  Unit::um,

@@ -8,6 +8,7 @@
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/core/maths/rng.hpp"
 #include "microswarm/navigation/gathering/policies/divide_and_conquer.hpp"
+#include "microswarm/navigation/gathering/policies/dynamic_shortest_path.hpp"
 #include "microswarm/navigation/gathering/policies/leaders.hpp"
 #include "microswarm/navigation/gathering/policies/merged_robots.hpp"
 #include "microswarm/navigation/gathering/policies/swarm_distances.hpp"
@@ -16,8 +17,9 @@
 
 namespace microswarm {
 
-/// Gathers robots at the goal with one input for all: Alg 3 and 5 [gather]. Each step chooses a
-/// leader and leads it towards the goal. Both algorithms may be caught in a livelock, in which
+/// Gathers robots at the goal with one input for all: Alg 3 and 5 [gather] and dynamic shortest
+/// path. Each step chooses a leader and leads it towards the goal, or to another robot. All
+/// algorithms may be caught in a livelock, in which
 /// robots are handed to and fro: from then on random robots lead (LivelockGuard), so that no
 /// sequence of moves repeats for ever. `gather` has a limit of steps.
 class AggregationPolicy {
@@ -35,19 +37,25 @@ class AggregationPolicy {
 
   /// F(n, t): mean path length to the goal [µm] of the robots last seen.
   double mean_distance() const { return distances_.mean(); }
+  /// The distance [µm] that must fall below σ.
+  double distance_left() const { return distances_.left(params_.gathered); }
   /// The robot that leads.
   std::size_t leader() const { return leader_; }
   /// The point it is led to.
-  Vec2 waypoint() const { return follower_.waypoint(); }
+  Vec2 waypoint() const { return chases_ ? chase_->waypoint() : follower_.waypoint(); }
   /// 1 when the guard had to break a livelock.
-  int guard_count() const { return guard_.is_livelock(); }
+  int guard_count() const { return is_livelock() ? 1 : 0; }
 
  private:
+  bool is_livelock() const { return guard_.is_livelock() || (chase_ && chase_->gave_up()); }
+
   AggregationParams params_;
   SwarmDistances distances_;
   DivideAndConquer dca_;
   LivelockGuard guard_;
   WaypointFollower follower_;
+  std::optional<DynamicShortestPath> chase_;
+  bool chases_ = false;
   Rng rng_{1, Purpose::planner};
   std::size_t leader_ = ~std::size_t{0};
 };

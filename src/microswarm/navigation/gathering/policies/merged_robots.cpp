@@ -69,6 +69,12 @@ void MergedRobots::coarsen(std::size_t most, double cell) {
     merge_coincident(cell);
 }
 
+MergedRobots MergedRobots::condensed() const {
+  MergedRobots all(places_);
+  all.counts_ = counts_;
+  return all;
+}
+
 Robots MergedRobots::robots() const {
   Robots all{places_.origin, {}, {}};
   for (const std::uint32_t place : place_of_) {

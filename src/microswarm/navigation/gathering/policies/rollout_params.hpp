@@ -13,18 +13,22 @@ namespace microswarm {
 struct RolloutParams {
   static constexpr std::string_view type_name = "rollout";
   double budget = 4e6;
+  double first_budget = 20e6;
   double max_work = 200e6;
   int max_steps = 100'000;
   int representatives = 32;
-  int lookahead_representatives = 64;
-  int candidates = 16;
-  int horizon = 150;
-  int commit = 50;
+  int lookahead_representatives = 256;
+  int candidates = 8;
+  int horizon = 80;
+  int layer_width = 30;
   double max_deviation = 1;
+  int threads = 1;
   RolloutTuning tuning;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.budget, {"budget", Unit::none, {0, 1e12}, "Simulated robot-steps per decision."});
+    visit(self.first_budget,
+          {"first_budget", Unit::none, {0, 1e12}, "The same before the robots move at all."});
     visit(self.max_work, {"max_work",
                           Unit::none,
                           {0, 1e15},
@@ -50,16 +54,18 @@ struct RolloutParams {
                                            false,
                                            "lookahead_places"});
     visit(self.candidates,
-          {"candidates", Unit::none, {0, 1e4}, "Leaders tried in the lookahead; 0: no lookahead."});
-    visit(self.horizon, {"horizon", Unit::none, {1, 1e6}, "Steps of the lookahead."});
-    visit(self.commit,
-          {"commit", Unit::none, {1, 1e6}, "Steps after which the lookahead is repeated."});
+          {"candidates", Unit::none, {0, 1e4}, "Trials of a state; 0: no search by layers."});
+    visit(self.horizon, {"horizon", Unit::none, {1, 1e6}, "Most steps of a trial."});
+    visit(self.layer_width,
+          {"layer_width", Unit::none, {1, 1e6}, "States kept after equally many steps."});
     visit(self.max_deviation, {"max_deviation",
                                Unit::none,
                                {0, 1e6},
                                "Mean deviation in steps above which it plans again.",
                                false,
                                "stray"});
+    visit(self.threads,
+          {"threads", Unit::none, {0, 1024}, "Threads of the search by layers; 0: one per core."});
     visit(self.tuning, {"tuning", Unit::none, {}, "Constants that seldom need a change."});
   }
 };

@@ -15,6 +15,13 @@ struct RolloutTuning {
   double merge_cell = 0.5;
   double robots_exponent = 0.3;
   double step_overhead = 20;
+  int states_per_layer = 1;
+  int min_passes = 1;
+  int min_trial = 4;
+  double direction_share = 0.4;
+  double head_start = 0.02;
+  double layers_work = 8e6;
+  double changes_work = 8e6;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.change_lengths,
@@ -31,6 +38,21 @@ struct RolloutTuning {
           {"robots_exponent", Unit::none, {0, 4}, "Exponent of the robots at a place to lead."});
     visit(self.step_overhead,
           {"step_overhead", Unit::none, {0, 1e6}, "Cost of a step besides its robots, in robots."});
+    visit(self.states_per_layer,
+          {"states_per_layer", Unit::none, {1, 1e4}, "States of a layer expanded at once."});
+    visit(self.min_passes, {"min_passes", Unit::none, {0, 1e6}, "Fewest passes over all layers."});
+    visit(self.min_trial,
+          {"min_trial", Unit::none, {1, 1e6}, "Fewest steps of a trial in the search by layers."});
+    visit(self.direction_share, {"direction_share",
+                                 Unit::none,
+                                 {0, 1},
+                                 "Share of trials in which all go in one direction."});
+    visit(self.head_start,
+          {"head_start", Unit::none, {0, 1}, "Share of the plan that layers begin ahead."});
+    visit(self.layers_work,
+          {"layers_work", Unit::none, {0, 1e15}, "Robot-steps of a search by layers."});
+    visit(self.changes_work,
+          {"changes_work", Unit::none, {0, 1e15}, "Robot-steps of random changes after layers."});
   }
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/navigation/gathering/policies/swarm_distances.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 
@@ -18,7 +19,6 @@ void SwarmDistances::update(const Robots& robots, std::span<const std::uint32_t>
     count_ = counts.empty() ? static_cast<double>(n)
                             : std::accumulate(counts.begin(), counts.end(), 0.0);
   }
-  const Routes& routes = map_->routes();
   for (std::size_t i = 0; i < n; ++i) {
     if (robots.x[i] == x_[i] && robots.y[i] == y_[i]) continue;
     x_[i] = robots.x[i];
@@ -26,10 +26,15 @@ void SwarmDistances::update(const Robots& robots, std::span<const std::uint32_t>
     const Vec2 p = robots.position(i);
     const std::uint32_t node = robots_.nodes[i] = map_->tree.nearest(p);
     const double before = robots_.ways[i];
-    robots_.ways[i] = on_lattice(routes.length[node] + distance(p, map_->tree.nodes[node]));
+    robots_.ways[i] = on_lattice(map_->way(p, node));
     sum_ += robots_.count(i) * (robots_.ways[i] - before);
   }
   mean_ = n > 0 ? sum_ / count_ : 0;
+}
+
+double SwarmDistances::left(Gathered measure) const {
+  if (measure == Gathered::mean) return mean_;
+  return robots_.ways.empty() ? 0 : *std::ranges::max_element(robots_.ways);
 }
 
 bool SwarmDistances::remap(std::span<const std::uint32_t> new_positions) {

@@ -7,14 +7,17 @@
 #include <vector>
 
 #include "microswarm/navigation/gathering/policies/aggregation_map.hpp"
+#include "microswarm/navigation/gathering/policies/step_to_waypoint.hpp"
 
 namespace microswarm {
 
-/// Leads one robot at a time to the goal along the tree, from visible node to visible node.
+/// Leads one robot at a time to the goal along the tree, from visible node to visible node; by
+/// the cell rule, along the shortest path from cell to cell.
 class WaypointFollower {
  public:
   /// `step` [µm] is the length of a move. The map must outlive it.
-  WaypointFollower(const AggregationMap& map, double step) : map_(&map), step_(step) {}
+  WaypointFollower(const AggregationMap& map, double step)
+      : map_(&map), step_(step), step_to_(step) {}
 
   /// The move [µm] for leader `robot` of `count` robots, which is at `p`.
   Vec2 move(std::size_t robot, std::size_t count, Vec2 p);
@@ -22,7 +25,7 @@ class WaypointFollower {
   void remap(std::span<const std::uint32_t> new_positions);
 
   /// The point that the last move leads to.
-  Vec2 waypoint() const { return waypoint_; }
+  Vec2 waypoint() const { return step_to_.waypoint(); }
 
  private:
   Vec2 waypoint_of(std::size_t robot, Vec2 p);
@@ -30,10 +33,7 @@ class WaypointFollower {
   const AggregationMap* map_;
   double step_;
   std::vector<std::uint32_t> node_of_;  ///< node that each robot was last led to
-  std::size_t leader_ = ~std::size_t{0};
-  Vec2 position_;  ///< of the leader at the last move
-  int held_ = 0;   ///< moves for which the leader has not moved
-  Vec2 waypoint_;
+  StepToWaypoint step_to_;
 };
 
 }  // namespace microswarm

@@ -13,10 +13,10 @@ void RolloutExecution::start(const Robots& robots, RolloutPlan&& plan) {
   expected_ = MergedRobots(robots);
 }
 
-Vec2 RolloutExecution::advance(const RobotStepper& stepper) {
+Vec2 RolloutExecution::advance(const CommonInput& input) {
   const Vec2 move = plan_.moves[done_++];
   if (done_ % RolloutPlan::checkpoint_interval == 0) expected_.merge_coincident();
-  stepper.step(expected_.places(), move, ContactRule::stop);
+  input.step(expected_.places(), move);
   return move;
 }
 

@@ -8,30 +8,28 @@
 
 namespace microswarm {
 
-RolloutPolicy::RolloutPolicy(const AggregationMap& map, const RobotStepper& stepper,
+RolloutPolicy::RolloutPolicy(const AggregationMap& map, const CommonInput& input,
                              const AggregationParams& params, Rng rng)
-    : simulator_(map, stepper, params),
-      stepper_(&stepper),
-      map_(&map),
-      base_(map, params),
-      search_(rng) {}
+    : simulator_(map, input, params), input_(input), map_(&map), base_(map, params), search_(rng) {}
 
 std::optional<Vec2> RolloutPolicy::next(const Robots& robots, const Stop& stop) {
   if (robots.size() == 0) return std::nullopt;
   const double work_before = simulator_.work();
   const bool begins = robots.size() != plan_.robot_count();
   measure(robots, begins || plan_.left() == 0);
-  if (mean_distance_ < simulator_.params().sigma) return std::nullopt;
+  if (distance_left_ < simulator_.params().sigma) return std::nullopt;
   if (begins) {
     start(robots);
   } else if (leads() && (plan_.left() == 0 || !on_plan(robots))) {
     plan_anew(robots);
   }
   if (!leads()) return base_.next(robots);
-  const double budget = simulator_.params().rollout.budget - (simulator_.work() - work_before);
+  const RolloutParams& p = simulator_.params().rollout;
+  const double all = begins ? p.first_budget : p.budget;
+  const double budget = all - (simulator_.work() - work_before);
   search_.improve(plan_, simulator_, budget, stop);
   ++made_;
-  return plan_.advance(*stepper_);
+  return plan_.advance(input_);
 }
 
 // Follows the plan unless there is none, or the robots differ so much from the simulation that it
@@ -42,12 +40,14 @@ bool RolloutPolicy::leads() const {
   return plan_.steps() > 0 && made_ + plan_.left() <= max_bases * base_steps_;
 }
 
-// The mean path length decreases by at most one step per move.
+// The distance left decreases by at most one step per move.
 void RolloutPolicy::measure(const Robots& robots, bool always) {
   if (!always && --unmeasured_ > 0) return;
   const AggregationParams& p = simulator_.params();
-  mean_distance_ = simulator_.mean_distance(MergedRobots(robots));
-  unmeasured_ = static_cast<int>(std::clamp((mean_distance_ - p.sigma) / p.step, 1.0, 1e6));
+  const MergedRobots merged(robots);
+  mean_distance_ = simulator_.mean_distance(merged);
+  distance_left_ = simulator_.distance_left(merged);
+  unmeasured_ = static_cast<int>(std::clamp((distance_left_ - p.sigma) / p.step, 1.0, 1e6));
 }
 
 bool RolloutPolicy::on_plan(const Robots& robots) const {
@@ -74,7 +74,7 @@ void RolloutPolicy::plan_anew(const Robots& robots) {
   auto plan = corrected_plan(simulator_, robots, plan_.moves().subspan(plan_.done()));
   if (!plan) return start(robots);
   plan_.start(robots, *std::move(plan));
-  search_.forget_extension();
+  search_.forget_layers();
 }
 
 }  // namespace microswarm

@@ -19,9 +19,8 @@ namespace microswarm {
 /// executed, the better policy leads to the end. Deterministic unless a deadline stops the search.
 class RolloutPolicy {
  public:
-  /// Map and stepper must outlive it; the stepper is used with the rule "stop". Uses
-  /// `params.rollout`.
-  RolloutPolicy(const AggregationMap& map, const RobotStepper& stepper,
+  /// Map and stepper or graph of cells must outlive it. Uses `params.rollout`.
+  RolloutPolicy(const AggregationMap& map, const CommonInput& input,
                 const AggregationParams& params, Rng rng);
 
   /// Next move [µm] of all robots; nothing if they are gathered: F < σ. `stop` ends the search for
@@ -49,12 +48,13 @@ class RolloutPolicy {
   void plan_anew(const Robots& robots);
 
   RolloutSimulator simulator_;
-  const RobotStepper* stepper_;
+  CommonInput input_;
   const AggregationMap* map_;
   AggregationPolicy base_;  ///< leads when there is no plan
   RolloutExecution plan_;
   RolloutSearch search_;
   double mean_distance_ = 0;
+  double distance_left_ = 0;    ///< [µm], at the last measurement
   int unmeasured_ = 0;          ///< moves until F is measured again
   std::size_t made_ = 0;        ///< executed moves of plans
   std::size_t base_steps_ = 0;  ///< steps of the base policy in simulation

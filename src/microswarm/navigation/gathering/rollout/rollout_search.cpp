@@ -27,47 +27,54 @@ PartialPlan first_steps(const RolloutExecution& plan, std::size_t step,
 }  // namespace
 
 void RolloutSearch::start(const RolloutParams& params) {
-  extended_.reset();
-  head_start_ = 0;
-  looks_ahead_ = params.candidates > 0;
+  layers_.reset();
+  by_layers_ = params.candidates > 0;
+  changes_until_ = spent_;
 }
 
 void RolloutSearch::improve(RolloutExecution& plan, RolloutSimulator& simulator, double budget,
                             const Stop& stop) {
   const double begun = simulator.work();
+  const double before = spent_;
   const double max_work = simulator.params().rollout.max_work;
   if (max_work > 0) budget = std::min(budget, max_work - spent_);
-  const auto may_go_on = [&] { return simulator.work() - begun < budget && !stop(); };
+  const auto may_go_on = [&] {
+    spent_ = before + simulator.work() - begun;
+    return simulator.work() - begun < budget && !stop();
+  };
   constexpr std::size_t min_left = 2;  // the last move has nothing to be shortened
-  while (plan.left() >= min_left && may_go_on()) {
-    if (looks_ahead_) {
-      looks_ahead_ = extend(plan, simulator);
-    } else {
+  while (plan.left() >= min_left && may_go_on())
+    if (!by_layers_ || spent_ < changes_until_ || !expand(plan, simulator))
       perturb(plan, simulator);
-    }
-  }
-  spent_ += simulator.work() - begun;
 }
 
-// Extends a plan by repeated lookahead, starting a little ahead of the robots. If they overtake it,
-// it starts twice as far ahead. True while it should continue.
-bool RolloutSearch::extend(RolloutExecution& plan, RolloutSimulator& simulator) {
-  if (!extended_ || extended_->from < plan.done()) {
-    const std::size_t from = (plan.done() + head_start_ + interval - 1) / interval;
+// Searches by layers from a little ahead of the robots. When they come there or the share of the
+// work is spent, random changes follow. False when there is no place to begin.
+bool RolloutSearch::expand(RolloutExecution& plan, RolloutSimulator& simulator) {
+  const RolloutTuning& tuning = simulator.params().rollout.tuning;
+  if (!layers_) {
+    const auto left = static_cast<double>(plan.left());
+    const auto head = static_cast<std::size_t>(plan.done() > 0 ? tuning.head_start * left : 0);
+    const std::size_t from = (plan.done() + head + interval - 1) / interval;
     if (from >= plan.checkpoints().size()) return false;
-    head_start_ = 2 * head_start_ + interval;
-    extended_ = PartialPlan{plan.checkpoints()[from], from * interval};
-    extended_->keeps_checkpoints = true;
+    layers_.emplace(plan, from, simulator);
+    layers_until_ = spent_ + tuning.layers_work;
+    improved_ = improvements_;
   }
-  const std::vector<Vec2> moves = simulator.look_ahead(extended_->merged, rng_);
-  simulator.follow(*extended_, moves, plan.steps());
-  const bool too_long = extended_->steps() >= plan.steps();
-  const bool ends = moves.empty() || simulator.gathered(extended_->merged);
-  if (!ends && !too_long) return true;
-  if (ends && simulator.finish(*extended_, Aggregation::heuristic, plan.steps()))
-    improvements_ += plan.shorten(std::move(*extended_));
-  extended_.reset();
-  return false;
+  const bool spent = spent_ >= layers_until_ && layers_->passes() >= tuning.min_passes;
+  if (layers_->from() < plan.done() || layers_->is_exhausted() || spent) {
+    if (improvements_ == improved_ && layers_->from() >= plan.done())
+      verify(layers_->from(), layers_->path_so_far().moves, plan, simulator);
+    layers_.reset();
+    changes_until_ = spent_ + tuning.changes_work;
+    return false;
+  }
+  if (const auto path = layers_->expand(simulator, plan.steps(), rng_)) {
+    const std::vector<MergedRobots> checkpoints =
+        verify(layers_->from(), path->moves, plan, simulator);
+    layers_->correct(*path, checkpoints, simulator);
+  }
+  return true;
 }
 
 // Changes the plan at one point, then continues with the plan or a base policy.
@@ -77,7 +84,7 @@ void RolloutSearch::perturb(RolloutExecution& plan, RolloutSimulator& simulator)
   if (simulator.finish(
           partial, rng_.below(2) == 0 ? Aggregation::heuristic : Aggregation::divide_and_conquer,
           plan.steps()))
-    verify(partial, plan, simulator);
+    verify(partial.from, partial.moves, plan, simulator);
 }
 
 void RolloutSearch::change(PartialPlan& partial, const RolloutExecution& plan,
@@ -114,14 +121,17 @@ void RolloutSearch::change(PartialPlan& partial, const RolloutExecution& plan,
   if (goes_on) simulator.follow(partial, plan.moves().subspan(goes_on_at), most);
 }
 
-// Simulates the plan with all robots.
-void RolloutSearch::verify(const PartialPlan& partial, RolloutExecution& plan,
-                           RolloutSimulator& simulator) {
-  PartialPlan all{plan.checkpoints()[partial.from / interval], partial.from};
+// Simulates the plan with all robots. Returns its checkpoints from `from` on.
+std::vector<MergedRobots> RolloutSearch::verify(std::size_t from, std::span<const Vec2> moves,
+                                                RolloutExecution& plan,
+                                                RolloutSimulator& simulator) {
+  PartialPlan all{plan.checkpoints()[from / interval], from};
   all.keeps_checkpoints = true;
-  simulator.follow(all, partial.moves, plan.steps());
+  simulator.follow_until_gathered(all, moves, plan.steps());
+  std::vector<MergedRobots> checkpoints = all.checkpoints;
   if (simulator.finish(all, Aggregation::heuristic, plan.steps()))
     improvements_ += plan.shorten(std::move(all));
+  return checkpoints;
 }
 
 }  // namespace microswarm

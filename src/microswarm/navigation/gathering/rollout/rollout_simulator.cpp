@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/maths.hpp"
 
 namespace microswarm {
@@ -21,24 +22,51 @@ Robots one_of(const Robots& robots, std::size_t i) {
 
 }  // namespace
 
-RolloutSimulator::RolloutSimulator(const AggregationMap& map, const RobotStepper& stepper,
+RolloutSimulator::RolloutSimulator(const AggregationMap& map, const CommonInput& input,
                                    const AggregationParams& params)
-    : map_(&map), stepper_(&stepper), params_(params), routes_(&map.routes()) {}
+    : map_(&map), input_(input), params_(params) {
+  constexpr std::size_t tabled = 2048;
+  for (std::size_t c = 0; c < tabled; ++c)
+    powers_.push_back(maths::pow(static_cast<double>(c), params.rollout.tuning.robots_exponent));
+}
+
+double RolloutSimulator::power(std::uint32_t count) const {
+  return count < powers_.size() ? powers_[count]
+                                : maths::pow(count, params_.rollout.tuning.robots_exponent);
+}
 
 void RolloutSimulator::move(PartialPlan& partial, Vec2 move) {
   if (partial.steps() % RolloutPlan::checkpoint_interval == 0) {
     partial.merged.merge_coincident();
     if (partial.keeps_checkpoints) partial.checkpoints.push_back(partial.merged);
   }
-  stepper_->step(partial.merged.places(), move, ContactRule::stop);
+  input_.step(partial.merged.places(), move);
   partial.moves.push_back(move);
-  work_ +=
-      static_cast<double>(partial.merged.places().size()) + params_.rollout.tuning.step_overhead;
+  work_.fetch_add(partial.merged.places().size() +
+                      static_cast<std::uint64_t>(params_.rollout.tuning.step_overhead),
+                  std::memory_order_relaxed);
 }
 
 void RolloutSimulator::follow(PartialPlan& partial, std::span<const Vec2> moves, std::size_t most) {
   for (const Vec2 m : moves) {
     if (partial.steps() >= most) return;
+    move(partial, m);
+  }
+}
+
+// The distance left decreases by at most one step per move.
+void RolloutSimulator::follow_until_gathered(PartialPlan& partial, std::span<const Vec2> moves,
+                                             std::size_t most) {
+  std::size_t unmeasured = 0;
+  for (const Vec2 m : moves) {
+    if (partial.steps() >= most) return;
+    if (unmeasured == 0) {
+      const double left = distance_left(partial.merged) - params_.sigma;
+      if (left < 0) return;
+      unmeasured = static_cast<std::size_t>(std::min(left / params_.step, 1e6));
+    } else {
+      --unmeasured;
+    }
     move(partial, m);
   }
 }
@@ -52,7 +80,7 @@ void RolloutSimulator::lead(PartialPlan& partial, std::size_t place, std::size_t
   for (std::size_t i = 0; i < steps && partial.steps() < most; ++i) {
     const std::optional<Vec2> next = policy.next(leader);
     if (!next) return;
-    stepper_->step(leader, *next, ContactRule::stop);
+    input_.step(leader, *next);
     move(partial, *next);
   }
 }
@@ -69,39 +97,50 @@ bool RolloutSimulator::pursue(PartialPlan& partial, Aggregation method, std::siz
       policy.remap(partial.merged.merge_coincident());
     const std::optional<Vec2> next = policy.next(partial.merged.places(), partial.merged.counts());
     if (!next) return true;
-    // The mean path length decreases by at most one step per move.
-    const double least = to_the_end ? (policy.mean_distance() - params_.sigma) / params_.step : 0;
+    // Neither the mean nor the longest path decreases by more than one step per move.
+    const double least = to_the_end ? (policy.distance_left() - params_.sigma) / params_.step : 0;
     if (static_cast<double>(partial.steps()) + least >= static_cast<double>(most)) return false;
     move(partial, *next);
   }
 }
 
-std::vector<Vec2> RolloutSimulator::look_ahead(const MergedRobots& merged, Rng& rng) {
+void RolloutSimulator::try_moves(PartialPlan& partial, bool first, std::size_t most, Rng& rng) {
   const RolloutParams& p = params_.rollout;
-  const auto horizon = static_cast<std::size_t>(p.horizon);
+  partial.keeps_checkpoints = true;
+  const auto length = static_cast<std::size_t>(p.tuning.min_trial) +
+                      rng.below(static_cast<std::uint64_t>(p.horizon - p.tuning.min_trial + 1));
+  const std::size_t end = std::min(most, partial.steps() + length);
+  const bool one_direction = rng.uniform() < p.tuning.direction_share;
+  const std::size_t place = rng.below(partial.merged.places().size());
+  const double angle = 0.25 * pi * static_cast<double>(rng.below(8));
+  if (first)
+    lead(partial, farthest(partial.merged.places()), length, end);
+  else if (one_direction)
+    follow(partial, std::vector<Vec2>(length, params_.step * unit_vector(angle)), end);
+  else
+    lead(partial, place, length, end);
+}
+
+MergedRobots RolloutSimulator::representatives(const MergedRobots& merged) const {
   MergedRobots some = merged;
-  some.coarsen(static_cast<std::size_t>(p.lookahead_representatives),
-               p.tuning.finest_cell * params_.step);
-  std::vector<Vec2> best;
-  double least = std::numeric_limits<double>::infinity();
-  for (int k = -2; k < p.candidates; ++k) {
-    PartialPlan partial{some};
-    if (k >= 0) lead(partial, rng.below(some.places().size()), horizon, horizon);
-    const Aggregation base = k == -2 ? Aggregation::divide_and_conquer : Aggregation::heuristic;
-    const bool ends = pursue(partial, base, horizon, false);
-    // A plan that gathers all beats everything else; the shortest one is best.
-    const double left =
-        ends ? static_cast<double>(partial.steps()) - 1e9 : left_to_do(partial.merged);
-    if (left >= least) continue;
-    least = left;
-    if (!ends) partial.moves.resize(std::min(horizon, static_cast<std::size_t>(p.commit)));
-    best = std::move(partial.moves);
+  some.coarsen(static_cast<std::size_t>(params_.rollout.lookahead_representatives),
+               params_.rollout.tuning.finest_cell * params_.step);
+  return some.condensed();
+}
+
+std::size_t RolloutSimulator::farthest(const Robots& robots) const {
+  std::size_t best = 0;
+  double most = -1;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    const double far = way(robots, i);
+    if (far > most) most = far, best = i;
   }
   return best;
 }
 
 double RolloutSimulator::way(const Robots& robots, std::size_t i) const {
-  return map_->tree.length(*routes_, robots.position(i));
+  const Vec2 p = robots.position(i);
+  return map_->way(p, map_->tree.nearest(p));
 }
 
 double RolloutSimulator::mean_distance(const MergedRobots& merged) const {
@@ -114,6 +153,14 @@ double RolloutSimulator::mean_distance(const MergedRobots& merged) const {
   return sum / std::max(1.0, robots);
 }
 
+double RolloutSimulator::distance_left(const MergedRobots& merged) const {
+  if (params_.gathered == Gathered::mean) return mean_distance(merged);
+  double most = 0;
+  for (std::size_t i = 0; i < merged.places().size(); ++i)
+    most = std::max(most, way(merged.places(), i));
+  return most;
+}
+
 /// Positions count more than the robots at them, since robots at one position are led together. Far
 /// positions count more than near ones. The exponents gave the shortest plans on three maps.
 double RolloutSimulator::left_to_do(MergedRobots merged) const {
@@ -122,7 +169,7 @@ double RolloutSimulator::left_to_do(MergedRobots merged) const {
   double sum = 0;
   for (std::size_t i = 0; i < merged.places().size(); ++i) {
     const double far = way(merged.places(), i);
-    sum += maths::pow(merged.counts()[i], tuning.robots_exponent) * far * far;
+    sum += power(merged.counts()[i]) * far * far;
   }
   return sum;
 }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "microswarm/navigation/gathering/policies/aggregation_policy.hpp"
+#include "microswarm/navigation/gathering/policies/common_input.hpp"
 #include "microswarm/planning/gathering/obstacle_weighted_rrt.hpp"
 
 namespace microswarm {
@@ -31,38 +34,47 @@ struct PartialPlan {
 /// the partial plan.
 class RolloutSimulator {
  public:
-  /// Map and stepper must outlive it.
-  RolloutSimulator(const AggregationMap& map, const RobotStepper& stepper,
+  /// The map must outlive it.
+  RolloutSimulator(const AggregationMap& map, const CommonInput& input,
                    const AggregationParams& params);
   const AggregationParams& params() const { return params_; }
 
   /// Applies one move to all robots.
   void move(PartialPlan& partial, Vec2 move);
   void follow(PartialPlan& partial, std::span<const Vec2> moves, std::size_t most);
+  /// The same, but ends as soon as all are gathered.
+  void follow_until_gathered(PartialPlan& partial, std::span<const Vec2> moves, std::size_t most);
   /// The robots at one position lead to the goal, for at most `steps` steps.
   void lead(PartialPlan& partial, std::size_t place, std::size_t steps, std::size_t most);
   /// Applies a base policy until the robots are gathered; false if that takes too many steps.
   bool finish(PartialPlan& partial, Aggregation method, std::size_t most);
-  /// Best continuation within the horizon among the base policies and some random leaders. Returns
-  /// its first moves that are worth keeping, at most `commit` unless it gathers all; empty if all
-  /// are gathered.
-  std::vector<Vec2> look_ahead(const MergedRobots& merged, Rng& rng);
+  /// Some random moves: one robot leads to the goal, at `first` the farthest one, or all go in one
+  /// direction. Ends when all are gathered. Keeps checkpoints.
+  void try_moves(PartialPlan& partial, bool first, std::size_t most, Rng& rng);
+  /// Representatives of the robots, as robots of their own with weights.
+  MergedRobots representatives(const MergedRobots& merged) const;
 
-  double way(const Robots& robots, std::size_t i) const;
+  /// F: mean path length to the goal [µm].
   double mean_distance(const MergedRobots& merged) const;
-  bool gathered(const MergedRobots& merged) const { return mean_distance(merged) < params_.sigma; }
+  /// The distance [µm] that must fall below σ.
+  double distance_left(const MergedRobots& merged) const;
+  bool gathered(const MergedRobots& merged) const { return distance_left(merged) < params_.sigma; }
+  /// Estimate of the remaining work, to compare states after equally many steps.
+  double left_to_do(MergedRobots merged) const;
   /// Robot-steps so far.
-  double work() const { return work_; }
+  double work() const { return static_cast<double>(work_.load()); }
 
  private:
   bool pursue(PartialPlan& partial, Aggregation method, std::size_t most, bool to_the_end);
-  double left_to_do(MergedRobots merged) const;
+  double way(const Robots& robots, std::size_t i) const;
+  double power(std::uint32_t count) const;
+  std::size_t farthest(const Robots& robots) const;
 
   const AggregationMap* map_;
-  const RobotStepper* stepper_;
+  CommonInput input_;
   AggregationParams params_;
-  const Routes* routes_;
-  double work_ = 0;
+  std::atomic<std::uint64_t> work_ = 0;  ///< added to by threads
+  std::vector<double> powers_;           ///< of the number of robots at a place
 };
 
 }  // namespace microswarm
