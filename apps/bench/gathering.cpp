@@ -15,7 +15,7 @@
 #include "microswarm/formats/map_file.hpp"
 #include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/navigation/gathering/gather.hpp"
-#include "microswarm/navigation/gathering/policies/channel_width.hpp"
+#include "microswarm/navigation/gathering/policies/published_scale.hpp"
 #include "microswarm/scenes/vascular.hpp"
 
 namespace microswarm::bench {

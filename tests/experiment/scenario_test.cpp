@@ -367,10 +367,10 @@ TEST(ScenarioCheck, APassageDecidesToATenThousandth) {
   Scenario scenario = open_room();
   std::get<PolygonsMap>(scenario.map).walls = {bar(1000, 0, 20, 500).outer,
                                                bar(1000, 560, 20, 440).outer};
-  for (const double radius : {29.997, 30.003}) {
-    std::get<RibbonParams>(scenario.swarm).radius = radius;
-    std::get<HierarchicalParams>(scenario.navigator).clearance = radius;
-    EXPECT_EQ(check_error(scenario).empty(), radius < 30) << radius;
+  for (const double r : {29.997, 30.003}) {
+    std::get<RibbonParams>(scenario.swarm).radius = r;
+    std::get<HierarchicalParams>(scenario.navigator).clearance = r;
+    EXPECT_EQ(check_error(scenario).empty(), r < 30) << r;
   }
 }
 
