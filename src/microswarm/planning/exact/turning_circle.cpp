@@ -29,8 +29,8 @@ double TurningCircle::angle_of(Vec2 normal) const {
   return std::clamp(maths::atan2(cross(first, normal), dot(first, normal)), 0.0, width);
 }
 
-double TurningCircle::way_around(double sense, double from, double to) const {
-  const double angle = sense * (to - from);
+double TurningCircle::way_around(double sense, double leaves, double arrives) const {
+  const double angle = sense * (arrives - leaves);
   if (!is_disc) return angle < -angle_slack ? -1 : std::max(0.0, angle);
   const double ahead = positive(angle);
   return ahead > 2 * pi - angle_slack ? 0 : ahead;

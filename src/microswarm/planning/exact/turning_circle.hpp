@@ -29,7 +29,7 @@ struct TurningCircle {
   double angle_of(Vec2 normal) const;
   /// Angle from one place to another for one who turns counter-clockwise (`sense` 1) or clockwise
   /// (−1); negative if it is not ahead. On a disc everything is ahead.
-  double way_around(double sense, double from, double to) const;
+  double way_around(double sense, double leaves, double arrives) const;
   /// Where a line in this direction leaves or arrives.
   Vec2 touch(double sense, Vec2 along) const {
     return centre - sense * radius * perpendicular(along);
