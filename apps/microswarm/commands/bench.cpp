@@ -50,7 +50,8 @@ void add_bench(Command app, Action& action) {
                                 "3 if one is slower than these "
                                 "or misses its aim",
                                 "bench planning --quick --csv planning.csv");
-  cmd.add_option("group", o->group, "Benchmark: planning, swarm, global, gather, radar, vision, lab")
+  cmd.add_option("group", o->group,
+                 "Benchmark: planning, swarm, global, gather, radar, vision, lab")
       .required()
       .type_name("GROUP");
   cmd.add_option("--csv", o->csv, "Also write the rows to this CSV file").type_name("FILE");

@@ -37,7 +37,8 @@ class SteppedSearch {
     grid_[best].cost = 0;
     open_.push({0, 0, best});
     while (!open_.empty()) {
-      const auto [_, cost, place] = open_.top();
+      const Place place = open_.top().place;
+      const double cost = open_.top().cost;
       open_.pop();
       SteppedCell& cell = grid_[place];
       if (cell.mark == Mark::closed) continue;

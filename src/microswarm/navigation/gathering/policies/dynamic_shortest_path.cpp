@@ -53,7 +53,7 @@ void DynamicShortestPath::choose(const Robots& robots, const RobotsOnMap& on_map
   has_pair_ = pair.distance > 0 && !met(robots);
   together_ = !has_pair_;
   std::ranges::sort(cells);
-  cells.erase(std::ranges::unique(cells).begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   note_progress(cells.size(), pair.distance);
 }
 
