@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <cstdlib>
+#include <ctime>
 #include <fstream>
 
 #include "bench/ompl_peer.hpp"
@@ -20,8 +23,10 @@ std::string cpu_name() {
 }  // namespace
 
 std::string machine_line() {
-  return fmt::format("{}, gcc {}, microswarm {}, OMPL {}", cpu_name(), __VERSION__, version,
-                     ompl_version());
+  const char* commit = std::getenv("MICROSWARM_COMMIT");
+  return fmt::format("{}, gcc {}, microswarm {}{}, OMPL {}, {:%Y-%m-%d}", cpu_name(), __VERSION__,
+                     version, commit ? fmt::format(" of commit {}", commit) : "", ompl_version(),
+                     fmt::gmtime(std::time(nullptr)));
 }
 
 }  // namespace microswarm::bench

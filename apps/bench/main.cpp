@@ -8,6 +8,7 @@
 #include "bench/planning.hpp"
 #include "bench/radar.hpp"
 #include "bench/swarm.hpp"
+#include "bench/sweep.hpp"
 #include "bench/vision.hpp"
 #include "microswarm/core/text/file.hpp"
 #include "microswarm/core/version.hpp"
@@ -69,6 +70,12 @@ int main(int argc, char** argv) {
       {"planning", "Planners, replanning, clearance queries",
        [](bool quick, const Stop& stop) {
          return bench::planning(cli::scenario_folder(), quick, stop);
+       }},
+      {"sweep", "Sweeps on two threads and two processes, and their database",
+       [](bool quick, const Stop& stop) {
+         const auto program =
+             std::filesystem::read_symlink("/proc/self/exe").parent_path() / "microswarm";
+         return bench::sweep(cli::scenario_folder(), program, quick, stop);
        }},
       {"swarm", "Stepping of robots under one input", bench::swarm},
       {"global", "Planning for several robots under one input", bench::global},

@@ -91,16 +91,16 @@ std::vector<BenchRow> s_channel(const std::filesystem::path& scenarios, bool qui
                                       .goal_tolerance = usual.goal_tolerance,
                                       .range = usual.step},
                                      quick ? 20 : 100, stop);
-      for (BenchRow& row : time_rows(fmt::format("{}, S-channel, first path", name), ms, theirs,
+      for (BenchRow& row : time_rows(fmt::format("{}, S-channel", name), ms, theirs,
                                      std::string(name_of(peer)), median, p99))
         rows.push_back(std::move(row));
     }
   };
   using enum OmplPlanner;
-  add("D-RRT*", usual, {rrt_star, informed_rrt_star, bit_star, rrt_connect}, 0.15, 0.4);
-  add("RRT*", RrtStarParams{}, {rrt_star}, {}, {});
-  add("RRT-Connect", RrtConnectParams{}, {rrt_connect}, {}, {});
-  add("exact", ExactParams{}, {bit_star, rrt_connect}, {}, {});
+  add("D-RRT*, first path", usual, {rrt_star, informed_rrt_star, bit_star, rrt_connect}, 0.15, 0.4);
+  add("RRT*, first path", RrtStarParams{}, {rrt_star}, {}, {});
+  add("RRT-Connect, first path", RrtConnectParams{}, {rrt_connect}, {}, {});
+  add("exact, tangents kept", ExactParams{}, {bit_star, rrt_connect}, {}, {});
   rows.push_back(
       after_20_ms("S-channel", world, *s.start, *s.goal, usual.clearance, quick ? 9 : 50, stop));
   return rows;

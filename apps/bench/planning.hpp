@@ -13,7 +13,8 @@
 
 namespace microswarm::bench {
 
-/// "CPU, compiler, microswarm version, OMPL version", for identifying measurements.
+/// "CPU, compiler, microswarm version, OMPL version, date", for identifying measurements; with the
+/// commit that MICROSWARM_COMMIT names.
 std::string machine_line();
 
 /// Benchmarks planners, replanning and clearance queries, each with its peer in the same run and

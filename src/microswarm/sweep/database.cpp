@@ -164,6 +164,20 @@ void Database::select(const std::string& sql, std::span<const SqlValue> values,
   fail(error);
 }
 
+void Database::run_each(const std::string& sql, std::size_t count,
+                        const std::function<std::span<const SqlValue>(std::size_t)>& values) try {
+  SQLite::Statement statement(*connection_, sql);
+  for (std::size_t i = 0; i < count; ++i) {
+    steps_ = 0;
+    const std::span<const SqlValue> row = values(i);
+    for (std::size_t k = 0; k < row.size(); ++k) bind(statement, static_cast<int>(k + 1), row[k]);
+    statement.exec();
+    statement.reset();
+  }
+} catch (const SQLite::Exception& error) {
+  fail(error);
+}
+
 std::int64_t Database::number(const std::string& sql) const try {
   steps_ = 0;
   SQLite::Statement statement(*connection_, sql);

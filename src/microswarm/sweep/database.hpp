@@ -57,6 +57,10 @@ class Database {
   /// The same, and calls `each` for every row of the result.
   void select(const std::string& sql, std::span<const SqlValue> values,
               const std::function<void(std::span<const SqlValue>)>& each) const;
+  /// Executes one statement `count` times, with the values of each number below it; it is prepared
+  /// once. Within a transaction this is much quicker than `run`.
+  void run_each(const std::string& sql, std::size_t count,
+                const std::function<std::span<const SqlValue>(std::size_t)>& values);
   /// The whole number in the first column of the first row; 0 without a row.
   std::int64_t number(const std::string& sql) const;
   /// Executes `statements` in one transaction, which is rolled back when they throw.

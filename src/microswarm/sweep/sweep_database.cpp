@@ -195,12 +195,13 @@ std::vector<SweepTask> SweepDatabase::missing() const {
 
 void SweepDatabase::add(const std::vector<SweepRow>& rows) {
   if (rows.empty()) return;
+  std::vector<SqlValue> values;
   database_.transaction([&] {
-    for (const SweepRow& row : rows) {
-      std::vector<SqlValue> values = task_values(plan_, columns_, row.task);
-      values.insert(values.end(), row.values.begin(), row.values.end());
-      database_.run(insert_, values);
-    }
+    database_.run_each(insert_, rows.size(), [&](std::size_t i) -> std::span<const SqlValue> {
+      values = task_values(plan_, columns_, rows[i].task);
+      values.insert(values.end(), rows[i].values.begin(), rows[i].values.end());
+      return values;
+    });
   });
 }
 
