@@ -87,6 +87,8 @@ TEST(FitToMap, TheLimitThatEndedASearchIsNamed) {
   AStarParams small;
   small.max_nodes = 7;
   EXPECT_EQ(limit_text(small, {.iterations = 7}), "planner.max_nodes is 7");
+  small.cell = 1e-3;
+  EXPECT_EQ(limit_text(small, {}), "planner.cell_um is 0.001, too small for this map");
 }
 
 }  // namespace

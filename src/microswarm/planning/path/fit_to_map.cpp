@@ -76,13 +76,22 @@ PlannerParams fit_to_map(PlannerParams params, const Map& map, const IsGiven& is
 
 std::string limit_text(const PlannerParams& params, const PlanCounts& counts) {
   std::string text;
-  const auto visit = [&](const auto& value, const FieldInfo& info) {
-    if constexpr (std::is_same_v<decltype(value), const int&>)
-      if (info.name == "max_nodes" ||
-          (info.name == "max_iterations" && counts.iterations >= static_cast<std::uint64_t>(value)))
-        text = fmt::format("planner.{} is {}", key_of(info), value);
+  const auto reached = [&](int limit) {
+    return counts.iterations >= static_cast<std::uint64_t>(limit);
   };
-  std::visit([&]<class Params>(const Params& chosen) { Params::fields(chosen, visit); }, params);
+  std::visit(
+      [&]<class Params>(const Params& chosen) {
+        Params::fields(chosen, [&](const auto& value, const FieldInfo& info) {
+          if constexpr (std::is_same_v<decltype(value), const int&>)
+            if (info.name == "max_nodes" || (info.name == "max_iterations" && reached(value)))
+              text = fmt::format("planner.{} is {}", key_of(info), value);
+        });
+        // A grid that is too large is not begun.
+        if constexpr (std::is_base_of_v<GridParams, Params>)
+          if (!reached(chosen.max_nodes))
+            text = fmt::format("planner.cell_um is {:.4g}, too small for this map", chosen.cell);
+      },
+      params);
   return text;
 }
 
