@@ -140,7 +140,7 @@ Gatherings gather_all(const Task& task, AggregationParams params, Aggregation me
   for (int seed = 1; seed <= seeds && !stop(); ++seed) {
     Rng rng(static_cast<std::uint64_t>(seed), Purpose::scene);
     Robots robots = random_robots(task, map, stepper, rng);
-    const auto began = std::chrono::steady_clock::now();
+    const auto began = Stop::Clock::now();
     if (method == Aggregation::rollout) {
       RolloutPolicy policy(map, input, params,
                            Rng(static_cast<std::uint64_t>(seed), Purpose::planner));
@@ -149,15 +149,9 @@ Gatherings gather_all(const Task& task, AggregationParams params, Aggregation me
       AggregationPolicy policy(map, params);
       all.steps.push_back(gather(input, policy, robots, gather_steps, stop).steps);
     }
-    all.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    all.seconds += seconds_since(began);
   }
   return all;
-}
-
-double spread_of(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double v : values) sum += (v - mean(values)) * (v - mean(values));
-  return values.size() < 2 ? 0 : std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 
 /// A row for each method, beside dynamic shortest path; without `aim` rollout's is 30 % fewer
@@ -169,7 +163,7 @@ void add_rows(std::vector<BenchRow>& rows, const Task& task, std::optional<doubl
   if (stop()) return;
   const double peer_steps = mean(peer.steps);
   rows.push_back({.name = task.name + ", dynamic shortest path",
-                  .quantity = fmt::format("steps, ± {:.0f}", spread_of(peer.steps)),
+                  .quantity = fmt::format("steps, ± {:.0f}", standard_deviation(peer.steps)),
                   .unit = "1",
                   .ours = peer_steps});
   for (const Aggregation method :
@@ -177,7 +171,7 @@ void add_rows(std::vector<BenchRow>& rows, const Task& task, std::optional<doubl
     const Gatherings ours = gather_all(task, task.params, method, seeds, stop);
     if (stop()) return;
     BenchRow row{.name = fmt::format("{}, {}", task.name, enum_name(method)),
-                 .quantity = fmt::format("steps, ± {:.0f}", spread_of(ours.steps)),
+                 .quantity = fmt::format("steps, ± {:.0f}", standard_deviation(ours.steps)),
                  .unit = "1",
                  .ours = mean(ours.steps),
                  .peer = peer_steps,

@@ -112,24 +112,19 @@ std::vector<BenchRow> efficiency(const fs::path& folder, const fs::path& scenari
     if (one > 0 && two > 0) ranks.push_back(one / (2 * two));
   }
   const std::string name = fmt::format("sweep of {} trials", 100 * plan.sweep.trials);
-  const std::string processes = "2 processes apart, each the whole sweep";
-  std::vector<BenchRow> rows{{.name = name,
-                              .quantity = "efficiency of 2 threads, median",
-                              .unit = "",
-                              .ours = quantile(threads, 0.5),
-                              .peer = quantile(apart, 0.5),
-                              .peer_name = processes,
-                              .aim = 0.95,
-                              .at_most = false}};
-  if (!ranks.empty())
+  std::vector<BenchRow> rows;
+  const auto add = [&](const char* of, const std::vector<double>& ours) {
     rows.push_back({.name = name,
-                    .quantity = "efficiency of 2 ranks of mpirun, with their start, median",
+                    .quantity = fmt::format("efficiency of {}, median", of),
                     .unit = "",
-                    .ours = quantile(ranks, 0.5),
+                    .ours = quantile(ours, 0.5),
                     .peer = quantile(apart, 0.5),
-                    .peer_name = processes,
+                    .peer_name = "2 processes apart, each the whole sweep",
                     .aim = 0.95,
                     .at_most = false});
+  };
+  add("2 threads", threads);
+  if (!ranks.empty()) add("2 ranks of mpirun, with their start", ranks);
   return rows;
 }
 

@@ -52,6 +52,15 @@ TEST(Rollout, NeverTakesLongerThanItsBaseAndEndsThere) {
   }
 }
 
+TEST(Rollout, TrialsMayBeShorterThanTheirUsualLeast) {
+  const Gathering& t = t_junction();
+  AggregationParams params = with_work(t, 1e6);
+  params.rollout.horizon = 1;
+  Robots robots = t.robots(16, 4);
+  RolloutPolicy policy(t.ground, t.stepper, params, Rng(3, Purpose::planner));
+  EXPECT_EQ(gather(t.stepper, policy, robots, 20'000).status, Status::solved);
+}
+
 // What it is for: HRA and DCA need more than 240 steps here.
 TEST(Rollout, FindsMuchShorterPlans) {
   const Gathering& t = t_junction();

@@ -79,40 +79,44 @@ scenes::RawWorld gate(double gap) {
 }
 
 template <class Params>
-class GridPlanners : public testing::Test {};
+Params in_gate(double tolerance, double cell) {
+  Params params;
+  params.clearance = 0.1;
+  params.goal_tolerance = tolerance;
+  params.cell = cell;
+  return params;
+}
+
+template <class Params>
+class GridPlanners : public testing::Test {
+ protected:
+  /// From one side of the gate to the other.
+  static Plan through(const Snapshot& world, const Params& params) {
+    Rng rng(1, Purpose::planner);
+    return plan(world, {{1.05, 1.05}, 0}, {9.05, 1.05}, params, rng);
+  }
+};
 using GridKinds = testing::Types<AStarParams, ThetaStarParams>;
 TYPED_TEST_SUITE(GridPlanners, GridKinds);
 
 TYPED_TEST(GridPlanners, AFinerGridFindsAGapBetweenItsPoints) {
-  TypeParam params;
-  params.clearance = 0.1;
-  params.goal_tolerance = 0.5;
-  params.cell = 1;
-  Rng rng(1, Purpose::planner);
+  auto params = in_gate<TypeParam>(0.5, 1);
   const Snapshot narrow = gate(0.3).snapshot();
-  const Plan found = plan(narrow, {{1.05, 1.05}, 0}, {9.05, 1.05}, params, rng);
+  const Plan found = this->through(narrow, params);
   ASSERT_EQ(found.status, Status::solved);
   for (std::size_t i = 0; i + 1 < found.path.size(); ++i)
     EXPECT_GE(narrow.map().clearance(Segment{found.path[i], found.path[i + 1]}, 1), 0.1 - 1e-9);
   params.max_nodes = 100;
-  EXPECT_EQ(plan(narrow, {{1.05, 1.05}, 0}, {9.05, 1.05}, params, rng).status, Status::node_limit);
+  EXPECT_EQ(this->through(narrow, params).status, Status::node_limit);
 }
 
 TYPED_TEST(GridPlanners, NoPathIsSaidOnlyOfAGapThatIsTooNarrow) {
-  TypeParam params;
-  params.clearance = 0.1;
-  params.goal_tolerance = 0.5;
-  params.cell = 1;
-  Rng rng(1, Purpose::planner);
   const Snapshot narrower = gate(0.19).snapshot();
-  EXPECT_EQ(plan(narrower, {{1.05, 1.05}, 0}, {9.05, 1.05}, params, rng).status, Status::no_path);
+  EXPECT_EQ(this->through(narrower, in_gate<TypeParam>(0.5, 1)).status, Status::no_path);
 }
 
 TEST(ThetaStar, IsStraightInTheOpenAndTautAroundACorner) {
-  ThetaStarParams params;
-  params.clearance = 0.1;
-  params.goal_tolerance = 0.05;
-  params.cell = 0.25;
+  const auto params = in_gate<ThetaStarParams>(0.05, 0.25);
   Rng rng(1, Purpose::planner);
   const Plan open = plan(ten_by_ten().snapshot(), {{1, 1}, 0}, {9, 4}, params, rng);
   ASSERT_EQ(open.status, Status::solved);

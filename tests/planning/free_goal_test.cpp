@@ -61,10 +61,10 @@ TEST(FreeGoal, NamesTheFault) {
   scenes::RawWorld world;
   world.discs = {{{500, 350}, 200}};
   const Snapshot snapshot = world.snapshot();
-  EXPECT_EQ(query_fault(snapshot, {500, 350}, {100, 100}, 50, 40), Status::start_blocked);
-  EXPECT_EQ(query_fault(snapshot, {100, 100}, {500, 350}, 50, 40), Status::goal_blocked);
-  EXPECT_EQ(query_fault(snapshot, {100, 100}, {500, 130}, 50, 40), std::nullopt);
-  EXPECT_EQ(query_fault(snapshot, {100, 100}, {500, 90}, 50, 40), std::nullopt);
+  EXPECT_EQ(find_target(snapshot, {500, 350}, {100, 100}, 50, 40).fault, Status::start_blocked);
+  EXPECT_EQ(find_target(snapshot, {100, 100}, {500, 350}, 50, 40).fault, Status::goal_blocked);
+  EXPECT_EQ(find_target(snapshot, {100, 100}, {500, 130}, 50, 40).fault, std::nullopt);
+  EXPECT_EQ(find_target(snapshot, {100, 100}, {500, 90}, 50, 40).fault, std::nullopt);
 }
 
 }  // namespace

@@ -106,8 +106,7 @@ void show(const Plan& made, const PathChoice& choice, double start_heading, doub
 }
 
 /// Throws InputError if the planner's parameters are inconsistent.
-void check_planner(const PlannerParams& planner, const Settings& settings) {
-  const KeyLocations keys = locations_of({}, "plan", settings);
+void check_planner(const PlannerParams& planner, const KeyLocations& keys) {
   Issues issues;
   if (const auto* fmt_star = std::get_if<FmtStarParams>(&planner)) issues = validate(*fmt_star);
   if (const auto* drrt_star = std::get_if<DrrtStarParams>(&planner))
@@ -121,15 +120,15 @@ int plan_command(const PlanOptions& o, const Context& context) {
   keep_input(o.picture, o.map);
   PathChoice choice;
   note_each(set_values(choice, o.settings));
-  check_planner(choice.planner, o.settings);
+  const KeyLocations keys = locations_of({}, "plan", o.settings);
+  check_planner(choice.planner, keys);
   const std::vector<double> from = numbers(o.start);
   const std::vector<double> to = numbers(o.goal);
   const Pose2 start{{from[0], from[1]}, from.size() > 2 ? radians(from[2]) : 0.0};
   const Vec2 goal{to[0], to[1]};
   const Snapshot world(reading([&] { return load_map(guess_map_spec(o.map, o.um_per_px)).map; }));
   choice.planner =
-      fit_to_map(choice.planner, world.map(),
-                 given_within(locations_of({}, "plan", o.settings).is_given(), "planner"));
+      fit_to_map(choice.planner, world.map(), given_within(keys.is_given(), "planner"));
   Rng rng(o.seed, Purpose::planner);
   const auto began = Stop::Clock::now();
   const Plan made = plan(world, start, goal, choice.planner, rng, context.stop);

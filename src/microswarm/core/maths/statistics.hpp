@@ -29,6 +29,14 @@ inline double mean(const std::vector<double>& values) {
   if (values.empty()) return 0;
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
+/// Standard deviation of a sample; 0 for fewer than two values.
+inline double standard_deviation(const std::vector<double>& values) {
+  if (values.size() < 2) return 0;
+  const double middle = mean(values);
+  double sum = 0;
+  for (const double v : values) sum += (v - middle) * (v - middle);
+  return std::sqrt(sum / static_cast<double>(values.size() - 1));
+}
 /// Median, the mean of the two middle values if their number is even; 0 if empty.
 inline double median(std::vector<double> values) {
   if (values.empty()) return 0;

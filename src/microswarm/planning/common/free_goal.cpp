@@ -90,11 +90,13 @@ std::optional<Vec2> free_goal(const Snapshot& world, Vec2 goal, double tolerance
   return search(world, goal, tolerance, clearance, true);
 }
 
-std::optional<Status> query_fault(const Snapshot& world, Vec2 start, Vec2 goal, double tolerance,
-                                  double clearance) {
-  if (!is_finite(start) || !world.is_free(start, clearance)) return Status::start_blocked;
-  if (!free_goal(world, goal, tolerance, clearance)) return Status::goal_blocked;
-  return std::nullopt;
+Target find_target(const Snapshot& world, Vec2 start, Vec2 goal, double tolerance,
+                   double clearance) {
+  if (!is_finite(start) || !world.is_free(start, clearance))
+    return {.fault = Status::start_blocked, .place = {}};
+  const auto place = free_goal(world, goal, tolerance, clearance);
+  if (!place) return {.fault = Status::goal_blocked, .place = {}};
+  return {.fault = std::nullopt, .place = *place};
 }
 
 }  // namespace microswarm

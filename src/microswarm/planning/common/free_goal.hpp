@@ -3,8 +3,7 @@
 
 #include <optional>
 
-#include "microswarm/core/execution/status.hpp"
-#include "microswarm/world/snapshot.hpp"
+#include "microswarm/contracts/plan.hpp"
 
 namespace microswarm {
 
@@ -13,8 +12,14 @@ namespace microswarm {
 /// surroundings along the clearance gradient, so one between several walls may be missed.
 std::optional<Vec2> free_goal(const Snapshot& world, Vec2 goal, double tolerance, double clearance);
 
-/// Fault of a query before planning: start_blocked, goal_blocked or nothing.
-std::optional<Status> query_fault(const Snapshot& world, Vec2 start, Vec2 goal, double tolerance,
-                                  double clearance);
+/// A free place at the goal of a query, or why it cannot be planned: start_blocked or goal_blocked.
+struct Target {
+  std::optional<Status> fault;
+  Vec2 place;
+  /// The plan of a query with a fault.
+  Plan blocked(Vec2 start) const { return {.status = *fault, .path = {start}}; }
+};
+Target find_target(const Snapshot& world, Vec2 start, Vec2 goal, double tolerance,
+                   double clearance);
 
 }  // namespace microswarm

@@ -30,18 +30,12 @@ ShortestPath find_kept(const Snapshot& world, double clearance, Vec2 start, Vec2
 
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const ExactParams& params, Rng&,
           const Stop& stop) {
-  Plan made{.path = {start.position}};
-  if (const auto fault =
-          query_fault(world, start.position, goal, params.goal_tolerance, params.clearance)) {
-    made.status = *fault;
-    return made;
-  }
-  if (distance(start.position, goal) <= params.goal_tolerance) {
-    made.status = Status::solved;
-    return made;
-  }
-  const Vec2 target = *free_goal(world, goal, params.goal_tolerance, params.clearance);
-  ShortestPath found = find_kept(world, params.clearance, start.position, target, stop);
+  const Target target =
+      find_target(world, start.position, goal, params.goal_tolerance, params.clearance);
+  if (target.fault) return target.blocked(start.position);
+  Plan made{.status = Status::solved, .path = {start.position}};
+  if (distance(start.position, goal) <= params.goal_tolerance) return made;
+  ShortestPath found = find_kept(world, params.clearance, start.position, target.place, stop);
   made.status = found.status;
   if (found.status == Status::solved) made.arc_length = found.length;
   made.path = std::move(found.points);

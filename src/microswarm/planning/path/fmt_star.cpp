@@ -228,15 +228,10 @@ double fmt_radius(double radius_factor, double area, std::size_t n) {
 
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const FmtStarParams& params, Rng& rng,
           const Stop& stop) {
-  if (const auto fault =
-          query_fault(world, start.position, goal, params.goal_tolerance, params.clearance)) {
-    Plan blocked;
-    blocked.status = *fault;
-    blocked.path.push_back(start.position);
-    return blocked;
-  }
-  const auto end = free_goal(world, goal, params.goal_tolerance, params.clearance);
-  return FmtStar(world, start, goal, *end, params, rng, stop).run();
+  const Target target =
+      find_target(world, start.position, goal, params.goal_tolerance, params.clearance);
+  if (target.fault) return target.blocked(start.position);
+  return FmtStar(world, start, goal, target.place, params, rng, stop).run();
 }
 
 }  // namespace microswarm

@@ -5,6 +5,7 @@
 
 #include "microswarm/core/errors/issue.hpp"
 #include "microswarm/core/fields/fields.hpp"
+#include "microswarm/planning/path/rrt_params.hpp"
 
 namespace microswarm {
 
@@ -23,10 +24,8 @@ struct FmtStarParams {
   int max_nodes = 64'000;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.clearance, {"clearance", Unit::um, {0, 1e6}, "Minimum distance to obstacles."});
-    visit(
-        self.goal_tolerance,
-        {"goal_tolerance", Unit::um, {1e-3, 1e6}, "Distance at which the goal counts as reached."});
+    visit(self.clearance, tree_fields::clearance);
+    visit(self.goal_tolerance, tree_fields::goal_tolerance);
     visit(self.samples, {"samples", Unit::none, {1, 1e7}, "Initial number of free samples (n)."});
     visit(
         self.radius_factor,

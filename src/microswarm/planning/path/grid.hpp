@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <queue>
 #include <vector>
 
 #include "microswarm/planning/path/exact.hpp"
@@ -115,6 +117,86 @@ struct OpenPlace {
     if (a.place.row != b.place.row) return a.place.row > b.place.row;
     return a.place.column > b.place.column;
   }
+};
+
+/// Best-first search over a grid. A Rule derives from it and says what a cell costs:
+///   void relax(Place from, const Cell&, std::size_t move, Cell& next)  opens a neighbour, or not
+///   bool settle(Place, Cell&)  false: the cell cannot be closed yet
+///   std::optional<Place> arrive(Place)  last place of the path if a closed one ends the search;
+///                                       it may set end_beyond_, which then follows
+///   Place before(Place)        the place before on the path
+/// `Cell` has a cost, infinite at first, and a mark.
+template <class Rule, class Cell>
+class GridSearch {
+ public:
+  GridSearch(const Snapshot& world, Vec2 start, Vec2 goal, const GridParams& params)
+      : world_(world), goal_(goal), params_(params), grid_(world.bounds(), start, params.cell) {}
+
+  Plan run(const Stop& stop) {
+    if (!grid_.fits()) return finish(Status::node_limit, grid_.start());
+    Place best = grid_.start();
+    grid_[best].cost = 0;
+    push(best, 0, 0);
+    while (!open_.empty()) {
+      const Place place = open_.top().place;
+      const double cost = open_.top().cost;
+      open_.pop();
+      Cell& cell = grid_[place];
+      if (cell.mark == Mark::closed || cost != cell.cost) continue;
+      if (counts_.iterations % 64 == 0)
+        if (const auto told = stop.status()) return finish(*told, best);
+      if (counts_.iterations >= static_cast<std::uint64_t>(params_.max_nodes))
+        return finish(Status::node_limit, best);
+      ++counts_.iterations;
+      if (!rule().settle(place, cell)) continue;
+      cell.mark = Mark::closed;
+      if (to_goal(place) < to_goal(best)) best = place;
+      if (const auto last = rule().arrive(place)) return finish(Status::solved, *last);
+      grid_.for_each_open_neighbour(
+          place,
+          [this](Vec2 p) {
+            ++counts_.samples;
+            return world_.is_free(p, params_.clearance);
+          },
+          [&](std::size_t move, Cell& next) { rule().relax(place, cell, move, next); });
+    }
+    return finish(Status::no_path, best);
+  }
+
+ protected:
+  Vec2 position(Place p) const { return grid_.position(p); }
+  double to_goal(Place p) const { return distance(position(p), goal_); }
+  bool is_at_goal(Place p) const { return to_goal(p) <= params_.goal_tolerance; }
+  /// Opens a place at this cost, from which at least `left` remains [µm].
+  void push(Place p, double cost, double left) {
+    const double length = cost + std::max(0.0, left);
+    open_.push({std::llround(length / params_.cell * 0x1p30), cost, p});
+  }
+  bool sees(Vec2 from, Vec2 to) {
+    ++counts_.edge_checks;
+    return world_.is_free(Segment{from, to}, params_.clearance);
+  }
+
+  const Snapshot& world_;
+  Vec2 goal_;
+  const GridParams& params_;
+  Grid<Cell> grid_;
+  std::optional<Vec2> end_beyond_;
+
+ private:
+  Rule& rule() { return static_cast<Rule&>(*this); }
+
+  Plan finish(Status status, Place last) {
+    Plan plan{.status = status, .counts = counts_};
+    if (end_beyond_) plan.path.push_back(*end_beyond_);
+    for (; last != grid_.start(); last = rule().before(last)) plan.path.push_back(position(last));
+    plan.path.push_back(position(grid_.start()));
+    std::reverse(plan.path.begin(), plan.path.end());
+    return plan;
+  }
+
+  std::priority_queue<OpenPlace> open_;
+  PlanCounts counts_;
 };
 
 /// Plan of `search(params)` on ever finer grids, as GridParams tells. `search` says no_path of a

@@ -25,10 +25,11 @@ class RrtConnect {
   }
 
   Plan run(const Stop& stop) {
+    if (arrives()) return finish(Status::solved, 0);
     Status status = Status::solved;
     // The tree that grows towards a sample, and the one that then grows towards it.
     std::size_t growing = 0;
-    for (met_ = {0, 0}; !is_free(end(0), end(1)); growing = 1 - growing) {
+    for (; !is_free(end(0), end(1)); growing = 1 - growing) {
       if (const auto told = reason_to_end(stop)) {
         status = *told;
         break;
@@ -36,8 +37,7 @@ class RrtConnect {
       ++counts_.iterations;
       ++counts_.samples;
       if (!extend(growing, sample(growing))) continue;
-      if (growing == 0 && distance(end(0), goal_) <= params_.goal_tolerance)
-        return finish(Status::solved, met_[0]);
+      if (growing == 0 && arrives()) return finish(Status::solved, met_[0]);
       if (connect(1 - growing, end(growing))) break;
     }
     return finish(status);
@@ -45,6 +45,8 @@ class RrtConnect {
 
  private:
   Vec2 end(std::size_t tree) const { return trees_[tree][met_[tree]].position; }
+
+  bool arrives() const { return distance(end(0), goal_) <= params_.goal_tolerance; }
 
   bool is_free(Vec2 a, Vec2 b) {
     ++counts_.edge_checks;
@@ -125,19 +127,10 @@ class RrtConnect {
 
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const RrtConnectParams& params, Rng& rng,
           const Stop& stop) {
-  Plan made{.path = {start.position}};
-  if (const auto fault =
-          query_fault(world, start.position, goal, params.goal_tolerance, params.clearance)) {
-    made.status = *fault;
-    return made;
-  }
-  if (distance(start.position, goal) <= params.goal_tolerance) {
-    made.status = Status::solved;
-    made.tree = SearchTree(world.bounds(), start, {}).take_nodes();
-    return made;
-  }
-  const Vec2 target = *free_goal(world, goal, params.goal_tolerance, params.clearance);
-  return RrtConnect(world, start, goal, target, params, rng).run(stop);
+  const Target target =
+      find_target(world, start.position, goal, params.goal_tolerance, params.clearance);
+  if (target.fault) return target.blocked(start.position);
+  return RrtConnect(world, start, goal, target.place, params, rng).run(stop);
 }
 
 }  // namespace microswarm

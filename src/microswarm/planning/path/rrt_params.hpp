@@ -7,6 +7,18 @@
 
 namespace microswarm {
 
+/// Fields that planners by trees have in common.
+namespace tree_fields {
+inline constexpr FieldInfo clearance{
+    "clearance", Unit::um, {0, 1e6}, "Minimum distance to obstacles."};
+inline constexpr FieldInfo goal_tolerance{
+    "goal_tolerance", Unit::um, {1e-3, 1e6}, "Distance at which the goal counts as reached."};
+inline constexpr FieldInfo step{"step", Unit::um, {1e-3, 1e6}, "Base length of one extension."};
+inline constexpr FieldInfo max_nodes{"max_nodes", Unit::none, {1, 1e7}, "Maximum number of nodes."};
+inline constexpr FieldInfo max_iterations{
+    "max_iterations", Unit::none, {1, 1e8}, "Maximum number of iterations."};
+}  // namespace tree_fields
+
 /// Parameters common to all sampling planners. All stop alike: the first node within
 /// `goal_tolerance` of the goal ends the path, and nothing is appended unchecked.
 struct TreeParams {
@@ -19,15 +31,12 @@ struct TreeParams {
   bool stop_at_first = true;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.clearance, {"clearance", Unit::um, {0, 1e6}, "Minimum distance to obstacles."});
-    visit(
-        self.goal_tolerance,
-        {"goal_tolerance", Unit::um, {1e-3, 1e6}, "Distance at which the goal counts as reached."});
-    visit(self.step, {"step", Unit::um, {1e-3, 1e6}, "Base length of one extension."});
+    visit(self.clearance, tree_fields::clearance);
+    visit(self.goal_tolerance, tree_fields::goal_tolerance);
+    visit(self.step, tree_fields::step);
     visit(self.goal_bias, {"goal_bias", Unit::none, {0, 1}, "Share of samples at the goal."});
-    visit(self.max_nodes, {"max_nodes", Unit::none, {1, 1e7}, "Maximum number of nodes."});
-    visit(self.max_iterations,
-          {"max_iterations", Unit::none, {1, 1e8}, "Maximum number of iterations."});
+    visit(self.max_nodes, tree_fields::max_nodes);
+    visit(self.max_iterations, tree_fields::max_iterations);
     visit(self.stop_at_first,
           {"stop_at_first", Unit::none, {}, "Stop at the first path; else grow to the limits."});
   }
@@ -49,14 +58,11 @@ struct RrtConnectParams {
   int max_iterations = 100'000;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.clearance, {"clearance", Unit::um, {0, 1e6}, "Minimum distance to obstacles."});
-    visit(
-        self.goal_tolerance,
-        {"goal_tolerance", Unit::um, {1e-3, 1e6}, "Distance at which the goal counts as reached."});
-    visit(self.step, {"step", Unit::um, {1e-3, 1e6}, "Base length of one extension."});
-    visit(self.max_nodes, {"max_nodes", Unit::none, {1, 1e7}, "Maximum number of nodes."});
-    visit(self.max_iterations,
-          {"max_iterations", Unit::none, {1, 1e8}, "Maximum number of iterations."});
+    visit(self.clearance, tree_fields::clearance);
+    visit(self.goal_tolerance, tree_fields::goal_tolerance);
+    visit(self.step, tree_fields::step);
+    visit(self.max_nodes, tree_fields::max_nodes);
+    visit(self.max_iterations, tree_fields::max_iterations);
   }
 };
 

@@ -48,7 +48,7 @@ class Straightener {
     double cost = infinity;
     std::size_t before = 0;  ///< start point of the previous edge
   };
-  /// A point, with what is left to the end: as the crow flies.
+  /// A point, with what is left to the end in a straight line.
   struct Point {
     Vec2 place;
     double length_left = 0;  ///< times its cost

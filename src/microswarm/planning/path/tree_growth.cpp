@@ -37,7 +37,7 @@ TreeGrowth::TreeGrowth(const Snapshot& world, Pose2 start, Vec2 goal, const Tree
       sampled_(world.bounds().grown(-params.clearance)),
       cost_(cost),
       tree_(world.bounds(), finite(start), cost) {
-  ended_ = query_fault(world, start.position, goal, params.goal_tolerance, params.clearance);
+  ended_ = find_target(world, start.position, goal, params.goal_tolerance, params.clearance).fault;
   if (ended_) return;
   goal_is_free_ = world.is_free(goal, params.clearance);
   if (arrives(start.position)) arrived_.push_back(0);

@@ -42,14 +42,6 @@ void write_everywhere(const std::vector<Plot>& plots, const std::filesystem::pat
   write_plots_everywhere(plots, stem);
 }
 
-double standard_deviation(const std::vector<double>& values) {
-  if (values.size() < 2) return 0;
-  const double middle = mean(values);
-  double sum = 0;
-  for (const double v : values) sum += (v - middle) * (v - middle);
-  return std::sqrt(sum / static_cast<double>(values.size() - 1));
-}
-
 namespace {
 
 template <auto add>

@@ -43,8 +43,6 @@ Robots gather_robots(const scenes::Vascular& scene, const AggregationMap& map,
 
 /// Writes plots as .svg, .pdf and .png.
 void write_everywhere(const std::vector<Plot>& plots, const std::filesystem::path& stem);
-/// Standard deviation of a sample; 0 for fewer than two values.
-double standard_deviation(const std::vector<double>& values);
 
 constexpr int gather_most_steps = 200'000;
 

@@ -107,8 +107,9 @@ bool RolloutSimulator::pursue(PartialPlan& partial, Aggregation method, std::siz
 void RolloutSimulator::try_moves(PartialPlan& partial, bool first, std::size_t most, Rng& rng) {
   const RolloutParams& p = params_.rollout;
   partial.keeps_checkpoints = true;
-  const auto length = static_cast<std::size_t>(p.tuning.min_trial) +
-                      rng.below(static_cast<std::uint64_t>(p.horizon - p.tuning.min_trial + 1));
+  const auto longest = static_cast<std::size_t>(p.horizon);
+  const std::size_t shortest = std::min(static_cast<std::size_t>(p.tuning.min_trial), longest);
+  const std::size_t length = shortest + rng.below(longest - shortest + 1);
   const std::size_t end = std::min(most, partial.steps() + length);
   const bool one_direction = rng.uniform() < p.tuning.direction_share;
   const std::size_t place = rng.below(partial.merged.places().size());
@@ -133,7 +134,9 @@ std::size_t RolloutSimulator::farthest(const Robots& robots) const {
   double most = -1;
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const double far = way(robots, i);
-    if (far > most) most = far, best = i;
+    if (far <= most) continue;
+    most = far;
+    best = i;
   }
   return best;
 }
