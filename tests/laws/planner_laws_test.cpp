@@ -10,8 +10,8 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/hash.hpp"
 #include "microswarm/planning/path/planners.hpp"
-#include "microswarm/planning/path/search_tree.hpp"
-#include "microswarm/planning/path/turn_edge.hpp"
+#include "microswarm/planning/trees/search_tree.hpp"
+#include "microswarm/planning/trees/turn_edge.hpp"
 #include "microswarm/scenes/worlds.hpp"
 
 namespace microswarm {

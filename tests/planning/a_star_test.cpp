@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/path/a_star.hpp"
-#include "microswarm/planning/path/exact.hpp"
-#include "microswarm/planning/path/theta_star.hpp"
+#include "microswarm/planning/grid/a_star.hpp"
+#include "microswarm/planning/exact/exact.hpp"
+#include "microswarm/planning/grid/theta_star.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/path/fmt_star.hpp"
+#include "microswarm/planning/trees/fmt_star.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 
 #include "microswarm/formats/moving_ai.hpp"
 #include "microswarm/planning/exact/shortest_paths.hpp"
-#include "microswarm/planning/path/a_star.hpp"
+#include "microswarm/planning/grid/a_star.hpp"
 #include "tests/files.hpp"
 
 namespace microswarm {

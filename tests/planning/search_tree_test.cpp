@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/path/search_tree.hpp"
+#include "microswarm/planning/trees/search_tree.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/path/straighten.hpp"
+#include "microswarm/planning/trees/straighten.hpp"
 
 #include <gtest/gtest.h>
 
 #include "microswarm/core/maths/angles.hpp"
-#include "microswarm/planning/path/rrt.hpp"
+#include "microswarm/planning/trees/rrt.hpp"
 #include "microswarm/scenes/worlds.hpp"
 
 namespace microswarm {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/path/turn_edge.hpp"
+#include "microswarm/planning/trees/turn_edge.hpp"
 
 #include <gtest/gtest.h>
 

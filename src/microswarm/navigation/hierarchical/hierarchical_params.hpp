@@ -11,7 +11,7 @@
 #include "microswarm/navigation/hierarchical/hierarchical_tuning.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker_params.hpp"
 #include "microswarm/navigation/steering/guide_kind.hpp"
-#include "microswarm/planning/path/drrt_star_params.hpp"
+#include "microswarm/planning/trees/drrt_star_params.hpp"
 
 namespace microswarm {
 

@@ -6,7 +6,7 @@
 
 #include "microswarm/core/maths/maths.hpp"
 #include "microswarm/navigation/radar/wait_zone.hpp"
-#include "microswarm/planning/path/fmt_star.hpp"
+#include "microswarm/planning/trees/fmt_star.hpp"
 #include "microswarm/world/connectivity/free_place.hpp"
 
 namespace microswarm {

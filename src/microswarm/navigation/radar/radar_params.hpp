@@ -11,7 +11,7 @@
 #include "microswarm/navigation/radar/safety_filter_params.hpp"
 #include "microswarm/navigation/radar/safety_radius_params.hpp"
 #include "microswarm/navigation/radar/wait_zone_params.hpp"
-#include "microswarm/planning/path/fmt_star_params.hpp"
+#include "microswarm/planning/trees/fmt_star_params.hpp"
 
 namespace microswarm {
 

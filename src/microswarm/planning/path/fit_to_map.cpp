@@ -13,8 +13,8 @@ namespace {
 
 /// Width [µm] of the channel that the defaults fit: the S-channel of Fig 3 [drrt].
 constexpr double usual_width = 280;
-constexpr double most = 10'000'000;         // nodes or iterations
-constexpr double iterations_per_node = 20;  // as the defaults
+constexpr double largest_limit = 10'000'000;  // of nodes or iterations
+constexpr double iterations_per_node = 20;    // as the defaults
 
 constexpr std::array<std::string_view, 6> lengths{
     "step", "search_radius", "spacing", "detection_diameter", "speed", "smoothness_weight"};
@@ -52,7 +52,7 @@ void fit(Params& params, const Map& map, double width, const IsGiven& is_given) 
     }
     if constexpr (std::is_same_v<decltype(value), int&>) {
       const auto at_least = [&](double fitted) {
-        value = std::max(value, static_cast<int>(std::min(fitted, most)));
+        value = std::max(value, static_cast<int>(std::min(fitted, largest_limit)));
       };
       if (info.name == "max_nodes") at_least(nodes);
       if (info.name == "max_iterations") at_least(iterations_per_node * nodes);

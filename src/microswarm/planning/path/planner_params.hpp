@@ -3,11 +3,11 @@
 
 #include <variant>
 
-#include "microswarm/planning/path/drrt_star_params.hpp"
-#include "microswarm/planning/path/exact_params.hpp"
-#include "microswarm/planning/path/fmt_star_params.hpp"
-#include "microswarm/planning/path/grid_params.hpp"
-#include "microswarm/planning/path/rrt_params.hpp"
+#include "microswarm/planning/exact/exact_params.hpp"
+#include "microswarm/planning/grid/grid_params.hpp"
+#include "microswarm/planning/trees/drrt_star_params.hpp"
+#include "microswarm/planning/trees/fmt_star_params.hpp"
+#include "microswarm/planning/trees/rrt_params.hpp"
 
 namespace microswarm {
 

@@ -2,15 +2,15 @@
 #pragma once
 
 #include "microswarm/planning/common/detection.hpp"
-#include "microswarm/planning/path/a_star.hpp"
-#include "microswarm/planning/path/drrt_star.hpp"
-#include "microswarm/planning/path/exact.hpp"
-#include "microswarm/planning/path/fmt_star.hpp"
+#include "microswarm/planning/exact/exact.hpp"
+#include "microswarm/planning/grid/a_star.hpp"
+#include "microswarm/planning/grid/theta_star.hpp"
 #include "microswarm/planning/path/planner_params.hpp"
-#include "microswarm/planning/path/rrt.hpp"
-#include "microswarm/planning/path/rrt_connect.hpp"
-#include "microswarm/planning/path/rrt_star.hpp"
-#include "microswarm/planning/path/theta_star.hpp"
+#include "microswarm/planning/trees/drrt_star.hpp"
+#include "microswarm/planning/trees/fmt_star.hpp"
+#include "microswarm/planning/trees/rrt.hpp"
+#include "microswarm/planning/trees/rrt_connect.hpp"
+#include "microswarm/planning/trees/rrt_star.hpp"
 
 namespace microswarm {
 

@@ -10,7 +10,7 @@
 #include "microswarm/planning/common/detection.hpp"
 #include "microswarm/planning/exact/shortest_paths.hpp"
 #include "microswarm/planning/path/planners.hpp"
-#include "microswarm/planning/path/straighten.hpp"
+#include "microswarm/planning/trees/straighten.hpp"
 #include "microswarm/report/picture.hpp"
 #include "microswarm/report/plot.hpp"
 #include "microswarm/reproduce/drrt/drrt.hpp"

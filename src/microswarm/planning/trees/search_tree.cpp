@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/path/search_tree.hpp"
+#include "microswarm/planning/trees/search_tree.hpp"
 
 #include <cassert>
 #include <cmath>
 
 #include "microswarm/core/maths/angles.hpp"
-#include "microswarm/planning/path/turn_edge.hpp"
+#include "microswarm/planning/trees/turn_edge.hpp"
 
 namespace microswarm {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/path/fmt_star.hpp"
+#include "microswarm/planning/trees/fmt_star.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include "microswarm/core/maths/maths.hpp"
 #include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/planning/common/free_goal.hpp"
-#include "microswarm/planning/path/sample_buckets.hpp"
+#include "microswarm/planning/trees/sample_buckets.hpp"
 
 namespace microswarm {
 namespace {

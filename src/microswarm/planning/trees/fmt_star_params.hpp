@@ -5,7 +5,7 @@
 
 #include "microswarm/core/errors/issue.hpp"
 #include "microswarm/core/fields/fields.hpp"
-#include "microswarm/planning/path/rrt_params.hpp"
+#include "microswarm/planning/trees/rrt_params.hpp"
 
 namespace microswarm {
 

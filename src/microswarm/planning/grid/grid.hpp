@@ -10,8 +10,8 @@
 #include <queue>
 #include <vector>
 
-#include "microswarm/planning/path/exact.hpp"
-#include "microswarm/planning/path/grid_params.hpp"
+#include "microswarm/planning/exact/exact.hpp"
+#include "microswarm/planning/grid/grid_params.hpp"
 
 namespace microswarm {
 

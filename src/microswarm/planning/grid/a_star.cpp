@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/path/a_star.hpp"
+#include "microswarm/planning/grid/a_star.hpp"
 
 #include <cstdlib>
 #include <numbers>
 
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/planning/common/free_goal.hpp"
-#include "microswarm/planning/path/grid.hpp"
+#include "microswarm/planning/grid/grid.hpp"
 
 namespace microswarm {
 namespace {

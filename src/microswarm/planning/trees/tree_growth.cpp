@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/path/tree_growth.hpp"
+#include "microswarm/planning/trees/tree_growth.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -8,7 +8,7 @@
 #include "microswarm/core/maths/maths.hpp"
 #include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/planning/common/free_goal.hpp"
-#include "microswarm/planning/path/turn_edge.hpp"
+#include "microswarm/planning/trees/turn_edge.hpp"
 
 namespace microswarm {
 namespace {

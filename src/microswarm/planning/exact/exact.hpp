@@ -2,7 +2,7 @@
 #pragma once
 
 #include "microswarm/contracts/plan.hpp"
-#include "microswarm/planning/path/exact_params.hpp"
+#include "microswarm/planning/exact/exact_params.hpp"
 
 namespace microswarm {
 

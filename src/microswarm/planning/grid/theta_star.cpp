@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/path/theta_star.hpp"
+#include "microswarm/planning/grid/theta_star.hpp"
 
 #include <numbers>
 
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/planning/common/free_goal.hpp"
-#include "microswarm/planning/path/grid.hpp"
+#include "microswarm/planning/grid/grid.hpp"
 
 namespace microswarm {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/path/rrt_connect.hpp"
+#include "microswarm/planning/trees/rrt_connect.hpp"
 
 #include <array>
 #include <utility>
 
 #include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/planning/common/free_goal.hpp"
-#include "microswarm/planning/path/search_tree.hpp"
-#include "microswarm/planning/path/tree_growth.hpp"
+#include "microswarm/planning/trees/search_tree.hpp"
+#include "microswarm/planning/trees/tree_growth.hpp"
 
 namespace microswarm {
 namespace {

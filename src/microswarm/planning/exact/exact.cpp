@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/path/exact.hpp"
+#include "microswarm/planning/exact/exact.hpp"
 
 #include <memory>
 #include <utility>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "microswarm/contracts/plan.hpp"
-#include "microswarm/planning/path/grid_params.hpp"
+#include "microswarm/planning/grid/grid_params.hpp"
 
 namespace microswarm {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "microswarm/planning/path/rrt.hpp"
-#include "microswarm/planning/path/rrt_params.hpp"
+#include "microswarm/planning/trees/rrt.hpp"
+#include "microswarm/planning/trees/rrt_params.hpp"
 
 namespace microswarm {
 

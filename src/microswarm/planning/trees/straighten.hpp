@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "microswarm/planning/path/search_tree.hpp"
+#include "microswarm/planning/trees/search_tree.hpp"
 
 namespace microswarm {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/path/rrt.hpp"
+#include "microswarm/planning/trees/rrt.hpp"
 
-#include "microswarm/planning/path/tree_growth.hpp"
+#include "microswarm/planning/trees/tree_growth.hpp"
 
 namespace microswarm {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "microswarm/planning/path/drrt_star_params.hpp"
-#include "microswarm/planning/path/rrt_star.hpp"
+#include "microswarm/planning/trees/drrt_star_params.hpp"
+#include "microswarm/planning/trees/rrt_star.hpp"
 
 namespace microswarm {
 

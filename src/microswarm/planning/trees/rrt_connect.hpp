@@ -2,7 +2,7 @@
 #pragma once
 
 #include "microswarm/contracts/plan.hpp"
-#include "microswarm/planning/path/rrt_params.hpp"
+#include "microswarm/planning/trees/rrt_params.hpp"
 
 namespace microswarm {
 

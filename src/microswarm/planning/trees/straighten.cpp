@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/path/straighten.hpp"
+#include "microswarm/planning/trees/straighten.hpp"
 
 #include <algorithm>
 #include <cmath>

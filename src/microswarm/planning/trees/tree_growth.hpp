@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "microswarm/core/maths/heap_entry.hpp"
-#include "microswarm/planning/path/rrt_star.hpp"
-#include "microswarm/planning/path/search_tree.hpp"
+#include "microswarm/planning/trees/rrt_star.hpp"
+#include "microswarm/planning/trees/search_tree.hpp"
 
 namespace microswarm {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/path/rrt_star.hpp"
+#include "microswarm/planning/trees/rrt_star.hpp"
 
 #include <algorithm>
 
-#include "microswarm/planning/path/tree_growth.hpp"
+#include "microswarm/planning/trees/tree_growth.hpp"
 
 namespace microswarm {
 namespace {

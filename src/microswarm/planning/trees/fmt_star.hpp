@@ -2,7 +2,7 @@
 #pragma once
 
 #include "microswarm/contracts/plan.hpp"
-#include "microswarm/planning/path/fmt_star_params.hpp"
+#include "microswarm/planning/trees/fmt_star_params.hpp"
 
 namespace microswarm {
 

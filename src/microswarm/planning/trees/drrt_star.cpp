@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/path/drrt_star.hpp"
+#include "microswarm/planning/trees/drrt_star.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -7,9 +7,9 @@
 #include "microswarm/core/fields/published.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/planning/common/detection.hpp"
-#include "microswarm/planning/path/straighten.hpp"
-#include "microswarm/planning/path/tree_growth.hpp"
-#include "microswarm/planning/path/turn_edge.hpp"
+#include "microswarm/planning/trees/straighten.hpp"
+#include "microswarm/planning/trees/tree_growth.hpp"
+#include "microswarm/planning/trees/turn_edge.hpp"
 
 namespace microswarm {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microswarm/planning/path/sample_buckets.hpp"
+#include "microswarm/planning/trees/sample_buckets.hpp"
 
 namespace microswarm {
 
