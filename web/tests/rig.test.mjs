@@ -255,9 +255,9 @@ line_driver.serve(lambda values: log.write(' '.join(map(str, values)) + '\\n'))
 coils: coils.yaml
 field: {kind: rotating, amplitude_mt: 8, frequency_hz: 5, max_pitch_deg: 7.5}
 drive_rate_hz: 50
-driver: {type: program, command: [python3, driver.py], full_scale_a: 10, reply_timeout_s: 0.2, watchdog_s: 0.5}
+driver: {type: program, command: [python3, driver.py], full_scale_a: 10, reply_timeout_s: 1, watchdog_s: 2}
 camera: {type: simulated, microscope: {um_per_px: 6}}
-safety: {lost_swarm_s: 3, max_frame_age_s: 3, deadman_s: 3, missed_deadlines: 100, max_pause_s: 3}
+safety: {${patient.map((one) => one.replace('=', ': ')).join(', ')}}
 `,
   );
   return file;
@@ -273,7 +273,7 @@ test('a lab that is killed leaves the coils at zero, and the page says that it i
   await arm(page);
   for (const end = Date.now() + 20_000; isZero(applied().at(-1)) && Date.now() < end; )
     await page.waitForTimeout(20);
-  assert.ok(!isZero(applied().at(-1)), 'the coils are driven');
+  assert.ok(!isZero(applied().at(-1)), `the coils are driven: ${await why(page)}`);
   const began = Date.now();
   await lab.stop('SIGKILL');
   while (!isZero(applied().at(-1)) && Date.now() < began + 5000) await page.waitForTimeout(5);
@@ -282,7 +282,8 @@ test('a lab that is killed leaves the coils at zero, and the page says that it i
   await state(page, 'lost');
   assert.match(await why(page), /by themselves/);
   await picture('rig-lost');
-  assert.ok(complaints.splice(0).every((one) => one.includes('ERR_CONNECTION_REFUSED')));
+  // That it could not be reached, and nothing else.
+  for (const one of complaints.splice(0)) assert.match(one, /net::ERR_(CONNECTION_|EMPTY_RESPONSE)/);
   await close();
   rmSync(folder, { recursive: true });
 });
