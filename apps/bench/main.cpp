@@ -4,6 +4,7 @@
 
 #include "bench/gathering.hpp"
 #include "bench/global.hpp"
+#include "bench/growth.hpp"
 #include "bench/lab.hpp"
 #include "bench/planning.hpp"
 #include "bench/radar.hpp"
@@ -81,6 +82,7 @@ int main(int argc, char** argv) {
       {"global", "Planning for several robots under one input", bench::global},
       {"gather", "Steps that gather robots, by each method", bench::gather},
       {"radar", "Decisions of the radar", bench::radar},
+      {"growth", "How times grow with robots, obstacles, vertices and shapes", bench::growth},
 #ifdef MICROSWARM_BENCH_LAB
       {"lab", "The lab: frames, times, several clients; its page in a browser",
        [](bool quick, const Stop& stop) {

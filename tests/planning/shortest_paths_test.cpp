@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <queue>
+#include <set>
 
 #include "microswarm/contracts/plan.hpp"
 #include "microswarm/core/maths/angles.hpp"
@@ -189,6 +190,64 @@ TEST(ShortestPaths, WhatWasKeptChangesNoBit) {
     }
   }
   EXPECT_GT(solved, 200);
+}
+
+/// The circle of radius `radius` around a corner.
+TurningCircle circle_around(const Corner& corner, double radius) {
+  return {.centre = corner.centre,
+          .radius = radius,
+          .from = corner.from,
+          .width = corner.width,
+          .first = corner.first,
+          .last = corner.last,
+          .is_disc = corner.is_disc};
+}
+
+TEST(Corners, EveryFreeTangentLeadsToWhatIsSeen) {
+  Rng rng(9, Purpose::test);
+  int tangents = 0, seen = 0, all = 0;
+  for (int world = 0; world < 400; ++world) {
+    const Map map = world % 2 == 0 ? random_map(rng) : crowded_map(rng);
+    const Corners& corners = map.corners();
+    const double clearance = world % 4 == 0 ? 0 : rng.uniform(0.2, 5);
+    const double margin = 1e-7 * std::max(1.0, clearance);
+    std::vector<TurningCircle> circles;
+    std::vector<std::vector<Arc>> arcs;
+    for (const Corner& corner : corners.all()) {
+      circles.push_back(circle_around(corner, corner.radius + clearance + margin));
+      arcs.emplace_back();
+      add_free_arcs(circles.back(), map, nullptr, clearance, margin, arcs.back());
+    }
+    for (std::uint32_t i = 0; i < circles.size(); ++i)
+      for (const double sense : {1.0, -1.0}) {
+        if (arcs[i].empty()) continue;
+        std::set<std::pair<std::uint32_t, bool>> found;
+        corners.seen_from(i, circles[i].radius, clearance, sense > 0,
+                          [&](std::uint32_t other, Trapezoids::Sides sides) {
+                            if (sides.left) found.emplace(other, true);
+                            if (sides.right) found.emplace(other, false);
+                          });
+        seen += static_cast<int>(found.size());
+        all += 2 * static_cast<int>(circles.size());
+        for (std::uint32_t k = 0; k < circles.size(); ++k)
+          for (const bool left : {true, false}) {
+            if (k == i || found.contains({k, left})) continue;
+            const double there = left ? 1 : -1;
+            const auto line = tangent(circles[i], sense, circles[k], there, margin);
+            if (!line) continue;
+            const Vec2 from = circles[i].touch(sense, line->along);
+            const Vec2 normal = perpendicular(line->along);
+            if (arc_at(circles[i], circles[i].angle_of(-sense * normal), arcs[i]) < 0) continue;
+            if (arc_at(circles[k], circles[k].angle_of(-there * normal), arcs[k]) < 0) continue;
+            EXPECT_FALSE(map.is_free(Segment{from, from + line->length * line->along}, clearance))
+                << "world " << world << " from " << i << (sense > 0 ? "+" : "-") << " to " << k
+                << (left ? "+" : "-");
+            ++tangents;
+          }
+      }
+  }
+  EXPECT_GT(tangents, 1000);
+  EXPECT_LT(seen, all / 2);
 }
 
 }  // namespace

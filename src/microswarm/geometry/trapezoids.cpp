@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <set>
 
@@ -181,16 +182,18 @@ std::uint32_t Trapezoids::cell_at(Vec2 p) const {
   return found == begin ? *begin : *(found - 1);
 }
 
-/// The cells that touch the quadrilateral from outside.
-void Trapezoids::start_around(std::span<const std::uint32_t, 4> inscribed, Cones& cones) const {
-  const std::uint32_t first = inscribed.front(), last = inscribed.back();
-  const auto add = [&](std::uint32_t cell) { cones.push_back({cell, none, none}); };
-  for (std::uint32_t i = first_left_of_[first]; i < first_left_of_[first + 1]; ++i) add(ends_[i]);
-  for (std::uint32_t i = first_right_of_[last]; i < first_right_of_[last + 1]; ++i) add(i);
+std::vector<std::uint32_t> Trapezoids::cells_around(
+    std::span<const std::uint32_t, 4> quadrilateral) const {
+  std::vector<std::uint32_t> around;
+  const std::uint32_t first = quadrilateral.front(), last = quadrilateral.back();
+  for (std::uint32_t i = first_left_of_[first]; i < first_left_of_[first + 1]; ++i)
+    around.push_back(ends_[i]);
+  for (std::uint32_t i = first_right_of_[last]; i < first_right_of_[last + 1]; ++i)
+    around.push_back(i);
   // Along its lower and its upper side, from cell to cell.
   const auto walk = [&](std::uint32_t cell, auto Cell::*near, auto Cell::*far) {
     while (cell != none) {
-      add(cell);
+      around.push_back(cell);
       const Cell& here = cells_[cell];
       if (here.right == last || here.right == none) return;
       cell = here.*near != none ? here.*near : here.*far;
@@ -198,16 +201,39 @@ void Trapezoids::start_around(std::span<const std::uint32_t, 4> inscribed, Cones
   };
   walk(first_right_of_[first], &Cell::right_above, &Cell::right_below);
   walk(first_right_of_[first + 1] - 1, &Cell::right_below, &Cell::right_above);
+  return around;
 }
 
-void Trapezoids::Look::begin(const Trapezoids& cells, Vec2 from, Vec2 to) {
+Box Trapezoids::bounding_box(std::uint32_t cell) const {
+  const Cell& here = cells_[cell];
+  constexpr double far = std::numeric_limits<double>::infinity();
+  Box box{{-far, -far}, {far, far}};
+  if (here.left != none) box.lo.x = points_[here.left].x;
+  if (here.right != none) box.hi.x = points_[here.right].x;
+  // A segment is lowest and highest where it or the cell ends.
+  const auto y_at = [&](const Segment& s, double x) {
+    if (x <= s.a.x) return s.a.y;
+    return x >= s.b.x ? s.b.y : s.a.y + (s.b.y - s.a.y) * ((x - s.a.x) / (s.b.x - s.a.x));
+  };
+  if (here.bottom != none) {
+    const Segment& s = segments_[here.bottom];
+    box.lo.y = s.a.x == s.b.x ? s.a.y : std::min(y_at(s, box.lo.x), y_at(s, box.hi.x));
+  }
+  if (here.top != none) {
+    const Segment& s = segments_[here.top];
+    box.hi.y = s.a.x == s.b.x ? s.b.y : std::max(y_at(s, box.lo.x), y_at(s, box.hi.x));
+  }
+  return box;
+}
+
+void Trapezoids::Look::begin(const Trapezoids& cells, Vec2 from, Vec2 to, double keep) {
   cells_ = &cells;
-  source_ = {from};
+  rays_ = {.centre = from, .keep = keep};
   to_ = to;
   left_ = 0;
   beyond_.clear();
   const auto put_off = [&](std::uint32_t cell, bool rightwards) {
-    beyond_.push_back({{cell, none, none}, rightwards, 0});
+    beyond_.push_back({{cell}, rightwards, 0});
   };
   if (const std::uint32_t number = cells.point_at(from); number != none) {
     for (std::uint32_t i = cells.first_right_of_[number]; i < cells.first_right_of_[number + 1];
@@ -222,11 +248,11 @@ void Trapezoids::Look::begin(const Trapezoids& cells, Vec2 from, Vec2 to) {
   put_off(here, false);
 }
 
-/// Who goes beyond passes the wall that is seen through the cone, at x. The shortest way to the
-/// goal over the wall goes straight, or is reflected in it.
+/// What is beyond is seen through the cone across the wall at x, and a way ends at most `keep` from
+/// it. The shortest way to the goal over the wall goes straight, or is reflected in it.
 double Trapezoids::Look::length_over(const Cone& cone, bool rightwards) const {
   const Cell& cell = cells_->cells_[cone.cell];
-  const Vec2 s = source_.place;
+  const Vec2 s = rays_.centre;
   const double x = cells_->points_[rightwards ? cell.left : cell.right].x;
   const double run = x - s.x;
   const double back = to_.x - x;  // from the wall to the goal
@@ -244,7 +270,7 @@ double Trapezoids::Look::length_over(const Cone& cone, bool rightwards) const {
   if (limits(cone.upper)) y = std::min(y, at_wall(cone.upper));
   const Vec2 q{x, y};
   constexpr double less = 1 - 1e-12;  // rounding makes it longer by no more than this share
-  return less * (distance(s, q) + distance(q, to_));
+  return less * (distance(s, q) + distance(q, to_)) - 2 * rays_.keep;
 }
 
 }  // namespace microswarm

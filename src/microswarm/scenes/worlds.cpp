@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/scenes/worlds.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "microswarm/core/maths/angles.hpp"
@@ -121,16 +123,18 @@ Vec2 random_free_point(const RawWorld& world, double clearance, Rng& rng) {
   return world.bounds.centre();
 }
 
-RawWorld cluttered(Rng& rng) {
+RawWorld cluttered(Rng& rng, int side) {
+  const int discs = 140 * side * side;
+  const int polygons = 70 * side * side;
   RawWorld world;
-  world.name = "140 discs, 70 polygons";
-  world.bounds = {{0, 0}, {2000, 1000}};
+  world.name = fmt::format("{} discs, {} polygons", discs, polygons);
+  world.bounds = {{0, 0}, {2000.0 * side, 1000.0 * side}};
   world.field_cell = 0;
-  for (int i = 0; i < 140; ++i) {
+  for (int i = 0; i < discs; ++i) {
     const Vec2 centre = uniform_in(world.bounds, rng);
     world.discs.push_back({centre, rng.uniform(8, 25)});
   }
-  for (int i = 0; i < 70; ++i) {
+  for (int i = 0; i < polygons; ++i) {
     const Vec2 centre = uniform_in(world.bounds, rng);
     Polygon polygon;
     const int corners = 3 + static_cast<int>(rng.below(6));

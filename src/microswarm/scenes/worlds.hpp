@@ -37,7 +37,8 @@ RawWorld random_world(int kind, Rng& rng);
 /// Random free point of the world by brute force; the bounds' centre if none was found.
 Vec2 random_free_point(const RawWorld& world, double clearance, Rng& rng);
 
-/// 2000 × 1000 µm with 140 discs and 70 polygons, which may overlap.
-RawWorld cluttered(Rng& rng);
+/// 2000 × 1000 µm with 140 discs and 70 polygons, which may overlap; `side` times as long and wide,
+/// as densely.
+RawWorld cluttered(Rng& rng, int side = 1);
 
 }  // namespace microswarm::scenes

@@ -23,8 +23,8 @@ ShortestPaths::ShortestPaths(const Map& map, double clearance)
   circles_.reserve(corners_.all().size());
   for (const Corner& corner : corners_.all()) circles_.push_back(circle_of(corner));
   wheels_.resize(2 * circles_.size());
-  seen_.resize(circles_.size(), 0);
-  starts_seen_.resize(circles_.size(), 0);
+  seen_.resize(2 * circles_.size(), 0);
+  starts_seen_.resize(2 * circles_.size(), 0);
   bytes_ = circles_.size() * (sizeof(Circle) + 2 * sizeof(Wheel));
 }
 
@@ -38,32 +38,25 @@ ShortestPaths::Circle ShortestPaths::circle_of(const Corner& corner) const {
            .is_disc = corner.is_disc}};
 }
 
-/// Finds the corners that a corner sees.
-void ShortestPaths::look_around(std::uint32_t corner) {
-  Circle& circle = circles_[corner];
-  circle.has_looked = true;
-  ++look_;
-  corners_.seen_from_corner(corner, [&](std::uint32_t other) {
-    if (other == corner || seen_[other] == look_) return;
-    seen_[other] = look_;
-    circle.sees.push_back(other);
-  });
-  bytes_ += circle.sees.capacity() * sizeof(std::uint32_t);
-}
-
 /// Finds the tangents of a wheel.
 void ShortestPaths::know(std::uint32_t wheel) {
-  Circle& circle = circles_[wheel / 2];
-  if (!circle.has_looked) look_around(wheel / 2);
+  const Circle& circle = circles_[wheel / 2];
   Wheel& at = wheels_[wheel];
   at.is_known = true;
-  for (const std::uint32_t other : circle.sees)
-    for (std::uint32_t to = 2 * other; to < 2 * other + 2; ++to) add_hop(wheel, to);
+  ++look_;
+  const auto see = [&](std::uint32_t to) {
+    if (std::exchange(seen_[to], look_) != look_) add_hop(wheel, to);
+  };
+  corners_.seen_from(wheel / 2, circle.radius, clearance_, sense(wheel) > 0,
+                     [&](std::uint32_t corner, Trapezoids::Sides sides) {
+                       if (corner == wheel / 2) return;
+                       if (sides.left) see(2 * corner);
+                       if (sides.right) see(2 * corner + 1);
+                     });
   bytes_ += at.hops.capacity() * sizeof(Hop);
   std::ranges::sort(at.hops, [turn = sense(wheel)](const Hop& a, const Hop& b) {
     return a.leave != b.leave ? turn * a.leave < turn * b.leave : a.to < b.to;
   });
-  if (wheels_[wheel ^ 1].is_known) circle.sees = {};
   if (circle.visits >= often) settle(wheel);
 }
 
@@ -162,32 +155,32 @@ void ShortestPaths::begin(Vec2 start, Vec2 goal, const BodySet& moving) {
   wheels_.resize(2 * circles_.size());
 }
 
-/// Opens the tangents from the start to what is seen nearest to the way to the goal, and from
-/// everywhere.
+/// Opens the tangents from the start to what is seen nearest to the way to the goal.
 void ShortestPaths::open_from_start() {
-  from_start_.begin(corners_.cells(), start_, goal_);
-  corners_.seen_from_everywhere([&](std::uint32_t i) { open_from_start(i); });
-  for (std::uint32_t i = still_count(); i < circles_.size(); ++i) open_from_start(i);
+  from_start_.begin(corners_.cells(), start_, goal_, clearance_);
+  for (std::uint32_t to = 2 * still_count(); to < wheels_.size(); ++to) open_from_start(to);
   look_from_start(distance(start_, goal_));
 }
 
 /// Opens those over which ways of this length and a little more may lead.
 void ShortestPaths::look_from_start(double length) {
   constexpr double more = 1.05;
-  corners_.look_on(from_start_, more * length, [&](std::uint32_t i) { open_from_start(i); });
+  const auto see = [&](std::uint32_t to) {
+    if (std::exchange(starts_seen_[to], query_) != query_) open_from_start(to);
+  };
+  corners_.look_on(from_start_, more * length, [&](std::uint32_t corner, Trapezoids::Sides sides) {
+    if (sides.left) see(2 * corner);
+    if (sides.right) see(2 * corner + 1);
+  });
 }
 
-void ShortestPaths::open_from_start(std::uint32_t corner) {
-  if (corner < still_count() && std::exchange(starts_seen_[corner], query_) == query_) return;
-  const TurningCircle here{.centre = start_};
-  for (std::uint32_t to = 2 * corner; to < 2 * corner + 2; ++to) {
-    const auto line = join(here, 1, circles_[corner], sense(to));
-    if (!line) continue;
-    const double left = distance(touch(to, *line), goal_);
-    const auto number = static_cast<std::uint32_t>(guesses_.size());
-    guesses_.push_back({.line = *line, .to = to});
-    push({line->length + left, line->length, none, to, number, true});
-  }
+void ShortestPaths::open_from_start(std::uint32_t to) {
+  const auto line = join({.centre = start_}, 1, circles_[to / 2], sense(to));
+  if (!line) return;
+  const double left = distance(touch(to, *line), goal_);
+  const auto number = static_cast<std::uint32_t>(guesses_.size());
+  guesses_.push_back({.line = *line, .to = to});
+  push({line->length + left, line->length, none, to, number, true});
 }
 
 /// Whether an earlier label at the wheel comes by at no greater length.

@@ -89,8 +89,6 @@ class ShortestPaths {
   };
   /// A circle, and what is known of it.
   struct Circle : TurningCircle {
-    std::vector<std::uint32_t> sees;  ///< other corners, once found
-    bool has_looked = false;
     ArcRange arcs;            ///< among the walls
     ArcRange arcs_now;        ///< among the walls and the moving bodies
     std::uint32_t query = 0;  ///< of the following
@@ -135,9 +133,8 @@ class ShortestPaths {
     return {from, from + line.length * line.along};
   }
   static Vec2 end_of(const Label& label) { return segment(label.from, label.line).b; }
-  std::uint32_t still_count() const { return static_cast<std::uint32_t>(seen_.size()); }
+  std::uint32_t still_count() const { return static_cast<std::uint32_t>(seen_.size() / 2); }
   Circle circle_of(const Corner& corner) const;
-  void look_around(std::uint32_t corner);
   void know(std::uint32_t wheel);
   void add_hop(std::uint32_t from, std::uint32_t to);
   bool test(std::uint32_t from, Hop& hop);
@@ -154,7 +151,7 @@ class ShortestPaths {
   void begin(Vec2 start, Vec2 goal, const BodySet& moving);
   void open_from_start();
   void look_from_start(double length);
-  void open_from_start(std::uint32_t corner);
+  void open_from_start(std::uint32_t to);
   void expand(const Label& label, std::uint32_t number);
   void expand_hops(const Label& label, std::uint32_t number);
   void guess(const Label& label, std::uint32_t number, const TurningCircle& there,
@@ -180,11 +177,11 @@ class ShortestPaths {
   std::vector<Circle> circles_;  ///< around the corners of the map, then of the moving bodies
   std::vector<Wheel> wheels_;
   std::vector<Arc> arcs_;
-  std::vector<std::uint32_t> seen_;  ///< of each corner: the look around in which it was seen
+  std::vector<std::uint32_t> seen_;  ///< of each wheel: the look around in which it was seen
   std::uint32_t look_ = 0;
   std::size_t bytes_ = 0;
   std::vector<std::uint32_t>
-      starts_seen_;  ///< of each corner: the query in which its start line was opened
+      starts_seen_;  ///< of each wheel: the query in which its start line was opened
   Trapezoids::Look from_start_;
 
   // Of the present query.

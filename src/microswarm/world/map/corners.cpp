@@ -16,17 +16,22 @@ std::array<Vec2, 4> diameters(const Disc& d) {
           Vec2{d.centre.x, d.centre.y + d.radius}, Vec2{d.centre.x + d.radius, d.centre.y}};
 }
 
-/// Whether no other wall touches the disc.
-bool is_apart(const BodySet& walls, std::size_t disc) {
+/// Radius of a disc that no other wall touches, and that of no other disc: its own if it stands
+/// apart, else a smaller one.
+double own_radius(const BodySet& walls, std::size_t disc) {
+  constexpr double less = 0.9;
   const Disc d = walls.discs().disc(disc);
-  if (walls.polygons().edge_distance(d.centre, 2 * d.radius + 1) <= d.radius) return false;
-  if (walls.polygons().holds(d.centre)) return false;
-  bool apart = true;
+  if (walls.polygons().holds(d.centre)) return 0;
+  double radius = d.radius;
+  const double edge = walls.polygons().edge_distance(d.centre, 2 * d.radius + 1);
+  if (edge <= d.radius) radius = less * edge;
   walls.discs().for_each_in(bounding_box(d), [&](std::size_t i) {
     const Disc o = walls.discs().disc(i);
-    if (i != disc && distance(o.centre, d.centre) <= o.radius + d.radius) apart = false;
+    const double apart = distance(o.centre, d.centre);
+    if (i != disc && apart <= o.radius + d.radius && o.radius > 0)
+      radius = std::min(radius, less * apart * d.radius / (d.radius + o.radius));
   });
-  return apart && d.radius > 0;
+  return radius;
 }
 
 void add_ring(std::span<const Vec2> ring, const Box& bounds, std::vector<Corner>& corners) {
@@ -59,9 +64,20 @@ void add_corners(const Body& body, const Box& bounds, std::vector<Corner>& corne
   for (const auto& hole : polygon.holes) add_ring(hole, bounds, corners);
 }
 
+Corners::Lists Corners::Lists::made(std::size_t lists, const Pairs& pairs) {
+  Lists made;
+  made.first.assign(lists + 1, 0);
+  made.all.resize(pairs.size());
+  for (const auto& [list, number] : pairs) ++made.first[list + 1];
+  std::partial_sum(made.first.begin(), made.first.end(), made.first.begin());
+  auto next = made.first;
+  for (const auto& [list, number] : pairs) made.all[next[list]++] = number;
+  return made;
+}
+
 Corners::Corners(const BodySet& walls, const Box& bounds) {
   std::vector<Segment> segments;
-  std::vector<std::uint32_t> standing;  // corners of the discs that stand apart
+  std::vector<std::uint32_t> standing, overlapping;  // corners that are discs
   std::size_t discs = 0;
   for (const Body& body : walls.bodies()) {
     add_corners(body, bounds, corners_);
@@ -70,42 +86,66 @@ Corners::Corners(const BodySet& walls, const Box& bounds) {
       continue;
     }
     const auto number = static_cast<std::uint32_t>(corners_.size() - 1);
-    if (!is_apart(walls, discs++)) {
-      loose_.push_back(number);
-      continue;
-    }
-    standing.push_back(number);
-    const auto [left, low, high, right] = diameters(std::get<Disc>(body.shape));
+    const Disc& disc = std::get<Disc>(body.shape);
+    const double radius = own_radius(walls, discs++);
+    (radius == disc.radius && radius > 0 ? standing : overlapping).push_back(number);
+    if (radius <= 0.1 * disc.radius) continue;  // hides too little
+    const auto [left, low, high, right] = diameters({disc.centre, radius});
     segments.insert(segments.end(), {{left, low}, {left, high}, {low, right}, {high, right}});
   }
-  inscribed_.assign(corners_.size(), {none, none, none, none});
-  index(std::move(segments), standing);
+  cells_ = Trapezoids(std::move(segments));
+  index_polygons();
+  index_discs(standing, overlapping);
 }
 
-void Corners::index(std::vector<Segment> segments, std::span<const std::uint32_t> standing) {
-  cells_ = Trapezoids(std::move(segments));
-  const std::size_t points = cells_.points().size();
-  first_at_.assign(points + 1, 0);
-  std::vector<std::uint32_t> point_of(corners_.size(), none);
-  for (std::size_t i = 0; i < corners_.size(); ++i) {
-    if (corners_[i].is_disc) continue;
-    point_of[i] = cells_.point_at(corners_[i].centre);
-    ++first_at_[point_of[i] + 1];
-  }
-  std::partial_sum(first_at_.begin(), first_at_.end(), first_at_.begin());
-  at_.resize(first_at_.back());
-  auto next = first_at_;
+/// Which corners are at the points.
+void Corners::index_polygons() {
+  Pairs at;
   for (std::uint32_t i = 0; i < corners_.size(); ++i)
-    if (point_of[i] != none) at_[next[point_of[i]]++] = i;
-  std::vector<std::uint32_t> disc_at(points, none);
+    if (!corners_[i].is_disc) at.emplace_back(cells_.point_at(corners_[i].centre), i);
+  at_ = Lists::made(cells_.points().size(), at);
+}
+
+/// Calls visit(cell, disc) for the cells that each of these discs may be in.
+template <class Visit>
+void Corners::for_each_cell_at(std::span<const std::uint32_t> discs, Visit&& visit) const {
+  if (discs.empty()) return;
+  std::vector<Body> bodies;
+  for (const std::uint32_t i : discs)
+    bodies.push_back({Disc{corners_[i].centre, corners_[i].radius}, 0});
+  DiscSet set;
+  set.assign(bodies);
+  constexpr double rounding = 1e-6;  // [µm]
+  for (std::uint32_t cell = 0; cell < cells_.cells().size(); ++cell) {
+    const Box box = cells_.bounding_box(cell).grown(rounding);
+    set.for_each_in(box, [&](std::size_t k) {
+      if (box.overlaps(bounding_box(set.disc(k)))) visit(cell, discs[k]);
+    });
+  }
+}
+
+/// Where the discs are. Those that stand apart are around the cells like a wall; others are in
+/// the cells, where no wall hides them.
+void Corners::index_discs(std::span<const std::uint32_t> standing,
+                          std::span<const std::uint32_t> overlapping) {
+  Pairs around;
+  std::vector<std::uint32_t> disc_at(cells_.points().size(), none);
   for (const std::uint32_t i : standing) {
-    Inscribed& inscribed = inscribed_[i];
+    std::array<std::uint32_t, 4> inscribed;
     const auto ends = diameters({corners_[i].centre, corners_[i].radius});
     for (std::size_t k = 0; k < 4; ++k) disc_at[inscribed[k] = cells_.point_at(ends[k])] = i;
+    for (const std::uint32_t cell : cells_.cells_around(inscribed)) around.emplace_back(i, cell);
   }
   disc_of_.resize(cells_.segments().size(), none);
   for (std::size_t s = 0; s < disc_of_.size(); ++s)
     disc_of_[s] = disc_at[cells_.point_at(cells_.segments()[s].a)];
+  Pairs in;
+  for_each_cell_at(overlapping, [&](std::uint32_t cell, std::uint32_t disc) {
+    in.emplace_back(cell, disc);
+    around.emplace_back(disc, cell);
+  });
+  overlapping_ = Lists::made(cells_.cells().size(), in);
+  around_ = Lists::made(corners_.size(), around);
 }
 
 }  // namespace microswarm

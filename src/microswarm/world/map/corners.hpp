@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "microswarm/geometry/trapezoids.hpp"
@@ -25,13 +26,12 @@ struct Corner {
 /// Adds the corners of a body that are in the bounds. A disc is not numbered.
 void add_corners(const Body& body, const Box& bounds, std::vector<Corner>& corners);
 
-/// The corners of walls and which of them see each other.
+/// The corners of walls, and from which of them paths lead straight to which.
 ///
-/// A shortest path with clearance consists of arcs around corners and of tangents between them. The
-/// strip within the clearance of a tangent is free. It holds all that lies between the tangent and
-/// the straight line that joins the two corners, so these see each other among the bare walls,
-/// whatever the clearance. What is seen among bare walls is therefore enough for every clearance.
-/// Immutable, shared by threads.
+/// A shortest path with clearance c consists of arcs around corners and of tangents between them.
+/// The strip within c of a tangent is free. It holds the straight line between what the tangent
+/// touches around, so this line passes the ends of all walls on the same sides as the tangent,
+/// which keeps c from them. Immutable, shared by threads.
 class Corners {
  public:
   Corners(const BodySet& walls, const Box& bounds);
@@ -39,72 +39,78 @@ class Corners {
   std::span<const Corner> all() const { return corners_; }
   const Trapezoids& cells() const { return cells_; }
 
-  /// Calls visit(number) for the corners that `p` sees and for some more, for some repeatedly.
+  /// Calls visit(number, sides) for the corners that a path from corner `i` may lead to straight,
+  /// and for some more, for some repeatedly; `sides` tells where the path may have them. It keeps
+  /// `clearance` [µm], touches a circle of radius `radius` around the corner, a little more than
+  /// that from its disc, and has it on its left.
   template <class Visit>
-  void seen_from(Vec2 p, Visit&& visit) const;
-  /// The same step by step, what is near the way to a goal first: see Trapezoids::Look.
+  void seen_from(std::uint32_t i, double radius, double clearance, bool left, Visit&& visit) const;
+  /// The same from a place, step by step, what is near the way to a goal first: see
+  /// Trapezoids::Look.
   template <class Visit>
   void look_on(Trapezoids::Look& look, double length, Visit&& visit) const;
-  /// Calls visit(number) for the corners that seen_from() visits from everywhere.
-  template <class Visit>
-  void seen_from_everywhere(Visit&& visit) const {
-    for (const std::uint32_t disc : loose_) visit(disc);
-  }
-  /// The same for all that sees a part of corner `i`, itself included.
-  template <class Visit>
-  void seen_from_corner(std::uint32_t i, Visit&& visit) const;
 
  private:
   static constexpr std::uint32_t none = Trapezoids::none;
-  using Inscribed = std::array<std::uint32_t, 4>;  // points, from left to right
+  using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+  /// Lists of numbers, by number.
+  struct Lists {
+    std::vector<std::uint32_t> first, all;
+    std::span<const std::uint32_t> of(std::uint32_t i) const {
+      if (first.empty()) return {};
+      return std::span(all).subspan(first[i], first[i + 1] - first[i]);
+    }
+    /// Of pairs (number of the list, number in it), which keep their order.
+    static Lists made(std::size_t lists, const Pairs& pairs);
+  };
 
-  void index(std::vector<Segment> segments, std::span<const std::uint32_t> standing);
+  void index_polygons();
+  void index_discs(std::span<const std::uint32_t> standing,
+                   std::span<const std::uint32_t> overlapping);
+  template <class Visit>
+  void for_each_cell_at(std::span<const std::uint32_t> discs, Visit&& visit) const;
 
   template <class Visit>
   auto point_visitor(Visit& visit) const {
-    return [this, &visit](std::uint32_t point) {
-      for (std::uint32_t k = first_at_[point]; k < first_at_[point + 1]; ++k) visit(at_[k]);
+    return [this, &visit](std::uint32_t point, Trapezoids::Sides sides) {
+      for (const std::uint32_t corner : at_.of(point)) visit(corner, sides);
     };
   }
   template <class Visit>
-  auto segment_visitor(Visit& visit) const {
-    return [this, &visit](std::uint32_t bottom, std::uint32_t top) {
-      if (bottom != none && disc_of_[bottom] != none) visit(disc_of_[bottom]);
-      if (top != none && disc_of_[top] != none) visit(disc_of_[top]);
+  auto cell_visitor(Visit& visit) const {
+    return [this, &visit](std::uint32_t cell, auto&& sides_of) {
+      const auto see = [&](std::uint32_t i) {
+        visit(i, sides_of(Disc{corners_[i].centre, corners_[i].radius}));
+      };
+      const Trapezoids::Cell& here = cells_.cells()[cell];
+      for (const std::uint32_t segment : {here.bottom, here.top})
+        if (segment != none && disc_of_[segment] != none) see(disc_of_[segment]);
+      for (const std::uint32_t disc : overlapping_.of(cell)) see(disc);
     };
   }
 
   std::vector<Corner> corners_;
   Trapezoids cells_;
-  std::vector<std::uint32_t> first_at_, at_;  ///< corners at each point of the cells
-  std::vector<std::uint32_t> disc_of_;        ///< corner of each segment; none for a wall's
-  std::vector<Inscribed> inscribed_;          ///< of each corner that is a disc and apart
-  std::vector<std::uint32_t> loose_;          ///< corners of discs that overlap others
+  Lists at_;                            ///< corners at each point of the cells
+  std::vector<std::uint32_t> disc_of_;  ///< corner of each segment; none for a wall's
+  Lists around_;                        ///< cells at each corner that is a disc
+  Lists overlapping_;                   ///< discs that overlap others, in each cell
 };
 
 template <class Visit>
-void Corners::seen_from(Vec2 p, Visit&& visit) const {
-  for (const std::uint32_t disc : loose_) visit(disc);
-  cells_.look_around(p, point_visitor(visit), segment_visitor(visit));
+void Corners::seen_from(std::uint32_t i, double radius, double clearance, bool left,
+                        Visit&& visit) const {
+  const Corner& corner = corners_[i];
+  const Trapezoids::Rays rays{corner.centre, left ? radius : -radius, clearance};
+  if (corner.is_disc)
+    cells_.look_around(rays, around_.of(i), point_visitor(visit), cell_visitor(visit));
+  else
+    cells_.look_around(rays, point_visitor(visit), cell_visitor(visit));
 }
 
 template <class Visit>
 void Corners::look_on(Trapezoids::Look& look, double length, Visit&& visit) const {
-  look.go_on(length, point_visitor(visit), segment_visitor(visit));
-}
-
-template <class Visit>
-void Corners::seen_from_corner(std::uint32_t i, Visit&& visit) const {
-  const Corner& corner = corners_[i];
-  if (!corner.is_disc) return seen_from(corner.centre, visit);
-  const Inscribed& inscribed = inscribed_[i];
-  if (inscribed.front() == none) {
-    for (std::uint32_t k = 0; k < corners_.size(); ++k) visit(k);
-    return;
-  }
-  for (const std::uint32_t disc : loose_) visit(disc);
-  cells_.look_around(Disc{corner.centre, corner.radius}, inscribed, point_visitor(visit),
-                     segment_visitor(visit));
+  look.go_on(length, point_visitor(visit), cell_visitor(visit));
 }
 
 }  // namespace microswarm
