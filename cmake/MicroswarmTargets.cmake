@@ -16,7 +16,8 @@ endif()
 add_library(microswarm_options INTERFACE)
 # The same bits in every build: no contraction to fused multiply-add, no fast math.
 target_compile_options(microswarm_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
-                       -Wno-sign-conversion -Wno-missing-field-initializers -ffp-contract=off)
+                       -Wno-sign-conversion -Wno-missing-field-initializers -ffp-contract=off
+                       -fno-semantic-interposition)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # gcc 12 sees an overlap that is not there wherever two strings are joined.
   target_compile_options(microswarm_options INTERFACE -Wno-restrict)
