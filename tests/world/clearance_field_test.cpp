@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/each_target.hpp"
 #include "tests/world/random_worlds.hpp"
 
 namespace microswarm {
@@ -61,6 +62,26 @@ TEST(ClearanceField, brackets_the_exact_clearance_everywhere) {
   for (int world = 0; world < 12; ++world) {
     expect_bracket(crowded(rng, 10 * world, 8 * (world % 3)), 0, rng, 2000);
     expect_bracket(orchard(rng, 8, 4), 5 + 20 * rng.uniform(), rng, 2000);
+  }
+}
+
+TEST(ClearanceField, has_the_same_bits_with_vectors_of_every_width) {
+  Rng rng(4, Purpose::test);
+  for (const Drawn& drawn : {crowded(rng, 60, 30), crowded(rng, 0, 40), orchard(rng, 8, 4)}) {
+    std::vector<Vec2> places;
+    for (int i = 0; i < 5000; ++i) places.push_back(random_point(rng, drawn.bounds));
+    std::vector<double> first;
+    test::for_each_target([&](const char* target) {
+      SCOPED_TRACE(target);
+      const Map map = drawn.map();
+      std::vector<double> found;
+      for (const Vec2 p : places) {
+        found.push_back(map.field().lower(p));
+        found.push_back(map.field().wall_distance(p));
+      }
+      if (first.empty()) first = found;
+      EXPECT_EQ(found, first);
+    });
   }
 }
 

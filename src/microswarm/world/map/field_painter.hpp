@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "microswarm/world/map/clearance_field.hpp"
+#include "microswarm/world/map/wall_candidates.hpp"
 
 namespace microswarm {
 
@@ -32,38 +33,29 @@ class FieldPainter {
   };
   /// Whether a block is in a polygon.
   enum class Solid { unknown, no, yes };
-  /// Stack in flat arrays. Edges run from (x, y) along (u, v); discs have radius >= 0 and along =
-  /// 0.
-  struct Candidates {
-    std::vector<double> x, y, u, v, per_length2, radius;
-    std::vector<std::uint32_t> wall;
-    std::size_t size = 0;
-
-    bool is_disc(std::size_t i) const { return radius[i] >= 0; }
-    void reserve(std::size_t n);
-    void push(Segment core, double disc_radius, std::uint32_t index);
-    void push_copy(std::size_t i);
+  /// Where the candidates of a block begin on the stacks.
+  struct Start {
+    std::size_t edges, discs;
   };
-  struct Nearest {
-    double distance;
-    std::size_t candidate;
-  };
-  struct NearestOfEach {
-    Nearest edge;
-    Nearest disc;
+  /// Distances [µm] from a block's centre to the nearest edge and disc; infinity if there is none.
+  struct Look {
+    double edge, disc;
+    Solid solid;
   };
 
   Vec2 point(double column, double row) const;
+  Vec2 centre_of(const Block& block) const;
   double half_diagonal(const Block& block) const;
-  NearestOfEach measure(Vec2 p, std::size_t first, std::size_t last);
-  Vec2 towards(Vec2 p, std::size_t candidate) const;
-  bool can_be_nearest(Vec2 centre, double half, std::size_t candidate, double distance,
-                      const Nearest& nearest) const;
-  Solid narrow(const Block& block, std::size_t first, std::size_t last, Solid solid);
-  void paint(const Block& block, std::size_t first, Solid solid);
-  void paint_cells(const Block& block, std::size_t first, Solid solid);
-  void paint_cell(int column, int row, std::size_t first, Solid solid);
-  void store_list(std::size_t first);
+  Start top() const { return {edges_.size(), discs_.size()}; }
+  std::size_t count_from(Start start) const;
+  void cut(Start start);
+
+  Look look(const Block& block, Start start, Solid solid);
+  Look narrow(const Block& block, Start start, Solid solid);
+  void paint(const Block& block, Start start, Solid solid);
+  void paint_cells(const Block& block, Start start, Solid solid);
+  void paint_cell(int column, int row, const Look& look);
+  void store_list(Start start);
 
   Box bounds_;
   const BodySet& bodies_;
@@ -71,8 +63,9 @@ class FieldPainter {
   double rounding_ = 0;
   ClearanceField::Nearest list_;  ///< list of the cells being painted
   std::uint32_t last_list_ = 0;   ///< start of the last list stored
-  Candidates candidates_;
-  std::vector<double> distances_;
+  WallCandidates edges_{WallCandidates::Kind::edges};
+  WallCandidates discs_{WallCandidates::Kind::discs};
+  std::vector<std::uint32_t> walls_;  ///< of a list
 };
 
 }  // namespace microswarm
