@@ -188,54 +188,6 @@ std::vector<BenchRow> tree_growth(bool quick, const Stop& stop) {
   return rows;
 }
 
-template <class Ask>
-double rate_of(std::size_t count, int repeats, Ask&& ask) {
-  std::vector<double> rate;
-  std::size_t sum = 0;
-  for (int k = 0; k < repeats; ++k) {
-    const auto began = Clock::now();
-    for (std::size_t i = 0; i < count; ++i) sum += ask(i);
-    rate.push_back(static_cast<double>(count) / seconds_since(began));
-  }
-  return sum > count * static_cast<std::size_t>(repeats) ? 0 : quantile(rate, 0.5);
-}
-
-/// Clearance queries and 40 µm edges at random positions on the same map.
-std::vector<BenchRow> queries(bool quick) {
-  Rng rng(1, Purpose::scene);
-  const scenes::RawWorld raw = scenes::cluttered(rng);
-  const Snapshot world = raw.snapshot();
-  constexpr double clearance = 40;
-  const std::size_t n = quick ? 200'000 : 1'000'000;
-  std::vector<Segment> edges(n);
-  for (Segment& e : edges) {
-    e.a = uniform_in(world.bounds(), rng);
-    e.b = e.a + 40 * unit_vector(rng.uniform(0, 2 * pi));
-  }
-  const int repeats = quick ? 5 : 11;
-  const std::size_t few = n / 200;
-  return {{.name = "is the place free, clearance 40 µm",
-           .quantity = "queries per second",
-           .unit = "1/s",
-           .ours = rate_of(n, repeats,
-                           [&](std::size_t i) { return world.is_free(edges[i].a, clearance); }),
-           .peer = rate_of(few, repeats,
-                           [&](std::size_t i) { return raw.clearance(edges[i].a) >= clearance; }),
-           .peer_name = "every shape in turn",
-           .aim = 1e8,
-           .at_most = false},
-          {.name = "is the 40 µm edge free, clearance 40 µm, exact",
-           .quantity = "checks per second",
-           .unit = "1/s",
-           .ours = rate_of(n, repeats,
-                           [&](std::size_t i) { return world.is_free(edges[i], clearance); }),
-           .peer = ompl_motion_rate(world, clearance,
-                                    {edges.begin(), edges.begin() + static_cast<long>(n / 4)}),
-           .peer_name = "OMPL discrete, 1 %, our points",
-           .aim = 2.5e7,
-           .at_most = false}};
-}
-
 }  // namespace
 
 std::vector<BenchRow> time_rows(const std::string& name, const std::vector<double>& ours,
@@ -269,10 +221,10 @@ std::vector<PathQuery> far_pairs(const Snapshot& world, double clearance, int co
 
 std::vector<BenchRow> planning(const std::filesystem::path& scenarios, bool quick,
                                const Stop& stop) {
-  std::vector<BenchRow> rows = queries(quick);
-  for (auto&& more : {exact_paths(quick, stop), clutter(quick, stop), tree_growth(quick, stop),
-                      s_channel(scenarios, quick, stop), fmt_star(scenarios, quick, stop),
-                      replanning(scenarios, quick, stop)})
+  std::vector<BenchRow> rows = clearance_queries(quick);
+  for (auto&& more : {map_loading(quick, stop), exact_paths(quick, stop), clutter(quick, stop),
+                      tree_growth(quick, stop), s_channel(scenarios, quick, stop),
+                      fmt_star(scenarios, quick, stop), replanning(scenarios, quick, stop)})
     rows.insert(rows.end(), more.begin(), more.end());
   return rows;
 }

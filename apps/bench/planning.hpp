@@ -37,6 +37,14 @@ std::vector<BenchRow> time_rows(const std::string& name, const std::vector<doubl
                                 const std::vector<double>& theirs, const std::string& peer,
                                 std::optional<double> median_aim, std::optional<double> p99_aim);
 
+/// Clearance queries of places and edges, one by one and many at once, among discs and polygons.
+/// Part of planning().
+std::vector<BenchRow> clearance_queries(bool quick);
+
+/// Processor time of reading a large grid map, if MICROSWARM_DATA names its folder. Part of
+/// planning().
+std::vector<BenchRow> map_loading(bool quick, const Stop& stop);
+
 /// Exact paths among discs and polygons, and in six grid maps if MICROSWARM_DATA names their
 /// folder. Part of planning().
 std::vector<BenchRow> exact_paths(bool quick, const Stop& stop);

@@ -54,6 +54,14 @@ double Snapshot::obstacle_clearance(Vec2 p) const {
   return moving_.empty() ? to_wall : moving_.clearance(p, to_wall);
 }
 
+void Snapshot::are_free(std::span<const Vec2> places, double r,
+                        std::span<std::uint8_t> free) const {
+  map_->are_free(places, r, free);
+  if (moving_.empty()) return;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (free[i] != 0) free[i] = moving_.is_free(places[i], r);
+}
+
 bool Snapshot::is_free(std::span<const Vec2> polyline, double r) const {
   if (polyline.empty()) return true;
   if (polyline.size() == 1) return is_free(polyline[0], r);

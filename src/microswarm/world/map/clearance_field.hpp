@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "microswarm/world/obstacles/body_set.hpp"
@@ -31,9 +33,28 @@ class ClearanceField {
   /// Lower bound of the clearance at `p` [µm]; negative if `p` may be in a wall, -infinity outside
   /// the bounds.
   double lower(Vec2 p) const { return static_cast<double>(lower_[cell_at(p)]); }
+  /// Whether a lower bound decides alone if a place is free with clearance r, which it then is if
+  /// the bound is at least r. One comparison, since which of the two it is, is hard to predict.
+  bool decides(double lower, double r) const {
+    return std::abs(lower - (r - 0.5 * spread_)) > doubt_;
+  }
   /// Exact distance [µm] from a point in the bounds to the nearest wall edge or disc (0 in a disc),
   /// ignoring the border; infinity if there are no walls. In a polygon it is the depth.
   double wall_distance(Vec2 p) const;
+  /// For many places at once: sets free[i] to whether lower(places[i]) >= r, which is free for
+  /// certain. Writes the numbers of the places that only an exact test can decide to `undecided`,
+  /// which has room for all, and returns how many they are.
+  std::size_t decide(std::span<const Vec2> places, double r, std::span<std::uint8_t> free,
+                     std::span<std::uint32_t> undecided) const;
+
+  /// What `decide` needs to find a place's cell, as cell_at does, and its bounds.
+  struct Grid {
+    Vec2 origin;
+    double per_cell, last_column, last_row;
+    std::int32_t stride;
+    const float* lower;
+    double spread, doubt;
+  };
 
  private:
   friend class FieldPainter;
@@ -53,6 +74,7 @@ class ClearanceField {
   double last_row_ = 0;
   std::size_t stride_ = 1;
   double spread_ = 0;
+  double doubt_ = 0;  ///< half the spread and more than any rounding of what it is compared with
   int columns_ = 0;
   int rows_ = 0;
   std::vector<float> lower_{-std::numeric_limits<float>::infinity()};

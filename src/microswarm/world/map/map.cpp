@@ -2,6 +2,8 @@
 #include "microswarm/world/map/map.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
 #include <mutex>
 #include <optional>
@@ -17,6 +19,9 @@
 
 namespace microswarm {
 namespace {
+
+/// Compiled without a branch, except for floats that were converted.
+double lesser(double a, double b) { return a < b ? a : b; }
 
 std::string place_text(Vec2 v) { return "(" + number_text(v.x) + ", " + number_text(v.y) + ")"; }
 
@@ -103,6 +108,19 @@ bool Map::is_free_exactly(Vec2 p, double r) const {
   return field_.lower(p) > 0 || !walls_.polygons().holds(p);
 }
 
+void Map::are_free(std::span<const Vec2> places, double r, std::span<std::uint8_t> free) const {
+  assert(places.size() == free.size());
+  constexpr std::size_t most = 1024;
+  std::array<std::uint32_t, most> undecided;
+  for (std::size_t first = 0; first < places.size(); first += most) {
+    const std::size_t count = std::min(most, places.size() - first);
+    const auto some = places.subspan(first, count);
+    const std::size_t left = field_.decide(some, r, free.subspan(first, count), undecided);
+    for (std::size_t k = 0; k < left; ++k)
+      free[first + undecided[k]] = is_free_exactly(some[undecided[k]], r);
+  }
+}
+
 /// Clearance at `p` for covering `length` µm around it: the lower bound if that suffices, else the
 /// exact value.
 double Map::useful_clearance(Vec2 p, double lower, double r, double length) const {
@@ -120,14 +138,18 @@ bool Map::passes_a_wall(Segment s, double length, double least) const {
   return false;
 }
 
+// All lookups come before the first branch, since which of them decides is hard to predict.
 bool Map::is_free(Segment s, double r) const {
-  const double length = distance(s.a, s.b) * (1 + 1e-12);
-  const double middle = field_.lower(s.a + 0.5 * (s.b - s.a));
-  if (middle - r >= 0.5 * length) return true;
   const double lower_a = field_.lower(s.a);
+  const double middle = field_.lower(s.a + 0.5 * (s.b - s.a));
   const double lower_b = field_.lower(s.b);
   const double least = r - field_.spread();
-  if (middle < least || lower_a < least || lower_b < least) return false;
+  if (lesser(lesser(lower_a - least, lower_b - least), middle - least) < 0) return false;
+  const double length = distance(s.a, s.b) * (1 + 1e-12);
+  const double lower_end = lesser(lower_a, lower_b);
+  const bool middle_covers = middle - r >= 0.5 * length;
+  const bool all_cover = lower_end >= r && lower_end - r + (middle - r) >= 0.5 * length;
+  if (middle_covers || all_cover) return true;
   if (passes_a_wall(s, length, least)) return false;
   const double from_a = useful_clearance(s.a, lower_a, r, length);
   if (!(from_a >= r && from_a > 0)) return false;
