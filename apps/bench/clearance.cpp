@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <cstdint>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
+#include <stdexcept>
+#include <vector>
 
 #include "bench/ompl_peer.hpp"
 #include "bench/planning.hpp"

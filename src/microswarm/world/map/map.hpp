@@ -51,7 +51,7 @@ class Map {
     const double lower = field_.lower(p);
     return field_.decides(lower, r) ? lower >= r : is_free_exactly(p, r);
   }
-  /// The same for many places at once, which takes half the time: free[i] is 1 if places[i] is
+  /// The same for many places at once, which is quicker: free[i] is 1 if places[i] is
   /// free, else 0. `free` is as long as `places`.
   void are_free(std::span<const Vec2> places, double r, std::span<std::uint8_t> free) const;
   /// Whether the capsule of radius r around s is free. Exact.
