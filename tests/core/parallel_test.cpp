@@ -37,5 +37,21 @@ TEST(Parallel, AnExceptionComesOutAndEndsTheRest) {
   }
 }
 
+TEST(ThreadTeam, MakesManyLoopsAndGoesOnAfterAnException) {
+  for (const int jobs : {1, 2, 5}) {
+    ThreadTeam team(jobs);
+    for (std::size_t loop = 0; loop < 2000; ++loop) {
+      std::vector<int> calls(loop % 9, 0);
+      team.for_each_index(calls.size(), [&](std::size_t i) { ++calls[i]; });
+      ASSERT_EQ(calls, std::vector<int>(calls.size(), 1));
+    }
+    EXPECT_THROW(team.for_each_index(3, [](std::size_t) { throw std::runtime_error("three"); }),
+                 std::runtime_error);
+    std::vector<int> later(100, 0);
+    team.for_each_index(later.size(), [&](std::size_t i) { ++later[i]; });
+    EXPECT_EQ(later, std::vector<int>(100, 1));
+  }
+}
+
 }  // namespace
 }  // namespace microswarm
