@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include "microswarm/navigation/gathering/rollout/rollout_changes.hpp"
 #include "microswarm/navigation/gathering/rollout/rollout_execution.hpp"
 #include "microswarm/navigation/gathering/rollout/rollout_planning.hpp"
 #include "microswarm/navigation/gathering/rollout/rollout_search.hpp"
@@ -54,6 +55,55 @@ TEST(RolloutExecution, OnlyAShorterPlanIsTaken) {
   EXPECT_TRUE(std::equal(p.plan.moves().begin(), p.plan.moves().end(), before.begin()));
   EXPECT_EQ(p.plan.checkpoints().size(), (p.plan.steps() + RolloutPlan::checkpoint_interval - 1) /
                                              RolloutPlan::checkpoint_interval);
+}
+
+// So a path is simulated only from where it leaves the plan.
+TEST(RolloutChanges, VerifyingFromALaterCheckpointIsTheSame) {
+  RolloutParts p;
+  constexpr std::size_t later = 3;
+  constexpr std::size_t common = later * RolloutPlan::checkpoint_interval;
+  std::vector<Vec2> moves(p.plan.moves().begin(), p.plan.moves().end());
+  for (std::size_t left_out : {1, 5, 12}) {
+    std::vector<Vec2> some = moves;
+    some.erase(some.begin() + common + 2, some.begin() + common + 2 + left_out);
+    const VerifiedPlan all = verified(0, some, p.plan, p.simulator);
+    const VerifiedPlan rest =
+        verified(common, std::span(some).subspan(common), p.plan, p.simulator);
+    EXPECT_EQ(rest.is_shorter, all.is_shorter);
+    EXPECT_EQ(rest.plan.steps(), all.plan.steps());
+    EXPECT_EQ(rest.plan.merged.robots().x, all.plan.merged.robots().x);
+    EXPECT_EQ(rest.checkpoints.size() + later, all.checkpoints.size());
+  }
+}
+
+TEST(RolloutChanges, AChangedPlanIsShorterAndGathersTheRobots) {
+  RolloutParts p;
+  Rng rng(5, Purpose::planner);
+  int found = 0;
+  for (int k = 0; k < 20; ++k) {
+    const auto shorter = best_change(p.plan, p.simulator, 16, rng);
+    if (!shorter) continue;
+    ++found;
+    EXPECT_LT(shorter->steps(), p.plan.steps());
+    Robots robots = p.robots;
+    for (const Vec2 move : p.plan.moves().first(shorter->from))
+      p.t.stepper.step(robots, move, ContactRule::stop);
+    for (const Vec2 move : shorter->moves) p.t.stepper.step(robots, move, ContactRule::stop);
+    EXPECT_TRUE(p.simulator.gathered(MergedRobots(robots)));
+  }
+  EXPECT_GT(found, 0);
+}
+
+// A policy that is paused goes on as if it were not.
+TEST(RolloutPlanning, TheBasePlanIsTheShorterOne) {
+  RolloutParts p;
+  std::size_t shortest = 100'000;
+  for (const Aggregation method : {Aggregation::heuristic, Aggregation::divide_and_conquer}) {
+    PartialPlan alone{MergedRobots(p.robots)};
+    ASSERT_TRUE(p.simulator.finish(alone, method, shortest * 2));
+    shortest = std::min(shortest, alone.steps());
+  }
+  EXPECT_EQ(p.plan.steps(), shortest);
 }
 
 TEST(RolloutPlanning, ACorrectedPlanGathersRobotsThatDeviated) {

@@ -2,9 +2,8 @@
 #include "microswarm/navigation/gathering/rollout/rollout_layers.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
-
-#include "microswarm/core/execution/parallel.hpp"
 
 namespace microswarm {
 namespace {
@@ -14,22 +13,29 @@ constexpr std::size_t layer_steps = RolloutPlan::checkpoint_interval;
 }  // namespace
 
 RolloutLayers::RolloutLayers(const RolloutExecution& plan, std::size_t checkpoint,
-                             const RolloutSimulator& simulator)
-    : from_(checkpoint * layer_steps) {
+                             RolloutSimulator& simulator)
+    : width_(static_cast<std::size_t>(simulator.params().rollout.layer_width)),
+      from_(checkpoint * layer_steps) {
   const auto marks = plan.checkpoints().subspan(checkpoint);
+  std::vector<MergedRobots> robots(marks.begin(), marks.end());
+  std::vector<double> work_left(marks.size());
+  simulator.try_each(marks.size(), [&](std::size_t k) {
+    robots[k] = simulator.representatives(robots[k]);
+    work_left[k] = simulator.left_to_do(robots[k]);
+  });
   for (std::size_t k = 0; k < marks.size(); ++k) {
     std::vector<Vec2> moves;
     if (k > 0) {
       const auto steps = plan.moves().subspan(from_ + (k - 1) * layer_steps, layer_steps);
       moves.assign(steps.begin(), steps.end());
     }
-    add(k > 0 ? static_cast<std::uint32_t>(k - 1) : 0, k, std::move(moves),
-        simulator.representatives(marks[k]), simulator);
+    add(k > 0 ? static_cast<std::uint32_t>(k - 1) : 0, k, std::move(moves), std::move(robots[k]),
+        work_left[k]);
   }
 }
 
 std::optional<LayerPath> RolloutLayers::expand(RolloutSimulator& simulator, std::size_t most,
-                                               Rng& rng) {
+                                               double work, Rng& rng) {
   const RolloutParams& params = simulator.params().rollout;
   std::vector<std::uint32_t> states;
   std::size_t layer = 0;
@@ -44,19 +50,10 @@ std::optional<LayerPath> RolloutLayers::expand(RolloutSimulator& simulator, std:
     states = best_open(layer, static_cast<std::size_t>(params.tuning.states_per_layer));
   }
   expanded_in_pass_ = true;
-  const auto candidates = static_cast<std::size_t>(std::max(1, params.candidates));
-  std::vector<PartialPlan> trials;
-  std::vector<Rng> streams;
-  for (const std::uint32_t state : states) {
-    states_[state].is_open = false;
-    trials.resize(trials.size() + candidates,
-                  PartialPlan{*states_[state].robots, from_ + layer * layer_steps});
-  }
-  for (std::size_t i = 0; i < trials.size(); ++i)
-    streams.emplace_back(rng.bits(), Purpose::planner);
-  for_each_index(trials.size(), params.threads, [&](std::size_t i) {
-    simulator.try_moves(trials[i], i % candidates == 0, most, streams[i]);
-  });
+  const std::size_t candidates = passes_ > 0
+                                     ? static_cast<std::size_t>(std::max(1, params.candidates))
+                                     : affordable_trials(states, most, work, params);
+  std::vector<Trial> trials = trials_of(states, candidates, layer, most, simulator, rng);
   std::optional<LayerPath> best;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     auto path = take(states[i / candidates], layer, std::move(trials[i]), simulator);
@@ -65,6 +62,44 @@ std::optional<LayerPath> RolloutLayers::expand(RolloutSimulator& simulator, std:
     best = std::move(path);
   }
   return best;
+}
+
+// Trials of each of these states, if all later layers had as many, with as many positions.
+std::size_t RolloutLayers::affordable_trials(std::span<const std::uint32_t> states,
+                                             std::size_t most, double work,
+                                             const RolloutParams& params) const {
+  const auto all = static_cast<double>(std::max(1, params.candidates));
+  const std::size_t at = from_ + (next_layer_ - 1) * layer_steps;
+  const double layers = std::ceil(static_cast<double>(most - at) / layer_steps);
+  double once = 0;
+  for (const std::uint32_t state : states)
+    once += mean_trial(params) * (static_cast<double>(states_[state].robots->places().size()) +
+                                  params.tuning.step_overhead);
+  return static_cast<std::size_t>(
+      std::clamp(work / (layers * once), std::min(fewest_trials, all), all));
+}
+
+// Continuations of these states of a layer, equally many of each.
+std::vector<RolloutLayers::Trial> RolloutLayers::trials_of(std::span<const std::uint32_t> states,
+                                                           std::size_t candidates,
+                                                           std::size_t layer, std::size_t most,
+                                                           RolloutSimulator& simulator, Rng& rng) {
+  std::vector<Trial> trials;
+  std::vector<Rng> streams;
+  for (const std::uint32_t state : states) {
+    states_[state].is_open = false;
+    trials.resize(trials.size() + candidates,
+                  Trial{PartialPlan{*states_[state].robots, from_ + layer * layer_steps}});
+  }
+  for (std::size_t i = 0; i < trials.size(); ++i)
+    streams.emplace_back(rng.bits(), Purpose::planner);
+  simulator.try_each(trials.size(), [&](std::size_t i) {
+    Trial& trial = trials[i];
+    simulator.try_moves(trial.moves, i % candidates == 0, most, streams[i]);
+    for (const MergedRobots& robots : trial.moves.checkpoints)
+      trial.work_left.push_back(simulator.left_to_do(robots));
+  });
+  return trials;
 }
 
 // The best states of a layer that are open, the best one first.
@@ -84,48 +119,47 @@ LayerPath RolloutLayers::path_so_far() const {
 }
 
 // Files what a trial passed into the layers ahead; the moves to its end if all are gathered there.
-std::optional<LayerPath> RolloutLayers::take(std::uint32_t parent, std::size_t layer,
-                                             PartialPlan&& trial,
+std::optional<LayerPath> RolloutLayers::take(std::uint32_t parent, std::size_t layer, Trial&& trial,
                                              const RolloutSimulator& simulator) {
-  for (std::size_t k = 1; k < trial.checkpoints.size(); ++k) {
-    const auto first = trial.moves.begin() + static_cast<std::ptrdiff_t>((k - 1) * layer_steps);
+  PartialPlan& tried = trial.moves;
+  for (std::size_t k = 1; k < tried.checkpoints.size(); ++k) {
+    const auto first = tried.moves.begin() + static_cast<std::ptrdiff_t>((k - 1) * layer_steps);
     parent = add(parent, layer + k, {first, first + static_cast<std::ptrdiff_t>(layer_steps)},
-                 trial.checkpoints[k], simulator);
+                 std::move(tried.checkpoints[k]), trial.work_left[k]);
   }
-  if (!simulator.gathered(trial.merged)) return std::nullopt;
+  if (!simulator.gathered(tried.merged)) return std::nullopt;
   LayerPath path = path_to(parent);
-  const std::size_t filed = layer_steps * (std::max<std::size_t>(1, trial.checkpoints.size()) - 1);
-  path.moves.insert(path.moves.end(), trial.moves.begin() + static_cast<std::ptrdiff_t>(filed),
-                    trial.moves.end());
+  const std::size_t filed = layer_steps * (std::max<std::size_t>(1, tried.checkpoints.size()) - 1);
+  path.moves.insert(path.moves.end(), tried.moves.begin() + static_cast<std::ptrdiff_t>(filed),
+                    tried.moves.end());
   return path;
 }
 
 std::uint32_t RolloutLayers::add(std::uint32_t parent, std::size_t layer, std::vector<Vec2> moves,
-                                 const MergedRobots& robots, const RolloutSimulator& simulator) {
+                                 MergedRobots&& robots, double work_left) {
   const auto state = static_cast<std::uint32_t>(states_.size());
   states_.push_back({parent, std::move(moves), std::nullopt, 0, false});
-  file(state, layer, robots, simulator);
+  file(state, layer, std::move(robots), work_left);
   return state;
 }
 
 // Among the best of its layer, in place of the worst if there are enough, unless one is equal.
-void RolloutLayers::file(std::uint32_t state, std::size_t layer, const MergedRobots& robots,
-                         const RolloutSimulator& simulator) {
+void RolloutLayers::file(std::uint32_t state, std::size_t layer, MergedRobots&& robots,
+                         double work_left) {
   if (layers_.size() <= layer) layers_.resize(layer + 1);
   std::vector<std::uint32_t>& kept = layers_[layer];
-  const double left = simulator.left_to_do(robots);
-  const auto work_left = [&](std::uint32_t i) { return states_[i].work_left; };
-  if (std::ranges::find(kept, left, work_left) != kept.end()) return;
-  if (kept.size() >= static_cast<std::size_t>(simulator.params().rollout.layer_width)) {
-    const auto worst = std::ranges::max_element(kept, {}, work_left);
-    if (left >= work_left(*worst)) return;
+  const auto work_left_of = [&](std::uint32_t i) { return states_[i].work_left; };
+  if (std::ranges::find(kept, work_left, work_left_of) != kept.end()) return;
+  if (kept.size() >= width_) {
+    const auto worst = std::ranges::max_element(kept, {}, work_left_of);
+    if (work_left >= work_left_of(*worst)) return;
     states_[*worst].robots.reset();
     *worst = state;
   } else {
     kept.push_back(state);
   }
-  states_[state].robots = robots;
-  states_[state].work_left = left;
+  states_[state].robots = std::move(robots);
+  states_[state].work_left = work_left;
   states_[state].is_open = true;
 }
 
@@ -138,16 +172,19 @@ LayerPath RolloutLayers::path_to(std::uint32_t state) const {
   return path;
 }
 
-void RolloutLayers::correct(const LayerPath& path, std::span<const MergedRobots> checkpoints,
-                            const RolloutSimulator& simulator) {
-  for (std::size_t k = 0; k < path.states.size() && k + 1 < checkpoints.size(); ++k) {
-    State& state = states_[path.states[k]];
-    if (!state.robots) continue;
+void RolloutLayers::correct(const LayerPath& path, std::size_t first,
+                            std::span<const MergedRobots> checkpoints,
+                            RolloutSimulator& simulator) {
+  if (checkpoints.empty() || first >= path.states.size()) return;
+  const std::size_t count = std::min(path.states.size() - first, checkpoints.size() - 1);
+  simulator.try_each(count, [&](std::size_t k) {
+    State& state = states_[path.states[first + k]];
+    if (!state.robots) return;
     state.robots = simulator.representatives(checkpoints[k + 1]);
     const double left = simulator.left_to_do(*state.robots);
     state.is_open = state.is_open || left != state.work_left;
     state.work_left = left;
-  }
+  });
 }
 
 }  // namespace microswarm

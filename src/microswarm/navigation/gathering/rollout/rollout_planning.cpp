@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/navigation/gathering/rollout/rollout_planning.hpp"
 
+#include <algorithm>
+#include <array>
 #include <utility>
+#include <vector>
 
 namespace microswarm {
 namespace {
@@ -39,15 +42,33 @@ std::vector<Vec2> shortest_moves(RolloutSimulator& simulator, const Robots& robo
 
 }  // namespace
 
+// The policies advance side by side, so that the one that ends first bounds the other.
 std::optional<BasePlan> shortest_base_plan(RolloutSimulator& simulator, const Robots& robots) {
+  using Pursuit = RolloutSimulator::Pursuit;
+  constexpr std::size_t round = 16 * RolloutPlan::checkpoint_interval;
+  constexpr std::array methods{Aggregation::divide_and_conquer, Aggregation::heuristic};
+  struct Run {
+    PartialPlan partial;
+    AggregationPolicy policy;
+    Pursuit pursuit = Pursuit::paused;
+  };
+  std::vector<Run> runs;
+  for (const Aggregation method : methods)
+    runs.push_back({with_checkpoints(robots), simulator.policy(method)});
+  const auto is_paused = [](const Run& run) { return run.pursuit == Pursuit::paused; };
   auto most = static_cast<std::size_t>(simulator.params().rollout.max_steps);
-  std::optional<BasePlan> best;
-  for (const Aggregation method : {Aggregation::divide_and_conquer, Aggregation::heuristic}) {
-    PartialPlan partial = with_checkpoints(robots);
-    if (!simulator.finish(partial, method, most)) continue;
-    most = partial.steps();
-    best = {plan_of(std::move(partial)), method};
+  for (std::size_t pause = round; std::ranges::any_of(runs, is_paused); pause += round) {
+    simulator.try_each(runs.size(), [&](std::size_t i) {
+      Run& run = runs[i];
+      if (is_paused(run)) run.pursuit = simulator.pursue(run.partial, run.policy, most, pause);
+    });
+    for (const Run& run : runs)
+      if (run.pursuit == Pursuit::gathered) most = std::min(most, run.partial.steps());
   }
+  std::optional<BasePlan> best;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    if (runs[i].pursuit == Pursuit::gathered && runs[i].partial.steps() <= most && !best)
+      best = {plan_of(std::move(runs[i].partial)), methods[i]};
   return best;
 }
 

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
-#include <vector>
 
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/navigation/gathering/rollout/rollout_execution.hpp"
@@ -29,14 +27,14 @@ class RolloutSearch {
   int improvements() const { return improvements_; }
 
  private:
-  bool expand(RolloutExecution& plan, RolloutSimulator& simulator);
-  void perturb(RolloutExecution& plan, RolloutSimulator& simulator);
-  void change(PartialPlan& partial, const RolloutExecution& plan, RolloutSimulator& simulator);
-  std::vector<MergedRobots> verify(std::size_t from, std::span<const Vec2> moves,
-                                   RolloutExecution& plan, RolloutSimulator& simulator);
+  bool begin_layers(const RolloutExecution& plan, RolloutSimulator& simulator, double budget);
+  bool expand(RolloutExecution& plan, RolloutSimulator& simulator, double budget);
+  void take(const LayerPath& path, RolloutExecution& plan, RolloutSimulator& simulator);
+  void perturb(RolloutExecution& plan, RolloutSimulator& simulator, double budget);
 
   Rng rng_;
   std::optional<RolloutLayers> layers_;
+  double pass_until_ = 0;     ///< robot-steps in all at which the first pass should be done
   double layers_until_ = 0;   ///< robot-steps in all at which the layers are given up
   double changes_until_ = 0;  ///< and the random changes
   bool by_layers_ = true;

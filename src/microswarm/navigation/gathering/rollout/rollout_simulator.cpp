@@ -22,9 +22,23 @@ Robots one_of(const Robots& robots, std::size_t i) {
 
 }  // namespace
 
+/// Work of one simulation, added to that of all at its end.
+class RolloutSimulator::Work {
+ public:
+  explicit Work(RolloutSimulator& simulator) : all_(simulator.work_) {}
+  ~Work() { all_.fetch_add(work_, std::memory_order_relaxed); }
+  Work(const Work&) = delete;
+  Work& operator=(const Work&) = delete;
+  void add(std::uint64_t work) { work_ += work; }
+
+ private:
+  std::atomic<std::uint64_t>& all_;
+  std::uint64_t work_ = 0;
+};
+
 RolloutSimulator::RolloutSimulator(const AggregationMap& map, const CommonInput& input,
                                    const AggregationParams& params)
-    : map_(&map), input_(input), params_(params) {
+    : map_(&map), input_(input), params_(params), threads_(params.rollout.threads) {
   constexpr std::size_t tabled = 2048;
   for (std::size_t c = 0; c < tabled; ++c)
     powers_.push_back(maths::pow(static_cast<double>(c), params.rollout.tuning.robots_exponent));
@@ -35,28 +49,33 @@ double RolloutSimulator::power(std::uint32_t count) const {
                                 : maths::pow(count, params_.rollout.tuning.robots_exponent);
 }
 
-void RolloutSimulator::move(PartialPlan& partial, Vec2 move) {
+void RolloutSimulator::try_each(std::size_t count, const std::function<void(std::size_t)>& trial) {
+  threads_.for_each_index(count, trial);
+}
+
+void RolloutSimulator::move(PartialPlan& partial, Vec2 move, Work& work) const {
   if (partial.steps() % RolloutPlan::checkpoint_interval == 0) {
     partial.merged.merge_coincident();
     if (partial.keeps_checkpoints) partial.checkpoints.push_back(partial.merged);
   }
   input_.step(partial.merged.places(), move);
   partial.moves.push_back(move);
-  work_.fetch_add(partial.merged.places().size() +
-                      static_cast<std::uint64_t>(params_.rollout.tuning.step_overhead),
-                  std::memory_order_relaxed);
+  work.add(partial.merged.places().size() +
+           static_cast<std::uint64_t>(params_.rollout.tuning.step_overhead));
 }
 
 void RolloutSimulator::follow(PartialPlan& partial, std::span<const Vec2> moves, std::size_t most) {
+  Work work(*this);
   for (const Vec2 m : moves) {
     if (partial.steps() >= most) return;
-    move(partial, m);
+    move(partial, m, work);
   }
 }
 
 // The distance left decreases by at most one step per move.
 void RolloutSimulator::follow_until_gathered(PartialPlan& partial, std::span<const Vec2> moves,
                                              std::size_t most) {
+  Work work(*this);
   std::size_t unmeasured = 0;
   for (const Vec2 m : moves) {
     if (partial.steps() >= most) return;
@@ -67,7 +86,7 @@ void RolloutSimulator::follow_until_gathered(PartialPlan& partial, std::span<con
     } else {
       --unmeasured;
     }
-    move(partial, m);
+    move(partial, m, work);
   }
 }
 
@@ -76,32 +95,41 @@ void RolloutSimulator::lead(PartialPlan& partial, std::size_t place, std::size_t
   AggregationParams alone = with(params_, Aggregation::heuristic);
   alone.sigma = 2 * params_.step;
   AggregationPolicy policy(*map_, alone);
+  Work work(*this);
   Robots leader = one_of(partial.merged.places(), place);
   for (std::size_t i = 0; i < steps && partial.steps() < most; ++i) {
     const std::optional<Vec2> next = policy.next(leader);
     if (!next) return;
     input_.step(leader, *next);
-    move(partial, *next);
+    move(partial, *next, work);
   }
+}
+
+AggregationPolicy RolloutSimulator::policy(Aggregation method) const {
+  return {*map_, with(params_, method)};
 }
 
 bool RolloutSimulator::finish(PartialPlan& partial, Aggregation method, std::size_t most) {
-  return pursue(partial, method, most, true);
+  constexpr auto never = std::numeric_limits<std::size_t>::max();
+  AggregationPolicy base = policy(method);
+  return pursue(partial, base, most, never) == Pursuit::gathered;
 }
 
-bool RolloutSimulator::pursue(PartialPlan& partial, Aggregation method, std::size_t most,
-                              bool to_the_end) {
-  AggregationPolicy policy(*map_, with(params_, method));
-  for (;;) {
+RolloutSimulator::Pursuit RolloutSimulator::pursue(PartialPlan& partial, AggregationPolicy& policy,
+                                                   std::size_t most, std::size_t pause) {
+  Work work(*this);
+  while (partial.steps() < pause) {
     if (partial.steps() % RolloutPlan::checkpoint_interval == 0)
       policy.remap(partial.merged.merge_coincident());
     const std::optional<Vec2> next = policy.next(partial.merged.places(), partial.merged.counts());
-    if (!next) return true;
+    if (!next) return Pursuit::gathered;
     // Neither the mean nor the longest path decreases by more than one step per move.
-    const double least = to_the_end ? (policy.distance_left() - params_.sigma) / params_.step : 0;
-    if (static_cast<double>(partial.steps()) + least >= static_cast<double>(most)) return false;
-    move(partial, *next);
+    const double least = (policy.distance_left() - params_.sigma) / params_.step;
+    if (static_cast<double>(partial.steps()) + least >= static_cast<double>(most))
+      return Pursuit::too_long;
+    move(partial, *next, work);
   }
+  return Pursuit::paused;
 }
 
 void RolloutSimulator::try_moves(PartialPlan& partial, bool first, std::size_t most, Rng& rng) {

@@ -3,9 +3,11 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
+#include "microswarm/core/execution/parallel.hpp"
 #include "microswarm/navigation/gathering/policies/aggregation_policy.hpp"
 #include "microswarm/navigation/gathering/policies/common_input.hpp"
 #include "microswarm/planning/gathering/obstacle_weighted_rrt.hpp"
@@ -30,8 +32,8 @@ struct PartialPlan {
   std::size_t steps() const { return from + moves.size(); }
 };
 
-/// Simulates continuations of a plan and counts the work. `most` is the maximum number of steps of
-/// the partial plan.
+/// Simulates continuations of a plan and counts the work; several threads may do so at once. `most`
+/// is the maximum number of steps of the partial plan.
 class RolloutSimulator {
  public:
   /// The map must outlive it.
@@ -39,13 +41,21 @@ class RolloutSimulator {
                    const AggregationParams& params);
   const AggregationParams& params() const { return params_; }
 
-  /// Applies one move to all robots.
-  void move(PartialPlan& partial, Vec2 move);
+  /// Calls `trial(i)` for each i in 0 … count−1 on `threads` threads.
+  void try_each(std::size_t count, const std::function<void(std::size_t)>& trial);
+
+  /// Applies these moves to all robots.
   void follow(PartialPlan& partial, std::span<const Vec2> moves, std::size_t most);
   /// The same, but ends as soon as all are gathered.
   void follow_until_gathered(PartialPlan& partial, std::span<const Vec2> moves, std::size_t most);
   /// The robots at one position lead to the goal, for at most `steps` steps.
   void lead(PartialPlan& partial, std::size_t place, std::size_t steps, std::size_t most);
+  /// How far a policy came.
+  enum class Pursuit { gathered, paused, too_long };
+  /// Applies a policy until the robots are gathered, until that takes too many steps, or until
+  /// `pause` steps, a multiple of checkpoint_interval.
+  Pursuit pursue(PartialPlan& partial, AggregationPolicy& policy, std::size_t most,
+                 std::size_t pause);
   /// Applies a base policy until the robots are gathered; false if that takes too many steps.
   bool finish(PartialPlan& partial, Aggregation method, std::size_t most);
   /// Some random moves: one robot leads to the goal, at `first` the farthest one, or all go in one
@@ -53,6 +63,9 @@ class RolloutSimulator {
   void try_moves(PartialPlan& partial, bool first, std::size_t most, Rng& rng);
   /// Representatives of the robots, as robots of their own with weights.
   MergedRobots representatives(const MergedRobots& merged) const;
+
+  /// The base policy.
+  AggregationPolicy policy(Aggregation method) const;
 
   /// F: mean path length to the goal [µm].
   double mean_distance(const MergedRobots& merged) const;
@@ -65,7 +78,8 @@ class RolloutSimulator {
   double work() const { return static_cast<double>(work_.load()); }
 
  private:
-  bool pursue(PartialPlan& partial, Aggregation method, std::size_t most, bool to_the_end);
+  class Work;
+  void move(PartialPlan& partial, Vec2 move, Work& work) const;
   double way(const Robots& robots, std::size_t i) const;
   double power(std::uint32_t count) const;
   std::size_t farthest(const Robots& robots) const;
@@ -73,6 +87,7 @@ class RolloutSimulator {
   const AggregationMap* map_;
   CommonInput input_;
   AggregationParams params_;
+  ThreadTeam threads_;
   std::atomic<std::uint64_t> work_ = 0;  ///< added to by threads
   std::vector<double> powers_;           ///< of the number of robots at a place
 };
