@@ -338,10 +338,10 @@ std::vector<Case> cases() {
       {"RrtStar", small<RrtStarParams>(), 0xd25316c5a33d98bc},
       {"RrtStarGrown", grown<RrtStarParams>(), 0xd80bf708bf2299f3},
       {"UniformRrtStar", small<UniformRrtStarParams>(), 0xcceb0429de52032e},
-      {"DrrtStar", small<DrrtStarParams>(), 0x4e709f1b41251f42},
-      {"DrrtStarPlain", plain_drrt_star(), 0x7581092c693b0b94},
-      {"DrrtStarGrown", grown<DrrtStarParams>(), 0xb6c2e39418fc7e60},
-      {"DrrtStarArcs", arcs_drrt_star(), 0x80e11aeba8d36c50},
+      {"DrrtStar", small<DrrtStarParams>(), 0xc0f2b090f8193bce},
+      {"DrrtStarPlain", plain_drrt_star(), 0xfa289e518101ea98},
+      {"DrrtStarGrown", grown<DrrtStarParams>(), 0xdc86aaf9732ff715},
+      {"DrrtStarArcs", arcs_drrt_star(), 0xfdc2a87441338c5f},
       {"FmtStar", small<FmtStarParams>(), 0x2c9f62bc94e4eeba},
   };
 }

@@ -6,7 +6,7 @@
 #include "microswarm/geometry/area.hpp"
 #include "microswarm/geometry/distance.hpp"
 #include "microswarm/geometry/predicates.hpp"
-#include "microswarm/geometry/slab_area.hpp"
+#include "microswarm/geometry/union_area.hpp"
 
 namespace microswarm {
 namespace {

@@ -2,7 +2,6 @@
 #include "microswarm/geometry/slab_area.hpp"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 #include <utility>
 
@@ -273,8 +272,8 @@ class Slabs {
 
 }  // namespace
 
-double union_area(double radius, std::span<const NearObstacle> obstacles,
-                  std::pmr::memory_resource& memory) {
+double slab_area(double radius, std::span<const NearObstacle> obstacles,
+                 std::pmr::memory_resource& memory) {
   return Slabs(radius, obstacles, memory).area();
 }
 

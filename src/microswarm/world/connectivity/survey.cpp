@@ -10,7 +10,7 @@
 
 #include "microswarm/geometry/area.hpp"
 #include "microswarm/geometry/predicates.hpp"
-#include "microswarm/geometry/slab_area.hpp"
+#include "microswarm/geometry/union_area.hpp"
 #include "microswarm/world/obstacles/body_set.hpp"
 
 namespace microswarm {
@@ -137,25 +137,6 @@ class Collection {
   std::pmr::vector<std::size_t> ends_;
 };
 
-bool overlaps(const PolygonSet& polygons, const Disc& disc) {
-  return polygons.edge_distance(disc.centre, disc.radius) < disc.radius ||
-         polygons.holds(disc.centre);
-}
-
-/// Whether these discs overlap the polygons or one another.
-bool discs_overlap(const BodySet& set, const MetBodies& met) {
-  for (std::size_t i = 0; i < met.size(); ++i) {
-    const Disc* a = as_disc(set.bodies()[met[i].body]);
-    if (!a) continue;
-    if (!set.polygons().empty() && overlaps(set.polygons(), *a)) return true;
-    for (std::size_t j = 0; j < i; ++j) {
-      const Disc* b = as_disc(set.bodies()[met[j].body]);
-      if (b && distance(a->centre, b->centre) < a->radius + b->radius) return true;
-    }
-  }
-  return false;
-}
-
 double area_covered(Disc circle, const BodySet& set, const MetBodies& met,
                     std::pmr::memory_resource& memory) {
   const EdgeGrid& grid = set.polygons().grid();
@@ -172,19 +153,12 @@ double area_covered(Disc circle, const BodySet& set, const MetBodies& met,
     }
     return covered_area(circle, polygons, discs);
   }
-  if (discs_overlap(set, met)) {
-    Collection all(circle, memory);
-    all.add(set, met);
-    return all.area_of_union();
-  }
-  double sum = 0;
-  bool meets_polygon = false;
-  for (const Met& m : met) {
-    const Disc* disc = as_disc(set.bodies()[m.body]);
-    if (disc) sum += intersection_area(circle, *disc);
-    meets_polygon = meets_polygon || !disc;
-  }
-  return sum + (meets_polygon ? covered_area(circle, grid) : 0);
+  const bool meets_disc = std::any_of(met.begin(), met.end(),
+                                      [&](const Met& m) { return as_disc(set.bodies()[m.body]); });
+  if (!meets_disc) return covered_area(circle, grid);
+  Collection all(circle, memory);
+  all.add(set, met);
+  return all.area_of_union();
 }
 
 /// Whether a moving body in the circle may overlap a wall in it. Exact for discs.
