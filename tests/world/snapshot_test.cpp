@@ -53,6 +53,31 @@ TEST(Snapshot, a_polyline_is_free_when_every_piece_is) {
   EXPECT_FALSE(now.is_free(std::span<const Vec2>(point), 0));
 }
 
+TEST(Snapshot, a_polyline_beside_moving_polygons_too) {
+  Rng rng(5, Purpose::test);
+  const Box bounds{{0, 0}, {2000, 1000}};
+  std::vector<Body> bodies{{.shape = Disc{{1000, 500}, 80}, .obstacle = 0}};
+  for (std::uint32_t i = 1; i < 25; ++i)
+    bodies.push_back({.shape = random_star(rng, random_point(rng, bounds), 90), .obstacle = i});
+  const Snapshot now(std::make_shared<Map>(bounds, std::vector<Polygon>{}), 0, bodies);
+  int free = 0, open = 0;
+  for (int i = 0; i < 20000; ++i) {
+    std::vector<Vec2> line{random_point(rng, bounds)};
+    while (line.size() < 12) line.push_back(line.back() + random_point(rng, {{-4, -4}, {8, 8}}));
+    const double r = rng.uniform(1, 60);
+    bool expected = true;
+    for (std::size_t k = 1; k < line.size(); ++k)
+      expected = expected && now.is_free(Segment{line[k - 1], line[k]}, r);
+    EXPECT_EQ(now.is_free(std::span<const Vec2>(line), r), expected);
+    free += expected;
+    if (!now.is_open(line[0], r)) continue;
+    ++open;
+    EXPECT_TRUE(now.is_free(line[0], r));
+  }
+  EXPECT_GT(free, 1000);
+  EXPECT_GT(open, 1000);
+}
+
 TEST(Snapshot, says_why_a_point_is_blocked) {
   Drawn walls;
   walls.polygons = {rectangle(1500, 700, 1600, 800), rectangle(500, 400, 700, 600)};

@@ -37,6 +37,29 @@ std::optional<std::string> inside_text(const BodySet& set, Vec2 p, const char* k
   return "is " + length_text(depth, infinity) + " inside " + name_of(set, body, kind);
 }
 
+template <class Solid>
+bool pieces_free(const Solid& solid, std::span<const Vec2> polyline, double r) {
+  for (std::size_t i = 1; i < polyline.size(); ++i)
+    if (!solid.is_free(Segment{polyline[i - 1], polyline[i]}, r)) return false;
+  return true;
+}
+
+/// The same for a polyline within `size` of each of its points: the distance at a point answers for
+/// the pieces around it.
+bool free_by_distances(const BodySet& bodies, std::span<const Vec2> polyline, double r,
+                       double size) {
+  constexpr double rounding = 1e-6;
+  for (std::size_t i = 0; i + 1 < polyline.size();) {
+    const Vec2 p = polyline[i];
+    const double free = bodies.clearance(p, r + size + 1) - r - rounding;
+    std::size_t last = i;
+    while (last + 1 < polyline.size() && distance(p, polyline[last + 1]) <= free) ++last;
+    if (last == i && !bodies.is_free(Segment{p, polyline[++last]}, r)) return false;
+    i = last;
+  }
+  return true;
+}
+
 }  // namespace
 
 Snapshot::Snapshot(std::shared_ptr<const Map> map, double time, std::vector<Body> moving)
@@ -68,15 +91,10 @@ bool Snapshot::is_free(std::span<const Vec2> polyline, double r) const {
   const Vec2 centre = bounding_box(polyline).centre();
   double squared = 0;
   for (const Vec2 p : polyline) squared = std::max(squared, squared_norm(p - centre));
-  const double reach = r + std::sqrt(squared) * (1 + 1e-12);
-  auto pieces_free = [&](const auto& solid) {
-    for (std::size_t i = 1; i < polyline.size(); ++i) {
-      if (!solid.is_free(Segment{polyline[i - 1], polyline[i]}, r)) return false;
-    }
-    return true;
-  };
-  return (map_->field().lower(centre) >= reach || pieces_free(*map_)) &&
-         (moving_.empty() || moving_.is_free(centre, reach) || pieces_free(moving_));
+  const double size = std::sqrt(squared) * (1 + 1e-12);
+  return (map_->field().lower(centre) >= r + size || pieces_free(*map_, polyline, r)) &&
+         (moving_.empty() || moving_.is_free(centre, r + size) ||
+          free_by_distances(moving_, polyline, r, 2 * size));
 }
 
 Survey Snapshot::survey(Disc circle) const {

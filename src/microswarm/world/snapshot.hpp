@@ -45,6 +45,11 @@ class Snapshot {
     if (moving_.empty()) return map_->is_free(s, r);
     return map_->is_free(s, r) && moving_.is_free(s, r);
   }
+  /// Whether the disc of radius r > 0 around `p` is free by one lookup in the map; if false, it may
+  /// be free or not.
+  bool is_open(Vec2 p, double r) const {
+    return map_->field().lower(p) >= r && (moving_.empty() || moving_.is_free(p, r));
+  }
   /// Whether every segment of the polyline is free with clearance r. Short curves far from walls
   /// cost one lookup.
   bool is_free(std::span<const Vec2> polyline, double r) const;

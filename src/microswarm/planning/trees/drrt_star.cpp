@@ -16,10 +16,22 @@ namespace {
 
 constexpr int max_time_steps = 10'000;
 
+/// Shorter arcs are always steered, since they might end where they begin.
+constexpr double min_open_length = 1e-3;  // [µm]
+
 /// X_new and the node it was steered from, as Algorithm 3 returns them.
 struct Extension {
   std::uint32_t nearest;
   Vec2 end;
+};
+
+/// Candidate of Algorithm 3. Where the arc is free wherever it goes, it is steered only if the
+/// candidate is chosen.
+struct Candidate {
+  std::uint32_t nearest = 0;
+  double heading = 0;
+  double length = 0;
+  std::optional<Vec2> end;
 };
 
 /// Unicycle under heading control: the points of the swept arc, starting with the node's position,
@@ -118,7 +130,7 @@ class DrrtStar {
 
   /// Algorithm 3 [drrt].
   std::optional<Extension> sample_by_cost() {
-    std::optional<Extension> best;
+    std::optional<Candidate> best;
     double best_cost = std::numeric_limits<double>::infinity();
     int found = 0;
     for (int i = 0; i < params_.max_attempts && found < params_.candidates; ++i) {  // line 2
@@ -127,22 +139,38 @@ class DrrtStar {
       const std::uint32_t nearest = growth_.tree().nearest(*x_rand);  // line 4
       const TreeNode& node = growth_.tree()[nearest];
       if (*x_rand == node.position || !growth_.is_free(Segment{node.position, *x_rand}))
-        continue;                                                  // 7
-      const double heading = heading_of(*x_rand - node.position);  // Eq 5 [drrt]
-      const double step = detections_[nearest].rho * params_.step;
-      if (arcs_)
-        steer_turn(node, *x_rand, step);
-      else
-        steer_arc(node, heading, std::min(step, distance(node.position, *x_rand)), params_, arc_);
-      if (arc_.back() == node.position || !growth_.is_free(arc_)) continue;  // line 11
-      ++found;                                                               // line 14
-      const double cost = params_.smoothness_weight * turn_between(heading, node.heading);  // Eq 8
-      if (cost < best_cost) {  // lines 16–17
+        continue;                                                              // line 7
+      Candidate x_steer{nearest, heading_of(*x_rand - node.position), 0, {}};  // Eq 5 [drrt]
+      if (!steer(node, *x_rand, x_steer)) continue;                            // lines 10–11
+      ++found;                                                                 // line 14
+      const double cost =
+          params_.smoothness_weight * turn_between(x_steer.heading, node.heading);  // Eq 8
+      if (cost < best_cost) {                                                       // lines 16–17
         best_cost = cost;
-        best = Extension{nearest, arc_.back()};
+        best = x_steer;
       }
     }
-    return best;
+    if (!best) return std::nullopt;
+    return Extension{best->nearest, best->end ? *best->end : end_of_arc(*best)};
+  }
+
+  /// Steers towards the sample; false if the arc is not free.
+  bool steer(const TreeNode& node, Vec2 sample, Candidate& to) {
+    const double step = detections_[to.nearest].rho * params_.step;
+    if (arcs_) {
+      steer_turn(node, sample, step);
+    } else {
+      to.length = std::min(step, distance(node.position, sample));
+      if (to.length > min_open_length && growth_.is_open(node.position, to.length)) return true;
+      steer_arc(node, to.heading, to.length, params_, arc_);
+    }
+    to.end = arc_.back();
+    return !(arc_.back() == node.position) && growth_.is_free(arc_);
+  }
+
+  Vec2 end_of_arc(const Candidate& to) {
+    steer_arc(growth_.tree()[to.nearest], to.heading, to.length, params_, arc_);
+    return arc_.back();
   }
 
   /// First `step` µm of the edge to the sample.

@@ -59,21 +59,21 @@ bool TreeGrowth::goes_on() {
   return true;
 }
 
-std::optional<Vec2> TreeGrowth::draw(const Box& box, double max_from_goal) {
+template <class Accepts>
+std::optional<Vec2> TreeGrowth::draw(const Box& box, Accepts&& accepts) {
   for (int i = 0; i < max_sample_draws; ++i) {
     const Vec2 p = uniform_in(box, rng_);
-    if (distance(p, goal_) <= max_from_goal && world_.is_free(p, params_.clearance)) return p;
+    if (accepts(p) && world_.is_free(p, params_.clearance)) return p;
   }
   return std::nullopt;
 }
 
 std::optional<Vec2> TreeGrowth::sample() {
   ++counts_.samples;
-  constexpr double anywhere = std::numeric_limits<double>::infinity();
-  if (rng_.uniform() >= params_.goal_bias) return draw(sampled_, anywhere);
+  if (rng_.uniform() >= params_.goal_bias) return draw(sampled_, [](Vec2) { return true; });
   if (goal_is_free_) return goal_;
   const Vec2 reach{params_.goal_tolerance, params_.goal_tolerance};
-  return draw({goal_ - reach, goal_ + reach}, params_.goal_tolerance);
+  return draw({goal_ - reach, goal_ + reach}, [&](Vec2 p) { return arrives(p); });
 }
 
 bool TreeGrowth::is_free(Segment edge) {
@@ -84,6 +84,12 @@ bool TreeGrowth::is_free(Segment edge) {
 bool TreeGrowth::is_free(std::span<const Vec2> arc) {
   ++counts_.edge_checks;
   return world_.is_free(arc, params_.clearance);
+}
+
+bool TreeGrowth::is_open(Vec2 p, double length) {
+  const bool is_open = world_.is_open(p, params_.clearance + length * (1 + 1e-12));
+  counts_.edge_checks += is_open;
+  return is_open;
 }
 
 bool TreeGrowth::edge_is_free(std::uint32_t node, Vec2 p) {

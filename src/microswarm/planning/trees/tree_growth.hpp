@@ -30,6 +30,8 @@ class TreeGrowth {
   bool arrives(Vec2 p) const { return distance(p, goal_) <= params_.goal_tolerance; }
   bool is_free(Segment edge);
   bool is_free(std::span<const Vec2> arc);
+  /// Whether every arc of this length from `p` is clearly free, which then counts as a check.
+  bool is_open(Vec2 p, double length);
   /// Whether the edge from `node` to `p` is free: straight, or with a turn as given by the cost.
   bool edge_is_free(std::uint32_t node, Vec2 p);
 
@@ -50,7 +52,8 @@ class TreeGrowth {
  private:
   bool solved() const { return !arrived_.empty(); }
   std::optional<Status> reason_to_end() const;
-  std::optional<Vec2> draw(const Box& box, double max_from_goal);
+  template <class Accepts>
+  std::optional<Vec2> draw(const Box& box, Accepts&& accepts);
 
   const Snapshot& world_;
   const TreeParams& params_;

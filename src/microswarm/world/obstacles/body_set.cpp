@@ -39,7 +39,10 @@ double BodySet::clearance(Segment s, double limit) const {
   return d > 0 && polygons_.holds(s.a) ? 0 : d;
 }
 
-bool BodySet::is_free(Vec2 p, double r) const { return is_free(Segment{p, p}, r); }
+// Most points that are not free are in a body, which one cell tells.
+bool BodySet::is_free(Vec2 p, double r) const {
+  return (polygons_.empty() || !polygons_.holds(p)) && is_free_from_outside({p, p}, r);
+}
 
 bool BodySet::is_free(Segment s, double r) const {
   return is_free_from_outside(s, r) && (polygons_.empty() || !polygons_.holds(s.a));
