@@ -2,6 +2,7 @@
 #include "microswarm/planning/trees/straighten.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -30,14 +31,12 @@ class Straightener {
     return cost_.per_length * path_length(path) +
            cost_.per_turn * path_turning(path, start_heading_);
   }
-  bool is_free(Vec2 a, Vec2 b) {
-    ++checks_;
-    return world_.is_free(Segment{a, b}, clearance_);
-  }
+  bool is_free(Vec2 a, Vec2 b) const { return world_.is_free(Segment{a, b}, clearance_); }
 
-  /// Replaces the path by the cheapest chain of free edges through `points`, which include the
-  /// path's vertices.
-  void take_cheapest_chain(std::vector<Vec2>& path, std::span<const Vec2> points);
+  /// Replaces the path by the cheapest chain of free edges through `points`: the path's vertices,
+  /// and between any two as many others that every `per_edge`-th is a vertex.
+  void take_cheapest_chain(std::vector<Vec2>& path, std::span<const Vec2> points,
+                           std::size_t per_edge);
 
  private:
   /// Edge from point `from` to another as the last of the cheapest chain ending with it. The turn
@@ -66,6 +65,8 @@ class Straightener {
     return *std::ranges::find(edges_to(j), i, &Edge::from);
   }
 
+  std::vector<Vec2> cheapest_chain(std::span<const Vec2> points, double known,
+                                   std::size_t per_edge);
   void lay_out(std::span<const Vec2> points);
   Edge reach(std::size_t i, std::size_t j, double known) const;
 
@@ -116,22 +117,29 @@ Straightener::Edge Straightener::reach(std::size_t i, std::size_t j, double know
   return to;
 }
 
-void Straightener::take_cheapest_chain(std::vector<Vec2>& path, std::span<const Vec2> points) {
-  const double known = cost(path) * (1 + rounding);
+/// Parts of an edge of the path count as free, without a search, if `per_edge` is given; else
+/// everything is checked. Empty if there is no chain that costs at most `known`.
+std::vector<Vec2> Straightener::cheapest_chain(std::span<const Vec2> points, double known,
+                                               std::size_t per_edge) {
   lay_out(points);
   const std::size_t last = points_.size() - 1;
+  const auto is_part = [&](std::size_t i, std::size_t j) {
+    return per_edge > 0 && i / per_edge == (j - 1) / per_edge;
+  };
   for (std::size_t j = 1; j <= last; ++j) {
     points_[j].first_edge = edges_.size();
     for (std::size_t i = first(j); i < j; ++i) {
       if (points_[i].place == points_[j].place) continue;
       const Edge e = reach(i, j, known);
-      if (e.cost == infinity || !is_free(points_[i].place, points_[j].place)) continue;
+      if (e.cost == infinity) continue;
+      ++checks_;
+      if (!is_part(i, j) && !is_free(points_[i].place, points_[j].place)) continue;
       edges_.push_back(e);
       points_[j].least_cost = std::min(points_[j].least_cost, e.cost);
     }
   }
   const auto best = std::ranges::min_element(edges_to(last), {}, &Edge::cost);
-  if (best == edges_to(last).end()) return;
+  if (best == edges_to(last).end()) return {};
   std::vector<Vec2> chain{points_[last].place};
   std::size_t i = best->from;
   for (std::size_t j = last; j != 0;) {
@@ -141,8 +149,26 @@ void Straightener::take_cheapest_chain(std::vector<Vec2>& path, std::span<const 
     i = h;
   }
   std::reverse(chain.begin(), chain.end());
-  path = std::move(chain);
+  return chain;
 }
+
+void Straightener::take_cheapest_chain(std::vector<Vec2>& path, std::span<const Vec2> points,
+                                       std::size_t per_edge) {
+  const double known = cost(path) * (1 + rounding);
+  const std::uint64_t checks = checks_;
+  std::vector<Vec2> chain = cheapest_chain(points, known, per_edge);
+  // A part of an edge that touches the clearance may fail by rounding.
+  for (std::size_t k = 1; k < chain.size(); ++k) {
+    if (is_free(chain[k - 1], chain[k])) continue;
+    checks_ = checks;
+    chain = cheapest_chain(points, known, 0);
+    break;
+  }
+  if (!chain.empty()) path = std::move(chain);
+}
+
+constexpr std::array shares{0.15, 0.4, 0.6, 0.85};  // of an edge
+constexpr std::size_t divisions = shares.size() + 1;
 
 /// The path's vertices with points between them, denser towards the vertices, where corners are
 /// cut.
@@ -150,7 +176,7 @@ std::vector<Vec2> divided(std::span<const Vec2> path) {
   std::vector<Vec2> points{path.front()};
   for (std::size_t k = 1; k < path.size(); ++k) {
     const Vec2 way = path[k] - path[k - 1];
-    for (const double share : {0.15, 0.4, 0.6, 0.85}) points.push_back(path[k - 1] + share * way);
+    for (const double share : shares) points.push_back(path[k - 1] + share * way);
     points.push_back(path[k]);
   }
   return points;
@@ -162,7 +188,9 @@ void straighten(const Snapshot& world, double clearance, double start_heading, P
                 int rounds, std::vector<Vec2>& path, std::uint64_t& checks) {
   Straightener straightener(world, clearance, start_heading, cost, checks);
   for (int round = 0; round <= rounds && path.size() > 1; ++round) {
-    straightener.take_cheapest_chain(path, round == 0 ? std::vector(path) : divided(path));
+    const bool first = round == 0;
+    straightener.take_cheapest_chain(path, first ? std::vector(path) : divided(path),
+                                     first ? 1 : divisions);
   }
 }
 
