@@ -5,6 +5,7 @@
 
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/rng.hpp"
+#include "microswarm/geometry/distance.hpp"
 #include "microswarm/world/obstacles/obstacle.hpp"
 #include "tests/navigation/discs.hpp"
 
@@ -153,6 +154,36 @@ TEST(ObstacleTracker, APartThatMovesFarAwayDoesNotCountHere) {
   EXPECT_NEAR(tracker.outline_speed_within(0, channel, {{2500, 500}, 200}), 50, 3);
   EXPECT_EQ(tracker.outline_speed_within(0, channel, {{500, 500}, 250}), 0);
   EXPECT_EQ(tracker.outline_speed_within(0, channel, {{500, 500}, 20}), 0) << "nothing is near";
+}
+
+// An outline of many vertices, drawn anew in every frame, beside the definition.
+TEST(ObstacleTracker, OutlinesOfManyVerticesAreComparedExactly) {
+  Rng rng(6, Purpose::test);
+  const auto map = std::make_shared<const Map>(Box{{0, 0}, {3000, 1000}}, std::vector<Polygon>{});
+  for (const int corners : {8, 200}) {
+    ObstacleTrackerParams params;
+    params.tuning.outline_spacing = 0;
+    ObstacleTracker tracker(params);
+    std::vector<Polygon> seen;
+    for (int k = 0; k < 12; ++k) {
+      Body body{.shape = Polygon{}, .obstacle = 0};
+      auto& outer = std::get<Polygon>(body.shape).outer;
+      const int count = k % 4 == 0 ? corners + 1 : corners;
+      for (int i = 0; i < count; ++i)
+        outer.push_back(Vec2{1000, 500} + rng.uniform(90, 110) * unit_vector(2 * pi * i / count));
+      const Vec2 centre = extent_of(body).centre;
+      const Snapshot world(map, 0.1 * k, {body});
+      tracker.update(
+          {.now = 0.1 * k, .seen = 0.1 * k, .swarm = {}, .robots = {}, .world = borrowed(world)});
+      if (k >= 2) {
+        double most = 0;
+        for (const Vec2 v : outer) most = std::max(most, distance(v - centre, seen[k - 2]));
+        EXPECT_NEAR(tracker.body(0).outline_speed, most / 0.2, 1e-9);
+      }
+      for (Vec2& v : outer) v -= centre;
+      seen.push_back(std::get<Polygon>(body.shape));
+    }
+  }
 }
 
 TEST(ObstacleTracker, ObstaclesComeAndGo) {

@@ -17,27 +17,16 @@ std::size_t max_sightings(const ObstacleTrackerParams& params) {
          static_cast<std::size_t>(params.frames);
 }
 
-/// Maximum distance by which vertices of `polygon` protrude from the solid `before`, given relative
-/// to its centre; only those for which `counts(ring, i)` holds.
-template <class Counts>
-double outward_distance(const Polygon& polygon, Vec2 centre, const Polygon& before,
-                        Counts&& counts) {
-  double most = 0;
-  const auto compare = [&](std::span<const Vec2> ring, std::span<const Vec2> then) {
-    const bool alike = ring.size() == then.size();
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      if (!counts(ring, i)) continue;
-      const Vec2 v = ring[i] - centre;
-      if (alike && distance(v, then[i]) <= most) continue;  // a bound without a search
-      most = std::max(most, distance(v, before));
-    }
-  };
-  compare(polygon.outer, before.outer);
-  for (std::size_t k = 0; k < polygon.holes.size(); ++k)
-    compare(polygon.holes[k], k < before.holes.size() ? std::span<const Vec2>(before.holes[k])
-                                                      : std::span<const Vec2>{});
-  return most;
+/// Upper bound of the squared distance from `v` to the solid within the ring: from the vertex with
+/// this number and the edges beside it.
+double squared_bound(Vec2 v, std::span<const Vec2> ring, std::size_t i) {
+  const std::size_t n = ring.size();
+  return std::min(squared_distance(v, {ring[(i + n - 1) % n], ring[i]}),
+                  squared_distance(v, {ring[i], ring[(i + 1) % n]}));
 }
+
+/// Outlines of no more are searched edge by edge.
+constexpr std::size_t few_vertices = 32;
 
 constexpr auto every_vertex = [](std::span<const Vec2>, std::size_t) { return true; };
 
@@ -48,6 +37,36 @@ void remember(std::vector<Sighting>& trail, Sighting newest, std::size_t most) {
 }
 
 }  // namespace
+
+/// Maximum distance by which vertices of `polygon` protrude from the solid `before`, given relative
+/// to its centre; only those for which `counts(ring, i)` holds.
+template <class Counts>
+double ObstacleTracker::outward_distance(const Polygon& polygon, Vec2 centre, const Outline& before,
+                                         Counts&& counts) {
+  const auto squared_distance_to = [&](Vec2 v) {
+    if (before.edges.empty()) {
+      const double d = distance(v, before.shape);
+      return d * d;
+    }
+    if (before.edges.in_solid(v)) return 0.0;
+    return squared_distance(v, before.edges.edge(before.edges.nearest(v, infinity)));
+  };
+  double most = 0;  // squared
+  const auto compare = [&](std::span<const Vec2> ring, std::span<const Vec2> then) {
+    const bool alike = ring.size() == then.size();
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vec2 v = ring[i] - centre;
+      if (alike && squared_bound(v, then, i) <= most) continue;  // without a search
+      if (counts(ring, i)) most = std::max(most, squared_distance_to(v));
+    }
+  };
+  const Polygon& shape = before.shape;
+  compare(polygon.outer, shape.outer);
+  for (std::size_t k = 0; k < polygon.holes.size(); ++k)
+    compare(polygon.holes[k], k < shape.holes.size() ? std::span<const Vec2>(shape.holes[k])
+                                                     : std::span<const Vec2>{});
+  return std::sqrt(most);
+}
 
 double outward_speed(const Body& body, const TrackedBody& motion) {
   return std::holds_alternative<Disc>(body.shape) ? std::max(0.0, motion.radius_rate)
@@ -125,7 +144,7 @@ void ObstacleTracker::compare_outline(Trail& trail, const Polygon& polygon, Vec2
   auto& [older, newer] = trail.past;
   const bool known = !trail.places.empty() && !older.shape.outer.empty();
   trail.outline_speed =
-      known ? outward_distance(polygon, centre, older.shape, every_vertex) / (seen_ - older.t) : 0;
+      known ? outward_distance(polygon, centre, older, every_vertex) / (seen_ - older.t) : 0;
   if (known && seen_ - newer.t < params_.tuning.outline_spacing) return;
   std::swap(older, newer);
   newer.t = seen_;
@@ -134,6 +153,18 @@ void ObstacleTracker::compare_outline(Trail& trail, const Polygon& polygon, Vec2
   for (auto& hole : newer.shape.holes)
     for (Vec2& v : hole) v -= centre;
   if (!known) older = newer;
+  index(older);
+}
+
+void ObstacleTracker::index(Outline& outline) {
+  std::size_t vertices = outline.shape.outer.size();
+  for (const auto& hole : outline.shape.holes) vertices += hole.size();
+  std::vector<Segment> edges;
+  if (vertices <= few_vertices) return outline.edges.assign({}, {});
+  edges.reserve(vertices);
+  for_each_edge(outline.shape, [&](Vec2 a, Vec2 b) { edges.push_back({a, b}); });
+  const std::vector<std::uint32_t> bodies(edges.size(), 0);
+  outline.edges.assign(edges, bodies);
 }
 
 double ObstacleTracker::outline_speed_within(std::size_t body, const Body& shape,
@@ -149,8 +180,7 @@ double ObstacleTracker::outline_speed_within(std::size_t body, const Body& shape
     const std::size_t n = ring.size();
     return edge_reaches(ring[i], ring[(i + 1) % n]) || edge_reaches(ring[i], ring[(i + n - 1) % n]);
   };
-  return outward_distance(*polygon, extent_of(shape).centre, before.shape, near) /
-         (seen_ - before.t);
+  return outward_distance(*polygon, extent_of(shape).centre, before, near) / (seen_ - before.t);
 }
 
 TrackedBody ObstacleTracker::estimate(const Trail& trail) const {

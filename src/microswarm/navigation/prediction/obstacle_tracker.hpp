@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "microswarm/contracts/observation.hpp"
+#include "microswarm/geometry/edge_grid.hpp"
 #include "microswarm/navigation/prediction/motion_fit.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker_params.hpp"
 
@@ -60,6 +61,7 @@ class ObstacleTracker {
   struct Outline {
     double t = 0;
     Polygon shape;
+    EdgeGrid edges;  ///< of the shape if it is the older one and has many
   };
   /// History of one body.
   struct Trail {
@@ -75,6 +77,10 @@ class ObstacleTracker {
   std::vector<Trail>::iterator lower_bound(const Key& key);
   void extend(Trail& trail, const Body& body, Disc within) const;
   void compare_outline(Trail& trail, const Polygon& polygon, Vec2 centre) const;
+  static void index(Outline& outline);
+  template <class Counts>
+  static double outward_distance(const Polygon& polygon, Vec2 centre, const Outline& before,
+                                 Counts&& counts);
   TrackedBody estimate(const Trail& trail) const;
 
   ObstacleTrackerParams params_;
