@@ -94,7 +94,7 @@ std::optional<Decision> HierarchicalNavigator::keep_path(const Observation& seen
   if (!has_path()) return std::nullopt;
   for (const double ease : params_.tuning.speed_shares) {
     const double speed = ease * params_.speed;
-    if (!params_.as_published && !look_along_path(seen, speed).safe) continue;
+    if (!params_.as_published && !path_is_safe(seen, speed)) continue;
     const auto next = follow(place_, pose_, speed);
     return Decision{next.command,
                     next.handed_over ? NavigatorState::fallback : NavigatorState::follow};
@@ -103,7 +103,7 @@ std::optional<Decision> HierarchicalNavigator::keep_path(const Observation& seen
 }
 
 bool HierarchicalNavigator::hold_is_safe(const Observation& seen) const {
-  return look_ahead(seen, params_.clearance, [&](const Pose2&, double) { return hold(); }).safe;
+  return is_safe(seen, [&](const Pose2&, double) { return hold(); });
 }
 
 // A path to a local target is replaced before its end, the one to the aim at its end.
@@ -249,19 +249,14 @@ double HierarchicalNavigator::wall_floor(const Map& map, double reach) const {
   return std::max(params_.clearance, std::min(near_aim, map.clearance(pose_.position)));
 }
 
-// Predicted motion of the swarm once the command takes effect, relative to the predicted obstacles.
-template <class Steer>
-HierarchicalNavigator::Rollout HierarchicalNavigator::look_ahead(const Observation& seen,
-                                                                 double floor,
-                                                                 Steer&& steer) const {
-  const double enough = far_enough();
+// Predicted motion of the swarm once the command takes effect, relative to the predicted obstacles:
+// visits its moves with their first and last pose and the time, as long as `visit` returns true.
+template <class Steer, class Visit>
+void HierarchicalNavigator::roll_out(Steer&& steer, Visit&& visit) const {
   const double delay = params_.horizon > 0 ? steering_.delay() : 0;
   const int ticks =
       std::max(1, static_cast<int>(std::lround(params_.horizon / params_.tuning.check_step)));
-  const Map& map = seen.world->map();
-  const double from_walls = wall_floor(map, enough);
   Pose2 pose = pose_;
-  Rollout out{.safe = true, .least = enough, .last = enough};
   Command command;
   double next_command = 0;
   for (int k = 0; k < ticks; ++k) {
@@ -271,17 +266,58 @@ HierarchicalNavigator::Rollout HierarchicalNavigator::look_ahead(const Observati
     }
     const Pose2 next =
         unicycle_step(pose, command, swarm().max_turn_rate, params_.tuning.check_step);
-    const Segment move{pose.position, next.position};
-    const double from = delay + k * params_.tuning.check_step;
-    const double moving =
-        obstacles_.clearance(*seen.world, move, from, from + params_.tuning.check_step, enough);
-    out.safe = out.safe && moving >= params_.clearance + slack_ && map.is_free(move, from_walls);
-    // The whole move is tested, so that a path through a wall is never the best one.
-    out.last = map.is_free(move, 0) ? std::min(moving, map.clearance(next.position)) : 0;
-    out.least = std::min(out.least, out.last);
+    if (!visit(Segment{pose.position, next.position}, delay + k * params_.tuning.check_step))
+      return;
     pose = next;
-    if (out.least < floor) break;
   }
+}
+
+// Distance to the moving obstacles, which is only known up to `enough`.
+double HierarchicalNavigator::from_obstacles(const Observation& seen, Segment move, double from,
+                                             double enough) const {
+  return obstacles_.clearance(*seen.world, move, from, from + params_.tuning.check_step, enough);
+}
+
+// Among obstacles at rest, one distance to them answers for all moves nearby.
+template <class Steer>
+bool HierarchicalNavigator::is_safe(const Observation& seen, Steer&& steer) const {
+  const Map& map = seen.world->map();
+  const double from_walls = wall_floor(map, far_enough());
+  const double least = params_.clearance + slack_;
+  const double enough = std::min(far_enough(), least + 1);  // 1 µm more than what is asked for
+  const double end = steering_.delay() + params_.horizon + params_.tuning.check_step;
+  const bool all_rest = obstacles_.all_rest() && least <= far_enough();
+  constexpr double rounding = 1e-6;
+  Disc free;  // for all times
+  const auto is_near = [&](Vec2 p) { return distance(p, free.centre) + rounding < free.radius; };
+  bool safe = true;
+  roll_out(steer, [&](Segment move, double from) {
+    if (all_rest && !is_near(move.b)) {
+      const double most = least + params_.speed * params_.horizon;
+      free = {move.a, obstacles_.clearance(*seen.world, {move.a, move.a}, from, end, most) - least};
+    }
+    const bool far = all_rest && is_near(move.a) && is_near(move.b);
+    safe =
+        (far || from_obstacles(seen, move, from, enough) >= least) && map.is_free(move, from_walls);
+    return safe;
+  });
+  return safe;
+}
+
+template <class Steer>
+HierarchicalNavigator::Rollout HierarchicalNavigator::look_ahead(const Observation& seen,
+                                                                 double floor,
+                                                                 Steer&& steer) const {
+  const Map& map = seen.world->map();
+  const double enough = far_enough();
+  Rollout out{.least = enough, .last = enough};
+  roll_out(steer, [&](Segment move, double from) {
+    const double moving = from_obstacles(seen, move, from, enough);
+    // The whole move is tested, so that a path through a wall is never the best one.
+    out.last = map.is_free(move, 0) ? std::min(moving, map.clearance(move.b)) : 0;
+    out.least = std::min(out.least, out.last);
+    return out.least >= floor;
+  });
   return out;
 }
 
@@ -303,11 +339,10 @@ PathFollower::Answer HierarchicalNavigator::follow(PathPlace& place, const Pose2
   return answer;
 }
 
-HierarchicalNavigator::Rollout HierarchicalNavigator::look_along_path(const Observation& seen,
-                                                                      double speed) const {
+bool HierarchicalNavigator::path_is_safe(const Observation& seen, double speed) const {
   PathPlace place = place_;
-  return look_ahead(seen, params_.clearance,
-                    [&](const Pose2& pose, double) { return follow(place, pose, speed).command; });
+  return is_safe(seen,
+                 [&](const Pose2& pose, double) { return follow(place, pose, speed).command; });
 }
 
 // Of the hold and the manoeuvres of one leg, or two if one is not enough, takes the one with the

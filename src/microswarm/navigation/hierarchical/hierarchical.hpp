@@ -35,7 +35,6 @@ class HierarchicalNavigator : public Navigator {
 
  private:
   struct Rollout {
-    bool safe = false;
     double least = 0;  ///< minimum clearance along it [µm]
     double last = 0;   ///< clearance at its end [µm]
   };
@@ -53,14 +52,20 @@ class HierarchicalNavigator : public Navigator {
   bool replan_in_time(const Snapshot& seen, double clearance, const Stop& stop);
   void plan_to(const Snapshot& world, Vec2 target, double clearance, const Stop& stop);
   Vec2 towards(const Map& map) const;
-  /// Simulates `steer(pose, seconds) → command` for the horizon. Ends early as unsafe when the
-  /// clearance falls below `floor`.
+  /// Simulates `steer(pose, seconds) → command` for the horizon.
+  template <class Steer, class Visit>
+  void roll_out(Steer&& steer, Visit&& visit) const;
+  /// Whether it keeps the clearance.
+  template <class Steer>
+  bool is_safe(const Observation& seen, Steer&& steer) const;
+  /// Its clearance; ends early when that falls below `floor`.
   template <class Steer>
   Rollout look_ahead(const Observation& seen, double floor, Steer&& steer) const;
+  double from_obstacles(const Observation& seen, Segment move, double from, double enough) const;
   double wall_floor(const Map& map, double reach) const;
   double far_enough() const { return 2 * params_.clearance + params_.extra_clearance; }
   PathFollower::Answer follow(PathPlace& place, const Pose2& pose, double speed) const;
-  Rollout look_along_path(const Observation& seen, double speed) const;
+  bool path_is_safe(const Observation& seen, double speed) const;
   double lookahead_at(double speed) const {
     return params_.lookahead * std::max(0.5, speed / params_.speed);
   }

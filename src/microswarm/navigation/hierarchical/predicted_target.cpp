@@ -13,11 +13,12 @@ namespace {
 constexpr double same_place = 1;  // [µm]
 constexpr double piece_time = 1;  // of a way that is searched for its first contact [s]
 
-/// Time for which the straight path stays free of obstacles [s], at most `most` and its duration.
+/// Time for which the straight path of this heading stays free of obstacles [s], at most `most` and
+/// its duration.
 double free_time(const Snapshot& frame, const ObstaclePredictor& obstacles, Segment way,
-                 double speed, double start, double most, double clearance) {
+                 double heading, double speed, double start, double most, double clearance) {
   const double time = std::min(most, distance(way.a, way.b) / speed);
-  const Vec2 velocity = speed * unit_vector(heading_of(way.b - way.a));
+  const Vec2 velocity = speed * unit_vector(heading);
   for (double t = 0; t < time; t += piece_time) {
     const double end = std::min(time, t + piece_time);
     const Segment piece{way.a + t * velocity, way.a + end * velocity};
@@ -37,17 +38,21 @@ class PredictedChoice {
   void consider(Vec2 target, double wait) {
     const Vec2 from = q_.swarm.position;
     const double length = distance(from, target);
+    double cost = length + way_from_(target) + q_.wait_weight * q_.speed * wait;
+    if (!(cost < best_cost_)) return;
     const double heading = heading_of(target - from);
-    double cost = length + way_from_(target) + q_.wait_weight * q_.speed * wait +
-                  q_.turn_weight * turn_between(heading, q_.swarm.heading);
+    cost += q_.turn_weight * turn_between(heading, q_.swarm.heading);
     if (!(cost < best_cost_) || !frame_.map().is_free(Segment{from, target}, q_.clearance)) return;
     const double time = length / q_.speed;
-    if (!rests_freely(wait) || free_time({from, target}, wait, time) < time) return;
+    if (!rests_freely(wait) || free_time({from, target}, heading, wait, time) < time) return;
     const Vec2 next = distance(target, q_.towards) > same_place ? q_.towards : q_.goal;
     const double left = std::min(q_.horizon - wait - time, distance(target, next) / q_.speed);
     if (left > 0) {
-      cost += q_.turn_weight * turn_between(heading_of(next - target), heading);
-      cost += q_.contact_weight * q_.speed * (left - free_time({target, next}, wait + time, left));
+      const double next_heading = heading_of(next - target);
+      cost += q_.turn_weight * turn_between(next_heading, heading);
+      if (cost >= best_cost_) return;  // a contact only adds to it
+      cost += q_.contact_weight * q_.speed *
+              (left - free_time({target, next}, next_heading, wait + time, left));
     }
     if (cost >= best_cost_) return;
     best_cost_ = cost;
@@ -56,8 +61,8 @@ class PredictedChoice {
   const std::optional<PredictedTarget>& best() const { return best_; }
 
  private:
-  double free_time(Segment way, double start, double most) const {
-    return microswarm::free_time(frame_, obstacles_, way, q_.speed, q_.delay + start, most,
+  double free_time(Segment way, double heading, double start, double most) const {
+    return microswarm::free_time(frame_, obstacles_, way, heading, q_.speed, q_.delay + start, most,
                                  q_.clearance);
   }
   bool rests_freely(double wait) const {
@@ -106,7 +111,9 @@ bool is_free_in_time(const Snapshot& frame, const ObstaclePredictor& obstacles,
     if (!frame.map().is_free(way, clearance)) return false;
     const double time = std::min(horizon - t, distance(way.a, way.b) / speed);
     if (time <= 0) continue;
-    if (free_time(frame, obstacles, way, speed, delay + t, time, clearance) < time) return false;
+    if (free_time(frame, obstacles, way, heading_of(way.b - way.a), speed, delay + t, time,
+                  clearance) < time)
+      return false;
     t += time;
   }
   return true;
