@@ -16,6 +16,7 @@
 #include "bench/ompl_peer.hpp"
 #include "bench/planning.hpp"
 #include "microswarm/core/maths/angles.hpp"
+#include "microswarm/core/maths/maths.hpp"
 #include "microswarm/core/maths/rng.hpp"
 #include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/geometry/uniform_in.hpp"
@@ -48,7 +49,7 @@ struct Growth {
 std::optional<double> exponent(const CountedTimes& times) {
   if (times.size() < 3) return std::nullopt;
   std::vector<double> x, y;
-  for (const auto& [n, t] : times) x.push_back(std::log(n)), y.push_back(std::log(t));
+  for (const auto& [n, t] : times) x.push_back(maths::log(n)), y.push_back(maths::log(t));
   const double mean_x = mean(x), mean_y = mean(y);
   double above = 0, below = 0;
   for (std::size_t k = 0; k < x.size(); ++k) {
@@ -220,7 +221,7 @@ std::vector<Growth> of_shapes(bool quick, const Stop& stop) {
   Growth exact{.name = "exact across the map, tangents kept",
                .of = "shapes",
                .unit = "ms",
-               .peer = "our A*, fitted to the map",
+               .peer = "our A*, cells of 10 µm",
                .aim = 1};
   for (const int side : {1, 2, 4, 8}) {
     if (stop()) break;

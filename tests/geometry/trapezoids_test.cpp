@@ -75,18 +75,18 @@ TEST(Trapezoids, WhatIsSeenIsWhatBruteForceSees) {
     const std::vector<Segment> all = random_segments(rng, world % 3);
     const Trapezoids cells(all);
     std::multiset<std::uint32_t> seen;
-    const auto see = [&](std::uint32_t point, Trapezoids::Sides) { seen.insert(point); };
+    const auto see = [&](std::uint32_t point, Sides) { seen.insert(point); };
     const auto none = [](std::uint32_t, auto&&) {};
     SCOPED_TRACE(::testing::Message() << "kind " << world % 3 << " world " << world);
     for (int i = 0; i < 10; ++i) {
       const Vec2 from = random_point(rng, {{-1, -1}, {13, 13}});
       seen.clear();
-      cells.look_around(Trapezoids::Rays{from}, see, none);
+      cells.look_around(Rays{from}, see, none);
       expect_seen(cells, all, from, seen);
     }
     for (std::uint32_t from = 0; from < cells.points().size(); ++from) {
       seen.clear();
-      cells.look_around(Trapezoids::Rays{cells.points()[from]}, see, none);
+      cells.look_around(Rays{cells.points()[from]}, see, none);
       expect_seen(cells, all, cells.points()[from], seen);
     }
   }
@@ -107,14 +107,13 @@ TEST(Trapezoids, StepByStepTheSameIsSeenAndWhatIsNearTheWayFirst) {
       const Vec2 to = random_point(rng, {{-1, -1}, {13, 13}});
       std::multiset<std::uint32_t> all, seen;
       cells.look_around(
-          Trapezoids::Rays{from},
-          [&](std::uint32_t point, Trapezoids::Sides) { all.insert(point); }, none);
+          Rays{from}, [&](std::uint32_t point, Sides) { all.insert(point); }, none);
       look.begin(cells, from, to, 0);
       double length = distance(from, to);
       for (int step = 0; look.left() < std::numeric_limits<double>::infinity(); ++step) {
         ASSERT_LT(step, 1000);
         look.go_on(
-            length, [&](std::uint32_t point, Trapezoids::Sides) { seen.insert(point); }, none);
+            length, [&](std::uint32_t point, Sides) { seen.insert(point); }, none);
         for (const std::uint32_t point : all) {
           const Vec2 p = cells.points()[point];
           if (distance(from, p) + distance(p, to) < look.left()) {
@@ -166,8 +165,7 @@ TEST(Trapezoids, NothingIsSeenWhereNothingIs) {
   EXPECT_EQ(cells.cell_at({3, 4}), 0u);
   EXPECT_EQ(cells.point_at({1, 1}), Trapezoids::none);
   cells.look_around(
-      Trapezoids::Rays{{0, 0}}, [](std::uint32_t, Trapezoids::Sides) { FAIL(); },
-      [](std::uint32_t, auto&&) {});
+      Rays{{0, 0}}, [](std::uint32_t, Sides) { FAIL(); }, [](std::uint32_t, auto&&) {});
 }
 
 }  // namespace

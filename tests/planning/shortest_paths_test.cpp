@@ -223,7 +223,8 @@ TEST(Corners, EveryFreeTangentLeadsToWhatIsSeen) {
         if (arcs[i].empty()) continue;
         std::set<std::pair<std::uint32_t, bool>> found;
         corners.seen_from(i, circles[i].radius, clearance, sense > 0,
-                          [&](std::uint32_t other, Trapezoids::Sides sides) {
+                          [&](std::uint32_t other, auto&& sides_of) {
+                            const Sides sides = sides_of();
                             if (sides.left) found.emplace(other, true);
                             if (sides.right) found.emplace(other, false);
                           });

@@ -11,6 +11,7 @@
 
 #include "microswarm/geometry/edge_grid.hpp"
 #include "microswarm/geometry/predicates.hpp"
+#include "microswarm/geometry/ray_view.hpp"
 
 namespace microswarm {
 
@@ -48,19 +49,6 @@ class Trapezoids {
   /// The cell that holds `p`, the one above if it is on a segment.
   std::uint32_t cell_at(Vec2 p) const;
 
-  /// Rays that touch a circle and keep a distance from the ends of all segments.
-  struct Rays {
-    Vec2 centre;
-    double offset = 0;  ///< of the centre to the left of a ray [µm]: the radius; negative: to the
-                        ///< right; 0: they begin at the centre
-    double keep = 0;    ///< the distance [µm], at most the radius if there is one
-  };
-
-  /// On which sides of a ray something may be that it passes closely.
-  struct Sides {
-    bool left = true, right = true;
-  };
-
   /// Looks along the rays from a place or an end of segments, with a circle in which there is
   /// nothing else: calls point(number, sides) for every end that may be passed closely, and
   /// cell(number, sides_of) for every cell that is passed, for some repeatedly. sides_of(disc)
@@ -83,21 +71,26 @@ class Trapezoids {
  private:
   class Sweep;
 
-  class Bounds;
-  /// What is seen in a cell: from a place between the directions to two points, and there the rays
-  /// within the bounds.
-  struct Cone;
+  /// What is seen of a cell from a place: the directions between those to two points.
+  struct Cone {
+    std::uint32_t cell;
+    std::uint32_t lower = none;  ///< point; none: straight down
+    std::uint32_t upper = none;
+  };
   using Cones = std::vector<Cone>;
+  struct Beam;
   /// Cells that are to be looked through, from the nearest on.
   template <bool rightwards>
   class Front;
   template <bool rightwards>
-  class View;
-  static constexpr double same_ray = 1e-9;
+  class PlaceView;
 
   template <bool rightwards, class OnPoint, class OnCell, class Push>
-  void look_through(const Cone& cone, const View<rightwards>& view, OnPoint& point, OnCell& on_cell,
-                    Push&& push) const;
+  void look_through(const Cone& cone, const PlaceView<rightwards>& view, OnPoint& point,
+                    OnCell& on_cell, Push&& push) const;
+  template <bool rightwards, class OnPoint, class OnCell, class Push>
+  void look_through(const Beam& beam, const RayView<rightwards>& view, OnPoint& point,
+                    OnCell& on_cell, Push&& push) const;
   template <bool rightwards, class OnPoint, class OnCell>
   void look(const Rays& rays, Cones& cones, OnPoint& point, OnCell& on_cell) const;
   template <bool rightwards, class OnPoint, class OnCell>
@@ -118,180 +111,131 @@ class Trapezoids {
 /// Order from left to right, of equal x from below.
 inline bool is_left_of(Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
 
-/// Directions of the rays that are still open. A direction is a number that grows with its angle,
-/// from −2 to 2. A limit by an end that was passed holds for what is some way farther on: nearer
-/// by, a ray may have come to its own end before it comes past the other.
-class Trapezoids::Bounds {
- public:
-  /// Of rays that pass an end: the least direction above it, the most below it, and how closely
-  /// those pass it that have these directions.
-  struct Limits {
-    double above = -infinite, below = infinite;
-    double doubt2 = 0;  ///< squared
-    bool limits = false;
-  };
-
-  /// At x.
-  void reach(double x) {
-    if (x >= least_from_) least_ = std::max(least_, std::exchange(next_least_, -infinite));
-    if (x >= most_from_) most_ = std::min(most_, std::exchange(next_most_, infinite));
-  }
-  void pass_above(const Limits& end, double from) {
-    if (end.above > next_least_) next_least_ = end.above, least_from_ = from;
-  }
-  void pass_below(const Limits& end, double from) {
-    if (end.below < next_most_) next_most_ = end.below, most_from_ = from;
-  }
-  /// Leaves out what goes back.
-  void go_on() {
-    least_ = std::max(least_, -1.0);
-    most_ = std::min(most_, 1.0);
-  }
-  /// By the distance that is kept on the wrong side of the end. Holds for rays that do not go back.
-  void pass_nearly_above(const Limits& end) {
-    if (end.limits) least_ = std::max(least_, end.below);
-  }
-  void pass_nearly_below(const Limits& end) {
-    if (end.limits) most_ = std::min(most_, end.above);
-  }
-  bool hold(double direction, double doubt2) const {
-    const double beyond = std::max(least_ - direction, direction - most_) - same_ray;
-    return beyond <= 0 || beyond * beyond <= doubt2;
-  }
-  bool are_empty() const { return least_ > most_ + same_ray; }
-  bool begin_before(const Bounds& o) const { return least_ < o.least_; }
-  bool overlap(const Bounds& above) const { return above.least_ <= most_; }
-  /// Both, and what is between them.
-  void join(const Bounds& o) {
-    least_ = std::min(least_, o.least_);
-    most_ = std::max(most_, o.most_);
-    next_least_ = std::min(next_least_, o.next_least_);
-    next_most_ = std::max(next_most_, o.next_most_);
-    least_from_ = std::max(least_from_, o.least_from_);
-    most_from_ = std::max(most_from_, o.most_from_);
-  }
-
- private:
-  static constexpr double infinite = std::numeric_limits<double>::infinity();
-
-  double least_ = -infinite, most_ = infinite;
-  double next_least_ = -infinite, next_most_ = infinite;
-  double least_from_ = -infinite, most_from_ = -infinite;
-};
-
-struct Trapezoids::Cone {
+/// What is seen of a cell from a disc: the rays within the bounds.
+struct Trapezoids::Beam {
   std::uint32_t cell;
-  std::uint32_t lower = none;  ///< point; none: straight down
-  std::uint32_t upper = none;
-  Bounds bounds = {};
+  bool goes_back = false;  ///< some of its rays, as far as they are seen
+  RayBounds bounds = {};
 };
 
-/// Rays to one side, seen so that they go to the right.
+/// Rays from a place, or from the circle around an end of segments. What is seen from there is
+/// known exactly; the rays come by what limits it.
 template <bool rightwards>
-class Trapezoids::View {
+class Trapezoids::PlaceView {
  public:
-  using Limits = Bounds::Limits;
+  PlaceView(const Trapezoids& cells, const Rays& rays)
+      : cells_(cells),
+        view_(rays),
+        rays_(rays),
+        turn_((rightwards ? 1.0 : -1.0) * ((rays.offset > 0) - (rays.offset < 0))),
+        width_((1 - 1e-6) * (turn_ == 0 ? rays.keep : 2 * rays.keep)) {}
 
-  View(const Rays& rays, bool from_disc)
-      : rays_(rays),
-        from_disc_(from_disc),
-        offset_(rightwards ? rays.offset : -rays.offset),
-        keep_((1 - share) * rays.keep),
-        doubt_(4 * share * (std::abs(rays.offset) + rays.keep)) {
-    const double inside = (1 - share) * std::max(0.0, std::abs(rays.offset) - rays.keep);
-    inside2_ = inside * inside;
-  }
-
-  bool from_disc() const { return from_disc_; }
-  double place_of(Vec2 p) const { return rightwards ? p.x : -p.x; }
-  /// From where on a limit by this end holds.
-  double holds_from(Vec2 p) const { return place_of(p) + 3 * rays_.keep; }
-  /// Whether so far on nothing is seen by rays that go back. Such a ray comes from the disc, and
-  /// what it passes closely at its end is less far back than the disc.
-  bool goes_on(Vec2 p) const {
-    return place_of(p) >= place_of(rays_.centre) + std::abs(rays_.offset) + 2 * rays_.keep;
-  }
-  /// Whether p is above (+1) or below (−1) the line from the place through q. Exact.
-  int side(Vec2 q, Vec2 p) const {
-    const int side = orientation(rays_.centre, q, p);
+  /// Whether p is above (+1) or below (−1) the line through a point. Exact.
+  int side(std::uint32_t point, Vec2 p) const {
+    const int side = orientation(rays_.centre, cells_.points_[point], p);
     return rightwards ? side : -side;
   }
-  Limits limits(Vec2 p, double radius = 0) const {
-    Vec2 off = p - rays_.centre;
-    if (!rightwards) off.x = -off.x;
-    const double apart2 = squared_norm(off);
-    // What is in the disc limits nothing.
-    if (apart2 <= inside2_) return {};
-    const double least = radius + keep_;
-    return {.above = turned(off, apart2, offset_ + least),
-            .below = turned(off, apart2, offset_ - least),
-            .doubt2 = doubt_ / std::sqrt(apart2),
-            .limits = true};
+  /// Whether no ray comes through between the two points and gets farther than `at`.
+  bool is_closed(const Cone& cone, Vec2 at) const {
+    if (!holds(cone.lower, at) || !holds(cone.upper, at)) return false;
+    return are_too_near(off(cone.lower), off(cone.upper));
   }
-  /// What is above a ray is to its left, or to its right for one who looks to the left.
-  Sides sides(const Limits& end, const Bounds& bounds) const {
-    if (!end.limits) return {true, true};
-    const bool is_above = bounds.hold(end.below, end.doubt2);
-    const bool is_below = bounds.hold(end.above, end.doubt2);
+  /// Sides of rays through the cone on which an end may be.
+  Sides sides(const Cone& cone, Vec2 p) const {
+    const Vec2 there = off(p);
+    const bool is_above = !holds(cone.lower, p) || !are_too_near(off(cone.lower), there);
+    const bool is_below = !holds(cone.upper, p) || !are_too_near(there, off(cone.upper));
     return rightwards ? Sides{is_above, is_below} : Sides{is_below, is_above};
   }
-  Sides sides(const Disc& disc, const Bounds& bounds) const {
-    return sides(limits(disc.centre, disc.radius), bounds);
+  Sides sides(const Cone& cone, const Disc& disc) const {
+    RayBounds bounds;
+    const Cell& cell = cells_.cells_[cone.cell];
+    if (const std::uint32_t begin = rightwards ? cell.left : cell.right; begin != none) {
+      const Vec2 at = cells_.points_[begin];
+      if (holds(cone.lower, at))
+        bounds.pass_above(view_.limits(cells_.points_[cone.lower]), view_.place_of(at));
+      if (holds(cone.upper, at))
+        bounds.pass_below(view_.limits(cells_.points_[cone.upper]), view_.place_of(at));
+      bounds.reach(view_.place_of(at));
+    }
+    return view_.sides(disc, bounds);
   }
 
  private:
-  static constexpr double share = 1e-6;
-
-  /// The direction to what is `off`, turned so far to the left that it passes at a distance.
-  static double turned(Vec2 off, double apart2, double distance) {
-    const double along2 = apart2 - distance * distance;
-    const Vec2 d = along2 > 0 ? std::sqrt(along2) * off + distance * perpendicular(off)
-                              : std::copysign(1.0, distance) * perpendicular(off);
-    const double slope = d.y / (std::abs(d.x) + std::abs(d.y));
-    if (d.x >= 0) return slope;
-    return slope >= 0 ? 2 - slope : -2 - slope;
+  Vec2 off(Vec2 p) const {
+    const Vec2 off = p - rays_.centre;
+    return rightwards ? off : Vec2{-off.x, off.y};
+  }
+  Vec2 off(std::uint32_t point) const { return off(cells_.points_[point]); }
+  bool holds(std::uint32_t point, Vec2 at) const {
+    return point != none && view_.place_of(at) >= view_.holds_from(cells_.points_[point]);
+  }
+  /// Whether the angle from a point up to another is less than that at which the width is seen: of
+  /// the strip of a ray that has the lower one to its right, and the upper one, or else what the
+  /// ray goes around, to its left.
+  bool are_too_near(Vec2 lower, Vec2 upper) const {
+    if (dot(lower, upper) <= 0) return false;
+    const double apart = std::max(0.0, cross(lower, upper));
+    double farther2 = turn_ > 0 ? squared_norm(upper) : squared_norm(lower);
+    if (turn_ == 0) farther2 = std::max(squared_norm(upper), farther2);
+    return apart * apart < width_ * width_ * farther2;
   }
 
+  const Trapezoids& cells_;
+  RayView<rightwards> view_;
   Rays rays_;
-  bool from_disc_;
-  double offset_;
-  double keep_;
-  double doubt_;
-  double inside2_;
+  double turn_;  ///< of the rays around the circle: 1 counter-clockwise, 0 without one
+  double width_;
 };
 
 /// Looks through one cell, and calls push(cone) for the cells beyond.
 template <bool rightwards, class OnPoint, class OnCell, class Push>
-void Trapezoids::look_through(const Cone& cone, const View<rightwards>& view, OnPoint& point,
+void Trapezoids::look_through(const Cone& cone, const PlaceView<rightwards>& view, OnPoint& point,
                               OnCell& on_cell, Push&& push) const {
-  on_cell(cone.cell, [&](const Disc& disc) { return view.sides(disc, cone.bounds); });
+  on_cell(cone.cell, [&](const Disc& disc) { return view.sides(cone, disc); });
   const Cell& cell = cells_[cone.cell];
   const std::uint32_t end = rightwards ? cell.right : cell.left;
   if (end == none) return;
   const Vec2 p = points_[end];
   int over = 1, under = 1;
-  if (cone.lower != none) over = view.side(points_[cone.lower], p);
-  if (cone.upper != none) under = -view.side(points_[cone.upper], p);
-  const Bounds::Limits limits = view.limits(p);
-  Bounds bounds = cone.bounds;
-  bounds.reach(view.place_of(p));
-  if (const Sides sides = view.sides(limits, bounds);
-      over >= 0 && under >= 0 && (sides.left || sides.right))
-    point(end, sides);
+  if (cone.lower != none) over = view.side(cone.lower, p);
+  if (cone.upper != none) under = -view.side(cone.upper, p);
+  if (over >= 0 && under >= 0)
+    if (const Sides sides = view.sides(cone, p); sides.left || sides.right) point(end, sides);
   const std::uint32_t below = rightwards ? cell.right_below : cell.left_below;
   const std::uint32_t above = rightwards ? cell.right_above : cell.left_above;
-  const bool exact = !view.from_disc();
-  const bool goes_on = !exact && view.goes_on(p);
-  if (goes_on) bounds.go_on();
-  if (below != none && over > 0) {
-    Cone next{below, cone.lower, under > 0 && exact ? end : cone.upper, bounds};
-    if (goes_on) next.bounds.pass_nearly_below(limits);
+  const auto push_open = [&](const Cone& next) {
+    if (!view.is_closed(next, p)) push(next);
+  };
+  if (below != none && over > 0) push_open({below, cone.lower, under > 0 ? end : cone.upper});
+  if (above != none && under > 0) push_open({above, over > 0 ? end : cone.lower, cone.upper});
+}
+
+/// The same for a beam.
+template <bool rightwards, class OnPoint, class OnCell, class Push>
+void Trapezoids::look_through(const Beam& beam, const RayView<rightwards>& view, OnPoint& point,
+                              OnCell& on_cell, Push&& push) const {
+  on_cell(beam.cell, [&](const Disc& disc) { return view.sides(disc, beam.bounds); });
+  const Cell& cell = cells_[beam.cell];
+  const std::uint32_t end = rightwards ? cell.right : cell.left;
+  if (end == none) return;
+  const Vec2 p = points_[end];
+  const RayBounds::Limits limits = view.limits(p);
+  RayBounds bounds = beam.bounds;
+  bounds.reach(view.place_of(p));
+  if (const Sides sides = view.sides(limits, bounds); sides.left || sides.right) point(end, sides);
+  if (beam.goes_back && view.goes_on(p)) return;
+  const std::uint32_t below = rightwards ? cell.right_below : cell.left_below;
+  const std::uint32_t above = rightwards ? cell.right_above : cell.left_above;
+  if (below != none) {
+    Beam next{below, beam.goes_back, bounds};
+    if (!beam.goes_back) next.bounds.pass_nearly_below(limits);
     next.bounds.pass_below(limits, view.holds_from(p));
     if (!next.bounds.are_empty()) push(next);
   }
-  if (above != none && under > 0) {
-    Cone next{above, over > 0 && exact ? end : cone.lower, cone.upper, bounds};
-    if (goes_on) next.bounds.pass_nearly_above(limits);
+  if (above != none) {
+    Beam next{above, beam.goes_back, bounds};
+    if (!beam.goes_back) next.bounds.pass_nearly_above(limits);
     next.bounds.pass_above(limits, view.holds_from(p));
     if (!next.bounds.are_empty()) push(next);
   }
@@ -299,7 +243,7 @@ void Trapezoids::look_through(const Cone& cone, const View<rightwards>& view, On
 
 template <bool rightwards, class OnPoint, class OnCell>
 void Trapezoids::look(const Rays& rays, Cones& cones, OnPoint& point, OnCell& on_cell) const {
-  const View<rightwards> view(rays, false);
+  const PlaceView<rightwards> view(*this, rays);
   while (!cones.empty()) {
     const Cone cone = cones.back();
     cones.pop_back();
@@ -313,32 +257,34 @@ class Trapezoids::Front {
  public:
   explicit Front(std::span<const Cell> cells) : cells_(cells) {}
   bool empty() const { return open_.empty(); }
-  void push(const Cone& cone) {
-    open_.push_back({key(cone.cell), cone});
+  void push(const Beam& beam) {
+    open_.push_back({key(beam.cell), beam});
     std::push_heap(open_.begin(), open_.end());
   }
-  /// The next cell: its cones from below, those that overlap as one.
-  void pop(Cones& cones) {
-    cones.clear();
+  /// The next cell: its beams from below, those that overlap as one.
+  void pop(std::vector<Beam>& beams) {
+    beams.clear();
     do {
       std::pop_heap(open_.begin(), open_.end());
-      const Cone next = open_.back().cone;
+      const Beam next = open_.back().beam;
       open_.pop_back();
-      if (!cones.empty() && cones.back().bounds.overlap(next.bounds))
-        cones.back().bounds.join(next.bounds);
+      if (!beams.empty() && beams.back().goes_back == next.goes_back &&
+          beams.back().bounds.overlap(next.bounds))
+        beams.back().bounds.join(next.bounds);
       else
-        cones.push_back(next);
-    } while (!open_.empty() && open_.front().cone.cell == cones.back().cell);
+        beams.push_back(next);
+    } while (!open_.empty() && open_.front().beam.cell == beams.back().cell);
   }
 
  private:
   struct Entry {
     std::uint32_t key;
-    Cone cone;
+    Beam beam;
     bool operator<(const Entry& o) const {
       if (key != o.key) return key > o.key;
-      if (cone.cell != o.cone.cell) return cone.cell > o.cone.cell;
-      return o.cone.bounds.begin_before(cone.bounds);
+      if (beam.cell != o.beam.cell) return beam.cell > o.beam.cell;
+      if (beam.goes_back != o.beam.goes_back) return o.beam.goes_back;
+      return o.beam.bounds.begin_before(beam.bounds);
     }
   };
   /// Neighbours have a smaller one.
@@ -352,17 +298,22 @@ class Trapezoids::Front {
   std::vector<Entry> open_;
 };
 
-/// From a disc, cones that begin in different cells overlap.
+/// From a disc, beams that begin in different cells overlap.
 template <bool rightwards, class OnPoint, class OnCell>
 void Trapezoids::look_from(const Rays& rays, std::span<const std::uint32_t> cells, OnPoint& point,
                            OnCell& on_cell) const {
-  const View<rightwards> view(rays, true);
+  const RayView<rightwards> view(rays);
   Front<rightwards> front(cells_);
-  for (const std::uint32_t cell : cells) front.push({cell});
-  for (Cones cones; !front.empty();) {
-    front.pop(cones);
-    for (const Cone& cone : cones)
-      look_through(cone, view, point, on_cell, [&](const Cone& next) { front.push(next); });
+  RayBounds ahead;
+  ahead.go_on();
+  for (const std::uint32_t cell : cells) {
+    front.push({cell, false, ahead});
+    front.push({cell, true, {}});
+  }
+  for (std::vector<Beam> beams; !front.empty();) {
+    front.pop(beams);
+    for (const Beam& beam : beams)
+      look_through(beam, view, point, on_cell, [&](const Beam& next) { front.push(next); });
   }
 }
 
@@ -399,7 +350,7 @@ class Trapezoids::Look {
 
 template <bool rightwards, class OnPoint, class OnCell>
 void Trapezoids::Look::look(const Cone& start, double length, OnPoint& point, OnCell& on_cell) {
-  const View<rightwards> view(rays_, false);
+  const PlaceView<rightwards> view(*cells_, rays_);
   cones_.push_back(start);
   while (!cones_.empty()) {
     const Cone cone = cones_.back();

@@ -14,6 +14,18 @@ namespace {
 
 constexpr std::uint8_t often = 8;  // visits of a circle by queries
 
+/// Takes the wheels of a corner that may be led to and were not seen in this look.
+template <class SidesOf, class Take>
+void see(std::uint32_t corner, SidesOf&& sides_of, std::vector<std::uint32_t>& seen,
+         std::uint32_t look, Take&& take) {
+  std::uint32_t& left = seen[2 * corner];
+  std::uint32_t& right = seen[2 * corner + 1];
+  if (left == look && right == look) return;
+  const Sides sides = sides_of();
+  if (sides.left && std::exchange(left, look) != look) take(2 * corner);
+  if (sides.right && std::exchange(right, look) != look) take(2 * corner + 1);
+}
+
 }  // namespace
 
 ShortestPaths::ShortestPaths(const Map& map, double clearance)
@@ -44,14 +56,11 @@ void ShortestPaths::know(std::uint32_t wheel) {
   Wheel& at = wheels_[wheel];
   at.is_known = true;
   ++look_;
-  const auto see = [&](std::uint32_t to) {
-    if (std::exchange(seen_[to], look_) != look_) add_hop(wheel, to);
-  };
   corners_.seen_from(wheel / 2, circle.radius, clearance_, sense(wheel) > 0,
-                     [&](std::uint32_t corner, Trapezoids::Sides sides) {
-                       if (corner == wheel / 2) return;
-                       if (sides.left) see(2 * corner);
-                       if (sides.right) see(2 * corner + 1);
+                     [&](std::uint32_t corner, auto&& sides) {
+                       see(corner, sides, seen_, look_, [&](std::uint32_t to) {
+                         if (corner != wheel / 2) add_hop(wheel, to);
+                       });
                      });
   bytes_ += at.hops.capacity() * sizeof(Hop);
   std::ranges::sort(at.hops, [turn = sense(wheel)](const Hop& a, const Hop& b) {
@@ -165,12 +174,8 @@ void ShortestPaths::open_from_start() {
 /// Opens those over which ways of this length and a little more may lead.
 void ShortestPaths::look_from_start(double length) {
   constexpr double more = 1.05;
-  const auto see = [&](std::uint32_t to) {
-    if (std::exchange(starts_seen_[to], query_) != query_) open_from_start(to);
-  };
-  corners_.look_on(from_start_, more * length, [&](std::uint32_t corner, Trapezoids::Sides sides) {
-    if (sides.left) see(2 * corner);
-    if (sides.right) see(2 * corner + 1);
+  corners_.look_on(from_start_, more * length, [&](std::uint32_t corner, auto&& sides) {
+    see(corner, sides, starts_seen_, query_, [&](std::uint32_t to) { open_from_start(to); });
   });
 }
 

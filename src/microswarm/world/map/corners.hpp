@@ -40,7 +40,7 @@ class Corners {
   const Trapezoids& cells() const { return cells_; }
 
   /// Calls visit(number, sides) for the corners that a path from corner `i` may lead to straight,
-  /// and for some more, for some repeatedly; `sides` tells where the path may have them. It keeps
+  /// and for some more, for some repeatedly; sides() tells where the path may have them. It keeps
   /// `clearance` [µm], touches a circle of radius `radius` around the corner, a little more than
   /// that from its disc, and has it on its left.
   template <class Visit>
@@ -72,15 +72,15 @@ class Corners {
 
   template <class Visit>
   auto point_visitor(Visit& visit) const {
-    return [this, &visit](std::uint32_t point, Trapezoids::Sides sides) {
-      for (const std::uint32_t corner : at_.of(point)) visit(corner, sides);
+    return [this, &visit](std::uint32_t point, Sides sides) {
+      for (const std::uint32_t corner : at_.of(point)) visit(corner, [sides] { return sides; });
     };
   }
   template <class Visit>
   auto cell_visitor(Visit& visit) const {
     return [this, &visit](std::uint32_t cell, auto&& sides_of) {
       const auto see = [&](std::uint32_t i) {
-        visit(i, sides_of(Disc{corners_[i].centre, corners_[i].radius}));
+        visit(i, [&] { return sides_of(Disc{corners_[i].centre, corners_[i].radius}); });
       };
       const Trapezoids::Cell& here = cells_.cells()[cell];
       for (const std::uint32_t segment : {here.bottom, here.top})
@@ -101,7 +101,7 @@ template <class Visit>
 void Corners::seen_from(std::uint32_t i, double radius, double clearance, bool left,
                         Visit&& visit) const {
   const Corner& corner = corners_[i];
-  const Trapezoids::Rays rays{corner.centre, left ? radius : -radius, clearance};
+  const Rays rays{corner.centre, left ? radius : -radius, clearance};
   if (corner.is_disc)
     cells_.look_around(rays, around_.of(i), point_visitor(visit), cell_visitor(visit));
   else
