@@ -17,8 +17,8 @@ struct BenchOptions {
   bool json = false;
 };
 
-constexpr const char* groups[] = {"planning", "sweep", "swarm",  "global",
-                                  "gather",   "radar", "vision", "lab"};
+constexpr const char* groups[] = {"planning", "sweep",  "swarm",  "global", "gather",
+                                  "radar",    "growth", "vision", "lab"};
 
 int measure(const BenchOptions& o) {
   if (std::find(std::begin(groups), std::end(groups), o.group) == std::end(groups))
@@ -50,8 +50,7 @@ void add_bench(Command app, Action& action) {
                                 "3 if one is slower than these "
                                 "or misses its aim",
                                 "bench planning --quick --csv planning.csv");
-  cmd.add_option("group", o->group,
-                 "Benchmark: planning, sweep, swarm, global, gather, radar, vision, lab")
+  cmd.add_option("group", o->group, fmt::format("Benchmark: {}", fmt::join(groups, ", ")).c_str())
       .required()
       .type_name("GROUP");
   cmd.add_option("--csv", o->csv, "Also write the rows to this CSV file").type_name("FILE");
