@@ -107,10 +107,11 @@ Growth of_robots(bool quick, const Stop& stop) {
     const Vec2 p = uniform_in(map.bounds(), rng);
     if (map.is_free(p, 4 * stepper.guard())) places.push_back(p);
   }
+  const int count = quick ? 200 : 1000;
   std::vector<Vec2> moves;
-  for (int k = 0; k < (quick ? 200 : 1000); ++k)
+  moves.reserve(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k)
     moves.push_back(k % 25 == 0 ? unit_vector(rng.uniform(0, 2 * pi)) : moves.back());
-  const auto count = static_cast<int>(moves.size());
   for (const std::size_t n : {256U, 1024U, 4096U, 16384U, 65536U}) {
     if (stop()) break;
     const std::vector<Vec2> first(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(n));
@@ -140,6 +141,7 @@ Growth of_obstacles(bool quick, const Stop& stop) {
     const double side = room * std::sqrt(n);
     const auto map = std::make_shared<const Map>(Box{{0, 0}, {side, side}}, std::vector<Polygon>{});
     std::vector<Body> bodies;
+    bodies.reserve(static_cast<std::size_t>(n));
     for (int i = 0; i < n; ++i)
       bodies.push_back({.shape = Disc{uniform_in(map->bounds(), rng), 275},
                         .obstacle = static_cast<std::uint32_t>(i)});

@@ -53,6 +53,7 @@ std::optional<BasePlan> shortest_base_plan(RolloutSimulator& simulator, const Ro
     Pursuit pursuit = Pursuit::paused;
   };
   std::vector<Run> runs;
+  runs.reserve(methods.size());
   for (const Aggregation method : methods)
     runs.push_back({with_checkpoints(robots), simulator.policy(method)});
   const auto is_paused = [](const Run& run) { return run.pursuit == Pursuit::paused; };
