@@ -6,21 +6,18 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <iterator>
-#include <limits>
-#include <memory>
 #include <optional>
 #include <string>
 
 #include "bench/naive_robots.hpp"
 #include "bench/ompl_peer.hpp"
 #include "bench/planning.hpp"
+#include "bench/radar.hpp"
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/maths.hpp"
 #include "microswarm/core/maths/rng.hpp"
 #include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/geometry/uniform_in.hpp"
-#include "microswarm/navigation/radar/radar.hpp"
 #include "microswarm/planning/path/planners.hpp"
 #include "microswarm/scenes/vascular.hpp"
 #include "microswarm/scenes/worlds.hpp"
@@ -124,52 +121,18 @@ Growth of_robots(bool quick, const Stop& stop) {
   return growth;
 }
 
-/// A guarded decision of the radar among discs that stand as densely.
+/// Guarded decisions of the radar on drives among discs.
 Growth of_obstacles(bool quick, const Stop& stop) {
-  constexpr double radius = 350, room = 1400;
-  Growth growth{.name = "a guarded radar decision",
+  Growth growth{.name = "a guarded radar decision on a drive",
                 .of = "discs",
                 .unit = "µs",
                 .peer = "every direction against every disc",
                 .aim = 0.5};
-  const SwarmLimits limits{.radius = radius,
-                           .max_speed = 85.8,
-                           .max_turn_rate = std::numeric_limits<double>::infinity()};
   for (const int n : {16, 64, 256, 1024, 4096}) {
     if (stop()) break;
-    Rng rng(3, Purpose::scene);
-    const double side = room * std::sqrt(n);
-    const auto map = std::make_shared<const Map>(Box{{0, 0}, {side, side}}, std::vector<Polygon>{});
-    std::vector<Body> bodies;
-    bodies.reserve(static_cast<std::size_t>(n));
-    for (int i = 0; i < n; ++i)
-      bodies.push_back({.shape = Disc{uniform_in(map->bounds(), rng), 275},
-                        .obstacle = static_cast<std::uint32_t>(i)});
-    const Snapshot world(map, 0, std::move(bodies));
-    std::vector<Vec2> places;
-    for (int draw = 0; draw < 100'000 && std::ssize(places) < 100; ++draw) {
-      const Vec2 p = uniform_in(map->bounds(), rng);
-      if (world.is_free(p, radius)) places.push_back(p);
-    }
-    RadarNavigator navigator({}, limits, {0, 0}, 1, Rng(1, Purpose::planner));
-    double now = 0;
-    const auto decide = [&](int k) {
-      now += 0.1;
-      const Vec2 p = places[static_cast<std::size_t>(k) % places.size()];
-      navigator.step({.now = now,
-                      .seen = now,
-                      .swarm = SwarmPose{{p, 0}, radius},
-                      .robots = {},
-                      .world = borrowed(world)},
-                     {});
-    };
-    const double ours = time_of(quick ? 500 : 5000, microsecond, decide);
-    double sum = 0;
-    const double naive = time_of(quick ? 5 : 20, microsecond, [&](int) {
-      if (navigator.last_look()) sum += scan(*navigator.last_look(), world, 360).weights.target;
-    });
-    growth.ours.emplace_back(n, ours);
-    growth.theirs.emplace_back(n, naive + 0 * sum);
+    const DecisionTimes times = drive(n, true, quick ? 2 : 10, stop);
+    growth.ours.emplace_back(n, quantile(times.ours, 0.5));
+    growth.theirs.emplace_back(n, quantile(times.naive, 0.5));
   }
   return growth;
 }

@@ -13,8 +13,10 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/rng.hpp"
 #include "microswarm/core/maths/statistics.hpp"
+#include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/navigation/radar/radar.hpp"
 #include "microswarm/scenes/worlds.hpp"
+#include "microswarm/world/world.hpp"
 
 namespace microswarm::bench {
 namespace {
@@ -79,54 +81,19 @@ struct Aims {
   std::optional<double> p50, p99;
 };
 
-/// Obstacles that move steadily and turn back at the borders of their square.
-class Drift {
- public:
-  Drift(int obstacles, bool discs, Rng& rng)
-      : side_(room_an_obstacle * std::sqrt(obstacles)),
-        map_(std::make_shared<const Map>(Box{{0, 0}, {side_, side_}}, std::vector<Polygon>{})) {
-    for (int i = 0; i < obstacles; ++i) {
-      const double x = rng.uniform(0, side_);
-      const Vec2 at{x, rng.uniform(0, side_)};
-      const double speed = rng.uniform(10, 60);
-      movers_.push_back({.at = at,
-                         .velocity = speed * unit_vector(rng.uniform(-pi, pi)),
-                         .turn_rate = discs ? 0 : rng.uniform(-0.3, 0.3)});
-      movers_.back().body = obstacle(at, discs, static_cast<std::uint32_t>(i), rng);
-    }
+/// Discs or boxes that move steadily to and fro.
+World moving_world(int obstacles, bool discs, Rng& rng) {
+  const double side = room_an_obstacle * std::sqrt(obstacles);
+  const Box box{{0, 0}, {side, side}};
+  World world{std::make_shared<const Map>(box, std::vector<Polygon>{}), {}};
+  for (int i = 0; i < obstacles; ++i) {
+    const Shape shape = discs ? Shape(DiscShape{275}) : Shape(BoxShape{700, 300});
+    const Vec2 from = uniform_in(box, rng);
+    const Vec2 to = uniform_in(box, rng);
+    world.obstacles.push_back({shape, Waypoints{{from, to}, rng.uniform(10, 60), AtEnd::back}});
   }
-
-  double side() const { return side_; }
-  Snapshot at(double t) const {
-    std::vector<Body> bodies;
-    bodies.reserve(movers_.size());
-    for (const Mover& one : movers_) {
-      Body body = one.body;
-      if (auto* polygon = std::get_if<Polygon>(&body.shape))
-        for (Vec2& p : polygon->outer) p = one.at + rotated(p - one.at, t * one.turn_rate);
-      const Vec2 there = one.at + t * one.velocity;
-      shift(body, Vec2{folded(there.x), folded(there.y)} - one.at);
-      bodies.push_back(std::move(body));
-    }
-    return Snapshot(map_, t, std::move(bodies));
-  }
-
- private:
-  struct Mover {
-    Vec2 at, velocity;
-    double turn_rate = 0;  ///< [rad/s]
-    Body body;             ///< at time 0
-  };
-
-  double folded(double v) const {
-    const double turn = std::fmod(std::abs(v), 2 * side_);
-    return turn > side_ ? 2 * side_ - turn : turn;
-  }
-
-  double side_;
-  std::shared_ptr<const Map> map_;
-  std::vector<Mover> movers_;
-};
+  return world;
+}
 
 SwarmLimits swarm_limits() {
   return {.radius = swarm_radius,
@@ -134,56 +101,25 @@ SwarmLimits swarm_limits() {
           .max_turn_rate = std::numeric_limits<double>::infinity()};
 }
 
-std::vector<BenchRow> rows_of(const std::string& name, const std::vector<double>& ours,
-                              const std::vector<double>& naive, Aims aims) {
+Observation observed(const Snapshot& world, Vec2 swarm, double now) {
+  return {.now = now,
+          .seen = now,
+          .swarm = SwarmPose{{swarm, 0}, swarm_radius},
+          .robots = {},
+          .world = borrowed(world)};
+}
+
+std::vector<BenchRow> rows_of(const std::string& name, const DecisionTimes& times, Aims aims) {
   std::vector<BenchRow> rows;
   for (const double q : {0.5, 0.99})
     rows.push_back({.name = name,
                     .quantity = q < 0.6 ? "time of a decision, p50" : "time of a decision, p99",
                     .unit = "µs",
-                    .ours = quantile(ours, q),
-                    .peer = quantile(naive, q),
+                    .ours = quantile(times.ours, q),
+                    .peer = quantile(times.naive, q),
                     .peer_name = "every direction against every obstacle",
                     .aim = q < 0.6 ? aims.p50 : aims.p99});
   return rows;
-}
-
-/// Rows of a guarded decision on drives among obstacles that move steadily.
-std::vector<BenchRow> drive_rows(const std::string& name, int obstacles, bool discs, Aims aims,
-                                 bool quick, const Stop& stop) {
-  constexpr double tick = 0.1;
-  constexpr int ticks = 200;
-  constexpr int warm_up = 5;
-  Rng rng(2, Purpose::scene);
-  std::vector<double> ours, naive;
-  double sum = 0;  // prevents the results from being optimised away
-  for (int drive = 0; drive < (quick ? 10 : 50) && !stop(); ++drive) {
-    const Drift drift(obstacles, discs, rng);
-    const double side = drift.side();
-    RadarNavigator navigator({}, swarm_limits(), {0.9 * side, 0.9 * side}, 1,
-                             Rng(1, Purpose::planner));
-    Vec2 swarm{0.1 * side, 0.1 * side};
-    for (int i = 0; i < ticks; ++i) {
-      const double now = i * tick;
-      const Snapshot world = drift.at(now);
-      const auto began = Clock::now();
-      const Command command = navigator.step({.now = now,
-                                              .seen = now,
-                                              .swarm = SwarmPose{{swarm, 0}, swarm_radius},
-                                              .robots = {},
-                                              .world = borrowed(world)},
-                                             {});
-      const auto decided = Clock::now();
-      if (navigator.last_look()) sum += scan(*navigator.last_look(), world, 360).weights.target;
-      const auto scanned = Clock::now();
-      if (i < warm_up) continue;
-      ours.push_back(std::chrono::duration<double, std::micro>(decided - began).count());
-      naive.push_back(std::chrono::duration<double, std::micro>(scanned - decided).count());
-      swarm += tick * command.speed * unit_vector(command.heading);
-    }
-  }
-  ours.front() += 0 * sum;
-  return rows_of(name, ours, naive, aims);
 }
 
 /// Rows of a radar decision, as published or with the safety filter.
@@ -196,32 +132,53 @@ void add_rows(std::vector<BenchRow>& rows, const std::string& name, int obstacle
   RadarNavigator navigator(params, swarm_limits(), {0, 0}, 1, Rng(1, Purpose::planner));
   double now = 0;
   double sum = 0;  // prevents the results from being optimised away
-  const std::vector<double> ours = times(all, quick ? 20 : 100, stop, [&](const Place& place) {
+  DecisionTimes measured;
+  measured.ours = times(all, quick ? 20 : 100, stop, [&](const Place& place) {
     now += 0.1;
-    sum += navigator
-               .step({.now = now,
-                      .seen = now,
-                      .swarm = SwarmPose{{place.swarm, 0}, swarm_radius},
-                      .robots = {},
-                      .world = borrowed(*place.world)},
-                     {})
-               .heading;
+    sum += navigator.step(observed(*place.world, place.swarm, now), {}).heading;
   });
-  const std::vector<double> naive = times(all, quick ? 1 : 3, stop, [&](const Place& place) {
-    navigator.step({.now = now,
-                    .seen = now,
-                    .swarm = SwarmPose{{place.swarm, 0}, swarm_radius},
-                    .robots = {},
-                    .world = borrowed(*place.world)},
-                   {});
+  measured.naive = times(all, quick ? 1 : 3, stop, [&](const Place& place) {
+    navigator.step(observed(*place.world, place.swarm, now), {});
     if (navigator.last_look())
       sum += scan(*navigator.last_look(), *place.world, 360).weights.target;
   });
-  std::ranges::move(rows_of(name, ours, naive, aims), std::back_inserter(rows));
+  std::ranges::move(rows_of(name, measured, aims), std::back_inserter(rows));
   rows.back().ours += 0 * sum;
 }
 
 }  // namespace
+
+DecisionTimes drive(int obstacles, bool discs, int drives, const Stop& stop) {
+  constexpr double tick = 0.1;
+  constexpr int ticks = 200;
+  constexpr int warm_up = 5;
+  Rng rng(2, Purpose::scene);
+  DecisionTimes times;
+  double sum = 0;  // prevents the results from being optimised away
+  const auto micros = [](Clock::duration time) {
+    return std::chrono::duration<double, std::micro>(time).count();
+  };
+  for (int k = 0; k < drives && !stop(); ++k) {
+    const World world = moving_world(obstacles, discs, rng);
+    const double side = world.map->bounds().width();
+    RadarNavigator navigator({}, swarm_limits(), {0.9 * side, 0.9 * side}, 1,
+                             Rng(1, Purpose::planner));
+    Vec2 swarm{0.1 * side, 0.1 * side};
+    for (int i = 0; i < ticks; ++i) {
+      const Snapshot seen = world.at(i * tick);
+      const auto began = Clock::now();
+      const Command command = navigator.step(observed(seen, swarm, i * tick), {});
+      const auto decided = Clock::now();
+      if (navigator.last_look()) sum += scan(*navigator.last_look(), seen, 360).weights.target;
+      const auto scanned = Clock::now();
+      swarm += tick * command.speed * unit_vector(command.heading);
+      if (i < warm_up) continue;
+      times.ours.push_back(micros(decided - began));
+      times.naive.push_back(micros(scanned - decided) + 0 * sum);
+    }
+  }
+  return times;
+}
 
 std::vector<BenchRow> radar(bool quick, const Stop& stop) {
   std::vector<BenchRow> rows;
@@ -234,9 +191,9 @@ std::vector<BenchRow> radar(bool quick, const Stop& stop) {
   for (const auto& [name, obstacles, discs, aims] :
        {std::tuple{"guarded drive among 12 moving discs", 12, true, Aims{5, 50}},
         {"guarded drive among 1000 moving discs", 1000, true, Aims{100, 100}},
-        {"guarded drive among 12 turning boxes", 12, false, Aims{}},
-        {"guarded drive among 1000 turning boxes", 1000, false, Aims{}}})
-    std::ranges::move(drive_rows(name, obstacles, discs, aims, quick, stop),
+        {"guarded drive among 12 moving boxes", 12, false, Aims{}},
+        {"guarded drive among 1000 moving boxes", 1000, false, Aims{}}})
+    std::ranges::move(rows_of(name, drive(obstacles, discs, quick ? 10 : 50, stop), aims),
                       std::back_inserter(rows));
   return rows;
 }

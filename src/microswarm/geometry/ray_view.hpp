@@ -33,7 +33,7 @@ class RayBounds {
   struct Limits {
     double above = -infinite, below = infinite;
     double doubt2 = 0;  ///< squared
-    bool limits = false;
+    bool exist = false;
   };
 
   /// At x.
@@ -54,10 +54,10 @@ class RayBounds {
   }
   /// By the distance that is kept on the wrong side of the end. Holds for rays that do not go back.
   void pass_nearly_above(const Limits& end) {
-    if (end.limits) least_ = std::max(least_, end.below);
+    if (end.exist) least_ = std::max(least_, end.below);
   }
   void pass_nearly_below(const Limits& end) {
-    if (end.limits) most_ = std::min(most_, end.above);
+    if (end.exist) most_ = std::min(most_, end.above);
   }
   bool hold(double direction, double doubt2) const {
     const double beyond = std::max(least_ - direction, direction - most_) - same_ray;
@@ -118,11 +118,11 @@ class RayView {
     return {.above = turned(off, apart2, offset_ + least),
             .below = turned(off, apart2, offset_ - least),
             .doubt2 = doubt_ / std::sqrt(apart2),
-            .limits = true};
+            .exist = true};
   }
   /// What is above a ray is to its left, or to its right for one who looks to the left.
   Sides sides(const Limits& end, const RayBounds& bounds) const {
-    if (!end.limits) return {true, true};
+    if (!end.exist) return {true, true};
     const bool is_above = bounds.hold(end.below, end.doubt2);
     const bool is_below = bounds.hold(end.above, end.doubt2);
     return rightwards ? Sides{is_above, is_below} : Sides{is_below, is_above};

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "microswarm/core/maths/infinity.hpp"
-#include "microswarm/planning/common/free_goal.hpp"
 #include "microswarm/planning/grid/grid.hpp"
 
 namespace microswarm {
@@ -51,12 +50,10 @@ class SteppedSearch : public GridSearch<SteppedSearch, SteppedCell> {
 
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const AStarParams& params, Rng& rng,
           const Stop& stop) {
-  const Target target =
-      find_target(world, start.position, goal, params.goal_tolerance, params.clearance);
-  if (target.fault) return target.blocked(start.position);
-  return plan_on_grids(world, start, goal, params, rng, stop, [&](const AStarParams& on_grid) {
-    return SteppedSearch(world, start.position, goal, on_grid).run(stop);
-  });
+  return plan_on_grids(world, start, goal, params, rng, stop,
+                       [&](const AStarParams& on_grid, Vec2) {
+                         return SteppedSearch(world, start.position, goal, on_grid).run(stop);
+                       });
 }
 
 }  // namespace microswarm

@@ -10,6 +10,7 @@
 #include <queue>
 #include <vector>
 
+#include "microswarm/planning/common/free_goal.hpp"
 #include "microswarm/planning/exact/exact.hpp"
 #include "microswarm/planning/grid/grid_params.hpp"
 
@@ -199,14 +200,17 @@ class GridSearch {
   PlanCounts counts_;
 };
 
-/// Plan of `search(params)` on ever finer grids, as GridParams tells. `search` says no_path of a
-/// grid without a path.
+/// Plan of `search(params, target)` on ever finer grids, as GridParams tells; `target` is a free
+/// place at the goal. `search` says no_path of a grid without a path.
 template <class Params, class Search>
 Plan plan_on_grids(const Snapshot& world, Pose2 start, Vec2 goal, Params params, Rng& rng,
                    const Stop& stop, Search&& search) {
+  const Target target =
+      find_target(world, start.position, goal, params.goal_tolerance, params.clearance);
+  if (target.fault) return target.blocked(start.position);
   PlanCounts before;
   for (bool is_first = true;; is_first = false) {
-    Plan plan = search(params);
+    Plan plan = search(params, target.place);
     plan.counts += before;
     if (plan.status != Status::no_path) return plan;
     if (is_first) {

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "microswarm/core/maths/infinity.hpp"
-#include "microswarm/planning/common/free_goal.hpp"
 #include "microswarm/planning/grid/grid.hpp"
 
 namespace microswarm {
@@ -77,12 +76,10 @@ class AnyAngleSearch : public GridSearch<AnyAngleSearch, SeenCell> {
 
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const ThetaStarParams& params, Rng& rng,
           const Stop& stop) {
-  const Target target =
-      find_target(world, start.position, goal, params.goal_tolerance, params.clearance);
-  if (target.fault) return target.blocked(start.position);
-  return plan_on_grids(world, start, goal, params, rng, stop, [&](const ThetaStarParams& on_grid) {
-    return AnyAngleSearch(world, start.position, goal, target.place, on_grid).run(stop);
-  });
+  return plan_on_grids(
+      world, start, goal, params, rng, stop, [&](const ThetaStarParams& on_grid, Vec2 target) {
+        return AnyAngleSearch(world, start.position, goal, target, on_grid).run(stop);
+      });
 }
 
 }  // namespace microswarm

@@ -16,9 +16,9 @@ std::array<Vec2, 4> diameters(const Disc& d) {
           Vec2{d.centre.x, d.centre.y + d.radius}, Vec2{d.centre.x + d.radius, d.centre.y}};
 }
 
-/// Radius of a disc that no other wall touches, and that of no other disc: its own if it stands
-/// apart, else a smaller one.
-double own_radius(const BodySet& walls, std::size_t disc) {
+/// Radius of the disc around the same centre that touches no wall and no other disc of such a
+/// radius: its own if it stands apart, else a smaller one.
+double apart_radius(const BodySet& walls, std::size_t disc) {
   constexpr double less = 0.9;
   const Disc d = walls.discs().disc(disc);
   if (walls.polygons().holds(d.centre)) return 0;
@@ -87,7 +87,7 @@ Corners::Corners(const BodySet& walls, const Box& bounds) {
     }
     const auto number = static_cast<std::uint32_t>(corners_.size() - 1);
     const Disc& disc = std::get<Disc>(body.shape);
-    const double radius = own_radius(walls, discs++);
+    const double radius = apart_radius(walls, discs++);
     (radius == disc.radius && radius > 0 ? standing : overlapping).push_back(number);
     if (radius <= 0.1 * disc.radius) continue;  // hides too little
     const auto [left, low, high, right] = diameters({disc.centre, radius});
