@@ -2,426 +2,75 @@
 #include "microswarm/planning/exact/shortest_paths.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
-#include <utility>
-
-#include "microswarm/core/maths/angles.hpp"
-#include "microswarm/core/maths/infinity.hpp"
+#include <span>
 
 namespace microswarm {
-namespace {
-
-constexpr std::uint8_t often = 8;  // visits of a circle by queries
-
-/// Takes the wheels of a corner that may be led to and were not seen in this look.
-template <class SidesOf, class Take>
-void see(std::uint32_t corner, SidesOf&& sides_of, std::vector<std::uint32_t>& seen,
-         std::uint32_t look, Take&& take) {
-  std::uint32_t& left = seen[2 * corner];
-  std::uint32_t& right = seen[2 * corner + 1];
-  if (left == look && right == look) return;
-  const Sides sides = sides_of();
-  if (sides.left && std::exchange(left, look) != look) take(2 * corner);
-  if (sides.right && std::exchange(right, look) != look) take(2 * corner + 1);
-}
-
-}  // namespace
-
-ShortestPaths::ShortestPaths(const Map& map, double clearance)
-    : map_(&map), corners_(map.corners()), clearance_(clearance) {
-  const Box& box = map.bounds();
-  margin_ = std::max(1e-7 * clearance, 1e-10 * std::max(box.width(), box.height()));
-  circles_.reserve(corners_.all().size());
-  for (const Corner& corner : corners_.all()) circles_.push_back(circle_of(corner));
-  wheels_.resize(2 * circles_.size());
-  seen_.resize(2 * circles_.size(), 0);
-  starts_seen_.resize(2 * circles_.size(), 0);
-  bytes_ = circles_.size() * (sizeof(Circle) + 2 * sizeof(Wheel));
-}
-
-ShortestPaths::Circle ShortestPaths::circle_of(const Corner& corner) const {
-  return {{.centre = corner.centre,
-           .radius = corner.radius + clearance_ + margin_,
-           .from = corner.from,
-           .width = corner.width,
-           .first = corner.first,
-           .last = corner.last,
-           .is_disc = corner.is_disc}};
-}
-
-/// Finds the tangents of a wheel.
-void ShortestPaths::know(std::uint32_t wheel) {
-  const Circle& circle = circles_[wheel / 2];
-  Wheel& at = wheels_[wheel];
-  at.is_known = true;
-  ++look_;
-  corners_.seen_from(wheel / 2, circle.radius, clearance_, sense(wheel) > 0,
-                     [&](std::uint32_t corner, auto&& sides) {
-                       see(corner, sides, seen_, look_, [&](std::uint32_t to) {
-                         if (corner != wheel / 2) add_hop(wheel, to);
-                       });
-                     });
-  bytes_ += at.hops.capacity() * sizeof(Hop);
-  std::ranges::sort(at.hops, [turn = sense(wheel)](const Hop& a, const Hop& b) {
-    return a.leave != b.leave ? turn * a.leave < turn * b.leave : a.to < b.to;
-  });
-  if (circle.visits >= often) settle(wheel);
-}
-
-/// Adds the tangent of two wheels if there is one that leaves from a free place.
-void ShortestPaths::add_hop(std::uint32_t from, std::uint32_t to) {
-  Circle& a = circles_[from / 2];
-  const auto line = join(a, sense(from), circles_[to / 2], sense(to));
-  if (!line) return;
-  Hop hop{.line = *line, .to = to};
-  hop.leave = a.angle_of(-sense(from) * perpendicular(line->along));
-  const int arc = still_arc_at(a, hop.leave);
-  if (arc < 0) return;
-  hop.leave_arc = static_cast<std::uint16_t>(arc);
-  wheels_[from].hops.push_back(hop);
-}
-
-/// Whether a hop is free of walls.
-bool ShortestPaths::test(std::uint32_t from, Hop& hop) {
-  if (hop.walls != Walls::unknown) return hop.walls == Walls::free;
-  hop.walls = Walls::blocked;
-  Circle& there = circles_[hop.to / 2];
-  hop.arrive = there.angle_of(-sense(hop.to) * perpendicular(hop.line.along));
-  const int arc = still_arc_at(there, hop.arrive);
-  if (arc < 0) return false;
-  hop.arrive_arc = static_cast<std::uint16_t>(arc);
-  if (map_->is_free(segment(touch(from, hop.line), hop.line), clearance_)) hop.walls = Walls::free;
-  return hop.walls == Walls::free;
-}
-
-/// Tests all hops of a wheel and forgets the blocked ones.
-void ShortestPaths::settle(std::uint32_t wheel) {
-  std::erase_if(wheels_[wheel].hops, [&](Hop& hop) { return !test(wheel, hop); });
-}
-
-/// Number of the arc free of walls that holds this place; −1 if none does.
-int ShortestPaths::still_arc_at(Circle& circle, double at) {
-  if (!circle.is_cut) {
-    circle.is_cut = true;
-    circle.arcs = cut(circle, nullptr, arcs_);
-  }
-  return microswarm::arc_at(circle, at, circle.arcs.of(arcs_));
-}
-
-/// The same for an arc that is free also of moving bodies.
-int ShortestPaths::arc_at(Circle& circle, double at) {
-  return is_near_moving(circle) ? microswarm::arc_at(circle, at, circle.arcs_now.of(arcs_now_))
-                                : still_arc_at(circle, at);
-}
-
-ShortestPaths::ArcRange ShortestPaths::cut(const Circle& circle, const BodySet* moving,
-                                           std::vector<Arc>& arcs) const {
-  const std::size_t first = arcs.size();
-  add_free_arcs(circle, *map_, moving, clearance_, margin_, arcs);
-  return {static_cast<std::uint32_t>(first), static_cast<std::uint16_t>(arcs.size() - first)};
-}
-
-/// Whether a moving body may cut the circle; if so, its present arcs are known afterwards.
-bool ShortestPaths::is_near_moving(Circle& circle) {
-  if (!moving_) return false;
-  if (circle.query != query_) {
-    circle.query = query_;
-    circle.is_near = !moving_->is_free(circle.centre, circle.radius + clearance_ + 2 * margin_);
-    if (circle.is_near) circle.arcs_now = cut(circle, moving_, arcs_now_);
-  }
-  return circle.is_near;
-}
-
-ShortestPaths::Wheel& ShortestPaths::wheel(std::uint32_t number) {
-  Wheel& at = wheels_[number];
-  if (at.query != query_) {
-    at.query = query_;
-    at.first_label = none;
-  }
-  return at;
-}
-
-void ShortestPaths::push(const Open& open) {
-  open_.push_back(open);
-  std::push_heap(open_.begin(), open_.end());
-}
-
-/// Takes in the query and opens the tangents from the start.
-void ShortestPaths::begin(Vec2 start, Vec2 goal, const BodySet& moving) {
-  start_ = start;
-  goal_ = goal;
-  moving_ = moving.empty() ? nullptr : &moving;
-  ++query_;
-  arcs_now_.clear();
-  guesses_.clear();
-  labels_.clear();
-  open_.clear();
-  moving_corners_.clear();
-  for (const Body& body : moving.bodies()) add_corners(body, map_->bounds(), moving_corners_);
-  circles_.resize(still_count());
-  for (const Corner& corner : moving_corners_) circles_.push_back(circle_of(corner));
-  wheels_.resize(2 * circles_.size());
-}
-
-/// Opens the tangents from the start to what is seen nearest to the way to the goal.
-void ShortestPaths::open_from_start() {
-  from_start_.begin(corners_.cells(), start_, goal_, clearance_);
-  for (std::uint32_t to = 2 * still_count(); to < wheels_.size(); ++to) open_from_start(to);
-  look_from_start(distance(start_, goal_));
-}
-
-/// Opens those over which ways of this length and a little more may lead.
-void ShortestPaths::look_from_start(double length) {
-  constexpr double more = 1.05;
-  corners_.look_on(from_start_, more * length, [&](std::uint32_t corner, auto&& sides) {
-    see(corner, sides, starts_seen_, query_, [&](std::uint32_t to) { open_from_start(to); });
-  });
-}
-
-void ShortestPaths::open_from_start(std::uint32_t to) {
-  const auto line = join({.centre = start_}, 1, circles_[to / 2], sense(to));
-  if (!line) return;
-  const double left = distance(touch(to, *line), goal_);
-  const auto number = static_cast<std::uint32_t>(guesses_.size());
-  guesses_.push_back({.line = *line, .to = to});
-  push({line->length + left, line->length, none, to, number, true});
-}
-
-/// Whether an earlier label at the wheel comes by at no greater length.
-bool ShortestPaths::is_dominated(const Label& label) {
-  const Circle& circle = circles_[label.wheel / 2];
-  const double to = sense(label.wheel);
-  for (std::uint32_t i = wheel(label.wheel).first_label; i != none; i = labels_[i].next) {
-    const Label& other = labels_[i];
-    if (other.arc != label.arc) continue;
-    const double angle = circle.way_around(to, other.arrive, label.arrive);
-    if (angle >= 0 && (!circle.is_disc || angle < pi) &&
-        other.length + circle.radius * angle <= label.length)
-      return true;
-  }
-  return false;
-}
-
-/// Opens what leaves the wheel ahead of where the label arrives.
-void ShortestPaths::expand(const Label& label, std::uint32_t number) {
-  const std::uint32_t corner = label.wheel / 2;
-  guess(label, number, {.centre = goal_}, none);
-  if (corner < still_count()) {
-    expand_hops(label, number);
-    for (std::uint32_t i = still_count(); i < circles_.size(); ++i) guess_both(label, number, i);
-    return;
-  }
-  for (std::uint32_t i = 0; i < circles_.size(); ++i)
-    if (i != corner) guess_both(label, number, i);
-}
-
-/// Opens the kept hops.
-void ShortestPaths::expand_hops(const Label& label, std::uint32_t number) {
-  Circle& circle = circles_[label.wheel / 2];
-  if (!wheels_[label.wheel].is_known) know(label.wheel);
-  const bool is_first =  // of this query at this circle: none of its hops is open
-      label.next == none && wheel(label.wheel ^ 1).first_label == none;
-  if (is_first && circle.visits < often && ++circle.visits == often)
-    for (const std::uint32_t either : {label.wheel, label.wheel ^ 1}) settle(either);
-  const bool is_near = is_near_moving(circle);
-  const double turn = sense(label.wheel);
-  std::vector<Hop>& hops = wheels_[label.wheel].hops;
-  const auto consider = [&](std::size_t i) {
-    Hop& hop = hops[i];
-    if (hop.walls == Walls::blocked) return;
-    const int arc = is_near ? arc_at(circle, hop.leave) : hop.leave_arc;
-    if (arc != label.arc) return;
-    const double angle = circle.way_around(turn, label.arrive, hop.leave);
-    const double length = label.length + circle.radius * angle + hop.line.length;
-    if (hop.query == query_ && hop.best <= length) return;
-    hop.query = query_;
-    hop.best = length;
-    const double left = distance(touch(hop.to, hop.line), goal_);
-    push({length + left, length, number, hop.to, static_cast<std::uint32_t>(i), false});
-  };
-  const auto ahead = std::ranges::partition_point(
-      hops, [&](const Hop& hop) { return turn * hop.leave < turn * label.arrive - angle_slack; });
-  const auto first = static_cast<std::size_t>(ahead - hops.begin());
-  for (std::size_t i = first; i < hops.size(); ++i) consider(i);
-  if (circle.is_disc)  // once around
-    for (std::size_t i = 0; i < first; ++i) consider(i);
-}
-
-void ShortestPaths::guess_both(const Label& label, std::uint32_t number, std::uint32_t corner) {
-  for (std::uint32_t to = 2 * corner; to < 2 * corner + 2; ++to)
-    guess(label, number, circles_[corner], to);
-}
-
-/// Opens the tangent from the label's wheel to another, or to the goal.
-void ShortestPaths::guess(const Label& label, std::uint32_t number, const TurningCircle& there,
-                          std::uint32_t to) {
-  Circle& circle = circles_[label.wheel / 2];
-  const double turn = sense(label.wheel);
-  const bool ends = to == none;
-  const auto line = join(circle, turn, there, ends ? 1 : sense(to));
-  if (!line) return;
-  const double leave = circle.angle_of(-turn * perpendicular(line->along));
-  const double angle = circle.way_around(turn, label.arrive, leave);
-  if (angle < 0 || arc_at(circle, leave) != label.arc) return;
-  const double length = label.length + circle.radius * angle + line->length;
-  const double left = ends ? 0 : distance(touch(to, *line), goal_);
-  push({length + left, length, number, to, static_cast<std::uint32_t>(guesses_.size()), true});
-  guesses_.push_back({*line, leave, to});
-}
 
 ShortestPath ShortestPaths::find(Vec2 start, Vec2 goal, const BodySet& moving, const Stop& stop) {
   ShortestPath path;
-  begin(start, goal, moving);
-  if (is_free({start, goal})) {
+  search_.begin(start, goal, moving);
+  if (search_.is_free({start, goal})) {
     path.status = Status::solved;
     path.length = distance(start, goal);
     path.points = {start, goal};
     path.lines = 1;
     return path;
   }
-  open_from_start();
+  search_.open_from_start();
   for (;;) {
-    const double next = open_.empty() ? infinity : open_.front().estimate;
-    if (from_start_.left() <= next && from_start_.left() < infinity) {
-      look_from_start(from_start_.left());
-      continue;
-    }
-    if (open_.empty()) break;
     if (path.expanded % 8 == 0)
       if (const auto told = stop.status()) {
         path.status = *told;
         break;
       }
-    std::pop_heap(open_.begin(), open_.end());
-    const Open open = open_.back();
-    open_.pop_back();
-    Label label{.length = open.length, .parent = open.parent};
-    if (!take(open, label)) continue;
-    const auto number = static_cast<std::uint32_t>(labels_.size());
-    if (label.wheel == none) {
-      labels_.push_back(label);
+    const auto number = search_.next();
+    if (!number) break;
+    const TangentSearch::Label& label = search_.labels()[*number];
+    if (label.wheel == TangentSearch::none) {
       path.status = Status::solved;
-      path.length = open.length;
-      path.points = draw(number);
+      path.length = label.length;
+      path.points = search_.path_to(*number);
       path.points.back() = goal;
       break;
     }
-    if (is_dominated(label)) continue;
-    label.next = std::exchange(wheel(label.wheel).first_label, number);
-    labels_.push_back(label);
     ++path.expanded;
-    expand(label, number);
+    search_.expand(*number);
   }
-  if (path.status != Status::solved) path.points = near_goal();
-  path.lines = labels_.size();
+  if (path.status != Status::solved) path.points = near(goal);
+  path.lines = search_.labels().size();
   return path;
 }
 
 /// A path to where the search came near the goal.
-std::vector<Vec2> ShortestPaths::near_goal() {
+std::vector<Vec2> ShortestPaths::near(Vec2 goal) const {
   constexpr std::size_t tried = 16;  // of the nearest places
-  std::vector<std::uint32_t> near(labels_.size());
+  const auto labels = search_.labels();
+  std::vector<std::uint32_t> near(labels.size());
   std::iota(near.begin(), near.end(), 0);
-  const auto left = [&](std::uint32_t i) { return distance(end_of(labels_[i]), goal_); };
+  const auto left = [&](std::uint32_t i) { return distance(labels[i].end(), goal); };
   const std::size_t count = std::min(tried, near.size());
   std::ranges::partial_sort(near, near.begin() + static_cast<std::ptrdiff_t>(count), {}, left);
-  std::vector<Vec2> best{start_};
-  add(walk(start_), best);
+  std::vector<Vec2> best{search_.start()};
+  search_.add(walk(search_.start(), goal), best);
   for (const std::uint32_t i : std::span(near).first(count)) {
-    const Vec2 end = walk(end_of(labels_[i]));
-    if (distance(end, goal_) >= distance(best.back(), goal_)) continue;
-    best = draw(i);
-    add(end, best);
+    const Vec2 end = walk(labels[i].end(), goal);
+    if (distance(end, goal) >= distance(best.back(), goal)) continue;
+    best = search_.path_to(i);
+    search_.add(end, best);
   }
   return best;
 }
 
 /// How far one gets on the straight line to the goal.
-Vec2 ShortestPaths::walk(Vec2 from) {
+Vec2 ShortestPaths::walk(Vec2 from, Vec2 goal) const {
   double free = 0, blocked = 1;
   for (int i = 0; i < 20; ++i) {
     const double middle = 0.5 * (free + blocked);
-    const bool goes = is_free({from, from + middle * (goal_ - from)});
+    const bool goes = search_.is_free({from, from + middle * (goal - from)});
     (goes ? free : blocked) = middle;
   }
-  return from + free * (goal_ - from);
-}
-
-/// The label of an open line; false if the line is not free or a better one was found.
-bool ShortestPaths::take(const Open& open, Label& label) {
-  const std::uint32_t leaves = open.parent == none ? none : labels_[open.parent].wheel;
-  if (!open.is_guess) {
-    Hop& hop = wheels_[leaves].hops[open.line];
-    if (hop.best < open.length || !test(leaves, hop)) return false;
-    label.line = hop.line;
-    label.from = touch(leaves, hop.line);
-    label.leave = hop.leave;
-    label.arrive = hop.arrive;
-    label.wheel = hop.to;
-    label.arc = hop.arrive_arc;
-    if (!moving_) return true;
-    if (is_near_moving(circles_[hop.to / 2]) && !arrive(label)) return false;
-    return moving_->is_free(segment(label.from, label.line), clearance_);
-  }
-  const Guess& guess = guesses_[open.line];
-  label.line = guess.line;
-  label.leave = guess.leave;
-  label.from = leaves == none ? start_ : touch(leaves, guess.line);
-  label.wheel = guess.to;
-  if (guess.to != none) {
-    label.arrive =
-        circles_[guess.to / 2].angle_of(-sense(guess.to) * perpendicular(guess.line.along));
-    if (!arrive(label)) return false;
-  }
-  return is_free(segment(label.from, label.line));
-}
-
-/// Finds the arc at which a label arrives; false if it is not free.
-bool ShortestPaths::arrive(Label& label) {
-  const int arc = arc_at(circles_[label.wheel / 2], label.arrive);
-  label.arc = static_cast<std::uint16_t>(std::max(0, arc));
-  return arc >= 0;
-}
-
-bool ShortestPaths::is_free(Segment s) const {
-  return map_->is_free(s, clearance_) && (!moving_ || moving_->is_free(s, clearance_));
-}
-
-/// The path to the end of a label.
-std::vector<Vec2> ShortestPaths::draw(std::uint32_t last) const {
-  std::vector<std::uint32_t> chain;
-  for (std::uint32_t i = last; i != none; i = labels_[i].parent) chain.push_back(i);
-  std::ranges::reverse(chain);
-  std::vector<Vec2> points{start_};
-  for (std::size_t k = 0; k < chain.size(); ++k) {
-    const Label& label = labels_[chain[k]];
-    if (k > 0) {
-      const Label& before = labels_[chain[k - 1]];
-      draw_arc(circles_[before.wheel / 2], sense(before.wheel), before.arrive, label.leave, points);
-      add(label.from, points);
-    }
-    add(end_of(label), points);
-  }
-  return points;
-}
-
-/// Adds a point unless it is the last one but for rounding.
-void ShortestPaths::add(Vec2 p, std::vector<Vec2>& points) const {
-  if (distance(p, points.back()) > 0.01 * margin_) points.push_back(p);
-}
-
-/// Adds lines around the arc, each of which touches it.
-void ShortestPaths::draw_arc(const Circle& circle, double sense, double from, double to,
-                             std::vector<Vec2>& points) const {
-  const double angle = circle.way_around(sense, from, to);
-  constexpr double step = 0.1;  // [rad]
-  const int count = static_cast<int>(std::ceil(angle / step));
-  if (angle < angle_slack) return;
-  const double each = angle / count;
-  const double outer = circle.radius / maths::cos(0.5 * each);
-  for (int i = 0; i < count; ++i)
-    add(circle.centre + outer * unit_vector(circle.from + from + sense * (i + 0.5) * each), points);
+  return from + free * (goal - from);
 }
 
 }  // namespace microswarm

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/planning/exact/shortest_path_tree.hpp"
+
+#include <algorithm>
+
+namespace microswarm {
+
+ShortestPathTree::ShortestPathTree(const Map& map, Vec2 goal, double clearance)
+    : map_(&map),
+      goal_(goal),
+      clearance_(clearance),
+      has_root_(is_finite(goal) && map.is_free(goal, clearance)) {}
+
+double ShortestPathTree::length_from(Vec2 p) { return best_from(p).length; }
+
+std::vector<Vec2> ShortestPathTree::path_from(Vec2 p) {
+  const Best best = best_from(p);
+  if (best.length == infinity) return {};
+  if (best.label == TangentSearch::none) return {p, goal_};
+  std::vector<Vec2> path = search_->path_to(best.label);
+  search_->go_on(search_->labels()[best.label], best.line, p, path);
+  path.back() = p;
+  std::ranges::reverse(path);
+  return path;
+}
+
+/// The tree is grown and the look widened until nothing shorter can come.
+ShortestPathTree::Best ShortestPathTree::best_from(Vec2 p) {
+  if (!has_root_ || !is_finite(p) || !map_->is_free(p, clearance_)) return {};
+  if (map_->is_free(Segment{p, goal_}, clearance_)) return {.length = distance(p, goal_)};
+  if (!search_) {
+    search_.emplace(*map_, clearance_);
+    search_->begin(goal_, std::nullopt, {});
+    search_->open_from_start();
+  }
+  seen_.clear();
+  look_.begin(search_->corners().cells(), p, goal_, clearance_);
+  constexpr double more = 1.5;
+  for (double length = distance(p, goal_);;) {
+    grow(length);
+    look_on(length);
+    const Best best = best_over_seen(p);
+    const double known = std::min(search_->reached(), look_.left());
+    if (best.length <= std::max(length, known) || known == infinity) return best;
+    length = best.length < infinity ? best.length : std::max(more * length, known);
+  }
+}
+
+void ShortestPathTree::grow(double length) {
+  while (const auto label = search_->next(length)) search_->expand(*label);
+}
+
+/// Sees the wheels over which ways of this length may lead, as the tree goes around them.
+void ShortestPathTree::look_on(double length) {
+  search_->corners().look_on(look_, length, [&](std::uint32_t corner, auto&& sides_of) {
+    const Sides sides = sides_of();
+    if (sides.left) seen_.push_back(2 * corner + 1);
+    if (sides.right) seen_.push_back(2 * corner);
+  });
+  std::ranges::sort(seen_);
+  seen_.erase(std::unique(seen_.begin(), seen_.end()), seen_.end());
+}
+
+/// The shortest path over what is seen and grown so far.
+ShortestPathTree::Best ShortestPathTree::best_over_seen(Vec2 p) {
+  lines_.clear();
+  const auto labels = search_->labels();
+  for (const std::uint32_t wheel : seen_)
+    for (std::uint32_t i = search_->last_label(wheel); i != TangentSearch::none; i = labels[i].next)
+      if (const auto line = search_->leaving(labels[i], p))
+        lines_.push_back({line->length, i, *line});
+  std::ranges::sort(lines_, [](const Best& a, const Best& b) {
+    return a.length != b.length ? a.length < b.length : a.label < b.label;
+  });
+  for (const Best& one : lines_)
+    if (map_->is_free(Segment{p - one.line.line.length * one.line.line.along, p}, clearance_))
+      return one;
+  return {};
+}
+
+}  // namespace microswarm

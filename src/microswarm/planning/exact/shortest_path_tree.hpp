@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "microswarm/planning/exact/tangent_search.hpp"
+
+namespace microswarm {
+
+/// Shortest paths of a disc from everywhere to one goal, for one clearance: a tree over the
+/// tangents of the map's corners with its root at the goal. It is grown by Dijkstra's algorithm as
+/// far as the queries need it; each then looks around its place and takes the best line to a
+/// circle of the tree. Not for several threads at once.
+class ShortestPathTree {
+ public:
+  /// `map` must outlive it. `clearance` [µm].
+  ShortestPathTree(const Map& map, Vec2 goal, double clearance);
+
+  /// Length of the shortest path from `p` to the goal [µm]; infinity without one, and where `p` or
+  /// the goal has not the clearance.
+  double length_from(Vec2 p);
+  /// That path, in which arcs are replaced by lines around them; empty without one.
+  std::vector<Vec2> path_from(Vec2 p);
+
+ private:
+  /// How a path to the goal begins.
+  struct Best {
+    double length = infinity;
+    std::uint32_t label = TangentSearch::none;  ///< of the circle it goes to; none: the goal
+    TangentSearch::Leaving line;                ///< from there
+  };
+  Best best_from(Vec2 p);
+  Best best_over_seen(Vec2 p);
+  void look_on(double length);
+  void grow(double length);
+
+  const Map* map_;
+  Vec2 goal_;
+  double clearance_;
+  bool has_root_;
+  std::optional<TangentSearch> search_;  ///< once a path that bends is asked for
+
+  // Of the present query.
+  Trapezoids::Look look_;
+  std::vector<std::uint32_t> seen_;  ///< wheels
+  std::vector<Best> lines_;          ///< to seen wheels
+};
+
+}  // namespace microswarm
