@@ -28,22 +28,36 @@ std::vector<Vec2> ShortestPathTree::path_from(Vec2 p) {
 ShortestPathTree::Best ShortestPathTree::best_from(Vec2 p) {
   if (!has_root_ || !is_finite(p) || !map_->is_free(p, clearance_)) return {};
   if (map_->is_free(Segment{p, goal_}, clearance_)) return {.length = distance(p, goal_)};
+  const double straight = distance(p, goal_);
   if (!search_) {
     search_.emplace(*map_, clearance_);
-    search_->begin(goal_, std::nullopt, {});
-    search_->open_from_start();
+    search_->begin_to_everywhere(goal_);
+    headed_for_ = goal_;
   }
+  turn_to(p, straight);
+  const double off = distance(p, headed_for_);
   seen_.clear();
   look_.begin(search_->corners().cells(), p, goal_, clearance_);
   constexpr double more = 1.5;
-  for (double length = distance(p, goal_);;) {
-    grow(length);
+  for (double length = straight;;) {
+    grow(length + off);
     look_on(length);
     const Best best = best_over_seen(p);
-    const double known = std::min(search_->reached(), look_.left());
+    const double known = std::min(search_->reached() - off, look_.left());
     if (best.length <= std::max(length, known) || known == infinity) return best;
     length = best.length < infinity ? best.length : std::max(more * length, known);
   }
+}
+
+/// Heads for `p` unless that is nearly so. A tree that was asked for places all over heads for its
+/// root, and so grows about evenly.
+void ShortestPathTree::turn_to(Vec2 p, double straight) {
+  constexpr double near = 0.1;
+  constexpr int most_turns = 64;
+  if (turns_ == most_turns || distance(p, headed_for_) <= near * straight) return;
+  ++turns_;
+  headed_for_ = turns_ == most_turns ? goal_ : p;
+  search_->head_for(headed_for_);
 }
 
 void ShortestPathTree::grow(double length) {

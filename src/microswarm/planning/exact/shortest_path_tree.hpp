@@ -11,9 +11,9 @@
 namespace microswarm {
 
 /// Shortest paths of a disc from everywhere to one goal, for one clearance: a tree over the
-/// tangents of the map's corners with its root at the goal. It is grown by Dijkstra's algorithm as
-/// far as the queries need it; each then looks around its place and takes the best line to a
-/// circle of the tree. Not for several threads at once.
+/// tangents of the map's corners with its root at the goal. It is grown by A* towards the places
+/// that are asked for, as far as they need it; a query then looks around its place and takes the
+/// best line to a circle of the tree. Not for several threads at once.
 class ShortestPathTree {
  public:
   /// `map` must outlive it. `clearance` [µm].
@@ -35,6 +35,7 @@ class ShortestPathTree {
   Best best_from(Vec2 p);
   Best best_over_seen(Vec2 p);
   void look_on(double length);
+  void turn_to(Vec2 p, double straight);
   void grow(double length);
 
   const Map* map_;
@@ -42,6 +43,8 @@ class ShortestPathTree {
   double clearance_;
   bool has_root_;
   std::optional<TangentSearch> search_;  ///< once a path that bends is asked for
+  Vec2 headed_for_;                      ///< as the tree is grown
+  int turns_ = 0;                        ///< of where it heads for
 
   // Of the present query.
   Trapezoids::Look look_;

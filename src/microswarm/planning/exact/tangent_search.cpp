@@ -146,9 +146,10 @@ void TangentSearch::push(const Open& open) {
   std::push_heap(open_.begin(), open_.end());
 }
 
-void TangentSearch::begin(Vec2 start, std::optional<Vec2> goal, const BodySet& moving) {
+void TangentSearch::begin(Vec2 start, Vec2 goal, const BodySet& moving) {
   start_ = start;
   goal_ = goal;
+  ends_there_ = true;
   moving_ = moving.empty() ? nullptr : &moving;
   ++query_;
   arcs_now_.clear();
@@ -163,9 +164,27 @@ void TangentSearch::begin(Vec2 start, std::optional<Vec2> goal, const BodySet& m
 }
 
 void TangentSearch::open_from_start() {
-  from_start_.begin(corners_.cells(), start_, goal_.value_or(start_), clearance_);
+  from_start_.begin(corners_.cells(), start_, goal_, clearance_);
   for (std::uint32_t to = 2 * still_count(); to < wheels_.size(); ++to) open_from_start(to);
-  look_from_start(goal_ ? distance(start_, *goal_) : infinity);
+  look_from_start(distance(start_, goal_));
+}
+
+void TangentSearch::begin_to_everywhere(Vec2 start) {
+  begin(start, start, {});
+  ends_there_ = false;
+  open_from_start();
+  look_from_start(infinity);
+}
+
+void TangentSearch::head_for(Vec2 place) {
+  goal_ = place;
+  for (Open& open : open_) {
+    const TangentLine& line = open.is_guess
+                                  ? guesses_[open.line].line
+                                  : wheels_[labels_[open.parent].wheel].hops[open.line].line;
+    open.estimate = open.length + distance(touch(open.to, line), place);
+  }
+  std::make_heap(open_.begin(), open_.end());
 }
 
 /// Opens those over which ways of this length and a little more may lead.
@@ -179,7 +198,7 @@ void TangentSearch::look_from_start(double length) {
 void TangentSearch::open_from_start(std::uint32_t to) {
   const auto line = join({.centre = start_}, 1, circles_[to / 2], sense(to));
   if (!line) return;
-  const double left = left_from(touch(to, *line));
+  const double left = distance(touch(to, *line), goal_);
   const auto number = static_cast<std::uint32_t>(guesses_.size());
   guesses_.push_back({.line = *line, .to = to});
   push({line->length + left, line->length, none, to, number, true});
@@ -204,7 +223,7 @@ bool TangentSearch::is_dominated(const Label& label) {
 void TangentSearch::expand(std::uint32_t number) {
   const Label label = labels_[number];
   const std::uint32_t corner = label.wheel / 2;
-  if (goal_) guess(label, number, {.centre = *goal_}, none);
+  if (ends_there_) guess(label, number, {.centre = goal_}, none);
   if (corner < still_count()) {
     expand_hops(label, number);
     for (std::uint32_t i = still_count(); i < circles_.size(); ++i) guess_both(label, number, i);
@@ -235,7 +254,7 @@ void TangentSearch::expand_hops(const Label& label, std::uint32_t number) {
     if (hop.query == query_ && hop.best <= length) return;
     hop.query = query_;
     hop.best = length;
-    const double left = left_from(touch(hop.to, hop.line));
+    const double left = distance(touch(hop.to, hop.line), goal_);
     push({length + left, length, number, hop.to, static_cast<std::uint32_t>(i), false});
   };
   const auto ahead = std::ranges::partition_point(
@@ -270,7 +289,7 @@ void TangentSearch::guess(const Label& label, std::uint32_t number, const Turnin
   const bool ends = to == none;
   const auto line = leaving(label, there, ends ? 1 : sense(to));
   if (!line) return;
-  const double left = ends ? 0 : left_from(touch(to, line->line));
+  const double left = ends ? 0 : distance(touch(to, line->line), goal_);
   push({line->length + left, line->length, number, to, static_cast<std::uint32_t>(guesses_.size()),
         true});
   guesses_.push_back({line->line, line->leave, to});

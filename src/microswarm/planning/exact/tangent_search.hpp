@@ -11,8 +11,8 @@
 
 namespace microswarm {
 
-/// Shortest paths from a place over the tangents between the circles around corners, in the order
-/// of their length: to a goal (A*) or to everywhere (Dijkstra).
+/// Shortest paths from a place over the tangents between the circles around corners, by A*: to a
+/// goal, or to everywhere, then one place after the other.
 ///
 /// The tangents of a circle are found when a search first comes to it, tested when their turn
 /// comes, and kept for further searches; those to and from moving bodies are found anew by each.
@@ -49,18 +49,21 @@ class TangentSearch {
   /// About what is kept at most [B].
   std::size_t bytes() const { return bytes_; }
 
-  /// Takes in a query: paths from `start` to a goal or, without one, to everywhere.
-  void begin(Vec2 start, std::optional<Vec2> goal, const BodySet& moving);
+  /// Takes in a query: paths from `start` to `goal`.
+  void begin(Vec2 start, Vec2 goal, const BodySet& moving);
+  /// The same to everywhere, among walls alone, and opens the tangents from the start.
+  void begin_to_everywhere(Vec2 start);
+  /// From now on, lines towards this place come first. For paths to everywhere.
+  void head_for(Vec2 place);
   /// Whether the clearance is kept, to the moving bodies of the query too.
   bool is_free(Segment s) const;
   /// Opens the tangents from the start, those to what is near the way to the goal first. To be
   /// called once a query.
   void open_from_start();
-  /// Length that no label to come falls short of, with the straight line to the goal [µm];
-  /// infinite after the last one.
+  /// Length that no label to come falls short of, with the straight line on to the goal or to the
+  /// place headed for [µm]; infinite after the last one.
   double reached() const;
-  /// Number of the next label, as long as they are not longer than `most` [µm]; nothing after the
-  /// last one.
+  /// Number of the next label if `most` [µm] is not reached yet; nothing after the last one.
   std::optional<std::uint32_t> next(double most = infinity);
   /// Opens the lines that lead on from a label that is not the goal's.
   void expand(std::uint32_t label);
@@ -157,7 +160,6 @@ class TangentSearch {
   static Segment segment(Vec2 from, const TangentLine& line) {
     return {from, from + line.length * line.along};
   }
-  double left_from(Vec2 p) const { return goal_ ? distance(p, *goal_) : 0; }
   std::uint32_t still_count() const { return static_cast<std::uint32_t>(seen_.size() / 2); }
   Circle circle_of(const Corner& corner) const;
   void know(std::uint32_t wheel);
@@ -206,7 +208,8 @@ class TangentSearch {
   // Of the present query.
   std::uint32_t query_ = 0;
   Vec2 start_;
-  std::optional<Vec2> goal_;
+  Vec2 goal_;                        ///< or the place headed for
+  bool ends_there_ = true;           ///< whether it is the goal
   const BodySet* moving_ = nullptr;  ///< null if there is none
   std::vector<Corner> moving_corners_;
   std::vector<Arc> arcs_now_;
