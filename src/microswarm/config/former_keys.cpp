@@ -42,14 +42,23 @@ struct Renaming {
     part.erase(at - 1, at + 1);
   }
 
+  /// Drops it wherever the parts of its name lead to.
+  void retire(YamlNode& part, std::string_view path, std::string_view from) const {
+    const std::size_t dot = path.find('.');
+    const auto value = value_of(part, path.substr(0, dot));
+    if (!value) return;
+    if (dot == std::string_view::npos) return retire(part.items, *value, from);
+    retire(part.items[*value], path.substr(dot + 1), from);
+  }
+
   /// Takes a key of a part of the document to another part.
   void move(YamlNode& document, const MovedKey& moved) const {
+    if (moved.to.empty()) return retire(document, moved.from, moved.from);
     const std::size_t from = moved.from.find('.'), to = moved.to.find('.');
     const auto source = value_of(document, moved.from.substr(0, from));
     if (!source) return;
     const auto value = value_of(document.items[*source], moved.from.substr(from + 1));
     if (!value) return;
-    if (moved.to.empty()) return retire(document.items[*source].items, *value, moved.from);
     auto target = value_of(document, moved.to.substr(0, to));
     if (target) {
       const YamlNode& part = document.items[*target];

@@ -7,11 +7,10 @@
 
 namespace microswarm {
 
-RobotTask::RobotTask(const Scenario& scenario, const Map& map)
-    : map_(&map), goals_(scenario.robots->goals) {
+RobotTask::RobotTask(const Scenario& scenario, const Map& map) : goals_(scenario.robots->goals) {
   constexpr int cells = 512;
   if (!goals_.empty()) return;
-  field_ = DistanceField::over(map, *scenario.goal, cells);
+  field_ = DistanceField::over(Snapshot::of(map).shared_map(), *scenario.goal, cells);
   known_.resize(4096);
 }
 
@@ -19,7 +18,7 @@ double RobotTask::way_from(Vec2 place) {
   Hash hash;
   hash.value(place.x), hash.value(place.y);
   Known& known = known_[hash.digest() % known_.size()];
-  if (known.place != place) known = {place, field_->visible_estimate(*map_, place)};
+  if (known.place != place) known = {place, field_->visible_estimate(place)};
   return known.way;
 }
 

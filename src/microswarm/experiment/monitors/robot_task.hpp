@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "microswarm/experiment/scenario/scenario.hpp"
-#include "microswarm/planning/common/distance_field.hpp"
+#include "microswarm/planning/exact/distance_field.hpp"
 
 namespace microswarm {
 
@@ -30,7 +30,6 @@ class RobotTask {
 
   double way_from(Vec2 place);
 
-  const Map* map_;
   std::vector<Vec2> goals_;
   std::optional<DistanceField> field_;
   std::vector<Known> known_;  // robots that rest, or were pushed together, are asked for again

@@ -79,9 +79,10 @@ struct Scenario {
   std::optional<double> detection_range;
   std::uint64_t seed = 1;
   /// Keys of earlier versions.
-  static constexpr std::array<MovedKey, 4> moved_keys{
+  static constexpr std::array<MovedKey, 5> moved_keys{
       {{"navigator.frame_timeout_s", "sensing.frame_timeout_s"},
        {"navigator.rollout.commit", ""},
+       {"navigator.tuning.route_cell_um", ""},
        {"swarm.field_amplitude_mt", ""},
        {"swarm.field_frequency_hz", ""}}};
   template <class Self, class V>

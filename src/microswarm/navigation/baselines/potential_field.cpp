@@ -35,13 +35,13 @@ PotentialFieldNavigator::PotentialFieldNavigator(const PotentialFieldParams& par
                                                  double goal_tolerance, double frame_timeout)
     : params_(params),
       steering_(swarm, params.speed, goal, goal_tolerance, frame_timeout),
-      guide_(params.guide, goal, params.tuning.route_cell, params.tuning.route_reach),
+      guide_(params.guide, goal, params.tuning.route_reach),
       tracker_(params.tracker) {}
 
 void PotentialFieldNavigator::prepare(const Snapshot& world) {
   const double radius = steering_.swarm().radius;
   steering_.prepare(world, radius, radius + params_.gap);
-  guide_.prepare(world.map(), steering_.aim().position, radius + params_.gap, radius);
+  guide_.prepare(world.shared_map(), steering_.aim().position, radius + params_.gap, radius);
 }
 
 Command PotentialFieldNavigator::step(const Observation& seen, const Stop&) {

@@ -11,7 +11,6 @@ struct PotentialFieldTuning {
   double stencil = 5;
   double rest_speed = 2;
   double command_time = 0.2;
-  double route_cell = 20;
   double route_reach = 400;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
@@ -25,7 +24,6 @@ struct PotentialFieldTuning {
           {"rest_speed", Unit::um_per_s, {0, 1e4}, "Speed below which an obstacle rests."});
     visit(self.command_time,
           {"command_time", Unit::s, {1e-3, 10}, "Time for which a command must be free of walls."});
-    visit(self.route_cell, {"route_cell", Unit::um, {1e-2, 1e5}, "Grid spacing of the route."});
     visit(self.route_reach,
           {"route_reach", Unit::um, {1e-2, 1e6}, "Distance looked ahead along the route."});
   }

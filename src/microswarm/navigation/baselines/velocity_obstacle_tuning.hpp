@@ -8,13 +8,11 @@ namespace microswarm {
 /// Constants of VelocityObstacleNavigator that seldom need a change.
 struct VelocityObstacleTuning {
   double growth_time = 1;
-  double route_cell = 20;
   double route_reach = 400;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.growth_time,
           {"growth_time", Unit::s, {0, 60}, "Time for which polygons keep deforming as observed."});
-    visit(self.route_cell, {"route_cell", Unit::um, {1e-2, 1e5}, "Grid spacing of the route."});
     visit(self.route_reach,
           {"route_reach", Unit::um, {1e-2, 1e6}, "Distance looked ahead along the route."});
   }

@@ -52,8 +52,8 @@ HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params,
 void HierarchicalNavigator::prepare(const Snapshot& world) {
   steering_.prepare(world, params_.clearance, params_.clearance + params_.extra_clearance);
   if (params_.guide == Guide::route)
-    route_ =
-        DistanceField::to_goal(world.map(), aim().position, params_.clearance, params_.route_cell);
+    route_ = DistanceField::to_goal(world.shared_map(), aim().position, params_.clearance,
+                                    params_.route_cell);
 }
 
 Command HierarchicalNavigator::step(const Observation& seen, const Stop& stop) {
@@ -63,7 +63,7 @@ Command HierarchicalNavigator::step(const Observation& seen, const Stop& stop) {
   if (last_command) period_ = std::clamp(seen.now - *last_command, params_.tuning.check_step, 1.0);
   NavigatorView& view = steering_.view();
   view.local_target = target_;
-  if (params_.guide == Guide::route && seen.world) view.phased_goal = towards(seen.world->map());
+  if (params_.guide == Guide::route && seen.world) view.phased_goal = towards();
   view.path = path_;
   view.plan = plan_ ? &*plan_ : nullptr;
   return steering_.command(decision);
@@ -132,7 +132,7 @@ void HierarchicalNavigator::replan(const Snapshot& seen, const Stop& stop) {
   place_ = {};
   const double here = seen.clearance(pose_.position);
   double wanted = params_.clearance + params_.extra_clearance;
-  if (distance(pose_.position, aim().position) <= params_.target.base_distance)  // it may have less
+  if (distance(pose_.position, aim().position) <= ahead())  // it may have less
     wanted = std::clamp(aim().clearance, params_.clearance, wanted);
   if (here < params_.clearance) {
     target_.reset();
@@ -150,10 +150,9 @@ void HierarchicalNavigator::replan(const Snapshot& seen, const Stop& stop) {
 }
 
 // Direction of the goal: straight, or along the route.
-Vec2 HierarchicalNavigator::towards(const Map& map) const {
+Vec2 HierarchicalNavigator::towards() {
   if (params_.guide == Guide::straight) return aim().position;
-  const Vec2 via =
-      route_.ahead(map, pose_.position, 1.5 * params_.target.base_distance, params_.clearance);
+  const Vec2 via = route_.ahead(pose_.position, ahead());
   return via == pose_.position ? aim().position : via;
 }
 
@@ -176,7 +175,7 @@ bool HierarchicalNavigator::replan_in_time(const Snapshot& seen, double clearanc
                                                .delay = steering_.delay(),
                                                .speed = params_.speed,
                                                .goal = aim().position,
-                                               .towards = towards(seen.map()),
+                                               .towards = towards(),
                                                .reach = params_.target.base_distance,
                                                .min_reach = 2 * used_up(),
                                                .angle_step = params_.target.angle_step,
@@ -204,14 +203,14 @@ bool HierarchicalNavigator::replan_with(const Snapshot& world, double clearance,
   if (!world.is_free(from, clearance)) return false;
   path_in_time_ = false;
   const LocalTargetQuery query{.swarm = pose_,
-                               .goal_heading = heading_of(towards(world.map()) - from),
+                               .goal_heading = heading_of(towards() - from),
                                .goal_distance = distance(from, aim().position),
                                .previous_target = target_,
                                .clearance = clearance,
                                .min_distance = swarm().radius};
   const bool near_goal =  // line 6
       params_.as_published ? query.goal_distance <= target_distance(world, query, params_.target)
-                           : query.goal_distance <= params_.target.base_distance &&
+                           : query.goal_distance <= ahead() &&
                                  world.is_free(Segment{from, aim().position}, clearance);
   std::optional<Vec2> target;
   if (near_goal) {

@@ -13,8 +13,8 @@
 #include "microswarm/navigation/hierarchical/local_target.hpp"
 #include "microswarm/navigation/hierarchical/predicted_target.hpp"
 #include "microswarm/navigation/prediction/obstacle_predictor.hpp"
-#include "microswarm/navigation/steering/guide.hpp"
 #include "microswarm/navigation/steering/steering_cycle.hpp"
+#include "microswarm/planning/exact/distance_field.hpp"
 #include "microswarm/planning/path/planners.hpp"
 
 namespace microswarm {
@@ -51,7 +51,9 @@ class HierarchicalNavigator : public Navigator {
   bool replan_with(const Snapshot& world, double clearance, const Stop& stop);
   bool replan_in_time(const Snapshot& seen, double clearance, const Stop& stop);
   void plan_to(const Snapshot& world, Vec2 target, double clearance, const Stop& stop);
-  Vec2 towards(const Map& map) const;
+  Vec2 towards();
+  /// How far ahead the route is looked along, and the goal is headed for itself if in sight [µm].
+  double ahead() const { return 1.5 * params_.target.base_distance; }
   /// Simulates `steer(pose, seconds) → command` for the horizon.
   template <class Steer, class Visit>
   void roll_out(Steer&& steer, Visit&& visit) const;

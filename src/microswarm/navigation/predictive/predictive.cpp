@@ -56,7 +56,7 @@ void PredictiveNavigator::prepare(const Snapshot& world) {
   ends_within_ = goal_tolerance_ - (1 - params_.tuning.goal_share) * left;
   if (params_.guide == Guide::route)
     route_ =
-        DistanceField::to_goal(world.map(), steering_.aim().position,
+        DistanceField::to_goal(world.shared_map(), steering_.aim().position,
                                steering_.wall_clearance(steering_.swarm().radius + params_.wall_gap,
                                                         steering_.aim().position, 0),
                                params_.route_cell);
@@ -184,7 +184,7 @@ void PredictiveNavigator::solve(const Map& map, Vec2 from) {
 }
 
 /// Time to the goal without obstacles [s].
-double PredictiveNavigator::left_from(Vec2 p) const {
+double PredictiveNavigator::left_from(Vec2 p) {
   const double straight = distance(p, steering_.aim().position) - reached_.radius;
   if (in_sight_) return std::max(0.0, straight) / steering_.speed();
   const double way = route_.from(p);
@@ -232,7 +232,7 @@ PredictiveNavigator::Leg PredictiveNavigator::best_leg(const Map& map, const Pos
 
 /// Cost of a first leg plus the best continuation; more than `bound` if it is no better.
 PredictiveNavigator::Leg PredictiveNavigator::tried(const Map& map, const Pose2& from,
-                                                    const Command& command, double bound) const {
+                                                    const Command& command, double bound) {
   const double dt = field_.step() / leg_pieces;
   const double needed =
       std::min(steering_.wall_clearance(steering_.swarm().radius + params_.wall_gap, from.position,

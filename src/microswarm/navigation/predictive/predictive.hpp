@@ -10,8 +10,8 @@
 #include "microswarm/navigation/prediction/multi_model_predictor.hpp"
 #include "microswarm/navigation/predictive/predictive_params.hpp"
 #include "microswarm/navigation/predictive/time_field.hpp"
-#include "microswarm/navigation/steering/guide.hpp"
 #include "microswarm/navigation/steering/steering_cycle.hpp"
+#include "microswarm/planning/exact/distance_field.hpp"
 
 namespace microswarm {
 
@@ -47,10 +47,10 @@ class PredictiveNavigator : public Navigator {
   void look_ahead(double effect);
   bool goal_is_clear(const Map& map, const Pose2& pose) const;
   void solve(const Map& map, Vec2 from);
-  double left_from(Vec2 p) const;
+  double left_from(Vec2 p);
   float standing_risk(const Map& map, Vec2 p) const;
   Leg best_leg(const Map& map, const Pose2& pose);
-  Leg tried(const Map& map, const Pose2& pose, const Command& command, double bound) const;
+  Leg tried(const Map& map, const Pose2& pose, const Command& command, double bound);
   std::optional<double> best_heading(Vec2 p) const;
   double turning_time(const Pose2& pose) const;
   Meeting meeting(int piece, Segment way) const;

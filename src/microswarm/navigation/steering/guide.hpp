@@ -2,9 +2,10 @@
 #pragma once
 
 #include <array>
+#include <memory>
 
 #include "microswarm/navigation/steering/guide_kind.hpp"
-#include "microswarm/planning/common/distance_field.hpp"
+#include "microswarm/planning/exact/route.hpp"
 
 namespace microswarm {
 
@@ -12,26 +13,24 @@ namespace microswarm {
 /// where walls hide it along the route to it.
 class GoalGuide {
  public:
-  /// `cell` is the grid spacing of routes, `reach` the distance looked ahead along them [µm].
-  GoalGuide(Guide kind, Vec2 goal, double cell, double reach)
-      : kind_(kind), goal_(goal), cell_(cell), reach_(reach) {}
+  /// `reach` is the distance looked ahead along routes [µm].
+  GoalGuide(Guide kind, Vec2 goal, double reach) : kind_(kind), goal_(goal), reach_(reach) {}
 
   /// Makes the routes to `goal`: one that keeps `clearance` [µm], and one that keeps `least` for
   /// positions from which the first has no path.
-  void prepare(const Map& map, Vec2 goal, double clearance, double least);
+  void prepare(const std::shared_ptr<const Map>& map, Vec2 goal, double clearance, double least);
   /// What to head for from `from`: the goal or a point of the route that is in sight.
-  Vec2 target(const Map& map, Vec2 from) const;
+  Vec2 target(const Map& map, Vec2 from);
 
  private:
-  struct Route {
-    DistanceField field;
+  struct Way {
+    Route route;
     double clearance = 0;
   };
   Guide kind_;
   Vec2 goal_;
-  double cell_;
   double reach_;
-  std::array<Route, 2> routes_;
+  std::array<Way, 2> ways_;
 };
 
 }  // namespace microswarm

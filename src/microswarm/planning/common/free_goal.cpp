@@ -27,7 +27,8 @@ struct Square {
 };
 
 /// Moves a blocked point along the clearance gradient until it is free; nothing if that fails.
-std::optional<Vec2> pushed_free(const Snapshot& world, Vec2 p, double clearance) {
+template <class World>
+std::optional<Vec2> pushed(const World& world, Vec2 p, double clearance) {
   constexpr double step = 1e-3;  // of the gradient [µm]
   constexpr int max_pushes = 4;
   for (int push = 0; push < max_pushes; ++push) {
@@ -63,7 +64,7 @@ std::optional<Vec2> search(const Snapshot& world, Vec2 goal, double tolerance, d
     const double reach = square.half * std::numbers::sqrt2;
     if (world.clearance(square.centre) + reach < clearance) continue;
     const Vec2 place = pushing
-                           ? pushed_free(world, square.centre, clearance).value_or(square.centre)
+                           ? pushed(world, square.centre, clearance).value_or(square.centre)
                            : square.centre;
     const double to_goal = distance(place, goal);
     if (to_goal <= best_distance && world.is_free(place, clearance)) {
@@ -88,6 +89,10 @@ std::optional<Vec2> free_goal(const Snapshot& world, Vec2 goal, double tolerance
   if (world.is_free(goal, clearance)) return goal;
   if (const auto found = search(world, goal, tolerance, clearance, false)) return found;
   return search(world, goal, tolerance, clearance, true);
+}
+
+std::optional<Vec2> pushed_free(const Map& map, Vec2 place, double clearance) {
+  return pushed(map, place, clearance);
 }
 
 Target find_target(const Snapshot& world, Vec2 start, Vec2 goal, double tolerance,

@@ -12,6 +12,10 @@ namespace microswarm {
 /// surroundings along the clearance gradient, so one between several walls may be missed.
 std::optional<Vec2> free_goal(const Snapshot& world, Vec2 goal, double tolerance, double clearance);
 
+/// A place with the clearance beside one that has less, against the walls' push; nothing in a wall
+/// and where there is none nearby.
+std::optional<Vec2> pushed_free(const Map& map, Vec2 place, double clearance);
+
 /// A free place at the goal of a query, or why it cannot be planned: start_blocked or goal_blocked.
 struct Target {
   std::optional<Status> fault;

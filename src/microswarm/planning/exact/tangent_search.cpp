@@ -28,11 +28,11 @@ void see(std::uint32_t corner, SidesOf&& sides_of, std::vector<std::uint32_t>& s
 }  // namespace
 
 TangentSearch::TangentSearch(const Map& map, double clearance)
-    : map_(&map), corners_(map.corners()), clearance_(clearance) {
+    : map_(&map), corners_(&map.corners()), clearance_(clearance) {
   const Box& box = map.bounds();
   margin_ = std::max(1e-7 * clearance, 1e-10 * std::max(box.width(), box.height()));
-  circles_.reserve(corners_.all().size());
-  for (const Corner& corner : corners_.all()) circles_.push_back(circle_of(corner));
+  circles_.reserve(corners_->all().size());
+  for (const Corner& corner : corners_->all()) circles_.push_back(circle_of(corner));
   wheels_.resize(2 * circles_.size());
   seen_.resize(2 * circles_.size(), 0);
   starts_seen_.resize(2 * circles_.size(), 0);
@@ -55,7 +55,7 @@ void TangentSearch::know(std::uint32_t wheel) {
   Wheel& at = wheels_[wheel];
   at.is_known = true;
   ++look_;
-  corners_.seen_from(wheel / 2, circle.radius, clearance_, sense(wheel) > 0,
+  corners_->seen_from(wheel / 2, circle.radius, clearance_, sense(wheel) > 0,
                      [&](std::uint32_t corner, auto&& sides) {
                        see(corner, sides, seen_, look_, [&](std::uint32_t to) {
                          if (corner != wheel / 2) add_hop(wheel, to);
@@ -164,7 +164,7 @@ void TangentSearch::begin(Vec2 start, Vec2 goal, const BodySet& moving) {
 }
 
 void TangentSearch::open_from_start() {
-  from_start_.begin(corners_.cells(), start_, goal_, clearance_);
+  from_start_.begin(corners_->cells(), start_, goal_, clearance_);
   for (std::uint32_t to = 2 * still_count(); to < wheels_.size(); ++to) open_from_start(to);
   look_from_start(distance(start_, goal_));
 }
@@ -190,7 +190,7 @@ void TangentSearch::head_for(Vec2 place) {
 /// Opens those over which ways of this length and a little more may lead.
 void TangentSearch::look_from_start(double length) {
   constexpr double more = 1.05;
-  corners_.look_on(from_start_, more * length, [&](std::uint32_t corner, auto&& sides) {
+  corners_->look_on(from_start_, more * length, [&](std::uint32_t corner, auto&& sides) {
     see(corner, sides, starts_seen_, query_, [&](std::uint32_t to) { open_from_start(to); });
   });
 }

@@ -78,7 +78,7 @@ class TangentSearch {
   std::optional<Leaving> leaving(const Label& label, Vec2 place) {
     return leaving(label, {.centre = place}, 1);
   }
-  const Corners& corners() const { return corners_; }
+  const Corners& corners() const { return *corners_; }
   Vec2 start() const { return start_; }
 
   /// The path to the end of a label [µm]; arcs are replaced by lines around them, with clearance.
@@ -192,7 +192,7 @@ class TangentSearch {
   void push(const Open& open);
 
   const Map* map_;
-  const Corners& corners_;
+  const Corners* corners_;
   double clearance_;
   double margin_;
   std::vector<Circle> circles_;  ///< around the corners of the map, then of the moving bodies

@@ -10,7 +10,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/heap_entry.hpp"
-#include "microswarm/planning/common/distance_field.hpp"
+#include "microswarm/planning/exact/distance_field.hpp"
 #include "microswarm/planning/global_input/global_rrt.hpp"
 #include "microswarm/planning/global_input/global_separation.hpp"
 
@@ -81,7 +81,7 @@ struct Problem {
   }
   /// How wrong the robots stand to each other, and the way they have to go together: straight, or
   /// where there are `fields`, the mean of their ways around the walls.
-  double cost(HeldPlaces c, std::span<const DistanceField> fields) const {
+  double cost(HeldPlaces c, std::span<DistanceField> fields) const {
     Vec2 sum;
     double squares = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -103,8 +103,8 @@ struct Problem {
 /// One search from the start, with its own hypercubes.
 class Round {
  public:
-  Round(const Problem& problem, std::span<const DistanceField> fields, HeldPlaces start,
-        double cell, Rng& rng, PlanCounts& counts)
+  Round(const Problem& problem, std::span<DistanceField> fields, HeldPlaces start, double cell,
+        Rng& rng, PlanCounts& counts)
       : problem_(problem),
         separation_(problem.stepper, problem.params.contact, problem.params.separation),
         fields_(fields),
@@ -235,7 +235,7 @@ class Round {
 
   const Problem& problem_;
   GlobalSeparation separation_;
-  std::span<const DistanceField> fields_;
+  std::span<DistanceField> fields_;
   Rng& rng_;
   PlanCounts& counts_;
   float per_cell_;
@@ -314,9 +314,9 @@ GlobalSearch global_search(const Map& map, std::span<const Vec2> starts,
     const double round_cell = cell * rng.uniform(finest_of_cell, 2 * finest_of_cell);
     const bool goes_around = found.rounds % 2 == 0;
     if (goes_around && fields.empty())
-      for (const Vec2 goal : goals) fields.push_back(DistanceField::over(map, goal));
-    const auto used =
-        goes_around ? std::span<const DistanceField>(fields) : std::span<const DistanceField>();
+      for (const Vec2 goal : goals)
+        fields.push_back(DistanceField::over(Snapshot::of(map).shared_map(), goal));
+    const auto used = goes_around ? std::span<DistanceField>(fields) : std::span<DistanceField>();
     Round round(problem, used, start, round_cell, rng, found.counts);
     const double left = static_cast<double>(max_nodes - found.counts.samples) + 1;
     end = round.run(static_cast<std::size_t>(std::min(round_nodes, left)), stop);

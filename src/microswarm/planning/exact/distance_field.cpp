@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/planning/exact/distance_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace microswarm {
+namespace {
+
+constexpr float unknown = -1;
+
+std::size_t count(double length, double cell) {
+  return static_cast<std::size_t>(std::max(1.0, std::ceil(length / cell)));
+}
+
+/// Visits the nodes at most `r` from a node of the grid, row by row.
+template <class Visit>
+void visit_square(std::size_t node, std::size_t r, std::size_t columns, std::size_t rows,
+                  Visit&& visit) {
+  const std::size_t column = node % columns, row = node / columns;
+  for (std::size_t j = row - std::min(row, r); j <= std::min(row + r, rows - 1); ++j)
+    for (std::size_t i = column - std::min(column, r); i <= std::min(column + r, columns - 1); ++i)
+      visit(j * columns + i);
+}
+
+}  // namespace
+
+DistanceField::DistanceField(std::shared_ptr<const Map> map, Vec2 goal, double clearance, Vec2 low,
+                             double cell, double offset)
+    : map_(map),
+      route_(map, goal, clearance),
+      goal_(goal),
+      low_(low),
+      cell_(cell),
+      offset_(offset) {
+  const Box& box = map->bounds();
+  detour_ = box.width() + box.height();
+  columns_ = count(box.hi.x - low.x, cell);
+  rows_ = count(box.hi.y - low.y, cell);
+  lengths_.assign(columns_ * rows_, unknown);
+}
+
+DistanceField DistanceField::to_goal(std::shared_ptr<const Map> map, Vec2 goal, double clearance,
+                                     double spacing, std::size_t max_nodes) {
+  const Box& box = map->bounds();
+  const double cell =
+      std::max(spacing, std::sqrt(box.width() * box.height() / static_cast<double>(max_nodes)));
+  // The goal is a node, so that the last step ends on it.
+  const Vec2 before{std::floor((goal.x - box.lo.x) / cell), std::floor((goal.y - box.lo.y) / cell)};
+  return {std::move(map), goal, clearance, goal - cell * before, cell, 0};
+}
+
+DistanceField DistanceField::over(std::shared_ptr<const Map> map, Vec2 goal, int cells) {
+  const Box box = map->bounds();
+  return {std::move(map), goal, 0, box.lo, std::max(box.width(), box.height()) / cells, 0.5};
+}
+
+double DistanceField::at(std::size_t node) {
+  float& length = lengths_[node];
+  if (length == unknown) length = static_cast<float>(route_.length_from(position(node)));
+  return static_cast<double>(length);
+}
+
+Vec2 DistanceField::position(std::size_t node) const {
+  const std::size_t row = node / columns_;
+  return low_ + cell_ * Vec2{static_cast<double>(node - row * columns_) + offset_,
+                             static_cast<double>(row) + offset_};
+}
+
+std::size_t DistanceField::nearest(Vec2 p) const {
+  const auto clamped = [this](double v, std::size_t n) {
+    const double index = std::floor(v / cell_ + (0.5 - offset_));
+    return static_cast<std::size_t>(std::clamp(index, 0.0, static_cast<double>(n - 1)));
+  };
+  return clamped(p.y - low_.y, rows_) * columns_ + clamped(p.x - low_.x, columns_);
+}
+
+double DistanceField::from(Vec2 p) {
+  if (lengths_.empty()) return infinity;
+  const std::size_t node = nearest(p);
+  double least = at(node);
+  if (least == infinity)  // beside a wall the node next to it may be in the wall
+    visit_square(node, 2, columns_, rows_, [&](std::size_t n) { least = std::min(least, at(n)); });
+  return least;
+}
+
+double DistanceField::estimate(Vec2 p) {
+  const double found = at(nearest(p));
+  return found < infinity ? found : straight_and_detour(p);
+}
+
+double DistanceField::visible_estimate(Vec2 p) {
+  const std::size_t own = nearest(p);
+  if (reaches(p) && map_->is_free(Segment{p, position(own)}, 0)) return estimate(p);
+  double shortest = infinity;
+  visit_square(own, 1, columns_, rows_, [&](std::size_t n) {
+    const double via = at(n) + distance(p, position(n));
+    if (via < shortest && map_->is_free(Segment{p, position(n)}, 0)) shortest = via;
+  });
+  return shortest < infinity ? shortest : straight_and_detour(p);
+}
+
+}  // namespace microswarm
