@@ -13,8 +13,11 @@ namespace {
 struct SteppedCell {
   double cost = infinity;
   Mark mark = Mark::unknown;
-  std::uint8_t move = 0;  ///< move that led here
+  std::uint8_t move = 0;  ///< move that led here, or off_grid
 };
+
+/// In place of a move: from a start that is no place of the grid.
+constexpr std::uint8_t off_grid = 8;
 
 /// Length of the shortest path on an obstacle-free grid.
 double octile(Vec2 d) {
@@ -29,20 +32,39 @@ class SteppedSearch : public GridSearch<SteppedSearch, SteppedCell> {
   using GridSearch::GridSearch;
 
   bool settle(Place, const SteppedCell&) const { return true; }
-  std::optional<Place> arrive(Place p) const {
-    return is_at_goal(p) ? std::optional(p) : std::nullopt;
+  /// With an origin of its own also straight on to the target, from a place around it.
+  std::optional<Place> arrive(Place p) {
+    if (is_at_goal(p)) return p;
+    const double reach = std::numbers::sqrt2 * params_.cell;
+    if (!params_.origin || distance(position(p), target_) > reach || !sees(position(p), target_))
+      return std::nullopt;
+    end_beyond_ = target_;
+    return p;
   }
-  Place before(Place p) { return p - grid_moves[grid_[p].move]; }
+  Place before(Place p) {
+    const std::uint8_t move = grid_[p].move;
+    return move == off_grid ? grid_.start() : p - grid_moves[move];
+  }
+
+  void join(Place p, SteppedCell& cell) {
+    const Vec2 start = position(grid_.start());
+    if (sees(start, position(p))) open(p, cell, distance(start, position(p)), off_grid);
+  }
 
   void relax(Place from, const SteppedCell& cell, std::size_t move, SteppedCell& next) {
     const double through = cell.cost + params_.cell * (move % 2 == 0 ? 1 : std::numbers::sqrt2);
     const Place to = from + grid_moves[move];
-    if (through >= next.cost || !sees(position(from), position(to))) return;
-    next.cost = through;
-    next.move = static_cast<std::uint8_t>(move);
+    if (through < next.cost && neighbour_sees(from, to))
+      open(to, next, through, static_cast<std::uint8_t>(move));
+  }
+
+ private:
+  void open(Place p, SteppedCell& cell, double cost, std::uint8_t move) {
+    cell.cost = cost;
+    cell.move = move;
     // At least the octile length, of which the tolerance saves at most √(4 - 2√2) · tolerance.
     constexpr double octile_per_length = 1.0823922002923940;
-    push(to, through, octile(goal_ - position(to)) - octile_per_length * params_.goal_tolerance);
+    push(p, cost, octile(goal_ - position(p)) - octile_per_length * params_.goal_tolerance);
   }
 };
 
@@ -50,10 +72,10 @@ class SteppedSearch : public GridSearch<SteppedSearch, SteppedCell> {
 
 Plan plan(const Snapshot& world, Pose2 start, Vec2 goal, const AStarParams& params, Rng& rng,
           const Stop& stop) {
-  return plan_on_grids(world, start, goal, params, rng, stop,
-                       [&](const AStarParams& on_grid, Vec2) {
-                         return SteppedSearch(world, start.position, goal, on_grid).run(stop);
-                       });
+  return plan_on_grids(
+      world, start, goal, params, rng, stop, [&](const AStarParams& on_grid, Vec2 target) {
+        return SteppedSearch(world, start.position, goal, target, on_grid).run(stop);
+      });
 }
 
 }  // namespace microswarm

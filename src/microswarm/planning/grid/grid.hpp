@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <queue>
 #include <vector>
@@ -32,24 +33,29 @@ inline constexpr std::array<Place, 8> grid_moves{
 /// What is known of the place of a cell.
 enum class Mark : std::uint8_t { unknown, blocked, free, closed };
 
-/// Grid cells in tiles that are allocated on first use. Its origin is the start.
+/// Grid cells in tiles that are allocated on first use. One more cell stands for a start that is
+/// none of its places.
 template <class Cell>
 class Grid {
  public:
   static constexpr std::size_t side = 64;
   static constexpr double max_tiles = 1 << 22;
 
-  Grid(const Box& bounds, Vec2 origin, double cell) : cell_(cell), origin_(origin) {
-    const auto places = [&](double length) { return std::floor(std::max(0.0, length) / cell); };
-    const double left = places(origin.x - bounds.lo.x);
-    const double below = places(origin.y - bounds.lo.y);
-    const double columns = left + places(bounds.hi.x - origin.x) + 1;
-    const double rows = below + places(bounds.hi.y - origin.y) + 1;
-    fits_ = std::max({columns, rows, (columns / side + 1) * (rows / side + 1)}) < max_tiles;
+  /// `origin` is the start, or if `is_off` any place of the grid.
+  Grid(const Box& bounds, Vec2 start, std::optional<Vec2> origin, double cell)
+      : cell_(cell), start_at_(start), origin_(origin.value_or(start)) {
+    const auto places = [&](double length) { return std::floor(length / cell); };
+    const double left = places(origin_.x - bounds.lo.x);
+    const double below = places(origin_.y - bounds.lo.y);
+    const double columns = left + places(bounds.hi.x - origin_.x) + 1;
+    const double rows = below + places(bounds.hi.y - origin_.y) + 1;
+    fits_ = std::max({std::abs(left), std::abs(below), columns, rows,
+                      (columns / side + 1) * (rows / side + 1)}) < max_tiles;
     if (!fits_) return;
-    start_ = {static_cast<int>(left), static_cast<int>(below)};
-    columns_ = static_cast<int>(columns);
-    rows_ = static_cast<int>(rows);
+    origin_place_ = {static_cast<int>(left), static_cast<int>(below)};
+    columns_ = static_cast<int>(std::max(0.0, columns));
+    rows_ = static_cast<int>(std::max(0.0, rows));
+    start_ = origin ? Place{columns_, 0} : origin_place_;
     tile_columns_ = static_cast<std::size_t>(columns_) / side + 1;
     tiles_.resize(tile_columns_ * (static_cast<std::size_t>(rows_) / side + 1));
   }
@@ -61,16 +67,30 @@ class Grid {
   bool holds(Place p) const {
     return p.column >= 0 && p.row >= 0 && p.column < columns_ && p.row < rows_;
   }
-  Vec2 position(Place p) const {
-    const Place d = p - start_;
+  /// Position [µm] of a place of the grid.
+  Vec2 operator()(Place p) const {
+    const Place d = p - origin_place_;
     return origin_ + cell_ * Vec2{static_cast<double>(d.column), static_cast<double>(d.row)};
   }
+  /// The same also for the start.
+  Vec2 position(Place p) const { return p == start_ ? start_at_ : (*this)(p); }
   Cell& operator[](Place p) {
     const auto row = static_cast<std::size_t>(p.row);
     const auto column = static_cast<std::size_t>(p.column);
     auto& tile = tiles_[row / side * tile_columns_ + column / side];
     if (!tile) tile = std::make_unique<std::array<Cell, side * side>>();
     return (*tile)[row % side * side + column % side];
+  }
+
+  /// Calls use(place) for the up to 16 places around a position, two on each side per axis.
+  template <class Use>
+  void for_each_around(Vec2 p, Use&& use) const {
+    const Vec2 from = (p - origin_) / cell_;
+    const Place low = origin_place_ + Place{static_cast<int>(std::floor(from.x)) - 1,
+                                            static_cast<int>(std::floor(from.y)) - 1};
+    for (int row = 0; row < 4; ++row)
+      for (int column = 0; column < 4; ++column)
+        if (const Place near = low + Place{column, row}; holds(near)) use(near);
   }
 
   /// Calls use(move, cell) for each neighbour that is free and not closed, without cutting corners.
@@ -96,9 +116,11 @@ class Grid {
 
  private:
   double cell_;
+  Vec2 start_at_;
   Vec2 origin_;
   bool fits_ = false;
   Place start_;
+  Place origin_place_;
   int columns_ = 0;
   int rows_ = 0;
   std::size_t tile_columns_ = 0;
@@ -121,6 +143,7 @@ struct OpenPlace {
 };
 
 /// Best-first search over a grid. A Rule derives from it and says what a cell costs:
+///   void join(Place, Cell&)  opens a place around a start that is off the grid, or not
 ///   void relax(Place from, const Cell&, std::size_t move, Cell& next)  opens a neighbour, or not
 ///   bool settle(Place, Cell&)  false: the cell cannot be closed yet
 ///   std::optional<Place> arrive(Place)  last place of the path if a closed one ends the search;
@@ -130,8 +153,13 @@ struct OpenPlace {
 template <class Rule, class Cell>
 class GridSearch {
  public:
-  GridSearch(const Snapshot& world, Vec2 start, Vec2 goal, const GridParams& params)
-      : world_(world), goal_(goal), params_(params), grid_(world.bounds(), start, params.cell) {}
+  /// `target` is a free place at the goal.
+  GridSearch(const Snapshot& world, Vec2 start, Vec2 goal, Vec2 target, const GridParams& params)
+      : world_(world),
+        goal_(goal),
+        target_(target),
+        params_(params),
+        grid_(world.bounds(), start, params.origin, params.cell) {}
 
   Plan run(const Stop& stop) {
     if (!grid_.fits()) return finish(Status::node_limit, grid_.start());
@@ -153,13 +181,10 @@ class GridSearch {
       cell.mark = Mark::closed;
       if (to_goal(place) < to_goal(best)) best = place;
       if (const auto last = rule().arrive(place)) return finish(Status::solved, *last);
-      grid_.for_each_open_neighbour(
-          place,
-          [this](Vec2 p) {
-            ++counts_.samples;
-            return world_.is_free(p, params_.clearance);
-          },
-          [&](std::size_t move, Cell& next) { rule().relax(place, cell, move, next); });
+      if (place == grid_.start() && params_.origin)
+        join_start();
+      else
+        open_neighbours(place, cell);
     }
     return finish(Status::no_path, best);
   }
@@ -173,6 +198,10 @@ class GridSearch {
     const double length = cost + std::max(0.0, left);
     open_.push({std::llround(length / params_.cell * 0x1p30), cost, p});
   }
+  /// Whether the edge from the place that is being closed to its neighbour is free.
+  bool neighbour_sees(Place from, Place to) {
+    return all_around_is_free_ || sees(position(from), position(to));
+  }
   bool sees(Vec2 from, Vec2 to) {
     ++counts_.edge_checks;
     return world_.is_free(Segment{from, to}, params_.clearance);
@@ -180,12 +209,34 @@ class GridSearch {
 
   const Snapshot& world_;
   Vec2 goal_;
+  Vec2 target_;
   const GridParams& params_;
   Grid<Cell> grid_;
   std::optional<Vec2> end_beyond_;
 
  private:
   Rule& rule() { return static_cast<Rule&>(*this); }
+
+  bool is_free(Vec2 p) {
+    ++counts_.samples;
+    return world_.is_free(p, params_.clearance);
+  }
+
+  void join_start() {
+    grid_.for_each_around(position(grid_.start()), [this](Place p) {
+      Cell& cell = grid_[p];
+      cell.mark = is_free(position(p)) ? Mark::free : Mark::blocked;
+      if (cell.mark == Mark::free) rule().join(p, cell);
+    });
+  }
+
+  void open_neighbours(Place place, const Cell& cell) {
+    constexpr double reach = std::numbers::sqrt2 * (1 + 1e-9);  // of the edges, in cells
+    all_around_is_free_ = world_.is_open(position(place), params_.clearance + reach * grid_.cell());
+    grid_.for_each_open_neighbour(
+        place, [this](Vec2 p) { return all_around_is_free_ || is_free(p); },
+        [&](std::size_t move, Cell& next) { rule().relax(place, cell, move, next); });
+  }
 
   Plan finish(Status status, Place last) {
     Plan plan{.status = status, .counts = counts_};
@@ -197,6 +248,7 @@ class GridSearch {
   }
 
   std::priority_queue<OpenPlace> open_;
+  bool all_around_is_free_ = false;  ///< of the place that is being closed, and the edges there
   PlanCounts counts_;
 };
 

@@ -19,10 +19,9 @@ struct SeenCell {
 /// tested when the cell is opened.
 class AnyAngleSearch : public GridSearch<AnyAngleSearch, SeenCell> {
  public:
-  /// `target` is a free place at the goal.
   AnyAngleSearch(const Snapshot& world, Vec2 start, Vec2 goal, Vec2 target,
                  const ThetaStarParams& params)
-      : GridSearch(world, start, goal, params), target_(target) {
+      : GridSearch(world, start, goal, target, params) {
     if (grid_.fits()) grid_[grid_.start()].parent = grid_.start();
   }
 
@@ -47,6 +46,12 @@ class AnyAngleSearch : public GridSearch<AnyAngleSearch, SeenCell> {
     return cell.cost <= hoped;
   }
 
+  void join(Place p, SeenCell& cell) {
+    cell.cost = distance(position(grid_.start()), position(p));
+    cell.parent = grid_.start();
+    open(p, cell.cost);
+  }
+
   void relax(Place place, const SeenCell& cell, std::size_t move, SeenCell& next) {
     const Place to = place + grid_moves[move];
     const double through = grid_[cell.parent].cost + distance(position(cell.parent), position(to));
@@ -68,8 +73,6 @@ class AnyAngleSearch : public GridSearch<AnyAngleSearch, SeenCell> {
 
  private:
   void open(Place p, double cost) { push(p, cost, to_goal(p) - params_.goal_tolerance); }
-
-  Vec2 target_;
 };
 
 }  // namespace

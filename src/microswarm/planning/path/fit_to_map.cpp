@@ -7,6 +7,7 @@
 #include <array>
 
 #include "microswarm/world/connectivity/channel_width.hpp"
+#include "microswarm/world/connectivity/corner_lattice.hpp"
 
 namespace microswarm {
 namespace {
@@ -31,6 +32,21 @@ double step_of(const Params& params, double scale, const IsGiven& is_given) {
   if constexpr (requires { params.step; })
     return is_given("step_um") ? params.step : scale * params.step;
   return scale * TreeParams{}.step;
+}
+
+/// If the corners of the map lie on a lattice: cells of about the same size with places in the
+/// middle of its passages, so no larger than the narrowest one.
+void follow_lattice(GridParams& grid, const Map& map) {
+  constexpr double most_places = 300e3;
+  const double least = std::sqrt(map.bounds().width() * map.bounds().height() / most_places);
+  const auto corners = corner_lattice(map, least);
+  if (!corners) return;
+  const CornerLattice places = through_narrowest_passage(*corners, grid.clearance);
+  const double cells = std::max(grid.cell / 2, least) / places.pitch;
+  grid.origin = places.origin;
+  grid.cell = cells < 1 ? places.pitch / std::round(1 / cells)
+                        : places.pitch * shortest_free_run(map, places, grid.clearance,
+                                                           static_cast<int>(cells));
 }
 
 template <class Params>
@@ -58,6 +74,8 @@ void fit(Params& params, const Map& map, double width, const IsGiven& is_given) 
       if (info.name == "max_iterations") at_least(iterations_per_node * nodes);
     }
   });
+  if constexpr (std::is_base_of_v<GridParams, Params>)
+    if (!is_given("cell_um") && !is_given("origin_um")) follow_lattice(params, map);
 }
 
 }  // namespace
