@@ -34,19 +34,48 @@ double step_of(const Params& params, double scale, const IsGiven& is_given) {
   return scale * TreeParams{}.step;
 }
 
-/// If the corners of the map lie on a lattice: cells of about the same size with places in the
-/// middle of its passages, so no larger than the narrowest one.
-void follow_lattice(GridParams& grid, const Map& map) {
-  constexpr double most_places = 300e3;
-  const double least = std::sqrt(map.bounds().width() * map.bounds().height() / most_places);
+/// The lattice through the middle of the passages, if the corners of the map lie on one and the map
+/// is not many of its cells.
+std::optional<CornerLattice> passage_lattice(const Map& map, double clearance) {
+  constexpr double most_cells = 300e3;
+  const double least = std::sqrt(map.bounds().width() * map.bounds().height() / most_cells);
   const auto corners = corner_lattice(map, least);
-  if (!corners) return;
-  const CornerLattice places = through_narrowest_passage(*corners, grid.clearance);
-  const double cells = std::max(grid.cell / 2, least) / places.pitch;
-  grid.origin = places.origin;
-  grid.cell = cells < 1 ? places.pitch / std::round(1 / cells)
-                        : places.pitch * shortest_free_run(map, places, grid.clearance,
-                                                           static_cast<int>(cells));
+  if (!corners) return std::nullopt;
+  return through_narrowest_passage(*corners, clearance);
+}
+
+/// Cells no larger than the narrowest passage, and places in the middle of all. Half as large as
+/// without a lattice, for shorter paths: since the passages are found, this costs little.
+void follow(const CornerLattice& lattice, const Map& map, GridParams& grid) {
+  const int pitches = static_cast<int>(std::max(1.0, 0.5 * grid.cell / lattice.pitch));
+  const double parts = std::max(1.0, std::round(lattice.pitch / grid.cell));
+  grid.origin = lattice.origin;
+  grid.cell = lattice.pitch * shortest_free_run(map, lattice, grid.clearance, pitches) / parts;
+}
+
+/// Samples on the lattice, if there are passages with a single row of its points.
+void follow(const CornerLattice& lattice, const Map& map, double clearance, double& sample_pitch,
+            Vec2& sample_origin) {
+  if (shortest_free_run(map, lattice, clearance, 2) > 1) return;
+  sample_pitch = lattice.pitch;
+  sample_origin = lattice.origin;
+}
+
+/// Fits what follows from the lattice of the map's corners, unless a part of it is given.
+template <class Params>
+void fit_to_lattice(Params& params, const Map& map, const IsGiven& is_given) {
+  constexpr bool is_grid = std::is_base_of_v<GridParams, Params>;
+  if constexpr (is_grid || requires { params.sample_pitch; }) {
+    const std::array<std::string_view, 2> keys{is_grid ? "cell_um" : "sample_pitch_um",
+                                               is_grid ? "origin_um" : "sample_origin_um"};
+    if (std::ranges::any_of(keys, is_given)) return;
+    const auto lattice = passage_lattice(map, params.clearance);
+    if (!lattice) return;
+    if constexpr (is_grid)
+      follow(*lattice, map, params);
+    else
+      follow(*lattice, map, params.clearance, params.sample_pitch, params.sample_origin);
+  }
 }
 
 template <class Params>
@@ -74,8 +103,7 @@ void fit(Params& params, const Map& map, double width, const IsGiven& is_given) 
       if (info.name == "max_iterations") at_least(iterations_per_node * nodes);
     }
   });
-  if constexpr (std::is_base_of_v<GridParams, Params>)
-    if (!is_given("cell_um") && !is_given("origin_um")) follow_lattice(params, map);
+  fit_to_lattice(params, map, is_given);
 }
 
 }  // namespace

@@ -65,7 +65,8 @@ class RrtConnect {
   Vec2 sample(std::size_t tree) {
     constexpr double bias = 0.1;
     const Vec2 target = trees_[1][0].position;
-    if (tree != 0 || target == goal_ || rng_.uniform() >= bias) return uniform_in(sampled_, rng_);
+    if (tree != 0 || target == goal_ || rng_.uniform() >= bias)
+      return sample_in(sampled_, params_, rng_);
     const Vec2 reach{params_.goal_tolerance, params_.goal_tolerance};
     return uniform_in({goal_ - reach, goal_ + reach}, rng_);
   }

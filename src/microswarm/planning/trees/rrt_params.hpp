@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "microswarm/core/fields/fields.hpp"
+#include "microswarm/geometry/vec2.hpp"
 
 namespace microswarm {
 
@@ -17,10 +18,16 @@ inline constexpr FieldInfo step{"step", Unit::um, {1e-3, 1e6}, "Base length of o
 inline constexpr FieldInfo max_nodes{"max_nodes", Unit::none, {1, 1e7}, "Maximum number of nodes."};
 inline constexpr FieldInfo max_iterations{
     "max_iterations", Unit::none, {1, 1e8}, "Maximum number of iterations."};
+inline constexpr FieldInfo sample_pitch{
+    "sample_pitch", Unit::um, {0, 1e6}, "Pitch of the lattice of most samples; 0: none."};
+inline constexpr FieldInfo sample_origin{
+    "sample_origin", Unit::um, {-1e6, 1e6}, "A point of that lattice."};
 }  // namespace tree_fields
 
 /// Parameters common to all sampling planners. All stop alike: the first node within
-/// `goal_tolerance` of the goal ends the path, and nothing is appended unchecked.
+/// `goal_tolerance` of the goal ends the path, and nothing is appended unchecked. With a pitch,
+/// nine of ten samples across the map are points of a lattice (S. LaValle, M. Branicky and S.
+/// Lindemann, IJRR 2004); the others are uniform, so that any passage is found in the end.
 struct TreeParams {
   double clearance = 40;
   double goal_tolerance = 50;
@@ -29,6 +36,8 @@ struct TreeParams {
   int max_nodes = 5000;
   int max_iterations = 100'000;
   bool stop_at_first = true;
+  double sample_pitch = 0;
+  Vec2 sample_origin;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.clearance, tree_fields::clearance);
@@ -39,6 +48,8 @@ struct TreeParams {
     visit(self.max_iterations, tree_fields::max_iterations);
     visit(self.stop_at_first,
           {"stop_at_first", Unit::none, {}, "Stop at the first path; else grow to the limits."});
+    visit(self.sample_pitch, tree_fields::sample_pitch);
+    visit(self.sample_origin, tree_fields::sample_origin);
   }
 };
 
@@ -48,7 +59,7 @@ struct RrtParams : TreeParams {
 };
 
 /// RRT-Connect (Kuffner & LaValle): trees from the start and from the goal that grow towards each
-/// other. The first path they meet on, which is not a short one.
+/// other. The first path they meet on, which is not a short one. Samples as in TreeParams.
 struct RrtConnectParams {
   static constexpr std::string_view type_name = "rrt_connect";
   double clearance = 40;
@@ -56,6 +67,8 @@ struct RrtConnectParams {
   double step = 80;
   int max_nodes = 5000;
   int max_iterations = 100'000;
+  double sample_pitch = 0;
+  Vec2 sample_origin;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.clearance, tree_fields::clearance);
@@ -63,6 +76,8 @@ struct RrtConnectParams {
     visit(self.step, tree_fields::step);
     visit(self.max_nodes, tree_fields::max_nodes);
     visit(self.max_iterations, tree_fields::max_iterations);
+    visit(self.sample_pitch, tree_fields::sample_pitch);
+    visit(self.sample_origin, tree_fields::sample_origin);
   }
 };
 

@@ -6,7 +6,6 @@
 
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/core/maths/maths.hpp"
-#include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/planning/common/free_goal.hpp"
 #include "microswarm/planning/trees/turn_edge.hpp"
 
@@ -59,21 +58,25 @@ bool TreeGrowth::goes_on() {
   return true;
 }
 
-template <class Accepts>
-std::optional<Vec2> TreeGrowth::draw(const Box& box, Accepts&& accepts) {
+template <class Draw>
+std::optional<Vec2> TreeGrowth::draw_free(Draw&& draw) {
   for (int i = 0; i < max_sample_draws; ++i) {
-    const Vec2 p = uniform_in(box, rng_);
-    if (accepts(p) && world_.is_free(p, params_.clearance)) return p;
+    const std::optional<Vec2> p = draw();
+    if (p && world_.is_free(*p, params_.clearance)) return p;
   }
   return std::nullopt;
 }
 
 std::optional<Vec2> TreeGrowth::sample() {
   ++counts_.samples;
-  if (rng_.uniform() >= params_.goal_bias) return draw(sampled_, [](Vec2) { return true; });
+  if (rng_.uniform() >= params_.goal_bias)
+    return draw_free([&] { return std::optional(sample_in(sampled_, params_, rng_)); });
   if (goal_is_free_) return goal_;
   const Vec2 reach{params_.goal_tolerance, params_.goal_tolerance};
-  return draw({goal_ - reach, goal_ + reach}, [&](Vec2 p) { return arrives(p); });
+  return draw_free([&] {
+    const Vec2 p = uniform_in({goal_ - reach, goal_ + reach}, rng_);
+    return arrives(p) ? std::optional(p) : std::nullopt;
+  });
 }
 
 bool TreeGrowth::is_free(Segment edge) {

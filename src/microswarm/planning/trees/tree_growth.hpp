@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "microswarm/core/maths/heap_entry.hpp"
+#include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/planning/trees/rrt_star.hpp"
 #include "microswarm/planning/trees/search_tree.hpp"
 
@@ -52,8 +54,8 @@ class TreeGrowth {
  private:
   bool solved() const { return !arrived_.empty(); }
   std::optional<Status> reason_to_end() const;
-  template <class Accepts>
-  std::optional<Vec2> draw(const Box& box, Accepts&& accepts);
+  template <class Draw>
+  std::optional<Vec2> draw_free(Draw&& draw);
 
   const Snapshot& world_;
   const TreeParams& params_;
@@ -71,6 +73,17 @@ class TreeGrowth {
   std::vector<std::uint32_t> near_;
   std::vector<HeapEntry<double>> candidates_;
 };
+
+/// Random point of the box, as TreeParams tells; one of a lattice may lie just outside.
+template <class Params>
+Vec2 sample_in(const Box& box, const Params& params, Rng& rng) {
+  constexpr double on_lattice = 0.9;  // of the samples
+  const Vec2 p = uniform_in(box, rng);
+  if (params.sample_pitch == 0 || rng.uniform() >= on_lattice) return p;
+  const Vec2 cells = (p - params.sample_origin) / params.sample_pitch;
+  return params.sample_origin +
+         params.sample_pitch * Vec2{std::round(cells.x), std::round(cells.y)};
+}
 
 /// Point at distance `step` from `from` towards `to`, or `to` if it is nearer.
 Vec2 steer(Vec2 from, Vec2 to, double step);
