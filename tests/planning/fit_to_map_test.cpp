@@ -80,6 +80,69 @@ TEST(FitToMap, EveryPlannerCrossesMapsOfEverySize) {
   }
 }
 
+/// Rooms of nine cells by nine with walls of one, and a door of one cell in each wall, somewhere.
+scenes::RawWorld rooms_on_cells(Vec2 origin, double cell, int rooms) {
+  Rng rng(7, Purpose::scene);
+  scenes::RawWorld world;
+  world.bounds = {origin, origin + cell * Vec2{10.0 * rooms, 10.0 * rooms}};
+  const auto wall = [&](bool is_upright, double across, double from, double to) {
+    const Vec2 lo = is_upright ? Vec2{across, from} : Vec2{from, across};
+    const Vec2 hi = is_upright ? Vec2{across + 1, to} : Vec2{to, across + 1};
+    world.walls.push_back(scenes::rectangle({origin + cell * lo, origin + cell * hi}));
+  };
+  for (int i = 1; i < rooms; ++i)
+    for (int j = 0; j < rooms; ++j)
+      for (const bool is_upright : {false, true}) {
+        const double door = 10.0 * j + 1 + static_cast<double>(rng.below(8));
+        wall(is_upright, 10.0 * i - 1, 10.0 * j, door);
+        wall(is_upright, 10.0 * i - 1, door + 1, 10.0 * (j + 1));
+      }
+  return world;
+}
+
+template <class Params>
+class FitToLattice : public testing::Test {};
+using LatticeKinds = testing::Types<AStarParams, ThetaStarParams, RrtParams, RrtConnectParams>;
+TYPED_TEST_SUITE(FitToLattice, LatticeKinds);
+
+TYPED_TEST(FitToLattice, DoorsOfOneCellArePassed) {
+  const IsGiven clearance_only = [](std::string_view key) { return key == "clearance_um"; };
+  const Vec2 origin{-314.159, 27.1828};
+  const Snapshot world = rooms_on_cells(origin, 100, 8).snapshot();
+  for (const double keeps : {5.0, 40.0, 48.0}) {
+    TypeParam params;
+    params.clearance = keeps;
+    params = fit(world.map(), params, clearance_only);
+    const Pose2 start{origin + Vec2{210, 190}, 0};
+    const Vec2 goal = origin + Vec2{7700, 7600};
+    Rng rng(1, Purpose::planner);
+    const Plan found = plan(world, start, goal, params, rng);
+    ASSERT_EQ(found.status, Status::solved) << keeps;
+    if constexpr (std::is_base_of_v<GridParams, TypeParam>) {
+      const Plan best = plan(world, start, goal, ExactParams{.clearance = keeps}, rng);
+      EXPECT_LT(path_length(found), 1.15 * path_length(best)) << keeps;
+      EXPECT_LE(params.cell, 100 * (1 + 1e-9));
+    }
+    for (std::size_t i = 1; i < found.path.size(); ++i)
+      EXPECT_TRUE(world.is_free(Segment{found.path[i - 1], found.path[i]}, keeps));
+  }
+}
+
+TEST(FitToMap, WidePassagesHaveCoarseCellsAndUniformSamples) {
+  const Snapshot world = rooms(3000).snapshot();  // lattice of 3000 µm, doors of two cells
+  EXPECT_TRUE(fit<AStarParams>(world.map()).origin);
+  EXPECT_EQ(fit<RrtParams>(world.map()).sample_pitch, 0);
+  const auto one = [](std::string_view key) { return key == "cell_um"; };
+  EXPECT_FALSE(fit<AStarParams>(world.map(), {}, one).origin);
+}
+
+TEST(FitToMap, FreePolygonsHaveNoLattice) {
+  Rng rng(1, Purpose::scene);
+  const Snapshot world = scenes::cluttered(rng).snapshot();
+  EXPECT_FALSE(fit<ThetaStarParams>(world.map()).origin);
+  EXPECT_EQ(fit<RrtStarParams>(world.map()).sample_pitch, 0);
+}
+
 TEST(FitToMap, TheLimitThatEndedASearchIsNamed) {
   const RrtParams params;
   EXPECT_EQ(limit_text(params, {.iterations = 20}), "planner.max_nodes is 5000");

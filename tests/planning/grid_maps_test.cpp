@@ -2,13 +2,18 @@
 // A* and exact paths against the published optima of the MovingAI benchmarks.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <numbers>
 
+#include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/formats/moving_ai.hpp"
 #include "microswarm/planning/exact/shortest_paths.hpp"
 #include "microswarm/planning/grid/a_star.hpp"
+#include "microswarm/planning/path/fit_to_map.hpp"
+#include "microswarm/planning/path/planners.hpp"
+#include "microswarm/world/connectivity/corner_lattice.hpp"
 #include "tests/files.hpp"
 
 namespace microswarm {
@@ -103,6 +108,46 @@ TEST_P(GridMaps, ExactPathsAreNoLonger) {
   if (!std::filesystem::exists(file())) GTEST_SKIP() << "no " << file();
   const bool is_large = std::string_view(GetParam()).starts_with("random");
   expect_exact_no_longer(GridMap(file()), is_large ? every : every / 10);
+}
+
+/// In cells of 1 µm, for a swarm that keeps 0.4 µm: a door of one cell leaves 0.2 µm.
+template <class Params>
+void expect_fitted_near_shortest(const GridMap& grid, double most_excess) {
+  Params params;
+  params.clearance = 0.4;
+  params = std::get<Params>(
+      fit_to_map(params, *grid.map(), [](std::string_view key) { return key == "clearance_um"; }));
+  ASSERT_TRUE(params.origin);
+  EXPECT_NEAR(std::abs(std::remainder(params.origin->x, 1.0)), 0.5, 1e-9);
+  EXPECT_NEAR(params.cell, std::round(params.cell), 1e-9);
+  const Snapshot world(grid.map());
+  ShortestPaths paths(*grid.map(), params.clearance);
+  Rng rng(1, Purpose::planner);
+  std::vector<double> excess;
+  grid.ask_every(200, [&](Vec2 start, Vec2 goal, double) {
+    const Plan found = plan(world, {start, 0}, goal, params, rng);
+    ASSERT_EQ(found.status, Status::solved);
+    const double shortest = paths.find(start, goal).length;
+    EXPECT_LE(path_length(found.path), 1.25 * shortest + 2);
+    excess.push_back((path_length(found.path) + distance(found.path.back(), goal)) / shortest);
+  });
+  EXPECT_LE(quantile(excess, 0.5), most_excess);
+}
+
+TEST_P(GridMaps, FittedPathsAreNearTheShortest) {
+  if (!std::filesystem::exists(file())) GTEST_SKIP() << "no " << file();
+  const GridMap grid(file());
+  expect_fitted_near_shortest<AStarParams>(grid, 1.082);  // octile beside straight
+  expect_fitted_near_shortest<ThetaStarParams>(grid, 1.03);
+}
+
+TEST_P(GridMaps, CornersLieOnTheCells) {
+  if (!std::filesystem::exists(file())) GTEST_SKIP() << "no " << file();
+  const auto lattice = corner_lattice(*GridMap(file()).map(), 0.5);
+  ASSERT_TRUE(lattice);
+  EXPECT_NEAR(lattice->pitch, 1, 1e-9);
+  EXPECT_NEAR(std::remainder(lattice->origin.x, 1.0), 0, 1e-9);
+  EXPECT_NEAR(std::remainder(lattice->origin.y, 1.0), 0, 1e-9);
 }
 
 INSTANTIATE_TEST_SUITE_P(MovingAi, GridMaps,
