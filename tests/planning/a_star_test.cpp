@@ -110,6 +110,21 @@ TYPED_TEST(GridPlanners, AFinerGridFindsAGapBetweenItsPoints) {
   EXPECT_EQ(this->through(narrow, params).status, Status::node_limit);
 }
 
+TYPED_TEST(GridPlanners, AnOriginSetsThePhaseAndStartAndGoalAreJoinedToIt) {
+  auto params = in_gate<TypeParam>(0.01, 0.5);
+  params.origin = Vec2{-30, 4.45};  // the gap leaves 4.4 to 4.5
+  params.max_nodes = 400;           // places of this grid, which is not halved
+  const Snapshot narrow = gate(0.3).snapshot();
+  const Plan found = this->through(narrow, params);
+  ASSERT_EQ(found.status, Status::solved);
+  EXPECT_EQ(found.path.front(), (Vec2{1.05, 1.05}));
+  EXPECT_LE(distance(found.path.back(), Vec2{9.05, 1.05}), 0.01);
+  for (std::size_t i = 0; i + 1 < found.path.size(); ++i)
+    EXPECT_GE(narrow.map().clearance(Segment{found.path[i], found.path[i + 1]}, 1), 0.1 - 1e-9);
+  params.origin = Vec2{-30, 4.2};  // no row in the gap
+  EXPECT_EQ(this->through(narrow, params).status, Status::node_limit);
+}
+
 TYPED_TEST(GridPlanners, NoPathIsSaidOnlyOfAGapThatIsTooNarrow) {
   const Snapshot narrower = gate(0.19).snapshot();
   EXPECT_EQ(this->through(narrower, in_gate<TypeParam>(0.5, 1)).status, Status::no_path);

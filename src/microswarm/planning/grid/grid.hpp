@@ -41,7 +41,7 @@ class Grid {
   static constexpr std::size_t side = 64;
   static constexpr double max_tiles = 1 << 22;
 
-  /// `origin` is the start, or if `is_off` any place of the grid.
+  /// `origin` is a place of the grid, in the bounds or not; without one the start is.
   Grid(const Box& bounds, Vec2 start, std::optional<Vec2> origin, double cell)
       : cell_(cell), start_at_(start), origin_(origin.value_or(start)) {
     const auto places = [&](double length) { return std::floor(length / cell); };

@@ -12,8 +12,8 @@ namespace microswarm {
 /// Parameters for a path across a whole map. Lengths that are not given follow from the typical
 /// channel width, as the defaults fit the channel of Fig 3 [drrt]; limits of nodes and iterations
 /// from the size of the map in steps. Neither the clearance nor a turn's radius is changed, which
-/// are the swarm's, and the tolerance only falls. Where the map's corners lie on a lattice, grids and
-/// samples follow it (corner_lattice.hpp). A map without free space changes nothing.
+/// are the swarm's, and the tolerance only falls. Where the map's corners lie on a lattice, grids
+/// and samples follow it (corner_lattice.hpp). A map without free space changes nothing.
 /// `is_given` tells which of the planner's keys are.
 PlannerParams fit_to_map(PlannerParams params, const Map& map, const IsGiven& is_given);
 
