@@ -12,12 +12,20 @@ namespace {
 /// Size of a buffer: a median of more differences is hardly more certain.
 constexpr std::size_t max_differences = 64;
 
+/// Whether four sightings are evenly spaced, apart from the rounding of frame times.
+bool are_even(std::span<const Sighting, 4> s) {
+  const double dt = s[1].t - s[0].t;
+  return std::abs(s[2].t - s[1].t - dt) + std::abs(s[3].t - s[2].t - dt) < 1e-6 * dt;
+}
+
+/// Square of the third difference of four even sightings.
+double squared_difference(std::span<const Sighting, 4> s) {
+  return squared_norm(s[3].place - s[0].place + 3 * (s[1].place - s[2].place));
+}
+
 /// Third difference of four sightings, in standard deviations of one coordinate's noise.
 double third_difference(std::span<const Sighting, 4> s) {
-  const double dt = s[1].t - s[0].t;
-  const double uneven = std::abs(s[2].t - s[1].t - dt) + std::abs(s[3].t - s[2].t - dt);
-  if (uneven < 1e-6 * dt)  // rounding of frame times
-    return norm(s[3].place - s[0].place + 3 * (s[1].place - s[2].place)) / std::sqrt(20.0);
+  if (are_even(s)) return std::sqrt(squared_difference(s)) / std::sqrt(20.0);
   Vec2 sum;
   double variance = 0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -30,13 +38,29 @@ double third_difference(std::span<const Sighting, 4> s) {
   return norm(sum) / std::sqrt(variance);
 }
 
+constexpr double rayleigh_median = 1.1774100225154747;  // √(2 ln 2)
+
+/// Whether the median of the third differences is so small that the noise is the least one: more
+/// than half of them are. Told without their square roots.
+bool is_noiseless(std::span<const Sighting> sightings, std::size_t count, double min_noise) {
+  constexpr double rounding = 1e-9;
+  const double most =
+      (1 - rounding) * 20 * rayleigh_median * rayleigh_median * min_noise * min_noise;
+  std::size_t small = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto four = sightings.subspan(i).first<4>();
+    small += are_even(four) && squared_difference(four) < most;
+  }
+  return small > count / 2;
+}
+
 double noise_of(std::span<const Sighting> sightings, const MotionFitTuning& tuning) {
-  constexpr double rayleigh_median = 1.1774100225154747;  // √(2 ln 2)
   if (sightings.size() < static_cast<std::size_t>(tuning.min_noise_sightings))
     return tuning.initial_noise;
-  std::array<double, max_differences> differences{};
   const std::size_t count = std::min(sightings.size() - 3, max_differences);
   const auto newest = sightings.last(count + 3);
+  if (is_noiseless(newest, count, tuning.min_noise)) return tuning.min_noise;
+  std::array<double, max_differences> differences{};
   for (std::size_t i = 0; i < count; ++i)
     differences[i] = third_difference(newest.subspan(i).first<4>());
   const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(count / 2);
@@ -108,21 +132,31 @@ struct Window {
   int sightings = 0;
 };
 
-/// Longest window back from the newest sighting that a curve of `order` + 1 terms fits.
-Window longest(std::span<const Sighting> sightings, std::size_t order, double noise,
-               double max_residual) {
+/// Longest windows back from the newest sighting that a line and a parabola fit.
+struct Windows {
+  Window straight, curved;
+};
+
+Windows longest(std::span<const Sighting> sightings, double noise, double max_residual) {
   const Sighting newest = sightings.back();
   Moments m;
-  Window out;
-  for (std::size_t n = 1; n <= sightings.size(); ++n) {
+  Windows out;
+  bool is_straight = true;
+  bool is_curved = sightings.size() > 3;
+  const auto fits = [&](const Curve& curve, std::size_t spare) {
+    const double freedom = 2.0 * static_cast<double>(spare);
+    return spare == 0 || !(curve.residual > freedom * max_residual * max_residual * noise * noise);
+  };
+  const auto lengthen = [&](Window& window, const Curve& curve, std::size_t n, std::size_t terms) {
+    if (!fits(curve, n - terms)) return false;
+    window = {curve, static_cast<int>(n)};
+    return true;
+  };
+  for (std::size_t n = 1; n <= sightings.size() && (is_straight || is_curved); ++n) {
     const Sighting& s = sightings[sightings.size() - n];
     m.add(s.t - newest.t, s.place - newest.place);
-    if (n <= order) continue;
-    const Curve curve = order == 1 ? straight_through(m) : curved_through(m);
-    const double freedom = 2.0 * static_cast<double>(n - order - 1);
-    if (n > order + 1 && curve.residual > freedom * max_residual * max_residual * noise * noise)
-      break;
-    out = {curve, static_cast<int>(n)};
+    if (is_straight && n >= 2) is_straight = lengthen(out.straight, straight_through(m), n, 2);
+    if (is_curved && n >= 3) is_curved = lengthen(out.curved, curved_through(m), n, 3);
   }
   return out;
 }
@@ -138,11 +172,10 @@ MotionFit fit_motion(std::span<const Sighting> sightings, int most, const Motion
   out.sightings = 1;
   if (sightings.size() < 2) return out;
   const auto newest = sightings.last(std::min(sightings.size(), static_cast<std::size_t>(most)));
-  Window best = longest(newest, 1, out.noise, tuning.max_residual);
-  if (newest.size() > 3) {
-    const Window curved = longest(newest, 2, out.noise, tuning.max_residual);
-    if (curved.curve.rate_variance < best.curve.rate_variance) best = curved;
-  }
+  const Windows fit = longest(newest, out.noise, tuning.max_residual);
+  const bool is_curved =
+      newest.size() > 3 && fit.curved.curve.rate_variance < fit.straight.curve.rate_variance;
+  const Window& best = is_curved ? fit.curved : fit.straight;
   out.place += best.curve.c[0];
   out.velocity = best.curve.c[1];
   out.acceleration = 2 * best.curve.c[2];

@@ -36,6 +36,11 @@ void remember(std::vector<Sighting>& trail, Sighting newest, std::size_t most) {
   trail.push_back(newest);
 }
 
+bool has_constant_radius(std::span<const Sighting> radii) {
+  return std::all_of(radii.begin(), radii.end(),
+                     [&](const Sighting& s) { return s.place == radii.back().place; });
+}
+
 }  // namespace
 
 /// Maximum distance by which vertices of `polygon` protrude from the solid `before`, given relative
@@ -186,7 +191,9 @@ double ObstacleTracker::outline_speed_within(std::size_t body, const Body& shape
 TrackedBody ObstacleTracker::estimate(const Trail& trail) const {
   if (trail.places.empty()) return {.velocity_error = std::numeric_limits<double>::infinity()};
   const MotionFit place = fit_motion(trail.places, params_.frames, params_.tuning.fit);
-  const MotionFit radius = fit_motion(trail.radii, params_.frames, params_.tuning.fit);
+  const MotionFit radius = has_constant_radius(trail.radii)
+                               ? MotionFit{.place = trail.radii.back().place}
+                               : fit_motion(trail.radii, params_.frames, params_.tuning.fit);
   return {.centre = place.place,
           .velocity = place.velocity,
           .acceleration = place.acceleration,
