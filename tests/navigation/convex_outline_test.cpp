@@ -42,6 +42,28 @@ TEST(ConvexOutline, IsAsFarAsTheBody) {
   }
 }
 
+TEST(ConvexOutline, OfManyPointsAsOfEach) {
+  Rng rng(6, Purpose::test);
+  ConvexOutliner outliner;
+  ConvexOutline outline;
+  for (int trial = 0; trial < 400; ++trial) {
+    Body body{.shape = Disc{{10, 20}, 30}};
+    if (trial % 4 > 0) body.shape = convex_polygon(rng, {10, 20});
+    outliner.take(body, outline);
+    const std::size_t count = rng.below(150);
+    std::vector<double> x(count);
+    std::vector<double> y(count);
+    std::vector<double> told(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      x[k] = k == 0 ? 0 : rng.uniform(-300, 300);
+      y[k] = k == 0 ? 0 : rng.uniform(-300, 300);
+    }
+    outline.distances_at(x, y, told);
+    for (std::size_t k = 0; k < count; ++k)
+      ASSERT_EQ(told[k], outline.distance_at({x[k], y[k]})) << trial;
+  }
+}
+
 TEST(ConvexOutline, OfADiscIsTheDisc) {
   ConvexOutliner outliner;
   ConvexOutline outline;

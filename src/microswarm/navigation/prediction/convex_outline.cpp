@@ -2,12 +2,56 @@
 #include "microswarm/navigation/prediction/convex_outline.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
 
+#include "microswarm/core/execution/each_cpu.hpp"
 #include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/navigation/prediction/obstacle_tracker.hpp"
 
 namespace microswarm {
+namespace {
+
+/// Number of points that are taken through the edges together.
+constexpr std::size_t points_at_once = 64;
+
+MICROSWARM_EACH_CPU void distances_from_disc(const double* x, const double* y, std::size_t count,
+                                             double radius, double* distances) {
+  for (std::size_t k = 0; k < count; ++k)
+    distances[k] = std::sqrt(x[k] * x[k] + y[k] * y[k]) - radius;
+}
+
+/// At most points_at_once.
+MICROSWARM_EACH_CPU void distances_from_edges(const double* x, const double* y, std::size_t count,
+                                              const ConvexOutline::Edge* edges,
+                                              std::size_t edge_count, double* distances) {
+  std::array<double, points_at_once> inside;
+  std::array<double, points_at_once> outside;  // squared
+  for (std::size_t k = 0; k < count; ++k) {
+    inside[k] = -infinity;
+    outside[k] = infinity;
+  }
+  for (std::size_t i = 0; i < edge_count; ++i) {
+    const ConvexOutline::Edge e = edges[i];
+    for (std::size_t k = 0; k < count; ++k) {
+      const double off = e.normal.x * x[k] + e.normal.y * y[k] - e.offset;
+      const double along = -e.normal.y * x[k] + e.normal.x * y[k];
+      const double up_to_end = e.end < along ? e.end : along;
+      const double beside = along - (along < e.begin ? e.begin : up_to_end);
+      const double squared = off * off + beside * beside;
+      const double nearer = squared < outside[k] ? squared : outside[k];
+      outside[k] = off <= 0 ? outside[k] : nearer;
+      inside[k] = inside[k] < off ? off : inside[k];
+    }
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const double out = std::sqrt(outside[k]);
+    distances[k] = inside[k] <= 0 ? inside[k] : out;
+  }
+}
+
+}  // namespace
 
 double ConvexOutline::distance_at(Vec2 from_centre) const {
   if (edges.empty()) return norm(from_centre) - radius;
@@ -22,6 +66,16 @@ double ConvexOutline::distance_at(Vec2 from_centre) const {
     outside = std::min(outside, off * off + beside * beside);
   }
   return inside <= 0 ? inside : std::sqrt(outside);
+}
+
+void ConvexOutline::distances_at(std::span<const double> x, std::span<const double> y,
+                                 std::span<double> distances) const {
+  assert(x.size() == y.size() && x.size() == distances.size());
+  if (edges.empty())
+    return distances_from_disc(x.data(), y.data(), x.size(), radius, distances.data());
+  for (std::size_t k = 0; k < x.size(); k += points_at_once)
+    distances_from_edges(x.data() + k, y.data() + k, std::min(points_at_once, x.size() - k),
+                         edges.data(), edges.size(), distances.data() + k);
 }
 
 void ConvexOutliner::take(const Body& body, ConvexOutline& out) {
