@@ -185,42 +185,81 @@ bool same_bits(const std::optional<Command>& a, const std::optional<Command>& b)
          (!a || (a->heading == b->heading && a->speed == b->speed));
 }
 
+/// What became of decisions that were compared.
+struct Compared {
+  int overruled = 0;
+  int held = 0;
+};
+
+/// A drive of `ticks` among a crowd, on which both filters decide the same to the bit.
+void compare(const std::shared_ptr<const Map>& map, const SafetyFilterParams& params, int trial,
+             int ticks, Compared& out) {
+  Rng rng(static_cast<std::uint64_t>(trial), Purpose::test);
+  SafetyFilter fast(params, guard_speed);
+  PlainSafetyFilter plain(params, guard_speed);
+  Pose2 pose{{2000, 2000}, 0};
+  for (int k = 0; k < ticks; ++k) {
+    const double t = 0.15 * k;
+    const Snapshot world(map, t, crowd(1 + trial % 3, t, Rng(99, Purpose::scene, trial)));
+    const Observation seen{.now = t,
+                           .seen = t,
+                           .swarm = SwarmPose{pose, guard_radius},
+                           .robots = {},
+                           .world = borrowed(world)};
+    fast.update(seen);
+    plain.update(seen);
+    const Command wanted{rng.uniform(-pi, pi), rng.uniform(0, 1.2 * guard_speed)};
+    const EscapeStart start{pose.position, guard_radius, t + 0.1};
+    const auto instead = fast.filter(wanted, start, world, guard_tick);
+    ASSERT_TRUE(same_bits(instead, plain.filter(wanted, start, world, guard_tick)))
+        << trial << ", tick " << k;
+    out.overruled += instead ? 1 : 0;
+    out.held += instead && instead->speed == 0 ? 1 : 0;
+    pose = unicycle_step(pose, instead.value_or(wanted), std::numeric_limits<double>::infinity(),
+                         0.15);
+  }
+}
+
 TEST(SafetyFilter, DecidesAsThePlainOne) {
   const auto walled = std::make_shared<const Map>(
       Box{{1400, 1400}, {2600, 2600}},
       std::vector<Polygon>{scenes::turned_rectangle({1900, 2100}, 300, 60, 0.4)});
-  int overruled = 0;
-  int held = 0;
-  for (int trial = 0; trial < 24; ++trial) {
-    Rng rng(static_cast<std::uint64_t>(trial), Purpose::test);
-    const SafetyFilterParams params = various_filters()[static_cast<std::size_t>(trial % 4)];
-    SafetyFilter fast(params, guard_speed);
-    PlainSafetyFilter plain(params, guard_speed);
-    Pose2 pose{{2000, 2000}, 0};
-    for (int k = 0; k < 12; ++k) {
-      const double t = 0.15 * k;
-      const Snapshot world(trial % 2 == 0 ? walled : open_ground(), t,
-                           crowd(1 + trial % 3, t, Rng(99, Purpose::scene, trial)));
-      const Observation seen{.now = t,
-                             .seen = t,
-                             .swarm = SwarmPose{pose, guard_radius},
-                             .robots = {},
-                             .world = borrowed(world)};
-      fast.update(seen);
-      plain.update(seen);
-      const Command wanted{rng.uniform(-pi, pi), rng.uniform(0, 1.2 * guard_speed)};
-      const EscapeStart start{pose.position, guard_radius, t + 0.1};
-      const auto instead = fast.filter(wanted, start, world, guard_tick);
-      ASSERT_TRUE(same_bits(instead, plain.filter(wanted, start, world, guard_tick)))
-          << trial << ", tick " << k;
-      overruled += instead ? 1 : 0;
-      held += instead && instead->speed == 0 ? 1 : 0;
-      pose = unicycle_step(pose, instead.value_or(wanted), std::numeric_limits<double>::infinity(),
-                           0.15);
+  Compared sum;
+  for (int trial = 0; trial < 24; ++trial)
+    compare(trial % 2 == 0 ? walled : open_ground(),
+            various_filters()[static_cast<std::size_t>(trial % 4)], trial, 12, sum);
+  EXPECT_GT(sum.overruled, 100);
+  EXPECT_GT(sum.held, 5);
+}
+
+/// Rooms with up to three walls about the swarm, some hardly wider than it.
+std::vector<std::shared_ptr<const Map>> rooms(int count) {
+  Rng rng(5, Purpose::scene);
+  std::vector<std::shared_ptr<const Map>> all;
+  for (int k = 0; k < count; ++k) {
+    std::vector<Polygon> walls;
+    for (int i = 0; i < k % 4; ++i) {
+      const Vec2 at = Vec2{2000, 2000} + rng.uniform(120, 500) * unit_vector(rng.uniform(-pi, pi));
+      walls.push_back(scenes::turned_rectangle(at, rng.uniform(50, 400), 40, rng.uniform(-pi, pi)));
     }
+    const double half = rng.uniform(100, 1000);
+    const Box bounds{{2000 - half, 2000 - half}, {2000 + half, 2000 + half}};
+    all.push_back(std::make_shared<const Map>(bounds, walls));
   }
-  EXPECT_GT(overruled, 100);
-  EXPECT_GT(held, 5);
+  return all;
+}
+
+TEST(SafetyFilter, DecidesAsThePlainOneInManyScenes) {
+  const auto maps = rooms(40);
+  Compared sum;
+  for (int trial = 0; trial < 1000; ++trial) {
+    SafetyFilterParams params;
+    if (trial % 5 == 0) params = various_filters()[static_cast<std::size_t>(trial / 5 % 4)];
+    compare(maps[static_cast<std::size_t>(trial) % maps.size()], params, 1000 + trial, 4, sum);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(sum.overruled, 1000);
+  EXPECT_GT(sum.held, 100);
 }
 
 }  // namespace

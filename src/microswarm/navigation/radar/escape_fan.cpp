@@ -13,29 +13,19 @@ using Instant = Foresight::Instant;
 
 constexpr double doubt = 1e-9;  // relative, of distances
 
-/// Places that a fan is at, relative to a body.
-struct FanPlaces {
-  const double* x;  ///< of the velocities [µm/s]
-  const double* y;
-  std::size_t count;
-  double after;  ///< since the turn [s]
-  Vec2 turn;     ///< displacement there [µm]
-  Vec2 start, body;
-};
-
 struct Screened {
   std::int64_t open = 0, doubted = 0;
 };
 
 /// Blocks places nearer than √`near`, doubts others nearer than √`far` [µm²].
-MICROSWARM_EACH_CPU Screened screen_places(const FanPlaces& places, double near, double far,
+MICROSWARM_EACH_CPU Screened screen_places(const EscapeFan::Places& places, double near, double far,
                                            std::int64_t* blocked, std::int64_t* doubted) {
-  const FanPlaces at = places;
+  const EscapeFan::Places at = places;
   std::int64_t open = 0;
   std::int64_t doubts = 0;
   for (std::size_t k = 0; k < at.count; ++k) {
-    const double x = at.start.x + (at.turn.x + at.after * at.x[k]) - at.body.x;
-    const double y = at.start.y + (at.turn.y + at.after * at.y[k]) - at.body.y;
+    const double x = at.off_x(k);
+    const double y = at.off_y(k);
     const double squared = x * x + y * y;
     const std::int64_t is_blocked = blocked[k] | static_cast<std::int64_t>(squared < near);
     const std::int64_t is_doubted = (1 - is_blocked) & static_cast<std::int64_t>(squared < far);
@@ -48,6 +38,12 @@ MICROSWARM_EACH_CPU Screened screen_places(const FanPlaces& places, double near,
 }
 
 double squared_if_positive(double v) { return v > 0 ? v * v : 0; }
+
+/// The straight rest of a way, from `before` on [s].
+Segment last_leg(const Foresight& seen, const EscapeWay& way, double before) {
+  const Vec2 start = seen.start().place;
+  return {start + way.at(before), start + way.at(seen.end())};
+}
 
 }  // namespace
 
@@ -67,70 +63,120 @@ EscapeFan::EscapeFan(std::vector<Vec2> velocities, double speed)
     : velocities_(std::move(velocities)),
       speed_(speed),
       blocked_(velocities_.size()),
-      doubted_(velocities_.size()) {
+      doubted_(velocities_.size()),
+      in_doubt_(velocities_.size()),
+      off_x_(velocities_.size()),
+      off_y_(velocities_.size()),
+      distances_(velocities_.size()) {
+  x_.reserve(velocities_.size());
+  y_.reserve(velocities_.size());
   for (const Vec2 v : velocities_) {
     x_.push_back(v.x);
     y_.push_back(v.y);
   }
 }
 
+/// Blocks what gets too near to a body; false once fewer than `count` velocities are left. `gap_at`
+/// gives the gap to be kept [µm]. The last instants come first, as the most bodies are near then.
+template <class GapAt>
+bool EscapeFan::screen(const Foresight& seen, const Ways& ways, std::span<const Instant> instants,
+                       Foresight::Error error, GapAt&& gap_at, std::int64_t count) {
+  std::fill(blocked_.begin(), blocked_.end(), 0);
+  for (std::size_t i = instants.size(); i-- > 0;) {
+    const Demand demand{gap_at(instants[i]), error};
+    for (const Foresight::Near& body : seen.near(instants[i]))
+      if (meet(seen, body, ways, instants[i].t, demand) < count) return false;
+  }
+  return static_cast<std::int64_t>(velocities_.size()) >= count;
+}
+
 bool EscapeFan::has_free(Foresight& seen, Vec2 begin, double until, int count) {
   const Foresight::Schedule& schedule = seen.schedule(until);
-  const std::span<const Instant> all = schedule.instants;
-  const EscapeWay shared{begin, until, {}};
-  if (!is_free(seen, shared, all.first(schedule.shared), 0)) return false;
-  const auto rest = all.subspan(schedule.shared);
-  const double before = schedule.shared > 0 ? all[schedule.shared - 1].t : 0;
+  const Ways ways{{begin, until, {}}};
+  if (!is_free(seen, ways.common, schedule.begun(), 0)) return false;
   const auto goes_on = [&](std::size_t k) {
-    return is_free(seen, {begin, until, velocities_[k]}, rest, before);
+    return is_free(seen, ways[velocities_[k]], schedule.rest(), schedule.before());
   };
   if (count == 1 && goes_on(last_)) return true;
-  if (!screen(seen, shared, rest, count)) return false;
-  const bool is_known = seen.all_convex() && seen.walls_from() >= seen.end();
+  const auto required = [](const Instant& i) { return i.required; };
+  if (!screen(seen, ways, schedule.rest(), Foresight::Error::bounded, required, count))
+    return false;
+  const auto passes_walls = [&](std::size_t k) {
+    const Segment leg = last_leg(seen, ways[velocities_[k]], schedule.before());
+    return seen.passes_walls(leg) || (!seen.meets_walls(leg) && goes_on(k));
+  };
   int found = 0;
   for (std::size_t k = 0; k < velocities_.size() && found < count; ++k) {
-    if (blocked_[k] != 0 || !(is_known || goes_on(k))) continue;
+    if (blocked_[k] != 0 || !(seen.all_convex() ? passes_walls(k) : goes_on(k))) continue;
     last_ = k;
     ++found;
   }
   return found >= count;
 }
 
-/// Blocks what meets bodies; false once fewer than `count` velocities are left.
-bool EscapeFan::screen(const Foresight& seen, const EscapeWay& begin,
-                       std::span<const Instant> instants, std::int64_t count) {
-  std::fill(blocked_.begin(), blocked_.end(), 0);
-  for (const Instant& i : instants)
-    for (const Foresight::Near& body : seen.near(i))
-      if (meet(seen, body, begin, i) < count) return false;
-  return static_cast<std::int64_t>(velocities_.size()) >= count;
+// A gap changes by no more than the place does.
+bool EscapeFan::excludes(Foresight& seen, Vec2 begin, double spread, double until, int count) {
+  const Foresight::Schedule& schedule = seen.schedule(until);
+  const Ways ways{{begin, until, {}}};
+  const auto slack = [&](double t) { return std::min(t, until) * spread * (1 + doubt) + doubt; };
+  const auto required = [&](const Instant& i) { return i.required - slack(i.t); };
+  for (const Instant& i : schedule.begun()) {
+    const Vec2 p = seen.start().place + ways.common.at(i.t);
+    if (seen.gap(p, i, i.required, Foresight::Error::bounded) < required(i)) return true;
+  }
+  if (!screen(seen, ways, schedule.rest(), Foresight::Error::bounded, required, count)) return true;
+  int left = 0;
+  for (std::size_t k = 0; k < velocities_.size() && left < count; ++k) {
+    if (blocked_[k] != 0) continue;
+    const Segment leg = last_leg(seen, ways[velocities_[k]], schedule.before());
+    if (!seen.meets_walls(leg, slack(until))) ++left;
+  }
+  return left < count;
 }
 
-/// Blocks what meets this body; gives the number of velocities left.
-std::int64_t EscapeFan::meet(const Foresight& seen, const Foresight::Near& body,
-                             const EscapeWay& begin, const Instant& at) {
-  const double after = std::max(0.0, at.t - begin.until);
-  const FanPlaces places{
-      x_.data(),          y_.data(),  x_.size(), after, std::min(at.t, begin.until) * begin.first,
-      seen.start().place, body.centre};
-  const double touch = body.touch[static_cast<std::size_t>(Foresight::Error::bounded)];
-  const double contact = body.outline->radius + touch + at.required;
-  const double far = std::max(0.0, contact) * (1 + doubt) + doubt;
-  const Vec2 off = places.start + places.turn - places.body;
-  const double reach = (far + after * speed_) * (1 + doubt);
+bool EscapeFan::may_keep(const Foresight& seen, const Ways& ways, std::span<const Instant> instants,
+                         const LeastGap& least) {
+  const auto gap_at = [&](const Instant& i) { return least.at(i.t); };
+  return screen(seen, ways, instants, Foresight::Error::none, gap_at, 1);
+}
+
+/// Blocks what gets too near to this body; gives the number of velocities left.
+std::int64_t EscapeFan::meet(const Foresight& seen, const Foresight::Near& body, const Ways& ways,
+                             double t, const Demand& demand) {
+  const Places places{x_.data(),         y_.data(),          x_.size(),  ways.varied_for(t),
+                      ways.common.at(t), seen.start().place, body.centre};
+  const ConvexOutline& outline = *body.outline;
+  const double keep = body.touch[static_cast<std::size_t>(demand.error)] + demand.gap;
+  const double far = std::max(0.0, outline.radius + keep) * (1 + doubt) + doubt;
+  const Vec2 off = places.start + places.shift - places.body;
+  const double reach = (far + places.after * speed_) * (1 + doubt);
   if (squared_norm(off) > reach * reach) return static_cast<std::int64_t>(x_.size());
-  const double near = body.outline->edges.empty() ? contact * (1 - doubt) - doubt : 0;
-  Screened left =
+  const double near = outline.edges.empty() ? (outline.radius + keep) * (1 - doubt) - doubt : 0;
+  const Screened left =
       screen_places(places, squared_if_positive(near), far * far, blocked_.data(), doubted_.data());
-  for (std::size_t k = 0; k < x_.size() && left.doubted > 0; ++k) {
+  return left.doubted == 0 ? left.open : left.open - settle(places, body, demand);
+}
+
+/// Blocks those of the doubted velocities that get too near; gives their number.
+std::int64_t EscapeFan::settle(const Places& at, const Foresight::Near& body,
+                               const Demand& demand) {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < at.count; ++k) {
     if (doubted_[k] == 0) continue;
-    --left.doubted;
-    const EscapeWay way{begin.first, begin.until, velocities_[k]};
-    if (seen.is_clear(seen.start().place + way.at(at.t), at)) continue;
-    blocked_[k] = 1;
-    --left.open;
+    in_doubt_[count] = k;
+    off_x_[count] = at.off_x(k);
+    off_y_[count++] = at.off_y(k);
   }
-  return left.open;
+  const std::span<double> distances(distances_.data(), count);
+  body.outline->distances_at({off_x_.data(), count}, {off_y_.data(), count}, distances);
+  const double touch = body.touch[static_cast<std::size_t>(demand.error)];
+  std::int64_t met = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!(distances[i] - touch < demand.gap)) continue;
+    blocked_[in_doubt_[i]] = 1;
+    ++met;
+  }
+  return met;
 }
 
 }  // namespace microswarm

@@ -5,10 +5,15 @@
 #include <utility>
 
 namespace microswarm {
+namespace {
+
+constexpr double gap_rounding = 1e-6;  // [µm]
+
+}  // namespace
 
 EscapeSearch::Trace EscapeSearch::begin(Vec2 first, double until) {
   const Foresight::Schedule& schedule = seen_.schedule(until);
-  Trace trace{.outcome = {.until_contact = 0, .least = tuning_.counted_gap, .last = 0}};
+  Trace trace = nothing_behind();
   const std::span<const Foresight::Instant> all = schedule.instants;
   follow(trace, {first, until, {}}, all.first(schedule.shared), tuning_.counted_gap);
   trace.instants = schedule.shared;
@@ -36,6 +41,47 @@ void EscapeSearch::consider(const EscapeWay& way, Trace trace) {
     return;
   outcome_ = o;
   best_ = way;
+}
+
+void EscapeSearch::turns(Vec2 first, double until, EscapeFan& fan, Bundle& out) {
+  out.ways = {{first, until, {}}, false};
+  out.begun = begin(first, until);
+  out.left.assign(fan.velocities().size(), out.begun.blocked ? 1 : 0);
+  if (out.begun.is_hopeless || is_hopeless(out.begun, tuning_.counted_gap)) return;
+  if (!out.begun.blocked) screen(fan, out);
+  for (std::size_t k = 0; k < out.left.size() && until > 0; ++k)
+    if (fan.velocities()[k] == first) out.left[k] = 0;
+}
+
+void EscapeSearch::runs(double until, EscapeFan& fan, Bundle& out) {
+  out.ways = {{{}, until, {}}, true};
+  out.begun = nothing_behind();
+  out.left.assign(fan.velocities().size(), 0);
+  screen(fan, out);
+}
+
+/// Leaves those ways of the fan that may become the best. What touches a body sooner than the best
+/// cannot, nor can, once only gaps count, what has a gap so small that no last one makes up for it.
+void EscapeSearch::screen(EscapeFan& fan, Bundle& out) const {
+  const std::span<const Foresight::Instant> all = seen_.schedule(out.ways.common.until).instants;
+  const auto later = std::find_if(all.begin(), all.end(), [&](const Foresight::Instant& i) {
+    return i.t > outcome_.until_contact;
+  });
+  const auto upto = static_cast<std::size_t>(later - all.begin());
+  const std::size_t from = std::min(out.begun.instants, upto);
+  if (!fan.may_keep(seen_, out.ways, all.subspan(from, upto - from), least())) return;
+  for (std::size_t k = 0; k < out.left.size(); ++k) out.left[k] = fan.is_left(k) ? 1 : 0;
+}
+
+LeastGap EscapeSearch::least() const {
+  const double floor = only_gaps_count() ? bar() - tuning_.counted_gap : -infinity;
+  return {tuning_.contact_gap - gap_rounding, tuning_.contact_gap_rate, floor - gap_rounding};
+}
+
+void EscapeSearch::consider(const Bundle& bundle, const EscapeFan& fan, std::size_t velocity) {
+  if (bundle.left[velocity] == 0) return;
+  const EscapeWay way = bundle.ways[fan.velocities()[velocity]];
+  consider(way, bundle.ways.first_varies ? begin(way.first, way.until) : bundle.begun);
 }
 
 void EscapeSearch::prefer(double time, double gap) {

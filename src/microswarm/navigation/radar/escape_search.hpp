@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "microswarm/core/maths/infinity.hpp"
+#include "microswarm/navigation/radar/escape_fan.hpp"
 #include "microswarm/navigation/radar/foresight.hpp"
 
 namespace microswarm {
@@ -29,6 +32,13 @@ class EscapeSearch {
     std::size_t instants = 0;  ///< how many are behind
   };
 
+  /// The ways of a fan, and what is known of them before one is followed.
+  struct Bundle {
+    EscapeFan::Ways ways;
+    Trace begun;                     ///< as all do
+    std::vector<std::uint8_t> left;  ///< whether it may become the best, by velocity
+  };
+
   EscapeSearch(Foresight& seen, const SafetyFilterTuning& tuning) : seen_(seen), tuning_(tuning) {}
 
   /// The beginning that all ways share which turn from `first` at `until`.
@@ -38,9 +48,20 @@ class EscapeSearch {
   void consider(const EscapeWay& way) { consider(way, begin(way.first, way.until)); }
   /// Makes the best way so far harder to replace, by a time [s] and a gap [µm].
   void prefer(double time, double gap);
+  /// Screens the ways that turn from `first` at `until` into another velocity of the fan.
+  void turns(Vec2 first, double until, EscapeFan& fan, Bundle& out);
+  /// Screens those that hold after `until`.
+  void runs(double until, EscapeFan& fan, Bundle& out);
+  /// Takes that velocity's way, if it is left and clearly better.
+  void consider(const Bundle& bundle, const EscapeFan& fan, std::size_t velocity);
   const EscapeWay& best() const { return best_; }
 
  private:
+  void screen(EscapeFan& fan, Bundle& out) const;
+  LeastGap least() const;
+  Trace nothing_behind() const {
+    return {.outcome = {.until_contact = 0, .least = tuning_.counted_gap, .last = 0}};
+  }
   void follow(Trace& trace, const EscapeWay& way, std::span<const Foresight::Instant> instants,
               double most_last) const;
   bool is_hopeless(const Trace& trace, double most_last) const;

@@ -8,6 +8,7 @@ namespace microswarm {
 namespace {
 
 constexpr double clearance_rounding = 1e-6;  // [µm]
+constexpr double keep_rounding = 1e-7;       // [µm]
 constexpr double reach_rounding = 1e-9;      // relative
 constexpr double asked_beyond = 1;           // of the required gap [µm]
 
@@ -150,6 +151,15 @@ double Foresight::gap(Vec2 p, const Instant& at, double limit, Error error) cons
 
 bool Foresight::is_clear(Vec2 p, const Instant& at) const {
   return !(gap(p, at, at.required + asked_beyond, Error::bounded) < at.required);
+}
+
+bool Foresight::passes_walls(const Segment& way) const {
+  return walls_from_ >= end() || world_->map().is_free(way, wall_keep_ + keep_rounding);
+}
+
+bool Foresight::meets_walls(const Segment& way, double slack) const {
+  const double keep = wall_keep_ - slack - keep_rounding;
+  return walls_from_ < end() && keep > 0 && !world_->map().is_free(way, keep);
 }
 
 }  // namespace microswarm

@@ -50,6 +50,10 @@ class Foresight {
     double until = 0;
     std::vector<Instant> instants;
     std::size_t shared = 0;
+    std::span<const Instant> begun() const { return std::span(instants).first(shared); }
+    std::span<const Instant> rest() const { return std::span(instants).subspan(shared); }
+    /// The last of begun(), or 0 [s].
+    double before() const { return shared > 0 ? instants[shared - 1].t : 0; }
   };
   /// Whether the motion of the bodies is taken for as uncertain as `gap_rate` says.
   enum class Error : std::uint8_t { none, bounded };
@@ -92,6 +96,12 @@ class Foresight {
   bool is_free_of_walls(Vec2 a, Vec2 b, double t) const {
     return t <= walls_from_ || a == b || world_->map().is_free(Segment{a, b}, wall_keep_);
   }
+  /// Whether a swarm surely keeps away from walls on a straight way. Where neither this nor
+  /// meets_walls() holds, rounding decides: is_free_of_walls() tells, from instant to instant.
+  bool passes_walls(const Segment& way) const;
+  /// Whether it surely comes too near to walls on this way and all that are parallel to it, at most
+  /// `slack` [µm] aside.
+  bool meets_walls(const Segment& way, double slack = 0) const;
   /// Until then no wall is in reach [s].
   double walls_from() const { return walls_from_; }
 

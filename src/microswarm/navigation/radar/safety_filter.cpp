@@ -2,7 +2,10 @@
 #include "microswarm/navigation/radar/safety_filter.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -12,14 +15,24 @@ namespace microswarm {
 namespace {
 
 constexpr double tie = 1e-6;
+constexpr std::size_t sectors = 8;  // of the circle, counted from the wanted heading
+constexpr double half_sector = pi / sectors;
 
 Vec2 velocity_of(const Command& command) { return command.speed * unit_vector(command.heading); }
 
 std::vector<Vec2> velocities_of(const SafetyFilterParams& params, double speed) {
   std::vector<Vec2> velocities(1);
+  velocities.reserve(static_cast<std::size_t>(params.directions) + 1);
   for (int k = 0; k < params.directions; ++k)
     velocities.push_back(speed * unit_vector(wrap(2 * pi * k / params.directions)));
   return velocities;
+}
+
+std::vector<Vec2> every_other(std::span<const Vec2> velocities) {
+  std::vector<Vec2> some;
+  some.reserve(velocities.size() / 2);
+  for (std::size_t i = 1; i < velocities.size(); i += 2) some.push_back(velocities[i]);
+  return some;
 }
 
 }  // namespace
@@ -29,8 +42,13 @@ SafetyFilter::SafetyFilter(const SafetyFilterParams& params, double speed)
       speed_(speed),
       tracker_(params.tracker),
       seen_(params, speed),
-      escapes_(velocities_of(params, speed), speed) {
-  choices_.reserve(static_cast<std::size_t>(params_.tuning.refinement * params_.directions) + 1);
+      escapes_(velocities_of(params, speed), speed),
+      turns_(every_other(escapes_.velocities()), speed) {
+  const SafetyFilterTuning& tuning = params_.tuning;
+  choices_.reserve(static_cast<std::size_t>(tuning.refinement * params_.directions) + 1);
+  bundles_.resize(
+      1 + std::max(tuning.hold_times.size() + tuning.run_times.size(), tuning.turn_times.size()));
+  for (EscapeSearch::Bundle& bundle : bundles_) bundle.left.reserve(escapes_.velocities().size());
 }
 
 void SafetyFilter::update(const Observation& observation) {
@@ -59,29 +77,49 @@ std::optional<Command> SafetyFilter::checked(const Command& wanted, double lasti
   return instead;
 }
 
+// Most often the first choice or none leaves escapes. So once one fails, all are ruled out together
+// if that can be, else the sector of each that fails. The middle of a sector's chord is no farther
+// from any of its velocities than from its ends.
+std::optional<Command> SafetyFilter::nearest_safe(const Command& wanted, double lasting) {
+  const int count = params_.tuning.min_escapes;
+  const Vec2 half = unit_vector(half_sector);
+  list_choices(wanted);
+  std::array<bool, sectors> tried{};
+  std::array<bool, sectors> excluded{};
+  bool is_first = true;
+  for (const auto& [turn, command, sector] : choices_) {
+    if (sector && excluded[*sector]) continue;
+    if (escapes_.has_free(seen_, velocity_of(command), lasting, count)) return command;
+    if (std::exchange(is_first, false) && escapes_.excludes(seen_, {}, speed_, lasting, count))
+      return std::nullopt;
+    if (!sector || std::exchange(tried[*sector], true)) continue;
+    const double middle = wanted.heading + static_cast<double>(2 * *sector + 1) * half_sector;
+    const Vec2 begin = speed_ * half.x * unit_vector(wrap(middle));
+    excluded[*sector] = escapes_.excludes(seen_, begin, speed_ * half.y, lasting, count);
+  }
+  return std::nullopt;
+}
+
 // To hold counts as turning across, as it gets no nearer, and as more the longer it lasts: before
 // what stands it would last for ever.
-std::optional<Command> SafetyFilter::nearest_safe(const Command& wanted, double lasting) {
+void SafetyFilter::list_choices(const Command& wanted) {
   const double course = course_.value_or(wanted.heading);
-  choices_.assign(1, {0.5 * pi + params_.tuning.impatience * waited_, {wanted.heading, 0}});
+  const double hold = 0.5 * pi + params_.tuning.impatience * waited_;
+  choices_.assign(1, {hold, {wanted.heading, 0}, std::nullopt});
   const int count = params_.tuning.refinement * params_.directions;
   for (int k = 0; k < count; ++k) {
     const double heading = wrap(wanted.heading + 2 * pi * k / count);
     // Between the two all turn the same: then what is nearer to the wanted one comes first.
     const double turn =
         (1 + tie) * turn_between(heading, wanted.heading) + turn_between(heading, course);
-    choices_.push_back({turn, {heading, speed_}});
+    const auto sector = static_cast<std::size_t>(k) * sectors / static_cast<std::size_t>(count);
+    choices_.push_back({turn, {heading, speed_}, sector});
   }
   std::sort(choices_.begin(), choices_.end());
-  for (const Choice& choice : choices_)
-    if (escapes_.has_free(seen_, velocity_of(choice.command), lasting, params_.tuning.min_escapes))
-      return choice.command;
-  return std::nullopt;
 }
 
 Command SafetyFilter::best_manoeuvre() {
   const SafetyFilterTuning& tuning = params_.tuning;
-  const auto velocities = escapes_.velocities();
   EscapeSearch search(seen_, tuning);
   const double now = seen_.start().time;
   if (committed_) {
@@ -89,17 +127,20 @@ Command SafetyFilter::best_manoeuvre() {
     search.consider({committed_->way.first, std::max(until, 0.0), committed_->way.second});
     search.prefer(tuning.switch_time, tuning.switch_gap);
   }
-  for (const Vec2 v : velocities) search.consider({{}, 0, v});
-  for (const Vec2 v : velocities) {
-    for (const double t : tuning.hold_times) search.consider({{}, t, v});
-    for (const double t : tuning.run_times) search.consider({v, t, {}});
-  }
-  for (std::size_t i = 1; i < velocities.size(); i += 2) {
-    begun_.clear();
-    for (const double t : tuning.turn_times) begun_.push_back(search.begin(velocities[i], t));
-    for (std::size_t j = 1; j < velocities.size(); j += 2)
-      for (std::size_t k = 0; k < begun_.size() && i != j; ++k)
-        search.consider({velocities[i], tuning.turn_times[k], velocities[j]}, begun_[k]);
+  std::size_t count = 0;
+  const auto consider = [&](const EscapeFan& fan) {
+    for (std::size_t k = 0; k < fan.velocities().size(); ++k)
+      for (std::size_t i = 0; i < count; ++i) search.consider(bundles_[i], fan, k);
+    count = 0;
+  };
+  search.turns({}, 0, escapes_, bundles_[count++]);
+  consider(escapes_);
+  for (const double t : tuning.hold_times) search.turns({}, t, escapes_, bundles_[count++]);
+  for (const double t : tuning.run_times) search.runs(t, escapes_, bundles_[count++]);
+  consider(escapes_);
+  for (const Vec2 first : turns_.velocities()) {
+    for (const double t : tuning.turn_times) search.turns(first, t, turns_, bundles_[count++]);
+    consider(turns_);
   }
   const EscapeWay& chosen = search.best();
   committed_ = Committed{chosen, now};

@@ -45,6 +45,7 @@ class SafetyFilter {
   struct Choice {
     double turn = 0;  ///< [rad]
     Command command;
+    std::optional<std::size_t> sector;  ///< of the circle; none for a hold
     friend bool operator<(const Choice& a, const Choice& b) {
       return a.turn != b.turn ? a.turn < b.turn : a.command.heading < b.command.heading;
     }
@@ -52,6 +53,7 @@ class SafetyFilter {
 
   std::optional<Command> checked(const Command& wanted, double lasting);
   std::optional<Command> nearest_safe(const Command& wanted, double lasting);
+  void list_choices(const Command& wanted);
   Command best_manoeuvre();
 
   SafetyFilterParams params_;
@@ -59,12 +61,13 @@ class SafetyFilter {
   ObstacleTracker tracker_;
   Foresight seen_;
   EscapeFan escapes_;  ///< hold first
+  EscapeFan turns_;    ///< every other of their directions
 
   std::optional<Committed> committed_;
   std::optional<double> course_;  ///< the heading last driven [rad]
   double waited_ = 0;             ///< told to hold, since what was wanted was last safe [s]
   std::vector<Choice> choices_;
-  std::vector<EscapeSearch::Trace> begun_;
+  std::vector<EscapeSearch::Bundle> bundles_;  ///< as many as are ever taken by turns
 };
 
 }  // namespace microswarm
