@@ -58,10 +58,12 @@ void add_run(Json& json, const LiveSession& run) {
   json["latency_ms"] = {{"frame_age", quantiles_ms(timing.frame_age)},
                         {"vision", quantiles_ms(timing.vision)},
                         {"tick", quantiles_ms(timing.tick)},
+                        {"camera_to_current", quantiles_ms(timing.camera_to_current)},
                         {"coil_late", quantiles_ms(timing.coil_late)},
                         {"round_trip", quantiles_ms(timing.round_trip)}};
   json["ticks"] = timing.tick.count();
   json["missed_deadlines"] = timing.missed_deadlines;
+  json["late_currents"] = timing.late_currents;
   json["frames"] = timing.frames;
   json["dropped_frames"] = timing.dropped_frames;
   json["resumed"] = timing.resumed;

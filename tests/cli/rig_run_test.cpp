@@ -34,6 +34,20 @@ TEST_F(RigRun, DrivesTheDeviceUntilItsTimeIsUp) {
   EXPECT_EQ(log.currents.size(), log.coils.size() * log.driven_at.size());
   EXPECT_GE(log.driven_at.front(), 0);
   EXPECT_LE(log.driven_at.back(), record.frames.back().t + 0.5);
+  ASSERT_EQ(log.answered_at.size(), log.driven_at.size());
+  ASSERT_EQ(log.pictured_at.size(), log.driven_at.size());
+  for (std::size_t k = 0; k < log.driven_at.size(); ++k) {
+    EXPECT_LE(log.pictured_at[k], log.driven_at[k]);
+    EXPECT_LE(log.driven_at[k], log.answered_at[k]);
+  }
+  ASSERT_TRUE(log.latency);
+  EXPECT_GT(log.latency->pictures, 3);
+  EXPECT_GE(log.latency->ticks, log.latency->pictures);
+  EXPECT_GT(log.latency->median, 0);
+  EXPECT_LE(log.latency->median, log.latency->p99);
+  EXPECT_LE(log.latency->p99, log.latency->longest);
+  EXPECT_NE(outcome.out.find("camera to current"), std::string::npos) << outcome.out;
+  EXPECT_NE(read("out/index.html").find("camera to current"), std::string::npos);
   ASSERT_GT(log.seen_at.size(), 5u);
   EXPECT_EQ(log.bodies.front(), -1);
   const Frame& frame = record.frames[record.frames.size() / 2];

@@ -7,8 +7,10 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
+#include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "microswarm/config/yaml.hpp"
 
@@ -62,6 +64,39 @@ TEST(CoilLoop, AStandstillWhileItIsLoggedEndsIt) {
   });
   EXPECT_TRUE(why.starts_with("the program stood still for ")) << why;
   EXPECT_LE(heard, 10);
+}
+
+TEST(CoilLoop, ANewCommandGoesOutHalfAPeriodAfterTheLastSendingAtTheEarliest) {
+  const CoilSystem system(read_yaml_text<CoilSystemParams>("coils: {type: helmholtz}", "coils"),
+                          "coils");
+  SimulatedCoilDriver driver(3, 20);
+  CoilController controller(system, {}, driver, 0);
+  std::mutex mutex;
+  std::vector<CoilMoment> moments;
+  CoilLoop loop(controller, {.rate = 1, .deadman = 10, .max_pause = 5},
+                [&](const CoilMoment& moment) {
+                  const std::lock_guard lock(mutex);
+                  moments.push_back(moment);
+                });
+  const auto wait_for = [&](std::size_t count) {
+    for (int i = 0; i < 500; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      const std::lock_guard lock(mutex);
+      if (moments.size() >= count) return moments;
+    }
+    return std::vector<CoilMoment>();
+  };
+  loop.command({0, 20}, controller.place(), 7);
+  ASSERT_EQ(wait_for(1).size(), 1u);
+  loop.command({0, 30}, controller.place(), 8);
+  const std::vector<CoilMoment> all = wait_for(2);
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0].seen, 7);
+  EXPECT_EQ(all[1].seen, 8);
+  EXPECT_EQ(all[1].command.speed, 30);
+  EXPECT_GE(all[1].t - all[0].t, 0.49);
+  EXPECT_LT(all[1].t - all[0].t, 0.95);
+  EXPECT_GE(all[1].driven, all[1].t);
 }
 
 /// A loop whose computer can be suspended.

@@ -32,6 +32,9 @@ TEST_F(LiveRigs, DrivesTheSwarmInRealTime) {
   EXPECT_GE(coils->drives, 30);
   EXPECT_LE(coils->drives, 700);
   EXPECT_GE(coils->stops, 1);  // when all is over
+  EXPECT_GE(timing.camera_to_current.count(), 3u);
+  EXPECT_LE(timing.camera_to_current.count(), static_cast<std::size_t>(timing.frames));
+  EXPECT_GE(timing.camera_to_current.quantile(0.5), timing.vision.quantile(0));
 }
 
 TEST_F(LiveRigs, DroppedFramesAreNoFault) {

@@ -247,5 +247,28 @@ TEST(Camera, NoSuchDeviceIsRefusedInOneLine) {
   EXPECT_EQ(refusal(file), file + ": is no camera");
 }
 
+TEST(NewestFrame, WaitsForAFrameThatIsNewEnough) {
+  std::atomic<int> given = 0;
+  NewestFrame camera(made([&](int index, Image& picture) {
+                       while (given <= index) std::this_thread::sleep_for(1ms);
+                       picture.pixels[0] = static_cast<std::uint8_t>(index);
+                       return true;
+                     }),
+                     "camera");
+  given = 1;
+  while (camera.status().frames < 1) std::this_thread::sleep_for(1ms);
+  const double since = steady_seconds();
+  given = 2;
+  LiveFrame frame;
+  ASSERT_TRUE(camera.wait(frame, 10, since));
+  EXPECT_EQ(frame.frame.index, 1);
+  EXPECT_GE(frame.taken, since);
+  given = 3;
+  while (camera.status().frames < 3) std::this_thread::sleep_for(1ms);
+  ASSERT_TRUE(camera.wait(frame, 0.01, steady_seconds() + 100));  // none comes: the newest there is
+  EXPECT_EQ(frame.frame.index, 2);
+  given = 1000;
+}
+
 }  // namespace
 }  // namespace microswarm

@@ -174,9 +174,17 @@ export interface RigStanding {
   unseen?: number;
   gap_um?: number | null;
   speed_um_per_s?: number;
-  latency_ms?: { frame_age: Quantiles; vision: Quantiles; tick: Quantiles; coil_late: Quantiles; round_trip: Quantiles };
+  latency_ms?: {
+    frame_age: Quantiles;
+    vision: Quantiles;
+    tick: Quantiles;
+    camera_to_current: Quantiles;
+    coil_late: Quantiles;
+    round_trip: Quantiles;
+  };
   ticks?: number;
   missed_deadlines?: number;
+  late_currents?: number;
   frames?: number;
   dropped_frames?: number;
   resumed?: number;

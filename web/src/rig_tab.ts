@@ -8,6 +8,7 @@ const latencies: [keyof NonNullable<RigStanding['latency_ms']>, string][] = [
   ['frame_age', 'Age of a frame'],
   ['vision', 'Vision'],
   ['tick', 'Tick'],
+  ['camera_to_current', 'Camera to current'],
   ['coil_late', 'Currents late'],
   ['round_trip', 'Coil driver'],
 ];

@@ -11,6 +11,7 @@
 
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
+#include "microswarm/report/latency_rows.hpp"
 #include "microswarm/report/map_background.hpp"
 #include "microswarm/report/page.hpp"
 #include "microswarm/report/plot.hpp"
@@ -102,10 +103,12 @@ void write_robots_report(const Record& record, const std::filesystem::path& fold
     stills.pictures.emplace_back(name, what);
   }
   write_plots({left_over_time(s)}, folder / "plots.png");
+  auto numbers = robots_numbers(record);
+  add_latency_rows(numbers, record);
   write_page(folder / "index.html", s.title(),
              {{.text = s.scenario().description},
               stills,
-              {.heading = "Numbers", .table = robots_numbers(record)},
+              {.heading = "Numbers", .table = std::move(numbers)},
               {.heading = "Over time", .pictures = {{"plots.png", ""}}}});
 }
 

@@ -11,6 +11,7 @@
 #include "microswarm/core/maths/angles.hpp"
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/planning/common/detection.hpp"
+#include "microswarm/report/latency_rows.hpp"
 #include "microswarm/report/map_background.hpp"
 #include "microswarm/report/page.hpp"
 #include "microswarm/report/radar_marks.hpp"
@@ -193,10 +194,12 @@ void write_run_report(const Record& record, const std::filesystem::path& folder,
     stills.pictures.emplace_back(stem + ".png", moment_caption(s, k + 1, *chosen[k]));
   }
   write_plots(run_plots(record), folder / "plots.png");
+  auto numbers = run_numbers(record);
+  add_latency_rows(numbers, record);
   std::vector<PageSection> sections{
       {.text = s.scenario().description,
        .pictures = {{"overview.png", "The whole run. Also as overview.svg and overview.pdf."}}},
-      {.heading = "Numbers", .table = run_numbers(record)}};
+      {.heading = "Numbers", .table = std::move(numbers)}};
   if (shown > 0) sections.push_back(std::move(stills));
   const bool planned = !record.result.timing.planning.empty();
   sections.push_back(

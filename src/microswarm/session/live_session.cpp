@@ -44,6 +44,17 @@ RigLog log_of(const Rig& rig, const std::string& note) {
   return log;
 }
 
+RigLatency latency_of(const RigTiming& timing) {
+  const Durations& times = timing.camera_to_current;
+  return {.median = times.quantile(0.5),
+          .p99 = times.quantile(0.99),
+          .longest = times.longest(),
+          .pictures = static_cast<int>(times.count()),
+          .late_currents = timing.late_currents,
+          .ticks = static_cast<int>(timing.tick.count()),
+          .missed_deadlines = timing.missed_deadlines};
+}
+
 constexpr std::size_t max_logged = 10'000'000;  // values
 
 }  // namespace
@@ -138,6 +149,8 @@ class LiveSession::LivePlant : public Plant {
     log_.add(moment, rig_.start());
     if (kept_.currents.size() < max_logged) {
       kept_.driven_at.push_back(moment.t - rig_.start());
+      kept_.answered_at.push_back(moment.driven - rig_.start());
+      kept_.pictured_at.push_back(moment.seen - rig_.start());
       kept_.currents.insert(kept_.currents.end(), moment.output.acknowledged.begin(),
                             moment.output.acknowledged.end());
     }
@@ -175,7 +188,10 @@ void LiveSession::stop(const std::string& why) { plant_->rig().stop(why); }
 
 std::string LiveSession::close() {
   stop("the run has ended");
-  if (RigLog& kept = plant_->kept(); !kept.empty()) rig_log() = std::exchange(kept, {});
+  if (RigLog& kept = plant_->kept(); !kept.empty()) {
+    kept.latency = latency_of(timing());
+    rig_log() = std::exchange(kept, {});
+  }
   if (VideoRecorder* const video = plant_->video()) video->finish();
   return plant_->log().finish(plant_->rig().zero_at(), zero_is_confirmed());
 }

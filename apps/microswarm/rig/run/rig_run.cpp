@@ -25,9 +25,14 @@ void tell(const RigTiming& t) {
   print("    vision           {}\n", quantiles(t.vision));
   print("    tick             {} (vision and navigator)\n", quantiles(t.tick));
   print("    currents late    {}\n", quantiles(t.coil_late));
+  print("    camera to current {}, longest {:.1f} ms\n", quantiles(t.camera_to_current),
+        1e3 * t.camera_to_current.longest());
   print("    coil driver      {}\n", quantiles(t.round_trip));
   print("  {} ticks, {} missed their deadline; {} frames read, {} dropped\n", t.tick.count(),
         t.missed_deadlines, t.frames, t.dropped_frames);
+  if (t.late_currents > 0)
+    print("  {} of {} frames had their currents more than a tick later\n", t.late_currents,
+          t.camera_to_current.count());
   if (t.unseen_frames > 0)
     print("  robots were unseen in {} frames, at most {} of them\n", t.unseen_frames,
           t.most_unseen);
@@ -41,15 +46,18 @@ nlohmann::ordered_json timing_json(const RigTiming& t, const std::optional<Recor
   const auto ms = [](const Durations& d) {
     return nlohmann::ordered_json{{"p50_ms", 1e3 * d.quantile(0.5)},
                                   {"p95_ms", 1e3 * d.quantile(0.95)},
-                                  {"p99_ms", 1e3 * d.quantile(0.99)}};
+                                  {"p99_ms", 1e3 * d.quantile(0.99)},
+                                  {"longest_ms", 1e3 * d.longest()}};
   };
   nlohmann::ordered_json json{{"frame_age", ms(t.frame_age)},
                               {"vision", ms(t.vision)},
                               {"tick", ms(t.tick)},
+                              {"camera_to_current", ms(t.camera_to_current)},
                               {"currents_late", ms(t.coil_late)},
                               {"coil_driver", ms(t.round_trip)},
                               {"ticks", t.tick.count()},
                               {"missed_deadlines", t.missed_deadlines},
+                              {"late_currents", t.late_currents},
                               {"frames_read", t.frames},
                               {"frames_dropped", t.dropped_frames},
                               {"frames_with_unseen_robots", t.unseen_frames},

@@ -21,6 +21,7 @@ class Durations {
     longest_ = std::max(longest_, seconds);
     ++count_;
   }
+  double longest() const { return longest_; }  ///< [s]; 0 if empty
   std::size_t count() const { return static_cast<std::size_t>(count_); }
   /// Quantile q in [0, 1] by nearest rank [s], rounded up by at most 1 % or 1 µs; 0 if empty.
   double quantile(double q) const {

@@ -5,6 +5,8 @@
 
 #include <string_view>
 
+#include "microswarm/io/hdf5_tables.hpp"
+
 namespace microswarm {
 namespace {
 
@@ -46,6 +48,11 @@ void write_rig_log(Hdf5Writer& out, const RigLog& log) {
   out.attribute("/rig", "note", log.note);
   out.attribute("/rig", "coils", static_cast<std::int64_t>(log.coils.size()));
   write_column(out, "/rig/currents/t_s", log.driven_at, "s", "Time of the sending.");
+  write_column(out, "/rig/currents/driven_s", log.answered_at, "s",
+               "When the driver had the currents.");
+  write_column(out, "/rig/currents/seen_s", log.pictured_at, "s",
+               "Time of the picture that the currents answer.");
+  if (log.latency) write_attributes(out, "/rig", type_of<RigLatency>(), &*log.latency);
   for (std::size_t c = 0; c < log.coils.size(); ++c) {
     const std::string path = current_path(c);
     write_column(out, path, every_nth(log.currents, log.coils.size(), c), "A",
@@ -74,6 +81,13 @@ RigLog read_rig_log(const Hdf5Reader& in) {
   const std::int64_t coils = in.integer_attribute("/rig", "coils");
   if (coils < 0 || coils > max_coils) in.fail("attribute coils of /rig is out of range");
   log.driven_at = in.numbers("/rig/currents/t_s");
+  if (in.has_attribute("/rig", "ticks")) {  // not of older programs
+    log.answered_at = in.numbers("/rig/currents/driven_s");
+    log.pictured_at = in.numbers("/rig/currents/seen_s");
+    for (const std::size_t size : {log.answered_at.size(), log.pictured_at.size()})
+      if (size != log.driven_at.size()) in.fail("/rig/currents has columns of different lengths");
+    read_attributes(in, "/rig", type_of<RigLatency>(), &log.latency.emplace());
+  }
   const auto count = static_cast<std::size_t>(coils);
   std::vector<std::vector<double>> columns;
   for (std::size_t c = 0; c < count; ++c) {

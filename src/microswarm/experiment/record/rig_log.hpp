@@ -3,29 +3,58 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "microswarm/core/fields/fields.hpp"
 #include "microswarm/geometry/vec2.hpp"
 #include "microswarm/io/hdf5_image.hpp"
 
 namespace microswarm {
 
+/// How long pictures waited for their currents on a rig: from when a picture reached the program to
+/// when the driver had the first currents that answer it.
+struct RigLatency {
+  double median = 0;
+  double p99 = 0;
+  double longest = 0;
+  int pictures = 0;
+  int late_currents = 0;
+  int ticks = 0;
+  int missed_deadlines = 0;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.median, {"latency_median", Unit::s, {}, "Median from camera to current."});
+    visit(self.p99, {"latency_p99", Unit::s, {}, "99th percentile from camera to current."});
+    visit(self.longest, {"latency_longest", Unit::s, {}, "Longest time from camera to current."});
+    visit(self.pictures, {"pictures", Unit::none, {}, "Pictures that currents answered."});
+    visit(self.late_currents,
+          {"late_currents", Unit::none, {}, "Pictures answered more than a tick later."});
+    visit(self.ticks, {"ticks", Unit::none, {}, "Number of ticks."});
+    visit(self.missed_deadlines,
+          {"missed_deadlines", Unit::none, {}, "Ticks whose command came too late."});
+  }
+};
+
 /// What a record keeps of a run on a rig beside the run itself: under which circumstances, what
 /// went to the coils, and what the camera showed. Times are those of the record's frames [s]. No
 /// part of it is in the record's hash.
 struct RigLog {
-  std::string began;                 ///< date and local time, ISO 8601
-  std::string note;                  ///< of the operator
-  std::string rig_file;              ///< all parameters of the rig, its scale included, as YAML
-  std::string coils_file;            ///< text of the coil system's file: the calibration
-  std::vector<std::string> coils;    ///< names
-  std::vector<double> driven_at;     ///< times of the sendings [s]
-  std::vector<double> currents;      ///< acknowledged: of all coils at the first sending, … [A]
-  std::vector<double> seen_at;       ///< times of the pictures, one entry a body [s]
-  std::vector<std::int64_t> bodies;  ///< -1 for the swarm, otherwise an obstacle's number
-  std::vector<Vec2> places;          ///< of the bodies' centres [µm]
-  std::vector<double> radii;         ///< of circles around the bodies [µm]
+  std::string began;                  ///< date and local time, ISO 8601
+  std::string note;                   ///< of the operator
+  std::string rig_file;               ///< all parameters of the rig, its scale included, as YAML
+  std::string coils_file;             ///< text of the coil system's file: the calibration
+  std::vector<std::string> coils;     ///< names
+  std::vector<double> driven_at;      ///< times of the sendings [s]
+  std::vector<double> answered_at;    ///< when the driver had them [s]
+  std::vector<double> pictured_at;    ///< when the pictures came that they answer [s]
+  std::vector<double> currents;       ///< acknowledged: of all coils at the first sending, … [A]
+  std::vector<double> seen_at;        ///< times of the pictures, one entry a body [s]
+  std::vector<std::int64_t> bodies;   ///< -1 for the swarm, otherwise an obstacle's number
+  std::vector<Vec2> places;           ///< of the bodies' centres [µm]
+  std::vector<double> radii;          ///< of circles around the bodies [µm]
+  std::optional<RigLatency> latency;  ///< of the whole run, once it is over
 
   bool empty() const { return began.empty(); }
   void see(double t, std::int64_t body, Vec2 place, double radius);

@@ -44,10 +44,12 @@ struct SimulatedCoils {
 struct SimulatedCamera {
   static constexpr std::string_view type_name = "simulated";
   MicroscopeParams microscope;
+  double rate = 60;
   double speed_error = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.microscope, {"microscope", Unit::none, {}, "Properties of the simulated images."});
+    visit(self.rate, {"rate", Unit::hz, {0.1, 1000}, "Frame rate of a run in real time."});
     visit(self.speed_error, {"speed_error",
                              Unit::none,
                              {-0.9, 10},

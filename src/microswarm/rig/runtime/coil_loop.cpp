@@ -52,11 +52,14 @@ CoilLoop::~CoilLoop() {
   thread_.join();
 }
 
-void CoilLoop::command(const Command& command, const Eigen::Vector3d& place) {
+void CoilLoop::command(const Command& command, const Eigen::Vector3d& place, double seen) {
   const std::lock_guard lock(mutex_);
   command_ = command;
   place_ = place;
+  seen_ = seen;
   commanded_ = steady_seconds();
+  is_new_ = true;
+  changed_.notify_all();
 }
 
 void CoilLoop::stop(const std::string& why) {
@@ -107,8 +110,11 @@ void CoilLoop::run() {
   while (why_.empty()) {
     due += period;
     const double wait = std::max(0.0, Seconds(due - Clock::now()).count());
-    if (changed_.wait_until(lock, due, [this] { return !why_.empty(); })) break;
+    if (changed_.wait_until(lock, last + period / 2, [this] { return !why_.empty(); })) break;
+    changed_.wait_until(lock, due, [this] { return is_new_ || !why_.empty(); });
+    if (!why_.empty()) break;
     const auto now = Clock::now();
+    due = std::min(due, now);
     if (!commanded_) {
       due = last = now;
       standstill.pass(0);  // nothing is driven yet; a suspension counts at the first command
@@ -119,6 +125,8 @@ void CoilLoop::run() {
     CoilMoment moment;
     moment.t = steady_seconds();
     moment.command = command_;
+    moment.seen = seen_;
+    is_new_ = false;
     moment.late = Seconds(now - due).count();
     const Eigen::Vector3d place = place_;
     if (moment.t - *commanded_ > limits_.deadman) {
@@ -161,7 +169,8 @@ std::string CoilLoop::send(CoilMoment& moment, const Eigen::Vector3d& place, dou
     controller_.command(moment.command);
     const double began = steady_seconds();
     moment.output = controller_.advance(dt);
-    moment.round_trip = steady_seconds() - began;
+    moment.driven = steady_seconds();
+    moment.round_trip = moment.driven - began;
     if (!trouble_of(moment.output.status).empty()) return controller_.trouble();
     if (heard_) heard_(moment);
     return {};

@@ -16,16 +16,18 @@ namespace microswarm {
 
 /// One output of the loop.
 struct CoilMoment {
-  double t = 0;  ///< [s], by steady_seconds()
+  double t = 0;     ///< [s], by steady_seconds()
+  double seen = 0;  ///< when the picture came that the command answers [s], by the same clock
   Command command;
   CoilOutput output;
   double late = 0;        ///< delay after the due time [s]
   double round_trip = 0;  ///< of the driver [s]
+  double driven = 0;      ///< when the driver had the currents [s], by the same clock
 };
 
 /// Rate and limits of a CoilLoop.
 struct CoilLoopLimits {
-  double rate = 200;        ///< of sendings [Hz]
+  double rate = 200;        ///< of sendings between commands [Hz]
   double deadman = 0.5;     ///< longest time without a command [s]
   int max_trips = 1;        ///< times the coils may have been off by themselves in a window
   double trip_window = 10;  ///< [s]
@@ -33,11 +35,12 @@ struct CoilLoopLimits {
 };
 
 /// Sends currents in real time from its own thread, so the field continues while a navigator
-/// computes. It starts with the first command. It sets the coils to zero for good when it is
-/// stopped, when no command arrives for the dead man's time, when the driver fails, when the coils
-/// were off by themselves too often, when the device's own limits leave next to nothing, when the
-/// program or the computer stood still (a suspension also before the first command, which is then
-/// not driven), and on destruction.
+/// computes. A new command does not wait for the next sending, but goes out half a period after the
+/// last one at the earliest; the later sendings follow it. It starts with the first command. It
+/// sets the coils to zero for good when it is stopped, when no command arrives for the dead man's
+/// time, when the driver fails, when the coils were off by themselves too often, when the device's
+/// own limits leave next to nothing, when the program or the computer stood still (a suspension
+/// also before the first command, which is then not driven), and on destruction.
 class CoilLoop {
  public:
   /// `controller` must outlive the loop and not be used elsewhere. `heard` is called in the loop's
@@ -50,8 +53,9 @@ class CoilLoop {
   CoilLoop(const CoilLoop&) = delete;
   CoilLoop& operator=(const CoilLoop&) = delete;
 
-  /// Sets the command, and the position of the swarm among the coils [µm].
-  void command(const Command& command, const Eigen::Vector3d& place);
+  /// Sets the command, and the position of the swarm among the coils [µm]. `seen` is when the
+  /// picture came that it answers [s], by steady_seconds().
+  void command(const Command& command, const Eigen::Vector3d& place, double seen = 0);
   /// Sets the coils to zero for good; callable from any thread. Returns when they are at zero or
   /// cannot be reached.
   void stop(const std::string& why);
@@ -79,6 +83,8 @@ class CoilLoop {
   std::condition_variable changed_;
   Command command_;
   Eigen::Vector3d place_;
+  double seen_ = 0;                  // when its picture came [s]
+  bool is_new_ = false;              // not sent yet
   std::optional<double> commanded_;  // when [s]
   std::string why_;                  // reason of the stop
   bool at_zero_ = false;

@@ -26,7 +26,7 @@ struct Commanded {
   double bz = 0;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
-    visit(self.t, {"t", Unit::s, {}, "Time since the first output."});
+    visit(self.t, {"t", Unit::s, {}, "Time on the record's clock."});
     visit(self.heading, {"heading", Unit::deg, {}, "Commanded heading."});
     visit(self.speed, {"speed", Unit::um_per_s, {}, "Commanded speed."});
     visit(self.bx, {"bx", Unit::mt, {}, "Commanded field."});
@@ -42,6 +42,7 @@ struct Driven {
   std::string status;
   std::optional<double> late;
   std::optional<double> round_trip;
+  std::optional<double> seen;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.scale, {"scale", Unit::none, {}, "Scale of the command imposed by the limits."});
@@ -50,6 +51,7 @@ struct Driven {
     visit(self.status, {"status", Unit::none, {}, "Status of the driver, or dry."});
     visit(self.late, {"late", Unit::s, {}, "Delay after the due time."});
     visit(self.round_trip, {"round_trip", Unit::s, {}, "Round trip of the driver."});
+    visit(self.seen, {"seen", Unit::s, {}, "Time of the picture that the command answers."});
   }
 };
 
@@ -116,7 +118,8 @@ void CommandLog::add(const CoilMoment& m, double start) {
                  .device_scale = acknowledged,
                  .status = std::string(dry_ ? "dry" : to_string(m.output.status)),
                  .late = rounded(m.late, 1e6),
-                 .round_trip = rounded(m.round_trip, 1e6)}));
+                 .round_trip = rounded(m.round_trip, 1e6),
+                 .seen = rounded(m.seen - start, 1e4)}));
 }
 
 std::string CommandLog::finish(double zero_at, bool confirmed) noexcept {

@@ -10,8 +10,6 @@
 namespace microswarm {
 namespace {
 
-constexpr double simulated_rate = 60;  // [Hz] of a simulated camera
-
 /// A video played at its own rate.
 class PacedVideo : public FrameSource {
  public:
@@ -73,10 +71,10 @@ Devices open_devices(const RigExperiment& on, bool dry, bool idle) {
   const RigParams& rig = on.rig.params;
   Devices devices;
   devices.coils = dry ? simulated_coils(on.rig) : open_coils(on.rig);
-  if (std::holds_alternative<SimulatedCamera>(rig.camera)) {
+  if (const auto* simulated = std::get_if<SimulatedCamera>(&rig.camera)) {
     devices.bench = std::make_unique<RealtimeRigSimulator>(
         on.scenario(), on.experiment.world, on.rig, std::move(devices.coils), dry && idle);
-    devices.camera = devices.bench->camera(simulated_rate);
+    devices.camera = devices.bench->camera(simulated->rate);
     devices.scale = devices.bench->view().scale;
     return devices;
   }

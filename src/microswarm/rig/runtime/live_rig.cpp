@@ -72,6 +72,8 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
                    !std::holds_alternative<SimulatedCamera>(rig.params.camera)),
       world_{std::move(map), has_virtual_ ? scenario.obstacles : std::vector<Obstacle>{}},
       scale_(scale),
+      tick_(scenario.tick),
+      schedule_(scenario.tick, camera->rate()),
       camera_(std::move(camera), "camera", camera_watch(rig.params), std::move(pictures)),
       controller_(rig.system, checked(rig, scenario).field, driver,
                   scenario.start ? scenario.start->heading : 0),
@@ -80,22 +82,7 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
       load_(rig.system),
       coils_(controller_, loop_limits(rig.params),
              [this, heard = std::move(heard)](const CoilMoment& moment) {
-               {
-                 const std::lock_guard lock(timing_mutex_);
-                 timing_.coil_late.add(moment.late);
-                 timing_.round_trip.add(moment.round_trip);
-                 timing_.unmade += !moment.output.reached;
-                 timing_.limited += moment.output.scale < 1 - 1e-9;
-                 timing_.min_scale = std::min(timing_.min_scale, moment.output.scale);
-                 timing_.resumed += moment.output.status == DriveStatus::resumed;
-                 const bool weakened =
-                     is_acknowledged(moment.output.status) && moment.output.device_scale < 1 - 1e-9;
-                 timing_.scaled += weakened;
-                 if (weakened) weakened_to_ = moment.output.device_scale;
-                 timing_.min_device_scale =
-                     std::min(timing_.min_device_scale, moment.output.device_scale);
-                 load_.take(moment.t, moment.output);
-               }
+               hear(moment);
                if (heard) heard(moment);
              }) {
   check_workspace(rig, scenario, *world_.map);
@@ -110,6 +97,30 @@ LiveRig::LiveRig(const Scenario& scenario, std::shared_ptr<const Map> map, const
                                 {scale, picture.width, picture.height});
   start_ = steady_seconds();
   read_frame();
+}
+
+/// In the coils' thread.
+void LiveRig::hear(const CoilMoment& moment) {
+  const CoilOutput& output = moment.output;
+  const bool acknowledged = is_acknowledged(output.status);
+  const std::lock_guard lock(timing_mutex_);
+  if (acknowledged && moment.seen != driven_for_) {
+    driven_for_ = moment.seen;
+    timing_.camera_to_current.add(moment.driven - moment.seen);
+    timing_.late_currents += moment.driven - moment.seen > tick_;
+  }
+  timing_.coil_late.add(moment.late);
+  timing_.round_trip.add(moment.round_trip);
+  timing_.unmade += !output.reached;
+  timing_.limited += output.scale < 1 - 1e-9;
+  timing_.min_scale = std::min(timing_.min_scale, output.scale);
+  timing_.resumed += output.status == DriveStatus::resumed;
+  if (acknowledged && output.device_scale < 1 - 1e-9) {
+    ++timing_.scaled;
+    weakened_to_ = output.device_scale;
+  }
+  timing_.min_device_scale = std::min(timing_.min_device_scale, output.device_scale);
+  load_.take(moment.t, output);
 }
 
 Observation LiveRig::observe() {
@@ -136,8 +147,13 @@ bool LiveRig::set_obstacles(const std::vector<Obstacle>& obstacles) {
 }
 
 void LiveRig::take_frame() {
+  schedule_.start(since_start());
   try {
-    if (camera_.take(frame_)) read_frame();
+    const bool is_new =
+        camera_.wait(frame_, schedule_.latest() - since_start(), start_ + schedule_.earliest());
+    begun_ = since_start();
+    schedule_.begin(is_new ? std::optional(frame_.taken - start_) : std::nullopt);
+    if (is_new) read_frame();
   } catch (const HardwareError& e) {
     fail(e.what());
   }
@@ -190,21 +206,18 @@ void LiveRig::look_for_faults(double now) {
 
 void LiveRig::apply(const Command& command, double dt) {
   const double now = since_start();
-  if (next_ == 0) next_ = begun_;  // the first one
-  next_ += dt;
-  const bool missed = now > next_;
+  const bool missed = !schedule_.end(now, dt);
   {
     const std::lock_guard lock(timing_mutex_);
     timing_.tick.add(now - begun_);
     timing_.missed_deadlines += missed;
   }
   missed_in_a_row_ = missed ? missed_in_a_row_ + 1 : 0;
-  if (missed) next_ = now;
   perception_->commanded(command, now);
   const Vec2 place =
       detections_->swarm ? detections_->swarm->pose.position : world_.map->bounds().centre();
-  coils_.command(command, place_among_coils(rig_.system, *world_.map, place));
-  coils_.wait(next_ - since_start());
+  coils_.command(command, place_among_coils(rig_.system, *world_.map, place), frame_.taken);
+  coils_.wait(schedule_.earliest() - since_start());
 }
 
 void LiveRig::fail(const std::string& why) {

@@ -16,6 +16,7 @@
 #include "microswarm/rig/runtime/coil_load.hpp"
 #include "microswarm/rig/runtime/coil_loop.hpp"
 #include "microswarm/rig/runtime/follow_monitor.hpp"
+#include "microswarm/rig/runtime/tick_schedule.hpp"
 #include "microswarm/vision/camera/newest_frame.hpp"
 
 namespace microswarm {
@@ -25,6 +26,7 @@ struct RigTiming {
   Durations frame_age;                         ///< of the newest frame at the start of a tick
   Durations vision;                            ///< image processing of a frame
   Durations tick;                              ///< from the start of a tick to its command
+  Durations camera_to_current;                 ///< from a picture to the first currents for it
   Durations coil_late;                         ///< delay of currents after their due time
   Durations round_trip;                        ///< of the coil driver
   int resumed = 0;                             ///< times the coils had switched off by themselves
@@ -33,7 +35,8 @@ struct RigTiming {
   double min_scale = 1;                        ///< minimum scale of these
   int scaled = 0;                              ///< currents reduced by the device's own limits
   double min_device_scale = 1;                 ///< minimum scale of these
-  int missed_deadlines = 0;                    ///< ticks that ended after the start of the next
+  int missed_deadlines = 0;                    ///< ticks that ended too late, see TickSchedule
+  int late_currents = 0;                       ///< pictures with currents more than a tick later
   int frames = 0;                              ///< processed
   int dropped_frames = 0;                      ///< received but not processed
   int unseen_frames = 0;                       ///< processed, in which robots were unseen
@@ -42,10 +45,10 @@ struct RigTiming {
 };
 
 /// A rig in real time. Each tick processes the newest frame, sends the command to the coils, and
-/// waits for the next tick. On any fault (SafetyParams, a failing camera or coil driver) the coils
-/// go to zero for good and `fault` gives the reason. Unless the camera is simulated, the scenario's
-/// obstacles are virtual: observed with the bodies that the camera sees, as in the experiments of
-/// [radar] (Section V).
+/// waits for the next tick, see TickSchedule. On any fault (SafetyParams, a failing camera or coil
+/// driver) the coils go to zero for good and `fault` gives the reason. Unless the camera is
+/// simulated, the scenario's obstacles are virtual: observed with the bodies that the camera sees,
+/// as in the experiments of [radar] (Section V).
 class LiveRig : public Plant {
  public:
   /// `rig` and `driver` must outlive it. `scale` maps camera pixels to the world. `heard` is called
@@ -94,6 +97,7 @@ class LiveRig : public Plant {
   const Detections& sight() const { return *detections_; }
 
  private:
+  void hear(const CoilMoment& moment);
   void take_frame();
   void read_frame();
   Snapshot world_then() const;
@@ -105,6 +109,8 @@ class LiveRig : public Plant {
   const bool has_virtual_;  // obstacles
   World world_;             // map and virtual obstacles
   CameraScale scale_;
+  const double tick_;  // [s]
+  TickSchedule schedule_;
   NewestFrame camera_;
   CoilController controller_;
   FollowMonitor following_;
@@ -118,11 +124,11 @@ class LiveRig : public Plant {
   double seen_ = 0;   // time of the newest frame [s]
   double found_ = 0;  // when the swarm was last detected [s]
   double begun_ = 0;  // start of the tick [s]
-  double next_ = 0;   // start of the next tick [s]
   int missed_in_a_row_ = 0;
   std::string fault_;
   mutable std::mutex timing_mutex_;
   RigTiming timing_;
+  double driven_for_ = 0;   // when the picture came that the currents are for [s]; likewise
   double weakened_to_ = 1;  // with the timing's mutex
   CoilLoadMeter load_;      // with the timing's mutex
   CoilLoop coils_;          // last member: its thread uses the others

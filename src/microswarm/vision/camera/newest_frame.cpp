@@ -131,9 +131,9 @@ struct NewestFrame::Shared {
         why_ended = one_line(source.why_ended());
         return;
       }
+      const double taken = steady_seconds();
       const bool is_same = past.has(frame.picture.pixels);
       const bool is_dark = is_black(frame.picture.pixels, black_below);
-      const double taken = steady_seconds();
       if (heard) heard(frame, taken);
       publish(frame, taken, is_same, is_dark);
     }
@@ -177,11 +177,12 @@ NewestFrame::~NewestFrame() {
   shared_->changed.wait_for(lock, longest_close, [&] { return shared_->done; });
 }
 
-bool NewestFrame::wait(LiveFrame& frame, double seconds) {
+bool NewestFrame::wait(LiveFrame& frame, double seconds, double since) {
   std::unique_lock lock(shared_->mutex);
   Shared& s = *shared_;
-  s.changed.wait_for(lock, std::chrono::duration<double>(seconds),
-                     [&] { return s.fresh || s.ended || !s.error.empty(); });
+  s.changed.wait_for(lock, std::chrono::duration<double>(seconds), [&] {
+    return (s.fresh && s.newest.taken >= since) || s.ended || !s.error.empty();
+  });
   if (s.fresh) {
     std::swap(frame, s.newest);
     s.newest.taken = frame.taken;

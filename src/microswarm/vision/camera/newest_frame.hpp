@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "microswarm/core/fields/fields.hpp"
+#include "microswarm/core/maths/infinity.hpp"
 #include "microswarm/vision/camera/frames.hpp"
 
 namespace microswarm {
@@ -91,8 +92,9 @@ class NewestFrame {
   /// none has come. Throws HardwareError "NAME: WHY" when the source failed, and while it is
   /// silent.
   bool take(LiveFrame& frame) { return wait(frame, 0); }
-  /// The same, after waiting for up to `seconds` for a frame to come.
-  bool wait(LiveFrame& frame, double seconds);
+  /// The same, after waiting for up to `seconds` for a frame that came at `since` or later [s], by
+  /// steady_seconds(); without one, the newest is taken as it is.
+  bool wait(LiveFrame& frame, double seconds, double since = -infinity);
 
   CameraStatus status() const;
 
