@@ -8,6 +8,7 @@
 #include "bench/lab.hpp"
 #include "bench/planning.hpp"
 #include "bench/radar.hpp"
+#include "bench/rig.hpp"
 #include "bench/swarm.hpp"
 #include "bench/sweep.hpp"
 #include "bench/vision.hpp"
@@ -33,6 +34,11 @@ struct Group {
   const char* doc;
   std::function<Rows(bool quick, const Stop&)> measure;
 };
+
+/// The command-line tool beside this program.
+std::filesystem::path tool() {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "microswarm";
+}
 
 int measure(const Group& group, const BenchOptions& o, const Context& context) {
   if (!o.csv.empty()) const StagedFile can_be_written(o.csv);
@@ -74,9 +80,7 @@ int main(int argc, char** argv) {
        }},
       {"sweep", "Sweeps on two threads and two processes, and their database",
        [](bool quick, const Stop& stop) {
-         const auto program =
-             std::filesystem::read_symlink("/proc/self/exe").parent_path() / "microswarm";
-         return bench::sweep(cli::scenario_folder(), program, quick, stop);
+         return bench::sweep(cli::scenario_folder(), cli::tool(), quick, stop);
        }},
       {"swarm", "Stepping of robots under one input", bench::swarm},
       {"global", "Planning for several robots under one input", bench::global},
@@ -89,7 +93,10 @@ int main(int argc, char** argv) {
          return bench::lab(cli::scenario_folder(), quick, stop);
        }},
 #endif
-      {"vision", "Detection and tracking of swarms and robots", bench::vision}};
+      {"vision", "Detection and tracking of swarms and robots", bench::vision},
+      {"rig", "From camera to current at 100 Hz, in real time", [](bool quick, const Stop& stop) {
+         return bench::rig(cli::scenario_folder(), cli::tool(), quick, stop);
+       }}};
   for (const cli::Group& group : groups) cli::add_group(app, group, action);
   return cli::run_program("microswarm-bench", line, action, argc, argv);
 }

@@ -3,12 +3,12 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
-#include <stdlib.h>  // mkdtemp
 
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
 
+#include "bench/temporary_folder.hpp"
 #include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/sweep/export.hpp"
 #include "microswarm/sweep/message.hpp"
@@ -21,26 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = Stop::Clock;
-
-/// A folder that goes with its owner.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "microswarm-bench-XXXXXX").string();
-    if (!::mkdtemp(name.data())) throw std::runtime_error("bench: cannot make a folder");
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code error;
-    fs::remove_all(path_, error);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 /// 100 cells of the first scenario, each of `trials` trials.
 fs::path write_sweep(const fs::path& folder, const fs::path& scenarios, int trials) {

@@ -18,7 +18,7 @@ struct BenchOptions {
 };
 
 constexpr const char* groups[] = {"planning", "sweep",  "swarm",  "global", "gather",
-                                  "radar",    "growth", "vision", "lab"};
+                                  "radar",    "growth", "vision", "lab",    "rig"};
 
 int measure(const BenchOptions& o) {
   if (std::find(std::begin(groups), std::end(groups), o.group) == std::end(groups))
