@@ -168,12 +168,26 @@ TEST_F(WholeRig, ADryRunSaysSoAndTheLogEndsWithZero) {
   EXPECT_NE(read("dry/index.html").find(", dry run<"), std::string::npos);
   const std::string dry = read("dry/commands.csv");
   EXPECT_EQ(dry.find("driven"), std::string::npos);
-  EXPECT_TRUE(dry.ends_with(",,0,0,0,0,0,0,0,1,,dry,,\n")) << dry.substr(dry.size() - 200);
+  EXPECT_TRUE(dry.ends_with(",,0,0,0,0,0,0,0,1,,dry,,,\n")) << dry.substr(dry.size() - 200);
   run({"rig", "run", scenario, "--rig", rig("vortex.yaml"), "--seconds", sanitized ? "5" : "1",
        "--out", "wet"});
   const std::string wet = read("wet/commands.csv");
   EXPECT_NE(wet.find(",driven,"), std::string::npos);
-  EXPECT_TRUE(wet.ends_with(",1,,zero,,\n")) << wet.substr(wet.size() - 200);
+  EXPECT_TRUE(wet.ends_with(",1,,zero,,,\n")) << wet.substr(wet.size() - 200);
+}
+
+TEST_F(WholeRig, ARunTellsHowLongPicturesWaitForTheirCurrents) {
+  const std::string scenario = MICROSWARM_SOURCE_DIR "/scenarios/papers/radar/single.yaml";
+  const Outcome outcome =
+      run({"rig", "run", scenario, "--rig", rig("vortex.yaml"), "--seconds", "1", "--set",
+           "tick_s=0.02", "--set-rig", "camera.rate_hz=50", "--set-rig", "safety.max_pause_s=3",
+           "--set-rig", "safety.missed_deadlines=1000", "--json"});
+  const auto timing = nlohmann::json::parse(outcome.out)["rig_timing"];
+  const auto& times = timing["camera_to_current"];
+  EXPECT_GT(times["p50_ms"].get<double>(), 0);
+  EXPECT_LE(times["p50_ms"].get<double>(), times["p99_ms"].get<double>());
+  EXPECT_LE(times["p99_ms"].get<double>(), times["longest_ms"].get<double>());
+  EXPECT_LE(timing["late_currents"].get<int>(), timing["frames_read"].get<int>());
 }
 
 TEST_F(WholeRig, ADeviceThatIsNotThereLeavesNoEmptyFolder) {
