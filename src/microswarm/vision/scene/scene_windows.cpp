@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "microswarm/vision/image/mat.hpp"
+#include "microswarm/vision/image/pixel_runs.hpp"
 #include "microswarm/vision/scene/background.hpp"
 #include "microswarm/vision/scene/blob_search.hpp"
 #include "microswarm/vision/scene/scene_parts.hpp"
@@ -112,20 +113,22 @@ void WindowSearch::place_windows(const SceneParams& params) {
   const int wide = 2 * (margin / coarse + 1) + 1;
   cv::Mat grown;
   cv::dilate(differs_, grown, cv::Mat::ones(wide, wide, CV_8U));
-  cv::Mat stats, centres;
-  const int count = cv::connectedComponentsWithStats(grown, pieces_, stats, centres, 8, CV_32S);
+  const std::vector<RunPiece> found = connected_runs(grown);
   const cv::Rect all(0, 0, fine_.cols, fine_.rows);
   windows_.clear();
-  if (count > max_windows) {
+  if (std::ssize(found) >= max_windows) {
     windows_ = {{.box = all}};
     return;
   }
-  for (int k = 1; k < count; ++k) {
-    const cv::Rect box(stats.at<int>(k, cv::CC_STAT_LEFT) * coarse,
-                       stats.at<int>(k, cv::CC_STAT_TOP) * coarse,
-                       stats.at<int>(k, cv::CC_STAT_WIDTH) * coarse,
-                       stats.at<int>(k, cv::CC_STAT_HEIGHT) * coarse);
-    windows_.push_back({.box = box & all, .piece = k});
+  pieces_ = cv::Mat::zeros(grown.size(), CV_32S);
+  windows_.reserve(found.size());
+  for (const RunPiece& one : found) {
+    const int number = static_cast<int>(windows_.size()) + 1;
+    for (const PixelRun& run : one.runs)
+      std::fill(pieces_.ptr<int>(run.row) + run.begin, pieces_.ptr<int>(run.row) + run.end, number);
+    const cv::Rect box(one.box.x * coarse, one.box.y * coarse, one.box.width * coarse,
+                       one.box.height * coarse);
+    windows_.push_back({.box = box & all, .piece = number});
   }
 }
 
