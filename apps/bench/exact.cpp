@@ -12,6 +12,7 @@
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/formats/moving_ai.hpp"
+#include "microswarm/planning/exact/shortest_path_tree.hpp"
 #include "microswarm/planning/exact/shortest_paths.hpp"
 #include "microswarm/planning/path/fit_to_map.hpp"
 #include "microswarm/planning/path/planners.hpp"
@@ -73,6 +74,45 @@ std::vector<double> kept_times(ShortestPaths& paths, const std::vector<PathQuery
   return ms;
 }
 
+/// Lengths of the paths from all starts to the first goal, out of one tree: the time [ms] it takes
+/// to grow and ask it, and the times of asking it again.
+struct TreeTimes {
+  double grown = 0;
+  std::vector<double> again;
+};
+TreeTimes tree_times(const Map& map, double clearance, const std::vector<PathQuery>& queries,
+                     const Stop& stop) {
+  TreeTimes times;
+  const Vec2 goal = queries.front().goal;
+  ShortestPathTree tree(map, goal, clearance);
+  for (const bool counts : {false, true})
+    for (const PathQuery& q : queries) {
+      if (stop()) break;
+      const auto began = Clock::now();
+      const double length = tree.length_from(q.start.position);
+      const double ms = spent_ms(began);
+      if (counts)
+        times.again.push_back(ms);
+      else
+        times.grown += ms;
+      require_solved(length < infinity);
+    }
+  return times;
+}
+
+void add_tree_rows(const std::string& where, const TreeTimes& times, double aim,
+                   std::vector<BenchRow>& rows) {
+  rows.push_back({.name = "exact, " + where + ", one goal, tree of paths kept",
+                  .quantity = "time, median",
+                  .unit = "ms",
+                  .ours = quantile(times.again, 0.5),
+                  .aim = aim});
+  rows.push_back({.name = "exact, " + where + ", one goal, growing the tree for all starts",
+                  .quantity = "time",
+                  .unit = "ms",
+                  .ours = times.grown});
+}
+
 double corners_ms(const Map& map, int repeats) {
   std::vector<double> ms;
   for (int i = 0; i < repeats; ++i) {
@@ -115,6 +155,8 @@ std::vector<BenchRow> among_discs_and_polygons(bool quick, const Stop& stop) {
                   .quantity = "time, median",
                   .unit = "ms",
                   .ours = corners_ms(world.map(), 11)});
+  add_tree_rows("140 discs and 70 polygons", tree_times(world.map(), clearance, queries, stop),
+                0.05, rows);
   return rows;
 }
 
@@ -193,6 +235,7 @@ std::vector<BenchRow> in_grid_map(const std::filesystem::path& file, bool quick,
                               .unit = "ms",
                               .ours = corners_ms(*map, 3),
                               .aim = 300}};
+  add_tree_rows(name, tree_times(*map, clearance, few, stop), 1, rows);
   for (const PlannerParams& planner : {PlannerParams(on_grid<AStarParams>(clearance)),
                                        PlannerParams(on_grid<ThetaStarParams>(clearance))})
     for (BenchRow& row : fitted_to(name, world, few, planner, paths, stop))
