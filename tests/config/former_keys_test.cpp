@@ -32,11 +32,21 @@ struct Square {
   }
 };
 
+struct Clock {
+  double rate = 1;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.rate, {"rate", Unit::hz, {0, 10}, "Rate."});
+  }
+};
+
 struct Sensing {
   double timeout = 3;
+  Clock clock;
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.timeout, {"timeout", Unit::s, {0, 10}, "Timeout."});
+    visit(self.clock, {"clock", Unit::none, {}, "Clock."});
   }
 };
 
@@ -45,8 +55,8 @@ struct House {
   std::vector<Round> rooms;
   std::optional<Square> cellar;
   Sensing sensing;
-  static constexpr std::array<MovedKey, 2> moved_keys{
-      {{"body.timeout_s", "sensing.timeout_s"}, {"body.colour", ""}}};
+  static constexpr std::array<MovedKey, 3> moved_keys{
+      {{"body.timeout_s", "sensing.timeout_s"}, {"body.colour", ""}, {"sensing.clock.hand", ""}}};
   template <class Self, class V>
   static void fields(Self& self, V&& visit) {
     visit(self.body, {"body", Unit::none, {}, "Body.", false, "shape"});
@@ -124,6 +134,23 @@ TEST(FormerKeys, ARetiredKeyIsIgnored) {
             "body={type: round}");
   EXPECT_EQ(notes, (Notes{"--set body.colour: has no meaning any more",
                           "--set body: 'body.colour' has no meaning any more"}));
+}
+
+TEST(FormerKeys, ARetiredKeyOfAGroupIsIgnored) {
+  const Read r = read("sensing:\n  clock: {hand: 4, rate_hz: 2}\n");
+  EXPECT_EQ(r.mistakes, "");
+  EXPECT_EQ(r.house.sensing.clock.rate, 2);
+  EXPECT_EQ(r.notes, Notes{"house.yaml:2:11: 'sensing.clock.hand' has no meaning any more"});
+  EXPECT_EQ(read("sensing: {clock: {face: 4}}\n").mistakes,
+            "house.yaml:1:19: unknown key 'face', allowed: rate_hz\n");
+  House house;
+  Notes notes;
+  EXPECT_EQ(set_value(house, "sensing.clock.hand=4", "--set", notes), std::nullopt);
+  EXPECT_EQ(set_value(house, "sensing.clock={hand: 4}", "--set", notes), "sensing.clock={}");
+  EXPECT_EQ(set_value(house, "sensing={clock: {hand: 4, rate_hz: 3}}", "--set", notes),
+            "sensing={clock: {rate_hz: 3}}");
+  EXPECT_EQ(house.sensing.clock.rate, 3);
+  EXPECT_EQ(notes.size(), 3U);
 }
 
 TEST(FormerKeys, AssignmentsGetThePresentKeyOfTheAlternativeThatIsHeld) {

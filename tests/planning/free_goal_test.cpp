@@ -57,6 +57,35 @@ TEST(FreeGoal, IsFoundInASpotThinnerThanTheSearch) {
   EXPECT_FALSE(free_goal(snapshot, Vec2{40, 40} - 30.1 * unit_vector(0.8), 30, 40));
 }
 
+TEST(PushedFree, HasTheClearanceAndIsBesideThePlace) {
+  Rng rng(4, Purpose::test);
+  int pushed = 0, not_pushed = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const Snapshot snapshot = scenes::random_world(trial % scenes::random_kinds, rng).snapshot();
+    const Map& map = snapshot.map();
+    for (int k = 0; k < 20; ++k) {
+      const double x = rng.uniform(0, 1000);
+      const Vec2 place{x, rng.uniform(0, 700)};
+      const double has = map.clearance(place);
+      const auto found = pushed_free(map, place, 20);
+      if (has >= 20) {
+        EXPECT_EQ(found, place);
+        continue;
+      }
+      ++(found ? pushed : not_pushed);
+      if (!found) continue;
+      EXPECT_TRUE(map.is_free(*found, 20));
+      EXPECT_GE(distance(*found, place), 20 - has - 1e-6);
+    }
+  }
+  EXPECT_GT(pushed, 30);
+  EXPECT_GT(not_pushed, 30);
+  const Map empty({{0, 0}, {100, 100}}, {});
+  EXPECT_EQ(pushed_free(empty, {-5, 50}, 10), std::nullopt);
+  ASSERT_TRUE(pushed_free(empty, {5, 50}, 10));
+  EXPECT_NEAR(pushed_free(empty, {5, 50}, 10)->x, 10, 1e-6);
+}
+
 TEST(FreeGoal, NamesTheFault) {
   scenes::RawWorld world;
   world.discs = {{{500, 350}, 200}};

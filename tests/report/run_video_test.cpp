@@ -40,7 +40,8 @@ std::pair<int, int> swarm_columns(const Image& picture) {
   for (int row = 60; row < picture.height - 80; ++row)
     for (int column = 0; column < picture.width; ++column) {
       const auto* p = &picture.pixels[picture.index(column, row)];
-      if (std::abs(p[0] - 0) > 40 || std::abs(p[1] - 158) > 40 || std::abs(p[2] - 115) > 40)
+      const bool is_green = p[1] > p[2] + 20;  // unlike the edges of the blue path
+      if (!is_green || p[0] > 40 || std::abs(p[1] - 158) > 40 || std::abs(p[2] - 115) > 40)
         continue;
       columns = {std::min(columns.first, column), std::max(columns.second, column)};
     }

@@ -141,12 +141,11 @@ bool use_present_keys_in_value(const Type& type, YamlNode& value, std::string_vi
   const std::size_t before = notes.size();
   const Renaming renaming{name, false, notes};
   for (const MovedKey& one : moved) {
-    const std::size_t dot = one.from.rfind('.');
-    const auto at =
-        one.from.substr(0, dot) == key ? value_of(value, one.from.substr(dot + 1)) : std::nullopt;
-    if (at && one.to.empty())
-      renaming.retire(value.items, *at, one.from);
-    else if (at)
+    if (!one.from.starts_with(key) || !one.from.substr(key.size()).starts_with('.')) continue;
+    const std::string_view inside = one.from.substr(key.size() + 1);
+    if (one.to.empty())
+      renaming.retire(value, inside, one.from);
+    else if (value_of(value, inside))
       throw InputError(fmt::format("{}: '{}' is now '{}': set that", name, one.from, one.to));
   }
   renaming.rename(type, value);
