@@ -73,10 +73,11 @@ struct Study {
   std::vector<double> turning, length, time, energy;  // [°, µm, s, mT²·s]
   std::vector<double> least;                          // of every trial [µm]
   int arrived = 0, kept = 0;
+  double shortest = 0;  ///< [µm]
 };
 
-Study study(const std::vector<TrialResult>& trials) {
-  Study out;
+Study study(const std::vector<TrialResult>& trials, double shortest) {
+  Study out{.shortest = shortest};
   for (const TrialResult& t : trials) {
     const Metrics& m = t.result.metrics;
     out.least.push_back(m.obstacles.clearance);
@@ -116,6 +117,8 @@ void add_rows(const char* name, const Study& s, bool aimed, std::vector<Reproduc
   add("turning, median", "°", median_if_any(s.turning));
   aim(max_turning, true);
   add("path length, median", "µm", median_if_any(s.length));
+  add("length over the shortest among walls alone, median", "%",
+      over_the_shortest(s.length, s.shortest));
   add("time, median", "s", median_if_any(s.time));
   add("energy of the field, median", "mT²·s", median_if_any(s.energy));
 }
@@ -167,6 +170,7 @@ std::vector<ReproduceRow> drrt_comparison(const ReproduceOptions& options, const
   const std::vector<Contestant> who = contestants_of(s.scene.scenario);
   std::vector<Study> studies;
   std::vector<ReproduceRow> rows;
+  const double shortest = shortest_way(s);
   const std::uint64_t seed = s.scene.scenario.seed;
   for (const Contestant& contestant : who) {
     s.scene.scenario.seed = contestant.held_out ? seed + 1 : seed;
@@ -181,7 +185,7 @@ std::vector<ReproduceRow> drrt_comparison(const ReproduceOptions& options, const
          .vary = vary_phases},
         stop);
     if (stop()) return rows;  // do not report interrupted studies
-    studies.push_back(study(trials));
+    studies.push_back(study(trials, shortest));
     add_rows(contestant.name, studies.back(), &contestant == &who[1], rows);
   }
   for (std::size_t k = 2; k < 6; ++k) {

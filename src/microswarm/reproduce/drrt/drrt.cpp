@@ -3,6 +3,8 @@
 
 #include <filesystem>
 
+#include "microswarm/core/maths/statistics.hpp"
+#include "microswarm/planning/exact/shortest_paths.hpp"
 #include "microswarm/reproduce/figures.hpp"
 #ifdef MICROSWARM_HAS_LEARNING
 #include "microswarm/reproduce/drrt/follower_rows.hpp"
@@ -15,6 +17,18 @@ DrrtSetting load_drrt(const ReproduceOptions& options, const char* name) {
   Scene scene = load_scene(read_scenario(file), file.parent_path());
   World world = build_world(scene);
   return {std::move(scene), std::move(world)};
+}
+
+double shortest_way(const DrrtSetting& setting) {
+  const Scenario& scenario = setting.scene.scenario;
+  const ShortestPath path =
+      ShortestPaths(*setting.world.map, 0).find(scenario.start->position, *scenario.goal);
+  return path.length - scenario.goal_tolerance;
+}
+
+std::optional<double> over_the_shortest(const std::vector<double>& lengths, double shortest) {
+  if (lengths.empty()) return std::nullopt;
+  return 100 * (quantile(lengths, 0.5) / shortest - 1);
 }
 
 void vary_phases(Scenario& scenario, std::uint32_t trial) {

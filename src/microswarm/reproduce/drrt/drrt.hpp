@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "microswarm/experiment/scenario/scene.hpp"
 #include "microswarm/reproduce/reproduce.hpp"
 
@@ -30,6 +33,12 @@ std::vector<ReproduceRow> drrt_fig5b(const ReproduceOptions& options, const Stop
 /// Compares D-RRT* with the radar of [radar] among the moving obstacles of Fig 5(b), with equal
 /// start, goal and margin, each as published and ours.
 std::vector<ReproduceRow> drrt_comparison(const ReproduceOptions& options, const Stop& stop);
+
+/// Shortest way [µm] of the scenario's swarm to within the goal's tolerance, without its moving
+/// obstacles and at no distance from the walls: no run is shorter.
+double shortest_way(const DrrtSetting& setting);
+/// Median of lengths [µm] over the shortest [%]; nothing without one.
+std::optional<double> over_the_shortest(const std::vector<double>& lengths, double shortest);
 
 /// Gives the obstacles of each trial another phase of their motion.
 void vary_phases(Scenario& scenario, std::uint32_t trial);

@@ -58,7 +58,7 @@ Loops summed(const std::vector<TrialResult>& trials) {
 }
 
 std::vector<ReproduceRow> loop_rows(const LoopFigure& f, const std::string& who, const Loops& l,
-                                    double global_time) {
+                                    double shortest, double global_time) {
   const std::string fig = f.figure;
   const auto named = [&](const char* what) { return who + ": " + what; };
   const TimeSummary sum = summarise(l.planning);  // in milliseconds
@@ -75,6 +75,8 @@ std::vector<ReproduceRow> loop_rows(const LoopFigure& f, const std::string& who,
           plain("least distance, centre to border", "µm", {}, l.min_wall),
           plain("turning, median of runs that arrive", "°", {}, median_if_any(l.turning)),
           plain("path length, median of runs that arrive", "µm", {}, median_if_any(l.length)),
+          plain("length over the shortest among walls alone, median", "%", {},
+                over_the_shortest(l.length, shortest)),
           plain("time, median of runs that arrive", "s", {}, median_if_any(l.time)),
           plain("planning events per run, median", "1", f.events, median_if_any(l.events),
                 "the obstacles' places are ours"),
@@ -118,7 +120,7 @@ std::vector<ReproduceRow> loop_figure(const LoopFigure& f, const ReproduceOption
     if (stop()) return rows;  // do not report interrupted trials
     if (!options.out.empty())
       loop_pictures(f, as_published ? "-as-published" : "", s.scene, s.world, options.out, stop);
-    for (ReproduceRow& row : loop_rows(f, who, summed(trials), global_time))
+    for (ReproduceRow& row : loop_rows(f, who, summed(trials), shortest_way(s), global_time))
       rows.push_back(std::move(row));
   }
   return rows;
