@@ -74,6 +74,7 @@ Decision HierarchicalNavigator::decide(const Observation& seen, const Stop& stop
   if (steering_.sees_swarm(seen)) follower_.update(seen, steering_.compensator());
   if (!steering_.begin(seen)) return {{}, NavigatorState::blind};
   pose_ = steering_.compensate(seen);
+  via_.reset();
   if (steering_.arrives(pose_.position)) {  // line 2
     path_.clear();
     return {hold(), NavigatorState::arrived};
@@ -152,8 +153,8 @@ void HierarchicalNavigator::replan(const Snapshot& seen, const Stop& stop) {
 // Direction of the goal: straight, or along the route.
 Vec2 HierarchicalNavigator::towards() {
   if (params_.guide == Guide::straight) return aim().position;
-  const Vec2 via = route_.ahead(pose_.position, ahead());
-  return via == pose_.position ? aim().position : via;
+  if (!via_) via_ = route_.ahead(pose_.position, ahead());
+  return *via_ == pose_.position ? aim().position : *via_;
 }
 
 // Everything beyond the horizon looks free, so without a limit waiting would always look better.

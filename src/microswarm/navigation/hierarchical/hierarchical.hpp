@@ -89,6 +89,7 @@ class HierarchicalNavigator : public Navigator {
   Rng rng_;
   SteeringCycle steering_;
   DistanceField route_;
+  std::optional<Vec2> via_;  ///< point of the route ahead of the present pose, once asked for
   double slack_ = 1;     ///< kept besides the clearance, for what happens within a tick [µm]
   double period_ = 0.1;  ///< between the last two commands [s]
 
