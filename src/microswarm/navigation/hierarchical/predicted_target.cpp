@@ -38,11 +38,12 @@ class PredictedChoice {
   void consider(Vec2 target, double wait) {
     const Vec2 from = q_.swarm.position;
     const double length = distance(from, target);
-    double cost = length + way_from_(target) + q_.wait_weight * q_.speed * wait;
-    if (!(cost < best_cost_)) return;
     const double heading = heading_of(target - from);
-    cost += q_.turn_weight * turn_between(heading, q_.swarm.heading);
+    double cost = length + q_.wait_weight * q_.speed * wait +
+                  q_.turn_weight * turn_between(heading, q_.swarm.heading);
     if (!(cost < best_cost_) || !frame_.map().is_free(Segment{from, target}, q_.clearance)) return;
+    cost += way_from_(target);
+    if (!(cost < best_cost_)) return;
     const double time = length / q_.speed;
     if (!rests_freely(wait) || free_time({from, target}, heading, wait, time) < time) return;
     const Vec2 next = distance(target, q_.towards) > same_place ? q_.towards : q_.goal;
