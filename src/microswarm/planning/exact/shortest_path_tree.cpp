@@ -75,20 +75,38 @@ void ShortestPathTree::look_on(double length) {
   seen_.erase(std::unique(seen_.begin(), seen_.end()), seen_.end());
 }
 
-/// The shortest path over what is seen and grown so far.
+/// The shortest path over what is seen and grown so far. A line is computed when its lower bound
+/// comes first, and tested when its length does.
 ShortestPathTree::Best ShortestPathTree::best_over_seen(Vec2 p) {
+  constexpr double rounding = 1e-9;
   lines_.clear();
   const auto labels = search_->labels();
-  for (const std::uint32_t wheel : seen_)
-    for (std::uint32_t i = search_->last_label(wheel); i != TangentSearch::none; i = labels[i].next)
-      if (const auto line = search_->leaving(labels[i], p))
-        lines_.push_back({line->length, i, *line});
-  std::ranges::sort(lines_, [](const Best& a, const Best& b) {
-    return a.length != b.length ? a.length < b.length : a.label < b.label;
-  });
-  for (const Best& one : lines_)
-    if (map_->is_free(Segment{p - one.line.line.length * one.line.line.along, p}, clearance_))
-      return one;
+  for (const std::uint32_t wheel : seen_) {
+    std::uint32_t i = search_->last_label(wheel);
+    if (i == TangentSearch::none) continue;
+    const double straight = (1 - rounding) * search_->distance_to(wheel, p);
+    for (; i != TangentSearch::none; i = labels[i].next)
+      lines_.push_back({.length = (1 - rounding) * labels[i].length + straight, .label = i});
+  }
+  const auto later = [](const Line& a, const Line& b) {
+    if (a.length != b.length) return a.length > b.length;
+    return a.is_known != b.is_known ? a.is_known : a.label > b.label;
+  };
+  std::ranges::make_heap(lines_, later);
+  while (!lines_.empty()) {
+    std::ranges::pop_heap(lines_, later);
+    Line next = lines_.back();
+    lines_.pop_back();
+    if (!next.is_known) {
+      const auto line = search_->leaving(labels[next.label], p);
+      if (!line) continue;
+      lines_.push_back({line->length, next.label, true, *line});
+      std::ranges::push_heap(lines_, later);
+    } else if (const TangentLine& line = next.line.line;
+               map_->is_free(Segment{p - line.length * line.along, p}, clearance_)) {
+      return {next.length, next.label, next.line};
+    }
+  }
   return {};
 }
 

@@ -32,6 +32,13 @@ class ShortestPathTree {
     std::uint32_t label = TangentSearch::none;  ///< of the circle it goes to; none: the goal
     TangentSearch::Leaving line;                ///< from there
   };
+  /// A line from a label's circle to the place that is asked for.
+  struct Line {
+    double length = 0;  ///< of the path over it, or a lower bound [µm]
+    std::uint32_t label = TangentSearch::none;
+    bool is_known = false;
+    TangentSearch::Leaving line;
+  };
   Best best_from(Vec2 p);
   Best best_over_seen(Vec2 p);
   void look_on(double length);
@@ -49,7 +56,7 @@ class ShortestPathTree {
   // Of the present query.
   Trapezoids::Look look_;
   std::vector<std::uint32_t> seen_;  ///< wheels
-  std::vector<Best> lines_;          ///< to seen wheels
+  std::vector<Line> lines_;          ///< from seen wheels, a heap
 };
 
 }  // namespace microswarm

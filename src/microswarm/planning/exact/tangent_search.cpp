@@ -56,11 +56,11 @@ void TangentSearch::know(std::uint32_t wheel) {
   at.is_known = true;
   ++look_;
   corners_->seen_from(wheel / 2, circle.radius, clearance_, sense(wheel) > 0,
-                     [&](std::uint32_t corner, auto&& sides) {
-                       see(corner, sides, seen_, look_, [&](std::uint32_t to) {
-                         if (corner != wheel / 2) add_hop(wheel, to);
-                       });
-                     });
+                      [&](std::uint32_t corner, auto&& sides) {
+                        see(corner, sides, seen_, look_, [&](std::uint32_t to) {
+                          if (corner != wheel / 2) add_hop(wheel, to);
+                        });
+                      });
   bytes_ += at.hops.capacity() * sizeof(Hop);
   std::ranges::sort(at.hops, [turn = sense(wheel)](const Hop& a, const Hop& b) {
     return a.leave != b.leave ? turn * a.leave < turn * b.leave : a.to < b.to;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -72,6 +73,11 @@ class TangentSearch {
   /// Number of the latest label at a wheel, those before it are linked; none if there is none.
   std::uint32_t last_label(std::uint32_t wheel) const {
     return wheels_[wheel].query == query_ ? wheels_[wheel].first_label : none;
+  }
+  /// Distance of a place from a wheel [µm], 0 in it.
+  double distance_to(std::uint32_t wheel, Vec2 place) const {
+    const Circle& circle = circles_[wheel / 2];
+    return std::max(0.0, distance(circle.centre, place) - circle.radius);
   }
   /// The line on from a label's wheel to a place; nothing if no shortest path leads so. Whether it
   /// is free of walls is not tested.
