@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "microswarm/core/maths/rng.hpp"
+#include "microswarm/planning/exact/shortest_paths.hpp"
 #include "microswarm/scenes/global_worlds.hpp"
 #include "microswarm/scenes/worlds.hpp"
 
@@ -40,6 +41,32 @@ TEST(DistanceField, EstimateIsFarBehindWalls) {
   const auto map = shared(Map({{0, 0}, {200, 200}}, {scenes::rectangle({{95, 0}, {105, 200}})}));
   DistanceField field = DistanceField::over(map, {150, 10});
   EXPECT_GT(field.estimate({50, 10}), 400);
+}
+
+TEST(DistanceField, OfManyCornersIsALittleLonger) {
+  std::vector<Polygon> walls;
+  Rng rng(2, Purpose::test);
+  for (int i = 0; i < 6000; ++i) {
+    const double x = rng.uniform(0, 2000);
+    const Vec2 p{x, rng.uniform(0, 2000)};
+    walls.push_back(scenes::rectangle({p, p + Vec2{4, 4}}));
+  }
+  const auto map = shared(Map({{0, 0}, {2000, 2000}}, walls));
+  ASSERT_GT(map->corners().all().size(), DistanceField::max_exact_corners);
+  const Vec2 goal{1000, 1000};
+  DistanceField field = DistanceField::over(map, goal);
+  ShortestPaths exact(*map, 0);
+  int asked = 0;
+  for (int k = 0; k < 8; ++k) {
+    const double x = rng.uniform(700, 1300);
+    const Vec2 p{x, rng.uniform(700, 1300)};
+    if (!field.reaches(p) || !map->is_free(p, 0)) continue;
+    ++asked;
+    const double length = exact.find(p, goal).length;
+    EXPECT_GE(field.estimate(p), length - 25);
+    EXPECT_LE(field.estimate(p), 1.12 * length + 25);
+  }
+  EXPECT_GT(asked, 4);
 }
 
 // A wall from below with a gap at the top.

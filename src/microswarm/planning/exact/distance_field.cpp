@@ -2,13 +2,28 @@
 #include "microswarm/planning/exact/distance_field.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
+#include <queue>
 #include <utility>
 
 namespace microswarm {
 namespace {
 
 constexpr float unknown = -1;
+constexpr auto unreached = static_cast<float>(infinity);
+
+struct OpenNode {
+  float length;
+  std::uint32_t node;
+  friend bool operator<(const OpenNode& a, const OpenNode& b) {  // nearest first
+    return a.length != b.length ? a.length > b.length : a.node > b.node;
+  }
+};
+
+constexpr std::array<std::array<int, 2>, 8> neighbours{
+    {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
 
 std::size_t count(double length, double cell) {
   return static_cast<std::size_t>(std::max(1.0, std::ceil(length / cell)));
@@ -27,9 +42,9 @@ void visit_square(std::size_t node, std::size_t r, std::size_t columns, std::siz
 }  // namespace
 
 DistanceField::DistanceField(std::shared_ptr<const Map> map, Vec2 goal, double clearance, Vec2 low,
-                             double cell, double offset)
+                             double cell, double offset, ShortestPathTree::Growth growth)
     : map_(map),
-      route_(map, goal, clearance),
+      route_(map, goal, clearance, growth),
       goal_(goal),
       low_(low),
       cell_(cell),
@@ -48,12 +63,51 @@ DistanceField DistanceField::to_goal(std::shared_ptr<const Map> map, Vec2 goal, 
       std::max(spacing, std::sqrt(box.width() * box.height() / static_cast<double>(max_nodes)));
   // The goal is a node, so that the last step ends on it.
   const Vec2 before{std::floor((goal.x - box.lo.x) / cell), std::floor((goal.y - box.lo.y) / cell)};
-  return {std::move(map), goal, clearance, goal - cell * before, cell, 0};
+  return {std::move(map),
+          goal,
+          clearance,
+          goal - cell * before,
+          cell,
+          0,
+          ShortestPathTree::Growth::towards_queries};
 }
 
 DistanceField DistanceField::over(std::shared_ptr<const Map> map, Vec2 goal, int cells) {
   const Box box = map->bounds();
-  return {std::move(map), goal, 0, box.lo, std::max(box.width(), box.height()) / cells, 0.5};
+  const bool is_exact = map->corners().all().size() <= max_exact_corners;
+  DistanceField field(std::move(map), goal, 0, box.lo, std::max(box.width(), box.height()) / cells,
+                      0.5, ShortestPathTree::Growth::evenly);
+  if (!is_exact) field.spread();
+  return field;
+}
+
+void DistanceField::spread() {
+  std::ranges::fill(lengths_, unreached);
+  std::priority_queue<OpenNode> open;
+  const auto reach = [&](std::size_t node, double length) {
+    lengths_[node] = static_cast<float>(length);
+    open.push({lengths_[node], static_cast<std::uint32_t>(node)});
+  };
+  const std::size_t root = nearest(goal_);
+  reach(root, distance(goal_, position(root)));
+  while (!open.empty()) {
+    const auto [length, node] = open.top();
+    open.pop();
+    if (length > lengths_[node]) continue;
+    const auto column = static_cast<long>(node % columns_);
+    const auto row = static_cast<long>(node / columns_);
+    for (std::size_t k = 0; k < neighbours.size(); ++k) {
+      const long i = column + neighbours[k][0];
+      const long j = row + neighbours[k][1];
+      if (i < 0 || j < 0 || i >= static_cast<long>(columns_) || j >= static_cast<long>(rows_))
+        continue;
+      const std::size_t next = static_cast<std::size_t>(j) * columns_ + static_cast<std::size_t>(i);
+      const double longer = static_cast<double>(length) + cell_ * (k < 4 ? 1 : std::numbers::sqrt2);
+      if (static_cast<float>(longer) < lengths_[next] &&
+          map_->is_free(Segment{position(next), position(node)}, 0))
+        reach(next, longer);
+    }
+  }
 }
 
 double DistanceField::at(std::size_t node) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -13,12 +14,16 @@ namespace microswarm {
 /// that of a node is found when it is first asked for. Not for several threads at once.
 class DistanceField {
  public:
+  static constexpr std::size_t max_exact_corners = 20'000;
+
   DistanceField() = default;
   /// Nodes `spacing` [µm] apart, one of them at the goal, for paths that keep `clearance` [µm]. A
   /// coarser grid where there would be more than `max_nodes`.
   static DistanceField to_goal(std::shared_ptr<const Map> map, Vec2 goal, double clearance,
                                double spacing, std::size_t max_nodes = 1'000'000);
-  /// About `cells` × `cells` nodes over the map, for points.
+  /// About `cells` × `cells` nodes over the map, for points. In maps of more than
+  /// `max_exact_corners`, where the shortest paths from everywhere take seconds, lengths along the
+  /// edges of the grid: up to 8 % and a cell longer.
   static DistanceField over(std::shared_ptr<const Map> map, Vec2 goal, int cells = 128);
 
   /// Length from the node next to `p` [µm], or the least of those around it where that one is in a
@@ -36,7 +41,8 @@ class DistanceField {
 
  private:
   DistanceField(std::shared_ptr<const Map> map, Vec2 goal, double clearance, Vec2 low, double cell,
-                double offset);
+                double offset, ShortestPathTree::Growth growth);
+  void spread();
   double at(std::size_t node);
   double straight_and_detour(Vec2 p) const { return distance(p, goal_) + detour_; }
   std::size_t nearest(Vec2 p) const;

@@ -15,10 +15,11 @@ class Route {
   /// No path from anywhere.
   Route() = default;
   /// `clearance` [µm] from the walls of the map.
-  Route(std::shared_ptr<const Map> map, Vec2 goal, double clearance)
+  Route(std::shared_ptr<const Map> map, Vec2 goal, double clearance,
+        ShortestPathTree::Growth growth = ShortestPathTree::Growth::towards_queries)
       : map_(std::move(map)),
         clearance_(clearance),
-        tree_(ShortestPathTree(*map_, goal, clearance)) {}
+        tree_(ShortestPathTree(*map_, goal, clearance, growth)) {}
 
   /// Length of the shortest path from `p` [µm], infinity without one.
   double length_from(Vec2 p);

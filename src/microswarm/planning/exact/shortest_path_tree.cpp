@@ -2,13 +2,20 @@
 #include "microswarm/planning/exact/shortest_path_tree.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace microswarm {
+namespace {
 
-ShortestPathTree::ShortestPathTree(const Map& map, Vec2 goal, double clearance)
+constexpr std::size_t most_bytes = 256u << 20;  // then the tree begins anew
+
+}  // namespace
+
+ShortestPathTree::ShortestPathTree(const Map& map, Vec2 goal, double clearance, Growth growth)
     : map_(&map),
       goal_(goal),
       clearance_(clearance),
+      growth_(growth),
       has_root_(is_finite(goal) && map.is_free(goal, clearance)) {}
 
 double ShortestPathTree::length_from(Vec2 p) { return best_from(p).length; }
@@ -24,55 +31,63 @@ std::vector<Vec2> ShortestPathTree::path_from(Vec2 p) {
   return path;
 }
 
-/// The tree is grown and the look widened until nothing shorter can come.
+/// Looks around the place as far as paths of the length found may lead over what is seen, then
+/// grows the tree until nothing shorter can come.
 ShortestPathTree::Best ShortestPathTree::best_from(Vec2 p) {
   if (!has_root_ || !is_finite(p) || !map_->is_free(p, clearance_)) return {};
-  if (map_->is_free(Segment{p, goal_}, clearance_)) return {.length = distance(p, goal_)};
   const double straight = distance(p, goal_);
-  if (!search_) {
-    search_.emplace(*map_, clearance_);
-    search_->begin_to_everywhere(goal_);
-    headed_for_ = goal_;
-  }
-  turn_to(p, straight);
-  const double off = distance(p, headed_for_);
+  if (map_->is_free(Segment{p, goal_}, clearance_)) return {.length = straight};
+  if (!search_) begin();
   seen_.clear();
+  ++query_;
   look_.begin(search_->corners().cells(), p, goal_, clearance_);
-  constexpr double more = 1.5;
-  for (double length = straight;;) {
-    grow(length + off);
-    look_on(length);
-    const Best best = best_over_seen(p);
-    const double known = std::min(search_->reached() - off, look_.left());
-    if (best.length <= std::max(length, known) || known == infinity) return best;
-    length = best.length < infinity ? best.length : std::max(more * length, known);
+  look_on(straight);
+  Best best = best_over_seen(p);
+  if (best.length > look_.left()) {
+    look_on(best.length);
+    best = best_over_seen(p);
   }
+  constexpr double near = 0.02;
+  if (growth_ == Growth::towards_queries && distance(p, headed_for_) > near * straight &&
+      search_->reached() - distance(p, headed_for_) < best.length) {
+    if (search_->bytes() > most_bytes) begin();
+    search_->head_for(headed_for_ = p);
+  }
+  const double off = distance(p, headed_for_);
+  while (search_->reached() - off < best.length) {
+    const auto number = search_->next(best.length + off);
+    if (!number) break;
+    search_->expand(*number);
+    const TangentSearch::Label& label = search_->labels()[*number];
+    if (seen_in_[label.wheel] != query_) continue;
+    const auto line = search_->leaving(label, p);
+    if (line && line->length < best.length && is_free(*line, p))
+      best = {line->length, *number, *line};
+  }
+  return best;
 }
 
-/// Heads for `p` unless that is nearly so. A tree that was asked for places all over heads for its
-/// root, and so grows about evenly.
-void ShortestPathTree::turn_to(Vec2 p, double straight) {
-  constexpr double near = 0.1;
-  constexpr int most_turns = 64;
-  if (turns_ == most_turns || distance(p, headed_for_) <= near * straight) return;
-  ++turns_;
-  headed_for_ = turns_ == most_turns ? goal_ : p;
-  search_->head_for(headed_for_);
+void ShortestPathTree::begin() {
+  search_.emplace(*map_, clearance_);
+  search_->begin_to_everywhere(goal_);
+  headed_for_ = goal_;
+  seen_in_.assign(2 * search_->corners().all().size(), 0);
 }
 
-void ShortestPathTree::grow(double length) {
-  while (const auto label = search_->next(length)) search_->expand(*label);
+bool ShortestPathTree::is_free(const TangentSearch::Leaving& leaving, Vec2 p) const {
+  return map_->is_free(Segment{p - leaving.line.length * leaving.line.along, p}, clearance_);
 }
 
 /// Sees the wheels over which ways of this length may lead, as the tree goes around them.
 void ShortestPathTree::look_on(double length) {
+  const auto see = [this](std::uint32_t wheel) {
+    if (std::exchange(seen_in_[wheel], query_) != query_) seen_.push_back(wheel);
+  };
   search_->corners().look_on(look_, length, [&](std::uint32_t corner, auto&& sides_of) {
     const Sides sides = sides_of();
-    if (sides.left) seen_.push_back(2 * corner + 1);
-    if (sides.right) seen_.push_back(2 * corner);
+    if (sides.left) see(2 * corner + 1);
+    if (sides.right) see(2 * corner);
   });
-  std::ranges::sort(seen_);
-  seen_.erase(std::unique(seen_.begin(), seen_.end()), seen_.end());
 }
 
 /// The shortest path over what is seen and grown so far. A line is computed when its lower bound
@@ -102,8 +117,7 @@ ShortestPathTree::Best ShortestPathTree::best_over_seen(Vec2 p) {
       if (!line) continue;
       lines_.push_back({line->length, next.label, true, *line});
       std::ranges::push_heap(lines_, later);
-    } else if (const TangentLine& line = next.line.line;
-               map_->is_free(Segment{p - line.length * line.along, p}, clearance_)) {
+    } else if (is_free(next.line, p)) {
       return {next.length, next.label, next.line};
     }
   }

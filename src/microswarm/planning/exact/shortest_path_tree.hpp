@@ -11,13 +11,20 @@
 namespace microswarm {
 
 /// Shortest paths of a disc from everywhere to one goal, for one clearance: a tree over the
-/// tangents of the map's corners with its root at the goal. It is grown by A* towards the places
-/// that are asked for, as far as they need it; a query then looks around its place and takes the
-/// best line to a circle of the tree. Not for several threads at once.
+/// tangents of the map's corners with its root at the goal. A query looks around its place and
+/// takes the best line to a circle of the tree, which is grown by A* as far as that needs. Not for
+/// several threads at once.
 class ShortestPathTree {
  public:
+  /// Where the tree is grown first.
+  enum class Growth {
+    towards_queries,  ///< for places near each other
+    evenly,           ///< around the root, for places all over the map
+  };
+
   /// `map` must outlive it. `clearance` [µm].
-  ShortestPathTree(const Map& map, Vec2 goal, double clearance);
+  ShortestPathTree(const Map& map, Vec2 goal, double clearance,
+                   Growth growth = Growth::towards_queries);
 
   /// Length of the shortest path from `p` to the goal [µm]; infinity without one, and where `p` or
   /// the goal has not the clearance.
@@ -42,16 +49,19 @@ class ShortestPathTree {
   Best best_from(Vec2 p);
   Best best_over_seen(Vec2 p);
   void look_on(double length);
-  void turn_to(Vec2 p, double straight);
-  void grow(double length);
+  void begin();
+  bool is_free(const TangentSearch::Leaving& leaving, Vec2 p) const;
 
   const Map* map_;
   Vec2 goal_;
   double clearance_;
+  Growth growth_;
   bool has_root_;
   std::optional<TangentSearch> search_;  ///< once a path that bends is asked for
   Vec2 headed_for_;                      ///< as the tree is grown
-  int turns_ = 0;                        ///< of where it heads for
+
+  std::vector<std::uint32_t> seen_in_;  ///< of each wheel: the query in which it was seen
+  std::uint32_t query_ = 0;
 
   // Of the present query.
   Trapezoids::Look look_;

@@ -48,7 +48,9 @@ class TangentSearch {
   /// Continues with a copy of the map.
   void use(const Map& map) { map_ = &map; }
   /// About what is kept at most [B].
-  std::size_t bytes() const { return bytes_; }
+  std::size_t bytes() const {
+    return bytes_ + labels_.capacity() * sizeof(Label) + open_.capacity() * sizeof(Open);
+  }
 
   /// Takes in a query: paths from `start` to `goal`.
   void begin(Vec2 start, Vec2 goal, const BodySet& moving);
