@@ -74,7 +74,7 @@ HWY_INLINE V times_to_contact(D d, const FaceLanes<V>& face, V x, V y, V move_x,
   const auto meets = hn::And(near, hn::Le(hn::Abs(along), hn::Add(face.half_length, guard)));
   const V standoff = hn::Mul(hn::Set(d, 2.0f), guard);
   const V time = hn::Max(zero, hn::Div(hn::Sub(standoff, away), towards));
-  return hn::IfThenElse(meets, hn::IfThenZeroElse(too_near, time), hn::Set(d, 2.0f));
+  return hn::IfThenElse(meets, time, hn::Set(d, 2.0f));
 }
 
 /// First contacts with any face, the robots in lanes.
@@ -109,37 +109,82 @@ HWY_INLINE void contacts_of_all(const WallFaces& faces, Block& b) {
   }
 }
 
-/// Sets the first contact of robot i of the block with the faces of a list, at least one, which are
-/// in lanes.
-template <bool with_normals>
-HWY_INLINE void contact_of_packs(const FacePack* packs, float guard, std::size_t i, Block& b) {
+/// Robots of a block that are each tested against the faces of one pack.
+struct PackTests {
+  std::size_t count = 0;
+  Block::Lanes<std::uint32_t> robot, pack;
+  alignas(64) std::array<float, Block::size * FacePack::size> times;      ///< by test and face
+  alignas(64) std::array<float, Block::size * FacePack::size / 2> first;  ///< time of each test
+};
+
+/// The times of all tests, the faces of a pack in lanes.
+HWY_INLINE void find_times(const FacePack* packs, float guard, const Block& b, PackTests& tests) {
   const PackTag d;
   using V = hn::Vec<PackTag>;
-  const V x = hn::Set(d, b.x[i]), y = hn::Set(d, b.y[i]);
-  const V move_x = hn::Set(d, b.piece_x[i]), move_y = hn::Set(d, b.piece_y[i]);
-  V first = hn::Set(d, std::numeric_limits<float>::max());
-  for (const FacePack* pack = packs;; ++pack) {
+  for (std::size_t t = 0; t < tests.count; ++t) {
+    const FacePack& pack = packs[tests.pack[t]];
+    const std::size_t i = tests.robot[t];
+    const V x = hn::Set(d, b.x[i]), y = hn::Set(d, b.y[i]);
+    const V move_x = hn::Set(d, b.piece_x[i]), move_y = hn::Set(d, b.piece_y[i]);
     for (std::size_t k = 0; k < FacePack::size; k += hn::Lanes(d)) {
       const FaceLanes<V> face{
-          hn::Load(d, pack->middle_x.data() + k), hn::Load(d, pack->middle_y.data() + k),
-          hn::Load(d, pack->normal_x.data() + k), hn::Load(d, pack->normal_y.data() + k),
-          hn::Load(d, pack->half_length.data() + k)};
+          hn::Load(d, pack.middle_x.data() + k), hn::Load(d, pack.middle_y.data() + k),
+          hn::Load(d, pack.normal_x.data() + k), hn::Load(d, pack.normal_y.data() + k),
+          hn::Load(d, pack.half_length.data() + k)};
       const V time = times_to_contact<false>(d, face, x, y, move_x, move_y, hn::Set(d, guard));
-      if (!with_normals) {
-        first = hn::Min(first, time);
-        continue;
-      }
-      const V least = hn::MinOfLanes(d, time);
-      if (!(hn::GetLane(least) < hn::GetLane(first))) continue;
-      first = least;
-      const auto lane =
-          k + static_cast<std::size_t>(hn::FindKnownFirstTrue(d, hn::Eq(time, least)));
-      b.normal_x[i] = pack->normal_x[lane];
-      b.normal_y[i] = pack->normal_y[lane];
+      hn::Store(time, d, &tests.times[FacePack::size * t + k]);
     }
-    if (pack->following == 0) break;
   }
-  b.time[i] = hn::GetLane(with_normals ? first : hn::MinOfLanes(d, first));
+}
+
+/// The least time of each test: the least of each two times, then of each two of these, and so on.
+/// For all tests at once, because one test after the other waits for each comparison.
+HWY_INLINE void find_first(PackTests& tests) {
+  const RobotTag d;
+  const float* from = tests.times.data();
+  for (std::size_t left = FacePack::size / 2; left > 0; left /= 2) {
+    for (std::size_t k = 0; k < left * tests.count; k += hn::Lanes(d)) {
+      hn::Vec<RobotTag> even, odd;
+      hn::LoadInterleaved2(d, from + 2 * k, even, odd);
+      hn::Store(hn::Min(even, odd), d, &tests.first[k]);
+    }
+    from = tests.first.data();
+  }
+}
+
+/// Index of the first face of a pack that is met at the time `first`.
+HWY_INLINE std::size_t face_met(const float* times, float first) {
+  const PackTag d;
+  const auto at = [&](std::size_t k) { return hn::Eq(hn::Load(d, times + k), hn::Set(d, first)); };
+  std::size_t k = 0;
+  while (k + hn::Lanes(d) < FacePack::size && hn::AllFalse(d, at(k))) k += hn::Lanes(d);
+  return k + static_cast<std::size_t>(hn::FindKnownFirstTrue(d, at(k)));
+}
+
+/// First contacts of the robots with their packs and, unless these are the first of their lists,
+/// with those before. Leaves the tests with the packs that follow.
+template <bool with_normals, bool are_first>
+HWY_INLINE void test_packs(const FacePack* packs, float guard, Block& b, PackTests& tests) {
+  find_times(packs, guard, b, tests);
+  find_first(tests);
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < tests.count; ++t) {
+    const FacePack& pack = packs[tests.pack[t]];
+    const std::uint32_t i = tests.robot[t];
+    const float first = tests.first[t];
+    if (are_first || first < b.time[i]) {
+      b.time[i] = first;
+      if (with_normals) {
+        const std::size_t k = face_met(&tests.times[FacePack::size * t], first);
+        b.normal_x[i] = pack.normal_x[k];
+        b.normal_y[i] = pack.normal_y[k];
+      }
+    }
+    if (pack.following == 0) continue;
+    tests.robot[kept] = i;
+    tests.pack[kept++] = tests.pack[t] + 1;
+  }
+  tests.count = kept;
 }
 
 /// Places in FaceGrid::lists of the faces near each robot on its piece.
@@ -178,19 +223,18 @@ HWY_INLINE void contacts_of_near(const WallFaces& faces, Block& b) {
   const FaceGrid& grid = faces.grid();
   alignas(64) Block::Lanes<std::int32_t> list;
   find_lists(grid, b, list.data());
-  Block::Lanes<std::uint32_t> pack, robot;
-  std::size_t count = 0;
+  PackTests tests;
   for (std::size_t i = 0; i < b.count; ++i) {
     const std::uint32_t first = grid.lists()[list[i]];
-    pack[count] = first;
-    robot[count] = static_cast<std::uint32_t>(i);
-    count += first != 0;
+    tests.robot[tests.count] = static_cast<std::uint32_t>(i);
+    tests.pack[tests.count] = first;
+    tests.count += first != 0;
     b.time[i] = 2;
     const auto* data = reinterpret_cast<const std::byte*>(grid.packs() + first);
     for (int line = 0; line < 3; ++line) hwy::Prefetch(data + 64 * line);
   }
-  for (std::size_t k = 0; k < count; ++k)
-    contact_of_packs<with_normals>(grid.packs() + pack[k], faces.guard(), robot[k], b);
+  test_packs<with_normals, true>(grid.packs(), faces.guard(), b, tests);
+  while (tests.count > 0) test_packs<with_normals, false>(grid.packs(), faces.guard(), b, tests);
 }
 
 template <bool with_normals>
@@ -296,9 +340,14 @@ void slide_on(Block& b, float guard, float waves, float* xs, float* ys) {
     hn::Store(x, d, &b.x[i]);
     hn::Store(y, d, &b.y[i]);
     const std::size_t end = std::min(b.count, i + hn::Lanes(d));
-    for (std::size_t k = i; k < end; ++k) {
-      xs[b.robot[k]] = b.x[k];
-      ys[b.robot[k]] = b.y[k];
+    if (waves == 0 && end - i == hn::Lanes(d)) {  // no robot has left the block
+      hn::StoreU(x, d, xs + i);
+      hn::StoreU(y, d, ys + i);
+    } else {
+      for (std::size_t k = i; k < end; ++k) {
+        xs[b.robot[k]] = b.x[k];
+        ys[b.robot[k]] = b.y[k];
+      }
     }
     const V rest_x = hn::Sub(left_x, hn::Mul(part, hn::Mul(share, left_x)));
     const V rest_y = hn::Sub(left_y, hn::Mul(part, hn::Mul(share, left_y)));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <span>
 
 #include "microswarm/swarm/robots/contact_rule.hpp"
@@ -15,8 +16,13 @@ class RobotMoves {
   explicit RobotMoves(std::span<const PointF> each) : moves_(each.data()), stride_(1) {}
   /// Writes the moves of `count` robots from index `first` on.
   void copy(std::size_t first, std::size_t count, float* x, float* y) const {
+    if (stride_ == 0) {
+      std::fill_n(x, count, moves_->x);
+      std::fill_n(y, count, moves_->y);
+      return;
+    }
     for (std::size_t i = 0; i < count; ++i) {
-      const PointF move = moves_[stride_ * (first + i)];
+      const PointF move = moves_[first + i];
       x[i] = move.x;
       y[i] = move.y;
     }
