@@ -360,7 +360,12 @@ void slide_on(Block& b, float guard, float waves, float* xs, float* ys) {
     const auto goes_on =
         hn::And(hn::And(hn::FirstN(d, end - i), hn::Lt(hn::Set(d, waves + 1), pieces)),
                 hn::Or(hn::And(met, slides), hn::AndNot(met, hn::Lt(share, one))));
-    const auto keep = [&](V v, float* to) { hn::StoreU(hn::Compress(v, goes_on), d, to + kept); };
+    // Compress is slow where it is a table, so it is done once.
+    const auto lanes =
+        hn::IndicesFromVec(d, hn::Compress(hn::Iota(di, 0), hn::RebindMask(di, goes_on)));
+    const auto keep = [&](V v, float* to) {
+      hn::StoreU(hn::TableLookupLanes(v, lanes), d, to + kept);
+    };
     keep(x, b.x.data());
     keep(y, b.y.data());
     keep(hn::IfThenElse(met, hn::Mul(hn::Neg(along), n_y), rest_x), b.left_x.data());
@@ -370,7 +375,7 @@ void slide_on(Block& b, float guard, float waves, float* xs, float* ys) {
     keep(contacts, b.contacts.data());
     keep(pieces, b.pieces.data());
     const auto robot = hn::BitCast(d, hn::Load(di, &b.robot[i]));
-    hn::StoreU(hn::BitCast(di, hn::Compress(robot, goes_on)), di, b.robot.data() + kept);
+    hn::StoreU(hn::BitCast(di, hn::TableLookupLanes(robot, lanes)), di, b.robot.data() + kept);
     kept += hn::CountTrue(d, goes_on);
   }
   b.count = kept;
