@@ -73,6 +73,7 @@ HWY_INLINE V times_to_contact(D d, const FaceLanes<V>& face, V x, V y, V move_x,
                           hn::Mul(hit, sideways));
   const auto meets = hn::And(near, hn::Le(hn::Abs(along), hn::Add(face.half_length, guard)));
   const V standoff = hn::Mul(hn::Set(d, 2.0f), guard);
+  // Of a robot that is too near the quotient is negative.
   const V time = hn::Max(zero, hn::Div(hn::Sub(standoff, away), towards));
   return hn::IfThenElse(meets, time, hn::Set(d, 2.0f));
 }
@@ -137,8 +138,8 @@ HWY_INLINE void find_times(const FacePack* packs, float guard, const Block& b, P
   }
 }
 
-/// The least time of each test: the least of each two times, then of each two of these, and so on.
-/// For all tests at once, because one test after the other waits for each comparison.
+/// The least time of each test: the least of each two times, then of each two of these, and so on,
+/// for all tests at once: one test alone would wait for each comparison.
 HWY_INLINE void find_first(PackTests& tests) {
   const RobotTag d;
   const float* from = tests.times.data();
@@ -340,7 +341,7 @@ void slide_on(Block& b, float guard, float waves, float* xs, float* ys) {
     hn::Store(x, d, &b.x[i]);
     hn::Store(y, d, &b.y[i]);
     const std::size_t end = std::min(b.count, i + hn::Lanes(d));
-    if (waves == 0 && end - i == hn::Lanes(d)) {  // no robot has left the block
+    if (waves == 0 && end - i == hn::Lanes(d)) {  // Robots have not left the block yet.
       hn::StoreU(x, d, xs + i);
       hn::StoreU(y, d, ys + i);
     } else {
@@ -360,7 +361,7 @@ void slide_on(Block& b, float guard, float waves, float* xs, float* ys) {
     const auto goes_on =
         hn::And(hn::And(hn::FirstN(d, end - i), hn::Lt(hn::Set(d, waves + 1), pieces)),
                 hn::Or(hn::And(met, slides), hn::AndNot(met, hn::Lt(share, one))));
-    // Compress is slow where it is a table, so it is done once.
+    // Only the lanes' indices are compressed: with a table, as for AVX2, Compress is slow.
     const auto lanes =
         hn::IndicesFromVec(d, hn::Compress(hn::Iota(di, 0), hn::RebindMask(di, goes_on)));
     const auto keep = [&](V v, float* to) {
