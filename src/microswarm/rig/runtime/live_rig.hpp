@@ -70,7 +70,8 @@ class LiveRig : public Plant {
   bool set_obstacles(const std::vector<Obstacle>& obstacles) override;
   std::string_view fault() const override { return fault_; }
 
-  /// Sets the coils to zero for good; callable from any thread. A tick in progress ends at once.
+  /// Sets the coils to zero for good; callable from any thread. A tick in progress ends with its
+  /// picture, a period of the camera later at the most.
   void stop(const std::string& why);
   /// After stop(): the device confirmed that the coils are at zero.
   bool zero_is_confirmed() const { return coils_.zero_is_confirmed(); }
