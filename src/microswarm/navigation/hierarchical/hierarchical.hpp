@@ -90,8 +90,8 @@ class HierarchicalNavigator : public Navigator {
   SteeringCycle steering_;
   DistanceField route_;
   std::optional<Vec2> via_;  ///< point of the route ahead of the present pose, once asked for
-  double slack_ = 1;     ///< kept besides the clearance, for what happens within a tick [µm]
-  double period_ = 0.1;  ///< between the last two commands [s]
+  double slack_ = 1;         ///< kept besides the clearance, for what happens within a tick [µm]
+  double period_ = 0.1;      ///< between the last two commands [s]
 
   ObstaclePredictor obstacles_;
   PathFollower follower_;

@@ -63,9 +63,8 @@ std::optional<Vec2> search(const Snapshot& world, Vec2 goal, double tolerance, d
     // Clearance changes by at most 1 µm per µm, so no point of the square can have enough.
     const double reach = square.half * std::numbers::sqrt2;
     if (world.clearance(square.centre) + reach < clearance) continue;
-    const Vec2 place = pushing
-                           ? pushed(world, square.centre, clearance).value_or(square.centre)
-                           : square.centre;
+    const Vec2 place =
+        pushing ? pushed(world, square.centre, clearance).value_or(square.centre) : square.centre;
     const double to_goal = distance(place, goal);
     if (to_goal <= best_distance && world.is_free(place, clearance)) {
       best = place;

@@ -9,8 +9,8 @@ namespace microswarm {
 /// When the ticks of a rig in real time begin. With a camera that gives a picture a tick or more, a
 /// tick begins with the first picture within half a period of the camera around its due time, and
 /// the due times follow the pictures slowly: no picture waits for its tick. The mean rate of the
-/// ticks stays theirs, but for a camera within 5 % of it, whose rate they take. With another camera a tick begins when it is due. All times are of one
-/// clock [s].
+/// ticks stays theirs, but for a camera within 5 % of it, whose rate they take. With another camera
+/// a tick begins when it is due. All times are of one clock [s].
 class TickSchedule {
  public:
   /// `tick` [s]; `camera_rate` [Hz], empty if unknown.
