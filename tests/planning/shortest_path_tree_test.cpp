@@ -67,6 +67,40 @@ TEST(ShortestPathTree, WhatWasAskedBeforeChangesNoBit) {
   }
 }
 
+TEST(ShortestPathTree, OneThatBeginsAnewAnswersTheSame) {
+  Rng rng(13, Purpose::test);
+  int bent = 0;
+  for (int number = 0; number < 20; ++number) {
+    const Map map = crowded_map(rng);
+    const double clearance = rng.uniform(0, 3);
+    const Vec2 goal = uniform_in(map.bounds(), rng);
+    ShortestPathTree tree(map, goal, clearance), small(map, goal, clearance);
+    small.limit_bytes(0);
+    for (int query = 0; query < 30; ++query) {
+      const Vec2 start = uniform_in(map.bounds(), rng);
+      const std::vector<Vec2> path = tree.path_from(start);
+      EXPECT_EQ(small.path_from(start), path);
+      bent += path.size() > 2;
+    }
+  }
+  EXPECT_GT(bent, 100);
+}
+
+TEST(ShortestPathTree, AsItGrowsEvenlyThePathsAreTheSame) {
+  Rng rng(14, Purpose::test);
+  for (int number = 0; number < 20; ++number) {
+    const Map map = number % 2 == 0 ? crowded_map(rng) : random_map(rng);
+    const double clearance = number % 3 == 0 ? 0 : rng.uniform(0, 3);
+    const Vec2 goal = uniform_in(map.bounds(), rng);
+    ShortestPathTree tree(map, goal, clearance);
+    ShortestPathTree even(map, goal, clearance, ShortestPathTree::Growth::evenly);
+    for (int query = 0; query < 30; ++query) {
+      const Vec2 start = uniform_in(map.bounds(), rng);
+      EXPECT_EQ(even.path_from(start), tree.path_from(start));
+    }
+  }
+}
+
 TEST(ShortestPathTree, AGoalOutsideOrInAWallHasNoPaths) {
   const Map map({{0, 0}, {100, 100}}, {}, std::vector<Disc>{{{50, 50}, 10}});
   for (const Vec2 goal : {Vec2{200, 50}, Vec2{50, 50}, Vec2{infinity, 0}})

@@ -43,13 +43,13 @@ void visit_square(std::size_t node, std::size_t r, std::size_t columns, std::siz
 
 DistanceField::DistanceField(std::shared_ptr<const Map> map, Vec2 goal, double clearance, Vec2 low,
                              double cell, double offset, ShortestPathTree::Growth growth)
-    : map_(map),
-      route_(map, goal, clearance, growth),
+    : map_(std::move(map)),
+      route_(map_, goal, clearance, growth),
       goal_(goal),
       low_(low),
       cell_(cell),
       offset_(offset) {
-  const Box& box = map->bounds();
+  const Box& box = map_->bounds();
   detour_ = box.width() + box.height();
   columns_ = count(box.hi.x - low.x, cell);
   rows_ = count(box.hi.y - low.y, cell);

@@ -5,11 +5,6 @@
 #include <utility>
 
 namespace microswarm {
-namespace {
-
-constexpr std::size_t most_bytes = 256u << 20;  // then the tree begins anew
-
-}  // namespace
 
 ShortestPathTree::ShortestPathTree(const Map& map, Vec2 goal, double clearance, Growth growth)
     : map_(&map),
@@ -50,7 +45,11 @@ ShortestPathTree::Best ShortestPathTree::best_from(Vec2 p) {
   constexpr double near = 0.02;
   if (growth_ == Growth::towards_queries && distance(p, headed_for_) > near * straight &&
       search_->reached() - distance(p, headed_for_) < best.length) {
-    if (search_->bytes() > most_bytes) begin();
+    if (search_->bytes() > most_bytes_) {
+      begin();
+      best = {};
+      for (const std::uint32_t wheel : seen_) seen_in_[wheel] = query_;
+    }
     search_->head_for(headed_for_ = p);
   }
   const double off = distance(p, headed_for_);

@@ -26,6 +26,9 @@ class ShortestPathTree {
   ShortestPathTree(const Map& map, Vec2 goal, double clearance,
                    Growth growth = Growth::towards_queries);
 
+  /// A tree larger than this begins anew with a query that needs it to grow [B]; 256 MB by default.
+  void limit_bytes(std::size_t most) { most_bytes_ = most; }
+
   /// Length of the shortest path from `p` to the goal [µm]; infinity without one, and where `p` or
   /// the goal has not the clearance.
   double length_from(Vec2 p);
@@ -56,6 +59,7 @@ class ShortestPathTree {
   Vec2 goal_;
   double clearance_;
   Growth growth_;
+  std::size_t most_bytes_ = 256u << 20;
   bool has_root_;
   std::optional<TangentSearch> search_;  ///< once a path that bends is asked for
   Vec2 headed_for_;                      ///< as the tree is grown
