@@ -14,7 +14,7 @@ namespace microswarm {
 /// that of a node is found when it is first asked for. Not for several threads at once.
 class DistanceField {
  public:
-  static constexpr std::size_t max_exact_corners = 20'000;
+  static constexpr std::size_t max_exact_corners = 5'000;
 
   DistanceField() = default;
   /// Nodes `spacing` [µm] apart, one of them at the goal, for paths that keep `clearance` [µm]. A
@@ -22,8 +22,8 @@ class DistanceField {
   static DistanceField to_goal(std::shared_ptr<const Map> map, Vec2 goal, double clearance,
                                double spacing, std::size_t max_nodes = 1'000'000);
   /// About `cells` × `cells` nodes over the map, for points. In maps of more than
-  /// `max_exact_corners`, where the shortest paths from everywhere take seconds, lengths along the
-  /// edges of the grid: up to 8 % and a cell longer.
+  /// `max_exact_corners`, where the shortest paths from everywhere can take seconds, lengths along
+  /// the edges of the grid: up to 8 % and a cell longer.
   static DistanceField over(std::shared_ptr<const Map> map, Vec2 goal, int cells = 128);
 
   /// Length from the node next to `p` [µm], or the least of those around it where that one is in a
