@@ -5,6 +5,8 @@
 #include <array>
 #include <chrono>
 #include <cstdlib>
+#include <numeric>
+#include <span>
 #include <stdexcept>
 
 #include "bench/ompl_peer.hpp"
@@ -12,6 +14,7 @@
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/core/maths/statistics.hpp"
 #include "microswarm/formats/moving_ai.hpp"
+#include "microswarm/planning/exact/distance_field.hpp"
 #include "microswarm/planning/exact/shortest_path_tree.hpp"
 #include "microswarm/planning/exact/shortest_paths.hpp"
 #include "microswarm/planning/path/fit_to_map.hpp"
@@ -74,40 +77,66 @@ std::vector<double> kept_times(ShortestPaths& paths, const std::vector<PathQuery
   return ms;
 }
 
-/// Lengths of the paths from all starts to the first goal, out of one tree: the time [ms] it takes
-/// to grow and ask it, and the times of asking it again where there is a path.
-struct TreeTimes {
-  double grown = 0;
-  std::vector<double> again;
-};
-TreeTimes tree_times(const Map& map, double clearance, const std::vector<PathQuery>& queries,
-                     const Stop& stop) {
-  TreeTimes times;
-  ShortestPathTree tree(map, queries.front().goal, clearance);
-  for (const bool counts : {false, true})
-    for (const PathQuery& q : queries) {
-      if (stop()) break;
-      const auto began = Clock::now();
-      const bool reaches = tree.length_from(q.start.position) < infinity;
-      const double ms = spent_ms(began);
-      if (!counts) times.grown += ms;
-      if (counts && reaches) times.again.push_back(ms);
+/// Points of a path, `step` [µm] apart.
+std::vector<Vec2> points_along(const std::vector<Vec2>& path, double step) {
+  std::vector<Vec2> points{path.front()};
+  double left = step;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    Vec2 from = path[i - 1];
+    for (double d = distance(from, path[i]); d >= left; d = distance(from, path[i])) {
+      from += left / d * (path[i] - from);
+      points.push_back(from);
+      left = step;
     }
-  require_solved(stop() || 2 * times.again.size() > queries.size());
-  return times;
+    left -= distance(from, path[i]);
+  }
+  return points;
 }
 
-void add_tree_rows(const std::string& where, const TreeTimes& times, double aim,
+/// Times [ms] in which a tree tells the lengths from these places, where there is a path.
+std::vector<double> tree_times(ShortestPathTree& tree, std::span<const Vec2> places,
+                               const Stop& stop) {
+  std::vector<double> ms;
+  for (const Vec2 place : places) {
+    if (stop()) break;
+    const auto began = Clock::now();
+    const bool reaches = tree.length_from(place) < infinity;
+    if (reaches) ms.push_back(spent_ms(began));
+  }
+  require_solved(stop() || 2 * ms.size() > places.size());
+  return ms;
+}
+
+/// Paths to the goal of the last query: from places on the way there, one after the other, and,
+/// where fields of distances are exact, from the starts of all.
+void add_tree_rows(const std::string& where, const Map& map, double clearance,
+                   const std::vector<PathQuery>& queries, double aim, const Stop& stop,
                    std::vector<BenchRow>& rows) {
-  rows.push_back({.name = "exact, " + where + ", one goal, tree of paths kept",
-                  .quantity = "time, median",
-                  .unit = "ms",
-                  .ours = quantile(times.again, 0.5),
-                  .aim = aim});
-  rows.push_back({.name = "exact, " + where + ", one goal, growing the tree for all starts",
-                  .quantity = "time",
-                  .unit = "ms",
-                  .ours = times.grown});
+  const auto add = [&](const char* what, const char* quantity, double ms,
+                       std::optional<double> aimed) {
+    rows.push_back({.name = "exact, " + where + ", one goal, " + what,
+                    .quantity = quantity,
+                    .unit = "ms",
+                    .ours = ms,
+                    .aim = aimed});
+  };
+  const PathQuery& last = queries.back();
+  const std::vector<Vec2> path =
+      ShortestPaths(map, clearance).find(last.start.position, last.goal).points;
+  ShortestPathTree on_the_way(map, last.goal, clearance);
+  const auto times = tree_times(on_the_way, points_along(path, 0.001 * path_length(path)), stop);
+  add("on the way there", "time, median", quantile(times, 0.5), aim);
+  add("on the way there", "time, p99", quantile(times, 0.99), {});
+  add("on the way there", "time, longest", quantile(times, 1), {});
+  if (map.corners().all().size() > DistanceField::max_exact_corners) return;
+  std::vector<Vec2> starts;
+  starts.reserve(queries.size());
+  for (const PathQuery& q : queries) starts.push_back(q.start.position);
+  ShortestPathTree all_over(map, last.goal, clearance, ShortestPathTree::Growth::evenly);
+  const auto first = tree_times(all_over, starts, stop);
+  add("all over, tree kept", "time, median", quantile(tree_times(all_over, starts, stop), 0.5),
+      aim);
+  add("all over, growing the tree", "time", std::accumulate(first.begin(), first.end(), 0.0), {});
 }
 
 double corners_ms(const Map& map, int repeats) {
@@ -152,8 +181,7 @@ std::vector<BenchRow> among_discs_and_polygons(bool quick, const Stop& stop) {
                   .quantity = "time, median",
                   .unit = "ms",
                   .ours = corners_ms(world.map(), 11)});
-  add_tree_rows("140 discs and 70 polygons", tree_times(world.map(), clearance, queries, stop),
-                0.05, rows);
+  add_tree_rows("140 discs and 70 polygons", world.map(), clearance, queries, 0.05, stop, rows);
   return rows;
 }
 
@@ -232,7 +260,7 @@ std::vector<BenchRow> in_grid_map(const std::filesystem::path& file, bool quick,
                               .unit = "ms",
                               .ours = corners_ms(*map, 3),
                               .aim = 300}};
-  add_tree_rows(name, tree_times(*map, clearance, few, stop), 1, rows);
+  add_tree_rows(name, *map, clearance, few, 1, stop, rows);
   for (const PlannerParams& planner : {PlannerParams(on_grid<AStarParams>(clearance)),
                                        PlannerParams(on_grid<ThetaStarParams>(clearance))})
     for (BenchRow& row : fitted_to(name, world, few, planner, paths, stop))

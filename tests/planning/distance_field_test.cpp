@@ -20,7 +20,7 @@ std::shared_ptr<const Map> shared(Map map) { return std::make_shared<const Map>(
 TEST(DistanceField, EstimateIsTheDistanceInTheOpen) {
   const auto map = shared(Map({{0, 0}, {400, 300}}, {}));
   const Vec2 goal{333, 77};
-  DistanceField field = DistanceField::over(map, goal);
+  DistanceField field = DistanceField::over(*map, goal);
   Rng rng(1, Purpose::test);
   for (int k = 0; k < 500; ++k) {
     const double x = rng.uniform(0, 400);
@@ -33,13 +33,13 @@ TEST(DistanceField, EstimateIsTheDistanceInTheOpen) {
 TEST(DistanceField, EstimateGoesAroundWalls) {
   // A wall from below, open for 50 above.
   const auto map = shared(Map({{0, 0}, {200, 200}}, {scenes::rectangle({{95, 0}, {105, 150}})}));
-  DistanceField field = DistanceField::over(map, {150, 10});
+  DistanceField field = DistanceField::over(*map, {150, 10});
   EXPECT_NEAR(field.estimate({50, 10}), 10 + 2 * norm(Vec2{45, 140}), 28);
 }
 
 TEST(DistanceField, EstimateIsFarBehindWalls) {
   const auto map = shared(Map({{0, 0}, {200, 200}}, {scenes::rectangle({{95, 0}, {105, 200}})}));
-  DistanceField field = DistanceField::over(map, {150, 10});
+  DistanceField field = DistanceField::over(*map, {150, 10});
   EXPECT_GT(field.estimate({50, 10}), 400);
 }
 
@@ -54,7 +54,7 @@ TEST(DistanceField, OfManyCornersIsALittleLonger) {
   const auto map = shared(Map({{0, 0}, {2000, 2000}}, walls));
   ASSERT_GT(map->corners().all().size(), DistanceField::max_exact_corners);
   const Vec2 goal{1000, 1000};
-  DistanceField field = DistanceField::over(map, goal);
+  DistanceField field = DistanceField::over(*map, goal);
   ShortestPaths exact(*map, 0);
   int asked = 0;
   for (int k = 0; k < 8; ++k) {

@@ -10,7 +10,7 @@ namespace microswarm {
 RobotTask::RobotTask(const Scenario& scenario, const Map& map) : goals_(scenario.robots->goals) {
   constexpr int cells = 512;
   if (!goals_.empty()) return;
-  field_ = DistanceField::over(Snapshot::of(map).shared_map(), *scenario.goal, cells);
+  field_ = DistanceField::over(map, *scenario.goal, cells);
   known_.resize(4096);
 }
 

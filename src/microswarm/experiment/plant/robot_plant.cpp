@@ -25,7 +25,7 @@ RobotSwarm make_swarm(const Scenario& scenario, const Map& map, std::uint32_t tr
 std::vector<Vec2> robot_starts(const Scenario& scenario, const Map& map, std::uint32_t trial) {
   if (scenario.robots->count == 0) return scenario.robots->starts;
   const auto count = static_cast<std::size_t>(scenario.robots->count);
-  DistanceField field = DistanceField::over(Snapshot::of(map).shared_map(), *scenario.goal, 512);
+  DistanceField field = DistanceField::over(map, *scenario.goal, 512);
   const double guard = RobotStepper(map, scenario.robots->max_speed * scenario.tick).guard();
   const Box& box = map.bounds();
   Rng rng(scenario.seed, Purpose::scene, trial);

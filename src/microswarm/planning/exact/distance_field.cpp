@@ -8,6 +8,8 @@
 #include <queue>
 #include <utility>
 
+#include "microswarm/world/snapshot.hpp"
+
 namespace microswarm {
 namespace {
 
@@ -72,12 +74,12 @@ DistanceField DistanceField::to_goal(std::shared_ptr<const Map> map, Vec2 goal, 
           ShortestPathTree::Growth::towards_queries};
 }
 
-DistanceField DistanceField::over(std::shared_ptr<const Map> map, Vec2 goal, int cells) {
-  const Box box = map->bounds();
-  const bool is_exact = map->corners().all().size() <= max_exact_corners;
-  DistanceField field(std::move(map), goal, 0, box.lo, std::max(box.width(), box.height()) / cells,
-                      0.5, ShortestPathTree::Growth::evenly);
-  if (!is_exact) field.spread();
+DistanceField DistanceField::over(const Map& map, Vec2 goal, int cells) {
+  const Box& box = map.bounds();
+  DistanceField field(Snapshot::of(map).shared_map(), goal, 0, box.lo,
+                      std::max(box.width(), box.height()) / cells, 0.5,
+                      ShortestPathTree::Growth::evenly);
+  if (map.corners().all().size() > max_exact_corners) field.spread();
   return field;
 }
 

@@ -23,8 +23,8 @@ class DistanceField {
                                double spacing, std::size_t max_nodes = 1'000'000);
   /// About `cells` × `cells` nodes over the map, for points. In maps of more than
   /// `max_exact_corners`, where the shortest paths from everywhere can take seconds, lengths along
-  /// the edges of the grid: up to 8 % and a cell longer.
-  static DistanceField over(std::shared_ptr<const Map> map, Vec2 goal, int cells = 128);
+  /// the edges of the grid: up to 8 % and a cell longer. `map` must outlive it.
+  static DistanceField over(const Map& map, Vec2 goal, int cells = 128);
 
   /// Length from the node next to `p` [µm], or the least of those around it where that one is in a
   /// wall; infinity without a path.
