@@ -50,6 +50,11 @@ class Publisher {
   void set(Session& session, const Request& request, Issues& issues);
 
   void tell_standing(Session& session);
+  /// Tells all pages where the session stands, and the numbers of every tick until then.
+  void tell_all(Session& session) {
+    tell_rows();
+    tell_standing(session);
+  }
 
   Standing standing;
 

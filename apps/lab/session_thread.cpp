@@ -116,6 +116,7 @@ void SessionThread::obey(std::uint64_t, const Request& request, Issues& issues) 
       break;
     case Ask::pause:
       standing.plays = false;
+      publisher_.tell_all(*session_);  // before the answer: who asked knows then where it stands
       break;
     case Ask::step:
       standing.plays = false;

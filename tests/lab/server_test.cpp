@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/server.hpp"
 
+#include <cstring>
+#include <thread>
+
 #include "tests/lab/client.hpp"
 #include "tests/messages.hpp"
 
@@ -131,6 +134,26 @@ TEST(Server, ItPlaysUntilATime) {
   page.does(fastest);
   page.does(plays);
   page.ends();
+}
+
+TEST(Server, WhoPausesKnowsWithTheAnswerWhereItStands) {
+  const Lab lab;
+  TestPage page(lab, open(lab));
+  page.does({{"do", "speed"}, {"number", 20}});
+  for (std::size_t i = 0; i < 12; ++i) {
+    page.does(plays);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20 + 3 * i));
+    page.does({{"do", "pause"}});
+    const Json at_the_answer = page.latest["standing"];
+    EXPECT_EQ(at_the_answer["plays"], false);
+    const auto& rows = page.latest["rows"]["rows"].get_binary();
+    double newest = -1;
+    std::memcpy(&newest, rows.data() + rows.size() - 80, sizeof newest);
+    EXPECT_NEAR(newest, 0.1 * (at_the_answer["frames"].get<double>() - 1), 1e-9);
+    page.does({{"do", "speed"}, {"number", 20}});
+    page.until("standing", [&](const Json& one) { return one["plays"] == false; });
+    EXPECT_EQ(page.latest["standing"]["frames"], at_the_answer["frames"]);
+  }
 }
 
 TEST(Server, WhatIsSetIsInTheRecordAndWhatIsWrongIsTold) {

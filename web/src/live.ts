@@ -113,12 +113,6 @@ export class Live {
     if (!this.seeks) void this.sendSeeks();
   }
 
-  /** Waits until the numbers of all ticks so far are here. */
-  async allRows(): Promise<void> {
-    for (let i = 0; i < 20 && this.history.times.length < (this.standing?.frames ?? 0); ++i)
-      await new Promise((resolve) => window.setTimeout(resolve, 50));
-  }
-
   toggle(): void {
     void this.ask({ do: this.standing?.plays ? 'pause' : 'play' });
   }

@@ -55,7 +55,6 @@ export function timeBar(sessions: Live[], again?: () => Promise<unknown>): TimeB
   const pause = async () => {
     await Promise.all(sessions.map((one) => one.ask({ do: 'pause' })));
     if (sessions.length < 2) return;
-    await Promise.all(sessions.map((one) => one.allRows()));
     const newest = sessions.map((one) => one.history.times.at(-1) ?? 0);
     const until = Math.max(...newest);
     sessions.forEach((one, i) => {
