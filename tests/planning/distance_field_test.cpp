@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -41,6 +42,17 @@ TEST(DistanceField, EstimateIsFarBehindWalls) {
   const auto map = shared(Map({{0, 0}, {200, 200}}, {scenes::rectangle({{95, 0}, {105, 200}})}));
   DistanceField field = DistanceField::over(*map, {150, 10});
   EXPECT_GT(field.estimate({50, 10}), 400);
+}
+
+TEST(DistanceField, ALengthThatAStopLeftOpenIsAskedForAnew) {
+  const auto map = shared(Map({{0, 0}, {200, 200}}, {scenes::rectangle({{95, 0}, {105, 150}})}));
+  DistanceField field = DistanceField::to_goal(map, {150, 10}, 5, 5);
+  DistanceField whole = DistanceField::to_goal(map, {150, 10}, 5, 5);
+  const std::atomic<bool> flag = true;
+  field.stop_with(Stop(&flag));
+  EXPECT_GT(field.from({50, 10}), whole.from({50, 10}));
+  field.stop_with({});
+  EXPECT_EQ(field.from({50, 10}), whole.from({50, 10}));
 }
 
 TEST(DistanceField, OfManyCornersIsALittleLonger) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "microswarm/contracts/plan.hpp"
 #include "microswarm/geometry/uniform_in.hpp"
 #include "microswarm/planning/exact/shortest_paths.hpp"
@@ -99,6 +101,30 @@ TEST(ShortestPathTree, AsItGrowsEvenlyThePathsAreTheSame) {
       EXPECT_EQ(even.path_from(start), tree.path_from(start));
     }
   }
+}
+
+TEST(ShortestPathTree, OneThatIsStoppedGoesOnWithTheNextQuery) {
+  Rng rng(15, Purpose::test);
+  int stopped = 0;
+  for (int number = 0; number < 20; ++number) {
+    const Map map = crowded_map(rng);
+    const Vec2 goal = uniform_in(map.bounds(), rng);
+    ShortestPathTree tree(map, goal, 1), whole(map, goal, 1);
+    std::atomic<bool> flag{};
+    tree.stop_with(Stop(&flag));
+    for (int query = 0; query < 10; ++query) {
+      const Vec2 start = uniform_in(map.bounds(), rng);
+      const std::vector<Vec2> path = whole.path_from(start);
+      flag = true;
+      const double length = tree.length_from(start);
+      EXPECT_GE(length, (1 - 1e-12) * whole.length_from(start));
+      stopped += tree.was_stopped();
+      flag = false;
+      EXPECT_EQ(tree.path_from(start), path);
+      EXPECT_FALSE(tree.was_stopped());
+    }
+  }
+  EXPECT_GT(stopped, 50);
 }
 
 TEST(ShortestPathTree, AGoalOutsideOrInAWallHasNoPaths) {

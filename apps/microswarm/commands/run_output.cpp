@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "microswarm/config/write.hpp"
 #include "microswarm/core/errors/error.hpp"
@@ -117,12 +118,6 @@ void note_assumptions(const Scenario& scenario, const Map& map) {
   const double width = published_channel_width * scale_of(*params, map, rng);
   for (const std::string& unmet : unmet_assumptions(map, *scenario.goal, width))
     note("note: {}\n", unmet);
-  if (params->method != Aggregation::divide_and_conquer) return;
-  Rng planner(scenario.seed, Purpose::planner);
-  const AggregationParams fit = fitted(*params, map, planner);
-  const std::string few =
-      too_few_regions(AggregationMap(map, *scenario.goal, fit, planner).segmentation);
-  if (!few.empty()) note("note: {}\n", few);
 }
 
 /// Time for which the swarm was held at the goal, as a line; nothing without a hold.
@@ -146,6 +141,14 @@ void note_oddities(const Session& session) {
   note_assumptions(session.scenario(), session.map());
 }
 
+void note_regions(const Session& session) {
+  const auto* params = std::get_if<AggregationParams>(&session.scenario().navigator);
+  if (!params || params->method != Aggregation::divide_and_conquer) return;
+  const auto aggregation = session.aggregation();
+  const std::string few = aggregation ? too_few_regions(aggregation->segmentation) : "";
+  if (!few.empty()) note("note: {}\n", few);
+}
+
 std::unique_ptr<GrowingRecord> grow_record(Session& session, const std::string& folder) {
   if (folder.empty()) return nullptr;
   return std::make_unique<GrowingRecord>(session, record_in(folder));
@@ -157,7 +160,11 @@ void finish_run(Session& session, const Stop& stop) {
   ProgressBar bar(scenario.name.empty() ? "run" : scenario.name);
   ProgressListener progress(
       scenario, [&](const RunProgress& p) { bar.update(std::max(p.way_done, p.time_spent)); });
-  while (const Tick* tick = session.step(stop)) progress.on_tick(*tick);
+  bool began = false;
+  while (const Tick* tick = session.step(stop)) {
+    if (!std::exchange(began, true)) note_regions(session);
+    progress.on_tick(*tick);
+  }
 }
 
 int tell_run(const Session& session, const RunOutput& o, const ReportOptions& report) {

@@ -25,6 +25,8 @@ struct RunOutput {
 
 /// Warns on stderr of what is unusual about a session before it runs.
 void note_oddities(const Session& session);
+/// Warns on stderr, after the first tick, where the method divides a map of few regions.
+void note_regions(const Session& session);
 
 /// Keeps the record so far in `folder` while the session is stepped, for `microswarm lab`, which
 /// follows it; null without a folder.

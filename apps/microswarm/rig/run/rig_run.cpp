@@ -180,7 +180,11 @@ void drive(LiveSession& session, const Stop& stop) {
   session.listen(notes);
   note_oddities(session);
   RigStatusLine status(session);
-  while (session.step(stop)) status.update();
+  bool began = false;
+  while (session.step(stop)) {
+    if (!std::exchange(began, true)) note_regions(session);
+    status.update();
+  }
 }
 
 struct RigRunOptions {

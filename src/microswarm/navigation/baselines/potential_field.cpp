@@ -44,7 +44,8 @@ void PotentialFieldNavigator::prepare(const Snapshot& world) {
   guide_.prepare(world.shared_map(), steering_.aim().position, radius + params_.gap, radius);
 }
 
-Command PotentialFieldNavigator::step(const Observation& seen, const Stop&) {
+Command PotentialFieldNavigator::step(const Observation& seen, const Stop& stop) {
+  guide_.stop_with(stop);
   tracker_.update(seen);
   const Pose2* pose = steering_.observe(seen);
   if (!pose) return steering_.hold();

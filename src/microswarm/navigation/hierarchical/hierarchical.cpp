@@ -57,6 +57,7 @@ void HierarchicalNavigator::prepare(const Snapshot& world) {
 }
 
 Command HierarchicalNavigator::step(const Observation& seen, const Stop& stop) {
+  route_.stop_with(stop);
   const std::optional<double> last_command = steering_.last_command();
   obstacles_.update(seen);
   const Decision decision = decide(seen, stop);

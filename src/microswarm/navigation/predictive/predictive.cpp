@@ -69,7 +69,8 @@ NavigatorView PredictiveNavigator::view() const {
   return view;
 }
 
-Command PredictiveNavigator::step(const Observation& seen, const Stop&) {
+Command PredictiveNavigator::step(const Observation& seen, const Stop& stop) {
+  route_.stop_with(stop);
   predictor_.update(seen);
   path_.clear();
   planned_ = false;

@@ -114,8 +114,10 @@ void DistanceField::spread() {
 
 double DistanceField::at(std::size_t node) {
   float& length = lengths_[node];
-  if (length == unknown) length = static_cast<float>(route_.length_from(position(node)));
-  return static_cast<double>(length);
+  if (length != unknown) return static_cast<double>(length);
+  const auto found = static_cast<float>(route_.length_from(position(node)));
+  if (!route_.was_stopped()) length = found;
+  return static_cast<double>(found);
 }
 
 Vec2 DistanceField::position(std::size_t node) const {

@@ -26,6 +26,9 @@ class DistanceField {
   /// the edges of the grid: up to 8 % and a cell longer. `map` must outlive it.
   static DistanceField over(const Map& map, Vec2 goal, int cells = 128);
 
+  /// What tells that a search for paths is to end; a length that it leaves open is asked for anew.
+  void stop_with(const Stop& stop) { route_.stop_with(stop); }
+
   /// Length from the node next to `p` [µm], or the least of those around it where that one is in a
   /// wall; infinity without a path.
   double from(Vec2 p);

@@ -21,6 +21,12 @@ class Route {
         clearance_(clearance),
         tree_(ShortestPathTree(*map_, goal, clearance, growth)) {}
 
+  /// See ShortestPathTree.
+  void stop_with(const Stop& stop) {
+    if (tree_) tree_->stop_with(stop);
+  }
+  bool was_stopped() const { return tree_ && tree_->was_stopped(); }
+
   /// Length of the shortest path from `p` [µm], infinity without one.
   double length_from(Vec2 p);
   /// The farthest point of that path, at most `reach` µm ahead, that is in sight of `p` past nine

@@ -29,6 +29,7 @@ std::vector<Vec2> ShortestPathTree::path_from(Vec2 p) {
 /// Looks around the place as far as paths of the length found may lead over what is seen, then
 /// grows the tree until nothing shorter can come.
 ShortestPathTree::Best ShortestPathTree::best_from(Vec2 p) {
+  was_stopped_ = false;
   if (!has_root_ || !is_finite(p) || !map_->is_free(p, clearance_)) return {};
   const double straight = distance(p, goal_);
   if (map_->is_free(Segment{p, goal_}, clearance_)) return {.length = straight};
@@ -53,7 +54,8 @@ ShortestPathTree::Best ShortestPathTree::best_from(Vec2 p) {
     search_->head_for(headed_for_ = p);
   }
   const double off = distance(p, headed_for_);
-  while (search_->reached() - off < best.length) {
+  for (int expanded = 0; search_->reached() - off < best.length; ++expanded) {
+    if (expanded % 8 == 0 && (was_stopped_ = stop_())) break;
     const auto number = search_->next(best.length + off);
     if (!number) break;
     search_->expand(*number);

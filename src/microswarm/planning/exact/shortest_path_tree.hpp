@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "microswarm/core/execution/stop.hpp"
 #include "microswarm/planning/exact/tangent_search.hpp"
 
 namespace microswarm {
@@ -25,6 +26,12 @@ class ShortestPathTree {
   /// `map` must outlive it. `clearance` [µm].
   ShortestPathTree(const Map& map, Vec2 goal, double clearance,
                    Growth growth = Growth::towards_queries);
+
+  /// What tells that growth is to end. The paths of a query that it ends may not be the shortest,
+  /// or there may be none; the tree goes on from there with the next query.
+  void stop_with(const Stop& stop) { stop_ = stop; }
+  /// Whether it has ended the last query.
+  bool was_stopped() const { return was_stopped_; }
 
   /// A tree larger than this begins anew with a query that needs it to grow [B]; 256 MB by default.
   void limit_bytes(std::size_t most) { most_bytes_ = most; }
@@ -61,6 +68,8 @@ class ShortestPathTree {
   Growth growth_;
   std::size_t most_bytes_ = 256u << 20;
   bool has_root_;
+  Stop stop_;
+  bool was_stopped_ = false;
   std::optional<TangentSearch> search_;  ///< once a path that bends is asked for
   Vec2 headed_for_;                      ///< as the tree is grown
 

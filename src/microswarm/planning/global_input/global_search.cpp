@@ -314,7 +314,8 @@ GlobalSearch global_search(const Map& map, std::span<const Vec2> starts,
     const double round_cell = cell * rng.uniform(finest_of_cell, 2 * finest_of_cell);
     const bool goes_around = found.rounds % 2 == 0;
     if (goes_around && fields.empty())
-      for (const Vec2 goal : goals) fields.push_back(DistanceField::over(map, goal));
+      for (const Vec2 goal : goals)
+        fields.emplace_back(DistanceField::over(map, goal)).stop_with(stop);
     const auto used = goes_around ? std::span<DistanceField>(fields) : std::span<DistanceField>();
     Round round(problem, used, start, round_cell, rng, found.counts);
     const double left = static_cast<double>(max_nodes - found.counts.samples) + 1;
