@@ -78,5 +78,34 @@ TEST(Episode, StopsWhenTold) {
   EXPECT_EQ(episode.step(), nullptr);
 }
 
+/// Is told to stop while it prepares.
+class StoppedEarly final : public Navigator {
+ public:
+  explicit StoppedEarly(std::atomic<bool>& flag) : flag_(flag) {}
+  void prepare(const Snapshot&, const Stop& stop) override {
+    EXPECT_FALSE(stop());
+    flag_ = true;
+    EXPECT_TRUE(stop());
+  }
+  Command step(const Observation&, const Stop&) override {
+    ADD_FAILURE() << "a step of what is not prepared";
+    return {};
+  }
+  NavigatorView view() const override { return {}; }
+
+ private:
+  std::atomic<bool>& flag_;
+};
+
+TEST(Episode, NoStepFollowsAPreparationThatWasStopped) {
+  const Scenario scenario = open_room();
+  KinematicPlant plant(scenario, world_of(scenario));
+  std::atomic<bool> flag{};
+  StoppedEarly navigator(flag);
+  Episode episode(scenario, plant, navigator);
+  EXPECT_EQ(episode.step(Stop(&flag))->end, Status::stopped);
+  EXPECT_EQ(episode.step(), nullptr);
+}
+
 }  // namespace
 }  // namespace microswarm

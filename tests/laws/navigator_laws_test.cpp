@@ -93,7 +93,7 @@ class NavigatorLaws : public testing::TestWithParam<Case> {
     Command active;  // obeyed a tick late
     for (int k = 0; k < ticks; ++k) {
       const Snapshot world = scene.at(tick * k);
-      if (k == 0) navigator->prepare(world);
+      if (k == 0) navigator->prepare(world, {});
       const Command command = navigator->step(see(world, pose, tick * k), {});
       watch(world, pose, command, *navigator);
       pose = unicycle_step(pose, active, swarm.max_turn_rate, tick);
@@ -196,7 +196,7 @@ TEST_P(NavigatorLaws, GetsToASmallGoalAlongAWall) {
           std::optional<NavigatorState> state;
           for (int k = 0; k < 600 && state != NavigatorState::arrived; ++k) {
             const Snapshot world(map, tick * k);
-            if (k == 0) navigator->prepare(world);
+            if (k == 0) navigator->prepare(world, {});
             const Command command = navigator->step(see(world, pose, tick * k), {});
             state = navigator->view().state;
             pose = unicycle_step(pose, active, turn_rate, tick);
@@ -213,7 +213,7 @@ TEST_P(NavigatorLaws, HoldsWithoutAGoodLook) {
   const Scene scene = random_scene(1, 0);
   const Snapshot world = scene.at(0);
   const auto navigator = make(scene.goal);
-  navigator->prepare(world);
+  navigator->prepare(world, {});
   const Observation good = see(world, {scene.start, 0}, 0);
   double now = 0;
   const auto expect_hold = [&](Observation bad, const char* what) {
@@ -252,7 +252,7 @@ TEST_P(NavigatorLaws, HoldsInAWall) {
       Box{{0, 0}, {1200, 800}}, std::vector<Polygon>{scenes::rectangle({{300, 300}, {700, 500}})});
   const Snapshot world = scene.at(0);
   const auto navigator = make(scene.goal);
-  navigator->prepare(world);
+  navigator->prepare(world, {});
   EXPECT_EQ(navigator->step(see(world, {{500, 400}, 0}, 0), {}).speed, 0);
   EXPECT_EQ(navigator->view().state, NavigatorState::blind);
 }
@@ -262,7 +262,7 @@ TEST_P(NavigatorLaws, SwarmInAnObstacleIsNoCrash) {
   scene.from[0] = {600, 400};
   const Snapshot world = scene.at(0);
   const auto navigator = make(scene.goal);
-  navigator->prepare(world);
+  navigator->prepare(world, {});
   for (int k = 0; k < 5; ++k) {
     const Command c = navigator->step(see(world, {{600, 400}, 0}, tick * k), {});
     EXPECT_TRUE(std::isfinite(c.heading) && std::isfinite(c.speed));
@@ -295,7 +295,7 @@ TEST_P(NavigatorLaws, StepsAllocateNothing) {
   std::vector<Snapshot> worlds;
   for (int k = 0; k < 120; ++k) worlds.push_back(scene.at(tick * k));
   const auto navigator = make(scene.goal);
-  navigator->prepare(worlds[0]);
+  navigator->prepare(worlds[0], {});
   Pose2 pose{scene.start, 0};
   std::size_t made = 0;
   for (int k = 0; k < 120; ++k) {

@@ -76,7 +76,7 @@ class RobotNavigatorLaws : public testing::TestWithParam<RobotCase> {
   /// Steers until it says that it has arrived; `change` is done to what it is shown.
   Ended drive(test::RobotScene s, int ticks = max_ticks, const Change& change = {}) const {
     const auto navigator = make(s.params);
-    navigator->prepare(s.world);
+    navigator->prepare(s.world, {});
     Ended out;
     for (int k = 0; k < ticks && !out.arrived; ++k) {
       Observation seen = s.observe();
@@ -118,7 +118,7 @@ TEST_P(RobotNavigatorLaws, ANewOneTakesOverOnTheWay) {
   bool arrived = false;
   for (int one = 0; one < 4 && !arrived; ++one) {
     const auto navigator = make(s.params, 7);
-    navigator->prepare(s.world);
+    navigator->prepare(s.world, {});
     for (int k = 0; k < (one < 3 ? 40 : max_ticks) && !arrived; ++k) {
       s.apply(navigator->step(s.observe(), {}));
       arrived = navigator->view().state == NavigatorState::arrived;
@@ -158,7 +158,7 @@ TEST_P(RobotNavigatorLaws, BringsAllThereHoweverLateItSees) {
 TEST_P(RobotNavigatorLaws, HoldsOnceArrived) {
   test::RobotScene s = scene(GetParam().robots);
   const auto navigator = make(s.params);
-  navigator->prepare(s.world);
+  navigator->prepare(s.world, {});
   int after = 0;
   for (int k = 0; k < max_ticks && after < 50; ++k) {
     const Command command = navigator->step(s.observe(), {});
@@ -175,7 +175,7 @@ TEST_P(RobotNavigatorLaws, HoldsOnceArrived) {
 TEST_P(RobotNavigatorLaws, HoldsWithoutAGoodLook) {
   test::RobotScene s = scene(GetParam().robots, 0);
   const auto navigator = make(s.params);
-  navigator->prepare(s.world);
+  navigator->prepare(s.world, {});
   std::vector<Vec2> places = s.places();
   const auto expect_hold = [&](const char* what, auto spoil) {
     Observation bad = s.observe();
@@ -207,7 +207,7 @@ TEST_P(RobotNavigatorLaws, HoldsWithoutAGoodLook) {
 TEST_P(RobotNavigatorLaws, AFrameAsOldAsTheTimeoutIsNotStale) {
   const test::RobotScene s = scene(GetParam().robots, 0);
   const auto navigator = make(s.params);
-  navigator->prepare(s.world);
+  navigator->prepare(s.world, {});
   Observation seen = s.observe();
   seen.now = seen.seen + robot_timeout;
   EXPECT_GT(navigator->step(seen, {}).speed, 0);
@@ -226,7 +226,7 @@ TEST_P(RobotNavigatorLaws, UsesNothingThatMayBeMissing) {
 TEST_P(RobotNavigatorLaws, RobotsInAWallAreNoCrash) {
   const test::RobotScene s = scene(GetParam().robots, 0);
   const auto navigator = make(s.params);
-  navigator->prepare(s.world);
+  navigator->prepare(s.world, {});
   std::vector<Vec2> places = s.places();
   const Box bounds = s.map.bounds();
   for (int k = 0; k < 6; ++k) {
@@ -245,7 +245,7 @@ TEST_P(RobotNavigatorLaws, RobotsInAWallAreNoCrash) {
 TEST_P(RobotNavigatorLaws, EndsItsThinkingWhenTold) {
   const test::RobotScene s = scene(GetParam().robots, 0);
   const auto navigator = make(s.params);
-  navigator->prepare(s.world);
+  navigator->prepare(s.world, {});
   const std::atomic<bool> stop{true};
   const Command c = navigator->step(s.observe(), Stop(&stop));
   EXPECT_TRUE(std::isfinite(c.heading) && std::isfinite(c.speed));

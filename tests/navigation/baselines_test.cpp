@@ -42,7 +42,7 @@ struct BaselineDrive {
   void run(Navigator& navigator, double seconds) {
     constexpr double substep = 0.01;
     World world{std::make_shared<const Map>(Box{{0, 0}, {2000, 1000}}, walls), obstacles};
-    navigator.prepare(world.at(0));
+    navigator.prepare(world.at(0), {});
     std::vector<Pose2> was(static_cast<std::size_t>(std::lround(delay / substep)) + 1, pose);
     std::vector<Command> pending(
         static_cast<std::size_t>(std::lround(swarm.response_lag / substep)));

@@ -23,7 +23,7 @@ std::unique_ptr<Navigator> navigator(const Snapshot& world, std::uint64_t seed =
                                   .goal = room_goal,
                                   .goal_tolerance = 30},
                              Rng(seed, Purpose::planner));
-  made->prepare(world);
+  made->prepare(world, {});
   return made;
 }
 
@@ -148,7 +148,7 @@ Driven drive(Pose2 pose, Vec2 goal, double seconds, const std::vector<StraightDi
                                         .goal = goal,
                                         .goal_tolerance = room_tolerance},
                                    Rng(1, Purpose::planner));
-  made->prepare(world_at(0));
+  made->prepare(world_at(0), {});
   Driven out{.pose = pose};
   for (double t = 0; t < seconds; t += 0.1) {
     const Snapshot world = world_at(t);

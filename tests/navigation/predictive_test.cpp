@@ -42,7 +42,7 @@ struct PredictiveDrive {
     const World world{std::make_shared<const Map>(Box{{0, 0}, {2000, 1000}}, walls), obstacles};
     PredictiveNavigator navigator(params, swarm, room_goal, room_tolerance,
                                   Rng(seed, Purpose::planner));
-    navigator.prepare(world.at(0));
+    navigator.prepare(world.at(0), {});
     std::vector<Pose2> was_there(6, pose);
     std::vector<Command> pending(10);
     while (time < seconds && !arrived) {
@@ -173,7 +173,7 @@ TEST(Predictive, HoldsWhenBlindAndGoesOn) {
   PredictiveNavigator navigator({}, slow_vortex, room_goal, room_tolerance,
                                 Rng(1, Purpose::planner));
   const Snapshot frame = world.at(0);
-  navigator.prepare(frame);
+  navigator.prepare(frame, {});
   const Observation good{.now = 0,
                          .seen = 0,
                          .swarm = SwarmPose{{{200, 500}, 0}, 50},

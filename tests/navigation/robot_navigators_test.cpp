@@ -59,7 +59,7 @@ TEST(PlanExecutor, SeenWithErrorsItArrives) {
   const RobotSwarmParams params = two_robots();
   test::RobotScene rig(scenes::global_world(1), params, params.starts, 1);
   PlanExecutor player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
-  player.prepare(rig.world);
+  player.prepare(rig.world, {});
   Rng eye(3, Purpose::test);
   int planned = 0;
   for (int i = 0; i < 3000 && rig.worst() > 20; ++i) {
@@ -79,7 +79,7 @@ TEST(PlanExecutor, WithoutErrorsItPlansOnceAndArrives) {
     const RobotSwarmParams params = two_robots();
     test::RobotScene rig(scenes::global_world(1), params, params.starts, delay);
     PlanExecutor player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
-    player.prepare(rig.world);
+    player.prepare(rig.world, {});
     int planned = 0;
     for (int i = 0; i < 3000 && rig.worst() > 20; ++i) {
       rig.apply(player.step(rig.observe(), {}));
@@ -97,7 +97,7 @@ TEST(PlanExecutor, WithErrorsItFindsItsWayAgain) {
   params.speed_spread = 0.1;
   test::RobotScene rig(scenes::global_world(1), params, params.starts, 1);
   PlanExecutor player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
-  player.prepare(rig.world);
+  player.prepare(rig.world, {});
   int found_again = 0;
   for (int i = 0; i < 6000 && rig.worst() > 20; ++i) {
     rig.apply(player.step(rig.observe(), {}));
@@ -112,7 +112,7 @@ TEST(PlanExecutor, RobotsThatWereCarriedAwayJoinThePlanAgain) {
   const RobotSwarmParams params = two_robots();
   test::RobotScene rig(scenes::global_world(1), params, params.starts, 0);
   PlanExecutor player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
-  player.prepare(rig.world);
+  player.prepare(rig.world, {});
   std::vector<Observation> seen;
   for (int i = 0; i < 20; ++i) rig.apply(player.step(rig.observe(), {}));
   // Back to the start: the first place of the plan is joined, nothing is planned.
@@ -128,7 +128,7 @@ TEST(PlanExecutor, WithoutAPlanItHoldsAndTriesAgainLater) {
   hard.planner.max_nodes = 1;
   test::RobotScene rig(scenes::global_world(1), params, params.starts, 0);
   PlanExecutor player(hard, params, 20, robot_tick, Rng(1, Purpose::planner));
-  player.prepare(rig.world);
+  player.prepare(rig.world, {});
   int planned = 0;
   int stuck = 0;
   for (int i = 0; i < 250; ++i) {
@@ -145,7 +145,7 @@ TEST(PlanExecutor, HoldsWhenItSeesTooFewTooOldOrIsThere) {
   const RobotSwarmParams params = two_robots();
   test::RobotScene rig(scenes::global_world(1), params, params.starts, 0);
   PlanExecutor player({}, params, 20, robot_tick, Rng(1, Purpose::planner));
-  player.prepare(rig.world);
+  player.prepare(rig.world, {});
   Observation seen = rig.observe();
   seen.robots = seen.robots.first(1);
   EXPECT_EQ(player.step(seen, {}).speed, 0);
@@ -169,7 +169,7 @@ TEST(AggregationNavigator, GathersUnderLagAndDelayAndHoldsThen) {
   for (int i = 0; i < 64; ++i) starts.push_back({rng.uniform(2, 98), rng.uniform(92, 98)});
   test::RobotScene rig(t.map(), params, starts, 1);
   AggregationNavigator navigator({}, params, t.goal, 20, robot_tick, Rng(1, Purpose::planner));
-  navigator.prepare(rig.world);
+  navigator.prepare(rig.world, {});
   int steps = 0;
   while (steps < 2000) {
     const Command command = navigator.step(rig.observe(), {});

@@ -29,8 +29,9 @@ struct NavigatorView {
 class Navigator {
  public:
   virtual ~Navigator() = default;
-  /// Called once before the first step with the initial world; do slow preparation here.
-  virtual void prepare(const Snapshot&) {}
+  /// Called once before the first step with the initial world; do slow preparation here. If `stop`
+  /// ends it, no step follows.
+  virtual void prepare(const Snapshot& world, const Stop& stop) { (void)world, (void)stop; }
   virtual Command step(const Observation& observation, const Stop& stop) = 0;
   /// Another command was given in place of a step at `now` [s], because the experiment is paused or
   /// steered by hand.

@@ -88,8 +88,11 @@ bool Episode::advance(const Stop& stop) {
     ending_ = arrive();
   }
   if (ending_) return false;
-  if (!prepared_) navigator_->prepare(*seen.world);
-  prepared_ = true;
+  if (!std::exchange(prepared_, true)) navigator_->prepare(*seen.world, stop);
+  if (stop()) {
+    ending_ = stopped();
+    return false;
+  }
 
   const Clock::time_point begin = Clock::now();
   const Command command = decide(seen, stop);

@@ -38,7 +38,7 @@ PotentialFieldNavigator::PotentialFieldNavigator(const PotentialFieldParams& par
       guide_(params.guide, goal, params.tuning.route_reach),
       tracker_(params.tracker) {}
 
-void PotentialFieldNavigator::prepare(const Snapshot& world) {
+void PotentialFieldNavigator::prepare(const Snapshot& world, const Stop&) {
   const double radius = steering_.swarm().radius;
   steering_.prepare(world, radius, radius + params_.gap);
   guide_.prepare(world.shared_map(), steering_.aim().position, radius + params_.gap, radius);

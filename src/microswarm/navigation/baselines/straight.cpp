@@ -11,7 +11,7 @@ constexpr int max_ticks = 200;
 
 }  // namespace
 
-void StraightNavigator::prepare(const Snapshot& world) {
+void StraightNavigator::prepare(const Snapshot& world, const Stop&) {
   steering_.prepare(world, steering_.swarm().radius, steering_.swarm().radius + params_.gap);
 }
 

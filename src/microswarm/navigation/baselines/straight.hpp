@@ -14,7 +14,7 @@ class StraightNavigator : public Navigator {
                     double goal_tolerance, double frame_timeout = default_frame_timeout)
       : params_(params), steering_(swarm, params.speed, goal, goal_tolerance, frame_timeout) {}
 
-  void prepare(const Snapshot& world) override;
+  void prepare(const Snapshot& world, const Stop& stop) override;
   Command step(const Observation& observation, const Stop& stop) override;
   void overruled(double now, const Command& command) override { steering_.overruled(now, command); }
   NavigatorView view() const override { return steering_.view(); }

@@ -72,7 +72,7 @@ void VelocityObstacleNavigator::rank_choices() {
                    [](const Choice& a, const Choice& b) { return a.off < b.off; });
 }
 
-void VelocityObstacleNavigator::prepare(const Snapshot& world) {
+void VelocityObstacleNavigator::prepare(const Snapshot& world, const Stop&) {
   const double radius = steering_.swarm().radius;
   steering_.prepare(world, radius, radius + params_.gap);
   guide_.prepare(world.shared_map(), steering_.aim().position, radius + params_.gap, radius);

@@ -16,7 +16,7 @@ PathNavigator::PathNavigator(const PathNavigatorParams& params, const SwarmLimit
   path_.reserve(2);
 }
 
-void PathNavigator::prepare(const Snapshot& world) {
+void PathNavigator::prepare(const Snapshot& world, const Stop&) {
   steering_.prepare(world, steering_.swarm().radius, steering_.swarm().radius + params_.gap);
   path_.back() = steering_.aim().position;
 }

@@ -17,11 +17,15 @@ AggregationNavigator::AggregationNavigator(const AggregationParams& params,
       rng_(rng),
       steering_(robots, tick, frame_timeout) {}
 
-void AggregationNavigator::prepare(const Snapshot& world) {
+void AggregationNavigator::prepare(const Snapshot& world, const Stop& stop) {
   params_ = fitted(params_, world.map(), rng_);
   params_.sigma = std::min(params_.sigma, 0.5 * goal_tolerance_);
   params_.step = std::min(params_.step, steering_.max_move());
-  map_.emplace(world.map(), goal_, params_, rng_);
+  map_.emplace(world.map(), goal_, params_, rng_, MoveRule::any_direction, stop);
+  if (map_->was_stopped) {
+    map_.reset();
+    return;
+  }
   policy_.emplace(*map_, params_);
   steering_.prepare(world);
   if (params_.method == Aggregation::rollout)

@@ -23,7 +23,7 @@ class AggregationNavigator : public Navigator {
                        double frame_timeout = default_frame_timeout);
 
   /// Grows the tree. Throws InputError as AggregationMap does.
-  void prepare(const Snapshot& world) override;
+  void prepare(const Snapshot& world, const Stop& stop) override;
   Command step(const Observation& observation, const Stop& stop) override;
   void overruled(double now, const Command& command) override { steering_.overruled(now, command); }
   NavigatorView view() const override { return steering_.view(); }

@@ -21,7 +21,7 @@ class PlanExecutor : public Navigator {
                double goal_tolerance, double tick, Rng rng,
                double frame_timeout = default_frame_timeout);
 
-  void prepare(const Snapshot& world) override { steering_.prepare(world); }
+  void prepare(const Snapshot& world, const Stop&) override { steering_.prepare(world); }
   Command step(const Observation& observation, const Stop& stop) override;
   void overruled(double now, const Command& command) override { steering_.overruled(now, command); }
   NavigatorView view() const override { return steering_.view(); }

@@ -49,7 +49,7 @@ HierarchicalNavigator::HierarchicalNavigator(const HierarchicalParams& params,
                                params_.tuning.check_step / 8);
 }
 
-void HierarchicalNavigator::prepare(const Snapshot& world) {
+void HierarchicalNavigator::prepare(const Snapshot& world, const Stop&) {
   steering_.prepare(world, params_.clearance, params_.clearance + params_.extra_clearance);
   if (params_.guide == Guide::route)
     route_ = DistanceField::to_goal(world.shared_map(), aim().position, params_.clearance,

@@ -28,7 +28,7 @@ class HierarchicalNavigator : public Navigator {
                         double goal_tolerance, Rng rng,
                         double frame_timeout = default_frame_timeout);
 
-  void prepare(const Snapshot& world) override;
+  void prepare(const Snapshot& world, const Stop& stop) override;
   Command step(const Observation& observation, const Stop& stop) override;
   void overruled(double now, const Command& command) override { steering_.overruled(now, command); }
   NavigatorView view() const override { return steering_.view(); }

@@ -49,7 +49,7 @@ PredictiveNavigator::PredictiveNavigator(const PredictiveParams& params, const S
   path_.reserve(static_cast<std::size_t>(field_.steps()) + 1);
 }
 
-void PredictiveNavigator::prepare(const Snapshot& world) {
+void PredictiveNavigator::prepare(const Snapshot& world, const Stop&) {
   steering_.prepare(world, steering_.swarm().radius, steering_.swarm().radius + params_.wall_gap);
   const double left = steering_.aim().tolerance;
   reached_ = {steering_.aim().position, params_.tuning.goal_share * left};

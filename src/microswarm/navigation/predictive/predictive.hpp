@@ -22,7 +22,7 @@ class PredictiveNavigator : public Navigator {
   PredictiveNavigator(const PredictiveParams& params, const SwarmLimits& swarm, Vec2 goal,
                       double goal_tolerance, Rng rng, double frame_timeout = default_frame_timeout);
 
-  void prepare(const Snapshot& world) override;
+  void prepare(const Snapshot& world, const Stop& stop) override;
   Command step(const Observation& observation, const Stop& stop) override;
   void overruled(double now, const Command& command) override { steering_.overruled(now, command); }
   NavigatorView view() const override;

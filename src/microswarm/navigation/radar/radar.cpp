@@ -27,7 +27,7 @@ RadarNavigator::RadarNavigator(const RadarParams& params, const SwarmLimits& swa
   params_.speed = steering_.speed();
 }
 
-void RadarNavigator::prepare(const Snapshot& world) {
+void RadarNavigator::prepare(const Snapshot& world, const Stop&) {
   if (params_.as_published) return;
   steering_.prepare(world, swarm().radius, swarm().radius + params_.safety_distance);
 }

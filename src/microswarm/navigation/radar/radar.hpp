@@ -26,7 +26,7 @@ class RadarNavigator : public Navigator {
   RadarNavigator(const RadarParams& params, const SwarmLimits& swarm, Vec2 goal,
                  double goal_tolerance, Rng rng, double frame_timeout = default_frame_timeout);
 
-  void prepare(const Snapshot& world) override;
+  void prepare(const Snapshot& world, const Stop& stop) override;
   Command step(const Observation& observation, const Stop& stop) override;
   void overruled(double now, const Command& command) override { steering_.overruled(now, command); }
   NavigatorView view() const override { return steering_.view(); }

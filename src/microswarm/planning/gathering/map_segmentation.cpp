@@ -124,11 +124,12 @@ class Segmenter {
     out_.branch.assign(tree_.nodes.size(), 0);
   }
 
-  MapSegmentation segment() {
-    find_junction_nodes();  // lines 1–4
-    cluster_by_distance();  // line 5
-    grow_regions();         // line 6
-    find_branches();        // lines 7–10
+  MapSegmentation segment(const Stop& stop) {
+    find_junction_nodes(stop);               // lines 1–4
+    if (!stop()) cluster_by_distance(stop);  // line 5
+    if (stop()) return {};
+    grow_regions();   // line 6
+    find_branches();  // lines 7–10
     return std::move(out_);
   }
 
@@ -162,11 +163,12 @@ class Segmenter {
            params_.arms;
   }
 
-  void find_junction_nodes() {
+  void find_junction_nodes(const Stop& stop) {
     out_.junction_nodes.push_back(0);
     widths_.push_back(width(0));
     for (const std::uint32_t v : medial_) {
       if (v == 0) continue;
+      if (stop()) return;
       const double w = width(v);
       if (!is_junction(v, params_.range * w)) continue;
       out_.junction_nodes.push_back(v);
@@ -176,7 +178,7 @@ class Segmenter {
 
   /// Single linkage: nodes that are near and visible form one junction. The goal's cluster is the
   /// first.
-  void cluster_by_distance() {
+  void cluster_by_distance(const Stop& stop) {
     const std::vector<std::uint32_t>& junctions = out_.junction_nodes;
     PointGrid grid(map_.bounds());
     for (const std::uint32_t v : junctions) grid.add(at(v));
@@ -187,6 +189,7 @@ class Segmenter {
       seen[first] = 1;
       members.assign(1, first);
       for (std::size_t done = 0; done < members.size(); ++done) {
+        if (stop()) return;
         const std::uint32_t i = members[done];
         near_.clear();
         grid.within(grid[i], params_.merge_distance * widths_[i], near_);
@@ -314,8 +317,8 @@ class Segmenter {
 }  // namespace
 
 MapSegmentation segment_map(const Map& map, const ObstacleWeightedRrt& tree, const Routes& routes,
-                            const MapSegmentationParams& params) {
-  return Segmenter(map, tree, routes, params).segment();
+                            const MapSegmentationParams& params, const Stop& stop) {
+  return Segmenter(map, tree, routes, params).segment(stop);
 }
 
 }  // namespace microswarm

@@ -28,9 +28,10 @@ struct MapSegmentation {
   std::vector<std::uint32_t> junction_nodes;  ///< V_J, ascending
 };
 
-/// Alg 4 [gather] over routes of a tree that has nodes and was not stopped. A region consists of
+/// Alg 4 [gather] over routes of a tree that has nodes and was not stopped; incomplete if `stop`
+/// ends it. A region consists of
 /// the nodes whose route to the goal passes its junction first.
 MapSegmentation segment_map(const Map& map, const ObstacleWeightedRrt& tree, const Routes& routes,
-                            const MapSegmentationParams& params = {});
+                            const MapSegmentationParams& params = {}, const Stop& stop = {});
 
 }  // namespace microswarm

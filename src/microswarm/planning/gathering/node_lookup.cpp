@@ -113,7 +113,8 @@ class CellSearch {
 
 }  // namespace
 
-NodeLookup::NodeLookup(const Map& map, const PointGrid& grid) : origin_(map.bounds().lo) {
+NodeLookup::NodeLookup(const Map& map, const PointGrid& grid, const Stop& stop)
+    : origin_(map.bounds().lo) {
   assert(!grid.empty());
   const Box& bounds = map.bounds();
   const double wanted =
@@ -127,6 +128,10 @@ NodeLookup::NodeLookup(const Map& map, const PointGrid& grid) : origin_(map.boun
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
       first_.push_back(static_cast<std::uint32_t>(listed_.size()));
+      if (stop()) {
+        listed_.push_back(0);
+        continue;
+      }
       const Vec2 offset{(column + 0.5) * cell.x, (row + 0.5) * cell.y};
       const auto nodes = search.nodes_around(origin_ + offset);
       listed_.insert(listed_.end(), nodes.begin(), nodes.end());

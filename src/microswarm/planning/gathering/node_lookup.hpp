@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "microswarm/core/execution/stop.hpp"
 #include "microswarm/geometry/point_grid.hpp"
 #include "microswarm/world/map/map.hpp"
 
@@ -18,8 +19,9 @@ namespace microswarm {
 class NodeLookup {
  public:
   NodeLookup() = default;
-  /// `grid` holds the nodes, at least one.
-  NodeLookup(const Map& map, const PointGrid& grid);
+  /// `grid` holds the nodes, at least one. If `stop` ends it, cells that are left have the first
+  /// node alone.
+  NodeLookup(const Map& map, const PointGrid& grid, const Stop& stop = {});
 
   /// Nearest node visible from the cell of `p`, the lowest among equals. Points outside the bounds
   /// use the nearest cell. `nodes` must be those of the constructor.

@@ -336,7 +336,7 @@ ObstacleWeightedRrt obstacle_weighted_rrt(const Map& map, Vec2 goal,
   if (params.complete && tree.status == Status::solved) complete(map, params, grid, tree);
   tree.plain.length = tree.plain.cost;
   weigh(map, params, tree);
-  tree.lookup = NodeLookup(map, grid);
+  tree.lookup = NodeLookup(map, grid, stop);
   if (tree.status == Status::solved || tree.status == Status::node_limit) {
     if (const auto reason = route(map, params, grid, stop, tree)) tree.status = *reason;
   }

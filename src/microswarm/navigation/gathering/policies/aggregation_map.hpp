@@ -33,11 +33,13 @@ struct AggregationMap {
   std::shared_ptr<const CellGraph> cells{};  ///< by the cell rule, else null
   std::vector<std::uint32_t> hops{};         ///< by the cell rule: from each cell to the goal
 
+  bool was_stopped = false;  ///< then it is incomplete
+
   const Routes& routes() const { return obstacle_weighted ? tree.weighted : tree.plain; }
 
   /// Throws InputError if the goal is not free or the tree could not be grown.
   AggregationMap(Map map, Vec2 goal, const AggregationParams& params, Rng& rng,
-                 MoveRule rule = MoveRule::any_direction);
+                 MoveRule rule = MoveRule::any_direction, const Stop& stop = {});
 
   /// Path length [µm] from `p` to the goal, where `node` is the one nearest to `p`.
   double way(Vec2 p, std::uint32_t node) const {
