@@ -60,6 +60,23 @@ TEST(Record, TheSameRecordGivesTheSameBytes) {
   EXPECT_EQ(read_file(folder / "a.h5"), read_file(folder / "b.h5"));
 }
 
+// As programs wrote it that did not measure how long pictures wait.
+TEST(Record, ARunOnARigWithoutLatenciesIsRead) {
+  Record record = flight();
+  record.rig = "bench";
+  record.rig_log.began = "2026-01-01T00:00:00";
+  record.rig_log.coils = {"x"};
+  record.rig_log.driven_at = {0.1, 0.2};
+  record.rig_log.currents = {0.5, 0.25};
+  const auto file = empty_folder("record_rig") / "run.h5";
+  write_record(record, file);
+  const RigLog back = read_record(file).rig_log;
+  EXPECT_EQ(back.driven_at, record.rig_log.driven_at);
+  EXPECT_EQ(back.currents, record.rig_log.currents);
+  EXPECT_TRUE(back.answered_at.empty());
+  EXPECT_FALSE(back.latency);
+}
+
 TEST(Record, HashKnowsPhysicsAndNotClocks) {
   Record record = flight();
   for (double& s : record.result.timing.steps) s += 1;
