@@ -95,29 +95,35 @@ Notes set_values(T& value, const Settings& assignments) {
   return notes;
 }
 
-/// Parameter struct from a YAML file, with assignments applied after it. Mistakes in keys and
-/// values go into `mistakes`; `locations` receives the location of each key and the notes on former
-/// keys.
+/// Parameter struct from YAML text, with assignments applied after it. Mistakes in keys and values
+/// go into `mistakes`; `locations` receives the location of each key and the notes on former keys.
 template <HasFields T>
-T read_yaml_file(const std::filesystem::path& path, const Settings& assignments,
+T read_yaml_text(std::string_view text, const std::string& name, const Settings& assignments,
                  KeyLocations& locations, Mistakes& mistakes) {
   T value{};
-  const std::string name = path.string();
   Notes notes;
-  YamlNode document = read_yaml(type_of<T>(), &value, read_file(path, max_yaml_bytes), name,
-                                mistakes, notes, moved_keys_of<T>());
+  YamlNode document =
+      read_yaml(type_of<T>(), &value, text, name, mistakes, notes, moved_keys_of<T>());
   check_types_first(assignments);
   Settings present({}, assignments.option);
-  for (const std::string& text : assignments.texts) {
+  for (const std::string& one : assignments.texts) {
     try {
-      auto applied = set_value(value, text, assignments.option, notes);
+      auto applied = set_value(value, one, assignments.option, notes);
       if (applied) present.texts.push_back(std::move(*applied));
     } catch (const InputError& error) {
-      mistakes.add(text.substr(0, text.find_first_of(".=")), error.what());
+      mistakes.add(one.substr(0, one.find_first_of(".=")), error.what());
     }
   }
   locations = locations_of(std::move(document), name, std::move(present), std::move(notes));
   return value;
+}
+
+/// The same from a file; messages name the path as given.
+template <HasFields T>
+T read_yaml_file(const std::filesystem::path& path, const Settings& assignments,
+                 KeyLocations& locations, Mistakes& mistakes) {
+  return read_yaml_text<T>(read_file(path, max_yaml_bytes), path.string(), assignments, locations,
+                           mistakes);
 }
 
 /// The same, but throws InputError with a line for each mistake.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/experiment/scenario/experiment.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "microswarm/config/yaml.hpp"
@@ -39,11 +41,22 @@ Experiment open(Scenario scenario, const std::filesystem::path& base, const KeyL
 Experiment open_experiment(const std::filesystem::path& file,
                            const std::vector<std::string>& settings,
                            std::optional<std::uint64_t> seed) {
+  return open_experiment_text(read_file(file, max_yaml_bytes), file.string(), file.parent_path(),
+                              settings, seed);
+}
+
+Experiment open_experiment_text(std::string_view text, const std::string& name,
+                                const std::filesystem::path& base,
+                                const std::vector<std::string>& settings,
+                                std::optional<std::uint64_t> seed) {
+  if (text.size() > max_yaml_bytes)
+    throw InputError(
+        fmt::format("{}: {} bytes, a scenario has at most {}", name, text.size(), max_yaml_bytes));
   KeyLocations keys;
   Mistakes mistakes;
-  auto scenario = read_yaml_file<Scenario>(file, settings, keys, mistakes);
+  auto scenario = read_yaml_text<Scenario>(text, name, settings, keys, mistakes);
   if (seed) scenario.seed = *seed;
-  return open(std::move(scenario), file.parent_path(), keys, std::move(mistakes));
+  return open(std::move(scenario), base, keys, std::move(mistakes));
 }
 
 Experiment open_experiment(Scenario scenario, const std::filesystem::path& base,

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "microswarm/config/key_locations.hpp"
@@ -28,6 +29,13 @@ struct Experiment {
 Experiment open_experiment(const std::filesystem::path& file,
                            const std::vector<std::string>& settings = {},
                            std::optional<std::uint64_t> seed = std::nullopt);
+
+/// The same from the text of a scenario file, at most 16 MB; `name` stands for the file in
+/// messages, and names of files in it are relative to `base`.
+Experiment open_experiment_text(std::string_view text, const std::string& name,
+                                const std::filesystem::path& base,
+                                const std::vector<std::string>& settings = {},
+                                std::optional<std::uint64_t> seed = std::nullopt);
 
 /// Opens a scenario that was already read; file names are relative to `base`.
 Experiment open_experiment(Scenario scenario, const std::filesystem::path& base,

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/session/standalone_navigator.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/navigation/make.hpp"
+#include "microswarm/swarm/robots/robot_swarm.hpp"
+
+namespace microswarm {
+namespace {
+
+constexpr double max_time = 1e9;    // [s]
+constexpr double max_place = 1e7;   // [µm]
+constexpr double max_radius = 1e6;  // [µm]
+constexpr std::size_t max_bodies = 100'000;
+
+/// How far [µm] a body is looked for from where it is expected: as in a picture of the map.
+double reach_in(const Map& map) {
+  constexpr double share = 0.05;
+  return share * std::max(map.bounds().width(), map.bounds().height());
+}
+
+void require(bool holds, const char* name, double value, const char* limit) {
+  if (!holds) throw InputError(fmt::format("{} is {}, {}", name, value, limit));
+}
+
+void require_place(const char* name, Vec2 p) {
+  for (const double v : {p.x, p.y})
+    require(std::abs(v) <= max_place, name, v, "must be a number of at most 1e7 µm");
+}
+
+}  // namespace
+
+StandaloneNavigator::StandaloneNavigator(Experiment experiment, std::uint32_t trial)
+    : experiment_(std::move(experiment)),
+      navigator_(make_navigator(scenario().navigator, task_of(scenario()),
+                                Rng(scenario().seed, Purpose::planner, trial))),
+      numbers_(reach_in(map())),
+      memory_(scenario().sensing.obstacle_memory) {
+  if (scenario().robots)
+    robots_ = scenario().robots->count > 0 ? static_cast<std::size_t>(scenario().robots->count)
+                                           : scenario().robots->starts.size();
+}
+
+void StandaloneNavigator::check(const Sight& sight) const {
+  require(std::abs(sight.now) <= max_time, "now_s", sight.now, "must be a number of at most 1e9 s");
+  require(!last_ || sight.now >= *last_, "now_s", sight.now,
+          "must not be before that of the step before");
+  require(sight.seen <= sight.now && sight.seen >= -max_time, "seen_s", sight.seen,
+          "must be a number and not after now_s");
+  if (scenario().robots) {
+    if (!sight.robots.empty() && sight.robots.size() != robots_)
+      throw InputError(
+          fmt::format("there are {} robots, the scenario has {}", sight.robots.size(), robots_));
+    if (sight.unseen < 0 || static_cast<std::size_t>(sight.unseen) > robots_)
+      throw InputError(fmt::format("{} of {} robots are unseen", sight.unseen, robots_));
+  } else if (!sight.robots.empty()) {
+    throw InputError("the scenario has no robots");
+  }
+  for (const Vec2& robot : sight.robots) require_place("robot", robot);
+  if (sight.swarm) {
+    require_place("place of the swarm", sight.swarm->pose.position);
+    require(std::isfinite(sight.swarm->pose.heading), "heading of the swarm",
+            sight.swarm->pose.heading, "must be finite");
+    require(sight.swarm->radius >= 0 && sight.swarm->radius <= max_radius, "radius of the swarm",
+            sight.swarm->radius, "must be 0 to 1e6 µm");
+  }
+  if (sight.obstacles.size() > max_bodies)
+    throw InputError(
+        fmt::format("{} obstacles, at most {} are taken", sight.obstacles.size(), max_bodies));
+  for (const Body& body : sight.obstacles) {
+    if (const auto* disc = std::get_if<Disc>(&body.shape)) {
+      require_place("place of an obstacle", disc->centre);
+      require(disc->radius > 0 && disc->radius <= max_radius, "radius of an obstacle", disc->radius,
+              "must be above 0 and at most 1e6 µm");
+      continue;
+    }
+    const std::vector<Vec2>& outline = *outline_of(body);
+    if (outline.size() < 3) throw InputError("the outline of an obstacle has fewer than 3 points");
+    for (const Vec2& p : outline) require_place("outline of an obstacle", p);
+  }
+}
+
+Command StandaloneNavigator::step(const Sight& sight, const Stop& stop) {
+  check(sight);
+  last_ = sight.now;
+  std::vector<Body> bodies = sight.obstacles;
+  if (!sight.are_numbered) numbers_.number(bodies, sight.seen);
+  std::optional<SwarmPose> swarm = sight.swarm;
+  if (!sight.robots.empty()) swarm = body_of(sight.robots, command_.heading);
+  const Observation seen =
+      memory_.complete({.now = sight.now,
+                        .seen = sight.seen,
+                        .swarm = swarm,
+                        .robots = sight.robots,
+                        .unseen = sight.unseen,
+                        .world = std::make_shared<const Snapshot>(experiment_.world.map, sight.seen,
+                                                                  std::move(bodies))});
+  if (!is_prepared_) {
+    navigator_->prepare(*seen.world, stop);
+    if (stop()) return {};
+    is_prepared_ = true;
+  }
+  return command_ = navigator_->step(seen, stop);
+}
+
+}  // namespace microswarm
