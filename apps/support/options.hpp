@@ -27,17 +27,6 @@ void add_photo(Command command, PhotoOptions& options);
 /// Reads the photograph if one is given. Throws InputError.
 ReportOptions report_options(const PhotoOptions& options);
 
-/// A planner as stored in a file, so that --set planner.… works as in scenarios; `Planners` is a
-/// variant.
-template <class Planners>
-struct PlannerChoice {
-  Planners planner;
-  template <class Self, class V>
-  static void fields(Self& self, V&& visit) {
-    visit(self.planner, {"planner", Unit::none, {}, "Planner and its parameters."});
-  }
-};
-
 /// Summary of reproduction or benchmark rows: "11 of 14 aims are met, 3 have no verdict".
 template <class Row>
 std::string aims_met(const std::vector<Row>& rows) {

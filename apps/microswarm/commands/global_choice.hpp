@@ -5,7 +5,7 @@
 
 #include "microswarm/planning/global_input/global_rrt.hpp"
 #include "microswarm/planning/global_input/global_search.hpp"
-#include "support/options.hpp"
+#include "microswarm/session/planner_choice.hpp"
 
 namespace microswarm::cli {
 

@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "microswarm/config/key_locations.hpp"
-#include "microswarm/config/write.hpp"
-#include "microswarm/config/yaml.hpp"
-#include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/angles.hpp"
-#include "microswarm/experiment/scenario/scene.hpp"
-#include "microswarm/experiment/scenario/validate.hpp"
 #include "microswarm/formats/map_file.hpp"
-#include "microswarm/planning/common/free_goal.hpp"
-#include "microswarm/planning/path/fit_to_map.hpp"
-#include "microswarm/planning/path/planners.hpp"
 #include "microswarm/report/picture.hpp"
+#include "microswarm/session/path_query.hpp"
 #include "support/options.hpp"
 
 namespace microswarm::cli {
@@ -34,54 +25,26 @@ struct PlanOptions {
   bool json = false;
 };
 
-using PathChoice = PlannerChoice<PlannerParams>;
-
-struct Ends {
-  double clearance;
-  double tolerance;
-};
-
-Ends ends_of(const PlannerParams& planner) {
-  return std::visit([](const auto& p) { return Ends{p.clearance, p.goal_tolerance}; }, planner);
-}
-
-void draw(const PlanOptions& o, const Snapshot& world, const Pose2& start, Vec2 goal,
-          const PlannerParams& planner, const Plan& plan) {
+void draw(const PlanOptions& o, const Snapshot& world, const PathQuery& query,
+          const PathAnswer& answer) {
+  const Plan& plan = answer.plan;
   Picture picture(world.bounds(), fmt::format("{}: {}", o.map, to_string(plan.status)));
   picture.walls(world.map());
   picture.tree(plan.tree);
   picture.line(plan.path, colours::path, 3);
-  picture.mark(start.position, "start");
-  picture.circle({goal, ends_of(planner).tolerance}, colours::goal, 2);
-  picture.mark(goal, "goal", colours::goal);
+  picture.mark(query.start.position, "start");
+  picture.circle({query.goal, limits_of(answer.planner).goal_tolerance}, colours::goal, 2);
+  picture.mark(query.goal, "goal", colours::goal);
   picture.legend("path", colours::path);
   if (!plan.tree.empty()) picture.legend("tree", colours::tree);
   picture.write(o.picture);
 }
 
-/// Throws InputError if no path can exist: a blocked start or goal, a swarm too wide, or a goal cut
-/// off.
-void explain(const PlanOptions& o, const Snapshot& world, Vec2 start, Vec2 goal,
-             const PlannerParams& planner, Status status) {
-  const auto [clearance, tolerance] = ends_of(planner);
-  if (status == Status::start_blocked)
-    throw InputError(fmt::format("{}: start {}", o.map, world.blocked_reason(start, clearance)));
-  if (status == Status::goal_blocked)
-    throw InputError(fmt::format("{}: goal {}", o.map, world.blocked_reason(goal, clearance)));
-  if (status != Status::no_path && status != Status::node_limit) return;
-  if (const auto target = free_goal(world, goal, tolerance, clearance))
-    KeyLocations(o.map).require_none(validate_path(world.map(), start, *target, clearance));
-}
-
-std::string why_none(const Plan& made, const PlannerParams& planner) {
-  const std::string word(to_string(made.status));
-  if (made.status != Status::node_limit) return word;
-  return fmt::format("{}: {}", word, limit_text(planner, made.counts));
-}
-
-void show(const Plan& made, const PathChoice& choice, double start_heading, double ms, bool json) {
+void show(const PathAnswer& answer, double start_heading, bool json) {
+  const Plan& made = answer.plan;
   const double length = path_length(made);
   const double turning = degrees(path_turning(made.path, start_heading));
+  const double ms = 1e3 * answer.seconds;
   if (json) {
     Json path = Json::array();
     for (const Vec2 p : made.path) path.push_back({p.x, p.y});
@@ -91,53 +54,35 @@ void show(const Plan& made, const PathChoice& choice, double start_heading, doub
                        {"time_ms", ms},
                        {"iterations", made.counts.iterations},
                        {"nodes", made.tree.size()},
-                       {"planner", Json::parse(to_json_text(choice))["planner"]},
+                       {"planner", Json::parse(planner_json(answer.planner))},
                        {"path_um", path}}
                       .dump(2));
     return;
   }
   print("{} of {:.1f} µm in {} points, turns {:.0f}° in all; {} iterations, {} nodes, {:.2f} ms\n",
-        made.status == Status::solved ? "path"
-                                      : fmt::format("no path ({}), only the beginning of one,",
-                                                    why_none(made, choice.planner)),
+        made.status == Status::solved
+            ? "path"
+            : fmt::format("no path ({}), only the beginning of one,", answer.why_none()),
         length, made.path.size(), turning, made.counts.iterations, made.tree.size(), ms);
   if (!made.path.empty()) print("x_um,y_um\n");
   for (const Vec2 p : made.path) print("{:.3f},{:.3f}\n", p.x, p.y);
 }
 
-/// Throws InputError if the planner's parameters are inconsistent.
-void check_planner(const PlannerParams& planner, const KeyLocations& keys) {
-  Issues issues;
-  if (const auto* fmt_star = std::get_if<FmtStarParams>(&planner)) issues = validate(*fmt_star);
-  if (const auto* drrt_star = std::get_if<DrrtStarParams>(&planner))
-    issues = validate(*drrt_star, given_within(keys.is_given(), "planner"));
-  Issues of_planner;
-  of_planner.add_within("planner", issues, "planner");
-  keys.require_none(of_planner);
-}
-
 int plan_command(const PlanOptions& o, const Context& context) {
   keep_input(o.picture, o.map);
-  PathChoice choice;
-  note_each(set_values(choice, o.settings));
-  const KeyLocations keys = locations_of({}, "plan", o.settings);
-  check_planner(choice.planner, keys);
   const std::vector<double> from = numbers(o.start);
   const std::vector<double> to = numbers(o.goal);
-  const Pose2 start{{from[0], from[1]}, from.size() > 2 ? radians(from[2]) : 0.0};
-  const Vec2 goal{to[0], to[1]};
+  const PathQuery query{.start = {{from[0], from[1]}, from.size() > 2 ? radians(from[2]) : 0.0},
+                        .goal = {to[0], to[1]},
+                        .settings = o.settings,
+                        .seed = o.seed};
   const Snapshot world(reading([&] { return load_map(guess_map_spec(o.map, o.um_per_px)).map; }));
-  choice.planner =
-      fit_to_map(choice.planner, world.map(), given_within(keys.is_given(), "planner"));
-  Rng rng(o.seed, Purpose::planner);
-  const auto began = Stop::Clock::now();
-  const Plan made = plan(world, start, goal, choice.planner, rng, context.stop);
-  const double ms = std::chrono::duration<double, std::milli>(Stop::Clock::now() - began).count();
-  explain(o, world, start.position, goal, choice.planner, made.status);
-  if (!o.picture.empty()) draw(o, world, start, goal, choice.planner, made);
-  show(made, choice, start.heading, ms, o.json);
+  const PathAnswer made = answer(world, query, o.map, context.stop);
+  note_each(made.notes);
+  if (!o.picture.empty()) draw(o, world, query, made);
+  show(made, query.start.heading, o.json);
   if (!o.json && !o.picture.empty()) print("wrote {}\n", o.picture);
-  return made.status == Status::solved ? ok : not_reached;
+  return made.plan.status == Status::solved ? ok : not_reached;
 }
 
 }  // namespace

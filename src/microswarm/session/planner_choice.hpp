@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "microswarm/core/fields/fields.hpp"
+
+namespace microswarm {
+
+/// A planner as stored in a file, so that --set planner.… works as in scenarios; `Planners` is a
+/// variant.
+template <class Planners>
+struct PlannerChoice {
+  Planners planner;
+  template <class Self, class V>
+  static void fields(Self& self, V&& visit) {
+    visit(self.planner, {"planner", Unit::none, {}, "Planner and its parameters."});
+  }
+};
+
+}  // namespace microswarm
