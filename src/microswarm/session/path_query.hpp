@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "microswarm/config/former_keys.hpp"
+#include "microswarm/contracts/plan.hpp"
 #include "microswarm/core/execution/stop.hpp"
 #include "microswarm/planning/path/planner_params.hpp"
 #include "microswarm/world/snapshot.hpp"

@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* microswarm in C, and for whatever calls C: experiments, navigators in a loop of one's own, paths.
+ *
+ * Lengths are in micrometres, times in seconds, angles in radians, counter-clockwise from x.
+ *
+ * Handles are numbers that are never used twice; 0 is none. Each is closed by ms_close.
+ * Every function that can fail returns a code of ms_code; ms_error_text has the reason in words,
+ * one line for each mistake, until the next call of the same thread.
+ *
+ * Threads: calls with different handles may be made in different threads at the same time. A call
+ * with a handle that another thread is using fails with MS_BAD_CALL. ms_stop may be called from any
+ * thread. Text and numbers that a function points to belong to the handle and are valid until the
+ * next call with it.
+ *
+ * Versions: functions, structures and codes of an interface version stay as they are; MS_INTERFACE
+ * grows when something is added. */
+#ifndef MICROSWARM_H
+#define MICROSWARM_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Version of this header. ms_interface is that of the library: at least this one, if it fits. */
+enum { MS_INTERFACE = 1 };
+
+/* What functions return. */
+typedef enum ms_code {
+  MS_OK = 0,
+  MS_END = 1,       /* the run has ended: there is no further tick */
+  MS_BAD_INPUT = 2, /* a file, key or value; nothing has changed */
+  MS_STOPPED = 3,   /* ms_stop ended the call */
+  MS_BAD_CALL = 4,  /* a pointer is null, or the handle is closed, of another kind, or in use */
+  MS_NO_MEMORY = 5,
+  MS_FAULT = 6 /* a bug of the library */
+} ms_code;
+
+/* "0.1.0" */
+const char* ms_version(void);
+int32_t ms_interface(void);
+/* Why the last call of this thread that failed did; empty before. */
+const char* ms_error_text(void);
+/* Closes a session, navigator, map or path. */
+int32_t ms_close(uint64_t handle);
+/* Ends what another thread does with the handle as soon as possible, and the run of a session. */
+int32_t ms_stop(uint64_t handle);
+
+/* ---- Experiments ---------------------------------------------------------------------------- */
+
+/* A tick of an experiment. What is not there is NaN. */
+typedef struct ms_frame {
+  double t_s;  /* when it begins */
+  double x_um; /* centre of the swarm */
+  double y_um;
+  double heading_rad;
+  double radius_um; /* of robots 0 */
+  double speed_um_per_s;
+  double command_heading_rad; /* what the navigator commanded */
+  double command_speed_um_per_s;
+  double goal_distance_um;
+  double wall_clearance_um; /* from the centre; infinite for robots */
+  double obstacle_clearance_um;
+  double avoidance_cost; /* delta, Eq 4 [radar] */
+  double target_x_um;    /* local target of the navigator */
+  double target_y_um;
+  int32_t state;   /* of the navigator; compare by ms_state_name */
+  int32_t planned; /* 1 if it called a planner */
+} ms_frame;
+
+/* Opens a scenario file, or a record for playback. `settings` are `count` texts "KEY=VALUE". */
+int32_t ms_session_open(const char* file, const char* const* settings, size_t count,
+                        uint64_t* session);
+/* Opens a scenario from YAML text; `folder` is that of the files it names, null for the present. */
+int32_t ms_session_open_text(const char* text, const char* folder, const char* const* settings,
+                             size_t count, uint64_t* session);
+/* The next tick; `frame` may be null. MS_END after the last one. */
+int32_t ms_session_step(uint64_t session, ms_frame* frame);
+/* Steps to the end. */
+int32_t ms_session_finish(uint64_t session);
+/* Sets a value from the next tick on, written as in a scenario. */
+int32_t ms_session_set(uint64_t session, const char* key, const char* value);
+/* "running", then how it ended: "solved", "collided", "time_limit", ... */
+int32_t ms_session_status(uint64_t session, const char** status);
+/* A metric by its name in the summary, for example "length_um" or "walls.clearance_um". */
+int32_t ms_session_metric(uint64_t session, const char* name, double* value);
+/* All metrics as JSON. */
+int32_t ms_session_metrics(uint64_t session, const char** json);
+/* The present positions x0, y0, x1, ... of robots, obstacles (x, y, radius of a circle around it)
+ * and the path that is followed; null and 0 where there are none. `count` is that of the places. */
+int32_t ms_session_robots(uint64_t session, const double** xy_um, size_t* count);
+int32_t ms_session_obstacles(uint64_t session, const double** xyr_um, size_t* count);
+int32_t ms_session_path(uint64_t session, const double** xy_um, size_t* count);
+/* Fingerprint of the record so far: equal for equal runs. */
+int32_t ms_session_hash(uint64_t session, const char** hash);
+/* Writes the record (HDF5). */
+int32_t ms_session_record(uint64_t session, const char* file);
+
+/* ---- A navigator in a loop of one's own ------------------------------------------------------ */
+
+/* An obstacle that the camera sees: a disc, or an outline x0, y0, x1, ... of `points` corners. */
+typedef struct ms_obstacle {
+  double x_um;
+  double y_um;
+  double radius_um;
+  const double* outline_um; /* null for a disc */
+  size_t points;
+  int32_t number; /* the same in all pictures; see ms_observation */
+} ms_obstacle;
+
+/* What the camera saw. */
+typedef struct ms_observation {
+  double now_s;      /* the present */
+  double seen_s;     /* when the picture was taken */
+  int32_t has_swarm; /* 0 if it was not found, and for robots */
+  int32_t numbered;  /* 1 if obstacles have numbers; 0: they are matched by distance */
+  double x_um;
+  double y_um;
+  double heading_rad;
+  double radius_um;
+  const ms_obstacle* obstacles;
+  size_t obstacle_count;
+  const double* robots_um; /* x0, y0, x1, ...: robot i is the same in every picture */
+  size_t robot_count;
+} ms_observation;
+
+/* What to drive until the next one. Speed 0 is hold. */
+typedef struct ms_command {
+  double heading_rad;
+  double speed_um_per_s;
+  double target_x_um; /* local target; NaN without one */
+  double target_y_um;
+  int32_t state;   /* compare by ms_state_name: names stay, numbers may not */
+  int32_t planned; /* 1 if a planner was called */
+} ms_command;
+
+/* The navigator of a scenario with its map, swarm or robots, and goal. */
+int32_t ms_navigator_open(const char* file, const char* const* settings, size_t count,
+                          uint64_t* navigator);
+int32_t ms_navigator_open_text(const char* text, const char* folder, const char* const* settings,
+                               size_t count, uint64_t* navigator);
+/* The command for an observation. A refused observation changes nothing. */
+int32_t ms_navigator_step(uint64_t navigator, const ms_observation* seen, ms_command* command);
+/* The path that it follows, x0, y0, x1, ... */
+int32_t ms_navigator_path(uint64_t navigator, const double** xy_um, size_t* count);
+/* "follow", "hold", "arrived", "blind", ...; "" for a number that is no state. */
+const char* ms_state_name(int32_t state);
+
+/* ---- Paths ----------------------------------------------------------------------------------- */
+
+/* A map file; `um_per_px` is the side of a pixel or cell, 0 where the file tells it. */
+int32_t ms_map_open(const char* file, double um_per_px, uint64_t* map);
+/* A map from `width` x `height` pixels, the upper row first; where it is not 0 the swarm may go. */
+int32_t ms_map_from_pixels(const uint8_t* pixels, size_t width, size_t height, double um_per_px,
+                           uint64_t* map);
+/* Extent of a map and the distance of a place to its walls, 0 in one. */
+int32_t ms_map_bounds(uint64_t map, double* x_lo, double* y_lo, double* x_hi, double* y_hi);
+int32_t ms_map_clearance(uint64_t map, double x_um, double y_um, double* clearance_um);
+
+/* A path that is asked for. Settings are "planner.KEY=VALUE"; the rest is fitted to the map. */
+typedef struct ms_query {
+  double start_x_um;
+  double start_y_um;
+  double start_heading_rad;
+  double goal_x_um;
+  double goal_y_um;
+  uint64_t seed;
+  const char* const* settings;
+  size_t setting_count;
+} ms_query;
+
+/* What was found. */
+typedef struct ms_path {
+  int32_t solved;   /* 0: the points are the beginning of a path */
+  double length_um; /* arcs as arcs */
+  double turning_rad;
+  double seconds;      /* that the planner took */
+  const double* xy_um; /* x0, y0, x1, ... */
+  size_t points;
+  const char* why_none; /* why there is no path; empty with one */
+} ms_path;
+
+/* Plans a path. What `path` points to belongs to the map's handle. */
+int32_t ms_plan(uint64_t map, const ms_query* query, ms_path* path);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

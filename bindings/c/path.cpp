@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// Maps, and paths in them.
+#include "handles.hpp"
+#include "microswarm/formats/map_file.hpp"
+#include "microswarm/formats/pixel_map.hpp"
+
+using namespace microswarm;
+
+namespace {
+
+std::unique_ptr<c::Object> of(std::shared_ptr<const Map> map, std::string name) {
+  auto object = std::make_unique<c::Object>();
+  object->map = std::make_unique<c::OpenMap>(c::OpenMap{Snapshot(std::move(map)), std::move(name)});
+  return object;
+}
+
+}  // namespace
+
+int32_t ms_map_open(const char* file, double um_per_px, uint64_t* map) {
+  return c::guarded([&]() -> int32_t {
+    c::require(file, "file"), c::require(map, "map");
+    const auto scale = um_per_px != 0 ? std::optional(um_per_px) : std::nullopt;
+    *map = c::keep(of(load_map(guess_map_spec(file, scale)).map, file));
+    return MS_OK;
+  });
+}
+
+int32_t ms_map_from_pixels(const uint8_t* pixels, size_t width, size_t height, double um_per_px,
+                           uint64_t* map) {
+  return c::guarded([&]() -> int32_t {
+    c::require(pixels, "pixels"), c::require(map, "map");
+    Map made = map_of_pixels({pixels, width * height}, width, height, um_per_px);
+    *map = c::keep(of(std::make_shared<const Map>(std::move(made)), "map"));
+    return MS_OK;
+  });
+}
+
+int32_t ms_map_bounds(uint64_t handle, double* x_lo, double* y_lo, double* x_hi, double* y_hi) {
+  return c::with_map(handle, [&](c::OpenMap& map, c::Object&) -> int32_t {
+    c::require(x_lo, "x_lo"), c::require(y_lo, "y_lo");
+    c::require(x_hi, "x_hi"), c::require(y_hi, "y_hi");
+    const Box& box = map.world.bounds();
+    *x_lo = box.lo.x, *y_lo = box.lo.y, *x_hi = box.hi.x, *y_hi = box.hi.y;
+    return MS_OK;
+  });
+}
+
+int32_t ms_map_clearance(uint64_t handle, double x_um, double y_um, double* clearance_um) {
+  return c::with_map(handle, [&](c::OpenMap& map, c::Object&) -> int32_t {
+    c::require(clearance_um, "clearance_um");
+    const Vec2 place{x_um, y_um};
+    if (!is_finite(place)) throw InputError("the place is not finite");
+    *clearance_um = map.world.clearance(place);
+    return MS_OK;
+  });
+}
+
+int32_t ms_plan(uint64_t handle, const ms_query* query, ms_path* path) {
+  return c::with_map(handle, [&](c::OpenMap& map, c::Object& object) -> int32_t {
+    c::require(query, "query"), c::require(path, "path");
+    const PathAnswer made =
+        answer(map.world,
+               {.start = {{query->start_x_um, query->start_y_um}, query->start_heading_rad},
+                .goal = {query->goal_x_um, query->goal_y_um},
+                .settings = c::texts(query->settings, query->setting_count),
+                .seed = query->seed},
+               map.name, Stop(&object.stops));
+    object.why = made.why_none();
+    *path = {.solved = made.plan.status == Status::solved,
+             .length_um = path_length(made.plan),
+             .turning_rad = path_turning(made.plan.path, query->start_heading_rad),
+             .seconds = made.seconds,
+             .xy_um = nullptr,
+             .points = 0,
+             .why_none = object.why.c_str()};
+    c::show(object, made.plan.path, &path->xy_um, &path->points);
+    return object.stops ? c::fail(MS_STOPPED, "the search was stopped") : MS_OK;
+  });
+}

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+// Experiments, and navigators in a loop of the caller's own.
+#include <nlohmann/json.hpp>
+
+#include "handles.hpp"
+#include "microswarm/config/write.hpp"
+
+using namespace microswarm;
+
+namespace {
+
+std::unique_ptr<c::Object> of(std::unique_ptr<Session> session) {
+  auto object = std::make_unique<c::Object>();
+  object->session = std::move(session);
+  return object;
+}
+
+std::unique_ptr<c::Object> of(std::unique_ptr<StandaloneNavigator> navigator) {
+  auto object = std::make_unique<c::Object>();
+  object->navigator = std::move(navigator);
+  return object;
+}
+
+Experiment experiment_of(const char* text, const char* folder, const char* const* settings,
+                         std::size_t count) {
+  c::require(text, "text");
+  return open_experiment_text(text, "scenario", folder ? folder : "", c::texts(settings, count));
+}
+
+ms_frame plain(const Frame& frame) {
+  return {.t_s = frame.t,
+          .x_um = frame.pose.position.x,
+          .y_um = frame.pose.position.y,
+          .heading_rad = frame.pose.heading,
+          .radius_um = frame.radius,
+          .speed_um_per_s = frame.speed,
+          .command_heading_rad = frame.command.heading,
+          .command_speed_um_per_s = frame.command.speed,
+          .goal_distance_um = frame.goal_distance,
+          .wall_clearance_um = frame.wall_clearance,
+          .obstacle_clearance_um = frame.obstacle_clearance,
+          .avoidance_cost = frame.avoidance_cost,
+          .target_x_um = frame.target ? frame.target->x : c::not_there,
+          .target_y_um = frame.target ? frame.target->y : c::not_there,
+          .state = static_cast<int32_t>(frame.state),
+          .planned = frame.planned};
+}
+
+/// The places x0, y0, x1, ... of a caller.
+std::vector<Vec2> places(const double* xy, std::size_t count, const char* name) {
+  if (count > 0) c::require(xy, name);
+  constexpr std::size_t most = 10'000'000;
+  if (count > most) throw InputError(std::string(name) + " has more than 1e7 places");
+  std::vector<Vec2> all;
+  all.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) all.push_back({xy[2 * i], xy[2 * i + 1]});
+  return all;
+}
+
+Sight sight_of(const ms_observation& seen) {
+  Sight sight{.now = seen.now_s, .seen = seen.seen_s, .are_numbered = seen.numbered != 0};
+  if (seen.has_swarm) sight.swarm = {{{seen.x_um, seen.y_um}, seen.heading_rad}, seen.radius_um};
+  if (seen.obstacle_count > 0) c::require(seen.obstacles, "obstacles");
+  for (std::size_t i = 0; i < std::min<std::size_t>(seen.obstacle_count, 1'000'000); ++i) {
+    const ms_obstacle& one = seen.obstacles[i];
+    if (sight.are_numbered && one.number < 0)
+      throw InputError("the number of an obstacle is " + std::to_string(one.number) +
+                       ", must be 0 or more");
+    Body body{.shape = Disc{{one.x_um, one.y_um}, one.radius_um},
+              .obstacle = static_cast<std::uint32_t>(one.number)};
+    if (one.outline_um) body.shape = Polygon{places(one.outline_um, one.points, "outline_um"), {}};
+    sight.obstacles.push_back(std::move(body));
+  }
+  sight.robots = places(seen.robots_um, seen.robot_count, "robots_um");
+  return sight;
+}
+
+}  // namespace
+
+int32_t ms_session_open(const char* file, const char* const* settings, size_t count,
+                        uint64_t* session) {
+  return c::guarded([&]() -> int32_t {
+    c::require(file, "file"), c::require(session, "session");
+    *session = c::keep(of(open_session(file, {.settings = c::texts(settings, count)})));
+    return MS_OK;
+  });
+}
+
+int32_t ms_session_open_text(const char* text, const char* folder, const char* const* settings,
+                             size_t count, uint64_t* session) {
+  return c::guarded([&]() -> int32_t {
+    c::require(session, "session");
+    *session = c::keep(of(std::make_unique<Session>(experiment_of(text, folder, settings, count))));
+    return MS_OK;
+  });
+}
+
+int32_t ms_session_step(uint64_t handle, ms_frame* frame) {
+  return c::with_session(handle, [&](Session& session, c::Object& object) -> int32_t {
+    const Tick* tick = session.step(Stop(&object.stops));
+    if (!tick) return MS_END;
+    if (frame) *frame = plain(tick->frame);
+    return MS_OK;
+  });
+}
+
+int32_t ms_session_finish(uint64_t handle) {
+  return c::with_session(handle, [&](Session& session, c::Object& object) -> int32_t {
+    const bool stopped = session.finish(Stop(&object.stops)).status == Status::stopped;
+    return stopped ? c::fail(MS_STOPPED, "the run was stopped") : MS_OK;
+  });
+}
+
+int32_t ms_session_set(uint64_t handle, const char* key, const char* value) {
+  return c::with_session(handle, [&](Session& session, c::Object&) -> int32_t {
+    c::require(key, "key"), c::require(value, "value");
+    std::string text;
+    for (const Issue& issue : session.set(key, value))
+      text += (text.empty() ? "" : "\n") + issue.text;
+    return text.empty() ? MS_OK : c::fail(MS_BAD_INPUT, text);
+  });
+}
+
+int32_t ms_session_status(uint64_t handle, const char** status) {
+  return c::with_session(handle, [&](Session& session, c::Object&) -> int32_t {
+    c::require(status, "status");
+    *status = to_string(session.result().status).data();
+    return MS_OK;
+  });
+}
+
+int32_t ms_session_metrics(uint64_t handle, const char** json) {
+  return c::with_session(handle, [&](Session& session, c::Object& object) -> int32_t {
+    c::require(json, "json");
+    object.text = to_json_text(session.result().metrics);
+    *json = object.text.c_str();
+    return MS_OK;
+  });
+}
+
+int32_t ms_session_metric(uint64_t handle, const char* name, double* value) {
+  return c::with_session(handle, [&](Session& session, c::Object&) -> int32_t {
+    c::require(name, "name"), c::require(value, "value");
+    const auto all = nlohmann::json::parse(to_json_text(session.result().metrics));
+    const nlohmann::json* here = &all;
+    const std::string path = name;
+    for (std::size_t begin = 0; here && begin <= path.size();) {
+      const std::size_t end = std::min(path.find('.', begin), path.size());
+      const auto next =
+          here->is_object() ? here->find(path.substr(begin, end - begin)) : here->end();
+      here = here->is_object() && next != here->end() ? &*next : nullptr;
+      begin = end + 1;
+    }
+    if (!here || here->is_object()) throw InputError("there is no metric '" + path + "'");
+    *value = here->is_number() ? here->get<double>() : infinity;  // null: it never came near
+    return MS_OK;
+  });
+}
+
+int32_t ms_session_robots(uint64_t handle, const double** xy_um, size_t* count) {
+  return c::with_session(handle, [&](Session& session, c::Object& object) {
+    return c::show(object, session.view().robots, xy_um, count);
+  });
+}
+
+int32_t ms_session_path(uint64_t handle, const double** xy_um, size_t* count) {
+  return c::with_session(handle, [&](Session& session, c::Object& object) {
+    return c::show(object, session.view().path, xy_um, count);
+  });
+}
+
+int32_t ms_session_obstacles(uint64_t handle, const double** xyr_um, size_t* count) {
+  return c::with_session(handle, [&](Session& session, c::Object& object) -> int32_t {
+    c::require(xyr_um, "xyr_um"), c::require(count, "count");
+    object.numbers.clear();
+    for (const Body& body : session.view().bodies) {
+      const Disc disc = extent_of(body);
+      object.numbers.insert(object.numbers.end(), {disc.centre.x, disc.centre.y, disc.radius});
+    }
+    *count = object.numbers.size() / 3;
+    *xyr_um = *count > 0 ? object.numbers.data() : nullptr;
+    return MS_OK;
+  });
+}
+
+int32_t ms_session_hash(uint64_t handle, const char** hash) {
+  return c::with_session(handle, [&](Session& session, c::Object& object) -> int32_t {
+    c::require(hash, "hash");
+    object.text = session.record().hash();
+    *hash = object.text.c_str();
+    return MS_OK;
+  });
+}
+
+int32_t ms_session_record(uint64_t handle, const char* file) {
+  return c::with_session(handle, [&](Session& session, c::Object&) -> int32_t {
+    c::require(file, "file");
+    session.record_to(file);
+    return MS_OK;
+  });
+}
+
+int32_t ms_navigator_open(const char* file, const char* const* settings, size_t count,
+                          uint64_t* navigator) {
+  return c::guarded([&]() -> int32_t {
+    c::require(file, "file"), c::require(navigator, "navigator");
+    *navigator = c::keep(of(
+        std::make_unique<StandaloneNavigator>(open_experiment(file, c::texts(settings, count)))));
+    return MS_OK;
+  });
+}
+
+int32_t ms_navigator_open_text(const char* text, const char* folder, const char* const* settings,
+                               size_t count, uint64_t* navigator) {
+  return c::guarded([&]() -> int32_t {
+    c::require(navigator, "navigator");
+    *navigator = c::keep(
+        of(std::make_unique<StandaloneNavigator>(experiment_of(text, folder, settings, count))));
+    return MS_OK;
+  });
+}
+
+int32_t ms_navigator_step(uint64_t handle, const ms_observation* seen, ms_command* command) {
+  return c::with_navigator(
+      handle, [&](StandaloneNavigator& navigator, c::Object& object) -> int32_t {
+        c::require(seen, "seen"), c::require(command, "command");
+        const Command made = navigator.step(sight_of(*seen), Stop(&object.stops));
+        const NavigatorView view = navigator.view();
+        *command = {.heading_rad = made.heading,
+                    .speed_um_per_s = made.speed,
+                    .target_x_um = view.local_target ? view.local_target->x : c::not_there,
+                    .target_y_um = view.local_target ? view.local_target->y : c::not_there,
+                    .state = static_cast<int32_t>(view.state),
+                    .planned = view.planned};
+        return object.stops ? c::fail(MS_STOPPED, "the navigator was stopped") : MS_OK;
+      });
+}
+
+int32_t ms_navigator_path(uint64_t handle, const double** xy_um, size_t* count) {
+  return c::with_navigator(handle, [&](StandaloneNavigator& navigator, c::Object& object) {
+    return c::show(object, navigator.view().path, xy_um, count);
+  });
+}

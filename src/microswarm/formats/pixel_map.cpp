@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "microswarm/formats/pixel_map.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/formats/images/mask.hpp"
+
+namespace microswarm {
+
+Map map_of_pixels(std::span<const std::uint8_t> pixels, std::size_t width, std::size_t height,
+                  double um_per_px, double tolerance) {
+  constexpr std::size_t most = 65'535;
+  for (const std::size_t side : {width, height})
+    if (side < 1 || side > most)
+      throw InputError(fmt::format("an image of {} × {} pixels: a side must be 1 to {}", width,
+                                   height, most));
+  if (pixels.size() != width * height)
+    throw InputError(fmt::format("{} pixels for an image of {} × {}", pixels.size(), width, height));
+  if (!(um_per_px >= 1e-6 && um_per_px <= 1e6))
+    throw InputError(fmt::format("um_per_px is {}, must be 1e-6 to 1e6", um_per_px));
+  if (!(tolerance >= 0 && tolerance <= 1e6))
+    throw InputError(fmt::format("simplify is {}, must be 0 to 1e6 µm", tolerance));
+  Mask blocked(static_cast<int>(width), static_cast<int>(height));
+  std::ranges::transform(pixels, blocked.cells.begin(), [](std::uint8_t v) { return v == 0; });
+  std::vector<Polygon> walls = mask_walls(blocked, um_per_px);
+  simplify(walls, tolerance);
+  return Map(cell_bounds(blocked, um_per_px), std::move(walls));
+}
+
+}  // namespace microswarm

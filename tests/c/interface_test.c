@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The C interface from C: what works, and what is refused. */
+#include <math.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "microswarm.h"
+
+static int failures = 0;
+#define EXPECT(holds)                                                                 \
+  do {                                                                                \
+    if (!(holds)) {                                                                   \
+      ++failures;                                                                     \
+      fprintf(stderr, "line %d: %s; error: %s\n", __LINE__, #holds, ms_error_text()); \
+    }                                                                                 \
+  } while (0)
+#define EXPECT_ERROR(call, code, words)             \
+  do {                                              \
+    EXPECT((call) == (code));                       \
+    EXPECT(strstr(ms_error_text(), words) != NULL); \
+  } while (0)
+
+static const char* const scenario =
+    "map: {type: polygons, hi_um: [2000, 1000], walls_um: [[[950, 0], [1050, 0], [1050, 450], "
+    "[950, 450]]]}\n"
+    "swarm: {type: ribbon, radius_um: 40, max_speed_um_per_s: 80}\n"
+    "start: {x_um: 200, y_um: 300, heading_deg: 0}\n"
+    "goal_um: [1800, 300]\n";
+
+static void sessions(const char* file) {
+  const char* settings[] = {"time_limit_s=60", "seed=3"};
+  uint64_t session = 0, again = 0, playback = 0;
+  ms_frame frame;
+  const char* text = NULL;
+  char hash[64] = "";
+  double length = 0, wall = 0;
+  size_t count = 0;
+  const double* places = NULL;
+
+  EXPECT(ms_session_open_text(scenario, NULL, settings, 2, &session) == MS_OK);
+  EXPECT(session != 0);
+  EXPECT(ms_session_status(session, &text) == MS_OK && strcmp(text, "running") == 0);
+  EXPECT(ms_session_step(session, &frame) == MS_OK);
+  EXPECT(frame.t_s == 0 && frame.x_um == 200 && frame.y_um == 300);
+  EXPECT(ms_session_step(session, NULL) == MS_OK);
+  EXPECT(ms_session_set(session, "navigator.speed_um_per_s", "60") == MS_OK);
+  EXPECT_ERROR(ms_session_set(session, "navigator.sped_um_per_s", "60"), MS_BAD_INPUT,
+               "did you mean");
+  EXPECT_ERROR(ms_session_set(session, "tick_s", "1"), MS_BAD_INPUT, "cannot be changed");
+  EXPECT(ms_session_path(session, &places, &count) == MS_OK && count >= 2 && places != NULL);
+  EXPECT(ms_session_robots(session, &places, &count) == MS_OK && count == 0 && places == NULL);
+  EXPECT(ms_session_obstacles(session, &places, &count) == MS_OK && count == 0);
+  EXPECT(ms_session_finish(session) == MS_OK);
+  EXPECT(ms_session_step(session, &frame) == MS_END);
+  EXPECT(ms_session_status(session, &text) == MS_OK && strcmp(text, "solved") == 0);
+  EXPECT(ms_session_metric(session, "length_um", &length) == MS_OK && length > 1600);
+  EXPECT(ms_session_metric(session, "walls.clearance_um", &wall) == MS_OK && wall > 40);
+  EXPECT(ms_session_metric(session, "obstacles.clearance_um", &wall) == MS_OK && wall > 1e300);
+  EXPECT_ERROR(ms_session_metric(session, "walls", &wall), MS_BAD_INPUT, "no metric 'walls'");
+  EXPECT(ms_session_metrics(session, &text) == MS_OK && strstr(text, "\"length_um\"") != NULL);
+  EXPECT(ms_session_hash(session, &text) == MS_OK);
+  strncpy(hash, text, sizeof hash - 1);
+  EXPECT(ms_session_record(session, file) == MS_OK);
+
+  EXPECT(ms_session_open(file, NULL, 0, &playback) == MS_OK);
+  EXPECT(ms_session_finish(playback) == MS_OK);
+  EXPECT(ms_session_hash(playback, &text) == MS_OK && strcmp(text, hash) == 0);
+  EXPECT(ms_session_open_text(scenario, "", settings, 2, &again) == MS_OK && again != session);
+  EXPECT(ms_close(playback) == MS_OK && ms_close(session) == MS_OK && ms_close(again) == MS_OK);
+  EXPECT_ERROR(ms_session_step(session, &frame), MS_BAD_CALL, "closed");
+  EXPECT_ERROR(ms_close(session), MS_BAD_CALL, "closed");
+}
+
+static void bad_sessions(void) {
+  const char* settings[] = {"goal_um=[1, 2", NULL};
+  uint64_t session = 7;
+  EXPECT_ERROR(ms_session_open("no/such.yaml", NULL, 0, &session), MS_BAD_INPUT, "no/such.yaml");
+  EXPECT_ERROR(ms_session_open(NULL, NULL, 0, &session), MS_BAD_CALL, "file is null");
+  EXPECT_ERROR(ms_session_open_text(scenario, NULL, NULL, 1, &session), MS_BAD_CALL, "settings");
+  EXPECT_ERROR(ms_session_open_text(scenario, NULL, settings, 1, &session), MS_BAD_INPUT,
+               "goal_um");
+  EXPECT_ERROR(ms_session_open_text(scenario, NULL, settings, 2, &session), MS_BAD_CALL, "null");
+  EXPECT_ERROR(ms_session_open_text("goal_um: 3", NULL, NULL, 0, &session), MS_BAD_INPUT,
+               "scenario:1:10");
+  EXPECT_ERROR(ms_session_open_text(scenario, NULL, NULL, 0, NULL), MS_BAD_CALL, "session is null");
+  EXPECT(session == 7);
+  EXPECT_ERROR(ms_session_step(0, NULL), MS_BAD_CALL, "never");
+}
+
+static void navigators(void) {
+  uint64_t navigator = 0;
+  ms_obstacle obstacle = {600, 300, 60, NULL, 0, 0};
+  const double outline[] = {900, 600, 950, 600, 950, 650};
+  ms_observation seen;
+  ms_command command;
+  const double* path = NULL;
+  size_t count = 0;
+  int k;
+  memset(&seen, 0, sizeof seen);
+  seen.has_swarm = 1, seen.x_um = 200, seen.y_um = 300, seen.radius_um = 40;
+  seen.obstacles = &obstacle, seen.obstacle_count = 1;
+  EXPECT(ms_navigator_open_text(scenario, NULL, NULL, 0, &navigator) == MS_OK);
+  for (k = 0; k < 20; ++k) {
+    seen.now_s = 0.1 * k, seen.seen_s = seen.now_s;
+    EXPECT(ms_navigator_step(navigator, &seen, &command) == MS_OK);
+    seen.x_um += 0.1 * command.speed_um_per_s * cos(command.heading_rad);
+    seen.y_um += 0.1 * command.speed_um_per_s * sin(command.heading_rad);
+  }
+  EXPECT(seen.x_um > 250);
+  EXPECT(strcmp(ms_state_name(command.state), "follow") == 0);
+  EXPECT(strcmp(ms_state_name(-1), "") == 0 && strcmp(ms_state_name(1000), "") == 0);
+  EXPECT(ms_navigator_path(navigator, &path, &count) == MS_OK && count >= 2);
+  obstacle.outline_um = outline, obstacle.points = 3;
+  EXPECT(ms_navigator_step(navigator, &seen, &command) == MS_OK);
+  obstacle.points = 2;
+  EXPECT_ERROR(ms_navigator_step(navigator, &seen, &command), MS_BAD_INPUT, "fewer than 3");
+  seen.obstacle_count = 0, seen.y_um = NAN;
+  EXPECT_ERROR(ms_navigator_step(navigator, &seen, &command), MS_BAD_INPUT, "nan");
+  seen.y_um = 300, seen.now_s = 0;
+  EXPECT_ERROR(ms_navigator_step(navigator, &seen, &command), MS_BAD_INPUT, "before");
+  EXPECT_ERROR(ms_navigator_step(navigator, NULL, &command), MS_BAD_CALL, "seen is null");
+  EXPECT_ERROR(ms_session_finish(navigator), MS_BAD_CALL, "not that of a session");
+  EXPECT(ms_close(navigator) == MS_OK);
+}
+
+static void paths(void) {
+  uint8_t pixels[40 * 40];
+  const char* settings[] = {"planner.type=drrt_star", "planner.clearance_um=15"};
+  const char* typo[] = {"planner.clearence_um=15"};
+  uint64_t map = 0;
+  ms_query query;
+  ms_path path;
+  double lo = -1, hi = -1, y = 0, free = 0;
+  int row, column;
+  for (row = 0; row < 40; ++row)
+    for (column = 0; column < 40; ++column)
+      pixels[40 * row + column] = !(column >= 18 && column < 22 && row >= 10);
+  EXPECT(ms_map_from_pixels(pixels, 40, 40, 10, &map) == MS_OK);
+  EXPECT(ms_map_bounds(map, &lo, &y, &hi, &y) == MS_OK && lo == 0 && hi == 400 && y == 400);
+  EXPECT(ms_map_clearance(map, 50, 50, &free) == MS_OK && free == 50);
+  EXPECT(ms_map_clearance(map, 200, 50, &free) == MS_OK && free == 0);
+  memset(&query, 0, sizeof query);
+  query.start_x_um = 50, query.start_y_um = 50, query.goal_x_um = 350, query.goal_y_um = 50;
+  query.seed = 1, query.settings = settings, query.setting_count = 2;
+  EXPECT(ms_plan(map, &query, &path) == MS_OK);
+  EXPECT(path.solved && path.points >= 3 && path.length_um > 600 && path.why_none[0] == '\0');
+  EXPECT(path.xy_um[0] == 50 && path.xy_um[1] == 50);
+  query.settings = typo, query.setting_count = 1;
+  EXPECT_ERROR(ms_plan(map, &query, &path), MS_BAD_INPUT, "did you mean");
+  query.setting_count = 0, query.goal_x_um = 200;
+  EXPECT_ERROR(ms_plan(map, &query, &path), MS_BAD_INPUT, "goal");
+  EXPECT(ms_close(map) == MS_OK);
+  EXPECT_ERROR(ms_map_from_pixels(pixels, 0, 40, 10, &map), MS_BAD_INPUT, "must be 1 to");
+  EXPECT_ERROR(ms_map_from_pixels(pixels, 40, 40, NAN, &map), MS_BAD_INPUT, "um_per_px");
+  EXPECT_ERROR(ms_map_open("no.png", 1, &map), MS_BAD_INPUT, "no.png");
+}
+
+static void* run_one(void* result) {
+  uint64_t session = 0;
+  const char* hash = NULL;
+  if (ms_session_open_text(scenario, NULL, NULL, 0, &session) == MS_OK &&
+      ms_session_finish(session) == MS_OK && ms_session_hash(session, &hash) == MS_OK)
+    strncpy(result, hash, 63);
+  ms_close(session);
+  return NULL;
+}
+
+static void* finish_one(void* handle) {
+  const uint64_t session = *(const uint64_t*)handle;
+  const int32_t code = ms_session_finish(session);
+  return code == MS_STOPPED ? handle : NULL;
+}
+
+static void threads(void) {
+  pthread_t first, second;
+  char a[64] = "", b[64] = "";
+  uint64_t session = 0;
+  void* was_stopped = NULL;
+  const char* endless[] = {"hold_limit_s=1e5", "time_limit_s=1e5", "goal_um=[1800, 990]"};
+  EXPECT(pthread_create(&first, NULL, run_one, a) == 0);
+  EXPECT(pthread_create(&second, NULL, run_one, b) == 0);
+  pthread_join(first, NULL);
+  pthread_join(second, NULL);
+  EXPECT(a[0] != '\0' && strcmp(a, b) == 0);
+
+  EXPECT(ms_session_open_text(scenario, NULL, endless, 2, &session) == MS_OK);
+  EXPECT(ms_stop(session) == MS_OK);
+  EXPECT(pthread_create(&first, NULL, finish_one, &session) == 0);
+  pthread_join(first, &was_stopped);
+  EXPECT(was_stopped != NULL);
+  EXPECT(ms_close(session) == MS_OK);
+}
+
+int main(int count, char** arguments) {
+  if (count != 2) return 2;
+  EXPECT(ms_interface() >= MS_INTERFACE);
+  EXPECT(strchr(ms_version(), '.') != NULL);
+  EXPECT(ms_error_text()[0] == '\0');
+  sessions(arguments[1]);
+  bad_sessions();
+  navigators();
+  paths();
+  threads();
+  if (failures == 0) puts("all as expected");
+  return failures == 0 ? 0 : 1;
+}
