@@ -48,7 +48,9 @@ Session::Running::Running(Experiment experiment, std::uint32_t trial, std::uniqu
                 : make_kinematic_plant(experiment.scenario(), experiment.world, trial),
           trial, std::move(navigator)),
       recorder(std::move(experiment.scene), trial, rig),
-      metrics(run.scenario()) {}
+      metrics(run.scenario()) {
+  if (run.has_external_navigator()) recorder.note_external_navigator();
+}
 
 Session::Session(Experiment experiment, std::uint32_t trial, std::unique_ptr<Plant> plant,
                  std::unique_ptr<Navigator> navigator, const std::string& rig)

@@ -41,6 +41,8 @@ class StandaloneNavigator {
   /// Throws InputError, and is as it was, for a number that is not finite or outside of its range,
   /// for a time before that of the step before, and for another number of robots.
   Command step(const Sight& sight, const Stop& stop = {});
+  /// Whether the first step was made.
+  bool is_prepared() const { return is_prepared_; }
   /// What the navigator heads for, and how it is; valid until the next step.
   NavigatorView view() const { return navigator_->view(); }
   const Scenario& scenario() const { return experiment_.scenario(); }

@@ -19,6 +19,8 @@ struct Record {
   Scene scene;          ///< includes the world: a record needs no other file
   std::uint32_t trial = 0;
   std::string rig;  ///< name of the rig; empty for a simulation. Runs on a rig have no replay
+  /// "external" if the run's navigator was not the scenario's; a replay commands what it commanded.
+  std::string navigator;
   RunResult result;
   std::vector<Frame> frames;  ///< one per tick, and one for the end with state "end"
   std::vector<PathChange> paths;
@@ -54,6 +56,8 @@ class Recorder : public RunListener {
   explicit Recorder(Scene scene, std::uint32_t trial = 0, std::string rig = {});
   void on_tick(const Tick& tick) override;
   void on_end(const RunResult& result) override;
+  /// Notes that the navigator is not the scenario's.
+  void note_external_navigator() { record_.navigator = "external"; }
   /// Sets the result so far of a run that has not ended.
   void keep(const RunResult& result) { record_.result = result; }
 

@@ -28,6 +28,7 @@ void write_root(Hdf5Writer& out, const Record& record) {
   out.attribute("/", "seed", record.scene.scenario.seed);
   out.attribute("/", "trial", static_cast<std::int64_t>(record.trial));
   if (!record.rig.empty()) out.attribute("/", "rig", record.rig);
+  if (!record.navigator.empty()) out.attribute("/", "navigator", record.navigator);
   out.attribute("/", "input_hash", record.scene.hash());
   out.attribute("/", "record_hash", record.hash());
 }
@@ -117,6 +118,7 @@ Record read_record(const std::filesystem::path& file) {
   if (!std::in_range<std::uint32_t>(trial)) in.fail("attribute trial is out of range");
   record.trial = static_cast<std::uint32_t>(trial);
   if (in.has_attribute("/", "rig")) record.rig = in.text_attribute("/", "rig");
+  if (in.has_attribute("/", "navigator")) record.navigator = in.text_attribute("/", "navigator");
   record.scene = read_scene(in);
   read_tables(in, type_of<Record>(), &record);
   record.rig_log = read_rig_log(in);

@@ -6,6 +6,8 @@
 #include "microswarm/core/errors/error.hpp"
 #include "microswarm/core/maths/hash.hpp"
 #include "microswarm/core/text/text.hpp"
+#include "microswarm/experiment/plant/plant.hpp"
+#include "microswarm/experiment/record/played_navigator.hpp"
 #include "microswarm/experiment/record/record.hpp"
 #include "microswarm/experiment/run/metrics_listener.hpp"
 #include "microswarm/experiment/run/open_run.hpp"
@@ -180,7 +182,10 @@ ReplayResult replay(const Record& record, const Stop& stop) {
     throw InputError("a run on a rig (" + record.rig + ") cannot be repeated");
   Recorder recorder(record.scene, record.trial);
   Ending ending(record, stop);
-  OpenRun open(record.scene.scenario, build_world(record.scene), record.trial);
+  const Scenario& scenario = record.scene.scenario;
+  const World world = build_world(record.scene);
+  OpenRun open(scenario, world, make_kinematic_plant(scenario, world, record.trial), record.trial,
+               record.navigator.empty() ? nullptr : std::make_unique<PlayedNavigator>(record));
   Changes changes(record, open);
   RunListener* const listeners[] = {&recorder, &ending, &changes};
   if (record.result.status == Status::running)

@@ -52,6 +52,8 @@ class OpenRun {
   const World& world() const { return world_; }
   Plant& plant() { return *plant_; }
   const Navigator& navigator() const { return *navigator_; }
+  /// Whether it is not the scenario's.
+  bool has_external_navigator() const { return has_external_navigator_; }
 
  private:
   std::unique_ptr<Navigator> made() const;

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <future>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "microswarm/config/former_keys.hpp"
+#include "microswarm/core/execution/stop.hpp"
+#include "microswarm/geometry/vec2.hpp"
+
+namespace microswarm::python {
+
+namespace py = pybind11;
+
+/// Rows of numbers of a caller, contiguous or not, of any type of number.
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/// Calls `work(stop)` in another thread, without the GIL, and looks for signals meanwhile: Ctrl-C
+/// stops it, and KeyboardInterrupt is raised once it has ended. `look` is called 10 times a second.
+template <class Work, class Look>
+auto interruptible(Work&& work, Look&& look) {
+  std::atomic<bool> flag{};
+  auto task = std::async(std::launch::async, [&] { return work(Stop(&flag)); });
+  std::optional<py::error_already_set> raised;
+  const auto is_done = [&] {
+    const py::gil_scoped_release free;
+    return task.wait_for(std::chrono::milliseconds(raised ? 1000 : 50)) ==
+           std::future_status::ready;
+  };
+  while (!is_done()) {
+    if (raised) continue;
+    try {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      look();
+    } catch (py::error_already_set& error) {
+      raised.emplace(std::move(error));
+      flag = true;
+    }
+  }
+  if (raised) {
+    try {
+      task.get();
+    } catch (...) {  // that it was stopped is told
+    }
+    throw std::move(*raised);
+  }
+  return task.get();
+}
+template <class Work>
+auto interruptible(Work&& work) {
+  return interruptible(work, [] {});
+}
+
+/// Warns of each outdated key.
+void warn(const Notes& notes);
+
+/// Places of an array of shape (n, 2). Throws InputError for another shape.
+std::vector<Vec2> places(const Numbers& array, const char* name);
+/// An array of shape (n, 2).
+py::array_t<double> array_of(std::span<const Vec2> places);
+
+/// Adds the parts of the module.
+void add_map(py::module_& module);
+void add_record(py::module_& module);
+void add_session(py::module_& module);
+
+}  // namespace microswarm::python

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// Maps, and paths in them.
+#include "calls.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/formats/map_file.hpp"
+#include "microswarm/formats/pixel_map.hpp"
+#include "microswarm/session/path_query.hpp"
+
+namespace microswarm::python {
+namespace {
+
+struct NamedMap {
+  Snapshot world;
+  std::string name;
+
+  const Map& map() const { return world.map(); }
+};
+
+NamedMap load(const std::string& file, std::optional<double> um_per_px) {
+  return interruptible([&](const Stop&) {
+    return NamedMap{Snapshot(load_map(guess_map_spec(file, um_per_px)).map), file};
+  });
+}
+
+NamedMap from_pixels(const py::array_t<std::uint8_t, py::array::c_style>& pixels, double um_per_px,
+                     double simplify) {
+  if (pixels.ndim() != 2) throw InputError("an image of 2 dimensions is needed");
+  const auto height = static_cast<std::size_t>(pixels.shape(0));
+  const auto width = static_cast<std::size_t>(pixels.shape(1));
+  const std::span<const std::uint8_t> all{pixels.data(), width * height};
+  return interruptible([&](const Stop&) {
+    Map map = map_of_pixels(all, width, height, um_per_px, simplify);
+    return NamedMap{Snapshot(std::make_shared<const Map>(std::move(map))), "map"};
+  });
+}
+
+py::list outlines(const NamedMap& map) {
+  py::list all;
+  for (const Body& body : map.map().walls().bodies())
+    if (const auto* polygon = std::get_if<Polygon>(&body.shape)) {
+      py::list rings;
+      rings.append(array_of(polygon->outer));
+      for (const auto& hole : polygon->holes) rings.append(array_of(hole));
+      all.append(rings);
+    }
+  return all;
+}
+
+py::array_t<double> discs(const NamedMap& map) {
+  std::vector<double> numbers;
+  for (const Body& body : map.map().walls().bodies())
+    if (const auto* disc = std::get_if<Disc>(&body.shape))
+      numbers.insert(numbers.end(), {disc->centre.x, disc->centre.y, disc->radius});
+  py::array_t<double> array({static_cast<py::ssize_t>(numbers.size() / 3), py::ssize_t{3}});
+  std::ranges::copy(numbers, array.mutable_data());
+  return array;
+}
+
+py::array_t<double> clearance(const NamedMap& map, const Numbers& array) {
+  const std::vector<Vec2> asked = places(array, "places_um");
+  py::array_t<double> found(static_cast<py::ssize_t>(asked.size()));
+  double* out = found.mutable_data();
+  const py::gil_scoped_release free;
+  for (const Vec2& place : asked) *out++ = is_finite(place) ? map.world.clearance(place) : 0;
+  return found;
+}
+
+py::array_t<bool> are_free(const NamedMap& map, const Numbers& array, double clearance) {
+  const std::vector<Vec2> asked = places(array, "places_um");
+  py::array_t<bool> found(static_cast<py::ssize_t>(asked.size()));
+  static_assert(sizeof(bool) == 1);
+  const std::span<std::uint8_t> out{reinterpret_cast<std::uint8_t*>(found.mutable_data()),
+                                    asked.size()};
+  const py::gil_scoped_release free;
+  map.world.are_free(asked, clearance, out);
+  return found;
+}
+
+py::dict plan_of(const NamedMap& map, const std::vector<double>& start,
+                 const std::vector<double>& goal, const std::vector<std::string>& settings,
+                 std::uint64_t seed) {
+  if (start.size() != 2 && start.size() != 3)
+    throw InputError("start must be (x_um, y_um) or (x_um, y_um, heading_rad)");
+  if (goal.size() != 2) throw InputError("goal must be (x_um, y_um)");
+  const PathQuery query{.start = {{start[0], start[1]}, start.size() > 2 ? start[2] : 0},
+                        .goal = {goal[0], goal[1]},
+                        .settings = settings,
+                        .seed = seed};
+  for (const double v : {start[0], start[1], query.start.heading, goal[0], goal[1]})
+    if (!std::isfinite(v)) throw InputError("start and goal must be finite numbers");
+  const PathAnswer made =
+      interruptible([&](const Stop& stop) { return answer(map.world, query, map.name, stop); });
+  warn(made.notes);
+  std::vector<Vec2> nodes;
+  py::array_t<std::uint32_t> parents(static_cast<py::ssize_t>(made.plan.tree.size()));
+  std::uint32_t* parent = parents.mutable_data();
+  nodes.reserve(made.plan.tree.size());
+  for (const TreeNode& node : made.plan.tree) {
+    nodes.push_back(node.position);
+    *parent++ = node.parent;
+  }
+  py::dict out;
+  out["status"] = std::string(to_string(made.plan.status));
+  out["path_um"] = array_of(made.plan.path);
+  out["length_um"] = path_length(made.plan);
+  out["turning_rad"] = path_turning(made.plan.path, query.start.heading);
+  out["time_s"] = made.seconds;
+  out["why_none"] = made.why_none();
+  out["planner"] = planner_json(made.planner);
+  out["tree_um"] = array_of(nodes);
+  out["parents"] = parents;
+  return out;
+}
+
+}  // namespace
+
+void add_map(py::module_& module) {
+  py::class_<NamedMap>(module, "Map")
+      .def_static("load", load)
+      .def_static("from_pixels", from_pixels)
+      .def("outlines", outlines)
+      .def("discs", discs)
+      .def("clearance", clearance)
+      .def("are_free", are_free)
+      .def("plan", plan_of)
+      .def("bounds", [](const NamedMap& map) {
+        const Box& box = map.map().bounds();
+        return std::array<double, 4>{box.lo.x, box.lo.y, box.hi.x, box.hi.y};
+      });
+}
+
+}  // namespace microswarm::python

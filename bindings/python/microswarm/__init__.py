@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Plans, steers, gathers and measures magnetic microrobot swarms.
+
+Lengths are in µm, times in s, angles in rad, fields in mT, currents in A. Places are arrays of the
+shape (n, 2), y points up. Bad input raises InputError, a ValueError with a line for each mistake.
+
+    import microswarm as ms
+    scenario = ms.Scenario.load("first_flight.yaml")
+    scenario.navigator.speed_um_per_s = 60
+    result = ms.run(scenario)
+    print(result.status, result.metrics["length_um"], result.frames["x_um"])
+"""
+
+from ._core import HardwareError, InputError, version as __version__
+from .maps import Map, Path, plan
+from .navigator import Command, Navigator
+from .record import Record, Table, read_record
+from .runs import Session, run
+from .scenario import Scenario
+
+__all__ = [
+    "Command",
+    "HardwareError",
+    "InputError",
+    "Map",
+    "Navigator",
+    "Path",
+    "Record",
+    "Scenario",
+    "Session",
+    "Table",
+    "__version__",
+    "plan",
+    "read_record",
+    "run",
+]

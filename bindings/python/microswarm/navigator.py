@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A navigator of the library in a loop of your own."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple, Optional, Sequence
+
+import numpy as np
+
+from . import _core
+from .runs import Source, scenario_of
+
+
+class Command(NamedTuple):
+    """What to drive until the next command; speed 0 is hold."""
+
+    heading_rad: float
+    speed_um_per_s: float
+    state: str
+    """ "follow", "hold", "arrived", "blind", …"""
+    target_um: Optional[tuple[float, float]]
+    """What the navigator heads for now."""
+    planned: bool
+    """Whether it called a planner."""
+
+
+class Navigator:
+    """The navigator of a scenario: in goes what your camera sees, out comes the command for your coils.
+
+    nav = ms.Navigator(scenario)
+    while True:
+        command = nav.step(t, swarm=(x, y, heading, radius), obstacles=[(x1, y1, r1)])
+    """
+
+    def __init__(self, scenario: Source, *, trial: int = 0) -> None:
+        """Uses map, swarm or robots, goal, navigator, tick and seed of a scenario or a file."""
+        self._core = _core.Navigator(scenario_of(scenario)._core, trial)
+
+    def step(
+        self,
+        t: float,
+        swarm: Optional[Sequence[float]] = None,
+        obstacles: Any = None,
+        robots: Any = None,
+        *,
+        seen: Optional[float] = None,
+        numbers: Optional[Sequence[int]] = None,
+        unseen: int = 0,
+    ) -> Command:
+        """The command from the time `t` [s] on.
+
+        swarm      (x_um, y_um, heading_rad, radius_um); None if it was not found, and for robots
+        obstacles  array of the shape (n, 3) with x_um, y_um, radius_um, or a list of such rows and of outlines of
+                   the shape (n, 2)
+        robots     array of the shape (n, 2); robot i is the same in every step
+        seen       when the picture was taken [s]; `t` without
+        numbers    of the obstacles, the same in every step; without, they are matched by distance
+        unseen     number of robots that are where they are expected
+        """
+        return Command(*self._core.step(t, seen, swarm, obstacles, numbers, robots, unseen))
+
+    def path(self) -> np.ndarray:
+        """The path that it follows, of the shape (n, 2) [µm]."""
+        return self._core.path()
+
+    def close(self) -> None:
+        """Ends it; what is called later raises InputError."""
+        self._core.close()

@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Records of runs as NumPy arrays."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from typing import Any, Iterator
+
+import numpy as np
+
+from . import _core
+
+
+class Table(Mapping):
+    """Columns of one table of a record: arrays of equal length, by names with their units."""
+
+    def __init__(self, columns: dict[str, np.ndarray], docs: dict[str, str] | None = None) -> None:
+        self._columns = columns
+        self.docs = docs or {}
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self._columns[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+    @property
+    def rows(self) -> int:
+        """Number of rows."""
+        return len(next(iter(self._columns.values()))) if self._columns else 0
+
+    def to_array(self) -> np.ndarray:
+        """The table as a structured array, which pandas.DataFrame takes as it is."""
+        types = [(name, column.dtype) for name, column in self._columns.items()]
+        array = np.empty(self.rows, dtype=types)
+        for name, column in self._columns.items():
+            array[name] = column
+        return array
+
+    def __repr__(self) -> str:
+        lines = [f"{self.rows} rows"]
+        lines += [f"  {name:28} {self.docs.get(name, '')}".rstrip() for name in self._columns]
+        return "\n".join(lines)
+
+
+def finite(value: Any) -> Any:
+    """Metrics with infinity where a distance never came about."""
+    if isinstance(value, dict):
+        return {key: finite(one) for key, one in value.items()}
+    return float("inf") if value is None else value
+
+
+class Record:
+    """What a run recorded: enough to repeat, measure and draw it.
+
+    status     "solved", "collided", "time_limit", …
+    metrics    dictionary of the metrics, with their units in their names
+    frames     Table with a row for each tick: t_s, x_um, y_um, heading_rad, command_speed_um_per_s, …
+    events     Table of what happened
+    plans      Table of planning events; plan_trees and plan_paths have a Table for each
+    robots_t_s, robots_um   times, and places of the shape (times, robots, 2)
+    step_time_s   time that each step of the navigator took
+    """
+
+    def __init__(self, core: _core.Record) -> None:
+        self._core = core
+        self._tables: dict[str, Any] | None = None
+        summary = core.summary()
+        self.status: str = summary["status"]
+        self.metrics: dict[str, Any] = finite(json.loads(summary["metrics"]))
+        self.step_time_s: np.ndarray = summary["step_time_s"]
+
+    @property
+    def solved(self) -> bool:
+        """Whether the goal was reached."""
+        return self.status == "solved"
+
+    @property
+    def hash(self) -> str:
+        """Fingerprint of all that is physical: equal for equal runs."""
+        return self._core.hash()
+
+    @property
+    def version(self) -> str:
+        """Version of the library that made it."""
+        return self._core.version
+
+    @property
+    def navigator(self) -> str:
+        """ "external" if the navigator was not the scenario's, else empty."""
+        return self._core.navigator
+
+    def _table(self, name: str) -> Any:
+        if self._tables is None:
+            self._tables = self._core.tables()
+        return self._tables[name]
+
+    @property
+    def frames(self) -> Table:
+        return Table(self._table("frames"), self._core.documented())
+
+    @property
+    def events(self) -> Table:
+        return Table(self._table("events"))
+
+    @property
+    def plans(self) -> Table:
+        return Table(self._table("plans"))
+
+    @property
+    def plan_paths(self) -> list[Table]:
+        return [Table(one) for one in self._table("plans/path")]
+
+    @property
+    def plan_trees(self) -> list[Table]:
+        return [Table(one) for one in self._table("plans/tree")]
+
+    @property
+    def robots_t_s(self) -> np.ndarray:
+        return self._table("robots")["t_s"]
+
+    @property
+    def robots_um(self) -> np.ndarray:
+        parts = self._table("robots/places")
+        moments = [np.column_stack((one["x_um"], one["y_um"])) for one in parts]
+        return np.array(moments) if moments else np.empty((0, 0, 2))
+
+    def scenario_yaml(self) -> str:
+        """The scenario of the run, with every key."""
+        return self._core.scenario()
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the record as HDF5."""
+        self._core.write(os.fspath(path))
+
+    def replay(self) -> tuple[bool, str]:
+        """Runs it again: whether all bits are the same, and else the first difference."""
+        return self._core.replay()
+
+    def __repr__(self) -> str:
+        return f"<Record: {self.status} after {self.metrics['time_s']:.4g} s, hash {self.hash}>"
+
+
+def read_record(path: str | os.PathLike[str]) -> Record:
+    """Reads a record of `microswarm run`, `gather`, `rig run` or of this package."""
+    return Record(_core.Record.read(os.fspath(path)))

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Experiments: run to their end, or step by step."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import time
+from typing import Any, Callable, Optional, Union
+
+from . import _core
+from .record import Record, finite
+from .scenario import Scenario, text_of
+
+Source = Union[Scenario, str, "os.PathLike[str]"]
+Progress = Union[bool, Callable[[float], Any], None]
+
+
+def scenario_of(source: Source) -> Scenario:
+    """A scenario, or that of a file."""
+    return source if isinstance(source, Scenario) else Scenario.load(source)
+
+
+class Bar:
+    """Shows how much is done on stderr, once it has taken a second."""
+
+    def __init__(self) -> None:
+        self._began = time.monotonic()
+        self._shown = False
+
+    def __call__(self, done: float) -> None:
+        passed = time.monotonic() - self._began
+        if passed < 1:
+            return
+        left = f", {passed * (1 - done) / done:.0f} s left" if done > 0.01 else ""
+        print(f"\r{100 * done:3.0f} %{left}    ", end="", file=sys.stderr, flush=True)
+        self._shown = True
+
+    def end(self) -> None:
+        if self._shown:
+            print("\r" + " " * 30 + "\r", end="", file=sys.stderr, flush=True)
+
+
+class Session:
+    """An open experiment, which advances when it is stepped and can be changed between steps.
+
+    Use a session from one thread at a time; several sessions may run in threads of their own.
+    """
+
+    def __init__(self, scenario: Source, *, seed: Optional[int] = None, trial: int = 0, navigator: Any = None) -> None:
+        """Opens a scenario, or a file. `navigator` is one of your own, see run()."""
+        self._core = _core.Session(scenario_of(scenario)._core, seed, trial, navigator)
+
+    def step(self) -> bool:
+        """The next tick; False when the run has ended before."""
+        return self._core.step()
+
+    def set(self, key: str, value: Any) -> None:
+        """Sets a value from the next tick on, for example set("goal_um", [1500, 300])."""
+        self._core.set(key, text_of(value))
+
+    def view(self) -> dict[str, Any]:
+        """The present state: the numbers of the frame, obstacles_um (x, y, radius), robots_um, path_um."""
+        return self._core.view()
+
+    @property
+    def status(self) -> str:
+        """ "running", or how it ended."""
+        return self._core.summary()["status"]
+
+    @property
+    def metrics(self) -> dict[str, Any]:
+        """The metrics so far."""
+        return finite(json.loads(self._core.summary()["metrics"]))
+
+    def finish(self, progress: Progress = None) -> Record:
+        """Steps to the end. `progress` hears the share that is done; by default a line on stderr tells it."""
+        bar = Bar() if progress in (None, True) else None
+        try:
+            self._core.finish(bar or (progress if callable(progress) else None))
+        finally:
+            if bar:
+                bar.end()
+        return self.record()
+
+    def record(self) -> Record:
+        """The record so far."""
+        return Record(self._core.record())
+
+    def close(self) -> None:
+        """Ends the session; what is called later raises InputError."""
+        self._core.close()
+
+    def __enter__(self) -> "Session":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+def run(
+    scenario: Source,
+    *,
+    seed: Optional[int] = None,
+    trial: int = 0,
+    navigator: Any = None,
+    progress: Progress = None,
+) -> Record:
+    """Runs a scenario, or a file, to its end; the record is that of `microswarm run`, to the bit.
+
+    seed, trial   replace the scenario's seed, and select the random streams
+    navigator     an object of your own with a method step(observation) that returns (heading_rad,
+                  speed_um_per_s), or None to hold. The observation has now_s, seen_s, swarm = (x_um,
+                  y_um, heading_rad, radius_um) or None, obstacles_um = rows of x, y, radius, and
+                  robots_um. prepare() is called before the first step if there is one.
+    progress      called with the share that is done; False: nothing is shown
+    """
+    with Session(scenario, seed=seed, trial=trial, navigator=navigator) as session:
+        return session.finish(progress)

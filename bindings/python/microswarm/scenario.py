@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Scenarios: everything that an experiment consists of."""
+
+from __future__ import annotations
+
+import difflib
+import json
+import os
+from typing import Any, Iterator
+
+from . import _core
+
+
+def text_of(value: Any) -> str:
+    """A value as in a scenario file. Arrays become lists."""
+    if isinstance(value, str):
+        return value
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, (set, frozenset, bytes)):
+        raise _core.InputError(f"a value of a scenario cannot be of type {type(value).__name__}")
+    try:
+        return json.dumps(value, allow_nan=False, default=lambda one: one.tolist())
+    except ValueError:
+        raise _core.InputError(f"{value!r}: a value of a scenario must be finite") from None
+    except (TypeError, AttributeError):
+        raise _core.InputError(f"a value of a scenario cannot be of type {type(value).__name__}") from None
+
+
+class Group:
+    """A part of a scenario: its keys are attributes, with their units in their names."""
+
+    _scenario: "Scenario"
+    _path: tuple[str, ...]
+
+    def __init__(self, scenario: "Scenario", path: tuple[str, ...]) -> None:
+        object.__setattr__(self, "_scenario", scenario)
+        object.__setattr__(self, "_path", path)
+
+    def _value(self) -> Any:
+        value = self._scenario._values()
+        for key in self._path:
+            value = value[int(key)] if isinstance(value, list) else value[key]
+        return value
+
+    def _unknown(self, name: str) -> AttributeError:
+        near = difflib.get_close_matches(name, list(self._value()), 1)
+        where = ".".join(self._path) or "a scenario"
+        return AttributeError(f"{where} has no key {name!r}" + (f", did you mean {near[0]!r}?" if near else ""))
+
+    def __getattr__(self, name: str) -> Any:
+        values = self._value()
+        if name.startswith("__") or not isinstance(values, dict):
+            raise AttributeError(name)
+        if name not in values:
+            raise self._unknown(name)
+        return self._scenario._part((*self._path, name), values[name])
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        values = self._value()
+        if name not in values:
+            raise self._unknown(name)
+        self._scenario.set(".".join((*self._path, name)), value)
+
+    def __getitem__(self, index: int) -> Any:
+        values = self._value()
+        if not isinstance(values, list):
+            raise TypeError(f"{'.'.join(self._path)} is no list")
+        position = range(len(values))[index]
+        return self._scenario._part((*self._path, str(position)), values[position])
+
+    def __len__(self) -> int:
+        return len(self._value())
+
+    def __iter__(self) -> Iterator[Any]:
+        values = self._value()
+        return iter([self[i] for i in range(len(values))] if isinstance(values, list) else values)
+
+    def __eq__(self, other: object) -> bool:
+        return self._value() == (other._value() if isinstance(other, Group) else other)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __dir__(self) -> list[str]:
+        values = self._value()
+        return [*super().__dir__(), *(values if isinstance(values, dict) else ())]
+
+    def __repr__(self) -> str:
+        return json.dumps(self._value(), indent=2, ensure_ascii=False)
+
+
+class Scenario(Group):
+    """An experiment as data: map, obstacles, swarm or robots, start, goal, navigator, limits.
+
+    Every key of a scenario file is an attribute, with its unit in its name; groups of keys have
+    attributes of their own, and lists are indexed: `scenario.obstacles[0].shape.radius_um = 30`.
+    A bad value raises InputError and changes nothing.
+    """
+
+    _core: _core.Scenario
+
+    def __init__(self, core: _core.Scenario) -> None:
+        super().__init__(self, ())
+        object.__setattr__(self, "_core", core)
+        object.__setattr__(self, "_cache", None)
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> "Scenario":
+        """Reads a scenario file."""
+        return cls(_core.Scenario.load(os.fspath(path)))
+
+    @classmethod
+    def from_text(cls, text: str, folder: str | os.PathLike[str] = "", name: str = "scenario") -> "Scenario":
+        """A scenario from YAML text. Files that it names are relative to `folder`."""
+        return cls(_core.Scenario.of(text, name, os.fspath(folder)))
+
+    def set(self, key: str, value: Any) -> "Scenario":
+        """Sets the value of a key, for example set("navigator.speed_um_per_s", 60). A text is read as in a file."""
+        if not isinstance(key, str):
+            raise TypeError("a key is a text")
+        self._core.set(f"{key}={text_of(value)}")
+        object.__setattr__(self, "_cache", None)
+        return self
+
+    def get(self, key: str) -> Any:
+        """Value of a key; a group as dictionary, a list as list."""
+        value: Any = self._values()
+        for part in key.split("."):
+            try:
+                value = value[int(part)] if isinstance(value, list) else value[part]
+            except (KeyError, IndexError, ValueError, TypeError):
+                raise KeyError(key) from None
+        return value
+
+    def copy(self) -> "Scenario":
+        """Another scenario with the same values."""
+        return Scenario(self._core.copy())
+
+    def to_yaml(self) -> str:
+        """The scenario as a file with every key."""
+        return self._core.yaml()
+
+    def _values(self) -> dict[str, Any]:
+        if self._cache is None:
+            object.__setattr__(self, "_cache", json.loads(self._core.json()))
+        return self._cache
+
+    def _part(self, path: tuple[str, ...], value: Any) -> Any:
+        return Group(self, path) if isinstance(value, (dict, list)) and not is_numbers(value) else value
+
+    def __repr__(self) -> str:
+        return f"Scenario({self._core.name!r})\n" + super().__repr__()
+
+
+def is_numbers(value: Any) -> bool:
+    """Whether a value is a list of numbers, such as a place."""
+    return isinstance(value, list) and all(isinstance(one, (int, float)) for one in value) and len(value) > 0

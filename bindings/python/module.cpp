@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// The module microswarm._core, which the package microswarm wraps.
+#include "calls.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/core/version.hpp"
+
+namespace microswarm::python {
+
+void warn(const Notes& notes) {
+  for (const std::string& note : notes)
+    if (PyErr_WarnEx(PyExc_FutureWarning, note.c_str(), 2) != 0) throw py::error_already_set();
+}
+
+std::vector<Vec2> places(const Numbers& array, const char* name) {
+  const bool none = array.size() == 0;
+  if (!none && (array.ndim() != 2 || array.shape(1) != 2))
+    throw InputError(std::string(name) + " must have the shape (n, 2)");
+  std::vector<Vec2> all;
+  all.reserve(static_cast<std::size_t>(array.size() / 2));
+  const double* numbers = array.data();
+  for (py::ssize_t i = 0; i < array.size() / 2; ++i)
+    all.push_back({numbers[2 * i], numbers[2 * i + 1]});
+  return all;
+}
+
+py::array_t<double> array_of(std::span<const Vec2> places) {
+  py::array_t<double> array({static_cast<py::ssize_t>(places.size()), py::ssize_t{2}});
+  double* numbers = array.mutable_data();
+  for (const Vec2& place : places) {
+    *numbers++ = place.x;
+    *numbers++ = place.y;
+  }
+  return array;
+}
+
+}  // namespace microswarm::python
+
+PYBIND11_MODULE(_core, module) {
+  using namespace microswarm;
+  namespace py = pybind11;
+  module.doc() = "What the package microswarm is made of; use that.";
+  module.attr("version") = std::string(version);
+  static py::exception<InputError> input_error(module, "InputError", PyExc_ValueError);
+  static py::exception<HardwareError> hardware_error(module, "HardwareError", PyExc_RuntimeError);
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const InputError& error) {
+      input_error(error.what());
+    } catch (const HardwareError& error) {
+      hardware_error(error.what());
+    }
+  });
+  python::add_map(module);
+  python::add_record(module);
+  python::add_session(module);
+}

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// Records as NumPy arrays: a column of every recorded quantity, out of its declaration.
+#include "microswarm/experiment/record/record.hpp"
+#include "calls.hpp"
+#include "microswarm/config/write.hpp"
+#include "microswarm/io/columns.hpp"
+#include "microswarm/io/tables.hpp"
+#include "record.hpp"
+
+namespace microswarm::python {
+namespace {
+
+py::object column_of(const Column& column, const ListRef<const void*>& list) {
+  const auto size = static_cast<py::ssize_t>(list.size());
+  if (column.kind == ColumnKind::word) {
+    py::list words;
+    for (std::size_t i = 0; i < list.size(); ++i)
+      words.append(std::string(column.word(list.row(i))));
+    return py::module_::import("numpy").attr("array")(words, py::dtype("U16"));
+  }
+  if (column.kind == ColumnKind::integer) {
+    py::array_t<std::int64_t> array(size);
+    std::int64_t* out = array.mutable_data();
+    for (std::size_t i = 0; i < list.size(); ++i)
+      *out++ = static_cast<std::int64_t>(column.number(list.row(i)));
+    return array;
+  }
+  py::array_t<double> array(size);
+  double* out = array.mutable_data();
+  for (std::size_t i = 0; i < list.size(); ++i) *out++ = column.number(list.row(i));
+  return array;
+}
+
+py::dict columns_of_list(const ListRef<const void*>& list, const Field* places = nullptr) {
+  const Unit unit = places ? places->info.unit : Unit::um;
+  py::dict out;
+  for (const Column& column : columns_of(list.row_type(), ColumnUnits::held, unit))
+    out[py::str(column.key)] = column_of(column, list);
+  return out;
+}
+
+/// Tables by name; "plans/tree" is a list with the table of each plan.
+struct Tables {
+  py::dict out;
+
+  void table(const std::string& group, const ListRef<const void*>& list) {
+    out[py::str(group.substr(1))] = columns_of_list(list);
+  }
+  void parts(const std::string& group, const ListRef<const void*>& list, const Field& field) {
+    py::list parts;
+    for (std::size_t i = 0; i < list.size(); ++i)
+      parts.append(columns_of_list(list.part(i, field), &field));
+    out[py::str(group.substr(1))] = parts;
+  }
+};
+
+py::dict documented(const Record&) {
+  py::dict out;
+  for (const Column& column : columns_of(type_of<Frame>(), ColumnUnits::held))
+    out[py::str(column.key)] = column.doc;
+  return out;
+}
+
+}  // namespace
+
+py::dict tables_of(const Record& record) {
+  Tables tables;
+  visit_tables(type_of<Record>(), static_cast<const void*>(&record), tables);
+  return tables.out;
+}
+
+py::dict summary_of(const RunResult& result) {
+  py::dict out;
+  out["status"] = std::string(to_string(result.status));
+  out["metrics"] = to_json_text(result.metrics);
+  out["step_time_s"] = py::array_t<double>(static_cast<py::ssize_t>(result.timing.steps.size()),
+                                           result.timing.steps.data());
+  return out;
+}
+
+void add_record(py::module_& module) {
+  py::class_<Record, std::shared_ptr<Record>>(module, "Record")
+      .def_static("read",
+                  [](const std::string& file) {
+                    return interruptible(
+                        [&](const Stop&) { return std::make_shared<Record>(read_record(file)); });
+                  })
+      .def("write",
+           [](const Record& record, const std::string& file) {
+             interruptible([&](const Stop&) {
+               write_record(record, file);
+               return true;
+             });
+           })
+      .def("tables", tables_of)
+      .def("summary", [](const Record& record) { return summary_of(record.result); })
+      .def("hash", &Record::hash)
+      .def("documented", documented)
+      .def("scenario", [](const Record& record) { return scenario_text(record.scene.scenario); })
+      .def_readonly("version", &Record::version)
+      .def_readonly("trial", &Record::trial)
+      .def_readonly("rig", &Record::rig)
+      .def_readonly("navigator", &Record::navigator)
+      .def("replay", [](const Record& record) {
+        const ReplayResult made =
+            interruptible([&](const Stop& stop) { return replay(record, stop); });
+        return std::pair(made.identical, made.difference);
+      });
+}
+
+}  // namespace microswarm::python

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenarios, experiments, and navigators in a loop of the caller's own.
+#include "microswarm/session/session.hpp"
+
+#include "calls.hpp"
+#include "microswarm/config/write.hpp"
+#include "microswarm/config/yaml.hpp"
+#include "microswarm/core/errors/error.hpp"
+#include "microswarm/session/standalone_navigator.hpp"
+#include "own_navigator.hpp"
+#include "record.hpp"
+
+namespace microswarm::python {
+namespace {
+
+/// A scenario as text and what was set since, which is opened as the command line does.
+struct ScenarioText {
+  std::string text;
+  std::string name;
+  std::filesystem::path base;
+  std::vector<std::string> settings{};
+  Scenario value{};
+
+  static ScenarioText load(const std::string& file) {
+    const std::filesystem::path path(file);
+    return of(read_file(path, max_yaml_bytes), file, path.parent_path());
+  }
+  static ScenarioText of(std::string text, std::string name, std::filesystem::path base) {
+    ScenarioText made{std::move(text), std::move(name), std::move(base)};
+    KeyLocations keys;
+    Mistakes mistakes;
+    made.value = read_yaml_text<Scenario>(made.text, made.name, {}, keys, mistakes);
+    mistakes.require_none();
+    warn(keys.notes());
+    return made;
+  }
+  void set(const std::string& setting) {
+    Notes notes;
+    const auto present = set_value(value, setting, "set", notes);
+    warn(notes);
+    if (present) settings.push_back(*present);
+  }
+  Experiment open(std::optional<std::uint64_t> seed = {}) const {
+    return open_experiment_text(text, name, base, settings, seed);
+  }
+};
+
+/// Something that one thread at a time may use, until it is closed.
+template <class T>
+class Guarded {
+ public:
+  Guarded(std::unique_ptr<T> held, const char* kind) : held_(std::move(held)), kind_(kind) {}
+
+  template <class Work>
+  auto use(Work&& work) {
+    if (in_use_.exchange(true)) throw InputError("another thread uses the " + std::string(kind_));
+    const struct Leave {
+      std::atomic<bool>& in_use;
+      ~Leave() { in_use = false; }
+    } leave{in_use_};
+    if (!held_) throw InputError("the " + std::string(kind_) + " is closed");
+    return work(*held_);
+  }
+  void close() {
+    use([&](T&) { held_.reset(); });
+  }
+
+ private:
+  std::unique_ptr<T> held_;
+  const char* kind_;
+  std::atomic<bool> in_use_ = false;
+};
+
+class OpenSession : public Guarded<Session> {
+ public:
+  explicit OpenSession(std::unique_ptr<Session> session) : Guarded(std::move(session), "session") {}
+
+  bool has_begun = false;  ///< the first step may take longer
+};
+
+std::unique_ptr<OpenSession> open(const ScenarioText& scenario, std::optional<std::uint64_t> seed,
+                                  std::uint32_t trial, const py::object& navigator) {
+  std::unique_ptr<Navigator> own;
+  if (!navigator.is_none()) own = std::make_unique<OwnNavigator>(navigator);
+  auto session = interruptible([&](const Stop&) {
+    return std::make_unique<Session>(scenario.open(seed), trial, nullptr, std::move(own));
+  });
+  return std::make_unique<OpenSession>(std::move(session));
+}
+
+/// The present view as a dictionary of numbers and arrays.
+py::dict view_of(const Session& session) {
+  const SessionView view = session.view();
+  py::dict out;
+  const Frame& frame = view.frame;
+  for (const Column& column : columns_of(type_of<Frame>(), ColumnUnits::held)) {
+    if (column.kind == ColumnKind::word)
+      out[py::str(column.key)] = std::string(column.word(&frame));
+    else
+      out[py::str(column.key)] = column.number(&frame);
+  }
+  out["number"] = view.number;
+  out["holding"] = view.holding;
+  out["obstacles_um"] = circles_of(view.bodies);
+  out["robots_um"] = array_of(view.robots);
+  out["path_um"] = array_of(view.path);
+  return out;
+}
+
+bool step(OpenSession& open) {
+  return open.use([&](Session& session) {
+    if (!std::exchange(open.has_begun, true))
+      return interruptible([&](const Stop& stop) { return session.step(stop) != nullptr; });
+    const py::gil_scoped_release free;
+    return session.step() != nullptr;
+  });
+}
+
+/// Steps to the end; `report` hears the share that is done, 10 times a second.
+py::dict finish(OpenSession& open, const py::object& report) {
+  return open.use([&](Session& session) {
+    open.has_begun = true;
+    std::atomic<double> done = 0;
+    const RunResult& result = interruptible(
+        [&](const Stop& stop) -> std::reference_wrapper<const RunResult> {
+          const double limit = session.scenario().time_limit;
+          double start = 0;
+          while (const Tick* tick = session.step(stop)) {
+            const Frame& frame = tick->frame;
+            start = std::max(start, std::isfinite(frame.goal_distance) ? frame.goal_distance : 0);
+            const double way = start > 0 ? 1 - frame.goal_distance / start : 0;
+            done = std::clamp(std::max(way, frame.t / limit), 0.0, 1.0);
+          }
+          return session.result();
+        },
+        [&] {
+          if (!report.is_none()) report(done.load());
+        });
+    return summary_of(result);
+  });
+}
+
+using OpenNavigator = Guarded<StandaloneNavigator>;
+
+/// Obstacles of a caller: rows x, y, radius, or outlines of shape (n, 2).
+std::vector<Body> bodies_of(const py::object& obstacles) {
+  std::vector<Body> bodies;
+  if (obstacles.is_none()) return bodies;
+  const auto add_rows = [&](const Numbers& rows) {
+    if (rows.size() == 0) return;
+    if (rows.ndim() != 2 || rows.shape(1) != 3)
+      throw InputError("obstacles must have the shape (n, 3): x_um, y_um, radius_um");
+    const double* row = rows.data();
+    for (py::ssize_t i = 0; i < rows.shape(0); ++i, row += 3)
+      bodies.push_back({.shape = Disc{{row[0], row[1]}, row[2]}});
+  };
+  if (py::isinstance<py::array>(obstacles)) {
+    add_rows(obstacles.cast<Numbers>());
+    return bodies;
+  }
+  for (const py::handle one : obstacles) {
+    const auto numbers = one.cast<Numbers>();
+    if (numbers.ndim() == 1 && numbers.size() == 3)
+      bodies.push_back({.shape = Disc{{numbers.at(0), numbers.at(1)}, numbers.at(2)}});
+    else if (numbers.ndim() == 2 && numbers.shape(1) == 2)
+      bodies.push_back({.shape = Polygon{places(numbers, "outline"), {}}});
+    else
+      throw InputError("an obstacle must be (x_um, y_um, radius_um) or an outline of shape (n, 2)");
+  }
+  return bodies;
+}
+
+py::tuple step_navigator(OpenNavigator& open, double now, std::optional<double> seen,
+                         const std::optional<std::array<double, 4>>& swarm,
+                         const py::object& obstacles,
+                         const std::optional<std::vector<std::int64_t>>& numbers,
+                         const std::optional<Numbers>& robots, int unseen) {
+  Sight sight{.now = now, .seen = seen.value_or(now), .unseen = unseen};
+  if (swarm) sight.swarm = {{{(*swarm)[0], (*swarm)[1]}, (*swarm)[2]}, (*swarm)[3]};
+  sight.obstacles = bodies_of(obstacles);
+  if (numbers) {
+    if (numbers->size() != sight.obstacles.size())
+      throw InputError("there must be as many numbers as obstacles");
+    sight.are_numbered = true;
+    for (std::size_t i = 0; i < numbers->size(); ++i) {
+      if ((*numbers)[i] < 0 || (*numbers)[i] > UINT32_MAX)
+        throw InputError("the number of an obstacle must be 0 to 4294967295");
+      sight.obstacles[i].obstacle = static_cast<std::uint32_t>((*numbers)[i]);
+    }
+  }
+  if (robots) sight.robots = places(*robots, "robots");
+  return open.use([&](StandaloneNavigator& navigator) {
+    const auto made = [&](const Stop& stop) { return navigator.step(sight, stop); };
+    Command command;
+    if (navigator.is_prepared()) {
+      const py::gil_scoped_release free;
+      command = made({});
+    } else {
+      command = interruptible(made);
+    }
+    const NavigatorView view = navigator.view();
+    py::object target = py::none();
+    if (view.local_target) target = py::make_tuple(view.local_target->x, view.local_target->y);
+    return py::make_tuple(command.heading, command.speed, std::string(enum_name(view.state)),
+                          target, view.planned);
+  });
+}
+
+}  // namespace
+
+void add_session(py::module_& module) {
+  py::class_<ScenarioText>(module, "Scenario")
+      .def_static("load", ScenarioText::load)
+      .def_static("of",
+                  [](std::string text, std::string name, const std::string& base) {
+                    return ScenarioText::of(std::move(text), std::move(name), base);
+                  })
+      .def("set", &ScenarioText::set)
+      .def("json", [](const ScenarioText& s) { return to_json_text(s.value); })
+      .def("yaml", [](const ScenarioText& s) { return scenario_text(s.value); })
+      .def("copy", [](const ScenarioText& s) { return s; })
+      .def_readonly("name", &ScenarioText::name)
+      .def_readonly("settings", &ScenarioText::settings);
+  module.def("schema", session_schema);
+
+  py::class_<OpenSession>(module, "Session")
+      .def(py::init(&open))
+      .def("step", step)
+      .def("finish", finish)
+      .def("close", &OpenSession::close)
+      .def("set",
+           [](OpenSession& open, const std::string& key, const std::string& value) {
+             open.use([&](Session& session) {
+               std::vector<std::string> lines;
+               for (const Issue& issue : session.set(key, value)) lines.push_back(issue.text);
+               if (!lines.empty()) throw InputError(lines);
+             });
+           })
+      .def("view", [](OpenSession& open) { return open.use(view_of); })
+      .def("summary",
+           [](OpenSession& open) {
+             return open.use([](Session& session) { return summary_of(session.result()); });
+           })
+      .def("record", [](OpenSession& open) {
+        return open.use(
+            [](Session& session) { return std::make_shared<Record>(session.record()); });
+      });
+
+  py::class_<OpenNavigator>(module, "Navigator")
+      .def(py::init([](const ScenarioText& scenario, std::uint32_t trial) {
+        auto made = interruptible([&](const Stop&) {
+          return std::make_unique<StandaloneNavigator>(scenario.open(), trial);
+        });
+        return std::make_unique<OpenNavigator>(std::move(made), "navigator");
+      }))
+      .def("step", step_navigator)
+      .def("path",
+           [](OpenNavigator& open) {
+             return open.use([](StandaloneNavigator& n) { return array_of(n.view().path); });
+           })
+      .def("close", &OpenNavigator::close);
+}
+
+}  // namespace microswarm::python

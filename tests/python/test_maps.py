@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Maps and paths."""
+
+import numpy as np
+import pytest
+
+import microswarm as ms
+
+
+@pytest.fixture
+def room():
+    """400 × 400 µm with a wall from below, open above."""
+    image = np.full((40, 40), 255, dtype=np.uint8)
+    image[10:, 18:22] = 0
+    return ms.Map.from_image(image, 10)
+
+
+def test_a_map_of_an_image(room):
+    assert room.bounds_um == (0, 0, 400, 400)
+    assert room.clearance([[50, 50], [200, 50], [50, 390]]) == pytest.approx([50, 0, 10])
+    assert room.is_free(np.array([[50, 50], [175, 50]]), 10).tolist() == [True, False]
+    (ring,) = room.walls_um[0]
+    assert ring.min(axis=0).tolist() == [180, 0] and ring.max(axis=0).tolist() == [220, 300]
+
+
+def test_images_of_every_kind_give_the_same_map(room):
+    image = np.full((40, 40), True)
+    image[10:, 18:22] = False
+    places = np.random.default_rng(1).uniform(0, 400, (200, 2))
+    wide = np.repeat(np.where(image, 200.0, 3.0), 2, axis=1)[:, ::2]
+    assert not wide.flags["C_CONTIGUOUS"]
+    maps = [
+        ms.Map.from_image(image, 10),
+        ms.Map.from_image(~image, 10, free="dark"),
+        ms.Map.from_image(wide, 10),
+        ms.Map.from_image(np.asfortranarray(image), 10),
+        ms.Map.from_image(image.astype(int), 10, threshold=1),
+    ]
+    for one in maps:
+        assert np.array_equal(one.clearance(places), room.clearance(places))
+
+
+@pytest.mark.parametrize(
+    "image, um_per_px, words",
+    [
+        (np.zeros(5), 1, "2 dimensions"),
+        (np.zeros((5, 5, 3)), 1, "2 dimensions"),
+        (np.zeros((0, 5)), 1, "must be 1 to"),
+        (np.array([["a"]]), 1, "numbers"),
+        (np.full((3, 3), np.nan), 1, "finite"),
+        (None, 1, "2 dimensions"),
+        (np.ones((3, 3)), 0, "um_per_px"),
+        (np.ones((3, 3)), np.nan, "um_per_px"),
+    ],
+)
+def test_bad_images(image, um_per_px, words):
+    with pytest.raises(ms.InputError, match=words):
+        ms.Map.from_image(image, um_per_px)
+
+
+def test_bad_places(room):
+    for places in ([1, 2], np.zeros((3, 3)), 5):
+        with pytest.raises(ms.InputError, match="shape"):
+            room.clearance(places)
+    assert room.clearance(np.empty((0, 2))).shape == (0,)
+    assert room.clearance([[np.nan, 1]]).tolist() == [0]
+
+
+@pytest.mark.parametrize("planner", ["exact", "drrt_star", "rrt_star", "rrt_connect", "a_star", "theta_star", "fmt_star"])
+def test_every_planner_finds_the_way_around(room, planner):
+    path = ms.plan(room, (50, 50), (350, 50), planner, clearance_um=15)
+    assert path.solved and path.status == "solved" and path.why_none == ""
+    assert path.planner["type"] == planner and path.planner["clearance_um"] == 15
+    assert path.points_um[0].tolist() == [50, 50]
+    shortest = ms.plan(room, (50, 50), (350, 50), clearance_um=15).length_um
+    assert path.length_um >= (1 - 1e-9) * shortest
+    assert room.is_free(path.points_um, 14.9).all()
+
+
+def test_equal_seeds_give_equal_paths(room):
+    paths = [ms.plan(room, (50, 50), (350, 50), "rrt_star", seed=seed).points_um for seed in (1, 1, 2)]
+    assert np.array_equal(paths[0], paths[1])
+    assert not np.array_equal(paths[0], paths[2])
+
+
+def test_what_cannot_be_planned(room):
+    for start, goal, values, words in [
+        ((200, 50), (350, 50), {}, "start"),
+        ((50, 50), (5000, 50), {}, "outside"),
+        ((50,), (350, 50), {}, "start must be"),
+        ((50, 50), (350, np.nan), {}, "finite"),
+        ((50, 50), (350, 50), {"planner": "magic"}, "allowed"),
+        ((50, 50), (350, 50), {"planner": "rrt", "stpe_um": 5}, "did you mean 'step_um'"),
+        ((50, 50), (350, 50), {"planner": "rrt", "max_nodes": -1}, "max_nodes"),
+    ]:
+        with pytest.raises(ms.InputError, match=words):
+            ms.plan(room, start, goal, **values)
+    limited = ms.plan(room, (50, 50), (350, 50), "rrt", max_nodes=3)
+    assert not limited.solved and "max_nodes" in limited.why_none

@@ -1,0 +1,176 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs, sessions and records, also those with a navigator of one's own."""
+
+import json
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import microswarm as ms
+from conftest import ROOT, SCENARIOS
+
+
+def shipped():
+    files = [*SCENARIOS.glob("*.yaml"), *SCENARIOS.glob("papers/**/*.yaml")]
+    return sorted(str(one.relative_to(SCENARIOS)) for one in files)
+
+
+@pytest.mark.parametrize("name", shipped())
+def test_the_record_is_that_of_the_command_line(program, name):
+    command = [program, "run", SCENARIOS / name, "--set", "time_limit_s=4", "--json"]
+    told = subprocess.run(command, capture_output=True, text=True, check=False)
+    try:
+        scenario = ms.Scenario.load(SCENARIOS / name).set("time_limit_s", 4)
+        record = ms.run(scenario, progress=False)
+    except ms.InputError as error:
+        assert told.returncode == 2 and str(error).splitlines()[0] in told.stderr
+        return
+    answer = json.loads(told.stdout)
+    assert record.hash == answer["record_hash"]
+    assert record.status == answer["status"]
+
+
+def test_a_record_has_arrays_of_all_that_was_recorded(flight, tmp_path):
+    record = ms.run(flight, progress=False)
+    assert record.status == "time_limit" and not record.solved
+    frames = record.frames
+    assert frames["t_s"].dtype == np.float64
+    assert np.allclose(np.diff(frames["t_s"][:-1]), 0.1)
+    assert frames["state"][-1] == "end"
+    assert frames["planned"].dtype == np.int64
+    assert len(frames["x_um"]) == frames.rows == len(frames.to_array())
+    assert frames.docs["t_s"] == "When the tick begins."
+    assert record.plans.rows == len(record.plan_paths) > 0
+    assert record.metrics["length_um"] == pytest.approx(frames["speed_um_per_s"].sum() * 0.1, rel=0.05)
+    record.save(tmp_path / "run.h5")
+    back = ms.read_record(tmp_path / "run.h5")
+    assert back.hash == record.hash
+    assert back.frames.to_array().tobytes() == frames.to_array().tobytes()
+    assert back.replay() == (True, "")
+    with pytest.raises(ms.InputError, match="nothing.h5"):
+        ms.read_record(tmp_path / "nothing.h5")
+
+
+def test_robots_are_an_array_of_moments():
+    scenario = ms.Scenario.load(SCENARIOS / "papers/gather/t_junction.yaml").set("time_limit_s", 3)
+    record = ms.run(scenario, progress=False)
+    count = scenario.robots.count
+    assert record.robots_um.shape == (len(record.robots_t_s), count, 2)
+
+
+def test_a_session_is_stepped_changed_and_closed(flight):
+    with ms.Session(flight) as session:
+        assert session.step() and session.status == "running"
+        view = session.view()
+        assert view["t_s"] == 0 and view["obstacles_um"].shape == (2, 3)
+        session.set("navigator.speed_um_per_s", 30)
+        session.set("goal_um", np.array([1500, 500]))
+        with pytest.raises(ms.InputError, match="cannot be changed"):
+            session.set("tick_s", 1)
+        while session.step():
+            pass
+        assert session.status == "time_limit"
+        assert session.record().replay() == (True, "")
+    with pytest.raises(ms.InputError, match="closed"):
+        session.step()
+
+
+class Straight:
+    """Heads for the goal."""
+
+    def __init__(self, goal):
+        self.goal, self.prepared, self.seen = goal, 0, []
+
+    def prepare(self):
+        self.prepared += 1
+
+    def step(self, seen):
+        self.seen.append(seen)
+        if seen.swarm is None:
+            return None
+        x, y, _, _ = seen.swarm
+        return np.arctan2(self.goal[1] - y, self.goal[0] - x), 60
+
+
+def test_a_navigator_of_ones_own_runs_as_ours_do(flight, tmp_path):
+    own = Straight(flight.goal_um)
+    record = ms.run(flight, navigator=own, progress=False)
+    assert own.prepared == 1
+    assert own.seen[5].obstacles_um.shape == (2, 3)
+    assert record.frames["command_speed_um_per_s"][3] == 60
+    record.save(tmp_path / "own.h5")
+    again = ms.read_record(tmp_path / "own.h5")
+    assert again.navigator == "external"
+    assert again.replay() == (True, "")
+    assert ms.run(flight, progress=False).navigator == ""
+
+
+@pytest.mark.parametrize("answer", [3, (1, 2, 3), ("a", "b"), (float("nan"), 1), (0, -1), (0, float("inf"))])
+def test_a_navigator_with_a_bad_answer_is_told(flight, answer):
+    class Bad:
+        def step(self, seen):
+            return answer
+
+    with pytest.raises(ms.InputError, match="step of the navigator"):
+        ms.run(flight, navigator=Bad(), progress=False)
+
+
+def test_an_exception_of_a_navigator_is_raised(flight):
+    class Broken:
+        def step(self, seen):
+            raise KeyError("mine")
+
+    with pytest.raises(KeyError, match="mine"):
+        ms.run(flight, navigator=Broken(), progress=False)
+    with pytest.raises(ms.InputError, match="method step"):
+        ms.run(flight, navigator=object())
+
+
+def test_two_threads_run_two_sessions(flight):
+    hashes = []
+    work = [threading.Thread(target=lambda: hashes.append(ms.run(flight, progress=False).hash)) for _ in range(4)]
+    for one in work:
+        one.start()
+    for one in work:
+        one.join()
+    assert len(set(hashes)) == 1 and len(hashes) == 4
+
+
+def test_two_threads_on_one_session_are_told(flight):
+    session = ms.Session(flight.set("time_limit_s", 1e5))
+    other = threading.Thread(target=lambda: session.finish(False))
+    other.start()
+    refused = False
+    for _ in range(200):
+        try:
+            session.view()
+        except ms.InputError as error:
+            refused = "another thread" in str(error)
+            break
+        time.sleep(0.001)
+    other.join()
+    assert refused
+
+
+def test_ctrl_c_ends_a_long_run():
+    code = f"""
+import microswarm as ms
+s = ms.Scenario.load({str(SCENARIOS / "first_flight.yaml")!r})
+s.set("time_limit_s", 1e5).set("hold_limit_s", 1e5).set("goal_um", [1990, 990]).set("hold_at_goal_s", 1e6)
+s.goal_um = [1800, 500]
+print("runs", flush=True)
+try:
+    ms.run(s, progress=False)
+except KeyboardInterrupt:
+    print("interrupted")
+"""
+    process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True, cwd=ROOT)
+    assert process.stdout.readline() == "runs\n"
+    time.sleep(1)
+    process.send_signal(signal.SIGINT)
+    assert process.communicate(timeout=20)[0] == "interrupted\n"

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Scenarios as objects."""
+
+import numpy as np
+import pytest
+
+import microswarm as ms
+from conftest import SCENARIOS
+
+
+def test_keys_are_attributes_with_their_units(flight):
+    assert flight.tick_s == 0.1
+    assert flight.goal_um == [1800, 500]
+    assert flight.obstacles[0].shape.radius_um == 60
+    assert len(flight.obstacles) == 2
+    flight.navigator.speed_um_per_s = 60
+    flight.obstacles[1].shape.radius_um = 33.5
+    flight.goal_um = np.array([1700, 400])
+    assert flight.get("navigator.speed_um_per_s") == 60
+    assert flight.get("obstacles.1.shape.radius_um") == 33.5
+    assert flight.goal_um == [1700, 400]
+    assert "speed_um_per_s" in dir(flight.navigator)
+
+
+def test_a_copy_is_its_own(flight):
+    other = flight.copy()
+    other.seed = 7
+    assert (flight.seed, other.seed) == (1, 7)
+
+
+def test_the_yaml_of_a_scenario_is_that_scenario(flight):
+    again = ms.Scenario.from_text(flight.to_yaml(), SCENARIOS)
+    assert again == flight
+    assert ms.run(again, progress=False).hash == ms.run(flight, progress=False).hash
+
+
+@pytest.mark.parametrize(
+    "key, value, words",
+    [
+        ("navigator.speed_um_per_s", -3, "allowed 0.001..1e5"),
+        ("navigator.sped_um_per_s", 3, "did you mean 'speed_um_per_s'"),
+        ("goal_um", [1, 2, 3], "goal_um"),
+        ("tick_s", None, "tick_s"),
+        ("goal_um", float("nan"), "finite"),
+        ("goal_um", np.array([1, np.inf]), "finite"),
+        ("tick_s", "soon", "tick_s"),
+        ("tick_s", {1, 2}, "type set"),
+        ("tick_s", object(), "type object"),
+        ("navigator.type", "magic", "allowed"),
+    ],
+)
+def test_bad_values_change_nothing(flight, key, value, words):
+    before = flight.to_yaml()
+    with pytest.raises(ms.InputError, match=words):
+        flight.set(key, value)
+    assert flight.to_yaml() == before
+
+
+def test_unknown_attributes_are_refused(flight):
+    with pytest.raises(AttributeError, match="did you mean 'goal_um'"):
+        flight.gaol_um = [1, 2]
+    with pytest.raises(AttributeError, match="did you mean 'speed_um_per_s'"):
+        flight.navigator.sped_um_per_s
+    with pytest.raises(IndexError):
+        flight.obstacles[2]
+    with pytest.raises(KeyError):
+        flight.get("navigator.none")
+
+
+def test_files_that_are_none(tmp_path):
+    with pytest.raises(ms.InputError, match="nowhere.yaml"):
+        ms.Scenario.load(tmp_path / "nowhere.yaml")
+    bad = tmp_path / "bad.yaml"
+    bad.write_text("gaol_um: [1, 2]\n")
+    with pytest.raises(ms.InputError, match=r"bad.yaml:1:1: unknown key 'gaol_um', did you mean 'goal_um'"):
+        ms.Scenario.load(bad)
+    assert issubclass(ms.InputError, ValueError)
