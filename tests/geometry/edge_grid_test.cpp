@@ -49,6 +49,9 @@ void expect_same_as_brute_force(const std::vector<Segment>& edges, const EdgeGri
     const Segment s{p, p + random_point(rng, {{-reach, -reach}, {reach, reach}})};
     const double r = i % 5 == 0 ? 0 : std::pow(10.0, rng.uniform(-6, 2));
     EXPECT_EQ(grid.capsule_free(s, r), brute_free(edges, s, r));
+    // A capsule around a point, with radii at and beside the distance as well.
+    for (const double at : {r, std::sqrt(d), std::nextafter(std::sqrt(d), infinity), 0.0})
+      EXPECT_EQ(grid.capsule_free({p, p}, at), brute_free(edges, {p, p}, at)) << at;
     double segment_distance = infinity;
     for (const Segment& e : edges) {
       segment_distance = std::min(segment_distance, squared_distance(s, e));

@@ -265,8 +265,31 @@ double EdgeGrid::reach_of(Segment s, double r) const {
   return r + slack_ + rounding * (r + magnitude(s.a) + magnitude(s.b));
 }
 
+/// The same answers, to the bit, as for the capsule whose two ends are `p`: the tests of a segment
+/// rule out nothing there.
+bool EdgeGrid::disc_free(Vec2 p, double r) const {
+  const double reach = reach_of({p, p}, r);
+  if (!Box{p, p}.grown(reach).overlaps(box_)) return true;
+  const Run columns{column_of(p.x - reach), column_of(p.x + reach)};
+  const int last_row = row_of(p.y + reach);
+  const double squared = r * r;
+  const double touching = (reach - r) * (reach - r);
+  for (int row = row_of(p.y - reach); row <= last_row; ++row) {
+    for (const std::uint32_t id : edges_in(row, columns)) {
+      const Segment& e = edges_[id];
+      const double to_edge = microswarm::squared_distance(p, e);
+      if ((to_edge < squared) | (squared_norm(e.a - p) < squared) |
+          (squared_norm(e.b - p) < squared))
+        return false;
+      if (to_edge <= touching && intersects({p, p}, e)) return false;
+    }
+  }
+  return true;
+}
+
 bool EdgeGrid::capsule_free(Segment s, double r) const {
   if (empty()) return true;
+  if (s.a == s.b) return disc_free(s.a, r);
   const double reach = reach_of(s, r);
   const Sweep sweep(*this, s, reach);
   const Capsule capsule(s, r, reach);

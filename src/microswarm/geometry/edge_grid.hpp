@@ -86,6 +86,7 @@ class EdgeGrid {
     return {box_.lo.x + (column + 0.5) * cell_, box_.lo.y + (row + 0.5) * cell_};
   }
   double reach_of(Segment s, double r) const;
+  bool disc_free(Vec2 p, double r) const;
   void choose_cells(double cell);
   void fill_cells();
   void find_windings();
