@@ -30,6 +30,11 @@ void expect_as_brute_force(const Drawn& drawn, const BodySet& set, Rng& rng, int
     if (std::abs(along - r) > 1e-9) {
       EXPECT_EQ(set.is_free(s, r), is_free_at(along, r));
     }
+    const Segment far{p, random_point(rng, drawn.bounds.grown(200))};
+    const double along_far = drawn.to_walls(far);
+    if (std::abs(along_far - r) > 1e-9) {
+      EXPECT_EQ(set.is_free(far, r), is_free_at(along_far, r));
+    }
     if (at > 0) {
       EXPECT_EQ(set.is_free_from_outside(s, r), set.is_free(s, r));
     }

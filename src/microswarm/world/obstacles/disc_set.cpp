@@ -90,6 +90,37 @@ bool DiscSet::all_near(const Box& box, Visit&& is_clear_of) const {
   return true;
 }
 
+/// The same along a segment: in each row only the columns that the capsule may pass.
+template <class Visit>
+bool DiscSet::all_near(Segment s, double r, Visit&& is_clear_of) const {
+  const Box box = box_of(s).grown(r);
+  if (!bucketed() || row_of(box.lo.y) == row_of(box.hi.y)) return all_near(box, is_clear_of);
+  if (!box.overlaps(box_)) return true;
+  const auto [low, high] = s.a.y < s.b.y ? std::pair{s.a, s.b} : std::pair{s.b, s.a};
+  // Exceeds any rounding error here.
+  const double margin =
+      r + 1e-9 * (cell_ + std::abs(low.x) + std::abs(low.y) + std::abs(high.x) + std::abs(high.y));
+  const double slope = (high.x - low.x) / (high.y - low.y);
+  const bool is_slanted = high.y - low.y > margin - r;
+  const auto x_at = [&](double y) {
+    return low.x + (std::clamp(y, low.y, high.y) - low.y) * slope;
+  };
+  const Run rows{row_of(box.lo.y), row_of(box.hi.y)};
+  for (int row = rows.first; row <= rows.last; ++row) {
+    double left = box.lo.x, right = box.hi.x;
+    if (is_slanted) {
+      const double bottom = box_.lo.y + row * cell_ - margin;
+      const double enter = x_at(bottom), leave = x_at(bottom + cell_ + 2 * margin);
+      left = std::max(left, std::min(enter, leave) - margin);
+      right = std::min(right, std::max(enter, leave) + margin);
+    }
+    const std::uint32_t* first = first_.data() + static_cast<std::size_t>(row) * columns_;
+    for (std::uint32_t k = first[column_of(left)]; k < first[column_of(right) + 1]; ++k)
+      if (!is_clear_of(discs_[ids_[k]])) return false;
+  }
+  return true;
+}
+
 bool DiscSet::is_free(Vec2 p, double r) const {
   return all_near(Box{p, p}.grown(r),
                   [&](const Disc& d) { return is_clear(squared_norm(p - d.centre), r, d.radius); });
@@ -98,7 +129,7 @@ bool DiscSet::is_free(Vec2 p, double r) const {
 bool DiscSet::is_free(Segment s, double r) const {
   const Vec2 middle = 0.5 * (s.a + s.b);
   const double half = 0.5 * distance(s.a, s.b) * (1 + 1e-12);
-  return all_near(box_of(s).grown(r), [&](const Disc& d) {
+  return all_near(s, r, [&](const Disc& d) {
     const double reach = half + r + d.radius;
     return squared_norm(middle - d.centre) > reach * reach ||
            is_clear(squared_distance(d.centre, s), r, d.radius);

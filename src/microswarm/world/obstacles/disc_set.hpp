@@ -50,6 +50,8 @@ class DiscSet {
   void fill_buckets();
   template <class Visit>
   bool all_near(const Box& box, Visit&& is_clear) const;
+  template <class Visit>
+  bool all_near(Segment s, double r, Visit&& is_clear) const;
 
   std::vector<Disc> discs_;
   std::vector<std::uint32_t> bodies_;
