@@ -117,6 +117,40 @@ TEST(Map, says_of_many_places_what_it_says_of_each) {
   EXPECT_EQ(found, (std::vector<std::uint8_t>{0, 0}));
 }
 
+TEST(Map, excludes_no_free_place_of_many) {
+  Rng rng(6, Purpose::test);
+  for (int world = 0; world < 4; ++world) {
+    const Drawn drawn = world == 0 ? Drawn{} : crowded(rng, 12 * world, 6 * world);
+    const Map map = drawn.map(world % 2 == 0 ? 0 : 30);
+    const std::vector<Vec2> places = places_of_every_kind(rng, drawn, map);
+    for (const double r : {0.0, 7.0, 40.0, 1e4, std::numeric_limits<double>::quiet_NaN()}) {
+      for (std::size_t i = 0; i + 4 <= places.size(); i += 4) {
+        const unsigned bits = map.may_be_free(std::span(places).subspan(i, 4), r);
+        ASSERT_LT(bits, 16u);
+        for (std::size_t k = 0; k < 4; ++k)
+          ASSERT_TRUE((bits >> k) % 2 == 1 || !map.is_free(places[i + k], r));
+      }
+    }
+  }
+}
+
+TEST(Map, tells_a_capsule_that_just_passes_from_one_that_just_does_not) {
+  Rng rng(7, Purpose::test);
+  for (int world = 0; world < 6; ++world) {
+    const Drawn drawn = orchard(rng, 5 + world, 3 + world % 4);
+    const Map map = drawn.map(world % 2 == 0 ? 0 : 30);
+    for (int i = 0; i < 3000; ++i) {
+      const Segment s = random_segment(rng, drawn.bounds, i);
+      const double along = drawn.clearance(s);
+      for (const double by : {1e-10, 1e-8, 1e-6, 1e-4}) {
+        if (along <= by) continue;
+        ASSERT_TRUE(map.is_free(s, along - by)) << along << " less " << by;
+        ASSERT_FALSE(map.is_free(s, along + by)) << along << " and " << by;
+      }
+    }
+  }
+}
+
 TEST(Map, never_steps_over_a_thin_wall) {
   Rng rng(3, Purpose::test);
   for (const double thickness : {1.0, 0.01, 1e-6}) {

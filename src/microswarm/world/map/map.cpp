@@ -138,7 +138,9 @@ bool Map::passes_a_wall(Segment s, double length, double least) const {
   return false;
 }
 
-// All lookups come before the first branch, since which of them decides is hard to predict.
+// All lookups come before the first branch, since which of them decides is hard to predict. Near
+// walls the whole capsule is tested; halves decide only where its distance differs from r by no
+// more than rounding might.
 bool Map::is_free(Segment s, double r) const {
   const double lower_a = field_.lower(s.a);
   const double middle = field_.lower(s.a + 0.5 * (s.b - s.a));
@@ -154,7 +156,18 @@ bool Map::is_free(Segment s, double r) const {
   const double from_a = useful_clearance(s.a, lower_a, r, length);
   if (!(from_a >= r && from_a > 0)) return false;
   const double from_b = useful_clearance(s.b, lower_b, r, length);
-  return from_b >= r && from_b > 0 && piece_is_free(s, from_a, from_b, r, 4);
+  if (!(from_b >= r && from_b > 0)) return false;
+  if (from_a - r + from_b - r >= length) return true;
+  const double more = margin(r);
+  if (walls_.is_free_from_outside(s, r + more)) return true;
+  if (r > more && !walls_.is_free_from_outside(s, r - more)) return false;
+  return piece_is_free(s, from_a, from_b, r, 4);
+}
+
+/// Exceeds any rounding error of a distance here.
+double Map::margin(double r) const {
+  const auto size = [](Vec2 p) { return std::abs(p.x) + std::abs(p.y); };
+  return 1e-9 * (size(bounds_.lo) + size(bounds_.hi) + r);
 }
 
 // A piece is free if two balls of known clearance at its ends cover it. Otherwise it is halved, or,
