@@ -66,6 +66,27 @@ TEST(SearchTree, CostsStayRightUnderRandomReparenting) {
   }
 }
 
+TEST(SearchTree, TheLengthExcludesNoCheaperEdge) {
+  for (const PathCost cost :
+       {PathCost{1, 0}, PathCost{1, 50}, PathCost{0.3, 3}, PathCost{1, 50, 20}}) {
+    Rng rng(3, Purpose::test);
+    SearchTree tree(bounds, {random_point(rng), 1}, cost);
+    int excluded = 0;
+    for (std::uint32_t i = 0; i < 3000; ++i) {
+      const auto node = static_cast<std::uint32_t>(rng.below(tree.size()));
+      // Straight ahead a turn costs nothing.
+      const Vec2 p =
+          i % 2 == 0 ? random_point(rng)
+                     : tree[node].position + rng.uniform(1, 30) * unit_vector(tree[node].heading);
+      const double via = tree.cost_via(node, p);
+      EXPECT_TRUE(tree.may_be_cheaper(node, p, std::nextafter(via, 1e9)));
+      excluded += !tree.may_be_cheaper(node, p, 0.9 * via);
+      if (i % 5 == 0) tree.add(node, p);
+    }
+    EXPECT_EQ(excluded > 0, cost.turn_radius == 0);
+  }
+}
+
 TEST(SearchTree, NearestAndNearAgreeWithBruteForce) {
   Rng rng(2, Purpose::test);
   SearchTree tree(bounds, {random_point(rng), 0}, {});

@@ -36,7 +36,9 @@ void SearchTree::near(Vec2 p, double radius, std::vector<std::uint32_t>& out) co
 std::uint32_t SearchTree::add(std::uint32_t parent, Vec2 p) {
   assert(p != nodes_[parent].position);
   const std::uint32_t node = size();
-  nodes_.push_back({p, cost_.heading_at_end(nodes_[parent], p), cost_via(parent, p), parent});
+  const TreeNode& from = nodes_[parent];
+  const double heading = cost_.heading_at_end(from, p);
+  nodes_.push_back({p, heading, from.cost + cost_.edge(from, p, heading), parent});
   links_.emplace_back();
   link(node, parent);
   points_.add(p);
@@ -49,8 +51,9 @@ void SearchTree::reparent(std::uint32_t node, std::uint32_t parent) {
   link(node, parent);
   TreeNode& moved = nodes_[node];
   moved.parent = parent;
-  moved.heading = cost_.heading_at_end(nodes_[parent], moved.position);
-  moved.cost = cost_via(parent, moved.position);
+  const TreeNode& from = nodes_[parent];
+  moved.heading = cost_.heading_at_end(from, moved.position);
+  moved.cost = from.cost + cost_.edge(from, moved.position, moved.heading);
   recost_below(node);
 }
 

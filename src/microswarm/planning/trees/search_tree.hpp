@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "microswarm/contracts/plan.hpp"
+#include "microswarm/core/maths/angles.hpp"
 #include "microswarm/geometry/point_grid.hpp"
 
 namespace microswarm {
@@ -22,6 +23,12 @@ struct PathCost {
     if (turn_radius > 0) return turned_edge(node, p);
     const double length = per_length * distance(node.position, p);
     return per_turn == 0 ? length : length + per_turn * turn(node, p);
+  }
+  /// The same, given the heading at `p` on the edge, which saves finding it.
+  double edge(const TreeNode& node, Vec2 p, double heading) const {
+    if (turn_radius > 0) return turned_edge(node, p);
+    const double length = per_length * distance(node.position, p);
+    return per_turn == 0 ? length : length + per_turn * turn_between(node.heading, heading);
   }
   /// Heading [rad] at `p` on the edge from `node`.
   double heading_at_end(const TreeNode& node, Vec2 p) const;
@@ -47,6 +54,14 @@ class SearchTree {
   /// Cost from the root to `p` through `node`.
   double cost_via(std::uint32_t node, Vec2 p) const {
     return nodes_[node].cost + cost_.edge(nodes_[node], p);
+  }
+
+  /// Whether the cost to `p` through `node` can be less than `known`, which the length of a
+  /// straight edge alone may exclude. Turns cost nothing or more, and rounding is monotone, so this
+  /// never excludes wrongly.
+  bool may_be_cheaper(std::uint32_t node, Vec2 p, double known) const {
+    return cost_.turn_radius > 0 ||
+           nodes_[node].cost + cost_.per_length * distance(nodes_[node].position, p) < known;
   }
 
   /// Adds a leaf at `p`, which must differ from its parent's position.

@@ -125,8 +125,10 @@ std::uint32_t TreeGrowth::choose_parent(Vec2 p, std::uint32_t nearest) {
   for (const std::uint32_t node : near_) {
     if (node == nearest || tree_[node].position == p) continue;
     // No cheaper than the edge already known to be free.
+    const double known = candidates_.front().cost;
+    if (!tree_.may_be_cheaper(node, p, known)) continue;
     const double cost = tree_.cost_via(node, p);
-    if (cost < candidates_.front().cost) candidates_.push_back({cost, node});
+    if (cost < known) candidates_.push_back({cost, node});
   }
   std::make_heap(candidates_.begin(), candidates_.end());
   while (candidates_.front().node != nearest) {
@@ -144,7 +146,9 @@ void TreeGrowth::rewire(std::uint32_t node) {
     const Vec2 q = tree_[other].position;
     if (cost_.turn_radius > 0 && !tree_.is_leaf(other)) continue;
     // Costs grow along every path, so an ancestor of this node is never cheaper through it.
-    if (q != p && tree_.cost_via(node, q) < tree_[other].cost && edge_is_free(node, q)) {
+    const double known = tree_[other].cost;
+    if (q != p && tree_.may_be_cheaper(node, q, known) && tree_.cost_via(node, q) < known &&
+        edge_is_free(node, q)) {
       tree_.reparent(other, node);
     }
   }
