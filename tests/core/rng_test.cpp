@@ -47,6 +47,23 @@ TEST(Rng, StreamIsTheCounterUnderTheKey) {
   }
 }
 
+TEST(Rng, NumbersAheadAreThoseDrawn) {
+  Rng which(1, Purpose::test), plain(2, Purpose::test), ahead(2, Purpose::test);
+  for (int i = 0; i < 10'000; ++i) {
+    const std::size_t count = which.below(Rng::most_ahead + 1);
+    const auto seen = ahead.ahead(count);
+    ASSERT_EQ(seen.size(), count);
+    Rng copy = plain;
+    for (const std::uint64_t bits : seen) ASSERT_EQ(bits, copy.bits());
+    const std::size_t drawn = which.below(count + 1);
+    ahead.skip(drawn);
+    for (std::size_t k = 0; k < drawn; ++k) plain.bits();
+    if (which.below(2) == 0) {
+      ASSERT_EQ(ahead.bits(), plain.bits());
+    }
+  }
+}
+
 TEST(Rng, NoTwoKeysShareNumbers) {
   std::set<std::uint64_t> seen;
   std::size_t drawn = 0;

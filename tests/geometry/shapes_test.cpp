@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "microswarm/geometry/shapes.hpp"
+#include "microswarm/geometry/uniform_in.hpp"
 #include "tests/geometry/frame.hpp"
 
 #include <gtest/gtest.h>
+
+#include <array>
 
 namespace microswarm {
 namespace {
@@ -41,6 +44,18 @@ TEST(Polygon, AreaLessHoles) {
 TEST(Polygon, SmallAreasFarOutKeepTheirDigits) {
   const std::vector<Vec2> ring{{1e9, 1e9}, {1e9 + 1, 1e9}, {1e9 + 1, 1e9 + 1}, {1e9, 1e9 + 1}};
   EXPECT_EQ(signed_area(ring), 1);
+}
+
+TEST(UniformIn, PointsAheadAreThoseDrawn) {
+  const Box box{{-3, 7}, {11, 8}};
+  Rng rng(1, Purpose::test);
+  for (std::size_t i = 0; i < 1000; ++i) {
+    std::array<Vec2, Rng::most_ahead / 2> ahead;
+    look_ahead(box, rng, ahead);
+    Rng copy = rng;
+    for (const Vec2 p : ahead) ASSERT_EQ(p, uniform_in(box, copy));
+    rng.skip(i % (Rng::most_ahead + 1));
+  }
 }
 
 TEST(Polygon, EveryEdgeOnce) {

@@ -3,6 +3,7 @@
 
 #include <Random123/philox.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -18,16 +19,19 @@ Rng::Rng(std::uint64_t seed, Purpose purpose, std::uint32_t trial)
     : key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)},
       counter_{0, 0, trial, static_cast<std::uint32_t>(purpose)} {}
 
+/// Makes `most_ahead` numbers more; fewer than that may be left.
 void Rng::refill() {
+  std::copy(numbers_.begin() + next_, numbers_.begin() + end_, numbers_.begin());
+  end_ -= next_;
+  next_ = 0;
   const philox4x32_key_t key{{key_[0], key_[1]}};
-  for (std::size_t i = 0; i < block_.size(); i += 2) {
+  for (const std::size_t last = end_ + most_ahead; end_ < last; end_ += 2) {
     const philox4x32_ctr_t counter{{counter_[0], counter_[1], counter_[2], counter_[3]}};
     const philox4x32_ctr_t r = philox4x32(counter, key);
-    block_[i] = r.v[0] | static_cast<std::uint64_t>(r.v[1]) << 32;
-    block_[i + 1] = r.v[2] | static_cast<std::uint64_t>(r.v[3]) << 32;
+    numbers_[end_] = r.v[0] | static_cast<std::uint64_t>(r.v[1]) << 32;
+    numbers_[end_ + 1] = r.v[2] | static_cast<std::uint64_t>(r.v[3]) << 32;
     if (++counter_[0] == 0) ++counter_[1];
   }
-  next_ = 0;
 }
 
 std::uint64_t Rng::below(std::uint64_t n) {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace microswarm {
 
@@ -29,11 +31,24 @@ class Rng {
 
   /// Next 64 random bits.
   std::uint64_t bits() {
-    if (next_ == block_.size()) refill();
-    return block_[next_++];
+    if (next_ == end_) refill();
+    return numbers_[next_++];
+  }
+  /// The bits that the next `count` <= most_ahead calls of `bits` will give, without drawing them.
+  std::span<const std::uint64_t> ahead(std::size_t count) {
+    assert(count <= most_ahead);
+    if (end_ - next_ < count) refill();
+    return {numbers_.data() + next_, count};
+  }
+  static constexpr std::size_t most_ahead = 8;
+  /// Draws `count` numbers that were looked at.
+  void skip(std::size_t count) {
+    assert(count <= end_ - next_);
+    next_ += count;
   }
   /// Uniform in [0, 1).
-  double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+  double uniform() { return uniform_of(bits()); }
+  static double uniform_of(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
   /// Uniform in [lo, hi).
   double uniform(double lo, double hi) { return lo + (hi - lo) * uniform(); }
   /// Uniform integer in [0, n), always from 64 bits; the bias of a value is below 2^-64. n must not
@@ -47,8 +62,9 @@ class Rng {
 
   std::array<std::uint32_t, 2> key_;
   std::array<std::uint32_t, 4> counter_;
-  std::array<std::uint64_t, 8> block_{};
-  std::size_t next_ = 8;
+  std::array<std::uint64_t, 2 * most_ahead> numbers_{};  ///< made and not drawn: [next_, end_)
+  std::size_t next_ = 0;
+  std::size_t end_ = 0;
 };
 
 }  // namespace microswarm

@@ -2,6 +2,8 @@
 #include "microswarm/planning/trees/tree_growth.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <limits>
 
 #include "microswarm/core/maths/angles.hpp"
@@ -12,7 +14,7 @@
 namespace microswarm {
 namespace {
 
-constexpr int max_sample_draws = 200;
+constexpr std::size_t max_sample_draws = 200;
 
 /// A root at a non-finite position would break the tree's grid; it is reported as blocked.
 Pose2 finite(Pose2 pose) { return is_finite(pose.position) ? pose : Pose2{}; }
@@ -60,9 +62,30 @@ bool TreeGrowth::goes_on() {
 
 template <class Draw>
 std::optional<Vec2> TreeGrowth::draw_free(Draw&& draw) {
-  for (int i = 0; i < max_sample_draws; ++i) {
+  for (std::size_t i = 0; i < max_sample_draws; ++i) {
     const std::optional<Vec2> p = draw();
     if (p && world_.is_free(*p, params_.clearance)) return p;
+  }
+  return std::nullopt;
+}
+
+/// The same as drawing a point of the box until one is free, but after a first one looks up several
+/// at a time: where many are not free, which one is free is hard to predict.
+std::optional<Vec2> TreeGrowth::draw_free_uniform() {
+  const Vec2 first = uniform_in(sampled_, rng_);
+  if (world_.is_free(first, params_.clearance)) return first;
+  std::array<Vec2, Rng::most_ahead / 2> some;
+  for (std::size_t drawn = 1; drawn < max_sample_draws; drawn += some.size()) {
+    const auto places = std::span(some).first(std::min(some.size(), max_sample_draws - drawn));
+    look_ahead(sampled_, rng_, places);
+    for (unsigned left = world_.map().may_be_free(places, params_.clearance); left != 0;
+         left &= left - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(left));
+      if (!world_.is_free(places[k], params_.clearance)) continue;
+      rng_.skip(2 * (k + 1));
+      return places[k];
+    }
+    rng_.skip(2 * places.size());
   }
   return std::nullopt;
 }
@@ -70,7 +93,9 @@ std::optional<Vec2> TreeGrowth::draw_free(Draw&& draw) {
 std::optional<Vec2> TreeGrowth::sample() {
   ++counts_.samples;
   if (rng_.uniform() >= params_.goal_bias)
-    return draw_free([&] { return std::optional(sample_in(sampled_, params_, rng_)); });
+    return params_.sample_pitch == 0
+               ? draw_free_uniform()
+               : draw_free([&] { return std::optional(sample_in(sampled_, params_, rng_)); });
   if (goal_is_free_) return goal_;
   const Vec2 reach{params_.goal_tolerance, params_.goal_tolerance};
   return draw_free([&] {

@@ -56,6 +56,7 @@ class TreeGrowth {
   std::optional<Status> reason_to_end() const;
   template <class Draw>
   std::optional<Vec2> draw_free(Draw&& draw);
+  std::optional<Vec2> draw_free_uniform();
 
   const Snapshot& world_;
   const TreeParams& params_;
