@@ -101,7 +101,11 @@ TEST(StandaloneNavigator, BadInputIsRefusedAndChangesNothing) {
   refuses([&](Sight& s) { s.swarm->pose.heading = infinity; }, "heading of the swarm is inf");
   refuses([&](Sight& s) { s.swarm->radius = -1; }, "radius of the swarm is -1");
   refuses([&](Sight& s) { s.obstacles = {{Disc{{1, 2}, 0}}}; }, "radius of an obstacle is 0");
-  refuses([&](Sight& s) { s.obstacles = {{Disc{{1e9, 2}, 5}}}; }, "place of an obstacle is 1000000000");
+  refuses(
+      [&](Sight& s) {
+        s.obstacles = {{Disc{{1e9, 2}, 5}}};
+      },
+      "place of an obstacle is 1000000000");
   refuses([&](Sight& s) { s.obstacles = {{Polygon{{{0, 0}, {1, 0}}, {}}}}; }, "fewer than 3");
   refuses([&](Sight& s) { s.obstacles.assign(100'001, {Disc{{1, 2}, 3}}); }, "at most 100000");
   refuses([&](Sight& s) { s.robots = {{1, 2}}; }, "has no robots");

@@ -15,10 +15,11 @@ Map map_of_pixels(std::span<const std::uint8_t> pixels, std::size_t width, std::
   constexpr std::size_t most = 65'535;
   for (const std::size_t side : {width, height})
     if (side < 1 || side > most)
-      throw InputError(fmt::format("an image of {} × {} pixels: a side must be 1 to {}", width,
-                                   height, most));
+      throw InputError(
+          fmt::format("an image of {} × {} pixels: a side must be 1 to {}", width, height, most));
   if (pixels.size() != width * height)
-    throw InputError(fmt::format("{} pixels for an image of {} × {}", pixels.size(), width, height));
+    throw InputError(
+        fmt::format("{} pixels for an image of {} × {}", pixels.size(), width, height));
   if (!(um_per_px >= 1e-6 && um_per_px <= 1e6))
     throw InputError(fmt::format("um_per_px is {}, must be 1e-6 to 1e6", um_per_px));
   if (!(tolerance >= 0 && tolerance <= 1e6))

@@ -96,7 +96,8 @@ bool DiscSet::all_near(Segment s, double r, Visit&& is_clear_of) const {
   const Box box = box_of(s).grown(r);
   if (!bucketed() || row_of(box.lo.y) == row_of(box.hi.y)) return all_near(box, is_clear_of);
   if (!box.overlaps(box_)) return true;
-  const auto [low, high] = s.a.y < s.b.y ? std::pair{s.a, s.b} : std::pair{s.b, s.a};
+  const bool rises = s.a.y < s.b.y;
+  const Vec2 low = rises ? s.a : s.b, high = rises ? s.b : s.a;
   // Exceeds any rounding error here.
   const double margin =
       r + 1e-9 * (cell_ + std::abs(low.x) + std::abs(low.y) + std::abs(high.x) + std::abs(high.y));
