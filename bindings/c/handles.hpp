@@ -35,6 +35,7 @@ struct Object {
   std::atomic<bool> stops = false;
   std::string text;
   std::vector<double> numbers;
+  std::vector<ms_frame> frames;
   std::string why;
 };
 

@@ -93,6 +93,8 @@ int32_t ms_session_metrics(uint64_t session, const char** json);
 int32_t ms_session_robots(uint64_t session, const double** xy_um, size_t* count);
 int32_t ms_session_obstacles(uint64_t session, const double** xyr_um, size_t* count);
 int32_t ms_session_path(uint64_t session, const double** xy_um, size_t* count);
+/* All frames so far, of a record all that it has; after the last tick one more tells the end. */
+int32_t ms_session_frames(uint64_t session, const ms_frame** frames, size_t* count);
 /* Fingerprint of the record so far: equal for equal runs. */
 int32_t ms_session_hash(uint64_t session, const char** hash);
 /* Writes the record (HDF5). */

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Experiments, and navigators in a loop of the caller's own.
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "handles.hpp"
@@ -179,6 +181,18 @@ int32_t ms_session_obstacles(uint64_t handle, const double** xyr_um, size_t* cou
     }
     *count = object.numbers.size() / 3;
     *xyr_um = *count > 0 ? object.numbers.data() : nullptr;
+    return MS_OK;
+  });
+}
+
+int32_t ms_session_frames(uint64_t handle, const ms_frame** frames, size_t* count) {
+  return c::with_session(handle, [&](Session& session, c::Object& object) -> int32_t {
+    c::require(frames, "frames"), c::require(count, "count");
+    const std::vector<Frame>& all = session.record().frames;
+    object.frames.resize(all.size());
+    std::transform(all.begin(), all.end(), object.frames.begin(), plain);
+    *count = object.frames.size();
+    *frames = object.frames.empty() ? nullptr : object.frames.data();
     return MS_OK;
   });
 }

@@ -33,6 +33,7 @@ static void sessions(const char* file) {
   const char* settings[] = {"time_limit_s=60", "seed=3"};
   uint64_t session = 0, again = 0, playback = 0;
   ms_frame frame;
+  const ms_frame* frames = NULL;
   const char* text = NULL;
   char hash[64] = "";
   double length = 0, wall = 0;
@@ -45,6 +46,9 @@ static void sessions(const char* file) {
   EXPECT(ms_session_step(session, &frame) == MS_OK);
   EXPECT(frame.t_s == 0 && frame.x_um == 200 && frame.y_um == 300);
   EXPECT(ms_session_step(session, NULL) == MS_OK);
+  EXPECT(ms_session_frames(session, &frames, &count) == MS_OK && count == 2);
+  EXPECT(frames[0].x_um == 200 && frames[1].t_s > 0);
+  EXPECT_ERROR(ms_session_frames(session, NULL, &count), MS_BAD_CALL, "frames is null");
   EXPECT(ms_session_set(session, "navigator.speed_um_per_s", "60") == MS_OK);
   EXPECT_ERROR(ms_session_set(session, "navigator.sped_um_per_s", "60"), MS_BAD_INPUT,
                "did you mean");
@@ -54,6 +58,8 @@ static void sessions(const char* file) {
   EXPECT(ms_session_obstacles(session, &places, &count) == MS_OK && count == 0);
   EXPECT(ms_session_finish(session) == MS_OK);
   EXPECT(ms_session_step(session, &frame) == MS_END);
+  EXPECT(ms_session_frames(session, &frames, &count) == MS_OK && count > 100);
+  EXPECT(strcmp(ms_state_name(frames[count - 1].state), "end") == 0);
   EXPECT(ms_session_status(session, &text) == MS_OK && strcmp(text, "solved") == 0);
   EXPECT(ms_session_metric(session, "length_um", &length) == MS_OK && length > 1600);
   EXPECT(ms_session_metric(session, "walls.clearance_um", &wall) == MS_OK && wall > 40);
