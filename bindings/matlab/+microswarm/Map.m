@@ -1,0 +1,58 @@
+classdef Map < handle
+% microswarm.Map  Walls of a place, with exact distances to them.
+%
+%   map = microswarm.Map('vessels.geojson');
+%   map = microswarm.Map(picture > 128, 9);     % a pixel has a side of 9 um
+%
+% Lengths are in um; y points up, and the origin of a matrix is its lower left corner.
+%
+% Methods: bounds, clearance, close. A map that is cleared is closed.
+% Errors: microswarm:bad_input for a file, matrix or place; microswarm:bad_call after close.
+
+% SPDX-License-Identifier: Apache-2.0
+  properties (SetAccess = private, Hidden)
+    id = [];  % handle of the library
+  end
+  methods
+    function self = Map(source, um_per_px)
+    % Map(source, um_per_px)
+    %
+    % source      a picture, ROS .yaml, MovingAI .map, GeoJSON or CSV of rectangles, or a matrix of class
+    %             logical or uint8, the upper row first: the swarm may go where it is not 0
+    % um_per_px   side of a pixel or cell [um]; needed where the file does not tell it
+      if nargin < 1, error('microswarm:bad_call', 'a map needs a file or a matrix'); end
+      if nargin < 2, um_per_px = 0; end
+      if isa(source, 'string') && isscalar(source), source = char(source); end
+      if ~ischar(source) && isequal(um_per_px, 0)
+        error('microswarm:bad_input', 'a map of a matrix needs um_per_px');
+      end
+      self.id = microswarm_mex('map_open', source, um_per_px);
+    end
+
+    function box = bounds(self)
+    % box = map.bounds()   [x_lo y_lo x_hi y_hi] in um.
+      box = microswarm_mex('map_bounds', self.id);
+    end
+
+    function distances = clearance(self, places_um)
+    % distances = map.clearance(places_um)   From each row x, y to walls and border [um], 0 in a wall.
+      distances = microswarm_mex('map_clearance', self.id, places_um);
+    end
+
+    function close(self)
+    % map.close()   Ends it; what is called later is an error. Closing twice is none.
+      if ~isempty(self.id) && self.id ~= 0
+        id = self.id;
+        self.id = uint64(0);
+        microswarm_mex('close', id);
+      end
+    end
+
+    function delete(self)
+      try  % the MEX file may be cleared already, which closed all
+        self.close();
+      catch
+      end
+    end
+  end
+end

@@ -1,0 +1,46 @@
+function path = plan(map, start, goal, varargin)
+% microswarm.plan  Plans a path in a map.
+%
+%   path = microswarm.plan('room.png', [50 50], [350 50], 'um_per_px', 10)
+%   path = microswarm.plan(free, [50 50], [350 50], 'um_per_px', 10, ...
+%                          'planner', 'drrt_star', 'clearance_um', 40, 'max_nodes', 5000)
+%
+% map        a file, a matrix of class logical or uint8, the upper row first (the swarm may go where
+%            it is not 0), or a microswarm.Map, which is quicker for many paths
+% start      [x_um y_um] or [x_um y_um heading_rad]
+% goal       [x_um y_um]
+%
+% um_per_px  side of a pixel or cell [um], where the map does not tell it
+% planner    'exact', the shortest path, which is the default, or 'drrt_star', 'rrt_star', 'rrt',
+%            'rrt_connect', 'a_star', 'theta_star', 'fmt_star', ...
+% seed       a whole number; 1 without
+% others     values of the planner, units in the names: 'clearance_um', 'step_um', ...; what is not
+%            given follows from the map
+%
+% path.solved        false: the points are the beginning of a path
+% path.points_um     n x 2
+% path.length_um, path.turning_rad   arcs as arcs
+% path.time_s        that the planner took
+% path.why_none      why there is no path; '' with one
+%
+% Errors: microswarm:bad_input for a file, matrix, place or value.
+
+  % SPDX-License-Identifier: Apache-2.0
+  if nargin < 3, error('microswarm:bad_call', 'plan needs a map, a start and a goal'); end
+  um_per_px = 0;
+  seed = 1;
+  settings = {'planner.type=exact'};
+  for k = 1:2:numel(varargin)
+    name = microswarm.internal.plain_text(varargin{k}, 'the name of a value');
+    if k == numel(varargin), error('microswarm:bad_input', 'the value of %s is missing', name); end
+    value = varargin{k + 1};
+    switch name
+      case 'um_per_px', um_per_px = value;
+      case 'seed', seed = value;
+      case 'planner', settings{1} = ['planner.type=' microswarm.internal.plain_text(value, 'planner')];
+      otherwise, settings(end + 1) = microswarm.internal.settings_of({name, value}, 'planner.');  %#ok<AGROW>
+    end
+  end
+  if ~isa(map, 'microswarm.Map'), map = microswarm.Map(map, um_per_px); end
+  path = microswarm_mex('plan', map.id, start, goal, seed, settings);
+end

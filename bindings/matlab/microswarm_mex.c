@@ -1,0 +1,386 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* microswarm_mex(command, ...): the C interface for MATLAB and Octave. Users call the functions of
+ * the package folder +microswarm, which say what their arguments mean; here arguments are checked
+ * and converted. Handles are uint64. Places are matrices with a row for each.
+ *
+ * Errors have the identifiers microswarm:bad_input, bad_call, stopped, no_memory and fault. */
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mex.h"
+#include "mex_values.h"
+#include "microswarm.h"
+
+/* ---- Open handles --------------------------------------------------------------------------- */
+
+static struct {
+  uint64_t* handles;
+  size_t count, space;
+} opened;
+
+static void close_all(void) {
+  size_t i;
+  for (i = 0; i < opened.count; ++i) ms_close(opened.handles[i]);
+  free(opened.handles);
+  memset(&opened, 0, sizeof opened);
+}
+
+/* A handle as value of MATLAB; it is closed at `clear mex` at the latest. */
+static mxArray* keep(uint64_t handle) {
+  mxArray* value;
+  if (opened.count == opened.space) {
+    const size_t space = 2 * opened.space + 16;
+    uint64_t* more = realloc(opened.handles, space * sizeof *more);
+    if (!more) {
+      ms_close(handle);
+      fail("microswarm:no_memory", "there is not enough memory");
+    }
+    opened.handles = more, opened.space = space;
+  }
+  opened.handles[opened.count++] = handle;
+  value = mxCreateNumericMatrix(1, 1, mxUINT64_CLASS, mxREAL);
+  *(uint64_t*)mxGetData(value) = handle;
+  return value;
+}
+
+#define COLUMN(name) \
+  { #name, offsetof(ms_frame, name) }
+static const struct {
+  const char* name;
+  size_t offset;
+} frame_columns[] = {
+    COLUMN(t_s),
+    COLUMN(x_um),
+    COLUMN(y_um),
+    COLUMN(heading_rad),
+    COLUMN(radius_um),
+    COLUMN(speed_um_per_s),
+    COLUMN(command_heading_rad),
+    COLUMN(command_speed_um_per_s),
+    COLUMN(goal_distance_um),
+    COLUMN(wall_clearance_um),
+    COLUMN(obstacle_clearance_um),
+    COLUMN(avoidance_cost),
+    COLUMN(target_x_um),
+    COLUMN(target_y_um),
+};
+enum { FRAME_COLUMNS = sizeof frame_columns / sizeof *frame_columns };
+
+static void put(mxArray* made, const char* name, mxArray* value) {
+  mxSetFieldByNumber(made, 0, mxAddField(made, name), value);
+}
+
+/* A struct of columns; the state is a cell array of texts, of a single frame a text. */
+static mxArray* frames_of(const ms_frame* frames, size_t count, int is_single) {
+  mxArray* made = mxCreateStructMatrix(1, 1, 0, NULL);
+  mxArray* states = is_single ? NULL : mxCreateCellMatrix(count, 1);
+  mxArray* planned = mxCreateLogicalMatrix(count, 1);
+  size_t i, k;
+  for (k = 0; k < FRAME_COLUMNS; ++k) {
+    mxArray* column = mxCreateDoubleMatrix(count, 1, mxREAL);
+    double* out = mxGetPr(column);
+    for (i = 0; i < count; ++i)
+      memcpy(out + i, (const char*)(frames + i) + frame_columns[k].offset, sizeof *out);
+    put(made, frame_columns[k].name, column);
+  }
+  for (i = 0; i < count; ++i) {
+    mxGetLogicals(planned)[i] = frames[i].planned != 0;
+    if (!is_single) mxSetCell(states, i, mxCreateString(ms_state_name(frames[i].state)));
+  }
+  put(made, "state", is_single ? mxCreateString(ms_state_name(frames->state)) : states);
+  put(made, "planned", planned);
+  return made;
+}
+
+/* ---- Commands: arguments in, one value out, null for none ------------------------------------ */
+
+typedef const mxArray* const* arguments;
+typedef mxArray* (*command_function)(arguments in);
+
+static mxArray* version(arguments in) {
+  (void)in;
+  return mxCreateString(ms_version());
+}
+
+static mxArray* close_handle(arguments in) {
+  const uint64_t handle = handle_of(in[0]);
+  size_t i;
+  check(ms_close(handle));
+  for (i = 0; i < opened.count; ++i)
+    if (opened.handles[i] == handle) opened.handles[i--] = opened.handles[--opened.count];
+  return NULL;
+}
+
+static mxArray* open_file(arguments in,
+                          int32_t (*open)(const char*, const char* const*, size_t, uint64_t*)) {
+  const char* file = text_of(in[0], "the file");
+  const texts settings = settings_of(in[1]);
+  uint64_t handle = 0;
+  check(open(file, settings.all, settings.count, &handle));
+  return keep(handle);
+}
+
+static mxArray* open_text(arguments in, int32_t (*open)(const char*, const char*,
+                                                        const char* const*, size_t, uint64_t*)) {
+  const char* text = text_of(in[0], "the scenario");
+  const texts settings = settings_of(in[1]);
+  uint64_t handle = 0;
+  check(open(text, NULL, settings.all, settings.count, &handle));
+  return keep(handle);
+}
+
+static mxArray* session_open(arguments in) { return open_file(in, ms_session_open); }
+static mxArray* session_open_text(arguments in) { return open_text(in, ms_session_open_text); }
+static mxArray* navigator_open(arguments in) { return open_file(in, ms_navigator_open); }
+static mxArray* navigator_open_text(arguments in) { return open_text(in, ms_navigator_open_text); }
+
+/* At most so many ticks, to keep MATLAB able to interrupt; whether the run has ended. */
+static mxArray* session_advance(arguments in) {
+  const uint64_t session = handle_of(in[0]);
+  double left = whole(in[1], "the number of ticks", 1e9);
+  int32_t code = MS_OK;
+  for (; code == MS_OK && left > 0; --left) check(code = ms_session_step(session, NULL));
+  return mxCreateLogicalScalar(code == MS_END);
+}
+
+static mxArray* session_step(arguments in) {
+  ms_frame frame;
+  const int32_t code = ms_session_step(handle_of(in[0]), &frame);
+  check(code);
+  return code == MS_END ? mxCreateDoubleMatrix(0, 0, mxREAL) : frames_of(&frame, 1, 1);
+}
+
+static mxArray* session_frames(arguments in) {
+  const ms_frame* frames = NULL;
+  size_t count = 0;
+  check(ms_session_frames(handle_of(in[0]), &frames, &count));
+  return frames_of(frames, count, 0);
+}
+
+static mxArray* session_set(arguments in) {
+  check(ms_session_set(handle_of(in[0]), text_of(in[1], "the key"), text_of(in[2], "the value")));
+  return NULL;
+}
+
+static mxArray* session_record(arguments in) {
+  check(ms_session_record(handle_of(in[0]), text_of(in[1], "the file")));
+  return NULL;
+}
+
+static mxArray* text_from(arguments in, int32_t (*get)(uint64_t, const char**)) {
+  const char* text = NULL;
+  check(get(handle_of(in[0]), &text));
+  return mxCreateString(text);
+}
+
+static mxArray* session_status(arguments in) { return text_from(in, ms_session_status); }
+static mxArray* session_metrics(arguments in) { return text_from(in, ms_session_metrics); }
+static mxArray* session_hash(arguments in) { return text_from(in, ms_session_hash); }
+
+static mxArray* places_from(arguments in, int32_t (*get)(uint64_t, const double**, size_t*),
+                            size_t columns) {
+  const double* rows = NULL;
+  size_t count = 0;
+  check(get(handle_of(in[0]), &rows, &count));
+  return matrix_of(rows, count, columns);
+}
+
+static mxArray* session_robots(arguments in) { return places_from(in, ms_session_robots, 2); }
+static mxArray* session_path(arguments in) { return places_from(in, ms_session_path, 2); }
+static mxArray* session_obstacles(arguments in) { return places_from(in, ms_session_obstacles, 3); }
+static mxArray* navigator_path(arguments in) { return places_from(in, ms_navigator_path, 2); }
+
+/* Rows x, y, radius, or a cell array of such rows and of outlines, which have two columns. */
+static ms_obstacle* obstacles_of(const mxArray* a, size_t* count) {
+  const int is_cell = mxIsCell(a);
+  double* rows = is_cell ? NULL : rows_of(a, "obstacles", 3, count);
+  ms_obstacle* all;
+  size_t i;
+  if (is_cell) *count = mxGetNumberOfElements(a);
+  all = mxCalloc(*count + 1, sizeof *all);
+  for (i = 0; i < *count; ++i) {
+    const mxArray* one = is_cell ? mxGetCell(a, i) : NULL;
+    const double* disc = rows ? rows + 3 * i : NULL;
+    if (is_cell && (!one || mxIsEmpty(one))) REFUSE("obstacle %lu is empty", (unsigned long)i + 1);
+    if (one && mxGetN(one) == 2) {
+      all[i].outline_um = rows_of(one, "an outline", 2, &all[i].points);
+      continue;
+    }
+    if (one && mxGetM(one) != 1)
+      REFUSE("obstacle %lu must be a row x, y, radius or an outline of two columns",
+             (unsigned long)i + 1);
+    if (one) {
+      size_t single;
+      disc = rows_of(one, "an obstacle", 3, &single);
+    }
+    all[i].x_um = disc[0], all[i].y_um = disc[1], all[i].radius_um = disc[2];
+  }
+  return all;
+}
+
+static void set_numbers(const mxArray* a, ms_obstacle* obstacles, size_t count) {
+  size_t i;
+  if (!is_plain_number(a) || mxGetNumberOfElements(a) != count)
+    REFUSE("there must be as many numbers as obstacles: %lu", (unsigned long)count);
+  for (i = 0; i < count; ++i) {
+    const double value = element(a, i);
+    if (!(value >= 0 && value <= INT32_MAX && floor(value) == value))
+      REFUSE("the number of an obstacle is %g, must be 0 to %ld", value, (long)INT32_MAX);
+    obstacles[i].number = (int32_t)value;
+  }
+}
+
+/* handle, now, seen, swarm, obstacles, numbers, robots; empty for what is not there. */
+static mxArray* navigator_step(arguments in) {
+  static const char* const names[] = {"heading_rad", "speed_um_per_s", "state", "target_um",
+                                      "planned"};
+  const uint64_t navigator = handle_of(in[0]);
+  ms_observation seen;
+  ms_command command;
+  ms_obstacle* obstacles;
+  mxArray* made;
+  double swarm[4];
+  memset(&seen, 0, sizeof seen);
+  seen.now_s = number(in[1], "t");
+  seen.seen_s = mxIsEmpty(in[2]) ? seen.now_s : number(in[2], "seen");
+  if (!mxIsDouble(in[3]) || !mxIsEmpty(in[3])) {
+    vector(in[3], "swarm", 4, 4, swarm);
+    seen.has_swarm = 1;
+    seen.x_um = swarm[0], seen.y_um = swarm[1];
+    seen.heading_rad = swarm[2], seen.radius_um = swarm[3];
+  }
+  obstacles = obstacles_of(in[4], &seen.obstacle_count);
+  seen.obstacles = obstacles;
+  seen.numbered = !mxIsEmpty(in[5]);
+  if (seen.numbered) set_numbers(in[5], obstacles, seen.obstacle_count);
+  seen.robots_um = rows_of(in[6], "robots", 2, &seen.robot_count);
+  check(ms_navigator_step(navigator, &seen, &command));
+  made = mxCreateStructMatrix(1, 1, 5, (const char**)names);
+  mxSetFieldByNumber(made, 0, 0, mxCreateDoubleScalar(command.heading_rad));
+  mxSetFieldByNumber(made, 0, 1, mxCreateDoubleScalar(command.speed_um_per_s));
+  mxSetFieldByNumber(made, 0, 2, mxCreateString(ms_state_name(command.state)));
+  mxSetFieldByNumber(made, 0, 3, target_of(command.target_x_um, command.target_y_um));
+  mxSetFieldByNumber(made, 0, 4, mxCreateLogicalScalar(command.planned != 0));
+  return made;
+}
+
+/* A file or a matrix, and the side of a pixel. */
+static mxArray* map_open(arguments in) {
+  const double um_per_px = number(in[1], "um_per_px");
+  uint64_t map = 0;
+  if (mxIsChar(in[0])) {
+    check(ms_map_open(text_of(in[0], "the file"), um_per_px, &map));
+  } else {
+    const size_t height = mxGetM(in[0]), width = mxGetN(in[0]);
+    const uint8_t* columns = mxGetData(in[0]); /* logical has the same size */
+    uint8_t* rows;
+    size_t row, column;
+    if ((!mxIsLogical(in[0]) && !mxIsUint8(in[0])) || mxIsSparse(in[0]) || mxIsComplex(in[0]) ||
+        mxGetNumberOfDimensions(in[0]) != 2)
+      REFUSE("a map must be the name of a file or a matrix of class logical or uint8, not %s%s",
+             mxIsSparse(in[0]) ? "sparse " : "", mxGetClassName(in[0]));
+    rows = mxCalloc(width * height + 1, 1);
+    for (row = 0; row < height; ++row)
+      for (column = 0; column < width; ++column)
+        rows[row * width + column] = columns[row + column * height];
+    check(ms_map_from_pixels(rows, width, height, um_per_px, &map));
+  }
+  return keep(map);
+}
+
+static mxArray* map_bounds(arguments in) {
+  double box[4];
+  check(ms_map_bounds(handle_of(in[0]), box, box + 1, box + 2, box + 3));
+  return matrix_of(box, 1, 4);
+}
+
+static mxArray* map_clearance(arguments in) {
+  const uint64_t map = handle_of(in[0]);
+  size_t count, i;
+  const double* places = rows_of(in[1], "places", 2, &count);
+  mxArray* made = mxCreateDoubleMatrix(count, 1, mxREAL);
+  for (i = 0; i < count; ++i)
+    check(ms_map_clearance(map, places[2 * i], places[2 * i + 1], mxGetPr(made) + i));
+  return made;
+}
+
+/* map, start, goal, seed, settings */
+static mxArray* plan(arguments in) {
+  const uint64_t map = handle_of(in[0]);
+  double start[3] = {0, 0, 0}, goal[2];
+  ms_query query;
+  ms_path path;
+  texts settings;
+  mxArray* made;
+  vector(in[1], "start", 2, 3, start);
+  vector(in[2], "goal", 2, 2, goal);
+  settings = settings_of(in[4]);
+  memset(&query, 0, sizeof query);
+  query.start_x_um = start[0], query.start_y_um = start[1], query.start_heading_rad = start[2];
+  query.goal_x_um = goal[0], query.goal_y_um = goal[1];
+  query.seed = (uint64_t)whole(in[3], "seed", 9007199254740992.0);
+  query.settings = settings.all, query.setting_count = settings.count;
+  check(ms_plan(map, &query, &path));
+  made = mxCreateStructMatrix(1, 1, 0, NULL);
+  put(made, "solved", mxCreateLogicalScalar(path.solved != 0));
+  put(made, "points_um", matrix_of(path.xy_um, path.points, 2));
+  put(made, "length_um", mxCreateDoubleScalar(path.length_um));
+  put(made, "turning_rad", mxCreateDoubleScalar(path.turning_rad));
+  put(made, "time_s", mxCreateDoubleScalar(path.seconds));
+  put(made, "why_none", mxCreateString(path.why_none));
+  return made;
+}
+
+#define COMMAND(name, count) \
+  { #name, name, count }
+static const struct {
+  const char* name;
+  command_function function;
+  int arguments;
+} commands[] = {
+    COMMAND(version, 0),
+    {"close", close_handle, 1},
+    COMMAND(session_open, 2),
+    COMMAND(session_open_text, 2),
+    COMMAND(session_step, 1),
+    COMMAND(session_advance, 2),
+    COMMAND(session_frames, 1),
+    COMMAND(session_set, 3),
+    COMMAND(session_status, 1),
+    COMMAND(session_metrics, 1),
+    COMMAND(session_hash, 1),
+    COMMAND(session_record, 2),
+    COMMAND(session_robots, 1),
+    COMMAND(session_path, 1),
+    COMMAND(session_obstacles, 1),
+    COMMAND(navigator_open, 2),
+    COMMAND(navigator_open_text, 2),
+    COMMAND(navigator_step, 7),
+    COMMAND(navigator_path, 1),
+    COMMAND(map_open, 2),
+    COMMAND(map_bounds, 1),
+    COMMAND(map_clearance, 2),
+    COMMAND(plan, 5),
+};
+
+void mexFunction(int out_count, mxArray* out[], int in_count, const mxArray* in[]) {
+  static int is_registered = 0;
+  const char* name;
+  size_t i;
+  if (!is_registered) is_registered = mexAtExit(close_all) == 0;
+  if (in_count < 1)
+    fail("microswarm:bad_call", "microswarm_mex needs a command; use the functions of +microswarm");
+  name = text_of(in[0], "the command");
+  for (i = 0; i < sizeof commands / sizeof *commands; ++i) {
+    if (strcmp(name, commands[i].name) != 0) continue;
+    if (in_count - 1 != commands[i].arguments)
+      fail("microswarm:bad_call", "%s takes %d arguments, not %d", name, commands[i].arguments,
+           in_count - 1);
+    out[0] = commands[i].function(in + 1);
+    if (!out[0] && out_count > 0) out[0] = mxCreateDoubleMatrix(0, 0, mxREAL);
+    return;
+  }
+  fail("microswarm:bad_call", "there is no command '%s'", name);
+}

@@ -1,0 +1,72 @@
+% SPDX-License-Identifier: Apache-2.0
+function tests = test_paths()
+% test_paths  Maps and paths.
+  tests = {@maps_of_matrices, @paths_round_a_wall, @bad_maps_and_paths};
+end
+
+function free = room()
+  free = true(20, 40);       % 400 um x 200 um, with a wall that leaves 50 um at the top
+  free(6:20, 19:22) = false;
+end
+
+function maps_of_matrices(world)
+  map = microswarm.Map(room(), 10);
+  assert(isequal(map.bounds(), [0 0 400 200]));
+  assert(isequal(map.clearance([50 50; 200 50; 200 180]), [50; 0; 20]));
+  assert(isequal(size(map.clearance([])), [0 1]));
+  grey = microswarm.Map(uint8(200) * uint8(room()), 10);
+  assert(isequal(grey.clearance([50 50; 200 50; 200 180]), [50; 0; 20]));
+  map.close();
+  refuses(@() map.bounds(), 'bad_call', 'closed');
+end
+
+function paths_round_a_wall(world)
+  path = microswarm.plan(room(), [50 50], [350 50], 'um_per_px', 10, 'clearance_um', 15);
+  assert(path.solved && isempty(path.why_none) && size(path.points_um, 2) == 2);
+  assert(isequal(path.points_um(1, :), [50 50]) && path.length_um > 300 && path.turning_rad > 0);
+  map = microswarm.Map(room(), 10);
+  tree = microswarm.plan(map, [50 50 0], [350; 50], 'planner', 'drrt_star', 'clearance_um', 15, 'seed', 2);
+  again = microswarm.plan(map, [50 50 0], [350 50], 'planner', 'drrt_star', 'clearance_um', 15, 'seed', uint8(2));
+  assert(tree.solved && tree.length_um >= path.length_um && isequal(tree.points_um, again.points_um));
+  none = microswarm.plan(map, [50 50], [350 50], 'planner', 'rrt', 'clearance_um', 15, 'max_nodes', 3);
+  assert(~none.solved && ~isempty(none.why_none));
+  file = fullfile(world.folder, 'room.pgm');
+  stream = fopen(file, 'w');
+  fprintf(stream, 'P5 40 20 255\n');
+  fwrite(stream, 255 * uint8(room())');
+  fclose(stream);
+  read = microswarm.plan(file, [50 50], [350 50], 'um_per_px', 10, 'clearance_um', 15);
+  assert(read.length_um == path.length_um);
+end
+
+function bad_maps_and_paths(world)
+  map = microswarm.Map(room(), 10);
+  plan = @(varargin) microswarm.plan(varargin{:});
+  refuses(@() microswarm.Map(), 'bad_call', 'needs a file');
+  refuses(@() microswarm.Map(room()), 'bad_input', 'needs um_per_px');
+  refuses(@() microswarm.Map(room(), NaN), 'bad_input', 'um_per_px');
+  refuses(@() microswarm.Map(room(), [1 2]), 'bad_input', 'um_per_px');
+  refuses(@() microswarm.Map(double(room()), 10), 'bad_input', 'not double');
+  refuses(@() microswarm.Map(sparse(room()), 10), 'bad_input', 'not sparse');
+  refuses(@() microswarm.Map({1}, 10), 'bad_input', 'not cell');
+  refuses(@() microswarm.Map(true(2, 2, 2), 10), 'bad_input', 'matrix');
+  refuses(@() microswarm.Map(true(0, 3), 10), 'bad_input', 'must be 1 to');
+  refuses(@() microswarm.Map('none.png', 10), 'bad_input', 'none.png');
+  refuses(@() map.clearance([1 2 3]), 'bad_input', '2 columns');
+  refuses(@() map.clearance([1 NaN]), 'bad_input', 'not finite');
+  refuses(@() plan(map), 'bad_call', 'needs a map, a start');
+  refuses(@() plan(map, 5, [350 50]), 'bad_input', 'start must be');
+  refuses(@() plan(map, [50 50], [1 2 3]), 'bad_input', 'goal must be');
+  refuses(@() plan(map, [50 50], [NaN 50]), 'bad_input', 'goal');
+  refuses(@() plan(map, [50 50], [200 50]), 'bad_input', 'goal');
+  refuses(@() plan(map, [50 50], [350 50], 'clearence_um', 5), 'bad_input', 'did you mean');
+  refuses(@() plan(map, [50 50], [350 50], 'planner', 'best'), 'bad_input', 'best');
+  refuses(@() plan(map, [50 50], [350 50], 'planner', 3), 'bad_input', 'planner must be a text');
+  refuses(@() plan(map, [50 50], [350 50], 'seed', -1), 'bad_input', 'seed');
+  refuses(@() plan(map, [50 50], [350 50], 'seed'), 'bad_input', 'missing');
+  closed = room();
+  closed(:, 19:22) = false;
+  refuses(@() plan(closed, [50 50], [350 50], 'um_per_px', 10, 'clearance_um', 15), 'bad_input', 'cut off');
+  map.close();
+  refuses(@() plan(map, [50 50], [350 50]), 'bad_call', 'closed');
+end

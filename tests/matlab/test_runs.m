@@ -1,0 +1,97 @@
+% SPDX-License-Identifier: Apache-2.0
+function tests = test_runs()
+% test_runs  Runs, sessions and records.
+  tests = {@a_run_is_that_of_the_program, @settings_in_every_form, @a_scenario_from_text, ...
+           @a_session_step_by_step, @a_record_is_the_run, @robots_are_shown, @a_run_among_many};
+end
+
+function a_run_is_that_of_the_program(world)
+  for name = {'first_flight', 'oncoming'}
+    file = fullfile(world.scenarios, [name{1} '.yaml']);
+    [code, said] = system(sprintf('"%s" run "%s" --json --out "%s" 2>/dev/null', world.program, file, ...
+                                  fullfile(world.folder, name{1})));
+    assert(code == 0);
+    told = jsondecode(said);
+    result = microswarm.run(file);
+    assert(strcmp(result.hash, told.record_hash));
+    assert(strcmp(result.status, told.status));
+    assert(result.metrics.length_um == told.metrics.length_um);
+    fprintf('        %s: record hash %s\n', name{1}, result.hash);
+  end
+end
+
+function settings_in_every_form(world)
+  plain = microswarm.run(world.flight, 'seed=4', 'goal_um=[1700, 300]');
+  pairs = microswarm.run(world.flight, 'seed', 4, 'goal_um', [1700 300]);
+  other = microswarm.run(world.flight, 'seed', int32(4), 'goal_um', single([1700; 300]));
+  assert(isequal(plain.hash, pairs.hash, other.hash));
+  first = microswarm.run(world.flight);
+  assert(~strcmp(plain.hash, first.hash));
+  text = @microswarm.internal.value_text;
+  assert(strcmp(text(0.1, ''), '0.10000000000000001') && strcmp(text(true, ''), 'true'));
+  assert(strcmp(text([], ''), '[]') && strcmp(text({[0 0; 1 2], 'disc'}, ''), '[[[0, 0], [1, 2]], disc]'));
+end
+
+function a_scenario_from_text(world)
+  of_text = microswarm.run(fileread(world.flight));
+  of_file = microswarm.run(world.flight);
+  assert(strcmp(of_text.hash, of_file.hash));
+end
+
+function a_session_step_by_step(world)
+  session = microswarm.Session(world.flight);
+  assert(strcmp(session.status(), 'running') && isempty(session.robots()));
+  first = session.step();
+  assert(first.t_s == 0 && first.x_um == 200 && first.y_um == 500 && ischar(first.state));
+  assert(islogical(first.planned) && isequal(size(session.obstacles()), [2 3]));
+  assert(size(session.path(), 2) == 2 && size(session.path(), 1) >= 2);
+  session.set('navigator.speed_um_per_s', 60);
+  refuses(@() session.set('navigator.sped_um_per_s', 60), 'bad_input', 'did you mean');
+  refuses(@() session.set('navigator.speed_um_per_s', NaN), 'bad_input', 'finite');
+  assert(~session.advance(10));
+  assert(numel(session.frames().t_s) == 11);
+  while ~isempty(session.step()), end
+  assert(session.advance(1) && isempty(session.step()));
+  result = session.result();
+  assert(strcmp(result.status, 'solved') && iscolumn(result.frames.x_um));
+  assert(strcmp(result.frames.state{end}, 'end') && isstruct(result.metrics.walls));
+  session.close();
+  session.close();
+end
+
+function a_record_is_the_run(world)
+  file = fullfile(world.folder, 'record.h5');
+  session = microswarm.Session(world.flight, 'seed', 5);
+  while ~session.advance(100), end
+  session.save(file);
+  made = session.result();
+  read = microswarm.read_record(file);
+  assert(isequal(read.status, made.status) && isequal(read.hash, made.hash));
+  assert(isequal(fieldnames(read.frames), fieldnames(made.frames)));
+  names = fieldnames(read.frames);
+  for k = 1:numel(names)
+    a = read.frames.(names{k});
+    b = made.frames.(names{k});
+    assert(isequal(a, b) || (isnumeric(a) && isequal(isnan(a), isnan(b)) && isequal(a(~isnan(a)), b(~isnan(b)))));
+  end
+  assert(isequal(read.metrics, made.metrics));
+  refuses(@() microswarm.read_record(world.flight), 'bad_input', 'is no record');
+  refuses(@() microswarm.read_record('none.h5'), 'bad_input', 'none.h5');
+end
+
+function robots_are_shown(world)
+  session = microswarm.Session(fullfile(world.scenarios, 'papers', 'gather', 't_junction.yaml'));
+  frame = session.step();
+  places = session.robots();
+  assert(size(places, 2) == 2 && size(places, 1) > 1 && frame.radius_um == 0);
+end
+
+function a_run_among_many(world)
+  sessions = {};
+  for k = 1:50
+    sessions{k} = microswarm.Session(world.flight);  %#ok<AGROW>
+  end
+  for k = 1:2:50, sessions{k}.close(); end
+  assert(sessions{2}.step().t_s == 0);
+  refuses(@() sessions{1}.step(), 'bad_call', 'closed');
+end
