@@ -2,6 +2,7 @@
 /* The C interface from C: what works, and what is refused. */
 #include <math.h>
 #include <pthread.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -163,6 +164,15 @@ static void paths(void) {
   EXPECT_ERROR(ms_map_open("no.png", 1, &map), MS_BAD_INPUT, "no.png");
 }
 
+/* What docs/how-to/use-from-matlab.md tells users of LabVIEW about structures. */
+static void layout(void) {
+  if (sizeof(void*) != 8) return;
+  EXPECT(sizeof(ms_observation) == 88 && offsetof(ms_observation, x_um) == 24);
+  EXPECT(offsetof(ms_observation, obstacles) == 56 && offsetof(ms_observation, robots_um) == 72);
+  EXPECT(sizeof(ms_obstacle) == 48 && offsetof(ms_obstacle, number) == 40);
+  EXPECT(sizeof(ms_command) == 40 && offsetof(ms_command, state) == 32);
+}
+
 static void* run_one(void* result) {
   uint64_t session = 0;
   const char* hash = NULL;
@@ -208,6 +218,7 @@ int main(int count, char** arguments) {
   bad_sessions();
   navigators();
   paths();
+  layout();
   threads();
   if (failures == 0) puts("all as expected");
   return failures == 0 ? 0 : 1;
